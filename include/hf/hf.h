@@ -1,0 +1,11 @@
+/* hf/hf.h - dynamic harmonic fields for games and DCC tools: everything. See base.h for the conventions. */
+#ifndef HF_HF_H
+#define HF_HF_H
+
+#include "hf/base.h"
+#include "hf/mesh.h"
+#include "hf/field.h"
+#include "hf/deform.h"
+#include "hf/transfer.h"
+
+#endif

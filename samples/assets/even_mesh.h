@@ -1,0 +1,62 @@
+// From an implicit body to an even triangle mesh with an exact number of vertices.
+//
+//   polygonise   marching tetrahedra on Kuhn's six tetrahedra per grid cube: always a closed 2-manifold
+//   EditMesh     isotropic remeshing (Botsch and Kobbelt 2004): split long, collapse short, flip, relax in the tangent
+//                plane, project to the body; collapses keep the topology (link condition, Dey et al. 1999), so thin
+//                limbs survive at any vertex count and the genus never changes
+//   subdivide    every edge cut in half, new vertices projected; 4 V - 6 vertices for a closed surface of genus 0
+//
+// even_mesh() puts them together. Cost: about 2 s per 10^6 vertices of the result plus under a second for the base.
+// Deterministic. Failure: std::runtime_error (the body is empty, has several pieces or a handle).
+#ifndef HF_SAMPLES_ASSETS_EVEN_MESH_H
+#define HF_SAMPLES_ASSETS_EVEN_MESH_H
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "implicit.h"
+
+namespace samples {
+
+using Triangle = std::array<uint32_t, 3>;
+
+struct TriangleMesh {
+  std::vector<dvec3> points;
+  std::vector<Triangle> triangles;
+};
+
+// The zero set on a grid of the given spacing, anywhere inside body.lower..upper.
+TriangleMesh polygonise(const ImplicitBody& body, double spacing);
+
+// A closed manifold with exactly `count` vertices, evenly spread relative to body.detail().
+TriangleMesh remesh(const ImplicitBody& body, const TriangleMesh& start, uint32_t count);
+
+// One refinement step. parents[i] = the two ends of the edge that new vertex old_count + i came from.
+TriangleMesh subdivide(const TriangleMesh& mesh, std::vector<std::array<uint32_t, 2>>& parents);
+
+// Moves vertices towards the centres of their rings within the surface, keeping them on the body.
+void relax(const ImplicitBody& body, TriangleMesh& mesh, int rounds, double step, int newton_steps);
+
+// How many refinement steps a mesh of `count` vertices takes, and the base it starts from.
+struct MeshPlan {
+  uint32_t base = 0;
+  int levels = 0;
+};
+MeshPlan plan_mesh(uint32_t count);
+
+// Base mesh for a plan; the caller refines it with refine() so that it can carry attributes along.
+TriangleMesh base_mesh(const ImplicitBody& body, uint32_t base_count);
+TriangleMesh refine(const ImplicitBody& body, const TriangleMesh& mesh, std::vector<std::array<uint32_t, 2>>& parents);
+
+// Permutation that sorts the points along a Morton curve: order[new] = old.
+std::vector<uint32_t> spatial_order(const std::vector<dvec3>& points);
+
+// Renames vertices by order[new] = old and sorts triangles by their smallest vertex, each starting with it.
+// triangle_order receives the old index of every triangle.
+TriangleMesh reorder(const TriangleMesh& mesh, const std::vector<uint32_t>& order, std::vector<uint32_t>& triangle_order);
+
+}  // namespace samples
+
+#endif

@@ -1,0 +1,91 @@
+// hf_make_assets OUTDIR [--vertices N] [--creature NAME]
+//
+// Writes the sample creatures as OUTDIR/NAME.glb. N counts vertices of the closed surface (default 20000).
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "assets/creature.h"
+#include "assets/creature_gltf.h"
+#include "common/gltf_write.h"
+
+namespace {
+
+struct Options {
+  std::string folder;
+  uint32_t vertices = 20000;
+  std::vector<std::string> creatures;
+  bool help = false;
+};
+
+Options parse(int count, char** arguments) {
+  Options options;
+  for (int i = 1; i < count; ++i) {
+    const std::string word = arguments[i];
+    const auto value = [&]() -> std::string {
+      if (i + 1 >= count) throw std::runtime_error(word + " needs a value");
+      return arguments[++i];
+    };
+    if (word == "--help" || word == "-h") {
+      options.help = true;
+    } else if (word == "--vertices") {
+      const std::string text = value();
+      char* end = nullptr;
+      const unsigned long number = std::strtoul(text.c_str(), &end, 10);
+      if (text.empty() || *end != 0 || number > 2000000) {
+        throw std::runtime_error("--vertices takes a number in 500..2000000, not " + text);
+      }
+      options.vertices = static_cast<uint32_t>(number);
+    } else if (word == "--creature") {
+      options.creatures.push_back(value());
+    } else if (!word.empty() && word[0] == '-') {
+      throw std::runtime_error("unknown option " + word + "; see --help");
+    } else if (options.folder.empty()) {
+      options.folder = word;
+    } else {
+      throw std::runtime_error("one output folder only, not also " + word);
+    }
+  }
+  if (options.folder.empty() && !options.help) throw std::runtime_error("name an output folder; see --help");
+  if (options.creatures.empty()) options.creatures = samples::creature_names();
+  return options;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    const Options options = parse(count, arguments);
+    if (options.help) {
+      std::printf("usage: hf_make_assets OUTDIR [--vertices N] [--creature NAME]\n"
+                  "Writes animated, skinned sample creatures as .glb files.\n"
+                  "  --vertices N     vertices of the closed surface, 500..2000000 (default 20000)\n"
+                  "  --creature NAME  one of:");
+      for (const std::string& name : samples::creature_names()) std::printf(" %s", name.c_str());
+      std::printf(" (default: all; may be repeated)\n");
+      return 0;
+    }
+    std::filesystem::create_directories(options.folder);
+    for (const std::string& name : options.creatures) {
+      const auto start = std::chrono::steady_clock::now();
+      const samples::Creature creature = samples::make_creature(name, options.vertices);
+      const std::filesystem::path file = std::filesystem::path(options.folder) / (name + ".glb");
+      samples::write_gltf(samples::to_model(creature), file);
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      std::printf("%s: %u vertices (%u stored, %u charts), %zu triangles, %zu joints, clips", file.string().c_str(),
+                  creature.surface_vertex_count, creature.vertex_count(), creature.chart_count,
+                  creature.triangles.size() / 3, creature.skeleton.size());
+      for (const samples::Clip& clip : creature.clips) std::printf(" %s (%.2f s)", clip.name.c_str(), clip.duration());
+      std::printf("; %.1f s\n", seconds);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "hf_make_assets: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,24 @@
+// Inner header of gltf_read.cpp and gltf_write.cpp: what is carried through unchanged, in tinygltf's own types.
+#ifndef HF_SAMPLES_COMMON_GLTF_APPEARANCE_H
+#define HF_SAMPLES_COMMON_GLTF_APPEARANCE_H
+
+#include <tiny_gltf.h>
+
+#include <string>
+#include <vector>
+
+namespace samples {
+
+// Images hold their encoded bytes in Image::image (as_is), or only a URI where the bytes were not read.
+struct Appearance {
+  std::vector<tinygltf::Material> materials;
+  std::vector<tinygltf::Texture> textures;
+  std::vector<tinygltf::Image> images;
+  std::vector<tinygltf::Sampler> samplers;
+  std::vector<std::string> extensions_used;      // those that concern looks
+  std::vector<std::string> extensions_required;  // of those
+};
+
+}  // namespace samples
+
+#endif

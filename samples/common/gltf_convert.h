@@ -1,0 +1,27 @@
+// Inner header of gltf_read.cpp: tinygltf's structures, buffers loaded, to a Model, with every value checked.
+#ifndef HF_SAMPLES_COMMON_GLTF_CONVERT_H
+#define HF_SAMPLES_COMMON_GLTF_CONVERT_H
+
+#include <tiny_gltf.h>
+
+#include <string>
+#include <vector>
+
+#include "common/gltf_read.h"
+
+namespace samples {
+
+struct GltfSource {
+  std::string name;
+  tinygltf::Model gltf;
+  std::vector<std::vector<std::string>> target_names;  // per mesh
+  std::vector<std::string> look_extensions;            // used inside materials, textures, images
+  std::vector<std::string> warnings;
+};
+
+// Takes the looks out of the source.
+Model convert(GltfSource& source, const ReadLimits& limits);
+
+}  // namespace samples
+
+#endif

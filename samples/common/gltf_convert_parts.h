@@ -1,0 +1,36 @@
+// Inner header of gltf_convert.cpp, gltf_meshes.cpp and gltf_animations.cpp: the state of one conversion.
+#ifndef HF_SAMPLES_COMMON_GLTF_CONVERT_PARTS_H
+#define HF_SAMPLES_COMMON_GLTF_CONVERT_PARTS_H
+
+#include <string>
+
+#include "common/gltf_accessor.h"
+#include "common/gltf_convert.h"
+#include "common/model.h"
+
+namespace samples {
+
+struct Conversion {
+  Conversion(GltfSource& from, const ReadLimits& limits)
+      : source(from), reader(from.gltf, from.name, limits.max_decoded_bytes) {}
+
+  [[noreturn]] void fail(const std::string& where, const std::string& message) const;
+  // At most a hundred: a hostile file must not fill the memory with complaints.
+  void warn(const std::string& message) {
+    if (model.warnings.size() < 100) model.warnings.push_back(message);
+  }
+
+  GltfSource& source;
+  AccessorReader reader;
+  Model model;
+};
+
+size_t target_count(const MeshData& mesh);
+
+// Nodes and skins are there already.
+void convert_meshes(Conversion& in);
+void convert_animations(Conversion& in);
+
+}  // namespace samples
+
+#endif

@@ -1,0 +1,301 @@
+// See mesh_file.h. Choice of the format, text tokens, faces, triangulation. Readers: obj_file.cpp, off_file.cpp,
+// ply_file.cpp; writers: mesh_write.cpp.
+#include "common/mesh_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+#include "common/file_bytes.h"
+#include "common/gltf_read.h"
+#include "common/mesh_file_parts.h"
+
+namespace samples {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+void check_positions(const SurfaceMesh& mesh, const std::string& name) {
+  for (size_t v = 0; v < mesh.positions.size(); ++v) {
+    const glm::dvec3& p = mesh.positions[v];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw std::runtime_error(name + ": vertex " + std::to_string(v) + " has a coordinate that is not finite.");
+    }
+  }
+}
+
+// The polygon in the plane of its mean normal (Newell), scaled by nothing: only signs and comparisons are used.
+std::vector<glm::dvec2> project(const std::vector<glm::dvec3>& positions, const uint32_t* corners, size_t count) {
+  glm::dvec3 normal(0);
+  const glm::dvec3 origin = positions[corners[0]];
+  for (size_t i = 0; i < count; ++i) {
+    normal += glm::cross(positions[corners[i]] - origin, positions[corners[(i + 1) % count]] - origin);
+  }
+  if (!(glm::length(normal) > 0)) return {};
+  normal = glm::normalize(normal);
+  const glm::dvec3 axis = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 u = glm::normalize(glm::cross(axis, normal)), v = glm::cross(normal, u);
+  std::vector<glm::dvec2> flat(count);
+  for (size_t i = 0; i < count; ++i) {
+    const glm::dvec3 d = positions[corners[i]] - origin;
+    flat[i] = {glm::dot(d, u), glm::dot(d, v)};
+  }
+  return flat;
+}
+
+double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+bool is_convex(const std::vector<glm::dvec2>& p) {
+  for (size_t i = 0; i < p.size(); ++i) {
+    if (turn(p[i], p[(i + 1) % p.size()], p[(i + 2) % p.size()]) < 0) return false;
+  }
+  // all turns to one side and yet wound twice: a fan triangle would be turned round
+  for (size_t i = 1; i + 1 < p.size(); ++i) {
+    if (turn(p[0], p[i], p[i + 1]) < 0) return false;
+  }
+  return true;
+}
+
+// The next ear: a corner that turns left with no other corner inside. When rounding or self-intersection leaves none,
+// the first corner that turns left, then the first: the count of triangles is always size - 2.
+size_t find_ear(const std::vector<glm::dvec2>& p, const std::vector<size_t>& ring) {
+  const size_t n = ring.size();
+  size_t left_turn = n;
+  for (size_t i = 0; i < n; ++i) {
+    const size_t before = ring[(i + n - 1) % n], at = ring[i], after = ring[(i + 1) % n];
+    const glm::dvec2 &a = p[before], &b = p[at], &c = p[after];
+    if (!(turn(a, b, c) > 0)) continue;
+    if (left_turn == n) left_turn = i;
+    const bool empty = std::none_of(ring.begin(), ring.end(), [&](size_t k) {
+      if (k == before || k == at || k == after || p[k] == a || p[k] == b || p[k] == c) return false;
+      return turn(a, b, p[k]) >= 0 && turn(b, c, p[k]) >= 0 && turn(c, a, p[k]) >= 0;
+    });
+    if (empty) return i;
+  }
+  return left_turn == n ? 0 : left_turn;
+}
+
+}  // namespace
+
+TextCursor::TextCursor(const uint8_t* bytes, size_t size, std::string name, char comment, bool continued_lines)
+    : text_(reinterpret_cast<const char*>(bytes)),
+      size_(size),
+      name_(std::move(name)),
+      comment_(comment),
+      continued_lines_(continued_lines) {}
+
+// Stops before a line end or a token; false at a line end or the end of the text.
+bool TextCursor::skip_blanks() {
+  for (;;) {
+    while (at_ < size_ && is_blank(text_[at_])) ++at_;
+    if (at_ >= size_ || text_[at_] == '\n') return false;
+    if (comment_ != 0 && text_[at_] == comment_) {
+      while (at_ < size_ && text_[at_] != '\n') ++at_;
+      return false;
+    }
+    if (!continued_lines_ || text_[at_] != '\\') return true;
+    size_t end = at_ + 1;
+    while (end < size_ && is_blank(text_[end])) ++end;
+    if (end < size_ && text_[end] != '\n') return true;
+    at_ = std::min(end + 1, size_);
+    ++line_;
+  }
+}
+
+std::string_view TextCursor::token_on_line() {
+  if (!skip_blanks()) return {};
+  const size_t start = at_;
+  while (at_ < size_ && !is_blank(text_[at_]) && text_[at_] != '\n' && (comment_ == 0 || text_[at_] != comment_)) ++at_;
+  return {text_ + start, at_ - start};
+}
+
+std::string_view TextCursor::token() {
+  while (!skip_blanks()) {
+    if (at_ >= size_) return {};
+    ++at_;
+    ++line_;
+  }
+  return token_on_line();
+}
+
+void TextCursor::skip_line() {
+  while (!token_on_line().empty()) {
+  }
+  if (at_ < size_) {
+    ++at_;
+    ++line_;
+  }
+}
+
+bool TextCursor::next_line() {
+  while (!skip_blanks()) {
+    if (at_ >= size_) return false;
+    ++at_;
+    ++line_;
+  }
+  return true;
+}
+
+std::string_view TextCursor::rest_of_line() {
+  if (!skip_blanks()) return {};
+  const size_t start = at_;
+  size_t end = at_;
+  while (!token_on_line().empty()) end = at_;
+  return {text_ + start, end - start};
+}
+
+void TextCursor::fail(const std::string& message) const {
+  throw std::runtime_error(name_ + ": line " + std::to_string(line_) + ": " + printable(message) + ".");
+}
+
+bool parse_double(std::string_view token, double& value) {
+  if (!token.empty() && token.front() == '+') token.remove_prefix(1);
+  const auto result = std::from_chars(token.data(), token.data() + token.size(), value);
+  if (result.ec == std::errc::result_out_of_range && result.ptr == token.data() + token.size()) {
+    // underflow is zero, overflow is infinity, which the check of the positions finds
+    const size_t exponent = token.find_first_of("eE");
+    const bool small = exponent != std::string_view::npos && exponent + 1 < token.size() && token[exponent + 1] == '-';
+    value = small ? 0 : HUGE_VAL;
+    return true;
+  }
+  return result.ec == std::errc() && result.ptr == token.data() + token.size();
+}
+
+bool parse_integer(std::string_view token, int64_t& value) {
+  if (!token.empty() && token.front() == '+') token.remove_prefix(1);
+  const auto result = std::from_chars(token.data(), token.data() + token.size(), value);
+  return result.ec == std::errc() && result.ptr == token.data() + token.size();
+}
+
+void FaceCollector::add(const std::vector<int64_t>& corners, size_t vertex_count, const std::string& where) {
+  for (const int64_t corner : corners) {
+    if (corner < 0 || static_cast<uint64_t>(corner) >= vertex_count) {
+      throw std::runtime_error(where + ": a face names vertex " + std::to_string(corner) + " (counted from 0) of " +
+                               std::to_string(vertex_count) + ".");
+    }
+  }
+  left_out_ = corners.size() < 3;
+  if (left_out_) {
+    ++skipped_;
+    return;
+  }
+  triangles_ += corners.size() - 2;
+  if (triangles_ > limits_.max_triangles) {
+    throw std::runtime_error(where + ": the file has more than " + std::to_string(limits_.max_triangles) +
+                             " triangles; raise the limit if that is meant.");
+  }
+  mesh_.face_sizes.push_back(static_cast<uint32_t>(corners.size()));
+  for (const int64_t corner : corners) mesh_.face_vertices.push_back(static_cast<uint32_t>(corner));
+}
+
+void FaceCollector::finish() {
+  mesh_.triangles.reserve(static_cast<size_t>(triangles_) * 3);
+  size_t first = 0;
+  for (const uint32_t size : mesh_.face_sizes) {
+    triangulate(mesh_.positions, mesh_.face_vertices.data() + first, size, mesh_.triangles);
+    first += size;
+  }
+  if (mesh_.triangles.size() == mesh_.face_vertices.size()) {
+    mesh_.face_sizes.clear();
+    mesh_.face_vertices.clear();
+  }
+  if (skipped_ > 0) {
+    mesh_.warnings.push_back(std::to_string(skipped_) + " faces with fewer than three corners are left out");
+  }
+}
+
+void triangulate(const std::vector<glm::dvec3>& positions, const uint32_t* corners, size_t count,
+                 std::vector<uint32_t>& triangles) {
+  if (count < 3) return;
+  std::vector<glm::dvec2> flat;
+  if (count > 3) flat = project(positions, corners, count);
+  // ears cost the cube of the size: beyond a thousand corners only hostile files go
+  if (count == 3 || count > 1000 || flat.empty() || is_convex(flat)) {
+    for (size_t i = 1; i + 1 < count; ++i) {
+      triangles.insert(triangles.end(), {corners[0], corners[i], corners[i + 1]});
+    }
+    return;
+  }
+  std::vector<size_t> ring(count);
+  for (size_t i = 0; i < count; ++i) ring[i] = i;
+  while (ring.size() > 3) {
+    const size_t ear = find_ear(flat, ring), n = ring.size();
+    triangles.insert(triangles.end(),
+                     {corners[ring[(ear + n - 1) % n]], corners[ring[ear]], corners[ring[(ear + 1) % n]]});
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  triangles.insert(triangles.end(), {corners[ring[0]], corners[ring[1]], corners[ring[2]]});
+}
+
+SurfaceMesh read_mesh_bytes(const std::vector<uint8_t>& bytes, const std::string& extension, const std::string& name,
+                            const MeshLimits& limits) {
+  SurfaceMesh mesh;
+  if (extension == ".obj") {
+    mesh = read_obj(bytes, name, limits);
+  } else if (extension == ".off") {
+    mesh = read_off(bytes, name, limits);
+  } else if (extension == ".ply") {
+    mesh = read_ply(bytes, name, limits);
+  } else {
+    throw std::runtime_error(name + ": the format \"" + extension +
+                             "\" is not read; .obj, .off, .ply, .gltf and .glb are.");
+  }
+  check_positions(mesh, name);
+  return mesh;
+}
+
+SurfaceMesh read_mesh_file(const std::filesystem::path& file, const MeshLimits& limits) {
+  const std::string extension = lower_extension(file);
+  if (extension == ".glb" || extension == ".gltf") {
+    Model model = read_gltf(file);
+    FlattenOptions options;
+    options.max_vertices = std::min(options.max_vertices, limits.max_vertices);
+    options.max_triangles = std::min(options.max_triangles, limits.max_triangles);
+    SurfaceMesh mesh = to_surface_mesh(flatten(model, options));
+    mesh.warnings = std::move(model.warnings);
+    return mesh;
+  }
+  if (extension != ".obj" && extension != ".off" && extension != ".ply") {
+    return read_mesh_bytes({}, extension, file.string(), limits);
+  }
+  return read_mesh_bytes(read_bytes(file, limits.max_file_bytes), extension, file.string(), limits);
+}
+
+FlatMesh to_flat_mesh(const SurfaceMesh& mesh) {
+  FlatMesh flat;
+  flat.positions = mesh.positions;
+  flat.triangles = mesh.triangles;
+  flat.colors = mesh.colors;
+  flat.normals = mesh.normals;
+  flat.normals.resize(flat.positions.size(), glm::vec3(0));
+  FlatPart part;
+  part.node = part.mesh = part.primitive = 0;
+  part.vertex_count = flat.vertex_count();
+  part.triangle_count = flat.triangle_count();
+  flat.parts.push_back(part);
+  flat.welded_count = weld_positions(flat.positions, flat.welded);
+  return flat;
+}
+
+SurfaceMesh to_surface_mesh(const FlatMesh& mesh) {
+  SurfaceMesh surface;
+  surface.positions = mesh.positions;
+  surface.triangles = mesh.triangles;
+  surface.colors = mesh.colors;
+  const bool none =
+      std::all_of(mesh.normals.begin(), mesh.normals.end(), [](const glm::vec3& n) { return n == glm::vec3(0); });
+  if (!none) surface.normals = mesh.normals;
+  return surface;
+}
+
+}  // namespace samples

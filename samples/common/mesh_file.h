@@ -1,0 +1,64 @@
+// Surfaces from and to .obj, .off, .ply (text and both binary orders), and from .gltf/.glb by way of flatten().
+//
+// The file's own vertex order is kept, isolated vertices too, so that vertex numbers from other tools fit. Polygons are
+// kept as they are and triangulated into size - 2 triangles: a convex polygon as a fan from its first corner, another
+// by cutting ears in the plane of its mean normal. Faces with fewer than three corners are left out with a warning;
+// repeated corners are kept, what they mean is the user's matter.
+//
+// Every count in a header is checked against what the file can hold before anything is allocated; every index against
+// the vertex count. Failure: std::runtime_error naming file, line or element, and what to do. Positions must be finite.
+#ifndef HF_SAMPLES_COMMON_MESH_FILE_H
+#define HF_SAMPLES_COMMON_MESH_FILE_H
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "common/flat_mesh.h"
+
+namespace samples {
+
+struct SurfaceMesh {
+  std::vector<glm::dvec3> positions;
+  std::vector<uint32_t> triangles;  // three vertices each
+  // Faces as in the file: sizes, and their corners behind one another. Empty: the faces are the triangles.
+  std::vector<uint32_t> face_sizes, face_vertices;
+  // Face f belongs to group_names[face_groups[f]] (.obj "g" and "o"); empty: no groups.
+  std::vector<std::string> group_names;
+  std::vector<uint32_t> face_groups;
+  std::vector<glm::vec3> normals;  // per vertex, or empty
+  std::vector<glm::vec4> colors;   // per vertex, rgba 0..1, or empty
+  std::vector<std::string> warnings;
+
+  size_t face_count() const { return face_sizes.empty() ? triangles.size() / 3 : face_sizes.size(); }
+};
+
+struct MeshLimits {
+  uint64_t max_file_bytes = 512ull << 20;
+  uint32_t max_vertices = 20000000;
+  uint32_t max_triangles = 40000000;
+};
+
+// Format by the extension, in any case.
+SurfaceMesh read_mesh_file(const std::filesystem::path& file, const MeshLimits& limits = {});
+// The same from bytes; extension is ".obj", ".off" or ".ply".
+SurfaceMesh read_mesh_bytes(const std::vector<uint8_t>& bytes, const std::string& extension, const std::string& name,
+                            const MeshLimits& limits = {});
+
+// .obj, .off and .ply (binary little endian), .gltf and .glb (triangles). Numbers are written so that they read back
+// exactly as doubles (.ply, .obj, .off) or floats (.gltf, .glb).
+void write_mesh_file(const SurfaceMesh& mesh, const std::filesystem::path& file);
+
+// A FlatMesh of one part, welded, for the functions that take one; and the other way round.
+FlatMesh to_flat_mesh(const SurfaceMesh& mesh);
+SurfaceMesh to_surface_mesh(const FlatMesh& mesh);
+
+// Appends the triangles of one polygon (corners are vertex numbers). A fan where it is convex, ears otherwise.
+void triangulate(const std::vector<glm::dvec3>& positions, const uint32_t* corners, size_t count,
+                 std::vector<uint32_t>& triangles);
+
+}  // namespace samples
+
+#endif

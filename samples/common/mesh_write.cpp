@@ -1,0 +1,186 @@
+// Writers of mesh_file.h. Numbers take the shortest text that reads back to the same double; .ply holds doubles.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "common/file_bytes.h"
+#include "common/gltf_write.h"
+#include "common/mesh_file.h"
+
+namespace samples {
+namespace {
+
+class Text {
+ public:
+  Text& operator<<(const char* text) {
+    out_ += text;
+    return *this;
+  }
+  Text& operator<<(const std::string& text) {
+    out_ += text;
+    return *this;
+  }
+  template <typename Number>
+  Text& number(Number value) {
+    char buffer[40];
+    const auto end = std::to_chars(buffer, buffer + sizeof(buffer), value);
+    out_.append(buffer, end.ptr);
+    return *this;
+  }
+  template <typename Vector>
+  Text& vector(const Vector& v) {
+    for (int c = 0; c < Vector::length(); ++c) {
+      out_ += ' ';
+      number(v[c]);
+    }
+    return *this;
+  }
+  template <typename T>
+  void raw(T value) {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    out_.append(bytes, sizeof(T));
+  }
+  const std::string& str() const { return out_; }
+
+ private:
+  std::string out_;
+};
+
+void check(const SurfaceMesh& mesh, const std::string& name) {
+  const auto fail = [&](const std::string& message) { throw std::runtime_error(name + ": " + message + "."); };
+  const size_t count = mesh.positions.size();
+  for (size_t v = 0; v < count; ++v) {
+    const glm::dvec3& p = mesh.positions[v];
+    if (!std::isfinite(p.x + p.y + p.z)) fail("vertex " + std::to_string(v) + " is not finite");
+  }
+  if (mesh.triangles.size() % 3 != 0) fail("the triangles have indices left over");
+  for (const uint32_t v : mesh.triangles) {
+    if (v >= count) fail("a triangle names vertex " + std::to_string(v) + " of " + std::to_string(count));
+  }
+  size_t corners = 0;
+  for (const uint32_t size : mesh.face_sizes) corners += size;
+  if (corners != mesh.face_vertices.size()) fail("the faces' sizes and corners do not fit");
+  for (const uint32_t v : mesh.face_vertices) {
+    if (v >= count) fail("a face names vertex " + std::to_string(v) + " of " + std::to_string(count));
+  }
+  if (!mesh.normals.empty() && mesh.normals.size() != count) fail("there is not one normal per vertex");
+  if (!mesh.colors.empty() && mesh.colors.size() != count) fail("there is not one colour per vertex");
+  if (!mesh.face_groups.empty() && mesh.face_groups.size() != mesh.face_count())
+    fail("there is not one group per face");
+  for (const uint32_t group : mesh.face_groups) {
+    if (group >= mesh.group_names.size()) fail("a face belongs to a group without a name");
+  }
+}
+
+template <typename Function>
+void each_face(const SurfaceMesh& mesh, Function function) {
+  size_t first = 0;
+  for (size_t f = 0; f < mesh.face_count(); ++f) {
+    const bool polygons = !mesh.face_sizes.empty();
+    const uint32_t size = polygons ? mesh.face_sizes[f] : 3;
+    function(f, (polygons ? mesh.face_vertices : mesh.triangles).data() + first, size);
+    first += size;
+  }
+}
+
+std::string obj_text(const SurfaceMesh& mesh) {
+  Text out;
+  for (size_t v = 0; v < mesh.positions.size(); ++v) {
+    (out << "v").vector(mesh.positions[v]);
+    if (!mesh.colors.empty()) out.vector(glm::vec3(mesh.colors[v]));
+    out << "\n";
+  }
+  for (const glm::vec3& n : mesh.normals) (out << "vn").vector(n) << "\n";
+  uint32_t group = UINT32_MAX;
+  each_face(mesh, [&](size_t f, const uint32_t* corners, uint32_t size) {
+    if (!mesh.face_groups.empty() && mesh.face_groups[f] != group) {
+      group = mesh.face_groups[f];
+      out << "g " << mesh.group_names[group] << "\n";
+    }
+    out << "f";
+    for (uint32_t c = 0; c < size; ++c) {
+      (out << " ").number(corners[c] + 1ull);
+      if (!mesh.normals.empty()) (out << "//").number(corners[c] + 1ull);
+    }
+    out << "\n";
+  });
+  return out.str();
+}
+
+std::string off_text(const SurfaceMesh& mesh) {
+  Text out;
+  out << (mesh.colors.empty() ? "" : "C") << (mesh.normals.empty() ? "" : "N") << "OFF\n";
+  (out.number(mesh.positions.size()) << " ").number(mesh.face_count()) << " 0\n";
+  for (size_t v = 0; v < mesh.positions.size(); ++v) {
+    const glm::dvec3& p = mesh.positions[v];
+    out.number(p.x).vector(glm::dvec2(p.y, p.z));
+    if (!mesh.normals.empty()) out.vector(mesh.normals[v]);
+    for (int c = 0; c < 4 && !mesh.colors.empty(); ++c) {
+      // a decimal point tells 0..1 from 0..255
+      const double value = std::clamp(static_cast<double>(mesh.colors[v][c]), 0.0, 1.0);
+      out << " ";
+      if (value == 0 || value == 1) {
+        out << (value == 0 ? "0.0" : "1.0");
+      } else {
+        out.number(static_cast<float>(value));
+      }
+    }
+    out << "\n";
+  }
+  each_face(mesh, [&](size_t, const uint32_t* corners, uint32_t size) {
+    out.number(size);
+    for (uint32_t c = 0; c < size; ++c) (out << " ").number(corners[c]);
+    out << "\n";
+  });
+  return out.str();
+}
+
+std::string ply_bytes(const SurfaceMesh& mesh) {
+  Text out;
+  (out << "ply\nformat binary_little_endian 1.0\nelement vertex ").number(mesh.positions.size());
+  out << "\nproperty double x\nproperty double y\nproperty double z\n";
+  if (!mesh.normals.empty()) out << "property float nx\nproperty float ny\nproperty float nz\n";
+  if (!mesh.colors.empty()) {
+    out << "property float red\nproperty float green\nproperty float blue\nproperty float alpha\n";
+  }
+  (out << "element face ").number(mesh.face_count()) << "\nproperty list uint uint vertex_indices\nend_header\n";
+  for (size_t v = 0; v < mesh.positions.size(); ++v) {
+    for (int c = 0; c < 3; ++c) out.raw(mesh.positions[v][c]);
+    for (int c = 0; c < 3 && !mesh.normals.empty(); ++c) out.raw(mesh.normals[v][c]);
+    for (int c = 0; c < 4 && !mesh.colors.empty(); ++c) out.raw(mesh.colors[v][c]);
+  }
+  each_face(mesh, [&](size_t, const uint32_t* corners, uint32_t size) {
+    out.raw(size);
+    for (uint32_t c = 0; c < size; ++c) out.raw(corners[c]);
+  });
+  return out.str();
+}
+
+}  // namespace
+
+void write_mesh_file(const SurfaceMesh& mesh, const std::filesystem::path& file) {
+  check(mesh, file.string());
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".obj") {
+    write_bytes(file, obj_text(mesh));
+  } else if (extension == ".off") {
+    write_bytes(file, off_text(mesh));
+  } else if (extension == ".ply") {
+    write_bytes(file, ply_bytes(mesh));
+  } else if (extension == ".glb" || extension == ".gltf") {
+    Model model = make_model(file.stem().string(), mesh.positions, mesh.triangles);
+    Primitive& primitive = model.meshes[0].primitives[0];
+    if (!mesh.normals.empty()) primitive.normals = mesh.normals;
+    primitive.colors = mesh.colors;
+    write_gltf(model, file);
+  } else {
+    throw std::runtime_error(file.string() + ": the format is not written; .obj, .off, .ply, .gltf and .glb are.");
+  }
+}
+
+}  // namespace samples

@@ -1,0 +1,47 @@
+// A computed motion as a skinned glTF: per-frame rigid joint motions and per-vertex weights become a skin and a clip.
+//
+// The joints stand flat under one root node, each with its pivot c at the point given: a joint whose motion takes x to
+// R x + t has node translation R c + t, rotation R and inverse bind matrix translate(-c), so that interpolation between
+// keys turns about the pivot and not about the origin. Keys are LINEAR; quaternion signs are made continuous. Vertex
+// positions are the rest positions in world space; materials and texture coordinates of every primitive are kept.
+#ifndef HF_SAMPLES_COMMON_SKIN_WRITE_H
+#define HF_SAMPLES_COMMON_SKIN_WRITE_H
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <string>
+#include <vector>
+
+#include "common/flat_mesh.h"
+#include "common/model.h"
+
+namespace samples {
+
+struct SkinJoint {
+  std::string name;
+  glm::dvec3 pivot{0, 0, 0};
+};
+
+// rotations[f * joints + j], translations the same: the motion x -> R x + t of joint j at times[f].
+struct SkinClip {
+  std::string name;
+  std::vector<double> times;  // increasing, from 0
+  std::vector<glm::dquat> rotations;
+  std::vector<glm::dvec3> translations;
+};
+
+struct SkinDescription {
+  std::vector<SkinJoint> joints;
+  // influences_per_vertex (1 to 8) joints and weights per flat vertex; weights >= 0, normalised here.
+  uint32_t influences_per_vertex = 4;
+  std::vector<uint32_t> vertex_joints;
+  std::vector<float> vertex_weights;
+  std::vector<SkinClip> clips;
+};
+
+// Throws std::runtime_error naming the joint, vertex or frame that does not fit.
+Model skin_model(const Model& source, const FlatMesh& mesh, const SkinDescription& skin);
+
+}  // namespace samples
+
+#endif

@@ -1,0 +1,120 @@
+#include "base/jobs.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "base/float_environment.h"
+
+namespace hf {
+namespace {
+
+// One batch of jobs: an atomic counter deals the indices, the first exception is kept.
+struct Batch {
+  std::uint32_t count;
+  void (*call)(void*, std::uint32_t);
+  void* context;
+  std::atomic<std::uint32_t> next{0};
+  std::atomic<bool> failed{false};
+  std::exception_ptr error;
+
+  void work_one(std::uint32_t index) noexcept {
+    if (failed.load(std::memory_order_relaxed)) return;
+    try {
+      call(context, index);
+    } catch (...) {
+      if (!failed.exchange(true)) error = std::current_exception();
+    }
+  }
+  void work() noexcept {
+    for (;;) {
+      const std::uint32_t index = next.fetch_add(1, std::memory_order_relaxed);
+      if (index >= count) return;
+      work_one(index);
+    }
+  }
+};
+
+}  // namespace
+
+// Workers sleep on a condition variable between batches; one batch runs at a time, later callers wait their turn.
+struct JobRunner::Pool {
+  std::mutex entry;  // one batch at a time
+  std::mutex mutex;
+  std::condition_variable wake, done;
+  Batch* batch = nullptr;
+  std::uint64_t generation = 0;
+  std::uint32_t busy = 0;
+  bool stop = false;
+  std::vector<std::thread> workers;
+
+  explicit Pool(std::uint32_t count) {
+    workers.reserve(count);
+    try {
+      for (std::uint32_t i = 0; i < count; ++i) workers.emplace_back([this] { loop(); });
+    } catch (...) {
+      // fewer threads than asked for: results are the same, so go on with those there are
+    }
+  }
+  ~Pool() {
+    {
+      std::lock_guard<std::mutex> lock(mutex);
+      stop = true;
+    }
+    wake.notify_all();
+    for (std::thread& worker : workers) worker.join();
+  }
+  void loop() {
+    FloatEnvironment environment;
+    std::uint64_t seen = 0;
+    std::unique_lock<std::mutex> lock(mutex);
+    for (;;) {
+      wake.wait(lock, [&] { return stop || (batch && generation != seen); });
+      if (stop) return;
+      seen = generation;
+      Batch* mine = batch;
+      ++busy;
+      lock.unlock();
+      mine->work();
+      lock.lock();
+      if (--busy == 0) done.notify_all();
+    }
+  }
+  void run(Batch& work) {
+    std::lock_guard<std::mutex> turn(entry);
+    {
+      std::lock_guard<std::mutex> lock(mutex);
+      batch = &work;
+      ++generation;
+    }
+    wake.notify_all();
+    work.work();
+    std::unique_lock<std::mutex> lock(mutex);
+    batch = nullptr;
+    done.wait(lock, [&] { return busy == 0; });
+  }
+};
+
+JobRunner::JobRunner(std::uint32_t thread_count, const hf_job_runner& host)
+    : thread_count_(thread_count == 0 ? 1 : thread_count), host_(host) {
+  if (!host_.run && thread_count_ > 1) pool_ = std::make_unique<Pool>(thread_count_ - 1);
+}
+
+JobRunner::~JobRunner() = default;
+
+void JobRunner::run(std::uint32_t count, Call call, void* context) {
+  Batch batch;
+  batch.count = count, batch.call = call, batch.context = context;
+  if (host_.run) {
+    // the host calls us back once per index; anything it leaves out is done here, so a careless runner costs time, not truth
+    host_.run(host_.user, count, [](void* data, std::uint32_t) { FloatEnvironment environment; static_cast<Batch*>(data)->work(); }, &batch);
+    batch.work();
+  } else {
+    pool_->run(batch);
+  }
+  if (batch.failed) std::rethrow_exception(batch.error);
+}
+
+}  // namespace hf

@@ -1,0 +1,46 @@
+// Work split over the threads the caller grants: a pool the library owns (thread_count from the desc), or the host's own
+// job runner. Results never depend on the number of threads: work is cut into fixed pieces, each piece writes its own
+// output, and no sum crosses a piece in an order that depends on who ran it.
+#pragma once
+#include <cstdint>
+#include <exception>
+#include <memory>
+
+#include "base/memory.h"
+#include "hf/base.h"
+
+namespace hf {
+
+class JobRunner {
+ public:
+  // thread_count: threads that may work at once, the caller's own included; 1 runs everything on the caller.
+  explicit JobRunner(std::uint32_t thread_count, const hf_job_runner& host = {});
+  ~JobRunner();
+  JobRunner(const JobRunner&) = delete;
+  JobRunner& operator=(const JobRunner&) = delete;
+
+  std::uint32_t thread_count() const noexcept { return thread_count_; }
+
+  // Calls job(index) for index = 0 .. count-1, on any of the threads, in any order, each once; returns when all are done.
+  // The first exception of a job is rethrown on the calling thread; the remaining jobs are still called or skipped.
+  template <class Job>
+  void for_each(std::uint32_t count, Job&& job) {
+    if (count == 0) return;
+    if (thread_count_ == 1 || count == 1) {
+      for (std::uint32_t i = 0; i < count; ++i) job(i);
+      return;
+    }
+    run(count, [](void* context, std::uint32_t index) { (*static_cast<std::remove_reference_t<Job>*>(context))(index); }, &job);
+  }
+
+ private:
+  using Call = void (*)(void* context, std::uint32_t index);
+  void run(std::uint32_t count, Call call, void* context);
+
+  struct Pool;
+  std::uint32_t thread_count_;
+  hf_job_runner host_;
+  std::unique_ptr<Pool> pool_;
+};
+
+}  // namespace hf

@@ -1,0 +1,105 @@
+// All memory of a solver passes through one Memory: the host's hooks (or malloc), live and peak bytes, and a byte limit.
+//
+// Containers: hf::Vector<T> (std::pmr::vector on a Memory) for small and growing arrays, hf::Buffer<T> for large numeric
+// arrays (64-byte aligned, not initialised). Failure throws std::bad_alloc and leaves what was allocated before intact.
+// A Memory outlives everything allocated from it; handles share it by std::shared_ptr. Thread safety: allocate and
+// deallocate may be called from any thread if the host's hooks allow it (the default ones do).
+#pragma once
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "hf/base.h"
+
+namespace hf {
+
+class Memory final : public std::pmr::memory_resource {
+ public:
+  Memory() noexcept = default;
+  // hooks: both functions set, or both null for malloc. byte_limit: 0 = none.
+  explicit Memory(const hf_allocator& hooks, std::uint64_t byte_limit = 0) noexcept : hooks_(hooks), byte_limit_(byte_limit) {}
+
+  std::uint64_t live_bytes() const noexcept { return live_.load(std::memory_order_relaxed); }
+  std::uint64_t peak_bytes() const noexcept { return peak_.load(std::memory_order_relaxed); }
+  std::uint64_t allocation_count() const noexcept { return count_.load(std::memory_order_relaxed); }
+  void reset_peak() noexcept { peak_.store(live_bytes(), std::memory_order_relaxed); }
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override;
+  void do_deallocate(void* pointer, std::size_t bytes, std::size_t alignment) override;
+  bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override { return this == &other; }
+
+  hf_allocator hooks_{};
+  std::uint64_t byte_limit_ = 0;
+  std::atomic<std::uint64_t> live_{0}, peak_{0}, count_{0};
+};
+
+template <class T>
+using Vector = std::pmr::vector<T>;
+
+// std::make_shared on a Memory.
+template <class T, class... Arguments>
+std::shared_ptr<T> make_shared_in(Memory& memory, Arguments&&... arguments) {
+  return std::allocate_shared<T>(std::pmr::polymorphic_allocator<T>(&memory), std::forward<Arguments>(arguments)...);
+}
+
+// Uninitialised array of trivially copyable T, aligned to 64 bytes. Move only.
+template <class T>
+class Buffer {
+ public:
+  static_assert(std::is_trivially_copyable_v<T>);
+  Buffer() noexcept = default;
+  Buffer(Memory& memory, std::size_t size) { allocate(memory, size); }
+  Buffer(Buffer&& other) noexcept { swap(other); }
+  Buffer& operator=(Buffer&& other) noexcept {
+    Buffer moved(std::move(other));
+    swap(moved);
+    return *this;
+  }
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
+  ~Buffer() { release(); }
+
+  // Replaces the contents by `size` uninitialised elements; on std::bad_alloc the old contents stand.
+  void allocate(Memory& memory, std::size_t size) {
+    if (size > (std::size_t{1} << 60) / sizeof(T)) throw std::bad_alloc();
+    T* fresh = size ? static_cast<T*>(memory.allocate(size * sizeof(T), alignment)) : nullptr;
+    release();
+    memory_ = &memory, data_ = fresh, size_ = size;
+  }
+  // Like allocate, but keeps the present block when it is large enough; contents are not preserved.
+  void reserve_at_least(Memory& memory, std::size_t size) {
+    if (size > size_) allocate(memory, size);
+  }
+  void release() noexcept {
+    if (data_) memory_->deallocate(data_, size_ * sizeof(T), alignment);
+    data_ = nullptr, size_ = 0;
+  }
+  void swap(Buffer& other) noexcept {
+    std::swap(memory_, other.memory_), std::swap(data_, other.data_), std::swap(size_, other.size_);
+  }
+  T* data() noexcept { return data_; }
+  const T* data() const noexcept { return data_; }
+  std::size_t size() const noexcept { return size_; }
+  bool empty() const noexcept { return size_ == 0; }
+  T& operator[](std::size_t i) noexcept { return data_[i]; }
+  const T& operator[](std::size_t i) const noexcept { return data_[i]; }
+  T* begin() noexcept { return data_; }
+  T* end() noexcept { return data_ + size_; }
+  const T* begin() const noexcept { return data_; }
+  const T* end() const noexcept { return data_ + size_; }
+
+  static constexpr std::size_t alignment = 64;
+
+ private:
+  Memory* memory_ = nullptr;
+  T* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+}  // namespace hf

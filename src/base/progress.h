@@ -1,0 +1,31 @@
+// Progress of a long call, polled and cancelled from any thread. Work reports its share as it goes; report() throws
+// HF_ERROR_CANCELLED once cancel() was called, so a cancelled call unwinds like any other failure.
+#pragma once
+#include <atomic>
+
+#include "base/error.h"
+
+namespace hf {
+
+class Progress {
+ public:
+  void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
+  void reset() noexcept { cancelled_.store(false, std::memory_order_relaxed), fraction_.store(0.0f, std::memory_order_relaxed); }
+  float fraction() const noexcept { return fraction_.load(std::memory_order_relaxed); }
+  bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
+  void report(float fraction) {
+    fraction_.store(fraction, std::memory_order_relaxed);
+    if (cancelled()) fail(HF_ERROR_CANCELLED, HF_NO_INDEX, "cancelled by the caller at %.0f %%; nothing was changed", 100.0 * static_cast<double>(fraction));
+  }
+
+ private:
+  std::atomic<float> fraction_{0.0f};
+  std::atomic<bool> cancelled_{false};
+};
+
+// Reports to a progress that may be absent.
+inline void report(Progress* progress, float fraction) {
+  if (progress) progress->report(fraction);
+}
+
+}  // namespace hf

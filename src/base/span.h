@@ -1,0 +1,81 @@
+// A view of contiguous memory that somebody else owns (std::span for C++17), and a view of rows at a byte stride.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <vector>
+
+namespace hf {
+
+template <class T>
+class Span {
+ public:
+  constexpr Span() noexcept = default;
+  constexpr Span(T* data, std::size_t size) noexcept : data_(data), size_(size) {}
+  template <class Container, class = std::enable_if_t<std::is_convertible_v<decltype(std::declval<Container&>().data()), T*>>>
+  constexpr Span(Container& container) noexcept : data_(container.data()), size_(container.size()) {}
+  template <class Container, class = std::enable_if_t<std::is_const_v<T> && std::is_convertible_v<decltype(std::declval<const Container&>().data()), T*>>, class = void>
+  constexpr Span(const Container& container) noexcept : data_(container.data()), size_(container.size()) {}
+
+  constexpr T* data() const noexcept { return data_; }
+  constexpr std::size_t size() const noexcept { return size_; }
+  constexpr bool empty() const noexcept { return size_ == 0; }
+  constexpr T* begin() const noexcept { return data_; }
+  constexpr T* end() const noexcept { return data_ + size_; }
+  constexpr T& operator[](std::size_t i) const noexcept { return data_[i]; }
+  constexpr Span subspan(std::size_t offset, std::size_t count) const noexcept { return {data_ + offset, count}; }
+
+ private:
+  T* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+// Rows of `width` numbers of type float or double, `stride` bytes apart, possibly unaligned; read and written as double.
+class ConstRows {
+ public:
+  ConstRows() noexcept = default;
+  ConstRows(const float* data, std::size_t stride) noexcept : bytes_(reinterpret_cast<const char*>(data)), stride_(stride), is_double_(false) {}
+  ConstRows(const double* data, std::size_t stride) noexcept : bytes_(reinterpret_cast<const char*>(data)), stride_(stride), is_double_(true) {}
+  explicit operator bool() const noexcept { return bytes_ != nullptr; }
+  double get(std::size_t row, std::size_t column) const noexcept {
+    const char* p = bytes_ + row * stride_;
+    if (is_double_) {
+      double v;
+      std::memcpy(&v, p + column * sizeof(double), sizeof v);
+      return v;
+    }
+    float v;
+    std::memcpy(&v, p + column * sizeof(float), sizeof v);
+    return static_cast<double>(v);
+  }
+
+ private:
+  const char* bytes_ = nullptr;
+  std::size_t stride_ = 0;
+  bool is_double_ = false;
+};
+
+class Rows {
+ public:
+  Rows() noexcept = default;
+  Rows(float* data, std::size_t stride) noexcept : bytes_(reinterpret_cast<char*>(data)), stride_(stride), is_double_(false) {}
+  Rows(double* data, std::size_t stride) noexcept : bytes_(reinterpret_cast<char*>(data)), stride_(stride), is_double_(true) {}
+  explicit operator bool() const noexcept { return bytes_ != nullptr; }
+  void set(std::size_t row, std::size_t column, double value) const noexcept {
+    char* p = bytes_ + row * stride_;
+    if (is_double_) {
+      std::memcpy(p + column * sizeof(double), &value, sizeof value);
+    } else {
+      const float v = static_cast<float>(value);
+      std::memcpy(p + column * sizeof(float), &v, sizeof v);
+    }
+  }
+
+ private:
+  char* bytes_ = nullptr;
+  std::size_t stride_ = 0;
+  bool is_double_ = false;
+};
+
+}  // namespace hf

@@ -1,0 +1,19 @@
+// The symmetric sparse matrix that operators are written as and the factor is made from.
+#pragma once
+#include <cstdint>
+
+#include "base/memory.h"
+
+namespace hf {
+
+// Both triangles of a symmetric n x n matrix, compressed by columns (equally rows), the diagonal present in every column, row
+// indices ascending. column_start has n + 1 entries; entries < 2^31.
+struct SymmetricMatrix {
+  explicit SymmetricMatrix(Memory& memory) : column_start(&memory), row(&memory), value(&memory) {}
+  std::int32_t size() const noexcept { return column_start.empty() ? 0 : static_cast<std::int32_t>(column_start.size()) - 1; }
+  Vector<std::int32_t> column_start;
+  Vector<std::int32_t> row;
+  Vector<double> value;
+};
+
+}  // namespace hf

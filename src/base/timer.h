@@ -1,0 +1,16 @@
+// Wall-clock milliseconds for the statistics.
+#pragma once
+#include <chrono>
+
+namespace hf {
+
+class Timer {
+ public:
+  double milliseconds() const noexcept { return std::chrono::duration<double, std::milli>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace hf

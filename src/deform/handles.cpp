@@ -1,0 +1,154 @@
+#include "deform/handles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "deform/rest.h"
+
+namespace hf {
+namespace {
+
+// Farthest-point sampling of the ring, one vertex of every component first so that no component loses its sites.
+Vector<std::int32_t> sample_ring(const Mesh& mesh, const Vector<std::int32_t>& ring, std::uint32_t count, Memory& memory) {
+  Vector<std::int32_t> chosen(&memory);
+  chosen.reserve(std::min<std::size_t>(ring.size(), count));
+  Vector<double> distance(ring.size(), std::numeric_limits<double>::infinity(), &memory);
+  const auto take = [&](std::size_t k) {
+    chosen.push_back(ring[k]);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec3 d = mesh.positions[ring[i]] - mesh.positions[ring[k]];
+      distance[i] = std::min(distance[i], dot(d, d));
+    }
+    distance[k] = -1;
+  };
+  Vector<std::int32_t> components(&memory);
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const std::int32_t component = mesh.component[ring[k]];
+    if (std::find(components.begin(), components.end(), component) != components.end()) continue;
+    components.push_back(component);
+    take(k);
+  }
+  while (chosen.size() < count && chosen.size() < ring.size())
+    take(static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin()));
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+// The field of the last handle follows from the others: they sum to 1 wherever there is a site.
+std::int32_t solved_channels(std::size_t handle_count) noexcept {
+  return handle_count < 2 ? static_cast<std::int32_t>(handle_count) : static_cast<std::int32_t>(handle_count) - 1;
+}
+
+// One vertex: what the solve gave, made a partition of unity over the handles of the component.
+void finish_vertex(std::int32_t v, const double* solved, std::int32_t channels, std::int32_t owner, Span<const std::int32_t> present, HandleFields& fields) {
+  const std::int32_t handle_count = static_cast<std::int32_t>(fields.leak.size());
+  for (std::int32_t i = 0; i < handle_count; ++i) fields.of(i)[v] = 0;
+  if (present.empty()) return;
+  if (owner >= 0 || present.size() == 1) {
+    fields.of(owner >= 0 ? owner : present[0])[v] = 1;
+    return;
+  }
+  double sum = 0, others = 0;
+  for (std::int32_t i = 0; i < channels; ++i) others += solved[i];
+  for (const std::int32_t i : present) {
+    const double value = std::clamp(i < channels ? solved[i] : 1.0 - others, 0.0, 1.0);
+    fields.of(i)[v] = value;
+    sum += value;
+  }
+  for (const std::int32_t i : present) fields.of(i)[v] = sum > 0 ? fields.of(i)[v] / sum : 1.0 / static_cast<double>(present.size());
+}
+
+}  // namespace
+
+std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices, std::uint32_t samples_per_ring, Memory& memory) {
+  const Mesh& mesh = core.mesh;
+  const Topology& topology = core.topology;
+  auto region = make_shared_in<HandleRegion>(memory, memory);
+  region->vertices.assign(vertices.begin(), vertices.end());
+  std::sort(region->vertices.begin(), region->vertices.end());
+  region->vertices.erase(std::unique(region->vertices.begin(), region->vertices.end()), region->vertices.end());
+  const auto inside = [&](std::int32_t v) { return std::binary_search(region->vertices.begin(), region->vertices.end(), v); };
+  Vector<std::int32_t> ring(&memory);
+  Vec3 sum;
+  for (const std::int32_t v : region->vertices) {
+    sum = sum + mesh.positions[v];
+    for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
+      if (inside(topology.neighbour[k])) continue;
+      ring.push_back(v);
+      break;
+    }
+  }
+  region->centroid = (1.0 / static_cast<double>(region->vertices.size())) * sum;
+  region->component = mesh.component[region->vertices.front()];
+  if (samples_per_ring != 0 && samples_per_ring < ring.size()) {
+    region->sites = sample_ring(mesh, ring, samples_per_ring, memory);
+  } else {
+    region->sites = std::move(ring);
+  }
+  return region;
+}
+
+Reach::Reach(const Mesh& mesh, const Handles& handles, Memory& memory)
+    : owner(mesh.vertex_count(), -1, &memory), component_start(mesh.component_count() + 1, 0, &memory), handle(&memory) {
+  // a handle may reach into several components: count each pair once
+  Vector<std::int32_t> last_handle(mesh.component_count(), -1, &memory);
+  const auto for_pairs = [&](auto&& use) {
+    std::fill(last_handle.begin(), last_handle.end(), -1);
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+      for (const std::int32_t v : handles[i].region->vertices) {
+        const std::int32_t c = mesh.component[v];
+        if (last_handle[c] == static_cast<std::int32_t>(i)) continue;
+        last_handle[c] = static_cast<std::int32_t>(i);
+        use(c, static_cast<std::int32_t>(i));
+      }
+    }
+  };
+  for_pairs([&](std::int32_t c, std::int32_t) { ++component_start[c + 1]; });
+  for (std::int32_t c = 0; c < mesh.component_count(); ++c) component_start[c + 1] += component_start[c];
+  handle.resize(component_start.back());
+  Vector<std::int32_t> next(component_start, &memory);
+  for_pairs([&](std::int32_t c, std::int32_t i) { handle[next[c]++] = i; });
+  for (std::size_t i = 0; i < handles.size(); ++i) {
+    for (const std::int32_t v : handles[i].region->vertices) owner[v] = static_cast<std::int32_t>(i);
+  }
+}
+
+HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Handles& handles, const Reach& reach, Memory& memory) {
+  const std::int32_t n = core.size(), handle_count = static_cast<std::int32_t>(handles.size());
+  HandleFields fields(n, handle_count, memory);
+  const std::int32_t channels = solved_channels(handles.size());
+  const std::size_t width = static_cast<std::size_t>(channels);
+  bool any_site = false;
+  for (const Handle& handle : handles) any_site = any_site || !handle.region->sites.empty();
+  Workspace solved(core.workspaces, width * static_cast<std::size_t>(n));
+  if (any_site) {
+    Vector<double> values(width * static_cast<std::size_t>(solver.slot_count()), 0.0, &memory);
+    for (std::int32_t i = 0; i < channels; ++i) {
+      for (const std::int32_t slot : handles[i].region->slots) values[width * static_cast<std::size_t>(slot) + static_cast<std::size_t>(i)] = 1;
+    }
+    solver.solve(values.data(), channels, solved.data(), nullptr);
+  } else {
+    std::fill(solved.data(), solved.data() + width * static_cast<std::size_t>(n), 0.0);
+  }
+  // leak: before anything is corrected, wherever the fields come from sites
+  for (std::int32_t owner = 0; owner < handle_count; ++owner) {
+    for (const std::int32_t v : handles[owner].region->vertices) {
+      if (solver.site_count(core.mesh.component[v]) == 0) continue;
+      const double* u = solved.data() + width * static_cast<std::size_t>(v);
+      double others = 0;
+      for (std::int32_t i = 0; i < handle_count; ++i) {
+        const double value = i < channels ? u[i] : 1.0 - others;
+        others += value;
+        fields.leak[i] = std::max(fields.leak[i], std::fabs(value - (i == owner ? 1.0 : 0.0)));
+      }
+    }
+  }
+  for_vertex_pieces(*core.jobs, n, [&](std::int32_t first, std::int32_t last) {
+    for (std::int32_t v = first; v < last; ++v)
+      finish_vertex(v, solved.data() + width * static_cast<std::size_t>(v), channels, reach.owner[v], reach.handles_of(core.mesh.component[v]), fields);
+  });
+  return fields;
+}
+
+}  // namespace hf

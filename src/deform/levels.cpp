@@ -1,0 +1,126 @@
+#include "deform/levels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hf {
+namespace {
+
+constexpr double triangle_samples = 20000;
+
+struct Histogram {
+  double cubed[Levels::bins], squared[Levels::bins];
+};
+
+// |grad phi| and area of a triangle: grad = n x (sum of phi_k opposite edge k) / (2 area).
+struct TriangleGradient {
+  double length, area;
+};
+TriangleGradient gradient(const Vec3& p0, const Vec3& p1, const Vec3& p2, const double (&phi)[3]) noexcept {
+  const Vec3 sum = phi[0] * (p2 - p1) + phi[1] * (p0 - p2) + phi[2] * (p1 - p0);
+  const double twice_area = norm(cross(p1 - p0, p2 - p0));
+  return {twice_area > 1e-300 ? norm(sum) / twice_area : 0.0, 0.5 * twice_area};
+}
+
+void add_triangle(const Mesh& mesh, const std::int32_t* corner, const double* phi, Histogram& histogram) noexcept {
+  const double values[3] = {phi[corner[0]], phi[corner[1]], phi[corner[2]]};
+  const double low = std::min({values[0], values[1], values[2]}), high = std::max({values[0], values[1], values[2]});
+  if (!(high > low)) return;
+  const TriangleGradient g = gradient(mesh.positions[corner[0]], mesh.positions[corner[1]], mesh.positions[corner[2]], values);
+  if (!(g.length > 0) || !(g.length < 1e9)) return;
+  const int first = std::min(static_cast<int>(low * Levels::bins), Levels::bins - 1);
+  const int last = std::min(static_cast<int>(high * Levels::bins), Levels::bins - 1);
+  for (int b = first; b <= last; ++b) {
+    histogram.squared[b] += g.area * g.length * g.length;
+    histogram.cubed[b] += g.area * g.length * g.length * g.length;
+  }
+}
+
+void set_equal_value(Levels& levels) noexcept {
+  for (int b = 0; b <= Levels::bins; ++b) levels.level[b] = static_cast<double>(b) / Levels::bins;
+}
+
+// Mean gradient per bin; bins that no triangle passes take the nearest bin's, then a running mean over 7 bins.
+bool mean_gradients(const Histogram& histogram, double (&smooth)[Levels::bins]) noexcept {
+  double mean[Levels::bins];
+  int last_full = -1;
+  for (int b = 0; b < Levels::bins; ++b) {
+    if (!(histogram.squared[b] > 0)) continue;
+    mean[b] = histogram.cubed[b] / histogram.squared[b];
+    for (int k = last_full + 1; k < b; ++k) mean[k] = last_full < 0 || b - k < k - last_full ? mean[b] : mean[last_full];
+    last_full = b;
+  }
+  if (last_full < 0) return false;
+  for (int k = last_full + 1; k < Levels::bins; ++k) mean[k] = mean[last_full];
+  for (int b = 0; b < Levels::bins; ++b) {
+    double sum = 0;
+    const int low = std::max(0, b - 3), high = std::min(Levels::bins - 1, b + 3);
+    for (int k = low; k <= high; ++k) sum += mean[k];
+    smooth[b] = sum / (high - low + 1);
+  }
+  return true;
+}
+
+void set_equal_length(const Histogram& histogram, Levels& levels) noexcept {
+  double g[Levels::bins];
+  if (!mean_gradients(histogram, g)) return set_equal_value(levels);
+  double largest = 0;
+  for (const double x : g) largest = std::max(largest, x);
+  levels.level[0] = 0;
+  for (int b = 0; b < Levels::bins; ++b) levels.level[b + 1] = levels.level[b] + 1.0 / std::max(g[b], 1e-4 * largest);
+  const double total = levels.level[Levels::bins];
+  for (double& s : levels.level) s /= total;
+}
+
+}  // namespace
+
+double Levels::operator()(double phi) const noexcept {
+  if (phi >= 1) return 1;
+  if (!(phi > 0)) return 0;
+  const double x = phi * bins;
+  const int b = std::min(static_cast<int>(x), bins - 1);
+  return level[b] + (x - b) * (level[b + 1] - level[b]);
+}
+
+Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleFields& fields, const Vector<FieldPart>& parts, LevelSpacing spacing, Memory& memory) {
+  const Mesh& mesh = core.mesh;
+  Vector<Levels> levels(parts.size(), Levels(), &memory);
+  if (spacing == LevelSpacing::equal_value) {
+    for (Levels& l : levels) set_equal_value(l);
+    return levels;
+  }
+  // parts of component c: [part_start[c], part_start[c + 1])
+  Vector<std::int32_t> part_start(mesh.component_count() + 1, 0, &memory);
+  for (const FieldPart& part : parts) ++part_start[part.component + 1];
+  for (std::int32_t c = 0; c < mesh.component_count(); ++c) part_start[c + 1] += part_start[c];
+  Vector<Histogram> histograms(parts.size(), Histogram{}, &memory);
+  for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
+    const std::int32_t* corner = mesh.triangle(t);
+    const std::int32_t c = mesh.component[corner[0]];
+    if (part_start[c] == part_start[c + 1]) continue;
+    if (scattered(static_cast<std::uint32_t>(t)) * rest.component_triangles[c] > triangle_samples) continue;
+    for (std::int32_t p = part_start[c]; p < part_start[c + 1]; ++p) add_triangle(mesh, corner, fields.of(parts[p].handle), histograms[p]);
+  }
+  for (std::size_t p = 0; p < parts.size(); ++p) set_equal_length(histograms[p], levels[p]);
+  return levels;
+}
+
+BandValues band_values(double level, std::int32_t band_count, int degree) noexcept {
+  // K + 2 functions of degree p take K + 2 - p spans; knots are clamped at both ends
+  const std::int32_t spans = band_count + 2 - degree;
+  const double x = std::clamp(level, 0.0, 1.0) * spans;
+  const std::int32_t span = std::min(static_cast<std::int32_t>(x), spans - 1);
+  BandValues b{span, {0, 0, 0}};
+  const double u = x - span;
+  if (degree == 1) {
+    b.value[0] = 1 - u, b.value[1] = u;
+    return b;
+  }
+  const double low = span == 0 ? 1.0 : 2.0, high = span == spans - 1 ? 1.0 : 2.0;  // widths of the neighbouring double spans
+  b.value[0] = (1 - u) * (1 - u) / low;
+  b.value[2] = u * u / high;
+  b.value[1] = 1 - b.value[0] - b.value[2];
+  return b;
+}
+
+}  // namespace hf

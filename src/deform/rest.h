@@ -1,0 +1,53 @@
+// The surface at rest as deformation needs it: vertex areas, vertices by component, triangles round a vertex, edge stiffness.
+// Made once per pose, shared by its clones. Cost O(n). On failure nothing is left behind.
+#pragma once
+#include <cstdint>
+
+#include "engine/core.h"
+
+namespace hf {
+
+struct Rest {
+  Rest(const Core& core, Memory& memory);
+
+  // Vertices of component c: vertices[start[c] .. start[c + 1]), ascending.
+  Vector<std::int32_t> component_start;
+  Vector<std::int32_t> component_vertex;
+  Vector<std::int32_t> component_triangles;  // number of triangles per component
+  Vector<double> component_area;
+  Vector<double> area;                       // lumped, per vertex
+  // Triangles round vertex v: incident[incident_start[v] .. incident_start[v + 1]), ascending.
+  Vector<std::int32_t> incident_start;
+  Vector<std::int32_t> incident;
+  // Edge weights of the elastic energy: the operator's, kept in [0.01, 25]. Negative ones would reward collapse, huge ones come
+  // from triangles without area.
+  Vector<double> stiffness;
+
+  Span<const std::int32_t> vertices_of(std::int32_t component) const noexcept {
+    const auto first = static_cast<std::size_t>(component_start[component]), last = static_cast<std::size_t>(component_start[component + 1]);
+    return {component_vertex.data() + first, last - first};
+  }
+};
+
+// Vertex loops are cut into pieces of this size, whatever the number of threads.
+constexpr std::int32_t vertex_piece = 4096;
+
+// Calls loop(first, last) for every piece of 0 .. count.
+template <class Loop>
+void for_vertex_pieces(JobRunner& jobs, std::int32_t count, Loop&& loop) {
+  const std::int32_t pieces = (count + vertex_piece - 1) / vertex_piece;
+  jobs.for_each(static_cast<std::uint32_t>(pieces), [&](std::uint32_t piece) {
+    const std::int32_t first = static_cast<std::int32_t>(piece) * vertex_piece;
+    loop(first, count - first < vertex_piece ? count : first + vertex_piece);
+  });
+}
+
+// A number in [0, 1) from an index: the sampling of edges and triangles must not follow the order of the input.
+inline double scattered(std::uint32_t index) noexcept {
+  std::uint64_t x = index + 0x9e3779b97f4a7c15ull;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return static_cast<double>((x ^ (x >> 31)) >> 11) * 0x1.0p-53;
+}
+
+}  // namespace hf

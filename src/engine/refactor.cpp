@@ -1,0 +1,247 @@
+#include "engine/refactor.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace hf {
+namespace {
+
+using Index = std::int32_t;
+std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+std::size_t diagonal(const SymmetricMatrix& a, Index v) noexcept {
+  const auto begin = a.row.begin() + a.column_start[at(v)], end = a.row.begin() + a.column_start[at(v) + 1];
+  return static_cast<std::size_t>(std::lower_bound(begin, end, v) - a.row.begin());
+}
+
+}  // namespace
+
+RefactorSolver::RefactorSolver(std::shared_ptr<const Core> core) : core_(std::move(core)), state_(*core_->memory) {
+  state_.count.assign(at(core_->mesh.component_count()), 0);
+  state_.factor = core_->factor;
+}
+
+RefactorSolver::RefactorSolver(const RefactorSolver& other)
+    : core_(other.core_), state_(other.state_, *other.core_->memory), factorisations_(other.factorisations_.load()), sweeps_(other.sweeps_.load()) {}
+
+EngineCounters RefactorSolver::counters() const noexcept {
+  EngineCounters counters;
+  counters.factorisations = factorisations_, counters.sweeps = sweeps_;
+  counters.bytes = state_.factor == core_->factor ? 0.0 : state_.factor->statistics().bytes;
+  return counters;
+}
+
+void RefactorSolver::edit(const SiteEdit& edit) {
+  State next(state_, *core_->memory);
+  for (const Index slot : edit.remove) {
+    --next.count[at(next.sites[at(slot)].component)];
+    next.sites[at(slot)] = Site{};
+  }
+  for (std::size_t i = 0; i < edit.add.size(); ++i) {
+    if (next.sites.size() <= at(edit.add[i])) next.sites.resize(at(edit.add[i]) + 1);
+    next.sites[at(edit.add[i])] = edit.sites[i];
+    ++next.count[at(edit.sites[i].component)];
+  }
+  factorise(next);
+  std::swap(state_.sites, next.sites);
+  std::swap(state_.count, next.count);
+  std::swap(state_.floating, next.floating);
+  std::swap(state_.points, next.points);
+  std::swap(state_.dense, next.dense);
+  std::swap(state_.factor, next.factor);
+  std::swap(state_.path, next.path);
+}
+
+void RefactorSolver::factorise(State& state) const {
+  Memory& memory = *core_->memory;
+  const std::size_t n = at(core_->size());
+  SymmetricMatrix a(memory);
+  a.column_start.assign(core_->laplacian.column_start.begin(), core_->laplacian.column_start.end());
+  a.row.assign(core_->laplacian.row.begin(), core_->laplacian.row.end());
+  a.value.assign(core_->laplacian.value.begin(), core_->laplacian.value.end());
+  Vector<std::uint8_t> eliminated(n, 0, &memory);
+  state.floating.assign(state.count.size(), 1);
+  state.points.clear();
+  for (std::size_t slot = 0; slot < state.sites.size(); ++slot) {
+    const Site& site = state.sites[slot];
+    if (site.component < 0) continue;
+    if (!site.is_vertex()) {
+      state.points.push_back(static_cast<Index>(slot));
+      continue;
+    }
+    state.floating[at(site.component)] = 0;
+    if (site.compliance == 0) {
+      eliminated[at(site.vertex[0])] = 1;
+    } else {
+      a.value[diagonal(a, site.vertex[0])] += core_->mean_diagonal[at(site.component)] / site.compliance;
+    }
+  }
+  for (std::size_t c = 0; c < state.floating.size(); ++c) {
+    if (state.floating[c]) a.value[diagonal(a, core_->ground[c])] += core_->mean_diagonal[c];
+  }
+  state.factor = core_->factor->refactor(a, eliminated, memory, *core_->jobs);
+  ++factorisations_;
+
+  // bordered part: columns of A^-1 W_p with the eliminated rows at zero
+  state.dense.assign(state.count.size(), nullptr);
+  state.path.reset();
+  if (state.points.empty()) return;
+  const auto path = make_shared_in<Vector<double>>(memory, state.points.size() * n, 0.0);
+  Vector<std::shared_ptr<DenseBlock>> open(state.count.size(), &memory);
+  Vector<double> row(&memory);
+  for (std::size_t i = 0; i < state.points.size(); ++i) {
+    const Site& site = state.sites[at(state.points[i])];
+    double* x = path->data() + i * n;
+    for (int k = 0; k < 3; ++k) {
+      if (site.vertex[k] >= 0 && !eliminated[at(site.vertex[k])]) x[at(core_->factor->position()[at(site.vertex[k])])] += site.weight[k];
+    }
+    state.factor->forward(x, 1, *core_->jobs);
+    state.factor->backward(x, 1, *core_->jobs);
+    auto& block = open[at(site.component)];
+    if (!block) block = make_shared_in<DenseBlock>(memory, memory);
+    row.clear();
+    for (std::size_t j = 0; j <= i; ++j) {
+      const Site& other = state.sites[at(state.points[j])];
+      if (other.component != site.component) continue;
+      double s = i == j ? site.compliance / core_->mean_diagonal[at(site.component)] : 0.0;
+      for (int k = 0; k < 3; ++k) {
+        if (other.vertex[k] >= 0 && !eliminated[at(other.vertex[k])]) s += other.weight[k] * x[at(core_->factor->position()[at(other.vertex[k])])];
+      }
+      row.push_back(s);
+    }
+    block->append(static_cast<Index>(i), row.data());
+  }
+  for (std::size_t c = 0; c < open.size(); ++c) {
+    if (open[c] && open[c]->factorise() >= 0) fail(HF_ERROR_CONFLICT, HF_NO_INDEX, "points in one triangle depend linearly on each other or on its corners; leave one out or make it soft");
+    state.dense[c] = open[c];
+  }
+  state.path = path;
+}
+
+// u <- A^-1 right, both in factor order.
+void RefactorSolver::solve_linear(const State& state, const Vector<double>& right, Index channels, double* u) const {
+  std::copy(right.begin(), right.end(), u);
+  state.factor->forward(u, channels, *core_->jobs);
+  state.factor->backward(u, channels, *core_->jobs);
+  sweeps_ += 2;
+}
+
+void RefactorSolver::solve(const double* values, Index channels, double* field, double* flux) const {
+  Memory& memory = *core_->memory;
+  const std::size_t n = at(core_->size()), m = at(channels);
+  const Span<const Index> position = core_->factor->position();
+  const SymmetricMatrix& k = core_->laplacian;
+  Vector<std::int8_t> fixed(n, 0, &memory);
+  Vector<double> centre(state_.count.size() * m, 0.0, &memory);
+  for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
+    const Site& site = state_.sites[slot];
+    if (site.component < 0) continue;
+    for (std::size_t c = 0; c < m; ++c) centre[at(site.component) * m + c] += values[slot * m + c] / state_.count[at(site.component)];
+  }
+  const auto centred = [&](std::size_t slot, std::size_t c) { return values[slot * m + c] - centre[at(state_.sites[slot].component) * m + c]; };
+
+  Vector<double> right(n * m, 0.0, &memory), hard(n * m, 0.0, &memory), u(n * m, 0.0, &memory);
+  for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
+    const Site& site = state_.sites[slot];
+    if (site.component < 0 || !site.is_vertex()) continue;
+    const std::size_t v = at(site.vertex[0]);
+    for (std::size_t c = 0; c < m; ++c) {
+      if (site.compliance == 0) {
+        fixed[v] = 1, hard[v * m + c] = centred(slot, c);
+      } else {
+        right[at(position[v]) * m + c] += core_->mean_diagonal[at(site.component)] / site.compliance * centred(slot, c);
+      }
+    }
+  }
+  for (std::size_t v = 0; v < n; ++v) {
+    if (!fixed[v]) continue;
+    for (Index i = k.column_start[v]; i < k.column_start[v + 1]; ++i) {
+      const std::size_t w = at(k.row[at(i)]);
+      if (fixed[w]) continue;
+      for (std::size_t c = 0; c < m; ++c) right[at(position[w]) * m + c] -= k.value[at(i)] * hard[v * m + c];
+    }
+    for (std::size_t c = 0; c < m; ++c) right[at(position[v]) * m + c] = hard[v * m + c];
+  }
+  solve_linear(state_, right, channels, u.data());
+
+  // bordered point sites, component by component
+  Vector<double> constant(state_.count.size() * m, 0.0, &memory), lambda(state_.points.size() * m, 0.0, &memory), x(&memory);
+  for (std::size_t component = 0; component < state_.dense.size(); ++component) {
+    const DenseBlock* block = state_.dense[component].get();
+    if (!block) continue;
+    const Span<const Index> members = block->slots();
+    x.resize(members.size() * m);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const std::size_t slot = at(state_.points[at(members[i])]);
+      const Site& site = state_.sites[slot];
+      for (std::size_t c = 0; c < m; ++c) {
+        double value = centred(slot, c);
+        for (int q = 0; q < 3; ++q) {
+          if (site.vertex[q] >= 0) value -= site.weight[q] * u[at(position[at(site.vertex[q])]) * m + c];
+        }
+        x[i * m + c] = value;
+      }
+    }
+    block->solve(x.data(), channels);
+    for (std::size_t c = 0; c < m; ++c) {
+      double shift = 0;
+      if (state_.floating[component]) {
+        for (std::size_t i = 0; i < members.size(); ++i) shift += x[i * m + c];
+        shift /= block->ones_sum();
+      }
+      for (std::size_t i = 0; i < members.size(); ++i) {
+        const double l = x[i * m + c] - shift * block->ones()[i];
+        lambda[at(members[i]) * m + c] = l;
+        const double* y = state_.path->data() + at(members[i]) * n;
+        for (std::size_t r = 0; r < n; ++r) u[r * m + c] += y[r] * l;
+      }
+      constant[component * m + c] = shift;
+    }
+  }
+
+  Vector<double> whole(&memory);
+  double* out = field;
+  if (!out) whole.resize(n * m), out = whole.data();
+  for (std::size_t v = 0; v < n; ++v) {
+    const std::size_t component = at(core_->mesh.component[v]);
+    for (std::size_t c = 0; c < m; ++c) {
+      out[v * m + c] = state_.count[component] ? u[at(position[v]) * m + c] + constant[component * m + c] + centre[component * m + c] : 0.0;
+    }
+  }
+  if (flux) {
+    // lambda of a point from the border, of a vertex site from K u = W lambda
+    for (std::size_t i = 0; i < state_.points.size(); ++i) {
+      for (std::size_t c = 0; c < m; ++c) flux[at(state_.points[i]) * m + c] = lambda[i * m + c];
+    }
+    for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
+      const Site& site = state_.sites[slot];
+      if (site.component < 0 || !site.is_vertex()) continue;
+      const std::size_t v = at(site.vertex[0]);
+      for (std::size_t c = 0; c < m; ++c) {
+        double sum = 0;
+        for (Index i = k.column_start[v]; i < k.column_start[v + 1]; ++i) sum += k.value[at(i)] * (out[at(k.row[at(i)]) * m + c] - out[v * m + c]);
+        for (std::size_t p = 0; p < state_.points.size(); ++p) {
+          const Site& point = state_.sites[at(state_.points[p])];
+          for (int q = 0; q < 3; ++q) {
+            if (point.vertex[q] == site.vertex[0]) sum -= point.weight[q] * lambda[p * m + c];
+          }
+        }
+        flux[slot * m + c] = sum;
+      }
+    }
+  }
+  for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
+    const Site& site = state_.sites[slot];
+    if (site.component >= 0 && site.is_vertex() && site.compliance == 0) std::copy_n(values + slot * m, m, out + at(site.vertex[0]) * m);
+  }
+}
+
+void RefactorSolver::solve_at(const double* values, Index channels, Span<const Index> vertices, double* out) const {
+  // the baseline has no partial evaluation: it solves everything
+  Vector<double> field(at(core_->size()) * at(channels), core_->memory.get());
+  solve(values, channels, field.data(), nullptr);
+  for (std::size_t i = 0; i < vertices.size(); ++i) std::copy_n(field.data() + at(vertices[i]) * at(channels), channels, out + i * at(channels));
+}
+
+}  // namespace hf

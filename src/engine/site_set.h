@@ -1,0 +1,73 @@
+// The sites of one solver as its user sees them: numbers, places, values, stiffness; and what the engine must be told to follow an
+// edit. A plain value: copied before an edit, swapped in after the engine has taken it, kept on the undo stack.
+#pragma once
+#include <cstdint>
+
+#include "engine/site_solver.h"
+
+namespace hf {
+
+// Places of a batch: vertices, or triangles with barycentric weights, as given.
+struct Places {
+  std::uint32_t count = 0;
+  const std::uint32_t* vertices = nullptr;
+  const std::uint32_t* triangles = nullptr;
+  const double* barycentrics = nullptr;
+};
+
+class SiteSet {
+ public:
+  SiteSet(Memory& memory, std::int32_t channels) : slots_(&memory), values_(&memory), by_vertex_(&memory), channels_(channels) {}
+  SiteSet(const SiteSet& other, Memory& memory)
+      : slots_(other.slots_, &memory), values_(other.values_, &memory), by_vertex_(other.by_vertex_, &memory), channels_(other.channels_), count_(other.count_) {}
+  SiteSet(const SiteSet&) = delete;  // a copy must name its memory
+  SiteSet(SiteSet&&) = default;
+  SiteSet& operator=(SiteSet&&) = default;
+  void swap(SiteSet& other) noexcept;
+
+  struct Slot {
+    Site site;  // component -1: free
+    std::uint32_t given_vertex = HF_NO_INDEX;
+    double stiffness = 0;
+    bool used() const noexcept { return site.component >= 0; }
+  };
+
+  std::uint32_t count() const noexcept { return count_; }
+  Span<const Slot> slots() const noexcept { return slots_; }
+  const double* values() const noexcept { return values_.data(); }
+  std::int32_t channels() const noexcept { return channels_; }
+
+  // Each throws as the C functions document, with the position in the batch as index, and may leave *this half edited: work on a copy.
+  void remove(std::uint32_t count, const std::uint32_t* sites);
+  void move(const Mesh& mesh, std::uint32_t count, const std::uint32_t* sites, const Places& to);
+  void set_values(std::uint32_t count, const std::uint32_t* sites, const double* values);
+  void add(const Mesh& mesh, const Places& places, const double* values, const double* stiffness, std::uint32_t limit, std::uint32_t* out_sites);
+
+ private:
+  struct AtVertex {
+    std::int32_t vertex, slot;
+  };
+  void check_site(std::uint32_t position, std::uint32_t site) const;
+  Site locate(const Mesh& mesh, const Places& places, std::uint32_t i) const;
+  const AtVertex* find_vertex(std::int32_t vertex) const noexcept;
+  void claim_vertex(std::uint32_t position, std::uint32_t given, const Site& site, std::int32_t slot, const double* values, double stiffness);
+  void release_vertex(std::int32_t slot) noexcept;
+
+  Vector<Slot> slots_;
+  Vector<double> values_;      // slot * channels
+  Vector<AtVertex> by_vertex_; // vertex sites, ascending
+  std::int32_t channels_;
+  std::uint32_t count_ = 0;
+};
+
+// The engine edit that leads from one set to another.
+struct SiteDifference {
+  explicit SiteDifference(Memory& memory) : remove(&memory), add(&memory), sites(&memory) {}
+  SiteDifference(const SiteSet& from, const SiteSet& to, Memory& memory);
+  bool empty() const noexcept { return remove.empty() && add.empty(); }
+  SiteEdit edit() const noexcept { return {remove, add, sites}; }
+  Vector<std::int32_t> remove, add;
+  Vector<Site> sites;
+};
+
+}  // namespace hf

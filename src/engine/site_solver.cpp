@@ -1,0 +1,19 @@
+#include "engine/site_solver.h"
+
+#include "engine/green.h"
+#include "engine/refactor.h"
+#include "engine/updown.h"
+
+namespace hf {
+
+std::shared_ptr<SiteSolver> SiteSolver::make(EngineKind kind, std::shared_ptr<const Core> core, double penalty) {
+  Memory& memory = *core->memory;
+  switch (kind) {
+    case EngineKind::updown: return make_updown_solver(std::move(core), penalty);
+    case EngineKind::refactor: return make_shared_in<RefactorSolver>(memory, std::move(core));
+    case EngineKind::green: break;
+  }
+  return make_shared_in<GreenSolver>(memory, std::move(core));
+}
+
+}  // namespace hf

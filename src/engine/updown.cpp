@@ -1,0 +1,314 @@
+#include "engine/updown.h"
+
+#include "base/error.h"
+
+#ifdef HF_WITH_GPL
+
+#include <cholmod.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+namespace hf {
+namespace {
+
+using Index = std::int32_t;
+std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+constexpr std::uint32_t refine_after = 256;  // edited sites since the factor was made
+
+// CHOLMOD's workspace, silent.
+struct Common {
+  Common() noexcept {
+    cholmod_start(&c);
+    c.print = 0;
+    c.error_handler = nullptr;
+    c.supernodal = CHOLMOD_SUPERNODAL;
+    c.nmethods = 1;
+    c.method[0].ordering = CHOLMOD_GIVEN;
+    c.postorder = 1;
+  }
+  ~Common() { cholmod_finish(&c); }
+  Common(const Common&) = delete;
+  Common& operator=(const Common&) = delete;
+  cholmod_common c;
+};
+
+[[noreturn]] void throw_status(const cholmod_common& c) {
+  if (c.status == CHOLMOD_OUT_OF_MEMORY || c.status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
+  fail(HF_ERROR_NOT_POSITIVE_DEFINITE, HF_NO_INDEX, "CHOLMOD stopped with status %d", c.status);
+}
+
+class UpdownSolver final : public SiteSolver {
+ public:
+  UpdownSolver(std::shared_ptr<const Core> core, double penalty) : core_(std::move(core)), penalty_(penalty), sites_(core_->memory.get()), count_(core_->memory.get()) {
+    count_.assign(at(core_->mesh.component_count()), 0);
+    rebuild();
+  }
+  UpdownSolver(const UpdownSolver& other)
+      : core_(other.core_), penalty_(other.penalty_), sites_(other.sites_, core_->memory.get()), count_(other.count_, core_->memory.get()), edits_(other.edits_), factorisations_(other.factorisations_), sweeps_(other.sweeps_.load()) {
+    const std::lock_guard<std::mutex> lock(other.mutex_);
+    position_.assign(other.position_.begin(), other.position_.end());
+    factor_ = other.factor_ ? cholmod_copy_factor(other.factor_, &other.common_.c) : nullptr;
+    if (other.factor_ && !factor_) throw std::bad_alloc();
+  }
+  ~UpdownSolver() override { cholmod_free_factor(&factor_, &common_.c); }
+  UpdownSolver& operator=(const UpdownSolver&) = delete;
+
+  void edit(const SiteEdit& edit) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!factor_) rebuild();
+    Memory& memory = *core_->memory;
+    Vector<Site> sites(sites_, &memory);
+    Vector<Index> count(count_, &memory);
+    Vector<Site> leaving(&memory), coming(edit.sites.begin(), edit.sites.end(), &memory);
+    for (const Index slot : edit.remove) {
+      leaving.push_back(sites[at(slot)]);
+      --count[at(sites[at(slot)].component)];
+      sites[at(slot)] = Site{};
+    }
+    for (std::size_t i = 0; i < edit.add.size(); ++i) {
+      if (sites.size() <= at(edit.add[i])) sites.resize(at(edit.add[i]) + 1);
+      sites[at(edit.add[i])] = edit.sites[i];
+      ++count[at(edit.sites[i].component)];
+    }
+    // the ground comes before the last site leaves and goes after the first has come
+    for (std::size_t c = 0; c < count.size(); ++c) {
+      if (count_[c] > 0 && count[c] == 0) coming.push_back(ground(static_cast<Index>(c)));
+      if (count_[c] == 0 && count[c] > 0) leaving.push_back(ground(static_cast<Index>(c)));
+    }
+    if (!change(coming, true) || !change(leaving, false)) {
+      // the factor may hold half of the edit, or no numbers at all: make that of the sites there were
+      rebuild();
+      throw std::bad_alloc();
+    }
+    edits_ += static_cast<std::uint32_t>(edit.remove.size() + edit.add.size());
+    std::swap(sites_, sites);
+    std::swap(count_, count);
+  }
+
+  void solve(const double* values, Index channels, double* field, double* flux) const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!factor_) fail(HF_ERROR_OUT_OF_MEMORY, HF_NO_INDEX, "the factor was lost when memory ran out; edit the sites to make it again");
+    Memory& memory = *core_->memory;
+    const std::size_t n = at(core_->size()), m = at(channels);
+    Vector<double> centre(count_.size() * m, 0.0, &memory);
+    for (std::size_t slot = 0; slot < sites_.size(); ++slot) {
+      const Site& site = sites_[slot];
+      if (site.component < 0) continue;
+      for (std::size_t c = 0; c < m; ++c) centre[at(site.component) * m + c] += values[slot * m + c] / count_[at(site.component)];
+    }
+    // right-hand side R R' s, by columns
+    Vector<double> right(n * m, 0.0, &memory), u(n * m, 0.0, &memory);
+    for (std::size_t slot = 0; slot < sites_.size(); ++slot) {
+      const Site& site = sites_[slot];
+      if (site.component < 0) continue;
+      const double a = alpha(site);
+      for (std::size_t c = 0; c < m; ++c) {
+        const double s = values[slot * m + c] - centre[at(site.component) * m + c];
+        for (int k = 0; k < 3; ++k) {
+          if (site.vertex[k] >= 0) right[c * n + at(site.vertex[k])] += a * site.weight[k] * s;
+        }
+      }
+    }
+    back_substitute(right.data(), m, u.data());
+    if (edits_ > refine_after) {
+      Vector<double> residual(n * m, &memory), correction(n * m, 0.0, &memory);
+      for (std::size_t c = 0; c < m; ++c) subtract_product(right.data() + c * n, u.data() + c * n, residual.data() + c * n);
+      back_substitute(residual.data(), m, correction.data());
+      for (std::size_t i = 0; i < u.size(); ++i) u[i] += correction[i];
+    }
+    if (field) {
+      for (std::size_t v = 0; v < n; ++v) {
+        const std::size_t component = at(core_->mesh.component[v]);
+        for (std::size_t c = 0; c < m; ++c) field[v * m + c] = count_[component] ? u[c * n + v] + centre[component * m + c] : 0.0;
+      }
+    }
+    if (!flux) return;
+    for (std::size_t slot = 0; slot < sites_.size(); ++slot) {
+      const Site& site = sites_[slot];
+      for (std::size_t c = 0; c < m; ++c) {
+        double difference = 0;
+        if (site.component >= 0) {
+          difference = values[slot * m + c] - centre[at(site.component) * m + c];
+          for (int k = 0; k < 3; ++k) {
+            if (site.vertex[k] >= 0) difference -= site.weight[k] * u[c * n + at(site.vertex[k])];
+          }
+          difference *= alpha(site);
+        }
+        flux[slot * m + c] = difference;
+      }
+    }
+  }
+
+  void solve_at(const double* values, Index channels, Span<const Index> vertices, double* out) const override {
+    // the paper's engine has no partial evaluation: it solves everything
+    Vector<double> field(at(core_->size()) * at(channels), core_->memory.get());
+    solve(values, channels, field.data(), nullptr);
+    for (std::size_t i = 0; i < vertices.size(); ++i) std::copy_n(field.data() + at(vertices[i]) * at(channels), channels, out + i * at(channels));
+  }
+
+  std::shared_ptr<SiteSolver> clone() const override { return make_shared_in<UpdownSolver>(*core_->memory, *this); }
+  EngineKind kind() const noexcept override { return EngineKind::updown; }
+  EngineCounters counters() const noexcept override {
+    EngineCounters counters;
+    counters.factorisations = factorisations_, counters.sweeps = sweeps_;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (factor_) counters.bytes = static_cast<double>(factor_->nzmax) * (sizeof(double) + sizeof(Index));
+    return counters;
+  }
+  Index site_count(Index component) const noexcept override { return count_[at(component)]; }
+  Index slot_count() const noexcept override { return static_cast<Index>(sites_.size()); }
+
+ private:
+  // Penalty of a site in the unit of K; compliance 0 is a hard site.
+  double alpha(const Site& site) const noexcept {
+    return core_->mean_diagonal[at(site.component)] * (site.compliance > 0 ? std::min(1 / site.compliance, penalty_) : penalty_);
+  }
+  Site ground(Index component) const noexcept { return Site::at_vertex(core_->mesh, core_->ground[at(component)], 1.0); }
+
+  // One update or downdate with all of these sites. False: CHOLMOD failed and the factor is not to be trusted.
+  bool change(const Vector<Site>& sites, bool update) {
+    if (sites.empty()) return true;
+    const Span<const Index> position = position_;
+    cholmod_sparse* r = cholmod_allocate_sparse(at(core_->size()), sites.size(), 3 * sites.size(), 1, 1, 0, CHOLMOD_REAL, &common_.c);
+    if (!r) return false;
+    int* start = static_cast<int*>(r->p);
+    int* row = static_cast<int*>(r->i);
+    double* value = static_cast<double*>(r->x);
+    int used = 0;
+    for (std::size_t j = 0; j < sites.size(); ++j) {
+      start[j] = used;
+      const double root = std::sqrt(alpha(sites[j]));
+      int order[3] = {0, 1, 2};  // rows ascending in factor order
+      std::sort(order, order + 3, [&](int a, int b) {
+        const Index va = sites[j].vertex[a], vb = sites[j].vertex[b];
+        return (va < 0 ? core_->size() : position[at(va)]) < (vb < 0 ? core_->size() : position[at(vb)]);
+      });
+      for (const int k : order) {
+        if (sites[j].vertex[k] < 0 || sites[j].weight[k] == 0) continue;
+        row[used] = position[at(sites[j].vertex[k])], value[used++] = root * sites[j].weight[k];
+      }
+    }
+    start[sites.size()] = used;
+    const bool done = cholmod_updown(update ? 1 : 0, r, factor_, &common_.c) && common_.c.status >= CHOLMOD_OK;
+    cholmod_free_sparse(&r, &common_.c);
+    return done;
+  }
+
+  // Factorises K + R R' of the present sites and grounds.
+  void rebuild() {
+    cholmod_free_factor(&factor_, &common_.c);
+    const Index n = core_->size();
+    const SymmetricMatrix& k = core_->laplacian;
+    cholmod_sparse* a = cholmod_allocate_sparse(at(n), at(n), k.row.size(), 1, 1, -1, CHOLMOD_REAL, &common_.c);
+    if (!a) throw_status(common_.c);
+    int used = 0;
+    for (Index v = 0; v < n; ++v) {
+      static_cast<int*>(a->p)[v] = used;
+      for (Index i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i) {
+        if (k.row[at(i)] < v) continue;
+        static_cast<int*>(a->i)[used] = k.row[at(i)];
+        double value = k.value[at(i)];
+        const Index c = core_->mesh.component[at(v)];
+        // before any site: every component stands on its ground
+        if (k.row[at(i)] == v && v == core_->ground[at(c)]) value += core_->mean_diagonal[at(c)];
+        static_cast<double*>(a->x)[used++] = value;
+      }
+    }
+    static_cast<int*>(a->p)[n] = used;
+    const Span<const Index> order = core_->factor->order();
+    factor_ = cholmod_analyze_p(a, const_cast<int*>(order.data()), nullptr, 0, &common_.c);
+    bool done = factor_ && cholmod_factorize(a, factor_, &common_.c) && common_.c.status == CHOLMOD_OK;
+    // updown works on a simplicial LDL' factor
+    done = done && cholmod_change_factor(CHOLMOD_REAL, 0, 0, 1, 1, factor_, &common_.c);
+    cholmod_free_sparse(&a, &common_.c);
+    if (done) {
+      // CHOLMOD postorders the given permutation: keep where every unknown went
+      position_.resize(at(n));
+      for (Index r = 0; r < n; ++r) position_[at(static_cast<int*>(factor_->Perm)[r])] = r;
+      ++factorisations_, edits_ = 0;
+      done = insert_present();
+    }
+    if (!done) {
+      cholmod_free_factor(&factor_, &common_.c);
+      throw_status(common_.c);
+    }
+  }
+
+  bool insert_present() {
+    Vector<Site> coming(core_->memory.get()), leaving(core_->memory.get());
+    for (const Site& site : sites_) {
+      if (site.component >= 0) coming.push_back(site);
+    }
+    for (std::size_t c = 0; c < count_.size(); ++c) {
+      if (count_[c] > 0) leaving.push_back(ground(static_cast<Index>(c)));
+    }
+    return change(coming, true) && change(leaving, false);
+  }
+
+  void back_substitute(const double* right, std::size_t columns, double* u) const {
+    cholmod_dense b{};
+    b.nrow = b.d = at(core_->size()), b.ncol = columns, b.nzmax = b.nrow * columns;
+    b.x = const_cast<double*>(right), b.xtype = CHOLMOD_REAL, b.dtype = CHOLMOD_DOUBLE;
+    cholmod_dense* x = cholmod_solve(CHOLMOD_A, factor_, &b, &common_.c);
+    if (!x) throw_status(common_.c);
+    std::copy_n(static_cast<double*>(x->x), b.nzmax, u);
+    cholmod_free_dense(&x, &common_.c);
+    sweeps_ += 2;
+  }
+
+  // residual = right - (K + R R' + grounds) u, with K in difference form
+  void subtract_product(const double* right, const double* u, double* residual) const {
+    const SymmetricMatrix& k = core_->laplacian;
+    for (Index v = 0; v < core_->size(); ++v) {
+      double sum = right[v];
+      for (Index i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i) sum -= k.value[at(i)] * (u[k.row[at(i)]] - u[v]);
+      const Index c = core_->mesh.component[at(v)];
+      if (count_[at(c)] == 0 && v == core_->ground[at(c)]) sum -= core_->mean_diagonal[at(c)] * u[v];
+      residual[v] = sum;
+    }
+    for (const Site& site : sites_) {
+      if (site.component < 0) continue;
+      double w = 0;
+      for (int q = 0; q < 3; ++q) w += site.vertex[q] >= 0 ? site.weight[q] * u[site.vertex[q]] : 0.0;
+      for (int q = 0; q < 3; ++q) {
+        if (site.vertex[q] >= 0) residual[site.vertex[q]] -= alpha(site) * site.weight[q] * w;
+      }
+    }
+  }
+
+  std::shared_ptr<const Core> core_;
+  double penalty_;
+  Vector<Site> sites_;  // by slot; component -1: free
+  Vector<Index> count_;
+  Vector<Index> position_{core_->memory.get()};
+  mutable std::mutex mutex_;
+  mutable Common common_;
+  cholmod_factor* factor_ = nullptr;
+  std::uint32_t edits_ = 0, factorisations_ = 0;
+  mutable std::atomic<std::uint32_t> sweeps_{0};
+};
+
+}  // namespace
+
+std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core> core, double penalty) {
+  Memory& memory = *core->memory;
+  return make_shared_in<UpdownSolver>(memory, std::move(core), penalty);
+}
+
+}  // namespace hf
+
+#else
+
+namespace hf {
+
+std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core>, double) {
+  fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
+}
+
+}  // namespace hf
+
+#endif

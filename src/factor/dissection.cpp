@@ -1,0 +1,227 @@
+#include "factor/dissection.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "factor/leaf_order.h"
+#include "factor/multilevel.h"
+#include "factor/ordering.h"
+
+namespace hf {
+namespace {
+
+constexpr std::int32_t leaf_size = 180;     // parts this small are ordered by exact minimum degree
+constexpr std::int32_t halo_limit = 1500;   // a leaf with more halo is ordered without it
+constexpr std::int32_t task_size = 4000;    // parts this small are one job to the end
+constexpr std::size_t most_parts = 64;      // parts cut one wave at a time before every one becomes a job
+
+// A part of the graph with numbers of its own. Its vertices take the places [begin, begin + size) of the order.
+struct Part {
+  std::int32_t size = 0, begin = 0;
+  Buffer<std::int32_t> storage;  // id, start, neighbour
+  Buffer<float> point;
+  std::int32_t* id() noexcept { return storage.data(); }
+  std::int32_t* start() noexcept { return storage.data() + size; }
+  std::int32_t* neighbour() noexcept { return start() + size + 1; }
+  const std::int32_t* id() const noexcept { return storage.data(); }
+  void allocate(Memory& memory, std::int32_t vertices, std::size_t edges, bool points) {
+    size = vertices;
+    storage.allocate(memory, 2 * static_cast<std::size_t>(vertices) + 1 + edges);
+    if (points) point.allocate(memory, 3 * static_cast<std::size_t>(vertices));
+  }
+  GraphView view() noexcept { return {size, start(), neighbour(), point.empty() ? nullptr : point.data(), nullptr}; }
+};
+
+// What one thread needs.
+struct Workspace {
+  Workspace(Memory& memory, std::int32_t unknowns)
+      : bisection(memory), leaf(memory), side(&memory), number(&memory), halo(&memory), local_of(memory, static_cast<std::size_t>(unknowns)), found(&memory) {
+    std::fill(local_of.begin(), local_of.end(), -1);
+  }
+  MultilevelBisection bisection;
+  LeafOrder leaf;
+  Vector<std::uint8_t> side;
+  Vector<std::int32_t> number, halo;
+  Buffer<std::int32_t> local_of;  // of an unknown inside the present leaf, -1 outside
+  Vector<std::int32_t> found;
+};
+
+class Dissection {
+ public:
+  Dissection(const SymmetricMatrix& matrix, Coordinates coordinates, Memory& memory, JobRunner& jobs, std::int32_t* order)
+      : matrix_(matrix), coordinates_(coordinates), memory_(memory), jobs_(jobs), order_(order), free_(&memory) {}
+
+  void run(Progress* progress) {
+    std::pmr::vector<Part> parts(&memory_);
+    parts.push_back(whole());
+    // wave by wave at the top, where there are few parts and each is cut by one thread
+    bool cutting = true;
+    float done = 0.05f;
+    while (cutting && parts.size() < most_parts) {
+      report(progress, done);
+      done = std::min(0.4f, done + 0.05f);
+      const std::size_t count = parts.size();
+      std::pmr::vector<Part> next(2 * count, &memory_);
+      cutting = false;
+      for (const Part& part : parts) cutting |= part.size > task_size;
+      if (!cutting) break;
+      jobs_.for_each(static_cast<std::uint32_t>(count), [&](std::uint32_t k) {
+        Part part = std::move(parts[k]);
+        if (part.size <= task_size) {
+          next[2 * k] = std::move(part);
+          return;
+        }
+        with_workspace([&](Workspace& workspace) { split(std::move(part), workspace, next[2 * k], next[2 * k + 1]); });
+      });
+      parts.clear();
+      for (Part& part : next) {
+        if (part.size > 0) parts.push_back(std::move(part));
+      }
+    }
+    // the largest first: job order decides nothing but the waiting time
+    std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.size > b.size; });
+    report(progress, 0.3f);
+    jobs_.for_each(static_cast<std::uint32_t>(parts.size()), [&](std::uint32_t k) {
+      with_workspace([&](Workspace& workspace) { finish(std::move(parts[k]), workspace); });
+    });
+  }
+
+ private:
+  Part whole() {
+    const std::int32_t n = matrix_.size();
+    Part part;
+    part.allocate(memory_, n, matrix_.row.size() - static_cast<std::size_t>(n), !coordinates_.empty());
+    std::int32_t k = 0;
+    for (std::int32_t v = 0; v < n; ++v) {
+      part.id()[v] = v, part.start()[v] = k;
+      for (std::int32_t e = matrix_.column_start[v]; e < matrix_.column_start[v + 1]; ++e) {
+        if (matrix_.row[e] != v) part.neighbour()[k++] = matrix_.row[e];
+      }
+    }
+    part.start()[n] = k;
+    if (!coordinates_.empty()) std::copy(coordinates_.begin(), coordinates_.end(), part.point.begin());
+    return part;
+  }
+
+  // Cuts a part in two, or orders it whole when it is small or cannot be cut; the separator takes the last places.
+  void split(Part part, Workspace& workspace, Part& left, Part& right) {
+    if (part.size <= leaf_size) return order_leaf(part, workspace);
+    workspace.side.resize(static_cast<std::size_t>(part.size));
+    std::uint8_t* side = workspace.side.data();
+    const Cut cut = workspace.bisection.run(part.view(), side);
+    // a separator that is most of the part separates nothing worth having
+    if (!cut.usable() || cut.separator > part.size * 3 / 4) return order_whole(part);
+    std::int32_t size[3] = {0, 0, 0};
+    std::size_t edges[3] = {0, 0, 0};
+    workspace.number.resize(static_cast<std::size_t>(part.size));
+    for (std::int32_t v = 0; v < part.size; ++v) {
+      workspace.number[v] = size[side[v]]++;
+      edges[side[v]] += static_cast<std::size_t>(part.start()[v + 1] - part.start()[v]);
+    }
+    left.begin = part.begin, right.begin = part.begin + size[side_left];
+    extract(part, workspace, side_left, size[side_left], edges[side_left], left);
+    extract(part, workspace, side_right, size[side_right], edges[side_right], right);
+    std::int32_t* last = order_ + part.begin + size[side_left] + size[side_right];
+    for (std::int32_t v = 0; v < part.size; ++v) {
+      if (side[v] == side_between) *last++ = part.id()[v];
+    }
+  }
+
+  void extract(Part& part, const Workspace& workspace, std::uint8_t side, std::int32_t size, std::size_t edges, Part& out) {
+    out.allocate(memory_, size, edges, !part.point.empty());
+    std::int32_t k = 0, v = 0;
+    for (std::int32_t u = 0; u < part.size; ++u) {
+      if (workspace.side[u] != side) continue;
+      out.id()[v] = part.id()[u], out.start()[v] = k;
+      if (!part.point.empty()) std::copy(part.point.data() + 3 * static_cast<std::size_t>(u), part.point.data() + 3 * static_cast<std::size_t>(u) + 3, out.point.data() + 3 * static_cast<std::size_t>(v));
+      for (std::int32_t e = part.start()[u]; e < part.start()[u + 1]; ++e) {
+        const std::int32_t w = part.neighbour()[e];
+        if (workspace.side[w] == side) out.neighbour()[k++] = workspace.number[w];
+      }
+      ++v;
+    }
+    out.start()[size] = k;
+  }
+
+  // A part to the end, depth first: the list holds at most one part per level and side.
+  void finish(Part first, Workspace& workspace) {
+    std::pmr::vector<Part> waiting(&memory_);
+    waiting.push_back(std::move(first));
+    while (!waiting.empty()) {
+      Part part = std::move(waiting.back());
+      waiting.pop_back();
+      Part left, right;
+      split(std::move(part), workspace, left, right);
+      if (left.size > 0) waiting.push_back(std::move(left));
+      if (right.size > 0) waiting.push_back(std::move(right));
+    }
+  }
+
+  void order_leaf(const Part& part, Workspace& workspace) {
+    const std::int32_t n = part.size;
+    for (std::int32_t v = 0; v < n; ++v) workspace.local_of[part.id()[v]] = v;
+    workspace.halo.clear();
+    for (std::int32_t v = 0; v < n; ++v) {
+      const std::int32_t unknown = part.id()[v];
+      for (std::int32_t e = matrix_.column_start[unknown]; e < matrix_.column_start[unknown + 1]; ++e) {
+        const std::int32_t u = matrix_.row[e];
+        if (workspace.local_of[u] >= 0 || static_cast<std::int32_t>(workspace.halo.size()) >= halo_limit) continue;
+        workspace.local_of[u] = n + static_cast<std::int32_t>(workspace.halo.size());
+        workspace.halo.push_back(u);
+      }
+    }
+    workspace.leaf.reset(n, static_cast<std::int32_t>(workspace.halo.size()));
+    for (std::int32_t v = 0; v < n; ++v) {
+      const std::int32_t unknown = part.id()[v];
+      for (std::int32_t e = matrix_.column_start[unknown]; e < matrix_.column_start[unknown + 1]; ++e) {
+        const std::int32_t u = workspace.local_of[matrix_.row[e]];
+        if (u >= 0 && u != v) workspace.leaf.add_edge(v, u);
+      }
+    }
+    for (std::int32_t v = 0; v < n; ++v) workspace.local_of[part.id()[v]] = -1;
+    for (const std::int32_t u : workspace.halo) workspace.local_of[u] = -1;
+    workspace.found.resize(static_cast<std::size_t>(n));
+    workspace.leaf.run(workspace.found.data());
+    for (std::int32_t k = 0; k < n; ++k) order_[part.begin + k] = part.id()[workspace.found[k]];
+  }
+
+  void order_whole(Part& part) {
+    Buffer<std::int32_t> local;
+    order_graph_by_minimum_degree(part.size, part.start(), part.neighbour(), memory_, local);
+    for (std::int32_t k = 0; k < part.size; ++k) order_[part.begin + k] = part.id()[local[k]];
+  }
+
+  template <class Work>
+  void with_workspace(Work&& work) {
+    std::shared_ptr<Workspace> workspace;
+    {
+      std::lock_guard<std::mutex> lock(mutex_);
+      if (!free_.empty()) workspace = free_.back(), free_.pop_back();
+      else free_.reserve(++made_);
+    }
+    if (!workspace) workspace = make_shared_in<Workspace>(memory_, memory_, matrix_.size());
+    work(*workspace);
+    std::lock_guard<std::mutex> lock(mutex_);
+    free_.push_back(std::move(workspace));
+  }
+
+  const SymmetricMatrix& matrix_;
+  Coordinates coordinates_;
+  Memory& memory_;
+  JobRunner& jobs_;
+  std::int32_t* order_;
+  std::mutex mutex_;
+  Vector<std::shared_ptr<Workspace>> free_;
+  std::size_t made_ = 0;
+};
+
+}  // namespace
+
+void order_by_dissection(const SymmetricMatrix& matrix, Coordinates coordinates, Memory& memory, JobRunner& jobs, Progress* progress,
+                         Buffer<std::int32_t>& order) {
+  order.allocate(memory, static_cast<std::size_t>(matrix.size()));
+  if (matrix.size() == 0) return;
+  Dissection(matrix, coordinates, memory, jobs, order.data()).run(progress);
+}
+
+}  // namespace hf

@@ -1,0 +1,124 @@
+#include "factor/factor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "base/error.h"
+#include "factor/numeric.h"
+#include "factor/ordering.h"
+#include "factor/supernodal_factor.h"
+
+namespace hf {
+namespace {
+
+class Stopwatch {
+ public:
+  double lap_ms() noexcept {
+    const auto now = std::chrono::steady_clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return ms;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+// Bounds, order of the rows, a diagonal in every column.
+void require_well_formed(const SymmetricMatrix& matrix) {
+  if (matrix.row.size() > static_cast<std::size_t>(INT32_MAX) || matrix.row.size() != matrix.value.size()) {
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the matrix has %zu entries; the limit is 2^31 - 1", matrix.row.size());
+  }
+  const std::int32_t n = matrix.size();
+  const std::int32_t* start = matrix.column_start.data();
+  const bool ends = n == 0 || (start[0] == 0 && static_cast<std::size_t>(start[n]) == matrix.row.size());
+  if (!ends) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the columns of the matrix do not span its entries");
+  for (std::int32_t j = 0; j < n; ++j) {
+    bool diagonal = false, ascending = start[j] <= start[j + 1];
+    std::int32_t previous = -1;
+    for (std::int32_t e = start[j]; ascending && e < start[j + 1]; ++e) {
+      const std::int32_t row = matrix.row[e];
+      ascending = row > previous && row < n;
+      diagonal |= row == j;
+      previous = row;
+    }
+    if (!ascending || !diagonal) {
+      fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(j), "column %d of the matrix: rows must ascend, lie in range and hold the diagonal", j);
+    }
+  }
+}
+
+}  // namespace
+
+std::uint64_t hash_pattern(const SymmetricMatrix& matrix) noexcept {
+  std::uint64_t hash = 1469598103934665603ull ^ matrix.row.size();
+  const auto mix = [&](std::uint64_t word) { hash = (hash ^ word) * 0x9E3779B97F4A7C15ull, hash ^= hash >> 29; };
+  for (const std::int32_t start : matrix.column_start) mix(static_cast<std::uint32_t>(start));
+  const std::size_t count = matrix.row.size();
+  const std::int32_t* row = matrix.row.data();
+  std::size_t e = 0;
+  for (; e + 2 <= count; e += 2) mix(static_cast<std::uint64_t>(static_cast<std::uint32_t>(row[e])) << 32 | static_cast<std::uint32_t>(row[e + 1]));
+  if (e < count) mix(static_cast<std::uint32_t>(row[e]));
+  return hash;
+}
+
+SupernodalFactor::SupernodalFactor(std::shared_ptr<const Analysis> analysis, Memory& memory)
+    : memory_(memory), analysis_(std::move(analysis)), kernels_(&choose_kernels()) {
+  statistics_.entries = symbolic().entries;
+  statistics_.stored_entries = symbolic().stored_entries;
+  statistics_.flops = symbolic().flops;
+  statistics_.supernodes = symbolic().supernodes;
+  statistics_.bytes = 8.0 * symbolic().stored_entries + symbolic().index_bytes() + plan().bytes();
+}
+
+void SupernodalFactor::compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, JobRunner& jobs, Progress* progress) {
+  Stopwatch watch;
+  require_finite(matrix);
+  values_.allocate(memory_, static_cast<std::size_t>(symbolic().stored_entries) + value_slack);
+  factorise(symbolic(), plan(), kernels(), matrix, eliminated, values_.data(), memory_, jobs, progress);
+  statistics_.numeric_ms = watch.lap_ms();
+}
+
+std::shared_ptr<const Factor> Factor::make(const SymmetricMatrix& matrix, Coordinates coordinates, const FactorOptions& options, Memory& memory,
+                                           JobRunner& jobs) {
+  require_well_formed(matrix);
+  require_finite(matrix);
+  if (!coordinates.empty() && coordinates.size() != 3 * static_cast<std::size_t>(matrix.size())) {
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%zu coordinates for %d unknowns: three each, or none", coordinates.size(), matrix.size());
+  }
+  report(options.progress, 0.0f);
+  Stopwatch watch;
+  Buffer<std::int32_t> order;
+  make_order(matrix, coordinates, options.ordering, memory, jobs, options.progress, order);
+  const double ordering_ms = watch.lap_ms();
+  report(options.progress, 0.45f);
+  std::shared_ptr<Analysis> analysis = make_shared_in<Analysis>(memory);
+  analyse(matrix, Span<const std::int32_t>(order.data(), order.size()), memory, analysis->symbolic);
+  order.release();
+  make_plan(analysis->symbolic, memory, analysis->plan);
+  analysis->pattern_hash = hash_pattern(matrix);
+  const double symbolic_ms = watch.lap_ms();
+  report(options.progress, 0.55f);
+  std::shared_ptr<SupernodalFactor> factor = make_shared_in<SupernodalFactor>(memory, std::move(analysis), memory);
+  factor->set_timings(ordering_ms, symbolic_ms);
+  factor->compute(matrix, {}, jobs, options.progress);
+  report(options.progress, 1.0f);
+  return factor;
+}
+
+std::shared_ptr<const Factor> SupernodalFactor::refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, Memory& memory,
+                                                         JobRunner& jobs) const {
+  if (matrix.size() != size() || hash_pattern(matrix) != analysis_->pattern_hash) {
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "refactor takes a matrix of the same pattern; make a new factor instead");
+  }
+  if (!eliminated.empty() && eliminated.size() != static_cast<std::size_t>(size())) {
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%zu elimination marks for %d unknowns", eliminated.size(), size());
+  }
+  std::shared_ptr<SupernodalFactor> factor = make_shared_in<SupernodalFactor>(memory, analysis_, memory);
+  factor->kernels_ = kernels_;
+  factor->compute(matrix, eliminated, jobs, nullptr);
+  return factor;
+}
+
+}  // namespace hf

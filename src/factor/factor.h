@@ -1,0 +1,100 @@
+// Sparse Cholesky factorisation P A P' = G G' of a symmetric positive definite matrix, made for many cheap questions to one
+// immutable factor:
+//   factorise   fill-reducing ordering, symbolic analysis, numeric supernodal factorisation;
+//   sweeps      z <- G^-1 z (forward), z <- G^-T z (backward), m right-hand sides at once;
+//   paths       Y = G^-1 P W for sparse columns of W (sites): non-zero only along elimination-tree paths;
+//   Gram        Y_a' Y_b;   combine: z += Y lambda.
+// Everything is double, deterministic, and the same bits for any number of threads.
+#pragma once
+#include <cstdint>
+#include <memory>
+
+#include "base/jobs.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "base/span.h"
+#include "factor/matrix.h"
+
+namespace hf {
+
+enum class Ordering : std::int32_t {
+  nested_dissection = 0,  // our own multilevel nested dissection on graph and geometry
+  minimum_degree = 1,     // AMD
+  metis = 2,              // METIS through CHOLMOD; only in builds with HF_WITH_GPL (CHOLMOD), its rand() use isolated
+  natural = 3,
+};
+
+struct FactorOptions {
+  Ordering ordering = Ordering::nested_dissection;
+  Progress* progress = nullptr;  // reported between 0 and 1
+};
+
+struct FactorStatistics {
+  double ordering_ms = 0, symbolic_ms = 0, numeric_ms = 0;
+  double entries = 0;         // non-zeros of G
+  double stored_entries = 0;  // with the relaxation zeros
+  double flops = 0;           // sum of squared column counts
+  double bytes = 0;           // of the stored factor with its index lists
+  std::int32_t supernodes = 0;
+};
+
+// A batch of sparse columns w_1 .. w_k in the caller's numbering: column i holds entries [start[i], start[i+1]).
+struct SparseColumns {
+  Span<const std::int32_t> start;  // k + 1
+  Span<const std::int32_t> row;
+  Span<const double> value;
+  std::int32_t count() const noexcept { return start.empty() ? 0 : static_cast<std::int32_t>(start.size()) - 1; }
+};
+
+// Columns y_i = G^-1 P w_i of one group of at most PathGroup::capacity sites, immutable once made. Shared by clones.
+class PathGroup;
+
+class Factor {
+ public:
+  // Orders, analyses and factorises. Throws HF_ERROR_NOT_POSITIVE_DEFINITE (index = the column in the caller's numbering) when a
+  // pivot is lost, HF_ERROR_NON_FINITE for NaN or infinity, HF_ERROR_TOO_LARGE, std::bad_alloc, or HF_ERROR_CANCELLED.
+  static std::shared_ptr<const Factor> make(const SymmetricMatrix& matrix, Coordinates coordinates, const FactorOptions& options, Memory& memory,
+                                            JobRunner& jobs);
+
+  virtual ~Factor() = default;
+  virtual std::int32_t size() const noexcept = 0;
+  virtual const FactorStatistics& statistics() const noexcept = 0;
+
+  // position[i] = row of unknown i in factor order (P), inverse order the other way round.
+  virtual Span<const std::int32_t> position() const noexcept = 0;
+  virtual Span<const std::int32_t> order() const noexcept = 0;
+
+  // In place on z[row * channels + channel], rows in factor order.
+  virtual void forward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
+  virtual void backward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
+
+  // Numeric refactorisation with the same pattern. `eliminated` (per unknown, caller's numbering, may be empty): rows and columns set to
+  // the identity, pattern kept: the rebase. Shares symbolic analysis and ordering with *this.
+  virtual std::shared_ptr<const Factor> refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, Memory& memory, JobRunner& jobs) const = 0;
+
+  // Paths of a batch, cut into groups; out_group[i], out_column[i] tell where column i went. Cost: sum of path entries.
+  virtual void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs, Vector<std::shared_ptr<const PathGroup>>& out_groups,
+                           Span<std::int32_t> out_group, Span<std::int32_t> out_column) const = 0;
+
+  // gram[i * ld + j] = y_i(a)' y_j(b), i < a.count(), j < b.count().
+  virtual void gram(const PathGroup& a, const PathGroup& b, double* gram, std::int32_t ld) const = 0;
+
+  // z[row * channels + c] += sum_i Y[row, i] lambda[i * channels + c], lambda of the group's own columns.
+  virtual void combine(const PathGroup& group, const double* lambda, std::int32_t channels, double* z) const = 0;
+
+  // z[row, .] = 0 on every row the group touches: undoes combine at the cost of the paths, not of n (partial evaluation).
+  virtual void clear(const PathGroup& group, std::int32_t channels, double* z) const = 0;
+
+  // out[i * channels + c] = y_i' z[., c]: the transpose of combine.
+  virtual void project(const PathGroup& group, const double* z, std::int32_t channels, double* out) const = 0;
+};
+
+class PathGroup {
+ public:
+  static constexpr std::int32_t capacity = 32;
+  virtual ~PathGroup() = default;
+  virtual std::int32_t count() const noexcept = 0;
+  virtual double bytes() const noexcept = 0;
+};
+
+}  // namespace hf

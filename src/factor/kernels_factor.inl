@@ -1,0 +1,297 @@
+// Front kernels: triangle, tiles, update matrix, extend-add, write-out. Included by the kernels_*.cpp files after a simd_*.h;
+// everything is in an unnamed namespace and uses no inline code of the standard library, so that no function compiled for one
+// instruction set is ever linked into another.
+#include <cstddef>
+#include <cstdint>
+
+#include "factor/kernels.h"
+
+namespace {
+
+using hf::ChildView;
+using hf::FrontView;
+using D = Simd<double>;
+constexpr std::int32_t tile_vectors = 8 / D::width;  // vectors per 8-row tile
+
+// Vector-row v of a tiled array: v counts groups of D::width rows.
+inline double* vector_row(double* tiles, std::int32_t v, std::int64_t tile_stride) noexcept {
+  return tiles + (v / tile_vectors) * tile_stride + (v % tile_vectors) * D::width;
+}
+
+// c[r][j] = (fresh ? 0 : c[r][j]) - sum over k of a[r][k] b[j][k]: a, b step 8 doubles per k, c steps c_step per j.
+template <int R, int N, bool Fresh>
+inline void multiply_block(const double* const* a, const double* b, std::int32_t k_count, double* const* c, std::int64_t c_step) noexcept {
+  D::Type sum[R][N];
+  for (int r = 0; r < R; ++r) {
+    for (int j = 0; j < N; ++j) sum[r][j] = Fresh ? D::zero() : D::load(c[r] + j * c_step);
+  }
+  std::int64_t offset = 0;
+  for (std::int32_t k = 0; k < k_count; ++k, offset += 8) {
+    D::Type column[R];
+    for (int r = 0; r < R; ++r) column[r] = D::load(a[r] + offset);
+    for (int j = 0; j < N; ++j) {
+      const D::Type factor = D::all(b[offset + j]);
+      for (int r = 0; r < R; ++r) sum[r][j] = D::subtract_product(column[r], factor, sum[r][j]);
+    }
+  }
+  for (int r = 0; r < R; ++r) {
+    for (int j = 0; j < N; ++j) D::store(c[r] + j * c_step, sum[r][j]);
+  }
+}
+
+// All 8 columns of one column tile for R vector-rows.
+template <int R, bool Fresh>
+inline void multiply_tile(const double* const* a, const double* b, std::int32_t k_count, double* const* c, std::int64_t c_step) noexcept {
+  for (int j = 0; j < 8; j += gemm_columns) {
+    double* part[R];
+    for (int r = 0; r < R; ++r) part[r] = c[r] + j * c_step;
+    multiply_block<R, gemm_columns, Fresh>(a, b + j, k_count, part, c_step);
+  }
+}
+
+// The last columns of a panel when nc is no multiple of 8: `width` columns, one vector-row.
+inline void multiply_narrow(const double* a, const double* b, std::int32_t k_count, double* c, std::int32_t width) noexcept {
+  double* row[1] = {c};
+  const double* left[1] = {a};
+  std::int32_t j = 0;
+  for (; j + 4 <= width; j += 4) {
+    double* part[1] = {row[0] + 8 * j};
+    multiply_block<1, 4, false>(left, b + j, k_count, part, 8);
+  }
+  for (; j < width; ++j) {
+    double* part[1] = {row[0] + 8 * j};
+    multiply_block<1, 1, false>(left, b + j, k_count, part, 8);
+  }
+}
+
+// Vector-rows [v, v_end) of panel columns [8 block, 8 block + width) -= those of the columns before, from column k_begin on.
+inline void panel_multiply(double* panel, std::int64_t tile_stride, std::int32_t v, std::int32_t v_end, std::int32_t block, std::int32_t width) noexcept {
+  const double* b = panel + block * tile_stride;
+  const std::int32_t k_count = 8 * block;
+  if (k_count == 0) return;
+  const std::int64_t shift = 64 * static_cast<std::int64_t>(block);
+  if (width < 8) {
+    for (; v < v_end; ++v) {
+      double* row = vector_row(panel, v, tile_stride);
+      multiply_narrow(row, b, k_count, row + shift, width);
+    }
+    return;
+  }
+  for (; v + gemm_rows <= v_end; v += gemm_rows) {
+    const double* a[gemm_rows];
+    double* c[gemm_rows];
+    for (int r = 0; r < gemm_rows; ++r) {
+      double* row = vector_row(panel, v + r, tile_stride);
+      a[r] = row, c[r] = row + shift;
+    }
+    multiply_tile<gemm_rows, false>(a, b, k_count, c, 8);
+  }
+  for (; v < v_end; ++v) {
+    double* row = vector_row(panel, v, tile_stride);
+    const double* a[1] = {row};
+    double* c[1] = {row + shift};
+    multiply_tile<1, false>(a, b, k_count, c, 8);
+  }
+}
+
+// One vector-row of `Width` columns times the inverse transpose of the 8 x 8 triangle at `diagonal` ([column][8], diagonal inverted).
+template <int Width>
+inline void solve_vector_row(double* c, const double* diagonal) noexcept {
+  D::Type x[Width];
+  for (int j = 0; j < Width; ++j) x[j] = D::load(c + 8 * j);
+  for (int j = 0; j < Width; ++j) {
+    x[j] = D::multiply(x[j], D::all(diagonal[9 * j]));
+    for (int k = j + 1; k < Width; ++k) x[k] = D::subtract_product(x[j], D::all(diagonal[8 * j + k]), x[k]);
+  }
+  for (int j = 0; j < Width; ++j) D::store(c + 8 * j, x[j]);
+}
+
+template <int Width>
+void solve_rows_fixed(double* panel, std::int64_t tile_stride, std::int32_t v, std::int32_t v_end, std::int32_t block) noexcept {
+  const double* diagonal = panel + block * tile_stride + 64 * static_cast<std::int64_t>(block);
+  for (; v < v_end; ++v) solve_vector_row<Width>(vector_row(panel, v, tile_stride) + 64 * static_cast<std::int64_t>(block), diagonal);
+}
+
+void solve_rows(double* panel, std::int64_t tile_stride, std::int32_t v, std::int32_t v_end, std::int32_t block, std::int32_t width) noexcept {
+  switch (width) {
+    case 1: return solve_rows_fixed<1>(panel, tile_stride, v, v_end, block);
+    case 2: return solve_rows_fixed<2>(panel, tile_stride, v, v_end, block);
+    case 3: return solve_rows_fixed<3>(panel, tile_stride, v, v_end, block);
+    case 4: return solve_rows_fixed<4>(panel, tile_stride, v, v_end, block);
+    case 5: return solve_rows_fixed<5>(panel, tile_stride, v, v_end, block);
+    case 6: return solve_rows_fixed<6>(panel, tile_stride, v, v_end, block);
+    case 7: return solve_rows_fixed<7>(panel, tile_stride, v, v_end, block);
+    default: return solve_rows_fixed<8>(panel, tile_stride, v, v_end, block);
+  }
+}
+
+// Cholesky of the 8 x 8 tile, right-looking; entries above the diagonal hold junk nobody reads.
+std::int32_t factor_tile(double* tile, std::int32_t width, const double* floor) noexcept {
+  for (std::int32_t j = 0; j < width; ++j) {
+    const double pivot = tile[9 * j];
+    if (!(pivot > floor[j]) || !(pivot <= 1.7976931348623157e308)) return j;
+    const double inverse = 1.0 / __builtin_sqrt(pivot);
+    D::Type column[tile_vectors];
+    for (int p = 0; p < tile_vectors; ++p) {
+      column[p] = D::multiply(D::load(tile + 8 * j + p * D::width), D::all(inverse));
+      D::store(tile + 8 * j + p * D::width, column[p]);
+    }
+    for (std::int32_t k = j + 1; k < width; ++k) {
+      const D::Type factor = D::all(tile[8 * j + k]);
+      for (int p = 0; p < tile_vectors; ++p) {
+        double* target = tile + 8 * k + p * D::width;
+        D::store(target, D::subtract_product(column[p], factor, D::load(target)));
+      }
+    }
+    tile[9 * j] = inverse;
+  }
+  return -1;
+}
+
+inline std::int32_t smaller(std::int32_t a, std::int32_t b) noexcept { return a < b ? a : b; }
+
+std::int32_t factor_triangle(const FrontView& front, std::int32_t begin, std::int32_t end, const double* floor) {
+  const std::int64_t stride = 8 * static_cast<std::int64_t>(front.columns);
+  const std::int32_t last_tile = (end + 7) / 8;
+  for (std::int32_t block = begin / 8; block < last_tile; ++block) {
+    const std::int32_t width = smaller(8, end - 8 * block);
+    panel_multiply(front.panel, stride, block * tile_vectors, last_tile * tile_vectors, block, width);
+    const std::int32_t lost = factor_tile(front.panel + block * stride + 64 * static_cast<std::int64_t>(block), width, floor + 8 * block);
+    if (lost >= 0) return 8 * block + lost;
+    solve_rows(front.panel, stride, (block + 1) * tile_vectors, last_tile * tile_vectors, block, width);
+  }
+  return -1;
+}
+
+void solve_tiles(const FrontView& front, std::int32_t begin, std::int32_t end, std::int32_t tile_begin, std::int32_t tile_end) {
+  const std::int64_t stride = 8 * static_cast<std::int64_t>(front.columns);
+  // few tiles at a time, so that their rows stay in the cache while all column blocks pass over them
+  constexpr std::int32_t step = 6;
+  for (std::int32_t tile = tile_begin; tile < tile_end; tile += step) {
+    const std::int32_t v = tile * tile_vectors, v_end = smaller(tile + step, tile_end) * tile_vectors;
+    for (std::int32_t block = begin / 8; 8 * block < end; ++block) {
+      const std::int32_t width = smaller(8, end - 8 * block);
+      panel_multiply(front.panel, stride, v, v_end, block, width);
+      solve_rows(front.panel, stride, v, v_end, block, width);
+    }
+  }
+}
+
+template <bool Fresh>
+void update_block(const FrontView& front, std::int32_t tile_begin, std::int32_t tile_end, std::int32_t k, std::int32_t k_count) noexcept {
+  const std::int64_t stride = 8 * static_cast<std::int64_t>(front.columns);
+  double* rows = front.panel + front.triangle_tiles * stride + 8 * static_cast<std::int64_t>(k);
+  const std::int64_t step = front.update_stride;
+  const std::int32_t v_end = front.below_tiles * tile_vectors;
+  for (std::int32_t tile = tile_begin; tile < tile_end; ++tile) {
+    const double* b = rows + tile * stride;
+    double* target = front.update + 8 * tile * step;
+    std::int32_t v = tile * tile_vectors;
+    for (; v + gemm_rows <= v_end; v += gemm_rows) {
+      const double* a[gemm_rows];
+      double* c[gemm_rows];
+      for (int r = 0; r < gemm_rows; ++r) a[r] = vector_row(rows, v + r, stride), c[r] = target + (v + r) * D::width;
+      multiply_tile<gemm_rows, Fresh>(a, b, k_count, c, step);
+    }
+    if (gemm_rows == 3 && v + 2 <= v_end) {
+      const double* a[2] = {vector_row(rows, v, stride), vector_row(rows, v + 1, stride)};
+      double* c[2] = {target + v * D::width, target + (v + 1) * D::width};
+      multiply_tile<2, Fresh>(a, b, k_count, c, step);
+      v += 2;
+    }
+    for (; v < v_end; ++v) {
+      const double* a[1] = {vector_row(rows, v, stride)};
+      double* c[1] = {target + v * D::width};
+      multiply_tile<1, Fresh>(a, b, k_count, c, step);
+    }
+  }
+}
+
+void form_update(const FrontView& front, std::int32_t tile_begin, std::int32_t tile_end) {
+  constexpr std::int32_t depth = 192;  // columns per pass: one column tile of them fills a quarter of a 48 KB cache
+  update_block<true>(front, tile_begin, tile_end, 0, smaller(depth, front.columns));
+  for (std::int32_t k = depth; k < front.columns; k += depth) {
+    update_block<false>(front, tile_begin, tile_end, k, smaller(depth, front.columns - k));
+  }
+}
+
+inline void add8(double* target, const double* source) noexcept {
+  for (int p = 0; p < tile_vectors; ++p) {
+    D::store(target + p * D::width, D::add(D::load(target + p * D::width), D::load(source + p * D::width)));
+  }
+}
+
+// Columns that land in the panel: tile layout, runs of 8 aligned rows as vectors.
+void extend_add_panel(const FrontView& front, const ChildView& child, std::int32_t begin, std::int32_t end) noexcept {
+  const std::int64_t tile_stride = 8 * static_cast<std::int64_t>(front.columns);
+  for (std::int32_t j = begin; j < end; ++j) {
+    const double* source = child.update + static_cast<std::int64_t>(j) * child.stride;
+    double* target = front.panel + 8 * static_cast<std::int64_t>(child.place[j]);
+    for (std::int32_t i = j & ~7; i < child.size; i += 8) {
+      const std::int32_t* place = child.place + i;
+      if (child.contiguous[i >> 3] && (place[0] & 7) == 0) {
+        add8(target + (place[0] >> 3) * tile_stride, source + i);
+        continue;
+      }
+      const std::int32_t count = smaller(8, child.size - i);
+      for (std::int32_t k = 0; k < count; ++k) target[(place[k] >> 3) * tile_stride + (place[k] & 7)] += source[i + k];
+    }
+  }
+}
+
+void extend_add(const FrontView& front, const ChildView& child, std::int32_t begin, std::int32_t end) {
+  if (begin < child.into_panel) extend_add_panel(front, child, begin, smaller(end, child.into_panel));
+  const std::int32_t offset = 8 * front.triangle_tiles;
+  for (std::int32_t j = begin > child.into_panel ? begin : child.into_panel; j < end; ++j) {
+    const double* source = child.update + static_cast<std::int64_t>(j) * child.stride;
+    double* target = front.update + static_cast<std::int64_t>(child.place[j] - offset) * front.update_stride - offset;
+    // from the 8-row group of the diagonal on; rows before the child's own part may still belong to the panel
+    std::int32_t i = j;
+    for (; (i & 7) != 0 && i < child.size; ++i) target[child.place[i]] += source[i];
+    for (; i < child.size; i += 8) {
+      const std::int32_t* place = child.place + i;
+      if (child.contiguous[i >> 3]) {
+        add8(target + place[0], source + i);
+        continue;
+      }
+      const std::int32_t count = smaller(8, child.size - i);
+      for (std::int32_t k = 0; k < count; ++k) target[place[k]] += source[i + k];
+    }
+  }
+}
+
+// Row r of a tile, columns [0, count), to consecutive numbers.
+inline void store_row(const double* tile, std::int32_t r, std::int32_t count, double* out) noexcept {
+  for (std::int32_t k = 0; k < count; ++k) out[k] = tile[8 * k + r];
+}
+
+void store_tiles(const FrontView& front, double* values, std::int32_t tile_begin, std::int32_t tile_end) {
+  const std::int64_t columns = front.columns, stride = 8 * columns;
+  double* below = values + columns * (columns + 1) / 2;
+  for (std::int32_t tile = tile_begin; tile < tile_end; ++tile) {
+    const double* source = front.panel + tile * stride;
+    double* row[8];
+    std::int32_t count = 8;
+    std::int64_t whole = columns;  // columns all rows of the tile have
+    if (tile < front.triangle_tiles) {
+      const std::int64_t first = 8 * static_cast<std::int64_t>(tile);
+      count = smaller(8, static_cast<std::int32_t>(columns - first));
+      for (std::int32_t r = 0; r < count; ++r) {
+        row[r] = values + (first + r) * (first + r + 1) / 2;
+        for (std::int64_t k = first; k <= first + r; ++k) row[r][k] = source[8 * k + r];
+      }
+      whole = first;
+    } else {
+      const std::int64_t first = 8 * static_cast<std::int64_t>(tile - front.triangle_tiles);
+      count = smaller(8, static_cast<std::int32_t>(front.below - first));
+      for (std::int32_t r = 0; r < count; ++r) row[r] = below + (first + r) * columns;
+    }
+    std::int64_t k = 0;
+    for (; k < whole; k += 8) {
+      const std::int32_t width = whole - k < 8 ? static_cast<std::int32_t>(whole - k) : 8;
+      store_transposed(source + 8 * k, row, k, count, width);
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,276 @@
+// Sweep kernels: one supernode on m interleaved right-hand sides. Included after a simd_*.h, see kernels_factor.inl.
+//
+// A column's sum over the rows below is one chain in row order, except for one right-hand side on at most 16 columns, where 4
+// (up to 8 columns) or 2 chains hide the latency: a rule in columns, not in vector lengths, so all sets give the same bits.
+#include <cstddef>
+#include <cstdint>
+
+namespace {
+
+constexpr std::int32_t chunk_columns = 256;  // columns summed at a time on the stack
+
+// Sums of up to NV vectors of columns over all rows, C right-hand sides, `Chains` rows in flight: sum[c * chunk + column].
+template <class T, int C, int NV, int Chains>
+inline void sum_in_registers(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count, const T* z, std::int32_t channels,
+                             T* sum) noexcept {
+  using S = Simd<T>;
+  typename S::Type part[Chains][C][NV];
+  for (int h = 0; h < Chains; ++h) {
+    for (int c = 0; c < C; ++c) {
+      for (int v = 0; v < NV; ++v) part[h][c][v] = (Chains == 1) ? S::load(sum + c * chunk_columns + v * S::width) : S::zero();
+    }
+  }
+  std::int32_t r = 0;
+  for (; r + Chains <= row_count; r += Chains) {
+    for (int h = 0; h < Chains; ++h) {
+      const T* x = z + static_cast<std::int64_t>(rows[r + h]) * channels;
+      typename S::Type entry[NV];
+      for (int v = 0; v < NV; ++v) entry[v] = S::load(block + v * S::width);
+      for (int c = 0; c < C; ++c) {
+        const typename S::Type factor = S::all(x[c]);
+        for (int v = 0; v < NV; ++v) part[h][c][v] = S::multiply_add(entry[v], factor, part[h][c][v]);
+      }
+      block += stride;
+    }
+  }
+  for (int h = 0; h < Chains - 1; ++h) {
+    if (r + h >= row_count) break;
+    const T* x = z + static_cast<std::int64_t>(rows[r + h]) * channels;
+    for (int c = 0; c < C; ++c) {
+      for (int v = 0; v < NV; ++v) part[h][c][v] = S::multiply_add(S::load(block + v * S::width), S::all(x[c]), part[h][c][v]);
+    }
+    block += stride;
+  }
+  for (int c = 0; c < C; ++c) {
+    for (int v = 0; v < NV; ++v) {
+      typename S::Type total = part[0][c][v];
+      if (Chains == 2) total = S::add(total, part[Chains - 1][c][v]);
+      if (Chains == 4) total = S::add(S::add(total, part[1 % Chains][c][v]), S::add(part[2 % Chains][c][v], part[3 % Chains][c][v]));
+      S::store(sum + c * chunk_columns + v * S::width, total);
+    }
+  }
+}
+
+// One right-hand side, wide: four rows at a time onto sums in the first-level cache; reads the block as one stream.
+template <class T>
+inline void sum_streaming(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count, std::int32_t width, const T* z,
+                          T* sum) noexcept {
+  using S = Simd<T>;
+  std::int32_t r = 0;
+  for (; r + 4 <= row_count; r += 4, block += 4 * stride) {
+    const typename S::Type x0 = S::all(z[rows[r]]), x1 = S::all(z[rows[r + 1]]), x2 = S::all(z[rows[r + 2]]), x3 = S::all(z[rows[r + 3]]);
+    const T* b1 = block + stride;
+    const T* b2 = b1 + stride;
+    const T* b3 = b2 + stride;
+    for (std::int32_t j = 0; j < width; j += S::width) {
+      typename S::Type s = S::load(sum + j);
+      s = S::multiply_add(S::load(block + j), x0, s);
+      s = S::multiply_add(S::load(b1 + j), x1, s);
+      s = S::multiply_add(S::load(b2 + j), x2, s);
+      s = S::multiply_add(S::load(b3 + j), x3, s);
+      S::store(sum + j, s);
+    }
+  }
+  for (; r < row_count; ++r, block += stride) {
+    const typename S::Type x = S::all(z[rows[r]]);
+    for (std::int32_t j = 0; j < width; j += S::width) S::store(sum + j, S::multiply_add(S::load(block + j), x, S::load(sum + j)));
+  }
+}
+
+template <class T, int C>
+inline void sum_channels(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count, std::int32_t width, const T* z,
+                         std::int32_t channels, T* sum) noexcept {
+  using S = Simd<T>;
+  // sums kept in registers: about 16 vectors of 32 or 12 of 16
+  constexpr int most = gemm_columns == 8 ? (C >= 8 ? 2 : 16 / C >= 8 ? 8 : 16 / C) : (C >= 4 ? (C > 4 ? 1 : 2) : 8 / C);
+  // rows in passes that stay in the second-level cache while the column groups go over them
+  const std::int32_t pass = stride > 2048 ? 16 : static_cast<std::int32_t>(32768 / stride);
+  for (std::int32_t r = 0; r < row_count; r += pass) {
+    const std::int32_t count = row_count - r < pass ? row_count - r : pass;
+    const T* first = block + r * stride;
+    std::int32_t j = 0;
+    while (j < width) {
+      const std::int32_t vectors = (width - j + S::width - 1) / S::width;
+      if (vectors >= most) {
+        sum_in_registers<T, C, most, 1>(first + j, stride, rows + r, count, z, channels, sum + j);
+        j += most * S::width;
+      } else if (vectors >= 2 && most > 2) {
+        sum_in_registers<T, C, most >= 2 ? 2 : 1, 1>(first + j, stride, rows + r, count, z, channels, sum + j);
+        j += 2 * S::width;
+      } else {
+        sum_in_registers<T, C, 1, 1>(first + j, stride, rows + r, count, z, channels, sum + j);
+        j += S::width;
+      }
+    }
+  }
+}
+
+// sum[c][j] over the rows for C right-hand sides starting at z.
+template <class T, int C>
+inline void sum_rows(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count, std::int32_t width, const T* z,
+                     std::int32_t channels, T* sum) noexcept {
+  using S = Simd<T>;
+  if (C == 1) {
+    if (width <= 8) {
+      for (std::int32_t j = 0; j < width; j += S::width) {
+        sum_in_registers<T, 1, 1, 4>(block + j, stride, rows, row_count, z, channels, sum + j);
+      }
+      return;
+    }
+    if (width <= 16) {
+      constexpr int vectors = S::width <= 4 ? 2 : 1;
+      for (std::int32_t j = 0; j < width; j += vectors * S::width) {
+        sum_in_registers<T, 1, vectors, 2>(block + j, stride, rows, row_count, z, channels, sum + j);
+      }
+      return;
+    }
+    if (channels == 1) return sum_streaming<T>(block, stride, rows, row_count, width, z, sum);
+  }
+  sum_channels<T, C>(block, stride, rows, row_count, width, z, channels, sum);
+}
+
+// The sums of `width` columns for all channels are subtracted from z.
+template <class T, int C>
+inline void subtract_sums(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count, std::int32_t width, T* z,
+                          T* target, std::int32_t channels) noexcept {
+  alignas(64) T sum[C * chunk_columns + 64];
+  const std::int32_t padded = (width + 63) & ~63;
+  for (int c = 0; c < C; ++c) {
+    for (std::int32_t j = 0; j < padded; ++j) sum[c * chunk_columns + j] = 0;
+  }
+  sum_rows<T, C>(block, stride, rows, row_count, width, z, channels, sum);
+  for (int c = 0; c < C; ++c) {
+    for (std::int32_t j = 0; j < width; ++j) target[static_cast<std::int64_t>(j) * channels + c] -= sum[c * chunk_columns + j];
+  }
+}
+
+template <class T>
+void backward_rows_any(const T* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns, std::int32_t begin, std::int32_t end,
+                       T* z, std::int32_t first, std::int32_t channels) {
+  for (std::int32_t j = begin; j < end; j += chunk_columns) {
+    const std::int32_t width = end - j < chunk_columns ? end - j : chunk_columns;
+    T* target = z + static_cast<std::int64_t>(first + j) * channels;
+    std::int32_t c = 0;
+    for (; c + 8 <= channels; c += 8) subtract_sums<T, 8>(below + j, columns, rows, row_count, width, z + c, target + c, channels);
+    if (c + 4 <= channels) subtract_sums<T, 4>(below + j, columns, rows, row_count, width, z + c, target + c, channels), c += 4;
+    const std::int32_t left = channels - c;
+    if (left == 3) subtract_sums<T, 3>(below + j, columns, rows, row_count, width, z + c, target + c, channels);
+    if (left == 2) subtract_sums<T, 2>(below + j, columns, rows, row_count, width, z + c, target + c, channels);
+    if (left == 1) subtract_sums<T, 1>(below + j, columns, rows, row_count, width, z + c, target + c, channels);
+  }
+}
+
+// Rows [begin, end) of the packed triangle, one channel, backwards: x_j = x_j inv_j, then x_i -= L[j][i] x_j for begin <= i < j.
+template <class T>
+inline void backward_block(const T* triangle, std::int32_t begin, std::int32_t end, T* z, std::int32_t channels) noexcept {
+  using S = Simd<T>;
+  alignas(64) T x[chunk_columns + 64];
+  const std::int32_t width = end - begin;
+  for (std::int32_t j = 0; j < width; ++j) x[j] = z[static_cast<std::int64_t>(j) * channels];
+  for (std::int32_t j = width - 1; j >= 0; --j) {
+    const std::int64_t at = begin + j;
+    const T* row = triangle + at * (at + 1) / 2 + begin;
+    const T value = x[j] * row[j];
+    z[static_cast<std::int64_t>(j) * channels] = value;
+    const typename S::Type factor = S::all(value);
+    for (std::int32_t i = 0; i < j; i += S::width) S::store(x + i, S::subtract_product(S::load(row + i), factor, S::load(x + i)));
+  }
+}
+
+template <class T>
+void backward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::int32_t channels) {
+  constexpr std::int32_t block = chunk_columns;
+  std::int32_t begin = (columns - 1) / block * block;
+  for (std::int32_t end = columns; end > 0; end = begin, begin -= block) {
+    for (std::int32_t c = 0; c < channels; ++c) {
+      backward_block<T>(triangle, begin, end, z + static_cast<std::int64_t>(begin) * channels + c, channels);
+    }
+    // the rows just solved, on the columns before: packed rows, so one at a time
+    using S = Simd<T>;
+    for (std::int32_t left = 0; left < begin; left += block) {
+      alignas(64) T x[block + 64];
+      for (std::int32_t c = 0; c < channels; ++c) {
+        T* target = z + static_cast<std::int64_t>(left) * channels + c;
+        for (std::int32_t i = 0; i < block; ++i) x[i] = target[static_cast<std::int64_t>(i) * channels];
+        for (std::int64_t j = begin; j < end; ++j) {
+          const T* row = triangle + j * (j + 1) / 2 + left;
+          const typename S::Type factor = S::all(z[j * channels + c]);
+          for (std::int32_t i = 0; i < block; i += S::width) S::store(x + i, S::subtract_product(S::load(row + i), factor, S::load(x + i)));
+        }
+        for (std::int32_t i = 0; i < block; ++i) target[static_cast<std::int64_t>(i) * channels] = x[i];
+      }
+    }
+  }
+}
+
+void backward_rows(const double* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns, std::int32_t begin, std::int32_t end,
+                   double* z, std::int32_t first, std::int32_t channels) {
+  backward_rows_any<double>(below, rows, row_count, columns, begin, end, z, first, channels);
+}
+void backward_triangle(const double* triangle, std::int32_t columns, double* z, std::int32_t channels) {
+  backward_triangle_any<double>(triangle, columns, z, channels);
+}
+void backward_rows_f32(const float* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns, std::int32_t begin,
+                       std::int32_t end, float* z, std::int32_t first, std::int32_t channels) {
+  backward_rows_any<float>(below, rows, row_count, columns, begin, end, z, first, channels);
+}
+void backward_triangle_f32(const float* triangle, std::int32_t columns, float* z, std::int32_t channels) {
+  backward_triangle_any<float>(triangle, columns, z, channels);
+}
+
+// Dot product in 8 partial sums, joined as a fixed tree.
+inline double dot8(const double* a, const double* b, std::int32_t count) noexcept {
+  constexpr int vectors = 8 / D::width;
+  if (count < 8) {
+    double total = 0;
+    for (std::int32_t k = 0; k < count; ++k) total = multiply_add_scalar(a[k], b[k], total);
+    return total;
+  }
+  D::Type part[vectors];
+  for (int p = 0; p < vectors; ++p) part[p] = D::zero();
+  std::int32_t k = 0;
+  for (; k + 8 <= count; k += 8) {
+    for (int p = 0; p < vectors; ++p) part[p] = D::multiply_add(D::load(a + k + p * D::width), D::load(b + k + p * D::width), part[p]);
+  }
+  alignas(64) double lane[8];
+  for (int p = 0; p < vectors; ++p) D::store(lane + p * D::width, part[p]);
+  for (std::int32_t r = 0; k + r < count; ++r) lane[r] = multiply_add_scalar(a[k + r], b[k + r], lane[r]);
+  return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+}
+
+void forward_triangle(const double* triangle, std::int32_t columns, double* z, std::int32_t channels) {
+  const double* row = triangle;
+  if (channels == 1) {
+    for (std::int32_t j = 0; j < columns; row += ++j) z[j] = (z[j] - dot8(row, z, j)) * row[j];
+    return;
+  }
+  for (std::int32_t j = 0; j < columns; row += ++j) {
+    double* target = z + static_cast<std::int64_t>(j) * channels;
+    for (std::int32_t c = 0; c < channels; ++c) {
+      double value = target[c];
+      for (std::int32_t i = 0; i < j; ++i) value = multiply_add_scalar(-row[i], z[static_cast<std::int64_t>(i) * channels + c], value);
+      target[c] = value * row[j];
+    }
+  }
+}
+
+void forward_rows(const double* below, std::int32_t row_count, std::int32_t columns, const double* z, double* out, std::int32_t channels) {
+  if (channels == 1) {
+    for (std::int32_t r = 0; r < row_count; ++r, below += columns) out[r] = dot8(below, z, columns);
+    return;
+  }
+  // channels in groups of one vector: the factor's entries are broadcast
+  for (std::int32_t r = 0; r < row_count; ++r, below += columns) {
+    double* target = out + static_cast<std::int64_t>(r) * channels;
+    for (std::int32_t c = 0; c < channels; c += D::width) {
+      const std::int32_t part = channels - c < D::width ? channels - c : D::width;
+      D::Type sum = D::zero();
+      for (std::int32_t j = 0; j < columns; ++j) {
+        sum = D::multiply_add(D::all(below[j]), D::load_part(z + static_cast<std::int64_t>(j) * channels + c, part), sum);
+      }
+      D::store_part(target + c, sum, part);
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,11 @@
+// What the factor takes. Knows no mesh: numbers and coordinates only.
+#pragma once
+#include "base/span.h"
+#include "base/symmetric_matrix.h"
+
+namespace hf {
+
+// Coordinates of the unknowns, xyz per unknown, used by the geometric part of the ordering; may be empty.
+using Coordinates = Span<const float>;
+
+}  // namespace hf

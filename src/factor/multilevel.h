@@ -1,0 +1,37 @@
+// Multilevel bisection of one part of a nested dissection; see dissection.h.
+#pragma once
+#include <cstdint>
+
+#include "base/memory.h"
+#include "factor/separator.h"
+
+namespace hf {
+
+class MultilevelBisection {
+ public:
+  explicit MultilevelBisection(Memory& memory) : memory_(memory), search_(memory), levels_(&memory), cluster_size_(&memory), mark_(&memory), queue_(&memory) {}
+
+  // side[v] = left, right or between. An unusable cut when the part cannot be split.
+  Cut run(const GraphView& graph, std::uint8_t* side);
+
+ private:
+  struct Level {
+    explicit Level(Memory& memory) : start(&memory), neighbour(&memory), cluster(&memory), weight(&memory), point(&memory), side(&memory) {}
+    GraphView view;
+    Vector<std::int32_t> start, neighbour;
+    Vector<std::int32_t> cluster;  // of the finer graph: its vertex -> vertex of this level
+    Vector<std::int32_t> weight;
+    Vector<float> point;
+    Vector<std::uint8_t> side;
+  };
+  void coarsen(const GraphView& fine, Level& coarse);
+  Cut carry_back(const GraphView& fine, const Level& coarse, std::uint8_t* side);
+  void widen(const GraphView& graph, std::uint8_t* side, int rings);
+
+  Memory& memory_;
+  SeparatorSearch search_;
+  std::pmr::vector<Level> levels_;
+  Vector<std::int32_t> cluster_size_, mark_, queue_;
+};
+
+}  // namespace hf

@@ -1,0 +1,309 @@
+#include "factor/numeric.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+#include "base/error.h"
+
+namespace hf {
+namespace {
+
+// A pivot below this share of its diagonal entry is rounding noise: the matrix is singular to working precision.
+constexpr double lost_share = 0x1p-46;
+
+// Everything one thread needs to run fronts; reused from front to front.
+struct Workspace {
+  Workspace(Memory& memory, std::int32_t unknowns, const Plan::Sizes& sizes)
+      : place_of(memory, unknowns),
+        panel(memory, static_cast<std::size_t>(sizes.panel)),
+        floor(memory, static_cast<std::size_t>(sizes.columns) + 8),
+        place(memory, static_cast<std::size_t>(sizes.child_rows)),
+        contiguous(memory, static_cast<std::size_t>(sizes.child_rows / 8)),
+        children(memory, static_cast<std::size_t>(sizes.children)) {
+    for (int side = 0; side < 2; ++side) stack[side].allocate(memory, static_cast<std::size_t>(sizes.stack[side]));
+  }
+  Buffer<std::int32_t> place_of;  // padded front row of a row of the matrix; valid for rows of the present front only
+  Buffer<double> panel, floor, stack[2];
+  std::int64_t stack_top[2] = {0, 0};
+  Buffer<std::int32_t> place;
+  Buffer<std::uint8_t> contiguous;
+  Buffer<ChildView> children;
+  std::int32_t child_count = 0;
+};
+
+// Workspaces of the threads that run at the moment: as many as have ever run at once.
+class WorkspacePool {
+ public:
+  WorkspacePool(Memory& memory, std::int32_t unknowns, const Plan::Sizes& sizes) : memory_(memory), unknowns_(unknowns), sizes_(sizes), all_(&memory), free_(&memory) {}
+  std::shared_ptr<Workspace> take() {
+    {
+      std::lock_guard<std::mutex> lock(mutex_);
+      if (!free_.empty()) {
+        std::shared_ptr<Workspace> taken = free_.back();
+        free_.pop_back();
+        return taken;
+      }
+    }
+    std::shared_ptr<Workspace> made = make_shared_in<Workspace>(memory_, memory_, unknowns_, sizes_);
+    std::lock_guard<std::mutex> lock(mutex_);
+    all_.push_back(made);
+    free_.reserve(all_.size());
+    return made;
+  }
+  void give_back(std::shared_ptr<Workspace> workspace) noexcept {
+    std::lock_guard<std::mutex> lock(mutex_);
+    free_.push_back(std::move(workspace));  // within the reserved capacity
+  }
+
+ private:
+  Memory& memory_;
+  std::int32_t unknowns_;
+  Plan::Sizes sizes_;
+  std::mutex mutex_;
+  Vector<std::shared_ptr<Workspace>> all_, free_;
+};
+
+class Factorisation {
+ public:
+  Factorisation(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated,
+                double* values, Memory& memory, JobRunner& jobs)
+      : symbolic_(symbolic), plan_(plan), kernels_(kernels), matrix_(matrix), eliminated_(eliminated), values_(values), memory_(memory), jobs_(jobs),
+        shared_(memory, static_cast<std::size_t>(plan.shared_size)), update_(memory, static_cast<std::size_t>(symbolic.supernodes)) {}
+
+  void run(Progress* progress) {
+    {
+      WorkspacePool pool(memory_, symbolic_.size, plan_.in_task);
+      jobs_.for_each(static_cast<std::uint32_t>(plan_.tasks), [&](std::uint32_t k) {
+        std::shared_ptr<Workspace> workspace = pool.take();
+        run_task(plan_.task_order[k], *workspace);
+        pool.give_back(std::move(workspace));
+      });
+    }
+    throw_if_lost();
+    WorkspacePool pool(memory_, symbolic_.size, plan_.in_top);
+    for (std::int32_t wave = 0; wave < plan_.waves; ++wave) {
+      report(progress, 0.8f + 0.19f * static_cast<float>(wave) / static_cast<float>(plan_.waves));
+      run_wave(wave, pool);
+      throw_if_lost();
+    }
+  }
+
+ private:
+  FrontView open_front(std::int32_t s, Workspace& workspace, double* update) const noexcept {
+    FrontView front;
+    front.columns = symbolic_.columns(s), front.below = symbolic_.below(s);
+    front.triangle_tiles = (front.columns + 7) / 8, front.below_tiles = (front.below + 7) / 8;
+    front.update_stride = 8 * front.below_tiles;
+    front.panel = workspace.panel.data(), front.update = update;
+    return front;
+  }
+
+  // Rows of the front, the children's places in it, and the columns of A.
+  void assemble(std::int32_t s, const FrontView& front, Workspace& workspace) const noexcept {
+    std::int32_t* place_of = workspace.place_of.data();
+    const std::int32_t first = symbolic_.first[s];
+    const std::int32_t* rows = symbolic_.row_list(s);
+    for (std::int32_t j = 0; j < front.columns; ++j) place_of[first + j] = j;
+    const std::int32_t offset = 8 * front.triangle_tiles;
+    for (std::int32_t k = 0; k < front.below; ++k) place_of[rows[k]] = offset + k;
+    std::int64_t used = 0;
+    std::int32_t count = 0;
+    for (std::int32_t c = plan_.child[s]; c >= 0; c = plan_.sibling[c]) {
+      const std::int32_t size = symbolic_.below(c);
+      const std::int32_t* child_rows = symbolic_.row_list(c);
+      std::int32_t* place = workspace.place.data() + used;
+      for (std::int32_t i = 0; i < size; ++i) place[i] = place_of[child_rows[i]];
+      std::uint8_t* contiguous = workspace.contiguous.data() + used / 8;
+      for (std::int32_t i = 0; i < size; i += 8) contiguous[i / 8] = i + 8 <= size && place[i + 7] - place[i] == 7;
+      std::int32_t into_panel = 0;
+      while (into_panel < size && place[into_panel] < front.columns) ++into_panel;
+      workspace.children[count++] = {update_[c], (size + 7) / 8 * 8, size, into_panel, place, contiguous};
+      used += (size + 7) / 8 * 8;
+    }
+    workspace.child_count = count;
+    load_columns(s, front, workspace);
+  }
+
+  void load_columns(std::int32_t s, const FrontView& front, Workspace& workspace) const noexcept {
+    const std::int32_t* start = matrix_.column_start.data();
+    const std::int32_t* row = matrix_.row.data();
+    const double* value = matrix_.value.data();
+    const std::int32_t* position = symbolic_.position.data();
+    const std::int32_t* order = symbolic_.order.data();
+    const std::int32_t first = symbolic_.first[s];
+    for (std::int32_t j = 0; j < front.columns; ++j) {
+      const std::int32_t column = first + j;
+      if (column + 16 < symbolic_.size) {
+        const std::int32_t ahead = start[order[column + 16]];
+        __builtin_prefetch(row + ahead);
+        __builtin_prefetch(value + ahead);
+      }
+      const std::int32_t unknown = order[column];
+      double* target = front.panel + 8 * static_cast<std::int64_t>(j);
+      const std::int64_t stride = 8 * static_cast<std::int64_t>(front.columns);
+      const bool identity = !eliminated_.empty() && eliminated_[unknown];
+      workspace.floor[j] = 0;
+      for (std::int32_t e = start[unknown]; e < start[unknown + 1]; ++e) {
+        const std::int32_t other = position[row[e]];
+        if (other < column) continue;
+        double entry = value[e];
+        if (!eliminated_.empty() && (identity || eliminated_[row[e]])) entry = other == column ? 1.0 : 0.0;
+        const std::int32_t place = workspace.place_of[other];
+        target[(place >> 3) * stride + (place & 7)] = entry;
+        if (other == column) workspace.floor[j] = std::max(0.0, entry * lost_share);
+      }
+    }
+  }
+
+  void lose(std::int32_t column) noexcept {
+    std::int32_t present = lost_.load(std::memory_order_relaxed);
+    while (column < present && !lost_.compare_exchange_weak(present, column, std::memory_order_relaxed)) {
+    }
+  }
+
+  void throw_if_lost() const {
+    const std::int32_t column = lost_.load(std::memory_order_relaxed);
+    if (column == INT32_MAX) return;
+    const std::int32_t unknown = symbolic_.order[column];
+    fail(HF_ERROR_NOT_POSITIVE_DEFINITE, static_cast<std::uint32_t>(unknown),
+         "the matrix is not positive definite: the pivot of column %d is lost; every component needs a ground and non-degenerate weights", unknown);
+  }
+
+  // One front from assembly to stored columns, on one thread.
+  void run_front(std::int32_t s, Workspace& workspace, double* update) noexcept {
+    const FrontView front = open_front(s, workspace, update);
+    const std::int32_t tiles = front.triangle_tiles + front.below_tiles;
+    update_[s] = update;
+    std::fill(front.panel, front.panel + 8 * static_cast<std::int64_t>(tiles) * front.columns, 0.0);
+    assemble(s, front, workspace);
+    for (std::int32_t c = 0; c < workspace.child_count; ++c) kernels_.extend_add(front, workspace.children[c], 0, workspace.children[c].into_panel);
+    for (std::int32_t begin = 0; begin < front.columns; begin += column_block) {
+      const std::int32_t end = std::min(front.columns, begin + column_block);
+      const std::int32_t lost = kernels_.factor_triangle(front, begin, end, workspace.floor.data());
+      if (lost >= 0) {
+        lose(symbolic_.first[s] + lost);
+        std::fill(update, update + update_size(front.below), 0.0);
+        return;
+      }
+      kernels_.solve_tiles(front, begin, end, (end + 7) / 8, tiles);
+    }
+    kernels_.form_update(front, 0, front.below_tiles);
+    for (std::int32_t c = 0; c < workspace.child_count; ++c) {
+      kernels_.extend_add(front, workspace.children[c], workspace.children[c].into_panel, workspace.children[c].size);
+    }
+    kernels_.store_tiles(front, values_ + symbolic_.value_start[s], 0, tiles);
+  }
+
+  void run_task(std::int32_t task, Workspace& workspace) noexcept {
+    for (std::int32_t r = plan_.task_start[task]; r < plan_.task_start[task + 1]; ++r) {
+      const std::int32_t root = plan_.task_root[r];
+      workspace.stack_top[0] = workspace.stack_top[1] = 0;
+      for (std::int32_t s = symbolic_.subtree[root]; s <= root; ++s) {
+        const int side = plan_.parity[s];
+        double* update = s == root ? shared_.data() + plan_.shared_update[s] : workspace.stack[side].data() + workspace.stack_top[side];
+        if (s != root) workspace.stack_top[side] += update_size(symbolic_.below(s));
+        run_front(s, workspace, update);
+        for (std::int32_t c = plan_.child[s]; c >= 0; c = plan_.sibling[c]) workspace.stack_top[side ^ 1] -= update_size(symbolic_.below(c));
+      }
+    }
+  }
+
+  // Whole fronts as jobs when they share the threads evenly, else one front after the other with its pieces as jobs.
+  void run_wave(std::int32_t wave, WorkspacePool& pool) {
+    const std::int32_t begin = plan_.wave_start[wave], end = plan_.wave_start[wave + 1];
+    double total = 0, largest = 0;
+    for (std::int32_t k = begin; k < end; ++k) total += symbolic_.work[plan_.top[k]], largest = std::max(largest, symbolic_.work[plan_.top[k]]);
+    const bool whole = jobs_.thread_count() == 1 || largest * jobs_.thread_count() <= 1.25 * total || total < 2e6;
+    const auto update_of = [&](std::int32_t s) { return shared_.data() + plan_.shared_update[s]; };
+    if (whole) {
+      jobs_.for_each(static_cast<std::uint32_t>(end - begin), [&](std::uint32_t k) {
+        std::shared_ptr<Workspace> workspace = pool.take();
+        const std::int32_t s = plan_.top[begin + static_cast<std::int32_t>(k)];
+        run_front(s, *workspace, update_of(s));
+        pool.give_back(std::move(workspace));
+      });
+      return;
+    }
+    std::shared_ptr<Workspace> workspace = pool.take();
+    for (std::int32_t k = begin; k < end; ++k) run_front_in_pieces(plan_.top[k], *workspace, update_of(plan_.top[k]));
+    pool.give_back(std::move(workspace));
+  }
+
+  // Runs piece(begin, end) over [begin, end) in steps.
+  template <class Piece>
+  void in_pieces(std::int32_t begin, std::int32_t end, std::int32_t step, Piece&& piece) {
+    if (begin >= end) return;
+    jobs_.for_each(static_cast<std::uint32_t>((end - begin + step - 1) / step), [&](std::uint32_t k) {
+      const std::int32_t at = begin + static_cast<std::int32_t>(k) * step;
+      piece(at, std::min(end, at + step));
+    });
+  }
+
+  // The same front with every step cut over the threads; each number is formed by the same operations in the same order.
+  void run_front_in_pieces(std::int32_t s, Workspace& workspace, double* update) {
+    const FrontView front = open_front(s, workspace, update);
+    const std::int32_t tiles = front.triangle_tiles + front.below_tiles;
+    update_[s] = update;
+    const std::int64_t tile_size = 8 * static_cast<std::int64_t>(front.columns);
+    in_pieces(0, tiles, 32, [&](std::int32_t begin, std::int32_t end) { std::fill(front.panel + begin * tile_size, front.panel + end * tile_size, 0.0); });
+    assemble(s, front, workspace);
+    for (std::int32_t c = 0; c < workspace.child_count; ++c) {
+      in_pieces(0, workspace.children[c].into_panel, 32, [&](std::int32_t begin, std::int32_t end) { kernels_.extend_add(front, workspace.children[c], begin, end); });
+    }
+    for (std::int32_t begin = 0; begin < front.columns; begin += column_block) {
+      const std::int32_t end = std::min(front.columns, begin + column_block);
+      const std::int32_t lost = kernels_.factor_triangle(front, begin, end, workspace.floor.data());
+      if (lost >= 0) {
+        lose(symbolic_.first[s] + lost);
+        return;
+      }
+      in_pieces((end + 7) / 8, tiles, 6, [&](std::int32_t from, std::int32_t to) { kernels_.solve_tiles(front, begin, end, from, to); });
+    }
+    in_pieces(0, front.below_tiles, 4, [&](std::int32_t begin, std::int32_t end) { kernels_.form_update(front, begin, end); });
+    for (std::int32_t c = 0; c < workspace.child_count; ++c) {
+      const ChildView& child = workspace.children[c];
+      in_pieces(child.into_panel, child.size, 32, [&](std::int32_t begin, std::int32_t end) { kernels_.extend_add(front, child, begin, end); });
+    }
+    in_pieces(0, tiles, 16, [&](std::int32_t begin, std::int32_t end) { kernels_.store_tiles(front, values_ + symbolic_.value_start[s], begin, end); });
+  }
+
+  static constexpr std::int32_t column_block = 64;
+
+  const Symbolic& symbolic_;
+  const Plan& plan_;
+  const Kernels& kernels_;
+  const SymmetricMatrix& matrix_;
+  Span<const std::uint8_t> eliminated_;
+  double* values_;
+  Memory& memory_;
+  JobRunner& jobs_;
+  Buffer<double> shared_;
+  Buffer<double*> update_;
+  std::atomic<std::int32_t> lost_{INT32_MAX};
+};
+
+}  // namespace
+
+void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated,
+               double* values, Memory& memory, JobRunner& jobs, Progress* progress) {
+  Factorisation(symbolic, plan, kernels, matrix, eliminated, values, memory, jobs).run(progress);
+  const std::size_t stored = static_cast<std::size_t>(symbolic.stored_entries);
+  std::fill(values + stored, values + stored + value_slack, 0.0);
+}
+
+void require_finite(const SymmetricMatrix& matrix) {
+  // x - x is zero exactly for finite x; one sum without branches, the culprit is looked for only when there is one
+  double sum = 0;
+  for (const double value : matrix.value) sum += value - value;
+  if (sum == 0) return;
+  for (std::int32_t column = 0; column < matrix.size(); ++column) {
+    for (std::int32_t e = matrix.column_start[column]; e < matrix.column_start[column + 1]; ++e) {
+      if (std::isfinite(matrix.value[e])) continue;
+      fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(column), "column %d of the matrix holds NaN or infinity: check the positions around vertex %d", column, column);
+    }
+  }
+}
+
+}  // namespace hf

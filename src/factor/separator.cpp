@@ -1,0 +1,382 @@
+#include "factor/separator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace hf {
+namespace {
+
+constexpr std::uint8_t touches_left = 1, touches_right = 2, on_path = 4;
+constexpr std::int32_t none = -1, source = -2, sink = -3;
+
+// Eigenvectors of a symmetric 3 x 3 matrix by Jacobi rotations, columns by falling eigenvalue.
+void principal_axes(double a[3][3], double axis[3][3], double value[3]) {
+  double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (int sweep = 0; sweep < 12; ++sweep) {
+    for (int p = 0; p < 2; ++p) {
+      for (int q = p + 1; q < 3; ++q) {
+        if (std::fabs(a[p][q]) <= 1e-15 * (std::fabs(a[p][p]) + std::fabs(a[q][q]))) continue;
+        const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+        const double t = (theta >= 0 ? 1.0 : -1.0) / (std::fabs(theta) + std::sqrt(theta * theta + 1));
+        const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+        for (int k = 0; k < 3; ++k) {
+          const double x = a[k][p], y = a[k][q];
+          a[k][p] = c * x - s * y, a[k][q] = s * x + c * y;
+        }
+        for (int k = 0; k < 3; ++k) {
+          const double x = a[p][k], y = a[q][k];
+          a[p][k] = c * x - s * y, a[q][k] = s * x + c * y;
+          const double m = v[k][p], n = v[k][q];
+          v[k][p] = c * m - s * n, v[k][q] = s * m + c * n;
+        }
+      }
+    }
+  }
+  int order[3] = {0, 1, 2};
+  std::sort(order, order + 3, [&](int i, int j) { return a[i][i] != a[j][j] ? a[i][i] > a[j][j] : i < j; });
+  for (int k = 0; k < 3; ++k) {
+    value[k] = a[order[k]][order[k]];
+    for (int i = 0; i < 3; ++i) axis[k][i] = v[i][order[k]];
+  }
+}
+
+// Bits of a float in an order that unsigned comparison follows.
+std::uint32_t ordered_bits(float x) noexcept {
+  std::uint32_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+}
+
+}  // namespace
+
+double Cut::score() const noexcept {
+  const double total = static_cast<double>(left + right);
+  const double imbalance = total > 0 ? static_cast<double>(left - right) / total : 1.0;
+  return (static_cast<double>(separator) + 0.5) * (1 + imbalance * imbalance);
+}
+
+// The band as a graph of its own, with a flag for every vertex next to a side.
+void SeparatorSearch::collect_band(const GraphView& graph, const std::uint8_t* side) {
+  band_.clear();
+  if (slot_.size() < static_cast<std::size_t>(graph.size)) slot_.resize(static_cast<std::size_t>(graph.size));
+  for (std::int32_t v = 0; v < graph.size; ++v) {
+    if (side[v] == side_between) slot_[v] = static_cast<std::int32_t>(band_.size()), band_.push_back(v);
+  }
+  const std::size_t count = band_.size();
+  flags_.assign(count, 0);
+  band_start_.resize(count + 1);
+  std::size_t edges = 0;
+  for (const std::int32_t v : band_) edges += static_cast<std::size_t>(graph.start[v + 1] - graph.start[v]);
+  band_neighbour_.resize(edges);
+  std::int32_t k = 0;
+  for (std::size_t b = 0; b < count; ++b) {
+    band_start_[b] = k;
+    const std::int32_t v = band_[b];
+    for (std::int32_t e = graph.start[v]; e < graph.start[v + 1]; ++e) {
+      const std::int32_t u = graph.neighbour[e];
+      if (side[u] == side_between) band_neighbour_[k++] = slot_[u];
+      else flags_[b] |= side[u] == side_left ? touches_left : touches_right;
+    }
+  }
+  band_start_[count] = k;
+  previous_.assign(count, none), next_.assign(count, none);
+}
+
+// Breadth-first levels of the residual graph from the source. States: 2 b = entry of vertex b, 2 b + 1 = its exit. True when the
+// sink is reached.
+bool SeparatorSearch::label_phase() {
+  const std::size_t count = band_.size();
+  level_.assign(2 * count, none);
+  queue_.clear();
+  for (std::size_t b = 0; b < count; ++b) {
+    if (flags_[b] & touches_left) level_[2 * b] = 0, queue_.push_back(static_cast<std::int32_t>(2 * b));
+  }
+  std::int32_t last = INT32_MAX;
+  const auto visit = [&](std::int32_t state, std::int32_t level) {
+    if (level_[state] != none) return;
+    level_[state] = level;
+    queue_.push_back(state);
+  };
+  for (std::size_t head = 0; head < queue_.size(); ++head) {
+    const std::int32_t state = queue_[head], b = state >> 1, level = level_[state] + 1;
+    if (level > last) break;
+    if ((state & 1) == 0) {
+      if (!(flags_[b] & on_path)) visit(state + 1, level);
+      else if (previous_[b] >= 0) visit(2 * previous_[b] + 1, level);
+      continue;
+    }
+    if (flags_[b] & touches_right) last = std::min(last, level);
+    for (std::int32_t e = band_start_[b]; e < band_start_[b + 1]; ++e) visit(2 * band_neighbour_[e], level);
+    if (flags_[b] & on_path) visit(state - 1, level);
+  }
+  return last != INT32_MAX;
+}
+
+// Disjoint shortest paths by depth-first search on the levels; a state that was used or leads nowhere is taken out.
+std::int32_t SeparatorSearch::augment_phase() {
+  const std::size_t count = band_.size();
+  iterator_.resize(2 * count);
+  for (std::size_t b = 0; b < count; ++b) iterator_[2 * b] = 0, iterator_[2 * b + 1] = band_start_[b];
+  std::int32_t paths = 0;
+  for (std::size_t root = 0; root < count; ++root) {
+    if (!(flags_[root] & touches_left) || level_[2 * root] != 0) continue;
+    stack_.clear();
+    stack_.push_back(static_cast<std::int32_t>(2 * root));
+    while (!stack_.empty()) {
+      const std::int32_t state = stack_.back(), b = state >> 1, level = level_[state] + 1;
+      std::int32_t step = none;
+      if ((state & 1) == 0) {
+        if (iterator_[state] == 0) {
+          iterator_[state] = 1;
+          const std::int32_t to = !(flags_[b] & on_path) ? state + 1 : previous_[b] >= 0 ? 2 * previous_[b] + 1 : none;
+          if (to != none && level_[to] == level) step = to;
+        }
+      } else {
+        if (flags_[b] & touches_right) {
+          for (const std::int32_t used : stack_) level_[used] = none;
+          apply_path();
+          ++paths;
+          break;
+        }
+        std::int32_t& e = iterator_[state];
+        while (e < band_start_[b + 1] && level_[2 * band_neighbour_[e]] != level) ++e;
+        if (e < band_start_[b + 1]) {
+          step = 2 * band_neighbour_[e];
+        } else if (e == band_start_[b + 1]) {
+          ++e;
+          if ((flags_[b] & on_path) && level_[state - 1] == level) step = state - 1;
+        }
+      }
+      if (step != none) {
+        stack_.push_back(step);
+      } else {
+        level_[state] = none;
+        stack_.pop_back();
+      }
+    }
+  }
+  return paths;
+}
+
+// Adds the path on the stack to the flow.
+void SeparatorSearch::apply_path() {
+  std::int32_t from = source;  // the vertex whose exit the path came from
+  for (std::size_t k = 0; k < stack_.size(); ++k) {
+    const std::int32_t state = stack_[k], b = state >> 1;
+    if (state & 1) {
+      // leaves b: to the sink, to a neighbour, or back into b, which then drops out of its path
+      if (k + 1 == stack_.size()) next_[b] = sink;
+      else if (stack_[k + 1] >> 1 != b) next_[b] = stack_[k + 1] >> 1;
+      from = b;
+      continue;
+    }
+    if (from == b) {
+      flags_[b] &= static_cast<std::uint8_t>(~on_path);
+      previous_[b] = next_[b] = none;
+    } else {
+      previous_[b] = from;
+      flags_[b] |= on_path;
+    }
+  }
+}
+
+// States from which the sink can be reached in the residual graph.
+void SeparatorSearch::mark_reaching_sink() {
+  const std::size_t count = band_.size();
+  reach_.assign(2 * count, 0);
+  queue_.clear();
+  const auto visit = [&](std::int32_t state) {
+    if (reach_[state]) return;
+    reach_[state] = 1;
+    queue_.push_back(state);
+  };
+  for (std::size_t b = 0; b < count; ++b) {
+    if (flags_[b] & touches_right) visit(static_cast<std::int32_t>(2 * b + 1));
+  }
+  for (std::size_t head = 0; head < queue_.size(); ++head) {
+    const std::int32_t state = queue_[head], b = state >> 1;
+    if (state & 1) {
+      if (!(flags_[b] & on_path)) visit(state - 1);
+      else if (next_[b] >= 0) visit(2 * next_[b]);
+      continue;
+    }
+    for (std::int32_t e = band_start_[b]; e < band_start_[b + 1]; ++e) visit(2 * band_neighbour_[e] + 1);
+    if (flags_[b] & on_path) visit(state + 1);
+  }
+}
+
+// After the last labelling: level_ marks what the source reaches, reach_ what reaches the sink.
+Cut SeparatorSearch::choose_cut(const GraphView& graph, std::uint8_t* side) {
+  mark_reaching_sink();
+  Cut near_source, near_sink;
+  std::int64_t left = 0, right = 0;
+  for (std::int32_t v = 0; v < graph.size; ++v) {
+    if (side[v] == side_left) left += graph.weight_of(v);
+    else if (side[v] == side_right) right += graph.weight_of(v);
+  }
+  near_source.left = near_sink.left = left, near_source.right = near_sink.right = right;
+  for (std::size_t b = 0; b < band_.size(); ++b) {
+    const std::int32_t weight = graph.weight_of(band_[b]);
+    const bool entered = level_[2 * b] != none, left_by = level_[2 * b + 1] != none;
+    if (left_by) near_source.left += weight;
+    else if (entered) ++near_source.separator;
+    else near_source.right += weight;
+    const bool exits = reach_[2 * b + 1] != 0, enters = reach_[2 * b] != 0;
+    if (enters) near_sink.right += weight;
+    else if (exits) ++near_sink.separator;
+    else near_sink.left += weight;
+  }
+  const bool take_source = near_source.usable() && (!near_sink.usable() || near_source.score() <= near_sink.score());
+  for (std::size_t b = 0; b < band_.size(); ++b) {
+    std::uint8_t& target = side[band_[b]];
+    if (take_source) {
+      target = level_[2 * b + 1] != none ? side_left : level_[2 * b] != none ? side_between : side_right;
+    } else {
+      target = reach_[2 * b] ? side_right : reach_[2 * b + 1] ? side_between : side_left;
+    }
+  }
+  return take_source ? near_source : near_sink;
+}
+
+Cut SeparatorSearch::refine(const GraphView& graph, std::uint8_t* side) {
+  collect_band(graph, side);
+  for (std::size_t b = 0; b < band_.size(); ++b) {
+    if ((flags_[b] & (touches_left | touches_right)) == (touches_left | touches_right)) {
+      flags_[b] |= on_path, previous_[b] = source, next_[b] = sink;
+    }
+  }
+  while (label_phase() && augment_phase() > 0) {
+  }
+  return choose_cut(graph, side);
+}
+
+// Keys in ranked_; the middle `share` of the weight on either side of the median is the band.
+bool SeparatorSearch::try_keys(const GraphView& graph, std::uint8_t* side, Cut& best, double share) {
+  const std::int32_t n = graph.size;
+  ranked_.resize(static_cast<std::size_t>(n));
+  for (std::int32_t v = 0; v < n; ++v) ranked_[v] = static_cast<std::uint64_t>(ordered_bits(key_[v])) << 32 | static_cast<std::uint32_t>(v);
+  trial_.assign(static_cast<std::size_t>(n), side_between);
+  std::int32_t lefts = 0;
+  if (graph.weight) {
+    std::sort(ranked_.begin(), ranked_.end());
+    std::int64_t total = 0, before = 0;
+    for (std::int32_t v = 0; v < n; ++v) total += graph.weight[v];
+    for (const std::uint64_t entry : ranked_) {
+      const std::int32_t v = static_cast<std::int32_t>(entry & 0xffffffffu);
+      const double middle = (static_cast<double>(before) + 0.5 * graph.weight[v]) / static_cast<double>(total);
+      before += graph.weight[v];
+      if (middle < 0.5 - share) trial_[v] = side_left;
+      else if (middle > 0.5 + share) trial_[v] = side_right;
+    }
+  } else {
+    const std::ptrdiff_t low = static_cast<std::ptrdiff_t>((0.5 - share) * n), high = static_cast<std::ptrdiff_t>((0.5 + share) * n);
+    std::nth_element(ranked_.begin(), ranked_.begin() + low, ranked_.end());
+    std::nth_element(ranked_.begin() + low, ranked_.begin() + std::min<std::ptrdiff_t>(high, n - 1), ranked_.end());
+    for (std::ptrdiff_t k = 0; k < low; ++k) trial_[ranked_[k] & 0xffffffffu] = side_left;
+    for (std::ptrdiff_t k = high; k < n; ++k) trial_[ranked_[k] & 0xffffffffu] = side_right;
+  }
+  // an edge that jumps the band puts its left end into it
+  for (std::int32_t v = 0; v < n; ++v) {
+    if (trial_[v] != side_left) continue;
+    for (std::int32_t e = graph.start[v]; e < graph.start[v + 1]; ++e) {
+      if (trial_[graph.neighbour[e]] != side_right) continue;
+      trial_[v] = side_between;
+      break;
+    }
+    lefts += trial_[v] == side_left;
+  }
+  if (lefts == 0) return false;
+  const Cut cut = refine(graph, trial_.data());
+  if (!cut.usable() || (best.usable() && best.score() <= cut.score())) return cut.usable();
+  best = cut;
+  std::copy(trial_.begin(), trial_.end(), side);
+  return true;
+}
+
+// Order of a breadth-first search, component after component, each from a vertex far from its first.
+void SeparatorSearch::breadth_first_keys(const GraphView& graph) {
+  const std::int32_t n = graph.size;
+  key_.assign(static_cast<std::size_t>(n), -1.0f);
+  reach_.assign(static_cast<std::size_t>(n), 0);
+  std::int32_t visited = 0;
+  for (std::int32_t first = 0; first < n; ++first) {
+    if (key_[first] >= 0) continue;
+    std::int32_t root = first;
+    for (const std::uint8_t mark : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{3}}) {
+      queue_.clear();
+      queue_.push_back(root), reach_[root] = mark;
+      for (std::size_t head = 0; head < queue_.size(); ++head) {
+        const std::int32_t v = queue_[head];
+        if (mark == 3) key_[v] = static_cast<float>(visited++);
+        for (std::int32_t e = graph.start[v]; e < graph.start[v + 1]; ++e) {
+          const std::int32_t u = graph.neighbour[e];
+          if (reach_[u] != mark) reach_[u] = mark, queue_.push_back(u);
+        }
+      }
+      root = queue_.back();
+    }
+  }
+}
+
+void SeparatorSearch::projection_keys(const GraphView& graph, const double* axis) {
+  key_.resize(static_cast<std::size_t>(graph.size));
+  for (std::int32_t v = 0; v < graph.size; ++v) {
+    const float* p = graph.point + 3 * static_cast<std::size_t>(v);
+    key_[v] = static_cast<float>(axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2]);
+  }
+}
+
+Cut SeparatorSearch::bisect(const GraphView& graph, std::uint8_t* side, bool thorough) {
+  const std::int32_t n = graph.size;
+  Cut best;
+  if (n < 2) return best;
+  const double share = std::min(0.3, 0.5 * (n > 500 ? 16.0 : 4.0) / std::sqrt(static_cast<double>(n)));
+  bool spread = false;
+  if (graph.point) {
+    double mean[3] = {0, 0, 0}, moment[3][3] = {}, axis[3][3], value[3];
+    for (std::int32_t v = 0; v < n; ++v) {
+      for (int c = 0; c < 3; ++c) mean[c] += graph.point[3 * static_cast<std::size_t>(v) + c];
+    }
+    for (double& m : mean) m /= n;
+    for (std::int32_t v = 0; v < n; ++v) {
+      double d[3];
+      for (int c = 0; c < 3; ++c) d[c] = graph.point[3 * static_cast<std::size_t>(v) + c] - mean[c];
+      for (int i = 0; i < 3; ++i) {
+        for (int j = i; j < 3; ++j) moment[i][j] += d[i] * d[j];
+      }
+    }
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < i; ++j) moment[i][j] = moment[j][i];
+    }
+    principal_axes(moment, axis, value);
+    spread = value[0] > 0 && value[0] < 1e300;
+    if (spread) {
+      projection_keys(graph, axis[0]);
+      try_keys(graph, side, best, share);
+      // a long shape has one sensible axis
+      if (value[1] > 0.04 * value[0] || !best.usable()) {
+        projection_keys(graph, axis[1]);
+        try_keys(graph, side, best, share);
+      }
+      if (thorough) {
+        const double ratio = std::sqrt(std::max(0.0, value[0]) / std::max(1e-300, value[1]));
+        for (const double sign : {1.0, -1.0}) {
+          double diagonal[3];
+          for (int c = 0; c < 3; ++c) diagonal[c] = axis[0][c] + sign * std::min(ratio, 1e3) * axis[1][c];
+          projection_keys(graph, diagonal);
+          try_keys(graph, side, best, share);
+        }
+        projection_keys(graph, axis[2]);
+        try_keys(graph, side, best, share);
+      }
+    }
+  }
+  if (!spread || !best.usable() || thorough) {
+    breadth_first_keys(graph);
+    if (!try_keys(graph, side, best, share) && !best.usable()) try_keys(graph, side, best, 0.05);
+  }
+  return best;
+}
+
+}  // namespace hf

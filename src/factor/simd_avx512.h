@@ -1,0 +1,74 @@
+// Vector types of the AVX-512 build.
+#pragma once
+#include <cstdint>
+#include <immintrin.h>
+
+namespace {
+
+template <class T>
+struct Simd;
+
+template <>
+struct Simd<double> {
+  using Type = __m512d;
+  static constexpr int width = 8;
+  static __mmask8 mask(int count) noexcept { return static_cast<__mmask8>(count >= 8 ? 0xff : (1u << count) - 1u); }
+  static Type zero() noexcept { return _mm512_setzero_pd(); }
+  static Type all(double x) noexcept { return _mm512_set1_pd(x); }
+  static Type load(const double* p) noexcept { return _mm512_loadu_pd(p); }
+  static void store(double* p, Type v) noexcept { _mm512_storeu_pd(p, v); }
+  static Type load_part(const double* p, int count) noexcept { return _mm512_maskz_loadu_pd(mask(count), p); }
+  static void store_part(double* p, Type v, int count) noexcept { _mm512_mask_storeu_pd(p, mask(count), v); }
+  static Type add(Type a, Type b) noexcept { return _mm512_add_pd(a, b); }
+  static Type multiply(Type a, Type b) noexcept { return _mm512_mul_pd(a, b); }
+  static Type multiply_add(Type a, Type b, Type c) noexcept { return _mm512_fmadd_pd(a, b, c); }
+  static Type subtract_product(Type a, Type b, Type c) noexcept { return _mm512_fnmadd_pd(a, b, c); }
+};
+
+template <>
+struct Simd<float> {
+  using Type = __m512;
+  static constexpr int width = 16;
+  static __mmask16 mask(int count) noexcept { return static_cast<__mmask16>(count >= 16 ? 0xffff : (1u << count) - 1u); }
+  static Type zero() noexcept { return _mm512_setzero_ps(); }
+  static Type all(float x) noexcept { return _mm512_set1_ps(x); }
+  static Type load(const float* p) noexcept { return _mm512_loadu_ps(p); }
+  static void store(float* p, Type v) noexcept { _mm512_storeu_ps(p, v); }
+  static Type load_part(const float* p, int count) noexcept { return _mm512_maskz_loadu_ps(mask(count), p); }
+  static void store_part(float* p, Type v, int count) noexcept { _mm512_mask_storeu_ps(p, mask(count), v); }
+  static Type add(Type a, Type b) noexcept { return _mm512_add_ps(a, b); }
+  static Type multiply(Type a, Type b) noexcept { return _mm512_mul_ps(a, b); }
+  static Type multiply_add(Type a, Type b, Type c) noexcept { return _mm512_fmadd_ps(a, b, c); }
+  static Type subtract_product(Type a, Type b, Type c) noexcept { return _mm512_fnmadd_ps(a, b, c); }
+};
+
+constexpr int gemm_rows = 3, gemm_columns = 8;  // vectors of rows x columns of one accumulator block
+constexpr int lane_vectors = 3, lane_rows = 8;
+
+inline double multiply_add_scalar(double a, double b, double c) noexcept {
+  return _mm_cvtsd_f64(_mm_fmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)));
+}
+
+// out[r][at + c] = tile[8 c + r] for r < rows, c < columns: one 8 x 8 transpose in registers.
+inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows, std::int32_t columns) noexcept {
+  __m512d in[8], pair[8], quad[8], row[8];
+  for (int k = 0; k < 8; ++k) in[k] = k < columns ? _mm512_loadu_pd(tile + 8 * k) : _mm512_setzero_pd();
+  for (int k = 0; k < 8; k += 2) pair[k] = _mm512_maskz_unpacklo_pd(0xff, in[k], in[k + 1]), pair[k + 1] = _mm512_maskz_unpackhi_pd(0xff, in[k], in[k + 1]);
+  for (int k = 0; k < 8; k += 4) {
+    for (int h = 0; h < 2; ++h) {
+      quad[k + h] = _mm512_maskz_shuffle_f64x2(0xff, pair[k + h], pair[k + 2 + h], 0x88);
+      quad[k + 2 + h] = _mm512_maskz_shuffle_f64x2(0xff, pair[k + h], pair[k + 2 + h], 0xdd);
+    }
+  }
+  for (int h = 0; h < 4; ++h) {
+    row[h] = _mm512_maskz_shuffle_f64x2(0xff, quad[h], quad[4 + h], 0x88);
+    row[4 + h] = _mm512_maskz_shuffle_f64x2(0xff, quad[h], quad[4 + h], 0xdd);
+  }
+  const __mmask8 mask = Simd<double>::mask(columns);
+  for (int k = 0; k < 8; ++k) {
+    if (k >= rows) break;
+    _mm512_mask_storeu_pd(out[k] + at, mask, row[k]);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,65 @@
+// Vector types of the plain build: two lanes that every 64-bit processor has; products are rounded before they are added.
+#pragma once
+#include <cstdint>
+#include <cstring>
+
+namespace {
+
+typedef double Vector2 __attribute__((vector_size(16)));
+typedef float Vector4f __attribute__((vector_size(16)));
+
+template <class T>
+struct Simd;
+
+template <class T, class Lanes, int Width>
+struct PlainSimd {
+  using Type = Lanes;
+  static constexpr int width = Width;
+  static Type zero() noexcept { return Type{}; }
+  static Type all(T x) noexcept {
+    Type v;
+    for (int i = 0; i < Width; ++i) v[i] = x;
+    return v;
+  }
+  static Type load(const T* p) noexcept {
+    Type v;
+    std::memcpy(&v, p, sizeof v);
+    return v;
+  }
+  static void store(T* p, Type v) noexcept { std::memcpy(p, &v, sizeof v); }
+  static Type load_part(const T* p, int count) noexcept {
+    Type v{};
+    for (int i = 0; i < Width; ++i) {
+      if (i < count) v[i] = p[i];
+    }
+    return v;
+  }
+  static void store_part(T* p, Type v, int count) noexcept {
+    for (int i = 0; i < Width; ++i) {
+      if (i < count) p[i] = v[i];
+    }
+  }
+  static Type add(Type a, Type b) noexcept { return a + b; }
+  static Type multiply(Type a, Type b) noexcept { return a * b; }
+  static Type multiply_add(Type a, Type b, Type c) noexcept { return a * b + c; }
+  static Type subtract_product(Type a, Type b, Type c) noexcept { return c - a * b; }
+};
+
+template <>
+struct Simd<double> : PlainSimd<double, Vector2, 2> {};
+template <>
+struct Simd<float> : PlainSimd<float, Vector4f, 4> {};
+
+constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of one accumulator block
+constexpr int lane_vectors = 2, lane_rows = 4;
+
+inline double multiply_add_scalar(double a, double b, double c) noexcept { return a * b + c; }
+
+// out[r][at + c] = tile[8 c + r] for r < rows, c < columns.
+inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows, std::int32_t columns) noexcept {
+  for (std::int32_t r = 0; r < rows; ++r) {
+    for (std::int32_t c = 0; c < columns; ++c) out[r][at + c] = tile[8 * c + r];
+  }
+}
+
+}  // namespace

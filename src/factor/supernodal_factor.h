@@ -1,0 +1,82 @@
+// The factor itself: symbolic analysis and plan, shared by all factors of one pattern, and the numbers.
+#pragma once
+#include <cstdint>
+#include <memory>
+
+#include "factor/factor.h"
+#include "factor/kernels.h"
+#include "factor/plan.h"
+#include "factor/symbolic.h"
+
+namespace hf {
+
+struct Analysis {
+  Symbolic symbolic;
+  Plan plan;
+  std::uint64_t pattern_hash = 0;  // of the matrix: refactor takes the same pattern only
+};
+
+// One supernode of a path group: nc rows of `lanes` numbers, sites [low, low + used) of the group.
+struct PathBlock {
+  std::int32_t supernode;
+  std::int32_t low, used, lanes;
+  std::int64_t at;  // where its numbers begin
+};
+
+class PathBlocks final : public PathGroup {
+ public:
+  std::int32_t count() const noexcept override { return sites; }
+  double bytes() const noexcept override { return 8.0 * static_cast<double>(values.size()) + static_cast<double>(blocks.size() * sizeof(PathBlock)); }
+  std::int32_t sites = 0;
+  Buffer<PathBlock> blocks;  // supernodes ascending
+  Buffer<double> values;
+};
+
+class SupernodalFactor final : public Factor {
+ public:
+  SupernodalFactor(std::shared_ptr<const Analysis> analysis, Memory& memory);
+
+  std::int32_t size() const noexcept override { return symbolic().size; }
+  const FactorStatistics& statistics() const noexcept override { return statistics_; }
+  Span<const std::int32_t> position() const noexcept override { return {symbolic().position.data(), symbolic().position.size()}; }
+  Span<const std::int32_t> order() const noexcept override { return {symbolic().order.data(), symbolic().order.size()}; }
+
+  void forward(double* z, std::int32_t channels, JobRunner& jobs) const override;
+  void backward(double* z, std::int32_t channels, JobRunner& jobs) const override;
+  std::shared_ptr<const Factor> refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, Memory& memory,
+                                         JobRunner& jobs) const override;
+  void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs, Vector<std::shared_ptr<const PathGroup>>& out_groups,
+                   Span<std::int32_t> out_group, Span<std::int32_t> out_column) const override;
+  void gram(const PathGroup& a, const PathGroup& b, double* gram, std::int32_t ld) const override;
+  void combine(const PathGroup& group, const double* lambda, std::int32_t channels, double* z) const override;
+  void clear(const PathGroup& group, std::int32_t channels, double* z) const override;
+  void project(const PathGroup& group, const double* z, std::int32_t channels, double* out) const override;
+
+  const Symbolic& symbolic() const noexcept { return analysis_->symbolic; }
+  const Plan& plan() const noexcept { return analysis_->plan; }
+  const Kernels& kernels() const noexcept { return *kernels_; }
+  const double* triangle(std::int32_t s) const noexcept { return values_.data() + symbolic().value_start[s]; }
+  const double* below(std::int32_t s) const noexcept {
+    const std::int64_t width = symbolic().columns(s);
+    return triangle(s) + width * (width + 1) / 2;
+  }
+  Buffer<double>& values() noexcept { return values_; }
+  const Buffer<double>& values() const noexcept { return values_; }
+  const std::shared_ptr<const Analysis>& analysis() const noexcept { return analysis_; }
+  // Factorises the matrix into values(), which it allocates.
+  void compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, JobRunner& jobs, Progress* progress);
+  void set_timings(double ordering_ms, double symbolic_ms) noexcept { statistics_.ordering_ms = ordering_ms, statistics_.symbolic_ms = symbolic_ms; }
+  // Another set of kernels, for tests that compare them.
+  void use_kernels(const Kernels& kernels) noexcept { kernels_ = &kernels; }
+
+ private:
+  Memory& memory_;
+  std::shared_ptr<const Analysis> analysis_;
+  const Kernels* kernels_;
+  Buffer<double> values_;
+  FactorStatistics statistics_;
+};
+
+std::uint64_t hash_pattern(const SymmetricMatrix& matrix) noexcept;
+
+}  // namespace hf

@@ -1,0 +1,210 @@
+// Forward and backward sweeps over the stored factor.
+//
+// Backward, z <- G^-T z: supernodes last to first; each subtracts what its rows below contribute, then solves its triangle. Top
+// supernodes wave by wave, then the tasks, all at once: no two pieces write the same row. Forward, z <- G^-1 z: supernodes first to
+// last; a task keeps what it contributes above itself in a buffer of its own, and the buffers are added in the order of the tasks.
+// Cost: one read of the factor per call for up to 8 channels.
+#include <algorithm>
+#include <mutex>
+
+#include "factor/supernodal_factor.h"
+
+namespace hf {
+namespace {
+
+constexpr std::int32_t piece_columns = 96;  // columns of a top supernode that one job sums
+
+struct BackwardPass {
+  const SupernodalFactor& factor;
+  double* z;
+  std::int32_t channels;
+
+  void rows(std::int32_t s, std::int32_t begin, std::int32_t end) const noexcept {
+    const Symbolic& symbolic = factor.symbolic();
+    factor.kernels().backward_rows(factor.below(s), symbolic.row_list(s), symbolic.below(s), symbolic.columns(s), begin, end, z, symbolic.first[s], channels);
+  }
+  void triangle(std::int32_t s) const noexcept {
+    const Symbolic& symbolic = factor.symbolic();
+    factor.kernels().backward_triangle(factor.triangle(s), symbolic.columns(s), z + static_cast<std::int64_t>(symbolic.first[s]) * channels, channels);
+  }
+  void whole(std::int32_t s) const noexcept {
+    if (factor.symbolic().below(s) > 0) rows(s, 0, factor.symbolic().columns(s));
+    triangle(s);
+  }
+};
+
+// A wave as jobs: whole supernodes when they are many or small, else pieces of their columns first and the triangles after.
+void backward_wave(const BackwardPass& pass, std::int32_t begin, std::int32_t end, JobRunner& jobs) {
+  const Symbolic& symbolic = pass.factor.symbolic();
+  const std::int32_t* top = pass.factor.plan().top.data();
+  double total = 0, largest = 0;
+  std::int32_t pieces = 0;
+  for (std::int32_t k = begin; k < end; ++k) {
+    const double width = symbolic.columns(top[k]);
+    const double entries = width * (0.5 * width + symbolic.below(top[k]));
+    total += entries, largest = std::max(largest, entries);
+    pieces += (symbolic.columns(top[k]) + piece_columns - 1) / piece_columns;
+  }
+  if (largest * jobs.thread_count() <= 1.3 * total || total < 30000) {
+    jobs.for_each(static_cast<std::uint32_t>(end - begin), [&](std::uint32_t k) { pass.whole(top[begin + static_cast<std::int32_t>(k)]); });
+    return;
+  }
+  jobs.for_each(static_cast<std::uint32_t>(pieces), [&](std::uint32_t piece) {
+    std::int32_t left = static_cast<std::int32_t>(piece), k = begin;
+    for (;; ++k) {
+      const std::int32_t own = (symbolic.columns(top[k]) + piece_columns - 1) / piece_columns;
+      if (left < own) break;
+      left -= own;
+    }
+    const std::int32_t s = top[k], from = left * piece_columns;
+    if (symbolic.below(s) > 0) pass.rows(s, from, std::min(symbolic.columns(s), from + piece_columns));
+  });
+  jobs.for_each(static_cast<std::uint32_t>(end - begin), [&](std::uint32_t k) { pass.triangle(top[begin + static_cast<std::int32_t>(k)]); });
+}
+
+// What one thread needs in a forward sweep.
+struct ForwardScratch {
+  ForwardScratch(Memory& memory, std::int32_t unknowns, std::int32_t below, std::int32_t channels)
+      : place_of(memory, unknowns), product(memory, static_cast<std::size_t>(below) * channels + 8) {}
+  Buffer<std::int32_t> place_of;  // row above the task -> its place in the task's buffer
+  Buffer<double> product;
+};
+
+class ForwardPass {
+ public:
+  ForwardPass(const SupernodalFactor& factor, double* z, std::int32_t channels, Memory& memory)
+      : factor_(factor), z_(z), channels_(channels), memory_(memory), free_(&memory) {
+    const Symbolic& symbolic = factor.symbolic();
+    const Plan& plan = factor.plan();
+    for (std::int32_t s = 0; s < symbolic.supernodes; ++s) longest_ = std::max(longest_, symbolic.below(s));
+    start_.allocate(memory, plan.task_root.size() + 1);
+    std::int64_t total = 0;
+    for (std::size_t r = 0; r < plan.task_root.size(); ++r) start_[r] = total, total += symbolic.below(plan.task_root[r]);
+    start_[plan.task_root.size()] = total;
+    above_.allocate(memory, static_cast<std::size_t>(total * channels));
+  }
+
+  void run(JobRunner& jobs) {
+    const Plan& plan = factor_.plan();
+    const Symbolic& symbolic = factor_.symbolic();
+    jobs.for_each(static_cast<std::uint32_t>(plan.tasks), [&](std::uint32_t k) {
+      std::shared_ptr<ForwardScratch> scratch = take();
+      const std::int32_t task = plan.task_order[k];
+      for (std::int32_t r = plan.task_start[task]; r < plan.task_start[task + 1]; ++r) run_subtree(r, *scratch);
+      give_back(std::move(scratch));
+    });
+    for (std::size_t r = 0; r < plan.task_root.size(); ++r) {
+      const std::int32_t root = plan.task_root[r];
+      subtract(symbolic.row_list(root), symbolic.below(root), above_.data() + start_[r] * channels_);
+    }
+    std::shared_ptr<ForwardScratch> scratch = take();
+    const std::int32_t top_count = static_cast<std::int32_t>(plan.top.size());
+    for (std::int32_t k = 0; k < top_count; ++k) {
+      const std::int32_t s = plan.top[k];
+      solve(s, scratch->product.data(), jobs);
+      subtract(symbolic.row_list(s), symbolic.below(s), scratch->product.data());
+    }
+  }
+
+ private:
+  void run_subtree(std::int32_t r, ForwardScratch& scratch) noexcept {
+    const Symbolic& symbolic = factor_.symbolic();
+    const std::int32_t root = factor_.plan().task_root[r];
+    const std::int32_t last = symbolic.first[root + 1];
+    double* above = above_.data() + start_[r] * channels_;
+    std::fill(above, above + static_cast<std::int64_t>(symbolic.below(root)) * channels_, 0.0);
+    for (std::int32_t k = 0; k < symbolic.below(root); ++k) scratch.place_of[symbolic.row_list(root)[k]] = k;
+    for (std::int32_t s = symbolic.subtree[root]; s <= root; ++s) {
+      solve(s, scratch.product.data());
+      const std::int32_t* rows = symbolic.row_list(s);
+      const std::int32_t count = symbolic.below(s);
+      std::int32_t inside = 0;
+      while (inside < count && rows[inside] < last) ++inside;
+      subtract(rows, inside, scratch.product.data());
+      for (std::int32_t k = inside; k < count; ++k) {
+        double* target = above + static_cast<std::int64_t>(scratch.place_of[rows[k]]) * channels_;
+        for (std::int32_t c = 0; c < channels_; ++c) target[c] += scratch.product[static_cast<std::size_t>(k) * channels_ + c];
+      }
+    }
+  }
+
+  void solve(std::int32_t s, double* product) const noexcept {
+    const Symbolic& symbolic = factor_.symbolic();
+    double* z = z_ + static_cast<std::int64_t>(symbolic.first[s]) * channels_;
+    factor_.kernels().forward_triangle(factor_.triangle(s), symbolic.columns(s), z, channels_);
+    factor_.kernels().forward_rows(factor_.below(s), symbolic.below(s), symbolic.columns(s), z, product, channels_);
+  }
+
+  // The same with the rows of a large supernode cut over the threads.
+  void solve(std::int32_t s, double* product, JobRunner& jobs) const {
+    const Symbolic& symbolic = factor_.symbolic();
+    const std::int32_t columns = symbolic.columns(s), rows = symbolic.below(s);
+    constexpr std::int32_t step = 128;
+    if (jobs.thread_count() == 1 || static_cast<double>(columns) * rows < 40000 || rows <= step) return solve(s, product);
+    double* z = z_ + static_cast<std::int64_t>(symbolic.first[s]) * channels_;
+    factor_.kernels().forward_triangle(factor_.triangle(s), columns, z, channels_);
+    jobs.for_each(static_cast<std::uint32_t>((rows + step - 1) / step), [&](std::uint32_t piece) {
+      const std::int32_t begin = static_cast<std::int32_t>(piece) * step;
+      factor_.kernels().forward_rows(factor_.below(s) + static_cast<std::int64_t>(begin) * columns, std::min(step, rows - begin), columns, z,
+                                     product + static_cast<std::int64_t>(begin) * channels_, channels_);
+    });
+  }
+
+  void subtract(const std::int32_t* rows, std::int32_t count, const double* product) const noexcept {
+    for (std::int32_t k = 0; k < count; ++k) {
+      double* target = z_ + static_cast<std::int64_t>(rows[k]) * channels_;
+      for (std::int32_t c = 0; c < channels_; ++c) target[c] -= product[static_cast<std::int64_t>(k) * channels_ + c];
+    }
+  }
+
+  std::shared_ptr<ForwardScratch> take() {
+    {
+      std::lock_guard<std::mutex> lock(mutex_);
+      if (!free_.empty()) {
+        std::shared_ptr<ForwardScratch> taken = free_.back();
+        free_.pop_back();
+        return taken;
+      }
+      ++made_;
+      free_.reserve(made_);
+    }
+    return make_shared_in<ForwardScratch>(memory_, memory_, factor_.size(), longest_, channels_);
+  }
+  void give_back(std::shared_ptr<ForwardScratch> scratch) noexcept {
+    std::lock_guard<std::mutex> lock(mutex_);
+    free_.push_back(std::move(scratch));
+  }
+
+  const SupernodalFactor& factor_;
+  double* z_;
+  std::int32_t channels_;
+  Memory& memory_;
+  std::int32_t longest_ = 0;
+  Buffer<std::int64_t> start_;
+  Buffer<double> above_;
+  std::mutex mutex_;
+  Vector<std::shared_ptr<ForwardScratch>> free_;
+  std::size_t made_ = 0;
+};
+
+}  // namespace
+
+void SupernodalFactor::backward(double* z, std::int32_t channels, JobRunner& jobs) const {
+  const BackwardPass pass{*this, z, channels};
+  if (jobs.thread_count() == 1) {
+    for (std::int32_t s = symbolic().supernodes - 1; s >= 0; --s) pass.whole(s);
+    return;
+  }
+  for (std::int32_t wave = plan().waves - 1; wave >= 0; --wave) backward_wave(pass, plan().wave_start[wave], plan().wave_start[wave + 1], jobs);
+  jobs.for_each(static_cast<std::uint32_t>(plan().tasks), [&](std::uint32_t k) {
+    const std::int32_t task = plan().task_order[k];
+    for (std::int32_t r = plan().task_start[task + 1] - 1; r >= plan().task_start[task]; --r) {
+      const std::int32_t root = plan().task_root[r];
+      for (std::int32_t s = root; s >= symbolic().subtree[root]; --s) pass.whole(s);
+    }
+  });
+}
+
+void SupernodalFactor::forward(double* z, std::int32_t channels, JobRunner& jobs) const { ForwardPass(*this, z, channels, memory_).run(jobs); }
+
+}  // namespace hf

@@ -1,0 +1,100 @@
+#include "field/scalar_field.h"
+
+#include "base/error.h"
+
+namespace hf {
+namespace {
+constexpr std::size_t most_records = 256;
+}
+
+ScalarField::ScalarField(std::shared_ptr<const Core> core, EngineKind engine, double penalty, std::int32_t channels, std::uint32_t site_limit)
+    : core_(std::move(core)),
+      site_limit_(site_limit),
+      sites_(*core_->memory, channels),
+      engine_(SiteSolver::make(engine, core_, penalty)),
+      undo_(core_->memory.get()),
+      redo_(core_->memory.get()) {}
+
+ScalarField::ScalarField(const ScalarField& other)
+    : core_(other.core_), site_limit_(other.site_limit_), sites_(other.sites_, *core_->memory), engine_(other.engine_->clone()), undo_(core_->memory.get()), redo_(core_->memory.get()) {}
+
+void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
+  SiteSet next(sites_, memory());
+  Vector<std::uint32_t> numbers(edit.add.count, &memory());
+  next.remove(edit.remove_count, edit.remove_sites);
+  next.move(core_->mesh, edit.move_count, edit.move_sites, edit.move_to);
+  next.set_values(edit.set_count, edit.set_sites, edit.set_values);
+  next.add(core_->mesh, edit.add, edit.add_values, edit.add_stiffness, site_limit_, numbers.data());
+  const SiteDifference difference(sites_, next, memory());
+  if (!difference.empty()) {
+    try {
+      engine_->edit(difference.edit());
+    } catch (Error& error) {
+      if (error.code() != HF_ERROR_CONFLICT || error.index() >= difference.add.size()) throw;
+      // the engine counts in its own list: name the place in the caller's
+      const std::uint32_t slot = static_cast<std::uint32_t>(difference.add[error.index()]);
+      for (std::uint32_t i = 0; i < edit.add.count; ++i) {
+        if (numbers[i] == slot) fail(HF_ERROR_CONFLICT, i, "site %u of the batch depends linearly on hard sites that are there (a triangle takes three independent points); leave it out or make it soft", i);
+      }
+      for (std::uint32_t i = 0; i < edit.move_count; ++i) {
+        if (edit.move_sites[i] == slot) fail(HF_ERROR_CONFLICT, i, "entry %u of the list: at its new place site %u depends linearly on hard sites that are there; choose another place", i, slot);
+      }
+      throw;
+    }
+  }
+  sites_.swap(next);
+  redo_.clear();
+  for (std::uint32_t i = 0; out_sites && i < edit.add.count; ++i) out_sites[i] = numbers[i];
+}
+
+ScalarField::Record ScalarField::present() const { return Record(sites_, engine_->kind() == EngineKind::green ? engine_->clone() : nullptr, memory()); }
+
+void ScalarField::restore(Record&& record) {
+  if (record.engine) {
+    engine_ = std::move(record.engine);
+  } else {
+    const SiteDifference difference(sites_, record.sites, memory());
+    if (!difference.empty()) engine_->edit(difference.edit());
+  }
+  sites_.swap(record.sites);
+}
+
+void ScalarField::record() {
+  if (undo_.size() == most_records) undo_.erase(undo_.begin());
+  undo_.push_back(present());
+  redo_.clear();
+}
+
+void ScalarField::step(Vector<Record>& from, Vector<Record>& to, const char* nothing) {
+  if (from.empty()) fail(HF_ERROR_NO_RECORD, HF_NO_INDEX, "%s", nothing);
+  to.push_back(present());
+  try {
+    restore(std::move(from.back()));
+  } catch (...) {
+    to.pop_back();
+    throw;
+  }
+  from.pop_back();
+}
+
+void ScalarField::undo() { step(undo_, redo_, "nothing is recorded; call hf_record before the edits to be undone"); }
+void ScalarField::redo() { step(redo_, undo_, "nothing was undone since the last edit"); }
+
+void ScalarField::solve(double* field) const {
+  if (sites_.count() == 0) fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; add at least one before solving");
+  engine_->solve(sites_.values(), sites_.channels(), field, nullptr);
+}
+
+void ScalarField::solve_at(Span<const std::int32_t> vertices, double* out) const {
+  if (sites_.count() == 0) fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; add at least one before solving");
+  engine_->solve_at(sites_.values(), sites_.channels(), vertices, out);
+}
+
+void ScalarField::flux(Vector<double>& out) const {
+  out.assign(sites_.slots().size() * static_cast<std::size_t>(sites_.channels()), 0.0);
+  if (sites_.count() == 0) return;
+  // engines other than green need the field for it; green needs no sweep
+  engine_->solve(sites_.values(), sites_.channels(), nullptr, out.data());
+}
+
+}  // namespace hf

@@ -1,0 +1,121 @@
+#include "mesh/laplacian.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hf {
+namespace {
+
+using Index = std::int32_t;
+std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+// A triangle thinner than working precision has a stiffness matrix of rank 1, and the Laplacian may lose definiteness. It is
+// taken as the triangle whose edges are longer by just enough to close properly (the mollification of Sharp and Crane 2020, on this triangle
+// alone): b + c - a >= 1e-6 a. Cotangents stay below about 1e3.
+void thin_cotangents(const double squared[3], double cotangent[3]) noexcept {
+  double length[3] = {std::sqrt(squared[0]), std::sqrt(squared[1]), std::sqrt(squared[2])};
+  const double longest = std::max({length[0], length[1], length[2]});
+  if (!(longest > 0)) {
+    cotangent[0] = cotangent[1] = cotangent[2] = 1 / std::sqrt(3.0);  // three points at one place: equilateral
+    return;
+  }
+  const double gap = length[0] + length[1] + length[2] - 2 * longest;
+  const double more = std::max(0.0, 1e-6 * longest - gap);
+  for (int k = 0; k < 3; ++k) length[k] += more;
+  double a = length[0], b = length[1], c = length[2];
+  if (a < b) std::swap(a, b);
+  if (b < c) std::swap(b, c);
+  if (a < b) std::swap(a, b);
+  const double area4 = std::sqrt((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)));  // Kahan's formula, 4 x area
+  for (int k = 0; k < 3; ++k) {
+    const double x = length[k], y = length[(k + 1) % 3], z = length[(k + 2) % 3];
+    cotangent[k] = (y * y + z * z - x * x) / area4;
+  }
+}
+
+// Cotangents at the three corners of a triangle: (u . v) / |u x v|.
+void corner_cotangents(const Mesh& mesh, Index t, double cotangent[3]) noexcept {
+  const Index* v = mesh.triangle(t);
+  const Vec3 p[3] = {mesh.positions[at(v[0])], mesh.positions[at(v[1])], mesh.positions[at(v[2])]};
+  const Vec3 e[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]};  // opposite to corner k
+  const double squared[3] = {dot(e[0], e[0]), dot(e[1], e[1]), dot(e[2], e[2])};
+  const double area2 = norm(cross(e[0], e[1]));
+  if (!(area2 > 1e-9 * std::max({squared[0], squared[1], squared[2]}))) return thin_cotangents(squared, cotangent);
+  for (int k = 0; k < 3; ++k) cotangent[k] = -dot(e[(k + 1) % 3], e[(k + 2) % 3]) / area2;
+}
+
+Vector<double> cotangent_weights(const Mesh& mesh, const Topology& topology, Memory& memory) {
+  Vector<double> corner(mesh.corners.size(), &memory);
+  for (Index t = 0; t < mesh.triangle_count(); ++t) corner_cotangents(mesh, t, &corner[std::size_t{3} * at(t)]);
+  Vector<double> weights(at(topology.edge_count()), 0.0, &memory);
+  for (Index e = 0; e < topology.edge_count(); ++e) {
+    for (Index i = topology.edge_triangle_start[at(e)]; i < topology.edge_triangle_start[at(e) + 1]; ++i) {
+      const Index t = topology.edge_triangle[at(i)];
+      const Index* v = mesh.triangle(t);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (v[k] != topology.first(e) && v[k] != topology.second(e)) weights[at(e)] += 0.5 * corner[std::size_t{3} * at(t) + k];
+      }
+    }
+  }
+  return weights;
+}
+
+}  // namespace
+
+Vector<double> edge_weights(const Mesh& mesh, const Topology& topology, OperatorKind kind, Memory& memory) {
+  if (kind == OperatorKind::uniform) return Vector<double>(at(topology.edge_count()), 1.0, &memory);
+  Vector<double> weights = cotangent_weights(mesh, topology, memory);
+  if (kind == OperatorKind::clamped) {
+    // the mean of many equal-length halves would be dominated by needles: take the median of the magnitudes instead
+    Vector<double> magnitude(weights.size(), &memory);
+    std::transform(weights.begin(), weights.end(), magnitude.begin(), [](double w) { return std::fabs(w); });
+    const auto middle = magnitude.begin() + static_cast<std::ptrdiff_t>(magnitude.size() / 2);
+    std::nth_element(magnitude.begin(), middle, magnitude.end());
+    const double floor = *middle > 0 ? 1e-3 * *middle : 1e-3;
+    for (double& w : weights) w = std::max(w, floor);
+  }
+  return weights;
+}
+
+std::uint32_t count_negative(const Vector<double>& weights) noexcept {
+  return static_cast<std::uint32_t>(std::count_if(weights.begin(), weights.end(), [](double w) { return w < 0; }));
+}
+
+Vector<double> vertex_areas(const Mesh& mesh, Memory& memory) {
+  Vector<double> areas(mesh.positions.size(), 0.0, &memory);
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const Index* v = mesh.triangle(t);
+    const Vec3 a = mesh.positions[at(v[0])];
+    const double third = norm(cross(mesh.positions[at(v[1])] - a, mesh.positions[at(v[2])] - a)) / 6.0;
+    for (int k = 0; k < 3; ++k) areas[at(v[k])] += third;
+  }
+  return areas;
+}
+
+SymmetricMatrix laplacian(const Topology& topology, const Vector<double>& weights, Memory& memory) {
+  SymmetricMatrix matrix(memory);
+  const std::size_t n = topology.neighbour_start.size() - 1;
+  matrix.column_start.resize(n + 1);
+  matrix.row.resize(topology.neighbour.size() + n);
+  matrix.value.resize(topology.neighbour.size() + n);
+  std::size_t k = 0;
+  for (std::size_t v = 0; v < n; ++v) {
+    matrix.column_start[v] = static_cast<Index>(k);
+    double sum = 0;
+    std::size_t diagonal = 0;
+    bool placed = false;
+    const auto place = [&] { diagonal = k, matrix.row[k++] = static_cast<Index>(v), placed = true; };
+    for (Index i = topology.neighbour_start[v]; i < topology.neighbour_start[v + 1]; ++i) {
+      if (!placed && at(topology.neighbour[at(i)]) > v) place();
+      const double w = weights[at(topology.neighbour_edge[at(i)])];
+      matrix.row[k] = topology.neighbour[at(i)], matrix.value[k++] = -w;
+      sum += w;
+    }
+    if (!placed) place();
+    matrix.value[diagonal] = sum;
+  }
+  matrix.column_start[n] = static_cast<Index>(k);
+  return matrix;
+}
+
+}  // namespace hf

@@ -1,0 +1,178 @@
+#include "mesh/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numeric>
+
+#include "base/error.h"
+#include "mesh/weld.h"
+
+namespace hf {
+
+double norm(Vec3 a) noexcept { return std::sqrt(dot(a, a)); }
+
+namespace {
+
+using Index = std::int32_t;
+
+std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+void check_sizes(const MeshInput& input) {
+  if (input.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the mesh has no vertices");
+  if (input.triangle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the mesh has no triangles");
+  constexpr std::uint32_t limit = 0x7fffffffu / 6;
+  if (input.vertex_count > limit) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; at most %u are supported", input.vertex_count, limit);
+  if (input.triangle_count > limit) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; at most %u are supported", input.triangle_count, limit);
+}
+
+void check_triangles(const MeshInput& input) {
+  for (std::uint32_t t = 0; t < input.triangle_count; ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = input.triangles[std::size_t{3} * t + static_cast<std::size_t>(k)];
+      if (v >= input.vertex_count) {
+        fail(HF_ERROR_OUT_OF_RANGE, t, "triangle %u: corner %d is vertex %u, but there are %u vertices", t, k, v, input.vertex_count);
+      }
+    }
+  }
+}
+
+// Bounding box of the vertices as given, which must be finite.
+void find_frame(const MeshInput& input, Mesh& mesh) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double low[3] = {infinity, infinity, infinity}, high[3] = {-infinity, -infinity, -infinity};
+  for (std::uint32_t v = 0; v < input.vertex_count; ++v) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = input.positions.get(v, k);
+      if (!std::isfinite(x)) fail(HF_ERROR_NON_FINITE, v, "vertex %u: coordinate %zu is not a finite number", v, k);
+      low[k] = std::min(low[k], x), high[k] = std::max(high[k], x);
+    }
+  }
+  double size = 0;
+  double centre[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    centre[k] = 0.5 * low[k] + 0.5 * high[k];
+    size = std::hypot(size, 0.5 * high[k] - 0.5 * low[k]);
+  }
+  mesh.centre = {centre[0], centre[1], centre[2]};
+  mesh.scale = size > 0 ? 2 * size : 1;  // the box diagonal; may be infinite for coordinates near the limit of double
+  mesh.report.bounding_box_diagonal = 2 * size;
+  if (!(mesh.scale < 1e300)) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the mesh is %g wide; scale it below 1e300", mesh.scale);
+}
+
+// Components of the welded vertices over the usable triangles, by union-find with path halving.
+struct UnionFind {
+  explicit UnionFind(std::size_t count, Memory& memory) : parent(count, &memory) { std::iota(parent.begin(), parent.end(), 0); }
+  Index find(Index v) noexcept {
+    while (parent[at(v)] != v) v = parent[at(v)] = parent[at(parent[at(v)])];
+    return v;
+  }
+  void unite(Index a, Index b) noexcept {
+    a = find(a), b = find(b);
+    if (a < b) parent[at(b)] = a;
+    if (b < a) parent[at(a)] = b;
+  }
+  Vector<Index> parent;
+};
+
+void count_duplicates(Mesh& mesh, Memory& memory) {
+  struct Key {
+    Index v[3];
+    bool operator<(const Key& o) const noexcept { return std::lexicographical_compare(v, v + 3, o.v, o.v + 3); }
+    bool operator==(const Key& o) const noexcept { return std::equal(v, v + 3, o.v); }
+  };
+  Vector<Key> keys(at(mesh.triangle_count()), &memory);
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    std::copy_n(mesh.triangle(t), 3, keys[at(t)].v);
+    std::sort(keys[at(t)].v, keys[at(t)].v + 3);
+  }
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t i = 1; i < keys.size(); ++i) mesh.report.duplicate_triangle_count += keys[i] == keys[i - 1];
+}
+
+// Smallest angle and zero-area triangles: area below 1e-12 of the longest edge squared.
+void measure_triangles(Mesh& mesh) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const Index* v = mesh.triangle(t);
+    double longest = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 a = mesh.positions[at(v[(k + 1) % 3])] - mesh.positions[at(v[k])];
+      const Vec3 b = mesh.positions[at(v[(k + 2) % 3])] - mesh.positions[at(v[k])];
+      smallest = std::min(smallest, std::atan2(norm(cross(a, b)), dot(a, b)));
+      longest = std::max(longest, dot(a, a));
+    }
+    const Vec3 normal = cross(mesh.positions[at(v[1])] - mesh.positions[at(v[0])], mesh.positions[at(v[2])] - mesh.positions[at(v[0])]);
+    mesh.report.degenerate_triangle_count += !(0.5 * norm(normal) > 1e-12 * longest);
+  }
+  mesh.report.smallest_angle = smallest;
+}
+
+}  // namespace
+
+Mesh Mesh::make(const MeshInput& input, Memory& memory) {
+  check_sizes(input);
+  check_triangles(input);
+  Mesh mesh(memory);
+  mesh.report.vertex_count = input.vertex_count, mesh.report.triangle_count = input.triangle_count;
+  find_frame(input, mesh);
+
+  // weld: representative given vertex of every given vertex
+  Vector<Index> representative = weld(input, memory);
+  for (std::uint32_t v = 0; v < input.vertex_count; ++v) mesh.report.welded_vertex_count += representative[v] == static_cast<Index>(v);
+
+  // usable triangles: three different corners after welding
+  mesh.triangle_of_given.assign(input.triangle_count, none);
+  mesh.corners.reserve(std::size_t{3} * input.triangle_count);
+  for (std::uint32_t t = 0; t < input.triangle_count; ++t) {
+    Index v[3];
+    for (std::size_t k = 0; k < 3; ++k) v[k] = representative[input.triangles[std::size_t{3} * t + k]];
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
+      ++mesh.report.collapsed_triangle_count;
+      continue;
+    }
+    mesh.triangle_of_given[t] = mesh.triangle_count();
+    mesh.corners.insert(mesh.corners.end(), v, v + 3);
+  }
+  if (mesh.corners.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "every triangle has equal corners%s; nothing is left of the mesh", input.weld == Weld::none ? "" : " after welding");
+
+  // inner numbering: welded vertices of usable triangles, in the order given
+  Vector<Index> inner(input.vertex_count, none, &memory);
+  for (Index& corner : mesh.corners) inner[at(corner)] = 0;
+  for (std::uint32_t v = 0; v < input.vertex_count; ++v) {
+    if (inner[v] == none) continue;
+    inner[v] = static_cast<Index>(mesh.given_of_inner.size());
+    mesh.given_of_inner.push_back(static_cast<Index>(v));
+  }
+  mesh.inner_of_given.resize(input.vertex_count);
+  for (std::uint32_t v = 0; v < input.vertex_count; ++v) {
+    mesh.inner_of_given[v] = inner[at(representative[v])];
+    mesh.report.isolated_vertex_count += mesh.inner_of_given[v] == none;
+  }
+  for (Index& corner : mesh.corners) corner = inner[at(corner)];
+
+  const std::size_t count = mesh.given_of_inner.size();
+  mesh.positions.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t v = at(mesh.given_of_inner[i]);
+    mesh.positions[i] = mesh.to_inner({input.positions.get(v, 0), input.positions.get(v, 1), input.positions.get(v, 2)});
+  }
+
+  UnionFind sets(count, memory);
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    sets.unite(mesh.triangle(t)[0], mesh.triangle(t)[1]);
+    sets.unite(mesh.triangle(t)[1], mesh.triangle(t)[2]);
+  }
+  mesh.component.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Index root = sets.find(static_cast<Index>(i));
+    mesh.component[i] = root == static_cast<Index>(i) ? static_cast<Index>(mesh.report.component_count++) : mesh.component[at(root)];
+  }
+
+  count_duplicates(mesh, memory);
+  measure_triangles(mesh);
+  return mesh;
+}
+
+}  // namespace hf

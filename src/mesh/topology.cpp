@@ -1,0 +1,79 @@
+#include "mesh/topology.h"
+
+#include <algorithm>
+
+namespace hf {
+
+Topology Topology::make(const Mesh& mesh, Memory& memory) {
+  using Index = std::int32_t;
+  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
+  Topology topology(memory);
+  const std::size_t n = mesh.positions.size(), corner_count = mesh.corners.size();
+
+  // half-edges bucketed by their smaller end, then sorted by the larger one
+  struct Half {
+    Index second, triangle;
+  };
+  Vector<Index> start(n + 1, 0, &memory);
+  for (std::size_t c = 0; c < corner_count; ++c) {
+    const std::size_t t = c / 3, k = c % 3;
+    ++start[at(std::min(mesh.corners[c], mesh.corners[3 * t + (k + 1) % 3])) + 1];
+  }
+  for (std::size_t v = 0; v < n; ++v) start[v + 1] += start[v];
+  Vector<Half> halves(corner_count, &memory);
+  Vector<Index> cursor(start.begin(), start.end() - 1, &memory);
+  for (std::size_t c = 0; c < corner_count; ++c) {
+    const std::size_t t = c / 3, k = c % 3;
+    const Index a = mesh.corners[c], b = mesh.corners[3 * t + (k + 1) % 3];
+    halves[at(cursor[at(std::min(a, b))]++)] = {std::max(a, b), static_cast<Index>(t)};
+  }
+  topology.edges.reserve(corner_count + 8);
+  topology.edge_triangle_start.reserve(corner_count / 2 + 8);
+  topology.edge_triangle.resize(corner_count);
+  for (std::size_t v = 0; v < n; ++v) {
+    const auto begin = halves.begin() + start[v], end = halves.begin() + start[v + 1];
+    std::sort(begin, end, [](const Half& a, const Half& b) { return a.second != b.second ? a.second < b.second : a.triangle < b.triangle; });
+    for (auto half = begin; half != end; ++half) {
+      if (half == begin || half->second != (half - 1)->second) {
+        topology.edge_triangle_start.push_back(static_cast<Index>(half - halves.begin()));
+        topology.edges.push_back(static_cast<Index>(v));
+        topology.edges.push_back(half->second);
+      }
+      topology.edge_triangle[static_cast<std::size_t>(half - halves.begin())] = half->triangle;
+    }
+  }
+  topology.edge_triangle_start.push_back(static_cast<Index>(corner_count));
+
+  // neighbours: edges are ordered by (first, second), so both passes fill every row in ascending order
+  topology.neighbour_start.assign(n + 1, 0);
+  for (const Index v : topology.edges) ++topology.neighbour_start[at(v) + 1];
+  for (std::size_t v = 0; v < n; ++v) topology.neighbour_start[v + 1] += topology.neighbour_start[v];
+  topology.neighbour.resize(topology.edges.size());
+  topology.neighbour_edge.resize(topology.edges.size());
+  cursor.assign(topology.neighbour_start.begin(), topology.neighbour_start.end() - 1);
+  const auto add = [&](Index from, Index to, Index edge) {
+    const std::size_t slot = at(cursor[at(from)]++);
+    topology.neighbour[slot] = to, topology.neighbour_edge[slot] = edge;
+  };
+  for (Index e = 0; e < topology.edge_count(); ++e) add(topology.second(e), topology.first(e), e);
+  for (Index e = 0; e < topology.edge_count(); ++e) add(topology.first(e), topology.second(e), e);
+  return topology;
+}
+
+void count_edges(const Mesh& mesh, const Topology& topology, MeshReport& report) noexcept {
+  const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
+  report.boundary_edge_count = report.non_manifold_edge_count = report.flipped_edge_count = 0;
+  for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
+    const std::int32_t begin = topology.edge_triangle_start[at(e)], end = topology.edge_triangle_start[at(e) + 1];
+    report.boundary_edge_count += end - begin == 1;
+    report.non_manifold_edge_count += end - begin > 2;
+    std::int32_t forward = 0;
+    for (std::int32_t i = begin; i < end; ++i) {
+      const std::int32_t* v = mesh.triangle(topology.edge_triangle[at(i)]);
+      for (int k = 0; k < 3; ++k) forward += v[k] == topology.first(e) && v[(k + 1) % 3] == topology.second(e);
+    }
+    report.flipped_edge_count += forward > 1 || end - begin - forward > 1;
+  }
+}
+
+}  // namespace hf

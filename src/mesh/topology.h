@@ -1,0 +1,29 @@
+// Edges and neighbours of a Mesh in compressed rows. Non-manifold edges keep all their triangles.
+#pragma once
+#include <cstdint>
+
+#include "mesh/mesh.h"
+
+namespace hf {
+
+struct Topology {
+  explicit Topology(Memory& memory) : edges(&memory), edge_triangle_start(&memory), edge_triangle(&memory), neighbour_start(&memory), neighbour(&memory), neighbour_edge(&memory) {}
+  static Topology make(const Mesh& mesh, Memory& memory);
+
+  std::int32_t edge_count() const noexcept { return static_cast<std::int32_t>(edges.size() / 2); }
+  // Ends of edge e, the smaller vertex first; edges ordered by (first, second).
+  std::int32_t first(std::int32_t e) const noexcept { return edges[std::size_t{2} * static_cast<std::size_t>(e)]; }
+  std::int32_t second(std::int32_t e) const noexcept { return edges[std::size_t{2} * static_cast<std::size_t>(e) + 1]; }
+
+  Vector<std::int32_t> edges;                // 2 per edge
+  Vector<std::int32_t> edge_triangle_start;  // triangles of edge e: edge_triangle[start[e] .. start[e+1])
+  Vector<std::int32_t> edge_triangle;
+  Vector<std::int32_t> neighbour_start;      // neighbours of vertex v, ascending: neighbour[start[v] .. start[v+1])
+  Vector<std::int32_t> neighbour;
+  Vector<std::int32_t> neighbour_edge;       // the edge to that neighbour
+};
+
+// Boundary, non-manifold and flipped edges into the report. An edge is flipped when two triangles run through it in one direction.
+void count_edges(const Mesh& mesh, const Topology& topology, MeshReport& report) noexcept;
+
+}  // namespace hf

@@ -1,0 +1,98 @@
+// See alignment.h.
+#include "transfer/alignment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace hf {
+namespace {
+
+struct Window {
+  double low, high;
+};
+
+std::size_t row_maximum(const double* row, std::size_t width) noexcept { return static_cast<std::size_t>(std::max_element(row, row + width) - row); }
+
+}  // namespace
+
+Mat3 checked_axes(const double (&rows)[9], const char* side) {
+  bool all_zero = true;
+  for (const double x : rows) {
+    if (!std::isfinite(x)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "the %s axes hold a number that is not finite", side);
+    all_zero = all_zero && x == 0;
+  }
+  if (all_zero) return Mat3::identity();
+  Vec3 row[3];
+  for (int i = 0; i < 3; ++i) row[i] = {rows[3 * i], rows[3 * i + 1], rows[3 * i + 2]};
+  const Vec3 third = cross(row[0], row[1]) - row[2];
+  bool good = norm(third) < 1e-3;
+  for (const Vec3& r : row) good = good && std::abs(norm(r) - 1) < 1e-3;
+  if (!good) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the %s axes must be three orthogonal unit rows right, up, forward with right x up = forward", side);
+  // exactly orthonormal
+  Mat3 axes;
+  for (int i = 0; i < 3; ++i) axes.m[i][0] = row[i].x, axes.m[i][1] = row[i].y, axes.m[i][2] = row[i].z;
+  return to_matrix(best_rotation(axes, Quaternion()));
+}
+
+double ground_height(const RestSide& side) noexcept {
+  double low = 1e300;
+  for (const Vec3& p : side.mesh->positions) low = std::min(low, dot(p, side.up()));
+  return low;
+}
+
+double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns) noexcept {
+  const std::size_t width = side.field.size() / side.area.size();
+  const double ground = ground_height(side);
+  const Vec3 up = side.up();
+  double sum = 0;
+  std::int32_t legs = 0;
+  for (const std::int32_t column : foot_columns) {
+    // coarse legs may have no vertex in the first window
+    for (const Window window : {Window{0.4, 0.6}, Window{0.3, 0.7}, Window{0.2, 0.8}}) {
+      double height = 0, area = 0;
+      for (std::size_t v = 0; v < side.area.size(); ++v) {
+        const double* row = side.field.data() + v * width;
+        const double u = row[column];
+        if (u <= window.low || u >= window.high || row_maximum(row, width) != static_cast<std::size_t>(column)) continue;
+        height += side.area[v] * (dot(side.mesh->positions[v], up) - ground), area += side.area[v];
+      }
+      if (!(area > 0)) continue;
+      sum += height / area, ++legs;
+      break;
+    }
+  }
+  return legs == static_cast<std::int32_t>(foot_columns.size()) && legs > 0 ? sum / legs : 0.0;
+}
+
+bool limb_direction(const RestSide& side, std::int32_t column, Vec3 region_centroid, Vec3& direction) noexcept {
+  const std::size_t width = side.field.size() / side.area.size();
+  Vec3 centroid;
+  double area = 0;
+  for (std::size_t v = 0; v < side.area.size(); ++v) {
+    const double* row = side.field.data() + v * width;
+    const double u = row[column];
+    if (u <= 0.4 || u >= 0.65 || row_maximum(row, width) != static_cast<std::size_t>(column)) continue;
+    centroid = centroid + side.area[v] * side.mesh->positions[v];
+    area += side.area[v];
+  }
+  if (!(area > 0)) return false;
+  direction = region_centroid - (1 / area) * centroid;
+  return true;
+}
+
+Quaternion minimal_rotation(Vec3 from, Vec3 to, Vec3 axis) noexcept {
+  const Vec3 a = (1 / norm(from)) * from, b = (1 / norm(to)) * to;
+  const Vec3 c = cross(a, b);
+  const double w = 1 + dot(a, b);
+  if (w > 1e-6) return normalised({c.x, c.y, c.z, w});
+  Vec3 turn = axis - dot(axis, a) * a;
+  if (norm(turn) < 1e-6) turn = cross(a, std::abs(a.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
+  turn = (1 / norm(turn)) * turn;
+  return {turn.x, turn.y, turn.z, 0};
+}
+
+Quaternion power(const Quaternion& q, double w) noexcept { return exponential(w * logarithm(q)); }
+
+}  // namespace hf

@@ -1,0 +1,315 @@
+// See clusters.h.
+#include "transfer/clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hf {
+namespace {
+
+constexpr std::int32_t nearest_count = 15;      // source vertices a kernel reaches at one width
+constexpr double cut = 3;                       // kernels end at so many widths
+constexpr double broad_factor = 4;
+constexpr std::size_t most_narrow = 4096, most_broad = 1024;  // vertices of a kernel; more are thinned evenly
+constexpr double paper_exponent = 4;
+std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+double squared_distance(const double* a, const double* b, std::int32_t count) noexcept {
+  double sum = 0;
+  for (std::int32_t i = 0; i < count; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sum;
+}
+
+// The five nearest centres of every target vertex, kept while centres are added.
+struct NearestCentres {
+  static constexpr std::int32_t kept = blend_count + 1;
+  double distance[kept];
+  std::int32_t cluster[kept];
+  void insert(double d, std::int32_t c) noexcept {
+    if (d >= distance[kept - 1]) return;
+    std::int32_t i = kept - 1;
+    for (; i > 0 && distance[i - 1] > d; --i) distance[i] = distance[i - 1], cluster[i] = cluster[i - 1];
+    distance[i] = d, cluster[i] = c;
+  }
+};
+
+constexpr std::int32_t block = 2048;
+
+// Farthest-point sampling of the rows, starting at the row with the largest maximum.
+void sample_centres(const ClusterOptions& options, std::int32_t width, Span<const double> field, Clusters& out, Vector<NearestCentres>& nearest, Memory& memory,
+                    JobRunner& jobs) {
+  const std::size_t n = field.size() / at(width);
+  const std::int32_t wanted = options.cluster_count ? options.cluster_count : 80;
+  NearestCentres empty;
+  std::fill(std::begin(empty.distance), std::end(empty.distance), std::numeric_limits<double>::infinity());
+  std::fill(std::begin(empty.cluster), std::end(empty.cluster), -1);
+  nearest.assign(n, empty);
+  std::size_t next = 0;
+  double largest = -1;
+  for (std::size_t v = 0; v < n; ++v) {
+    const double m = *std::max_element(field.data() + v * at(width), field.data() + (v + 1) * at(width));
+    if (m > largest) largest = m, next = v;
+  }
+  const auto blocks = static_cast<std::uint32_t>((n + block - 1) / block);
+  Vector<std::size_t> farthest(blocks, std::size_t{0}, &memory);
+  const double redundant = 0.25 * options.kernel_width;  // closer centres say the same
+  while (out.count < wanted) {
+    const std::int32_t c = out.count++;
+    out.centre.insert(out.centre.end(), field.data() + next * at(width), field.data() + (next + 1) * at(width));
+    const double* centre = out.centre.data() + at(c * width);
+    jobs.for_each(blocks, [&](std::uint32_t b) {
+      const std::size_t first = std::size_t{b} * block, last = std::min(n, first + block);
+      farthest[b] = first;
+      for (std::size_t v = first; v < last; ++v) {
+        nearest[v].insert(squared_distance(field.data() + v * at(width), centre, width), c);
+        if (nearest[v].distance[0] > nearest[farthest[b]].distance[0]) farthest[b] = v;
+      }
+    });
+    next = farthest[0];
+    for (const std::size_t v : farthest) {
+      if (nearest[v].distance[0] > nearest[next].distance[0]) next = v;
+    }
+    if (nearest[next].distance[0] <= redundant * redundant) break;
+  }
+  out.field_count = width;
+}
+
+void weigh_by_distance(const ClusterOptions& options, const Vector<NearestCentres>& nearest, Clusters& out) {
+  const double sharpness = 1.0 / (2 * options.kernel_width * options.kernel_width);
+  for (std::size_t v = 0; v < nearest.size(); ++v) {
+    const NearestCentres& near = nearest[v];
+    Candidate candidates[blend_count];
+    std::int32_t count = 0;
+    // relative to the nearest, less the value at the fifth: continuous where the four change
+    const double last = near.cluster[blend_count] < 0 ? 0.0 : std::exp(-sharpness * (near.distance[blend_count] - near.distance[0]));
+    for (std::int32_t i = 0; i < blend_count && near.cluster[i] >= 0; ++i) {
+      candidates[count].cluster = near.cluster[i];
+      candidates[count++].weight = std::exp(-sharpness * (near.distance[i] - near.distance[0])) - last;
+    }
+    write_weights(candidates, count, out.joint.data() + v * blend_count, out.weight.data() + v * blend_count);
+  }
+}
+
+// Hat function of band k of K over [0, 1], times u^4.
+double band_weight(double u, std::int32_t band, std::int32_t bands) noexcept {
+  const double hat = 1 - std::abs(u * (bands - 1) - band);
+  return hat > 0 ? hat * std::pow(u, paper_exponent) : 0.0;
+}
+
+void weigh_by_bands(std::int32_t width, std::int32_t bands, Span<const double> field, Clusters& out, Memory& memory) {
+  Vector<Candidate> candidates(at(2 * width), &memory);
+  for (std::size_t v = 0; v < field.size() / at(width); ++v) {
+    std::int32_t count = 0;
+    for (std::int32_t h = 0; h < width; ++h) {
+      const double u = field[v * at(width) + at(h)];
+      const auto low = std::min(bands - 2, static_cast<std::int32_t>(u * (bands - 1)));
+      for (std::int32_t k = low; k <= low + 1; ++k) {
+        const double w = band_weight(u, k, bands);
+        if (w > 0) candidates[at(count)].cluster = h * bands + k, candidates[at(count++)].weight = w;
+      }
+    }
+    write_weights(candidates.data(), count, out.joint.data() + v * blend_count, out.weight.data() + v * blend_count);
+  }
+}
+
+// Writes the entries of one kernel, thinned evenly, normalised; an empty one falls back to the vertex given.
+struct KernelRow {
+  explicit KernelRow(Memory& memory) : vertex(&memory), weight(&memory) {}
+  Vector<std::int32_t> vertex;
+  Vector<double> weight;
+};
+
+void thin(KernelRow& row, std::size_t most) {
+  const std::size_t size = row.vertex.size();
+  if (size <= most) return;
+  for (std::size_t i = 0; i < most; ++i) {
+    const std::size_t from = i * size / most;
+    row.vertex[i] = row.vertex[from], row.weight[i] = row.weight[from];
+  }
+  row.vertex.resize(most), row.weight.resize(most);
+}
+
+void finish(KernelRow& row, std::size_t most, std::int32_t fallback) {
+  thin(row, most);
+  double sum = 0;
+  for (const double w : row.weight) sum += w;
+  if (!(sum > 0)) {
+    row.vertex.assign(1, fallback), row.weight.assign(1, 1.0);
+    return;
+  }
+  for (double& w : row.weight) w /= sum;
+}
+
+void append(const KernelRow& row, const Mesh& mesh, SourceKernels& out) {
+  if (out.start.empty()) out.start.push_back(0);
+  Vec3 centroid;
+  for (std::size_t i = 0; i < row.vertex.size(); ++i) centroid = centroid + row.weight[i] * mesh.positions[at(row.vertex[i])];
+  double spread = 0;
+  for (std::size_t i = 0; i < row.vertex.size(); ++i) {
+    const Vec3 p = mesh.positions[at(row.vertex[i])] - centroid;
+    spread += row.weight[i] * dot(p, p);
+  }
+  out.vertex.insert(out.vertex.end(), row.vertex.begin(), row.vertex.end());
+  out.weight.insert(out.weight.end(), row.weight.begin(), row.weight.end());
+  out.start.push_back(static_cast<std::int32_t>(out.vertex.size()));
+  out.centroid.push_back(centroid), out.spread.push_back(spread);
+}
+
+struct ClusterRows {
+  explicit ClusterRows(Memory& memory) : narrow(memory), broad(memory) {}
+  KernelRow narrow, broad;
+  std::int32_t support = 0;
+};
+
+// Gaussian kernels around a centre; widths adapt to how dense the source is there.
+void centre_rows(const ClusterOptions& options, const double* centre, std::int32_t width, Span<const double> field, Span<const double> area, ClusterRows& out, Memory& memory) {
+  const std::size_t n = area.size();
+  Vector<double> distance(n, &memory), sorted(&memory);
+  for (std::size_t v = 0; v < n; ++v) distance[v] = std::sqrt(squared_distance(field.data() + v * at(width), centre, width));
+  sorted = distance;
+  const double base = options.kernel_width;
+  for (const bool is_broad : {false, true}) {
+    const double factor = is_broad ? broad_factor : 1.0;
+    const std::size_t m = std::min(n - 1, static_cast<std::size_t>(factor * nearest_count) - 1);
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(m), sorted.end());
+    const double s = std::max(factor * base, sorted[m]);
+    KernelRow& row = is_broad ? out.broad : out.narrow;
+    for (std::size_t v = 0; v < n; ++v) {
+      if (distance[v] > cut * s) continue;
+      row.vertex.push_back(static_cast<std::int32_t>(v));
+      row.weight.push_back(area[v] * std::exp(-0.5 * distance[v] * distance[v] / (s * s)));
+    }
+  }
+  std::int32_t nearest = 0;
+  for (std::size_t v = 0; v < n; ++v) {
+    if (distance[v] <= cut * base) ++out.support;
+    if (distance[v] < distance[at(nearest)]) nearest = static_cast<std::int32_t>(v);
+  }
+  finish(out.narrow, most_narrow, nearest), finish(out.broad, most_broad, nearest);
+}
+
+// The paper's: the band's own weight, and the three bands around it for the broad kernel.
+void band_rows(std::int32_t h, std::int32_t band, std::int32_t bands, std::int32_t width, Span<const double> field, Span<const double> area, ClusterRows& out) {
+  std::int32_t nearest = 0;
+  double best = 2;
+  const double level = static_cast<double>(band) / (bands - 1);
+  for (std::size_t v = 0; v < area.size(); ++v) {
+    const double u = field[v * at(width) + at(h)];
+    const double narrow = band_weight(u, band, bands);
+    const double around = 1 - std::abs(u * (bands - 1) - band) / 3;
+    if (narrow > 0) out.narrow.vertex.push_back(static_cast<std::int32_t>(v)), out.narrow.weight.push_back(area[v] * narrow), ++out.support;
+    if (around > 0) out.broad.vertex.push_back(static_cast<std::int32_t>(v)), out.broad.weight.push_back(area[v] * around * (u * u + 1e-6));
+    if (std::abs(u - level) < best) best = std::abs(u - level), nearest = static_cast<std::int32_t>(v);
+  }
+  finish(out.narrow, most_narrow, nearest), finish(out.broad, most_broad, nearest);
+}
+
+// Mass and centroid of every cluster on the target; clusters nobody uses are left out and the others renumbered.
+void measure_target(Span<const double> area, const Mesh& mesh, Clusters& out, Vector<std::int32_t>& kept, Memory& memory) {
+  Vector<double> mass(at(out.count), 0.0, &memory);
+  Vector<Vec3> pivot(at(out.count), &memory);
+  for (std::size_t v = 0; v < area.size(); ++v) {
+    for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
+      const double w = area[v] * static_cast<double>(out.weight[i]);
+      mass[at(out.joint[i])] += w;
+      pivot[at(out.joint[i])] = pivot[at(out.joint[i])] + w * mesh.positions[v];
+    }
+  }
+  Vector<std::int32_t> renumbered(at(out.count), 0, &memory);
+  for (std::int32_t c = 0; c < out.count; ++c) {
+    if (!(mass[at(c)] > 0)) continue;
+    renumbered[at(c)] = static_cast<std::int32_t>(kept.size());
+    kept.push_back(c);
+    out.mass.push_back(mass[at(c)]);
+    out.pivot.push_back((1 / mass[at(c)]) * pivot[at(c)]);
+  }
+  for (std::int32_t& joint : out.joint) joint = renumbered[at(joint)];
+}
+
+}  // namespace
+
+void write_weights(Candidate* candidates, std::int32_t count, std::int32_t* joint, float* weight) noexcept {
+  std::sort(candidates, candidates + count, [](const Candidate& a, const Candidate& b) { return a.weight != b.weight ? a.weight > b.weight : a.cluster < b.cluster; });
+  count = std::min(count, blend_count);
+  double sum = 0;
+  for (std::int32_t i = 0; i < count; ++i) sum += candidates[i].weight;
+  if (!(sum > 0)) {  // all four at one distance with the fifth
+    for (std::int32_t i = 0; i < count; ++i) candidates[i].weight = 1, sum += 1;
+  }
+  constexpr double unit = 16777216.0;  // 2^24
+  double rest = unit;
+  for (std::int32_t i = blend_count - 1; i >= 0; --i) {
+    const double units = i == 0 ? rest : i < count ? std::floor(unit * candidates[i].weight / sum) : 0.0;
+    rest -= units;
+    joint[i] = units > 0 ? candidates[i].cluster : count > 0 ? candidates[0].cluster : 0;
+    weight[i] = static_cast<float>(units / unit);
+  }
+}
+
+Vector<double> area_shares(const Mesh& mesh, Memory& memory) {
+  Vector<double> area = vertex_areas(mesh, memory);
+  double sum = 0;
+  for (const double a : area) sum += a;
+  const double floor = sum > 0 ? 1e-6 * sum / static_cast<double>(area.size()) : 1.0;
+  sum = 0;
+  for (double& a : area) a = std::max(a, floor), sum += a;
+  for (double& a : area) a /= sum;
+  return area;
+}
+
+Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, Span<const double> source_field, Span<const double> source_area, const Mesh& source_mesh,
+                       Span<const double> target_field, Span<const double> target_area, const Mesh& target_mesh, Memory& memory, JobRunner& jobs) {
+  Clusters out(memory);
+  out.field_count = field_count;
+  const std::size_t n = target_area.size();
+  out.joint.resize(n * blend_count), out.weight.resize(n * blend_count);
+  std::int32_t bands = 0;
+  if (options.paper_bands) {
+    bands = options.cluster_count ? std::clamp(options.cluster_count / field_count, 2, 64) : 8;
+    out.count = bands * field_count;
+    weigh_by_bands(field_count, bands, target_field, out, memory);
+  } else {
+    Vector<NearestCentres> nearest(&memory);
+    sample_centres(options, field_count, target_field, out, nearest, memory, jobs);
+    weigh_by_distance(options, nearest, out);
+  }
+  Vector<std::int32_t> kept(&memory);
+  measure_target(target_area, target_mesh, out, kept, memory);
+
+  Vector<ClusterRows> rows(&memory);
+  rows.reserve(kept.size());
+  for (std::size_t c = 0; c < kept.size(); ++c) rows.emplace_back(memory);
+  jobs.for_each(static_cast<std::uint32_t>(kept.size()), [&](std::uint32_t c) {
+    if (options.paper_bands) {
+      band_rows(kept[c] / bands, kept[c] % bands, bands, field_count, source_field, source_area, rows[c]);
+    } else {
+      centre_rows(options, out.centre.data() + at(kept[c] * field_count), field_count, source_field, source_area, rows[c], memory);
+    }
+  });
+
+  // centres of the clusters that are left; of a band the area mean of its rows
+  Vector<double> centres(kept.size() * at(field_count), 0.0, &memory);
+  if (!options.paper_bands) {
+    for (std::size_t c = 0; c < kept.size(); ++c) {
+      std::copy_n(out.centre.data() + at(kept[c] * field_count), field_count, centres.data() + c * at(field_count));
+    }
+  } else {
+    for (std::size_t v = 0; v < n; ++v) {
+      for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
+        const std::size_t c = at(out.joint[i]);
+        const double w = target_area[v] * static_cast<double>(out.weight[i]) / out.mass[c];
+        for (std::int32_t h = 0; h < field_count; ++h) centres[c * at(field_count) + at(h)] += w * target_field[v * at(field_count) + at(h)];
+      }
+    }
+  }
+  out.centre.swap(centres);
+  out.count = static_cast<std::int32_t>(kept.size());
+  for (const ClusterRows& row : rows) {
+    append(row.narrow, source_mesh, out.narrow), append(row.broad, source_mesh, out.broad);
+    out.support.push_back(row.support);
+  }
+  return out;
+}
+
+}  // namespace hf

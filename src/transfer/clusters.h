@@ -1,0 +1,62 @@
+// Corresponding clusters of two surfaces with the same harmonic coordinates U (pair_fields.h).
+//
+// Default: a cluster is a kernel exp(-|U(v) - c|^2 / 2 s^2) around a centre c in the space of all fields; centres are a farthest-point sample of the
+// target's rows. The same centre on source and target is the correspondence of iso-levels of Xu et al. 2009, Section 6, in all fields at once.
+// Paper: a cluster is a level band of one field, a hat function of u_h times u_h^4, the same function on both surfaces.
+//
+// Target: each vertex keeps its four largest weights, brought to zero where a fifth would take over, multiples of 2^-24 that sum to exactly 1.
+// Source: a kernel per cluster with the width at least the distance of the 15th nearest vertex (coarse meshes), cut at three widths, and a
+// broad one four times as wide that steadies the first. Kernels are normalised and carry vertex areas.
+// Cost: O(n C H) once per change of pairs.
+#pragma once
+#include <cstdint>
+
+#include "base/jobs.h"
+#include "base/span.h"
+#include "engine/core.h"
+
+namespace hf {
+
+constexpr std::int32_t blend_count = 4;  // clusters per target vertex
+
+struct ClusterOptions {
+  bool paper_bands = false;
+  std::int32_t cluster_count = 0;  // 0 = 80, or eight bands per field
+  double kernel_width = 0.04;
+};
+
+// Compressed rows: for each cluster source vertices and weights that sum to 1, and their rest centroid.
+struct SourceKernels {
+  explicit SourceKernels(Memory& memory) : start(&memory), vertex(&memory), weight(&memory), centroid(&memory), spread(&memory) {}
+  Vector<std::int32_t> start, vertex;
+  Vector<double> weight;
+  Vector<Vec3> centroid;
+  Vector<double> spread;  // sum w |p - centroid|^2
+};
+
+struct Clusters {
+  explicit Clusters(Memory& memory) : centre(&memory), joint(&memory), weight(&memory), mass(&memory), pivot(&memory), support(&memory), narrow(memory), broad(memory) {}
+  std::int32_t count = 0, field_count = 0;
+  Vector<double> centre;       // count x field_count
+  Vector<std::int32_t> joint;  // blend_count per target vertex, by falling weight
+  Vector<float> weight;
+  Vector<double> mass;         // share of the target's area, summing to 1
+  Vector<Vec3> pivot;          // rest centroid on the target, inner coordinates
+  Vector<std::int32_t> support;  // source vertices within three base widths: few of them make a cluster uncertain
+  SourceKernels narrow, broad;
+};
+
+// Vertex areas of a mesh, normalised to sum 1; floored, so that no vertex is without weight.
+Vector<double> area_shares(const Mesh& mesh, Memory& memory);
+
+Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, Span<const double> source_field, Span<const double> source_area, const Mesh& source_mesh,
+                       Span<const double> target_field, Span<const double> target_area, const Mesh& target_mesh, Memory& memory, JobRunner& jobs);
+
+// The four (or fewer) weights of one vertex from `count` candidates, as multiples of 2^-24 with sum exactly 1; sorts the candidates.
+struct Candidate {
+  std::int32_t cluster = 0;
+  double weight = 0;
+};
+void write_weights(Candidate* candidates, std::int32_t count, std::int32_t* joint, float* weight) noexcept;
+
+}  // namespace hf

@@ -1,0 +1,106 @@
+// See pair_fields.h.
+#include "transfer/pair_fields.h"
+
+#include "base/error.h"
+
+namespace hf {
+namespace {
+constexpr std::int32_t none = -1;
+std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+}  // namespace
+
+PairFields::PairFields(std::shared_ptr<const Core> core)
+    : core_(std::move(core)),
+      solver_(SiteSolver::make(EngineKind::green, core_, 0)),
+      owner_(at(core_->size()), none, core_->memory.get()),
+      regions_(core_->memory.get()),
+      slot_used_(core_->memory.get()) {}
+
+PairFields::PairFields(const PairFields& other)
+    : core_(other.core_),
+      solver_(other.solver_->clone()),
+      owner_(other.owner_, core_->memory.get()),
+      regions_(other.regions_, core_->memory.get()),
+      slot_used_(other.slot_used_, core_->memory.get()) {}
+
+void PairFields::add(Span<const std::uint32_t> numbers, Span<const Span<const std::int32_t>> regions, const char* side) {
+  Memory& memory = *core_->memory;
+  // check all before anything changes
+  Vector<std::int32_t> claimed(owner_, &memory);
+  std::uint32_t position = 0;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    if (regions[i].empty()) {
+      fail(HF_ERROR_EMPTY, static_cast<std::uint32_t>(i), "pair %zu of the batch has no vertex on the %s; give at least one", i, side);
+    }
+    for (const std::int32_t v : regions[i]) {
+      if (v < 0 || v >= core_->size()) {
+        fail(HF_ERROR_OUT_OF_RANGE, position, "entry %u of the %s regions is not a vertex of the surface", position, side);
+      }
+      const auto mine = static_cast<std::int32_t>(numbers[i]);
+      if (claimed[at(v)] != none && claimed[at(v)] != mine) {
+        fail(HF_ERROR_OVERLAP, position, "entry %u of the %s regions belongs to another pair already; regions must not overlap", position, side);
+      }
+      claimed[at(v)] = mine;
+      ++position;
+    }
+  }
+
+  owner_.swap(claimed);
+  Vector<std::int32_t> slots(&memory);
+  Vector<Site> sites(&memory);
+  std::size_t slot = 0;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    std::shared_ptr<HandleRegion> region = make_region(*core_, regions[i], 0, memory);
+    for (const std::int32_t v : region->sites) {
+      while (slot < slot_used_.size() && slot_used_[slot]) ++slot;
+      if (slot == slot_used_.size()) slot_used_.push_back(0);
+      slot_used_[slot] = 1;
+      region->slots.push_back(static_cast<std::int32_t>(slot));
+      slots.push_back(static_cast<std::int32_t>(slot));
+      sites.push_back(Site::at_vertex(core_->mesh, v));
+    }
+    if (regions_.size() <= numbers[i]) regions_.resize(numbers[i] + 1);
+    regions_[numbers[i]] = std::move(region);
+  }
+  SiteEdit edit;
+  edit.add = slots;
+  edit.sites = sites;
+  solver_->edit(edit);
+}
+
+void PairFields::remove(Span<const std::uint32_t> numbers) {
+  Vector<std::int32_t> slots(core_->memory.get());
+  for (const std::uint32_t number : numbers) {
+    const HandleRegion& region = *regions_[number];
+    slots.insert(slots.end(), region.slots.begin(), region.slots.end());
+    for (const std::int32_t v : region.vertices) owner_[at(v)] = none;
+    regions_[number].reset();
+  }
+  for (const std::int32_t slot : slots) slot_used_[at(slot)] = 0;
+  SiteEdit edit;
+  edit.remove = slots;
+  solver_->edit(edit);
+}
+
+void PairFields::solve(Span<const std::uint32_t> numbers, double* field, double* leaks) const {
+  Memory& memory = *core_->memory;
+  Handles handles(&memory);
+  for (const std::uint32_t number : numbers) handles.push_back({number, regions_[number]});
+  const Reach reach(core_->mesh, handles, memory);
+  const HandleFields fields = solve_handle_fields(*core_, *solver_, handles, reach, memory);
+  const std::size_t count = numbers.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* column = fields.of(static_cast<std::int32_t>(i));
+    for (std::size_t v = 0; v < owner_.size(); ++v) field[v * count + i] = column[v];
+    leaks[i] = fields.leak[i];
+  }
+  Vector<std::uint8_t> reached(at(core_->mesh.component_count()), std::uint8_t{0}, &memory);
+  bool any_island = false;
+  for (std::size_t c = 0; c < reached.size(); ++c) {
+    reached[c] = !reach.handles_of(static_cast<std::int32_t>(c)).empty();
+    any_island = any_island || !reached[c];
+  }
+  if (any_island) attach_islands(*core_, {reached.data(), reached.size()}, static_cast<std::int32_t>(count), field);
+}
+
+}  // namespace hf

@@ -1,0 +1,78 @@
+// See source_rotations.h.
+#include "transfer/source_rotations.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hf {
+namespace {
+
+constexpr double prior = 0.02;         // of the broad rotation, in spreads of the cluster
+constexpr double broad_prior = 1e-3;   // of the rotation of the whole
+constexpr std::size_t most_sampled = 4096;
+std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+Quaternion kernel_rotation(const Mesh& mesh, const SourceKernels& kernels, std::int32_t c, const Vec3* posed, double share, const Quaternion& guide) noexcept {
+  const std::int32_t first = kernels.start[at(c)], last = kernels.start[at(c) + 1];
+  const Vec3 centroid = kernels.centroid[at(c)];
+  const Vec3 origin = posed[kernels.vertex[at(first)]];  // any point near the cluster: keeps the digits of far-away poses
+  Mat3 moment;
+  for (std::int32_t i = first; i < last; ++i) {
+    const std::int32_t v = kernels.vertex[at(i)];
+    add_outer(moment, kernels.weight[at(i)], posed[v] - origin, mesh.positions[at(v)] - centroid);
+  }
+  const double spread = kernels.spread[at(c)];
+  if (!(spread > 0)) return guide;
+  return best_rotation((1 / spread) * moment + share * to_matrix(guide), guide);
+}
+
+}  // namespace
+
+void SourceRotations::prepare(const Mesh& mesh, Span<const double> area) {
+  const std::size_t count = std::min(area.size(), most_sampled);
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t v = i * area.size() / count;
+    sample_.push_back(static_cast<std::int32_t>(v)), sample_weight_.push_back(area[v]);
+    sum += area[v];
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    sample_weight_[i] /= sum;
+    sample_centroid_ = sample_centroid_ + sample_weight_[i] * mesh.positions[at(sample_[i])];
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 p = mesh.positions[at(sample_[i])] - sample_centroid_;
+    sample_spread_ += sample_weight_[i] * dot(p, p);
+  }
+}
+
+WholeMotion SourceRotations::whole(const Mesh& mesh, Span<const double> area, const Vec3* posed) const noexcept {
+  WholeMotion out;
+  for (std::size_t v = 0; v < area.size(); ++v) {
+    out.rest_centroid = out.rest_centroid + area[v] * mesh.positions[v];
+    out.centroid = out.centroid + area[v] * posed[v];
+  }
+  Mat3 moment;
+  for (std::size_t i = 0; i < sample_.size(); ++i) {
+    add_outer(moment, sample_weight_[i], posed[sample_[i]] - out.centroid, mesh.positions[at(sample_[i])] - sample_centroid_);
+  }
+  if (sample_spread_ > 0) out.rotation = best_rotation((1 / sample_spread_) * moment, Quaternion());
+  const Mat3 rotation = to_matrix(out.rotation);
+  double sum = 0;
+  for (std::size_t i = 0; i < sample_.size(); ++i) {
+    const Vec3 d = posed[sample_[i]] - out.centroid - rotation * (mesh.positions[at(sample_[i])] - out.rest_centroid);
+    sum += sample_weight_[i] * dot(d, d);
+  }
+  out.residual = std::sqrt(sum);
+  return out;
+}
+
+void SourceRotations::clusters(const Mesh& mesh, const Clusters& clusters, const Vec3* posed, const Quaternion& whole, Quaternion* out, JobRunner& jobs) const {
+  jobs.for_each(static_cast<std::uint32_t>(clusters.count), [&](std::uint32_t i) {
+    const auto c = static_cast<std::int32_t>(i);
+    const Quaternion broad = kernel_rotation(mesh, clusters.broad, c, posed, broad_prior, whole);
+    out[i] = kernel_rotation(mesh, clusters.narrow, c, posed, prior, broad);
+  });
+}
+
+}  // namespace hf

@@ -1,0 +1,37 @@
+// How each cluster of the source has turned in a posed frame.
+//
+//     M_c = sum_v w_cv q_v (p_v - p_c)',   R_c = argmax tr(R' (M_c + e s_c R_b)),   R_b likewise from the broad kernel and the rotation of the whole,
+//
+// p the rest, q the posed vertices, s_c the rest spread of the cluster, e = 0.02 (shape matching, Mueller et al. 2005, with the broad cluster as a prior that decides
+// the twist of thin, flat and collinear clusters). For q = R p + t every R_c is R: M_c = R S and R S + e R = R (S + e I).
+// Cost: the sum of the kernel sizes and three 4 x 4 eigenproblems per cluster. Allocates nothing.
+#pragma once
+#include "deform/rotation.h"
+#include "transfer/clusters.h"
+
+namespace hf {
+
+// The source as a whole: rotation, area centroid, and how far from rigid the frame is.
+struct WholeMotion {
+  Quaternion rotation;
+  Vec3 rest_centroid, centroid;
+  double residual = 0;  // root mean square of q - (R (p - rest_centroid) + centroid)
+};
+
+class SourceRotations {
+ public:
+  explicit SourceRotations(Memory& memory) : sample_(&memory), sample_weight_(&memory) {}
+  void prepare(const Mesh& mesh, Span<const double> area);
+
+  // posed: inner coordinates of the source.
+  WholeMotion whole(const Mesh& mesh, Span<const double> area, const Vec3* posed) const noexcept;
+  void clusters(const Mesh& mesh, const Clusters& clusters, const Vec3* posed, const Quaternion& whole, Quaternion* out, JobRunner& jobs) const;
+
+ private:
+  Vector<std::int32_t> sample_;  // at most 4096 vertices for the rotation of the whole
+  Vector<double> sample_weight_;
+  Vec3 sample_centroid_;
+  double sample_spread_ = 0;
+};
+
+}  // namespace hf

@@ -1,0 +1,98 @@
+// The motion of one surface played on another: what stands behind hf_transfer_*.
+//
+// pairs of regions -> the same harmonic coordinates on both surfaces (pair_fields) -> corresponding clusters (clusters) -> per frame: rotations of the
+// source's clusters (source_rotations), axes and rest alignment (alignment), translations of the target's clusters (translations), blend of four per
+// vertex. Xu, Zhang, Cohen-Or and Xiong 2009, Section 6; departures from the paper are named in those files.
+//
+// Pairs come and go at any time on both sides; no factor is touched. What depends on them is made again at the next question (pair_info, apply, skin).
+// Anchors: the target's region goes where the source's went, y = c + s A (q - p), s the scale; when the source turns or falls as a whole (or moves rigidly) the offsets
+// between the two rest shapes turn with it. A foot is kept from sinking deeper under the ground of the rest shape than its source does.
+// Everything is all or nothing. apply() allocates nothing once prepared. Results do not depend on the number of threads.
+#pragma once
+#include <cstdint>
+#include <memory>
+
+#include "hf/transfer.h"
+#include "transfer/alignment.h"
+#include "transfer/clusters.h"
+#include "transfer/pair_fields.h"
+#include "transfer/source_rotations.h"
+#include "transfer/translations.h"
+
+namespace hf {
+
+struct TransferOptions {
+  std::int32_t mode = HF_TRANSFER_FIELDS;
+  std::uint32_t cluster_count = 0;  // 0 = 80; paper mode: 0 = eight bands per pair
+  double kernel_width = 0;          // 0 = 0.04
+  double scale = 0;                 // 0 = from the legs, or the boxes
+  double alignment_angle = 0;       // radians; 0 = 40 degrees; negative = never
+  double source_axes[9] = {0};      // rows right, up, forward; zero = x, y, z
+  double target_axes[9] = {0};
+};
+
+struct PairInput {
+  Span<const std::int32_t> source, target;  // inner vertices; may repeat
+  std::uint32_t flags = 0;                  // HF_PAIR_*
+};
+
+struct PairInfo {
+  std::uint32_t flags = 0;
+  double source_leak = 0, target_leak = 0;
+  double alignment_angle = -1;  // negative = unknown
+  double confidence = 0;
+  bool aligned = false;
+};
+
+class Transfer {
+ public:
+  // Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE for bad options.
+  Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target, const TransferOptions& options);
+  ~Transfer();
+  Transfer(const Transfer&) = delete;
+  Transfer& operator=(const Transfer&) = delete;
+
+  // out_pairs: null, or one number per pair. Errors of PairFields::add; HF_ERROR_TOO_LARGE above 256 pairs, HF_ERROR_INVALID_ARGUMENT for unknown flags.
+  void add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs);
+  // HF_ERROR_NO_SUCH_PAIR (index = position in the list), also for a number named twice.
+  void remove_pairs(Span<const std::uint32_t> pairs);
+  std::uint32_t pair_count() const noexcept { return static_cast<std::uint32_t>(numbers_.size()); }
+
+  PairInfo pair_info(std::uint32_t pair);
+
+  // source: posed inner vertices of the source in given units; out: inner vertices of the target in given units.
+  // HF_ERROR_EMPTY without a pair, HF_ERROR_NON_FINITE (index = inner vertex of the source).
+  void apply(const Vec3* source, Vec3* out);
+
+  // The skin of the last frame (at rest when there was none since the pairs changed).
+  std::int32_t cluster_count();
+  // Each null or cluster_count() long, in given units: rest centroid, rotation, posed place of the centroid.
+  void skin_motion(Vec3* pivots, Quaternion* rotations, Vec3* places);
+  // joint[weight_count], weight[weight_count] of an inner vertex of the target, falling, summing to 1 exactly; weight_count 4 or 8.
+  void skin_weights(std::int32_t vertex, std::uint32_t weight_count, std::uint32_t* joints, float* weights);
+
+  const Core& source() const noexcept { return *source_core_; }
+  const Core& target() const noexcept { return *target_core_; }
+  double scale();  // target lengths over source lengths as used, given units
+  EngineCounters source_counters() const noexcept { return source_.counters(); }
+  EngineCounters target_counters() const noexcept { return target_.counters(); }
+
+ private:
+  struct Prepared;
+  Prepared& prepare();
+  void prepare_alignment(Prepared& p) const;
+  void prepare_anchors(Prepared& p) const;
+  void place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const;
+
+  std::shared_ptr<const Core> source_core_, target_core_;
+  TransferOptions options_;
+  Mat3 source_axes_, target_axes_;
+  Quaternion axes_;  // A
+  PairFields source_, target_;
+  Vector<std::uint32_t> numbers_;  // pairs in use, ascending: the order of the fields
+  Vector<std::uint32_t> flags_;    // by number
+  Vector<double> source_area_, target_area_;
+  std::shared_ptr<Prepared> prepared_;
+};
+
+}  // namespace hf

@@ -1,0 +1,183 @@
+// See translations.h.
+#include "transfer/translations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hf {
+namespace {
+
+constexpr double steepest = 50;  // largest cotangent weight that counts
+std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+template <class Matrix>
+double trace(const Matrix& matrix, std::size_t count) noexcept {
+  double sum = 0;
+  for (std::size_t c = 0; c < count; ++c) sum += matrix[c * count + c];
+  return sum;
+}
+
+void add_point(Vector<double>& table, std::size_t entry, double w, Vec3 p) noexcept {
+  table[3 * entry] += w * p.x, table[3 * entry + 1] += w * p.y, table[3 * entry + 2] += w * p.z;
+}
+
+}  // namespace
+
+void Translations::add_overlap(Span<const double> area, const Core& target, const Clusters& clusters, Buffer<double>& matrix, Vector<double>& table) const {
+  const std::size_t count = at(count_);
+  for (std::size_t v = 0; v < area.size(); ++v) {
+    const std::int32_t* joint = clusters.joint.data() + v * blend_count;
+    const float* weight = clusters.weight.data() + v * blend_count;
+    for (std::int32_t i = 0; i < blend_count; ++i) {
+      for (std::int32_t j = 0; j < blend_count; ++j) {
+        if (joint[i] == joint[j] || weight[i] <= 0 || weight[j] <= 0) continue;
+        const double w = area[v] * static_cast<double>(weight[i]) * static_cast<double>(weight[j]);
+        const std::size_t c = at(joint[i]), d = at(joint[j]);
+        matrix[c * count + c] += w, matrix[c * count + d] -= w;
+        add_point(table, c * count + d, w, target.mesh.positions[v]);
+        add_point(table, c * count + c, -w, target.mesh.positions[v]);
+      }
+    }
+  }
+}
+
+void Translations::add_spread(const Core& target, const Clusters& clusters, double share, Buffer<double>& matrix, Vector<double>& table) const {
+  const std::size_t count = at(count_);
+  Memory& memory = *target.memory;
+  Vector<double> own_matrix(count * count, 0.0, &memory), own_table(3 * count * count, 0.0, &memory);
+  double floor = 0;
+  for (const double w : target.weights) floor += std::abs(w);
+  floor = 1e-3 * floor / static_cast<double>(std::max<std::size_t>(1, target.weights.size()));
+  for (std::int32_t e = 0; e < target.topology.edge_count(); ++e) {
+    const std::int32_t ends[2] = {target.topology.first(e), target.topology.second(e)};
+    // difference of the two rows of W over at most eight clusters
+    std::size_t cluster[2 * blend_count];
+    double delta[2 * blend_count];
+    std::size_t used = 0;
+    for (int side = 0; side < 2; ++side) {
+      for (std::size_t i = at(ends[side]) * blend_count; i < (at(ends[side]) + 1) * blend_count; ++i) {
+        if (clusters.weight[i] <= 0) continue;
+        const std::size_t c = at(clusters.joint[i]);
+        std::size_t k = 0;
+        while (k < used && cluster[k] != c) ++k;
+        if (k == used) cluster[used] = c, delta[used++] = 0;
+        delta[k] += (side ? -1.0 : 1.0) * static_cast<double>(clusters.weight[i]);
+      }
+    }
+    const double w = std::clamp(target.weights[at(e)], floor, std::max(floor, steepest));
+    const Vec3 middle = 0.5 * (target.mesh.positions[at(ends[0])] + target.mesh.positions[at(ends[1])]);
+    for (std::size_t i = 0; i < used; ++i) {
+      for (std::size_t j = 0; j < used; ++j) {
+        const double product = w * delta[i] * delta[j];
+        own_matrix[cluster[i] * count + cluster[j]] += product;
+        add_point(own_table, cluster[i] * count + cluster[j], -product, middle);
+      }
+    }
+  }
+  const double sum = trace(own_matrix, count);
+  if (!(sum > 0)) return;
+  for (std::size_t i = 0; i < own_matrix.size(); ++i) matrix[i] += share / sum * own_matrix[i];
+  for (std::size_t i = 0; i < own_table.size(); ++i) table[i] += share / sum * own_table[i];
+}
+
+void Translations::add_row(Span<const std::int32_t> vertices, Span<const double> weights, const Core& target, const Clusters& clusters) {
+  Vector<double> weight(at(count_), 0.0, target.memory.get());
+  Vector<Vec3> point(at(count_), target.memory.get());
+  double sum = 0;
+  for (const double w : weights) sum += w;
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    const std::size_t v = at(vertices[k]);
+    for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
+      const double w = weights[k] / sum * static_cast<double>(clusters.weight[i]);
+      weight[at(clusters.joint[i])] += w;
+      point[at(clusters.joint[i])] = point[at(clusters.joint[i])] + w * target.mesh.positions[v];
+    }
+  }
+  for (std::int32_t c = 0; c < count_; ++c) {
+    if (!(weight[at(c)] > 0)) continue;
+    row_column_.push_back(c), row_weight_.push_back(weight[at(c)]), row_point_.push_back(point[at(c)]);
+  }
+  row_start_.push_back(static_cast<std::int32_t>(row_column_.size()));
+}
+
+void Translations::prepare(const Core& target, Span<const double> area, const Clusters& clusters, Span<const Span<const std::int32_t>> regions, const TranslationOptions& options) {
+  Memory& memory = *target.memory;
+  count_ = clusters.count;
+  const std::size_t count = at(count_);
+  Buffer<double> matrix(memory, count * count);
+  std::fill(matrix.begin(), matrix.end(), 0.0);
+  Vector<double> table(3 * count * count, 0.0, &memory);
+  add_overlap(area, target, clusters, matrix, table);
+  const double sum = trace(matrix, count);
+  if (sum > 0) {
+    for (double& x : matrix) x /= sum;
+    for (double& x : table) x /= sum;
+  }
+  if (options.spread_share > 0) add_spread(target, clusters, options.spread_share, matrix, table);
+  const double total = trace(matrix, count);
+  const double mean = total > 0 ? total / static_cast<double>(count) : 1.0;
+  anchor_ = options.anchor * mean, root_ = options.root * mean, whole_ = options.whole * mean;
+
+  // anchored regions by the mean of their vertices, the root by area
+  row_start_.assign(1, 0);
+  Vector<double> weights(&memory);
+  Vector<std::int32_t> all(&memory);
+  for (const Span<const std::int32_t>& region : regions) {
+    weights.assign(region.size(), 1.0);
+    add_row(region, {weights.data(), weights.size()}, target, clusters);
+  }
+  for (std::int32_t v = 0; v < target.size(); ++v) all.push_back(v);
+  add_row({all.data(), all.size()}, area, target, clusters);
+  for (std::size_t row = 0; row + 1 < row_start_.size(); ++row) {
+    const double l = row == regions.size() ? root_ : anchor_;
+    for (std::int32_t i = row_start_[row]; i < row_start_[row + 1]; ++i) {
+      for (std::int32_t j = row_start_[row]; j < row_start_[row + 1]; ++j) {
+        matrix[at(row_column_[at(i)]) * count + at(row_column_[at(j)])] += l * row_weight_[at(i)] * row_weight_[at(j)];
+      }
+    }
+  }
+  for (std::size_t c = 0; c < count; ++c) matrix[c * count + c] += whole_;
+  factor_.factorise(std::move(matrix), count_, memory);
+  scratch_.assign(4 * count, 0.0);
+
+  // keep what is not zero
+  for (std::size_t c = 0; c < count; ++c) {
+    table_start_.push_back(static_cast<std::int32_t>(table_column_.size()));
+    for (std::size_t d = 0; d < count; ++d) {
+      const Vec3 g{table[3 * (c * count + d)], table[3 * (c * count + d) + 1], table[3 * (c * count + d) + 2]};
+      if (g.x != 0 || g.y != 0 || g.z != 0) table_column_.push_back(static_cast<std::int32_t>(d)), table_.push_back(g);
+    }
+  }
+  table_start_.push_back(static_cast<std::int32_t>(table_column_.size()));
+}
+
+Vec3 Translations::turned(std::size_t anchor, const Mat3* rotations) const noexcept {
+  Vec3 sum;
+  for (std::int32_t i = row_start_[anchor]; i < row_start_[anchor + 1]; ++i) sum = sum + rotations[row_column_[at(i)]] * row_point_[at(i)];
+  return sum;
+}
+
+Mat3 Translations::mean_rotation(std::size_t anchor, const Mat3* rotations) const noexcept {
+  Mat3 sum;
+  for (std::int32_t i = row_start_[anchor]; i < row_start_[anchor + 1]; ++i) sum = sum + row_weight_[at(i)] * rotations[row_column_[at(i)]];
+  return sum;
+}
+
+void Translations::solve(const Clusters& clusters, const Mat3* rotations, Span<const Vec3> goals, Vec3 centroid, const Vec3* cluster_goals, Vec3* out) noexcept {
+  for (std::int32_t c = 0; c < count_; ++c) {
+    Vec3 rhs = whole_ * (cluster_goals[c] - rotations[c] * clusters.pivot[at(c)]);
+    for (std::int32_t i = table_start_[at(c)]; i < table_start_[at(c) + 1]; ++i) rhs = rhs + rotations[table_column_[at(i)]] * table_[at(i)];
+    out[c] = rhs;
+  }
+  for (std::size_t row = 0; row + 1 < row_start_.size(); ++row) {
+    const bool is_root = row == goals.size();
+    const Vec3 miss = (is_root ? root_ : anchor_) * ((is_root ? centroid : goals[row]) - turned(row, rotations));
+    for (std::int32_t i = row_start_[row]; i < row_start_[row + 1]; ++i) out[row_column_[at(i)]] = out[row_column_[at(i)]] + row_weight_[at(i)] * miss;
+  }
+  for (std::size_t c = 0; c < at(count_); ++c) scratch_[4 * c] = out[c].x, scratch_[4 * c + 1] = out[c].y, scratch_[4 * c + 2] = out[c].z, scratch_[4 * c + 3] = 0;
+  factor_.solve(scratch_.data());
+  for (std::size_t c = 0; c < at(count_); ++c) out[c] = {scratch_[4 * c], scratch_[4 * c + 1], scratch_[4 * c + 2]};
+}
+
+}  // namespace hf

@@ -1,0 +1,45 @@
+// The exact answer to a field problem on a small mesh, by a dense solve of the whole saddle-point system
+//     [ K  -W ] [   u    ]   [ 0 ]
+//     [ W'  D ] [ lambda ] = [ s ]
+// in long double where it matters little and plain LU with full pivoting; shares no code with the engines.
+#pragma once
+#include <Eigen/Dense>
+
+#include "engine/site_solver.h"
+
+namespace hf_test {
+
+// sites in use only; values one row per site. Returns n x m (components without a site: zero rows). lambda: one row per site.
+inline Eigen::MatrixXd dense_field(const hf::Core& core, const std::vector<hf::Site>& sites, const Eigen::MatrixXd& values, Eigen::MatrixXd* lambda = nullptr) {
+  const int n = core.size(), k = static_cast<int>(sites.size());
+  std::vector<int> reached(static_cast<std::size_t>(core.mesh.component_count()), 0);
+  for (const hf::Site& site : sites) reached[static_cast<std::size_t>(site.component)] = 1;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + k, n + k);
+  for (int v = 0; v < n; ++v) {
+    if (!reached[static_cast<std::size_t>(core.mesh.component[static_cast<std::size_t>(v)])]) {
+      a(v, v) = 1;
+      continue;
+    }
+    for (int i = core.laplacian.column_start[static_cast<std::size_t>(v)]; i < core.laplacian.column_start[static_cast<std::size_t>(v) + 1]; ++i) {
+      a(v, core.laplacian.row[static_cast<std::size_t>(i)]) = core.laplacian.value[static_cast<std::size_t>(i)];
+    }
+  }
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(n + k, values.cols());
+  for (int i = 0; i < k; ++i) {
+    const hf::Site& site = sites[static_cast<std::size_t>(i)];
+    for (int q = 0; q < 3; ++q) {
+      if (site.vertex[q] < 0) continue;
+      a(site.vertex[q], n + i) -= site.weight[q];
+      a(n + i, site.vertex[q]) += site.weight[q];
+    }
+    a(n + i, n + i) = site.compliance / core.mean_diagonal[static_cast<std::size_t>(site.component)];
+    b.row(n + i) = values.row(i);
+  }
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(a);
+  Eigen::MatrixXd x = lu.solve(b);
+  x += lu.solve(b - a * x);
+  if (lambda) *lambda = x.bottomRows(k);
+  return x.topRows(n);
+}
+
+}  // namespace hf_test

@@ -1,0 +1,408 @@
+// The factor against dense Cholesky of Eigen and against residuals.
+#include "factor/factor.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Dense>
+#include <cstring>
+#include <limits>
+#include <thread>
+
+#include "base/error.h"
+#include "factor/supernodal_factor.h"
+#include "unit/factor/matrices.h"
+
+namespace {
+
+using hf_test::Assembly;
+
+Eigen::MatrixXd dense(const hf::SymmetricMatrix& a) {
+  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(a.size(), a.size());
+  for (std::int32_t j = 0; j < a.size(); ++j) {
+    for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e) full(a.row[e], j) = a.value[e];
+  }
+  return full;
+}
+
+std::vector<double> random_vector(std::size_t size, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::vector<double> x(size);
+  for (double& v : x) v = unit(random);
+  return x;
+}
+
+class Fixture : public testing::Test {
+ protected:
+  std::shared_ptr<const hf::Factor> make(const hf::SymmetricMatrix& a, hf::Ordering ordering = hf::Ordering::minimum_degree,
+                                         const std::vector<float>& points = {}) {
+    hf::FactorOptions options;
+    options.ordering = ordering;
+    return hf::Factor::make(a, hf::Span<const float>(points.data(), points.size()), options, memory, one);
+  }
+  std::vector<double> solve(const hf::Factor& factor, const std::vector<double>& b, std::int32_t channels = 1, hf::JobRunner* jobs = nullptr) {
+    std::vector<double> z(b.size()), x(b.size());
+    for (std::int32_t k = 0; k < factor.size(); ++k) {
+      for (std::int32_t c = 0; c < channels; ++c) z[k * channels + c] = b[factor.order()[k] * channels + c];
+    }
+    factor.forward(z.data(), channels, jobs ? *jobs : one);
+    factor.backward(z.data(), channels, jobs ? *jobs : one);
+    for (std::int32_t k = 0; k < factor.size(); ++k) {
+      for (std::int32_t c = 0; c < channels; ++c) x[factor.order()[k] * channels + c] = z[k * channels + c];
+    }
+    return x;
+  }
+  // sweeps and P against the dense factor: G^-1 and G^-T column by column
+  void expect_factor_of(const hf::SymmetricMatrix& a, hf::Ordering ordering) {
+    const auto factor = make(a, ordering);
+    const std::int32_t n = a.size();
+    ASSERT_EQ(factor->size(), n);
+    std::vector<char> seen(static_cast<std::size_t>(n), 0);
+    Eigen::MatrixXd permuted(n, n);
+    const Eigen::MatrixXd full = dense(a);
+    for (std::int32_t k = 0; k < n; ++k) {
+      const std::int32_t unknown = factor->order()[k];
+      ASSERT_EQ(factor->position()[unknown], k);
+      ASSERT_FALSE(seen[static_cast<std::size_t>(unknown)]++);
+      for (std::int32_t l = 0; l < n; ++l) permuted(k, l) = full(unknown, factor->order()[l]);
+    }
+    const Eigen::MatrixXd lower = permuted.llt().matrixL();
+    for (const std::int32_t channels : {1, 2, 3, 4, 5, 8, 11}) {
+      std::vector<double> z = random_vector(static_cast<std::size_t>(n) * channels, 3);
+      Eigen::MatrixXd right(n, channels);
+      for (std::int32_t k = 0; k < n; ++k) {
+        for (std::int32_t c = 0; c < channels; ++c) right(k, c) = z[k * channels + c];
+      }
+      std::vector<double> w = z;
+      const Eigen::MatrixXd forward = lower.triangularView<Eigen::Lower>().solve(right);
+      const Eigen::MatrixXd backward = lower.transpose().triangularView<Eigen::Upper>().solve(right);
+      factor->forward(z.data(), channels, one);
+      factor->backward(w.data(), channels, one);
+      const double scale = 1e-12 * (1 + forward.cwiseAbs().maxCoeff() + backward.cwiseAbs().maxCoeff());
+      for (std::int32_t k = 0; k < n; ++k) {
+        for (std::int32_t c = 0; c < channels; ++c) {
+          ASSERT_NEAR(z[k * channels + c], forward(k, c), scale) << "forward row " << k << " channel " << c << " of " << channels << " n " << n;
+          ASSERT_NEAR(w[k * channels + c], backward(k, c), scale) << "backward row " << k << " channel " << c << " of " << channels << " n " << n;
+        }
+      }
+    }
+  }
+  void expect_residual(const hf::SymmetricMatrix& a, const hf::Factor& factor, double bound) {
+    const std::vector<double> b = random_vector(static_cast<std::size_t>(a.size()), 5);
+    const std::vector<double> x = solve(factor, b);
+    const std::vector<double> ax = hf_test::multiply(a, x);
+    double worst = 0, size = 0, diagonal = 0;
+    for (std::size_t i = 0; i < b.size(); ++i) worst = std::max(worst, std::abs(ax[i] - b[i])), size = std::max(size, std::abs(x[i]));
+    for (std::int32_t j = 0; j < a.size(); ++j) {
+      for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e) diagonal = std::max(diagonal, std::abs(a.value[e]));
+    }
+    EXPECT_LT(worst / (size * diagonal), bound);
+  }
+
+  hf::Memory memory;
+  hf::JobRunner one{1};
+  hf::JobRunner two{2};
+};
+
+using FactorTest = Fixture;
+
+TEST_F(FactorTest, sweeps_equal_dense_cholesky_on_random_patterns) {
+  for (std::int32_t n = 1; n <= 60; n += (n < 20 ? 1 : 7)) {
+    for (const double density : {0.0, 0.05, 0.2, 0.6, 1.0}) {
+      for (const auto ordering : {hf::Ordering::minimum_degree, hf::Ordering::natural, hf::Ordering::nested_dissection}) {
+        expect_factor_of(hf_test::random_matrix(memory, n, density, static_cast<std::uint32_t>(n)), ordering);
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+}
+
+TEST_F(FactorTest, sweeps_equal_dense_cholesky_on_grids_arrows_and_dense_blocks) {
+  expect_factor_of(hf_test::grid_laplacian(memory, 20, 17), hf::Ordering::minimum_degree);
+  expect_factor_of(hf_test::grid_laplacian(memory, 20, 17), hf::Ordering::natural);
+  expect_factor_of(hf_test::grid_laplacian(memory, 300, 1), hf::Ordering::nested_dissection);
+  expect_factor_of(hf_test::arrow_matrix(memory, 100), hf::Ordering::natural);
+  expect_factor_of(hf_test::arrow_matrix(memory, 100), hf::Ordering::minimum_degree);
+  expect_factor_of(hf_test::random_matrix(memory, 300, 1.0, 1), hf::Ordering::natural);    // one supernode wider than a chunk
+  expect_factor_of(hf_test::random_matrix(memory, 600, 0.5, 2), hf::Ordering::minimum_degree);
+  expect_factor_of(hf_test::squared(memory, hf_test::grid_laplacian(memory, 16, 16), 1.0), hf::Ordering::minimum_degree);
+}
+
+TEST_F(FactorTest, several_components_and_single_unknowns_are_solved) {
+  Assembly a(70);
+  for (std::int32_t c = 0; c < 10; ++c) {
+    for (std::int32_t k = 0; k + 1 < 5; ++k) a.add_edge(c * 5 + k, c * 5 + k + 1, 1.0 + k);
+    a.add(c * 5, c * 5, 1.0);
+  }
+  for (std::int32_t k = 50; k < 70; ++k) a.add(k, k, k);
+  expect_factor_of(a.build(memory), hf::Ordering::minimum_degree);
+  Assembly b(70);
+  for (std::int32_t k = 0; k < 70; ++k) b.add(k, k, 1.0 + k);
+  expect_factor_of(b.build(memory), hf::Ordering::nested_dissection);
+}
+
+TEST_F(FactorTest, empty_matrix_is_a_factor_of_size_zero) {
+  hf::SymmetricMatrix a(memory);
+  a.column_start.push_back(0);
+  const auto factor = make(a);
+  EXPECT_EQ(factor->size(), 0);
+  factor->backward(nullptr, 1, two);
+  factor->forward(nullptr, 1, two);
+}
+
+TEST_F(FactorTest, residual_of_a_large_grid_and_torus_is_rounding) {
+  const hf::SymmetricMatrix grid = hf_test::grid_laplacian(memory, 200, 150);
+  for (const auto ordering : {hf::Ordering::minimum_degree, hf::Ordering::nested_dissection}) {
+    expect_residual(grid, *make(grid, ordering, hf_test::grid_points(200, 150)), 1e-14);
+  }
+  const hf::SymmetricMatrix ring = hf_test::cotangent_matrix(memory, hf_test::torus(120, 60, 0.25));
+  expect_residual(ring, *make(ring), 1e-14);
+  expect_residual(hf_test::squared(memory, ring, 1.0), *make(hf_test::squared(memory, ring, 1.0)), 1e-13);
+}
+
+TEST_F(FactorTest, factor_and_sweeps_are_the_same_bits_for_any_number_of_threads) {
+  const hf::SymmetricMatrix a = hf_test::cotangent_matrix(memory, hf_test::torus(200, 100, 0.25));
+  for (const auto ordering : {hf::Ordering::minimum_degree, hf::Ordering::nested_dissection}) {
+    hf::FactorOptions options;
+    options.ordering = ordering;
+    hf::JobRunner five(5);
+    const auto f1 = hf::Factor::make(a, {}, options, memory, one);
+    for (hf::JobRunner* jobs : {&two, &five}) {
+      const auto f2 = hf::Factor::make(a, {}, options, memory, *jobs);
+      const auto& v1 = static_cast<const hf::SupernodalFactor&>(*f1).values();
+      const auto& v2 = static_cast<const hf::SupernodalFactor&>(*f2).values();
+      ASSERT_EQ(v1.size(), v2.size());
+      EXPECT_EQ(std::memcmp(v1.data(), v2.data(), v1.size() * sizeof(double)), 0);
+      for (const std::int32_t channels : {1, 3, 8}) {
+        const std::vector<double> b = random_vector(static_cast<std::size_t>(a.size()) * channels, 9);
+        EXPECT_EQ(solve(*f1, b, channels, &one), solve(*f1, b, channels, jobs)) << channels;
+      }
+    }
+  }
+}
+
+TEST_F(FactorTest, avx2_and_avx512_give_the_same_bits) {
+  const hf::Kernels* narrow = hf::avx2_kernels();
+  const hf::Kernels* wide = hf::avx512_kernels();
+  if (!narrow || !wide) GTEST_SKIP() << "this processor has not both AVX2 and AVX-512";
+  for (const bool bend : {false, true}) {
+    hf::SymmetricMatrix a = hf_test::cotangent_matrix(memory, hf_test::torus(100, 60, 0.25));
+    if (bend) a = hf_test::squared(memory, a, 1.0);
+    const auto made = make(a);
+    const auto analysis = static_cast<const hf::SupernodalFactor&>(*made).analysis();
+    hf::SupernodalFactor f(analysis, memory), g(analysis, memory), h(analysis, memory);
+    f.use_kernels(*narrow), g.use_kernels(*wide), h.use_kernels(*hf::plain_kernels());
+    f.compute(a, {}, one, nullptr), g.compute(a, {}, one, nullptr), h.compute(a, {}, one, nullptr);
+    ASSERT_EQ(std::memcmp(f.values().data(), g.values().data(), f.values().size() * sizeof(double)), 0);
+    for (const std::int32_t channels : {1, 2, 3, 4, 8, 9}) {
+      const std::vector<double> b = random_vector(static_cast<std::size_t>(a.size()) * channels, 9);
+      const std::vector<double> x = solve(f, b, channels), y = solve(g, b, channels), p = solve(h, b, channels);
+      EXPECT_EQ(x, y) << channels;
+      double worst = 0, size = 0;
+      for (std::size_t i = 0; i < x.size(); ++i) worst = std::max(worst, std::abs(x[i] - p[i])), size = std::max(size, std::abs(x[i]));
+      EXPECT_LT(worst, (bend ? 1e-7 : 1e-10) * size) << "plain kernels";
+    }
+  }
+}
+
+TEST_F(FactorTest, a_lost_pivot_names_the_callers_column) {
+  hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 30, 30);
+  for (std::int32_t e = a.column_start[411]; e < a.column_start[412]; ++e) {
+    if (a.row[e] == 411) a.value[e] = -5;
+  }
+  for (hf::JobRunner* jobs : {&one, &two}) {
+    try {
+      hf::FactorOptions options;
+      options.ordering = hf::Ordering::minimum_degree;
+      hf::Factor::make(a, {}, options, memory, *jobs);
+      FAIL() << "accepted an indefinite matrix";
+    } catch (const hf::Error& error) {
+      EXPECT_EQ(error.code(), HF_ERROR_NOT_POSITIVE_DEFINITE);
+      EXPECT_EQ(error.index(), 411u);
+    }
+  }
+}
+
+TEST_F(FactorTest, a_singular_laplacian_is_refused) {
+  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 30, 30, 0.0);
+  try {
+    make(a);
+    FAIL() << "accepted a singular matrix";
+  } catch (const hf::Error& error) {
+    EXPECT_EQ(error.code(), HF_ERROR_NOT_POSITIVE_DEFINITE);
+  }
+}
+
+TEST_F(FactorTest, nan_and_infinity_name_their_column) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 10, 10);
+    a.value[static_cast<std::size_t>(a.column_start[37])] = bad;
+    try {
+      make(a);
+      FAIL() << "accepted " << bad;
+    } catch (const hf::Error& error) {
+      EXPECT_EQ(error.code(), HF_ERROR_NON_FINITE);
+      EXPECT_EQ(error.index(), 37u);
+    }
+  }
+}
+
+TEST_F(FactorTest, malformed_matrices_are_refused) {
+  const auto code_of = [&](const hf::SymmetricMatrix& a) {
+    try {
+      make(a);
+    } catch (const hf::Error& error) {
+      return error.code();
+    }
+    return static_cast<hf_result>(HF_OK);
+  };
+  hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 5, 5);
+  a.row[3] = 99;
+  EXPECT_EQ(code_of(a), HF_ERROR_INVALID_ARGUMENT);
+  a = hf_test::grid_laplacian(memory, 5, 5);
+  std::swap(a.row[0], a.row[1]);
+  EXPECT_EQ(code_of(a), HF_ERROR_INVALID_ARGUMENT);
+  a = hf_test::grid_laplacian(memory, 5, 5);
+  a.column_start[3] = 1000;
+  EXPECT_EQ(code_of(a), HF_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_F(FactorTest, refactor_solves_the_matrix_with_eliminated_rows) {
+  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 25, 20, 0.0);
+  const hf::SymmetricMatrix grounded = hf_test::grid_laplacian(memory, 25, 20, 1.0);
+  const auto factor = make(grounded);
+  std::vector<std::uint8_t> eliminated(500, 0);
+  for (const int v : {3, 77, 250, 499}) eliminated[static_cast<std::size_t>(v)] = 1;
+  const auto reduced = factor->refactor(a, {eliminated.data(), eliminated.size()}, memory, two);
+  hf::SymmetricMatrix expected = a;
+  for (std::int32_t j = 0; j < 500; ++j) {
+    for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e) {
+      if (eliminated[static_cast<std::size_t>(j)] || eliminated[static_cast<std::size_t>(a.row[e])]) expected.value[static_cast<std::size_t>(e)] = a.row[e] == j;
+    }
+  }
+  expect_residual(expected, *reduced, 1e-14);
+  EXPECT_THROW(factor->refactor(hf_test::grid_laplacian(memory, 20, 25), {}, memory, one), hf::Error);
+}
+
+struct Batch {
+  std::vector<std::int32_t> start{0}, row;
+  std::vector<double> value;
+  void add(std::initializer_list<std::pair<std::int32_t, double>> entries) {
+    for (const auto& [r, v] : entries) row.push_back(r), value.push_back(v);
+    start.push_back(static_cast<std::int32_t>(row.size()));
+  }
+  hf::SparseColumns view() const { return {{start.data(), start.size()}, {row.data(), row.size()}, {value.data(), value.size()}}; }
+};
+
+TEST_F(FactorTest, paths_gram_combine_project_and_clear_equal_the_dense_forms) {
+  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 40, 35);
+  const std::int32_t n = a.size();
+  for (const auto ordering : {hf::Ordering::minimum_degree, hf::Ordering::natural}) {
+    const auto factor = make(a, ordering);
+    for (const std::int32_t k : {1, 2, 3, 7, 8, 9, 33, 70, 150}) {
+      Batch batch;
+      std::mt19937 random(static_cast<std::uint32_t>(k));
+      for (std::int32_t i = 0; i < k; ++i) {
+        const std::int32_t v = static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(n - 41));
+        if (i % 3 == 0) batch.add({{v, 0.2}, {v + 1, 0.3}, {v + 41, 0.5}});
+        else if (i % 7 == 1) batch.add({{v, 0.4}, {(v * 7 + 13) % n, 0.6}});  // two far rows
+        else batch.add({{v, 1.0}});
+      }
+      Eigen::MatrixXd y = Eigen::MatrixXd::Zero(n, k);
+      for (std::int32_t i = 0; i < k; ++i) {
+        std::vector<double> z(static_cast<std::size_t>(n), 0.0);
+        for (std::int32_t e = batch.start[i]; e < batch.start[i + 1]; ++e) z[static_cast<std::size_t>(factor->position()[batch.row[e]])] += batch.value[e];
+        factor->forward(z.data(), 1, one);
+        for (std::int32_t r = 0; r < n; ++r) y(r, i) = z[static_cast<std::size_t>(r)];
+      }
+      hf::Vector<std::shared_ptr<const hf::PathGroup>> groups(&memory);
+      std::vector<std::int32_t> group(static_cast<std::size_t>(k)), column(static_cast<std::size_t>(k));
+      factor->solve_paths(batch.view(), memory, two, groups, {group.data(), group.size()}, {column.data(), column.size()});
+      std::int32_t total = 0;
+      for (const auto& g : groups) {
+        total += g->count();
+        ASSERT_LE(g->count(), hf::PathGroup::capacity);
+      }
+      ASSERT_EQ(total, k);
+      const double scale = 1e-13 * (1 + y.cwiseAbs().maxCoeff());
+      // combine with unit vectors gives back the columns
+      for (std::int32_t i = 0; i < k; ++i) {
+        const auto& g = *groups[static_cast<std::size_t>(group[i])];
+        for (const std::int32_t channels : {1, 3}) {
+          std::vector<double> lambda(static_cast<std::size_t>(g.count() * channels), 0.0);
+          for (std::int32_t c = 0; c < channels; ++c) lambda[static_cast<std::size_t>(column[i] * channels + c)] = c + 1.0;
+          std::vector<double> z(static_cast<std::size_t>(n * channels), 0.0);
+          factor->combine(g, lambda.data(), channels, z.data());
+          for (std::int32_t r = 0; r < n; ++r) {
+            for (std::int32_t c = 0; c < channels; ++c) ASSERT_NEAR(z[r * channels + c], (c + 1) * y(r, i), 3 * scale) << k << " " << i << " row " << r;
+          }
+          factor->clear(g, channels, z.data());
+          for (const double v : z) ASSERT_EQ(v, 0.0);
+        }
+      }
+      const Eigen::MatrixXd s = y.transpose() * y;
+      for (std::int32_t i = 0; i < k; ++i) {
+        for (std::int32_t j = 0; j < k; ++j) {
+          const auto& p = *groups[static_cast<std::size_t>(group[i])];
+          const auto& q = *groups[static_cast<std::size_t>(group[j])];
+          std::vector<double> tile(40 * 32, 0.0);
+          if (i % 10 == 0 || j % 10 == 0) {
+            factor->gram(p, q, tile.data(), 40);
+            ASSERT_NEAR(tile[static_cast<std::size_t>(column[i] * 40 + column[j])], s(i, j), 1e-12 * (1 + s.cwiseAbs().maxCoeff()));
+          }
+        }
+      }
+      for (const std::int32_t channels : {1, 2}) {
+        const std::vector<double> z = random_vector(static_cast<std::size_t>(n * channels), 1);
+        for (std::int32_t i = 0; i < k; ++i) {
+          const auto& g = *groups[static_cast<std::size_t>(group[i])];
+          std::vector<double> out(static_cast<std::size_t>(g.count() * channels));
+          factor->project(g, z.data(), channels, out.data());
+          for (std::int32_t c = 0; c < channels; ++c) {
+            double expected = 0;
+            for (std::int32_t r = 0; r < n; ++r) expected += y(r, i) * z[static_cast<std::size_t>(r * channels + c)];
+            ASSERT_NEAR(out[static_cast<std::size_t>(column[i] * channels + c)], expected, 1e-11);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_F(FactorTest, a_site_outside_the_matrix_is_refused) {
+  const auto factor = make(hf_test::grid_laplacian(memory, 5, 5));
+  hf::Vector<std::shared_ptr<const hf::PathGroup>> groups(&memory);
+  std::int32_t group = 0, column = 0;
+  for (const std::int32_t row : {-1, 25, INT32_MAX}) {
+    Batch batch;
+    batch.add({{row, 1.0}});
+    EXPECT_THROW(factor->solve_paths(batch.view(), memory, one, groups, {&group, 1}, {&column, 1}), hf::Error);
+  }
+}
+
+TEST_F(FactorTest, memory_that_runs_out_anywhere_is_reported_and_nothing_leaks) {
+  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 60, 60);
+  std::uint64_t needed = 0;
+  {
+    hf::Memory counted;
+    hf::FactorOptions options;
+    hf::Factor::make(a, {}, options, counted, two);
+    needed = counted.peak_bytes();
+    EXPECT_EQ(counted.live_bytes(), 0u);
+  }
+  int refused = 0;
+  for (std::uint64_t limit = 1000; limit < needed; limit += needed / 40) {
+    hf::Memory tight({}, limit);
+    try {
+      hf::FactorOptions options;
+      hf::Factor::make(a, {}, options, tight, two);
+    } catch (const std::bad_alloc&) {
+      ++refused;
+    }
+    EXPECT_EQ(tight.live_bytes(), 0u);
+  }
+  EXPECT_GT(refused, 20);
+}
+
+}  // namespace

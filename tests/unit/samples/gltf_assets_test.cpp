@@ -1,0 +1,174 @@
+// The optional shared glTF assets: counts against their README, rest poses, animation, round trips.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "common/animate.h"
+#include "common/gltf_write.h"
+#include "gltf_support.h"
+
+namespace {
+
+using namespace samples;
+using namespace samples_test;
+
+struct Row {
+  std::string name;
+  size_t vertices = 0, triangles = 0, raw = 0, welded = 0, welded_vertices = 0, joints = 0, clips = 0;
+};
+
+// | gltf/q_Horse.glb | quadruped rig A | 4400 | 2182 | 1109 -> 1 | 1093 | yes | closed | 50 | 13 | ...
+std::vector<Row> read_table() {
+  std::ifstream readme(shared_data() / "README.md");
+  std::string line;
+  std::vector<Row> rows;
+  while (std::getline(readme, line)) {
+    if (line.compare(0, 7, "| gltf/") != 0) continue;
+    std::vector<std::string> cells;
+    std::stringstream in(line);
+    for (std::string cell; std::getline(in, cell, '|');) cells.push_back(cell);
+    Row row;
+    row.name = cells.at(1).substr(6, cells[1].size() - 7);
+    if (cells.at(3).find('-') == std::string::npos) {
+      row.vertices = std::stoul(cells[3]);
+      row.triangles = std::stoul(cells.at(4));
+      const size_t arrow = cells.at(5).find("->");
+      row.raw = std::stoul(cells[5]);
+      row.welded = std::stoul(cells[5].substr(arrow + 2));
+      row.welded_vertices = std::stoul(cells.at(6));
+      if (cells.at(9).find('-') == std::string::npos) row.joints = std::stoul(cells[9]);
+      row.clips = std::stoul(cells.at(10));
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// The table counts vertices and components of triangles with three different corners.
+std::vector<uint32_t> proper_triangles(const FlatMesh& mesh, bool welded) {
+  std::vector<uint32_t> out;
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    uint32_t v[3];
+    for (size_t c = 0; c < 3; ++c) v[c] = welded ? mesh.welded[mesh.triangles[t + c]] : mesh.triangles[t + c];
+    if (v[0] != v[1] && v[1] != v[2] && v[2] != v[0]) out.insert(out.end(), v, v + 3);
+  }
+  return out;
+}
+
+TEST(Assets, EveryFileHasTheListedVerticesSeamsJointsAndClips) {
+  HF_NEED_SHARED_DATA();
+  size_t files = 0;
+  for (const Row& row : read_table()) {
+    SCOPED_TRACE(row.name);
+    const auto file = shared_data() / "gltf" / row.name;
+    if (row.name == "pirate.glb") {
+      EXPECT_NE(message_of([&] { read_gltf(file); }).find("EXT_meshopt_compression"), std::string::npos);
+      continue;
+    }
+    const Model model = read_gltf(file);
+    const FlatMesh mesh = flatten(model);
+    ++files;
+    EXPECT_EQ(mesh.vertex_count(), row.vertices);
+    EXPECT_EQ(mesh.triangle_count(), row.triangles);
+    const auto raw = proper_triangles(mesh, false), joined = proper_triangles(mesh, true);
+    EXPECT_EQ(count_components(joined, nullptr, mesh.welded_count), row.welded);
+    std::vector<char> used(mesh.welded_count, 0);
+    for (const uint32_t v : joined) used[v] = 1;
+    EXPECT_EQ(static_cast<size_t>(std::count(used.begin(), used.end(), 1)), row.welded_vertices);
+    // as stored, a triangle degenerate in space still joins its own three vertices unless it repeats an index
+    std::vector<uint32_t> space;
+    for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+      const uint32_t a = mesh.welded[mesh.triangles[t]], b = mesh.welded[mesh.triangles[t + 1]],
+                     c = mesh.welded[mesh.triangles[t + 2]];
+      if (a != b && b != c && c != a) space.insert(space.end(), &mesh.triangles[t], &mesh.triangles[t] + 3);
+    }
+    const size_t all = count_components(raw, nullptr, mesh.vertex_count());
+    const size_t proper = count_components(space, nullptr, mesh.vertex_count());
+    EXPECT_TRUE(all == row.raw || proper == row.raw) << all << " or " << proper << ", listed " << row.raw;
+    if (row.vertices == 0) continue;
+    size_t joints = 0;
+    for (const Skin& skin : model.skins) joints = std::max(joints, skin.joints.size());
+    EXPECT_EQ(joints, row.joints);
+    EXPECT_EQ(model.animations.size(), row.clips);
+  }
+  EXPECT_GE(files, 30u);
+}
+
+double diagonal(const std::vector<glm::dvec3>& p) {
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const glm::dvec3& v : p) {
+    low = glm::min(low, v);
+    high = glm::max(high, v);
+  }
+  return glm::distance(low, high);
+}
+
+// A limb torn off or a scale applied twice would show as a size or an edge out of proportion.
+TEST(Assets, EveryClipKeepsTheBodyInProportion) {
+  HF_NEED_SHARED_DATA();
+  for (const Row& row : read_table()) {
+    if (row.vertices == 0 || row.clips == 0 || row.joints == 0) continue;
+    SCOPED_TRACE(row.name);
+    const Model model = read_gltf(shared_data() / "gltf" / row.name);
+    const FlatMesh mesh = flatten(model);
+    const double rest = diagonal(mesh.positions);
+    EXPECT_GT(rest, 0.1);
+    EXPECT_LT(rest, 1000);
+    for (const Animation& animation : model.animations) {
+      for (const double part : {0.0, 0.25, 0.5, 1.0}) {
+        const auto posed = posed_positions(model, mesh, animation, part * clip_duration(animation));
+        for (const glm::dvec3& p : posed) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
+        const double size = diagonal(posed);
+        EXPECT_GT(size, 0.3 * rest) << animation.name;
+        EXPECT_LT(size, 3.0 * rest) << animation.name;
+        // copies of a vertex stay together wherever the rig binds them alike
+        double seam = 0;
+        std::vector<uint32_t> first(mesh.welded_count, UINT32_MAX);
+        for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+          uint32_t& f = first[mesh.welded[v]];
+          if (f == UINT32_MAX) f = v;
+          seam = std::max(seam, glm::distance(posed[v], posed[f]));
+        }
+        EXPECT_LT(seam, 0.05 * rest) << animation.name;
+      }
+    }
+  }
+}
+
+TEST(Assets, WrittenAndReadAgainTheyMoveTheSame) {
+  HF_NEED_SHARED_DATA();
+  for (const char* name : {"q_Horse.glb", "khr_Fox.glb", "CesiumMan.glb", "morph-stress-test.glb", "Duck.glb",
+                           "q_PlatformerCharacter.glb", "singleBlendshapeCube_sparse.glb"}) {
+    SCOPED_TRACE(name);
+    const Model model = read_gltf(shared_data() / "gltf" / name);
+    const FlatMesh mesh = flatten(model);
+    const double size = diagonal(mesh.positions);
+    for (const bool binary : {true, false}) {
+      const std::string bytes = gltf_bytes(model, binary);
+      const Model back = read_gltf_bytes({bytes.begin(), bytes.end()}, "back");
+      const FlatMesh again = flatten(back);
+      EXPECT_EQ(again.triangles, mesh.triangles);
+      EXPECT_EQ(again.welded_count, mesh.welded_count);
+      ASSERT_EQ(back.animations.size(), model.animations.size());
+      for (size_t a = 0; a < model.animations.size(); ++a) {
+        const double t = 0.37 * clip_duration(model.animations[a]);
+        const auto p = posed_positions(model, mesh, model.animations[a], t);
+        const auto q = posed_positions(back, again, back.animations[a], t);
+        for (size_t v = 0; v < p.size(); ++v) ASSERT_LT(glm::distance(p[v], q[v]), 1e-5 * size);
+      }
+    }
+  }
+}
+
+TEST(Assets, TheSparseCubeMovesAsItsMorphTargetSays) {
+  HF_NEED_SHARED_DATA();
+  const Model model = read_gltf(shared_data() / "gltf" / "singleBlendshapeCube_sparse.glb");
+  const Primitive& primitive = model.meshes.at(0).primitives.at(0);
+  ASSERT_EQ(primitive.targets.size(), 1u);
+  size_t moved = 0;
+  for (const glm::vec3& d : primitive.targets[0].positions) moved += d != glm::vec3(0);
+  EXPECT_GT(moved, 0u);
+  EXPECT_LT(moved, primitive.positions.size());
+}
+
+}  // namespace
