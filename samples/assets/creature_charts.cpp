@@ -225,34 +225,44 @@ void embed(const TriangleMesh& mesh, ChartMesh& cut, const std::vector<std::vect
 }
 
 // Where the outline of a side view folds over itself, lets it give way: corners of turned triangles move to the mean of
-// their neighbours until none is turned or the rounds are spent.
-void unfold(ChartMesh& cut) {
-  std::vector<std::vector<uint32_t>> ring(cut.flat.points.size());
+// their neighbours. Every chart keeps the state with the fewest turned triangles it has seen.
+void unfold(ChartMesh& cut, const std::vector<uint32_t>& chart_of_point) {
+  std::vector<dvec3>& points = cut.flat.points;
+  std::vector<std::vector<uint32_t>> ring(points.size());
   for (const Triangle& t : cut.flat.triangles) {
     for (size_t k = 0; k < 3; ++k) {
       ring[t[k]].push_back(t[(k + 1) % 3]);
       ring[t[k]].push_back(t[(k + 2) % 3]);
     }
   }
-  for (int round = 0; round < 300; ++round) {
-    std::vector<uint32_t> moving;
+  std::vector<dvec3> best = points;
+  std::vector<uint32_t> fewest(cut.chart_count, none);
+  for (int round = 0; round < 80; ++round) {
+    std::vector<uint32_t> moving, turned(cut.chart_count, 0);
     for (const Triangle& t : cut.flat.triangles) {
-      const dvec3 &a = cut.flat.points[t[0]], &b = cut.flat.points[t[1]], &c = cut.flat.points[t[2]];
+      const dvec3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
       if ((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y) > 1e-9) continue;
+      ++turned[chart_of_point[t[0]]];
       moving.insert(moving.end(), t.begin(), t.end());
       if (round % 3 == 2) {
         for (uint32_t v : t) moving.insert(moving.end(), ring[v].begin(), ring[v].end());
       }
     }
-    if (moving.empty()) return;
+    for (size_t v = 0; v < points.size(); ++v) {
+      const uint32_t c = chart_of_point[v];
+      if (turned[c] < fewest[c]) best[v] = points[v];
+    }
+    for (uint32_t c = 0; c < cut.chart_count; ++c) fewest[c] = std::min(fewest[c], turned[c]);
+    if (moving.empty()) break;
     std::sort(moving.begin(), moving.end());
     moving.erase(std::unique(moving.begin(), moving.end()), moving.end());
     for (uint32_t v : moving) {
       dvec3 mean(0);
-      for (uint32_t w : ring[v]) mean += cut.flat.points[w] / double(ring[v].size());
-      cut.flat.points[v] = mix(cut.flat.points[v], mean, 0.7);
+      for (uint32_t w : ring[v]) mean += points[w] / double(ring[v].size());
+      points[v] = mix(points[v], mean, 0.7);
     }
   }
+  points = best;
 }
 
 // Shelf packing with the largest scale that fits the unit square.
@@ -335,7 +345,7 @@ ChartMesh make_charts(const Design& design, const TriangleMesh& mesh) {
     }
   }
   embed(mesh, cut, holes, fixed);
-  unfold(cut);
+  unfold(cut, chart_of_point);
   pack(cut, chart_of_point, chart_count);
   return cut;
 }

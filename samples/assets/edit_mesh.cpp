@@ -78,7 +78,6 @@ uint32_t EditMesh::split(uint32_t h, const dvec3& p) {
   return m;
 }
 
-// Do the triangles around `moved`, but those that contain `skip`, keep their side when it goes to p?
 bool EditMesh::stays_upright(uint32_t moved, const dvec3& p, uint32_t skip) const {
   uint32_t h = outgoing[moved];
   do {

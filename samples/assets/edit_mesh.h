@@ -46,9 +46,11 @@ class EditMesh {
   dvec3 face_area(uint32_t t) const;
   TriangleMesh compact() const;
 
+  // Do the triangles around `moved`, but those that contain `skip`, keep their side when it goes to p?
+  bool stays_upright(uint32_t moved, const dvec3& p, uint32_t skip) const;
+
  private:
   void pair(uint32_t a, uint32_t b) { twin[a] = b, twin[b] = a; }
-  bool stays_upright(uint32_t moved, const dvec3& p, uint32_t skip) const;
 };
 
 }  // namespace samples

@@ -23,15 +23,10 @@ class Remesher {
   }
 
   TriangleMesh run(uint32_t count) {
-    set_length(count);
     largest_ = std::max(count, mesh_.live_vertices);
-    for (int round = 0; round < 5; ++round) {
-      split_long();
-      collapse_short();
-      flip_for_valence();
-      relax_tangentially(2);
-      set_length(count);
-    }
+    // coarse meshes are reached in steps, so that the surface can follow
+    for (uint32_t step = 6000; step > 2 * count; step /= 2) settle(step, 2);
+    settle(count, 5);
     for (int round = 0; round < 4; ++round) {
       reach(count);
       flip_for_angles();
@@ -49,6 +44,18 @@ class Remesher {
   }
 
  private:
+  // Edge lengths near those of a mesh of `count` vertices.
+  void settle(uint32_t count, int rounds) {
+    set_length(count);
+    for (int round = 0; round < rounds; ++round) {
+      split_long();
+      collapse_short();
+      flip_for_valence();
+      relax_tangentially(2);
+      set_length(count);
+    }
+  }
+
   double length_of(uint32_t h) const { return glm::length(mesh_.points[mesh_.to(h)] - mesh_.points[mesh_.from(h)]); }
   // Length relative to the wanted one.
   double relative(uint32_t h) const {
@@ -69,9 +76,10 @@ class Remesher {
 
   void split(uint32_t h) {
     const dvec3 middle = 0.5 * (mesh_.points[mesh_.from(h)] + mesh_.points[mesh_.to(h)]);
+    const uint32_t m = mesh_.split(h, middle);
     const dvec3 p = body_.project(middle, 2);
-    mesh_.split(h, p);
-    detail_.push_back(body_.detail(p));
+    if (mesh_.stays_upright(m, p, no_index)) mesh_.points[m] = p;
+    detail_.push_back(body_.detail(mesh_.points[m]));
   }
 
   bool collapse(uint32_t h) {
@@ -115,16 +123,18 @@ class Remesher {
     uint32_t found = 0;
     for (uint32_t t = 0; 3 * t < mesh_.corner.size(); ++t) {
       if (!mesh_.alive(3 * t)) continue;
-      uint32_t shortest = 3 * t;
-      double longest = 0;
-      for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-        if (length_of(h) < length_of(shortest)) shortest = h;
-        longest = std::max(longest, length_of(h));
-      }
+      std::array<uint32_t, 3> edge{3 * t, 3 * t + 1, 3 * t + 2};
+      std::sort(edge.begin(), edge.end(), [&](uint32_t a, uint32_t b) { return length_of(a) < length_of(b); });
       // height over the longest edge below a fifth of it: an angle below about 13 degrees
+      const double longest = length_of(edge[2]);
       if (2 * glm::length(mesh_.face_area(t)) > 0.20 * longest * longest) continue;
       ++found;
-      collapse(shortest);
+      if (mesh_.flip(edge[2]) || collapse(edge[0]) || collapse(edge[1])) continue;
+      // stuck in a crease: thin out the neighbourhood
+      const uint32_t around[3] = {mesh_.twin[edge[0]], mesh_.twin[edge[1]], mesh_.twin[edge[2]]};
+      for (uint32_t h : around) {
+        if (collapse(EditMesh::next(h)) || collapse(EditMesh::previous(h))) break;
+      }
     }
     return found;
   }
@@ -164,9 +174,14 @@ class Remesher {
   }
 
   void relax_tangentially(int rounds) {
-    std::vector<dvec3> sum(mesh_.points.size());
+    std::vector<dvec3> sum(mesh_.points.size()), normals(mesh_.points.size(), dvec3(0)), before;
     std::vector<double> weight(mesh_.points.size());
+    std::vector<Triangle> triangles;
+    for (uint32_t h = 0; h < mesh_.corner.size(); h += 3) {
+      if (mesh_.alive(h)) triangles.push_back({mesh_.corner[h], mesh_.corner[h + 1], mesh_.corner[h + 2]});
+    }
     for (int round = 0; round < rounds; ++round) {
+      before = mesh_.points;
       std::fill(sum.begin(), sum.end(), dvec3(0));
       std::fill(weight.begin(), weight.end(), 0.0);
       for (uint32_t t = 0; 3 * t < mesh_.corner.size(); ++t) {
@@ -179,12 +194,15 @@ class Remesher {
       }
       for (size_t v = 0; v < mesh_.points.size(); ++v) {
         if (mesh_.outgoing[v] == no_index || !(weight[v] > 0)) continue;
-        const dvec3 n = body_.gradient(mesh_.points[v]);
+        const dvec3 n = normals[v] = body_.gradient(mesh_.points[v]);
         dvec3 move = sum[v] / weight[v] - mesh_.points[v];
         move -= dot(move, n) / std::max(dot(n, n), 1e-12) * n;
         mesh_.points[v] = body_.project(mesh_.points[v] + 0.6 * move, 1);
-        if (round + 1 == rounds) detail_[v] = body_.detail(mesh_.points[v]);
       }
+      keep_upright(before, mesh_.points, normals, triangles);
+    }
+    for (size_t v = 0; v < mesh_.points.size(); ++v) {
+      if (mesh_.outgoing[v] != no_index) detail_[v] = body_.detail(mesh_.points[v]);
     }
   }
 
@@ -277,10 +295,34 @@ TriangleMesh remesh(const ImplicitBody& body, const TriangleMesh& start, uint32_
   return Remesher(body, start).run(count);
 }
 
+void keep_upright(const std::vector<dvec3>& before, std::vector<dvec3>& after, const std::vector<dvec3>& normals,
+                  const std::vector<Triangle>& triangles) {
+  // cosine between the face and the mean normal of its corners
+  const auto agreement = [&](const std::vector<dvec3>& points, const Triangle& t) {
+    const dvec3 face = cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
+    const dvec3 mean = normals[t[0]] + normals[t[1]] + normals[t[2]];
+    const double scale = glm::length(face) * glm::length(mean);
+    return scale > 0 ? dot(face, mean) / scale : 0.0;
+  };
+  bool changed = true;
+  for (int round = 0; round < 8 && changed; ++round) {
+    changed = false;
+    for (const Triangle& t : triangles) {
+      const double now = agreement(after, t);
+      if (now > 0.3 || now >= agreement(before, t)) continue;
+      for (uint32_t v : t) {
+        changed = changed || after[v] != before[v];
+        after[v] = before[v];
+      }
+    }
+  }
+}
+
 void relax(const ImplicitBody& body, TriangleMesh& mesh, int rounds, double step, int newton_steps) {
-  std::vector<dvec3> sum(mesh.points.size());
+  std::vector<dvec3> sum(mesh.points.size()), normals(mesh.points.size(), dvec3(0)), before;
   std::vector<double> weight(mesh.points.size());
   for (int round = 0; round < rounds; ++round) {
+    before = mesh.points;
     std::fill(sum.begin(), sum.end(), dvec3(0));
     std::fill(weight.begin(), weight.end(), 0.0);
     for (const Triangle& t : mesh.triangles) {
@@ -292,11 +334,12 @@ void relax(const ImplicitBody& body, TriangleMesh& mesh, int rounds, double step
     }
     for (size_t v = 0; v < mesh.points.size(); ++v) {
       if (!(weight[v] > 0)) continue;
-      const dvec3 n = body.gradient(mesh.points[v]);
+      const dvec3 n = normals[v] = body.gradient(mesh.points[v]);
       dvec3 move = sum[v] / weight[v] - mesh.points[v];
       move -= dot(move, n) / std::max(dot(n, n), 1e-12) * n;
       mesh.points[v] = body.project(mesh.points[v] + step * move, newton_steps);
     }
+    keep_upright(before, mesh.points, normals, mesh.triangles);
   }
 }
 
@@ -350,7 +393,11 @@ TriangleMesh base_mesh(const ImplicitBody& body, uint32_t base_count) {
 
 TriangleMesh refine(const ImplicitBody& body, const TriangleMesh& mesh, std::vector<std::array<uint32_t, 2>>& parents) {
   TriangleMesh fine = subdivide(mesh, parents);
+  const std::vector<dvec3> before = fine.points;
   for (size_t v = mesh.points.size(); v < fine.points.size(); ++v) fine.points[v] = body.project(fine.points[v], 2);
+  std::vector<dvec3> normals;
+  for (const dvec3& p : fine.points) normals.push_back(body.gradient(p));
+  keep_upright(before, fine.points, normals, fine.triangles);
   relax(body, fine, 2, 0.5, 1);
   return fine;
 }

@@ -36,6 +36,11 @@ TriangleMesh remesh(const ImplicitBody& body, const TriangleMesh& start, uint32_
 // One refinement step. parents[i] = the two ends of the edge that new vertex old_count + i came from.
 TriangleMesh subdivide(const TriangleMesh& mesh, std::vector<std::array<uint32_t, 2>>& parents);
 
+// Undoes moves that turn triangles against the body: where a triangle's side agrees little with the normals of its
+// corners, and less than before the move, its corners go back.
+void keep_upright(const std::vector<dvec3>& before, std::vector<dvec3>& after, const std::vector<dvec3>& normals,
+                  const std::vector<Triangle>& triangles);
+
 // Moves vertices towards the centres of their rings within the surface, keeping them on the body.
 void relax(const ImplicitBody& body, TriangleMesh& mesh, int rounds, double step, int newton_steps);
 

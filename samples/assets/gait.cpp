@@ -55,13 +55,11 @@ FootTarget foot_target(const Gait& gait, const Leg& leg, double phase) {
     target.tip.z += travel * (0.5 - phase / gait.duty);
     return target;
   }
-  // swing: cubic Hermite from the back to the front that leaves and meets the ground at the ground's speed
+  // swing: over the ground the foot covers one stride, with speed and acceleration zero at both ends
   const double w = (phase - gait.duty) / (1 - gait.duty);
-  const double w2 = w * w, w3 = w2 * w, slope = -gait.stride * (1 - gait.duty);
-  target.tip.z += travel * (-0.5 * (2 * w3 - 3 * w2 + 1) + 0.5 * (3 * w2 - 2 * w3)) +
-                  slope * ((w3 - 2 * w2 + w) + (w3 - w2));
-  const double bump = std::sin(pi * std::pow(w, 0.85));
-  target.tip.y += leg.lift * bump * bump;
+  const double over_ground = w * w * w * (10 + w * (6 * w - 15));
+  target.tip.z += -0.5 * travel - gait.stride * (1 - gait.duty) * w + gait.stride * over_ground;
+  target.tip.y += leg.lift * std::pow(std::sin(pi * std::pow(w, 0.85)), 1.4);
   return target;
 }
 

@@ -73,6 +73,12 @@ std::vector<FlatPart> list_parts(const Model& model, const FlattenOptions& optio
   return parts;
 }
 
+// Finite, and still so as floats.
+bool is_float(const glm::dvec3& p) {
+  constexpr double most = std::numeric_limits<float>::max();
+  return std::abs(p.x) <= most && std::abs(p.y) <= most && std::abs(p.z) <= most;
+}
+
 void append_part(const Model& model, const Pose& pose, const std::vector<glm::dmat4>& globals, FlatPart& part,
                  FlatMesh& mesh) {
   const Primitive& primitive = primitive_of(model, part);
@@ -81,13 +87,12 @@ void append_part(const Model& model, const Pose& pose, const std::vector<glm::dm
   std::vector<glm::vec3> normals;
   const std::vector<glm::dvec3> posed = posed_primitive(model, pose, globals, part.node, primitive, &normals);
   for (size_t v = 0; v < posed.size(); ++v) {
-    const glm::dvec3 p = float_rounded(posed[v]);
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+    if (!is_float(posed[v])) {
       fail(model, "vertex " + std::to_string(v) + " of mesh " + std::to_string(part.mesh) + ", primitive " +
                       std::to_string(part.primitive) + " has no finite rest position; check its node and joints");
     }
-    mesh.positions.push_back(p);
   }
+  mesh.positions.insert(mesh.positions.end(), posed.begin(), posed.end());
   mesh.normals.insert(mesh.normals.end(), normals.begin(), normals.end());
   for (size_t t = 0; t < part.triangle_count; ++t) {
     const uint32_t* i = primitive.indices.data() + 3 * t;
@@ -171,8 +176,7 @@ void check_fit(const Model& model, const FlatMesh& mesh, size_t values) {
 
 void check_finite(const Model& model, const std::vector<glm::dvec3>& positions) {
   for (size_t v = 0; v < positions.size(); ++v) {
-    const glm::dvec3 p = float_rounded(positions[v]);
-    if (!std::isfinite(p.x + p.y + p.z)) {
+    if (!is_float(positions[v])) {
       fail(model, "the new position of vertex " + std::to_string(v) + " is not a finite float");
     }
   }

@@ -9,8 +9,7 @@
 // welded; results computed on the welded surface go back to all copies. Copies whose stored positions are bit-equal but
 // whose weights differ come out of skinning a rounding error apart: within 1e-6 of the diagonal they are put together.
 //
-// Positions are computed in double and rounded to float, so that copies of a vertex stay bit-equal and the numbers are
-// those a glTF file can hold. Cost: linear. Failure: std::runtime_error naming the element.
+// Positions are computed in double. Cost: linear. Failure: std::runtime_error naming the element.
 #ifndef HF_SAMPLES_COMMON_FLAT_MESH_H
 #define HF_SAMPLES_COMMON_FLAT_MESH_H
 

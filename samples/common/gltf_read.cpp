@@ -95,6 +95,13 @@ class Loader {
       json& o = (*found)[i];
       const auto length = o["byteLength"].get<uint64_t>();
       const std::string what = element("buffers", i);
+      if (!o.contains("uri") && !(i == 0 && container.has_binary_chunk) && !is_viewed(document, i)) {
+        // a placeholder for an extension: there is nothing to read, but the parser wants bytes
+        o["byteLength"] = 1;
+        o["uri"] = "buffer" + std::to_string(i);
+        files_["buffer" + std::to_string(i)] = {0};
+        continue;
+      }
       charge(length, what);
       std::vector<uint8_t> data = o.contains("uri") ? buffer_from_uri(o["uri"].get_ref<const std::string&>(), what)
                                                     : buffer_from_chunk(i, container, what);
@@ -106,6 +113,13 @@ class Loader {
       o["uri"] = virtual_name;
       files_[virtual_name] = std::move(data);
     }
+  }
+
+  static bool is_viewed(const json& document, size_t buffer) {
+    const auto views = document.find("bufferViews");
+    return views != document.end() && std::any_of(views->begin(), views->end(), [&](const json& view) {
+             return view["buffer"].get<size_t>() == buffer;
+           });
   }
 
   std::vector<uint8_t> buffer_from_chunk(size_t i, const GltfContainer& container, const std::string& what) const {

@@ -42,10 +42,33 @@ class Memory final : public std::pmr::memory_resource {
 template <class T>
 using Vector = std::pmr::vector<T>;
 
-// std::make_shared on a Memory.
+// std::make_shared on a Memory, for objects that do not own it (see make_owner_in).
 template <class T, class... Arguments>
 std::shared_ptr<T> make_shared_in(Memory& memory, Arguments&&... arguments) {
   return std::allocate_shared<T>(std::pmr::polymorphic_allocator<T>(&memory), std::forward<Arguments>(arguments)...);
+}
+
+// An allocator that keeps its Memory alive: for objects that are, directly or through what they hold, owners of the Memory they
+// lie in. The block of such an object is given back after its destructor, when nobody else may hold the Memory any more.
+template <class T>
+struct OwningAllocator {
+  using value_type = T;
+  explicit OwningAllocator(std::shared_ptr<Memory> owner) noexcept : memory(std::move(owner)) {}
+  template <class U>
+  OwningAllocator(const OwningAllocator<U>& other) noexcept : memory(other.memory) {}
+  T* allocate(std::size_t count) { return static_cast<T*>(memory->allocate(count * sizeof(T), alignof(T))); }
+  void deallocate(T* block, std::size_t count) noexcept { memory->deallocate(block, count * sizeof(T), alignof(T)); }
+  template <class U>
+  bool operator==(const OwningAllocator<U>& other) const noexcept { return memory == other.memory; }
+  template <class U>
+  bool operator!=(const OwningAllocator<U>& other) const noexcept { return memory != other.memory; }
+  std::shared_ptr<Memory> memory;
+};
+
+// std::make_shared for such objects.
+template <class T, class... Arguments>
+std::shared_ptr<T> make_owner_in(const std::shared_ptr<Memory>& memory, Arguments&&... arguments) {
+  return std::allocate_shared<T>(OwningAllocator<T>(memory), std::forward<Arguments>(arguments)...);
 }
 
 // Uninitialised array of trivially copyable T, aligned to 64 bytes. Move only.

@@ -260,6 +260,18 @@ void write_rows(WeightTable& table, const Mesh& mesh, const Reach& reach, const 
   }
 }
 
+void find_elastic(const Mesh& mesh, ClusterWeights& weights, Memory& memory) {
+  Vector<std::uint8_t> elastic(mesh.component_count(), 0, &memory);
+  for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+    // clusters ascend, free ones come last
+    const std::int32_t end = weights.start[v + 1];
+    if (end > weights.start[v] && weights.cluster[end - 1] >= weights.handle_count) elastic[mesh.component[v]] = 1;
+  }
+  for (std::int32_t c = 0; c < mesh.component_count(); ++c) {
+    if (elastic[c]) weights.elastic_components.push_back(c);
+  }
+}
+
 }  // namespace
 
 std::int32_t bands_for(std::int32_t wished, std::int32_t field_count) noexcept {
@@ -286,6 +298,7 @@ ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Re
   weights.handle_count = handle_count, weights.cluster_count = cutter.cluster_count(), weights.band_count = used.band_count;
   WeightTable table(cutter.entries(), core.size(), memory);
   write_rows(table, core.mesh, reach, fields, weights);
+  find_elastic(core.mesh, weights, memory);
   return weights;
 }
 

@@ -1,6 +1,7 @@
 #include "deform/dense.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hf {
 namespace {
@@ -23,7 +24,7 @@ void dot_four(const double* a, const double* b0, const double* b1, const double*
 
 }  // namespace
 
-void DenseFactor::factorise(Buffer<double>&& lower, std::int32_t size, Memory&) {
+void DenseFactor::factorise(Buffer<double>&& lower, std::int32_t size) {
   inverse_pivot_.assign(static_cast<std::size_t>(size), 0.0);
   lower_ = std::move(lower);
   size_ = size, dropped_ = 0;

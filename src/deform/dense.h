@@ -2,7 +2,7 @@
 //
 // Row-oriented Cholesky L L'. Unknowns whose pivot falls below a fraction of their diagonal depend on the ones before them (clusters on a
 // mesh too coarse to tell them apart); they are set to zero, which leaves a minimiser of the same quadratic. Cost size^3 / 6 multiply-adds,
-// size^2 per solve and right-hand side. Factoring and solving allocate nothing.
+// size^2 per solve and right-hand side. Solving allocates nothing.
 #pragma once
 #include <cstdint>
 
@@ -14,7 +14,7 @@ class DenseFactor {
  public:
   explicit DenseFactor(Memory& memory) : inverse_pivot_(&memory) {}
   // Takes the lower triangle, row by row with leading dimension size; it is overwritten by L.
-  void factorise(Buffer<double>&& lower, std::int32_t size, Memory& memory);
+  void factorise(Buffer<double>&& lower, std::int32_t size);
   // In place on x[4 * unknown + k], k < 3 used, k = 3 carried along.
   void solve(double* x) const noexcept;
   std::int32_t size() const noexcept { return size_; }

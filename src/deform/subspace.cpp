@@ -12,16 +12,21 @@ constexpr std::int32_t few_edges = 1500;     // clusters with fewer are never sa
 
 // z_c(e) of one edge, clusters ascending.
 struct EdgeRow {
+  explicit EdgeRow(Memory& memory) : cluster(&memory), z(&memory) {}
+  void resize(std::size_t size) { cluster.resize(size), z.resize(size); }
   std::int32_t count = 0;
-  std::int32_t cluster[2 * 128];
-  double z[2 * 128][4];
+  Vector<std::int32_t> cluster;
+  struct Z {
+    double x[4];
+  };
+  Vector<Z> z;
 };
 
 class Assembly {
  public:
-  Assembly(const Core& core, const Rest& rest, const Reach& reach, const ClusterWeights& weights, const Groups& groups, Subspace& out, Memory& memory)
-      : core_(core), rest_(rest), reach_(reach), weights_(weights), groups_(groups), out_(out), memory_(memory), elastic_(&memory), slot_of_group_(&memory),
-        edge_count_(&memory), entry_of_(&memory) {}
+  Assembly(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups, Subspace& out, Memory& memory)
+      : core_(core), rest_(rest), weights_(weights), groups_(groups), out_(out), memory_(memory), elastic_(&memory), slot_of_group_(&memory),
+        edge_count_(&memory), entry_of_(&memory), row_(memory) {}
 
   void run() {
     find_elastic_components();
@@ -36,13 +41,13 @@ class Assembly {
     add_areas();
     add_rigidity();
     collect_means();
-    out_.factor.factorise(std::move(lower_), static_cast<std::int32_t>(size), memory_);
+    out_.factor.factorise(std::move(lower_), static_cast<std::int32_t>(size));
   }
 
  private:
   void find_elastic_components() {
     elastic_.assign(core_.mesh.component_count(), 0);
-    for (std::int32_t c = 0; c < core_.mesh.component_count(); ++c) elastic_[c] = reach_.handles_of(c).size() > 1;
+    for (const std::int32_t c : weights_.elastic_components) elastic_[c] = 1;
     slot_of_group_.assign(groups_.count(), -1);
     for (std::int32_t g = 0; g < groups_.count(); ++g) {
       if (!elastic_[groups_.component[g]]) continue;
@@ -52,10 +57,12 @@ class Assembly {
   }
 
   bool is_elastic(std::int32_t vertex) const noexcept { return elastic_[core_.mesh.component[vertex]] != 0; }
-  std::int32_t row_size(std::int32_t v) const noexcept { return weights_.start[v + 1] - weights_.start[v]; }
 
   void count_edges() {
     edge_count_.assign(weights_.cluster_count, 0);
+    std::int32_t widest = 0;
+    for (std::int32_t v = 0; v < core_.size(); ++v) widest = std::max(widest, weights_.start[v + 1] - weights_.start[v]);
+    row_.resize(2 * static_cast<std::size_t>(widest));
     elastic_edges_ = 0;
     const Topology& topology = core_.topology;
     for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
@@ -123,7 +130,7 @@ class Assembly {
       const std::int32_t ca = a < a_end ? weights_.cluster[a] : 0x7fffffff, cb = b < b_end ? weights_.cluster[b] : 0x7fffffff;
       const double wa = ca <= cb ? weights_.weight[a] : 0.0, wb = cb <= ca ? weights_.weight[b] : 0.0;
       row.cluster[row.count] = std::min(ca, cb);
-      for (int k = 0; k < 4; ++k) row.z[row.count][k] = wa * pi[k] - wb * pj[k];
+      for (int k = 0; k < 4; ++k) row.z[row.count].x[k] = wa * pi[k] - wb * pj[k];
       ++row.count;
       a += ca <= cb, b += cb <= ca;
     }
@@ -142,7 +149,7 @@ class Assembly {
       for (const std::int32_t v : {i, j}) {
         auto& q = entry(groups_.group_of[v], row_.cluster[r]).q;
         for (int a = 0; a < 4; ++a) {
-          const double s = 0.5 * w * row_.z[r][a];
+          const double s = 0.5 * w * row_.z[r].x[a];
           for (int b = 0; b < 3; ++b) q[a][b] += s * dp[b];
         }
       }
@@ -154,13 +161,13 @@ class Assembly {
     const std::size_t handles = static_cast<std::size_t>(weights_.handle_count), size = 4 * static_cast<std::size_t>(weights_.free_count());
     const std::size_t row_first = 4 * (static_cast<std::size_t>(row_.cluster[r]) - handles);
     double wz[4];
-    for (int a = 0; a < 4; ++a) wz[a] = w * row_.z[r][a];
+    for (int a = 0; a < 4; ++a) wz[a] = w * row_.z[r].x[a];
     for (std::int32_t s = 0; s <= r; ++s) {
       const std::size_t c = static_cast<std::size_t>(row_.cluster[s]);
       const std::size_t stride = c < handles ? 4 * handles : size;
       double* block = (c < handles ? out_.coupling.data() + 4 * c : lower_.data() + 4 * (c - handles)) + row_first * stride;
       for (std::size_t a = 0; a < 4; ++a) {
-        for (std::size_t b = 0; b < 4; ++b) block[a * stride + b] += wz[a] * row_.z[s][b];
+        for (std::size_t b = 0; b < 4; ++b) block[a * stride + b] += wz[a] * row_.z[s].x[b];
       }
     }
   }
@@ -204,7 +211,6 @@ class Assembly {
 
   const Core& core_;
   const Rest& rest_;
-  const Reach& reach_;
   const ClusterWeights& weights_;
   const Groups& groups_;
   Subspace& out_;
@@ -220,9 +226,9 @@ class Assembly {
 
 }  // namespace
 
-Subspace make_subspace(const Core& core, const Rest& rest, const Reach& reach, const ClusterWeights& weights, const Groups& groups, Memory& memory) {
+Subspace make_subspace(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups, Memory& memory) {
   Subspace subspace(memory);
-  Assembly(core, rest, reach, weights, groups, subspace, memory).run();
+  Assembly(core, rest, weights, groups, subspace, memory).run();
   return subspace;
 }
 

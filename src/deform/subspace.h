@@ -30,11 +30,11 @@ struct Subspace {
     double q[4][3];  // Q_gc
   };
   struct Share {
-    std::int32_t entry_group;  // position in `group`
+    std::int32_t group;  // position in Subspace::group
     double area;
   };
 
-  Vector<std::int32_t> group;        // groups of the components with two handles or more, ascending
+  Vector<std::int32_t> group;        // groups of the elastic components, ascending
   Vector<std::int32_t> entry_start;  // entries of group[k]: entry[entry_start[k] .. entry_start[k + 1])
   Vector<Entry> entry;
   Vector<std::int32_t> mean_start;   // groups under free cluster f: mean[mean_start[f] .. mean_start[f + 1])
@@ -44,6 +44,6 @@ struct Subspace {
   DenseFactor factor;                // of the free block
 };
 
-Subspace make_subspace(const Core& core, const Rest& rest, const Reach& reach, const ClusterWeights& weights, const Groups& groups, Memory& memory);
+Subspace make_subspace(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups, Memory& memory);
 
 }  // namespace hf

@@ -76,7 +76,7 @@ void find_grounds(Core& core) {
 
 std::shared_ptr<const Core> Core::make(const MeshInput& input, const CoreOptions& options, std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs) {
   Memory& pool = *memory;
-  std::shared_ptr<Core> core = make_shared_in<Core>(pool, std::move(memory), std::move(jobs));
+  std::shared_ptr<Core> core = make_owner_in<Core>(memory, memory, std::move(jobs));
   report(options.progress, 0.0f);
   Timer weld_timer;
   core->mesh = Mesh::make(input, pool);

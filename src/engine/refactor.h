@@ -21,7 +21,7 @@ class RefactorSolver final : public SiteSolver {
   void edit(const SiteEdit& edit) override;
   void solve(const double* values, std::int32_t channels, double* field, double* flux) const override;
   void solve_at(const double* values, std::int32_t channels, Span<const std::int32_t> vertices, double* out) const override;
-  std::shared_ptr<SiteSolver> clone() const override { return make_shared_in<RefactorSolver>(*core_->memory, *this); }
+  std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<RefactorSolver>(core_->memory, *this); }
   EngineKind kind() const noexcept override { return EngineKind::refactor; }
   EngineCounters counters() const noexcept override;
   std::int32_t site_count(std::int32_t component) const noexcept override { return state_.count[static_cast<std::size_t>(component)]; }

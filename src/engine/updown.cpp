@@ -150,7 +150,7 @@ class UpdownSolver final : public SiteSolver {
     for (std::size_t i = 0; i < vertices.size(); ++i) std::copy_n(field.data() + at(vertices[i]) * at(channels), channels, out + i * at(channels));
   }
 
-  std::shared_ptr<SiteSolver> clone() const override { return make_shared_in<UpdownSolver>(*core_->memory, *this); }
+  std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<UpdownSolver>(core_->memory, *this); }
   EngineKind kind() const noexcept override { return EngineKind::updown; }
   EngineCounters counters() const noexcept override {
     EngineCounters counters;
@@ -295,8 +295,8 @@ class UpdownSolver final : public SiteSolver {
 }  // namespace
 
 std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core> core, double penalty) {
-  Memory& memory = *core->memory;
-  return make_shared_in<UpdownSolver>(memory, std::move(core), penalty);
+  const std::shared_ptr<Memory> memory = core->memory;
+  return make_owner_in<UpdownSolver>(memory, std::move(core), penalty);
 }
 
 }  // namespace hf

@@ -1,7 +1,8 @@
 // Sweep kernels: one supernode on m interleaved right-hand sides. Included after a simd_*.h, see kernels_factor.inl.
 //
 // A column's sum over the rows below is one chain in row order, except for one right-hand side on at most 16 columns, where 4
-// (up to 8 columns) or 2 chains hide the latency: a rule in columns, not in vector lengths, so all sets give the same bits.
+// (up to 8 columns) or 2 chains hide the latency: a rule in columns of the supernode, not in vector lengths or pieces, so all
+// sets and all numbers of threads give the same bits.
 #include <cstddef>
 #include <cstdint>
 
@@ -111,13 +112,13 @@ inline void sum_rows(const T* block, std::int64_t stride, const std::int32_t* ro
                      std::int32_t channels, T* sum) noexcept {
   using S = Simd<T>;
   if (C == 1) {
-    if (width <= 8) {
+    if (stride <= 8) {
       for (std::int32_t j = 0; j < width; j += S::width) {
         sum_in_registers<T, 1, 1, 4>(block + j, stride, rows, row_count, z, channels, sum + j);
       }
       return;
     }
-    if (width <= 16) {
+    if (stride <= 16) {
       constexpr int vectors = S::width <= 4 ? 2 : 1;
       for (std::int32_t j = 0; j < width; j += vectors * S::width) {
         sum_in_registers<T, 1, vectors, 2>(block + j, stride, rows, row_count, z, channels, sum + j);

@@ -1,0 +1,89 @@
+// See pairs_file.h.
+#include "transfer/pairs_file.h"
+
+#include <algorithm>
+
+#include "hf/transfer.h"
+
+namespace samples {
+namespace {
+
+std::vector<Selector> read_selectors(const JsonReader& json) {
+  if (!json.value().is_array()) return {read_selector(json)};
+  std::vector<Selector> out;
+  for (size_t i = 0; i < json.size(); ++i) out.push_back(read_selector(json.at(i)));
+  if (out.empty()) json.fail("the list of selectors is empty");
+  return out;
+}
+
+PairEntry read_pair(const JsonReader& json) {
+  json.expect_only({"name", "both", "source", "target", "anchor", "foot", "trunk", "align"});
+  PairEntry pair;
+  pair.name = json.at("name").string();
+  if (pair.name.empty()) json.at("name").fail("a pair needs a name");
+  if (json.has("both")) {
+    if (json.has("source") || json.has("target")) json.fail("give \"both\", or \"source\" and \"target\"");
+    pair.source = pair.target = read_selectors(json.at("both"));
+  } else {
+    pair.source = read_selectors(json.at("source"));
+    pair.target = read_selectors(json.at("target"));
+  }
+  pair.anchor = json.boolean_or("anchor", false), pair.foot = json.boolean_or("foot", false);
+  pair.trunk = json.boolean_or("trunk", false), pair.align = json.boolean_or("align", true);
+  return pair;
+}
+
+std::vector<PairEntry> read_list(const JsonReader& json) {
+  std::vector<PairEntry> out;
+  for (size_t i = 0; i < json.size(); ++i) {
+    out.push_back(read_pair(json.at(i)));
+    for (size_t k = 0; k < i; ++k) {
+      if (out[k].name == out[i].name) json.at(i).at("name").fail("the name \"" + out[i].name + "\" is taken by an earlier pair");
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+uint32_t PairEntry::flags() const {
+  return (anchor ? uint32_t{HF_PAIR_ANCHOR} : 0u) | (foot ? uint32_t{HF_PAIR_FOOT} : 0u) | (trunk ? uint32_t{HF_PAIR_TRUNK} : 0u) | (align ? 0u : uint32_t{HF_PAIR_NO_ALIGNMENT});
+}
+
+PairsFile read_pairs(const std::filesystem::path& file) {
+  const JsonFile json(file);
+  const JsonReader root = json.root();
+  root.expect_only({"about", "source_axes", "target_axes", "settings", "pairs"});
+  PairsFile out;
+  if (root.has("source_axes")) out.source_axes = read_axes(root.at("source_axes"));
+  if (root.has("target_axes")) out.target_axes = read_axes(root.at("target_axes"));
+  if (root.has("settings")) {
+    const JsonReader settings = root.at("settings");
+    settings.expect_only({"mode", "clusters", "width", "scale", "alignment_degrees"});
+    const std::string mode = settings.string_or("mode", "fields");
+    if (mode != "fields" && mode != "paper") settings.at("mode").fail("expected \"fields\" or \"paper\", found \"" + mode + "\"");
+    out.settings.paper = mode == "paper";
+    out.settings.clusters = static_cast<uint32_t>(settings.integer_or("clusters", 1, 512, 0));
+    if (settings.has("width")) out.settings.width = settings.at("width").number(0.005, 0.5);
+    if (settings.has("scale")) out.settings.scale = settings.at("scale").number(1e-6, 1e6);
+    if (settings.has("alignment_degrees")) out.settings.alignment_degrees = settings.at("alignment_degrees").number(-1, 180);
+  }
+  out.pairs = read_list(root.at("pairs"));
+  if (out.pairs.empty()) root.at("pairs").fail("at least one pair is needed");
+  return out;
+}
+
+EditsFile read_edits(const std::filesystem::path& file) {
+  const JsonFile json(file);
+  const JsonReader root = json.root();
+  root.expect_only({"about", "remove", "add"});
+  EditsFile out;
+  if (root.has("remove")) {
+    for (size_t i = 0; i < root.at("remove").size(); ++i) out.remove.push_back(root.at("remove").at(i).string());
+  }
+  if (root.has("add")) out.add = read_list(root.at("add"));
+  if (out.remove.empty() && out.add.empty()) root.fail("nothing to do: give \"remove\" (names of pairs) or \"add\" (pairs)");
+  return out;
+}
+
+}  // namespace samples

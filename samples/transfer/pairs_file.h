@@ -1,0 +1,44 @@
+// PAIRS.json and EDITS.json: which places of two models correspond. The format is in README.md.
+#ifndef HF_SAMPLES_TRANSFER_PAIRS_FILE_H
+#define HF_SAMPLES_TRANSFER_PAIRS_FILE_H
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "transfer/regions.h"
+
+namespace samples {
+
+struct PairEntry {
+  std::string name;
+  std::vector<Selector> source, target;
+  bool anchor = false, foot = false, trunk = false, align = true;
+  uint32_t flags() const;  // HF_PAIR_*
+};
+
+struct TransferSettings {
+  bool paper = false;
+  uint32_t clusters = 0;
+  double width = 0, scale = 0, alignment_degrees = 0;  // 0 = the library's default; negative = never
+};
+
+struct PairsFile {
+  Axes source_axes, target_axes;
+  TransferSettings settings;
+  std::vector<PairEntry> pairs;
+};
+
+// Throws std::runtime_error "file: key path: what is wrong".
+PairsFile read_pairs(const std::filesystem::path& file);
+
+struct EditsFile {
+  std::vector<std::string> remove;
+  std::vector<PairEntry> add;
+};
+
+EditsFile read_edits(const std::filesystem::path& file);
+
+}  // namespace samples
+
+#endif

@@ -1,0 +1,106 @@
+// hf/base.h: versions, error detail, progress objects.
+#include <cstdio>
+
+#include "base/version.h"
+#include "capi/boundary.h"
+#include "capi/objects.h"
+
+namespace hf::capi {
+namespace {
+
+// The detail of this thread's last failure. Plain data: no constructor, no destructor, nothing to allocate.
+thread_local hf_error_detail last_failure;
+
+struct Name {
+  hf_result code;
+  const char* name;
+};
+constexpr Name names[] = {
+    {HF_OK, "HF_OK"},
+    {HF_ERROR_INVALID_ARGUMENT, "HF_ERROR_INVALID_ARGUMENT"},
+    {HF_ERROR_NULL_POINTER, "HF_ERROR_NULL_POINTER"},
+    {HF_ERROR_INVALID_HANDLE, "HF_ERROR_INVALID_HANDLE"},
+    {HF_ERROR_INVALID_DESC, "HF_ERROR_INVALID_DESC"},
+    {HF_ERROR_OUT_OF_RANGE, "HF_ERROR_OUT_OF_RANGE"},
+    {HF_ERROR_NON_FINITE, "HF_ERROR_NON_FINITE"},
+    {HF_ERROR_EMPTY, "HF_ERROR_EMPTY"},
+    {HF_ERROR_DUPLICATE_SITE, "HF_ERROR_DUPLICATE_SITE"},
+    {HF_ERROR_NO_SUCH_SITE, "HF_ERROR_NO_SUCH_SITE"},
+    {HF_ERROR_CONFLICT, "HF_ERROR_CONFLICT"},
+    {HF_ERROR_NO_SITES, "HF_ERROR_NO_SITES"},
+    {HF_ERROR_NO_SUCH_HANDLE, "HF_ERROR_NO_SUCH_HANDLE"},
+    {HF_ERROR_NO_SUCH_PAIR, "HF_ERROR_NO_SUCH_PAIR"},
+    {HF_ERROR_OVERLAP, "HF_ERROR_OVERLAP"},
+    {HF_ERROR_UNSUPPORTED, "HF_ERROR_UNSUPPORTED"},
+    {HF_ERROR_BUSY, "HF_ERROR_BUSY"},
+    {HF_ERROR_REENTRANT, "HF_ERROR_REENTRANT"},
+    {HF_ERROR_TOO_SMALL, "HF_ERROR_TOO_SMALL"},
+    {HF_ERROR_NO_RECORD, "HF_ERROR_NO_RECORD"},
+    {HF_ERROR_OUT_OF_MEMORY, "HF_ERROR_OUT_OF_MEMORY"},
+    {HF_ERROR_TOO_LARGE, "HF_ERROR_TOO_LARGE"},
+    {HF_ERROR_CANCELLED, "HF_ERROR_CANCELLED"},
+    {HF_ERROR_NOT_POSITIVE_DEFINITE, "HF_ERROR_NOT_POSITIVE_DEFINITE"},
+    {HF_ERROR_INACCURATE, "HF_ERROR_INACCURATE"},
+    {HF_ERROR_INTERNAL, "HF_ERROR_INTERNAL"},
+};
+
+}  // namespace
+
+hf_result record_failure(hf_result code, std::uint32_t index, const char* function, const char* message) noexcept {
+  last_failure.code = code, last_failure.index = index;
+  std::snprintf(last_failure.function, sizeof last_failure.function, "%s", function);
+  std::snprintf(last_failure.message, sizeof last_failure.message, "%s", message);
+  return code;
+}
+
+}  // namespace hf::capi
+
+using namespace hf;
+using namespace hf::capi;
+
+extern "C" {
+
+void hf_init_desc(void* desc, uint32_t struct_size) {
+  if (!desc || struct_size < sizeof struct_size) return;
+  std::memset(desc, 0, struct_size);
+  std::memcpy(desc, &struct_size, sizeof struct_size);
+}
+
+hf_result hf_get_error_detail(hf_error_detail* out_detail) {
+  if (!out_detail) return HF_ERROR_NULL_POINTER;
+  *out_detail = last_failure;
+  return HF_OK;
+}
+
+const char* hf_result_name(hf_result result) {
+  for (const Name& entry : names) {
+    if (entry.code == result) return entry.name;
+  }
+  return "unknown";
+}
+
+uint32_t hf_get_version(void) { return HF_VERSION_NUMBER_MAJOR * 1000000u + HF_VERSION_NUMBER_MINOR * 1000u + HF_VERSION_NUMBER_PATCH; }
+
+hf_result hf_progress_create(hf_progress* out_progress) {
+  return guarded("hf_progress_create", [&] {
+    require(out_progress, "out_progress");
+    *out_progress = nullptr;
+    *out_progress = reinterpret_cast<hf_progress>(insert(std::make_shared<ProgressObject>()));
+  });
+}
+
+void hf_progress_destroy(hf_progress progress) { remove(reinterpret_cast<std::uintptr_t>(progress), Kind::progress); }
+
+hf_result hf_progress_get(hf_progress progress, float* out_fraction) {
+  return guarded("hf_progress_get", [&] {
+    const auto object = get<ProgressObject>(progress, Kind::progress, "progress");
+    require(out_fraction, "out_fraction");
+    *out_fraction = object->progress.fraction();
+  });
+}
+
+hf_result hf_progress_cancel(hf_progress progress) {
+  return guarded("hf_progress_cancel", [&] { get<ProgressObject>(progress, Kind::progress, "progress")->progress.cancel(); });
+}
+
+}  // extern "C"

@@ -1,0 +1,232 @@
+// hf/field.h: sites and fields.
+#include <algorithm>
+
+#include "capi/boundary.h"
+#include "capi/objects.h"
+#include "hf/field.h"
+
+namespace hf::capi {
+namespace {
+
+Places read_places(const hf_sites_desc& desc) {
+  if (desc.site_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
+  if (desc.vertices && desc.triangles) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and triangles are both set; set one");
+  if (!desc.vertices && !desc.triangles) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "vertices and triangles are both NULL");
+  if (desc.triangles && !desc.barycentrics) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "barycentrics is NULL, but the sites are in triangles");
+  Places places;
+  places.count = desc.site_count, places.vertices = desc.vertices, places.triangles = desc.triangles, places.barycentrics = desc.barycentrics;
+  return places;
+}
+
+void read_addition(const hf_sites_desc* given, FieldEdit& edit) {
+  const hf_sites_desc desc = read_struct(given, "sites");
+  edit.add = read_places(desc);
+  edit.add_values = desc.values, edit.add_stiffness = desc.stiffness;
+}
+
+void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_desc* to, FieldEdit& edit) {
+  if (count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
+  require(sites, "sites");
+  const hf_sites_desc desc = read_struct(to, "to");
+  if (desc.values || desc.stiffness) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "moving keeps values and stiffness: set both to NULL in the desc");
+  edit.move_count = count, edit.move_sites = sites, edit.move_to = read_places(desc);
+  if (edit.move_to.count != count) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
+}
+
+void apply(hf_solver handle, const FieldEdit& edit, std::uint32_t* out_sites) {
+  const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
+  const Changing changing(*solver);
+  solver->field.edit(edit, out_sites);
+}
+
+// Counts what no site reaches.
+hf_solve_info unreached(const SolverObject& solver) {
+  hf_solve_info info{};
+  const Core& core = solver.field.core();
+  info.first_unreached_component = HF_NO_INDEX;
+  info.unreached_vertex_count = core.mesh.report.isolated_vertex_count;
+  for (std::uint32_t c = 0; c < core.mesh.report.component_count; ++c) {
+    if (solver.field.engine().site_count(static_cast<std::int32_t>(c)) > 0) continue;
+    if (info.unreached_component_count++ == 0) info.first_unreached_component = c;
+    info.unreached_vertex_count += solver.given_count[c];
+  }
+  return info;
+}
+
+void solve(hf_solver handle, float* f32, double* f64, std::uint32_t value_stride, hf_solve_info* out_info) {
+  const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
+  if (!f32 && !f64) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_values is NULL");
+  if (out_info) check_struct(out_info, "out_info");
+  const Reading reading(*solver);
+  const Core& core = solver->field.core();
+  const std::size_t m = static_cast<std::size_t>(solver->field.sites().channels());
+  const Rows out = f64 ? Rows(f64, stride_of(value_stride, m * sizeof(double), "value_stride")) : Rows(f32, stride_of(value_stride, m * sizeof(float), "value_stride"));
+  Workspace field(core.workspaces, static_cast<std::size_t>(core.size()) * m);
+  solver->field.solve(field.data());
+
+  const Mesh& mesh = core.mesh;
+  const std::size_t count = mesh.report.vertex_count;
+  constexpr std::size_t piece = 32768;
+  core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
+    const std::size_t end = std::min(count, (p + std::size_t{1}) * piece);
+    for (std::size_t v = p * piece; v < end; ++v) {
+      const std::int32_t inner = mesh.inner_of_given[v];
+      for (std::size_t c = 0; c < m; ++c) out.set(v, c, inner == Mesh::none ? 0.0 : field[static_cast<std::size_t>(inner) * m + c]);
+    }
+  });
+  if (out_info) write_struct(out_info, unreached(*solver));
+}
+
+}  // namespace
+}  // namespace hf::capi
+
+using namespace hf;
+using namespace hf::capi;
+
+extern "C" {
+
+hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint32_t* out_sites) {
+  return guarded("hf_add_sites", [&] {
+    FieldEdit edit;
+    get<SolverObject>(solver, Kind::solver, "solver");
+    read_addition(sites, edit);
+    apply(solver, edit, out_sites);
+  });
+}
+
+hf_result hf_remove_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites) {
+  return guarded("hf_remove_sites", [&] {
+    FieldEdit edit;
+    get<SolverObject>(solver, Kind::solver, "solver");
+    if (site_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
+    require(sites, "sites");
+    edit.remove_count = site_count, edit.remove_sites = sites;
+    apply(solver, edit, nullptr);
+  });
+}
+
+hf_result hf_move_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const hf_sites_desc* to) {
+  return guarded("hf_move_sites", [&] {
+    FieldEdit edit;
+    get<SolverObject>(solver, Kind::solver, "solver");
+    read_move(site_count, sites, to, edit);
+    apply(solver, edit, nullptr);
+  });
+}
+
+hf_result hf_set_site_values(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* values) {
+  return guarded("hf_set_site_values", [&] {
+    FieldEdit edit;
+    get<SolverObject>(solver, Kind::solver, "solver");
+    if (site_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
+    require(sites, "sites"), require(values, "values");
+    edit.set_count = site_count, edit.set_sites = sites, edit.set_values = values;
+    apply(solver, edit, nullptr);
+  });
+}
+
+hf_result hf_edit_sites(hf_solver solver, const hf_edit_desc* given, uint32_t* out_sites) {
+  return guarded("hf_edit_sites", [&] {
+    get<SolverObject>(solver, Kind::solver, "solver");
+    const hf_edit_desc desc = read_struct(given, "edit");
+    FieldEdit edit;
+    if (desc.remove_count) require(desc.remove_sites, "remove_sites");
+    edit.remove_count = desc.remove_count, edit.remove_sites = desc.remove_sites;
+    if (desc.move_count) read_move(desc.move_count, desc.move_sites, desc.move_to, edit);
+    if (desc.set_count) require(desc.set_sites, "set_sites"), require(desc.set_values, "set_values");
+    edit.set_count = desc.set_count, edit.set_sites = desc.set_sites, edit.set_values = desc.set_values;
+    if (desc.add) read_addition(desc.add, edit);
+    apply(solver, edit, out_sites);
+  });
+}
+
+uint32_t hf_get_site_count(hf_solver solver) {
+  const std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(solver), Kind::solver);
+  return object ? static_cast<SolverObject&>(*object).field.sites().count() : 0;
+}
+
+hf_result hf_get_sites(hf_solver handle, hf_site_info* out_info) {
+  return guarded("hf_get_sites", [&] {
+    const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
+    check_struct(out_info, "out_info");
+    const hf_site_info info = read_struct(out_info, "out_info");
+    const Reading reading(*solver);
+    const SiteSet& sites = solver->field.sites();
+    if (info.capacity < sites.count()) fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "capacity is %u; the solver has %u sites", info.capacity, sites.count());
+    const std::size_t m = static_cast<std::size_t>(sites.channels());
+    Vector<double> flux(solver->memory.get());
+    if (info.flux) solver->field.flux(flux);
+    std::size_t at = 0;
+    for (std::size_t s = 0; s < sites.slots().size(); ++s) {
+      const SiteSet::Slot& slot = sites.slots()[s];
+      if (!slot.used()) continue;
+      if (info.sites) info.sites[at] = static_cast<std::uint32_t>(s);
+      if (info.vertices) info.vertices[at] = slot.given_vertex;
+      if (info.components) info.components[at] = static_cast<std::uint32_t>(slot.site.component);
+      if (info.stiffness) info.stiffness[at] = slot.stiffness;
+      if (info.values) std::copy_n(sites.values() + s * m, m, info.values + at * m);
+      if (info.flux) std::copy_n(flux.data() + s * m, m, info.flux + at * m);
+      ++at;
+    }
+  });
+}
+
+hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info) {
+  return guarded("hf_solve", [&] { solve(solver, out_values, nullptr, value_stride, out_info); });
+}
+
+hf_result hf_solve_f64(hf_solver solver, double* out_values, uint32_t value_stride, hf_solve_info* out_info) {
+  return guarded("hf_solve_f64", [&] { solve(solver, nullptr, out_values, value_stride, out_info); });
+}
+
+hf_result hf_solve_at(hf_solver handle, uint32_t vertex_count, const uint32_t* vertices, double* out_values) {
+  return guarded("hf_solve_at", [&] {
+    const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
+    if (vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "vertex_count is 0");
+    require(vertices, "vertices"), require(out_values, "out_values");
+    const Reading reading(*solver);
+    const Mesh& mesh = solver->field.core().mesh;
+    const std::size_t m = static_cast<std::size_t>(solver->field.sites().channels());
+    if (vertex_count > mesh.report.vertex_count) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices asked for; the mesh has %u", vertex_count, mesh.report.vertex_count);
+    Vector<std::int32_t> inner(solver->memory.get());
+    for (std::uint32_t i = 0; i < vertex_count; ++i) {
+      if (vertices[i] >= mesh.report.vertex_count) fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of the list: vertex %u, but there are %u vertices", i, vertices[i], mesh.report.vertex_count);
+      const std::int32_t v = mesh.inner_of_given[vertices[i]];
+      if (v != Mesh::none) inner.push_back(v);
+    }
+    Vector<double> values(inner.size() * m, solver->memory.get());
+    solver->field.solve_at(inner, values.data());
+    std::size_t from = 0;
+    for (std::uint32_t i = 0; i < vertex_count; ++i) {
+      const bool isolated = mesh.inner_of_given[vertices[i]] == Mesh::none;
+      for (std::size_t c = 0; c < m; ++c) out_values[i * m + c] = isolated ? 0.0 : values[from * m + c];
+      from += !isolated;
+    }
+  });
+}
+
+hf_result hf_record(hf_solver handle) {
+  return guarded("hf_record", [&] {
+    const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
+    const Changing changing(*solver);
+    solver->field.record();
+  });
+}
+
+hf_result hf_undo(hf_solver handle) {
+  return guarded("hf_undo", [&] {
+    const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
+    const Changing changing(*solver);
+    solver->field.undo();
+  });
+}
+
+hf_result hf_redo(hf_solver handle) {
+  return guarded("hf_redo", [&] {
+    const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
+    const Changing changing(*solver);
+    solver->field.redo();
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,74 @@
+// The one global of the library: the table behind all handles. A handle is not a pointer but kind, generation and index; a stale, foreign or
+// doubly destroyed one is found out and answered with HF_ERROR_INVALID_HANDLE. Generations are never used twice (until 2^32 objects, or 2^15
+// on 32-bit hosts, were made). Empty, the table holds no memory, so unloading the library leaks nothing.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <thread>
+
+#include "base/error.h"
+
+namespace hf::capi {
+
+enum class Kind : std::uint32_t { solver = 1, pose = 2, transfer = 3, progress = 4 };
+
+// What a handle stands for. Readers share, a writer is alone; nobody waits: a call that overlaps answers HF_ERROR_BUSY, or
+// HF_ERROR_REENTRANT when it comes from a callback of the very call it overlaps.
+class Object {
+ public:
+  explicit Object(Kind kind) noexcept : kind_(kind) {}
+  virtual ~Object() = default;
+  Object(const Object&) = delete;
+  Object& operator=(const Object&) = delete;
+  Kind kind() const noexcept { return kind_; }
+
+ private:
+  friend class Reading;
+  friend class Changing;
+  static constexpr std::int32_t writer = -1;
+  const Kind kind_;
+  std::atomic<std::int32_t> users_{0};  // readers, or `writer`
+  std::atomic<std::thread::id> owner_{};
+};
+
+class Reading {
+ public:
+  explicit Reading(Object& object);
+  ~Reading() { object_.users_.fetch_sub(1, std::memory_order_release); }
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+
+ private:
+  Object& object_;
+};
+
+class Changing {
+ public:
+  explicit Changing(Object& object);
+  ~Changing() {
+    object_.owner_.store(std::thread::id{}, std::memory_order_relaxed);
+    object_.users_.store(0, std::memory_order_release);
+  }
+  Changing(const Changing&) = delete;
+  Changing& operator=(const Changing&) = delete;
+
+ private:
+  Object& object_;
+};
+
+// Registers an object; throws std::bad_alloc, or HF_ERROR_TOO_LARGE when the table is full.
+std::uintptr_t insert(std::shared_ptr<Object> object);
+// The object behind a handle, kept alive for the call; null when there is none of that kind.
+std::shared_ptr<Object> find(std::uintptr_t handle, Kind kind) noexcept;
+// Takes it out of the table; the last user destroys it.
+std::shared_ptr<Object> remove(std::uintptr_t handle, Kind kind) noexcept;
+
+template <class T, class Handle>
+std::shared_ptr<T> get(Handle handle, Kind kind, const char* name, std::uint32_t index = HF_NO_INDEX) {
+  std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(handle), kind);
+  if (!object) fail(HF_ERROR_INVALID_HANDLE, index, "%s is %s; pass a live handle", name, handle ? "stale, destroyed or of another kind" : "NULL");
+  return std::static_pointer_cast<T>(std::move(object));
+}
+
+}  // namespace hf::capi

@@ -1,0 +1,403 @@
+#include "deform/pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.h"
+#include "base/timer.h"
+#include "deform/normals.h"
+
+namespace hf {
+namespace {
+
+constexpr double settled_change = 1e-6;        // of a rotation: below, a pose that is asked for again is not solved on
+constexpr std::uint32_t idle_limit = 100;      // iterations spent on one target: beyond, twists of many turns begin to unwind
+constexpr double jump_turn = 1.75;             // radians in one step: beyond, start afresh from the fields
+constexpr double largest_translation = 1e15;   // box diagonals
+
+bool is_finite(Vec3 v) noexcept { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void require_range(std::uint32_t value, std::uint32_t low, std::uint32_t high, const char* name) {
+  if (value != 0 && (value < low || value > high))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s is %u; it must lie in %u to %u, or be 0 for the default", name, value, low, high);
+}
+
+PoseOptions checked(const PoseOptions& options) {
+  if (options.mode != DeformMode::smooth && options.mode != DeformMode::paper)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "mode is %d; use HF_DEFORM_SMOOTH or HF_DEFORM_PAPER", static_cast<int>(options.mode));
+  require_range(options.band_count, 2, 64, "band_count");
+  require_range(options.iteration_count, 1, 1000, "iteration_count");
+  require_range(options.group_count, 1, 2000, "group_count");
+  PoseOptions filled = options;
+  const bool smooth = options.mode == DeformMode::smooth;
+  if (filled.band_count == 0) filled.band_count = smooth ? 10 : 12;
+  if (filled.iteration_count == 0) filled.iteration_count = smooth ? 8 : 200;
+  if (filled.group_count == 0) filled.group_count = 200;
+  return filled;
+}
+
+}  // namespace
+
+struct Pose::Layout {
+  explicit Layout(const Handles& list, std::shared_ptr<SiteSolver> solver, const Core& core, Memory& memory)
+      : handles(list, &memory), sites(std::move(solver)), reach(core.mesh, handles, memory),
+        fields(solve_handle_fields(core, *sites, handles, reach, memory)), weights(memory) {}
+  Handles handles;
+  std::shared_ptr<SiteSolver> sites;
+  Reach reach;
+  HandleFields fields;
+  ClusterWeights weights;
+  std::shared_ptr<const Groups> groups;
+  std::shared_ptr<const SmoothSystem> smooth;
+  std::shared_ptr<const PaperSystem> paper;
+};
+
+Pose::Pose(std::shared_ptr<const Core> core, const PoseOptions& options, std::shared_ptr<const Rest> rest)
+    : core_(std::move(core)), options_(options), rest_(std::move(rest)), positions_(memory(), static_cast<std::size_t>(core_->size())), turns_(memory(), handle_limit) {}
+
+std::shared_ptr<Pose> Pose::make(std::shared_ptr<const Core> core, const PoseOptions& options) {
+  if (!core->factor) fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "poses need a solver made with HF_ENGINE_GREEN");
+  const PoseOptions filled = checked(options);
+  Memory& memory = *core->memory;
+  return make_shared_in<Pose>(memory, core, filled, make_shared_in<Rest>(memory, *core, memory));
+}
+
+std::shared_ptr<Pose> Pose::clone() const {
+  auto copy = make_shared_in<Pose>(memory(), core_, options_, rest_);
+  copy->groups_ = groups_;
+  copy->layout_ = layout_, copy->previous_layout_ = previous_layout_;
+  if (state_) copy->state_ = make_shared_in<State>(memory(), *state_, memory());
+  copy->previous_state_ = previous_state_;
+  if (posed_) std::memcpy(copy->positions_.data(), positions_.data(), positions_.size() * sizeof(Vec3));
+  copy->posed_ = posed_, copy->report_ = report_;
+  return copy;
+}
+
+// ---- handles ----
+
+std::uint32_t Pose::handle_count() const noexcept { return layout_ ? static_cast<std::uint32_t>(layout_->handles.size()) : 0; }
+
+std::int32_t Pose::find(std::uint32_t number) const noexcept {
+  for (std::uint32_t i = 0; i < handle_count(); ++i) {
+    if (layout_->handles[i].number == number) return static_cast<std::int32_t>(i);
+  }
+  return -1;
+}
+
+std::int32_t Pose::require(std::uint32_t number, std::uint32_t position) const {
+  const std::int32_t i = find(number);
+  if (i < 0) fail(HF_ERROR_NO_SUCH_HANDLE, position, "the pose has no handle %u", number);
+  return i;
+}
+
+void Pose::check_regions(Span<const std::uint32_t> start, Span<const std::int32_t> vertices) const {
+  if (start.size() < 2) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no handle to add");
+  const std::size_t added = start.size() - 1;
+  if (added + handle_count() > handle_limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles and %zu more; a pose holds at most %u", handle_count(), added, handle_limit);
+  Vector<std::int32_t> owner(static_cast<std::size_t>(core_->size()), -1, &memory());  // -2: a handle there is
+  if (layout_) {
+    for (std::int32_t v = 0; v < core_->size(); ++v) owner[v] = layout_->reach.owner[v] >= 0 ? -2 : -1;
+  }
+  for (std::size_t r = 0; r < added; ++r) {
+    if (start[r + 1] <= start[r]) fail(HF_ERROR_EMPTY, static_cast<std::uint32_t>(r), "region %zu has no vertex", r);
+    for (std::uint32_t k = start[r]; k < start[r + 1]; ++k) {
+      const std::int32_t v = vertices[k];
+      if (v == Mesh::none) fail(HF_ERROR_INVALID_ARGUMENT, k, "entry %u of the regions is a vertex without a usable triangle", k);
+      if (v < 0 || v >= core_->size()) fail(HF_ERROR_OUT_OF_RANGE, k, "entry %u of the regions is no vertex of the mesh", k);
+      if (owner[v] != -1 && owner[v] != static_cast<std::int32_t>(r))
+        fail(HF_ERROR_OVERLAP, k, "entry %u: the vertex belongs to %s already; regions must not overlap", k, owner[v] == -2 ? "a handle" : "an earlier region");
+      owner[v] = static_cast<std::int32_t>(r);
+    }
+  }
+}
+
+void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, Span<std::uint32_t> out_numbers) {
+  check_regions(start, vertices);
+  Handles handles(&memory());
+  if (layout_) handles.assign(layout_->handles.begin(), layout_->handles.end());
+  const std::size_t first = handles.size();
+  std::shared_ptr<SiteSolver> sites = layout_ ? layout_->sites->clone() : SiteSolver::make(EngineKind::green, core_, 0);
+  std::uint32_t number = 0;
+  std::int32_t slot = 0;
+  Vector<std::uint8_t> slot_taken(static_cast<std::size_t>(sites->slot_count()), 0, &memory());
+  for (const Handle& handle : handles) {
+    for (const std::int32_t s : handle.region->slots) slot_taken[s] = 1;
+  }
+  Vector<std::int32_t> slots(&memory());
+  Vector<Site> added(&memory());
+  for (std::size_t r = 0; r + 1 < start.size(); ++r) {
+    std::shared_ptr<HandleRegion> region = make_region(*core_, vertices.subspan(start[r], start[r + 1] - start[r]), options_.samples_per_ring, memory());
+    for (const std::int32_t v : region->sites) {
+      while (slot < static_cast<std::int32_t>(slot_taken.size()) && slot_taken[slot]) ++slot;
+      region->slots.push_back(slot), slots.push_back(slot++);
+      added.push_back(Site::at_vertex(core_->mesh, v));
+    }
+    const auto taken = [&](const Handle& handle) { return handle.number == number; };
+    while (std::any_of(handles.begin(), handles.end(), taken)) ++number;
+    handles.push_back({number, std::move(region)});
+  }
+  if (!slots.empty()) sites->edit({{}, slots, added});
+  std::shared_ptr<const Layout> layout = make_layout(handles, std::move(sites));
+  std::shared_ptr<State> state = carry_over(*layout);
+  previous_layout_ = layout_, previous_state_ = state_;
+  install(std::move(layout), std::move(state));
+  for (std::size_t r = 0; r < out_numbers.size(); ++r) out_numbers[r] = layout_->handles[first + r].number;
+}
+
+void Pose::remove_handles(Span<const std::uint32_t> numbers) {
+  if (numbers.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no handle to remove");
+  Vector<std::uint8_t> leaving(handle_count(), 0, &memory());
+  for (std::uint32_t k = 0; k < numbers.size(); ++k) {
+    const std::int32_t i = require(numbers[k], k);
+    if (leaving[i]) fail(HF_ERROR_NO_SUCH_HANDLE, k, "handle %u is named twice", numbers[k]);
+    leaving[i] = 1;
+  }
+  Handles remaining(&memory());
+  Vector<std::int32_t> slots(&memory());
+  for (std::size_t i = 0; i < leaving.size(); ++i) {
+    const Handle& handle = layout_->handles[i];
+    if (!leaving[i]) {
+      remaining.push_back(handle);
+    } else {
+      slots.insert(slots.end(), handle.region->slots.begin(), handle.region->slots.end());
+    }
+  }
+  if (remaining.empty()) {
+    previous_layout_.reset(), previous_state_.reset();
+    install(nullptr, nullptr);
+    return;
+  }
+  if (restore_previous(remaining)) return;
+  std::shared_ptr<SiteSolver> sites = layout_->sites->clone();
+  if (!slots.empty()) sites->edit({slots, {}, {}});
+  std::shared_ptr<const Layout> layout = make_layout(remaining, std::move(sites));
+  std::shared_ptr<State> state = carry_over(*layout);
+  previous_layout_.reset(), previous_state_.reset();
+  install(std::move(layout), std::move(state));
+}
+
+// The handles left are those before the last were added: back to that layout and solver state, with the transforms as they are now.
+bool Pose::restore_previous(const Handles& remaining) {
+  if (!previous_layout_ || previous_layout_->handles.size() != remaining.size()) return false;
+  for (std::size_t i = 0; i < remaining.size(); ++i) {
+    if (previous_layout_->handles[i].region != remaining[i].region || previous_layout_->handles[i].number != remaining[i].number) return false;
+  }
+  auto state = make_shared_in<State>(memory(), *previous_state_, memory());
+  for (std::size_t i = 0; i < remaining.size(); ++i) {
+    const HandleState& now = state_->handles[find(remaining[i].number)];
+    HandleState& then = state->handles[i];
+    const bool same = std::memcmp(&now.rotation, &then.rotation, sizeof now.rotation) == 0 && std::memcmp(&now.translation, &then.translation, sizeof now.translation) == 0;
+    state->changed = state->changed || !same;
+    then.rotation = now.rotation, then.translation = now.translation, then.turn = now.turn;
+  }
+  std::shared_ptr<const Layout> layout = std::move(previous_layout_);
+  previous_layout_.reset(), previous_state_.reset();
+  install(std::move(layout), std::move(state));
+  return true;
+}
+
+void Pose::install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> state) noexcept {
+  layout_ = std::move(layout), state_ = std::move(state);
+  if (layout_ && layout_->groups) groups_ = layout_->groups;
+  if (!layout_) posed_ = false;
+}
+
+std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites) const {
+  auto layout = make_shared_in<Layout>(memory(), handles, std::move(sites), *core_, memory());
+  BandOptions bands;
+  bands.band_count = static_cast<std::int32_t>(options_.band_count);
+  if (options_.mode == DeformMode::paper) bands.degree = 1, bands.spacing = LevelSpacing::equal_value;
+  layout->weights = make_cluster_weights(*core_, *rest_, layout->reach, layout->fields, bands, memory());
+  if (options_.mode == DeformMode::smooth) {
+    layout->groups = Groups::with(groups_, *core_, *rest_, layout->weights.elastic_components, static_cast<std::int32_t>(options_.group_count), memory());
+    layout->smooth = make_shared_in<SmoothSystem>(memory(), *core_, *rest_, layout->weights, *layout->groups, layout->fields, memory());
+  } else {
+    layout->paper = make_shared_in<PaperSystem>(memory(), *core_, layout->weights, memory());
+  }
+  return layout;
+}
+
+// A new handle takes over the rotation the surface has where it stands, so that its way back to rest is predicted like any turn.
+void Pose::carry_handle(const Handle& handle, HandleState& state) const {
+  if (!posed_) return;
+  const HandleRegion& region = *handle.region;
+  Vector<Vec3> rest(&memory()), posed(&memory());
+  for (const std::int32_t v : region.vertices) rest.push_back(core_->mesh.positions[v]), posed.push_back(positions_[v]);
+  state.solved = fit_rigid(rest, posed, {}, Quaternion()).rotation;
+  state.solved_turn = logarithm(state.solved);
+}
+
+std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
+  auto state = make_shared_in<State>(memory(), memory());
+  state->transforms.assign(static_cast<std::size_t>(layout.weights.cluster_count), Affine());
+  for (const Handle& handle : layout.handles) {
+    const std::int32_t old = find(handle.number);
+    HandleState carried;
+    if (old >= 0 && layout_->handles[old].region == handle.region) {
+      carried = state_->handles[old];
+    } else {
+      carry_handle(handle, carried);
+    }
+    state->handles.push_back(carried);
+  }
+  state->started = state_ && state_->started;
+  if (layout.paper) {
+    state->paper.fit(*layout.paper);
+    if (posed_) {
+      Vector<Vec3> own_unit(&memory());
+      own_unit.reserve(positions_.size());
+      for (const Vec3& x : positions_) own_unit.push_back(core_->mesh.to_inner(x));
+      fit_motions(*layout.paper, core_->mesh, own_unit.data(), state->paper);
+    }
+    return state;
+  }
+  if (state_) state->smooth.rotation.assign(state_->smooth.rotation.begin(), state_->smooth.rotation.end());
+  state->smooth.fit(*layout.smooth, *layout.groups);
+  // components that were rigid so far start from the fields
+  Vector<Vec3> turns(&memory());
+  for (const HandleState& handle : state->handles) turns.push_back(handle.solved_turn);
+  for (const std::int32_t c : layout.weights.elastic_components) {
+    const bool was_elastic = layout_ && std::binary_search(layout_->weights.elastic_components.begin(), layout_->weights.elastic_components.end(), c);
+    if (!was_elastic) start_rotations(*layout.smooth, *layout.groups, c, turns, state->smooth);
+  }
+  return state;
+}
+
+void Pose::set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTransform> transforms) {
+  if (numbers.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no transform to set");
+  for (std::uint32_t k = 0; k < numbers.size(); ++k) {
+    require(numbers[k], k);
+    const HandleTransform& t = transforms[k];
+    const Vec3 axis{t.rotation.x, t.rotation.y, t.rotation.z};
+    if (!is_finite(axis) || !std::isfinite(t.rotation.w) || !is_finite(t.translation))
+      fail(HF_ERROR_NON_FINITE, k, "transform %u holds a number that is not finite", k);
+    if (!(norm(t.translation) <= largest_translation * core_->mesh.scale))
+      fail(HF_ERROR_NON_FINITE, k, "the translation of transform %u is beyond %g box diagonals", k, largest_translation);
+  }
+  for (std::uint32_t k = 0; k < numbers.size(); ++k) {
+    HandleState& handle = state_->handles[find(numbers[k])];
+    const Quaternion rotation = normalised(transforms[k].rotation);
+    const Vec3 translation = (1.0 / core_->mesh.scale) * transforms[k].translation;
+    handle.turn = continued_logarithm(rotation, handle.turn);
+    handle.rotation = rotation, handle.translation = translation;
+    state_->changed = true;
+  }
+}
+
+HandleReport Pose::handle(std::uint32_t number) const {
+  const std::int32_t i = require(number, HF_NO_INDEX);
+  const HandleRegion& region = *layout_->handles[i].region;
+  HandleReport report;
+  report.vertex_count = static_cast<std::uint32_t>(region.vertices.size());
+  report.site_count = static_cast<std::uint32_t>(region.sites.size());
+  report.component = static_cast<std::uint32_t>(region.component);
+  report.centroid = core_->mesh.to_given(region.centroid);
+  report.leak = layout_->fields.leak[i];
+  return report;
+}
+
+Span<const double> Pose::field(std::uint32_t number) const {
+  return {layout_->fields.of(require(number, HF_NO_INDEX)), static_cast<std::size_t>(core_->size())};
+}
+
+const ClusterWeights* Pose::weights() const noexcept { return layout_ ? &layout_->weights : nullptr; }
+
+Span<const Affine> Pose::cluster_transforms() const noexcept { return state_ ? Span<const Affine>(state_->transforms) : Span<const Affine>(); }
+
+std::int32_t Pose::group_count() const noexcept { return layout_ && layout_->smooth ? static_cast<std::int32_t>(layout_->smooth->subspace.group.size()) : 0; }
+
+std::int32_t Pose::dropped_unknowns() const noexcept { return layout_ && layout_->smooth ? layout_->smooth->subspace.factor.dropped() : 0; }
+
+// ---- the pose ----
+
+void Pose::place_handles() noexcept {
+  for (std::size_t i = 0; i < state_->handles.size(); ++i) {
+    const HandleState& handle = state_->handles[i];
+    const Vec3 centroid = layout_->handles[i].region->centroid;
+    const Mat3 r = to_matrix(handle.rotation);
+    const Vec3 t = centroid - r * centroid + handle.translation;
+    auto& a = state_->transforms[i].a;
+    for (int k = 0; k < 3; ++k) {
+      for (int j = 0; j < 3; ++j) a[k][j] = r.m[k][j];
+    }
+    a[0][3] = t.x, a[1][3] = t.y, a[2][3] = t.z;
+  }
+}
+
+void Pose::solve_smooth(std::uint32_t iterations) noexcept {
+  State& state = *state_;
+  const std::size_t count = state.handles.size();
+  double largest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    turns_[i] = logarithm(state.handles[i].rotation * conjugate(state.handles[i].solved));
+    largest = std::max(largest, norm(turns_[i]));
+  }
+  if (!state.started || largest > jump_turn) {
+    for (std::size_t i = 0; i < count; ++i) turns_[i] = state.handles[i].turn;
+    start_rotations(*layout_->smooth, *layout_->groups, -1, {turns_.data(), count}, state.smooth);
+  } else if (largest > 0) {
+    predict_rotations(*layout_->smooth, {turns_.data(), count}, state.smooth);
+  }
+  for (HandleState& handle : state.handles) handle.solved = handle.rotation, handle.solved_turn = handle.turn;
+  report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());
+}
+
+void Pose::solve_paper(std::uint32_t iterations) noexcept {
+  for (HandleState& handle : state_->handles) handle.solved = handle.rotation, handle.solved_turn = handle.turn;
+  report_ = solve_paper_pose(*layout_->paper, core_->mesh, layout_->weights, iterations, settled_change, state_->paper, state_->transforms.data());
+}
+
+DeformReport Pose::deform(const DeformRequest& request) {
+  if (!layout_) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
+  require_range(request.iteration_count, 1, 1000, "iteration_count");
+  const Mesh& mesh = core_->mesh;
+  if (request.normals && normals_.empty()) {
+    Buffer<Vec3> normals(memory(), static_cast<std::size_t>(mesh.vertex_count()));
+    triangle_normals_.reserve_at_least(memory(), static_cast<std::size_t>(mesh.triangle_count()));
+    normals_ = std::move(normals);
+  }
+  State& state = *state_;
+  if (request.restart) {
+    for (HandleState& handle : state.handles) handle.turn = logarithm(handle.rotation);
+    for (RigidMotion& motion : state.paper.motion) motion = RigidMotion();
+    state.started = false, state.changed = true;
+  }
+
+  DeformReport report;
+  const Timer solve_timer;
+  if (state.changed) state.idle_iterations = 0;
+  if (state.changed || (state.last_change >= settled_change && state.idle_iterations < idle_limit)) {
+    const std::uint32_t iterations = request.iteration_count ? request.iteration_count : options_.iteration_count;
+    place_handles();
+    if (layout_->smooth) {
+      solve_smooth(iterations);
+    } else {
+      solve_paper(iterations);
+    }
+    report.iteration_count = report_.iterations;
+    state.idle_iterations += report_.iterations;
+    state.started = true, state.changed = false, state.last_change = report_.last_change;
+  }
+  report.solve_ms = solve_timer.milliseconds();
+
+  const Timer blend_timer;
+  blend(mesh, layout_->weights, state.transforms.data(), mesh.centre, mesh.scale, positions_.data(), *core_->jobs);
+  posed_ = true;
+  report.blend_ms = blend_timer.milliseconds();
+  report.positions = {positions_.data(), positions_.size()};
+
+  if (request.normals) {
+    const Timer normal_timer;
+    vertex_normals(mesh, *rest_, positions_.data(), triangle_normals_.data(), normals_.data(), *core_->jobs);
+    report.normals = {normals_.data(), normals_.size()};
+    report.normal_ms = normal_timer.milliseconds();
+  }
+  report.cluster_count = static_cast<std::uint32_t>(layout_->weights.cluster_count);
+  report.unreached_vertex_count = static_cast<std::uint32_t>(layout_->weights.unreached_vertex_count);
+  report.last_change = state.last_change;
+  return report;
+}
+
+}  // namespace hf

@@ -1,0 +1,46 @@
+// The pose solve of the smooth mode: a few local/global iterations on the reduced elastic energy (subspace.h).
+//
+//   predict: R_g <- exp(sum_i phi_i(seed_g) dw_i) R_g, dw_i = the turn of handle i since the last solve (turns add up, so 450 degrees stay 450);
+//   start:   R_g = exp(sum_i phi_i(seed_g) w_i), w_i = the accumulated turn of handle i;
+//   global:  transforms of the free clusters from the prefactored dense system;
+//   local:   R_g = argmax tr(R' S_g), the step over-relaxed by 1.5 except in the last iteration.
+// Cost: size^2 / 2 multiply-adds on 4 lanes twice, and a rotation per group, per iteration. Allocates nothing, cannot fail.
+#pragma once
+#include "deform/blend.h"
+#include "deform/subspace.h"
+
+namespace hf {
+
+// What stays while handles stay. Immutable once made.
+struct SmoothSystem {
+  SmoothSystem(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups, const HandleFields& fields, Memory& memory);
+  Subspace subspace;
+  std::int32_t handle_count, free_count;
+  Vector<double> seed_field;  // phi_i at the seed of active group k: [k * handle_count + i]
+};
+
+// What a solve leaves for the next.
+struct SmoothState {
+  explicit SmoothState(Memory& memory) : rotation(&memory), matrix(&memory), unknown(&memory), known(&memory) {}
+  SmoothState(const SmoothState& other, Memory& memory)
+      : rotation(other.rotation, &memory), matrix(other.matrix, &memory), unknown(other.unknown, &memory), known(other.known, &memory) {}
+  // Makes room for a system; rotations of groups that were there stay.
+  void fit(const SmoothSystem& system, const Groups& groups);
+  Vector<Quaternion> rotation;  // per group of Groups
+  Vector<Mat3> matrix;          // per active group
+  Vector<double> unknown;       // 4 x 4 doubles per free cluster: rows of X, padded
+  Vector<double> known;         // the handles' part of the right-hand side
+};
+
+struct SolveReport {
+  std::uint32_t iterations = 0;
+  double last_change = 0;  // largest Frobenius norm of the change of a group's rotation in the last iteration
+};
+
+// Groups of `component`, or of all when it is negative.
+void start_rotations(const SmoothSystem& system, const Groups& groups, std::int32_t component, Span<const Vec3> turns, SmoothState& state) noexcept;
+void predict_rotations(const SmoothSystem& system, Span<const Vec3> increments, SmoothState& state) noexcept;
+// transforms: those of the handles are read, those of the free clusters written. Stops early when last_change falls below `tolerance`.
+SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, double tolerance, SmoothState& state, Affine* transforms) noexcept;
+
+}  // namespace hf
