@@ -112,9 +112,8 @@ void store_arrays(const Design& design, const TriangleMesh& surface, const Chart
   for (uint32_t i = 0; i < order.size(); ++i) new_name[order[i]] = i;
   std::vector<uint32_t> stored(charts.surface.size());
   std::iota(stored.begin(), stored.end(), 0u);
-  std::stable_sort(stored.begin(), stored.end(), [&](uint32_t a, uint32_t b) {
-    return new_name[charts.surface[a]] < new_name[charts.surface[b]];
-  });
+  std::stable_sort(stored.begin(), stored.end(),
+                   [&](uint32_t a, uint32_t b) { return new_name[charts.surface[a]] < new_name[charts.surface[b]]; });
   std::vector<uint32_t> stored_name(stored.size());
   const auto push = [](std::vector<float>& array, const dvec3& p) {
     for (int k = 0; k < 3; ++k) array.push_back(static_cast<float>(p[k]));
@@ -242,7 +241,8 @@ std::vector<double> clip_pose(const Creature& creature, const Clip& clip, double
   if (duration > 0) time -= duration * std::floor(time / duration);
   const size_t count = clip.times.size();
   const size_t after = std::upper_bound(clip.times.begin(), clip.times.end(), time,
-                                        [](double t, float key) { return t < double(key); }) - clip.times.begin();
+                                        [](double t, float key) { return t < double(key); }) -
+                       clip.times.begin();
   const size_t i = std::min(after > 0 ? after - 1 : 0, count - 1), k = std::min(i + 1, count - 1);
   const double width = double(clip.times[k]) - double(clip.times[i]);
   const double t = width > 0 ? (time - double(clip.times[i])) / width : 0;

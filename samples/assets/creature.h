@@ -20,8 +20,8 @@ namespace samples {
 
 struct Joint {
   std::string name;
-  int32_t parent = -1;                           // parents stand before their children
-  std::array<double, 3> translation{};           // rest pose, relative to the parent; rest rotations are identity
+  int32_t parent = -1;                  // parents stand before their children
+  std::array<double, 3> translation{};  // rest pose, relative to the parent; rest rotations are identity
 };
 
 // Keys of one joint; empty arrays mean "stays as in the rest pose". Interpolation is linear (rotations: slerp).
@@ -41,11 +41,11 @@ struct Clip {
 struct Creature {
   std::string name;
   // per stored vertex
-  std::vector<float> positions, normals;       // xyz
-  std::vector<float> texcoords;                // uv, v downwards as in glTF
-  std::vector<float> colors;                   // rgb, linear
-  std::vector<std::array<uint16_t, 4>> joints; // unused entries have weight 0
-  std::vector<std::array<float, 4>> weights;   // sum to 1
+  std::vector<float> positions, normals;        // xyz
+  std::vector<float> texcoords;                 // uv, v downwards as in glTF
+  std::vector<float> colors;                    // rgb, linear
+  std::vector<std::array<uint16_t, 4>> joints;  // unused entries have weight 0
+  std::vector<std::array<float, 4>> weights;    // sum to 1
   std::vector<uint32_t> triangles;
   // per stored vertex: its vertex on the closed surface
   std::vector<uint32_t> surface_vertex;
@@ -62,8 +62,8 @@ struct Creature {
 // "horse" (slender, long legs), "bull" (stocky, short legs and neck, big head), "biped".
 std::vector<std::string> creature_names();
 
-// `vertices` counts vertices of the closed surface, 500..2,000,000; stored vertices are some per cent more because of the
-// seams. The surface has exactly (levels 0) or up to 0.01 % off that many.
+// `vertices` counts vertices of the closed surface, 500..2,000,000; stored vertices are some per cent more because of
+// the seams. The surface has exactly (levels 0) or up to 0.01 % off that many.
 Creature make_creature(const std::string& name, uint32_t vertices);
 
 // The closed surface, one vertex per surface_vertex.

@@ -1,5 +1,5 @@
-// A biped: a sturdy cartoon walker of 1.75 m in shirt, shorts and shoes, arms hanging at an angle in the rest pose, hands
-// with a thumb and three fingers.
+// A biped: a sturdy cartoon walker of 1.75 m in shirt, shorts and shoes, arms hanging at an angle in the rest pose,
+// hands with a thumb and three fingers.
 #include "creature_design.h"
 
 namespace samples {
@@ -62,12 +62,14 @@ void add_arms(Design& d) {
   d.flesh_pair("lower_arm", capsule(mix(elbow, wrist, 0.35), mix(elbow, wrist, 0.97), 0.050, 0.033, 0.04), 0.7);
   // the palm's normal and the way its fingers spread
   const dvec3 along = normalize(knuckles - wrist), spread = normalize(dvec3(0.10, 0.12, 1.0));
-  d.flesh_pair("hand", capsule(mix(wrist, knuckles, 0.10), mix(wrist, knuckles, 0.75), 0.042, 0.048, 0.03, 0.50,
-                               cross(along, spread)), 0.6);
+  d.flesh_pair(
+      "hand",
+      capsule(mix(wrist, knuckles, 0.10), mix(wrist, knuckles, 0.75), 0.042, 0.048, 0.03, 0.50, cross(along, spread)),
+      0.6);
   for (int i = -1; i <= 1; ++i) {
-    const dvec3 root = knuckles + 0.033 * double(i) * spread - 0.012 * along;
-    const dvec3 tip = finger_tips + 0.046 * double(i) * spread - (i == 0 ? 0.0 : 0.010) * along;
-    d.flesh_pair("fingers", capsule(root, tip, 0.0175, 0.0150, 0.010), 0.42);
+    const dvec3 root = knuckles + 0.034 * double(i) * spread - 0.012 * along;
+    const dvec3 tip = finger_tips + 0.058 * double(i) * spread - (i == 0 ? 0.0 : 0.010) * along;
+    d.flesh_pair("fingers", capsule(root, tip, 0.0165, 0.0145, 0.006), 0.42);
   }
   d.flesh_pair("thumb", capsule({0.550, 0.955, 0.045}, {0.560, 0.915, 0.100}, 0.019, 0.016, 0.018), 0.42);
 }
@@ -104,7 +106,8 @@ dvec3 clothes(const dvec3& p, const dvec3& n) {
   const double from_neck = glm::length(glm::dvec2(x, p.z + 0.010 + 0.25 * (p.y - 1.45)));
   if (on_trunk && (x < 0.215 || down_arm < 0.16)) {
     const double sleeve = x < 0.20 && p.y < 1.30 ? 0.0 : down_arm;
-    color = mix(color, shirt, step(0.160, 0.152, sleeve) * std::max(step(1.44, 1.43, p.y), step(0.078, 0.084, from_neck)));
+    color =
+        mix(color, shirt, step(0.160, 0.152, sleeve) * std::max(step(1.44, 1.43, p.y), step(0.078, 0.084, from_neck)));
     color = mix(color, shirt * 1.6, step(1.235, 1.230, p.y) * step(1.185, 1.190, p.y));
   }
   if (x < 0.24) {
@@ -118,13 +121,16 @@ dvec3 clothes(const dvec3& p, const dvec3& n) {
   // hair, brows, eyes, mouth
   const double hairline = p.y - (1.735 - 0.95 * std::max(0.0, 0.055 - p.z) - 0.10 * x);
   color = mix(color, hair, step(-0.006, 0.004, hairline) * step(1.575, 1.585, p.y));
-  color = mix(color, hair, step(0.012, 0.008, std::abs(p.y - 1.700 + 3 * (x - 0.04) * (x - 0.04))) * step(0.070, 0.060, x) *
-                               step(0.012, 0.018, x) * step(0.080, 0.090, p.z));
+  color = mix(color, hair,
+              step(0.012, 0.008, std::abs(p.y - 1.700 + 3 * (x - 0.04) * (x - 0.04))) * step(0.070, 0.060, x) *
+                  step(0.012, 0.018, x) * step(0.080, 0.090, p.z));
   const double white = length(dvec3(x - 0.037, p.y - 1.668, p.z - 0.100));
   color = mix(color, dvec3(0.82), step(0.0185, 0.0165, white) * step(0.098, 0.101, p.z));
-  color = mix(color, dvec3(0.012), step(0.0095, 0.0078, length(dvec3(x - 0.036, p.y - 1.668, 0))) * step(0.09, 0.1, p.z));
+  color =
+      mix(color, dvec3(0.012), step(0.0095, 0.0078, length(dvec3(x - 0.036, p.y - 1.668, 0))) * step(0.09, 0.1, p.z));
   const double smile = p.y - 1.593 - 6.0 * x * x;
-  color = mix(color, dvec3(0.30, 0.06, 0.05), step(0.0050, 0.0030, std::abs(smile)) * step(0.032, 0.027, x) * step(0.07, 0.09, p.z));
+  color = mix(color, dvec3(0.30, 0.06, 0.05),
+              step(0.0050, 0.0030, std::abs(smile)) * step(0.032, 0.027, x) * step(0.07, 0.09, p.z));
   (void)n;
   return color;
 }
@@ -145,10 +151,20 @@ Leg leg_of(const Design& d, const Gait& gait, bool left, bool walking) {
   leg.stance_shift = 0.01;
   leg.lift = 0.075;
   // heel strike, flat, heel off over the ball, toes last
-  leg.pastern = PhaseCurve({{0, -0.30}, {0.14 * on, 0}, {0.62 * on, 0}, {on, 0.85}, {on + 0.22 * air, 0.95},
-                            {on + 0.65 * air, 0.10}, {on + 0.92 * air, -0.30}});
-  leg.hoof = PhaseCurve({{0, -0.30}, {0.14 * on, 0}, {0.88 * on, 0}, {on, 0.22}, {on + 0.22 * air, 0.70},
-                         {on + 0.65 * air, 0.05}, {on + 0.92 * air, -0.35}});
+  leg.pastern = PhaseCurve({{0, -0.30},
+                            {0.14 * on, 0},
+                            {0.62 * on, 0},
+                            {on, 0.85},
+                            {on + 0.22 * air, 0.95},
+                            {on + 0.65 * air, 0.10},
+                            {on + 0.92 * air, -0.30}});
+  leg.hoof = PhaseCurve({{0, -0.30},
+                         {0.14 * on, 0},
+                         {0.88 * on, 0},
+                         {on, 0.22},
+                         {on + 0.22 * air, 0.70},
+                         {on + 0.65 * air, 0.05},
+                         {on + 0.92 * air, -0.35}});
   return leg;
 }
 

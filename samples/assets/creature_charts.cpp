@@ -57,7 +57,8 @@ bool right_side(const Design& design, const ChartGroup& group, const dvec3& p) {
   return dot(p - nearest, group.axis) < 0;
 }
 
-std::vector<uint32_t> label_triangles(const Design& design, const TriangleMesh& mesh, const std::vector<uint32_t>& twin) {
+std::vector<uint32_t> label_triangles(const Design& design, const TriangleMesh& mesh,
+                                      const std::vector<uint32_t>& twin) {
   std::vector<uint32_t> group_of(design.joints.size(), none);
   for (uint32_t g = 0; g < design.groups.size(); ++g) {
     for (uint32_t j : design.groups[g].joints) group_of[j] = g;
@@ -191,7 +192,8 @@ void embed(const TriangleMesh& mesh, ChartMesh& cut, const std::vector<std::vect
     const Triangle& f = cut.flat.triangles[t];
     const Triangle& s = mesh.triangles[t];
     for (size_t k = 0; k < 3; ++k) {
-      const dvec3 a = mesh.points[s[(k + 1) % 3]] - mesh.points[s[k]], b = mesh.points[s[(k + 2) % 3]] - mesh.points[s[k]];
+      const dvec3 a = mesh.points[s[(k + 1) % 3]] - mesh.points[s[k]],
+                  b = mesh.points[s[(k + 2) % 3]] - mesh.points[s[k]];
       const double half = std::tan(0.5 * std::atan2(length(cross(a, b)), dot(a, b)));
       links[f[k]].push_back({f[(k + 1) % 3], half / std::max(length(a), 1e-12)});
       links[f[k]].push_back({f[(k + 2) % 3], half / std::max(length(b), 1e-12)});

@@ -130,8 +130,8 @@ bool EditMesh::flip(uint32_t h) {
   const uint32_t g = twin[h], hn = next(h), hp = previous(h), gn = next(g), gp = previous(g);
   const uint32_t a = from(h), b = from(g), c = from(hp), d = from(gp);
   if (c == d || connected(c, d) || valence(a) <= 3 || valence(b) <= 3) return false;
-  const dvec3 before = cross(points[b] - points[a], points[c] - points[a]) +
-                       cross(points[a] - points[b], points[d] - points[b]);
+  const dvec3 before =
+      cross(points[b] - points[a], points[c] - points[a]) + cross(points[a] - points[b], points[d] - points[b]);
   const dvec3 one = cross(points[d] - points[c], points[b] - points[c]);
   const dvec3 two = cross(points[c] - points[d], points[a] - points[d]);
   const double least = 0.5 * length(before);

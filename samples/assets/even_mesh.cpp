@@ -211,9 +211,7 @@ class Remesher {
     using Entry = std::pair<double, uint32_t>;
     if (mesh_.live_vertices < count) {
       std::priority_queue<Entry> longest;
-      const auto offer = [&](uint32_t h) {
-        longest.push({relative(h), std::min(h, mesh_.twin[h])});
-      };
+      const auto offer = [&](uint32_t h) { longest.push({relative(h), std::min(h, mesh_.twin[h])}); };
       for (uint32_t h = 0; h < mesh_.corner.size(); ++h) {
         if (mesh_.alive(h) && h < mesh_.twin[h]) offer(h);
       }
@@ -352,8 +350,7 @@ TriangleMesh subdivide(const TriangleMesh& mesh, std::vector<std::array<uint32_t
   middle.reserve(3 * mesh.points.size());
   const auto half = [&](uint32_t a, uint32_t b) {
     if (a > b) std::swap(a, b);
-    const auto [entry, fresh] =
-        middle.emplace(uint64_t(a) << 32 | b, static_cast<uint32_t>(fine.points.size()));
+    const auto [entry, fresh] = middle.emplace(uint64_t(a) << 32 | b, static_cast<uint32_t>(fine.points.size()));
     if (fresh) {
       fine.points.push_back(0.5 * (mesh.points[a] + mesh.points[b]));
       parents.push_back({a, b});
@@ -381,7 +378,11 @@ MeshPlan plan_mesh(uint32_t count) {
 TriangleMesh base_mesh(const ImplicitBody& body, uint32_t base_count) {
   // fine enough for the thinnest parts, at least as many vertices as asked for
   const double diagonal = glm::length(body.upper - body.lower);
-  const TriangleMesh start = polygonise(body, diagonal / 190);
+  // a surface a fifth of a cell outside catches tips thinner than the grid; from there Newton steps find the body,
+  // while from inside a blunt end would stay blunt
+  const double spacing = diagonal / 230;
+  TriangleMesh start = polygonise(body, spacing, 0.2 * spacing);
+  for (dvec3& p : start.points) p = body.project(p, 3);
   if (count_pieces(start) != 1) throw std::runtime_error("the body has several pieces; let its blobs touch");
   const TriangleMesh mesh = remesh(body, start, base_count);
   const size_t edges = mesh.triangles.size() * 3 / 2;

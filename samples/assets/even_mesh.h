@@ -27,8 +27,8 @@ struct TriangleMesh {
   std::vector<Triangle> triangles;
 };
 
-// The zero set on a grid of the given spacing, anywhere inside body.lower..upper.
-TriangleMesh polygonise(const ImplicitBody& body, double spacing);
+// The set where the field is `level`, on a grid of the given spacing, anywhere inside body.lower..upper.
+TriangleMesh polygonise(const ImplicitBody& body, double spacing, double level = 0);
 
 // A closed manifold with exactly `count` vertices, evenly spread relative to body.detail().
 TriangleMesh remesh(const ImplicitBody& body, const TriangleMesh& start, uint32_t count);
@@ -60,7 +60,8 @@ std::vector<uint32_t> spatial_order(const std::vector<dvec3>& points);
 
 // Renames vertices by order[new] = old and sorts triangles by their smallest vertex, each starting with it.
 // triangle_order receives the old index of every triangle.
-TriangleMesh reorder(const TriangleMesh& mesh, const std::vector<uint32_t>& order, std::vector<uint32_t>& triangle_order);
+TriangleMesh reorder(const TriangleMesh& mesh, const std::vector<uint32_t>& order,
+                     std::vector<uint32_t>& triangle_order);
 
 }  // namespace samples
 

@@ -160,8 +160,7 @@ double Wave::at(double phase) const {
   return mean + first * std::sin(2 * pi * (phase + first_at)) + second * std::sin(4 * pi * (phase + second_at));
 }
 
-Clip make_clip(const std::vector<Joint>& joints, const std::vector<dvec3>& rest, const Gait& gait,
-               double* worst_miss) {
+Clip make_clip(const std::vector<Joint>& joints, const std::vector<dvec3>& rest, const Gait& gait, double* worst_miss) {
   Clip clip;
   clip.name = gait.name;
   clip.speed = gait.stride / gait.duration;

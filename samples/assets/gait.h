@@ -2,8 +2,8 @@
 // cycle; the leg above follows by inverse kinematics, so a planted foot does not slide.
 //
 // Leg: upper bone, lower bone, cannon, then a foot of two parts (pastern and hoof, or sole and toes) whose tilts are
-// given. The joint between upper and lower bone flexes by b1 phi, the one below by b2 phi + k(phase): in the hind leg of
-// a hoofed animal tendons couple stifle and hock (b2 = -0.85 b1), the carpus of a fore leg is locked in stance and
+// given. The joint between upper and lower bone flexes by b1 phi, the one below by b2 phi + k(phase): in the hind leg
+// of a hoofed animal tendons couple stifle and hock (b2 = -0.85 b1), the carpus of a fore leg is locked in stance and
 // folds by k in the swing, a biped's lower leg has no cannon. phi comes from the distance between hip and fetlock by
 // bisection, the swing of the whole leg from the direction. Four-beat lateral walk after Hildebrand (1965): left hind,
 // left fore, right hind, right fore at quarters of the cycle, each foot on the ground for more than half of it.
@@ -44,14 +44,15 @@ struct Leg {
   dvec3 tip{0};                      // toe tip on the ground in the rest pose
   double phase = 0;                  // when its stance begins
   double bend_lower = 1, bend_cannon = 0;
-  double stance_shift = 0;           // centre of the stance relative to the rest position, along z
-  double lift = 0.1;                 // height of the swing
-  PhaseCurve hoof, pastern, fold;    // tilts and k over the leg's own phase, 0 = touch down
-  bool heel_strike = false;          // a foot tilted up turns about its heel instead of the tip
+  double stance_shift = 0;         // centre of the stance relative to the rest position, along z
+  double lift = 0.1;               // height of the swing
+  PhaseCurve hoof, pastern, fold;  // tilts and k over the leg's own phase, 0 = touch down
+  bool heel_strike = false;        // a foot tilted up turns about its heel instead of the tip
   dvec3 heel{0};
 };
 
-// Rotation of a joint about an axis (0 x, 1 y, 2 z): mean + first sin(2 pi (s + first_at)) + second sin(4 pi (s + second_at)).
+// Rotation of a joint about an axis (0 x, 1 y, 2 z): mean + first sin(2 pi (s + first_at)) + second sin(4 pi (s +
+// second_at)).
 struct Wave {
   uint32_t joint = 0;
   int axis = 0;
@@ -63,8 +64,8 @@ struct Wave {
 struct Gait {
   std::string name;
   double duration = 1;
-  double stride = 0;   // ground covered per cycle
-  double duty = 0.6;   // share of the cycle a foot is down
+  double stride = 0;  // ground covered per cycle
+  double duty = 0.6;  // share of the cycle a foot is down
   int intervals = 48;
   std::vector<Leg> legs;
   std::vector<Wave> rotations, translations;

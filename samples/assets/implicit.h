@@ -18,20 +18,20 @@ using glm::dmat3;
 using glm::dvec3;
 
 struct Blob {
-  dvec3 a{0}, b{0};          // axis; equal for an ellipsoid
+  dvec3 a{0}, b{0};  // axis; equal for an ellipsoid
   double radius_a = 1, radius_b = 1;
-  dmat3 to_local{1.0};       // scales the flattened directions up, so that the section becomes round
-  double thinnest = 1;       // smallest scale of the section, <= 1
-  double blend = 0.05;       // k of the smooth minimum
-  uint32_t joint = 0;        // the joint whose bone this flesh follows
-  double detail = 1;         // wanted edge length relative to the body's
+  dmat3 to_local{1.0};  // scales the flattened directions up, so that the section becomes round
+  double thinnest = 1;  // smallest scale of the section, <= 1
+  double blend = 0.05;  // k of the smooth minimum
+  uint32_t joint = 0;   // the joint whose bone this flesh follows
+  double detail = 1;    // wanted edge length relative to the body's
 
   double distance(const dvec3& p) const;
   double distance(const dvec3& p, dvec3& gradient) const;
 };
 
-// A tapered capsule from a to b. `side` is the direction whose half width is `flatten` times the radius (not parallel to
-// the axis matters not: it is made orthogonal); `flatten` may exceed 1.
+// A tapered capsule from a to b. `side` is the direction whose half width is `flatten` times the radius (not parallel
+// to the axis matters not: it is made orthogonal); `flatten` may exceed 1.
 Blob capsule(const dvec3& a, const dvec3& b, double radius_a, double radius_b, double blend, double flatten = 1,
              const dvec3& side = {1, 0, 0});
 

@@ -62,10 +62,11 @@ int main(int count, char** arguments) {
   try {
     const Options options = parse(count, arguments);
     if (options.help) {
-      std::printf("usage: hf_make_assets OUTDIR [--vertices N] [--creature NAME]\n"
-                  "Writes animated, skinned sample creatures as .glb files.\n"
-                  "  --vertices N     vertices of the closed surface, 500..2000000 (default 20000)\n"
-                  "  --creature NAME  one of:");
+      std::printf(
+          "usage: hf_make_assets OUTDIR [--vertices N] [--creature NAME]\n"
+          "Writes animated, skinned sample creatures as .glb files.\n"
+          "  --vertices N     vertices of the closed surface, 500..2000000 (default 20000)\n"
+          "  --creature NAME  one of:");
       for (const std::string& name : samples::creature_names()) std::printf(" %s", name.c_str());
       std::printf(" (default: all; may be repeated)\n");
       return 0;

@@ -25,7 +25,7 @@ int orientation(int p, int a, int b, int c) {
 
 class Grid {
  public:
-  Grid(const ImplicitBody& body, double spacing) : body_(body), spacing_(spacing) {
+  Grid(const ImplicitBody& body, double spacing, double level) : body_(body), spacing_(spacing), level_(level) {
     const dvec3 size = body.upper - body.lower;
     blocks_ = glm::ivec3(ceil(size / (spacing * block)));
     count_ = blocks_ * block + 1;
@@ -48,7 +48,7 @@ class Grid {
   double value(int x, int y, int z) {
     float& v = values_[index(x, y, z)];
     if (v == 0.0f) {
-      v = float(body_.value(point(x, y, z)));
+      v = float(body_.value(point(x, y, z)) - level_);
       if (v == 0.0f) v = 1e-12f;
     }
     return double(v);
@@ -61,7 +61,7 @@ class Grid {
       for (int by = 0; by < blocks_.y; ++by) {
         for (int bx = 0; bx < blocks_.x; ++bx) {
           const dvec3 centre = body_.lower + spacing_ * block * (dvec3(bx, by, bz) + 0.5);
-          if (std::abs(body_.value(centre)) > reach) continue;
+          if (std::abs(body_.value(centre) - level_) > reach) continue;
           for (int i = 0; i < block * block * block; ++i) {
             visit(bx * block + i % block, by * block + i / block % block, bz * block + i / (block * block));
           }
@@ -72,15 +72,15 @@ class Grid {
 
  private:
   const ImplicitBody& body_;
-  double spacing_;
+  double spacing_, level_;
   glm::ivec3 blocks_{0}, count_{0};
   std::vector<float> values_;
 };
 
 }  // namespace
 
-TriangleMesh polygonise(const ImplicitBody& body, double spacing) {
-  Grid grid(body, spacing);
+TriangleMesh polygonise(const ImplicitBody& body, double spacing, double level) {
+  Grid grid(body, spacing, level);
   TriangleMesh mesh;
   std::unordered_map<uint64_t, uint32_t> on_edge;
   // paths from corner 0 to corner 7 of the cube, one axis at a time; bit k of a corner = offset along axis k

@@ -36,7 +36,8 @@ Leg leg_of(const Design& d, const QuadrupedStyle& style, bool front, bool left, 
                             {on + 0.70 * air, 0.25},
                             {on + 0.95 * air, 0}});
   if (front) {
-    leg.fold = PhaseCurve({{0, 0}, {0.86 * on, 0}, {on, 0.22}, {on + 0.36 * air, style.front_fold}, {on + 0.90 * air, 0}});
+    leg.fold =
+        PhaseCurve({{0, 0}, {0.86 * on, 0}, {on, 0.22}, {on + 0.36 * air, style.front_fold}, {on + 0.90 * air, 0}});
   }
   return leg;
 }

@@ -125,9 +125,9 @@ ShapeMesh sphere(uint32_t frequency) {
   const double g = 0.5 * (1 + std::sqrt(5.0));
   const double corner[12][3] = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                                 {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-  const uint32_t face[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                                {11, 10, 2}, {10, 7, 6}, {7, 1, 8},   {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                                {3, 8, 9},   {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+  const uint32_t face[20][3] = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                                {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                                {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   ShapeMesh mesh;
   const uint32_t f = frequency;
   const auto project = [&](double x, double y, double z) {
@@ -184,7 +184,8 @@ ShapeMesh sphere(uint32_t frequency) {
 
 ShapeMesh box(double x, double y, double z, uint32_t nx, uint32_t ny, uint32_t nz) {
   require(x > 0 && y > 0 && z > 0, "box: sizes must be positive");
-  require(nx >= 1 && ny >= 1 && nz >= 1 && nx <= 20000 && ny <= 20000 && nz <= 20000, "box: counts must be in 1..20000");
+  require(nx >= 1 && ny >= 1 && nz >= 1 && nx <= 20000 && ny <= 20000 && nz <= 20000,
+          "box: counts must be in 1..20000");
   ShapeMesh mesh;
   std::unordered_map<uint64_t, uint32_t> known;
   const auto at = [&](uint32_t i, uint32_t j, uint32_t k) {

@@ -38,10 +38,12 @@ ShapeMesh box(double x, double y, double z, uint32_t nx, uint32_t ny, uint32_t n
 // The twist and bend bar: 1 x 4 x 1, n quads across and 4 n along; n = 19 gives 6,500 vertices.
 ShapeMesh bar(uint32_t n);
 
-// Closed cylinder of radius 0.5 and height 4 standing on y = 0: 6 m vertices around, `rows` rings along, discs of m rings.
+// Closed cylinder of radius 0.5 and height 4 standing on y = 0: 6 m vertices around, `rows` rings along, discs of m
+// rings.
 ShapeMesh cylinder(uint32_t m, uint32_t rows);
 
-// A cactus: a trunk with two bent arms, genus 0, evenly meshed with `vertices` vertices: exactly up to 24,000, within 0.1 % beyond; 500 at least.
+// A cactus: a trunk with two bent arms, genus 0, evenly meshed with `vertices` vertices: exactly up to 24,000, within
+// 0.1 % beyond; 500 at least.
 ShapeMesh cactus(uint32_t vertices);
 
 // Uniform numbers from a counter: splitmix64 (Steele, Lea, Flood 2014) of seed and index, in [0, 1).

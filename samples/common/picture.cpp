@@ -322,7 +322,7 @@ dvec3 background(const View& view, const std::vector<float>& shadow, double grou
   dvec3 color = mix(to_dvec(view.background_top), to_dvec(view.background_bottom), t * t);
   if (!view.ground) return color;
   if (!shadow.empty()) {
-    color *= 1 - 0.42 * double(shadow[size_t(y) * size_t(view.width) + size_t(x)]);
+    color *= 1 - 0.34 * double(shadow[size_t(y) * size_t(view.width) + size_t(x)]);
   } else {
     const double off = std::abs(y + 0.5 - ground_row);
     color *= 1 - 0.45 * (1 - smooth_step(0.4, 1.1, off));

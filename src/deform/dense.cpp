@@ -24,8 +24,9 @@ void dot_four(const double* a, const double* b0, const double* b1, const double*
 
 }  // namespace
 
-void DenseFactor::factorise(Buffer<double>&& lower, std::int32_t size) {
-  inverse_pivot_.assign(static_cast<std::size_t>(size), 0.0);
+void DenseFactor::factorise(Buffer<double>&& lower, std::int32_t size, Memory& memory) {
+  inverse_pivot_.allocate(memory, static_cast<std::size_t>(size));
+  std::fill(inverse_pivot_.begin(), inverse_pivot_.end(), 0.0);
   lower_ = std::move(lower);
   size_ = size, dropped_ = 0;
   const std::size_t stride = static_cast<std::size_t>(size);

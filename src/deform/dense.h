@@ -12,9 +12,9 @@ namespace hf {
 
 class DenseFactor {
  public:
-  explicit DenseFactor(Memory& memory) : inverse_pivot_(&memory) {}
+  explicit DenseFactor(Memory&) noexcept {}
   // Takes the lower triangle, row by row with leading dimension size; it is overwritten by L.
-  void factorise(Buffer<double>&& lower, std::int32_t size);
+  void factorise(Buffer<double>&& lower, std::int32_t size, Memory& memory);
   // In place on x[4 * unknown + k], k < 3 used, k = 3 carried along.
   void solve(double* x) const noexcept;
   std::int32_t size() const noexcept { return size_; }
@@ -24,7 +24,7 @@ class DenseFactor {
   std::int32_t size_ = 0;
   std::int32_t dropped_ = 0;
   Buffer<double> lower_;
-  Vector<double> inverse_pivot_;  // 0 for dropped unknowns
+  Buffer<double> inverse_pivot_;  // 0 for dropped unknowns
 };
 
 }  // namespace hf

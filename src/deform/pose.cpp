@@ -12,7 +12,8 @@ namespace hf {
 namespace {
 
 constexpr double settled_change = 1e-6;        // of a rotation: below, a pose that is asked for again is not solved on
-constexpr std::uint32_t idle_limit = 100;      // iterations spent on one target: beyond, twists of many turns begin to unwind
+// iterations spent on one target: the smooth mode unwinds twists of many turns beyond, the paper's needs hundreds to arrive
+constexpr std::uint32_t idle_limit_smooth = 100, idle_limit_paper = 2000;
 constexpr double jump_turn = 1.75;             // radians in one step: beyond, start afresh from the fields
 constexpr double largest_translation = 1e15;   // box diagonals
 
@@ -368,6 +369,7 @@ DeformReport Pose::deform(const DeformRequest& request) {
   DeformReport report;
   const Timer solve_timer;
   if (state.changed) state.idle_iterations = 0;
+  const std::uint32_t idle_limit = layout_->smooth ? idle_limit_smooth : idle_limit_paper;
   if (state.changed || (state.last_change >= settled_change && state.idle_iterations < idle_limit)) {
     const std::uint32_t iterations = request.iteration_count ? request.iteration_count : options_.iteration_count;
     place_handles();

@@ -41,7 +41,7 @@ class Assembly {
     add_areas();
     add_rigidity();
     collect_means();
-    out_.factor.factorise(std::move(lower_), static_cast<std::int32_t>(size));
+    out_.factor.factorise(std::move(lower_), static_cast<std::int32_t>(size), memory_);
   }
 
  private:

@@ -26,7 +26,7 @@ struct Part {
   const std::int32_t* id() const noexcept { return storage.data(); }
   void allocate(Memory& memory, std::int32_t vertices, std::size_t edges, bool points) {
     size = vertices;
-    storage.allocate(memory, 2 * static_cast<std::size_t>(vertices) + 1 + edges);
+    storage.allocate(memory, 2 * static_cast<std::size_t>(vertices) + 2 + edges);
     if (points) point.allocate(memory, 3 * static_cast<std::size_t>(vertices));
   }
   GraphView view() noexcept { return {size, start(), neighbour(), point.empty() ? nullptr : point.data(), nullptr}; }
@@ -129,14 +129,21 @@ class Dissection {
 
   void extract(Part& part, const Workspace& workspace, std::uint8_t side, std::int32_t size, std::size_t edges, Part& out) {
     out.allocate(memory_, size, edges, !part.point.empty());
+    const std::uint8_t* side_of = workspace.side.data();
+    const std::int32_t* number = workspace.number.data();
+    const std::int32_t *start = part.start(), *neighbour = part.neighbour(), *id = part.id();
+    std::int32_t *out_start = out.start(), *out_neighbour = out.neighbour(), *out_id = out.id();
+    const float* point = part.point.data();
+    float* out_point = out.point.data();
     std::int32_t k = 0, v = 0;
     for (std::int32_t u = 0; u < part.size; ++u) {
-      if (workspace.side[u] != side) continue;
-      out.id()[v] = part.id()[u], out.start()[v] = k;
-      if (!part.point.empty()) std::copy(part.point.data() + 3 * static_cast<std::size_t>(u), part.point.data() + 3 * static_cast<std::size_t>(u) + 3, out.point.data() + 3 * static_cast<std::size_t>(v));
-      for (std::int32_t e = part.start()[u]; e < part.start()[u + 1]; ++e) {
-        const std::int32_t w = part.neighbour()[e];
-        if (workspace.side[w] == side) out.neighbour()[k++] = workspace.number[w];
+      if (side_of[u] != side) continue;
+      out_id[v] = id[u], out_start[v] = k;
+      if (point) std::copy(point + 3 * static_cast<std::size_t>(u), point + 3 * static_cast<std::size_t>(u) + 3, out_point + 3 * static_cast<std::size_t>(v));
+      for (std::int32_t e = start[u]; e < start[u + 1]; ++e) {
+        const std::int32_t w = neighbour[e];
+        out_neighbour[k] = number[w];
+        k += side_of[w] == side;
       }
       ++v;
     }

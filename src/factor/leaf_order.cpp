@@ -3,6 +3,17 @@
 #include <algorithm>
 
 namespace hf {
+namespace {
+
+// Set bits of a word; the plain instruction set has no instruction for it.
+inline std::int32_t count_bits(std::uint64_t x) noexcept {
+  x -= (x >> 1) & 0x5555555555555555ull;
+  x = (x & 0x3333333333333333ull) + ((x >> 2) & 0x3333333333333333ull);
+  x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0full;
+  return static_cast<std::int32_t>((x * 0x0101010101010101ull) >> 56);
+}
+
+}  // namespace
 
 void LeafOrder::reset(std::int32_t inner, std::int32_t halo) {
   inner_ = inner;
@@ -16,7 +27,7 @@ void LeafOrder::run(std::int32_t* out) {
   const auto row = [&](std::int32_t v) { return rows_.data() + static_cast<std::size_t>(v) * static_cast<std::size_t>(words_); };
   const auto count = [&](std::int32_t v) {
     std::int32_t bits = 0;
-    for (std::int32_t w = 0; w < words_; ++w) bits += __builtin_popcountll(row(v)[w]);
+    for (std::int32_t w = 0; w < words_; ++w) bits += count_bits(row(v)[w]);
     return bits;
   };
   for (std::int32_t v = 0; v < inner_; ++v) degree_[v] = count(v), left_[v] = v;
@@ -42,7 +53,7 @@ void LeafOrder::run(std::int32_t* out) {
           if (x == v >> 6) merged &= ~(std::uint64_t{1} << (v & 63));
           if (x == u >> 6) merged &= ~(std::uint64_t{1} << (u & 63));
           target[x] = merged;
-          total += __builtin_popcountll(merged);
+          total += count_bits(merged);
         }
         degree_[u] = total;
       }

@@ -13,61 +13,79 @@ constexpr int repeats = 2;                    // further passes with the band mo
 }  // namespace
 
 // Stars first: a vertex whose ring is free takes it. What is left joins the cluster of its first clustered neighbour.
-void MultilevelBisection::coarsen(const GraphView& fine, Level& coarse) {
+std::int32_t MultilevelBisection::make_clusters(const GraphView& fine, std::int32_t* cluster) {
   const std::int32_t n = fine.size;
-  Vector<std::int32_t>& cluster = coarse.cluster;
-  cluster.assign(static_cast<std::size_t>(n), -1);
+  const std::int32_t* start = fine.start;
+  const std::int32_t* neighbour = fine.neighbour;
+  std::fill(cluster, cluster + n, -1);
   std::int32_t count = 0;
   for (std::int32_t v = 0; v < n; ++v) {
     if (cluster[v] >= 0) continue;
     bool free = true;
-    for (std::int32_t e = fine.start[v]; free && e < fine.start[v + 1]; ++e) free = cluster[fine.neighbour[e]] < 0;
+    for (std::int32_t e = start[v]; free && e < start[v + 1]; ++e) free = cluster[neighbour[e]] < 0;
     if (!free) continue;
     cluster[v] = count;
-    for (std::int32_t e = fine.start[v]; e < fine.start[v + 1]; ++e) cluster[fine.neighbour[e]] = count;
+    for (std::int32_t e = start[v]; e < start[v + 1]; ++e) cluster[neighbour[e]] = count;
     ++count;
   }
   for (std::int32_t v = 0; v < n; ++v) {
     if (cluster[v] >= 0) continue;
     std::int32_t joined = -1;
-    for (std::int32_t e = fine.start[v]; joined < 0 && e < fine.start[v + 1]; ++e) joined = cluster[fine.neighbour[e]];
+    for (std::int32_t e = start[v]; joined < 0 && e < start[v + 1]; ++e) joined = cluster[neighbour[e]];
     cluster[v] = joined >= 0 ? joined : count++;
   }
+  return count;
+}
+
+void MultilevelBisection::coarsen(const GraphView& fine, Level& coarse) {
+  const std::int32_t n = fine.size;
+  const auto grow = [](auto& array, std::size_t size) {
+    if (array.size() < size) array.resize(size);
+    return array.data();
+  };
+  std::int32_t* cluster = grow(coarse.cluster, static_cast<std::size_t>(n));
+  const std::int32_t count = make_clusters(fine, cluster);
   // members by cluster
-  cluster_size_.assign(static_cast<std::size_t>(count) + 1, 0);
-  for (std::int32_t v = 0; v < n; ++v) ++cluster_size_[cluster[v] + 1];
-  for (std::int32_t c = 0; c < count; ++c) cluster_size_[c + 1] += cluster_size_[c];
-  queue_.resize(static_cast<std::size_t>(n));
-  mark_.assign(cluster_size_.begin(), cluster_size_.end() - 1);
-  for (std::int32_t v = 0; v < n; ++v) queue_[mark_[cluster[v]]++] = v;
-  mark_.assign(static_cast<std::size_t>(count), -1);
-  coarse.start.resize(static_cast<std::size_t>(count) + 1);
-  coarse.weight.resize(static_cast<std::size_t>(count));
-  coarse.neighbour.clear();
-  coarse.neighbour.reserve(static_cast<std::size_t>(fine.start[n]) / 5 + 16);
-  if (fine.point) coarse.point.resize(3 * static_cast<std::size_t>(count));
+  cluster_start_.assign(static_cast<std::size_t>(count) + 1, 0);
+  std::int32_t* member_start = cluster_start_.data();
+  for (std::int32_t v = 0; v < n; ++v) ++member_start[cluster[v] + 1];
+  for (std::int32_t c = 0; c < count; ++c) member_start[c + 1] += member_start[c];
+  std::int32_t* member = grow(queue_, static_cast<std::size_t>(n));
+  mark_.assign(cluster_start_.begin(), cluster_start_.end() - 1);
+  std::int32_t* mark = mark_.data();
+  for (std::int32_t v = 0; v < n; ++v) member[mark[cluster[v]]++] = v;
+  std::fill(mark, mark + count, -1);
+  std::int32_t* start = grow(coarse.start, static_cast<std::size_t>(count) + 1);
+  std::int32_t* weight = grow(coarse.weight, static_cast<std::size_t>(count));
+  std::int32_t* neighbour = grow(coarse.neighbour, static_cast<std::size_t>(fine.start[n]));
+  float* point = fine.point ? grow(coarse.point, 3 * static_cast<std::size_t>(count)) : nullptr;
+  std::int32_t edges = 0;
   for (std::int32_t c = 0; c < count; ++c) {
-    coarse.start[c] = static_cast<std::int32_t>(coarse.neighbour.size());
-    mark_[c] = c;
-    std::int32_t weight = 0;
-    float sum[3] = {0, 0, 0};
-    for (std::int32_t k = cluster_size_[c]; k < cluster_size_[c + 1]; ++k) {
-      const std::int32_t v = queue_[k];
-      weight += fine.weight_of(v);
-      for (int x = 0; fine.point && x < 3; ++x) sum[x] += fine.point[3 * static_cast<std::size_t>(v) + x];
+    start[c] = edges;
+    mark[c] = c;
+    std::int32_t total = 0;
+    for (std::int32_t k = member_start[c]; k < member_start[c + 1]; ++k) {
+      const std::int32_t v = member[k];
+      total += fine.weight_of(v);
       for (std::int32_t e = fine.start[v]; e < fine.start[v + 1]; ++e) {
         const std::int32_t other = cluster[fine.neighbour[e]];
-        if (mark_[other] == c) continue;
-        mark_[other] = c;
-        coarse.neighbour.push_back(other);
+        if (mark[other] == c) continue;
+        mark[other] = c;
+        neighbour[edges++] = other;
       }
     }
-    coarse.weight[c] = weight;
-    const float members = static_cast<float>(cluster_size_[c + 1] - cluster_size_[c]);
-    for (int x = 0; fine.point && x < 3; ++x) coarse.point[3 * static_cast<std::size_t>(c) + x] = sum[x] / members;
+    weight[c] = total;
+    if (!point) continue;
+    float sum[3] = {0, 0, 0};
+    for (std::int32_t k = member_start[c]; k < member_start[c + 1]; ++k) {
+      const float* p = fine.point + 3 * static_cast<std::size_t>(member[k]);
+      sum[0] += p[0], sum[1] += p[1], sum[2] += p[2];
+    }
+    const float members = static_cast<float>(member_start[c + 1] - member_start[c]);
+    for (int x = 0; x < 3; ++x) point[3 * static_cast<std::size_t>(c) + x] = sum[x] / members;
   }
-  coarse.start[count] = static_cast<std::int32_t>(coarse.neighbour.size());
-  coarse.view = {count, coarse.start.data(), coarse.neighbour.data(), fine.point ? coarse.point.data() : nullptr, coarse.weight.data()};
+  start[count] = edges;
+  coarse.view = {count, start, neighbour, point, weight};
 }
 
 // Adds rings of neighbours to what lies between, as long as both sides keep a fifth of the whole.

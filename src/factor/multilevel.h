@@ -9,7 +9,7 @@ namespace hf {
 
 class MultilevelBisection {
  public:
-  explicit MultilevelBisection(Memory& memory) : memory_(memory), search_(memory), levels_(&memory), cluster_size_(&memory), mark_(&memory), queue_(&memory) {}
+  explicit MultilevelBisection(Memory& memory) : memory_(memory), search_(memory), levels_(&memory), cluster_start_(&memory), mark_(&memory), queue_(&memory) {}
 
   // side[v] = left, right or between. An unusable cut when the part cannot be split.
   Cut run(const GraphView& graph, std::uint8_t* side);
@@ -24,6 +24,7 @@ class MultilevelBisection {
     Vector<float> point;
     Vector<std::uint8_t> side;
   };
+  static std::int32_t make_clusters(const GraphView& fine, std::int32_t* cluster);
   void coarsen(const GraphView& fine, Level& coarse);
   Cut carry_back(const GraphView& fine, const Level& coarse, std::uint8_t* side);
   void widen(const GraphView& graph, std::uint8_t* side, int rings);
@@ -31,7 +32,7 @@ class MultilevelBisection {
   Memory& memory_;
   SeparatorSearch search_;
   std::pmr::vector<Level> levels_;
-  Vector<std::int32_t> cluster_size_, mark_, queue_;
+  Vector<std::int32_t> cluster_start_, mark_, queue_;
 };
 
 }  // namespace hf

@@ -83,32 +83,37 @@ void SeparatorSearch::collect_band(const GraphView& graph, const std::uint8_t* s
   previous_.assign(count, none), next_.assign(count, none);
 }
 
-// Breadth-first levels of the residual graph from the source. States: 2 b = entry of vertex b, 2 b + 1 = its exit. True when the
-// sink is reached.
+// Breadth-first levels of the residual graph from the source. States: 2 b = entry of vertex b, 2 b + 1 = its exit; a vertex on no
+// path is entered and left at once and has the exit only. True when the sink is reached.
 bool SeparatorSearch::label_phase() {
   const std::size_t count = band_.size();
   level_.assign(2 * count, none);
-  queue_.clear();
+  if (queue_.size() < 2 * count + 1) queue_.resize(2 * count + 1);
+  std::int32_t* queue = queue_.data();
+  std::int32_t* level_of = level_.data();
+  const std::uint8_t* flags = flags_.data();
+  std::size_t tail = 0;
+  const auto entry_of = [&](std::int32_t b) { return 2 * b + ((flags[b] & on_path) ? 0 : 1); };
   for (std::size_t b = 0; b < count; ++b) {
-    if (flags_[b] & touches_left) level_[2 * b] = 0, queue_.push_back(static_cast<std::int32_t>(2 * b));
+    if (!(flags[b] & touches_left)) continue;
+    const std::int32_t state = entry_of(static_cast<std::int32_t>(b));
+    level_of[state] = 0, queue[tail++] = state;
   }
   std::int32_t last = INT32_MAX;
-  const auto visit = [&](std::int32_t state, std::int32_t level) {
-    if (level_[state] != none) return;
-    level_[state] = level;
-    queue_.push_back(state);
-  };
-  for (std::size_t head = 0; head < queue_.size(); ++head) {
-    const std::int32_t state = queue_[head], b = state >> 1, level = level_[state] + 1;
+  for (std::size_t head = 0; head < tail; ++head) {
+    const std::int32_t state = queue[head], b = state >> 1, level = level_of[state] + 1;
     if (level > last) break;
     if ((state & 1) == 0) {
-      if (!(flags_[b] & on_path)) visit(state + 1, level);
-      else if (previous_[b] >= 0) visit(2 * previous_[b] + 1, level);
+      const std::int32_t to = 2 * previous_[b] + 1;
+      if (previous_[b] >= 0 && level_of[to] == none) level_of[to] = level, queue[tail++] = to;
       continue;
     }
-    if (flags_[b] & touches_right) last = std::min(last, level);
-    for (std::int32_t e = band_start_[b]; e < band_start_[b + 1]; ++e) visit(2 * band_neighbour_[e], level);
-    if (flags_[b] & on_path) visit(state - 1, level);
+    if (flags[b] & touches_right) last = level;
+    for (std::int32_t e = band_start_[b]; e < band_start_[b + 1]; ++e) {
+      const std::int32_t to = entry_of(band_neighbour_[e]);
+      if (level_of[to] == none) level_of[to] = level, queue[tail++] = to;
+    }
+    if ((flags[b] & on_path) && level_of[state - 1] == none) level_of[state - 1] = level, queue[tail++] = state - 1;
   }
   return last != INT32_MAX;
 }
@@ -116,42 +121,40 @@ bool SeparatorSearch::label_phase() {
 // Disjoint shortest paths by depth-first search on the levels; a state that was used or leads nowhere is taken out.
 std::int32_t SeparatorSearch::augment_phase() {
   const std::size_t count = band_.size();
-  iterator_.resize(2 * count);
-  for (std::size_t b = 0; b < count; ++b) iterator_[2 * b] = 0, iterator_[2 * b + 1] = band_start_[b];
+  iterator_.assign(band_start_.begin(), band_start_.end() - 1);
+  std::int32_t* level_of = level_.data();
+  const auto entry_of = [&](std::int32_t b) { return 2 * b + ((flags_[b] & on_path) ? 0 : 1); };
   std::int32_t paths = 0;
-  for (std::size_t root = 0; root < count; ++root) {
-    if (!(flags_[root] & touches_left) || level_[2 * root] != 0) continue;
+  for (std::size_t start = 0; start < count; ++start) {
+    const std::int32_t root = entry_of(static_cast<std::int32_t>(start));
+    if (!(flags_[start] & touches_left) || level_of[root] != 0) continue;
     stack_.clear();
-    stack_.push_back(static_cast<std::int32_t>(2 * root));
+    stack_.push_back(root);
     while (!stack_.empty()) {
-      const std::int32_t state = stack_.back(), b = state >> 1, level = level_[state] + 1;
+      const std::int32_t state = stack_.back(), b = state >> 1, level = level_of[state] + 1;
       std::int32_t step = none;
       if ((state & 1) == 0) {
-        if (iterator_[state] == 0) {
-          iterator_[state] = 1;
-          const std::int32_t to = !(flags_[b] & on_path) ? state + 1 : previous_[b] >= 0 ? 2 * previous_[b] + 1 : none;
-          if (to != none && level_[to] == level) step = to;
-        }
+        if (previous_[b] >= 0 && level_of[2 * previous_[b] + 1] == level) step = 2 * previous_[b] + 1;
       } else {
         if (flags_[b] & touches_right) {
-          for (const std::int32_t used : stack_) level_[used] = none;
+          for (const std::int32_t used : stack_) level_of[used] = none;
           apply_path();
           ++paths;
           break;
         }
-        std::int32_t& e = iterator_[state];
-        while (e < band_start_[b + 1] && level_[2 * band_neighbour_[e]] != level) ++e;
-        if (e < band_start_[b + 1]) {
-          step = 2 * band_neighbour_[e];
-        } else if (e == band_start_[b + 1]) {
-          ++e;
-          if ((flags_[b] & on_path) && level_[state - 1] == level) step = state - 1;
+        std::int32_t& e = iterator_[b];
+        for (; e < band_start_[b + 1]; ++e) {
+          const std::int32_t to = entry_of(band_neighbour_[e]);
+          if (level_of[to] != level) continue;
+          step = to;
+          break;
         }
+        if (step == none && (flags_[b] & on_path) && level_of[state - 1] == level) step = state - 1;
       }
       if (step != none) {
         stack_.push_back(step);
       } else {
-        level_[state] = none;
+        level_of[state] = none;
         stack_.pop_back();
       }
     }
@@ -164,24 +167,24 @@ void SeparatorSearch::apply_path() {
   std::int32_t from = source;  // the vertex whose exit the path came from
   for (std::size_t k = 0; k < stack_.size(); ++k) {
     const std::int32_t state = stack_[k], b = state >> 1;
-    if (state & 1) {
-      // leaves b: to the sink, to a neighbour, or back into b, which then drops out of its path
-      if (k + 1 == stack_.size()) next_[b] = sink;
-      else if (stack_[k + 1] >> 1 != b) next_[b] = stack_[k + 1] >> 1;
-      from = b;
+    if ((state & 1) == 0) {
+      if (from == b) {
+        // back into b from its own exit: b drops out of its path
+        flags_[b] &= static_cast<std::uint8_t>(~on_path);
+        previous_[b] = next_[b] = none;
+      } else {
+        previous_[b] = from;
+      }
       continue;
     }
-    if (from == b) {
-      flags_[b] &= static_cast<std::uint8_t>(~on_path);
-      previous_[b] = next_[b] = none;
-    } else {
-      previous_[b] = from;
-      flags_[b] |= on_path;
-    }
+    if (!(flags_[b] & on_path)) flags_[b] |= on_path, previous_[b] = from;
+    if (k + 1 == stack_.size()) next_[b] = sink;
+    else if (stack_[k + 1] >> 1 != b) next_[b] = stack_[k + 1] >> 1;
+    from = b;
   }
 }
 
-// States from which the sink can be reached in the residual graph.
+// States from which the sink can be reached in the residual graph; a vertex on no path has the exit only.
 void SeparatorSearch::mark_reaching_sink() {
   const std::size_t count = band_.size();
   reach_.assign(2 * count, 0);
@@ -196,13 +199,14 @@ void SeparatorSearch::mark_reaching_sink() {
   }
   for (std::size_t head = 0; head < queue_.size(); ++head) {
     const std::int32_t state = queue_[head], b = state >> 1;
-    if (state & 1) {
-      if (!(flags_[b] & on_path)) visit(state - 1);
-      else if (next_[b] >= 0) visit(2 * next_[b]);
+    if ((state & 1) && (flags_[b] & on_path)) {
+      if (next_[b] >= 0) visit(2 * next_[b]);
       continue;
     }
+    // what enters b: any neighbour's exit, and b's own exit when b is on a path
     for (std::int32_t e = band_start_[b]; e < band_start_[b + 1]; ++e) visit(2 * band_neighbour_[e] + 1);
     if (flags_[b] & on_path) visit(state + 1);
+    else reach_[2 * b] = 1;
   }
 }
 
@@ -331,7 +335,7 @@ Cut SeparatorSearch::bisect(const GraphView& graph, std::uint8_t* side, bool tho
   const std::int32_t n = graph.size;
   Cut best;
   if (n < 2) return best;
-  const double share = std::min(0.3, 0.5 * (n > 500 ? 16.0 : 4.0) / std::sqrt(static_cast<double>(n)));
+  const double share = std::min(0.3, 0.5 * (n > 500 ? 16.0 : 6.0) / std::sqrt(static_cast<double>(n)));
   bool spread = false;
   if (graph.point) {
     double mean[3] = {0, 0, 0}, moment[3][3] = {}, axis[3][3], value[3];

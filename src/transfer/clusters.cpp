@@ -8,9 +8,9 @@
 namespace hf {
 namespace {
 
-constexpr std::int32_t nearest_count = 15;      // source vertices a kernel reaches at one width
-constexpr double cut = 3;                       // kernels end at so many widths
-constexpr double broad_factor = 4;
+constexpr std::int32_t nearest_count = 6;      // source vertices a kernel reaches at one width
+constexpr double cut = 2.5;                       // kernels end at so many widths
+constexpr double broad_factor = 3;
 constexpr std::size_t most_narrow = 4096, most_broad = 1024;  // vertices of a kernel; more are thinned evenly
 constexpr double paper_exponent = 4;
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
@@ -141,19 +141,24 @@ void finish(KernelRow& row, std::size_t most, std::int32_t fallback) {
   for (double& w : row.weight) w /= sum;
 }
 
-void append(const KernelRow& row, const Mesh& mesh, SourceKernels& out) {
+void append(const KernelRow& row, const Core& core, Vector<double>& kernel, SourceKernels& out) {
   if (out.start.empty()) out.start.push_back(0);
-  Vec3 centroid;
-  for (std::size_t i = 0; i < row.vertex.size(); ++i) centroid = centroid + row.weight[i] * mesh.positions[at(row.vertex[i])];
-  double spread = 0;
-  for (std::size_t i = 0; i < row.vertex.size(); ++i) {
-    const Vec3 p = mesh.positions[at(row.vertex[i])] - centroid;
-    spread += row.weight[i] * dot(p, p);
+  const std::size_t begin = out.weight.size();
+  for (std::size_t i = 0; i < row.vertex.size(); ++i) kernel[at(row.vertex[i])] = row.weight[i];
+  double sum = 0;
+  for (const std::int32_t v : row.vertex) {
+    for (std::int32_t e = core.topology.neighbour_start[at(v)]; e < core.topology.neighbour_start[at(v) + 1]; ++e) {
+      const std::int32_t u = core.topology.neighbour[at(e)];
+      if (u < v && kernel[at(u)] > 0) continue;
+      const double w = std::clamp(core.weights[at(core.topology.neighbour_edge[at(e)])], 1e-3, 50.0) * (kernel[at(v)] + kernel[at(u)]);
+      const Vec3 d = core.mesh.positions[at(v)] - core.mesh.positions[at(u)];
+      out.first.push_back(v), out.second.push_back(u), out.weight.push_back(w);
+      sum += w * dot(d, d);
+    }
   }
-  out.vertex.insert(out.vertex.end(), row.vertex.begin(), row.vertex.end());
-  out.weight.insert(out.weight.end(), row.weight.begin(), row.weight.end());
-  out.start.push_back(static_cast<std::int32_t>(out.vertex.size()));
-  out.centroid.push_back(centroid), out.spread.push_back(spread);
+  if (sum > 0) for (std::size_t i = begin; i < out.weight.size(); ++i) out.weight[i] /= sum;
+  out.start.push_back(static_cast<std::int32_t>(out.weight.size()));
+  for (const std::int32_t v : row.vertex) kernel[at(v)] = 0;
 }
 
 struct ClusterRows {
@@ -178,7 +183,7 @@ void centre_rows(const ClusterOptions& options, const double* centre, std::int32
     for (std::size_t v = 0; v < n; ++v) {
       if (distance[v] > cut * s) continue;
       row.vertex.push_back(static_cast<std::int32_t>(v));
-      row.weight.push_back(area[v] * std::exp(-0.5 * distance[v] * distance[v] / (s * s)));
+      row.weight.push_back(std::exp(-0.5 * distance[v] * distance[v] / (s * s)));
     }
   }
   std::int32_t nearest = 0;
@@ -258,7 +263,7 @@ Vector<double> area_shares(const Mesh& mesh, Memory& memory) {
   return area;
 }
 
-Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, Span<const double> source_field, Span<const double> source_area, const Mesh& source_mesh,
+Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, Span<const double> source_field, Span<const double> source_area, const Core& source_core,
                        Span<const double> target_field, Span<const double> target_area, const Mesh& target_mesh, Memory& memory, JobRunner& jobs) {
   Clusters out(memory);
   out.field_count = field_count;
@@ -305,8 +310,9 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
   }
   out.centre.swap(centres);
   out.count = static_cast<std::int32_t>(kept.size());
+  Vector<double> kernel(source_area.size(), 0.0, &memory);
   for (const ClusterRows& row : rows) {
-    append(row.narrow, source_mesh, out.narrow), append(row.broad, source_mesh, out.broad);
+    append(row.narrow, source_core, kernel, out.narrow), append(row.broad, source_core, kernel, out.broad);
     out.support.push_back(row.support);
   }
   return out;

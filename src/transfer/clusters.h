@@ -27,11 +27,9 @@ struct ClusterOptions {
 
 // Compressed rows: for each cluster source vertices and weights that sum to 1, and their rest centroid.
 struct SourceKernels {
-  explicit SourceKernels(Memory& memory) : start(&memory), vertex(&memory), weight(&memory), centroid(&memory), spread(&memory) {}
-  Vector<std::int32_t> start, vertex;
+  explicit SourceKernels(Memory& memory) : start(&memory), first(&memory), second(&memory), weight(&memory) {}
+  Vector<std::int32_t> start, first, second;
   Vector<double> weight;
-  Vector<Vec3> centroid;
-  Vector<double> spread;  // sum w |p - centroid|^2
 };
 
 struct Clusters {
@@ -49,7 +47,7 @@ struct Clusters {
 // Vertex areas of a mesh, normalised to sum 1; floored, so that no vertex is without weight.
 Vector<double> area_shares(const Mesh& mesh, Memory& memory);
 
-Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, Span<const double> source_field, Span<const double> source_area, const Mesh& source_mesh,
+Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, Span<const double> source_field, Span<const double> source_area, const Core& source_core,
                        Span<const double> target_field, Span<const double> target_area, const Mesh& target_mesh, Memory& memory, JobRunner& jobs);
 
 // The four (or fewer) weights of one vertex from `count` candidates, as multiples of 2^-24 with sum exactly 1; sorts the candidates.

@@ -13,17 +13,12 @@ constexpr std::size_t most_sampled = 4096;
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 Quaternion kernel_rotation(const Mesh& mesh, const SourceKernels& kernels, std::int32_t c, const Vec3* posed, double share, const Quaternion& guide) noexcept {
-  const std::int32_t first = kernels.start[at(c)], last = kernels.start[at(c) + 1];
-  const Vec3 centroid = kernels.centroid[at(c)];
-  const Vec3 origin = posed[kernels.vertex[at(first)]];  // any point near the cluster: keeps the digits of far-away poses
   Mat3 moment;
-  for (std::int32_t i = first; i < last; ++i) {
-    const std::int32_t v = kernels.vertex[at(i)];
-    add_outer(moment, kernels.weight[at(i)], posed[v] - origin, mesh.positions[at(v)] - centroid);
+  for (std::int32_t i = kernels.start[at(c)]; i < kernels.start[at(c) + 1]; ++i) {
+    const std::int32_t u = kernels.first[at(i)], v = kernels.second[at(i)];
+    add_outer(moment, kernels.weight[at(i)], posed[u] - posed[v], mesh.positions[at(u)] - mesh.positions[at(v)]);
   }
-  const double spread = kernels.spread[at(c)];
-  if (!(spread > 0)) return guide;
-  return best_rotation((1 / spread) * moment + share * to_matrix(guide), guide);
+  return best_rotation(moment + share * to_matrix(guide), guide);
 }
 
 }  // namespace

@@ -236,7 +236,7 @@ Transfer::Prepared& Transfer::prepare() {
   cluster_options.paper_bands = options_.mode == HF_TRANSFER_PAPER;
   cluster_options.cluster_count = static_cast<std::int32_t>(options_.cluster_count);
   cluster_options.kernel_width = options_.kernel_width;
-  p.clusters = make_clusters(cluster_options, static_cast<std::int32_t>(width), {p.source_field.data(), p.source_field.size()}, source_area_, source_core_->mesh,
+  p.clusters = make_clusters(cluster_options, static_cast<std::int32_t>(width), {p.source_field.data(), p.source_field.size()}, source_area_, *source_core_,
                              {p.target_field.data(), p.target_field.size()}, target_area_, target_core_->mesh, memory, *target_core_->jobs);
   prepare_alignment(p);
   prepare_anchors(p);

@@ -21,7 +21,7 @@
 namespace hf {
 
 struct TranslationOptions {
-  double spread_share = 0.1;  // a
+  double spread_share = 0.5;  // a
   double anchor = 1;          // l, relative to the mean diagonal of the energies
   double root = 1;            // r, likewise
   double whole = 1e-6;        // e, likewise

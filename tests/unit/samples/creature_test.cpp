@@ -1,4 +1,5 @@
-// The generated creatures: one closed skin with seams, sound weights, clips that loop and feet that stay where they stand.
+// The generated creatures: one closed skin with seams, sound weights, clips that loop and feet that stay where they
+// stand.
 #include "assets/creature.h"
 
 #include <gtest/gtest.h>
@@ -157,7 +158,8 @@ TEST_P(CreatureSize, NormalsAreUnitAndPointOutwards) {
     }
     against += face <= 0;
   }
-  EXPECT_LE(double(against), wanted < 5000 ? 0.01 * double(it().triangles.size() / 3) : 0.0005 * double(it().triangles.size() / 3));
+  EXPECT_LE(double(against),
+            wanted < 5000 ? 0.01 * double(it().triangles.size() / 3) : 0.0005 * double(it().triangles.size() / 3));
 }
 
 TEST_P(CreatureSize, TheSkinnedRestPoseIsTheRestPose) {

@@ -18,10 +18,10 @@ namespace mesh_checks {
 
 struct Report {
   uint32_t used_vertices = 0, edges = 0, faces = 0, components = 0, borders = 0;
-  bool manifold = true;        // every directed edge once, one fan per vertex
+  bool manifold = true;  // every directed edge once, one fan per vertex
   int euler() const { return int(used_vertices) - int(edges) + int(faces); }
   double mean_min_angle = 0, percentile_1 = 0, smallest_angle = 0;  // degrees
-  double volume = 0;           // signed, positive when triangles face outwards
+  double volume = 0;                                                // signed, positive when triangles face outwards
 };
 
 inline uint32_t find_root(std::vector<uint32_t>& parent, uint32_t v) {
@@ -56,8 +56,10 @@ inline Report examine(const std::vector<double>& positions, const std::vector<ui
       smallest = std::min(smallest, std::acos(std::clamp(uv / std::sqrt(uu * vv), -1.0, 1.0)) * 57.29577951308232);
     }
     angles.push_back(smallest);
-    report.volume += (p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) - p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
-                      p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0])) / 6;
+    report.volume +=
+        (p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) - p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
+         p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0])) /
+        6;
   }
   for (uint32_t v = 0; v < count; ++v) {
     report.used_vertices += used[v];
@@ -73,7 +75,8 @@ inline Report examine(const std::vector<double>& positions, const std::vector<ui
   // one fan per vertex: the link of a vertex, its opposite edges, is connected
   std::vector<std::vector<std::pair<uint32_t, uint32_t>>> link(count);
   for (size_t t = 0; t < triangles.size(); t += 3) {
-    for (size_t k = 0; k < 3; ++k) link[triangles[t + k]].push_back({triangles[t + (k + 1) % 3], triangles[t + (k + 2) % 3]});
+    for (size_t k = 0; k < 3; ++k)
+      link[triangles[t + k]].push_back({triangles[t + (k + 1) % 3], triangles[t + (k + 2) % 3]});
   }
   for (uint32_t v = 0; v < count; ++v) {
     std::map<uint32_t, uint32_t> next;

@@ -1,9 +1,10 @@
 // The generated test shapes are what their names promise.
+#include "assets/shapes.h"
+
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "assets/shapes.h"
 #include "mesh_checks.h"
 
 namespace {

@@ -1,0 +1,62 @@
+# Sourced by samples/run and tests/run: installs what is missing on a Debian machine, configures and builds.
+# Every step that fails ends the script with a plain sentence.
+
+hf_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+hf_say() { printf '== %s\n' "$*"; }
+hf_fail() {
+  printf 'error: %s\n' "$*" >&2
+  exit 1
+}
+
+# Installs the packages of a list whose command or file is not there.
+hf_install_packages() {
+  local list=$1 missing=() name probe
+  while read -r name probe; do
+    case "$name" in '' | '#'*) continue ;; esac
+    case "$probe" in
+      command:*) command -v "${probe#command:}" >/dev/null 2>&1 || missing+=("$name") ;;
+      file:*) [ -e "${probe#file:}" ] || missing+=("$name") ;;
+    esac
+  done <"$list"
+  [ ${#missing[@]} -eq 0 ] && return 0
+  hf_say "installing ${missing[*]}"
+  command -v apt-get >/dev/null 2>&1 || hf_fail "these packages are missing and there is no apt-get to install them: ${missing[*]}"
+  local sudo=
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null 2>&1 || hf_fail "these packages are missing; install them as root: ${missing[*]}"
+    sudo=sudo
+  fi
+  $sudo apt-get update -qq || hf_fail "apt-get update failed; is the machine connected to a Debian mirror?"
+  DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null ||
+    hf_fail "apt-get could not install: ${missing[*]}"
+}
+
+# Configures and builds a preset (release, shipped, ...), targets optional.
+hf_build() {
+  local preset=$1
+  shift
+  local log="$hf_root/build/$preset.log"
+  mkdir -p "$hf_root/build"
+  hf_say "building (preset $preset)"
+  (cd "$hf_root" && cmake --preset "$preset" >"$log" 2>&1) || {
+    tail -30 "$log" >&2
+    hf_fail "cmake could not configure preset $preset; the log is build/$preset.log"
+  }
+  local targets=()
+  [ $# -gt 0 ] && targets=(--target "$@")
+  (cd "$hf_root" && cmake --build --preset "$preset" -j "$(nproc)" "${targets[@]}" >>"$log" 2>&1) || {
+    grep -E 'error|FAILED' "$log" | head -30 >&2
+    hf_fail "the build of preset $preset failed; the log is build/$preset.log"
+  }
+}
+
+# The Khronos glTF validator, below the build folder. Returns 1 when there is no npm.
+hf_install_node_modules() {
+  command -v npm >/dev/null 2>&1 || return 1
+  local folder="$hf_root/build/npm"
+  [ -d "$folder/node_modules/gltf-validator" ] && return 0
+  mkdir -p "$folder"
+  hf_say "installing the Khronos glTF validator (npm)"
+  (cd "$folder" && npm install --no-audit --no-fund --no-save --prefix . gltf-validator@2.0.0-dev.3.10 >npm.log 2>&1 || npm install --no-audit --no-fund --no-save --prefix . gltf-validator >npm.log 2>&1) || return 1
+}

@@ -1,0 +1,52 @@
+// What hf_field is asked to do: its command line and its edit script.
+#ifndef HF_SAMPLES_FIELD_OPTIONS_H
+#define HF_SAMPLES_FIELD_OPTIONS_H
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace samples {
+
+// A place on the surface: a vertex, or a point in a triangle.
+struct Place {
+  uint32_t vertex = 0xFFFFFFFFu;
+  uint32_t triangle = 0xFFFFFFFFu;
+  std::array<double, 3> weights{};
+  bool is_vertex() const { return triangle == 0xFFFFFFFFu; }
+};
+
+struct SiteArgument {
+  Place place;
+  double value = 0;
+  double stiffness = 0;  // 0 = hard
+};
+
+// One line of a script.
+struct Edit {
+  enum class Kind { add, remove, move, set, undo, redo } kind = Kind::add;
+  std::string text;
+  std::vector<SiteArgument> sites;  // add, set: places with values; remove: places; move: from, to, from, to ...
+};
+
+struct FieldOptions {
+  std::string mesh, script, out, glb, png;
+  std::vector<SiteArgument> sites;
+  int engine = 0, operator_kind = 0, weld = 0;
+  uint32_t threads = 1;
+  int strips = 24;
+  std::array<double, 3> direction{0.8, 0.35, 1.0};
+  bool help = false;
+};
+
+extern const char* const field_usage;
+
+// Throws std::runtime_error naming the argument.
+FieldOptions read_field_options(int argc, char** argv);
+// Throws std::runtime_error naming file and line.
+std::vector<Edit> read_edit_script(const std::string& file);
+
+}  // namespace samples
+
+#endif

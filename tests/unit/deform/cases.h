@@ -1,0 +1,279 @@
+// The classic deformation cases, how to drag them, and figures of quality for a posed surface.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "assets/shapes.h"
+#include "deform/pose.h"
+#include "support/meshes.h"
+
+namespace deform_test {
+
+using hf::Vec3;
+
+constexpr double pi = 3.14159265358979323846;
+
+inline hf_test::PlainMesh plain(const samples::ShapeMesh& shape) { return {shape.positions, shape.triangles}; }
+
+// Inner vertices of those as given; the shapes have no welded or isolated vertices, but the map is asked all the same.
+inline std::vector<std::int32_t> inner(const hf::Core& core, const std::vector<std::uint32_t>& given) {
+  std::vector<std::int32_t> out;
+  for (const std::uint32_t v : given) out.push_back(core.mesh.inner_of_given[v]);
+  return out;
+}
+
+inline std::vector<std::int32_t> select(const hf::Core& core, const std::function<bool(Vec3)>& inside) {
+  std::vector<std::int32_t> out;
+  for (std::int32_t v = 0; v < core.size(); ++v) {
+    if (inside(core.mesh.to_given(core.mesh.positions[v]))) out.push_back(v);
+  }
+  return out;
+}
+
+inline std::vector<std::uint32_t> add(hf::Pose& pose, const std::vector<std::vector<std::int32_t>>& regions) {
+  std::vector<std::uint32_t> start{0}, numbers(regions.size());
+  std::vector<std::int32_t> vertices;
+  for (const auto& region : regions) {
+    vertices.insert(vertices.end(), region.begin(), region.end());
+    start.push_back(static_cast<std::uint32_t>(vertices.size()));
+  }
+  pose.add_handles(start, vertices, numbers);
+  return numbers;
+}
+
+inline hf::Quaternion about(Vec3 axis, double angle) { return hf::exponential((angle / hf::norm(axis)) * axis); }
+
+inline void place(hf::Pose& pose, std::uint32_t handle, const hf::HandleTransform& transform) {
+  pose.set_transforms({&handle, 1}, {&transform, 1});
+}
+
+// A shape, its handles, and where the second and later ones stand at time t in [0, 1]; the first is held.
+struct Case {
+  std::string name;
+  hf_test::PlainMesh mesh;
+  std::vector<std::function<bool(Vec3)>> regions;
+  std::function<hf::HandleTransform(std::size_t handle, double t, Vec3 centroid)> motion;
+  bool closed = true;
+};
+
+// The end of a straight beam along y, from `bottom` to `top` free, bent into an arc of `angle` in the plane of x and y.
+inline hf::HandleTransform bend(double angle, double bottom, double top, Vec3 centroid) {
+  if (std::fabs(angle) < 1e-12) return {};
+  const double radius = (top - bottom) / angle;
+  const hf::Quaternion turn = about({0, 0, -1}, angle);
+  const Vec3 end{radius * (1 - std::cos(angle)), bottom + radius * std::sin(angle), 0};
+  const Vec3 target = end + hf::rotate(turn, centroid - Vec3{0, top, 0});
+  return {turn, target - centroid};
+}
+
+// Twelve radii long.
+inline Case cylinder_bend(double degrees = 120, std::uint32_t m = 11, std::uint32_t rows = 118) {
+  Case c;
+  c.name = "cylinder " + std::to_string(static_cast<int>(degrees));
+  c.mesh = plain(samples::cylinder(m, rows));
+  for (std::size_t k = 1; k < c.mesh.positions.size(); k += 3) c.mesh.positions[k] *= 1.5;
+  c.regions = {[](Vec3 p) { return p.y < 0.6; }, [](Vec3 p) { return p.y > 5.4; }};
+  c.motion = [=](std::size_t, double t, Vec3 centroid) { return bend(t * degrees * pi / 180, 0.6, 5.4, centroid); };
+  return c;
+}
+
+// 1 x 6 x 1 of square quads.
+inline Case bar_twist(double degrees, std::uint32_t n = 16) {
+  Case c;
+  c.name = "bar " + std::to_string(static_cast<int>(degrees));
+  c.mesh = plain(samples::box(1, 6, 1, n, 6 * n, n));
+  c.regions = {[](Vec3 p) { return p.y < 0.45; }, [](Vec3 p) { return p.y > 5.55; }};
+  c.motion = [=](std::size_t, double t, Vec3) { return hf::HandleTransform{about({0, 1, 0}, t * degrees * pi / 180), {}}; };
+  return c;
+}
+
+inline Case cactus_bend(double degrees = 70, std::uint32_t vertices = 7400) {
+  Case c;
+  c.name = "cactus " + std::to_string(static_cast<int>(degrees));
+  c.mesh = plain(samples::cactus(vertices));
+  c.regions = {[](Vec3 p) { return p.y < 0.15; }, [](Vec3 p) { return p.y > 1.6 && std::fabs(p.x) < 0.35; }};
+  c.motion = [=](std::size_t, double t, Vec3 centroid) { return bend(t * degrees * pi / 180, 0.15, 1.6, centroid); };
+  return c;
+}
+
+inline Case plane_lift(std::uint32_t side = 101) {
+  Case c;
+  c.name = "plane lift";
+  c.mesh = plain(samples::bumpy_plane(side, side));
+  c.regions = {[](Vec3 p) { return std::max(std::fabs(p.x), std::fabs(p.z)) > 0.9; }, [](Vec3 p) { return std::hypot(p.x, p.z) < 0.2; }};
+  c.motion = [](std::size_t, double t, Vec3) { return hf::HandleTransform{{}, {0, t * 1.0, 0}}; };
+  c.closed = false;
+  return c;
+}
+
+struct Dragged {
+  std::shared_ptr<const hf::Core> core;
+  std::shared_ptr<hf::Pose> pose;
+  std::vector<std::uint32_t> handles;
+  hf::DeformReport report;
+};
+
+inline Dragged set_up(const Case& c, const hf::PoseOptions& options, std::uint32_t threads = 1) {
+  Dragged d;
+  d.core = hf_test::make_core(c.mesh, threads);
+  d.pose = hf::Pose::make(d.core, options);
+  std::vector<std::vector<std::int32_t>> regions;
+  for (const auto& region : c.regions) regions.push_back(select(*d.core, region));
+  d.handles = add(*d.pose, regions);
+  return d;
+}
+
+inline void move_to(const Case& c, Dragged& d, double t) {
+  for (std::size_t i = 1; i < d.handles.size(); ++i) place(*d.pose, d.handles[i], c.motion(i, t, d.pose->handle(d.handles[i]).centroid));
+}
+
+inline Dragged drag(const Case& c, const hf::PoseOptions& options, int frames = 30, std::uint32_t iterations = 5, std::uint32_t threads = 1) {
+  Dragged d = set_up(c, options, threads);
+  d.pose->deform({});
+  for (int frame = 1; frame <= frames; ++frame) {
+    move_to(c, d, static_cast<double>(frame) / frames);
+    d.report = d.pose->deform({false, iterations, false});
+  }
+  return d;
+}
+
+inline std::vector<Vec3> positions(const hf::DeformReport& report) { return {report.positions.begin(), report.positions.end()}; }
+
+inline std::vector<Vec3> rest(const hf::Core& core) {
+  std::vector<Vec3> out;
+  for (const Vec3& p : core.mesh.positions) out.push_back(core.mesh.to_given(p));
+  return out;
+}
+
+inline double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, hf::norm(a[i] - b[i]));
+  return largest;
+}
+
+struct Quality {
+  double energy = 0;          // spokes-and-rims-free ARAP, one best rotation per vertex
+  double edge_share = 0;      // per cent of edges whose length ratio lies in [0.8, 1.25]
+  double edge_min = 1, edge_max = 1, p01 = 1, p99 = 1;
+  double volume = 0;          // change in per cent
+  double smallest_stretch = 1;  // smallest singular value of any triangle's map
+  double dihedral_max = 0;    // largest change, degrees
+  double roughness = 0;       // area-weighted jump between neighbours of the change of mean curvature, times the box diagonal
+};
+
+inline double signed_volume(const hf::Mesh& mesh, const std::vector<Vec3>& x) {
+  double sum = 0;
+  for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
+    const std::int32_t* k = mesh.triangle(t);
+    sum += dot(x[k[0]], hf::cross(x[k[1]], x[k[2]])) / 6;
+  }
+  return sum;
+}
+
+// Mean curvature, signed by the normal: |sum w (x_i - x_j)| / (2 area) with cotangents of the surface itself.
+inline std::vector<double> mean_curvature(const hf::Mesh& mesh, const std::vector<Vec3>& x) {
+  std::vector<Vec3> sum(x.size()), normal(x.size());
+  std::vector<double> area(x.size(), 0.0), h(x.size());
+  for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
+    const std::int32_t* k = mesh.triangle(t);
+    const Vec3 n = hf::cross(x[k[1]] - x[k[0]], x[k[2]] - x[k[0]]);
+    const double twice = std::max(hf::norm(n), 1e-300);
+    for (int c = 0; c < 3; ++c) {
+      const std::int32_t o = k[c], i = k[(c + 1) % 3], j = k[(c + 2) % 3];
+      const double w = 0.5 * hf::dot(x[i] - x[o], x[j] - x[o]) / twice;
+      sum[i] = sum[i] + w * (x[i] - x[j]), sum[j] = sum[j] + w * (x[j] - x[i]);
+      normal[o] = normal[o] + n, area[o] += twice / 6;
+    }
+  }
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    const double sign = hf::dot(sum[v], normal[v]) < 0 ? -1 : 1;
+    h[v] = sign * hf::norm(sum[v]) / (2 * std::max(area[v], 1e-300));
+  }
+  return h;
+}
+
+inline double arap_energy(const hf::Core& core, const std::vector<Vec3>& rest_positions, const std::vector<Vec3>& x) {
+  const hf::Topology& topology = core.topology;
+  double sum = 0;
+  for (std::int32_t v = 0; v < core.size(); ++v) {
+    hf::Mat3 s;
+    for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
+      const std::int32_t u = topology.neighbour[k];
+      hf::add_outer(s, std::max(core.weights[topology.neighbour_edge[k]], 0.01), x[v] - x[u], rest_positions[v] - rest_positions[u]);
+    }
+    const hf::Quaternion r = hf::best_rotation(s, {});
+    for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
+      const std::int32_t u = topology.neighbour[k];
+      const Vec3 d = x[v] - x[u] - hf::rotate(r, rest_positions[v] - rest_positions[u]);
+      sum += std::max(core.weights[topology.neighbour_edge[k]], 0.01) * hf::dot(d, d);
+    }
+  }
+  return sum;
+}
+
+inline Quality measure(const hf::Core& core, const std::vector<Vec3>& x) {
+  const hf::Mesh& mesh = core.mesh;
+  const hf::Topology& topology = core.topology;
+  const std::vector<Vec3> p = rest(core);
+  Quality q;
+  q.energy = arap_energy(core, p, x);
+  std::vector<double> ratios;
+  int inside = 0;
+  for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
+    const std::int32_t i = topology.first(e), j = topology.second(e);
+    ratios.push_back(hf::norm(x[i] - x[j]) / hf::norm(p[i] - p[j]));
+    inside += ratios.back() >= 0.8 && ratios.back() <= 1.25;
+  }
+  std::sort(ratios.begin(), ratios.end());
+  q.edge_share = 100.0 * inside / static_cast<double>(ratios.size());
+  q.edge_min = ratios.front(), q.edge_max = ratios.back(), q.p01 = ratios[ratios.size() / 100], q.p99 = ratios[ratios.size() * 99 / 100];
+  q.volume = 100 * (signed_volume(mesh, x) / signed_volume(mesh, p) - 1);
+  for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
+    const std::int32_t* k = mesh.triangle(t);
+    const Vec3 a = p[k[1]] - p[k[0]], b = p[k[2]] - p[k[0]], c = x[k[1]] - x[k[0]], d = x[k[2]] - x[k[0]];
+    // J = [c d] [a b]^-1 in the triangle's own plane; its singular values from J'J
+    const double length = hf::norm(a), bx = hf::dot(a, b) / length, by = hf::norm(hf::cross(a, b)) / length;
+    if (!(by > 0)) continue;
+    const Vec3 u = (1 / length) * c, v = (1 / by) * (d - bx * u);
+    const double uu = hf::dot(u, u), vv = hf::dot(v, v), uv = hf::dot(u, v);
+    const double mean = 0.5 * (uu + vv), gap = std::sqrt(std::max(0.0, 0.25 * (uu - vv) * (uu - vv) + uv * uv));
+    q.smallest_stretch = std::min(q.smallest_stretch, std::sqrt(std::max(0.0, mean - gap)));
+  }
+  const auto dihedral = [&](const std::vector<Vec3>& y, std::int32_t e) {
+    const std::int32_t first = topology.edge_triangle_start[e];
+    Vec3 n[2];
+    for (int s = 0; s < 2; ++s) {
+      const std::int32_t* k = mesh.triangle(topology.edge_triangle[first + s]);
+      n[s] = hf::cross(y[k[1]] - y[k[0]], y[k[2]] - y[k[0]]);
+    }
+    const Vec3 edge = y[topology.second(e)] - y[topology.first(e)];
+    return std::atan2(hf::dot(hf::cross(n[0], n[1]), edge) / hf::norm(edge), hf::dot(n[0], n[1])) * 180 / pi;
+  };
+  for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
+    if (topology.edge_triangle_start[e + 1] - topology.edge_triangle_start[e] != 2) continue;
+    double change = std::fabs(dihedral(x, e) - dihedral(p, e));
+    q.dihedral_max = std::max(q.dihedral_max, std::min(change, 360 - change));
+  }
+  std::vector<double> change = mean_curvature(mesh, x);
+  const std::vector<double> before = mean_curvature(mesh, p);
+  for (std::size_t v = 0; v < change.size(); ++v) change[v] -= before[v];
+  std::vector<double> area(x.size(), 0.0);
+  for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
+    const std::int32_t* k = mesh.triangle(t);
+    for (int c = 0; c < 3; ++c) area[k[c]] += hf::norm(hf::cross(p[k[1]] - p[k[0]], p[k[2]] - p[k[0]])) / 6;
+  }
+  double sum = 0, weight = 0;
+  for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
+    const std::int32_t i = topology.first(e), j = topology.second(e);
+    sum += (area[i] + area[j]) * std::fabs(change[i] - change[j]), weight += area[i] + area[j];
+  }
+  q.roughness = sum / weight * mesh.scale;
+  return q;
+}
+
+}  // namespace deform_test

@@ -1,0 +1,73 @@
+// Pictures of the classic cases for the eye, and the table of their figures: paper's mode (10 iterations a frame, and converged) beside the
+// smooth mode. Not a test: run it by hand.
+//   deform_pictures OUT_FOLDER
+#include <chrono>
+#include <cstdio>
+
+#include "cases.h"
+#include "common/picture.h"
+
+using namespace deform_test;
+
+namespace {
+
+samples::Picture draw(const Dragged& d, const Case& c, bool stripes) {
+  samples::Surface surface;
+  const hf::Mesh& mesh = d.core->mesh;
+  for (const Vec3& x : d.report.positions) surface.positions.insert(surface.positions.end(), {x.x, x.y, x.z});
+  for (const std::int32_t v : mesh.corners) surface.triangles.push_back(static_cast<std::uint32_t>(v));
+  samples::SurfaceLook look;
+  if (stripes) {
+    look.fill = samples::Fill::stripes;
+  } else {
+    look.fill = samples::Fill::colors;
+    surface.colors.assign(3 * static_cast<std::size_t>(mesh.vertex_count()), 0.62f);
+    for (std::size_t i = 0; i < c.regions.size(); ++i) {
+      for (const std::int32_t v : select(*d.core, c.regions[i])) {
+        const float rgb[2][3] = {{0.35f, 0.35f, 0.37f}, {0.95f, 0.6f, 0.15f}};
+        std::copy(rgb[i > 0], rgb[i > 0] + 3, surface.colors.begin() + 3 * v);
+      }
+    }
+  }
+  samples::View view;
+  view.width = 420, view.height = 420;
+  view.direction = c.closed ? samples::Point{0.35, 0.25, 1.0} : samples::Point{0.5, 0.7, 1.0};
+  return samples::render(surface, view, look);
+}
+
+void row(const char* mode, const Case& c, const Dragged& d, double ms) {
+  const Quality q = measure(*d.core, positions(d.report));
+  std::printf("%-13s n=%-6d %-14s C=%-3u it %-4u solve %6.2f blend %5.2f ms frame %6.2f | E %9.5f in %6.2f e %.2f..%.2f p99 %.3f vol %6.2f s2 %.3f dih %6.1f rough %.3f\n", c.name.c_str(),
+              d.core->size(), mode, d.report.cluster_count, d.report.iteration_count, d.report.solve_ms, d.report.blend_ms, ms, q.energy, q.edge_share, q.edge_min, q.edge_max, q.p99,
+              c.closed ? q.volume : 0.0, q.smallest_stretch, q.dihedral_max, q.roughness);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string folder = argc > 1 ? argv[1] : ".";
+  const bool large = argc > 2;
+  std::vector<Case> cases{plane_lift(), cylinder_bend(), bar_twist(135), bar_twist(180), cactus_bend()};
+  if (large) cases = {plane_lift(201), cylinder_bend(120, 26, 270), cactus_bend(70, 43000)};
+  for (const Case& c : cases) {
+    std::vector<samples::Picture> tiles, lower;
+    const auto run = [&](const char* mode, hf::PoseOptions options, std::uint32_t iterations, int settle) {
+      const auto start = std::chrono::steady_clock::now();
+      Dragged d = drag(c, options, 30, iterations);
+      const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() / 30;
+      for (int i = 0; i < settle; ++i) d.report = d.pose->deform({false, 1000, false});
+      row(mode, c, d, ms);
+      tiles.push_back(draw(d, c, false)), lower.push_back(draw(d, c, true));
+    };
+    hf::PoseOptions paper;
+    paper.mode = hf::DeformMode::paper;
+    run("paper 10/frame", paper, 10, 0);
+    run("paper conv.", paper, 100, 1);
+    run("smooth", {}, 5, 0);
+    tiles.insert(tiles.end(), lower.begin(), lower.end());
+    std::string file = c.name;
+    std::replace(file.begin(), file.end(), ' ', '_');
+    samples::write_png(folder + "/" + file + ".png", samples::contact_sheet(tiles, 3, {"paper, 10 a frame", "paper, converged", "smooth, 5 a frame"}, c.name));
+  }
+  return 0;
+}

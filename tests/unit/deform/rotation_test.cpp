@@ -1,0 +1,196 @@
+// Rotations are proper, best, and exact on every degenerate input.
+#include "deform/rotation.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "cases.h"
+
+namespace {
+
+using namespace hf;
+using deform_test::pi;
+
+Mat3 outer(Vec3 a, Vec3 b) {
+  Mat3 m;
+  add_outer(m, 1, a, b);
+  return m;
+}
+
+struct Random {
+  std::mt19937_64 engine{7};
+  std::normal_distribution<double> normal;
+  double next() { return normal(engine); }
+  Vec3 vector() { return {next(), next(), next()}; }
+  Quaternion rotation() { return normalised({next(), next(), next(), next()}); }
+  Mat3 matrix() {
+    Mat3 m;
+    for (auto& row : m.m) {
+      for (double& x : row) x = next();
+    }
+    return m;
+  }
+  // full, planar, collinear, mirrored, symmetric, tiny, huge, nearly degenerate, zero
+  Mat3 any(int kind) {
+    switch (kind % 9) {
+      case 0: return matrix();
+      case 1: return outer(vector(), vector()) + outer(vector(), vector());
+      case 2: return outer(vector(), vector());
+      case 3: return -1.0 * to_matrix(rotation());
+      case 4: { const Mat3 m = matrix(); return m * transpose(m); }
+      case 5: return 1e-200 * matrix();
+      case 6: return 1e200 * matrix();
+      case 7: return outer(vector(), vector()) + 1e-9 * matrix();
+      default: return Mat3();
+    }
+  }
+};
+
+// max tr(R'S) over rotations = s1 + s2 +- s3, the sign that of det S
+double best_value(const Mat3& s) {
+  Eigen::Matrix3d e;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) e(i, j) = s.m[i][j];
+  }
+  const double scale = e.cwiseAbs().maxCoeff();
+  if (!(scale > 0)) return 0;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(e / scale, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Vector3d sigma = svd.singularValues();
+  return scale * (sigma(0) + sigma(1) + ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -sigma(2) : sigma(2)));
+}
+
+double deviation_from_rotation(const Mat3& r) {
+  const Mat3 product = transpose(r) * r;
+  double largest = std::fabs(determinant(r) - 1);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) largest = std::max(largest, std::fabs(product.m[i][j] - (i == j ? 1.0 : 0.0)));
+  }
+  return largest;
+}
+
+TEST(Rotation, IsProperAndBestOnAMillionRandomAndDegenerateMatrices) {
+  Random random;
+  double improper = 0, short_of_best = 0;
+  for (int k = 0; k < 1000000; ++k) {
+    const Mat3 s = random.any(k);
+    const Quaternion near = random.rotation();
+    const Mat3 r = to_matrix(k % 2 ? best_rotation(s, near) : best_rotation_from(s, near));
+    improper = std::max(improper, deviation_from_rotation(r));
+    if (k % 10 < 2) {
+      const double best = best_value(s), scale = std::sqrt(trace_of_product((1e-210 * s), (1e-210 * s))) * 1e210;
+      const double norm = scale > 0 ? scale : std::sqrt(trace_of_product(1e200 * s, 1e200 * s)) * 1e-200;
+      if (norm > 0) short_of_best = std::max(short_of_best, (best - trace_of_product(r, s)) / norm);
+    }
+  }
+  EXPECT_LT(improper, 1e-14);
+  EXPECT_LT(short_of_best, 1e-13);
+}
+
+TEST(Rotation, BeatsEveryRotationOfAFineSearch) {
+  Random random;
+  for (int k = 0; k < 27; ++k) {
+    const Mat3 s = random.any(k);
+    const double value = trace_of_product(to_matrix(best_rotation(s, {})), s);
+    double searched = -std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 20000; ++i) searched = std::max(searched, trace_of_product(to_matrix(random.rotation()), s));
+    EXPECT_GE(value, searched - 1e-12 * std::fabs(searched));
+  }
+}
+
+TEST(Rotation, WarmStartGivesTheSameRotationAsTheColdOne) {
+  Random random;
+  for (int k = 0; k < 20000; ++k) {
+    const Quaternion truth = random.rotation();
+    const Mat3 m = random.matrix();
+    const Mat3 s = to_matrix(truth) * (m * transpose(m) + 0.1 * Mat3::identity());
+    const Quaternion near = exponential(0.6 * random.vector()) * truth;
+    EXPECT_LT(angle_between(best_rotation_from(s, near), truth), 1e-12);
+    EXPECT_LT(angle_between(best_rotation(s, near), truth), 1e-12);
+  }
+}
+
+TEST(Rotation, TiesGoToTheRotationNearestToTheGivenOne) {
+  Random random;
+  for (int k = 0; k < 500; ++k) {
+    // collinear: the turn about the line is free
+    const Vec3 axis = random.vector();
+    const Quaternion turn = random.rotation(), near = random.rotation();
+    const Quaternion best = best_rotation(outer(rotate(turn, axis), axis), near);
+    EXPECT_LT(norm(rotate(best, axis) - rotate(turn, axis)), 1e-12 * norm(axis));
+    for (int i = 0; i < 64; ++i) {
+      const Quaternion other = best * exponential((0.1 * i / norm(axis)) * axis);
+      EXPECT_LE(angle_between(best, near), angle_between(other, near) + 1e-9);
+    }
+    EXPECT_LT(angle_between(best_rotation(Mat3(), near), near), 1e-15);
+  }
+}
+
+TEST(Rotation, NonFiniteMatricesGiveTheRotationTheyWereToBeNearTo) {
+  Random random;
+  const Quaternion near = random.rotation();
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Mat3 s = Mat3::identity();
+    s.m[1][2] = bad;
+    EXPECT_EQ(best_rotation(s, near).x, near.x);
+    EXPECT_EQ(best_rotation_from(s, near).w, near.w);
+  }
+}
+
+TEST(Rotation, VectorsQuaternionsAndMatricesAgree) {
+  Random random;
+  for (int k = 0; k < 20000; ++k) {
+    const double size = std::pow(10.0, -12 + 12.0 * (k % 1000) / 999);
+    Vec3 v = random.vector();
+    v = (std::min(size, 0.999999) * pi / norm(v)) * v;
+    EXPECT_LT(norm(logarithm(exponential(v)) - v), 1e-13 * (1 + norm(v)));
+    const Quaternion q = random.rotation();
+    EXPECT_LT(angle_between(to_quaternion(to_matrix(q)), q), 1e-14);
+    const Vec3 p = random.vector();
+    EXPECT_LT(norm(to_matrix(q) * p - rotate(q, p)), 1e-14 * norm(p) * 10);
+  }
+  EXPECT_EQ(normalised({0, 0, 0, 0}).w, 1.0);
+  EXPECT_NEAR(norm(Vec3{normalised({3e-300, 4e-300, 0, 0}).x - 0.6, normalised({3e-300, 4e-300, 0, 0}).y - 0.8, 0}), 0, 1e-15);
+}
+
+TEST(Rotation, TurnsAddUpBeyondHalfAndWholeTurns) {
+  const Vec3 axis{0.6, 0, 0.8};
+  for (const double step : {0.05, 0.3, 1.2}) {
+    Vec3 turn;
+    for (double angle = 0; angle < 6 * pi; angle += step) {
+      turn = continued_logarithm(exponential(angle * axis), turn);
+      EXPECT_NEAR(dot(turn, axis), angle, 1e-9);
+      EXPECT_NEAR(norm(turn), angle, 1e-9);
+    }
+    // and back
+    for (double angle = std::floor(norm(turn) / step) * step; angle > -2 * pi; angle -= step) turn = continued_logarithm(exponential(angle * axis), turn);
+    EXPECT_LT(dot(turn, axis), -2 * pi + 2 * step);
+  }
+}
+
+TEST(Rotation, TurnsAreKeptWhenTheAxisTrembles) {
+  Random random;
+  Vec3 turn;
+  for (double angle = 0; angle < 5 * pi; angle += 0.1) {
+    const Quaternion tremble = exponential(0.01 * random.vector());
+    turn = continued_logarithm(tremble * exponential({0, angle, 0}), turn);
+  }
+  EXPECT_NEAR(turn.y, 5 * pi - 0.1, 0.3);
+}
+
+TEST(Rotation, RigidFitFindsTheMotionBackFromAnyNumberOfPoints) {
+  Random random;
+  for (int count = 1; count < 12; ++count) {
+    std::vector<Vec3> rest, posed;
+    const RigidMotion motion{random.rotation(), random.vector()};
+    for (int i = 0; i < count; ++i) rest.push_back(random.vector()), posed.push_back(apply(motion, rest.back()));
+    const RigidMotion fit = fit_rigid(rest, posed, {}, {});
+    for (int i = 0; i < count; ++i) EXPECT_LT(norm(apply(fit, rest[i]) - posed[i]), 1e-13 * 10);
+  }
+  EXPECT_EQ(norm(fit_rigid({}, {}, {}, {}).translation), 0.0);
+}
+
+}  // namespace
