@@ -103,6 +103,16 @@ HF_API hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_st
 /* The same in double. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve_f64(hf_solver solver, double* out_values, uint32_t value_stride, hf_solve_info* out_info);
 
+/* A tangent vector field, the paper's way (its Section 3.3): the three channels are the components of the constraint vectors; each is solved as a harmonic field, and the
+ * result is projected on the tangent plane of the vertex, v - (n . v) n, n the area-weighted vertex normal. The solver needs channel_count 3. Constraint vectors are turned with
+ * hf_set_site_values, which touches no factor. out_vectors: float[vertex_count][3], vector_stride bytes apart (0 = packed), not normalised. out_normals: NULL, or
+ * double[vertex_count][3], packed: the normals used.
+ * Results: as hf_solve; HF_ERROR_INVALID_ARGUMENT when channel_count is not 3. Thread safety: reads `solver`. Since 0.1. */
+HF_API hf_result hf_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info);
+
+/* The same in double. Thread safety: reads `solver`. Since 0.1. */
+HF_API hf_result hf_solve_vectors_f64(hf_solver solver, double* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info);
+
 /* The field at chosen vertices only: double[vertex_count][channel_count] for uint32_t[vertex_count] vertices. No sweep over the mesh: the cost is that of
  * adding as many sites and does not grow with the mesh beyond the length of an elimination path. Unreached vertices get 0.
  * Results: as hf_solve; HF_ERROR_OUT_OF_RANGE (index = position in the list). Thread safety: reads `solver`. Since 0.1. */

@@ -2,7 +2,7 @@
 //
 // Skin weights start as "all to the joint of the nearest flesh" and diffuse over the base mesh, w <- (1 - r) w + r mean
 // of the ring; on a mesh that is finer on thin limbs the blend at a joint is about as wide as the limb is thick. They
-// never cross from one leg to the other except through the body. The four largest are kept.
+// never cross from one leg to the other except through the body. The four largest are kept, less the fifth.
 #include "creature.h"
 
 #include <algorithm>
@@ -79,15 +79,17 @@ void store_weights(const WeightTable& table, const std::vector<uint32_t>& old_ve
   for (size_t s = 0; s < creature.surface_vertex.size(); ++s) {
     const float* row = table.row(old_vertex[creature.surface_vertex[s]]);
     std::iota(order.begin(), order.end(), 0u);
-    std::partial_sort(order.begin(), order.begin() + 4, order.end(),
+    std::partial_sort(order.begin(), order.begin() + 5, order.end(),
                       [&](uint32_t a, uint32_t b) { return row[a] != row[b] ? row[a] > row[b] : a < b; });
+    // what the fifth has is taken from the four, so that no joint leaves with a jump
+    const float fifth = row[order[0]] - row[order[4]] > 0.02f ? row[order[4]] : 0.0f;
     std::array<uint16_t, 4> joints{};
     std::array<float, 4> weights{};
     float sum = 0;
     for (size_t k = 0; k < 4; ++k) {
-      if (row[order[k]] < 0.004f) break;
+      if (row[order[k]] - fifth < 1e-4f) break;
       joints[k] = static_cast<uint16_t>(order[k]);
-      weights[k] = row[order[k]];
+      weights[k] = row[order[k]] - fifth;
       sum += weights[k];
     }
     for (float& w : weights) w /= sum;

@@ -69,7 +69,7 @@ void add_arms(Design& d) {
   for (int i = -1; i <= 1; ++i) {
     const dvec3 root = knuckles + 0.034 * double(i) * spread - 0.012 * along;
     const dvec3 tip = finger_tips + 0.058 * double(i) * spread - (i == 0 ? 0.0 : 0.010) * along;
-    d.flesh_pair("fingers", capsule(root, tip, 0.0165, 0.0145, 0.006), 0.42);
+    d.flesh_pair("fingers", capsule(root, tip, 0.0165, 0.0145, 0.012), 0.42);
   }
   d.flesh_pair("thumb", capsule({0.550, 0.955, 0.045}, {0.560, 0.915, 0.100}, 0.019, 0.016, 0.018), 0.42);
 }

@@ -28,7 +28,7 @@ struct ReadLimits {
   uint64_t max_file_bytes = 128ull << 20;     // the file, and every file it names, each
   uint64_t max_total_bytes = 128ull << 20;    // all buffers and images together
   uint64_t max_json_bytes = 48ull << 20;      // text, embedded buffers included
-  uint64_t max_json_values = 1000000;         // brackets and commas in the text
+  uint64_t max_json_values = 600000;         // brackets and commas in the text
   uint32_t max_json_depth = 64;               // nesting of the text
   uint32_t max_node_depth = 1024;             // nesting of the hierarchy
   uint64_t max_decoded_bytes = 128ull << 20;  // all accessors as floats; an accessor used twice counts twice

@@ -145,7 +145,7 @@ uint32_t RegionFinder::seed_of(const Selector& selector, const std::vector<uint3
     double value = -glm::distance(p, place);
     if (selector.extreme == "away") value = -value;
     // ties (a flat top, a left and a right twin) go to the middle of the owned vertices
-    if (direction != glm::dvec3(0)) value = glm::dot(p, direction) - 1e-3 * glm::distance(p, place);
+    if (direction != glm::dvec3(0)) value = glm::dot(p, direction) - 0.05 * glm::distance(p, place);
     if (value > best_value) best_value = value, best = v;
   }
   return best;

@@ -3,6 +3,8 @@
 
 #include "capi/boundary.h"
 #include "capi/objects.h"
+#include "capi/scatter.h"
+#include "field/vector_field.h"
 #include "hf/field.h"
 
 namespace hf::capi {
@@ -63,17 +65,26 @@ void solve(hf_solver handle, float* f32, double* f64, std::uint32_t value_stride
   const Rows out = f64 ? Rows(f64, stride_of(value_stride, m * sizeof(double), "value_stride")) : Rows(f32, stride_of(value_stride, m * sizeof(float), "value_stride"));
   Workspace field(core.workspaces, static_cast<std::size_t>(core.size()) * m);
   solver->field.solve(field.data());
+  scatter(core, m, out, nullptr, [&](std::size_t v, double* values) { std::copy_n(field.data() + v * m, m, values); });
+  if (out_info) write_struct(out_info, unreached(*solver));
+}
 
-  const Mesh& mesh = core.mesh;
-  const std::size_t count = mesh.report.vertex_count;
-  constexpr std::size_t piece = 32768;
-  core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
-    const std::size_t end = std::min(count, (p + std::size_t{1}) * piece);
-    for (std::size_t v = p * piece; v < end; ++v) {
-      const std::int32_t inner = mesh.inner_of_given[v];
-      for (std::size_t c = 0; c < m; ++c) out.set(v, c, inner == Mesh::none ? 0.0 : field[static_cast<std::size_t>(inner) * m + c]);
-    }
-  });
+void solve_vectors(hf_solver handle, float* f32, double* f64, std::uint32_t stride, double* out_normals, hf_solve_info* out_info) {
+  const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
+  if (!f32 && !f64) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_vectors is NULL");
+  if (out_info) check_struct(out_info, "out_info");
+  const Reading reading(*solver);
+  const Core& core = solver->field.core();
+  if (solver->field.sites().channels() != 3) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the solver has %d channels; vector fields need channel_count 3", solver->field.sites().channels());
+  const Rows out = rows_of(f32, f64, stride, "vector_stride");
+  Workspace field(core.workspaces, static_cast<std::size_t>(core.size()) * 3);
+  solver->field.solve(field.data());
+  const Vector<Vec3> normals = vertex_normals(core.mesh, *solver->memory);
+  project_on_tangent_planes(normals, field.data());
+  scatter(core, 3, out, nullptr, [&](std::size_t v, double* values) { std::copy_n(field.data() + v * 3, 3, values); });
+  if (out_normals) {
+    scatter(core, 3, Rows(out_normals, 3 * sizeof(double)), nullptr, [&](std::size_t v, double* values) { values[0] = normals[v].x, values[1] = normals[v].y, values[2] = normals[v].z; });
+  }
   if (out_info) write_struct(out_info, unreached(*solver));
 }
 
@@ -177,6 +188,14 @@ hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, h
 
 hf_result hf_solve_f64(hf_solver solver, double* out_values, uint32_t value_stride, hf_solve_info* out_info) {
   return guarded("hf_solve_f64", [&] { solve(solver, nullptr, out_values, value_stride, out_info); });
+}
+
+hf_result hf_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info) {
+  return guarded("hf_solve_vectors", [&] { solve_vectors(solver, out_vectors, nullptr, vector_stride, out_normals, out_info); });
+}
+
+hf_result hf_solve_vectors_f64(hf_solver solver, double* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info) {
+  return guarded("hf_solve_vectors_f64", [&] { solve_vectors(solver, nullptr, out_vectors, vector_stride, out_normals, out_info); });
 }
 
 hf_result hf_solve_at(hf_solver handle, uint32_t vertex_count, const uint32_t* vertices, double* out_values) {

@@ -341,6 +341,8 @@ void Pose::solve_smooth(std::uint32_t iterations) noexcept {
   } else if (largest > 0) {
     predict_rotations(*layout_->smooth, {turns_.data(), count}, state.smooth);
   }
+  for (std::size_t i = 0; i < count; ++i) turns_[i] = state.handles[i].turn;
+  set_leash(*layout_->smooth, {turns_.data(), count}, state.smooth);
   for (HandleState& handle : state.handles) handle.solved = handle.rotation, handle.solved_turn = handle.turn;
   report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());
 }

@@ -7,6 +7,7 @@ namespace hf {
 namespace {
 
 constexpr double over_relaxation = 1.5;
+constexpr double pi = 3.14159265358979323846;
 
 // known = -L_fh X_h
 void set_known(const SmoothSystem& system, const Affine* transforms, SmoothState& state) noexcept {
@@ -82,6 +83,19 @@ Quaternion fit_group(const Subspace& s, std::size_t g, const Affine* transforms,
   return best_rotation_from(sum, near);
 }
 
+// sum_i phi_i(seed) turn_i of active group g
+Vec3 blended_turn(const SmoothSystem& system, std::size_t g, Span<const Vec3> turns) noexcept {
+  Vec3 turn;
+  for (std::size_t i = 0; i < turns.size(); ++i) turn = turn + system.seed_field[g * turns.size() + i] * turns[i];
+  return turn;
+}
+
+Quaternion on_leash(const Quaternion& q, const Quaternion& anchor, double leash) noexcept {
+  const double angle = angle_between(q, anchor);
+  if (angle <= leash) return q;
+  return normalised(exponential((leash / angle) * logarithm(q * conjugate(anchor))) * anchor);
+}
+
 // Local step of all groups; returns the largest change.
 double fit_rotations(const SmoothSystem& system, const Affine* transforms, bool relax, SmoothState& state) noexcept {
   const Subspace& s = system.subspace;
@@ -96,6 +110,7 @@ double fit_rotations(const SmoothSystem& system, const Affine* transforms, bool 
     largest = std::max(largest, 2.0 * std::sqrt(2.0 * dot(d, d) * (1.0 - 0.25 * dot(d, d))));
     const double on = relax && cosine > 0.7 ? over_relaxation : 1.0, back = 1.0 - on;
     q = normalised({on * fit.x + back * q.x, on * fit.y + back * q.y, on * fit.z + back * q.z, on * fit.w + back * q.w});
+    if (state.leash < pi) q = on_leash(q, state.anchor[g], state.leash);
     state.matrix[g] = to_matrix(q);
   }
   return largest;
@@ -113,6 +128,8 @@ SmoothSystem::SmoothSystem(const Core& core, const Rest& rest, const ClusterWeig
 
 void SmoothState::fit(const SmoothSystem& system, const Groups& groups) {
   rotation.resize(groups.count());
+  anchor.assign(system.subspace.group.size(), Quaternion());
+  leash = 10;
   matrix.assign(system.subspace.group.size(), Mat3::identity());
   unknown.assign(16 * static_cast<std::size_t>(system.free_count), 0.0);
   known.assign(16 * static_cast<std::size_t>(system.free_count), 0.0);
@@ -122,8 +139,7 @@ void start_rotations(const SmoothSystem& system, const Groups& groups, std::int3
   const Subspace& s = system.subspace;
   for (std::size_t g = 0; g < s.group.size(); ++g) {
     if (component >= 0 && groups.component[s.group[g]] != component) continue;
-    Vec3 turn;
-    for (std::size_t i = 0; i < turns.size(); ++i) turn = turn + system.seed_field[g * turns.size() + i] * turns[i];
+    const Vec3 turn = blended_turn(system, g, turns);
     state.rotation[s.group[g]] = exponential(turn);
   }
 }
@@ -131,10 +147,20 @@ void start_rotations(const SmoothSystem& system, const Groups& groups, std::int3
 void predict_rotations(const SmoothSystem& system, Span<const Vec3> increments, SmoothState& state) noexcept {
   const Subspace& s = system.subspace;
   for (std::size_t g = 0; g < s.group.size(); ++g) {
-    Vec3 turn;
-    for (std::size_t i = 0; i < increments.size(); ++i) turn = turn + system.seed_field[g * increments.size() + i] * increments[i];
+    const Vec3 turn = blended_turn(system, g, increments);
     state.rotation[s.group[g]] = normalised(exponential(turn) * state.rotation[s.group[g]]);
   }
+}
+
+void set_leash(const SmoothSystem& system, Span<const Vec3> turns, SmoothState& state) noexcept {
+  double apart = 0;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) apart = std::max(apart, norm(turns[i] - turns[j]));
+  }
+  constexpr double slack = 5.0, tight = 7.0, shortest = 0.3;
+  state.leash = apart <= slack ? 10.0 : std::max(shortest, pi + (shortest - pi) * (apart - slack) / (tight - slack));
+  if (state.leash >= pi) return;
+  for (std::size_t g = 0; g < system.subspace.group.size(); ++g) state.anchor[g] = exponential(blended_turn(system, g, turns));
 }
 
 SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, double tolerance, SmoothState& state, Affine* transforms) noexcept {

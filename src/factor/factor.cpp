@@ -49,6 +49,30 @@ void require_well_formed(const SymmetricMatrix& matrix) {
   }
 }
 
+// Every entry of the matrix must have its place in the factor; asked of loaded factors, whose pattern hash may be forged.
+void require_inside(const SymmetricMatrix& matrix, const Symbolic& symbolic, Memory& memory) {
+  Buffer<std::int32_t> owner(memory, static_cast<std::size_t>(symbolic.size));
+  std::fill(owner.begin(), owner.end(), -1);
+  for (std::int32_t s = 0; s < symbolic.supernodes; ++s) {
+    for (std::int32_t j = symbolic.first[s]; j < symbolic.first[s + 1]; ++j) owner[j] = s;
+    for (std::int32_t k = 0; k < symbolic.below(s); ++k) owner[symbolic.row_list(s)[k]] = s;
+    for (std::int32_t j = symbolic.first[s]; j < symbolic.first[s + 1]; ++j) {
+      const std::int32_t unknown = symbolic.order[j];
+      for (std::int32_t e = matrix.column_start[unknown]; e < matrix.column_start[unknown + 1]; ++e) {
+        const std::int32_t other = symbolic.position[matrix.row[e]];
+        if (other < j || owner[other] == s) continue;
+        fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(unknown), "the loaded factor has no place for column %d of this matrix: it belongs to another mesh", unknown);
+      }
+    }
+  }
+}
+
+// More fill than a surface or its two-ring graph ever had: log2(n) times the entries, up to a constant.
+bool suspicious(const SymmetricMatrix& matrix, const Symbolic& symbolic) {
+  const double lower = 0.5 * (static_cast<double>(matrix.row.size()) + matrix.size());
+  return symbolic.entries > 1.2 * lower * std::log2(2.0 + matrix.size());
+}
+
 }  // namespace
 
 std::uint64_t hash_pattern(const SymmetricMatrix& matrix) noexcept {
@@ -95,6 +119,15 @@ std::shared_ptr<const Factor> Factor::make(const SymmetricMatrix& matrix, Coordi
   report(options.progress, 0.45f);
   std::shared_ptr<Analysis> analysis = make_shared_in<Analysis>(memory);
   analyse(matrix, Span<const std::int32_t>(order.data(), order.size()), memory, analysis->symbolic);
+  if (options.ordering == Ordering::nested_dissection && suspicious(matrix, analysis->symbolic)) {
+    // a graph that separates badly: the better of the two orderings
+    order_by_minimum_degree(matrix, memory, order);
+    const FillEstimate other = estimate_fill(matrix, Span<const std::int32_t>(order.data(), order.size()), memory);
+    if (other.entries + other.flops / 50 < analysis->symbolic.entries + analysis->symbolic.flops / 50) {
+      analysis = make_shared_in<Analysis>(memory);
+      analyse(matrix, Span<const std::int32_t>(order.data(), order.size()), memory, analysis->symbolic);
+    }
+  }
   order.release();
   make_plan(analysis->symbolic, memory, analysis->plan);
   analysis->pattern_hash = hash_pattern(matrix);
@@ -114,6 +147,10 @@ std::shared_ptr<const Factor> SupernodalFactor::refactor(const SymmetricMatrix& 
   }
   if (!eliminated.empty() && eliminated.size() != static_cast<std::size_t>(size())) {
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%zu elimination marks for %d unknowns", eliminated.size(), size());
+  }
+  if (analysis_->loaded) {
+    require_well_formed(matrix);
+    require_inside(matrix, symbolic(), memory);
   }
   std::shared_ptr<SupernodalFactor> factor = make_shared_in<SupernodalFactor>(memory, analysis_, memory);
   factor->kernels_ = kernels_;

@@ -10,6 +10,11 @@ namespace {
 
 constexpr std::int32_t chunk_columns = 256;  // columns summed at a time on the stack
 
+template <int N>
+struct Constant {
+  static constexpr int value = N;
+};
+
 // Sums of up to NV vectors of columns over all rows, C right-hand sides, `Chains` rows in flight: sum[c * chunk + column].
 template <class T, int C, int NV, int Chains>
 inline void sum_in_registers(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count, const T* z, std::int32_t channels,
@@ -146,59 +151,155 @@ inline void subtract_sums(const T* block, std::int64_t stride, const std::int32_
 }
 
 template <class T>
-void backward_rows_any(const T* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns, std::int32_t begin, std::int32_t end,
-                       T* z, std::int32_t first, std::int32_t channels) {
-  for (std::int32_t j = begin; j < end; j += chunk_columns) {
-    const std::int32_t width = end - j < chunk_columns ? end - j : chunk_columns;
-    T* target = z + static_cast<std::int64_t>(first + j) * channels;
-    std::int32_t c = 0;
-    for (; c + 8 <= channels; c += 8) subtract_sums<T, 8>(below + j, columns, rows, row_count, width, z + c, target + c, channels);
-    if (c + 4 <= channels) subtract_sums<T, 4>(below + j, columns, rows, row_count, width, z + c, target + c, channels), c += 4;
-    const std::int32_t left = channels - c;
-    if (left == 3) subtract_sums<T, 3>(below + j, columns, rows, row_count, width, z + c, target + c, channels);
-    if (left == 2) subtract_sums<T, 2>(below + j, columns, rows, row_count, width, z + c, target + c, channels);
-    if (left == 1) subtract_sums<T, 1>(below + j, columns, rows, row_count, width, z + c, target + c, channels);
+inline typename Simd<T>::Type load_lanes(const T* p, int count) noexcept {
+  return count == Simd<T>::width ? Simd<T>::load(p) : Simd<T>::load_part(p, count);
+}
+template <class T>
+inline void store_lanes(T* p, typename Simd<T>::Type v, int count) noexcept {
+  if (count == Simd<T>::width) Simd<T>::store(p, v);
+  else Simd<T>::store_part(p, v, count);
+}
+
+// N columns for one vector of channels: the factor's entries are broadcast, target[j] -= sum over the rows.
+template <class T, int N>
+inline void subtract_lanes(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count, const T* z, T* target,
+                           std::int32_t channels, int count) noexcept {
+  using S = Simd<T>;
+  typename S::Type sum[N];
+  for (int j = 0; j < N; ++j) sum[j] = S::zero();
+  for (std::int32_t r = 0; r < row_count; ++r, block += stride) {
+    const typename S::Type x = load_lanes<T>(z + static_cast<std::int64_t>(rows[r]) * channels, count);
+    for (int j = 0; j < N; ++j) sum[j] = S::multiply_add(S::all(block[j]), x, sum[j]);
+  }
+  for (int j = 0; j < N; ++j) {
+    T* out = target + static_cast<std::int64_t>(j) * channels;
+    store_lanes<T>(out, S::subtract_product(S::all(T{1}), sum[j], load_lanes<T>(out, count)), count);
   }
 }
 
-// Rows [begin, end) of the packed triangle, one channel, backwards: x_j = x_j inv_j, then x_i -= L[j][i] x_j for begin <= i < j.
+// Many channels: they lie along the lanes. Rows in passes that stay in the cache while the column groups go over them.
 template <class T>
-inline void backward_block(const T* triangle, std::int32_t begin, std::int32_t end, T* z, std::int32_t channels) noexcept {
+void backward_rows_lanes(const T* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns, std::int32_t width, T* z, T* target,
+                         std::int32_t channels) noexcept {
+  constexpr int group = gemm_columns == 8 ? 16 : 8;
+  const std::int32_t pass = columns > 2048 ? 16 : 32768 / columns;
+  for (std::int32_t r = 0; r < row_count; r += pass) {
+    const std::int32_t left = row_count - r < pass ? row_count - r : pass;
+    const T* first = below + static_cast<std::int64_t>(r) * columns;
+    for (std::int32_t c = 0; c < channels; c += Simd<T>::width) {
+      const int count = channels - c < Simd<T>::width ? channels - c : Simd<T>::width;
+      std::int32_t j = 0;
+      const auto run = [&](auto size) {
+        constexpr int n = decltype(size)::value;
+        subtract_lanes<T, n>(first + j, columns, rows + r, left, z + c, target + static_cast<std::int64_t>(j) * channels + c, channels, count);
+        j += n;
+      };
+      while (j + group <= width) run(Constant<group>{});
+      if (j + 8 <= width) run(Constant<8>{});
+      if (j + 4 <= width) run(Constant<4>{});
+      if (j + 2 <= width) run(Constant<2>{});
+      if (j < width) run(Constant<1>{});
+    }
+  }
+}
+
+template <class T>
+void backward_rows_any(const T* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns, std::int32_t begin, std::int32_t end,
+                       T* z, std::int32_t first, std::int32_t channels) {
+  if (channels > 4) {
+    return backward_rows_lanes<T>(below + begin, rows, row_count, columns, end - begin, z, z + static_cast<std::int64_t>(first + begin) * channels, channels);
+  }
+  for (std::int32_t j = begin; j < end; j += chunk_columns) {
+    const std::int32_t width = end - j < chunk_columns ? end - j : chunk_columns;
+    T* target = z + static_cast<std::int64_t>(first + j) * channels;
+    switch (channels) {
+      case 1: subtract_sums<T, 1>(below + j, columns, rows, row_count, width, z, target, 1); break;
+      case 2: subtract_sums<T, 2>(below + j, columns, rows, row_count, width, z, target, 2); break;
+      case 3: subtract_sums<T, 3>(below + j, columns, rows, row_count, width, z, target, 3); break;
+      default: subtract_sums<T, 4>(below + j, columns, rows, row_count, width, z, target, 4); break;
+    }
+  }
+}
+
+// One right-hand side, rows [begin, end) of the packed triangle backwards: x_j = x_j inv_j, then x_i -= L[j][i] x_j, begin <= i < j.
+template <class T>
+inline void backward_block(const T* triangle, std::int32_t begin, std::int32_t end, T* z) noexcept {
   using S = Simd<T>;
   alignas(64) T x[chunk_columns + 64];
   const std::int32_t width = end - begin;
-  for (std::int32_t j = 0; j < width; ++j) x[j] = z[static_cast<std::int64_t>(j) * channels];
+  for (std::int32_t j = 0; j < width; ++j) x[j] = z[j];
   for (std::int32_t j = width - 1; j >= 0; --j) {
     const std::int64_t at = begin + j;
     const T* row = triangle + at * (at + 1) / 2 + begin;
     const T value = x[j] * row[j];
-    z[static_cast<std::int64_t>(j) * channels] = value;
+    z[j] = value;
     const typename S::Type factor = S::all(value);
     for (std::int32_t i = 0; i < j; i += S::width) S::store(x + i, S::subtract_product(S::load(row + i), factor, S::load(x + i)));
   }
 }
 
 template <class T>
-void backward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::int32_t channels) {
+void backward_triangle_single(const T* triangle, std::int32_t columns, T* z) noexcept {
+  using S = Simd<T>;
   constexpr std::int32_t block = chunk_columns;
   std::int32_t begin = (columns - 1) / block * block;
   for (std::int32_t end = columns; end > 0; end = begin, begin -= block) {
-    for (std::int32_t c = 0; c < channels; ++c) {
-      backward_block<T>(triangle, begin, end, z + static_cast<std::int64_t>(begin) * channels + c, channels);
-    }
+    backward_block<T>(triangle, begin, end, z + begin);
     // the rows just solved, on the columns before: packed rows, so one at a time
-    using S = Simd<T>;
-    for (std::int32_t left = 0; left < begin; left += block) {
-      alignas(64) T x[block + 64];
-      for (std::int32_t c = 0; c < channels; ++c) {
-        T* target = z + static_cast<std::int64_t>(left) * channels + c;
-        for (std::int32_t i = 0; i < block; ++i) x[i] = target[static_cast<std::int64_t>(i) * channels];
-        for (std::int64_t j = begin; j < end; ++j) {
-          const T* row = triangle + j * (j + 1) / 2 + left;
-          const typename S::Type factor = S::all(z[j * channels + c]);
-          for (std::int32_t i = 0; i < block; i += S::width) S::store(x + i, S::subtract_product(S::load(row + i), factor, S::load(x + i)));
-        }
-        for (std::int32_t i = 0; i < block; ++i) target[static_cast<std::int64_t>(i) * channels] = x[i];
+    for (std::int64_t j = begin; j < end; ++j) {
+      const T* row = triangle + j * (j + 1) / 2;
+      const typename S::Type factor = S::all(z[j]);
+      for (std::int32_t i = 0; i < begin; i += S::width) S::store(z + i, S::subtract_product(S::load(row + i), factor, S::load(z + i)));
+    }
+  }
+}
+
+// Rows [begin, end) of the triangle, one vector of channels: own[j - begin] are those rows, other[i - left] the columns from `left`
+// on, each a whole vector.
+template <class T>
+inline void backward_lanes(const T* triangle, std::int64_t begin, std::int64_t end, std::int64_t left, std::int64_t right, T* own, T* other,
+                           std::int64_t step) noexcept {
+  using S = Simd<T>;
+  for (std::int64_t j = end - 1; j >= begin; --j) {
+    const T* row = triangle + j * (j + 1) / 2;
+    T* at = own + (j - begin) * step;
+    typename S::Type value = S::load(at);
+    if (left == begin) value = S::multiply(value, S::all(row[j])), S::store(at, value);
+    const std::int64_t last = left == begin ? j : right;
+    T* target = other;
+    for (std::int64_t i = left; i < last; ++i, target += step) S::store(target, S::subtract_product(S::all(row[i]), value, S::load(target)));
+  }
+}
+
+// The channels lie along the lanes, the entries of the triangle are broadcast. Part vectors go through copies of whole ones: a
+// masked store would not be forwarded to the load after it.
+template <class T>
+void backward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::int32_t channels) {
+  using S = Simd<T>;
+  if (channels == 1) return backward_triangle_single<T>(triangle, columns, z);
+  constexpr std::int32_t block = 64;
+  for (std::int32_t c = 0; c < channels; c += S::width) {
+    const int count = channels - c < S::width ? channels - c : S::width;
+    if (count == S::width) {
+      backward_lanes<T>(triangle, 0, columns, 0, columns, z + c, z + c, channels);
+      continue;
+    }
+    alignas(64) T own[block * S::width], other[block * S::width];
+    const auto fetch = [&](T* copy, std::int32_t from, std::int32_t to) {
+      for (std::int32_t j = from; j < to; ++j) S::store(copy + (j - from) * S::width, S::load_part(z + static_cast<std::int64_t>(j) * channels + c, count));
+    };
+    const auto put = [&](const T* copy, std::int32_t from, std::int32_t to) {
+      for (std::int32_t j = from; j < to; ++j) S::store_part(z + static_cast<std::int64_t>(j) * channels + c, S::load(copy + (j - from) * S::width), count);
+    };
+    std::int32_t begin = (columns - 1) / block * block;
+    for (std::int32_t end = columns; end > 0; end = begin, begin -= block) {
+      fetch(own, begin, end);
+      backward_lanes<T>(triangle, begin, end, begin, end, own, own, S::width);
+      put(own, begin, end);
+      for (std::int32_t left = 0; left < begin; left += block) {
+        fetch(other, left, left + block);
+        backward_lanes<T>(triangle, begin, end, left, left + block, own, other, S::width);
+        put(other, left, left + block);
       }
     }
   }
@@ -245,12 +346,22 @@ void forward_triangle(const double* triangle, std::int32_t columns, double* z, s
     for (std::int32_t j = 0; j < columns; row += ++j) z[j] = (z[j] - dot8(row, z, j)) * row[j];
     return;
   }
-  for (std::int32_t j = 0; j < columns; row += ++j) {
-    double* target = z + static_cast<std::int64_t>(j) * channels;
-    for (std::int32_t c = 0; c < channels; ++c) {
-      double value = target[c];
-      for (std::int32_t i = 0; i < j; ++i) value = multiply_add_scalar(-row[i], z[static_cast<std::int64_t>(i) * channels + c], value);
-      target[c] = value * row[j];
+  for (std::int32_t c = 0; c < channels; c += D::width) {
+    const int count = channels - c < D::width ? channels - c : D::width;
+    row = triangle;
+    for (std::int32_t j = 0; j < columns; row += ++j) {
+      // two chains: even and odd columns
+      D::Type even = D::zero(), odd = D::zero();
+      const double* x = z + c;
+      std::int32_t i = 0;
+      for (; i + 2 <= j; i += 2, x += 2 * channels) {
+        even = D::multiply_add(D::all(row[i]), load_lanes<double>(x, count), even);
+        odd = D::multiply_add(D::all(row[i + 1]), load_lanes<double>(x + channels, count), odd);
+      }
+      if (i < j) even = D::multiply_add(D::all(row[i]), load_lanes<double>(x, count), even);
+      double* own = z + static_cast<std::int64_t>(j) * channels + c;
+      const D::Type rest = D::subtract_product(D::all(1.0), D::add(even, odd), load_lanes<double>(own, count));
+      store_lanes<double>(own, D::multiply(rest, D::all(row[j])), count);
     }
   }
 }
@@ -260,16 +371,27 @@ void forward_rows(const double* below, std::int32_t row_count, std::int32_t colu
     for (std::int32_t r = 0; r < row_count; ++r, below += columns) out[r] = dot8(below, z, columns);
     return;
   }
-  // channels in groups of one vector: the factor's entries are broadcast
-  for (std::int32_t r = 0; r < row_count; ++r, below += columns) {
-    double* target = out + static_cast<std::int64_t>(r) * channels;
-    for (std::int32_t c = 0; c < channels; c += D::width) {
-      const std::int32_t part = channels - c < D::width ? channels - c : D::width;
+  // channels in groups of one vector, four rows at a time: the factor's entries are broadcast
+  for (std::int32_t c = 0; c < channels; c += D::width) {
+    const int count = channels - c < D::width ? channels - c : D::width;
+    std::int32_t r = 0;
+    for (; r + 4 <= row_count; r += 4) {
+      const double* b = below + static_cast<std::int64_t>(r) * columns;
+      D::Type sum[4] = {D::zero(), D::zero(), D::zero(), D::zero()};
+      const double* x = z + c;
+      for (std::int32_t j = 0; j < columns; ++j, x += channels) {
+        const D::Type value = load_lanes<double>(x, count);
+        for (int k = 0; k < 4; ++k) sum[k] = D::multiply_add(D::all(b[j + static_cast<std::int64_t>(k) * columns]), value, sum[k]);
+      }
+      for (int k = 0; k < 4; ++k) store_lanes<double>(out + static_cast<std::int64_t>(r + k) * channels + c, sum[k], count);
+    }
+    for (; r < row_count; ++r) {
+      const double* b = below + static_cast<std::int64_t>(r) * columns;
       D::Type sum = D::zero();
       for (std::int32_t j = 0; j < columns; ++j) {
-        sum = D::multiply_add(D::all(below[j]), D::load_part(z + static_cast<std::int64_t>(j) * channels + c, part), sum);
+        sum = D::multiply_add(D::all(b[j]), load_lanes<double>(z + static_cast<std::int64_t>(j) * channels + c, count), sum);
       }
-      D::store_part(target + c, sum, part);
+      store_lanes<double>(out + static_cast<std::int64_t>(r) * channels + c, sum, count);
     }
   }
 }

@@ -8,7 +8,7 @@ namespace {
 constexpr std::int32_t direct_size = 400;     // graphs this small are bisected as they are
 constexpr std::int32_t thorough_size = 4000;  // parts this large try more directions on their coarsest graph
 constexpr int widening = 2;                   // rings around a separator that is carried back
-constexpr int repeats = 2;                    // further passes with the band moved along, on large parts
+constexpr int repeats = 1;                    // further passes with the band moved along, on large parts
 
 }  // namespace
 

@@ -14,6 +14,7 @@ struct Analysis {
   Symbolic symbolic;
   Plan plan;
   std::uint64_t pattern_hash = 0;  // of the matrix: refactor takes the same pattern only
+  bool loaded = false;             // from bytes: the hash is not to be trusted
 };
 
 // One supernode of a path group: nc rows of `lanes` numbers, sites [low, low + used) of the group.

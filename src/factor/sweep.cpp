@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <mutex>
 
+#include "factor/preview.h"
 #include "factor/supernodal_factor.h"
 
 namespace hf {
@@ -14,53 +15,79 @@ namespace {
 
 constexpr std::int32_t piece_columns = 96;  // columns of a top supernode that one job sums
 
+// One backward sweep on double or single-precision numbers.
+template <class T>
 struct BackwardPass {
-  const SupernodalFactor& factor;
-  double* z;
+  const Symbolic& symbolic;
+  const Plan& plan;
+  const Kernels& kernels;
+  const T* values;
+  T* z;
   std::int32_t channels;
 
   void rows(std::int32_t s, std::int32_t begin, std::int32_t end) const noexcept {
-    const Symbolic& symbolic = factor.symbolic();
-    factor.kernels().backward_rows(factor.below(s), symbolic.row_list(s), symbolic.below(s), symbolic.columns(s), begin, end, z, symbolic.first[s], channels);
+    const std::int64_t width = symbolic.columns(s);
+    const T* below = values + symbolic.value_start[s] + width * (width + 1) / 2;
+    if constexpr (sizeof(T) == sizeof(double)) {
+      kernels.backward_rows(below, symbolic.row_list(s), symbolic.below(s), symbolic.columns(s), begin, end, z, symbolic.first[s], channels);
+    } else {
+      kernels.backward_rows_f32(below, symbolic.row_list(s), symbolic.below(s), symbolic.columns(s), begin, end, z, symbolic.first[s], channels);
+    }
   }
   void triangle(std::int32_t s) const noexcept {
-    const Symbolic& symbolic = factor.symbolic();
-    factor.kernels().backward_triangle(factor.triangle(s), symbolic.columns(s), z + static_cast<std::int64_t>(symbolic.first[s]) * channels, channels);
+    T* own = z + static_cast<std::int64_t>(symbolic.first[s]) * channels;
+    if constexpr (sizeof(T) == sizeof(double)) {
+      kernels.backward_triangle(values + symbolic.value_start[s], symbolic.columns(s), own, channels);
+    } else {
+      kernels.backward_triangle_f32(values + symbolic.value_start[s], symbolic.columns(s), own, channels);
+    }
   }
   void whole(std::int32_t s) const noexcept {
-    if (factor.symbolic().below(s) > 0) rows(s, 0, factor.symbolic().columns(s));
+    if (symbolic.below(s) > 0) rows(s, 0, symbolic.columns(s));
     triangle(s);
   }
-};
 
-// A wave as jobs: whole supernodes when they are many or small, else pieces of their columns first and the triangles after.
-void backward_wave(const BackwardPass& pass, std::int32_t begin, std::int32_t end, JobRunner& jobs) {
-  const Symbolic& symbolic = pass.factor.symbolic();
-  const std::int32_t* top = pass.factor.plan().top.data();
-  double total = 0, largest = 0;
-  std::int32_t pieces = 0;
-  for (std::int32_t k = begin; k < end; ++k) {
-    const double width = symbolic.columns(top[k]);
-    const double entries = width * (0.5 * width + symbolic.below(top[k]));
-    total += entries, largest = std::max(largest, entries);
-    pieces += (symbolic.columns(top[k]) + piece_columns - 1) / piece_columns;
-  }
-  if (largest * jobs.thread_count() <= 1.3 * total || total < 30000) {
-    jobs.for_each(static_cast<std::uint32_t>(end - begin), [&](std::uint32_t k) { pass.whole(top[begin + static_cast<std::int32_t>(k)]); });
-    return;
-  }
-  jobs.for_each(static_cast<std::uint32_t>(pieces), [&](std::uint32_t piece) {
-    std::int32_t left = static_cast<std::int32_t>(piece), k = begin;
-    for (;; ++k) {
-      const std::int32_t own = (symbolic.columns(top[k]) + piece_columns - 1) / piece_columns;
-      if (left < own) break;
-      left -= own;
+  // A wave as jobs: whole supernodes when they are many or small, else pieces of their columns first and the triangles after.
+  void wave(std::int32_t begin, std::int32_t end, JobRunner& jobs) const {
+    const std::int32_t* top = plan.top.data();
+    const auto pieces_of = [&](std::int32_t s) { return (symbolic.columns(s) + piece_columns - 1) / piece_columns; };
+    double total = 0, largest = 0;
+    std::int32_t pieces = 0;
+    for (std::int32_t k = begin; k < end; ++k) {
+      const double width = symbolic.columns(top[k]);
+      const double entries = width * (0.5 * width + symbolic.below(top[k]));
+      total += entries, largest = std::max(largest, entries);
+      pieces += pieces_of(top[k]);
     }
-    const std::int32_t s = top[k], from = left * piece_columns;
-    if (symbolic.below(s) > 0) pass.rows(s, from, std::min(symbolic.columns(s), from + piece_columns));
-  });
-  jobs.for_each(static_cast<std::uint32_t>(end - begin), [&](std::uint32_t k) { pass.triangle(top[begin + static_cast<std::int32_t>(k)]); });
-}
+    const std::uint32_t count = static_cast<std::uint32_t>(end - begin);
+    if (largest * jobs.thread_count() <= 1.3 * total || total < 30000) {
+      jobs.for_each(count, [&](std::uint32_t k) { whole(top[begin + static_cast<std::int32_t>(k)]); });
+      return;
+    }
+    jobs.for_each(static_cast<std::uint32_t>(pieces), [&](std::uint32_t piece) {
+      std::int32_t left = static_cast<std::int32_t>(piece), k = begin;
+      for (; left >= pieces_of(top[k]); ++k) left -= pieces_of(top[k]);
+      const std::int32_t s = top[k], from = left * piece_columns;
+      if (symbolic.below(s) > 0) rows(s, from, std::min(symbolic.columns(s), from + piece_columns));
+    });
+    jobs.for_each(count, [&](std::uint32_t k) { triangle(top[begin + static_cast<std::int32_t>(k)]); });
+  }
+
+  void run(JobRunner& jobs) const {
+    if (jobs.thread_count() == 1) {
+      for (std::int32_t s = symbolic.supernodes - 1; s >= 0; --s) whole(s);
+      return;
+    }
+    for (std::int32_t w = plan.waves - 1; w >= 0; --w) wave(plan.wave_start[w], plan.wave_start[w + 1], jobs);
+    jobs.for_each(static_cast<std::uint32_t>(plan.tasks), [&](std::uint32_t k) {
+      const std::int32_t task = plan.task_order[k];
+      for (std::int32_t r = plan.task_start[task + 1] - 1; r >= plan.task_start[task]; --r) {
+        const std::int32_t root = plan.task_root[r];
+        for (std::int32_t s = root; s >= symbolic.subtree[root]; --s) whole(s);
+      }
+    });
+  }
+};
 
 // What one thread needs in a forward sweep.
 struct ForwardScratch {
@@ -190,21 +217,27 @@ class ForwardPass {
 }  // namespace
 
 void SupernodalFactor::backward(double* z, std::int32_t channels, JobRunner& jobs) const {
-  const BackwardPass pass{*this, z, channels};
-  if (jobs.thread_count() == 1) {
-    for (std::int32_t s = symbolic().supernodes - 1; s >= 0; --s) pass.whole(s);
-    return;
-  }
-  for (std::int32_t wave = plan().waves - 1; wave >= 0; --wave) backward_wave(pass, plan().wave_start[wave], plan().wave_start[wave + 1], jobs);
-  jobs.for_each(static_cast<std::uint32_t>(plan().tasks), [&](std::uint32_t k) {
-    const std::int32_t task = plan().task_order[k];
-    for (std::int32_t r = plan().task_start[task + 1] - 1; r >= plan().task_start[task]; --r) {
-      const std::int32_t root = plan().task_root[r];
-      for (std::int32_t s = root; s >= symbolic().subtree[root]; --s) pass.whole(s);
-    }
-  });
+  BackwardPass<double>{symbolic(), plan(), kernels(), values_.data(), z, channels}.run(jobs);
 }
 
 void SupernodalFactor::forward(double* z, std::int32_t channels, JobRunner& jobs) const { ForwardPass(*this, z, channels, memory_).run(jobs); }
+
+PreviewFactor::PreviewFactor(std::shared_ptr<const Analysis> analysis, const Kernels& kernels, const Buffer<double>& values, Memory& memory, JobRunner& jobs)
+    : analysis_(std::move(analysis)), kernels_(&kernels), values_(memory, values.size()) {
+  constexpr std::size_t step = std::size_t{1} << 18;
+  jobs.for_each(static_cast<std::uint32_t>((values.size() + step - 1) / step), [&](std::uint32_t piece) {
+    const std::size_t begin = piece * step, end = std::min(values.size(), begin + step);
+    for (std::size_t k = begin; k < end; ++k) values_[k] = static_cast<float>(values[k]);
+  });
+}
+
+std::shared_ptr<const PreviewFactor> PreviewFactor::make(const Factor& factor, Memory& memory, JobRunner& jobs) {
+  const SupernodalFactor& full = static_cast<const SupernodalFactor&>(factor);
+  return make_shared_in<PreviewFactor>(memory, full.analysis(), full.kernels(), full.values(), memory, jobs);
+}
+
+void PreviewFactor::backward(float* z, std::int32_t channels, JobRunner& jobs) const {
+  BackwardPass<float>{analysis_->symbolic, analysis_->plan, *kernels_, values_.data(), z, channels}.run(jobs);
+}
 
 }  // namespace hf

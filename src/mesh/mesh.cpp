@@ -148,7 +148,9 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory) {
   mesh.inner_of_given.resize(input.vertex_count);
   for (std::uint32_t v = 0; v < input.vertex_count; ++v) {
     mesh.inner_of_given[v] = inner[at(representative[v])];
-    mesh.report.isolated_vertex_count += mesh.inner_of_given[v] == none;
+    if (mesh.inner_of_given[v] != none) continue;
+    ++mesh.report.isolated_vertex_count;
+    mesh.isolated.push_back({static_cast<Index>(v), {input.positions.get(v, 0), input.positions.get(v, 1), input.positions.get(v, 2)}});
   }
   for (Index& corner : mesh.corners) corner = inner[at(corner)];
 

@@ -46,7 +46,7 @@ struct Mesh {
   static constexpr std::int32_t none = -1;
 
   explicit Mesh(Memory& memory)
-      : positions(&memory), corners(&memory), inner_of_given(&memory), given_of_inner(&memory), triangle_of_given(&memory), component(&memory) {}
+      : positions(&memory), corners(&memory), inner_of_given(&memory), given_of_inner(&memory), triangle_of_given(&memory), component(&memory), isolated(&memory) {}
 
   // Throws HF_ERROR_EMPTY, _OUT_OF_RANGE (triangle), _NON_FINITE (vertex), _INVALID_ARGUMENT, or std::bad_alloc.
   static Mesh make(const MeshInput& input, Memory& memory);
@@ -65,6 +65,11 @@ struct Mesh {
   Vector<std::int32_t> given_of_inner; // the first given copy
   Vector<std::int32_t> triangle_of_given;  // per given triangle its usable triangle, or none
   Vector<std::int32_t> component;      // per inner vertex
+  struct Isolated {
+    std::int32_t given;
+    Vec3 position;  // as given
+  };
+  Vector<Isolated> isolated;           // given vertices without a usable triangle, ascending: they keep their places when the rest is posed
   Vec3 centre;
   double scale = 1;
   MeshReport report;

@@ -11,7 +11,8 @@ namespace {
 constexpr std::int32_t nearest_count = 6;      // source vertices a kernel reaches at one width
 constexpr double cut = 2.5;                       // kernels end at so many widths
 constexpr double broad_factor = 3;
-constexpr std::size_t most_narrow = 4096, most_broad = 1024;  // vertices of a kernel; more are thinned evenly
+constexpr double flattest = 1e-3, steepest = 50;  // cotangent weights that count
+constexpr std::size_t most_narrow = 1536, most_broad = 384;  // vertices of a kernel; more are thinned evenly
 constexpr double paper_exponent = 4;
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -141,24 +142,43 @@ void finish(KernelRow& row, std::size_t most, std::int32_t fallback) {
   for (double& w : row.weight) w /= sum;
 }
 
-void append(const KernelRow& row, const Core& core, Vector<double>& kernel, SourceKernels& out) {
-  if (out.start.empty()) out.start.push_back(0);
+// Scales the entries from `begin` on so that the trace of the moment is 1 at rest, and closes the row.
+void close_row(std::size_t begin, double trace, SourceKernels& out) {
+  for (std::size_t i = begin; i < out.weight.size(); ++i) out.weight[i] = trace > 0 ? out.weight[i] / trace : 0.0;
+  out.start.push_back(static_cast<std::int32_t>(out.weight.size()));
+}
+
+// Edges of the kernel's vertices; `kernel` is zero everywhere before and after.
+void append_edges(const KernelRow& row, const Core& core, Vector<double>& kernel, SourceKernels& out) {
   const std::size_t begin = out.weight.size();
   for (std::size_t i = 0; i < row.vertex.size(); ++i) kernel[at(row.vertex[i])] = row.weight[i];
-  double sum = 0;
+  double trace = 0;
   for (const std::int32_t v : row.vertex) {
     for (std::int32_t e = core.topology.neighbour_start[at(v)]; e < core.topology.neighbour_start[at(v) + 1]; ++e) {
       const std::int32_t u = core.topology.neighbour[at(e)];
       if (u < v && kernel[at(u)] > 0) continue;
-      const double w = std::clamp(core.weights[at(core.topology.neighbour_edge[at(e)])], 1e-3, 50.0) * (kernel[at(v)] + kernel[at(u)]);
+      const double w = std::clamp(core.weights[at(core.topology.neighbour_edge[at(e)])], flattest, steepest) * (kernel[at(v)] + kernel[at(u)]);
       const Vec3 d = core.mesh.positions[at(v)] - core.mesh.positions[at(u)];
       out.first.push_back(v), out.second.push_back(u), out.weight.push_back(w);
-      sum += w * dot(d, d);
+      trace += w * dot(d, d);
     }
   }
-  if (sum > 0) for (std::size_t i = begin; i < out.weight.size(); ++i) out.weight[i] /= sum;
-  out.start.push_back(static_cast<std::int32_t>(out.weight.size()));
+  close_row(begin, trace, out);
   for (const std::int32_t v : row.vertex) kernel[at(v)] = 0;
+}
+
+void append_vertices(const KernelRow& row, const Core& core, SourceKernels& out) {
+  const std::size_t begin = out.weight.size();
+  Vec3 centroid;
+  for (std::size_t i = 0; i < row.vertex.size(); ++i) centroid = centroid + row.weight[i] * core.mesh.positions[at(row.vertex[i])];
+  double trace = 0;
+  for (std::size_t i = 0; i < row.vertex.size(); ++i) {
+    const Vec3 p = core.mesh.positions[at(row.vertex[i])] - centroid;
+    out.first.push_back(row.vertex[i]), out.weight.push_back(row.weight[i]);
+    trace += row.weight[i] * dot(p, p);
+  }
+  out.centroid.push_back(centroid);
+  close_row(begin, trace, out);
 }
 
 struct ClusterRows {
@@ -168,8 +188,8 @@ struct ClusterRows {
 };
 
 // Gaussian kernels around a centre; widths adapt to how dense the source is there.
-void centre_rows(const ClusterOptions& options, const double* centre, std::int32_t width, Span<const double> field, Span<const double> area, ClusterRows& out, Memory& memory) {
-  const std::size_t n = area.size();
+void centre_rows(const ClusterOptions& options, const double* centre, std::int32_t width, Span<const double> field, ClusterRows& out, Memory& memory) {
+  const std::size_t n = field.size() / at(width);
   Vector<double> distance(n, &memory), sorted(&memory);
   for (std::size_t v = 0; v < n; ++v) distance[v] = std::sqrt(squared_distance(field.data() + v * at(width), centre, width));
   sorted = distance;
@@ -289,7 +309,7 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
     if (options.paper_bands) {
       band_rows(kept[c] / bands, kept[c] % bands, bands, field_count, source_field, source_area, rows[c]);
     } else {
-      centre_rows(options, out.centre.data() + at(kept[c] * field_count), field_count, source_field, source_area, rows[c], memory);
+      centre_rows(options, out.centre.data() + at(kept[c] * field_count), field_count, source_field, rows[c], memory);
     }
   });
 
@@ -311,8 +331,13 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
   out.centre.swap(centres);
   out.count = static_cast<std::int32_t>(kept.size());
   Vector<double> kernel(source_area.size(), 0.0, &memory);
+  out.narrow.start.assign(1, 0), out.broad.start.assign(1, 0);
   for (const ClusterRows& row : rows) {
-    append(row.narrow, source_core, kernel, out.narrow), append(row.broad, source_core, kernel, out.broad);
+    if (options.paper_bands) {
+      append_vertices(row.narrow, source_core, out.narrow), append_vertices(row.broad, source_core, out.broad);
+    } else {
+      append_edges(row.narrow, source_core, kernel, out.narrow), append_edges(row.broad, source_core, kernel, out.broad);
+    }
     out.support.push_back(row.support);
   }
   return out;

@@ -12,13 +12,30 @@ constexpr double broad_prior = 1e-3;   // of the rotation of the whole
 constexpr std::size_t most_sampled = 4096;
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
-Quaternion kernel_rotation(const Mesh& mesh, const SourceKernels& kernels, std::int32_t c, const Vec3* posed, double share, const Quaternion& guide) noexcept {
+Mat3 moment_of_edges(const Mesh& mesh, const SourceKernels& kernels, std::int32_t c, const Vec3* posed) noexcept {
   Mat3 moment;
   for (std::int32_t i = kernels.start[at(c)]; i < kernels.start[at(c) + 1]; ++i) {
     const std::int32_t u = kernels.first[at(i)], v = kernels.second[at(i)];
     add_outer(moment, kernels.weight[at(i)], posed[u] - posed[v], mesh.positions[at(u)] - mesh.positions[at(v)]);
   }
-  return best_rotation(moment + share * to_matrix(guide), guide);
+  return moment;
+}
+
+Mat3 moment_of_vertices(const Mesh& mesh, const SourceKernels& kernels, std::int32_t c, const Vec3* posed) noexcept {
+  Mat3 moment;
+  const std::int32_t first = kernels.start[at(c)], last = kernels.start[at(c) + 1];
+  const Vec3 centroid = kernels.centroid[at(c)];
+  const Vec3 origin = posed[kernels.first[at(first)]];  // any point near the cluster: keeps the digits of far-away poses
+  for (std::int32_t i = first; i < last; ++i) {
+    const std::int32_t v = kernels.first[at(i)];
+    add_outer(moment, kernels.weight[at(i)], posed[v] - origin, mesh.positions[at(v)] - centroid);
+  }
+  return moment;
+}
+
+Quaternion kernel_rotation(const Mesh& mesh, const SourceKernels& kernels, std::int32_t c, const Vec3* posed, double share, const Quaternion& guide) noexcept {
+  const Mat3 moment = kernels.second.empty() ? moment_of_vertices(mesh, kernels, c, posed) : moment_of_edges(mesh, kernels, c, posed);
+  return best_rotation_from(moment + share * to_matrix(guide), guide);
 }
 
 }  // namespace

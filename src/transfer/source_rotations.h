@@ -1,9 +1,10 @@
 // How each cluster of the source has turned in a posed frame.
 //
-//     M_c = sum_v w_cv q_v (p_v - p_c)',   R_c = argmax tr(R' (M_c + e s_c R_b)),   R_b likewise from the broad kernel and the rotation of the whole,
+//     M_c = sum_ij w_cij (q_i - q_j)(p_i - p_j)',   R_c = argmax tr(R' (M_c + e R_b)),   R_b likewise from the broad kernel and the rotation of the whole,
 //
-// p the rest, q the posed vertices, s_c the rest spread of the cluster, e = 0.02 (shape matching, Mueller et al. 2005, with the broad cluster as a prior that decides
-// the twist of thin, flat and collinear clusters). For q = R p + t every R_c is R: M_c = R S and R S + e R = R (S + e I).
+// p the rest, q the posed vertices, the sum over the edges of the cluster's kernel (clusters.h; in paper mode over its vertices about their centroid), e = 0.02
+// (the rotation of as-rigid-as-possible cells, Sorkine and Alexa 2007, averaged over the cluster; the broad cluster is a prior that decides the twist of thin, flat and
+// collinear ones). For q = R p + t every R_c is R: M_c = R S and R S + e R = R (S + e I).
 // Cost: the sum of the kernel sizes and three 4 x 4 eigenproblems per cluster. Allocates nothing.
 #pragma once
 #include "deform/rotation.h"

@@ -11,9 +11,10 @@
 #include <string>
 
 #include "base/error.h"
-#include "factor/elimination_tree.h"
+#include "factor/factor_bytes.h"
 #include "factor/numeric.h"
 #include "factor/ordering.h"
+#include "factor/preview.h"
 #include "factor/supernodal_factor.h"
 #include "unit/factor/matrices.h"
 
@@ -214,6 +215,26 @@ void run(const char* name, const hf_test::TriangleMesh& mesh, bool bend, const s
                     back / read[t], back / single[t], fore, theirs, theirs / back);
       }
     }
+  }
+  if (wants(what, "float")) {
+    const auto preview = hf::PreviewFactor::make(factor, memory, two);
+    std::vector<float> start_value(b.begin(), b.end()), x(b.size());
+    for (int t = 0; t < 2; ++t) {
+      const double full = median([&] {
+        std::memcpy(z.data(), b.data(), b.size() * sizeof(double));
+        factor.backward(z.data(), 1, *runners[t]);
+      });
+      const double half = median([&] {
+        x = start_value;
+        preview->backward(x.data(), 1, *runners[t]);
+      });
+      std::printf("float32 sweep %d thr: %.2f ms against %.2f: %.2f\n", t + 1, half, full, half / full);
+    }
+    std::vector<std::uint8_t> bytes(hf::saved_factor_size(factor));
+    const double saved = median([&] { hf::save_factor(factor, {bytes.data(), bytes.size()}); }, 3);
+    std::shared_ptr<const hf::Factor> loaded;
+    const double load = median([&] { loaded = hf::load_factor({bytes.data(), bytes.size()}, n, memory); }, 3);
+    std::printf("save %.1f ms, load %.1f ms, %.1f MB\n", saved, load, 1e-6 * static_cast<double>(bytes.size()));
   }
   if (wants(what, "path")) {
     for (const int k : {1, 8, 60, 100, 200, 300}) {

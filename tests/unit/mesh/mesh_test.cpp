@@ -1,0 +1,133 @@
+// Intake: welding, components, the repair report, and what is refused.
+#include "mesh/mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/error.h"
+#include "mesh/topology.h"
+#include "support/meshes.h"
+
+namespace {
+
+struct Given {
+  std::vector<double> positions;
+  std::vector<std::uint32_t> triangles;
+  hf::Weld weld = hf::Weld::exact;
+  double tolerance = 0;
+
+  hf::Mesh make(hf::Memory& memory) const {
+    hf::MeshInput input;
+    input.vertex_count = static_cast<std::uint32_t>(positions.size() / 3), input.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
+    input.positions = hf::ConstRows(positions.data(), 3 * sizeof(double));
+    input.triangles = triangles.data(), input.weld = weld, input.weld_tolerance = tolerance;
+    hf::Mesh mesh = hf::Mesh::make(input, memory);
+    hf::count_edges(mesh, hf::Topology::make(mesh, memory), mesh.report);
+    return mesh;
+  }
+  hf_result code(std::uint32_t* index = nullptr) const {
+    hf::Memory memory;
+    try {
+      make(memory);
+    } catch (const hf::Error& error) {
+      if (index) *index = error.index();
+      return error.code();
+    }
+    return HF_OK;
+  }
+};
+
+// two triangles of a square, cut along the diagonal: vertices 3 and 5 are copies of 0 and 2
+Given cut_square() { return {{0, 0, 0, 1, 0, 0, 1, 1, 0, 0.0, -0.0, 0, 0, 1, 0, 1, 1, 0}, {0, 1, 2, 3, 5, 4}}; }
+
+TEST(Mesh, welds_bit_equal_copies_into_one_vertex) {
+  hf::Memory memory;
+  const hf::Mesh mesh = cut_square().make(memory);
+  EXPECT_EQ(mesh.vertex_count(), 4);
+  EXPECT_EQ(mesh.report.component_count, 1u);
+  EXPECT_EQ(mesh.inner_of_given[0], mesh.inner_of_given[3]);
+  EXPECT_EQ(mesh.inner_of_given[2], mesh.inner_of_given[5]);
+  EXPECT_EQ(mesh.report.boundary_edge_count, 4u);
+}
+
+TEST(Mesh, keeps_vertices_as_stored_when_told_so) {
+  hf::Memory memory;
+  Given given = cut_square();
+  given.weld = hf::Weld::none;
+  const hf::Mesh mesh = given.make(memory);
+  EXPECT_EQ(mesh.vertex_count(), 6);
+  EXPECT_EQ(mesh.report.component_count, 2u);
+}
+
+TEST(Mesh, welds_within_a_tolerance_across_cell_borders) {
+  hf::Memory memory;
+  Given given = cut_square();
+  given.positions[9] = -0.0007, given.positions[15] = 1.0006;
+  EXPECT_EQ(given.make(memory).report.component_count, 2u);
+  given.weld = hf::Weld::tolerance, given.tolerance = 0.001;
+  EXPECT_EQ(given.make(memory).report.component_count, 1u);
+  given.tolerance = 0.0005;
+  EXPECT_EQ(given.make(memory).report.component_count, 2u);
+  given.tolerance = -1;
+  EXPECT_EQ(given.code(), HF_ERROR_INVALID_ARGUMENT);
+}
+
+TEST(Mesh, counts_what_is_dirty) {
+  hf::Memory memory;
+  // three pages on one edge, one of them flipped; a duplicate; a collapsed and a zero-area triangle; an isolated vertex
+  const Given given{{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 9, 9, 9, 2, 0, 0}, {0, 1, 2, 0, 1, 3, 1, 0, 4, 2, 0, 1, 3, 3, 4, 0, 1, 6}};
+  const hf::Mesh mesh = given.make(memory);
+  EXPECT_EQ(mesh.report.isolated_vertex_count, 1u);
+  EXPECT_EQ(mesh.inner_of_given[5], hf::Mesh::none);
+  EXPECT_EQ(mesh.report.collapsed_triangle_count, 1u);
+  EXPECT_EQ(mesh.report.degenerate_triangle_count, 1u);
+  EXPECT_EQ(mesh.report.duplicate_triangle_count, 1u);
+  EXPECT_EQ(mesh.report.non_manifold_edge_count, 1u);
+  EXPECT_GE(mesh.report.flipped_edge_count, 1u);
+}
+
+TEST(Mesh, numbers_components_by_their_first_vertex) {
+  hf::Memory memory;
+  hf_test::PlainMesh plain = hf_test::grid(2, 2);
+  append(plain, hf_test::grid(1, 1), 10);
+  const hf::Mesh mesh = Given{plain.positions, plain.triangles}.make(memory);
+  EXPECT_EQ(mesh.report.component_count, 2u);
+  EXPECT_EQ(mesh.component.front(), 0);
+  EXPECT_EQ(mesh.component.back(), 1);
+}
+
+TEST(Mesh, refuses_what_it_cannot_take_and_names_it) {
+  std::uint32_t index = 0;
+  Given given = cut_square();
+  given.triangles[4] = 6;
+  EXPECT_EQ(given.code(&index), HF_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(index, 1u);
+  given = cut_square();
+  given.positions[7] = std::nan("");
+  EXPECT_EQ(given.code(&index), HF_ERROR_NON_FINITE);
+  EXPECT_EQ(index, 2u);
+  given.positions[7] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(given.code(), HF_ERROR_NON_FINITE);
+  given = cut_square();
+  given.triangles = {0, 0, 1};
+  EXPECT_EQ(given.code(), HF_ERROR_EMPTY);
+  given.triangles.clear();
+  EXPECT_EQ(given.code(), HF_ERROR_EMPTY);
+}
+
+TEST(Mesh, is_the_same_at_any_scale_and_place) {
+  hf::Memory memory;
+  const hf_test::PlainMesh plain = hf_test::torus(12, 8);
+  const hf::Mesh first = Given{plain.positions, plain.triangles}.make(memory);
+  for (const double scale : {1e-30, 1024.0, 1e30}) {
+    std::vector<double> moved = plain.positions;
+    for (double& x : moved) x = scale * x + (scale == 1024 ? 4096.0 : 0);
+    const hf::Mesh mesh = Given{moved, plain.triangles}.make(memory);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) EXPECT_LE(norm(mesh.positions[v] - first.positions[v]), 1e-14);
+  }
+}
+
+}  // namespace

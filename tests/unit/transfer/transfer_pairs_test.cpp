@@ -1,0 +1,261 @@
+// Pairs that come and go: no factorisation, the same result as made at once, failures that change nothing, odd regions.
+#include <gtest/gtest.h>
+
+#include <new>
+
+#include "base/error.h"
+#include "unit/transfer/transfer_support.h"
+
+namespace {
+
+using namespace transfer_test;
+using hf::Vec3;
+
+struct Animals {
+  World world;
+  Body horse = creature("horse", 1500, world), bull = creature("bull", 1200, world);
+  Pairs pairs = find_pairs("quadruped.json", horse, bull);
+  const samples::Animation& walk = horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
+};
+
+const Animals& animals() {
+  static const Animals made;
+  return made;
+}
+
+template <class Call>
+hf_result code_of(Call&& call, uint32_t* index = nullptr) {
+  try {
+    call();
+  } catch (const hf::Error& error) {
+    if (index) *index = error.index();
+    EXPECT_GT(std::string(error.what()).size(), 10u);
+    return error.code();
+  }
+  return HF_OK;
+}
+
+TEST(TransferPairs, AddingAndRemovingPairsFactorisesNothingAndEqualsATransferMadeAtOnce) {
+  const Animals& a = animals();
+  const std::vector<hf::PairInput> inputs = a.pairs.inputs();
+  const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.4);
+  hf::Transfer edited(a.horse.core, a.bull.core, {});
+  const uint32_t source_before = edited.source_counters().factorisations, target_before = edited.target_counters().factorisations;
+  std::vector<uint32_t> numbers(inputs.size());
+  // a random walk over pair sets, a frame after every step
+  std::vector<char> present(inputs.size(), 0);
+  uint32_t state = 7;
+  for (int step = 0; step < 60; ++step) {
+    state = state * 1664525u + 1013904223u;
+    const size_t i = (state >> 16) % inputs.size();
+    const size_t count = static_cast<size_t>(std::count(present.begin(), present.end(), 1));
+    if (present[i] && count > 1) {
+      edited.remove_pairs({&numbers[i], 1});
+      present[i] = 0;
+    } else if (!present[i]) {
+      edited.add_pairs({&inputs[i], 1}, &numbers[i]);
+      present[i] = 1;
+    }
+    const std::vector<Vec3> out = apply(edited, posed);
+    if (step % 6 != 0) continue;
+    hf::Transfer fresh(a.horse.core, a.bull.core, {});
+    std::vector<std::pair<uint32_t, hf::PairInput>> ordered;
+    for (size_t k = 0; k < inputs.size(); ++k) {
+      if (present[k]) ordered.emplace_back(numbers[k], inputs[k]);
+    }
+    std::sort(ordered.begin(), ordered.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+    std::vector<hf::PairInput> now;
+    for (const auto& entry : ordered) now.push_back(entry.second);
+    add(fresh, now);
+    EXPECT_LT(largest_distance(out, apply(fresh, posed)), 1e-7) << "step " << step;
+  }
+  EXPECT_EQ(edited.source_counters().factorisations, source_before);
+  EXPECT_EQ(edited.target_counters().factorisations, target_before);
+  EXPECT_GT(edited.source_counters().path_solves, 0u);
+}
+
+TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
+  const Animals& a = animals();
+  const std::vector<hf::PairInput> inputs = a.pairs.inputs();
+  const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.4);
+  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  std::vector<Vec3> out(static_cast<size_t>(a.bull.core->size()));
+  EXPECT_EQ(code_of([&] { transfer.apply(posed.data(), out.data()); }), HF_ERROR_EMPTY);
+  EXPECT_EQ(code_of([&] { transfer.cluster_count(); }), HF_ERROR_EMPTY);
+  EXPECT_EQ(code_of([&] { transfer.add_pairs({}, nullptr); }), HF_ERROR_EMPTY);
+  add(transfer, inputs);
+  const std::vector<Vec3> before = apply(transfer, posed);
+
+  const int32_t free_vertex = 0, out_of_range[] = {0, 1, a.bull.core->size()};
+  uint32_t index = 0;
+  hf::PairInput bad;
+  EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }, &index), HF_ERROR_EMPTY);
+  EXPECT_EQ(index, 0u);
+  bad.source = {&free_vertex, 1};
+  EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }), HF_ERROR_EMPTY);
+  bad.target = {out_of_range, 3};
+  EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }, &index), HF_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(index, 2u);
+  bad.target = inputs[2].target;
+  EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }, &index), HF_ERROR_OVERLAP);
+  EXPECT_EQ(index, 0u);
+  bad.target = {&free_vertex, 1}, bad.flags = 1u << 20;
+  EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }), HF_ERROR_INVALID_ARGUMENT);
+  const std::vector<hf::PairInput> many(300, inputs[0]);
+  EXPECT_EQ(code_of([&] { transfer.add_pairs({many.data(), many.size()}, nullptr); }), HF_ERROR_TOO_LARGE);
+  const uint32_t twice[] = {1, 1}, absent[] = {0, 99};
+  EXPECT_EQ(code_of([&] { transfer.remove_pairs({twice, 2}); }, &index), HF_ERROR_NO_SUCH_PAIR);
+  EXPECT_EQ(index, 1u);
+  EXPECT_EQ(code_of([&] { transfer.remove_pairs({absent, 2}); }, &index), HF_ERROR_NO_SUCH_PAIR);
+  EXPECT_EQ(index, 1u);
+  EXPECT_EQ(code_of([&] { transfer.pair_info(99); }), HF_ERROR_NO_SUCH_PAIR);
+  std::vector<Vec3> broken = posed;
+  broken[5].y = std::nan("");
+  EXPECT_EQ(code_of([&] { transfer.apply(broken.data(), out.data()); }, &index), HF_ERROR_NON_FINITE);
+  EXPECT_EQ(index, 5u);
+
+  EXPECT_EQ(transfer.pair_count(), inputs.size());
+  EXPECT_EQ(largest_distance(apply(transfer, posed), before), 0.0);
+}
+
+TEST(TransferPairs, BadOptionsAreRefused) {
+  const Animals& a = animals();
+  const auto refused = [&](auto&& change) {
+    hf::TransferOptions options;
+    change(options);
+    return code_of([&] { hf::Transfer transfer(a.horse.core, a.bull.core, options); });
+  };
+  EXPECT_EQ(refused([](hf::TransferOptions&) {}), HF_OK);
+  EXPECT_EQ(refused([](hf::TransferOptions& o) { o.mode = 7; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf::TransferOptions& o) { o.cluster_count = 513; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf::TransferOptions& o) { o.kernel_width = 0.6; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf::TransferOptions& o) { o.kernel_width = -1; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf::TransferOptions& o) { o.scale = -1; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf::TransferOptions& o) { o.scale = std::nan(""); }), HF_ERROR_NON_FINITE);
+  EXPECT_EQ(refused([](hf::TransferOptions& o) { o.source_axes[0] = 1; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf::TransferOptions& o) {
+    const double mirrored[9] = {-1, 0, 0, 0, 1, 0, 0, 0, 1};
+    std::copy_n(mirrored, 9, o.target_axes);
+  }), HF_ERROR_INVALID_ARGUMENT);
+}
+
+// Fails the allocation number `fail_at`, counted from when it is armed.
+struct Faults {
+  int64_t count = 0, fail_at = -1;
+  static void* allocate(void* user, size_t size, size_t alignment) {
+    auto* self = static_cast<Faults*>(user);
+    if (self->fail_at >= 0 && self->count++ == self->fail_at) return nullptr;
+    return ::operator new(size, std::align_val_t(alignment), std::nothrow);
+  }
+  static void release(void*, void* block, size_t, size_t alignment) { ::operator delete(block, std::align_val_t(alignment)); }
+};
+
+TEST(TransferPairs, WhenMemoryRunsOutAtAnyAllocationTheTransferStaysAsItWas) {
+  const Animals& a = animals();
+  Faults faults;
+  const World world(1, {Faults::allocate, Faults::release, &faults});
+  Body horse = a.horse, bull = a.bull;
+  horse.build(world), bull.build(world);
+  const std::vector<hf::PairInput> inputs = a.pairs.inputs();
+  const std::vector<hf::PairInput> first(inputs.begin(), inputs.begin() + 6), rest(inputs.begin() + 6, inputs.end());
+  const std::vector<Vec3> posed = horse.posed(a.walk, 0.4);
+  hf::Transfer transfer(horse.core, bull.core, {});
+  add(transfer, first);
+  const std::vector<Vec3> with_six = apply(transfer, posed);
+  std::vector<uint32_t> numbers(rest.size());
+  add(transfer, rest, numbers.data());
+  const std::vector<Vec3> with_all = apply(transfer, posed);
+  transfer.remove_pairs({numbers.data(), numbers.size()});
+
+  uint32_t faulted = 0;
+  for (int64_t n = 0;; n += 1 + n / 40) {  // every one at first, then samples
+    std::vector<Vec3> out(with_all.size());
+    uint32_t stage = 0;
+    faults.count = 0, faults.fail_at = n;
+    bool failed = false;
+    try {
+      add(transfer, rest, numbers.data());
+      stage = 1;
+      transfer.apply(posed.data(), out.data());
+      stage = 2;
+      transfer.remove_pairs({numbers.data(), numbers.size()});
+      stage = 3;
+      transfer.apply(posed.data(), out.data());
+    } catch (const std::bad_alloc&) {
+      failed = true;
+    }
+    faults.fail_at = -1;
+    if (!failed) {
+      EXPECT_EQ(largest_distance(out, with_six), 0.0);
+      break;
+    }
+    ++faulted;
+    const bool all_there = stage == 1 || stage == 2;
+    ASSERT_EQ(transfer.pair_count(), all_there ? 8u : 6u) << n;
+    ASSERT_LT(largest_distance(apply(transfer, posed), all_there ? with_all : with_six), 1e-9) << n;
+    if (all_there) transfer.remove_pairs({numbers.data(), numbers.size()});
+  }
+  EXPECT_GT(faulted, 50u);
+}
+
+TEST(TransferPairs, OnePairMovesTheWholeTargetRigidly) {
+  const Animals& a = animals();
+  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  const std::vector<hf::PairInput> inputs = a.pairs.inputs();
+  transfer.add_pairs({&inputs[0], 1}, nullptr);
+  EXPECT_EQ(transfer.cluster_count(), 1);
+  const std::vector<Vec3> out = apply(transfer, a.horse.posed(a.walk, 0.3)), rest = a.bull.rest();
+  EXPECT_NEAR(hf::norm(out[0] - out[100]), hf::norm(rest[0] - rest[100]), 1e-9);
+}
+
+TEST(TransferPairs, OddRegionsGiveFiniteResultsAndKeepTheRules) {
+  const Animals& a = animals();
+  std::vector<int32_t> everything(static_cast<size_t>(a.horse.core->size())), half;
+  for (size_t v = 0; v < everything.size(); ++v) everything[v] = static_cast<int32_t>(v);
+  for (int32_t v = 0; v < a.bull.core->size() / 2; ++v) half.push_back(v);
+  const int32_t single = 3, doubled[] = {9, 9, 9};
+  hf::PairInput all_on_source, single_vertices;
+  all_on_source.source = {everything.data(), everything.size()}, all_on_source.target = {half.data(), half.size()};
+  single_vertices.source = {&single, 1}, single_vertices.target = {doubled, 3};
+  for (const hf::PairInput& input : {all_on_source, single_vertices}) {
+    for (const int32_t mode : {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER}) {
+      hf::TransferOptions options;
+      options.mode = mode;
+      hf::Transfer transfer(a.horse.core, a.bull.core, options);
+      transfer.add_pairs({&input, 1}, nullptr);
+      EXPECT_LT(largest_distance(apply(transfer, a.horse.rest()), a.bull.rest()), 1e-6);
+      for (const Vec3& p : apply(transfer, a.horse.posed(a.walk, 0.3))) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
+    }
+  }
+  // all vertices of the target shared among two pairs
+  hf::PairInput two[2];
+  std::vector<int32_t> front, back, other_half;
+  for (int32_t v = 0; v < a.horse.core->size(); ++v) (a.horse.core->mesh.positions[static_cast<size_t>(v)].z > 0 ? front : back).push_back(v);
+  for (int32_t v = a.bull.core->size() / 2; v < a.bull.core->size(); ++v) other_half.push_back(v);
+  two[0].source = {front.data(), front.size()}, two[0].target = {half.data(), half.size()};
+  two[1].source = {back.data(), back.size()}, two[1].target = {other_half.data(), other_half.size()};
+  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  transfer.add_pairs({two, 2}, nullptr);
+  EXPECT_LT(largest_distance(apply(transfer, a.horse.rest()), a.bull.rest()), 1e-6);
+  EXPECT_EQ(transfer.cluster_count(), 2);
+}
+
+TEST(TransferPairs, APairSaysItsFlagsItsLeakAndHowSureItIs) {
+  const Animals& a = animals();
+  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  std::vector<uint32_t> numbers(a.pairs.names.size());
+  add(transfer, a.pairs.inputs(), numbers.data());
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    const hf::PairInfo info = transfer.pair_info(numbers[i]);
+    EXPECT_EQ(info.flags, a.pairs.flags[i]);
+    EXPECT_LT(info.source_leak, 1e-9);
+    EXPECT_LT(info.target_leak, 1e-9);
+    EXPECT_GT(info.confidence, 0.5) << a.pairs.names[i];
+    EXPECT_LE(info.confidence, 1.0);
+    if (info.flags & HF_PAIR_TRUNK) {
+      EXPECT_LT(info.alignment_angle, 0) << a.pairs.names[i];
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,134 @@
+// What the tests of transfer share: a body is a model, its flat mesh and its core; posed positions of its inner vertices; pairs from a file.
+#ifndef HF_TESTS_TRANSFER_SUPPORT_H
+#define HF_TESTS_TRANSFER_SUPPORT_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "assets/creature_gltf.h"
+#include "common/animate.h"
+#include "common/gltf_read.h"
+#include "transfer/pairs_file.h"
+#include "transfer/transfer.h"
+
+namespace transfer_test {
+
+inline std::filesystem::path data_folder() {
+  if (const char* given = std::getenv("HF_SHARED_DATA")) return given;
+  return std::filesystem::path(HF_SOURCE_DIR) / "../shared/data";
+}
+
+inline std::filesystem::path pairs_path(const std::string& name) { return std::filesystem::path(HF_SOURCE_DIR) / "samples/transfer/pairs" / name; }
+
+struct World {
+  explicit World(uint32_t threads = 1, const hf_allocator& hooks = {}) : memory(std::make_shared<hf::Memory>(hooks)), jobs(std::make_shared<hf::JobRunner>(threads)) {}
+  std::shared_ptr<hf::Memory> memory;
+  std::shared_ptr<hf::JobRunner> jobs;
+};
+
+inline std::shared_ptr<const hf::Core> make_core(const std::vector<glm::dvec3>& positions, const std::vector<uint32_t>& triangles, const World& world) {
+  hf::MeshInput input;
+  input.vertex_count = static_cast<uint32_t>(positions.size()), input.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
+  input.positions = hf::ConstRows(&positions[0].x, sizeof(glm::dvec3)), input.triangles = triangles.data();
+  return hf::Core::make(input, {}, world.memory, world.jobs);
+}
+
+struct Body {
+  samples::Model model;
+  samples::FlatMesh mesh;
+  std::shared_ptr<const hf::Core> core;
+
+  Body(samples::Model from, const World& world) : model(std::move(from)), mesh(samples::flatten(model)) { build(world); }
+  // Moves the rest shape (and nothing else), p -> f(p), and makes the core anew.
+  template <class Function>
+  void move(const World& world, Function f) {
+    for (glm::dvec3& p : mesh.positions) p = f(p);
+    build(world);
+  }
+  void build(const World& world) { core = make_core(mesh.positions, mesh.triangles, world); }
+
+  // Given positions of flat vertices as inner vertices.
+  std::vector<hf::Vec3> inner(const std::vector<glm::dvec3>& flat) const {
+    std::vector<hf::Vec3> out(static_cast<size_t>(core->size()));
+    for (size_t v = 0; v < out.size(); ++v) {
+      const glm::dvec3& p = flat[static_cast<size_t>(core->mesh.given_of_inner[v])];
+      out[v] = {p.x, p.y, p.z};
+    }
+    return out;
+  }
+  std::vector<hf::Vec3> rest() const { return inner(mesh.positions); }
+  std::vector<hf::Vec3> posed(const samples::Animation& clip, double time) const { return inner(samples::posed_positions(model, mesh, clip, time)); }
+  std::vector<int32_t> inner_of(const std::vector<uint32_t>& flat) const {
+    std::vector<int32_t> out;
+    for (const uint32_t v : flat) {
+      if (core->mesh.inner_of_given[v] >= 0) out.push_back(core->mesh.inner_of_given[v]);
+    }
+    return out;
+  }
+};
+
+inline Body creature(const std::string& name, uint32_t vertices, const World& world) { return Body(samples::to_model(samples::make_creature(name, vertices)), world); }
+
+// The regions of a pairs file as inner vertices of two bodies.
+struct Pairs {
+  std::vector<std::string> names;
+  std::vector<std::vector<int32_t>> source, target;
+  std::vector<uint32_t> flags;
+  std::vector<hf::PairInput> inputs() const {
+    std::vector<hf::PairInput> out(names.size());
+    for (size_t i = 0; i < out.size(); ++i) out[i].source = {source[i].data(), source[i].size()}, out[i].target = {target[i].data(), target[i].size()}, out[i].flags = flags[i];
+    return out;
+  }
+};
+
+// as_source: both sides take the source's selectors (self-transfer).
+inline Pairs find_pairs(const std::string& file, const Body& source, const Body& target, bool as_source = false) {
+  const samples::PairsFile pairs = samples::read_pairs(pairs_path(file));
+  const samples::RegionFinder on_source(source.model, source.mesh, pairs.source_axes), on_target(target.model, target.mesh, pairs.target_axes);
+  std::vector<samples::Region> a, b;
+  for (const samples::PairEntry& entry : pairs.pairs) a.push_back(on_source.find(entry.source)), b.push_back(on_target.find(as_source ? entry.source : entry.target));
+  if (on_source.separate(a) >= 0 || on_target.separate(b) >= 0) throw std::runtime_error("a region is covered by others");
+  Pairs out;
+  for (size_t i = 0; i < a.size(); ++i) {
+    out.names.push_back(pairs.pairs[i].name), out.flags.push_back(pairs.pairs[i].flags());
+    out.source.push_back(source.inner_of(a[i].vertices)), out.target.push_back(target.inner_of(b[i].vertices));
+  }
+  return out;
+}
+
+inline void add(hf::Transfer& transfer, const std::vector<hf::PairInput>& inputs, uint32_t* numbers = nullptr) { transfer.add_pairs({inputs.data(), inputs.size()}, numbers); }
+
+inline std::vector<hf::Vec3> apply(hf::Transfer& transfer, const std::vector<hf::Vec3>& posed) {
+  std::vector<hf::Vec3> out(static_cast<size_t>(transfer.target().size()));
+  transfer.apply(posed.data(), out.data());
+  return out;
+}
+
+inline double largest_distance(const std::vector<hf::Vec3>& a, const std::vector<hf::Vec3>& b) {
+  double largest = 0;
+  for (size_t i = 0; i < a.size(); ++i) largest = std::max(largest, hf::norm(a[i] - b[i]));
+  return largest;
+}
+
+// Area-weighted root mean square over the box diagonal; centred: the mean difference is taken out.
+inline double rms(const hf::Core& core, const std::vector<hf::Vec3>& a, const std::vector<hf::Vec3>& b, bool centred = false) {
+  hf::Memory memory;
+  const auto area = hf::area_shares(core.mesh, memory);
+  hf::Vec3 mean;
+  for (size_t v = 0; centred && v < a.size(); ++v) mean = mean + area[v] * (a[v] - b[v]);
+  double sum = 0;
+  for (size_t v = 0; v < a.size(); ++v) {
+    const hf::Vec3 d = a[v] - b[v] - mean;
+    sum += area[v] * hf::dot(d, d);
+  }
+  return std::sqrt(sum) / core.mesh.scale;
+}
+
+}  // namespace transfer_test
+
+#endif
