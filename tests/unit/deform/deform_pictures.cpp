@@ -1,10 +1,11 @@
 // Pictures of the classic cases for the eye, and the table of their figures: paper's mode (10 iterations a frame, and converged) beside the
 // smooth mode. Not a test: run it by hand.
-//   deform_pictures OUT_FOLDER
+//   deform_pictures OUT_FOLDER [large | time | SCAN_FILE]
 #include <chrono>
 #include <cstdio>
 
 #include "cases.h"
+#include "common/mesh_file.h"
 #include "common/picture.h"
 
 using namespace deform_test;
@@ -42,13 +43,59 @@ void row(const char* mode, const Case& c, const Dragged& d, double ms) {
               c.closed ? q.volume : 0.0, q.smallest_stretch, q.dihedral_max, q.roughness);
 }
 
+hf_test::PlainMesh read(const std::string& file) {
+  const samples::SurfaceMesh mesh = samples::read_mesh_file(file);
+  hf_test::PlainMesh out;
+  for (const auto& p : mesh.positions) out.positions.insert(out.positions.end(), {p.x, p.y, p.z});
+  out.triangles = mesh.triangles;
+  return out;
+}
+
+// Handles round a torus, more and more: what a change of handles, a frame and a blend cost.
+int time_all() {
+  for (const std::uint32_t side : {90u, 205u, 304u}) {
+    const auto core = hf_test::make_core(plain(samples::jittered_torus(side, side)));
+    for (const int count : {2, 3, 4, 8, 16}) {
+      const auto pose = hf::Pose::make(core, {});
+      std::vector<std::vector<std::int32_t>> regions;
+      for (int i = 0; i < count; ++i) {
+        const double a = 2 * pi * i / count;
+        regions.push_back(select(*core, [&](Vec3 p) { return p.x * std::cos(a) + p.y * std::sin(a) > 0 && std::fabs(p.y * std::cos(a) - p.x * std::sin(a)) < 0.05 && std::fabs(p.z) < 10; }));
+      }
+      const auto seconds = [](auto&& work) {
+        const auto start = std::chrono::steady_clock::now();
+        work();
+        return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      };
+      std::vector<std::uint32_t> numbers;
+      const std::vector<std::vector<std::int32_t>> last{regions.back()};
+      regions.pop_back();
+      const double first = seconds([&] { numbers = add(*pose, regions); });
+      const double second = seconds([&] { numbers.push_back(add(*pose, last)[0]); });
+      double solve = 1e9, blend = 1e9, normal = 1e9;
+      std::uint32_t clusters = 0;
+      for (int frame = 0; frame < 20; ++frame) {
+        place(*pose, numbers[0], {about({1, 0, 0}, 0.02 * frame), {0, 0, 0.01 * frame}});
+        const hf::DeformReport r = pose->deform({true, 5, false});
+        solve = std::min(solve, r.solve_ms), blend = std::min(blend, r.blend_ms), normal = std::min(normal, r.normal_ms), clusters = r.cluster_count;
+      }
+      std::printf("n=%-6d handles %-3d C=%-4u weights %5.1f per vertex | add %7.1f ms, one more %7.1f ms | 5 iterations %6.3f ms, blend %5.2f ms (%.1f ns a vertex), normals %5.2f ms\n", core->size(),
+                  count, clusters, static_cast<double>(pose->weights()->weight.size()) / core->size(), first, second, solve, blend, 1e6 * blend / core->size(), normal);
+    }
+  }
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::string folder = argc > 1 ? argv[1] : ".";
-  const bool large = argc > 2;
+  const std::string what = argc > 2 ? argv[2] : "";
+  const bool large = what == "large";
+  if (what == "time") return time_all();
   std::vector<Case> cases{plane_lift(), cylinder_bend(), bar_twist(135), bar_twist(180), cactus_bend()};
   if (large) cases = {plane_lift(201), cylinder_bend(120, 26, 270), cactus_bend(70, 43000)};
+  if (!large && !what.empty()) cases = {scan_reach(read(what))};
   for (const Case& c : cases) {
     std::vector<samples::Picture> tiles, lower;
     const auto run = [&](const char* mode, hf::PoseOptions options, std::uint32_t iterations, int settle) {

@@ -56,7 +56,7 @@ TEST(TransferPairs, AddingAndRemovingPairsFactorisesNothingAndEqualsATransferMad
       edited.add_pairs({&inputs[i], 1}, &numbers[i]);
       present[i] = 1;
     }
-    const std::vector<Vec3> out = apply(edited, posed);
+    const std::vector<Vec3> out = frame_of(edited, posed);
     if (step % 6 != 0) continue;
     hf::Transfer fresh(a.horse.core, a.bull.core, {});
     std::vector<std::pair<uint32_t, hf::PairInput>> ordered;
@@ -67,7 +67,7 @@ TEST(TransferPairs, AddingAndRemovingPairsFactorisesNothingAndEqualsATransferMad
     std::vector<hf::PairInput> now;
     for (const auto& entry : ordered) now.push_back(entry.second);
     add(fresh, now);
-    EXPECT_LT(largest_distance(out, apply(fresh, posed)), 1e-7) << "step " << step;
+    EXPECT_LT(largest_distance(out, frame_of(fresh, posed)), 1e-7) << "step " << step;
   }
   EXPECT_EQ(edited.source_counters().factorisations, source_before);
   EXPECT_EQ(edited.target_counters().factorisations, target_before);
@@ -84,7 +84,7 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
   EXPECT_EQ(code_of([&] { transfer.cluster_count(); }), HF_ERROR_EMPTY);
   EXPECT_EQ(code_of([&] { transfer.add_pairs({}, nullptr); }), HF_ERROR_EMPTY);
   add(transfer, inputs);
-  const std::vector<Vec3> before = apply(transfer, posed);
+  const std::vector<Vec3> before = frame_of(transfer, posed);
 
   const int32_t free_vertex = 0, out_of_range[] = {0, 1, a.bull.core->size()};
   uint32_t index = 0;
@@ -115,7 +115,7 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
   EXPECT_EQ(index, 5u);
 
   EXPECT_EQ(transfer.pair_count(), inputs.size());
-  EXPECT_EQ(largest_distance(apply(transfer, posed), before), 0.0);
+  EXPECT_EQ(largest_distance(frame_of(transfer, posed), before), 0.0);
 }
 
 TEST(TransferPairs, BadOptionsAreRefused) {
@@ -161,10 +161,10 @@ TEST(TransferPairs, WhenMemoryRunsOutAtAnyAllocationTheTransferStaysAsItWas) {
   const std::vector<Vec3> posed = horse.posed(a.walk, 0.4);
   hf::Transfer transfer(horse.core, bull.core, {});
   add(transfer, first);
-  const std::vector<Vec3> with_six = apply(transfer, posed);
+  const std::vector<Vec3> with_six = frame_of(transfer, posed);
   std::vector<uint32_t> numbers(rest.size());
   add(transfer, rest, numbers.data());
-  const std::vector<Vec3> with_all = apply(transfer, posed);
+  const std::vector<Vec3> with_all = frame_of(transfer, posed);
   transfer.remove_pairs({numbers.data(), numbers.size()});
 
   uint32_t faulted = 0;
@@ -192,7 +192,7 @@ TEST(TransferPairs, WhenMemoryRunsOutAtAnyAllocationTheTransferStaysAsItWas) {
     ++faulted;
     const bool all_there = stage == 1 || stage == 2;
     ASSERT_EQ(transfer.pair_count(), all_there ? 8u : 6u) << n;
-    ASSERT_LT(largest_distance(apply(transfer, posed), all_there ? with_all : with_six), 1e-9) << n;
+    ASSERT_LT(largest_distance(frame_of(transfer, posed), all_there ? with_all : with_six), 1e-9) << n;
     if (all_there) transfer.remove_pairs({numbers.data(), numbers.size()});
   }
   EXPECT_GT(faulted, 50u);
@@ -204,7 +204,7 @@ TEST(TransferPairs, OnePairMovesTheWholeTargetRigidly) {
   const std::vector<hf::PairInput> inputs = a.pairs.inputs();
   transfer.add_pairs({&inputs[0], 1}, nullptr);
   EXPECT_EQ(transfer.cluster_count(), 1);
-  const std::vector<Vec3> out = apply(transfer, a.horse.posed(a.walk, 0.3)), rest = a.bull.rest();
+  const std::vector<Vec3> out = frame_of(transfer, a.horse.posed(a.walk, 0.3)), rest = a.bull.rest();
   EXPECT_NEAR(hf::norm(out[0] - out[100]), hf::norm(rest[0] - rest[100]), 1e-9);
 }
 
@@ -223,8 +223,8 @@ TEST(TransferPairs, OddRegionsGiveFiniteResultsAndKeepTheRules) {
       options.mode = mode;
       hf::Transfer transfer(a.horse.core, a.bull.core, options);
       transfer.add_pairs({&input, 1}, nullptr);
-      EXPECT_LT(largest_distance(apply(transfer, a.horse.rest()), a.bull.rest()), 1e-6);
-      for (const Vec3& p : apply(transfer, a.horse.posed(a.walk, 0.3))) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
+      EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), a.bull.rest()), 1e-6);
+      for (const Vec3& p : frame_of(transfer, a.horse.posed(a.walk, 0.3))) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
     }
   }
   // all vertices of the target shared among two pairs
@@ -236,7 +236,7 @@ TEST(TransferPairs, OddRegionsGiveFiniteResultsAndKeepTheRules) {
   two[1].source = {back.data(), back.size()}, two[1].target = {other_half.data(), other_half.size()};
   hf::Transfer transfer(a.horse.core, a.bull.core, {});
   transfer.add_pairs({two, 2}, nullptr);
-  EXPECT_LT(largest_distance(apply(transfer, a.horse.rest()), a.bull.rest()), 1e-6);
+  EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), a.bull.rest()), 1e-6);
   EXPECT_EQ(transfer.cluster_count(), 2);
 }
 

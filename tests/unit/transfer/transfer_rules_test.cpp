@@ -33,7 +33,7 @@ TEST(TransferRules, TheRestFrameOfTheSourceGivesTheRestOfTheTarget) {
   for (const int32_t mode : {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER}) {
     hf::Transfer transfer(a.horse.core, a.bull.core, options(mode));
     add(transfer, a.pairs.inputs());
-    EXPECT_LT(largest_distance(apply(transfer, a.horse.rest()), a.bull.rest()), 1e-6 * a.box) << "mode " << mode;
+    EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), a.bull.rest()), 1e-6 * a.box) << "mode " << mode;
   }
 }
 
@@ -56,7 +56,7 @@ TEST(TransferRules, ARigidMotionOfTheSourceIsTheSameRigidMotionWithScaledTransla
       for (const Vec3& p : rest) posed.push_back(hf::rotate(rotation, p) + shift);
       const Vec3 moved = hf::rotate(rotation, source_centroid) + shift - source_centroid;
       for (const Vec3& p : target_rest) expected.push_back(hf::rotate(rotation, p - target_centroid) + target_centroid + transfer.scale() * moved);
-      EXPECT_LT(largest_distance(apply(transfer, posed), expected), 1e-6 * a.box) << "mode " << mode << " turn " << turn.x << " " << turn.y << " " << turn.z;
+      EXPECT_LT(largest_distance(frame_of(transfer, posed), expected), 1e-6 * a.box) << "mode " << mode << " turn " << turn.x << " " << turn.y << " " << turn.z;
     }
   }
 }
@@ -77,7 +77,7 @@ TEST(TransferRules, TurningTheSourceAboutTheVerticalWithItsAxesGivesTheSameClip)
   for (const double time : {0.0, 0.2, 0.55, 0.9}) {
     std::vector<glm::dvec3> posed = samples::posed_positions(a.horse.model, a.horse.mesh, a.walk, time), moved;
     for (const glm::dvec3& p : posed) moved.push_back(turned(p));
-    EXPECT_LT(largest_distance(apply(first, a.horse.inner(posed)), apply(second, other.inner(moved))), 1e-6 * a.box) << time;
+    EXPECT_LT(largest_distance(frame_of(first, a.horse.inner(posed)), frame_of(second, other.inner(moved))), 1e-6 * a.box) << time;
   }
 }
 
@@ -90,7 +90,7 @@ TEST(TransferRules, OnlyRotationsAreTransferredSoTheTargetsScaleDoesNotChangeThe
     add(transfer, a.pairs.inputs());
     std::vector<hf::Quaternion> all;
     for (const double time : {0.1, 0.6}) {
-      const std::vector<Vec3> posed = apply(transfer, a.horse.posed(a.walk, time));
+      const std::vector<Vec3> posed = frame_of(transfer, a.horse.posed(a.walk, time));
       std::vector<hf::Quaternion> frame(static_cast<size_t>(transfer.cluster_count()));
       transfer.skin_motion(nullptr, frame.data(), nullptr);
       all.insert(all.end(), frame.begin(), frame.end());
@@ -114,7 +114,7 @@ TEST(TransferRules, TheTargetIsNotStretchedByAStretchedSource) {
   add(transfer, inputs);
   std::vector<Vec3> posed = a.horse.rest();
   for (Vec3& p : posed) p = 2.0 * p;
-  const std::vector<Vec3> out = apply(transfer, posed), rest = a.bull.rest();
+  const std::vector<Vec3> out = frame_of(transfer, posed), rest = a.bull.rest();
   const hf::Topology& topology = a.bull.core->topology;
   for (int32_t e = 0; e < topology.edge_count(); ++e) {
     const auto i = static_cast<size_t>(topology.first(e)), j = static_cast<size_t>(topology.second(e));
@@ -131,7 +131,7 @@ TEST(TransferRules, ResultsAreTheSameBitsForAnyNumberOfThreads) {
     horse.build(world), bull.build(world);
     hf::Transfer transfer(horse.core, bull.core, options(HF_TRANSFER_FIELDS, 0));
     add(transfer, a.pairs.inputs());
-    const std::vector<Vec3> out = apply(transfer, horse.posed(a.walk, 0.37));
+    const std::vector<Vec3> out = frame_of(transfer, horse.posed(a.walk, 0.37));
     if (expected.empty()) expected = out;
     for (size_t v = 0; v < out.size(); ++v) {
       ASSERT_EQ(out[v].x, expected[v].x) << threads;
@@ -146,7 +146,7 @@ TEST(TransferRules, SteadyFramesAllocateNothing) {
   hf::Transfer transfer(a.horse.core, a.bull.core, options(HF_TRANSFER_FIELDS, 0));
   add(transfer, a.pairs.inputs());
   const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.2);
-  std::vector<Vec3> out = apply(transfer, posed);
+  std::vector<Vec3> out = frame_of(transfer, posed);
   const uint64_t before = a.world.memory->allocation_count();
   for (int i = 0; i < 100; ++i) transfer.apply(posed.data(), out.data());
   EXPECT_EQ(a.world.memory->allocation_count(), before);
@@ -157,7 +157,7 @@ TEST(TransferRules, TheSkinReplaysTheFrameAndItsWeightsSumToExactlyOne) {
   for (const int32_t mode : {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER}) {
     hf::Transfer transfer(a.horse.core, a.bull.core, options(mode, 0));
     add(transfer, a.pairs.inputs());
-    const std::vector<Vec3> out = apply(transfer, a.horse.posed(a.walk, 0.7)), rest = a.bull.rest();
+    const std::vector<Vec3> out = frame_of(transfer, a.horse.posed(a.walk, 0.7)), rest = a.bull.rest();
     const auto count = static_cast<size_t>(transfer.cluster_count());
     std::vector<Vec3> pivots(count), places(count);
     std::vector<hf::Quaternion> rotations(count);

@@ -103,7 +103,7 @@ inline Pairs find_pairs(const std::string& file, const Body& source, const Body&
 
 inline void add(hf::Transfer& transfer, const std::vector<hf::PairInput>& inputs, uint32_t* numbers = nullptr) { transfer.add_pairs({inputs.data(), inputs.size()}, numbers); }
 
-inline std::vector<hf::Vec3> apply(hf::Transfer& transfer, const std::vector<hf::Vec3>& posed) {
+inline std::vector<hf::Vec3> frame_of(hf::Transfer& transfer, const std::vector<hf::Vec3>& posed) {
   std::vector<hf::Vec3> out(static_cast<size_t>(transfer.target().size()));
   transfer.apply(posed.data(), out.data());
   return out;
