@@ -5,7 +5,7 @@
 // Each creature is one closed skin of genus 0 with UV charts. Vertices are stored once per chart they touch, so the
 // mesh falls apart as stored and becomes one piece again when bit-equal positions are welded, like game assets do.
 // Units: metres; Y up; the rest pose looks along +Z and stands on y = 0. Left is +X. Deterministic to the bit.
-// Cost: about 3 s for 300,000 vertices on one core. Failure: std::runtime_error (unknown name, count out of range).
+// Cost: 3 to 5 s for 300,000 vertices on one core. Failure: std::runtime_error (unknown name, count out of range).
 #ifndef HF_SAMPLES_ASSETS_CREATURE_H
 #define HF_SAMPLES_ASSETS_CREATURE_H
 

@@ -6,7 +6,7 @@
 //                limbs survive at any vertex count and the genus never changes
 //   subdivide    every edge cut in half, new vertices projected; 4 V - 6 vertices for a closed surface of genus 0
 //
-// even_mesh() puts them together. Cost: about 2 s per 10^6 vertices of the result plus under a second for the base.
+// base_mesh() and refine() put them together. Cost: 1 to 2 s for the base, about 10 s per 10^6 refined vertices.
 // Deterministic. Failure: std::runtime_error (the body is empty, has several pieces or a handle).
 #ifndef HF_SAMPLES_ASSETS_EVEN_MESH_H
 #define HF_SAMPLES_ASSETS_EVEN_MESH_H

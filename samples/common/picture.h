@@ -11,7 +11,7 @@
 //   write_png("field.png", render(surface, view, look));
 //
 // Everything is computed in double precision on one thread without random numbers: the same input gives the same bytes.
-// Cost: O(triangles + samples covered); 300,000 triangles at 800 x 600 with 3 x 3 samples take well under a second.
+// Cost: O(triangles + samples covered); 300,000 triangles at 800 x 600 with 3 x 3 samples take one to two seconds.
 // Failure: std::runtime_error with one sentence that names the wrong array or index; nothing is written.
 #ifndef HF_SAMPLES_COMMON_PICTURE_H
 #define HF_SAMPLES_COMMON_PICTURE_H

@@ -2,38 +2,56 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace hf {
 namespace {
 
-// Dot product with eight running sums: one fixed order of additions that compilers can still vectorise.
-double dot_product(const double* a, const double* b, std::size_t count) noexcept {
-  double sum[8] = {0, 0, 0, 0, 0, 0, 0, 0};
-  std::size_t i = 0;
-  for (; i + 8 <= count; i += 8) {
-    for (std::size_t k = 0; k < 8; ++k) sum[k] += a[i + k] * b[i + k];
-  }
-  for (; i < count; ++i) sum[0] += a[i] * b[i];
-  return ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
-}
+constexpr std::int32_t tile = 4;
 
 // A pivot this far below its diagonal means linear dependence: independent sites stay above 1e-9 even on bi-harmonic patches.
 constexpr double pivot_floor = 1e-13;
+
+// dots[i * tile + j] = a_i . b_j over `count` entries, four running sums each, in one fixed order for every instruction set.
+// clones need the dynamic linker's help (glibc), and sanitizers cannot run before it
+#if defined(__GLIBC__) && defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+__attribute__((target_clones("avx2", "default")))
+#endif
+void tile_dots(const double* const a[tile], const double* const b[tile], std::size_t count, double* dots) {
+  constexpr std::size_t lanes = 4;
+  double sum[tile * tile][lanes] = {};
+  std::size_t p = 0;
+  for (; p + lanes <= count; p += lanes) {
+    for (std::size_t i = 0; i < tile; ++i) {
+      for (std::size_t j = 0; j < tile; ++j) {
+        for (std::size_t k = 0; k < lanes; ++k) sum[i * tile + j][k] += a[i][p + k] * b[j][p + k];
+      }
+    }
+  }
+  for (; p < count; ++p) {
+    for (std::size_t i = 0; i < tile; ++i) {
+      for (std::size_t j = 0; j < tile; ++j) sum[i * tile + j][0] += a[i][p] * b[j][p];
+    }
+  }
+  for (std::size_t q = 0; q < tile * tile; ++q) dots[q] = (sum[q][0] + sum[q][2]) + (sum[q][1] + sum[q][3]);
+}
 
 }  // namespace
 
 DenseBlock::DenseBlock(const DenseBlock& other)
     : memory_(other.memory_),
-      slots_(other.slots_, other.memory_),
-      s_(other.s_, other.memory_),
+      ids_(other.ids_, other.memory_),
+      sign_(other.sign_, other.memory_),
+      m_(other.m_, other.memory_),
       l_(other.l_, other.memory_),
       valid_(other.valid_),
+      negative_(other.negative_),
       ones_(other.ones_, other.memory_),
       ones_sum_(other.ones_sum_) {}
 
 void DenseBlock::update_without(std::int32_t r) {
   // l = what column r leaves over below row r; rotate it into the columns that follow
-  Vector<double> left(slots_.size(), 0.0, memory_);
+  Vector<double> left(ids_.size(), 0.0, memory_);
   for (std::int32_t i = r + 1; i < valid_; ++i) left[static_cast<std::size_t>(i)] = l_[row(i) + static_cast<std::size_t>(r)];
   for (std::int32_t j = r + 1; j < valid_; ++j) {
     double& pivot = l_[row(j) + static_cast<std::size_t>(j)];
@@ -49,29 +67,33 @@ void DenseBlock::update_without(std::int32_t r) {
 }
 
 void DenseBlock::keep_rows(Span<const std::int32_t> rows) {
-  for (Vector<double>* packed : {&s_, &l_}) {
+  for (Vector<double>* packed : {&m_, &l_}) {
     std::size_t to = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       for (std::size_t j = 0; j <= i; ++j) (*packed)[to++] = (*packed)[row(rows[i]) + static_cast<std::size_t>(rows[j])];
     }
     packed->resize(to);
   }
-  for (std::size_t i = 0; i < rows.size(); ++i) slots_[i] = slots_[static_cast<std::size_t>(rows[i])];
-  slots_.resize(rows.size());
+  negative_ = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ids_[i] = ids_[static_cast<std::size_t>(rows[i])], sign_[i] = sign_[static_cast<std::size_t>(rows[i])];
+    negative_ += sign_[i] < 0;
+  }
+  ids_.resize(rows.size()), sign_.resize(rows.size());
 }
 
-void DenseBlock::remove(Span<const std::int32_t> slots) {
-  if (slots.empty()) return;
-  Vector<std::int32_t> leaving(slots.begin(), slots.end(), memory_);
+void DenseBlock::remove(Span<const std::int32_t> ids) {
+  if (ids.empty()) return;
+  Vector<std::int32_t> leaving(ids.begin(), ids.end(), memory_);
   std::sort(leaving.begin(), leaving.end());
-  const auto leaves = [&](std::int32_t slot) { return std::binary_search(leaving.begin(), leaving.end(), slot); };
-  const double k = count(), d = static_cast<double>(slots.size()), left = k - d;
+  const auto leaves = [&](std::int32_t id) { return std::binary_search(leaving.begin(), leaving.end(), id); };
+  const double k = count(), d = static_cast<double>(ids.size()), left = k - d;
   Vector<std::int32_t> kept(memory_);
-  kept.reserve(slots_.size());
-  if (d * 2 * k * k < left * left * left / 3 + 1e4) {
+  kept.reserve(ids_.size());
+  if (negative_ == 0 && d * 2 * k * k < left * left * left / 3 + 1e4) {
     // from the last row to the first: later rows move least
     for (std::int32_t r = count() - 1; r >= 0; --r) {
-      if (!leaves(slots_[static_cast<std::size_t>(r)])) continue;
+      if (!leaves(ids_[static_cast<std::size_t>(r)])) continue;
       if (r < valid_) update_without(r), --valid_;
       kept.clear();
       for (std::int32_t i = 0; i < count(); ++i) {
@@ -83,7 +105,7 @@ void DenseBlock::remove(Span<const std::int32_t> slots) {
   }
   std::int32_t first = count();
   for (std::int32_t i = 0; i < count(); ++i) {
-    if (!leaves(slots_[static_cast<std::size_t>(i)])) {
+    if (!leaves(ids_[static_cast<std::size_t>(i)])) {
       kept.push_back(i);
     } else if (first == count()) {
       first = i;
@@ -93,27 +115,64 @@ void DenseBlock::remove(Span<const std::int32_t> slots) {
   valid_ = std::min(valid_, first);
 }
 
-void DenseBlock::append(std::int32_t slot, const double* values) {
+void DenseBlock::append(std::int32_t id, const double* values, bool positive) {
   const std::size_t width = static_cast<std::size_t>(count()) + 1;
-  s_.insert(s_.end(), values, values + width);
-  l_.resize(s_.size(), 0.0);
-  slots_.push_back(slot);
+  m_.insert(m_.end(), values, values + width);
+  l_.resize(m_.size(), 0.0);
+  ids_.push_back(id);
+  sign_.push_back(positive ? 1.0 : -1.0);
+  negative_ += !positive;
 }
 
 std::int32_t DenseBlock::factorise() {
   const std::int32_t k = count();
-  for (std::int32_t i = valid_; i < k; ++i) {
-    const double* s = s_.data() + row(i);
-    double* l = l_.data() + row(i);
-    for (std::int32_t j = 0; j < i; ++j) {
-      const double* lj = l_.data() + row(j);
-      l[j] = (s[j] - dot_product(l, lj, static_cast<std::size_t>(j))) / lj[j];
+  // four rows at a time on a fixed grid; scaled holds l_i Sigma of the rows under way
+  Vector<double> scaled(static_cast<std::size_t>(tile) * static_cast<std::size_t>(k), 0.0, memory_);
+  double dots[tile * tile];
+  while (valid_ < k) {
+    const std::int32_t grid = valid_ / tile * tile, end = std::min(grid + tile, k);
+    const double* mine[tile];
+    for (std::int32_t i = 0; i < tile; ++i) mine[i] = scaled.data() + static_cast<std::size_t>(std::min(grid + i, end - 1) - grid) * static_cast<std::size_t>(k);
+    for (std::int32_t j0 = 0; j0 <= grid; j0 += tile) {
+      const double* other[tile];
+      for (std::int32_t j = 0; j < tile; ++j) other[j] = l_.data() + row(std::min(j0 + j, k - 1));
+      if (j0 < grid) tile_dots(mine, other, static_cast<std::size_t>(j0), dots);
+      for (std::int32_t i = valid_; i < end; ++i) {
+        double* l = l_.data() + row(i);
+        double* sigma = scaled.data() + static_cast<std::size_t>(i - grid) * static_cast<std::size_t>(k);
+        const double* m = m_.data() + row(i);
+        for (std::int32_t j = j0; j < std::min(j0 + tile, i); ++j) {
+          double sum = m[j];
+          if (j0 < grid) {
+            sum -= dots[(i - grid) * tile + (j - j0)];
+          } else {
+            // the diagonal tile: rows of the same four
+            const double* a[tile] = {sigma, sigma, sigma, sigma};
+            const double* b[tile] = {l_.data() + row(j), l_.data() + row(j), l_.data() + row(j), l_.data() + row(j)};
+            double own[tile * tile];
+            tile_dots(a, b, static_cast<std::size_t>(grid), own);
+            sum -= own[0];
+          }
+          const double* lj = l_.data() + row(j);
+          for (std::int32_t p = j0; p < j; ++p) sum -= sigma[p] * lj[p];
+          l[j] = sign_[static_cast<std::size_t>(j)] * sum / lj[j];
+          sigma[j] = sign_[static_cast<std::size_t>(j)] * l[j];
+        }
+        if (j0 < grid) continue;
+        const double* a[tile] = {sigma, sigma, sigma, sigma};
+        const double* b[tile] = {l, l, l, l};
+        double own[tile * tile];
+        tile_dots(a, b, static_cast<std::size_t>(grid), own);
+        double pivot = m[i] - own[0];
+        for (std::int32_t p = grid; p < i; ++p) pivot -= sigma[p] * l[p];
+        pivot *= sign_[static_cast<std::size_t>(i)];
+        if (!(pivot > pivot_floor * std::fabs(m[i]))) return i;
+        l[i] = std::sqrt(pivot);
+      }
     }
-    const double pivot = s[i] - dot_product(l, l, static_cast<std::size_t>(i));
-    if (!(pivot > pivot_floor * s[i])) return i;
-    l[i] = std::sqrt(pivot);
-    valid_ = i + 1;
+    valid_ = end;
   }
+  if (negative_ > 0) return -1;
   ones_.assign(static_cast<std::size_t>(k), 1.0);
   solve(ones_.data(), 1);
   ones_sum_ = 0;
@@ -131,6 +190,9 @@ void DenseBlock::solve(double* x, std::int32_t channels) const noexcept {
       for (std::size_t c = 0; c < m; ++c) xi[c] -= l[j] * x[static_cast<std::size_t>(j) * m + c];
     }
     for (std::size_t c = 0; c < m; ++c) xi[c] /= l[i];
+  }
+  for (std::int32_t i = 0; negative_ > 0 && i < k; ++i) {
+    for (std::size_t c = 0; c < m; ++c) x[static_cast<std::size_t>(i) * m + c] *= sign_[static_cast<std::size_t>(i)];
   }
   for (std::int32_t i = k - 1; i >= 0; --i) {
     const double* l = l_.data() + row(i);

@@ -168,7 +168,7 @@ void GreenSolver::add_sites(State& state, const SiteEdit& edit) const {
   Vector<Index> next_row(state.blocks.size(), 0, &memory());
   for (std::size_t c = 0; c < state.blocks.size(); ++c) {
     if (!state.blocks[c]) continue;
-    for (const Index slot : state.blocks[c]->slots()) row[at(slot)] = next_row[c]++;
+    for (const Index slot : state.blocks[c]->ids()) row[at(slot)] = next_row[c]++;
   }
   Vector<std::size_t> start(edit.add.size() + 1, 0, &memory());  // rows of S of the new sites, one after the other
   for (std::size_t i = 0; i < edit.add.size(); ++i) {
@@ -223,7 +223,7 @@ void GreenSolver::add_sites(State& state, const SiteEdit& edit) const {
     if (!open[c]) continue;
     const Index lost = open[c]->factorise();
     if (lost >= 0) {
-      const Index slot = open[c]->slots()[at(lost)];
+      const Index slot = open[c]->ids()[at(lost)];
       const Index i = position[at(slot)];
       fail(HF_ERROR_CONFLICT, i >= 0 ? static_cast<std::uint32_t>(i) : HF_NO_INDEX,
            "site %d of the batch depends linearly on hard sites that are there (at most three independent points fit into one triangle); leave it out or make it soft", i);
@@ -240,7 +240,7 @@ void GreenSolver::solve_dense(const double* values, Index channels, Index first,
   for (std::size_t c = 0; c < state_.blocks.size(); ++c) {
     const DenseBlock* block = state_.blocks[c].get();
     if (!block) continue;
-    const Span<const Index> slots = block->slots();
+    const Span<const Index> slots = block->ids();
     double* a = constant.data() + c * m;
     // centre the values: a large common offset must not cost digits
     for (const Index slot : slots) {

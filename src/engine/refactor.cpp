@@ -170,7 +170,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
   for (std::size_t component = 0; component < state_.dense.size(); ++component) {
     const DenseBlock* block = state_.dense[component].get();
     if (!block) continue;
-    const Span<const Index> members = block->slots();
+    const Span<const Index> members = block->ids();
     x.resize(members.size() * m);
     for (std::size_t i = 0; i < members.size(); ++i) {
       const std::size_t slot = at(state_.points[at(members[i])]);

@@ -10,10 +10,10 @@
 namespace hf {
 namespace {
 
-constexpr std::int32_t leaf_size = 180;     // parts this small are ordered by exact minimum degree
-constexpr std::int32_t halo_limit = 1500;   // a leaf with more halo is ordered without it
-constexpr std::int32_t task_size = 4000;    // parts this small are one job to the end
-constexpr std::size_t most_parts = 64;      // parts cut one wave at a time before every one becomes a job
+constexpr std::int32_t leaf_size = 180;    // parts this small are ordered by exact minimum degree
+constexpr std::int32_t halo_limit = 1500;  // a leaf with more halo is ordered without it
+constexpr std::int32_t task_size = 4000;   // parts this small are one job to the end
+constexpr std::size_t most_parts = 64;     // parts cut one wave at a time before every one becomes a job
 
 // A part of the graph with numbers of its own. Its vertices take the places [begin, begin + size) of the order.
 struct Part {
@@ -35,7 +35,13 @@ struct Part {
 // What one thread needs.
 struct Workspace {
   Workspace(Memory& memory, std::int32_t unknowns)
-      : bisection(memory), leaf(memory), side(&memory), number(&memory), halo(&memory), local_of(memory, static_cast<std::size_t>(unknowns)), found(&memory) {
+      : bisection(memory),
+        leaf(memory),
+        side(&memory),
+        number(&memory),
+        halo(&memory),
+        local_of(memory, static_cast<std::size_t>(unknowns)),
+        found(&memory) {
     std::fill(local_of.begin(), local_of.end(), -1);
   }
   MultilevelBisection bisection;
@@ -48,7 +54,8 @@ struct Workspace {
 
 class Dissection {
  public:
-  Dissection(const SymmetricMatrix& matrix, Coordinates coordinates, Memory& memory, JobRunner& jobs, std::int32_t* order)
+  Dissection(const SymmetricMatrix& matrix, Coordinates coordinates, Memory& memory, JobRunner& jobs,
+             std::int32_t* order)
       : matrix_(matrix), coordinates_(coordinates), memory_(memory), jobs_(jobs), order_(order), free_(&memory) {}
 
   void run(Progress* progress) {
@@ -127,7 +134,8 @@ class Dissection {
     }
   }
 
-  void extract(Part& part, const Workspace& workspace, std::uint8_t side, std::int32_t size, std::size_t edges, Part& out) {
+  void extract(Part& part, const Workspace& workspace, std::uint8_t side, std::int32_t size, std::size_t edges,
+               Part& out) {
     out.allocate(memory_, size, edges, !part.point.empty());
     const std::uint8_t* side_of = workspace.side.data();
     const std::int32_t* number = workspace.number.data();
@@ -139,7 +147,9 @@ class Dissection {
     for (std::int32_t u = 0; u < part.size; ++u) {
       if (side_of[u] != side) continue;
       out_id[v] = id[u], out_start[v] = k;
-      if (point) std::copy(point + 3 * static_cast<std::size_t>(u), point + 3 * static_cast<std::size_t>(u) + 3, out_point + 3 * static_cast<std::size_t>(v));
+      if (point)
+        std::copy(point + 3 * static_cast<std::size_t>(u), point + 3 * static_cast<std::size_t>(u) + 3,
+                  out_point + 3 * static_cast<std::size_t>(v));
       for (std::int32_t e = start[u]; e < start[u + 1]; ++e) {
         const std::int32_t w = neighbour[e];
         out_neighbour[k] = number[w];
@@ -203,8 +213,10 @@ class Dissection {
     std::shared_ptr<Workspace> workspace;
     {
       std::lock_guard<std::mutex> lock(mutex_);
-      if (!free_.empty()) workspace = free_.back(), free_.pop_back();
-      else free_.reserve(++made_);
+      if (!free_.empty())
+        workspace = free_.back(), free_.pop_back();
+      else
+        free_.reserve(++made_);
     }
     if (!workspace) workspace = make_shared_in<Workspace>(memory_, memory_, matrix_.size());
     work(*workspace);
@@ -224,8 +236,8 @@ class Dissection {
 
 }  // namespace
 
-void order_by_dissection(const SymmetricMatrix& matrix, Coordinates coordinates, Memory& memory, JobRunner& jobs, Progress* progress,
-                         Buffer<std::int32_t>& order) {
+void order_by_dissection(const SymmetricMatrix& matrix, Coordinates coordinates, Memory& memory, JobRunner& jobs,
+                         Progress* progress, Buffer<std::int32_t>& order) {
   order.allocate(memory, static_cast<std::size_t>(matrix.size()));
   if (matrix.size() == 0) return;
   Dissection(matrix, coordinates, memory, jobs, order.data()).run(progress);

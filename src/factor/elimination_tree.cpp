@@ -5,7 +5,8 @@
 namespace hf {
 namespace {
 
-// Liu's algorithm: parent[j] by walking from every neighbour k < i up to its present root, ancestors path-compressed to i.
+// Liu's algorithm: parent[j] by walking from every neighbour k < i up to its present root, ancestors path-compressed to
+// i.
 void link_tree(const SymmetricMatrix& matrix, const std::int32_t* order, const std::int32_t* position, std::int32_t n,
                std::int32_t* parent, std::int32_t* ancestor) {
   constexpr std::int32_t ahead = 12;
@@ -29,7 +30,8 @@ void link_tree(const SymmetricMatrix& matrix, const std::int32_t* order, const s
 }
 
 // Postorder without recursion: post[k] = node visited k-th. Children ascending.
-void make_postorder(const std::int32_t* parent, std::int32_t n, std::int32_t* post, std::int32_t* head, std::int32_t* next) {
+void make_postorder(const std::int32_t* parent, std::int32_t n, std::int32_t* post, std::int32_t* head,
+                    std::int32_t* next) {
   std::fill(head, head + n, -1);
   for (std::int32_t j = n - 1; j >= 0; --j) {
     if (parent[j] < 0) continue;
@@ -76,8 +78,9 @@ void make_lower(const SymmetricMatrix& matrix, Memory& memory, const std::int32_
   lower_start[n] = k;
 }
 
-// Column counts by row subtrees: j is a leaf of the subtree of row i when no node of the subtree of j is in it yet; the least
-// common ancestor with the previous leaf is subtracted once. Labels are postordered; descendants of j are [first[j], j].
+// Column counts by row subtrees: j is a leaf of the subtree of row i when no node of the subtree of j is in it yet; the
+// least common ancestor with the previous leaf is subtracted once. Labels are postordered; descendants of j are
+// [first[j], j].
 void count_columns(EliminationTree& tree, std::int32_t n, Memory& memory) {
   Buffer<std::int32_t> work(memory, static_cast<std::size_t>(n) * 4 + 4);
   std::int32_t* first = work.data();
@@ -100,8 +103,10 @@ void count_columns(EliminationTree& tree, std::int32_t n, Memory& memory) {
   }
   for (std::int32_t j = 0; j < n; ++j) first[j] = -1;
   for (std::int32_t j = 0; j < n; ++j) {
-    if (first[j] < 0) first[j] = j, count[j] = 1;  // a leaf of the tree
-    else count[j] = 0;
+    if (first[j] < 0)
+      first[j] = j, count[j] = 1;  // a leaf of the tree
+    else
+      count[j] = 0;
     if (parent[j] >= 0 && first[parent[j]] < 0) first[parent[j]] = first[j];
     previous_leaf[j] = -1, set[j] = j;
   }
@@ -133,7 +138,8 @@ void count_columns(EliminationTree& tree, std::int32_t n, Memory& memory) {
 
 }  // namespace
 
-void make_elimination_tree(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memory& memory, EliminationTree& out) {
+void make_elimination_tree(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memory& memory,
+                           EliminationTree& out) {
   const std::int32_t n = matrix.size();
   const std::size_t size = static_cast<std::size_t>(n);
   Buffer<std::int32_t> work(memory, size * 5 + 1);

@@ -44,12 +44,14 @@ void require_well_formed(const SymmetricMatrix& matrix) {
       previous = row;
     }
     if (!ascending || !diagonal) {
-      fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(j), "column %d of the matrix: rows must ascend, lie in range and hold the diagonal", j);
+      fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(j),
+           "column %d of the matrix: rows must ascend, lie in range and hold the diagonal", j);
     }
   }
 }
 
-// Every entry of the matrix must have its place in the factor; asked of loaded factors, whose pattern hash may be forged.
+// Every entry of the matrix must have its place in the factor; asked of loaded factors, whose pattern hash may be
+// forged.
 void require_inside(const SymmetricMatrix& matrix, const Symbolic& symbolic, Memory& memory) {
   Buffer<std::int32_t> owner(memory, static_cast<std::size_t>(symbolic.size));
   std::fill(owner.begin(), owner.end(), -1);
@@ -61,7 +63,8 @@ void require_inside(const SymmetricMatrix& matrix, const Symbolic& symbolic, Mem
       for (std::int32_t e = matrix.column_start[unknown]; e < matrix.column_start[unknown + 1]; ++e) {
         const std::int32_t other = symbolic.position[matrix.row[e]];
         if (other < j || owner[other] == s) continue;
-        fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(unknown), "the loaded factor has no place for column %d of this matrix: it belongs to another mesh", unknown);
+        fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(unknown),
+             "the loaded factor has no place for column %d of this matrix: it belongs to another mesh", unknown);
       }
     }
   }
@@ -82,7 +85,8 @@ std::uint64_t hash_pattern(const SymmetricMatrix& matrix) noexcept {
   const std::size_t count = matrix.row.size();
   const std::int32_t* row = matrix.row.data();
   std::size_t e = 0;
-  for (; e + 2 <= count; e += 2) mix(static_cast<std::uint64_t>(static_cast<std::uint32_t>(row[e])) << 32 | static_cast<std::uint32_t>(row[e + 1]));
+  for (; e + 2 <= count; e += 2)
+    mix(static_cast<std::uint64_t>(static_cast<std::uint32_t>(row[e])) << 32 | static_cast<std::uint32_t>(row[e + 1]));
   if (e < count) mix(static_cast<std::uint32_t>(row[e]));
   return hash;
 }
@@ -96,7 +100,8 @@ SupernodalFactor::SupernodalFactor(std::shared_ptr<const Analysis> analysis, Mem
   statistics_.bytes = 8.0 * symbolic().stored_entries + symbolic().index_bytes() + plan().bytes();
 }
 
-void SupernodalFactor::compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, JobRunner& jobs, Progress* progress) {
+void SupernodalFactor::compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, JobRunner& jobs,
+                               Progress* progress) {
   Stopwatch watch;
   require_finite(matrix);
   values_.allocate(memory_, static_cast<std::size_t>(symbolic().stored_entries) + value_slack);
@@ -104,12 +109,13 @@ void SupernodalFactor::compute(const SymmetricMatrix& matrix, Span<const std::ui
   statistics_.numeric_ms = watch.lap_ms();
 }
 
-std::shared_ptr<const Factor> Factor::make(const SymmetricMatrix& matrix, Coordinates coordinates, const FactorOptions& options, Memory& memory,
-                                           JobRunner& jobs) {
+std::shared_ptr<const Factor> Factor::make(const SymmetricMatrix& matrix, Coordinates coordinates,
+                                           const FactorOptions& options, Memory& memory, JobRunner& jobs) {
   require_well_formed(matrix);
   require_finite(matrix);
   if (!coordinates.empty() && coordinates.size() != 3 * static_cast<std::size_t>(matrix.size())) {
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%zu coordinates for %d unknowns: three each, or none", coordinates.size(), matrix.size());
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%zu coordinates for %d unknowns: three each, or none",
+         coordinates.size(), matrix.size());
   }
   report(options.progress, 0.0f);
   Stopwatch watch;
@@ -140,10 +146,12 @@ std::shared_ptr<const Factor> Factor::make(const SymmetricMatrix& matrix, Coordi
   return factor;
 }
 
-std::shared_ptr<const Factor> SupernodalFactor::refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, Memory& memory,
+std::shared_ptr<const Factor> SupernodalFactor::refactor(const SymmetricMatrix& matrix,
+                                                         Span<const std::uint8_t> eliminated, Memory& memory,
                                                          JobRunner& jobs) const {
   if (matrix.size() != size() || hash_pattern(matrix) != analysis_->pattern_hash) {
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "refactor takes a matrix of the same pattern; make a new factor instead");
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "refactor takes a matrix of the same pattern; make a new factor instead");
   }
   if (!eliminated.empty() && eliminated.size() != static_cast<std::size_t>(size())) {
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%zu elimination marks for %d unknowns", eliminated.size(), size());

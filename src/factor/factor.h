@@ -1,5 +1,5 @@
-// Sparse Cholesky factorisation P A P' = G G' of a symmetric positive definite matrix, made for many cheap questions to one
-// immutable factor:
+// Sparse Cholesky factorisation P A P' = G G' of a symmetric positive definite matrix, made for many cheap questions to
+// one immutable factor:
 //   factorise   fill-reducing ordering, symbolic analysis, numeric supernodal factorisation;
 //   sweeps      z <- G^-1 z (forward), z <- G^-T z (backward), m right-hand sides at once;
 //   paths       Y = G^-1 P W for sparse columns of W (sites): non-zero only along elimination-tree paths;
@@ -51,10 +51,11 @@ class PathGroup;
 
 class Factor {
  public:
-  // Orders, analyses and factorises. Throws HF_ERROR_NOT_POSITIVE_DEFINITE (index = the column in the caller's numbering) when a
-  // pivot is lost, HF_ERROR_NON_FINITE for NaN or infinity, HF_ERROR_TOO_LARGE, std::bad_alloc, or HF_ERROR_CANCELLED.
-  static std::shared_ptr<const Factor> make(const SymmetricMatrix& matrix, Coordinates coordinates, const FactorOptions& options, Memory& memory,
-                                            JobRunner& jobs);
+  // Orders, analyses and factorises. Throws HF_ERROR_NOT_POSITIVE_DEFINITE (index = the column in the caller's
+  // numbering) when a pivot is lost, HF_ERROR_NON_FINITE for NaN or infinity, HF_ERROR_TOO_LARGE, std::bad_alloc, or
+  // HF_ERROR_CANCELLED.
+  static std::shared_ptr<const Factor> make(const SymmetricMatrix& matrix, Coordinates coordinates,
+                                            const FactorOptions& options, Memory& memory, JobRunner& jobs);
 
   virtual ~Factor() = default;
   virtual std::int32_t size() const noexcept = 0;
@@ -68,13 +69,15 @@ class Factor {
   virtual void forward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
   virtual void backward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
 
-  // Numeric refactorisation with the same pattern. `eliminated` (per unknown, caller's numbering, may be empty): rows and columns set to
-  // the identity, pattern kept: the rebase. Shares symbolic analysis and ordering with *this.
-  virtual std::shared_ptr<const Factor> refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, Memory& memory, JobRunner& jobs) const = 0;
+  // Numeric refactorisation with the same pattern. `eliminated` (per unknown, caller's numbering, may be empty): rows
+  // and columns set to the identity, pattern kept: the rebase. Shares symbolic analysis and ordering with *this.
+  virtual std::shared_ptr<const Factor> refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated,
+                                                 Memory& memory, JobRunner& jobs) const = 0;
 
   // Paths of a batch, cut into groups; out_group[i], out_column[i] tell where column i went. Cost: sum of path entries.
-  virtual void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs, Vector<std::shared_ptr<const PathGroup>>& out_groups,
-                           Span<std::int32_t> out_group, Span<std::int32_t> out_column) const = 0;
+  virtual void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
+                           Vector<std::shared_ptr<const PathGroup>>& out_groups, Span<std::int32_t> out_group,
+                           Span<std::int32_t> out_column) const = 0;
 
   // gram[i * ld + j] = y_i(a)' y_j(b), i < a.count(), j < b.count().
   virtual void gram(const PathGroup& a, const PathGroup& b, double* gram, std::int32_t ld) const = 0;
@@ -82,7 +85,8 @@ class Factor {
   // z[row * channels + c] += sum_i Y[row, i] lambda[i * channels + c], lambda of the group's own columns.
   virtual void combine(const PathGroup& group, const double* lambda, std::int32_t channels, double* z) const = 0;
 
-  // z[row, .] = 0 on every row the group touches: undoes combine at the cost of the paths, not of n (partial evaluation).
+  // z[row, .] = 0 on every row the group touches: undoes combine at the cost of the paths, not of n (partial
+  // evaluation).
   virtual void clear(const PathGroup& group, std::int32_t channels, double* z) const = 0;
 
   // out[i * channels + c] = y_i' z[., c]: the transpose of combine.

@@ -61,7 +61,8 @@ struct Layout {
 };
 
 [[noreturn]] void refuse(const char* what) {
-  fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the bytes are no saved factor: %s; save it again with this library", what);
+  fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the bytes are no saved factor: %s; save it again with this library",
+       what);
 }
 
 void read_lists(const std::uint8_t* bytes, const Layout& layout, const Header& header, Memory& memory, Symbolic& out) {
@@ -159,7 +160,8 @@ std::uint64_t saved_factor_size(const Factor& factor) {
   const SupernodalFactor& full = static_cast<const SupernodalFactor&>(factor);
   const Symbolic& symbolic = full.symbolic();
   return Layout(static_cast<std::uint64_t>(symbolic.size), static_cast<std::uint64_t>(symbolic.supernodes),
-                static_cast<std::uint64_t>(symbolic.row_start[symbolic.supernodes]), static_cast<std::uint64_t>(symbolic.stored_entries))
+                static_cast<std::uint64_t>(symbolic.row_start[symbolic.supernodes]),
+                static_cast<std::uint64_t>(symbolic.stored_entries))
       .length;
 }
 
@@ -173,10 +175,12 @@ void save_factor(const Factor& factor, Span<std::uint8_t> out) {
   header.value_count = static_cast<std::uint64_t>(symbolic.stored_entries);
   header.pattern_hash = full.analysis()->pattern_hash;
   header.entries = symbolic.entries, header.flops = symbolic.flops;
-  const Layout layout(static_cast<std::uint64_t>(symbolic.size), static_cast<std::uint64_t>(symbolic.supernodes), header.row_count, header.value_count);
+  const Layout layout(static_cast<std::uint64_t>(symbolic.size), static_cast<std::uint64_t>(symbolic.supernodes),
+                      header.row_count, header.value_count);
   header.length = layout.length;
   if (out.size() < layout.length) {
-    fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "the saved factor takes %llu bytes, the buffer has %zu", static_cast<unsigned long long>(layout.length), out.size());
+    fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "the saved factor takes %llu bytes, the buffer has %zu",
+         static_cast<unsigned long long>(layout.length), out.size());
   }
   std::uint8_t* bytes = out.data();
   if (symbolic.size > 0) std::memcpy(bytes + layout.order, symbolic.order.data(), 4 * symbolic.order.size());
@@ -199,19 +203,24 @@ std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, std::i
   std::memcpy(&header, bytes.data(), sizeof header);
   if (header.magic != magic) refuse("wrong beginning");
   if (header.version != version) {
-    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the saved factor has version %u, this library reads %u; save it again", header.version, version);
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the saved factor has version %u, this library reads %u; save it again",
+         header.version, version);
   }
   if (header.header_check != checksum_of(bytes.data(), offsetof(Header, header_check))) refuse("its header is damaged");
   constexpr std::uint64_t most = std::uint64_t{1} << 48;
-  if (header.unknowns < 0 || header.supernodes < 0 || header.supernodes > header.unknowns || header.row_count > most || header.value_count > most) {
+  if (header.unknowns < 0 || header.supernodes < 0 || header.supernodes > header.unknowns || header.row_count > most ||
+      header.value_count > most) {
     refuse("its sizes make no sense");
   }
   if (header.unknowns != unknowns) {
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the saved factor has %d unknowns, %d are expected: it belongs to another mesh", header.unknowns, unknowns);
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "the saved factor has %d unknowns, %d are expected: it belongs to another mesh", header.unknowns, unknowns);
   }
-  const Layout layout(static_cast<std::uint64_t>(header.unknowns), static_cast<std::uint64_t>(header.supernodes), header.row_count, header.value_count);
+  const Layout layout(static_cast<std::uint64_t>(header.unknowns), static_cast<std::uint64_t>(header.supernodes),
+                      header.row_count, header.value_count);
   if (layout.length != header.length || layout.length != bytes.size()) refuse("its length is wrong");
-  if (header.checksum != checksum_of(bytes.data() + sizeof header, layout.length - sizeof header)) refuse("its checksum is wrong");
+  if (header.checksum != checksum_of(bytes.data() + sizeof header, layout.length - sizeof header))
+    refuse("its checksum is wrong");
   std::shared_ptr<Analysis> analysis = make_shared_in<Analysis>(memory);
   Symbolic& symbolic = analysis->symbolic;
   read_lists(bytes.data(), layout, header, memory, symbolic);

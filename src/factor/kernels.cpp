@@ -18,7 +18,8 @@ const Kernels* avx2_kernels() noexcept {
 
 const Kernels* avx512_kernels() noexcept {
 #if defined(HF_KERNELS_X86)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) return &kernels_avx512_set;
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
+    return &kernels_avx512_set;
 #endif
   return nullptr;
 }

@@ -1,6 +1,6 @@
-// Front kernels: triangle, tiles, update matrix, extend-add, write-out. Included by the kernels_*.cpp files after a simd_*.h;
-// everything is in an unnamed namespace and uses no inline code of the standard library, so that no function compiled for one
-// instruction set is ever linked into another.
+// Front kernels: triangle, tiles, update matrix, extend-add, write-out. Included by the kernels_*.cpp files after a
+// simd_*.h; everything is in an unnamed namespace and uses no inline code of the standard library, so that no function
+// compiled for one instruction set is ever linked into another.
 #include <cstddef>
 #include <cstdint>
 
@@ -20,7 +20,8 @@ inline double* vector_row(double* tiles, std::int32_t v, std::int64_t tile_strid
 
 // c[r][j] = (fresh ? 0 : c[r][j]) - sum over k of a[r][k] b[j][k]: a, b step 8 doubles per k, c steps c_step per j.
 template <int R, int N, bool Fresh>
-inline void multiply_block(const double* const* a, const double* b, std::int32_t k_count, double* const* c, std::int64_t c_step) noexcept {
+inline void multiply_block(const double* const* a, const double* b, std::int32_t k_count, double* const* c,
+                           std::int64_t c_step) noexcept {
   D::Type sum[R][N];
   for (int r = 0; r < R; ++r) {
     for (int j = 0; j < N; ++j) sum[r][j] = Fresh ? D::zero() : D::load(c[r] + j * c_step);
@@ -41,7 +42,8 @@ inline void multiply_block(const double* const* a, const double* b, std::int32_t
 
 // All 8 columns of one column tile for R vector-rows.
 template <int R, bool Fresh>
-inline void multiply_tile(const double* const* a, const double* b, std::int32_t k_count, double* const* c, std::int64_t c_step) noexcept {
+inline void multiply_tile(const double* const* a, const double* b, std::int32_t k_count, double* const* c,
+                          std::int64_t c_step) noexcept {
   for (int j = 0; j < 8; j += gemm_columns) {
     double* part[R];
     for (int r = 0; r < R; ++r) part[r] = c[r] + j * c_step;
@@ -50,7 +52,8 @@ inline void multiply_tile(const double* const* a, const double* b, std::int32_t 
 }
 
 // The last columns of a panel when nc is no multiple of 8: `width` columns, one vector-row.
-inline void multiply_narrow(const double* a, const double* b, std::int32_t k_count, double* c, std::int32_t width) noexcept {
+inline void multiply_narrow(const double* a, const double* b, std::int32_t k_count, double* c,
+                            std::int32_t width) noexcept {
   double* row[1] = {c};
   const double* left[1] = {a};
   std::int32_t j = 0;
@@ -64,8 +67,10 @@ inline void multiply_narrow(const double* a, const double* b, std::int32_t k_cou
   }
 }
 
-// Vector-rows [v, v_end) of panel columns [8 block, 8 block + width) -= those of the columns before, from column k_begin on.
-inline void panel_multiply(double* panel, std::int64_t tile_stride, std::int32_t v, std::int32_t v_end, std::int32_t block, std::int32_t width) noexcept {
+// Vector-rows [v, v_end) of panel columns [8 block, 8 block + width) -= those of the columns before, from column
+// k_begin on.
+inline void panel_multiply(double* panel, std::int64_t tile_stride, std::int32_t v, std::int32_t v_end,
+                           std::int32_t block, std::int32_t width) noexcept {
   const double* b = panel + block * tile_stride;
   const std::int32_t k_count = 8 * block;
   if (k_count == 0) return;
@@ -94,7 +99,8 @@ inline void panel_multiply(double* panel, std::int64_t tile_stride, std::int32_t
   }
 }
 
-// One vector-row of `Width` columns times the inverse transpose of the 8 x 8 triangle at `diagonal` ([column][8], diagonal inverted).
+// One vector-row of `Width` columns times the inverse transpose of the 8 x 8 triangle at `diagonal` ([column][8],
+// diagonal inverted).
 template <int Width>
 inline void solve_vector_row(double* c, const double* diagonal) noexcept {
   D::Type x[Width];
@@ -107,21 +113,32 @@ inline void solve_vector_row(double* c, const double* diagonal) noexcept {
 }
 
 template <int Width>
-void solve_rows_fixed(double* panel, std::int64_t tile_stride, std::int32_t v, std::int32_t v_end, std::int32_t block) noexcept {
+void solve_rows_fixed(double* panel, std::int64_t tile_stride, std::int32_t v, std::int32_t v_end,
+                      std::int32_t block) noexcept {
   const double* diagonal = panel + block * tile_stride + 64 * static_cast<std::int64_t>(block);
-  for (; v < v_end; ++v) solve_vector_row<Width>(vector_row(panel, v, tile_stride) + 64 * static_cast<std::int64_t>(block), diagonal);
+  for (; v < v_end; ++v)
+    solve_vector_row<Width>(vector_row(panel, v, tile_stride) + 64 * static_cast<std::int64_t>(block), diagonal);
 }
 
-void solve_rows(double* panel, std::int64_t tile_stride, std::int32_t v, std::int32_t v_end, std::int32_t block, std::int32_t width) noexcept {
+void solve_rows(double* panel, std::int64_t tile_stride, std::int32_t v, std::int32_t v_end, std::int32_t block,
+                std::int32_t width) noexcept {
   switch (width) {
-    case 1: return solve_rows_fixed<1>(panel, tile_stride, v, v_end, block);
-    case 2: return solve_rows_fixed<2>(panel, tile_stride, v, v_end, block);
-    case 3: return solve_rows_fixed<3>(panel, tile_stride, v, v_end, block);
-    case 4: return solve_rows_fixed<4>(panel, tile_stride, v, v_end, block);
-    case 5: return solve_rows_fixed<5>(panel, tile_stride, v, v_end, block);
-    case 6: return solve_rows_fixed<6>(panel, tile_stride, v, v_end, block);
-    case 7: return solve_rows_fixed<7>(panel, tile_stride, v, v_end, block);
-    default: return solve_rows_fixed<8>(panel, tile_stride, v, v_end, block);
+    case 1:
+      return solve_rows_fixed<1>(panel, tile_stride, v, v_end, block);
+    case 2:
+      return solve_rows_fixed<2>(panel, tile_stride, v, v_end, block);
+    case 3:
+      return solve_rows_fixed<3>(panel, tile_stride, v, v_end, block);
+    case 4:
+      return solve_rows_fixed<4>(panel, tile_stride, v, v_end, block);
+    case 5:
+      return solve_rows_fixed<5>(panel, tile_stride, v, v_end, block);
+    case 6:
+      return solve_rows_fixed<6>(panel, tile_stride, v, v_end, block);
+    case 7:
+      return solve_rows_fixed<7>(panel, tile_stride, v, v_end, block);
+    default:
+      return solve_rows_fixed<8>(panel, tile_stride, v, v_end, block);
   }
 }
 
@@ -156,14 +173,16 @@ std::int32_t factor_triangle(const FrontView& front, std::int32_t begin, std::in
   for (std::int32_t block = begin / 8; block < last_tile; ++block) {
     const std::int32_t width = smaller(8, end - 8 * block);
     panel_multiply(front.panel, stride, block * tile_vectors, last_tile * tile_vectors, block, width);
-    const std::int32_t lost = factor_tile(front.panel + block * stride + 64 * static_cast<std::int64_t>(block), width, floor + 8 * block);
+    const std::int32_t lost =
+        factor_tile(front.panel + block * stride + 64 * static_cast<std::int64_t>(block), width, floor + 8 * block);
     if (lost >= 0) return 8 * block + lost;
     solve_rows(front.panel, stride, (block + 1) * tile_vectors, last_tile * tile_vectors, block, width);
   }
   return -1;
 }
 
-void solve_tiles(const FrontView& front, std::int32_t begin, std::int32_t end, std::int32_t tile_begin, std::int32_t tile_end) {
+void solve_tiles(const FrontView& front, std::int32_t begin, std::int32_t end, std::int32_t tile_begin,
+                 std::int32_t tile_end) {
   const std::int64_t stride = 8 * static_cast<std::int64_t>(front.columns);
   // few tiles at a time, so that their rows stay in the cache while all column blocks pass over them
   constexpr std::int32_t step = 6;
@@ -178,14 +197,16 @@ void solve_tiles(const FrontView& front, std::int32_t begin, std::int32_t end, s
 }
 
 template <bool Fresh>
-void update_block(const FrontView& front, std::int32_t tile_begin, std::int32_t tile_end, std::int32_t k, std::int32_t k_count) noexcept {
+void update_block(const FrontView& front, std::int32_t tile_begin, std::int32_t tile_end, std::int32_t k,
+                  std::int32_t k_count) noexcept {
   const std::int64_t stride = 8 * static_cast<std::int64_t>(front.columns);
   double* rows = front.panel + front.triangle_tiles * stride + 8 * static_cast<std::int64_t>(k);
-  const std::int64_t step = front.update_stride;
   const std::int32_t v_end = front.below_tiles * tile_vectors;
   for (std::int32_t tile = tile_begin; tile < tile_end; ++tile) {
     const double* b = rows + tile * stride;
-    double* target = front.update + 8 * tile * step;
+    const std::int64_t step = 8 * static_cast<std::int64_t>(front.below_tiles - tile);
+    double* target =
+        front.update + hf::update_tile_start(front.below_tiles, tile) - 8 * static_cast<std::int64_t>(tile);
     std::int32_t v = tile * tile_vectors;
     for (; v + gemm_rows <= v_end; v += gemm_rows) {
       const double* a[gemm_rows];
@@ -215,47 +236,51 @@ void form_update(const FrontView& front, std::int32_t tile_begin, std::int32_t t
   }
 }
 
-inline void add8(double* target, const double* source) noexcept {
-  for (int p = 0; p < tile_vectors; ++p) {
-    D::store(target + p * D::width, D::add(D::load(target + p * D::width), D::load(source + p * D::width)));
+// target[k] += source[k].
+inline void add_run(double* target, const double* source, std::int32_t count) noexcept {
+  std::int32_t k = 0;
+  for (; k + D::width <= count; k += D::width) D::store(target + k, D::add(D::load(target + k), D::load(source + k)));
+  if (D::width == 8 && count - k > 2) {
+    const std::int32_t rest = count - k;
+    D::store_part(target + k, D::add(D::load_part(target + k, rest), D::load_part(source + k, rest)), rest);
+    return;
   }
+  for (; k < count; ++k) target[k] += source[k];
 }
 
-// Columns that land in the panel: tile layout, runs of 8 aligned rows as vectors.
-void extend_add_panel(const FrontView& front, const ChildView& child, std::int32_t begin, std::int32_t end) noexcept {
-  const std::int64_t tile_stride = 8 * static_cast<std::int64_t>(front.columns);
-  for (std::int32_t j = begin; j < end; ++j) {
-    const double* source = child.update + static_cast<std::int64_t>(j) * child.stride;
-    double* target = front.panel + 8 * static_cast<std::int64_t>(child.place[j]);
-    for (std::int32_t i = j & ~7; i < child.size; i += 8) {
-      const std::int32_t* place = child.place + i;
-      if (child.contiguous[i >> 3] && (place[0] & 7) == 0) {
-        add8(target + (place[0] >> 3) * tile_stride, source + i);
-        continue;
-      }
-      const std::int32_t count = smaller(8, child.size - i);
-      for (std::int32_t k = 0; k < count; ++k) target[(place[k] >> 3) * tile_stride + (place[k] & 7)] += source[i + k];
-    }
-  }
+// Numbers of column j of a child, indexed by its rows.
+inline const double* child_column(const ChildView& child, std::int32_t j) noexcept {
+  const std::int64_t tile = j >> 3;
+  return child.update + hf::update_tile_start(child.tiles, tile) + (j & 7) * 8 * (child.tiles - tile) - 8 * tile;
 }
 
 void extend_add(const FrontView& front, const ChildView& child, std::int32_t begin, std::int32_t end) {
-  if (begin < child.into_panel) extend_add_panel(front, child, begin, smaller(end, child.into_panel));
+  const std::int64_t tile_stride = 8 * static_cast<std::int64_t>(front.columns);
   const std::int32_t offset = 8 * front.triangle_tiles;
-  for (std::int32_t j = begin > child.into_panel ? begin : child.into_panel; j < end; ++j) {
-    const double* source = child.update + static_cast<std::int64_t>(j) * child.stride;
-    double* target = front.update + static_cast<std::int64_t>(child.place[j] - offset) * front.update_stride - offset;
-    // from the 8-row group of the diagonal on; rows before the child's own part may still belong to the panel
+  const std::int32_t* run = child.run;
+  for (std::int32_t j = begin; j < end; ++j) {
+    while (run[1] <= j) ++run;
+    const double* source = child_column(child, j);
     std::int32_t i = j;
-    for (; (i & 7) != 0 && i < child.size; ++i) target[child.place[i]] += source[i];
-    for (; i < child.size; i += 8) {
-      const std::int32_t* place = child.place + i;
-      if (child.contiguous[i >> 3]) {
-        add8(target + place[0], source + i);
-        continue;
+    if (j < child.into_panel) {
+      // tile layout: runs are cut at tile boundaries
+      double* target = front.panel + 8 * static_cast<std::int64_t>(child.place[j]);
+      for (const std::int32_t* r = run; i < child.size; ++r) {
+        for (const std::int32_t last = r[1]; i < last;) {
+          const std::int32_t place = child.place[i];
+          const std::int32_t count = smaller(8 - (place & 7), last - i);
+          add_run(target + (place >> 3) * tile_stride + (place & 7), source + i, count);
+          i += count;
+        }
       }
-      const std::int32_t count = smaller(8, child.size - i);
-      for (std::int32_t k = 0; k < count; ++k) target[place[k]] += source[i + k];
+      continue;
+    }
+    const std::int64_t column = child.place[j] - offset, tile = column >> 3;
+    double* target = front.update + hf::update_tile_start(front.below_tiles, tile) +
+                     (column & 7) * 8 * (front.below_tiles - tile) - 8 * tile - offset;
+    for (const std::int32_t* r = run; i < child.size; ++r) {
+      add_run(target + child.place[i], source + i, r[1] - i);
+      i = r[1];
     }
   }
 }

@@ -1,4 +1,5 @@
-// Path kernels: blocks of up to 32 sites, the sites along the vector lanes. Included after a simd_*.h, see kernels_factor.inl.
+// Path kernels: blocks of up to 32 sites, the sites along the vector lanes. Included after a simd_*.h, see
+// kernels_factor.inl.
 #include <cstddef>
 #include <cstdint>
 
@@ -6,8 +7,8 @@ namespace {
 
 // target[r][lane] (+ or -)= sum over k of a[r][k * a_step] * x[k * lanes + lane], for R rows and L vectors of lanes.
 template <int R, int L, bool Add>
-inline void lane_block(const double* const* a, std::int64_t a_step, const double* x, std::int64_t lanes, std::int32_t k_count,
-                       double* const* target) noexcept {
+inline void lane_block(const double* const* a, std::int64_t a_step, const double* x, std::int64_t lanes,
+                       std::int32_t k_count, double* const* target) noexcept {
   D::Type sum[R][L];
   for (int r = 0; r < R; ++r) {
     for (int l = 0; l < L; ++l) sum[r][l] = D::load(target[r] + l * D::width);
@@ -19,7 +20,8 @@ inline void lane_block(const double* const* a, std::int64_t a_step, const double
     for (int r = 0; r < R; ++r) {
       const D::Type factor = D::all(a[r][offset]);
       for (int l = 0; l < L; ++l) {
-        sum[r][l] = Add ? D::multiply_add(factor, value[l], sum[r][l]) : D::subtract_product(factor, value[l], sum[r][l]);
+        sum[r][l] =
+            Add ? D::multiply_add(factor, value[l], sum[r][l]) : D::subtract_product(factor, value[l], sum[r][l]);
       }
     }
   }
@@ -29,8 +31,8 @@ inline void lane_block(const double* const* a, std::int64_t a_step, const double
 }
 
 template <int R, bool Add>
-inline void lane_rows_block(const double* const* a, std::int64_t a_step, const double* x, std::int64_t lanes, std::int32_t used, std::int32_t k_count,
-                            double* const* target) noexcept {
+inline void lane_rows_block(const double* const* a, std::int64_t a_step, const double* x, std::int64_t lanes,
+                            std::int32_t used, std::int32_t k_count, double* const* target) noexcept {
   std::int32_t lane = 0;
   const auto shifted = [&](double** out) {
     for (int r = 0; r < R; ++r) out[r] = target[r] + lane;
@@ -51,10 +53,11 @@ inline void lane_rows_block(const double* const* a, std::int64_t a_step, const d
 
 // x -= row-block times x for any number of rows.
 template <bool Add>
-inline void lane_rows_any(const double* const* a, std::int64_t a_step, const double* x, std::int64_t lanes, std::int32_t used, std::int32_t k_count,
-                          double* const* target, std::int32_t count) noexcept {
+inline void lane_rows_any(const double* const* a, std::int64_t a_step, const double* x, std::int64_t lanes,
+                          std::int32_t used, std::int32_t k_count, double* const* target, std::int32_t count) noexcept {
   std::int32_t r = 0;
-  for (; r + lane_rows <= count; r += lane_rows) lane_rows_block<lane_rows, Add>(a + r, a_step, x, lanes, used, k_count, target + r);
+  for (; r + lane_rows <= count; r += lane_rows)
+    lane_rows_block<lane_rows, Add>(a + r, a_step, x, lanes, used, k_count, target + r);
   for (; r + 2 <= count; r += 2) lane_rows_block<2, Add>(a + r, a_step, x, lanes, used, k_count, target + r);
   for (; r < count; ++r) lane_rows_block<1, Add>(a + r, a_step, x, lanes, used, k_count, target + r);
 }
@@ -79,15 +82,16 @@ void path_triangle(const double* triangle, std::int32_t columns, double* x, std:
       const D::Type inverse = D::all(a[j][begin + j]);
       for (std::int32_t lane = 0; lane < lanes; lane += D::width) {
         D::Type value = D::load(target[j] + lane);
-        for (std::int32_t i = 0; i < j; ++i) value = D::subtract_product(D::all(a[j][begin + i]), D::load(target[i] + lane), value);
+        for (std::int32_t i = 0; i < j; ++i)
+          value = D::subtract_product(D::all(a[j][begin + i]), D::load(target[i] + lane), value);
         D::store(target[j] + lane, D::multiply(value, inverse));
       }
     }
   }
 }
 
-void path_rows(const double* below, std::int32_t row_count, std::int32_t columns, const double* x, std::int32_t lanes, double* base,
-               const std::int64_t* target) {
+void path_rows(const double* below, std::int32_t row_count, std::int32_t columns, const double* x, std::int32_t lanes,
+               double* base, const std::int64_t* target) {
   if (lanes == 1) {
     for (std::int32_t r = 0; r < row_count; ++r, below += columns) base[target[r]] -= dot8(below, x, columns);
     return;
@@ -97,20 +101,22 @@ void path_rows(const double* below, std::int32_t row_count, std::int32_t columns
     const std::int32_t count = row_count - begin < step ? row_count - begin : step;
     const double* a[step];
     double* out[step];
-    for (std::int32_t r = 0; r < count; ++r) a[r] = below + static_cast<std::int64_t>(begin + r) * columns, out[r] = base + target[begin + r];
+    for (std::int32_t r = 0; r < count; ++r)
+      a[r] = below + static_cast<std::int64_t>(begin + r) * columns, out[r] = base + target[begin + r];
     lane_rows_any<false>(a, 1, x, lanes, lanes, columns, out, count);
   }
 }
 
-void gram(const double* a, std::int32_t a_lanes, std::int32_t a_count, const double* b, std::int32_t b_lanes, std::int32_t b_count, std::int32_t rows,
-          double* out, std::int32_t stride) {
+void gram(const double* a, std::int32_t a_lanes, std::int32_t a_count, const double* b, std::int32_t b_lanes,
+          std::int32_t b_count, std::int32_t rows, double* out, std::int32_t stride) {
   const double* left[32];
   double* target[32];
   for (std::int32_t i = 0; i < a_count; ++i) left[i] = a + i, target[i] = out + static_cast<std::int64_t>(i) * stride;
   if (b_lanes == 1) {
     for (std::int32_t i = 0; i < a_count; ++i) {
       double total = target[i][0];
-      for (std::int32_t r = 0; r < rows; ++r) total = multiply_add_scalar(left[i][static_cast<std::int64_t>(r) * a_lanes], b[r], total);
+      for (std::int32_t r = 0; r < rows; ++r)
+        total = multiply_add_scalar(left[i][static_cast<std::int64_t>(r) * a_lanes], b[r], total);
       target[i][0] = total;
     }
     return;

@@ -1,17 +1,18 @@
-// Kernels for one instruction set; see kernels.h.
+// Kernels for one instruction set; see kernels.h. The vector types come before the kernels written on them.
+// clang-format off
 #include "factor/simd_plain.h"
-
 #include "factor/kernels_factor.inl"
 #include "factor/kernels_sweep.inl"
 #include "factor/kernels_path.inl"
+// clang-format on
 
 namespace hf {
 
 extern const Kernels kernels_plain_set;
 const Kernels kernels_plain_set = {
-    "plain",          factor_triangle,   solve_tiles,       form_update,           extend_add,       store_tiles,  backward_rows,
-    backward_triangle, backward_rows_f32, backward_triangle_f32, forward_triangle, forward_rows, path_triangle, path_rows,
-    gram,
+    "plain",          factor_triangle, solve_tiles,       form_update,       extend_add,
+    store_tiles,      backward_rows,   backward_triangle, backward_rows_f32, backward_triangle_f32,
+    forward_triangle, forward_rows,    path_triangle,     path_rows,         gram,
 };
 
 }  // namespace hf

@@ -1,8 +1,8 @@
 // Sweep kernels: one supernode on m interleaved right-hand sides. Included after a simd_*.h, see kernels_factor.inl.
 //
-// A column's sum over the rows below is one chain in row order, except for one right-hand side on at most 16 columns, where 4
-// (up to 8 columns) or 2 chains hide the latency: a rule in columns of the supernode, not in vector lengths or pieces, so all
-// sets and all numbers of threads give the same bits.
+// A column's sum over the rows below is one chain in row order, except for one right-hand side on at most 16 columns,
+// where 4 (up to 8 columns) or 2 chains hide the latency: a rule in columns of the supernode, not in vector lengths or
+// pieces, so all sets and all numbers of threads give the same bits.
 #include <cstddef>
 #include <cstdint>
 
@@ -15,15 +15,17 @@ struct Constant {
   static constexpr int value = N;
 };
 
-// Sums of up to NV vectors of columns over all rows, C right-hand sides, `Chains` rows in flight: sum[c * chunk + column].
+// Sums of up to NV vectors of columns over all rows, C right-hand sides, `Chains` rows in flight: sum[c * chunk +
+// column].
 template <class T, int C, int NV, int Chains>
-inline void sum_in_registers(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count, const T* z, std::int32_t channels,
-                             T* sum) noexcept {
+inline void sum_in_registers(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
+                             const T* z, std::int32_t channels, T* sum) noexcept {
   using S = Simd<T>;
   typename S::Type part[Chains][C][NV];
   for (int h = 0; h < Chains; ++h) {
     for (int c = 0; c < C; ++c) {
-      for (int v = 0; v < NV; ++v) part[h][c][v] = (Chains == 1) ? S::load(sum + c * chunk_columns + v * S::width) : S::zero();
+      for (int v = 0; v < NV; ++v)
+        part[h][c][v] = (Chains == 1) ? S::load(sum + c * chunk_columns + v * S::width) : S::zero();
     }
   }
   std::int32_t r = 0;
@@ -43,7 +45,8 @@ inline void sum_in_registers(const T* block, std::int64_t stride, const std::int
     if (r + h >= row_count) break;
     const T* x = z + static_cast<std::int64_t>(rows[r + h]) * channels;
     for (int c = 0; c < C; ++c) {
-      for (int v = 0; v < NV; ++v) part[h][c][v] = S::multiply_add(S::load(block + v * S::width), S::all(x[c]), part[h][c][v]);
+      for (int v = 0; v < NV; ++v)
+        part[h][c][v] = S::multiply_add(S::load(block + v * S::width), S::all(x[c]), part[h][c][v]);
     }
     block += stride;
   }
@@ -51,7 +54,8 @@ inline void sum_in_registers(const T* block, std::int64_t stride, const std::int
     for (int v = 0; v < NV; ++v) {
       typename S::Type total = part[0][c][v];
       if (Chains == 2) total = S::add(total, part[Chains - 1][c][v]);
-      if (Chains == 4) total = S::add(S::add(total, part[1 % Chains][c][v]), S::add(part[2 % Chains][c][v], part[3 % Chains][c][v]));
+      if (Chains == 4)
+        total = S::add(S::add(total, part[1 % Chains][c][v]), S::add(part[2 % Chains][c][v], part[3 % Chains][c][v]));
       S::store(sum + c * chunk_columns + v * S::width, total);
     }
   }
@@ -59,12 +63,13 @@ inline void sum_in_registers(const T* block, std::int64_t stride, const std::int
 
 // One right-hand side, wide: four rows at a time onto sums in the first-level cache; reads the block as one stream.
 template <class T>
-inline void sum_streaming(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count, std::int32_t width, const T* z,
-                          T* sum) noexcept {
+inline void sum_streaming(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
+                          std::int32_t width, const T* z, T* sum) noexcept {
   using S = Simd<T>;
   std::int32_t r = 0;
   for (; r + 4 <= row_count; r += 4, block += 4 * stride) {
-    const typename S::Type x0 = S::all(z[rows[r]]), x1 = S::all(z[rows[r + 1]]), x2 = S::all(z[rows[r + 2]]), x3 = S::all(z[rows[r + 3]]);
+    const typename S::Type x0 = S::all(z[rows[r]]), x1 = S::all(z[rows[r + 1]]), x2 = S::all(z[rows[r + 2]]),
+                           x3 = S::all(z[rows[r + 3]]);
     const T* b1 = block + stride;
     const T* b2 = b1 + stride;
     const T* b3 = b2 + stride;
@@ -79,13 +84,14 @@ inline void sum_streaming(const T* block, std::int64_t stride, const std::int32_
   }
   for (; r < row_count; ++r, block += stride) {
     const typename S::Type x = S::all(z[rows[r]]);
-    for (std::int32_t j = 0; j < width; j += S::width) S::store(sum + j, S::multiply_add(S::load(block + j), x, S::load(sum + j)));
+    for (std::int32_t j = 0; j < width; j += S::width)
+      S::store(sum + j, S::multiply_add(S::load(block + j), x, S::load(sum + j)));
   }
 }
 
 template <class T, int C>
-inline void sum_channels(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count, std::int32_t width, const T* z,
-                         std::int32_t channels, T* sum) noexcept {
+inline void sum_channels(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
+                         std::int32_t width, const T* z, std::int32_t channels, T* sum) noexcept {
   using S = Simd<T>;
   // sums kept in registers: about 16 vectors of 32 or 12 of 16
   constexpr int most = gemm_columns == 8 ? (C >= 8 ? 2 : 16 / C >= 8 ? 8 : 16 / C) : (C >= 4 ? (C > 4 ? 1 : 2) : 8 / C);
@@ -113,8 +119,8 @@ inline void sum_channels(const T* block, std::int64_t stride, const std::int32_t
 
 // sum[c][j] over the rows for C right-hand sides starting at z.
 template <class T, int C>
-inline void sum_rows(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count, std::int32_t width, const T* z,
-                     std::int32_t channels, T* sum) noexcept {
+inline void sum_rows(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
+                     std::int32_t width, const T* z, std::int32_t channels, T* sum) noexcept {
   using S = Simd<T>;
   if (C == 1) {
     if (stride <= 8) {
@@ -137,8 +143,8 @@ inline void sum_rows(const T* block, std::int64_t stride, const std::int32_t* ro
 
 // The sums of `width` columns for all channels are subtracted from z.
 template <class T, int C>
-inline void subtract_sums(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count, std::int32_t width, T* z,
-                          T* target, std::int32_t channels) noexcept {
+inline void subtract_sums(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
+                          std::int32_t width, T* z, T* target, std::int32_t channels) noexcept {
   alignas(64) T sum[C * chunk_columns + 64];
   const std::int32_t padded = (width + 63) & ~63;
   for (int c = 0; c < C; ++c) {
@@ -146,7 +152,8 @@ inline void subtract_sums(const T* block, std::int64_t stride, const std::int32_
   }
   sum_rows<T, C>(block, stride, rows, row_count, width, z, channels, sum);
   for (int c = 0; c < C; ++c) {
-    for (std::int32_t j = 0; j < width; ++j) target[static_cast<std::int64_t>(j) * channels + c] -= sum[c * chunk_columns + j];
+    for (std::int32_t j = 0; j < width; ++j)
+      target[static_cast<std::int64_t>(j) * channels + c] -= sum[c * chunk_columns + j];
   }
 }
 
@@ -156,14 +163,16 @@ inline typename Simd<T>::Type load_lanes(const T* p, int count) noexcept {
 }
 template <class T>
 inline void store_lanes(T* p, typename Simd<T>::Type v, int count) noexcept {
-  if (count == Simd<T>::width) Simd<T>::store(p, v);
-  else Simd<T>::store_part(p, v, count);
+  if (count == Simd<T>::width)
+    Simd<T>::store(p, v);
+  else
+    Simd<T>::store_part(p, v, count);
 }
 
 // N columns for one vector of channels: the factor's entries are broadcast, target[j] -= sum over the rows.
 template <class T, int N>
-inline void subtract_lanes(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count, const T* z, T* target,
-                           std::int32_t channels, int count) noexcept {
+inline void subtract_lanes(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
+                           const T* z, T* target, std::int32_t channels, int count) noexcept {
   using S = Simd<T>;
   typename S::Type sum[N];
   for (int j = 0; j < N; ++j) sum[j] = S::zero();
@@ -179,8 +188,8 @@ inline void subtract_lanes(const T* block, std::int64_t stride, const std::int32
 
 // Many channels: they lie along the lanes. Rows in passes that stay in the cache while the column groups go over them.
 template <class T>
-void backward_rows_lanes(const T* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns, std::int32_t width, T* z, T* target,
-                         std::int32_t channels) noexcept {
+void backward_rows_lanes(const T* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
+                         std::int32_t width, T* z, T* target, std::int32_t channels) noexcept {
   constexpr int group = gemm_columns == 8 ? 16 : 8;
   const std::int32_t pass = columns > 2048 ? 16 : 32768 / columns;
   for (std::int32_t r = 0; r < row_count; r += pass) {
@@ -191,7 +200,8 @@ void backward_rows_lanes(const T* below, const std::int32_t* rows, std::int32_t 
       std::int32_t j = 0;
       const auto run = [&](auto size) {
         constexpr int n = decltype(size)::value;
-        subtract_lanes<T, n>(first + j, columns, rows + r, left, z + c, target + static_cast<std::int64_t>(j) * channels + c, channels, count);
+        subtract_lanes<T, n>(first + j, columns, rows + r, left, z + c,
+                             target + static_cast<std::int64_t>(j) * channels + c, channels, count);
         j += n;
       };
       while (j + group <= width) run(Constant<group>{});
@@ -204,24 +214,34 @@ void backward_rows_lanes(const T* below, const std::int32_t* rows, std::int32_t 
 }
 
 template <class T>
-void backward_rows_any(const T* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns, std::int32_t begin, std::int32_t end,
-                       T* z, std::int32_t first, std::int32_t channels) {
+void backward_rows_any(const T* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
+                       std::int32_t begin, std::int32_t end, T* z, std::int32_t first, std::int32_t channels) {
   if (channels > 4) {
-    return backward_rows_lanes<T>(below + begin, rows, row_count, columns, end - begin, z, z + static_cast<std::int64_t>(first + begin) * channels, channels);
+    return backward_rows_lanes<T>(below + begin, rows, row_count, columns, end - begin, z,
+                                  z + static_cast<std::int64_t>(first + begin) * channels, channels);
   }
   for (std::int32_t j = begin; j < end; j += chunk_columns) {
     const std::int32_t width = end - j < chunk_columns ? end - j : chunk_columns;
     T* target = z + static_cast<std::int64_t>(first + j) * channels;
     switch (channels) {
-      case 1: subtract_sums<T, 1>(below + j, columns, rows, row_count, width, z, target, 1); break;
-      case 2: subtract_sums<T, 2>(below + j, columns, rows, row_count, width, z, target, 2); break;
-      case 3: subtract_sums<T, 3>(below + j, columns, rows, row_count, width, z, target, 3); break;
-      default: subtract_sums<T, 4>(below + j, columns, rows, row_count, width, z, target, 4); break;
+      case 1:
+        subtract_sums<T, 1>(below + j, columns, rows, row_count, width, z, target, 1);
+        break;
+      case 2:
+        subtract_sums<T, 2>(below + j, columns, rows, row_count, width, z, target, 2);
+        break;
+      case 3:
+        subtract_sums<T, 3>(below + j, columns, rows, row_count, width, z, target, 3);
+        break;
+      default:
+        subtract_sums<T, 4>(below + j, columns, rows, row_count, width, z, target, 4);
+        break;
     }
   }
 }
 
-// One right-hand side, rows [begin, end) of the packed triangle backwards: x_j = x_j inv_j, then x_i -= L[j][i] x_j, begin <= i < j.
+// One right-hand side, rows [begin, end) of the packed triangle backwards: x_j = x_j inv_j, then x_i -= L[j][i] x_j,
+// begin <= i < j.
 template <class T>
 inline void backward_block(const T* triangle, std::int32_t begin, std::int32_t end, T* z) noexcept {
   using S = Simd<T>;
@@ -234,7 +254,8 @@ inline void backward_block(const T* triangle, std::int32_t begin, std::int32_t e
     const T value = x[j] * row[j];
     z[j] = value;
     const typename S::Type factor = S::all(value);
-    for (std::int32_t i = 0; i < j; i += S::width) S::store(x + i, S::subtract_product(S::load(row + i), factor, S::load(x + i)));
+    for (std::int32_t i = 0; i < j; i += S::width)
+      S::store(x + i, S::subtract_product(S::load(row + i), factor, S::load(x + i)));
   }
 }
 
@@ -249,16 +270,17 @@ void backward_triangle_single(const T* triangle, std::int32_t columns, T* z) noe
     for (std::int64_t j = begin; j < end; ++j) {
       const T* row = triangle + j * (j + 1) / 2;
       const typename S::Type factor = S::all(z[j]);
-      for (std::int32_t i = 0; i < begin; i += S::width) S::store(z + i, S::subtract_product(S::load(row + i), factor, S::load(z + i)));
+      for (std::int32_t i = 0; i < begin; i += S::width)
+        S::store(z + i, S::subtract_product(S::load(row + i), factor, S::load(z + i)));
     }
   }
 }
 
-// Rows [begin, end) of the triangle, one vector of channels: own[j - begin] are those rows, other[i - left] the columns from `left`
-// on, each a whole vector.
+// Rows [begin, end) of the triangle, one vector of channels: own[j - begin] are those rows, other[i - left] the columns
+// from `left` on, each a whole vector.
 template <class T>
-inline void backward_lanes(const T* triangle, std::int64_t begin, std::int64_t end, std::int64_t left, std::int64_t right, T* own, T* other,
-                           std::int64_t step) noexcept {
+inline void backward_lanes(const T* triangle, std::int64_t begin, std::int64_t end, std::int64_t left,
+                           std::int64_t right, T* own, T* other, std::int64_t step) noexcept {
   using S = Simd<T>;
   for (std::int64_t j = end - 1; j >= begin; --j) {
     const T* row = triangle + j * (j + 1) / 2;
@@ -267,12 +289,13 @@ inline void backward_lanes(const T* triangle, std::int64_t begin, std::int64_t e
     if (left == begin) value = S::multiply(value, S::all(row[j])), S::store(at, value);
     const std::int64_t last = left == begin ? j : right;
     T* target = other;
-    for (std::int64_t i = left; i < last; ++i, target += step) S::store(target, S::subtract_product(S::all(row[i]), value, S::load(target)));
+    for (std::int64_t i = left; i < last; ++i, target += step)
+      S::store(target, S::subtract_product(S::all(row[i]), value, S::load(target)));
   }
 }
 
-// The channels lie along the lanes, the entries of the triangle are broadcast. Part vectors go through copies of whole ones: a
-// masked store would not be forwarded to the load after it.
+// The channels lie along the lanes, the entries of the triangle are broadcast. Part vectors go through copies of whole
+// ones: a masked store would not be forwarded to the load after it.
 template <class T>
 void backward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::int32_t channels) {
   using S = Simd<T>;
@@ -286,10 +309,12 @@ void backward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::i
     }
     alignas(64) T own[block * S::width], other[block * S::width];
     const auto fetch = [&](T* copy, std::int32_t from, std::int32_t to) {
-      for (std::int32_t j = from; j < to; ++j) S::store(copy + (j - from) * S::width, S::load_part(z + static_cast<std::int64_t>(j) * channels + c, count));
+      for (std::int32_t j = from; j < to; ++j)
+        S::store(copy + (j - from) * S::width, S::load_part(z + static_cast<std::int64_t>(j) * channels + c, count));
     };
     const auto put = [&](const T* copy, std::int32_t from, std::int32_t to) {
-      for (std::int32_t j = from; j < to; ++j) S::store_part(z + static_cast<std::int64_t>(j) * channels + c, S::load(copy + (j - from) * S::width), count);
+      for (std::int32_t j = from; j < to; ++j)
+        S::store_part(z + static_cast<std::int64_t>(j) * channels + c, S::load(copy + (j - from) * S::width), count);
     };
     std::int32_t begin = (columns - 1) / block * block;
     for (std::int32_t end = columns; end > 0; end = begin, begin -= block) {
@@ -305,15 +330,15 @@ void backward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::i
   }
 }
 
-void backward_rows(const double* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns, std::int32_t begin, std::int32_t end,
-                   double* z, std::int32_t first, std::int32_t channels) {
+void backward_rows(const double* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
+                   std::int32_t begin, std::int32_t end, double* z, std::int32_t first, std::int32_t channels) {
   backward_rows_any<double>(below, rows, row_count, columns, begin, end, z, first, channels);
 }
 void backward_triangle(const double* triangle, std::int32_t columns, double* z, std::int32_t channels) {
   backward_triangle_any<double>(triangle, columns, z, channels);
 }
-void backward_rows_f32(const float* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns, std::int32_t begin,
-                       std::int32_t end, float* z, std::int32_t first, std::int32_t channels) {
+void backward_rows_f32(const float* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
+                       std::int32_t begin, std::int32_t end, float* z, std::int32_t first, std::int32_t channels) {
   backward_rows_any<float>(below, rows, row_count, columns, begin, end, z, first, channels);
 }
 void backward_triangle_f32(const float* triangle, std::int32_t columns, float* z, std::int32_t channels) {
@@ -332,7 +357,8 @@ inline double dot8(const double* a, const double* b, std::int32_t count) noexcep
   for (int p = 0; p < vectors; ++p) part[p] = D::zero();
   std::int32_t k = 0;
   for (; k + 8 <= count; k += 8) {
-    for (int p = 0; p < vectors; ++p) part[p] = D::multiply_add(D::load(a + k + p * D::width), D::load(b + k + p * D::width), part[p]);
+    for (int p = 0; p < vectors; ++p)
+      part[p] = D::multiply_add(D::load(a + k + p * D::width), D::load(b + k + p * D::width), part[p]);
   }
   alignas(64) double lane[8];
   for (int p = 0; p < vectors; ++p) D::store(lane + p * D::width, part[p]);
@@ -366,7 +392,8 @@ void forward_triangle(const double* triangle, std::int32_t columns, double* z, s
   }
 }
 
-void forward_rows(const double* below, std::int32_t row_count, std::int32_t columns, const double* z, double* out, std::int32_t channels) {
+void forward_rows(const double* below, std::int32_t row_count, std::int32_t columns, const double* z, double* out,
+                  std::int32_t channels) {
   if (channels == 1) {
     for (std::int32_t r = 0; r < row_count; ++r, below += columns) out[r] = dot8(below, z, columns);
     return;
@@ -381,15 +408,18 @@ void forward_rows(const double* below, std::int32_t row_count, std::int32_t colu
       const double* x = z + c;
       for (std::int32_t j = 0; j < columns; ++j, x += channels) {
         const D::Type value = load_lanes<double>(x, count);
-        for (int k = 0; k < 4; ++k) sum[k] = D::multiply_add(D::all(b[j + static_cast<std::int64_t>(k) * columns]), value, sum[k]);
+        for (int k = 0; k < 4; ++k)
+          sum[k] = D::multiply_add(D::all(b[j + static_cast<std::int64_t>(k) * columns]), value, sum[k]);
       }
-      for (int k = 0; k < 4; ++k) store_lanes<double>(out + static_cast<std::int64_t>(r + k) * channels + c, sum[k], count);
+      for (int k = 0; k < 4; ++k)
+        store_lanes<double>(out + static_cast<std::int64_t>(r + k) * channels + c, sum[k], count);
     }
     for (; r < row_count; ++r) {
       const double* b = below + static_cast<std::int64_t>(r) * columns;
       D::Type sum = D::zero();
       for (std::int32_t j = 0; j < columns; ++j) {
-        sum = D::multiply_add(D::all(b[j]), load_lanes<double>(z + static_cast<std::int64_t>(j) * channels + c, count), sum);
+        sum = D::multiply_add(D::all(b[j]), load_lanes<double>(z + static_cast<std::int64_t>(j) * channels + c, count),
+                              sum);
       }
       store_lanes<double>(out + static_cast<std::int64_t>(r) * channels + c, sum, count);
     }

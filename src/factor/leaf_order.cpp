@@ -24,7 +24,9 @@ void LeafOrder::reset(std::int32_t inner, std::int32_t halo) {
 }
 
 void LeafOrder::run(std::int32_t* out) {
-  const auto row = [&](std::int32_t v) { return rows_.data() + static_cast<std::size_t>(v) * static_cast<std::size_t>(words_); };
+  const auto row = [&](std::int32_t v) {
+    return rows_.data() + static_cast<std::size_t>(v) * static_cast<std::size_t>(words_);
+  };
   const auto count = [&](std::int32_t v) {
     std::int32_t bits = 0;
     for (std::int32_t w = 0; w < words_; ++w) bits += count_bits(row(v)[w]);

@@ -1,5 +1,6 @@
-// Exact minimum degree on a small graph whose last vertices (the halo: neighbours that are eliminated later) only count.
-// Adjacency is kept as bit rows: eliminating a vertex is OR and popcount. Ties go to the lowest vertex. Cost: O(n deg n / 64).
+// Exact minimum degree on a small graph whose last vertices (the halo: neighbours that are eliminated later) only
+// count. Adjacency is kept as bit rows: eliminating a vertex is OR and popcount. Ties go to the lowest vertex. Cost:
+// O(n deg n / 64).
 #pragma once
 #include <cstdint>
 

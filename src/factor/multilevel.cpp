@@ -93,8 +93,10 @@ void MultilevelBisection::widen(const GraphView& graph, std::uint8_t* side, int 
   std::int32_t left[2] = {0, 0};
   queue_.clear();
   for (std::int32_t v = 0; v < graph.size; ++v) {
-    if (side[v] == side_between) queue_.push_back(v);
-    else ++left[side[v]];
+    if (side[v] == side_between)
+      queue_.push_back(v);
+    else
+      ++left[side[v]];
   }
   std::size_t begin = 0;
   for (int ring = 0; ring < rings; ++ring) {
@@ -109,7 +111,8 @@ void MultilevelBisection::widen(const GraphView& graph, std::uint8_t* side, int 
         side[u] = static_cast<std::uint8_t>(side_between + 1 + side[u]);  // until the ring is accepted
       }
     }
-    const bool keep = 5 * static_cast<std::int64_t>(left[0] - lost[0]) >= graph.size && 5 * static_cast<std::int64_t>(left[1] - lost[1]) >= graph.size;
+    const bool keep = 5 * static_cast<std::int64_t>(left[0] - lost[0]) >= graph.size &&
+                      5 * static_cast<std::int64_t>(left[1] - lost[1]) >= graph.size;
     for (std::size_t k = end; k < queue_.size(); ++k) {
       const std::int32_t u = queue_[k];
       side[u] = keep ? static_cast<std::uint8_t>(side_between) : static_cast<std::uint8_t>(side[u] - side_between - 1);

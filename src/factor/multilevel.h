@@ -9,14 +9,16 @@ namespace hf {
 
 class MultilevelBisection {
  public:
-  explicit MultilevelBisection(Memory& memory) : memory_(memory), search_(memory), levels_(&memory), cluster_start_(&memory), mark_(&memory), queue_(&memory) {}
+  explicit MultilevelBisection(Memory& memory)
+      : memory_(memory), search_(memory), levels_(&memory), cluster_start_(&memory), mark_(&memory), queue_(&memory) {}
 
   // side[v] = left, right or between. An unusable cut when the part cannot be split.
   Cut run(const GraphView& graph, std::uint8_t* side);
 
  private:
   struct Level {
-    explicit Level(Memory& memory) : start(&memory), neighbour(&memory), cluster(&memory), weight(&memory), point(&memory), side(&memory) {}
+    explicit Level(Memory& memory)
+        : start(&memory), neighbour(&memory), cluster(&memory), weight(&memory), point(&memory), side(&memory) {}
     GraphView view;
     Vector<std::int32_t> start, neighbour;
     Vector<std::int32_t> cluster;  // of the finer graph: its vertex -> vertex of this level

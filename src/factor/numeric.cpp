@@ -20,15 +20,14 @@ struct Workspace {
         panel(memory, static_cast<std::size_t>(sizes.panel)),
         floor(memory, static_cast<std::size_t>(sizes.columns) + 8),
         place(memory, static_cast<std::size_t>(sizes.child_rows)),
-        contiguous(memory, static_cast<std::size_t>(sizes.child_rows / 8)),
+        run(memory, static_cast<std::size_t>(sizes.child_rows) + 2 * static_cast<std::size_t>(sizes.children)),
         children(memory, static_cast<std::size_t>(sizes.children)) {
     for (int side = 0; side < 2; ++side) stack[side].allocate(memory, static_cast<std::size_t>(sizes.stack[side]));
   }
   Buffer<std::int32_t> place_of;  // padded front row of a row of the matrix; valid for rows of the present front only
   Buffer<double> panel, floor, stack[2];
   std::int64_t stack_top[2] = {0, 0};
-  Buffer<std::int32_t> place;
-  Buffer<std::uint8_t> contiguous;
+  Buffer<std::int32_t> place, run;
   Buffer<ChildView> children;
   std::int32_t child_count = 0;
 };
@@ -36,7 +35,8 @@ struct Workspace {
 // Workspaces of the threads that run at the moment: as many as have ever run at once.
 class WorkspacePool {
  public:
-  WorkspacePool(Memory& memory, std::int32_t unknowns, const Plan::Sizes& sizes) : memory_(memory), unknowns_(unknowns), sizes_(sizes), all_(&memory), free_(&memory) {}
+  WorkspacePool(Memory& memory, std::int32_t unknowns, const Plan::Sizes& sizes)
+      : memory_(memory), unknowns_(unknowns), sizes_(sizes), all_(&memory), free_(&memory) {}
   std::shared_ptr<Workspace> take() {
     {
       std::lock_guard<std::mutex> lock(mutex_);
@@ -67,10 +67,18 @@ class WorkspacePool {
 
 class Factorisation {
  public:
-  Factorisation(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated,
-                double* values, Memory& memory, JobRunner& jobs)
-      : symbolic_(symbolic), plan_(plan), kernels_(kernels), matrix_(matrix), eliminated_(eliminated), values_(values), memory_(memory), jobs_(jobs),
-        shared_(memory, static_cast<std::size_t>(plan.shared_size)), update_(memory, static_cast<std::size_t>(symbolic.supernodes)) {}
+  Factorisation(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix,
+                Span<const std::uint8_t> eliminated, double* values, Memory& memory, JobRunner& jobs)
+      : symbolic_(symbolic),
+        plan_(plan),
+        kernels_(kernels),
+        matrix_(matrix),
+        eliminated_(eliminated),
+        values_(values),
+        memory_(memory),
+        jobs_(jobs),
+        shared_(memory, static_cast<std::size_t>(plan.shared_size)),
+        update_(memory, static_cast<std::size_t>(symbolic.supernodes)) {}
 
   void run(Progress* progress) {
     {
@@ -95,7 +103,6 @@ class Factorisation {
     FrontView front;
     front.columns = symbolic_.columns(s), front.below = symbolic_.below(s);
     front.triangle_tiles = (front.columns + 7) / 8, front.below_tiles = (front.below + 7) / 8;
-    front.update_stride = 8 * front.below_tiles;
     front.panel = workspace.panel.data(), front.update = update;
     return front;
   }
@@ -108,19 +115,22 @@ class Factorisation {
     for (std::int32_t j = 0; j < front.columns; ++j) place_of[first + j] = j;
     const std::int32_t offset = 8 * front.triangle_tiles;
     for (std::int32_t k = 0; k < front.below; ++k) place_of[rows[k]] = offset + k;
-    std::int64_t used = 0;
+    std::int32_t* place = workspace.place.data();
+    std::int32_t* run = workspace.run.data();
     std::int32_t count = 0;
     for (std::int32_t c = plan_.child[s]; c >= 0; c = plan_.sibling[c]) {
       const std::int32_t size = symbolic_.below(c);
       const std::int32_t* child_rows = symbolic_.row_list(c);
-      std::int32_t* place = workspace.place.data() + used;
-      for (std::int32_t i = 0; i < size; ++i) place[i] = place_of[child_rows[i]];
-      std::uint8_t* contiguous = workspace.contiguous.data() + used / 8;
-      for (std::int32_t i = 0; i < size; i += 8) contiguous[i / 8] = i + 8 <= size && place[i + 7] - place[i] == 7;
-      std::int32_t into_panel = 0;
-      while (into_panel < size && place[into_panel] < front.columns) ++into_panel;
-      workspace.children[count++] = {update_[c], (size + 7) / 8 * 8, size, into_panel, place, contiguous};
-      used += (size + 7) / 8 * 8;
+      std::int32_t into_panel = 0, runs = 0, expected = -1;
+      for (std::int32_t i = 0; i < size; ++i) {
+        place[i] = place_of[child_rows[i]];
+        if (place[i] != expected) run[runs++] = i;
+        expected = place[i] + 1;
+        into_panel += place[i] < front.columns;
+      }
+      run[runs++] = size;
+      workspace.children[count++] = {update_[c], (size + 7) / 8, size, into_panel, place, run};
+      place += size, run += runs;
     }
     workspace.child_count = count;
     load_columns(s, front, workspace);
@@ -168,7 +178,9 @@ class Factorisation {
     if (column == INT32_MAX) return;
     const std::int32_t unknown = symbolic_.order[column];
     fail(HF_ERROR_NOT_POSITIVE_DEFINITE, static_cast<std::uint32_t>(unknown),
-         "the matrix is not positive definite: the pivot of column %d is lost; every component needs a ground and non-degenerate weights", unknown);
+         "the matrix is not positive definite: the pivot of column %d is lost; every component needs a ground and "
+         "non-degenerate weights",
+         unknown);
   }
 
   // One front from assembly to stored columns, on one thread.
@@ -178,7 +190,8 @@ class Factorisation {
     update_[s] = update;
     std::fill(front.panel, front.panel + 8 * static_cast<std::int64_t>(tiles) * front.columns, 0.0);
     assemble(s, front, workspace);
-    for (std::int32_t c = 0; c < workspace.child_count; ++c) kernels_.extend_add(front, workspace.children[c], 0, workspace.children[c].into_panel);
+    for (std::int32_t c = 0; c < workspace.child_count; ++c)
+      kernels_.extend_add(front, workspace.children[c], 0, workspace.children[c].into_panel);
     for (std::int32_t begin = 0; begin < front.columns; begin += column_block) {
       const std::int32_t end = std::min(front.columns, begin + column_block);
       const std::int32_t lost = kernels_.factor_triangle(front, begin, end, workspace.floor.data());
@@ -202,10 +215,12 @@ class Factorisation {
       workspace.stack_top[0] = workspace.stack_top[1] = 0;
       for (std::int32_t s = symbolic_.subtree[root]; s <= root; ++s) {
         const int side = plan_.parity[s];
-        double* update = s == root ? shared_.data() + plan_.shared_update[s] : workspace.stack[side].data() + workspace.stack_top[side];
+        double* update = s == root ? shared_.data() + plan_.shared_update[s]
+                                   : workspace.stack[side].data() + workspace.stack_top[side];
         if (s != root) workspace.stack_top[side] += update_size(symbolic_.below(s));
         run_front(s, workspace, update);
-        for (std::int32_t c = plan_.child[s]; c >= 0; c = plan_.sibling[c]) workspace.stack_top[side ^ 1] -= update_size(symbolic_.below(c));
+        for (std::int32_t c = plan_.child[s]; c >= 0; c = plan_.sibling[c])
+          workspace.stack_top[side ^ 1] -= update_size(symbolic_.below(c));
       }
     }
   }
@@ -214,7 +229,8 @@ class Factorisation {
   void run_wave(std::int32_t wave, WorkspacePool& pool) {
     const std::int32_t begin = plan_.wave_start[wave], end = plan_.wave_start[wave + 1];
     double total = 0, largest = 0;
-    for (std::int32_t k = begin; k < end; ++k) total += symbolic_.work[plan_.top[k]], largest = std::max(largest, symbolic_.work[plan_.top[k]]);
+    for (std::int32_t k = begin; k < end; ++k)
+      total += symbolic_.work[plan_.top[k]], largest = std::max(largest, symbolic_.work[plan_.top[k]]);
     const bool whole = jobs_.thread_count() == 1 || largest * jobs_.thread_count() <= 1.25 * total || total < 2e6;
     const auto update_of = [&](std::int32_t s) { return shared_.data() + plan_.shared_update[s]; };
     if (whole) {
@@ -241,16 +257,21 @@ class Factorisation {
     });
   }
 
-  // The same front with every step cut over the threads; each number is formed by the same operations in the same order.
+  // The same front with every step cut over the threads; each number is formed by the same operations in the same
+  // order.
   void run_front_in_pieces(std::int32_t s, Workspace& workspace, double* update) {
     const FrontView front = open_front(s, workspace, update);
     const std::int32_t tiles = front.triangle_tiles + front.below_tiles;
     update_[s] = update;
     const std::int64_t tile_size = 8 * static_cast<std::int64_t>(front.columns);
-    in_pieces(0, tiles, 32, [&](std::int32_t begin, std::int32_t end) { std::fill(front.panel + begin * tile_size, front.panel + end * tile_size, 0.0); });
+    in_pieces(0, tiles, 32, [&](std::int32_t begin, std::int32_t end) {
+      std::fill(front.panel + begin * tile_size, front.panel + end * tile_size, 0.0);
+    });
     assemble(s, front, workspace);
     for (std::int32_t c = 0; c < workspace.child_count; ++c) {
-      in_pieces(0, workspace.children[c].into_panel, 32, [&](std::int32_t begin, std::int32_t end) { kernels_.extend_add(front, workspace.children[c], begin, end); });
+      in_pieces(0, workspace.children[c].into_panel, 32, [&](std::int32_t begin, std::int32_t end) {
+        kernels_.extend_add(front, workspace.children[c], begin, end);
+      });
     }
     for (std::int32_t begin = 0; begin < front.columns; begin += column_block) {
       const std::int32_t end = std::min(front.columns, begin + column_block);
@@ -259,14 +280,19 @@ class Factorisation {
         lose(symbolic_.first[s] + lost);
         return;
       }
-      in_pieces((end + 7) / 8, tiles, 6, [&](std::int32_t from, std::int32_t to) { kernels_.solve_tiles(front, begin, end, from, to); });
+      in_pieces((end + 7) / 8, tiles, 6,
+                [&](std::int32_t from, std::int32_t to) { kernels_.solve_tiles(front, begin, end, from, to); });
     }
-    in_pieces(0, front.below_tiles, 4, [&](std::int32_t begin, std::int32_t end) { kernels_.form_update(front, begin, end); });
+    in_pieces(0, front.below_tiles, 4,
+              [&](std::int32_t begin, std::int32_t end) { kernels_.form_update(front, begin, end); });
     for (std::int32_t c = 0; c < workspace.child_count; ++c) {
       const ChildView& child = workspace.children[c];
-      in_pieces(child.into_panel, child.size, 32, [&](std::int32_t begin, std::int32_t end) { kernels_.extend_add(front, child, begin, end); });
+      in_pieces(child.into_panel, child.size, 32,
+                [&](std::int32_t begin, std::int32_t end) { kernels_.extend_add(front, child, begin, end); });
     }
-    in_pieces(0, tiles, 16, [&](std::int32_t begin, std::int32_t end) { kernels_.store_tiles(front, values_ + symbolic_.value_start[s], begin, end); });
+    in_pieces(0, tiles, 16, [&](std::int32_t begin, std::int32_t end) {
+      kernels_.store_tiles(front, values_ + symbolic_.value_start[s], begin, end);
+    });
   }
 
   static constexpr std::int32_t column_block = 64;
@@ -286,8 +312,9 @@ class Factorisation {
 
 }  // namespace
 
-void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated,
-               double* values, Memory& memory, JobRunner& jobs, Progress* progress) {
+void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix,
+               Span<const std::uint8_t> eliminated, double* values, Memory& memory, JobRunner& jobs,
+               Progress* progress) {
   Factorisation(symbolic, plan, kernels, matrix, eliminated, values, memory, jobs).run(progress);
   const std::size_t stored = static_cast<std::size_t>(symbolic.stored_entries);
   std::fill(values + stored, values + stored + value_slack, 0.0);
@@ -301,7 +328,8 @@ void require_finite(const SymmetricMatrix& matrix) {
   for (std::int32_t column = 0; column < matrix.size(); ++column) {
     for (std::int32_t e = matrix.column_start[column]; e < matrix.column_start[column + 1]; ++e) {
       if (std::isfinite(matrix.value[e])) continue;
-      fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(column), "column %d of the matrix holds NaN or infinity: check the positions around vertex %d", column, column);
+      fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(column),
+           "column %d of the matrix holds NaN or infinity: check the positions around vertex %d", column, column);
     }
   }
 }

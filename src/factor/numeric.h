@@ -1,10 +1,10 @@
-// Numeric supernodal Cholesky factorisation by the multifrontal method (Duff & Reid 1983; Liu 1992, "The multifrontal method
-// for sparse matrix solution: theory and practice").
+// Numeric supernodal Cholesky factorisation by the multifrontal method (Duff & Reid 1983; Liu 1992, "The multifrontal
+// method for sparse matrix solution: theory and practice").
 //
-// Every supernode assembles a front from its columns of A and the update matrices of its children, factors its columns, and
-// leaves -B B' for its parent. Finished columns are written row by row, supernodes last to first, so that a backward sweep reads
-// memory forwards: packed lower triangle with the diagonal inverted, then the rows below.
-// Cost: flops of the pattern; memory: two stacks of update matrices per thread. On failure `values` is undefined.
+// Every supernode assembles a front from its columns of A and the update matrices of its children, factors its columns,
+// and leaves -B B' for its parent. Finished columns are written row by row, supernodes last to first, so that a
+// backward sweep reads memory forwards: packed lower triangle with the diagonal inverted, then the rows below. Cost:
+// flops of the pattern; memory: two stacks of update matrices per thread. On failure `values` is undefined.
 #pragma once
 #include <cstdint>
 
@@ -22,10 +22,11 @@ namespace hf {
 // Numbers behind the last stored one that sweeps may read over (and ignore).
 constexpr std::size_t value_slack = 64;
 
-// `eliminated` (per unknown, may be empty): rows and columns taken as the identity. Throws HF_ERROR_NOT_POSITIVE_DEFINITE with
-// the unknown whose pivot is lost, the first in factor order.
-void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated,
-               double* values, Memory& memory, JobRunner& jobs, Progress* progress);
+// `eliminated` (per unknown, may be empty): rows and columns taken as the identity. Throws
+// HF_ERROR_NOT_POSITIVE_DEFINITE with the unknown whose pivot is lost, the first in factor order.
+void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix,
+               Span<const std::uint8_t> eliminated, double* values, Memory& memory, JobRunner& jobs,
+               Progress* progress);
 
 // Throws HF_ERROR_NON_FINITE with the column of the first NaN or infinity.
 void require_finite(const SymmetricMatrix& matrix);

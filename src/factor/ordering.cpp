@@ -9,8 +9,8 @@
 
 namespace hf {
 
-void order_graph_by_minimum_degree(std::int32_t size, const std::int32_t* start, const std::int32_t* neighbour, Memory& memory,
-                                   Buffer<std::int32_t>& order) {
+void order_graph_by_minimum_degree(std::int32_t size, const std::int32_t* start, const std::int32_t* neighbour,
+                                   Memory& memory, Buffer<std::int32_t>& order) {
   const std::size_t n = static_cast<std::size_t>(size);
   order.allocate(memory, n);
   if (size == 0) return;
@@ -18,7 +18,8 @@ void order_graph_by_minimum_degree(std::int32_t size, const std::int32_t* start,
   std::size_t pattern = static_cast<std::size_t>(start[size] - start[0]);
   const std::size_t room = pattern + pattern / 5 + n + 1;
   if (room > static_cast<std::size_t>(INT32_MAX)) {
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the matrix has %zu entries; minimum degree takes at most about 1.7e9", pattern);
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the matrix has %zu entries; minimum degree takes at most about 1.7e9",
+         pattern);
   }
   Buffer<std::int32_t> graph(memory, room);
   Buffer<std::int32_t> work(memory, n * 8);
@@ -34,19 +35,21 @@ void order_graph_by_minimum_degree(std::int32_t size, const std::int32_t* start,
   }
   double control[AMD_CONTROL], info[AMD_INFO];
   amd_defaults(control);
-  amd_2(size, begin, graph.data(), length, static_cast<std::int32_t>(room), free_at, length + n, length + 2 * n, order.data(), length + 3 * n,
-        length + 4 * n, length + 5 * n, length + 6 * n, control, info);
+  amd_2(size, begin, graph.data(), length, static_cast<std::int32_t>(room), free_at, length + n, length + 2 * n,
+        order.data(), length + 3 * n, length + 4 * n, length + 5 * n, length + 6 * n, control, info);
 }
 
 void order_by_minimum_degree(const SymmetricMatrix& matrix, Memory& memory, Buffer<std::int32_t>& order) {
   order_graph_by_minimum_degree(matrix.size(), matrix.column_start.data(), matrix.row.data(), memory, order);
 }
 
-void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering ordering, Memory& memory, JobRunner& jobs, Progress* progress,
-                Buffer<std::int32_t>& order) {
+void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering ordering, Memory& memory,
+                JobRunner& jobs, Progress* progress, Buffer<std::int32_t>& order) {
   switch (ordering) {
-    case Ordering::nested_dissection: return order_by_dissection(matrix, coordinates, memory, jobs, progress, order);
-    case Ordering::minimum_degree: return order_by_minimum_degree(matrix, memory, order);
+    case Ordering::nested_dissection:
+      return order_by_dissection(matrix, coordinates, memory, jobs, progress, order);
+    case Ordering::minimum_degree:
+      return order_by_minimum_degree(matrix, memory, order);
     case Ordering::metis:
 #if defined(HF_WITH_GPL)
       return order_by_metis(matrix, memory, order);

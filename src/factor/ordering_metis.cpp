@@ -9,7 +9,8 @@
 namespace hf {
 namespace {
 
-// Sets the host's rand() sequence aside for its lifetime: METIS reseeds and draws from it. Not for several threads at once.
+// Sets the host's rand() sequence aside for its lifetime: METIS reseeds and draws from it. Not for several threads at
+// once.
 class RandomState {
  public:
   RandomState() noexcept : host_(initstate(1, state_, sizeof state_)) {}

@@ -1,7 +1,7 @@
-// Path solves: Y = G^-1 P W for sparse columns. A column is non-zero only on the elimination-tree paths of its entries (Gilbert &
-// Peierls 1988; Schreiber 1982), so a group of neighbouring sites touches a few hundred supernodes. The sites of a group are sorted by
-// their first row, which makes the active sites of every supernode one range; they lie along the vector lanes.
-// Cost: path entries times sites. One group = one job; groups are cut by count alone.
+// Path solves: Y = G^-1 P W for sparse columns. A column is non-zero only on the elimination-tree paths of its entries
+// (Gilbert & Peierls 1988; Schreiber 1982), so a group of neighbouring sites touches a few hundred supernodes. The
+// sites of a group are sorted by their first row, which makes the active sites of every supernode one range; they lie
+// along the vector lanes. Cost: path entries times sites. One group = one job; groups are cut by count alone.
 #include <algorithm>
 #include <cstring>
 
@@ -15,9 +15,10 @@ constexpr std::int32_t lane_slack = 64;  // numbers a vector of padding lanes ma
 
 const PathBlocks& blocks_of(const PathGroup& group) noexcept { return static_cast<const PathBlocks&>(group); }
 
-// The union of the paths of a group, as blocks without places; slot[s] = index of the block of supernode s, -1 for none.
-void collect_blocks(const Symbolic& symbolic, const SparseColumns& columns, Span<const std::int32_t> members, Vector<PathBlock>& blocks,
-                    std::int32_t* slot) {
+// The union of the paths of a group, as blocks without places; slot[s] = index of the block of supernode s, -1 for
+// none.
+void collect_blocks(const Symbolic& symbolic, const SparseColumns& columns, Span<const std::int32_t> members,
+                    Vector<PathBlock>& blocks, std::int32_t* slot) {
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(members.size()); ++i) {
     for (std::int32_t e = columns.start[members[i]]; e < columns.start[members[i] + 1]; ++e) {
       for (std::int32_t s = symbolic.supernode[symbolic.position[columns.row[e]]]; s >= 0; s = symbolic.parent[s]) {
@@ -32,11 +33,12 @@ void collect_blocks(const Symbolic& symbolic, const SparseColumns& columns, Span
       }
     }
   }
-  std::sort(blocks.begin(), blocks.end(), [](const PathBlock& a, const PathBlock& b) { return a.supernode < b.supernode; });
+  std::sort(blocks.begin(), blocks.end(),
+            [](const PathBlock& a, const PathBlock& b) { return a.supernode < b.supernode; });
 }
 
-std::shared_ptr<const PathGroup> solve_group(const SupernodalFactor& factor, const SparseColumns& columns, Span<const std::int32_t> members,
-                                             Memory& memory) {
+std::shared_ptr<const PathGroup> solve_group(const SupernodalFactor& factor, const SparseColumns& columns,
+                                             Span<const std::int32_t> members, Memory& memory) {
   const Symbolic& symbolic = factor.symbolic();
   std::shared_ptr<PathBlocks> group = make_shared_in<PathBlocks>(memory);
   group->sites = static_cast<std::int32_t>(members.size());
@@ -51,7 +53,8 @@ std::shared_ptr<const PathGroup> solve_group(const SupernodalFactor& factor, con
   for (PathBlock& block : blocks) {
     block.lanes = block.used == 1 ? 1 : (block.used + 7) & ~7;
     block.at = total;
-    for (std::int32_t row = symbolic.first[block.supernode]; row < symbolic.first[block.supernode + 1]; ++row, total += block.lanes) {
+    for (std::int32_t row = symbolic.first[block.supernode]; row < symbolic.first[block.supernode + 1];
+         ++row, total += block.lanes) {
       place_of[row] = total - block.low;
     }
     total = (total + 7) & ~std::int64_t{7};
@@ -75,21 +78,25 @@ std::shared_ptr<const PathGroup> solve_group(const SupernodalFactor& factor, con
     const std::int32_t* rows = symbolic.row_list(s);
     const std::int32_t count = symbolic.below(s);
     for (std::int32_t k = 0; k < count; ++k) target[k] = place_of[rows[k]] + block.low;
-    kernels.path_rows(factor.below(s), count, symbolic.columns(s), values + block.at, block.lanes, values, target.data());
+    kernels.path_rows(factor.below(s), count, symbolic.columns(s), values + block.at, block.lanes, values,
+                      target.data());
   }
   return group;
 }
 
 void require_in_range(const SparseColumns& columns, std::int32_t size) {
   for (const std::int32_t row : columns.row) {
-    if (row < 0 || row >= size) fail(HF_ERROR_OUT_OF_RANGE, static_cast<std::uint32_t>(row), "row %d of a site lies outside the %d unknowns", row, size);
+    if (row < 0 || row >= size)
+      fail(HF_ERROR_OUT_OF_RANGE, static_cast<std::uint32_t>(row), "row %d of a site lies outside the %d unknowns", row,
+           size);
   }
 }
 
 }  // namespace
 
-void SupernodalFactor::solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs, Vector<std::shared_ptr<const PathGroup>>& out_groups,
-                                   Span<std::int32_t> out_group, Span<std::int32_t> out_column) const {
+void SupernodalFactor::solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
+                                   Vector<std::shared_ptr<const PathGroup>>& out_groups, Span<std::int32_t> out_group,
+                                   Span<std::int32_t> out_column) const {
   out_groups.clear();
   const std::int32_t count = columns.count();
   if (count == 0) return;
@@ -99,19 +106,24 @@ void SupernodalFactor::solve_paths(const SparseColumns& columns, Memory& memory,
   Buffer<std::int32_t> key(memory, static_cast<std::size_t>(count));
   for (std::int32_t i = 0; i < count; ++i) {
     members[i] = i, key[i] = INT32_MAX;
-    for (std::int32_t e = columns.start[i]; e < columns.start[i + 1]; ++e) key[i] = std::min(key[i], symbolic().position[columns.row[e]]);
+    for (std::int32_t e = columns.start[i]; e < columns.start[i + 1]; ++e)
+      key[i] = std::min(key[i], symbolic().position[columns.row[e]]);
   }
-  std::sort(members.begin(), members.end(), [&](std::int32_t a, std::int32_t b) { return key[a] != key[b] ? key[a] < key[b] : a < b; });
+  std::sort(members.begin(), members.end(),
+            [&](std::int32_t a, std::int32_t b) { return key[a] != key[b] ? key[a] < key[b] : a < b; });
   // even groups; from 8 sites on at least two, so that two threads have work
   const std::int32_t groups = std::max((count + PathGroup::capacity - 1) / PathGroup::capacity, count >= 8 ? 2 : 1);
-  const auto begin_of = [&](std::int32_t g) { return static_cast<std::int32_t>(static_cast<std::int64_t>(g) * count / groups); };
+  const auto begin_of = [&](std::int32_t g) {
+    return static_cast<std::int32_t>(static_cast<std::int64_t>(g) * count / groups);
+  };
   Vector<std::shared_ptr<const PathGroup>> made(static_cast<std::size_t>(groups), nullptr, &memory);
   jobs.for_each(static_cast<std::uint32_t>(groups), [&](std::uint32_t g) {
     const std::int32_t begin = begin_of(static_cast<std::int32_t>(g)), end = begin_of(static_cast<std::int32_t>(g) + 1);
     made[g] = solve_group(*this, columns, {members.data() + begin, static_cast<std::size_t>(end - begin)}, memory);
   });
   for (std::int32_t g = 0; g < groups; ++g) {
-    for (std::int32_t k = begin_of(g); k < begin_of(g + 1); ++k) out_group[members[k]] = g, out_column[members[k]] = k - begin_of(g);
+    for (std::int32_t k = begin_of(g); k < begin_of(g + 1); ++k)
+      out_group[members[k]] = g, out_column[members[k]] = k - begin_of(g);
   }
   out_groups.assign(made.begin(), made.end());
 }
@@ -131,8 +143,8 @@ void SupernodalFactor::gram(const PathGroup& a, const PathGroup& b, double* gram
     } else if (q.supernode < p.supernode) {
       ++j;
     } else {
-      kernels().gram(left.values.data() + p.at, p.lanes, p.used, right.values.data() + q.at, q.lanes, q.used, symbolic().columns(p.supernode),
-                     tile + p.low * stride + q.low, stride);
+      kernels().gram(left.values.data() + p.at, p.lanes, p.used, right.values.data() + q.at, q.lanes, q.used,
+                     symbolic().columns(p.supernode), tile + p.low * stride + q.low, stride);
       ++i, ++j;
     }
   }

@@ -78,7 +78,8 @@ void group_tasks(const Symbolic& symbolic, const double* share, Memory& memory, 
   }
   plan.top.allocate(memory, top.size());
   std::copy(top.begin(), top.end(), plan.top.begin());
-  std::stable_sort(plan.top.begin(), plan.top.end(), [&](std::int32_t a, std::int32_t b) { return height[a] < height[b]; });
+  std::stable_sort(plan.top.begin(), plan.top.end(),
+                   [&](std::int32_t a, std::int32_t b) { return height[a] < height[b]; });
   plan.wave_start.allocate(memory, static_cast<std::size_t>(plan.waves) + 1);
   std::int32_t k = 0;
   for (std::int32_t w = 0; w < plan.waves; ++w) {
@@ -113,8 +114,8 @@ void measure_tasks(const Symbolic& symbolic, Plan& plan) {
   }
 }
 
-// First-fit places of the update matrices that outlive their piece: those of task roots from the start, those of a wave while
-// the children they replace still stand.
+// First-fit places of the update matrices that outlive their piece: those of task roots from the start, those of a wave
+// while the children they replace still stand.
 void place_shared(const Symbolic& symbolic, Memory& memory, Plan& plan) {
   struct Gap {
     std::int64_t begin, end;
@@ -140,8 +141,10 @@ void place_shared(const Symbolic& symbolic, Memory& memory, Plan& plan) {
     std::size_t g = 0;
     while (g < gaps.size() && gaps[g].begin < end) ++g;
     gaps.insert(gaps.begin() + static_cast<std::ptrdiff_t>(g), {begin, end});
-    if (g + 1 < gaps.size() && gaps[g + 1].begin == end) gaps[g].end = gaps[g + 1].end, gaps.erase(gaps.begin() + static_cast<std::ptrdiff_t>(g) + 1);
-    if (g > 0 && gaps[g - 1].end == begin) gaps[g - 1].end = gaps[g].end, gaps.erase(gaps.begin() + static_cast<std::ptrdiff_t>(g));
+    if (g + 1 < gaps.size() && gaps[g + 1].begin == end)
+      gaps[g].end = gaps[g + 1].end, gaps.erase(gaps.begin() + static_cast<std::ptrdiff_t>(g) + 1);
+    if (g > 0 && gaps[g - 1].end == begin)
+      gaps[g - 1].end = gaps[g].end, gaps.erase(gaps.begin() + static_cast<std::ptrdiff_t>(g));
   };
   plan.shared_update.allocate(memory, symbolic.supernodes);
   std::fill(plan.shared_update.begin(), plan.shared_update.end(), -1);
@@ -157,7 +160,8 @@ void place_shared(const Symbolic& symbolic, Memory& memory, Plan& plan) {
 }  // namespace
 
 double Plan::bytes() const noexcept {
-  return 4.0 * static_cast<double>(task_root.size() + task_start.size() + task_order.size() + top.size() + wave_start.size() + child.size() + sibling.size()) +
+  return 4.0 * static_cast<double>(task_root.size() + task_start.size() + task_order.size() + top.size() +
+                                   wave_start.size() + child.size() + sibling.size()) +
          static_cast<double>(parity.size()) + 8.0 * static_cast<double>(shared_update.size());
 }
 

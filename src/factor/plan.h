@@ -1,8 +1,8 @@
-// How the work on a factor is cut into pieces: a property of the pattern alone, never of the number of threads, so that every
-// sum is formed in the same order whoever runs the pieces.
+// How the work on a factor is cut into pieces: a property of the pattern alone, never of the number of threads, so that
+// every sum is formed in the same order whoever runs the pieces.
 //
-// Tasks are groups of complete subtrees of the supernode tree, each a small share of the whole; they run in any order. What is
-// above them, the top, is taken in waves of equal height: a wave needs only the waves before it.
+// Tasks are groups of complete subtrees of the supernode tree, each a small share of the whole; they run in any order.
+// What is above them, the top, is taken in waves of equal height: a wave needs only the waves before it.
 #pragma once
 #include <cstdint>
 
@@ -23,7 +23,7 @@ struct Plan {
   std::int32_t waves = 0;
   // tree
   Buffer<std::int32_t> child, sibling;  // first child and next sibling of a supernode, ascending; -1 at the end
-  Buffer<std::uint8_t> parity;          // depth of the supernode, lowest bit: which of the two stacks takes its update matrix
+  Buffer<std::uint8_t> parity;  // depth of the supernode, lowest bit: which of the two stacks takes its update matrix
   // storage of a factorisation, in doubles
   struct Sizes {
     std::int64_t panel = 0, stack[2] = {0, 0};
@@ -31,7 +31,8 @@ struct Plan {
     std::int64_t child_rows = 0;
   };
   Sizes in_task, in_top;
-  Buffer<std::int64_t> shared_update;  // per supernode: place of the update matrix of task roots and top supernodes, or -1
+  Buffer<std::int64_t>
+      shared_update;  // per supernode: place of the update matrix of task roots and top supernodes, or -1
   std::int64_t shared_size = 0;
 
   double bytes() const noexcept;
@@ -42,8 +43,8 @@ inline std::int64_t panel_size(std::int64_t columns, std::int64_t below) noexcep
   return 8 * ((columns + 7) / 8 + (below + 7) / 8) * columns;
 }
 inline std::int64_t update_size(std::int64_t below) noexcept {
-  const std::int64_t stride = (below + 7) / 8 * 8;
-  return stride * stride;
+  const std::int64_t tiles = (below + 7) / 8;
+  return 32 * tiles * (tiles + 1);
 }
 
 void make_plan(const Symbolic& symbolic, Memory& memory, Plan& out);

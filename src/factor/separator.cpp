@@ -75,16 +75,18 @@ void SeparatorSearch::collect_band(const GraphView& graph, const std::uint8_t* s
     const std::int32_t v = band_[b];
     for (std::int32_t e = graph.start[v]; e < graph.start[v + 1]; ++e) {
       const std::int32_t u = graph.neighbour[e];
-      if (side[u] == side_between) band_neighbour_[k++] = slot_[u];
-      else flags_[b] |= side[u] == side_left ? touches_left : touches_right;
+      if (side[u] == side_between)
+        band_neighbour_[k++] = slot_[u];
+      else
+        flags_[b] |= side[u] == side_left ? touches_left : touches_right;
     }
   }
   band_start_[count] = k;
   previous_.assign(count, none), next_.assign(count, none);
 }
 
-// Breadth-first levels of the residual graph from the source. States: 2 b = entry of vertex b, 2 b + 1 = its exit; a vertex on no
-// path is entered and left at once and has the exit only. True when the sink is reached.
+// Breadth-first levels of the residual graph from the source. States: 2 b = entry of vertex b, 2 b + 1 = its exit; a
+// vertex on no path is entered and left at once and has the exit only. True when the sink is reached.
 bool SeparatorSearch::label_phase() {
   const std::size_t count = band_.size();
   level_.assign(2 * count, none);
@@ -178,8 +180,10 @@ void SeparatorSearch::apply_path() {
       continue;
     }
     if (!(flags_[b] & on_path)) flags_[b] |= on_path, previous_[b] = from;
-    if (k + 1 == stack_.size()) next_[b] = sink;
-    else if (stack_[k + 1] >> 1 != b) next_[b] = stack_[k + 1] >> 1;
+    if (k + 1 == stack_.size())
+      next_[b] = sink;
+    else if (stack_[k + 1] >> 1 != b)
+      next_[b] = stack_[k + 1] >> 1;
     from = b;
   }
 }
@@ -205,8 +209,10 @@ void SeparatorSearch::mark_reaching_sink() {
     }
     // what enters b: any neighbour's exit, and b's own exit when b is on a path
     for (std::int32_t e = band_start_[b]; e < band_start_[b + 1]; ++e) visit(2 * band_neighbour_[e] + 1);
-    if (flags_[b] & on_path) visit(state + 1);
-    else reach_[2 * b] = 1;
+    if (flags_[b] & on_path)
+      visit(state + 1);
+    else
+      reach_[2 * b] = 1;
   }
 }
 
@@ -216,20 +222,28 @@ Cut SeparatorSearch::choose_cut(const GraphView& graph, std::uint8_t* side) {
   Cut near_source, near_sink;
   std::int64_t left = 0, right = 0;
   for (std::int32_t v = 0; v < graph.size; ++v) {
-    if (side[v] == side_left) left += graph.weight_of(v);
-    else if (side[v] == side_right) right += graph.weight_of(v);
+    if (side[v] == side_left)
+      left += graph.weight_of(v);
+    else if (side[v] == side_right)
+      right += graph.weight_of(v);
   }
   near_source.left = near_sink.left = left, near_source.right = near_sink.right = right;
   for (std::size_t b = 0; b < band_.size(); ++b) {
     const std::int32_t weight = graph.weight_of(band_[b]);
     const bool entered = level_[2 * b] != none, left_by = level_[2 * b + 1] != none;
-    if (left_by) near_source.left += weight;
-    else if (entered) ++near_source.separator;
-    else near_source.right += weight;
+    if (left_by)
+      near_source.left += weight;
+    else if (entered)
+      ++near_source.separator;
+    else
+      near_source.right += weight;
     const bool exits = reach_[2 * b + 1] != 0, enters = reach_[2 * b] != 0;
-    if (enters) near_sink.right += weight;
-    else if (exits) ++near_sink.separator;
-    else near_sink.left += weight;
+    if (enters)
+      near_sink.right += weight;
+    else if (exits)
+      ++near_sink.separator;
+    else
+      near_sink.left += weight;
   }
   const bool take_source = near_source.usable() && (!near_sink.usable() || near_source.score() <= near_sink.score());
   for (std::size_t b = 0; b < band_.size(); ++b) {
@@ -259,7 +273,8 @@ Cut SeparatorSearch::refine(const GraphView& graph, std::uint8_t* side) {
 bool SeparatorSearch::try_keys(const GraphView& graph, std::uint8_t* side, Cut& best, double share) {
   const std::int32_t n = graph.size;
   ranked_.resize(static_cast<std::size_t>(n));
-  for (std::int32_t v = 0; v < n; ++v) ranked_[v] = static_cast<std::uint64_t>(ordered_bits(key_[v])) << 32 | static_cast<std::uint32_t>(v);
+  for (std::int32_t v = 0; v < n; ++v)
+    ranked_[v] = static_cast<std::uint64_t>(ordered_bits(key_[v])) << 32 | static_cast<std::uint32_t>(v);
   trial_.assign(static_cast<std::size_t>(n), side_between);
   std::int32_t lefts = 0;
   if (graph.weight) {
@@ -270,11 +285,14 @@ bool SeparatorSearch::try_keys(const GraphView& graph, std::uint8_t* side, Cut& 
       const std::int32_t v = static_cast<std::int32_t>(entry & 0xffffffffu);
       const double middle = (static_cast<double>(before) + 0.5 * graph.weight[v]) / static_cast<double>(total);
       before += graph.weight[v];
-      if (middle < 0.5 - share) trial_[v] = side_left;
-      else if (middle > 0.5 + share) trial_[v] = side_right;
+      if (middle < 0.5 - share)
+        trial_[v] = side_left;
+      else if (middle > 0.5 + share)
+        trial_[v] = side_right;
     }
   } else {
-    const std::ptrdiff_t low = static_cast<std::ptrdiff_t>((0.5 - share) * n), high = static_cast<std::ptrdiff_t>((0.5 + share) * n);
+    const std::ptrdiff_t low = static_cast<std::ptrdiff_t>((0.5 - share) * n),
+                         high = static_cast<std::ptrdiff_t>((0.5 + share) * n);
     std::nth_element(ranked_.begin(), ranked_.begin() + low, ranked_.end());
     std::nth_element(ranked_.begin() + low, ranked_.begin() + std::min<std::ptrdiff_t>(high, n - 1), ranked_.end());
     for (std::ptrdiff_t k = 0; k < low; ++k) trial_[ranked_[k] & 0xffffffffu] = side_left;

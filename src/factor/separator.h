@@ -1,9 +1,9 @@
 // Minimum vertex separators of a graph, for nested dissection.
 //
-// A bisection fixes two sides and leaves a band between them; the smallest set of band vertices that separates the sides is found
-// as a maximum set of vertex-disjoint paths (Menger; Dinic's algorithm on split vertices of capacity 1, kept implicitly as
-// predecessors and successors on the paths). Both extreme minimum cuts are read off the residual; the better balanced stands.
-// Cost: O(band edges) per phase, a handful of phases. Deterministic.
+// A bisection fixes two sides and leaves a band between them; the smallest set of band vertices that separates the
+// sides is found as a maximum set of vertex-disjoint paths (Menger; Dinic's algorithm on split vertices of capacity 1,
+// kept implicitly as predecessors and successors on the paths). Both extreme minimum cuts are read off the residual;
+// the better balanced stands. Cost: O(band edges) per phase, a handful of phases. Deterministic.
 #pragma once
 #include <cstdint>
 
@@ -24,23 +24,38 @@ struct GraphView {
 enum : std::uint8_t { side_left = 0, side_right = 1, side_between = 2 };
 
 struct Cut {
-  std::int32_t separator = 0;             // vertices between
-  std::int64_t left = 0, right = 0;       // weights of the sides
+  std::int32_t separator = 0;        // vertices between
+  std::int64_t left = 0, right = 0;  // weights of the sides
   bool usable() const noexcept { return left > 0 && right > 0; }
-  double score() const noexcept;          // smaller is better: size times (1 + squared imbalance)
+  double score() const noexcept;  // smaller is better: size times (1 + squared imbalance)
 };
 
 class SeparatorSearch {
  public:
   explicit SeparatorSearch(Memory& memory)
-      : memory_(memory), band_(&memory), slot_(&memory), band_start_(&memory), band_neighbour_(&memory), flags_(&memory), level_(&memory), previous_(&memory),
-        next_(&memory), queue_(&memory), stack_(&memory), iterator_(&memory), reach_(&memory), ranked_(&memory), trial_(&memory), key_(&memory) {}
+      : memory_(memory),
+        band_(&memory),
+        slot_(&memory),
+        band_start_(&memory),
+        band_neighbour_(&memory),
+        flags_(&memory),
+        level_(&memory),
+        previous_(&memory),
+        next_(&memory),
+        queue_(&memory),
+        stack_(&memory),
+        iterator_(&memory),
+        reach_(&memory),
+        ranked_(&memory),
+        trial_(&memory),
+        key_(&memory) {}
 
-  // In: side[v] left, right or between (the band; must separate the sides). Out: between is a minimum separator inside the band.
+  // In: side[v] left, right or between (the band; must separate the sides). Out: between is a minimum separator inside
+  // the band.
   Cut refine(const GraphView& graph, std::uint8_t* side);
 
-  // Bisection of a small graph from keys along its principal axes, or from breadth-first order when it has no extent. `thorough`
-  // tries diagonal axes too. Returns an unusable cut when the graph cannot be split.
+  // Bisection of a small graph from keys along its principal axes, or from breadth-first order when it has no extent.
+  // `thorough` tries diagonal axes too. Returns an unusable cut when the graph cannot be split.
   Cut bisect(const GraphView& graph, std::uint8_t* side, bool thorough);
 
  private:

@@ -1,7 +1,8 @@
 // Vector types of the AVX2 + FMA build.
 #pragma once
-#include <cstdint>
 #include <immintrin.h>
+
+#include <cstdint>
 
 namespace {
 
@@ -54,19 +55,23 @@ inline double multiply_add_scalar(double a, double b, double c) noexcept {
 }
 
 // out[r][at + c] = tile[8 c + r] for r < rows, c < columns: blocks of 4 x 4.
-inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows, std::int32_t columns) noexcept {
+inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows,
+                             std::int32_t columns) noexcept {
   for (std::int32_t r = 0; r < rows; r += 4) {
     for (std::int32_t c = 0; c < columns; c += 4) {
       __m256d in[4], pair[4], row[4];
-      for (int k = 0; k < 4; ++k) in[k] = c + k < columns ? _mm256_loadu_pd(tile + 8 * (c + k) + r) : _mm256_setzero_pd();
+      for (int k = 0; k < 4; ++k)
+        in[k] = c + k < columns ? _mm256_loadu_pd(tile + 8 * (c + k) + r) : _mm256_setzero_pd();
       pair[0] = _mm256_unpacklo_pd(in[0], in[1]), pair[1] = _mm256_unpackhi_pd(in[0], in[1]);
       pair[2] = _mm256_unpacklo_pd(in[2], in[3]), pair[3] = _mm256_unpackhi_pd(in[2], in[3]);
       row[0] = _mm256_permute2f128_pd(pair[0], pair[2], 0x20), row[1] = _mm256_permute2f128_pd(pair[1], pair[3], 0x20);
       row[2] = _mm256_permute2f128_pd(pair[0], pair[2], 0x31), row[3] = _mm256_permute2f128_pd(pair[1], pair[3], 0x31);
       for (int k = 0; k < 4; ++k) {
         if (r + k >= rows) break;
-        if (c + 4 <= columns) _mm256_storeu_pd(out[r + k] + at + c, row[k]);
-        else Simd<double>::store_part(out[r + k] + at + c, row[k], columns - c);
+        if (c + 4 <= columns)
+          _mm256_storeu_pd(out[r + k] + at + c, row[k]);
+        else
+          Simd<double>::store_part(out[r + k] + at + c, row[k], columns - c);
       }
     }
   }

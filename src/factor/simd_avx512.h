@@ -1,7 +1,8 @@
 // Vector types of the AVX-512 build.
 #pragma once
-#include <cstdint>
 #include <immintrin.h>
+
+#include <cstdint>
 
 namespace {
 
@@ -29,7 +30,9 @@ template <>
 struct Simd<float> {
   using Type = __m512;
   static constexpr int width = 16;
-  static __mmask16 mask(int count) noexcept { return static_cast<__mmask16>(count >= 16 ? 0xffff : (1u << count) - 1u); }
+  static __mmask16 mask(int count) noexcept {
+    return static_cast<__mmask16>(count >= 16 ? 0xffff : (1u << count) - 1u);
+  }
   static Type zero() noexcept { return _mm512_setzero_ps(); }
   static Type all(float x) noexcept { return _mm512_set1_ps(x); }
   static Type load(const float* p) noexcept { return _mm512_loadu_ps(p); }
@@ -50,10 +53,13 @@ inline double multiply_add_scalar(double a, double b, double c) noexcept {
 }
 
 // out[r][at + c] = tile[8 c + r] for r < rows, c < columns: one 8 x 8 transpose in registers.
-inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows, std::int32_t columns) noexcept {
+inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows,
+                             std::int32_t columns) noexcept {
   __m512d in[8], pair[8], quad[8], row[8];
   for (int k = 0; k < 8; ++k) in[k] = k < columns ? _mm512_loadu_pd(tile + 8 * k) : _mm512_setzero_pd();
-  for (int k = 0; k < 8; k += 2) pair[k] = _mm512_maskz_unpacklo_pd(0xff, in[k], in[k + 1]), pair[k + 1] = _mm512_maskz_unpackhi_pd(0xff, in[k], in[k + 1]);
+  for (int k = 0; k < 8; k += 2)
+    pair[k] = _mm512_maskz_unpacklo_pd(0xff, in[k], in[k + 1]),
+    pair[k + 1] = _mm512_maskz_unpackhi_pd(0xff, in[k], in[k + 1]);
   for (int k = 0; k < 8; k += 4) {
     for (int h = 0; h < 2; ++h) {
       quad[k + h] = _mm512_maskz_shuffle_f64x2(0xff, pair[k + h], pair[k + 2 + h], 0x88);

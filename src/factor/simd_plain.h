@@ -1,4 +1,5 @@
-// Vector types of the plain build: two lanes that every 64-bit processor has; products are rounded before they are added.
+// Vector types of the plain build: two lanes that every 64-bit processor has; products are rounded before they are
+// added.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -56,7 +57,8 @@ constexpr int lane_vectors = 2, lane_rows = 4;
 inline double multiply_add_scalar(double a, double b, double c) noexcept { return a * b + c; }
 
 // out[r][at + c] = tile[8 c + r] for r < rows, c < columns.
-inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows, std::int32_t columns) noexcept {
+inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows,
+                             std::int32_t columns) noexcept {
   for (std::int32_t r = 0; r < rows; ++r) {
     for (std::int32_t c = 0; c < columns; ++c) out[r][at + c] = tile[8 * c + r];
   }

@@ -27,7 +27,9 @@ struct PathBlock {
 class PathBlocks final : public PathGroup {
  public:
   std::int32_t count() const noexcept override { return sites; }
-  double bytes() const noexcept override { return 8.0 * static_cast<double>(values.size()) + static_cast<double>(blocks.size() * sizeof(PathBlock)); }
+  double bytes() const noexcept override {
+    return 8.0 * static_cast<double>(values.size()) + static_cast<double>(blocks.size() * sizeof(PathBlock));
+  }
   std::int32_t sites = 0;
   Buffer<PathBlock> blocks;  // supernodes ascending
   Buffer<double> values;
@@ -39,15 +41,20 @@ class SupernodalFactor final : public Factor {
 
   std::int32_t size() const noexcept override { return symbolic().size; }
   const FactorStatistics& statistics() const noexcept override { return statistics_; }
-  Span<const std::int32_t> position() const noexcept override { return {symbolic().position.data(), symbolic().position.size()}; }
-  Span<const std::int32_t> order() const noexcept override { return {symbolic().order.data(), symbolic().order.size()}; }
+  Span<const std::int32_t> position() const noexcept override {
+    return {symbolic().position.data(), symbolic().position.size()};
+  }
+  Span<const std::int32_t> order() const noexcept override {
+    return {symbolic().order.data(), symbolic().order.size()};
+  }
 
   void forward(double* z, std::int32_t channels, JobRunner& jobs) const override;
   void backward(double* z, std::int32_t channels, JobRunner& jobs) const override;
-  std::shared_ptr<const Factor> refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, Memory& memory,
-                                         JobRunner& jobs) const override;
-  void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs, Vector<std::shared_ptr<const PathGroup>>& out_groups,
-                   Span<std::int32_t> out_group, Span<std::int32_t> out_column) const override;
+  std::shared_ptr<const Factor> refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated,
+                                         Memory& memory, JobRunner& jobs) const override;
+  void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
+                   Vector<std::shared_ptr<const PathGroup>>& out_groups, Span<std::int32_t> out_group,
+                   Span<std::int32_t> out_column) const override;
   void gram(const PathGroup& a, const PathGroup& b, double* gram, std::int32_t ld) const override;
   void combine(const PathGroup& group, const double* lambda, std::int32_t channels, double* z) const override;
   void clear(const PathGroup& group, std::int32_t channels, double* z) const override;
@@ -66,7 +73,9 @@ class SupernodalFactor final : public Factor {
   const std::shared_ptr<const Analysis>& analysis() const noexcept { return analysis_; }
   // Factorises the matrix into values(), which it allocates.
   void compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, JobRunner& jobs, Progress* progress);
-  void set_timings(double ordering_ms, double symbolic_ms) noexcept { statistics_.ordering_ms = ordering_ms, statistics_.symbolic_ms = symbolic_ms; }
+  void set_timings(double ordering_ms, double symbolic_ms) noexcept {
+    statistics_.ordering_ms = ordering_ms, statistics_.symbolic_ms = symbolic_ms;
+  }
   // Another set of kernels, for tests that compare them.
   void use_kernels(const Kernels& kernels) noexcept { kernels_ = &kernels; }
 

@@ -1,9 +1,9 @@
 // Forward and backward sweeps over the stored factor.
 //
-// Backward, z <- G^-T z: supernodes last to first; each subtracts what its rows below contribute, then solves its triangle. Top
-// supernodes wave by wave, then the tasks, all at once: no two pieces write the same row. Forward, z <- G^-1 z: supernodes first to
-// last; a task keeps what it contributes above itself in a buffer of its own, and the buffers are added in the order of the tasks.
-// Cost: one read of the factor per call for up to 8 channels.
+// Backward, z <- G^-T z: supernodes last to first; each subtracts what its rows below contribute, then solves its
+// triangle. Top supernodes wave by wave, then the tasks, all at once: no two pieces write the same row. Forward, z <-
+// G^-1 z: supernodes first to last; a task keeps what it contributes above itself in a buffer of its own, and the
+// buffers are added in the order of the tasks. Cost: one read of the factor per call for up to 8 channels.
 #include <algorithm>
 #include <mutex>
 
@@ -29,9 +29,11 @@ struct BackwardPass {
     const std::int64_t width = symbolic.columns(s);
     const T* below = values + symbolic.value_start[s] + width * (width + 1) / 2;
     if constexpr (sizeof(T) == sizeof(double)) {
-      kernels.backward_rows(below, symbolic.row_list(s), symbolic.below(s), symbolic.columns(s), begin, end, z, symbolic.first[s], channels);
+      kernels.backward_rows(below, symbolic.row_list(s), symbolic.below(s), symbolic.columns(s), begin, end, z,
+                            symbolic.first[s], channels);
     } else {
-      kernels.backward_rows_f32(below, symbolic.row_list(s), symbolic.below(s), symbolic.columns(s), begin, end, z, symbolic.first[s], channels);
+      kernels.backward_rows_f32(below, symbolic.row_list(s), symbolic.below(s), symbolic.columns(s), begin, end, z,
+                                symbolic.first[s], channels);
     }
   }
   void triangle(std::int32_t s) const noexcept {
@@ -47,7 +49,8 @@ struct BackwardPass {
     triangle(s);
   }
 
-  // A wave as jobs: whole supernodes when they are many or small, else pieces of their columns first and the triangles after.
+  // A wave as jobs: whole supernodes when they are many or small, else pieces of their columns first and the triangles
+  // after.
   void wave(std::int32_t begin, std::int32_t end, JobRunner& jobs) const {
     const std::int32_t* top = plan.top.data();
     const auto pieces_of = [&](std::int32_t s) { return (symbolic.columns(s) + piece_columns - 1) / piece_columns; };
@@ -106,7 +109,8 @@ class ForwardPass {
     for (std::int32_t s = 0; s < symbolic.supernodes; ++s) longest_ = std::max(longest_, symbolic.below(s));
     start_.allocate(memory, plan.task_root.size() + 1);
     std::int64_t total = 0;
-    for (std::size_t r = 0; r < plan.task_root.size(); ++r) start_[r] = total, total += symbolic.below(plan.task_root[r]);
+    for (std::size_t r = 0; r < plan.task_root.size(); ++r)
+      start_[r] = total, total += symbolic.below(plan.task_root[r]);
     start_[plan.task_root.size()] = total;
     above_.allocate(memory, static_cast<std::size_t>(total * channels));
   }
@@ -150,7 +154,8 @@ class ForwardPass {
       subtract(rows, inside, scratch.product.data());
       for (std::int32_t k = inside; k < count; ++k) {
         double* target = above + static_cast<std::int64_t>(scratch.place_of[rows[k]]) * channels_;
-        for (std::int32_t c = 0; c < channels_; ++c) target[c] += scratch.product[static_cast<std::size_t>(k) * channels_ + c];
+        for (std::int32_t c = 0; c < channels_; ++c)
+          target[c] += scratch.product[static_cast<std::size_t>(k) * channels_ + c];
       }
     }
   }
@@ -167,12 +172,14 @@ class ForwardPass {
     const Symbolic& symbolic = factor_.symbolic();
     const std::int32_t columns = symbolic.columns(s), rows = symbolic.below(s);
     constexpr std::int32_t step = 128;
-    if (jobs.thread_count() == 1 || static_cast<double>(columns) * rows < 40000 || rows <= step) return solve(s, product);
+    if (jobs.thread_count() == 1 || static_cast<double>(columns) * rows < 40000 || rows <= step)
+      return solve(s, product);
     double* z = z_ + static_cast<std::int64_t>(symbolic.first[s]) * channels_;
     factor_.kernels().forward_triangle(factor_.triangle(s), columns, z, channels_);
     jobs.for_each(static_cast<std::uint32_t>((rows + step - 1) / step), [&](std::uint32_t piece) {
       const std::int32_t begin = static_cast<std::int32_t>(piece) * step;
-      factor_.kernels().forward_rows(factor_.below(s) + static_cast<std::int64_t>(begin) * columns, std::min(step, rows - begin), columns, z,
+      factor_.kernels().forward_rows(factor_.below(s) + static_cast<std::int64_t>(begin) * columns,
+                                     std::min(step, rows - begin), columns, z,
                                      product + static_cast<std::int64_t>(begin) * channels_, channels_);
     });
   }
@@ -220,9 +227,12 @@ void SupernodalFactor::backward(double* z, std::int32_t channels, JobRunner& job
   BackwardPass<double>{symbolic(), plan(), kernels(), values_.data(), z, channels}.run(jobs);
 }
 
-void SupernodalFactor::forward(double* z, std::int32_t channels, JobRunner& jobs) const { ForwardPass(*this, z, channels, memory_).run(jobs); }
+void SupernodalFactor::forward(double* z, std::int32_t channels, JobRunner& jobs) const {
+  ForwardPass(*this, z, channels, memory_).run(jobs);
+}
 
-PreviewFactor::PreviewFactor(std::shared_ptr<const Analysis> analysis, const Kernels& kernels, const Buffer<double>& values, Memory& memory, JobRunner& jobs)
+PreviewFactor::PreviewFactor(std::shared_ptr<const Analysis> analysis, const Kernels& kernels,
+                             const Buffer<double>& values, Memory& memory, JobRunner& jobs)
     : analysis_(std::move(analysis)), kernels_(&kernels), values_(memory, values.size()) {
   constexpr std::size_t step = std::size_t{1} << 18;
   jobs.for_each(static_cast<std::uint32_t>((values.size() + step - 1) / step), [&](std::uint32_t piece) {

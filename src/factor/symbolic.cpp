@@ -11,8 +11,13 @@ namespace {
 // Supernodes while they merge. Index = fundamental supernode, in postorder.
 struct Merging {
   Merging(Memory& memory, std::int32_t count)
-      : first(memory, static_cast<std::size_t>(count) + 1), parent(memory, count), into(memory, count), width(memory, count), below(memory, count),
-        head(memory, count), next(memory, count) {}
+      : first(memory, static_cast<std::size_t>(count) + 1),
+        parent(memory, count),
+        into(memory, count),
+        width(memory, count),
+        below(memory, count),
+        head(memory, count),
+        next(memory, count) {}
   Buffer<std::int32_t> first;       // columns [first[s], first[s + 1]) in tree labels
   Buffer<std::int32_t> parent;      // supernode tree
   Buffer<std::int32_t> into;        // the supernode it joined, or -1
@@ -22,7 +27,8 @@ struct Merging {
 };
 
 // Chains of columns whose structures nest without a zero: parent[j] = j + 1 and count[j] = count[j + 1] + 1.
-std::int32_t find_fundamental(const EliminationTree& tree, std::int32_t n, std::int32_t* supernode, std::int32_t* first) {
+std::int32_t find_fundamental(const EliminationTree& tree, std::int32_t n, std::int32_t* supernode,
+                              std::int32_t* first) {
   std::int32_t count = 0;
   for (std::int32_t j = 0; j < n; ++j) {
     const bool joins = j > 0 && tree.parent[j - 1] == j && tree.count[j - 1] == tree.count[j] + 1;
@@ -63,8 +69,10 @@ void merge_children(Merging& m, std::int32_t f, Vector<std::pair<std::int64_t, s
   m.head[f] = kept;
 }
 
-// Postorder of the merged tree: fills the final position of every tree label and the arrays of `out` that describe columns.
-void number_supernodes(const Merging& m, std::int32_t fundamental, Memory& memory, Symbolic& out, std::int32_t* final_of) {
+// Postorder of the merged tree: fills the final position of every tree label and the arrays of `out` that describe
+// columns.
+void number_supernodes(const Merging& m, std::int32_t fundamental, Memory& memory, Symbolic& out,
+                       std::int32_t* final_of) {
   const std::size_t count = static_cast<std::size_t>(fundamental);
   Buffer<std::int32_t> work(memory, count * 5 + 1);
   std::int32_t* child_head = work.data();
@@ -123,9 +131,10 @@ void number_supernodes(const Merging& m, std::int32_t fundamental, Memory& memor
   }
 }
 
-// Row lists: for every row, ascending, walk from the supernode of each smaller neighbour up to the row's own. The lists come
-// out ascending. `label_at` maps final rows to tree labels.
-void make_row_lists(const EliminationTree& tree, const std::int32_t* final_of, const std::int32_t* label_at, Memory& memory, Symbolic& out) {
+// Row lists: for every row, ascending, walk from the supernode of each smaller neighbour up to the row's own. The lists
+// come out ascending. `label_at` maps final rows to tree labels.
+void make_row_lists(const EliminationTree& tree, const std::int32_t* final_of, const std::int32_t* label_at,
+                    Memory& memory, Symbolic& out) {
   const std::int32_t n = out.size;
   out.rows.allocate(memory, static_cast<std::size_t>(out.row_start[out.supernodes]) + 16);
   Buffer<std::int32_t> seen(memory, out.supernodes);
@@ -150,7 +159,8 @@ void make_row_lists(const EliminationTree& tree, const std::int32_t* final_of, c
 }  // namespace
 
 double Symbolic::index_bytes() const noexcept {
-  return 4.0 * static_cast<double>(position.size() + order.size() + supernode.size() + first.size() + parent.size() + subtree.size() + rows.size()) +
+  return 4.0 * static_cast<double>(position.size() + order.size() + supernode.size() + first.size() + parent.size() +
+                                   subtree.size() + rows.size()) +
          8.0 * static_cast<double>(row_start.size() + value_start.size() + work.size());
 }
 

@@ -1,11 +1,12 @@
 // Symbolic analysis of a sparse Cholesky factorisation P A P' = G G'.
 //
-// Elimination tree (Liu 1990, "The role of elimination trees in sparse factorization"), postorder, column counts from the
-// skeleton matrix (Gilbert, Ng & Peyton 1994), relaxed supernodes (Ashcraft & Grimes 1989) and the row list of every supernode.
-// Cost: O(|A| alpha(n)) for tree and counts, O(sum of row lists) for the lists; serial. On failure nothing is left behind.
+// Elimination tree (Liu 1990, "The role of elimination trees in sparse factorization"), postorder, column counts from
+// the skeleton matrix (Gilbert, Ng & Peyton 1994), relaxed supernodes (Ashcraft & Grimes 1989) and the row list of
+// every supernode. Cost: O(|A| alpha(n)) for tree and counts, O(sum of row lists) for the lists; serial. On failure
+// nothing is left behind.
 //
-// Relaxation: a child c joins its parent f when the zeros it adds, nc_c (nc_f + m_f - m_c), are at most tau + m_c / 2, the cost
-// of keeping one more supernode with its own row list; children are tried in the order of those zeros.
+// Relaxation: a child c joins its parent f when the zeros it adds, nc_c (nc_f + m_f - m_c), are at most tau + m_c / 2,
+// the cost of keeping one more supernode with its own row list; children are tried in the order of those zeros.
 #pragma once
 #include <cstdint>
 
@@ -24,29 +25,32 @@ struct Symbolic {
   double stored_entries = 0;  // packed triangles and row blocks, relaxation zeros included
   double flops = 0;           // sum of squared column counts
 
-  Buffer<std::int32_t> position;    // position[unknown] = row in factor order
-  Buffer<std::int32_t> order;       // order[row] = unknown
-  Buffer<std::int32_t> supernode;   // supernode of a column
-  Buffer<std::int32_t> first;       // supernodes + 1: columns [first[s], first[s + 1])
-  Buffer<std::int32_t> parent;      // supernode tree in postorder, -1 for a root
-  Buffer<std::int32_t> subtree;     // first supernode of the subtree of s: the subtree is [subtree[s], s]
-  Buffer<std::int64_t> row_start;   // supernodes + 1
-  Buffer<std::int32_t> rows;        // rows below the triangle, ascending
-  Buffer<std::int64_t> value_start; // where the numbers of s begin; the supernodes are stored last to first
-  Buffer<double> work;              // flops of the supernode itself
+  Buffer<std::int32_t> position;     // position[unknown] = row in factor order
+  Buffer<std::int32_t> order;        // order[row] = unknown
+  Buffer<std::int32_t> supernode;    // supernode of a column
+  Buffer<std::int32_t> first;        // supernodes + 1: columns [first[s], first[s + 1])
+  Buffer<std::int32_t> parent;       // supernode tree in postorder, -1 for a root
+  Buffer<std::int32_t> subtree;      // first supernode of the subtree of s: the subtree is [subtree[s], s]
+  Buffer<std::int64_t> row_start;    // supernodes + 1
+  Buffer<std::int32_t> rows;         // rows below the triangle, ascending
+  Buffer<std::int64_t> value_start;  // where the numbers of s begin; the supernodes are stored last to first
+  Buffer<double> work;               // flops of the supernode itself
 
   std::int32_t columns(std::int32_t s) const noexcept { return first[s + 1] - first[s]; }
-  std::int32_t below(std::int32_t s) const noexcept { return static_cast<std::int32_t>(row_start[s + 1] - row_start[s]); }
+  std::int32_t below(std::int32_t s) const noexcept {
+    return static_cast<std::int32_t>(row_start[s + 1] - row_start[s]);
+  }
   const std::int32_t* row_list(std::int32_t s) const noexcept { return rows.data() + row_start[s]; }
   // Bytes of the index lists above.
   double index_bytes() const noexcept;
 };
 
-// Analyses the pattern of `matrix` under `order` (order[k] = unknown eliminated k-th). The final order differs from it by a
-// postorder of the elimination tree, which changes neither fill nor flops.
+// Analyses the pattern of `matrix` under `order` (order[k] = unknown eliminated k-th). The final order differs from it
+// by a postorder of the elimination tree, which changes neither fill nor flops.
 void analyse(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memory& memory, Symbolic& out);
 
-// Non-zeros and flops of the factor under an ordering, without making it: compares orderings at the cost of tree and counts.
+// Non-zeros and flops of the factor under an ordering, without making it: compares orderings at the cost of tree and
+// counts.
 struct FillEstimate {
   double entries = 0, flops = 0;
 };

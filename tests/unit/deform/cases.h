@@ -111,13 +111,13 @@ inline Case plane_lift(std::uint32_t side = 101) {
   return c;
 }
 
-// A scan, upright along y: both feet held, the hand at the largest x carried up and turned, the head (at the largest z of the upper part) followed.
+// A scan, upright along y: both feet held, the hand at the smallest x carried away and turned.
 inline Case scan_reach(const hf_test::PlainMesh& mesh) {
-  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300}, hand{-1e300, 0, 0};
+  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300}, hand{1e300, 0, 0};
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3 p{mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]};
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)}, high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    if (p.x > hand.x) hand = p;
+    if (p.x < hand.x) hand = p;
   }
   const double height = high.y - low.y, middle = 0.5 * (low.x + high.x), floor = low.y + 0.13 * height;
   Case c;
@@ -126,7 +126,7 @@ inline Case scan_reach(const hf_test::PlainMesh& mesh) {
   c.regions = {[=](Vec3 p) { return p.y < floor && p.x < middle; }, [=](Vec3 p) { return p.y < floor && p.x >= middle; },
                [=](Vec3 p) { return norm(p - hand) < 0.13 * height; }};
   c.motion = [=](std::size_t handle, double t, Vec3) {
-    return handle == 2 ? hf::HandleTransform{about({1, 0, 0}, t * 0.9), {0.05 * t * height, 0.12 * t * height, 0.1 * t * height}} : hf::HandleTransform{};
+    return handle == 2 ? hf::HandleTransform{about({0, 1, 1}, t * 0.7), {-0.12 * t * height, 0.03 * t * height, -0.1 * t * height}} : hf::HandleTransform{};
   };
   return c;
 }

@@ -60,7 +60,7 @@ int time_all() {
       std::vector<std::vector<std::int32_t>> regions;
       for (int i = 0; i < count; ++i) {
         const double a = 2 * pi * i / count;
-        regions.push_back(select(*core, [&](Vec3 p) { return p.x * std::cos(a) + p.y * std::sin(a) > 0 && std::fabs(p.y * std::cos(a) - p.x * std::sin(a)) < 0.05 && std::fabs(p.z) < 10; }));
+        regions.push_back(select(*core, [&](Vec3 p) { return hf::norm(p - Vec3{1.4 * std::cos(a), 0, 1.4 * std::sin(a)}) < 0.1; }));
       }
       const auto seconds = [](auto&& work) {
         const auto start = std::chrono::steady_clock::now();
@@ -79,6 +79,9 @@ int time_all() {
         const hf::DeformReport r = pose->deform({true, 5, false});
         solve = std::min(solve, r.solve_ms), blend = std::min(blend, r.blend_ms), normal = std::min(normal, r.normal_ms), clusters = r.cluster_count;
       }
+      std::size_t sites = 0;
+      for (const std::uint32_t n : numbers) sites += pose->handle(n).site_count;
+      std::printf("sites %zu ", sites);
       std::printf("n=%-6d handles %-3d C=%-4u weights %5.1f per vertex | add %7.1f ms, one more %7.1f ms | 5 iterations %6.3f ms, blend %5.2f ms (%.1f ns a vertex), normals %5.2f ms\n", core->size(),
                   count, clusters, static_cast<double>(pose->weights()->weight.size()) / core->size(), first, second, solve, blend, 1e6 * blend / core->size(), normal);
     }

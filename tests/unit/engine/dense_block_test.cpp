@@ -40,7 +40,7 @@ TEST(DenseBlock, solves_with_the_present_rows_after_any_edits) {
     block.remove(leaving);
     ASSERT_EQ(block.factorise(), -1);
     for (const int s : leaving) present.erase(std::find(present.begin(), present.end(), s));
-    ASSERT_TRUE(std::equal(present.begin(), present.end(), block.slots().begin(), block.slots().end()));
+    ASSERT_TRUE(std::equal(present.begin(), present.end(), block.ids().begin(), block.ids().end()));
 
     const int k = static_cast<int>(present.size());
     Eigen::MatrixXd s(k, k);

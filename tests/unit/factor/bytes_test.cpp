@@ -13,13 +13,17 @@ namespace {
 
 class FactorBytes : public testing::Test {
  protected:
-  std::shared_ptr<const hf::Factor> make(const hf::SymmetricMatrix& a) { return hf::Factor::make(a, {}, hf::FactorOptions{}, memory, one); }
+  std::shared_ptr<const hf::Factor> make(const hf::SymmetricMatrix& a) {
+    return hf::Factor::make(a, {}, hf::FactorOptions{}, memory, one);
+  }
   std::vector<std::uint8_t> save(const hf::Factor& factor) {
     std::vector<std::uint8_t> bytes(hf::saved_factor_size(factor));
     hf::save_factor(factor, {bytes.data(), bytes.size()});
     return bytes;
   }
-  std::shared_ptr<const hf::Factor> load(const std::vector<std::uint8_t>& bytes, std::int32_t n) { return hf::load_factor({bytes.data(), bytes.size()}, n, memory); }
+  std::shared_ptr<const hf::Factor> load(const std::vector<std::uint8_t>& bytes, std::int32_t n) {
+    return hf::load_factor({bytes.data(), bytes.size()}, n, memory);
+  }
   hf_result code_of(const std::vector<std::uint8_t>& bytes, std::int32_t n) {
     try {
       load(bytes, n);
@@ -55,7 +59,8 @@ TEST_F(FactorBytes, foreign_sizes_versions_and_every_truncation_are_refused) {
   EXPECT_EQ(code_of(bytes, 36), HF_OK);
   EXPECT_EQ(code_of(bytes, 37), HF_ERROR_INVALID_ARGUMENT);
   for (std::size_t length = 0; length < bytes.size(); ++length) {
-    EXPECT_EQ(code_of({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)}, 36), HF_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(code_of({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)}, 36),
+              HF_ERROR_INVALID_ARGUMENT);
   }
   std::vector<std::uint8_t> longer = bytes;
   longer.push_back(0);
@@ -148,7 +153,8 @@ TEST_F(FactorBytes, the_single_precision_copy_sweeps_to_single_precision_and_the
     preview->backward(x.data(), channels, one), preview->backward(y.data(), channels, two);
     EXPECT_EQ(x, y);
     double worst = 0, size = 0;
-    for (std::size_t i = 0; i < z.size(); ++i) worst = std::max(worst, std::abs(z[i] - static_cast<double>(x[i]))), size = std::max(size, std::abs(z[i]));
+    for (std::size_t i = 0; i < z.size(); ++i)
+      worst = std::max(worst, std::abs(z[i] - static_cast<double>(x[i]))), size = std::max(size, std::abs(z[i]));
     EXPECT_LT(worst, 1e-5 * size);
     EXPECT_GT(worst, 0);
   }

@@ -1,5 +1,5 @@
-// hf_factor_probe: medians of ordering, symbolic analysis, numeric factorisation, sweeps and paths beside CHOLMOD (supernodal,
-// OpenBLAS) in one process. Not a test. Arguments: torus NU NV | mesh FILE.ply [repetitions] [what]
+// hf_factor_probe: medians of ordering, symbolic analysis, numeric factorisation, sweeps and paths beside CHOLMOD
+// (supernodal, OpenBLAS) in one process. Not a test. Arguments: torus NU NV | mesh FILE.ply [repetitions] [what]
 #include <cholmod.h>
 
 #include <chrono>
@@ -22,7 +22,9 @@ extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 namespace {
 
-double now_ms() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 int repetitions = 5;
 bool wants(const std::string& list, const char* what) { return list.empty() || list.find(what) != std::string::npos; }
@@ -73,7 +75,8 @@ struct Peer {
     view.p = const_cast<std::int32_t*>(a.column_start.data());
     view.i = const_cast<std::int32_t*>(a.row.data());
     view.x = const_cast<double*>(a.value.data());
-    view.stype = 1, view.itype = CHOLMOD_INT, view.xtype = CHOLMOD_REAL, view.dtype = CHOLMOD_DOUBLE, view.sorted = 1, view.packed = 1;
+    view.stype = 1, view.itype = CHOLMOD_INT, view.xtype = CHOLMOD_REAL, view.dtype = CHOLMOD_DOUBLE, view.sorted = 1,
+    view.packed = 1;
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.nmethods = 1;
   }
@@ -110,20 +113,24 @@ void run(const char* name, const hf_test::TriangleMesh& mesh, bool bend, const s
   if (wants(what, "order")) {
     const double metis = median([&] { peer.analyze(CHOLMOD_METIS, nullptr); }, 3);
     hf::Buffer<std::int32_t> order;
-    const double given = median([&] {
-      if (order.empty()) hf::make_order(a, coordinates, hf::Ordering::metis, memory, one, nullptr, order);
-      peer.analyze(CHOLMOD_GIVEN, order.data());
-    }, 5);
+    const double given = median(
+        [&] {
+          if (order.empty()) hf::make_order(a, coordinates, hf::Ordering::metis, memory, one, nullptr, order);
+          peer.analyze(CHOLMOD_GIVEN, order.data());
+        },
+        5);
     const auto show = [&](const char* label, hf::Ordering kind, hf::JobRunner& jobs) {
       const double ms = median([&] { hf::make_order(a, coordinates, kind, memory, jobs, nullptr, order); }, 3);
       const hf::FillEstimate fill = hf::estimate_fill(a, {order.data(), order.size()}, memory);
-      std::printf("order %-12s %8.1f ms  lnz %.3f M  flops %.3f G\n", label, ms, fill.entries * 1e-6, fill.flops * 1e-9);
+      std::printf("order %-12s %8.1f ms  lnz %.3f M  flops %.3f G\n", label, ms, fill.entries * 1e-6,
+                  fill.flops * 1e-9);
       return ms;
     };
     std::printf("analyze METIS %.1f ms (analyze_p %.1f, net %.1f)\n", metis, given, metis - given);
     show("metis", hf::Ordering::metis, one);
     show("amd", hf::Ordering::minimum_degree, one);
-    const double own1 = show("own 1", hf::Ordering::nested_dissection, one), own2 = show("own 2", hf::Ordering::nested_dissection, two);
+    const double own1 = show("own 1", hf::Ordering::nested_dissection, one),
+                 own2 = show("own 2", hf::Ordering::nested_dissection, two);
     std::printf("ordering ratio to METIS (net): %.2f / %.2f\n", (metis - given) / own1, (metis - given) / own2);
     hf::make_order(a, coordinates, hf::Ordering::metis, memory, one, nullptr, order);
     const double own = median([&] {
@@ -141,12 +148,17 @@ void run(const char* name, const hf_test::TriangleMesh& mesh, bool bend, const s
   const double first = now_ms() - start;
   const auto& factor = static_cast<const hf::SupernodalFactor&>(*made);
   const hf::FactorStatistics& s = factor.statistics();
-  std::printf("make %.0f ms (order %.0f symbolic %.0f numeric %.0f): lnz %.3f M, stored %.3f (%.3f), flops %.3f G, supernodes %d, bytes %.1f M, peak %.2fx\n",
-              first, s.ordering_ms, s.symbolic_ms, s.numeric_ms, s.entries * 1e-6, s.stored_entries * 1e-6, s.stored_entries / s.entries, s.flops * 1e-9,
-              s.supernodes, s.bytes * 1e-6, static_cast<double>(memory.peak_bytes() - before) / s.bytes);
-  std::printf("plan: %d tasks, %zu top in %d waves, task panel %.2f stacks %.2f+%.2f, top panel %.2f, shared %.2f M doubles\n", factor.plan().tasks,
-              factor.plan().top.size(), factor.plan().waves, 1e-6 * factor.plan().in_task.panel, 1e-6 * factor.plan().in_task.stack[0],
-              1e-6 * factor.plan().in_task.stack[1], 1e-6 * factor.plan().in_top.panel, 1e-6 * factor.plan().shared_size);
+  std::printf(
+      "make %.0f ms (order %.0f symbolic %.0f numeric %.0f): lnz %.3f M, stored %.3f (%.3f), flops %.3f G, supernodes "
+      "%d, bytes %.1f M, peak %.2fx\n",
+      first, s.ordering_ms, s.symbolic_ms, s.numeric_ms, s.entries * 1e-6, s.stored_entries * 1e-6,
+      s.stored_entries / s.entries, s.flops * 1e-9, s.supernodes, s.bytes * 1e-6,
+      static_cast<double>(memory.peak_bytes() - before) / s.bytes);
+  std::printf(
+      "plan: %d tasks, %zu top in %d waves, task panel %.2f stacks %.2f+%.2f, top panel %.2f, shared %.2f M doubles\n",
+      factor.plan().tasks, factor.plan().top.size(), factor.plan().waves, 1e-6 * factor.plan().in_task.panel,
+      1e-6 * factor.plan().in_task.stack[0], 1e-6 * factor.plan().in_task.stack[1], 1e-6 * factor.plan().in_top.panel,
+      1e-6 * factor.plan().shared_size);
   hf::Buffer<std::int32_t> order(memory, static_cast<std::size_t>(n));
   std::copy(factor.order().begin(), factor.order().end(), order.begin());
   std::vector<double> b(static_cast<std::size_t>(n)), z(static_cast<std::size_t>(n) * 8 + 8);
@@ -160,12 +172,18 @@ void run(const char* name, const hf_test::TriangleMesh& mesh, bool bend, const s
       if (openblas_set_num_threads) openblas_set_num_threads(t + 1);
       theirs[t] = median([&] { cholmod_factorize(&peer.view, peer.factor, &peer.common); });
       if (openblas_set_num_threads) openblas_set_num_threads(1);
-      ours[t] = median([&] { hf::factorise(factor.symbolic(), factor.plan(), factor.kernels(), a, {}, values.data(), memory, *runners[t], nullptr); });
-      std::printf("numeric %d thr: cholmod %.1f ms, own %.1f ms (%.1f GF/s): %.2fx\n", t + 1, theirs[t], ours[t], s.flops * 1e-6 / ours[t], theirs[t] / ours[t]);
+      ours[t] = median([&] {
+        hf::factorise(factor.symbolic(), factor.plan(), factor.kernels(), a, {}, values.data(), memory, *runners[t],
+                      nullptr);
+      });
+      std::printf("numeric %d thr: cholmod %.1f ms, own %.1f ms (%.1f GF/s): %.2fx\n", t + 1, theirs[t], ours[t],
+                  s.flops * 1e-6 / ours[t], theirs[t] / ours[t]);
     }
     std::printf("numeric 2-thread scaling %.2fx\n", ours[0] / ours[1]);
     if (const hf::Kernels* narrow = hf::avx2_kernels()) {
-      const double ms = median([&] { hf::factorise(factor.symbolic(), factor.plan(), *narrow, a, {}, values.data(), memory, one, nullptr); });
+      const double ms = median([&] {
+        hf::factorise(factor.symbolic(), factor.plan(), *narrow, a, {}, values.data(), memory, one, nullptr);
+      });
       std::printf("numeric 1 thr avx2: %.1f ms: %.2fx\n", ms, theirs[0] / ms);
     }
   } else {
@@ -190,7 +208,8 @@ void run(const char* name, const hf_test::TriangleMesh& mesh, bool bend, const s
                                 sink = sum[0] + sum[1] + sum[2] + sum[3] + sum[4] + sum[5] + sum[6] + sum[7];
                               });
                             })};
-    std::printf("read the values once %.2f / %.2f ms (%.1f GB/s)\n", read[0], read[1], 8e-6 * static_cast<double>(count) / read[0]);
+    std::printf("read the values once %.2f / %.2f ms (%.1f GB/s)\n", read[0], read[1],
+                8e-6 * static_cast<double>(count) / read[0]);
     double single[2] = {0, 0};
     for (const std::int32_t channels : {1, 3, 8}) {
       std::vector<double> right(static_cast<std::size_t>(n) * channels);
@@ -199,8 +218,10 @@ void run(const char* name, const hf_test::TriangleMesh& mesh, bool bend, const s
       std::memcpy(dense->x, right.data(), right.size() * sizeof(double));
       cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;
       if (openblas_set_num_threads) openblas_set_num_threads(1);
-      const double theirs = median([&] { cholmod_solve2(CHOLMOD_A, peer.factor, dense, nullptr, &x, nullptr, &y, &e, &peer.common); });
-      cholmod_free_dense(&x, &peer.common), cholmod_free_dense(&y, &peer.common), cholmod_free_dense(&e, &peer.common), cholmod_free_dense(&dense, &peer.common);
+      const double theirs =
+          median([&] { cholmod_solve2(CHOLMOD_A, peer.factor, dense, nullptr, &x, nullptr, &y, &e, &peer.common); });
+      cholmod_free_dense(&x, &peer.common), cholmod_free_dense(&y, &peer.common), cholmod_free_dense(&e, &peer.common),
+          cholmod_free_dense(&dense, &peer.common);
       for (int t = 0; t < 2; ++t) {
         const double back = median([&] {
           std::memcpy(z.data(), right.data(), right.size() * sizeof(double));
@@ -211,8 +232,9 @@ void run(const char* name, const hf_test::TriangleMesh& mesh, bool bend, const s
           factor.forward(z.data(), channels, *runners[t]);
         });
         if (channels == 1) single[t] = back;
-        std::printf("sweep %d rhs %d thr: backward %.2f (%.2f of read, %.2f of one), forward %.2f; cholmod_solve %.2f: %.2fx\n", channels, t + 1, back,
-                    back / read[t], back / single[t], fore, theirs, theirs / back);
+        std::printf(
+            "sweep %d rhs %d thr: backward %.2f (%.2f of read, %.2f of one), forward %.2f; cholmod_solve %.2f: %.2fx\n",
+            channels, t + 1, back, back / read[t], back / single[t], fore, theirs, theirs / back);
       }
     }
   }
@@ -243,12 +265,16 @@ void run(const char* name, const hf_test::TriangleMesh& mesh, bool bend, const s
       std::mt19937 random(3);
       for (int i = 0; i <= k; ++i) first.push_back(i);
       for (int i = 0; i < k; ++i) rows.push_back(static_cast<std::int32_t>(random() % static_cast<unsigned>(n)));
-      const hf::SparseColumns columns{{first.data(), first.size()}, {rows.data(), rows.size()}, {ones.data(), ones.size()}};
+      const hf::SparseColumns columns{
+          {first.data(), first.size()}, {rows.data(), rows.size()}, {ones.data(), ones.size()}};
       std::vector<std::int32_t> group(static_cast<std::size_t>(k)), column(static_cast<std::size_t>(k));
       hf::Vector<std::shared_ptr<const hf::PathGroup>> groups(&memory);
       double path[2], gram[2], bytes = 0;
       for (int t = 0; t < 2; ++t) {
-        path[t] = median([&] { factor.solve_paths(columns, memory, *runners[t], groups, {group.data(), group.size()}, {column.data(), column.size()}); });
+        path[t] = median([&] {
+          factor.solve_paths(columns, memory, *runners[t], groups, {group.data(), group.size()},
+                             {column.data(), column.size()});
+        });
         std::vector<double> tile(32 * 32);
         gram[t] = median([&] {
           for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -263,8 +289,8 @@ void run(const char* name, const hf_test::TriangleMesh& mesh, bool bend, const s
         const double width = factor.symbolic().columns(block.supernode);
         entries += width * (width / 2 + factor.symbolic().below(block.supernode)) * block.used;
       }
-      std::printf("paths %3d: %.2f / %.2f ms, gram %.2f; %.1f KB a site; group 0: %zu blocks, %.2f M entries x sites\n", k, path[0], path[1], gram[0],
-                  bytes / k / 1024, blocks.blocks.size(), entries * 1e-6);
+      std::printf("paths %3d: %.2f / %.2f ms, gram %.2f; %.1f KB a site; group 0: %zu blocks, %.2f M entries x sites\n",
+                  k, path[0], path[1], gram[0], bytes / k / 1024, blocks.blocks.size(), entries * 1e-6);
     }
   }
   // residual
@@ -274,7 +300,8 @@ void run(const char* name, const hf_test::TriangleMesh& mesh, bool bend, const s
   for (std::int32_t k = 0; k < n; ++k) x[static_cast<std::size_t>(factor.order()[k])] = z[static_cast<std::size_t>(k)];
   const std::vector<double> ax = hf_test::multiply(a, x);
   double worst = 0, size = 0;
-  for (std::size_t i = 0; i < b.size(); ++i) worst = std::max(worst, std::abs(ax[i] - b[i])), size = std::max(size, std::abs(x[i]));
+  for (std::size_t i = 0; i < b.size(); ++i)
+    worst = std::max(worst, std::abs(ax[i] - b[i])), size = std::max(size, std::abs(x[i]));
   std::printf("residual max|Ax-b| %.2e, max|x| %.2e, relative %.2e\n", worst, size, worst / size);
 }
 

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <Eigen/Cholesky>
 #include <Eigen/Dense>
-#include <cstring>
 #include <limits>
 #include <thread>
 
@@ -35,13 +35,15 @@ std::vector<double> random_vector(std::size_t size, std::uint32_t seed) {
 
 class Fixture : public testing::Test {
  protected:
-  std::shared_ptr<const hf::Factor> make(const hf::SymmetricMatrix& a, hf::Ordering ordering = hf::Ordering::minimum_degree,
+  std::shared_ptr<const hf::Factor> make(const hf::SymmetricMatrix& a,
+                                         hf::Ordering ordering = hf::Ordering::minimum_degree,
                                          const std::vector<float>& points = {}) {
     hf::FactorOptions options;
     options.ordering = ordering;
     return hf::Factor::make(a, hf::Span<const float>(points.data(), points.size()), options, memory, one);
   }
-  std::vector<double> solve(const hf::Factor& factor, const std::vector<double>& b, std::int32_t channels = 1, hf::JobRunner* jobs = nullptr) {
+  std::vector<double> solve(const hf::Factor& factor, const std::vector<double>& b, std::int32_t channels = 1,
+                            hf::JobRunner* jobs = nullptr) {
     std::vector<double> z(b.size()), x(b.size());
     for (std::int32_t k = 0; k < factor.size(); ++k) {
       for (std::int32_t c = 0; c < channels; ++c) z[k * channels + c] = b[factor.order()[k] * channels + c];
@@ -82,8 +84,10 @@ class Fixture : public testing::Test {
       const double scale = 1e-12 * (1 + forward.cwiseAbs().maxCoeff() + backward.cwiseAbs().maxCoeff());
       for (std::int32_t k = 0; k < n; ++k) {
         for (std::int32_t c = 0; c < channels; ++c) {
-          ASSERT_NEAR(z[k * channels + c], forward(k, c), scale) << "forward row " << k << " channel " << c << " of " << channels << " n " << n;
-          ASSERT_NEAR(w[k * channels + c], backward(k, c), scale) << "backward row " << k << " channel " << c << " of " << channels << " n " << n;
+          ASSERT_NEAR(z[k * channels + c], forward(k, c), scale)
+              << "forward row " << k << " channel " << c << " of " << channels << " n " << n;
+          ASSERT_NEAR(w[k * channels + c], backward(k, c), scale)
+              << "backward row " << k << " channel " << c << " of " << channels << " n " << n;
         }
       }
     }
@@ -93,9 +97,11 @@ class Fixture : public testing::Test {
     const std::vector<double> x = solve(factor, b);
     const std::vector<double> ax = hf_test::multiply(a, x);
     double worst = 0, size = 0, diagonal = 0;
-    for (std::size_t i = 0; i < b.size(); ++i) worst = std::max(worst, std::abs(ax[i] - b[i])), size = std::max(size, std::abs(x[i]));
+    for (std::size_t i = 0; i < b.size(); ++i)
+      worst = std::max(worst, std::abs(ax[i] - b[i])), size = std::max(size, std::abs(x[i]));
     for (std::int32_t j = 0; j < a.size(); ++j) {
-      for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e) diagonal = std::max(diagonal, std::abs(a.value[e]));
+      for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e)
+        diagonal = std::max(diagonal, std::abs(a.value[e]));
     }
     EXPECT_LT(worst / (size * diagonal), bound);
   }
@@ -110,7 +116,8 @@ using FactorTest = Fixture;
 TEST_F(FactorTest, sweeps_equal_dense_cholesky_on_random_patterns) {
   for (std::int32_t n = 1; n <= 60; n += (n < 20 ? 1 : 7)) {
     for (const double density : {0.0, 0.05, 0.2, 0.6, 1.0}) {
-      for (const auto ordering : {hf::Ordering::minimum_degree, hf::Ordering::natural, hf::Ordering::nested_dissection}) {
+      for (const auto ordering :
+           {hf::Ordering::minimum_degree, hf::Ordering::natural, hf::Ordering::nested_dissection}) {
         expect_factor_of(hf_test::random_matrix(memory, n, density, static_cast<std::uint32_t>(n)), ordering);
         if (HasFatalFailure()) return;
       }
@@ -124,9 +131,11 @@ TEST_F(FactorTest, sweeps_equal_dense_cholesky_on_grids_arrows_and_dense_blocks)
   expect_factor_of(hf_test::grid_laplacian(memory, 300, 1), hf::Ordering::nested_dissection);
   expect_factor_of(hf_test::arrow_matrix(memory, 100), hf::Ordering::natural);
   expect_factor_of(hf_test::arrow_matrix(memory, 100), hf::Ordering::minimum_degree);
-  expect_factor_of(hf_test::random_matrix(memory, 300, 1.0, 1), hf::Ordering::natural);    // one supernode wider than a chunk
+  expect_factor_of(hf_test::random_matrix(memory, 300, 1.0, 1),
+                   hf::Ordering::natural);  // one supernode wider than a chunk
   expect_factor_of(hf_test::random_matrix(memory, 600, 0.5, 2), hf::Ordering::minimum_degree);
-  expect_factor_of(hf_test::squared(memory, hf_test::grid_laplacian(memory, 16, 16), 1.0), hf::Ordering::minimum_degree);
+  expect_factor_of(hf_test::squared(memory, hf_test::grid_laplacian(memory, 16, 16), 1.0),
+                   hf::Ordering::minimum_degree);
 }
 
 TEST_F(FactorTest, several_components_and_single_unknowns_are_solved) {
@@ -182,6 +191,65 @@ TEST_F(FactorTest, factor_and_sweeps_are_the_same_bits_for_any_number_of_threads
   }
 }
 
+// A host that runs the jobs backwards, one after the other, on one thread.
+void run_backwards(void* user, std::uint32_t count, void (*job)(void* data, std::uint32_t index), void* data) {
+  ++*static_cast<int*>(user);
+  for (std::uint32_t k = count; k-- > 0;) job(data, k);
+}
+
+TEST_F(FactorTest, a_host_that_runs_jobs_serially_and_backwards_gets_the_same_bits) {
+  const hf_test::TriangleMesh mesh = hf_test::torus(160, 100, 0.25);
+  const hf::SymmetricMatrix a = hf_test::cotangent_matrix(memory, mesh);
+  const std::vector<float> points(mesh.points.begin(), mesh.points.end());
+  int batches = 0;
+  hf_job_runner host{run_backwards, &batches};
+  hf::JobRunner jobs(4, host);
+  hf::FactorOptions options;
+  const hf::Span<const float> coordinates(points.data(), points.size());
+  const auto f = hf::Factor::make(a, coordinates, options, memory, one),
+             g = hf::Factor::make(a, coordinates, options, memory, jobs);
+  EXPECT_GT(batches, 3);
+  const auto& v = static_cast<const hf::SupernodalFactor&>(*f).values();
+  const auto& w = static_cast<const hf::SupernodalFactor&>(*g).values();
+  ASSERT_EQ(v.size(), w.size());
+  EXPECT_EQ(std::memcmp(v.data(), w.data(), v.size() * sizeof(double)), 0);
+  const std::vector<double> b = random_vector(static_cast<std::size_t>(a.size()) * 3, 9);
+  EXPECT_EQ(solve(*f, b, 3, &one), solve(*g, b, 3, &jobs));
+}
+
+TEST_F(FactorTest, clones_of_one_factor_sweep_on_many_threads_at_once) {
+  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 80, 70);
+  const auto factor = make(a);
+  const std::vector<double> b = random_vector(static_cast<std::size_t>(a.size()), 9), expected = solve(*factor, b);
+  std::vector<std::thread> threads;
+  std::vector<int> good(4, 0);
+  for (int t = 0; t < 4; ++t) {
+    threads.emplace_back([&, t] {
+      hf::JobRunner own(1 + static_cast<std::uint32_t>(t) % 2);
+      for (int round = 0; round < 5; ++round)
+        good[static_cast<std::size_t>(t)] += solve(*factor, b, 1, &own) == expected;
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const int count : good) EXPECT_EQ(count, 5);
+}
+
+TEST_F(FactorTest, a_cancelled_factorisation_unwinds_and_frees_everything) {
+  hf::Memory counted;
+  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 60, 60);
+  hf::Progress progress;
+  progress.cancel();
+  hf::FactorOptions options;
+  options.progress = &progress;
+  try {
+    hf::Factor::make(a, {}, options, counted, two);
+    FAIL() << "went on";
+  } catch (const hf::Error& error) {
+    EXPECT_EQ(error.code(), HF_ERROR_CANCELLED);
+  }
+  EXPECT_EQ(counted.live_bytes(), 0u);
+}
+
 TEST_F(FactorTest, avx2_and_avx512_give_the_same_bits) {
   const hf::Kernels* narrow = hf::avx2_kernels();
   const hf::Kernels* wide = hf::avx512_kernels();
@@ -200,7 +268,8 @@ TEST_F(FactorTest, avx2_and_avx512_give_the_same_bits) {
       const std::vector<double> x = solve(f, b, channels), y = solve(g, b, channels), p = solve(h, b, channels);
       EXPECT_EQ(x, y) << channels;
       double worst = 0, size = 0;
-      for (std::size_t i = 0; i < x.size(); ++i) worst = std::max(worst, std::abs(x[i] - p[i])), size = std::max(size, std::abs(x[i]));
+      for (std::size_t i = 0; i < x.size(); ++i)
+        worst = std::max(worst, std::abs(x[i] - p[i])), size = std::max(size, std::abs(x[i]));
       EXPECT_LT(worst, (bend ? 1e-7 : 1e-10) * size) << "plain kernels";
     }
   }
@@ -278,7 +347,8 @@ TEST_F(FactorTest, refactor_solves_the_matrix_with_eliminated_rows) {
   hf::SymmetricMatrix expected = a;
   for (std::int32_t j = 0; j < 500; ++j) {
     for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e) {
-      if (eliminated[static_cast<std::size_t>(j)] || eliminated[static_cast<std::size_t>(a.row[e])]) expected.value[static_cast<std::size_t>(e)] = a.row[e] == j;
+      if (eliminated[static_cast<std::size_t>(j)] || eliminated[static_cast<std::size_t>(a.row[e])])
+        expected.value[static_cast<std::size_t>(e)] = a.row[e] == j;
     }
   }
   expect_residual(expected, *reduced, 1e-14);
@@ -292,7 +362,9 @@ struct Batch {
     for (const auto& [r, v] : entries) row.push_back(r), value.push_back(v);
     start.push_back(static_cast<std::int32_t>(row.size()));
   }
-  hf::SparseColumns view() const { return {{start.data(), start.size()}, {row.data(), row.size()}, {value.data(), value.size()}}; }
+  hf::SparseColumns view() const {
+    return {{start.data(), start.size()}, {row.data(), row.size()}, {value.data(), value.size()}};
+  }
 };
 
 TEST_F(FactorTest, paths_gram_combine_project_and_clear_equal_the_dense_forms) {
@@ -305,20 +377,25 @@ TEST_F(FactorTest, paths_gram_combine_project_and_clear_equal_the_dense_forms) {
       std::mt19937 random(static_cast<std::uint32_t>(k));
       for (std::int32_t i = 0; i < k; ++i) {
         const std::int32_t v = static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(n - 41));
-        if (i % 3 == 0) batch.add({{v, 0.2}, {v + 1, 0.3}, {v + 41, 0.5}});
-        else if (i % 7 == 1) batch.add({{v, 0.4}, {(v * 7 + 13) % n, 0.6}});  // two far rows
-        else batch.add({{v, 1.0}});
+        if (i % 3 == 0)
+          batch.add({{v, 0.2}, {v + 1, 0.3}, {v + 41, 0.5}});
+        else if (i % 7 == 1)
+          batch.add({{v, 0.4}, {(v * 7 + 13) % n, 0.6}});  // two far rows
+        else
+          batch.add({{v, 1.0}});
       }
       Eigen::MatrixXd y = Eigen::MatrixXd::Zero(n, k);
       for (std::int32_t i = 0; i < k; ++i) {
         std::vector<double> z(static_cast<std::size_t>(n), 0.0);
-        for (std::int32_t e = batch.start[i]; e < batch.start[i + 1]; ++e) z[static_cast<std::size_t>(factor->position()[batch.row[e]])] += batch.value[e];
+        for (std::int32_t e = batch.start[i]; e < batch.start[i + 1]; ++e)
+          z[static_cast<std::size_t>(factor->position()[batch.row[e]])] += batch.value[e];
         factor->forward(z.data(), 1, one);
         for (std::int32_t r = 0; r < n; ++r) y(r, i) = z[static_cast<std::size_t>(r)];
       }
       hf::Vector<std::shared_ptr<const hf::PathGroup>> groups(&memory);
       std::vector<std::int32_t> group(static_cast<std::size_t>(k)), column(static_cast<std::size_t>(k));
-      factor->solve_paths(batch.view(), memory, two, groups, {group.data(), group.size()}, {column.data(), column.size()});
+      factor->solve_paths(batch.view(), memory, two, groups, {group.data(), group.size()},
+                          {column.data(), column.size()});
       std::int32_t total = 0;
       for (const auto& g : groups) {
         total += g->count();
@@ -331,11 +408,13 @@ TEST_F(FactorTest, paths_gram_combine_project_and_clear_equal_the_dense_forms) {
         const auto& g = *groups[static_cast<std::size_t>(group[i])];
         for (const std::int32_t channels : {1, 3}) {
           std::vector<double> lambda(static_cast<std::size_t>(g.count() * channels), 0.0);
-          for (std::int32_t c = 0; c < channels; ++c) lambda[static_cast<std::size_t>(column[i] * channels + c)] = c + 1.0;
+          for (std::int32_t c = 0; c < channels; ++c)
+            lambda[static_cast<std::size_t>(column[i] * channels + c)] = c + 1.0;
           std::vector<double> z(static_cast<std::size_t>(n * channels), 0.0);
           factor->combine(g, lambda.data(), channels, z.data());
           for (std::int32_t r = 0; r < n; ++r) {
-            for (std::int32_t c = 0; c < channels; ++c) ASSERT_NEAR(z[r * channels + c], (c + 1) * y(r, i), 3 * scale) << k << " " << i << " row " << r;
+            for (std::int32_t c = 0; c < channels; ++c)
+              ASSERT_NEAR(z[r * channels + c], (c + 1) * y(r, i), 3 * scale) << k << " " << i << " row " << r;
           }
           factor->clear(g, channels, z.data());
           for (const double v : z) ASSERT_EQ(v, 0.0);
@@ -349,7 +428,8 @@ TEST_F(FactorTest, paths_gram_combine_project_and_clear_equal_the_dense_forms) {
           std::vector<double> tile(40 * 32, 0.0);
           if (i % 10 == 0 || j % 10 == 0) {
             factor->gram(p, q, tile.data(), 40);
-            ASSERT_NEAR(tile[static_cast<std::size_t>(column[i] * 40 + column[j])], s(i, j), 1e-12 * (1 + s.cwiseAbs().maxCoeff()));
+            ASSERT_NEAR(tile[static_cast<std::size_t>(column[i] * 40 + column[j])], s(i, j),
+                        1e-12 * (1 + s.cwiseAbs().maxCoeff()));
           }
         }
       }

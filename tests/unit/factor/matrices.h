@@ -48,7 +48,8 @@ class Assembly {
   std::vector<std::vector<std::pair<std::int32_t, double>>> columns_;
 };
 
-inline hf::SymmetricMatrix grid_laplacian(hf::Memory& memory, std::int32_t nx, std::int32_t ny, double ground = 1.0, bool diagonals = true) {
+inline hf::SymmetricMatrix grid_laplacian(hf::Memory& memory, std::int32_t nx, std::int32_t ny, double ground = 1.0,
+                                          bool diagonals = true) {
   Assembly a(nx * ny);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> weight(0.5, 1.5);
@@ -67,7 +68,8 @@ inline hf::SymmetricMatrix grid_laplacian(hf::Memory& memory, std::int32_t nx, s
 inline std::vector<float> grid_points(std::int32_t nx, std::int32_t ny) {
   std::vector<float> points;
   for (std::int32_t y = 0; y < ny; ++y) {
-    for (std::int32_t x = 0; x < nx; ++x) points.push_back(static_cast<float>(x)), points.push_back(static_cast<float>(y)), points.push_back(0.0f);
+    for (std::int32_t x = 0; x < nx; ++x)
+      points.push_back(static_cast<float>(x)), points.push_back(static_cast<float>(y)), points.push_back(0.0f);
   }
   return points;
 }
@@ -102,8 +104,8 @@ struct TriangleMesh {
   std::vector<std::int32_t> triangles;  // three each
 };
 
-// nu x nv torus, every vertex jittered by `jitter` of the local spacing inside the surface, quads split along the shorter
-// diagonal: the family of the library's benchmarks.
+// nu x nv torus, every vertex jittered by `jitter` of the local spacing inside the surface, quads split along the
+// shorter diagonal: the family of the library's benchmarks.
 inline TriangleMesh torus(std::int32_t nu, std::int32_t nv, double jitter) {
   TriangleMesh mesh;
   std::mt19937 random(11);
@@ -125,8 +127,10 @@ inline TriangleMesh torus(std::int32_t nu, std::int32_t nv, double jitter) {
     for (std::int32_t j = 0; j < nv; ++j) {
       const std::int32_t i1 = (i + 1) % nu, j1 = (j + 1) % nv;
       const std::int32_t a = i * nv + j, b = i1 * nv + j, c = i1 * nv + j1, d = i * nv + j1;
-      if (distance(a, c) < distance(b, d)) mesh.triangles.insert(mesh.triangles.end(), {a, b, c, a, c, d});
-      else mesh.triangles.insert(mesh.triangles.end(), {a, b, d, b, c, d});
+      if (distance(a, c) < distance(b, d))
+        mesh.triangles.insert(mesh.triangles.end(), {a, b, c, a, c, d});
+      else
+        mesh.triangles.insert(mesh.triangles.end(), {a, b, d, b, c, d});
     }
   }
   return mesh;
@@ -139,9 +143,11 @@ inline hf::SymmetricMatrix cotangent_matrix(hf::Memory& memory, const TriangleMe
   double trace = 0;
   for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
     for (int k = 0; k < 3; ++k) {
-      const std::int32_t o = mesh.triangles[t + k], i = mesh.triangles[t + (k + 1) % 3], j = mesh.triangles[t + (k + 2) % 3];
+      const std::int32_t o = mesh.triangles[t + k], i = mesh.triangles[t + (k + 1) % 3],
+                         j = mesh.triangles[t + (k + 2) % 3];
       double dot = 0, e[3], f[3];
-      for (int c = 0; c < 3; ++c) e[c] = mesh.points[3 * i + c] - mesh.points[3 * o + c], f[c] = mesh.points[3 * j + c] - mesh.points[3 * o + c];
+      for (int c = 0; c < 3; ++c)
+        e[c] = mesh.points[3 * i + c] - mesh.points[3 * o + c], f[c] = mesh.points[3 * j + c] - mesh.points[3 * o + c];
       for (int c = 0; c < 3; ++c) dot += e[c] * f[c];
       const double x = e[1] * f[2] - e[2] * f[1], y = e[2] * f[0] - e[0] * f[2], z = e[0] * f[1] - e[1] * f[0];
       const double weight = std::max(1e-3, 0.5 * dot / std::max(1e-30, std::sqrt(x * x + y * y + z * z)));
@@ -163,7 +169,8 @@ inline hf::SymmetricMatrix squared(hf::Memory& memory, const hf::SymmetricMatrix
     touched.clear();
     for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e) {
       for (std::int32_t f = a.column_start[a.row[e]]; f < a.column_start[a.row[e] + 1]; ++f) {
-        if (std::find(touched.begin(), touched.end(), a.row[f]) == touched.end()) touched.push_back(a.row[f]), sum[static_cast<std::size_t>(a.row[f])] = 0;
+        if (std::find(touched.begin(), touched.end(), a.row[f]) == touched.end())
+          touched.push_back(a.row[f]), sum[static_cast<std::size_t>(a.row[f])] = 0;
         sum[static_cast<std::size_t>(a.row[f])] += a.value[f] * a.value[e];
       }
     }
@@ -180,7 +187,8 @@ inline hf::SymmetricMatrix squared(hf::Memory& memory, const hf::SymmetricMatrix
 inline std::vector<double> multiply(const hf::SymmetricMatrix& a, const std::vector<double>& x) {
   std::vector<double> y(x.size(), 0.0);
   for (std::int32_t j = 0; j < a.size(); ++j) {
-    for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e) y[static_cast<std::size_t>(a.row[e])] += a.value[e] * x[static_cast<std::size_t>(j)];
+    for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e)
+      y[static_cast<std::size_t>(a.row[e])] += a.value[e] * x[static_cast<std::size_t>(j)];
   }
   return y;
 }

@@ -20,7 +20,8 @@ using hf_test::Assembly;
 
 class OrderingTest : public testing::Test {
  protected:
-  hf::Buffer<std::int32_t> order(const hf::SymmetricMatrix& a, hf::Ordering kind, const std::vector<float>& points = {}, hf::JobRunner* jobs = nullptr) {
+  hf::Buffer<std::int32_t> order(const hf::SymmetricMatrix& a, hf::Ordering kind, const std::vector<float>& points = {},
+                                 hf::JobRunner* jobs = nullptr) {
     hf::Buffer<std::int32_t> result;
     hf::make_order(a, {points.data(), points.size()}, kind, memory, jobs ? *jobs : one, nullptr, result);
     std::vector<char> seen(static_cast<std::size_t>(a.size()), 0);
@@ -35,14 +36,17 @@ class OrderingTest : public testing::Test {
     const hf::Buffer<std::int32_t> result = order(a, kind, points);
     return hf::estimate_fill(a, {result.data(), result.size()}, memory);
   }
-  // dissection is a permutation, the same for 1, 2 and 5 threads, and its fill is at most `factor` times minimum degree's
+  // dissection is a permutation, the same for 1, 2 and 5 threads, and its fill is at most `factor` times minimum
+  // degree's
   void expect_sound(const hf::SymmetricMatrix& a, const std::vector<float>& points, double factor, const char* what) {
     hf::JobRunner two(2), five(5);
-    const auto x = order(a, hf::Ordering::nested_dissection, points), y = order(a, hf::Ordering::nested_dissection, points, &two),
+    const auto x = order(a, hf::Ordering::nested_dissection, points),
+               y = order(a, hf::Ordering::nested_dissection, points, &two),
                z = order(a, hf::Ordering::nested_dissection, points, &five);
     EXPECT_TRUE(std::equal(x.begin(), x.end(), y.begin())) << what;
     EXPECT_TRUE(std::equal(x.begin(), x.end(), z.begin())) << what;
-    const double own = hf::estimate_fill(a, {x.data(), x.size()}, memory).entries, amd = fill(a, hf::Ordering::minimum_degree).entries;
+    const double own = hf::estimate_fill(a, {x.data(), x.size()}, memory).entries,
+                 amd = fill(a, hf::Ordering::minimum_degree).entries;
     EXPECT_LE(own, factor * amd) << what << ": " << own << " against " << amd;
   }
   hf::Memory memory;
@@ -86,7 +90,8 @@ TEST_F(OrderingTest, surfaces_fill_less_than_minimum_degree_and_about_as_much_as
   const hf::SymmetricMatrix k = hf_test::squared(memory, a, 1.0);
   expect_sound(k, floats(mesh.points), 1.0, "torus, two rings");
 #if defined(HF_WITH_GPL)
-  const hf::FillEstimate own = fill(a, hf::Ordering::nested_dissection, floats(mesh.points)), metis = fill(a, hf::Ordering::metis);
+  const hf::FillEstimate own = fill(a, hf::Ordering::nested_dissection, floats(mesh.points)),
+                         metis = fill(a, hf::Ordering::metis);
   EXPECT_LE(own.entries, 1.12 * metis.entries);
   EXPECT_LE(own.flops, 1.25 * metis.flops);
 #endif
@@ -133,7 +138,8 @@ TEST_F(OrderingTest, islands_strips_stars_and_cliques_are_ordered) {
   for (std::int32_t k = 10000; k + 1 < 10100; ++k) mixed.add_edge(k, k + 1, 1.0);
   mixed.add(0, 0, 1.0), mixed.add(10000, 10000, 1.0);
   std::vector<float> place = hf_test::grid_points(100, 100);
-  for (std::int32_t k = 0; k < 100; ++k) place.insert(place.end(), {static_cast<float>(k), static_cast<float>(k), 0.0f});
+  for (std::int32_t k = 0; k < 100; ++k)
+    place.insert(place.end(), {static_cast<float>(k), static_cast<float>(k), 0.0f});
   expect_sound(mixed.build(memory), place, 1.35, "two components");
 }
 
@@ -172,11 +178,14 @@ TEST_F(OrderingTest, the_minimum_separator_is_minimum) {
     for (std::int32_t i = 0; i < n; ++i) {
       for (std::int32_t j = 0; j < i; ++j) {
         const bool ends = (i == n - 1 && j == 0);
-        if (!ends && random() % 100 < 35) ring[static_cast<std::size_t>(i)].push_back(j), ring[static_cast<std::size_t>(j)].push_back(i);
+        if (!ends && random() % 100 < 35)
+          ring[static_cast<std::size_t>(i)].push_back(j), ring[static_cast<std::size_t>(j)].push_back(i);
       }
     }
     std::vector<std::int32_t> start{0}, neighbour;
-    for (auto& r : ring) neighbour.insert(neighbour.end(), r.begin(), r.end()), start.push_back(static_cast<std::int32_t>(neighbour.size()));
+    for (auto& r : ring)
+      neighbour.insert(neighbour.end(), r.begin(), r.end()),
+          start.push_back(static_cast<std::int32_t>(neighbour.size()));
     std::vector<std::uint8_t> side(static_cast<std::size_t>(n), hf::side_between);
     side.front() = hf::side_left, side.back() = hf::side_right;
     const hf::Cut cut = search.refine({n, start.data(), neighbour.data(), nullptr, nullptr}, side.data());
@@ -201,7 +210,9 @@ TEST_F(OrderingTest, the_minimum_separator_is_minimum) {
     for (std::int32_t v = 0; v < n; ++v) {
       between += side[static_cast<std::size_t>(v)] == hf::side_between;
       for (const std::int32_t u : ring[static_cast<std::size_t>(v)]) {
-        ASSERT_FALSE(side[static_cast<std::size_t>(v)] == hf::side_left && side[static_cast<std::size_t>(u)] == hf::side_right) << "round " << round;
+        ASSERT_FALSE(side[static_cast<std::size_t>(v)] == hf::side_left &&
+                     side[static_cast<std::size_t>(u)] == hf::side_right)
+            << "round " << round;
       }
     }
     ASSERT_EQ(between, cut.separator);

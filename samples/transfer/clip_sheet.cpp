@@ -1,0 +1,82 @@
+// See clip_sheet.h.
+#include "transfer/clip_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "common/picture.h"
+
+namespace samples {
+namespace {
+
+constexpr int columns = 6;  // frames beside the rest pose
+
+// The coat: vertex colours times the material's colour, as a display shows them.
+std::vector<float> colours_of(const Model& model, const FlatMesh& mesh) {
+  std::vector<float> out;
+  for (const FlatPart& part : mesh.parts) {
+    const int material = model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)].material;
+    const glm::vec4 base = material >= 0 && static_cast<size_t>(material) < model.materials.size() ? model.materials[static_cast<size_t>(material)].base_color : glm::vec4(0.6f);
+    for (uint32_t v = part.first_vertex; v < part.first_vertex + part.vertex_count; ++v) {
+      for (int c = 0; c < 3; ++c) {
+        const float vertex = mesh.colors.empty() ? 1.0f : mesh.colors[v][c];
+        out.push_back(std::pow(std::clamp(base[c] * vertex, 0.02f, 1.0f), 1 / 2.2f));
+      }
+    }
+  }
+  return out;
+}
+
+struct Row {
+  const FlatMesh* mesh;
+  std::vector<float> colours;
+  Axes axes;
+};
+
+Point point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
+
+void add_row(const Row& row, const std::vector<std::vector<double>>& frames, std::vector<Picture>& tiles) {
+  View view;
+  view.width = 300, view.height = 250;
+  view.direction = point(row.axes.right + 0.22 * row.axes.up + 0.45 * row.axes.forward), view.up = point(row.axes.up);
+  view.fixed_box = true, view.ground = true, view.ground_height = 1e300;
+  const std::vector<double> rest = double_positions(row.mesh->positions);
+  for (size_t v = 0; v < row.mesh->positions.size(); ++v) view.ground_height = std::min(view.ground_height, glm::dot(row.mesh->positions[v], row.axes.up));
+  std::vector<const std::vector<double>*> shown = {&rest};
+  for (int k = 0; k < columns; ++k) shown.push_back(&frames[static_cast<size_t>(k) * (frames.size() - 1) / static_cast<size_t>(columns)]);
+  bool empty = true;
+  for (const std::vector<double>* positions : shown) extend(view.box, empty, *positions);
+  SurfaceLook look;
+  look.fill = Fill::colors;
+  for (const std::vector<double>* positions : shown) {
+    Surface surface = make_surface(*positions, row.mesh->triangles);
+    surface.colors = row.colours;
+    tiles.push_back(render(surface, view, look));
+  }
+}
+
+}  // namespace
+
+void write_clip_sheet(const std::filesystem::path& file, const Session& session, const Model& source, const Model& target, const std::vector<PlayedClip>& clips) {
+  const Row from{&session.source_flat(), colours_of(source, session.source_flat()), session.source_axes()};
+  const Row to{&session.target_flat(), colours_of(target, session.target_flat()), session.target_axes()};
+  std::vector<Picture> tiles;
+  std::vector<std::string> labels;
+  for (const PlayedClip& clip : clips) {
+    add_row(from, clip.source_frames, tiles), add_row(to, clip.target_frames, tiles);
+    for (const std::string& name : {source.name, target.name}) {
+      labels.push_back(name + ", rest");
+      for (int k = 0; k < columns; ++k) {
+        char label[64];
+        std::snprintf(label, sizeof label, "%.2f s", clip.clip.times[static_cast<size_t>(k) * (clip.clip.times.size() - 1) / static_cast<size_t>(columns)]);
+        labels.emplace_back(label);
+      }
+    }
+  }
+  std::string title = source.name + " on " + target.name + ":";
+  for (const PlayedClip& clip : clips) title += " " + clip.clip.name;
+  write_png(file.string(), contact_sheet(tiles, columns + 1, labels, title));
+}
+
+}  // namespace samples

@@ -1,0 +1,316 @@
+// See session.h.
+#include "transfer/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "common/animate.h"
+
+namespace samples {
+namespace {
+
+// Throws the library's own sentence.
+void check(hf_result result, const std::string& what) {
+  if (result == HF_OK) return;
+  hf_error_detail detail;
+  hf_get_error_detail(&detail);
+  throw std::runtime_error(what + ": " + (detail.code == result ? detail.message : hf_result_name(result)) + " (" + hf_result_name(result) + ")");
+}
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+hf_solver make_solver(const FlatMesh& mesh, const std::string& name, uint32_t threads) {
+  const std::vector<double> positions = double_positions(mesh.positions);
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
+  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  const glm::dvec3 extent = high - low;
+  hf_create_desc desc;
+  HF_INIT(desc);
+  desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
+  desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
+  // exporters round copies of a vertex differently now and then
+  desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = static_cast<float>(1e-5 * std::max({extent.x, extent.y, extent.z, 1e-20}));
+  desc.thread_count = threads;
+  hf_solver solver = nullptr;
+  check(hf_create(&desc, &solver), name);
+  return solver;
+}
+
+void copy_axes(const Axes& axes, float (&rows)[9]) {
+  for (int c = 0; c < 3; ++c) {
+    rows[c] = static_cast<float>(axes.right[c]), rows[3 + c] = static_cast<float>(axes.up[c]), rows[6 + c] = static_cast<float>(axes.forward[c]);
+  }
+}
+
+glm::dvec3 centre_of(const Region& region, const std::vector<double>& xyz) {
+  glm::dvec3 sum(0);
+  for (const uint32_t v : region.vertices) sum += glm::dvec3(xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]);
+  return sum / static_cast<double>(region.vertices.size());
+}
+
+double lowest_of(const Region& region, const std::vector<double>& xyz, const glm::dvec3& up) {
+  double low = std::numeric_limits<double>::infinity();
+  for (const uint32_t v : region.vertices) low = std::min(low, glm::dot(up, glm::dvec3(xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2])));
+  return low;
+}
+
+}  // namespace
+
+Session::Session(const Model& source, const Model& target, const PairsFile& pairs, uint32_t threads, ProgressBar& bar)
+    : source_(source),
+      target_(target),
+      file_(pairs),
+      source_flat_(flatten(source)),
+      target_flat_(flatten(target)),
+      source_finder_(source, source_flat_, pairs.source_axes),
+      target_finder_(target, target_flat_, pairs.target_axes) {
+  try {
+    create(threads, bar);
+  } catch (...) {
+    hf_transfer_destroy(transfer_), hf_destroy(source_solver_), hf_destroy(target_solver_);
+    throw;
+  }
+}
+
+Session::~Session() { hf_transfer_destroy(transfer_), hf_destroy(source_solver_), hf_destroy(target_solver_); }
+
+void Session::create(uint32_t threads, ProgressBar& bar) {
+  const auto start = std::chrono::steady_clock::now();
+  bar.begin("factorising " + source_.name);
+  source_solver_ = make_solver(source_flat_, source_.name, threads);
+  bar.end(std::to_string(source_mesh().welded_vertex_count) + " vertices after welding");
+  bar.begin("factorising " + target_.name);
+  target_solver_ = make_solver(target_flat_, target_.name, threads);
+  bar.end(std::to_string(target_mesh().welded_vertex_count) + " vertices after welding");
+  setup_ms_ = milliseconds_since(start);
+
+  const TransferSettings& settings = file_.settings;
+  hf_transfer_desc desc;
+  HF_INIT(desc);
+  desc.mode = settings.paper ? HF_TRANSFER_PAPER : HF_TRANSFER_FIELDS;
+  desc.cluster_count = settings.clusters;
+  desc.kernel_width = static_cast<float>(settings.width), desc.scale = static_cast<float>(settings.scale);
+  desc.alignment_angle = static_cast<float>(settings.alignment_degrees * 3.14159265358979323846 / 180);
+  copy_axes(file_.source_axes, desc.source_axes), copy_axes(file_.target_axes, desc.target_axes);
+  check(hf_transfer_create(source_solver_, target_solver_, &desc, &transfer_), "the transfer");
+  bar.begin("pairs, fields and clusters");
+  add(file_.pairs);
+  prepare();
+  bar.end(std::to_string(live_.size()) + " pairs, " + std::to_string(cluster_count()) + " clusters");
+}
+
+void Session::add(const std::vector<PairEntry>& entries) {
+  if (entries.empty()) return;
+  const size_t before = live_.size();
+  std::vector<Region> source, target;
+  for (const Live& live : live_) source.push_back(live.source), target.push_back(live.target);
+  for (const PairEntry& entry : entries) {
+    for (const Live& live : live_) {
+      if (live.entry.name == entry.name) throw std::runtime_error("there is a pair \"" + entry.name + "\" already");
+    }
+    source.push_back(source_finder_.find(entry.source)), target.push_back(target_finder_.find(entry.target));
+  }
+  const int covered_source = source_finder_.separate(source, before), covered_target = target_finder_.separate(target, before);
+  for (const int covered : {covered_source, covered_target}) {
+    if (covered < 0) continue;
+    throw std::runtime_error("pair \"" + entries[static_cast<size_t>(covered) - before].name + "\": its region on the " + (covered_source >= 0 ? "source" : "target") +
+                             " lies inside those of other pairs; move it or make the radius smaller");
+  }
+  std::vector<uint32_t> source_counts, target_counts, source_vertices, target_vertices, flags, numbers(entries.size());
+  for (size_t i = 0; i < entries.size(); ++i) {
+    const auto &a = source[before + i].vertices, &b = target[before + i].vertices;
+    source_counts.push_back(static_cast<uint32_t>(a.size())), target_counts.push_back(static_cast<uint32_t>(b.size()));
+    source_vertices.insert(source_vertices.end(), a.begin(), a.end()), target_vertices.insert(target_vertices.end(), b.begin(), b.end());
+    flags.push_back(entries[i].flags());
+  }
+  hf_pairs_desc desc;
+  HF_INIT(desc);
+  desc.pair_count = static_cast<uint32_t>(entries.size());
+  desc.source_counts = source_counts.data(), desc.source_vertices = source_vertices.data();
+  desc.target_counts = target_counts.data(), desc.target_vertices = target_vertices.data();
+  desc.flags = flags.data();
+  check(hf_transfer_add_pairs(transfer_, &desc, numbers.data()), "the pairs");
+  for (size_t i = 0; i < entries.size(); ++i) live_.push_back({entries[i], source[before + i], target[before + i], numbers[i]});
+}
+
+void Session::edit(const EditsFile& edits) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<uint32_t> numbers;
+  std::vector<Live> left = live_;
+  for (const std::string& name : edits.remove) {
+    const auto found = std::find_if(left.begin(), left.end(), [&](const Live& live) { return live.entry.name == name; });
+    if (found == left.end()) throw std::runtime_error("there is no pair \"" + name + "\" to remove");
+    numbers.push_back(found->number);
+    left.erase(found);
+  }
+  if (!numbers.empty()) {
+    check(hf_transfer_remove_pairs(transfer_, static_cast<uint32_t>(numbers.size()), numbers.data()), "removing pairs");
+    live_.swap(left);
+  }
+  add(edits.add);
+  edit_ms_ = milliseconds_since(start);
+  prepare();
+}
+
+// Solves the fields and so on, by asking; and finds the scale: a shifted rest frame shifts the target by scale times as much.
+void Session::prepare() {
+  const auto start = std::chrono::steady_clock::now();
+  cluster_count();
+  prepare_ms_ = milliseconds_since(start);
+  const hf_mesh_report report = source_mesh();
+  std::vector<double> posed = double_positions(source_flat_.positions), still, moved;
+  apply(posed, still);
+  for (size_t i = 1; i < posed.size(); i += 3) posed[i] += report.bounding_box_diagonal;
+  apply(posed, moved);
+  // the shift is along y of the source; on the target it lies along the same of its own axes
+  glm::dvec3 mean(0);
+  for (size_t i = 0; i < moved.size(); ++i) mean[static_cast<int>(i % 3)] += (moved[i] - still[i]) * 3 / static_cast<double>(moved.size());
+  scale_ = glm::length(mean) / report.bounding_box_diagonal;
+}
+
+void Session::apply(const std::vector<double>& posed, std::vector<double>& out) {
+  out.resize(3 * target_flat_.positions.size());
+  hf_transfer_frame frame;
+  HF_INIT(frame);
+  frame.source_positions_f64 = posed.data(), frame.target_positions_f64 = out.data();
+  check(hf_transfer_apply(transfer_, &frame), "a frame");
+}
+
+uint32_t Session::cluster_count() {
+  hf_skin_info info;
+  HF_INIT(info);
+  check(hf_transfer_get_skin(transfer_, &info), "the skin");
+  return info.joint_count;
+}
+
+PlayedClip Session::play(const Animation& animation, double rate, ProgressBar& bar) {
+  PlayedClip out;
+  out.clip.name = animation.name;
+  const uint32_t joints = cluster_count();
+  std::vector<double> pivots(3 * joints), rotations(4 * joints), places(3 * joints), posed, target;
+  hf_skin_info info;
+  HF_INIT(info);
+  info.pivots = pivots.data(), info.rotations = rotations.data(), info.translations = places.data();
+  bar.begin("transferring \"" + animation.name + "\"");
+  const std::vector<double> times = frame_times(animation, rate);
+  double inside = 0;
+  for (size_t f = 0; f < times.size(); ++f) {
+    posed = double_positions(posed_positions(source_, source_flat_, animation, times[f]));
+    const auto start = std::chrono::steady_clock::now();
+    apply(posed, target);
+    inside += milliseconds_since(start);
+    check(hf_transfer_get_skin(transfer_, &info), "the skin");
+    out.clip.times.push_back(times[f]);
+    for (uint32_t j = 0; j < joints; ++j) {
+      const double* q = rotations.data() + 4 * j;
+      const glm::dquat rotation(q[3], q[0], q[1], q[2]);
+      const glm::dvec3 pivot(pivots[3 * j], pivots[3 * j + 1], pivots[3 * j + 2]), place(places[3 * j], places[3 * j + 1], places[3 * j + 2]);
+      out.clip.rotations.push_back(rotation), out.clip.translations.push_back(place - rotation * pivot);
+    }
+    out.source_frames.push_back(posed), out.target_frames.push_back(target);
+    bar.update(static_cast<double>(f + 1) / static_cast<double>(times.size()));
+  }
+  out.frame_ms = inside / static_cast<double>(times.size());
+  measure_feet(out, out.feet);
+  bar.end(std::to_string(times.size()) + " frames");
+  return out;
+}
+
+void Session::measure_feet(const PlayedClip& played, FootReport& feet) const {
+  const double box = target_mesh().bounding_box_diagonal;
+  const std::vector<double> source_rest = double_positions(source_flat_.positions), target_rest = double_positions(target_flat_.positions);
+  glm::dmat3 to_target;  // right, up, forward of the source to those of the target
+  {
+    const glm::dmat3 source(file_.source_axes.right, file_.source_axes.up, file_.source_axes.forward);
+    const glm::dmat3 target(file_.target_axes.right, file_.target_axes.up, file_.target_axes.forward);
+    to_target = target * glm::transpose(source);
+  }
+  size_t count = 0;
+  for (const Live& live : live_) {
+    if (!live.entry.foot) continue;
+    for (size_t f = 0; f < played.source_frames.size(); ++f) {
+      const glm::dvec3 path = scale_ * (to_target * (centre_of(live.source, played.source_frames[f]) - centre_of(live.source, source_rest)));
+      const double miss = glm::distance(centre_of(live.target, played.target_frames[f]), centre_of(live.target, target_rest) + path) / box;
+      feet.path_mean += miss, feet.path_max = std::max(feet.path_max, miss), ++count;
+      const double from = scale_ * std::min(0.0, lowest_of(live.source, played.source_frames[f], file_.source_axes.up) - lowest_of(live.source, source_rest, file_.source_axes.up));
+      const double to = lowest_of(live.target, played.target_frames[f], file_.target_axes.up) - lowest_of(live.target, target_rest, file_.target_axes.up);
+      feet.sunk = std::max(feet.sunk, (from - to) / box);
+    }
+  }
+  if (count > 0) feet.path_mean /= static_cast<double>(count);
+}
+
+SkinDescription Session::skin() {
+  const uint32_t joints = cluster_count();
+  SkinDescription out;
+  std::vector<double> pivots(3 * joints);
+  out.vertex_joints.resize(size_t{4} * target_flat_.vertex_count()), out.vertex_weights.resize(out.vertex_joints.size());
+  hf_skin_info info;
+  HF_INIT(info);
+  info.weight_count = 4;
+  info.pivots = pivots.data(), info.vertex_joints = out.vertex_joints.data(), info.vertex_weights = out.vertex_weights.data();
+  check(hf_transfer_get_skin(transfer_, &info), "the skin");
+  for (uint32_t j = 0; j < joints; ++j) out.joints.push_back({"cluster_" + std::to_string(j), {pivots[3 * j], pivots[3 * j + 1], pivots[3 * j + 2]}});
+  return out;
+}
+
+std::vector<PairReport> Session::pairs() {
+  std::vector<PairReport> out;
+  for (const Live& live : live_) {
+    hf_pair_info info;
+    HF_INIT(info);
+    check(hf_transfer_get_pair(transfer_, live.number, &info), "pair \"" + live.entry.name + "\"");
+    PairReport report;
+    report.name = live.entry.name;
+    report.source_vertices = live.source.vertices.size(), report.target_vertices = live.target.vertices.size();
+    report.anchor = live.entry.anchor || live.entry.foot, report.foot = live.entry.foot, report.trunk = live.entry.trunk, report.aligned = info.aligned != 0;
+    report.source_leak = info.source_leak, report.target_leak = info.target_leak, report.confidence = info.confidence;
+    report.alignment_degrees = info.alignment_angle < 0 ? -1 : info.alignment_angle * 180 / 3.14159265358979323846;
+    out.push_back(report);
+  }
+  return out;
+}
+
+std::vector<std::string> Session::warnings() {
+  std::vector<std::string> out;
+  for (const Model* model : {&source_, &target_}) {
+    for (const std::string& warning : model->warnings) out.push_back(model->name + ": " + warning);
+  }
+  bool feet = false, trunk = false;
+  for (const PairReport& pair : pairs()) {
+    feet = feet || pair.foot, trunk = trunk || (pair.trunk && pair.anchor);
+    if (pair.confidence < 0.3) out.push_back("pair \"" + pair.name + "\": few source vertices stand behind its clusters; the motion there may be coarse");
+    if (pair.source_leak > 1e-6 || pair.target_leak > 1e-6) out.push_back("pair \"" + pair.name + "\": its fields leak; report it with the model");
+    if (pair.aligned) out.push_back("pair \"" + pair.name + "\": the limb points " + std::to_string(static_cast<int>(pair.alignment_degrees + 0.5)) +
+                                    " degrees elsewhere at rest and is aligned with the source; \"align\": false keeps its own direction");
+  }
+  if (feet && !trunk) out.push_back("feet are anchored but no trunk pair is: the trunk may float; give withers and rump with \"trunk\" and \"anchor\"");
+  for (const bool is_source : {true, false}) {
+    const hf_mesh_report report = is_source ? source_mesh() : target_mesh();
+    if (report.component_count > 1) {
+      out.push_back((is_source ? source_ : target_).name + " has " + std::to_string(report.component_count) + " loose parts; those without a pair follow what they lie next to");
+    }
+  }
+  return out;
+}
+
+hf_statistics Session::statistics(hf_solver solver) {
+  hf_statistics out;
+  HF_INIT(out);
+  check(hf_get_statistics(solver, &out), "statistics");
+  return out;
+}
+
+hf_mesh_report Session::mesh_report(hf_solver solver) {
+  hf_mesh_report out;
+  HF_INIT(out);
+  check(hf_get_mesh_report(solver, &out), "mesh report");
+  return out;
+}
+
+}  // namespace samples

@@ -1,0 +1,103 @@
+// One transfer session over the C API: two models, their solvers, a transfer whose pairs may change while it runs.
+//
+//   Session session(source, target, pairs, threads, bar);     // factorises both surfaces, once
+//   PlayedClip clip = session.play(source.animations[0], 30, bar);
+//   session.edit(edits);                                       // pairs out and in: no factorisation
+//   PlayedClip again = session.play(source.animations[0], 30, bar);
+//
+// Failure: std::runtime_error with the library's own sentence, or that of the pairs file.
+#ifndef HF_SAMPLES_TRANSFER_SESSION_H
+#define HF_SAMPLES_TRANSFER_SESSION_H
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/progress_bar.h"
+#include "common/skin_write.h"
+#include "hf/hf.h"
+#include "transfer/pairs_file.h"
+
+namespace samples {
+
+struct PairReport {
+  std::string name;
+  size_t source_vertices = 0, target_vertices = 0;  // of the files, copies included
+  bool anchor = false, foot = false, trunk = false, aligned = false;
+  double source_leak = 0, target_leak = 0, alignment_degrees = -1, confidence = 0;
+};
+
+// How the feet fared over a clip, in box diagonals of the target.
+struct FootReport {
+  double path_mean = 0, path_max = 0;  // from the scaled path of the source's foot
+  double sunk = 0;                     // deeper under the rest ground than the source's foot, scaled
+};
+
+struct PlayedClip {
+  SkinClip clip;
+  std::vector<std::vector<double>> source_frames, target_frames;  // xyz of the flat vertices, one per time
+  FootReport feet;
+  double frame_ms = 0;  // per frame, inside the library
+};
+
+class Session {
+ public:
+  Session(const Model& source, const Model& target, const PairsFile& pairs, uint32_t threads, ProgressBar& bar);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // Removes pairs by name and adds others. Regions of new pairs give way to those that are there.
+  void edit(const EditsFile& edits);
+
+  PlayedClip play(const Animation& animation, double rate, ProgressBar& bar);
+  // Joints and weights; the clips are left to the caller.
+  SkinDescription skin();
+
+  std::vector<PairReport> pairs();
+  std::vector<std::string> warnings();
+  double scale() const { return scale_; }
+  uint32_t cluster_count();
+
+  // Figures of the solvers.
+  hf_statistics source_statistics() const { return statistics(source_solver_); }
+  hf_statistics target_statistics() const { return statistics(target_solver_); }
+  hf_mesh_report source_mesh() const { return mesh_report(source_solver_); }
+  hf_mesh_report target_mesh() const { return mesh_report(target_solver_); }
+  double setup_ms() const { return setup_ms_; }      // both solvers
+  double prepare_ms() const { return prepare_ms_; }  // fields, clusters, translations after the last change of pairs
+  double edit_ms() const { return edit_ms_; }        // the last edit's calls, without prepare
+
+  const FlatMesh& source_flat() const { return source_flat_; }
+  const FlatMesh& target_flat() const { return target_flat_; }
+  const Axes& source_axes() const { return file_.source_axes; }
+  const Axes& target_axes() const { return file_.target_axes; }
+
+ private:
+  struct Live {
+    PairEntry entry;
+    Region source, target;
+    uint32_t number = 0;
+  };
+  void create(uint32_t threads, ProgressBar& bar);
+  void add(const std::vector<PairEntry>& entries);
+  void prepare();
+  void apply(const std::vector<double>& posed, std::vector<double>& out);
+  void measure_feet(const PlayedClip& played, FootReport& feet) const;
+  static hf_statistics statistics(hf_solver solver);
+  static hf_mesh_report mesh_report(hf_solver solver);
+
+  const Model& source_;
+  const Model& target_;
+  PairsFile file_;
+  FlatMesh source_flat_, target_flat_;
+  RegionFinder source_finder_, target_finder_;
+  hf_solver source_solver_ = nullptr, target_solver_ = nullptr;
+  hf_transfer transfer_ = nullptr;
+  std::vector<Live> live_;
+  double scale_ = 1, setup_ms_ = 0, prepare_ms_ = 0, edit_ms_ = 0;
+};
+
+}  // namespace samples
+
+#endif

@@ -1,0 +1,34 @@
+// The command line of hf_transfer.
+#ifndef HF_SAMPLES_TRANSFER_TRANSFER_OPTIONS_H
+#define HF_SAMPLES_TRANSFER_TRANSFER_OPTIONS_H
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/model.h"
+
+namespace samples {
+
+struct TransferCommand {
+  std::filesystem::path source, target, pairs, output;
+  std::filesystem::path sheet, report, json, edits, joints;  // empty: not asked for
+  std::string clip;          // name, index or all; empty: the first
+  double rate = 0;           // frames per second; 0: 30, or 60 for clips below a second
+  unsigned threads = 1;
+  bool quiet = false, help = false;
+};
+
+// Throws std::runtime_error naming the option.
+TransferCommand parse_command(int count, char** arguments);
+const char* usage();
+
+// The clips a --clip names, by exact name, by the part after the last '|', or by index. Throws listing what there is.
+std::vector<const Animation*> choose_clips(const Model& model, const std::string& wanted);
+
+// "out/walk.glb" -> "out/walk_edited.glb"
+std::filesystem::path edited_name(const std::filesystem::path& file);
+
+}  // namespace samples
+
+#endif

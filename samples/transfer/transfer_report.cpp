@@ -1,0 +1,132 @@
+// See transfer_report.h.
+#include "transfer/transfer_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "common/animate.h"
+
+namespace samples {
+namespace {
+
+void print(std::string& out, const char* format, ...) __attribute__((format(printf, 2, 3)));
+void print(std::string& out, const char* format, ...) {
+  char line[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  out += line;
+}
+
+}  // namespace
+
+ReplayReport measure_replay(const Model& written, const std::vector<PlayedClip>& clips, double box) {
+  ReplayReport out;
+  const FlatMesh mesh = flatten(written);
+  double sum = 0;
+  size_t count = 0;
+  for (size_t c = 0; c < clips.size(); ++c) {
+    const PlayedClip& clip = clips[c];
+    const Animation& animation = written.animations[c];
+    const size_t step = std::max<size_t>(1, clip.clip.times.size() / 8);
+    for (size_t f = 0; f < clip.clip.times.size(); f += step) {
+      const std::vector<glm::dvec3> keys = posed_positions(written, mesh, animation, clip.clip.times[f]);
+      const std::vector<double>& expected = clip.target_frames[f];
+      for (size_t v = 0; v < keys.size(); ++v) {
+        out.key_max = std::max(out.key_max, glm::distance(keys[v], glm::dvec3(expected[3 * v], expected[3 * v + 1], expected[3 * v + 2])) / box);
+      }
+      // a straight line through a frame and the one after next, against the frame between: an upper bound of what half-way keys miss
+      if (f + 2 >= clip.clip.times.size()) continue;
+      const std::vector<double>&next = clip.target_frames[f + 1], &after = clip.target_frames[f + 2];
+      for (size_t i = 0; i < expected.size(); ++i) {
+        const double d = (next[i] - 0.5 * (expected[i] + after[i])) / 4 / box;
+        sum += d * d;
+      }
+      count += keys.size();
+    }
+  }
+  if (count > 0) out.half_rms = std::sqrt(sum / static_cast<double>(count));
+  return out;
+}
+
+RunReport make_report(Session& session, const std::vector<PlayedClip>& clips, const std::string& output) {
+  RunReport out;
+  out.output = output;
+  out.pairs = session.pairs(), out.warnings = session.warnings();
+  for (const PlayedClip& clip : clips) {
+    out.clip_names.push_back(clip.clip.name), out.frames.push_back(clip.clip.times.size());
+    out.feet.push_back(clip.feet), out.frame_ms.push_back(clip.frame_ms);
+  }
+  out.clusters = session.cluster_count(), out.scale = session.scale();
+  out.setup_ms = session.setup_ms(), out.prepare_ms = session.prepare_ms(), out.edit_ms = session.edit_ms();
+  out.source_factorisations = session.source_statistics().factorisation_count, out.target_factorisations = session.target_statistics().factorisation_count;
+  return out;
+}
+
+std::string to_text(const RunReport& report, const std::string& heading) {
+  std::string out = heading + "\n";
+  print(out, "  output        %s\n", report.output.c_str());
+  print(out, "  clusters      %u, scale %.4f\n", report.clusters, report.scale);
+  print(out, "  factorisation %.1f ms both surfaces; numeric factorisations so far: source %u, target %u\n", report.setup_ms, report.source_factorisations, report.target_factorisations);
+  print(out, "  pairs         %.1f ms fields, clusters and translations\n", report.prepare_ms);
+  print(out, "  pair                     vertices     leak      rest angle  confidence  kind\n");
+  for (const PairReport& pair : report.pairs) {
+    std::string kind;
+    for (const auto& [is, word] : {std::pair<bool, const char*>(pair.foot, " foot"), {pair.anchor && !pair.foot, " anchor"}, {pair.trunk, " trunk"}, {pair.aligned, " aligned"}}) {
+      if (is) kind += word;
+    }
+    const std::string angle = pair.alignment_degrees < 0 ? "-" : std::to_string(static_cast<int>(pair.alignment_degrees + 0.5));
+    print(out, "  %-22s %5zu %5zu   %.1e   %10s  %10.2f %s\n", pair.name.c_str(), pair.source_vertices, pair.target_vertices, std::max(pair.source_leak, pair.target_leak), angle.c_str(),
+          pair.confidence, kind.c_str());
+  }
+  for (size_t c = 0; c < report.clip_names.size(); ++c) {
+    print(out, "  clip \"%s\": %zu frames, %.3f ms each; feet off their scaled path by %.4f (largest %.4f), sunk by %.4f of the box\n", report.clip_names[c].c_str(), report.frames[c],
+          report.frame_ms[c], report.feet[c].path_mean, report.feet[c].path_max, report.feet[c].sunk);
+  }
+  print(out, "  read back     %.1e of the box at keys; half-way between keys about %.1e\n", report.replay.key_max, report.replay.half_rms);
+  for (const std::string& warning : report.warnings) out += "  note: " + warning + "\n";
+  return out;
+}
+
+nlohmann::json to_json(const RunReport& report) {
+  nlohmann::json pairs = nlohmann::json::array(), clips = nlohmann::json::array();
+  for (const PairReport& pair : report.pairs) {
+    pairs.push_back({{"name", pair.name},
+                     {"source_vertices", pair.source_vertices},
+                     {"target_vertices", pair.target_vertices},
+                     {"anchor", pair.anchor},
+                     {"foot", pair.foot},
+                     {"trunk", pair.trunk},
+                     {"aligned", pair.aligned},
+                     {"source_leak", pair.source_leak},
+                     {"target_leak", pair.target_leak},
+                     {"rest_angle_degrees", pair.alignment_degrees < 0 ? nlohmann::json() : nlohmann::json(pair.alignment_degrees)},
+                     {"confidence", pair.confidence}});
+  }
+  for (size_t c = 0; c < report.clip_names.size(); ++c) {
+    clips.push_back({{"name", report.clip_names[c]},
+                     {"frames", report.frames[c]},
+                     {"ms_per_frame", report.frame_ms[c]},
+                     {"foot_path_mean", report.feet[c].path_mean},
+                     {"foot_path_max", report.feet[c].path_max},
+                     {"foot_sunk", report.feet[c].sunk}});
+  }
+  return {{"output", report.output},
+          {"clusters", report.clusters},
+          {"scale", report.scale},
+          {"factorise_ms", report.setup_ms},
+          {"prepare_ms", report.prepare_ms},
+          {"edit_ms", report.edit_ms},
+          {"source_factorisations", report.source_factorisations},
+          {"target_factorisations", report.target_factorisations},
+          {"pairs", pairs},
+          {"clips", clips},
+          {"replay_key_max", report.replay.key_max},
+          {"replay_half_rms", report.replay.half_rms},
+          {"warnings", report.warnings}};
+}
+
+}  // namespace samples

@@ -1,0 +1,41 @@
+// What a run did and how well, as text and as JSON.
+#ifndef HF_SAMPLES_TRANSFER_TRANSFER_REPORT_H
+#define HF_SAMPLES_TRANSFER_TRANSFER_REPORT_H
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "transfer/session.h"
+
+namespace samples {
+
+// How well a written file, read again, gives back the computed frames, in box diagonals of the target: the largest miss at keys, and an estimate of the
+// root mean square half-way between keys (a quarter of the second difference of the frames).
+struct ReplayReport {
+  double key_max = 0, half_rms = 0;
+};
+ReplayReport measure_replay(const Model& written, const std::vector<PlayedClip>& clips, double box);
+
+struct RunReport {
+  std::string output;
+  std::vector<PairReport> pairs;
+  std::vector<std::string> warnings;
+  std::vector<std::string> clip_names;
+  std::vector<size_t> frames;
+  std::vector<FootReport> feet;
+  std::vector<double> frame_ms;
+  ReplayReport replay;
+  uint32_t clusters = 0;
+  double scale = 1, setup_ms = 0, prepare_ms = 0, edit_ms = 0;
+  uint32_t source_factorisations = 0, target_factorisations = 0;
+};
+
+RunReport make_report(Session& session, const std::vector<PlayedClip>& clips, const std::string& output);
+
+std::string to_text(const RunReport& report, const std::string& heading);
+nlohmann::json to_json(const RunReport& report);
+
+}  // namespace samples
+
+#endif
