@@ -30,7 +30,7 @@ class JobRunner {
       for (std::uint32_t i = 0; i < count; ++i) job(i);
       return;
     }
-    run(count, [](void* context, std::uint32_t index) { (*static_cast<std::remove_reference_t<Job>*>(context))(index); }, &job);
+    run(count, [](void* context, std::uint32_t index) { (*static_cast<std::remove_reference_t<Job>*>(context))(index); }, const_cast<void*>(static_cast<const void*>(&job)));
   }
 
  private:

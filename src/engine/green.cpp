@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "engine/sparse_sites.h"
 
 namespace hf {
 namespace {
@@ -14,282 +14,178 @@ std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 // Channels solved in one sweep: wider rows would push the right-hand sides out of the cache.
 constexpr Index channel_block = 8;
 
-// Sparse columns of a list of sites.
-struct Columns {
-  Columns(Span<const Site> sites, Memory& memory) : start(&memory), row(&memory), value(&memory) {
-    start.push_back(0);
-    for (const Site& site : sites) {
-      for (int k = 0; k < 3; ++k) {
-        if (site.vertex[k] < 0 || site.weight[k] == 0) continue;
-        row.push_back(site.vertex[k]), value.push_back(site.weight[k]);
-      }
-      start.push_back(static_cast<Index>(row.size()));
-    }
-  }
-  SparseColumns view() const noexcept { return {start, row, value}; }
-  Vector<Index> start, row;
-  Vector<double> value;
-};
-
 }  // namespace
 
-GreenSolver::GreenSolver(std::shared_ptr<const Core> core) : core_(std::move(core)), state_(*core_->memory) {
-  state_.blocks.resize(at(core_->mesh.component_count()));
-}
+// The answer of the dense system: lambda or t by row, and the constant of every component.
+struct GreenSolver::Right {
+  explicit Right(Memory& memory) : slot(&memory), freed(&memory), centre(&memory), constant(&memory), x(&memory), probe(&memory) {}
+  const double* of(Index row, std::size_t m) const noexcept { return row >= 0 ? slot.data() + at(row) * m : freed.data() + at(base_index(row)) * m; }
+  double* of(Index row, std::size_t m) noexcept { return row >= 0 ? slot.data() + at(row) * m : freed.data() + at(base_index(row)) * m; }
+  Vector<double> slot, freed;
+  Vector<double> centre;    // mean site value of every component: a large common offset must not cost digits
+  Vector<double> constant;  // centre + a
+  Vector<double> x, probe;
+};
 
-GreenSolver::GreenSolver(const GreenSolver& other) : core_(other.core_), state_(other.state_, *other.core_->memory), path_solves_(other.path_solves_.load()), sweeps_(other.sweeps_.load()) {}
+GreenSolver::GreenSolver(std::shared_ptr<const Core> core) : core_(std::move(core)), state_(core_->mesh.component_count(), *core_->memory) {}
+
+GreenSolver::GreenSolver(const GreenSolver& other)
+    : core_(other.core_), state_(other.state_, *other.core_->memory), path_solves_(other.path_solves_.load()), sweeps_(other.sweeps_.load()), rebases_(other.rebases_.load()) {}
+
+void GreenSolver::State::swap(State& other) noexcept {
+  entries.swap(other.entries), base.swap(other.base), freed.swap(other.freed), groups.swap(other.groups), blocks.swap(other.blocks), sites_of.swap(other.sites_of);
+  std::swap(rows, other.rows);
+}
 
 EngineCounters GreenSolver::counters() const noexcept {
   EngineCounters counters;
-  counters.factorisations = 1;  // that of the core
+  counters.factorisations = 1 + rebases_;  // that of the core, and those of rebases
   counters.path_solves = path_solves_, counters.sweeps = sweeps_;
   for (const Group& group : state_.groups) counters.bytes += group.paths->bytes();
   for (const auto& block : state_.blocks) counters.bytes += block ? block->bytes() : 0.0;
+  if (state_.base) counters.bytes += state_.base->factor->statistics().bytes;
   return counters;
 }
 
-Index GreenSolver::site_count(Index component) const noexcept {
-  const auto& block = state_.blocks[at(component)];
-  return block ? block->count() : 0;
-}
-
-void GreenSolver::edit(const SiteEdit& edit) {
-  State next(state_, memory());
-  remove_sites(next, edit.remove);
-  if (!edit.add.empty()) {
-    drop_empty_groups(next);
-    repack(next);
-    add_sites(next, edit);
-  }
-  std::swap(state_.entries, next.entries);
-  std::swap(state_.groups, next.groups);
-  std::swap(state_.blocks, next.blocks);
-  state_.live = next.live;
-}
-
-void GreenSolver::remove_sites(State& state, Span<const Index> slots) const {
-  Vector<Index> of_component(&memory());
-  Vector<std::uint8_t> done(state.blocks.size(), 0, &memory());
-  for (const Index slot : slots) {
-    const Index component = state.entries[at(slot)].site.component;
-    if (done[at(component)]) continue;
-    done[at(component)] = 1;
-    of_component.clear();
-    for (const Index other : slots) {
-      if (state.entries[at(other)].site.component == component) of_component.push_back(other);
-    }
-    auto& block = state.blocks[at(component)];
-    if (block->count() == static_cast<Index>(of_component.size())) {
-      block.reset();
-      continue;
-    }
-    const auto copy = make_shared_in<DenseBlock>(memory(), *block);
-    copy->remove(of_component);
-    if (copy->factorise() >= 0) fail(HF_ERROR_NOT_POSITIVE_DEFINITE, HF_NO_INDEX, "the dense system of the sites lost definiteness; report it with the mesh");
-    block = copy;
-  }
-  for (const Index slot : slots) {
-    Entry& entry = state.entries[at(slot)];
-    Group& group = state.groups[at(entry.group)];
-    group.slot[entry.column] = -1, --group.live;
-    entry.group = entry.column = -1;
-    --state.live;
-  }
-}
-
-void GreenSolver::drop_empty_groups(State& state) const {
-  Index kept = 0;
-  for (std::size_t g = 0; g < state.groups.size(); ++g) {
-    if (state.groups[g].live == 0) continue;
-    for (const Index slot : state.groups[g].slot) {
-      if (slot >= 0) state.entries[at(slot)].group = kept;
-    }
-    if (at(kept) != g) state.groups[at(kept)] = std::move(state.groups[g]);
-    ++kept;
-  }
-  state.groups.resize(at(kept));
-}
-
-// Solves the paths of the sites in `slots` and puts them into new groups.
-void GreenSolver::add_paths(State& state, Span<const Index> slots, Vector<Index>& fresh_groups) const {
-  Vector<Site> sites(&memory());
-  sites.reserve(slots.size());
-  for (const Index slot : slots) sites.push_back(state.entries[at(slot)].site);
-  const Columns columns(sites, memory());
-  Vector<std::shared_ptr<const PathGroup>> groups(&memory());
-  Vector<Index> group(slots.size(), &memory()), column(slots.size(), &memory());
-  core_->factor->solve_paths(columns.view(), memory(), *core_->jobs, groups, group, column);
-  const Index first = static_cast<Index>(state.groups.size());
-  for (auto& paths : groups) {
-    fresh_groups.push_back(static_cast<Index>(state.groups.size()));
-    Group fresh;
-    fresh.paths = std::move(paths);
-    std::fill(std::begin(fresh.slot), std::end(fresh.slot), -1);
-    state.groups.push_back(std::move(fresh));
-  }
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    Entry& entry = state.entries[at(slots[i])];
-    entry.group = first + group[i], entry.column = column[i];
-    Group& owner = state.groups[at(entry.group)];
-    owner.slot[entry.column] = slots[i], ++owner.live;
-  }
-  path_solves_ += static_cast<std::uint32_t>(slots.size());
-}
-
-// Paths of sites that are gone still stand in their groups. When they outweigh the living, the sparse groups are solved anew.
-void GreenSolver::repack(State& state) const {
-  std::int64_t stored = 0;
-  for (const Group& group : state.groups) stored += group.paths->count();
-  if (stored <= 2 * std::int64_t{state.live} + 64) return;
-  Vector<Index> moving(&memory()), fresh(&memory());
-  for (Group& group : state.groups) {
-    if (2 * group.live > group.paths->count()) continue;
-    for (const Index slot : group.slot) {
-      if (slot >= 0) moving.push_back(slot);
-    }
-    group.live = 0;
-    std::fill(std::begin(group.slot), std::end(group.slot), -1);
-  }
-  if (!moving.empty()) add_paths(state, moving, fresh);
-  drop_empty_groups(state);
-}
-
-void GreenSolver::add_sites(State& state, const SiteEdit& edit) const {
-  Index slots = static_cast<Index>(state.entries.size());
-  for (const Index slot : edit.add) slots = std::max(slots, slot + 1);
-  state.entries.resize(at(slots));
-  for (std::size_t i = 0; i < edit.add.size(); ++i) state.entries[at(edit.add[i])].site = edit.sites[i];
-  Vector<Index> fresh(&memory());
-  add_paths(state, edit.add, fresh);
-  state.live += static_cast<Index>(edit.add.size());
-
-  // row of every slot in its block: those there are, then the new ones in the order of the edit
-  Vector<Index> row(at(slots), -1, &memory());
-  Vector<Index> next_row(state.blocks.size(), 0, &memory());
-  for (std::size_t c = 0; c < state.blocks.size(); ++c) {
-    if (!state.blocks[c]) continue;
-    for (const Index slot : state.blocks[c]->ids()) row[at(slot)] = next_row[c]++;
-  }
-  Vector<std::size_t> start(edit.add.size() + 1, 0, &memory());  // rows of S of the new sites, one after the other
-  for (std::size_t i = 0; i < edit.add.size(); ++i) {
-    const Index r = next_row[at(edit.sites[i].component)]++;
-    row[at(edit.add[i])] = r;
-    start[i + 1] = start[i] + at(r) + 1;
-  }
-  Vector<Index> position(at(slots), -1, &memory());  // in the batch
-  for (std::size_t i = 0; i < edit.add.size(); ++i) position[at(edit.add[i])] = static_cast<Index>(i);
-  Vector<double> rows(start.back(), 0.0, &memory());
-
-  // Gram of every new group with every group up to itself; a piece writes only rows of its own new group
-  const Index first_fresh = fresh.front();
-  core_->jobs->for_each(static_cast<std::uint32_t>(fresh.size()), [&](std::uint32_t piece) {
-    const Index a = fresh[piece];
-    double tile[PathGroup::capacity * PathGroup::capacity];
-    const auto scatter = [&](const Group& mine, const Group& other, bool transposed) {
-      for (Index i = 0; i < mine.paths->count(); ++i) {
-        const Index slot = mine.slot[i];
-        if (slot < 0) continue;
-        for (Index j = 0; j < other.paths->count(); ++j) {
-          const Index peer = other.slot[j];
-          if (peer < 0 || state.entries[at(peer)].site.component != state.entries[at(slot)].site.component || row[at(peer)] > row[at(slot)]) continue;
-          rows[start[at(position[at(slot)])] + at(row[at(peer)])] = transposed ? tile[j * PathGroup::capacity + i] : tile[i * PathGroup::capacity + j];
-        }
-      }
-    };
-    const Group& mine = state.groups[at(a)];
-    for (Index b = 0; b < static_cast<Index>(state.groups.size()); ++b) {
-      const Group& other = state.groups[at(b)];
-      // pairs of new groups are computed from the later one's side for both, so that S is symmetric to the bit
-      if (b >= first_fresh && b > a) {
-        core_->factor->gram(*other.paths, *mine.paths, tile, PathGroup::capacity);
-        scatter(mine, other, true);
-      } else {
-        core_->factor->gram(*mine.paths, *other.paths, tile, PathGroup::capacity);
-        scatter(mine, other, false);
-      }
-    }
-  });
-
-  Vector<std::uint8_t> copied(state.blocks.size(), 0, &memory());
-  Vector<std::shared_ptr<DenseBlock>> open(state.blocks.size(), &memory());
-  for (std::size_t i = 0; i < edit.add.size(); ++i) {
-    const std::size_t c = at(edit.sites[i].component);
-    if (!open[c]) open[c] = state.blocks[c] ? make_shared_in<DenseBlock>(memory(), *state.blocks[c]) : make_shared_in<DenseBlock>(memory(), memory());
-    double* s = rows.data() + start[i];
-    s[at(row[at(edit.add[i])])] += edit.sites[i].compliance / core_->mean_diagonal[c];
-    open[c]->append(edit.add[i], s);
-  }
-  for (std::size_t c = 0; c < open.size(); ++c) {
-    if (!open[c]) continue;
-    const Index lost = open[c]->factorise();
-    if (lost >= 0) {
-      const Index slot = open[c]->ids()[at(lost)];
-      const Index i = position[at(slot)];
-      fail(HF_ERROR_CONFLICT, i >= 0 ? static_cast<std::uint32_t>(i) : HF_NO_INDEX,
-           "site %d of the batch depends linearly on hard sites that are there (at most three independent points fit into one triangle); leave it out or make it soft", i);
-    }
-    state.blocks[c] = open[c];
-  }
-}
-
-void GreenSolver::solve_dense(const double* values, Index channels, Index first, Index count, Vector<double>& lambda, Vector<double>& constant) const {
+// z <- g = G^-1 P (-K_FE s_E), centred values.
+void GreenSolver::base_forward(const double* values, Index channels, Index first, Index count, const Vector<double>& centre, double* z) const {
   const std::size_t m = at(count);
-  lambda.assign(state_.entries.size() * m, 0.0);
-  constant.assign(state_.blocks.size() * m, 0.0);
-  Vector<double> x(&memory());
+  const SymmetricMatrix& k = core_->laplacian;
+  const Span<const Index> position = factor(state_).position();
+  for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
+    const Entry& entry = state_.entries[slot];
+    if (!entry.used() || entry.eliminated < 0) continue;
+    const Index e = entry.site.vertex[0];
+    const double* c = centre.data() + at(entry.site.component) * m;
+    for (Index i = k.column_start[at(e)]; i < k.column_start[at(e) + 1]; ++i) {
+      const Index v = k.row[at(i)];
+      if (state_.base->eliminated(v)) continue;
+      for (std::size_t q = 0; q < m; ++q) z[at(position[at(v)]) * m + q] -= k.value[at(i)] * (values[slot * at(channels) + at(first) + q] - c[q]);
+    }
+  }
+  state_.base->factor->forward(z, count, *core_->jobs);
+  ++sweeps_;
+}
+
+void GreenSolver::solve_dense(const double* values, Index channels, Index first, Index count, const double* z, Right& right) const {
+  const std::size_t m = at(count), stride = at(channels);
+  const EliminatedBase* base = state_.base.get();
+  right.slot.assign(state_.entries.size() * m, 0.0);
+  right.freed.assign(state_.freed.size() * m, 0.0);
+  right.constant.assign(right.centre.begin(), right.centre.end());
+  const auto centred = [&](std::size_t slot, std::size_t q) { return values[slot * stride + at(first) + q] - right.centre[at(state_.entries[slot].site.component) * m + q]; };
+
+  // right-hand side: s of the sites, less what the eliminated sites do to their rows
+  Vector<Index> slot_of_base(state_.freed.size(), -1, &memory());
+  for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
+    const Entry& entry = state_.entries[slot];
+    if (!entry.used()) continue;
+    if (entry.eliminated >= 0) {
+      slot_of_base[at(entry.eliminated)] = static_cast<Index>(slot);
+    } else {
+      for (std::size_t q = 0; q < m; ++q) right.slot[slot * m + q] = centred(slot, q);
+    }
+  }
+  if (base) {
+    right.probe.resize(PathGroup::capacity * m);
+    for (const Group& group : state_.groups) {
+      if (group.live == 0) continue;
+      base->factor->project(*group.paths, z, count, right.probe.data());
+      for (Index i = 0; i < group.paths->count(); ++i) {
+        if (group.row[i] == nobody) continue;
+        for (std::size_t q = 0; q < m; ++q) right.of(group.row[i], m)[q] -= right.probe[at(i) * m + q];
+      }
+    }
+    const auto value_at = [&](Index v) { return base->eliminated(v) ? slot_of_base[at(base->index_of[at(v)])] : -1; };
+    for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
+      const Entry& entry = state_.entries[slot];
+      if (!entry.used() || entry.eliminated >= 0) continue;
+      for (int c = 0; c < 3; ++c) {
+        const Index there = entry.site.vertex[c] < 0 ? -1 : value_at(entry.site.vertex[c]);
+        for (std::size_t q = 0; there >= 0 && q < m; ++q) right.slot[slot * m + q] -= entry.site.weight[c] * centred(at(there), q);
+      }
+    }
+    const SymmetricMatrix& k = core_->laplacian;
+    for (std::size_t b = 0; b < state_.freed.size(); ++b) {
+      if (state_.freed[b].path.group < 0) continue;
+      const Index r = base->vertex[b];
+      for (Index i = k.column_start[at(r)]; i < k.column_start[at(r) + 1]; ++i) {
+        const Index there = value_at(k.row[at(i)]);
+        for (std::size_t q = 0; there >= 0 && q < m; ++q) right.freed[b * m + q] += k.value[at(i)] * centred(at(there), q);
+      }
+    }
+  }
+
   for (std::size_t c = 0; c < state_.blocks.size(); ++c) {
     const DenseBlock* block = state_.blocks[c].get();
     if (!block) continue;
-    const Span<const Index> slots = block->ids();
-    double* a = constant.data() + c * m;
-    // centre the values: a large common offset must not cost digits
-    for (const Index slot : slots) {
-      for (std::size_t k = 0; k < m; ++k) a[k] += values[at(slot) * at(channels) + at(first) + k] / static_cast<double>(slots.size());
+    const Span<const Index> rows = block->ids();
+    right.x.resize(rows.size() * m);
+    for (std::size_t i = 0; i < rows.size(); ++i) std::copy_n(right.of(rows[i], m), m, right.x.data() + i * m);
+    block->solve(right.x.data(), count);
+    for (std::size_t q = 0; q < m; ++q) {
+      double shift = 0;
+      if (floating(state_, c)) {
+        for (std::size_t i = 0; i < rows.size(); ++i) shift += right.x[i * m + q];
+        shift /= block->ones_sum();
+        for (std::size_t i = 0; i < rows.size(); ++i) right.x[i * m + q] -= shift * block->ones()[i];
+      }
+      right.constant[c * m + q] += shift;
     }
-    x.resize(slots.size() * m);
-    for (std::size_t i = 0; i < slots.size(); ++i) {
-      for (std::size_t k = 0; k < m; ++k) x[i * m + k] = values[at(slots[i]) * at(channels) + at(first) + k] - a[k];
-    }
-    block->solve(x.data(), count);
-    for (std::size_t k = 0; k < m; ++k) {
-      double sum = 0;
-      for (std::size_t i = 0; i < slots.size(); ++i) sum += x[i * m + k];
-      const double shift = sum / block->ones_sum();
-      for (std::size_t i = 0; i < slots.size(); ++i) lambda[at(slots[i]) * m + k] = x[i * m + k] - shift * block->ones()[i];
-      a[k] += shift;
-    }
+    for (std::size_t i = 0; i < rows.size(); ++i) std::copy_n(right.x.data() + i * m, m, right.of(rows[i], m));
   }
 }
 
-void GreenSolver::combine(const Vector<double>& lambda, Index channels, double* z) const {
+void GreenSolver::combine(const Right& right, Index count, double* z) const {
   double own[PathGroup::capacity * channel_block];
-  const std::size_t m = at(channels);
+  const std::size_t m = at(count);
   for (const Group& group : state_.groups) {
     if (group.live == 0) continue;
     for (Index i = 0; i < group.paths->count(); ++i) {
-      for (std::size_t k = 0; k < m; ++k) own[at(i) * m + k] = group.slot[i] < 0 ? 0.0 : lambda[at(group.slot[i]) * m + k];
+      if (group.row[i] == nobody) {
+        std::fill_n(own + at(i) * m, m, 0.0);
+      } else {
+        std::copy_n(right.of(group.row[i], m), m, own + at(i) * m);
+      }
     }
-    core_->factor->combine(*group.paths, own, channels, z);
+    factor(state_).combine(*group.paths, own, count, z);
   }
 }
 
+namespace {
+
+// Mean site value of every component.
+template <class Entries>
+void find_centres(const Entries& entries, const Vector<Index>& sites_of, const double* values, Index channels, Index first, Index count, Vector<double>& centre) {
+  const std::size_t m = at(count);
+  centre.assign(sites_of.size() * m, 0.0);
+  for (std::size_t slot = 0; slot < entries.size(); ++slot) {
+    if (!entries[slot].used()) continue;
+    const std::size_t c = at(entries[slot].site.component);
+    for (std::size_t q = 0; q < m; ++q) centre[c * m + q] += values[slot * at(channels) + at(first) + q] / static_cast<double>(sites_of[c]);
+  }
+}
+
+}  // namespace
+
 void GreenSolver::solve(const double* values, Index channels, double* field, double* flux) const {
-  const std::size_t n = at(core_->size());
-  Vector<double> lambda(&memory()), constant(&memory());
+  const std::size_t n = at(core_->size()), stride = at(channels);
+  Right right(memory());
+  // the flux of an eliminated site is read off the field
+  Workspace own(core_->workspaces, state_.base && flux && !field ? n * stride : 0);
+  if (state_.base && flux && !field) field = own.data();
   for (Index first = 0; first < channels; first += channel_block) {
     const Index count = std::min(channel_block, channels - first);
-    const std::size_t m = at(count), stride = at(channels);
-    solve_dense(values, channels, first, count, lambda, constant);
-    if (flux) {
-      for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
-        for (std::size_t k = 0; k < m; ++k) flux[slot * stride + at(first) + k] = lambda[slot * m + k];
-      }
-    }
+    const std::size_t m = at(count);
+    find_centres(state_.entries, state_.sites_of, values, channels, first, count, right.centre);
+    Workspace z(core_->workspaces, field ? n * m : 0);
+    if (field) std::fill_n(z.data(), n * m, 0.0);
+    if (state_.base) base_forward(values, channels, first, count, right.centre, z.data());
+    solve_dense(values, channels, first, count, z.data(), right);
+    for (std::size_t slot = 0; flux && slot < state_.entries.size(); ++slot) std::copy_n(right.slot.data() + slot * m, m, flux + slot * stride + at(first));
     if (!field) continue;
-    Workspace z(core_->workspaces, n * m);
-    std::fill_n(z.data(), n * m, 0.0);
-    combine(lambda, count, z.data());
-    core_->factor->backward(z.data(), count, *core_->jobs);
+    combine(right, count, z.data());
+    factor(state_).backward(z.data(), count, *core_->jobs);
     ++sweeps_;
 
     const Span<const Index> position = core_->factor->position();
@@ -298,54 +194,96 @@ void GreenSolver::solve(const double* values, Index channels, double* field, dou
       const std::size_t end = std::min(n, (p + std::size_t{1}) * piece);
       for (std::size_t v = p * piece; v < end; ++v) {
         const std::size_t c = at(core_->mesh.component[v]);
-        const bool reached = state_.blocks[c] != nullptr;
-        for (std::size_t k = 0; k < m; ++k) field[v * stride + at(first) + k] = reached ? z[at(position[v]) * m + k] + constant[c * m + k] : 0.0;
+        const bool reached = state_.sites_of[c] > 0;
+        for (std::size_t q = 0; q < m; ++q) field[v * stride + at(first) + q] = reached ? z[at(position[v]) * m + q] + right.constant[c * m + q] : 0.0;
       }
     });
+    for (std::size_t b = 0; b < state_.freed.size(); ++b) {
+      if (state_.freed[b].path.group < 0) continue;
+      const std::size_t v = at(state_.base->vertex[b]), c = at(core_->mesh.component[v]);
+      for (std::size_t q = 0; q < m; ++q) field[v * stride + at(first) + q] = right.freed[b * m + q] + right.constant[c * m + q];
+    }
   }
   if (!field) return;
   for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
     const Entry& entry = state_.entries[slot];
-    if (entry.group < 0 || !entry.site.is_vertex() || entry.site.compliance != 0) continue;
-    std::copy_n(values + slot * at(channels), channels, field + at(entry.site.vertex[0]) * at(channels));
+    if (!entry.used() || !entry.site.is_vertex() || entry.site.compliance != 0) continue;
+    std::copy_n(values + slot * stride, channels, field + at(entry.site.vertex[0]) * stride);
+  }
+  if (state_.base && flux) base_flux(values, channels, field, flux);
+}
+
+// lambda_e = (K u)_e - (W lambda)_e of the eliminated sites.
+void GreenSolver::base_flux(const double*, Index channels, const double* field, double* flux) const {
+  const std::size_t m = at(channels);
+  const SymmetricMatrix& k = core_->laplacian;
+  Vector<Index> slot_of_base(state_.freed.size(), -1, &memory());
+  for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
+    const Entry& entry = state_.entries[slot];
+    if (!entry.used() || entry.eliminated < 0) continue;
+    slot_of_base[at(entry.eliminated)] = static_cast<Index>(slot);
+    const std::size_t e = at(entry.site.vertex[0]);
+    std::fill_n(flux + slot * m, m, 0.0);
+    for (Index i = k.column_start[e]; i < k.column_start[e + 1]; ++i) {
+      for (std::size_t q = 0; q < m; ++q) flux[slot * m + q] += k.value[at(i)] * (field[at(k.row[at(i)]) * m + q] - field[e * m + q]);
+    }
+  }
+  for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
+    const Entry& entry = state_.entries[slot];
+    if (!entry.used() || entry.eliminated >= 0) continue;
+    for (int c = 0; c < 3; ++c) {
+      if (entry.site.vertex[c] < 0 || !state_.base->eliminated(entry.site.vertex[c])) continue;
+      const Index there = slot_of_base[at(state_.base->index_of[at(entry.site.vertex[c])])];
+      for (std::size_t q = 0; there >= 0 && q < m; ++q) flux[at(there) * m + q] -= entry.site.weight[c] * flux[slot * m + q];
+    }
   }
 }
 
 void GreenSolver::solve_at(const double* values, Index channels, Span<const Index> vertices, double* out) const {
   const std::size_t n = at(core_->size()), stride = at(channels);
-  Vector<Site> sites(&memory());
-  sites.reserve(vertices.size());
-  for (const Index v : vertices) sites.push_back(Site::at_vertex(core_->mesh, v));
-  const Columns columns(sites, memory());
+  if (state_.base) {
+    // the eliminated sites reach everything: their part needs a sweep over the mesh
+    Workspace field(core_->workspaces, n * stride);
+    solve(values, channels, field.data(), nullptr);
+    for (std::size_t i = 0; i < vertices.size(); ++i) std::copy_n(field.data() + at(vertices[i]) * stride, stride, out + i * stride);
+    return;
+  }
+  SiteColumns columns(memory());
+  for (const Index v : vertices) columns.append(Site::at_vertex(core_->mesh, v), nullptr);
   Vector<std::shared_ptr<const PathGroup>> groups(&memory());
   Vector<Index> group(vertices.size(), &memory()), column(vertices.size(), &memory());
   core_->factor->solve_paths(columns.view(), memory(), *core_->jobs, groups, group, column);
   path_solves_ += static_cast<std::uint32_t>(vertices.size());
 
-  Vector<double> lambda(&memory()), constant(&memory());
+  Right right(memory());
   Vector<double> probe(groups.size() * PathGroup::capacity * channel_block, &memory());
   for (Index first = 0; first < channels; first += channel_block) {
     const Index count = std::min(channel_block, channels - first);
     const std::size_t m = at(count);
-    solve_dense(values, channels, first, count, lambda, constant);
+    find_centres(state_.entries, state_.sites_of, values, channels, first, count, right.centre);
+    solve_dense(values, channels, first, count, nullptr, right);
     Workspace z(core_->zeroed_workspaces, n * m);
     z.soil();
-    combine(lambda, count, z.data());
+    combine(right, count, z.data());
     for (std::size_t g = 0; g < groups.size(); ++g) core_->factor->project(*groups[g], z.data(), count, probe.data() + g * PathGroup::capacity * m);
     for (const Group& used : state_.groups) core_->factor->clear(*used.paths, count, z.data());
     z.clean();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const std::size_t c = at(core_->mesh.component[at(vertices[i])]);
       const double* y = probe.data() + (at(group[i]) * PathGroup::capacity + at(column[i])) * m;
-      for (std::size_t k = 0; k < m; ++k) out[i * stride + at(first) + k] = state_.blocks[c] ? y[k] + constant[c * m + k] : 0.0;
+      for (std::size_t q = 0; q < m; ++q) out[i * stride + at(first) + q] = state_.sites_of[c] > 0 ? y[q] + right.constant[c * m + q] : 0.0;
     }
   }
   // hard sites among the vertices hold their values
+  Vector<std::pair<Index, std::size_t>> asked(&memory());
+  for (std::size_t i = 0; i < vertices.size(); ++i) asked.push_back({vertices[i], i});
+  std::sort(asked.begin(), asked.end());
   for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
     const Entry& entry = state_.entries[slot];
-    if (entry.group < 0 || !entry.site.is_vertex() || entry.site.compliance != 0) continue;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      if (vertices[i] == entry.site.vertex[0]) std::copy_n(values + slot * stride, channels, out + i * stride);
+    if (!entry.used() || !entry.site.is_vertex() || entry.site.compliance != 0) continue;
+    const Index v = entry.site.vertex[0];
+    for (auto it = std::lower_bound(asked.begin(), asked.end(), std::make_pair(v, std::size_t{0})); it != asked.end() && it->first == v; ++it) {
+      std::copy_n(values + slot * stride, channels, out + it->second * stride);
     }
   }
 }

@@ -8,10 +8,20 @@
 //
 // K annihilates constants and B'lambda = 0 makes A^-1 W lambda vanish at the ground, so the ground leaves no trace: K u = W lambda and
 // W'u + D lambda = s hold exactly. Insert: path solves and rows of S. Remove: rows of S. Field: one backward sweep.
+//
+// Very many sites: a rebase (eliminated_base.h) takes the hard vertex sites E into the factor. Sites that come later are rows as above; a site r of E that
+// goes leaves a free value t_r, with the column y_r = G^-1 P (-K_Fr) and the equation (K u)_r = (W lambda)_r, a negative row of the same system:
+//
+//     [ Y_w'Y_w + D     Y_w'Y_r + W_R   ] [lambda]   [ s - Y_w'g - W_E' s_E       ]
+//     [ (...)'          Y_r'Y_r - K_RR  ] [  t   ] = [ K_RE s_E - Y_r'g           ],   g = G^-1 P (-K_FE s_E)
+//     u_F = P' G^-T (g + Y_w lambda + Y_r t),   u_E = s_E,   u_R = t
+//
+// Which way an edit goes is decided by site_cost.h and counted.
 #pragma once
 #include <atomic>
 
 #include "engine/dense_block.h"
+#include "engine/eliminated_base.h"
 #include "engine/site_solver.h"
 
 namespace hf {
@@ -27,42 +37,82 @@ class GreenSolver final : public SiteSolver {
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<GreenSolver>(core_->memory, *this); }
   EngineKind kind() const noexcept override { return EngineKind::green; }
   EngineCounters counters() const noexcept override;
-  std::int32_t site_count(std::int32_t component) const noexcept override;
+  std::int32_t site_count(std::int32_t component) const noexcept override { return state_.sites_of[static_cast<std::size_t>(component)]; }
   std::int32_t slot_count() const noexcept override { return static_cast<std::int32_t>(state_.entries.size()); }
 
  private:
-  // Paths of up to PathGroup::capacity sites; slot[column] = -1 once the site is gone.
+  using Index = std::int32_t;
+  // A row of the dense system is named by the slot of its site, or, for the free value of base index b, by -2 - b.
+  static constexpr Index nobody = -1;
+  static Index free_row(Index base_index) noexcept { return -2 - base_index; }
+  static Index base_index(Index row) noexcept { return -2 - row; }
+
+  // Where the path of a row lies.
+  struct Path {
+    Index group = -1, column = -1;
+  };
+  // Paths of up to PathGroup::capacity rows; row[column] = nobody once it is gone.
   struct Group {
     std::shared_ptr<const PathGroup> paths;
-    std::int32_t slot[PathGroup::capacity];
-    std::int32_t live = 0;
+    Index row[PathGroup::capacity];
+    Index live = 0;
   };
   struct Entry {
-    Site site;
-    std::int32_t group = -1, column = -1;  // -1: the slot is free
+    Site site;            // component -1: the slot is free
+    Path path;            // of a row
+    Index eliminated = -1;  // base index of a site in the factor
+    bool used() const noexcept { return site.component >= 0; }
+  };
+  struct Free {
+    Path path;            // group -1: the base site is in force
   };
   struct State {
-    explicit State(Memory& memory) : entries(&memory), groups(&memory), blocks(&memory) {}
-    State(const State& other, Memory& memory) : entries(other.entries, &memory), groups(other.groups, &memory), blocks(other.blocks, &memory), live(other.live) {}
+    State(Index components, Memory& memory) : entries(&memory), freed(&memory), groups(&memory), blocks(static_cast<std::size_t>(components), &memory), sites_of(static_cast<std::size_t>(components), 0, &memory) {}
+    State(const State& other, Memory& memory)
+        : entries(other.entries, &memory), base(other.base), freed(other.freed, &memory), groups(other.groups, &memory), blocks(other.blocks, &memory), sites_of(other.sites_of, &memory), rows(other.rows) {}
+    State(State&&) = default;
+    void swap(State& other) noexcept;
     Vector<Entry> entries;  // by slot
+    std::shared_ptr<const EliminatedBase> base;  // null: the core's own factor
+    Vector<Free> freed;     // by base index
     Vector<Group> groups;
-    Vector<std::shared_ptr<const DenseBlock>> blocks;  // by component; null without a site
-    std::int32_t live = 0;
+    Vector<std::shared_ptr<const DenseBlock>> blocks;  // by component; null without a row
+    Vector<Index> sites_of; // sites by component
+    Index rows = 0;         // of all blocks
   };
-  void remove_sites(State& state, Span<const std::int32_t> slots) const;
-  void add_paths(State& state, Span<const std::int32_t> slots, Vector<std::int32_t>& fresh_groups) const;
-  void add_sites(State& state, const SiteEdit& edit) const;
+  struct Addition {
+    Index row;              // slot or free_row
+    Index component;
+    bool positive;
+  };
+
+  // edits, in green_edit.cpp: all work on a state that is not yet the present one
+  void apply(State& state, const SiteEdit& edit) const;
+  bool remove_sites(State& state, Span<const Index> slots, Vector<Addition>& additions) const;
+  void remove_rows(State& state, Span<const Index> rows, Span<const Index> components) const;
+  void add_rows(State& state, Span<const Addition> additions, const SiteEdit& edit) const;
+  void add_paths(State& state, Span<const Index> rows) const;
   void drop_empty_groups(State& state) const;
   void repack(State& state) const;
-  // lambda by slot and the constant of every component, for channels [first, first + count) of `channels`
-  void solve_dense(const double* values, std::int32_t channels, std::int32_t first, std::int32_t count, Vector<double>& lambda, Vector<double>& constant) const;
-  void combine(const Vector<double>& lambda, std::int32_t channels, double* z) const;
+  void place_all(State& state, const SiteEdit& edit, bool eliminate) const;
+  State with_sites(const SiteEdit& edit) const;
+  bool wants_new_layout(const SiteEdit& edit, bool& eliminate) const;
 
+  // solving, in green.cpp
+  struct Right;
+  void base_forward(const double* values, Index channels, Index first, Index count, const Vector<double>& centre, double* z) const;
+  void solve_dense(const double* values, Index channels, Index first, Index count, const double* z, Right& right) const;
+  void combine(const Right& right, Index count, double* z) const;
+  void base_flux(const double* values, Index channels, const double* field, double* flux) const;
+
+  const Factor& factor(const State& state) const noexcept { return state.base ? *state.base->factor : *core_->factor; }
+  Path& path_of(State& state, Index row) const noexcept { return row >= 0 ? state.entries[static_cast<std::size_t>(row)].path : state.freed[static_cast<std::size_t>(base_index(row))].path; }
+  bool floating(const State& state, std::size_t component) const noexcept { return !state.base || state.base->floating[component]; }
   Memory& memory() const noexcept { return *core_->memory; }
 
   std::shared_ptr<const Core> core_;
   State state_;
-  mutable std::atomic<std::uint32_t> path_solves_{0}, sweeps_{0};
+  mutable std::atomic<std::uint32_t> path_solves_{0}, sweeps_{0}, rebases_{0};
 };
 
 }  // namespace hf

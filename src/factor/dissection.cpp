@@ -32,6 +32,11 @@ struct Part {
   GraphView view() noexcept { return {size, start(), neighbour(), point.empty() ? nullptr : point.data(), nullptr}; }
 };
 
+// Places of the order that a separator takes.
+struct Range {
+  std::int32_t begin, end;
+};
+
 // What one thread needs.
 struct Workspace {
   Workspace(Memory& memory, std::int32_t unknowns)
@@ -41,7 +46,8 @@ struct Workspace {
         number(&memory),
         halo(&memory),
         local_of(memory, static_cast<std::size_t>(unknowns)),
-        found(&memory) {
+        found(&memory),
+        separators(&memory) {
     std::fill(local_of.begin(), local_of.end(), -1);
   }
   MultilevelBisection bisection;
@@ -50,6 +56,7 @@ struct Workspace {
   Vector<std::int32_t> number, halo;
   Buffer<std::int32_t> local_of;  // of an unknown inside the present leaf, -1 outside
   Vector<std::int32_t> found;
+  Vector<Range> separators;
 };
 
 class Dissection {
@@ -91,6 +98,7 @@ class Dissection {
     jobs_.for_each(static_cast<std::uint32_t>(parts.size()), [&](std::uint32_t k) {
       with_workspace([&](Workspace& workspace) { finish(std::move(parts[k]), workspace); });
     });
+    sort_separators();
   }
 
  private:
@@ -132,6 +140,31 @@ class Dissection {
     for (std::int32_t v = 0; v < part.size; ++v) {
       if (side[v] == side_between) *last++ = part.id()[v];
     }
+    workspace.separators.push_back({part.begin + size[side_left] + size[side_right], part.begin + part.size});
+  }
+
+  // Inside a separator any order fills alike; vertices next to the same parts are put side by side, so that the rows a
+  // part touches are runs. The key is the first eliminated neighbour.
+  void sort_separators() {
+    const std::int32_t n = matrix_.size();
+    Buffer<std::int32_t> position(memory_, static_cast<std::size_t>(n));
+    for (std::int32_t k = 0; k < n; ++k) position[order_[k]] = k;
+    jobs_.for_each(static_cast<std::uint32_t>(free_.size()), [&](std::uint32_t w) {
+      Vector<std::pair<std::int32_t, std::int32_t>> keyed(&memory_);
+      for (const Range& range : free_[w]->separators) {
+        keyed.clear();
+        for (std::int32_t k = range.begin; k < range.end; ++k) {
+          const std::int32_t v = order_[k];
+          std::int32_t key = n;
+          for (std::int32_t e = matrix_.column_start[v]; e < matrix_.column_start[v + 1]; ++e)
+            key = std::min(key, position[matrix_.row[e]]);
+          keyed.emplace_back(key, v);
+        }
+        std::sort(keyed.begin(), keyed.end());
+        for (std::int32_t k = range.begin; k < range.end; ++k)
+          order_[k] = keyed[static_cast<std::size_t>(k - range.begin)].second;
+      }
+    });
   }
 
   void extract(Part& part, const Workspace& workspace, std::uint8_t side, std::int32_t size, std::size_t edges,

@@ -103,7 +103,6 @@ SupernodalFactor::SupernodalFactor(std::shared_ptr<const Analysis> analysis, Mem
 void SupernodalFactor::compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, JobRunner& jobs,
                                Progress* progress) {
   Stopwatch watch;
-  require_finite(matrix);
   values_.allocate(memory_, static_cast<std::size_t>(symbolic().stored_entries) + value_slack);
   factorise(symbolic(), plan(), kernels(), matrix, eliminated, values_.data(), memory_, jobs, progress);
   statistics_.numeric_ms = watch.lap_ms();
@@ -156,6 +155,7 @@ std::shared_ptr<const Factor> SupernodalFactor::refactor(const SymmetricMatrix& 
   if (!eliminated.empty() && eliminated.size() != static_cast<std::size_t>(size())) {
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%zu elimination marks for %d unknowns", eliminated.size(), size());
   }
+  require_finite(matrix);
   if (analysis_->loaded) {
     require_well_formed(matrix);
     require_inside(matrix, symbolic(), memory);

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::uint64_t magic = 0x524F544341464648ull;  // "HFFACTOR"
 constexpr std::uint32_t version = 1;
+constexpr std::uint64_t copy_step = std::uint64_t{1} << 19;  // numbers a job copies
 
 struct Header {
   std::uint64_t magic;
@@ -197,7 +198,8 @@ void save_factor(const Factor& factor, Span<std::uint8_t> out) {
   std::memcpy(bytes, &header, sizeof header);
 }
 
-std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, std::int32_t unknowns, Memory& memory) {
+std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, std::int32_t unknowns, Memory& memory,
+                                          JobRunner* jobs) {
   Header header;
   if (bytes.size() < sizeof header) refuse("too short");
   std::memcpy(&header, bytes.data(), sizeof header);
@@ -234,14 +236,18 @@ std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, std::i
   std::shared_ptr<SupernodalFactor> factor = make_shared_in<SupernodalFactor>(memory, std::move(analysis), memory);
   Buffer<double>& values = factor->values();
   values.allocate(memory, header.value_count + value_slack);
-  double sum = 0;
-  for (std::uint64_t k = 0; k < header.value_count; ++k) {
-    double value;
-    std::memcpy(&value, bytes.data() + layout.values + 8 * k, sizeof value);
-    values[k] = value;
-    sum += value - value;
+  // fresh memory costs more at its first touch than the copy does: all threads touch their part
+  auto copy = [&](std::uint32_t piece) {
+    const std::uint64_t begin = piece * copy_step, end = std::min<std::uint64_t>(header.value_count, begin + copy_step);
+    std::memcpy(values.data() + begin, bytes.data() + layout.values + 8 * begin, 8 * (end - begin));
+    if (!all_finite(values.data() + begin, end - begin)) refuse("it holds NaN or infinity");
+  };
+  const std::uint32_t pieces = static_cast<std::uint32_t>((header.value_count + copy_step - 1) / copy_step);
+  if (jobs) {
+    jobs->for_each(pieces, copy);
+  } else {
+    for (std::uint32_t piece = 0; piece < pieces; ++piece) copy(piece);
   }
-  if (!(sum == 0)) refuse("it holds NaN or infinity");
   std::fill(values.data() + header.value_count, values.data() + header.value_count + value_slack, 0.0);
   return factor;
 }

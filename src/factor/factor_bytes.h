@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "base/jobs.h"
 #include "base/memory.h"
 #include "base/span.h"
 #include "factor/factor.h"
@@ -21,6 +22,7 @@ void save_factor(const Factor& factor, Span<std::uint8_t> out);
 
 // `unknowns`: the size the caller expects. Throws HF_ERROR_INVALID_ARGUMENT for bytes that are no such factor,
 // HF_ERROR_UNSUPPORTED for those of another version.
-std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, std::int32_t unknowns, Memory& memory);
+std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, std::int32_t unknowns, Memory& memory,
+                                          JobRunner* jobs = nullptr);
 
 }  // namespace hf

@@ -320,11 +320,19 @@ void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernel
   std::fill(values + stored, values + stored + value_slack, 0.0);
 }
 
+bool all_finite(const double* values, std::size_t count) noexcept {
+  // x - x is zero exactly for finite x; independent sums without branches
+  double sum[8] = {};
+  std::size_t k = 0;
+  for (; k + 8 <= count; k += 8) {
+    for (std::size_t c = 0; c < 8; ++c) sum[c] += values[k + c] - values[k + c];
+  }
+  for (; k < count; ++k) sum[0] += values[k] - values[k];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]) + (sum[4] + sum[5]) + (sum[6] + sum[7]) == 0;
+}
+
 void require_finite(const SymmetricMatrix& matrix) {
-  // x - x is zero exactly for finite x; one sum without branches, the culprit is looked for only when there is one
-  double sum = 0;
-  for (const double value : matrix.value) sum += value - value;
-  if (sum == 0) return;
+  if (all_finite(matrix.value.data(), matrix.value.size())) return;
   for (std::int32_t column = 0; column < matrix.size(); ++column) {
     for (std::int32_t e = matrix.column_start[column]; e < matrix.column_start[column + 1]; ++e) {
       if (std::isfinite(matrix.value[e])) continue;

@@ -28,6 +28,9 @@ void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernel
                Span<const std::uint8_t> eliminated, double* values, Memory& memory, JobRunner& jobs,
                Progress* progress);
 
+// No NaN and no infinity among the numbers.
+bool all_finite(const double* values, std::size_t count) noexcept;
+
 // Throws HF_ERROR_NON_FINITE with the column of the first NaN or infinity.
 void require_finite(const SymmetricMatrix& matrix);
 

@@ -222,6 +222,43 @@ TEST(Green, gives_the_same_bits_for_any_number_of_threads) {
   }
 }
 
+TEST(Green, moves_many_sites_into_the_factor_and_stays_exact_under_edits) {
+  PlainMesh mesh = hf_test::torus(22, 16);
+  append(mesh, hf_test::grid(9, 8, 1, 0.3), 20);
+  const auto core = hf_test::make_core(mesh);
+  std::uint32_t rebased = 0, freed = 0;
+  for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+    const auto solver = hf::SiteSolver::make(hf::EngineKind::green, core, 1e8);
+    Script script(core, 2, seed);
+    // hard vertex sites only at first, all at once
+    std::vector<std::int32_t> slots;
+    std::vector<hf::Site> sites;
+    for (int v = 0; v < core->size(); v += 3) sites.push_back(hf::Site::at_vertex(core->mesh, v)), slots.push_back(static_cast<std::int32_t>(slots.size()));
+    script.sites = sites;
+    for (std::size_t i = 0; i < 2 * sites.size(); ++i) script.values.push_back(std::sin(static_cast<double>(i)));
+    hf::SiteEdit edit;
+    edit.add = slots, edit.sites = sites;
+    solver->edit(edit);
+    script.expect_oracle(*solver, 1e-11);
+    for (int round = 0; round < 12; ++round) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << " round " << round);
+      const std::uint32_t before = solver->counters().factorisations;
+      script.remove(round == 7 ? 90 : 1 + round % 5, *solver);
+      script.expect_oracle(*solver, 1e-10);
+      freed += solver->counters().factorisations == before;
+      script.add(1 + round % 4, *solver);
+      script.expect_oracle(*solver, 1e-10);
+    }
+    rebased += solver->counters().factorisations > 1;
+    script.remove(10000, *solver);
+    script.expect_oracle(*solver, 1e-11);
+    script.add(5, *solver);
+    script.expect_oracle(*solver, 1e-11);
+  }
+  EXPECT_EQ(rebased, 6u) << "the cost model never eliminated";
+  EXPECT_GT(freed, 20u) << "no eliminated site was ever freed";
+}
+
 TEST(Green, ten_thousand_edits_drift_by_nothing) {
   const auto core = hf_test::make_core(hf_test::torus(40, 25));
   const auto solver = hf::SiteSolver::make(hf::EngineKind::green, core, 1e8);

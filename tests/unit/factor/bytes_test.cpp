@@ -47,6 +47,8 @@ TEST_F(FactorBytes, a_loaded_factor_sweeps_to_the_same_bits_and_refactors) {
     y = x;
     factor->forward(x.data(), 1, one), factor->backward(x.data(), 1, one);
     loaded->forward(y.data(), 1, two), loaded->backward(y.data(), 1, two);
+    const std::vector<std::uint8_t> bytes = save(*factor);
+    EXPECT_EQ(save(*hf::load_factor({bytes.data(), bytes.size()}, a.size(), memory, &two)), bytes);
     EXPECT_EQ(x, y);
     EXPECT_EQ(save(*loaded), save(*factor));
     EXPECT_EQ(save(*loaded->refactor(a, {}, memory, two)), save(*factor));

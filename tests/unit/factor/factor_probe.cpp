@@ -255,7 +255,7 @@ void run(const char* name, const hf_test::TriangleMesh& mesh, bool bend, const s
     std::vector<std::uint8_t> bytes(hf::saved_factor_size(factor));
     const double saved = median([&] { hf::save_factor(factor, {bytes.data(), bytes.size()}); }, 3);
     std::shared_ptr<const hf::Factor> loaded;
-    const double load = median([&] { loaded = hf::load_factor({bytes.data(), bytes.size()}, n, memory); }, 3);
+    const double load = median([&] { loaded = hf::load_factor({bytes.data(), bytes.size()}, n, memory, &two); }, 3);
     std::printf("save %.1f ms, load %.1f ms, %.1f MB\n", saved, load, 1e-6 * static_cast<double>(bytes.size()));
   }
   if (wants(what, "path")) {

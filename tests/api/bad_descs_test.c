@@ -1,0 +1,223 @@
+/* Every struct with a struct_size: NULL, sizes below the first version, absurd sizes, and bytes behind the struct that this version does
+ * not know. Zero bytes behind it (a newer header, nothing new used) are accepted. */
+#include "bad_scene.h"
+
+static Scene scene;
+static float floats[3 * TUBE_VERTICES];
+static double doubles[3 * TUBE_VERTICES];
+static const double value = 2;
+static const uint32_t one = 1, free_vertex = 7, middle = 5 * TUBE_AROUND;
+
+/* For each struct: how to fill a good one, and a call that takes it. */
+static void fill_create(void* d) { *(hf_create_desc*)d = surface_desc(&scene.cut); }
+static hf_result create(void* d) {
+  hf_solver solver = (hf_solver)(void*)&scene;
+  const hf_result result = hf_create(d, &solver);
+  if (result != HF_OK && solver != NULL) return HF_ERROR_INTERNAL; /* the handle must be NULL after a failure */
+  hf_destroy(solver);
+  return result;
+}
+static void fill_report(void* d) { HF_INIT(*(hf_mesh_report*)d); }
+static hf_result get_mesh_report(void* d) { return hf_get_mesh_report(scene.solver, d); }
+static void fill_statistics(void* d) { HF_INIT(*(hf_statistics*)d); }
+static hf_result get_statistics(void* d) { return hf_get_statistics(scene.solver, d); }
+static void fill_sites(void* d) { *(hf_sites_desc*)d = sites_at(1, &free_vertex, &value); }
+static hf_result add_sites(void* d) { return hf_add_sites(scene.solver, d, NULL); }
+static void fill_places(void* d) { *(hf_sites_desc*)d = sites_at(1, &free_vertex, NULL); }
+static hf_result move_sites(void* d) { return hf_move_sites(scene.solver, 1, scene.sites, d); }
+static void fill_edit(void* d) {
+  hf_edit_desc* edit = d;
+  HF_INIT(*edit);
+  edit->remove_count = 1, edit->remove_sites = scene.sites;
+}
+static hf_result edit_sites(void* d) { return hf_edit_sites(scene.solver, d, NULL); }
+static hf_result edit_add(void* d) {
+  hf_edit_desc edit;
+  fill_edit(&edit);
+  edit.add = d;
+  if (!d) edit.move_count = 1, edit.move_sites = scene.sites; /* add may be NULL; move_to may not */
+  return hf_edit_sites(scene.solver, &edit, NULL);
+}
+static hf_result edit_move(void* d) {
+  hf_edit_desc edit;
+  fill_edit(&edit);
+  edit.move_count = 1, edit.move_sites = scene.sites + 1, edit.move_to = d;
+  return hf_edit_sites(scene.solver, &edit, NULL);
+}
+static void fill_site_info(void* d) { HF_INIT(*(hf_site_info*)d), ((hf_site_info*)d)->capacity = 3; }
+static hf_result get_sites(void* d) { return hf_get_sites(scene.solver, d); }
+static void fill_solve_info(void* d) { HF_INIT(*(hf_solve_info*)d); }
+static hf_result solve(void* d) { return hf_solve(scene.solver, floats, 0, d); }
+static hf_result solve_f64(void* d) { return hf_solve_f64(scene.solver, doubles, 0, d); }
+static hf_result with_three_sites(hf_result (*call)(hf_solver, void*), void* d) {
+  hf_solver copy = NULL;
+  hf_result result = hf_clone(scene.three, &copy);
+  const double vector[3] = {1, 2, 3};
+  const hf_sites_desc site = sites_at(1, &free_vertex, vector);
+  if (result == HF_OK) result = hf_add_sites(copy, &site, NULL);
+  if (result == HF_OK) result = call(copy, d);
+  hf_destroy(copy);
+  return result;
+}
+static hf_result vectors(hf_solver s, void* d) { return hf_solve_vectors(s, floats, 0, NULL, d); }
+static hf_result vectors_f64(hf_solver s, void* d) { return hf_solve_vectors_f64(s, doubles, 0, NULL, d); }
+static hf_result solve_vectors(void* d) { return with_three_sites(vectors, d); }
+static hf_result solve_vectors_f64(void* d) { return with_three_sites(vectors_f64, d); }
+
+static void fill_pose(void* d) { HF_INIT(*(hf_pose_desc*)d); }
+static hf_result pose_create(void* d) {
+  hf_pose pose = (hf_pose)(void*)&scene;
+  const hf_result result = hf_pose_create(scene.body, d, &pose);
+  if (result != HF_OK && pose != NULL) return HF_ERROR_INTERNAL;
+  hf_pose_destroy(pose);
+  return result;
+}
+static void fill_handles(void* d) {
+  hf_handles_desc* handles = d;
+  HF_INIT(*handles);
+  handles->handle_count = 1, handles->region_counts = &one, handles->region_vertices = &middle;
+}
+static hf_result pose_add_handles(void* d) { return hf_pose_add_handles(scene.pose, d, NULL); }
+static void fill_handle_info(void* d) { HF_INIT(*(hf_handle_info*)d); }
+static hf_result pose_get_handle(void* d) { return hf_pose_get_handle(scene.pose, scene.handles[0], d); }
+static void fill_deform(void* d) { HF_INIT(*(hf_deform_desc*)d), ((hf_deform_desc*)d)->positions = floats; }
+static hf_result deform(void* d) { return hf_deform(scene.pose, d, NULL); }
+static void fill_deform_info(void* d) { HF_INIT(*(hf_deform_info*)d); }
+static hf_result deform_info(void* d) {
+  hf_deform_desc desc;
+  fill_deform(&desc);
+  return hf_deform(scene.pose, &desc, d);
+}
+
+static void fill_transfer(void* d) { HF_INIT(*(hf_transfer_desc*)d); }
+static hf_result transfer_create(void* d) {
+  hf_transfer transfer = (hf_transfer)(void*)&scene;
+  const hf_result result = hf_transfer_create(scene.body, scene.body, d, &transfer);
+  if (result != HF_OK && transfer != NULL) return HF_ERROR_INTERNAL;
+  hf_transfer_destroy(transfer);
+  return result;
+}
+static void fill_pairs(void* d) {
+  hf_pairs_desc* pairs = d;
+  HF_INIT(*pairs);
+  pairs->pair_count = 1, pairs->source_counts = pairs->target_counts = &one, pairs->source_vertices = pairs->target_vertices = &middle;
+}
+static hf_result transfer_add_pairs(void* d) { return hf_transfer_add_pairs(scene.transfer, d, NULL); }
+static void fill_pair_info(void* d) { HF_INIT(*(hf_pair_info*)d); }
+static hf_result transfer_get_pair(void* d) { return hf_transfer_get_pair(scene.transfer, scene.pairs[0], d); }
+static void fill_frame(void* d) {
+  hf_transfer_frame* frame = d;
+  HF_INIT(*frame);
+  frame->source_positions = scene.posed, frame->target_positions = floats;
+}
+static hf_result transfer_apply(void* d) { return hf_transfer_apply(scene.transfer, d); }
+static void fill_skin(void* d) { HF_INIT(*(hf_skin_info*)d); }
+static hf_result transfer_get_skin(void* d) { return hf_transfer_get_skin(scene.transfer, d); }
+
+static const struct {
+  const char* what; /* function and argument */
+  size_t size;
+  void (*fill)(void*);
+  hf_result (*call)(void*);
+  int optional; /* NULL is allowed */
+} structs[] = {
+    {"hf_create: desc", sizeof(hf_create_desc), fill_create, create, 0},
+    {"hf_get_mesh_report: out_report", sizeof(hf_mesh_report), fill_report, get_mesh_report, 0},
+    {"hf_get_statistics: out_statistics", sizeof(hf_statistics), fill_statistics, get_statistics, 0},
+    {"hf_add_sites: sites", sizeof(hf_sites_desc), fill_sites, add_sites, 0},
+    {"hf_move_sites: to", sizeof(hf_sites_desc), fill_places, move_sites, 0},
+    {"hf_edit_sites: edit", sizeof(hf_edit_desc), fill_edit, edit_sites, 0},
+    {"hf_edit_sites: edit->add", sizeof(hf_sites_desc), fill_sites, edit_add, 0},
+    {"hf_edit_sites: edit->move_to", sizeof(hf_sites_desc), fill_places, edit_move, 0},
+    {"hf_get_sites: out_info", sizeof(hf_site_info), fill_site_info, get_sites, 0},
+    {"hf_solve: out_info", sizeof(hf_solve_info), fill_solve_info, solve, 1},
+    {"hf_solve_f64: out_info", sizeof(hf_solve_info), fill_solve_info, solve_f64, 1},
+    {"hf_solve_vectors: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors, 1},
+    {"hf_solve_vectors_f64: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors_f64, 1},
+    {"hf_pose_create: desc", sizeof(hf_pose_desc), fill_pose, pose_create, 1},
+    {"hf_pose_add_handles: handles", sizeof(hf_handles_desc), fill_handles, pose_add_handles, 0},
+    {"hf_pose_get_handle: out_info", sizeof(hf_handle_info), fill_handle_info, pose_get_handle, 0},
+    {"hf_deform: desc", sizeof(hf_deform_desc), fill_deform, deform, 0},
+    {"hf_deform: out_info", sizeof(hf_deform_info), fill_deform_info, deform_info, 1},
+    {"hf_transfer_create: desc", sizeof(hf_transfer_desc), fill_transfer, transfer_create, 1},
+    {"hf_transfer_add_pairs: pairs", sizeof(hf_pairs_desc), fill_pairs, transfer_add_pairs, 0},
+    {"hf_transfer_get_pair: out_info", sizeof(hf_pair_info), fill_pair_info, transfer_get_pair, 0},
+    {"hf_transfer_apply: frame", sizeof(hf_transfer_frame), fill_frame, transfer_apply, 0},
+    {"hf_transfer_get_skin: info", sizeof(hf_skin_info), fill_skin, transfer_get_skin, 0},
+};
+
+enum { SPACE = 5000 };
+static union {
+  double align;
+  unsigned char bytes[SPACE];
+} given;
+
+/* A good struct in the middle of known zero bytes, with another struct_size. */
+static void* good(size_t s, uint32_t struct_size) {
+  memset(&given, 0, sizeof given);
+  structs[s].fill(given.bytes);
+  memcpy(given.bytes, &struct_size, sizeof struct_size);
+  return given.bytes;
+}
+
+static void every_struct_is_checked_before_anything_is_done(void** state) {
+  (void)state;
+  scene_create(&scene);
+  for (size_t s = 0; s < COUNT_OF(structs); ++s) {
+    const char* what = structs[s].what;
+    const uint32_t size = (uint32_t)structs[s].size;
+    const uint32_t refused[] = {0, 1, 4, size / 2, size - 1, SPACE - 1, 0x80000000u, UINT32_MAX};
+    if (!structs[s].optional) check_row(__LINE__, "NULL", what, structs[s].call(NULL), HF_ERROR_NULL_POINTER, NO_INDEX);
+    for (size_t r = 0; r < COUNT_OF(refused); ++r) {
+      check_row(__LINE__, "struct_size wrong", what, structs[s].call(good(s, refused[r])), HF_ERROR_INVALID_DESC, NO_INDEX);
+    }
+    for (uint32_t more = 1; more <= 64; more *= 8) {
+      void* longer = good(s, size + more);
+      given.bytes[size + more - 1] = 1;
+      check_row(__LINE__, "an unknown byte is set", what, structs[s].call(longer), HF_ERROR_INVALID_DESC, NO_INDEX);
+    }
+    row_holds(__LINE__, what, "the state is unchanged", solver_unchanged(&scene) && pose_unchanged(&scene) && transfer_unchanged(&scene));
+  }
+  finish_rows("structs");
+  scene_destroy(&scene);
+}
+
+static void a_longer_struct_with_zero_bytes_is_accepted_and_only_its_known_part_is_written(void** state) {
+  (void)state;
+  for (size_t s = 0; s < COUNT_OF(structs); ++s) {
+    scene_create(&scene);
+    const uint32_t size = (uint32_t)structs[s].size, longer = size + 24;
+    check_row(__LINE__, "zero bytes of a newer version", structs[s].what, structs[s].call(good(s, longer)), HF_OK, NO_INDEX);
+    uint32_t stored;
+    memcpy(&stored, given.bytes, sizeof stored);
+    row_holds(__LINE__, structs[s].what, "struct_size is left as it was", stored == longer);
+    int written = 0;
+    for (uint32_t i = size; i < SPACE; ++i) written |= given.bytes[i];
+    row_holds(__LINE__, structs[s].what, "bytes behind the struct are not written", !written);
+    scene_destroy(&scene);
+  }
+  finish_rows("longer structs");
+}
+
+static void hf_init_desc_zeroes_exactly_the_size_it_is_given(void** state) {
+  (void)state;
+  unsigned char bytes[64];
+  memset(bytes, 0xAB, sizeof bytes);
+  hf_init_desc(NULL, 16);
+  hf_init_desc(bytes, 3); /* no room for struct_size: nothing is written */
+  for (size_t i = 0; i < sizeof bytes; ++i) assert_int_equal(bytes[i], 0xAB);
+  hf_init_desc(bytes, 40);
+  uint32_t size;
+  memcpy(&size, bytes, sizeof size);
+  assert_int_equal(size, 40);
+  for (size_t i = 4; i < sizeof bytes; ++i) assert_int_equal(bytes[i], i < 40 ? 0 : 0xAB);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_struct_is_checked_before_anything_is_done),
+      cmocka_unit_test(a_longer_struct_with_zero_bytes_is_accepted_and_only_its_known_part_is_written),
+      cmocka_unit_test(hf_init_desc_zeroes_exactly_the_size_it_is_given),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

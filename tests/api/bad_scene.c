@@ -1,0 +1,100 @@
+#include "bad_scene.h"
+
+static void* copy_of(size_t size) {
+  void* block = calloc(1, size);
+  if (!block) exit(2);
+  return block;
+}
+
+static hf_result deform_now(hf_pose pose, float* positions) {
+  hf_deform_desc desc;
+  HF_INIT(desc);
+  desc.positions = positions, desc.restart = 1;
+  return hf_deform(pose, &desc, NULL);
+}
+
+static hf_result transfer_now(const Scene* scene, float* positions) {
+  hf_transfer_frame frame;
+  HF_INIT(frame);
+  frame.source_positions = scene->posed, frame.target_positions = positions;
+  return hf_transfer_apply(scene->transfer, &frame);
+}
+
+static void create_pose(Scene* s) {
+  s->pose = tube_pose(s->body, TUBE_AROUND, TUBE_RINGS, s->handles);
+  const hf_transform turned = {{0, 0, 0.38268343, 0.92387953}, {1.0, 0.5, 0.0}};
+  assert_ok(hf_pose_set_transforms(s->pose, 1, &s->handles[1], &turned));
+  s->deformed = copy_of(sizeof(float) * 3 * TUBE_VERTICES);
+  s->posed = copy_of(sizeof(float) * 3 * TUBE_VERTICES);
+  assert_ok(deform_now(s->pose, s->deformed));
+  memcpy(s->posed, s->deformed, sizeof(float) * 3 * TUBE_VERTICES);
+}
+
+static void create_transfer(Scene* s) {
+  const uint32_t counts[2] = {2 * TUBE_AROUND, 2 * TUBE_AROUND};
+  hf_pairs_desc desc;
+  HF_INIT(desc);
+  desc.pair_count = 2;
+  desc.source_counts = desc.target_counts = counts;
+  desc.source_vertices = desc.target_vertices = s->ends;
+  assert_ok(hf_transfer_create(s->body, s->body, NULL, &s->transfer));
+  assert_ok(hf_transfer_add_pairs(s->transfer, &desc, s->pairs));
+  s->transferred = copy_of(sizeof(float) * 3 * TUBE_VERTICES);
+  assert_ok(transfer_now(s, s->transferred));
+}
+
+void scene_create(Scene* s) {
+  memset(s, 0, sizeof *s);
+  s->cut = surface_cut(), s->tube = surface_tube(TUBE_AROUND, TUBE_RINGS);
+  s->ends = tube_ends(TUBE_AROUND, TUBE_RINGS);
+
+  s->solver = surface_solver(&s->cut);
+  s->sites[0] = add_site(s->solver, CUT_LEFT, 0.0);
+  s->sites[1] = add_site(s->solver, CUT_RIGHT, 1.0);
+  s->sites[2] = add_site(s->solver, CUT_SEAM_LEFT, 5.0);
+  s->field = field_of(s->solver, CUT_VERTICES);
+  hf_create_desc desc = surface_desc(&s->cut);
+  desc.channel_count = 3;
+  assert_ok(hf_create(&desc, &s->three));
+  s->body = surface_solver(&s->tube);
+  create_pose(s);
+  create_transfer(s);
+  assert_ok(hf_progress_create(&s->progress));
+
+  assert_ok(hf_clone(s->solver, &s->stale_solver));
+  assert_ok(hf_pose_clone(s->pose, &s->stale_pose));
+  assert_ok(hf_transfer_create(s->body, s->body, NULL, &s->stale_transfer));
+  assert_ok(hf_progress_create(&s->stale_progress));
+  hf_destroy(s->stale_solver), hf_pose_destroy(s->stale_pose);
+  hf_transfer_destroy(s->stale_transfer), hf_progress_destroy(s->stale_progress);
+}
+
+void scene_destroy(Scene* s) {
+  hf_destroy(s->solver), hf_destroy(s->three), hf_destroy(s->body);
+  hf_pose_destroy(s->pose), hf_transfer_destroy(s->transfer), hf_progress_destroy(s->progress);
+  surface_free(&s->cut), surface_free(&s->tube);
+  free(s->ends), free(s->posed), free(s->field), free(s->deformed), free(s->transferred);
+}
+
+int solver_unchanged(const Scene* s) {
+  double field[CUT_VERTICES];
+  uint32_t sites[3] = {0}, vertices[3] = {0};
+  hf_site_info info;
+  HF_INIT(info);
+  info.capacity = 3, info.sites = sites, info.vertices = vertices;
+  if (hf_get_site_count(s->solver) != 3 || hf_get_site_count(s->three) != 0) return 0;
+  if (hf_get_sites(s->solver, &info) != HF_OK || !same_bits(sites, s->sites, sizeof sites)) return 0;
+  if (vertices[0] != CUT_LEFT || vertices[1] != CUT_RIGHT || vertices[2] != CUT_SEAM_LEFT) return 0;
+  return hf_solve_f64(s->solver, field, 0, NULL) == HF_OK && same_bits(field, s->field, sizeof field);
+}
+
+int pose_unchanged(const Scene* s) {
+  float positions[3 * TUBE_VERTICES];
+  if (hf_pose_get_handle_count(s->pose) != 2) return 0;
+  return deform_now(s->pose, positions) == HF_OK && same_bits(positions, s->deformed, sizeof positions);
+}
+
+int transfer_unchanged(const Scene* s) {
+  float positions[3 * TUBE_VERTICES];
+  return transfer_now(s, positions) == HF_OK && same_bits(positions, s->transferred, sizeof positions);
+}
