@@ -34,6 +34,8 @@ struct Row {
   Axes axes;
 };
 
+std::string short_name(const Model& model) { return std::filesystem::path(model.name).stem().string(); }
+
 Point point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
 
 void add_row(const Row& row, const std::vector<std::vector<double>>& frames, std::vector<Picture>& tiles) {
@@ -65,7 +67,7 @@ void write_clip_sheet(const std::filesystem::path& file, const Session& session,
   std::vector<std::string> labels;
   for (const PlayedClip& clip : clips) {
     add_row(from, clip.source_frames, tiles), add_row(to, clip.target_frames, tiles);
-    for (const std::string& name : {source.name, target.name}) {
+    for (const std::string& name : {short_name(source), short_name(target)}) {
       labels.push_back(name + ", rest");
       for (int k = 0; k < columns; ++k) {
         char label[64];
@@ -74,7 +76,7 @@ void write_clip_sheet(const std::filesystem::path& file, const Session& session,
       }
     }
   }
-  std::string title = source.name + " on " + target.name + ":";
+  std::string title = short_name(source) + " on " + short_name(target) + ":";
   for (const PlayedClip& clip : clips) title += " " + clip.clip.name;
   write_png(file.string(), contact_sheet(tiles, columns + 1, labels, title));
 }

@@ -44,6 +44,15 @@ std::vector<PairEntry> read_list(const JsonReader& json) {
   return out;
 }
 
+// Errors found later, on the model, name the file too.
+void name_file(std::vector<PairEntry>& pairs, const std::filesystem::path& file) {
+  for (PairEntry& pair : pairs) {
+    for (std::vector<Selector>* side : {&pair.source, &pair.target}) {
+      for (Selector& selector : *side) selector.where = file.filename().string() + ": " + selector.where;
+    }
+  }
+}
+
 }  // namespace
 
 uint32_t PairEntry::flags() const {
@@ -69,6 +78,7 @@ PairsFile read_pairs(const std::filesystem::path& file) {
     if (settings.has("alignment_degrees")) out.settings.alignment_degrees = settings.at("alignment_degrees").number(-1, 180);
   }
   out.pairs = read_list(root.at("pairs"));
+  name_file(out.pairs, file);
   if (out.pairs.empty()) root.at("pairs").fail("at least one pair is needed");
   return out;
 }
@@ -82,6 +92,7 @@ EditsFile read_edits(const std::filesystem::path& file) {
     for (size_t i = 0; i < root.at("remove").size(); ++i) out.remove.push_back(root.at("remove").at(i).string());
   }
   if (root.has("add")) out.add = read_list(root.at("add"));
+  name_file(out.add, file);
   if (out.remove.empty() && out.add.empty()) root.fail("nothing to do: give \"remove\" (names of pairs) or \"add\" (pairs)");
   return out;
 }

@@ -20,10 +20,10 @@ struct SiteCost {
   }
   double dense_ns(double k, double d) const noexcept {
     const double all = k + d;
-    return 2 * d * path_entries / 25 + 2 * d * (k + d / 2) * path_rows / 20 + (all * all * all - k * k * k) / 3 / 5;
+    return 2 * d * path_entries / 20 + 2 * d * (k + d / 2) * path_rows / 14 + (all * all * all - k * k * k) / 3 / 3.5;
   }
   // of the rows that stay outside the elimination
-  double rebase_ns(double outside) const noexcept { return flops / 22 + 4 * entries / 4 + dense_ns(0, outside); }
+  double rebase_ns(double outside) const noexcept { return flops / 26 + 4 * entries / 4 + dense_ns(0, outside); }
 
   double flops, entries, path_entries, path_rows;
 };

@@ -15,6 +15,7 @@ constexpr double shortest_limb = 0.1;           // of the box: shorter limbs hav
 constexpr double rigid_residual = 1e-3;         // of the box: frames much nearer to rigid are moved rigidly
 constexpr double turn_low = 20 * degree, turn_high = 50 * degree;  // between these a turn of the whole takes the anchors' offsets along
 constexpr std::int32_t enough_support = 6;
+constexpr std::int32_t refit_rounds = 4;
 constexpr std::size_t block = 2048;
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -49,7 +50,7 @@ Vec3 area_mean(const Mesh& mesh, const Vector<double>& area) noexcept {
 struct Transfer::Prepared {
   explicit Prepared(Memory& memory)
       : source_leak(&memory), target_leak(&memory), limb_angle(&memory), confidence(&memory), limb_turn(&memory), aligned(&memory), cluster_turn(&memory), clusters(memory),
-        source_rotations(memory), translations(memory), anchors(&memory), posed(&memory), rotations(&memory), matrices(&memory), shifts(&memory), cluster_goals(&memory),
+        source_rotations(memory), translations(memory), refit(memory), anchors(&memory), posed(&memory), given(&memory), rotations(&memory), matrices(&memory), shifts(&memory), cluster_goals(&memory),
         goals(&memory) {}
   struct Anchor {
     std::uint32_t number = 0;
@@ -66,13 +67,14 @@ struct Transfer::Prepared {
   Clusters clusters;
   SourceRotations source_rotations;
   Translations translations;
+  Refit refit;
   Vector<Anchor> anchors;
   double scale = 1;  // s in inner units
   double source_ground = 0, target_ground = 0;
   Vec3 target_centroid;
   // the last frame
   Vector<Vec3> posed;  // source, inner units
-  Vector<Quaternion> rotations;
+  Vector<Quaternion> given, rotations;  // from the source, and as refitted
   Vector<Mat3> matrices;
   Vector<Vec3> shifts, cluster_goals, goals;
 };
@@ -241,12 +243,13 @@ Transfer::Prepared& Transfer::prepare() {
   prepare_alignment(p);
   prepare_anchors(p);
   p.source_rotations.prepare(source_core_->mesh, source_area_);
+  p.refit.prepare(target_core_->mesh, target_area_, p.clusters, memory);
   p.target_centroid = area_mean(target_core_->mesh, target_area_);
 
   // the frame before the first: rest
   const std::size_t count = at(p.clusters.count);
   p.posed.resize(at(source_core_->size()));
-  p.rotations.assign(count, Quaternion()), p.matrices.assign(count, Mat3::identity());
+  p.given.assign(count, Quaternion()), p.rotations.assign(count, Quaternion()), p.matrices.assign(count, Mat3::identity());
   p.shifts.assign(count, Vec3()), p.cluster_goals.assign(count, Vec3()), p.goals.assign(p.anchors.size(), Vec3());
   prepared_ = std::move(fresh);
   return p;
@@ -298,18 +301,23 @@ void Transfer::apply(const Vec3* source, Vec3* out) {
   JobRunner& jobs = *target_core_->jobs;
   for (std::size_t v = 0; v < p.posed.size(); ++v) p.posed[v] = from.to_inner(source[v]);
   const WholeMotion whole = p.source_rotations.whole(from, source_area_, p.posed.data());
-  p.source_rotations.clusters(from, p.clusters, p.posed.data(), whole.rotation, p.rotations.data(), jobs);
+  p.source_rotations.clusters(from, p.clusters, p.posed.data(), whole.rotation, p.given.data(), jobs);
 
   // into the target's axes and rest directions
   const Quaternion turn = normalised(axes_ * whole.rotation * conjugate(axes_));
   const Vec3 centroid = p.target_centroid + p.scale * rotate(axes_, whole.centroid - whole.rest_centroid);
   for (std::size_t c = 0; c < p.rotations.size(); ++c) {
-    p.rotations[c] = normalised(axes_ * p.rotations[c] * conjugate(axes_) * p.cluster_turn[c]);
+    p.given[c] = p.rotations[c] = normalised(axes_ * p.given[c] * conjugate(axes_) * p.cluster_turn[c]);
     p.matrices[c] = to_matrix(p.rotations[c]);
     p.cluster_goals[c] = centroid + rotate(turn, p.clusters.pivot[c] - p.target_centroid);
   }
   place_anchors(p, whole, turn);
   p.translations.solve(p.clusters, p.matrices.data(), {p.goals.data(), p.goals.size()}, centroid, p.cluster_goals.data(), p.shifts.data());
+  for (std::int32_t round = 0; round < (options_.mode == HF_TRANSFER_PAPER ? 0 : refit_rounds); ++round) {
+    p.refit.turn(p.given.data(), p.shifts.data(), p.rotations.data(), p.matrices.data());
+    for (std::size_t c = 0; c < p.rotations.size(); ++c) p.matrices[c] = to_matrix(p.rotations[c]);
+    p.translations.solve(p.clusters, p.matrices.data(), {p.goals.data(), p.goals.size()}, centroid, p.cluster_goals.data(), p.shifts.data());
+  }
 
   const std::size_t n = to.positions.size();
   jobs.for_each(static_cast<std::uint32_t>((n + block - 1) / block), [&](std::uint32_t b) {

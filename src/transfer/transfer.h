@@ -1,7 +1,7 @@
 // The motion of one surface played on another: what stands behind hf_transfer_*.
 //
 // pairs of regions -> the same harmonic coordinates on both surfaces (pair_fields) -> corresponding clusters (clusters) -> per frame: rotations of the
-// source's clusters (source_rotations), axes and rest alignment (alignment), translations of the target's clusters (translations), blend of four per
+// source's clusters (source_rotations), axes and rest alignment (alignment), translations of the target's clusters (translations), which then turn to meet each other (refit), blend of four per
 // vertex. Xu, Zhang, Cohen-Or and Xiong 2009, Section 6; departures from the paper are named in those files.
 //
 // Pairs come and go at any time on both sides; no factor is touched. What depends on them is made again at the next question (pair_info, apply, skin).
@@ -16,6 +16,7 @@
 #include "transfer/alignment.h"
 #include "transfer/clusters.h"
 #include "transfer/pair_fields.h"
+#include "transfer/refit.h"
 #include "transfer/source_rotations.h"
 #include "transfer/translations.h"
 

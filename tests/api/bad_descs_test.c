@@ -35,7 +35,6 @@ static hf_result edit_add(void* d) {
   hf_edit_desc edit;
   fill_edit(&edit);
   edit.add = d;
-  if (!d) edit.move_count = 1, edit.move_sites = scene.sites; /* add may be NULL; move_to may not */
   return hf_edit_sites(scene.solver, &edit, NULL);
 }
 static hf_result edit_move(void* d) {
@@ -127,7 +126,7 @@ static const struct {
     {"hf_add_sites: sites", sizeof(hf_sites_desc), fill_sites, add_sites, 0},
     {"hf_move_sites: to", sizeof(hf_sites_desc), fill_places, move_sites, 0},
     {"hf_edit_sites: edit", sizeof(hf_edit_desc), fill_edit, edit_sites, 0},
-    {"hf_edit_sites: edit->add", sizeof(hf_sites_desc), fill_sites, edit_add, 0},
+    {"hf_edit_sites: edit->add", sizeof(hf_sites_desc), fill_sites, edit_add, 1},
     {"hf_edit_sites: edit->move_to", sizeof(hf_sites_desc), fill_places, edit_move, 0},
     {"hf_get_sites: out_info", sizeof(hf_site_info), fill_site_info, get_sites, 0},
     {"hf_solve: out_info", sizeof(hf_solve_info), fill_solve_info, solve, 1},

@@ -1,6 +1,7 @@
 #include "bench/bench_support.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <numeric>
 #include <set>
@@ -89,6 +90,14 @@ std::vector<uint32_t> scattered_vertices(uint32_t vertex_count, uint32_t count, 
     if (v < vertex_count && seen.insert(v).second) vertices.push_back(v);
   }
   return vertices;
+}
+
+void write_json(const std::string& file, const nlohmann::json& value) {
+  if (file.empty()) return;
+  std::ofstream stream(file + ".part");
+  stream << value.dump(1) << "\n";
+  stream.close();
+  if (!stream || std::rename((file + ".part").c_str(), file.c_str()) != 0) throw std::runtime_error(file + ": cannot be written");
 }
 
 double value_of(uint32_t vertex) { return samples::hash_to_unit(77, vertex); }

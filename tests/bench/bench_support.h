@@ -58,7 +58,15 @@ std::vector<uint32_t> scattered_vertices(uint32_t vertex_count, uint32_t count, 
 // Deterministic value in [0, 1) of a vertex.
 double value_of(uint32_t vertex);
 
-int table1(const std::vector<std::string>& arguments);
+struct Arguments {
+  uint32_t threads = 1, repetitions = 5;
+  std::string json_file, rows;
+};
+// Writes a JSON file by a temporary name; nothing when the name is empty.
+void write_json(const std::string& file, const nlohmann::json& value);
+
+int table1(const Arguments& arguments);
+int large_sites(const Arguments& arguments);
 
 }  // namespace bench
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -196,21 +195,9 @@ nlohmann::json run_row(const Row& row, Bed& bed, uint32_t repetitions) {
 
 }  // namespace
 
-int table1(const std::vector<std::string>& arguments) {
-  uint32_t threads = 1, repetitions = 5;
-  std::string json_file, filter;
-  for (size_t i = 0; i < arguments.size(); ++i) {
-    const auto next = [&] {
-      if (i + 1 == arguments.size()) throw std::runtime_error(arguments[i] + " needs a value");
-      return arguments[++i];
-    };
-    if (arguments[i] == "--threads") threads = static_cast<uint32_t>(std::stoul(next()));
-    else if (arguments[i] == "--repeat") repetitions = static_cast<uint32_t>(std::stoul(next()));
-    else if (arguments[i] == "--json") json_file = next();
-    else if (arguments[i] == "--rows") filter = next();
-    else throw std::runtime_error("unknown option " + arguments[i]);
-  }
-  if (repetitions < 5) repetitions = 5;
+int table1(const Arguments& arguments) {
+  const uint32_t threads = arguments.threads, repetitions = std::max(arguments.repetitions, 5u);
+  const std::string& filter = arguments.rows;
   nlohmann::json out = {{"machine", machine_name()}, {"threads", threads}, {"rows", nlohmann::json::array()}};
   std::printf("%s, %u thread%s, medians of %u; milliseconds: edit + field (ratio to green)\n", machine_name().c_str(), threads, threads == 1 ? "" : "s", repetitions);
   std::unique_ptr<Bed> bed;
@@ -228,12 +215,7 @@ int table1(const std::vector<std::string>& arguments) {
     }
     out["rows"].push_back(run_row(row, *bed, repetitions));
   }
-  if (!json_file.empty()) {
-    std::ofstream stream(json_file + ".part");
-    stream << out.dump(1) << "\n";
-    stream.close();
-    if (!stream || std::rename((json_file + ".part").c_str(), json_file.c_str()) != 0) throw std::runtime_error(json_file + ": cannot be written");
-  }
+  write_json(arguments.json_file, out);
   return 0;
 }
 

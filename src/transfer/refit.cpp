@@ -1,0 +1,70 @@
+// See refit.h.
+#include "transfer/refit.h"
+
+#include <algorithm>
+
+namespace hf {
+namespace {
+
+constexpr double keep = 0.25;         // b
+constexpr double handle_share = 0.9;  // centres beyond belong to a handle
+std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+void Refit::prepare(const Mesh& target, Span<const double> area, const Clusters& clusters, Memory& memory) {
+  count_ = clusters.count;
+  const std::size_t count = at(count_), width = at(clusters.field_count);
+  Vector<double> mass(count * count, 0.0, &memory);
+  Vector<Vec3> sum(count * count, &memory);
+  for (std::size_t v = 0; v < area.size(); ++v) {
+    for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
+      for (std::size_t j = v * blend_count; j < (v + 1) * blend_count; ++j) {
+        const double w = area[v] * static_cast<double>(clusters.weight[i]) * static_cast<double>(clusters.weight[j]);
+        if (!(w > 0)) continue;
+        const std::size_t entry = at(clusters.joint[i]) * count + at(clusters.joint[j]);
+        mass[entry] += w;
+        sum[entry] = sum[entry] + w * target.positions[v];
+      }
+    }
+  }
+  start_.assign(1, 0), spread_.assign(count, 0.0), centroid_.assign(count, Vec3());
+  for (std::size_t c = 0; c < count; ++c) {
+    double total = 0;
+    const std::size_t begin = other_.size();
+    for (std::size_t d = 0; d < count; ++d) {
+      const double w = mass[c * count + d];
+      if (!(w > 0)) continue;
+      const Vec3 x = (1 / w) * sum[c * count + d];
+      other_.push_back(static_cast<std::int32_t>(d)), weight_.push_back(w), point_.push_back(x);
+      centroid_[c] = centroid_[c] + w * x;
+      total += w;
+    }
+    start_.push_back(static_cast<std::int32_t>(other_.size()));
+    centroid_[c] = (1 / total) * centroid_[c];
+    for (std::size_t i = begin; i < other_.size(); ++i) {
+      const Vec3 x = point_[i] - centroid_[c];
+      spread_[c] += weight_[i] * dot(x, x);
+    }
+    const double* centre = clusters.centre.data() + c * width;
+    if (*std::max_element(centre, centre + width) > handle_share) spread_[c] = 0;
+  }
+}
+
+void Refit::turn(const Quaternion* given, const Vec3* shifts, Quaternion* rotations, const Mat3* matrices) const noexcept {
+  for (std::size_t c = 0; c < at(count_); ++c) {
+    if (!(spread_[c] > 0)) continue;
+    // against the cluster's own place, which drops out of the moment but keeps the digits
+    const Vec3 place = matrices[c] * centroid_[c] + shifts[c];
+    Mat3 moment;
+    for (std::int32_t i = start_[c]; i < start_[c + 1]; ++i) {
+      const auto d = at(other_[at(i)]);
+      const Vec3 x = point_[at(i)];
+      const Vec3 y = 0.5 * ((matrices[c] * x + shifts[c]) + (matrices[d] * x + shifts[d]));
+      add_outer(moment, weight_[at(i)] / spread_[c], y - place, x - centroid_[c]);
+    }
+    rotations[c] = best_rotation_from(moment + keep * to_matrix(given[c]), rotations[c]);
+  }
+}
+
+}  // namespace hf
