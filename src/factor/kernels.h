@@ -37,6 +37,8 @@ struct ChildView {
   const std::int32_t* run;    // first rows of the runs, ending with `size`
 };
 
+constexpr std::int32_t small_columns = 8;
+
 struct Kernels {
   const char* name;
 
@@ -60,6 +62,11 @@ struct Kernels {
                         std::int32_t begin, std::int32_t end, double* z, std::int32_t first, std::int32_t channels);
   // z <- L^-T z on the packed triangle.
   void (*backward_triangle)(const double* triangle, std::int32_t columns, double* z, std::int32_t channels);
+  // Both for at most small_columns columns and one channel.
+  void (*backward_small)(const double* triangle, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
+                         double* z, std::int32_t first);
+  void (*backward_small_f32)(const float* triangle, const std::int32_t* rows, std::int32_t row_count,
+                             std::int32_t columns, float* z, std::int32_t first);
   // The same two on the single-precision copy.
   void (*backward_rows_f32)(const float* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
                             std::int32_t begin, std::int32_t end, float* z, std::int32_t first, std::int32_t channels);

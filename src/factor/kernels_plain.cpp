@@ -8,11 +8,24 @@
 
 namespace hf {
 
-extern const Kernels kernels_plain_set;
-const Kernels kernels_plain_set = {
-    "plain",          factor_triangle, solve_tiles,       form_update,       extend_add,
-    store_tiles,      backward_rows,   backward_triangle, backward_rows_f32, backward_triangle_f32,
-    forward_triangle, forward_rows,    path_triangle,     path_rows,         gram,
+extern const Kernels kernels_plain_set = {
+    "plain",
+    factor_triangle,
+    solve_tiles,
+    form_update,
+    extend_add,
+    store_tiles,
+    backward_rows,
+    backward_triangle,
+    backward_small,
+    backward_small_f32,
+    backward_rows_f32,
+    backward_triangle_f32,
+    forward_triangle,
+    forward_rows,
+    path_triangle,
+    path_rows,
+    gram,
 };
 
 }  // namespace hf

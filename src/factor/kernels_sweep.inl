@@ -330,6 +330,39 @@ void backward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::i
   }
 }
 
+// Rows and triangle of one supernode of at most 8 columns and one right-hand side, by the same operations as the two
+// kernels apart: most supernodes are that small, and their time is the way in and out.
+template <class T>
+void backward_small_any(const T* triangle, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns, T* z,
+                        std::int32_t first) noexcept {
+  using S = Simd<T>;
+  constexpr int vectors = S::width >= 8 ? 1 : 8 / S::width;
+  alignas(64) T x[16 + 16], sum[vectors * S::width];
+  const T* below = triangle + columns * (columns + 1) / 2;
+  for (int v = 0; v < vectors; ++v) {
+    if (v * S::width >= columns) break;
+    sum_in_registers<T, 1, 1, 4>(below + v * S::width, columns, rows, row_count, z, 1, sum + v * S::width);
+  }
+  for (std::int32_t j = 0; j < columns; ++j) x[j] = z[first + j] - sum[j];
+  const T* row = triangle + columns * (columns - 1) / 2;
+  for (std::int32_t j = columns - 1; j >= 0; row -= j, --j) {
+    const T value = x[j] * row[j];
+    z[first + j] = value;
+    const typename S::Type factor = S::all(value);
+    for (std::int32_t i = 0; i < j; i += S::width)
+      S::store(x + i, S::subtract_product(S::load(row + i), factor, S::load(x + i)));
+  }
+}
+
+void backward_small(const double* triangle, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
+                    double* z, std::int32_t first) {
+  backward_small_any<double>(triangle, rows, row_count, columns, z, first);
+}
+void backward_small_f32(const float* triangle, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
+                        float* z, std::int32_t first) {
+  backward_small_any<float>(triangle, rows, row_count, columns, z, first);
+}
+
 void backward_rows(const double* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
                    std::int32_t begin, std::int32_t end, double* z, std::int32_t first, std::int32_t channels) {
   backward_rows_any<double>(below, rows, row_count, columns, begin, end, z, first, channels);

@@ -45,6 +45,16 @@ struct BackwardPass {
     }
   }
   void whole(std::int32_t s) const noexcept {
+    if (channels == 1 && symbolic.columns(s) <= small_columns) {
+      const T* own = values + symbolic.value_start[s];
+      if constexpr (sizeof(T) == sizeof(double)) {
+        kernels.backward_small(own, symbolic.row_list(s), symbolic.below(s), symbolic.columns(s), z, symbolic.first[s]);
+      } else {
+        kernels.backward_small_f32(own, symbolic.row_list(s), symbolic.below(s), symbolic.columns(s), z,
+                                   symbolic.first[s]);
+      }
+      return;
+    }
     if (symbolic.below(s) > 0) rows(s, 0, symbolic.columns(s));
     triangle(s);
   }

@@ -6,7 +6,7 @@
 namespace hf {
 namespace {
 
-constexpr double keep = 0.25;         // b
+constexpr double keep = 0.12;         // b
 constexpr double handle_share = 0.9;  // centres beyond belong to a handle
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 

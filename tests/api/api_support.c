@@ -196,7 +196,7 @@ void check_row(int line, const char* what, const char* call, hf_result got, hf_r
   if (hf_get_error_detail(&detail) != HF_OK) memset(&detail, 0, sizeof detail);
   row_holds(line, what, "the detail has the code that was returned", detail.code == got);
   row_holds(line, what, "the detail names the function", starts_with_name(call, detail.function));
-  row_holds(line, what, "the message is one line of text", strlen(detail.message) > 10 && !strchr(detail.message, '\n'));
+  row_holds(line, what, "the message is one line of text", strlen(detail.message) > 8 && !strchr(detail.message, '\n'));
   if (detail.index != index) {
     ++rows.failures;
     print_error("row at line %d, %s, %s: index %u, expected %u (%s)\n", line, call, what, detail.index, index, detail.message);

@@ -1,0 +1,216 @@
+/* Bad input to hf/base.h and hf/mesh.h: one thing wrong per row. After a failed hf_create nothing exists. */
+#include "bad_scene.h"
+
+static Scene scene;
+static CountingAllocator counter;
+
+/* The good input: a copy of the cut sheet that a row may spoil. */
+static hf_create_desc desc;
+static float positions[3 * CUT_VERTICES];
+static double positions_f64[3 * CUT_VERTICES];
+static uint32_t triangles[3 * CUT_TRIANGLES];
+static hf_solver out;
+
+static void good_input(void) {
+  memcpy(positions, scene.cut.positions, sizeof positions);
+  memcpy(triangles, scene.cut.triangles, sizeof triangles);
+  for (size_t i = 0; i < 3 * CUT_VERTICES; ++i) positions_f64[i] = (double)positions[i];
+  desc = surface_desc(&scene.cut);
+  desc.positions = positions, desc.triangles = triangles;
+  desc.allocator = counting_hooks(&counter);
+  out = scene.solver; /* must become NULL */
+}
+static int nothing_exists(void) { return out == NULL && counter.live_blocks == 0 && counter.mismatches == 0 && solver_unchanged(&scene); }
+
+#define GOOD good_input
+#define UNCHANGED nothing_exists
+#define CREATE(what, expected, index, change) ROW(what, expected, index, change, hf_create(&desc, &out))
+
+static void no_position_array(void) { desc.positions = NULL; }
+static void in_double(void) { desc.positions = NULL, desc.positions_f64 = positions_f64; }
+
+static void hf_create_refuses_bad_meshes(void** state) {
+  (void)state;
+  scene_create(&scene);
+  good_input();
+  assert_ok(hf_create(&desc, &out)); /* the good input is good */
+  hf_destroy(out), out = NULL;
+  assert_true(nothing_exists());
+
+  CREATE("no vertices", HF_ERROR_EMPTY, NO_INDEX, desc.vertex_count = 0);
+  CREATE("no triangles", HF_ERROR_EMPTY, NO_INDEX, desc.triangle_count = 0);
+  CREATE("no positions", HF_ERROR_NULL_POINTER, NO_INDEX, no_position_array());
+  CREATE("no triangle array", HF_ERROR_NULL_POINTER, NO_INDEX, desc.triangles = NULL);
+  CREATE("both position arrays", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.positions_f64 = positions_f64);
+  CREATE("stride below a row", HF_ERROR_TOO_SMALL, NO_INDEX, desc.position_stride = 11);
+  CREATE("stride of one byte", HF_ERROR_TOO_SMALL, NO_INDEX, desc.position_stride = 1);
+  CREATE("stride of floats for doubles", HF_ERROR_TOO_SMALL, NO_INDEX, (in_double(), desc.position_stride = 12));
+
+  CREATE("corner = vertex_count", HF_ERROR_OUT_OF_RANGE, 0, triangles[0] = CUT_VERTICES);
+  CREATE("corner UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 7, triangles[3 * 7 + 2] = UINT32_MAX);
+  CREATE("corner 2^31", HF_ERROR_OUT_OF_RANGE, 72, triangles[3 * 72 + 1] = 0x80000000u);
+  CREATE("vertex_count one too small", HF_ERROR_OUT_OF_RANGE, 64, desc.vertex_count = 50);
+  CREATE("NaN", HF_ERROR_NON_FINITE, 3, positions[9] = (float)NAN);
+  CREATE("infinity", HF_ERROR_NON_FINITE, 0, positions[2] = (float)INFINITY);
+  CREATE("minus infinity", HF_ERROR_NON_FINITE, 49, positions[3 * 49 + 1] = -(float)INFINITY);
+  CREATE("NaN in an isolated vertex", HF_ERROR_NON_FINITE, CUT_ISOLATED, positions[3 * CUT_ISOLATED] = (float)NAN);
+  CREATE("NaN in double", HF_ERROR_NON_FINITE, 12, (in_double(), positions_f64[36] = (double)NAN));
+  CREATE("infinity in double", HF_ERROR_NON_FINITE, 12, (in_double(), positions_f64[37] = -HUGE_VAL));
+  CREATE("wider than 1e300", HF_ERROR_TOO_LARGE, NO_INDEX, (in_double(), positions_f64[0] = 1e308, positions_f64[3] = -1e308));
+  CREATE("every triangle collapses", HF_ERROR_EMPTY, NO_INDEX, memset(triangles, 0, sizeof triangles));
+  CREATE("everything welds to a point", HF_ERROR_EMPTY, NO_INDEX, (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = 100.0f));
+  CREATE("all vertices at one place", HF_ERROR_EMPTY, NO_INDEX, memset(positions, 0, sizeof positions));
+
+  CREATE("2^32 - 1 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_count = UINT32_MAX);
+  CREATE("2^31 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_count = 0x80000000u);
+  CREATE("2^31 vertices, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX, (desc.vertex_count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
+  CREATE("2^32 - 1 triangles", HF_ERROR_TOO_LARGE, NO_INDEX, desc.triangle_count = UINT32_MAX);
+  CREATE("2^31 triangles, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX, (desc.triangle_count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
+  CREATE("above the vertex_limit", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_limit = CUT_VERTICES - 1);
+
+  scene_destroy(&scene);
+  finish_rows("meshes");
+}
+
+static void host_run(void* user, uint32_t count, void (*job)(void*, uint32_t), void* data) {
+  (void)user;
+  for (uint32_t i = 0; i < count; ++i) job(data, i);
+}
+
+static void hf_create_refuses_bad_options(void** state) {
+  (void)state;
+  scene_create(&scene);
+  CREATE("weld -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.weld = -1);
+  CREATE("weld 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.weld = 3);
+  CREATE("weld INT32_MAX", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.weld = INT32_MAX);
+  CREATE("operator -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.operator_kind = -1);
+  CREATE("operator 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.operator_kind = 3);
+  CREATE("engine -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.engine = -1);
+  CREATE("engine 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.engine = 3);
+  CREATE("engine INT32_MIN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.engine = INT32_MIN);
+  CREATE("ordering -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.ordering = -1);
+  CREATE("ordering 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.ordering = 3);
+  CREATE("weld tolerance 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.weld = HF_WELD_TOLERANCE);
+  CREATE("weld tolerance negative", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = -1.0f));
+  CREATE("weld tolerance NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = (float)NAN));
+  CREATE("weld tolerance infinite", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = (float)INFINITY));
+  CREATE("65 channels", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.channel_count = 65);
+  CREATE("2^32 - 1 channels", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.channel_count = UINT32_MAX);
+  CREATE("257 threads", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.thread_count = 257);
+  CREATE("2^32 - 1 threads", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.thread_count = UINT32_MAX);
+  CREATE("257 threads of the host", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (desc.thread_count = 257, desc.job_runner.run = host_run));
+  CREATE("penalty negative", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.penalty = -1.0);
+  CREATE("penalty NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.penalty = (double)NAN);
+  CREATE("allocator without release", HF_ERROR_NULL_POINTER, NO_INDEX, desc.allocator.release = NULL);
+  CREATE("allocator without allocate", HF_ERROR_NULL_POINTER, NO_INDEX, desc.allocator.allocate = NULL);
+  CREATE("allocator that refuses at once", HF_ERROR_OUT_OF_MEMORY, NO_INDEX, counter.refuse_at = counter.calls + 1);
+  counter.refuse_at = 0;
+  CREATE("progress destroyed", HF_ERROR_INVALID_HANDLE, NO_INDEX, desc.progress = scene.stale_progress);
+  CREATE("progress of another kind", HF_ERROR_INVALID_HANDLE, NO_INDEX, desc.progress = (hf_progress)(void*)scene.solver);
+  CREATE("progress cancelled before", HF_ERROR_CANCELLED, NO_INDEX, (desc.progress = scene.progress, hf_progress_cancel(scene.progress)));
+#ifndef HF_WITH_GPL
+  CREATE("updown in a build without it", HF_ERROR_UNSUPPORTED, NO_INDEX, desc.engine = HF_ENGINE_UPDOWN);
+  CREATE("METIS in a build without it", HF_ERROR_UNSUPPORTED, NO_INDEX, desc.ordering = HF_ORDERING_METIS);
+#endif
+  ROW("desc NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_create(NULL, &out));
+  out = NULL;
+#undef GOOD
+#define GOOD() (void)0
+  ROW("out_solver NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_create(&desc, NULL));
+  ROW("both NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_create(NULL, NULL));
+  scene_destroy(&scene);
+  finish_rows("options");
+}
+
+static void a_memory_limit_is_kept(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(150, 150);
+  hf_create_desc wide = surface_desc(&sheet);
+  hf_solver solver = NULL;
+  wide.memory_limit_mb = 1;
+  assert_code(HF_ERROR_OUT_OF_MEMORY, hf_create(&wide, &solver));
+  assert_null(solver);
+  wide.memory_limit_mb = 1000;
+  assert_ok(hf_create(&wide, &solver));
+  hf_statistics statistics;
+  HF_INIT(statistics);
+  assert_ok(hf_get_statistics(solver, &statistics));
+  assert_true(statistics.peak_memory_bytes < 1000.0 * 1048576.0);
+  hf_destroy(solver);
+  surface_free(&sheet);
+}
+
+static int solver_holds(void) { return solver_unchanged(&scene); }
+#undef UNCHANGED
+#define UNCHANGED solver_holds
+
+static void readers_of_base_and_mesh_refuse_null_and_small_arrays(void** state) {
+  (void)state;
+  scene_create(&scene);
+  uint32_t components[CUT_VERTICES + 1];
+  float fraction;
+  ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_clone(scene.solver, NULL));
+  ROW("out NULL and no handle", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_clone(NULL, NULL));
+  ROW("array NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_get_components(scene.solver, CUT_VERTICES, NULL));
+  ROW("array too small", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_get_components(scene.solver, CUT_VERTICES - 1, components));
+  ROW("array too large", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_get_components(scene.solver, CUT_VERTICES + 1, components));
+  ROW("array of 0", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_get_components(scene.solver, 0, components));
+  ROW("array of 2^32 - 1", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_get_components(scene.solver, UINT32_MAX, components));
+  ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_progress_create(NULL));
+  ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_progress_get(scene.progress, NULL));
+  ROW("handle NULL", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_progress_get(NULL, &fraction));
+  assert_code(HF_ERROR_NULL_POINTER, hf_get_error_detail(NULL));
+  scene_destroy(&scene);
+  finish_rows("readers");
+}
+
+static void every_code_has_its_name_and_others_are_unknown(void** state) {
+  (void)state;
+  unsigned named = 0;
+  for (hf_result code = -400; code <= 400; ++code) {
+    const char* name = hf_result_name(code);
+    assert_non_null(name);
+    if (strcmp(name, "unknown") != 0) ++named, assert_int_equal(strncmp(name, code ? "HF_ERROR_" : "HF_OK", code ? 9 : 5), 0);
+  }
+  assert_int_equal(named, 26);
+  assert_string_equal(hf_result_name(INT32_MIN), "unknown");
+  assert_string_equal(hf_result_name(INT32_MAX), "unknown");
+  assert_string_equal(hf_result_name(HF_ERROR_BUSY), "HF_ERROR_BUSY");
+}
+
+static void a_success_leaves_the_detail_of_the_last_failure(void** state) {
+  (void)state;
+  hf_error_detail before, after;
+  assert_code(HF_ERROR_INVALID_HANDLE, hf_record(NULL));
+  assert_ok(hf_get_error_detail(&before));
+  Surface sheet = surface_sheet(2, 2);
+  hf_solver solver = surface_solver(&sheet);
+  hf_destroy(solver);
+  assert_ok(hf_get_error_detail(&after));
+  assert_true(same_bits(&before, &after, sizeof before));
+  assert_string_equal(after.function, "hf_record");
+  surface_free(&sheet);
+}
+
+static void the_version_is_that_of_the_project(void** state) {
+  (void)state;
+  assert_int_equal(hf_get_version(), HF_EXPECTED_VERSION);
+}
+
+int main(void) {
+  hf_error_detail detail;
+  memset(&detail, 1, sizeof detail);
+  const hf_error_detail zero = {0, 0, {0}, {0}};
+  const int clean = hf_get_error_detail(&detail) == HF_OK && memcmp(&detail, &zero, sizeof zero) == 0;
+  if (!clean) return printf("before the first failure the detail must be all zero\n"), 1;
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(hf_create_refuses_bad_meshes),
+      cmocka_unit_test(hf_create_refuses_bad_options),
+      cmocka_unit_test(a_memory_limit_is_kept),
+      cmocka_unit_test(readers_of_base_and_mesh_refuse_null_and_small_arrays),
+      cmocka_unit_test(every_code_has_its_name_and_others_are_unknown),
+      cmocka_unit_test(a_success_leaves_the_detail_of_the_last_failure),
+      cmocka_unit_test(the_version_is_that_of_the_project),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
