@@ -35,10 +35,21 @@ void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_d
   if (edit.move_to.count != count) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
 }
 
+// Counts no list can have, refused before the lists are read or anything is allocated by them.
+void check_counts(const SolverObject& solver, const FieldEdit& edit) {
+  const std::uint32_t there = solver.field.sites().count();
+  if (edit.remove_count > there) fail(HF_ERROR_NO_SUCH_SITE, there, "%u sites to remove, but the solver has %u", edit.remove_count, there);
+  const std::uint32_t left = there - edit.remove_count;
+  if (edit.move_count > left) fail(HF_ERROR_NO_SUCH_SITE, left, "%u sites to move, but the solver has %u%s", edit.move_count, left, edit.remove_count ? " after the removals" : "");
+  if (edit.add.count > solver.site_limit) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u sites to add; the site_limit is %u", edit.add.count, solver.site_limit);
+}
+
 void apply(hf_solver handle, const FieldEdit& edit, std::uint32_t* out_sites) {
   const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
   const Changing changing(*solver);
+  check_counts(*solver, edit);
   solver->field.edit(edit, out_sites);
+  solver->site_count = solver->field.sites().count();
 }
 
 // Counts what no site reaches.
@@ -153,7 +164,7 @@ hf_result hf_edit_sites(hf_solver solver, const hf_edit_desc* given, uint32_t* o
 
 uint32_t hf_get_site_count(hf_solver solver) {
   const std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(solver), Kind::solver);
-  return object ? static_cast<SolverObject&>(*object).field.sites().count() : 0;
+  return object ? static_cast<SolverObject&>(*object).site_count.load() : 0;
 }
 
 hf_result hf_get_sites(hf_solver handle, hf_site_info* out_info) {
@@ -208,18 +219,18 @@ hf_result hf_solve_at(hf_solver handle, uint32_t vertex_count, const uint32_t* v
     const std::size_t m = static_cast<std::size_t>(solver->field.sites().channels());
     if (vertex_count > mesh.report.vertex_count) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices asked for; the mesh has %u", vertex_count, mesh.report.vertex_count);
     Vector<std::int32_t> inner(solver->memory.get());
+    Vector<std::uint32_t> place(solver->memory.get());  // in `inner`, of every vertex of the list
     for (std::uint32_t i = 0; i < vertex_count; ++i) {
       if (vertices[i] >= mesh.report.vertex_count) fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of the list: vertex %u, but there are %u vertices", i, vertices[i], mesh.report.vertex_count);
       const std::int32_t v = mesh.inner_of_given[vertices[i]];
+      place.push_back(v == Mesh::none ? HF_NO_INDEX : static_cast<std::uint32_t>(inner.size()));
       if (v != Mesh::none) inner.push_back(v);
     }
     Vector<double> values(inner.size() * m, solver->memory.get());
     solver->field.solve_at(inner, values.data());
-    std::size_t from = 0;
-    for (std::uint32_t i = 0; i < vertex_count; ++i) {
-      const bool isolated = mesh.inner_of_given[vertices[i]] == Mesh::none;
-      for (std::size_t c = 0; c < m; ++c) out_values[i * m + c] = isolated ? 0.0 : values[from * m + c];
-      from += !isolated;
+    // the list is not read again: the caller may have it overwritten by the output
+    for (std::size_t i = 0; i < vertex_count; ++i) {
+      for (std::size_t c = 0; c < m; ++c) out_values[i * m + c] = place[i] == HF_NO_INDEX ? 0.0 : values[place[i] * m + c];
     }
   });
 }
@@ -237,6 +248,7 @@ hf_result hf_undo(hf_solver handle) {
     const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
     const Changing changing(*solver);
     solver->field.undo();
+    solver->site_count = solver->field.sites().count();
   });
 }
 
@@ -245,6 +257,7 @@ hf_result hf_redo(hf_solver handle) {
     const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
     const Changing changing(*solver);
     solver->field.redo();
+    solver->site_count = solver->field.sites().count();
   });
 }
 

@@ -1,5 +1,6 @@
 // hf/deform.h: poses.
 #include <algorithm>
+#include <atomic>
 
 #include "capi/boundary.h"
 #include "capi/objects.h"
@@ -11,9 +12,10 @@ namespace hf::capi {
 namespace {
 
 struct PoseObject final : Object {
-  PoseObject(std::shared_ptr<Memory> owner, std::shared_ptr<Pose> given) : Object(Kind::pose), memory(std::move(owner)), pose(std::move(given)) {}
+  PoseObject(std::shared_ptr<Memory> owner, std::shared_ptr<Pose> given) : Object(Kind::pose), memory(std::move(owner)), pose(std::move(given)), handle_count(pose->handle_count()) {}
   std::shared_ptr<Memory> memory;  // outlives the pose
   std::shared_ptr<Pose> pose;
+  std::atomic<std::uint32_t> handle_count;  // of the last finished change: may be read while another thread changes the pose
 };
 
 hf_pose publish(std::shared_ptr<Pose> pose) {
@@ -83,6 +85,7 @@ hf_result hf_pose_add_handles(hf_pose handle, const hf_handles_desc* given, uint
     append_inner(mesh, start.back(), desc.region_vertices, "region_vertices", vertices);
     Vector<std::uint32_t> numbers(desc.handle_count, pose->memory.get());
     pose->pose->add_handles(start, vertices, numbers);
+    pose->handle_count = pose->pose->handle_count();
     if (out_handles) std::copy(numbers.begin(), numbers.end(), out_handles);
   });
 }
@@ -94,6 +97,7 @@ hf_result hf_pose_remove_handles(hf_pose handle, uint32_t handle_count, const ui
     require(handles, "handles");
     const Changing changing(*pose);
     pose->pose->remove_handles({handles, handle_count});
+    pose->handle_count = pose->pose->handle_count();
   });
 }
 
@@ -131,7 +135,7 @@ hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* ou
 
 uint32_t hf_pose_get_handle_count(hf_pose pose) {
   const std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(pose), Kind::pose);
-  return object ? static_cast<PoseObject&>(*object).pose->handle_count() : 0;
+  return object ? static_cast<PoseObject&>(*object).handle_count.load() : 0;
 }
 
 hf_result hf_pose_get_field(hf_pose handle, uint32_t number, float* out_values, uint32_t value_stride) {

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace hf {
 namespace {
 
-static const double field_prune = getenv("FP") ? atof(getenv("FP")) : 0.03;
+constexpr double field_prune = 0.2;     // of |phi|: fields that count at a vertex
 constexpr double weight_prune = 1e-3;   // of |W|: clusters that count at a vertex
 constexpr double piece_share = 0.02;    // of its band: smaller pieces of a band are dropped, never the largest
 constexpr double smallest_area = 2e-4;  // of its component: smaller clusters are dropped
@@ -52,7 +51,9 @@ class BandCutter {
       : core_(core), rest_(rest), reach_(reach), fields_(fields), options_(options), memory_(memory), entries_(&memory),
         partition_(3 * static_cast<std::size_t>(core.size()), memory), values_(memory, core.size()), share_(memory, core.size()),
         piece_area_(memory, 3 * static_cast<std::size_t>(core.size())), piece_cluster_(memory, 3 * static_cast<std::size_t>(core.size())),
-        others_(core.size(), 0.0, &memory) {}
+        others_(core.size(), 0.0, &memory) {
+    entries_.reserve(8 * static_cast<std::size_t>(core.size()));
+  }
 
   // Forgets all entries; the first cluster gets this number.
   void begin(std::int32_t first_cluster) noexcept { entries_.clear(), next_cluster_ = first_cluster; }
@@ -297,6 +298,8 @@ ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Re
   }
   ClusterWeights weights(memory);
   weights.handle_count = handle_count, weights.cluster_count = cutter.cluster_count(), weights.band_count = used.band_count;
+  weights.cluster.reserve(cutter.entries().size() + static_cast<std::size_t>(core.size()));
+  weights.weight.reserve(cutter.entries().size() + static_cast<std::size_t>(core.size()));
   WeightTable table(cutter.entries(), core.size(), memory);
   write_rows(table, core.mesh, reach, fields, weights);
   find_elastic(core.mesh, weights, memory);

@@ -146,7 +146,8 @@ template <class T, int C>
 inline void subtract_sums(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                           std::int32_t width, T* z, T* target, std::int32_t channels) noexcept {
   alignas(64) T sum[C * chunk_columns + 64];
-  const std::int32_t padded = (width + 63) & ~63;
+  // narrow supernodes with one right-hand side write their sums without reading them
+  const std::int32_t padded = C == 1 && stride <= 16 ? 0 : (width + 63) & ~63;
   for (int c = 0; c < C; ++c) {
     for (std::int32_t j = 0; j < padded; ++j) sum[c * chunk_columns + j] = 0;
   }
