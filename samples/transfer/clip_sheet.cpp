@@ -16,8 +16,11 @@ constexpr int columns = 6;  // frames beside the rest pose
 std::vector<float> colours_of(const Model& model, const FlatMesh& mesh) {
   std::vector<float> out;
   for (const FlatPart& part : mesh.parts) {
-    const int material = model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)].material;
-    const glm::vec4 base = material >= 0 && static_cast<size_t>(material) < model.materials.size() ? model.materials[static_cast<size_t>(material)].base_color : glm::vec4(0.6f);
+    const int material =
+        model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)].material;
+    const glm::vec4 base = material >= 0 && static_cast<size_t>(material) < model.materials.size()
+                               ? model.materials[static_cast<size_t>(material)].base_color
+                               : glm::vec4(0.6f);
     for (uint32_t v = part.first_vertex; v < part.first_vertex + part.vertex_count; ++v) {
       for (int c = 0; c < 3; ++c) {
         const float vertex = mesh.colors.empty() ? 1.0f : mesh.colors[v][c];
@@ -44,9 +47,11 @@ void add_row(const Row& row, const std::vector<std::vector<double>>& frames, std
   view.direction = point(row.axes.right + 0.22 * row.axes.up + 0.45 * row.axes.forward), view.up = point(row.axes.up);
   view.fixed_box = true, view.ground = true, view.ground_height = 1e300;
   const std::vector<double> rest = double_positions(row.mesh->positions);
-  for (size_t v = 0; v < row.mesh->positions.size(); ++v) view.ground_height = std::min(view.ground_height, glm::dot(row.mesh->positions[v], row.axes.up));
+  for (size_t v = 0; v < row.mesh->positions.size(); ++v)
+    view.ground_height = std::min(view.ground_height, glm::dot(row.mesh->positions[v], row.axes.up));
   std::vector<const std::vector<double>*> shown = {&rest};
-  for (int k = 0; k < columns; ++k) shown.push_back(&frames[static_cast<size_t>(k) * (frames.size() - 1) / static_cast<size_t>(columns)]);
+  for (int k = 0; k < columns; ++k)
+    shown.push_back(&frames[static_cast<size_t>(k) * (frames.size() - 1) / static_cast<size_t>(columns)]);
   bool empty = true;
   for (const std::vector<double>* positions : shown) extend(view.box, empty, *positions);
   SurfaceLook look;
@@ -60,7 +65,8 @@ void add_row(const Row& row, const std::vector<std::vector<double>>& frames, std
 
 }  // namespace
 
-void write_clip_sheet(const std::filesystem::path& file, const Session& session, const Model& source, const Model& target, const std::vector<PlayedClip>& clips) {
+void write_clip_sheet(const std::filesystem::path& file, const Session& session, const Model& source,
+                      const Model& target, const std::vector<PlayedClip>& clips) {
   const Row from{&session.source_flat(), colours_of(source, session.source_flat()), session.source_axes()};
   const Row to{&session.target_flat(), colours_of(target, session.target_flat()), session.target_axes()};
   std::vector<Picture> tiles;
@@ -71,7 +77,9 @@ void write_clip_sheet(const std::filesystem::path& file, const Session& session,
       labels.push_back(name + ", rest");
       for (int k = 0; k < columns; ++k) {
         char label[64];
-        std::snprintf(label, sizeof label, "%.2f s", clip.clip.times[static_cast<size_t>(k) * (clip.clip.times.size() - 1) / static_cast<size_t>(columns)]);
+        std::snprintf(
+            label, sizeof label, "%.2f s",
+            clip.clip.times[static_cast<size_t>(k) * (clip.clip.times.size() - 1) / static_cast<size_t>(columns)]);
         labels.emplace_back(label);
       }
     }

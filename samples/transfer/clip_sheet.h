@@ -1,4 +1,5 @@
-// A contact sheet of a transfer: the rest pose and frames over the clip, the source above, the target below, seen from the side.
+// A contact sheet of a transfer: the rest pose and frames over the clip, the source above, the target below, seen from
+// the side.
 #ifndef HF_SAMPLES_TRANSFER_CLIP_SHEET_H
 #define HF_SAMPLES_TRANSFER_CLIP_SHEET_H
 
@@ -10,8 +11,8 @@
 namespace samples {
 
 // Two rows per clip. Throws std::runtime_error when the file cannot be written.
-void write_clip_sheet(const std::filesystem::path& file, const Session& session, const Model& source, const Model& target,
-                      const std::vector<PlayedClip>& clips);
+void write_clip_sheet(const std::filesystem::path& file, const Session& session, const Model& source,
+                      const Model& target, const std::vector<PlayedClip>& clips);
 
 }  // namespace samples
 

@@ -1,4 +1,5 @@
-// hf_transfer SOURCE.glb TARGET.glb --pairs PAIRS.json -o OUT.glb: the motion of one model played on another. See README.md.
+// hf_transfer SOURCE.glb TARGET.glb --pairs PAIRS.json -o OUT.glb: the motion of one model played on another. See
+// README.md.
 #include <cstdio>
 #include <exception>
 
@@ -21,11 +22,13 @@ void list_joints(const std::filesystem::path& file) {
   const RegionFinder finder(model, mesh, {});
   std::printf("%s: %u vertices, box diagonal %.4f\n", file.string().c_str(), mesh.vertex_count(), finder.diagonal());
   for (const std::string& line : finder.describe_joints()) std::printf("  %s\n", line.c_str());
-  for (const Animation& clip : model.animations) std::printf("  clip \"%s\", %.2f s\n", clip.name.c_str(), clip_duration(clip));
+  for (const Animation& clip : model.animations)
+    std::printf("  clip \"%s\", %.2f s\n", clip.name.c_str(), clip_duration(clip));
 }
 
 // Plays the clips, writes file and sheet, reads the file again.
-RunReport run(Session& session, const Model& source, const Model& target, const TransferCommand& command, bool edited, ProgressBar& bar) {
+RunReport run(Session& session, const Model& source, const Model& target, const TransferCommand& command, bool edited,
+              ProgressBar& bar) {
   const auto name = [&](const std::filesystem::path& file) { return edited ? edited_name(file) : file; };
   std::vector<PlayedClip> clips;
   for (const Animation* animation : choose_clips(source, command.clip)) {
@@ -64,14 +67,18 @@ int transfer(const TransferCommand& command) {
   nlohmann::json json = to_json(first);
   bool factorised_again = false;
   if (!command.edits.empty()) {
-    const uint32_t before_source = session.source_statistics().factorisation_count, before_target = session.target_statistics().factorisation_count;
+    const uint32_t before_source = session.source_statistics().factorisation_count,
+                   before_target = session.target_statistics().factorisation_count;
     bar.begin("editing pairs");
     session.edit(edits);
     bar.end(std::to_string(edits.remove.size()) + " out, " + std::to_string(edits.add.size()) + " in");
     const RunReport second = run(session, source, target, command, true, bar);
     char heading[256];
-    std::snprintf(heading, sizeof heading, "edited in the session: %zu pairs out, %zu in, %.2f ms and %.2f ms for fields and clusters; factorisations source %u -> %u, target %u -> %u",
-                  edits.remove.size(), edits.add.size(), second.edit_ms, second.prepare_ms, before_source, second.source_factorisations, before_target, second.target_factorisations);
+    std::snprintf(heading, sizeof heading,
+                  "edited in the session: %zu pairs out, %zu in, %.2f ms and %.2f ms for fields and clusters; "
+                  "factorisations source %u -> %u, target %u -> %u",
+                  edits.remove.size(), edits.add.size(), second.edit_ms, second.prepare_ms, before_source,
+                  second.source_factorisations, before_target, second.target_factorisations);
     text += to_text(second, heading);
     json["edited"] = to_json(second);
     factorised_again = before_source != second.source_factorisations || before_target != second.target_factorisations;

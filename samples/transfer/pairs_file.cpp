@@ -38,7 +38,8 @@ std::vector<PairEntry> read_list(const JsonReader& json) {
   for (size_t i = 0; i < json.size(); ++i) {
     out.push_back(read_pair(json.at(i)));
     for (size_t k = 0; k < i; ++k) {
-      if (out[k].name == out[i].name) json.at(i).at("name").fail("the name \"" + out[i].name + "\" is taken by an earlier pair");
+      if (out[k].name == out[i].name)
+        json.at(i).at("name").fail("the name \"" + out[i].name + "\" is taken by an earlier pair");
     }
   }
   return out;
@@ -56,7 +57,8 @@ void name_file(std::vector<PairEntry>& pairs, const std::filesystem::path& file)
 }  // namespace
 
 uint32_t PairEntry::flags() const {
-  return (anchor ? uint32_t{HF_PAIR_ANCHOR} : 0u) | (foot ? uint32_t{HF_PAIR_FOOT} : 0u) | (trunk ? uint32_t{HF_PAIR_TRUNK} : 0u) | (align ? 0u : uint32_t{HF_PAIR_NO_ALIGNMENT});
+  return (anchor ? uint32_t{HF_PAIR_ANCHOR} : 0u) | (foot ? uint32_t{HF_PAIR_FOOT} : 0u) |
+         (trunk ? uint32_t{HF_PAIR_TRUNK} : 0u) | (align ? 0u : uint32_t{HF_PAIR_NO_ALIGNMENT});
 }
 
 PairsFile read_pairs(const std::filesystem::path& file) {
@@ -70,12 +72,14 @@ PairsFile read_pairs(const std::filesystem::path& file) {
     const JsonReader settings = root.at("settings");
     settings.expect_only({"mode", "clusters", "width", "scale", "alignment_degrees"});
     const std::string mode = settings.string_or("mode", "fields");
-    if (mode != "fields" && mode != "paper") settings.at("mode").fail("expected \"fields\" or \"paper\", found \"" + mode + "\"");
+    if (mode != "fields" && mode != "paper")
+      settings.at("mode").fail("expected \"fields\" or \"paper\", found \"" + mode + "\"");
     out.settings.paper = mode == "paper";
     out.settings.clusters = static_cast<uint32_t>(settings.integer_or("clusters", 1, 512, 0));
     if (settings.has("width")) out.settings.width = settings.at("width").number(0.005, 0.5);
     if (settings.has("scale")) out.settings.scale = settings.at("scale").number(1e-6, 1e6);
-    if (settings.has("alignment_degrees")) out.settings.alignment_degrees = settings.at("alignment_degrees").number(-1, 180);
+    if (settings.has("alignment_degrees"))
+      out.settings.alignment_degrees = settings.at("alignment_degrees").number(-1, 180);
   }
   out.pairs = read_list(root.at("pairs"));
   name_file(out.pairs, file);
@@ -93,7 +97,8 @@ EditsFile read_edits(const std::filesystem::path& file) {
   }
   if (root.has("add")) out.add = read_list(root.at("add"));
   name_file(out.add, file);
-  if (out.remove.empty() && out.add.empty()) root.fail("nothing to do: give \"remove\" (names of pairs) or \"add\" (pairs)");
+  if (out.remove.empty() && out.add.empty())
+    root.fail("nothing to do: give \"remove\" (names of pairs) or \"add\" (pairs)");
   return out;
 }
 

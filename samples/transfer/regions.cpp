@@ -15,7 +15,8 @@ glm::dvec3 read_direction(const JsonReader& json) {
   const std::string text = json.string();
   const std::string names = "xyz";
   const size_t axis = text.size() == 2 ? names.find(text[1]) : std::string::npos;
-  if (axis == std::string::npos || (text[0] != '+' && text[0] != '-')) json.fail("expected +x, -x, +y, -y, +z or -z, found \"" + text + "\"");
+  if (axis == std::string::npos || (text[0] != '+' && text[0] != '-'))
+    json.fail("expected +x, -x, +y, -y, +z or -z, found \"" + text + "\"");
   glm::dvec3 out(0);
   out[static_cast<int>(axis)] = text[0] == '+' ? 1 : -1;
   return out;
@@ -51,7 +52,8 @@ Selector read_selector(const JsonReader& json) {
   if (json.has("extreme")) {
     out.extreme = json.at("extreme").string();
     const std::vector<std::string> words = {"up", "down", "forward", "back", "left", "right", "away"};
-    if (std::find(words.begin(), words.end(), out.extreme) == words.end()) json.at("extreme").fail("expected one of " + listed(words, 7) + ", found \"" + out.extreme + "\"");
+    if (std::find(words.begin(), words.end(), out.extreme) == words.end())
+      json.at("extreme").fail("expected one of " + listed(words, 7) + ", found \"" + out.extreme + "\"");
     if (out.joints.empty()) json.fail("\"extreme\" needs \"joint\" or \"joints\": the vertices among which to look");
   }
   if (json.has("position")) {
@@ -62,24 +64,31 @@ Selector read_selector(const JsonReader& json) {
   if (json.has("radius")) out.radius = json.at("radius").number(0, 1), out.has_radius = true;
   if (json.has("vertices")) {
     const JsonReader list = json.at("vertices");
-    for (size_t i = 0; i < list.size(); ++i) out.vertices.push_back(static_cast<uint32_t>(list.at(i).integer(0, 0xFFFFFFFEll)));
-    if (!out.joints.empty() || out.has_position) json.fail("\"vertices\" stands alone; use a list of selectors to join several");
+    for (size_t i = 0; i < list.size(); ++i)
+      out.vertices.push_back(static_cast<uint32_t>(list.at(i).integer(0, 0xFFFFFFFEll)));
+    if (!out.joints.empty() || out.has_position)
+      json.fail("\"vertices\" stands alone; use a list of selectors to join several");
   }
-  if (out.joints.empty() && !out.has_position && out.vertices.empty()) json.fail("expected \"joint\", \"joints\", \"position\" or \"vertices\"");
+  if (out.joints.empty() && !out.has_position && out.vertices.empty())
+    json.fail("expected \"joint\", \"joints\", \"position\" or \"vertices\"");
   return out;
 }
 
-RegionFinder::RegionFinder(const Model& model, const FlatMesh& mesh, const Axes& axes) : model_(model), mesh_(mesh), axes_(axes), owner_(mesh.positions.size(), -1) {
-  for (const glm::dmat4& matrix : global_matrices(model, rest_pose(model))) node_place_.push_back(glm::dvec3(matrix[3]));
+RegionFinder::RegionFinder(const Model& model, const FlatMesh& mesh, const Axes& axes)
+    : model_(model), mesh_(mesh), axes_(axes), owner_(mesh.positions.size(), -1) {
+  for (const glm::dmat4& matrix : global_matrices(model, rest_pose(model)))
+    node_place_.push_back(glm::dvec3(matrix[3]));
   for (const FlatPart& part : mesh.parts) {
     const int skin = model.nodes[static_cast<size_t>(part.node)].skin;
-    const Primitive& primitive = model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
+    const Primitive& primitive =
+        model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
     for (uint32_t v = 0; v < part.vertex_count; ++v) {
       int& owner = owner_[part.first_vertex + v];
       owner = part.node;
       if (skin < 0 || primitive.influences.empty()) continue;
       const Influences& influences = primitive.influences[v];
-      const size_t best = static_cast<size_t>(std::max_element(influences.weights.begin(), influences.weights.end()) - influences.weights.begin());
+      const size_t best = static_cast<size_t>(std::max_element(influences.weights.begin(), influences.weights.end()) -
+                                              influences.weights.begin());
       owner = model.skins[static_cast<size_t>(skin)].joints[influences.joints[best]];
     }
   }
@@ -105,14 +114,17 @@ std::vector<uint32_t> RegionFinder::owned_by(const Selector& selector) const {
       for (const Skin& skin : model_.skins) {
         for (const int joint : skin.joints) names.push_back(model_.nodes[static_cast<size_t>(joint)].name);
       }
-      throw std::runtime_error(selector.where + ": " + model_.name + " has no joint \"" + name + "\"; it has " + listed(names, 60));
+      throw std::runtime_error(selector.where + ": " + model_.name + " has no joint \"" + name + "\"; it has " +
+                               listed(names, 60));
     }
     wanted[static_cast<size_t>(node)] = 1;
   }
   if (selector.with_children) {
     for (size_t n = 0; n < model_.nodes.size(); ++n) {
       for (int up = model_.nodes[n].parent; up >= 0; up = model_.nodes[static_cast<size_t>(up)].parent) {
-        if (std::any_of(selector.joints.begin(), selector.joints.end(), [&](const std::string& name) { return find_node(model_, name) == up; })) wanted[n] = 1;
+        if (std::any_of(selector.joints.begin(), selector.joints.end(),
+                        [&](const std::string& name) { return find_node(model_, name) == up; }))
+          wanted[n] = 1;
       }
     }
   }
@@ -121,13 +133,15 @@ std::vector<uint32_t> RegionFinder::owned_by(const Selector& selector) const {
     if (owner_[v] >= 0 && wanted[static_cast<size_t>(owner_[v])]) out.push_back(v);
   }
   if (out.empty()) {
-    throw std::runtime_error(selector.where + ": no vertex of " + model_.name + " has its largest weight on " + listed(selector.joints, 8) + "; name another joint (--joints FILE lists them)");
+    throw std::runtime_error(selector.where + ": no vertex of " + model_.name + " has its largest weight on " +
+                             listed(selector.joints, 8) + "; name another joint (--joints FILE lists them)");
   }
   return out;
 }
 
 glm::dvec3 RegionFinder::place_of(const Selector& selector) const {
-  return selector.joints.empty() ? selector.position : node_place_[static_cast<size_t>(find_node(model_, selector.joints.front()))];
+  return selector.joints.empty() ? selector.position
+                                 : node_place_[static_cast<size_t>(find_node(model_, selector.joints.front()))];
 }
 
 // The vertex a ball grows from.
@@ -177,7 +191,9 @@ Region RegionFinder::find(const std::vector<Selector>& selectors) const {
     if (!selector.vertices.empty()) {
       for (const uint32_t v : selector.vertices) {
         if (v >= mesh_.vertex_count()) {
-          throw std::runtime_error(selector.where + ".vertices: " + model_.name + " has no vertex " + std::to_string(v) + "; its vertices are 0 to " + std::to_string(mesh_.vertex_count() - 1));
+          throw std::runtime_error(selector.where + ".vertices: " + model_.name + " has no vertex " +
+                                   std::to_string(v) + "; its vertices are 0 to " +
+                                   std::to_string(mesh_.vertex_count() - 1));
         }
         vertices.insert(vertices.end(), copies_[mesh_.welded[v]].begin(), copies_[mesh_.welded[v]].end());
       }
@@ -195,7 +211,8 @@ Region RegionFinder::find(const std::vector<Selector>& selectors) const {
       } else {
         // the copies of an owned vertex may lean to another joint: take them along
         std::vector<uint32_t> all;
-        for (const uint32_t v : vertices) all.insert(all.end(), copies_[mesh_.welded[v]].begin(), copies_[mesh_.welded[v]].end());
+        for (const uint32_t v : vertices)
+          all.insert(all.end(), copies_[mesh_.welded[v]].begin(), copies_[mesh_.welded[v]].end());
         vertices.swap(all);
       }
     }
@@ -215,12 +232,16 @@ int RegionFinder::separate(std::vector<Region>& regions, size_t first) const {
     for (const uint32_t v : regions[r].vertices) {
       int& best = winner[mesh_.welded[v]];
       if (best >= 0 && static_cast<size_t>(best) < first) continue;
-      if (best < 0 || glm::distance(mesh_.positions[v], regions[r].seed) < glm::distance(mesh_.positions[v], regions[static_cast<size_t>(best)].seed)) best = static_cast<int>(r);
+      if (best < 0 || glm::distance(mesh_.positions[v], regions[r].seed) <
+                          glm::distance(mesh_.positions[v], regions[static_cast<size_t>(best)].seed))
+        best = static_cast<int>(r);
     }
   }
   for (size_t r = first; r < regions.size(); ++r) {
     auto& list = regions[r].vertices;
-    list.erase(std::remove_if(list.begin(), list.end(), [&](uint32_t v) { return winner[mesh_.welded[v]] != static_cast<int>(r); }), list.end());
+    list.erase(std::remove_if(list.begin(), list.end(),
+                              [&](uint32_t v) { return winner[mesh_.welded[v]] != static_cast<int>(r); }),
+               list.end());
     if (list.empty()) return static_cast<int>(r);
   }
   return -1;
@@ -232,16 +253,21 @@ std::vector<std::string> RegionFinder::describe_joints() const {
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
     size_t count = 0;
     for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
-      if (owner_[v] == static_cast<int>(n)) low = glm::min(low, mesh_.positions[v]), high = glm::max(high, mesh_.positions[v]), ++count;
+      if (owner_[v] == static_cast<int>(n))
+        low = glm::min(low, mesh_.positions[v]), high = glm::max(high, mesh_.positions[v]), ++count;
     }
     bool is_joint = count > 0;
-    for (const Skin& skin : model_.skins) is_joint = is_joint || std::find(skin.joints.begin(), skin.joints.end(), static_cast<int>(n)) != skin.joints.end();
+    for (const Skin& skin : model_.skins)
+      is_joint =
+          is_joint || std::find(skin.joints.begin(), skin.joints.end(), static_cast<int>(n)) != skin.joints.end();
     if (!is_joint) continue;
     char line[256];
     if (count > 0) {
-      std::snprintf(line, sizeof line, "%-24s %6zu vertices, x %.3f..%.3f y %.3f..%.3f z %.3f..%.3f", model_.nodes[n].name.c_str(), count, low.x, high.x, low.y, high.y, low.z, high.z);
+      std::snprintf(line, sizeof line, "%-24s %6zu vertices, x %.3f..%.3f y %.3f..%.3f z %.3f..%.3f",
+                    model_.nodes[n].name.c_str(), count, low.x, high.x, low.y, high.y, low.z, high.z);
     } else {
-      std::snprintf(line, sizeof line, "%-24s      - at %.3f %.3f %.3f", model_.nodes[n].name.c_str(), node_place_[n].x, node_place_[n].y, node_place_[n].z);
+      std::snprintf(line, sizeof line, "%-24s      - at %.3f %.3f %.3f", model_.nodes[n].name.c_str(), node_place_[n].x,
+                    node_place_[n].y, node_place_[n].z);
     }
     lines.emplace_back(line);
   }

@@ -1,8 +1,9 @@
 // Regions of vertices on a model, chosen the ways a person would name them: by joint, by place, by vertex list.
 //
-// A joint owns the vertices whose largest skin weight is its own (a mesh without a skin is owned by its node). A ball takes the vertices within a radius of a
-// seed vertex that are connected to it inside the ball, so that a ball on one foot never takes the other foot. Regions are lists of flat vertices
-// (flat_mesh.h), all copies of a welded vertex included.
+// A joint owns the vertices whose largest skin weight is its own (a mesh without a skin is owned by its node). A ball
+// takes the vertices within a radius of a seed vertex that are connected to it inside the ball, so that a ball on one
+// foot never takes the other foot. Regions are lists of flat vertices (flat_mesh.h), all copies of a welded vertex
+// included.
 #ifndef HF_SAMPLES_TRANSFER_REGIONS_H
 #define HF_SAMPLES_TRANSFER_REGIONS_H
 
@@ -24,14 +25,14 @@ struct Axes {
 Axes read_axes(const JsonReader& json);
 
 struct Selector {
-  std::vector<std::string> joints;    // owners; may be empty
-  bool with_children = false;         // the joints below them too
-  std::vector<uint32_t> vertices;     // as given in the file: flat vertices
-  std::string extreme;                // up, down, forward, back, left, right, away; empty: none
+  std::vector<std::string> joints;  // owners; may be empty
+  bool with_children = false;       // the joints below them too
+  std::vector<uint32_t> vertices;   // as given in the file: flat vertices
+  std::string extreme;              // up, down, forward, back, left, right, away; empty: none
   bool has_position = false, has_radius = false;
   glm::dvec3 position{0, 0, 0};
-  double radius = 0.03;               // of the box diagonal
-  std::string where;                  // key path, for messages
+  double radius = 0.03;  // of the box diagonal
+  std::string where;     // key path, for messages
 };
 
 // An object with joint or joints, extreme, children, position, radius, vertices.
@@ -46,11 +47,12 @@ class RegionFinder {
  public:
   RegionFinder(const Model& model, const FlatMesh& mesh, const Axes& axes);
 
-  // The union of the selectors; throws std::runtime_error that names the key path, the joint or vertex, and what there is instead.
+  // The union of the selectors; throws std::runtime_error that names the key path, the joint or vertex, and what there
+  // is instead.
   Region find(const std::vector<Selector>& selectors) const;
 
-  // A vertex that several regions claim goes to the one with the nearest seed; regions[first..] give way to those before `first`.
-  // Returns the index of a region that is left empty, or -1.
+  // A vertex that several regions claim goes to the one with the nearest seed; regions[first..] give way to those
+  // before `first`. Returns the index of a region that is left empty, or -1.
   int separate(std::vector<Region>& regions, size_t first = 0) const;
 
   // One line per joint: name, vertices owned, place.

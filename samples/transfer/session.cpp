@@ -17,7 +17,8 @@ void check(hf_result result, const std::string& what) {
   if (result == HF_OK) return;
   hf_error_detail detail;
   hf_get_error_detail(&detail);
-  throw std::runtime_error(what + ": " + (detail.code == result ? detail.message : hf_result_name(result)) + " (" + hf_result_name(result) + ")");
+  throw std::runtime_error(what + ": " + (detail.code == result ? detail.message : hf_result_name(result)) + " (" +
+                           hf_result_name(result) + ")");
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -34,7 +35,8 @@ hf_solver make_solver(const FlatMesh& mesh, const std::string& name, uint32_t th
   desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
   desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
   // exporters round copies of a vertex differently now and then
-  desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = static_cast<float>(1e-5 * std::max({extent.x, extent.y, extent.z, 1e-20}));
+  desc.weld = HF_WELD_TOLERANCE,
+  desc.weld_tolerance = static_cast<float>(1e-5 * std::max({extent.x, extent.y, extent.z, 1e-20}));
   desc.thread_count = threads;
   hf_solver solver = nullptr;
   check(hf_create(&desc, &solver), name);
@@ -43,7 +45,8 @@ hf_solver make_solver(const FlatMesh& mesh, const std::string& name, uint32_t th
 
 void copy_axes(const Axes& axes, float (&rows)[9]) {
   for (int c = 0; c < 3; ++c) {
-    rows[c] = static_cast<float>(axes.right[c]), rows[3 + c] = static_cast<float>(axes.up[c]), rows[6 + c] = static_cast<float>(axes.forward[c]);
+    rows[c] = static_cast<float>(axes.right[c]), rows[3 + c] = static_cast<float>(axes.up[c]),
+    rows[6 + c] = static_cast<float>(axes.forward[c]);
   }
 }
 
@@ -55,7 +58,8 @@ glm::dvec3 centre_of(const Region& region, const std::vector<double>& xyz) {
 
 double lowest_of(const Region& region, const std::vector<double>& xyz, const glm::dvec3& up) {
   double low = std::numeric_limits<double>::infinity();
-  for (const uint32_t v : region.vertices) low = std::min(low, glm::dot(up, glm::dvec3(xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2])));
+  for (const uint32_t v : region.vertices)
+    low = std::min(low, glm::dot(up, glm::dvec3(xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2])));
   return low;
 }
 
@@ -115,17 +119,20 @@ void Session::add(const std::vector<PairEntry>& entries) {
     }
     source.push_back(source_finder_.find(entry.source)), target.push_back(target_finder_.find(entry.target));
   }
-  const int covered_source = source_finder_.separate(source, before), covered_target = target_finder_.separate(target, before);
+  const int covered_source = source_finder_.separate(source, before),
+            covered_target = target_finder_.separate(target, before);
   for (const int covered : {covered_source, covered_target}) {
     if (covered < 0) continue;
-    throw std::runtime_error("pair \"" + entries[static_cast<size_t>(covered) - before].name + "\": its region on the " + (covered_source >= 0 ? "source" : "target") +
+    throw std::runtime_error("pair \"" + entries[static_cast<size_t>(covered) - before].name +
+                             "\": its region on the " + (covered_source >= 0 ? "source" : "target") +
                              " lies inside those of other pairs; move it or make the radius smaller");
   }
   std::vector<uint32_t> source_counts, target_counts, source_vertices, target_vertices, flags, numbers(entries.size());
   for (size_t i = 0; i < entries.size(); ++i) {
     const auto &a = source[before + i].vertices, &b = target[before + i].vertices;
     source_counts.push_back(static_cast<uint32_t>(a.size())), target_counts.push_back(static_cast<uint32_t>(b.size()));
-    source_vertices.insert(source_vertices.end(), a.begin(), a.end()), target_vertices.insert(target_vertices.end(), b.begin(), b.end());
+    source_vertices.insert(source_vertices.end(), a.begin(), a.end()),
+        target_vertices.insert(target_vertices.end(), b.begin(), b.end());
     flags.push_back(entries[i].flags());
   }
   hf_pairs_desc desc;
@@ -135,7 +142,8 @@ void Session::add(const std::vector<PairEntry>& entries) {
   desc.target_counts = target_counts.data(), desc.target_vertices = target_vertices.data();
   desc.flags = flags.data();
   check(hf_transfer_add_pairs(transfer_, &desc, numbers.data()), "the pairs");
-  for (size_t i = 0; i < entries.size(); ++i) live_.push_back({entries[i], source[before + i], target[before + i], numbers[i]});
+  for (size_t i = 0; i < entries.size(); ++i)
+    live_.push_back({entries[i], source[before + i], target[before + i], numbers[i]});
 }
 
 void Session::edit(const EditsFile& edits) {
@@ -143,7 +151,8 @@ void Session::edit(const EditsFile& edits) {
   std::vector<uint32_t> numbers;
   std::vector<Live> left = live_;
   for (const std::string& name : edits.remove) {
-    const auto found = std::find_if(left.begin(), left.end(), [&](const Live& live) { return live.entry.name == name; });
+    const auto found =
+        std::find_if(left.begin(), left.end(), [&](const Live& live) { return live.entry.name == name; });
     if (found == left.end()) throw std::runtime_error("there is no pair \"" + name + "\" to remove");
     numbers.push_back(found->number);
     left.erase(found);
@@ -157,7 +166,8 @@ void Session::edit(const EditsFile& edits) {
   prepare();
 }
 
-// Solves the fields and so on, by asking; and finds the scale: a shifted rest frame shifts the target by scale times as much.
+// Solves the fields and so on, by asking; and finds the scale: a shifted rest frame shifts the target by scale times as
+// much.
 void Session::prepare() {
   const auto start = std::chrono::steady_clock::now();
   cluster_count();
@@ -169,7 +179,8 @@ void Session::prepare() {
   apply(posed, moved);
   // the shift is along y of the source; on the target it lies along the same of its own axes
   glm::dvec3 mean(0);
-  for (size_t i = 0; i < moved.size(); ++i) mean[static_cast<int>(i % 3)] += (moved[i] - still[i]) * 3 / static_cast<double>(moved.size());
+  for (size_t i = 0; i < moved.size(); ++i)
+    mean[static_cast<int>(i % 3)] += (moved[i] - still[i]) * 3 / static_cast<double>(moved.size());
   scale_ = glm::length(mean) / report.bounding_box_diagonal;
 }
 
@@ -209,7 +220,8 @@ PlayedClip Session::play(const Animation& animation, double rate, ProgressBar& b
     for (uint32_t j = 0; j < joints; ++j) {
       const double* q = rotations.data() + 4 * j;
       const glm::dquat rotation(q[3], q[0], q[1], q[2]);
-      const glm::dvec3 pivot(pivots[3 * j], pivots[3 * j + 1], pivots[3 * j + 2]), place(places[3 * j], places[3 * j + 1], places[3 * j + 2]);
+      const glm::dvec3 pivot(pivots[3 * j], pivots[3 * j + 1], pivots[3 * j + 2]),
+          place(places[3 * j], places[3 * j + 1], places[3 * j + 2]);
       out.clip.rotations.push_back(rotation), out.clip.translations.push_back(place - rotation * pivot);
     }
     out.source_frames.push_back(posed), out.target_frames.push_back(target);
@@ -223,7 +235,8 @@ PlayedClip Session::play(const Animation& animation, double rate, ProgressBar& b
 
 void Session::measure_feet(const PlayedClip& played, FootReport& feet) const {
   const double box = target_mesh().bounding_box_diagonal;
-  const std::vector<double> source_rest = double_positions(source_flat_.positions), target_rest = double_positions(target_flat_.positions);
+  const std::vector<double> source_rest = double_positions(source_flat_.positions),
+                            target_rest = double_positions(target_flat_.positions);
   glm::dmat3 to_target;  // right, up, forward of the source to those of the target
   {
     const glm::dmat3 source(file_.source_axes.right, file_.source_axes.up, file_.source_axes.forward);
@@ -234,11 +247,17 @@ void Session::measure_feet(const PlayedClip& played, FootReport& feet) const {
   for (const Live& live : live_) {
     if (!live.entry.foot) continue;
     for (size_t f = 0; f < played.source_frames.size(); ++f) {
-      const glm::dvec3 path = scale_ * (to_target * (centre_of(live.source, played.source_frames[f]) - centre_of(live.source, source_rest)));
-      const double miss = glm::distance(centre_of(live.target, played.target_frames[f]), centre_of(live.target, target_rest) + path) / box;
+      const glm::dvec3 path =
+          scale_ *
+          (to_target * (centre_of(live.source, played.source_frames[f]) - centre_of(live.source, source_rest)));
+      const double miss =
+          glm::distance(centre_of(live.target, played.target_frames[f]), centre_of(live.target, target_rest) + path) /
+          box;
       feet.path_mean += miss, feet.path_max = std::max(feet.path_max, miss), ++count;
-      const double from = scale_ * std::min(0.0, lowest_of(live.source, played.source_frames[f], file_.source_axes.up) - lowest_of(live.source, source_rest, file_.source_axes.up));
-      const double to = lowest_of(live.target, played.target_frames[f], file_.target_axes.up) - lowest_of(live.target, target_rest, file_.target_axes.up);
+      const double from = scale_ * std::min(0.0, lowest_of(live.source, played.source_frames[f], file_.source_axes.up) -
+                                                     lowest_of(live.source, source_rest, file_.source_axes.up));
+      const double to = lowest_of(live.target, played.target_frames[f], file_.target_axes.up) -
+                        lowest_of(live.target, target_rest, file_.target_axes.up);
       feet.sunk = std::max(feet.sunk, (from - to) / box);
     }
   }
@@ -249,13 +268,16 @@ SkinDescription Session::skin() {
   const uint32_t joints = cluster_count();
   SkinDescription out;
   std::vector<double> pivots(3 * joints);
-  out.vertex_joints.resize(size_t{4} * target_flat_.vertex_count()), out.vertex_weights.resize(out.vertex_joints.size());
+  out.vertex_joints.resize(size_t{4} * target_flat_.vertex_count()),
+      out.vertex_weights.resize(out.vertex_joints.size());
   hf_skin_info info;
   HF_INIT(info);
   info.weight_count = 4;
-  info.pivots = pivots.data(), info.vertex_joints = out.vertex_joints.data(), info.vertex_weights = out.vertex_weights.data();
+  info.pivots = pivots.data(), info.vertex_joints = out.vertex_joints.data(),
+  info.vertex_weights = out.vertex_weights.data();
   check(hf_transfer_get_skin(transfer_, &info), "the skin");
-  for (uint32_t j = 0; j < joints; ++j) out.joints.push_back({"cluster_" + std::to_string(j), {pivots[3 * j], pivots[3 * j + 1], pivots[3 * j + 2]}});
+  for (uint32_t j = 0; j < joints; ++j)
+    out.joints.push_back({"cluster_" + std::to_string(j), {pivots[3 * j], pivots[3 * j + 1], pivots[3 * j + 2]}});
   return out;
 }
 
@@ -268,7 +290,8 @@ std::vector<PairReport> Session::pairs() {
     PairReport report;
     report.name = live.entry.name;
     report.source_vertices = live.source.vertices.size(), report.target_vertices = live.target.vertices.size();
-    report.anchor = live.entry.anchor || live.entry.foot, report.foot = live.entry.foot, report.trunk = live.entry.trunk, report.aligned = info.aligned != 0;
+    report.anchor = live.entry.anchor || live.entry.foot, report.foot = live.entry.foot,
+    report.trunk = live.entry.trunk, report.aligned = info.aligned != 0;
     report.source_leak = info.source_leak, report.target_leak = info.target_leak, report.confidence = info.confidence;
     report.alignment_degrees = info.alignment_angle < 0 ? -1 : info.alignment_angle * 180 / 3.14159265358979323846;
     out.push_back(report);
@@ -284,16 +307,26 @@ std::vector<std::string> Session::warnings() {
   bool feet = false, trunk = false;
   for (const PairReport& pair : pairs()) {
     feet = feet || pair.foot, trunk = trunk || (pair.trunk && pair.anchor);
-    if (pair.confidence < 0.3) out.push_back("pair \"" + pair.name + "\": few source vertices stand behind its clusters; the motion there may be coarse");
-    if (pair.source_leak > 1e-6 || pair.target_leak > 1e-6) out.push_back("pair \"" + pair.name + "\": its fields leak; report it with the model");
-    if (pair.aligned) out.push_back("pair \"" + pair.name + "\": the limb points " + std::to_string(static_cast<int>(pair.alignment_degrees + 0.5)) +
-                                    " degrees elsewhere at rest and is aligned with the source; \"align\": false keeps its own direction");
+    if (pair.confidence < 0.3)
+      out.push_back("pair \"" + pair.name +
+                    "\": few source vertices stand behind its clusters; the motion there may be coarse");
+    if (pair.source_leak > 1e-6 || pair.target_leak > 1e-6)
+      out.push_back("pair \"" + pair.name + "\": its fields leak; report it with the model");
+    if (pair.aligned)
+      out.push_back(
+          "pair \"" + pair.name + "\": the limb points " +
+          std::to_string(static_cast<int>(pair.alignment_degrees + 0.5)) +
+          " degrees elsewhere at rest and is aligned with the source; \"align\": false keeps its own direction");
   }
-  if (feet && !trunk) out.push_back("feet are anchored but no trunk pair is: the trunk may float; give withers and rump with \"trunk\" and \"anchor\"");
+  if (feet && !trunk)
+    out.push_back(
+        "feet are anchored but no trunk pair is: the trunk may float; give withers and rump with \"trunk\" and "
+        "\"anchor\"");
   for (const bool is_source : {true, false}) {
     const hf_mesh_report report = is_source ? source_mesh() : target_mesh();
     if (report.component_count > 1) {
-      out.push_back((is_source ? source_ : target_).name + " has " + std::to_string(report.component_count) + " loose parts; those without a pair follow what they lie next to");
+      out.push_back((is_source ? source_ : target_).name + " has " + std::to_string(report.component_count) +
+                    " loose parts; those without a pair follow what they lie next to");
     }
   }
   return out;

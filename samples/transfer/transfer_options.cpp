@@ -11,7 +11,8 @@ double number_of(const std::string& option, const std::string& text, double low,
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   if (text.empty() || *end != 0 || !(value >= low && value <= high)) {
-    throw std::runtime_error(option + " takes a number from " + std::to_string(low) + " to " + std::to_string(high) + ", not \"" + text + "\"");
+    throw std::runtime_error(option + " takes a number from " + std::to_string(low) + " to " + std::to_string(high) +
+                             ", not \"" + text + "\"");
   }
   return value;
 }
@@ -83,7 +84,8 @@ TransferCommand parse_command(int count, char** arguments) {
   if (out.help || !out.joints.empty()) return out;
   if (files.size() != 2) throw std::runtime_error("two models are needed, the source and the target; see --help");
   out.source = files[0], out.target = files[1];
-  if (out.pairs.empty()) throw std::runtime_error("--pairs is needed: which places of the two models correspond; see --help");
+  if (out.pairs.empty())
+    throw std::runtime_error("--pairs is needed: which places of the two models correspond; see --help");
   if (out.output.empty()) throw std::runtime_error("-o is needed: the file to write; see --help");
   return out;
 }
@@ -106,7 +108,8 @@ std::vector<const Animation*> choose_clips(const Model& model, const std::string
   const unsigned long index = std::strtoul(wanted.c_str(), &end, 10);
   if (*end == 0 && index < model.animations.size()) return {&model.animations[index]};
   std::string names;
-  for (size_t i = 0; i < model.animations.size(); ++i) names += (i ? ", " : "") + std::to_string(i) + " \"" + model.animations[i].name + "\"";
+  for (size_t i = 0; i < model.animations.size(); ++i)
+    names += (i ? ", " : "") + std::to_string(i) + " \"" + model.animations[i].name + "\"";
   throw std::runtime_error("--clip: " + model.name + " has no clip \"" + wanted + "\"; it has " + names);
 }
 

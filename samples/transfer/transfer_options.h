@@ -13,8 +13,8 @@ namespace samples {
 struct TransferCommand {
   std::filesystem::path source, target, pairs, output;
   std::filesystem::path sheet, report, json, edits, joints;  // empty: not asked for
-  std::string clip;          // name, index or all; empty: the first
-  double rate = 0;           // frames per second; 0: 30, or 60 for clips below a second
+  std::string clip;                                          // name, index or all; empty: the first
+  double rate = 0;                                           // frames per second; 0: 30, or 60 for clips below a second
   unsigned threads = 1;
   bool quiet = false, help = false;
 };

@@ -36,9 +36,12 @@ ReplayReport measure_replay(const Model& written, const std::vector<PlayedClip>&
       const std::vector<glm::dvec3> keys = posed_positions(written, mesh, animation, clip.clip.times[f]);
       const std::vector<double>& expected = clip.target_frames[f];
       for (size_t v = 0; v < keys.size(); ++v) {
-        out.key_max = std::max(out.key_max, glm::distance(keys[v], glm::dvec3(expected[3 * v], expected[3 * v + 1], expected[3 * v + 2])) / box);
+        out.key_max = std::max(
+            out.key_max,
+            glm::distance(keys[v], glm::dvec3(expected[3 * v], expected[3 * v + 1], expected[3 * v + 2])) / box);
       }
-      // a straight line through a frame and the one after next, against the frame between: an upper bound of what half-way keys miss
+      // a straight line through a frame and the one after next, against the frame between: an upper bound of what
+      // half-way keys miss
       if (f + 2 >= clip.clip.times.size()) continue;
       const std::vector<double>&next = clip.target_frames[f + 1], &after = clip.target_frames[f + 2];
       for (size_t i = 0; i < expected.size(); ++i) {
@@ -62,7 +65,8 @@ RunReport make_report(Session& session, const std::vector<PlayedClip>& clips, co
   }
   out.clusters = session.cluster_count(), out.scale = session.scale();
   out.setup_ms = session.setup_ms(), out.prepare_ms = session.prepare_ms(), out.edit_ms = session.edit_ms();
-  out.source_factorisations = session.source_statistics().factorisation_count, out.target_factorisations = session.target_statistics().factorisation_count;
+  out.source_factorisations = session.source_statistics().factorisation_count,
+  out.target_factorisations = session.target_statistics().factorisation_count;
   return out;
 }
 
@@ -70,23 +74,33 @@ std::string to_text(const RunReport& report, const std::string& heading) {
   std::string out = heading + "\n";
   print(out, "  output        %s\n", report.output.c_str());
   print(out, "  clusters      %u, scale %.4f\n", report.clusters, report.scale);
-  print(out, "  factorisation %.1f ms both surfaces; numeric factorisations so far: source %u, target %u\n", report.setup_ms, report.source_factorisations, report.target_factorisations);
+  print(out, "  factorisation %.1f ms both surfaces; numeric factorisations so far: source %u, target %u\n",
+        report.setup_ms, report.source_factorisations, report.target_factorisations);
   print(out, "  pairs         %.1f ms fields, clusters and translations\n", report.prepare_ms);
   print(out, "  pair                     vertices     leak      rest angle  confidence  kind\n");
   for (const PairReport& pair : report.pairs) {
     std::string kind;
-    for (const auto& [is, word] : {std::pair<bool, const char*>(pair.foot, " foot"), {pair.anchor && !pair.foot, " anchor"}, {pair.trunk, " trunk"}, {pair.aligned, " aligned"}}) {
+    for (const auto& [is, word] : {std::pair<bool, const char*>(pair.foot, " foot"),
+                                   {pair.anchor && !pair.foot, " anchor"},
+                                   {pair.trunk, " trunk"},
+                                   {pair.aligned, " aligned"}}) {
       if (is) kind += word;
     }
-    const std::string angle = pair.alignment_degrees < 0 ? "-" : std::to_string(static_cast<int>(pair.alignment_degrees + 0.5));
-    print(out, "  %-22s %5zu %5zu   %.1e   %10s  %10.2f %s\n", pair.name.c_str(), pair.source_vertices, pair.target_vertices, std::max(pair.source_leak, pair.target_leak), angle.c_str(),
-          pair.confidence, kind.c_str());
+    const std::string angle =
+        pair.alignment_degrees < 0 ? "-" : std::to_string(static_cast<int>(pair.alignment_degrees + 0.5));
+    print(out, "  %-22s %5zu %5zu   %.1e   %10s  %10.2f %s\n", pair.name.c_str(), pair.source_vertices,
+          pair.target_vertices, std::max(pair.source_leak, pair.target_leak), angle.c_str(), pair.confidence,
+          kind.c_str());
   }
   for (size_t c = 0; c < report.clip_names.size(); ++c) {
-    print(out, "  clip \"%s\": %zu frames, %.3f ms each; feet off their scaled path by %.4f (largest %.4f), sunk by %.4f of the box\n", report.clip_names[c].c_str(), report.frames[c],
-          report.frame_ms[c], report.feet[c].path_mean, report.feet[c].path_max, report.feet[c].sunk);
+    print(out,
+          "  clip \"%s\": %zu frames, %.3f ms each; feet off their scaled path by %.4f (largest %.4f), sunk by %.4f of "
+          "the box\n",
+          report.clip_names[c].c_str(), report.frames[c], report.frame_ms[c], report.feet[c].path_mean,
+          report.feet[c].path_max, report.feet[c].sunk);
   }
-  print(out, "  read back     %.1e of the box at keys; half-way between keys about %.1e\n", report.replay.key_max, report.replay.half_rms);
+  print(out, "  read back     %.1e of the box at keys; half-way between keys about %.1e\n", report.replay.key_max,
+        report.replay.half_rms);
   for (const std::string& warning : report.warnings) out += "  note: " + warning + "\n";
   return out;
 }
@@ -94,17 +108,18 @@ std::string to_text(const RunReport& report, const std::string& heading) {
 nlohmann::json to_json(const RunReport& report) {
   nlohmann::json pairs = nlohmann::json::array(), clips = nlohmann::json::array();
   for (const PairReport& pair : report.pairs) {
-    pairs.push_back({{"name", pair.name},
-                     {"source_vertices", pair.source_vertices},
-                     {"target_vertices", pair.target_vertices},
-                     {"anchor", pair.anchor},
-                     {"foot", pair.foot},
-                     {"trunk", pair.trunk},
-                     {"aligned", pair.aligned},
-                     {"source_leak", pair.source_leak},
-                     {"target_leak", pair.target_leak},
-                     {"rest_angle_degrees", pair.alignment_degrees < 0 ? nlohmann::json() : nlohmann::json(pair.alignment_degrees)},
-                     {"confidence", pair.confidence}});
+    pairs.push_back(
+        {{"name", pair.name},
+         {"source_vertices", pair.source_vertices},
+         {"target_vertices", pair.target_vertices},
+         {"anchor", pair.anchor},
+         {"foot", pair.foot},
+         {"trunk", pair.trunk},
+         {"aligned", pair.aligned},
+         {"source_leak", pair.source_leak},
+         {"target_leak", pair.target_leak},
+         {"rest_angle_degrees", pair.alignment_degrees < 0 ? nlohmann::json() : nlohmann::json(pair.alignment_degrees)},
+         {"confidence", pair.confidence}});
   }
   for (size_t c = 0; c < report.clip_names.size(); ++c) {
     clips.push_back({{"name", report.clip_names[c]},

@@ -10,8 +10,9 @@
 
 namespace samples {
 
-// How well a written file, read again, gives back the computed frames, in box diagonals of the target: the largest miss at keys, and an estimate of the
-// root mean square half-way between keys (a quarter of the second difference of the frames).
+// How well a written file, read again, gives back the computed frames, in box diagonals of the target: the largest miss
+// at keys, and an estimate of the root mean square half-way between keys (a quarter of the second difference of the
+// frames).
 struct ReplayReport {
   double key_max = 0, half_rms = 0;
 };

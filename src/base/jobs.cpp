@@ -39,9 +39,10 @@ struct Batch {
 
 }  // namespace
 
-// Workers sleep on a condition variable between batches; one batch runs at a time, later callers wait their turn.
+// Workers sleep on a condition variable between batches. One batch has the workers at a time: a caller that comes meanwhile (another clone, or a job
+// that has work to split itself) does its batch alone, so nobody waits and nothing can lock up.
 struct JobRunner::Pool {
-  std::mutex entry;  // one batch at a time
+  std::atomic<bool> taken{false};
   std::mutex mutex;
   std::condition_variable wake, done;
   Batch* batch = nullptr;
@@ -83,7 +84,7 @@ struct JobRunner::Pool {
     }
   }
   void run(Batch& work) {
-    std::lock_guard<std::mutex> turn(entry);
+    if (taken.exchange(true, std::memory_order_acquire)) return work.work();
     {
       std::lock_guard<std::mutex> lock(mutex);
       batch = &work;
@@ -94,6 +95,7 @@ struct JobRunner::Pool {
     std::unique_lock<std::mutex> lock(mutex);
     batch = nullptr;
     done.wait(lock, [&] { return busy == 0; });
+    taken.store(false, std::memory_order_release);
   }
 };
 

@@ -24,6 +24,8 @@ struct Table {
 };
 Table table;  // trivially initialised; owns nothing while no handle lives
 
+thread_local const Reading* innermost_reading;  // on this thread's stack
+
 std::uintptr_t encode(std::size_t index, std::uintptr_t generation, Kind kind) noexcept {
   return (static_cast<std::uintptr_t>(kind) << (index_bits + generation_bits)) | (generation << index_bits) | static_cast<std::uintptr_t>(index);
 }
@@ -38,7 +40,7 @@ Slot* slot_of(std::uintptr_t handle, Kind kind) noexcept {
 
 }  // namespace
 
-Reading::Reading(Object& object) : object_(object) {
+Reading::Reading(Object& object) : object_(object), outer_(innermost_reading) {
   std::int32_t users = object.users_.load(std::memory_order_relaxed);
   do {
     if (users < 0) {
@@ -46,12 +48,26 @@ Reading::Reading(Object& object) : object_(object) {
       fail(HF_ERROR_BUSY, HF_NO_INDEX, "another thread is changing this object; wait for it, or use a clone");
     }
   } while (!object.users_.compare_exchange_weak(users, users + 1, std::memory_order_acquire));
+  innermost_reading = this;
+}
+
+Reading::~Reading() {
+  innermost_reading = outer_;
+  object_.users_.fetch_sub(1, std::memory_order_release);
+}
+
+bool Reading::by_this_thread(const Object& object) noexcept {
+  for (const Reading* reading = innermost_reading; reading; reading = reading->outer_) {
+    if (&reading->object_ == &object) return true;
+  }
+  return false;
 }
 
 Changing::Changing(Object& object) : object_(object) {
   std::int32_t users = 0;
   if (!object.users_.compare_exchange_strong(users, Object::writer, std::memory_order_acquire)) {
     if (object.owner_.load(std::memory_order_relaxed) == std::this_thread::get_id()) fail(HF_ERROR_REENTRANT, HF_NO_INDEX, "called from a callback of a call that is changing this object; return first");
+    if (Reading::by_this_thread(object)) fail(HF_ERROR_REENTRANT, HF_NO_INDEX, "called from a callback of a call that is reading this object; return first");
     fail(HF_ERROR_BUSY, HF_NO_INDEX, "another thread is using this object; wait for it, or use a clone");
   }
   object.owner_.store(std::this_thread::get_id(), std::memory_order_relaxed);

@@ -35,12 +35,15 @@ class Object {
 class Reading {
  public:
   explicit Reading(Object& object);
-  ~Reading() { object_.users_.fetch_sub(1, std::memory_order_release); }
+  ~Reading();
   Reading(const Reading&) = delete;
   Reading& operator=(const Reading&) = delete;
+  // Whether this thread is inside a call that reads the object.
+  static bool by_this_thread(const Object& object) noexcept;
 
  private:
   Object& object_;
+  const Reading* outer_;  // the reading call whose callback this call came from
 };
 
 class Changing {

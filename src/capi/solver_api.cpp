@@ -108,7 +108,13 @@ hf_result hf_create(const hf_create_desc* given, hf_solver* out_solver) {
     auto memory = std::allocate_shared<Memory>(HookAllocator<Memory>(desc.allocator), desc.allocator, std::uint64_t{desc.memory_limit_mb} << 20);
     Memory& pool = *memory;
     auto jobs = make_shared_in<JobRunner>(pool, options.threads, desc.job_runner);
-    auto core = Core::make(input, options.core, memory, std::move(jobs));
+    std::shared_ptr<const Core> core;
+    try {
+      core = Core::make(input, options.core, memory, std::move(jobs));
+    } catch (const Error& error) {
+      if (error.code() == HF_ERROR_CANCELLED && progress) progress->progress.reset();  // one cancel stops one call
+      throw;
+    }
     const auto solver = make_owner_in<SolverObject>(memory, std::move(core), options.engine, options.penalty, static_cast<std::int32_t>(options.channels), options.site_limit);
     count_given(*solver);
     *out_solver = reinterpret_cast<hf_solver>(insert(solver));

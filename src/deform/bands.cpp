@@ -6,7 +6,7 @@
 namespace hf {
 namespace {
 
-constexpr double field_prune = 0.2;     // of |phi|: fields that count at a vertex
+constexpr double field_prune = 0.3;     // of |phi|: fields that count at a vertex
 constexpr double weight_prune = 1e-3;   // of |W|: clusters that count at a vertex
 constexpr double piece_share = 0.02;    // of its band: smaller pieces of a band are dropped, never the largest
 constexpr double smallest_area = 2e-4;  // of its component: smaller clusters are dropped

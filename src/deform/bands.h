@@ -4,7 +4,7 @@
 // Cohen-Or and Xiong 2009, Section 5.2) or 2 (no banding in the blended surface). B_{K+1} is the handle itself, B_0 the other handles, with
 // shares phi_j / (1 - phi): handles are clusters, and the vertices of a handle belong to it alone. Each connected piece of
 // {B_k > 0}, 0 < k <= K, is a cluster of its own. With two handles in a component one field says all; with more, each field i counts
-// with beta_i = max(0, phi_i - 0.2 |phi|), a prune without cracks (measured on a scan with three handles: 1.5 per cent more energy
+// with beta_i = max(0, phi_i - 0.3 |phi|), a prune without cracks (measured on a scan with three handles: 2 per cent more energy
 // than with 0.03, half the weights; with 16 handles a quarter). A component with one handle moves with it, one without stays.
 // Cost: O(n) per field. On failure nothing is left behind.
 #pragma once

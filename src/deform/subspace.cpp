@@ -7,7 +7,7 @@ namespace hf {
 namespace {
 
 constexpr double rigidity = 1e-3;            // eps, relative to the mean diagonal of the cluster's linear part
-constexpr double edge_samples = 150000;      // about this many edges are used
+constexpr double edge_samples = 60000;       // about this many edges are used
 constexpr std::int32_t few_edges = 1500;     // clusters with fewer are never sampled
 
 // z_c(e) of one edge, clusters ascending.

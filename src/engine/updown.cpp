@@ -54,7 +54,10 @@ class UpdownSolver final : public SiteSolver {
     factor_ = other.factor_ ? cholmod_copy_factor(other.factor_, &other.common_.c) : nullptr;
     if (other.factor_ && !factor_) throw std::bad_alloc();
   }
-  ~UpdownSolver() override { cholmod_free_factor(&factor_, &common_.c); }
+  ~UpdownSolver() override {
+    cholmod_free_factor(&factor_, &common_.c);
+    for (cholmod_dense** array : {&work_.x, &work_.y, &work_.e}) cholmod_free_dense(array, &common_.c);
+  }
   UpdownSolver& operator=(const UpdownSolver&) = delete;
 
   void edit(const SiteEdit& edit) override {
@@ -101,7 +104,8 @@ class UpdownSolver final : public SiteSolver {
       for (std::size_t c = 0; c < m; ++c) centre[at(site.component) * m + c] += values[slot * m + c] / count_[at(site.component)];
     }
     // right-hand side R R' s, by columns
-    Vector<double> right(n * m, 0.0, &memory), u(n * m, 0.0, &memory);
+    Workspace right(core_->workspaces, n * m);
+    std::fill_n(right.data(), n * m, 0.0);
     for (std::size_t slot = 0; slot < sites_.size(); ++slot) {
       const Site& site = sites_[slot];
       if (site.component < 0) continue;
@@ -113,12 +117,15 @@ class UpdownSolver final : public SiteSolver {
         }
       }
     }
-    back_substitute(right.data(), m, u.data());
+    const double* u = back_substitute(right.data(), m);
+    Workspace refined(core_->workspaces, edits_ > refine_after ? n * m : 0);
     if (edits_ > refine_after) {
-      Vector<double> residual(n * m, &memory), correction(n * m, 0.0, &memory);
-      for (std::size_t c = 0; c < m; ++c) subtract_product(right.data() + c * n, u.data() + c * n, residual.data() + c * n);
-      back_substitute(residual.data(), m, correction.data());
-      for (std::size_t i = 0; i < u.size(); ++i) u[i] += correction[i];
+      std::copy_n(u, n * m, refined.data());
+      Workspace residual(core_->workspaces, n * m);
+      for (std::size_t c = 0; c < m; ++c) subtract_product(right.data() + c * n, refined.data() + c * n, residual.data() + c * n);
+      const double* correction = back_substitute(residual.data(), m);
+      for (std::size_t i = 0; i < n * m; ++i) refined[i] += correction[i];
+      u = refined.data();
     }
     if (field) {
       for (std::size_t v = 0; v < n; ++v) {
@@ -249,15 +256,14 @@ class UpdownSolver final : public SiteSolver {
     return change(coming, true) && change(leaving, false);
   }
 
-  void back_substitute(const double* right, std::size_t columns, double* u) const {
+  // The solution stays in CHOLMOD's own array until the next call.
+  const double* back_substitute(const double* right, std::size_t columns) const {
     cholmod_dense b{};
     b.nrow = b.d = at(core_->size()), b.ncol = columns, b.nzmax = b.nrow * columns;
     b.x = const_cast<double*>(right), b.xtype = CHOLMOD_REAL, b.dtype = CHOLMOD_DOUBLE;
-    cholmod_dense* x = cholmod_solve(CHOLMOD_A, factor_, &b, &common_.c);
-    if (!x) throw_status(common_.c);
-    std::copy_n(static_cast<double*>(x->x), b.nzmax, u);
-    cholmod_free_dense(&x, &common_.c);
+    if (!cholmod_solve2(CHOLMOD_A, factor_, &b, nullptr, &work_.x, nullptr, &work_.y, &work_.e, &common_.c)) throw_status(common_.c);
     sweeps_ += 2;
+    return static_cast<double*>(work_.x->x);
   }
 
   // residual = right - (K + R R' + grounds) u, with K in difference form
@@ -288,6 +294,10 @@ class UpdownSolver final : public SiteSolver {
   mutable std::mutex mutex_;
   mutable Common common_;
   cholmod_factor* factor_ = nullptr;
+  struct Work {  // of cholmod_solve2, kept from solve to solve
+    cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;
+  };
+  mutable Work work_;
   std::uint32_t edits_ = 0, factorisations_ = 0;
   mutable std::atomic<std::uint32_t> sweeps_{0};
 };

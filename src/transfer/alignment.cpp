@@ -13,7 +13,9 @@ struct Window {
   double low, high;
 };
 
-std::size_t row_maximum(const double* row, std::size_t width) noexcept { return static_cast<std::size_t>(std::max_element(row, row + width) - row); }
+std::size_t row_maximum(const double* row, std::size_t width) noexcept {
+  return static_cast<std::size_t>(std::max_element(row, row + width) - row);
+}
 
 }  // namespace
 
@@ -29,7 +31,9 @@ Mat3 checked_axes(const double (&rows)[9], const char* side) {
   const Vec3 third = cross(row[0], row[1]) - row[2];
   bool good = norm(third) < 1e-3;
   for (const Vec3& r : row) good = good && std::abs(norm(r) - 1) < 1e-3;
-  if (!good) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the %s axes must be three orthogonal unit rows right, up, forward with right x up = forward", side);
+  if (!good)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "the %s axes must be three orthogonal unit rows right, up, forward with right x up = forward", side);
   // exactly orthonormal
   Mat3 axes;
   for (int i = 0; i < 3; ++i) axes.m[i][0] = row[i].x, axes.m[i][1] = row[i].y, axes.m[i][2] = row[i].z;
@@ -55,7 +59,8 @@ double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns) n
       for (std::size_t v = 0; v < side.area.size(); ++v) {
         const double* row = side.field.data() + v * width;
         const double u = row[column];
-        if (u <= window.low || u >= window.high || row_maximum(row, width) != static_cast<std::size_t>(column)) continue;
+        if (u <= window.low || u >= window.high || row_maximum(row, width) != static_cast<std::size_t>(column))
+          continue;
         height += side.area[v] * (dot(side.mesh->positions[v], up) - ground), area += side.area[v];
       }
       if (!(area > 0)) continue;

@@ -8,10 +8,10 @@
 namespace hf {
 namespace {
 
-constexpr std::int32_t nearest_count = 6;      // source vertices a kernel reaches at one width
-constexpr double cut = 2.5;                       // kernels end at so many widths
+constexpr std::int32_t nearest_count = 6;  // source vertices a kernel reaches at one width
+constexpr double cut = 2.5;                // kernels end at so many widths
 constexpr double broad_factor = 3;
-constexpr double flattest = 1e-3, steepest = 50;  // cotangent weights that count
+constexpr double flattest = 1e-3, steepest = 50;             // cotangent weights that count
 constexpr std::size_t most_narrow = 1536, most_broad = 384;  // vertices of a kernel; more are thinned evenly
 constexpr double paper_exponent = 4;
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
@@ -38,8 +38,8 @@ struct NearestCentres {
 constexpr std::int32_t block = 2048;
 
 // Farthest-point sampling of the rows, starting at the row with the largest maximum.
-void sample_centres(const ClusterOptions& options, std::int32_t width, Span<const double> field, Clusters& out, Vector<NearestCentres>& nearest, Memory& memory,
-                    JobRunner& jobs) {
+void sample_centres(const ClusterOptions& options, std::int32_t width, Span<const double> field, Clusters& out,
+                    Vector<NearestCentres>& nearest, Memory& memory, JobRunner& jobs) {
   const std::size_t n = field.size() / at(width);
   const std::int32_t wanted = options.cluster_count ? options.cluster_count : 80;
   NearestCentres empty;
@@ -83,7 +83,8 @@ void weigh_by_distance(const ClusterOptions& options, const Vector<NearestCentre
     Candidate candidates[blend_count];
     std::int32_t count = 0;
     // relative to the nearest, less the value at the fifth: continuous where the four change
-    const double last = near.cluster[blend_count] < 0 ? 0.0 : std::exp(-sharpness * (near.distance[blend_count] - near.distance[0]));
+    const double last =
+        near.cluster[blend_count] < 0 ? 0.0 : std::exp(-sharpness * (near.distance[blend_count] - near.distance[0]));
     for (std::int32_t i = 0; i < blend_count && near.cluster[i] >= 0; ++i) {
       candidates[count].cluster = near.cluster[i];
       candidates[count++].weight = std::exp(-sharpness * (near.distance[i] - near.distance[0])) - last;
@@ -157,7 +158,8 @@ void append_edges(const KernelRow& row, const Core& core, Vector<double>& kernel
     for (std::int32_t e = core.topology.neighbour_start[at(v)]; e < core.topology.neighbour_start[at(v) + 1]; ++e) {
       const std::int32_t u = core.topology.neighbour[at(e)];
       if (u < v && kernel[at(u)] > 0) continue;
-      const double w = std::clamp(core.weights[at(core.topology.neighbour_edge[at(e)])], flattest, steepest) * (kernel[at(v)] + kernel[at(u)]);
+      const double w = std::clamp(core.weights[at(core.topology.neighbour_edge[at(e)])], flattest, steepest) *
+                       (kernel[at(v)] + kernel[at(u)]);
       const Vec3 d = core.mesh.positions[at(v)] - core.mesh.positions[at(u)];
       out.first.push_back(v), out.second.push_back(u), out.weight.push_back(w);
       trace += w * dot(d, d);
@@ -170,7 +172,8 @@ void append_edges(const KernelRow& row, const Core& core, Vector<double>& kernel
 void append_vertices(const KernelRow& row, const Core& core, SourceKernels& out) {
   const std::size_t begin = out.weight.size();
   Vec3 centroid;
-  for (std::size_t i = 0; i < row.vertex.size(); ++i) centroid = centroid + row.weight[i] * core.mesh.positions[at(row.vertex[i])];
+  for (std::size_t i = 0; i < row.vertex.size(); ++i)
+    centroid = centroid + row.weight[i] * core.mesh.positions[at(row.vertex[i])];
   double trace = 0;
   for (std::size_t i = 0; i < row.vertex.size(); ++i) {
     const Vec3 p = core.mesh.positions[at(row.vertex[i])] - centroid;
@@ -188,10 +191,12 @@ struct ClusterRows {
 };
 
 // Gaussian kernels around a centre; widths adapt to how dense the source is there.
-void centre_rows(const ClusterOptions& options, const double* centre, std::int32_t width, Span<const double> field, ClusterRows& out, Memory& memory) {
+void centre_rows(const ClusterOptions& options, const double* centre, std::int32_t width, Span<const double> field,
+                 ClusterRows& out, Memory& memory) {
   const std::size_t n = field.size() / at(width);
   Vector<double> distance(n, &memory), sorted(&memory);
-  for (std::size_t v = 0; v < n; ++v) distance[v] = std::sqrt(squared_distance(field.data() + v * at(width), centre, width));
+  for (std::size_t v = 0; v < n; ++v)
+    distance[v] = std::sqrt(squared_distance(field.data() + v * at(width), centre, width));
   sorted = distance;
   const double base = options.kernel_width;
   for (const bool is_broad : {false, true}) {
@@ -215,7 +220,8 @@ void centre_rows(const ClusterOptions& options, const double* centre, std::int32
 }
 
 // The paper's: the band's own weight, and the three bands around it for the broad kernel.
-void band_rows(std::int32_t h, std::int32_t band, std::int32_t bands, std::int32_t width, Span<const double> field, Span<const double> area, ClusterRows& out) {
+void band_rows(std::int32_t h, std::int32_t band, std::int32_t bands, std::int32_t width, Span<const double> field,
+               Span<const double> area, ClusterRows& out) {
   std::int32_t nearest = 0;
   double best = 2;
   const double level = static_cast<double>(band) / (bands - 1);
@@ -223,15 +229,20 @@ void band_rows(std::int32_t h, std::int32_t band, std::int32_t bands, std::int32
     const double u = field[v * at(width) + at(h)];
     const double narrow = band_weight(u, band, bands);
     const double around = 1 - std::abs(u * (bands - 1) - band) / 3;
-    if (narrow > 0) out.narrow.vertex.push_back(static_cast<std::int32_t>(v)), out.narrow.weight.push_back(area[v] * narrow), ++out.support;
-    if (around > 0) out.broad.vertex.push_back(static_cast<std::int32_t>(v)), out.broad.weight.push_back(area[v] * around * (u * u + 1e-6));
+    if (narrow > 0)
+      out.narrow.vertex.push_back(static_cast<std::int32_t>(v)), out.narrow.weight.push_back(area[v] * narrow),
+          ++out.support;
+    if (around > 0)
+      out.broad.vertex.push_back(static_cast<std::int32_t>(v)),
+          out.broad.weight.push_back(area[v] * around * (u * u + 1e-6));
     if (std::abs(u - level) < best) best = std::abs(u - level), nearest = static_cast<std::int32_t>(v);
   }
   finish(out.narrow, most_narrow, nearest), finish(out.broad, most_broad, nearest);
 }
 
 // Mass and centroid of every cluster on the target; clusters nobody uses are left out and the others renumbered.
-void measure_target(Span<const double> area, const Mesh& mesh, Clusters& out, Vector<std::int32_t>& kept, Memory& memory) {
+void measure_target(Span<const double> area, const Mesh& mesh, Clusters& out, Vector<std::int32_t>& kept,
+                    Memory& memory) {
   Vector<double> mass(at(out.count), 0.0, &memory);
   Vector<Vec3> pivot(at(out.count), &memory);
   for (std::size_t v = 0; v < area.size(); ++v) {
@@ -255,7 +266,9 @@ void measure_target(Span<const double> area, const Mesh& mesh, Clusters& out, Ve
 }  // namespace
 
 void write_weights(Candidate* candidates, std::int32_t count, std::int32_t* joint, float* weight) noexcept {
-  std::sort(candidates, candidates + count, [](const Candidate& a, const Candidate& b) { return a.weight != b.weight ? a.weight > b.weight : a.cluster < b.cluster; });
+  std::sort(candidates, candidates + count, [](const Candidate& a, const Candidate& b) {
+    return a.weight != b.weight ? a.weight > b.weight : a.cluster < b.cluster;
+  });
   count = std::min(count, blend_count);
   double sum = 0;
   for (std::int32_t i = 0; i < count; ++i) sum += candidates[i].weight;
@@ -283,8 +296,9 @@ Vector<double> area_shares(const Mesh& mesh, Memory& memory) {
   return area;
 }
 
-Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, Span<const double> source_field, Span<const double> source_area, const Core& source_core,
-                       Span<const double> target_field, Span<const double> target_area, const Mesh& target_mesh, Memory& memory, JobRunner& jobs) {
+Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, Span<const double> source_field,
+                       Span<const double> source_area, const Core& source_core, Span<const double> target_field,
+                       Span<const double> target_area, const Mesh& target_mesh, Memory& memory, JobRunner& jobs) {
   Clusters out(memory);
   out.field_count = field_count;
   const std::size_t n = target_area.size();
@@ -324,7 +338,8 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
       for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
         const std::size_t c = at(out.joint[i]);
         const double w = target_area[v] * static_cast<double>(out.weight[i]) / out.mass[c];
-        for (std::int32_t h = 0; h < field_count; ++h) centres[c * at(field_count) + at(h)] += w * target_field[v * at(field_count) + at(h)];
+        for (std::int32_t h = 0; h < field_count; ++h)
+          centres[c * at(field_count) + at(h)] += w * target_field[v * at(field_count) + at(h)];
       }
     }
   }
@@ -336,7 +351,8 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
     if (options.paper_bands) {
       append_vertices(row.narrow, source_core, out.narrow), append_vertices(row.broad, source_core, out.broad);
     } else {
-      append_edges(row.narrow, source_core, kernel, out.narrow), append_edges(row.broad, source_core, kernel, out.broad);
+      append_edges(row.narrow, source_core, kernel, out.narrow),
+          append_edges(row.broad, source_core, kernel, out.broad);
     }
     out.support.push_back(row.support);
   }

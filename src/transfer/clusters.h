@@ -1,13 +1,14 @@
 // Corresponding clusters of two surfaces with the same harmonic coordinates U (pair_fields.h).
 //
-// Default: a cluster is a kernel exp(-|U(v) - c|^2 / 2 s^2) around a centre c in the space of all fields; centres are a farthest-point sample of the
-// target's rows. The same centre on source and target is the correspondence of iso-levels of Xu et al. 2009, Section 6, in all fields at once.
-// Paper: a cluster is a level band of one field, a hat function of u_h times u_h^4, the same function on both surfaces.
+// Default: a cluster is a kernel exp(-|U(v) - c|^2 / 2 s^2) around a centre c in the space of all fields; centres are a
+// farthest-point sample of the target's rows. The same centre on source and target is the correspondence of iso-levels
+// of Xu et al. 2009, Section 6, in all fields at once. Paper: a cluster is a level band of one field, a hat function of
+// u_h times u_h^4, the same function on both surfaces.
 //
-// Target: each vertex keeps its four largest weights, brought to zero where a fifth would take over, multiples of 2^-24 that sum to exactly 1.
-// Source: a kernel per cluster with the width at least the distance of the 6th nearest vertex (coarse meshes), cut at 2.5 widths, and a
-// broad one three times as wide that steadies the first.
-// Cost: O(n C H) once per change of pairs.
+// Target: each vertex keeps its four largest weights, brought to zero where a fifth would take over, multiples of 2^-24
+// that sum to exactly 1. Source: a kernel per cluster with the width at least the distance of the 6th nearest vertex
+// (coarse meshes), cut at 2.5 widths, and a broad one three times as wide that steadies the first. Cost: O(n C H) once
+// per change of pairs.
 #pragma once
 #include <cstdint>
 
@@ -25,24 +26,34 @@ struct ClusterOptions {
   double kernel_width = 0.04;
 };
 
-// What the rotation of a cluster is fitted to: M = sum_i w_i (q_first - q_second)(p_first - p_second)' over edges, or over vertices about their centroid (second empty: the
-// paper's shape matching). Edges see only how the surface turns, not how its parts shift against each other: 10 to 20 % nearer to the truth on the animals measured.
-// Compressed rows; weights are scaled so that the trace of M at rest is 1 (0 for a cluster without extent).
+// What the rotation of a cluster is fitted to: M = sum_i w_i (q_first - q_second)(p_first - p_second)' over edges, or
+// over vertices about their centroid (second empty: the paper's shape matching). Edges see only how the surface turns,
+// not how its parts shift against each other: 10 to 20 % nearer to the truth on the animals measured. Compressed rows;
+// weights are scaled so that the trace of M at rest is 1 (0 for a cluster without extent).
 struct SourceKernels {
-  explicit SourceKernels(Memory& memory) : start(&memory), first(&memory), second(&memory), weight(&memory), centroid(&memory) {}
+  explicit SourceKernels(Memory& memory)
+      : start(&memory), first(&memory), second(&memory), weight(&memory), centroid(&memory) {}
   Vector<std::int32_t> start, first, second;
   Vector<double> weight;
   Vector<Vec3> centroid;  // at rest; of vertices only
 };
 
 struct Clusters {
-  explicit Clusters(Memory& memory) : centre(&memory), joint(&memory), weight(&memory), mass(&memory), pivot(&memory), support(&memory), narrow(memory), broad(memory) {}
+  explicit Clusters(Memory& memory)
+      : centre(&memory),
+        joint(&memory),
+        weight(&memory),
+        mass(&memory),
+        pivot(&memory),
+        support(&memory),
+        narrow(memory),
+        broad(memory) {}
   std::int32_t count = 0, field_count = 0;
   Vector<double> centre;       // count x field_count
   Vector<std::int32_t> joint;  // blend_count per target vertex, by falling weight
   Vector<float> weight;
-  Vector<double> mass;         // share of the target's area, summing to 1
-  Vector<Vec3> pivot;          // rest centroid on the target, inner coordinates
+  Vector<double> mass;           // share of the target's area, summing to 1
+  Vector<Vec3> pivot;            // rest centroid on the target, inner coordinates
   Vector<std::int32_t> support;  // source vertices within reach of the base width: few of them make a cluster uncertain
   SourceKernels narrow, broad;
 };
@@ -50,10 +61,12 @@ struct Clusters {
 // Vertex areas of a mesh, normalised to sum 1; floored, so that no vertex is without weight.
 Vector<double> area_shares(const Mesh& mesh, Memory& memory);
 
-Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, Span<const double> source_field, Span<const double> source_area, const Core& source_core,
-                       Span<const double> target_field, Span<const double> target_area, const Mesh& target_mesh, Memory& memory, JobRunner& jobs);
+Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, Span<const double> source_field,
+                       Span<const double> source_area, const Core& source_core, Span<const double> target_field,
+                       Span<const double> target_area, const Mesh& target_mesh, Memory& memory, JobRunner& jobs);
 
-// The four (or fewer) weights of one vertex from `count` candidates, as multiples of 2^-24 with sum exactly 1; sorts the candidates.
+// The four (or fewer) weights of one vertex from `count` candidates, as multiples of 2^-24 with sum exactly 1; sorts
+// the candidates.
 struct Candidate {
   std::int32_t cluster = 0;
   double weight = 0;

@@ -1,7 +1,8 @@
 // Components without a region take their coordinates from the surface they lie next to (see pair_fields.h).
 //
-// The nearest reached vertex is found on a uniform grid with about two vertices per cell. The relaxation is Gauss-Seidel on the clamped Laplacian
-// of the component, in vertex order, so the result does not depend on anything but the mesh. Cost: linear in the islands' vertices times the sweeps.
+// The nearest reached vertex is found on a uniform grid with about two vertices per cell. The relaxation is
+// Gauss-Seidel on the clamped Laplacian of the component, in vertex order, so the result does not depend on anything
+// but the mesh. Cost: linear in the islands' vertices times the sweeps.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +19,8 @@ std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 // Points sorted into the cells of a uniform grid over the unit-diagonal box of the mesh.
 class PointGrid {
  public:
-  PointGrid(const Core& core, Span<const std::uint8_t> reached) : positions_(core.mesh.positions), start_(core.memory.get()), points_(core.memory.get()) {
+  PointGrid(const Core& core, Span<const std::uint8_t> reached)
+      : positions_(core.mesh.positions), start_(core.memory.get()), points_(core.memory.get()) {
     std::size_t count = 0;
     Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
     for (std::size_t v = 0; v < positions_.size(); ++v) {
@@ -40,7 +42,8 @@ class PointGrid {
     points_.resize(count);
     Vector<std::int32_t> next(start_, core.memory.get());
     for (std::size_t v = 0; v < positions_.size(); ++v) {
-      if (reached[at(core.mesh.component[v])]) points_[at(next[cell_of(positions_[v])]++)] = static_cast<std::int32_t>(v);
+      if (reached[at(core.mesh.component[v])])
+        points_[at(next[cell_of(positions_[v])]++)] = static_cast<std::int32_t>(v);
     }
   }
 
@@ -69,9 +72,15 @@ class PointGrid {
 
  private:
   bool inside(std::int32_t i) const noexcept { return i >= 0 && i < cells_; }
-  std::int32_t cell(double offset) const noexcept { return static_cast<std::int32_t>(std::clamp(offset / cell_size_, 0.0, cells_ - 1.0)); }
-  std::size_t index(std::int32_t x, std::int32_t y, std::int32_t z) const noexcept { return at((z * cells_ + y) * cells_ + x); }
-  std::size_t cell_of(Vec3 p) const noexcept { return index(cell(p.x - low_.x), cell(p.y - low_.y), cell(p.z - low_.z)); }
+  std::int32_t cell(double offset) const noexcept {
+    return static_cast<std::int32_t>(std::clamp(offset / cell_size_, 0.0, cells_ - 1.0));
+  }
+  std::size_t index(std::int32_t x, std::int32_t y, std::int32_t z) const noexcept {
+    return at((z * cells_ + y) * cells_ + x);
+  }
+  std::size_t cell_of(Vec3 p) const noexcept {
+    return index(cell(p.x - low_.x), cell(p.y - low_.y), cell(p.z - low_.z));
+  }
   void search(std::size_t c, Vec3 p, std::int32_t& found, double& best) const {
     for (std::int32_t i = start_[c]; i < start_[c + 1]; ++i) {
       const std::int32_t v = points_[at(i)];
@@ -105,7 +114,8 @@ void relax(const Core& core, Span<const Member> free, std::int32_t channels, dou
     for (const Member& member : free) {
       std::fill(mean.begin(), mean.end(), 0.0);
       double sum = 0;
-      for (std::int32_t e = topology.neighbour_start[at(member.vertex)]; e < topology.neighbour_start[at(member.vertex) + 1]; ++e) {
+      for (std::int32_t e = topology.neighbour_start[at(member.vertex)];
+           e < topology.neighbour_start[at(member.vertex) + 1]; ++e) {
         const double w = std::max(floor, core.weights[at(topology.neighbour_edge[at(e)])]);
         const double* row = field + at(topology.neighbour[at(e)]) * width;
         for (std::size_t j = 0; j < width; ++j) mean[j] += w * row[j];
@@ -140,7 +150,9 @@ void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int
   Vector<double> mean(width, 0.0, &memory);
   for (auto& members : islands) {
     if (members.empty()) continue;
-    std::sort(members.begin(), members.end(), [](const Member& a, const Member& b) { return a.distance != b.distance ? a.distance < b.distance : a.vertex < b.vertex; });
+    std::sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
+      return a.distance != b.distance ? a.distance < b.distance : a.vertex < b.vertex;
+    });
     const std::size_t held = std::min(members.size(), std::max<std::size_t>(3, members.size() / 3));
     Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
     std::fill(mean.begin(), mean.end(), 0.0);
@@ -149,7 +161,8 @@ void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
       if (i >= held) continue;
-      for (std::size_t j = 0; j < width; ++j) mean[j] += field[at(members[i].host) * width + j] / static_cast<double>(held);
+      for (std::size_t j = 0; j < width; ++j)
+        mean[j] += field[at(members[i].host) * width + j] / static_cast<double>(held);
     }
     // one row for the small ones; the others start from the mean
     const bool rigid = norm(high - low) < rigid_share;

@@ -23,22 +23,26 @@ PairFields::PairFields(const PairFields& other)
       regions_(other.regions_, core_->memory.get()),
       slot_used_(other.slot_used_, core_->memory.get()) {}
 
-void PairFields::add(Span<const std::uint32_t> numbers, Span<const Span<const std::int32_t>> regions, const char* side) {
+void PairFields::add(Span<const std::uint32_t> numbers, Span<const Span<const std::int32_t>> regions,
+                     const char* side) {
   Memory& memory = *core_->memory;
   // check all before anything changes
   Vector<std::int32_t> claimed(owner_, &memory);
   std::uint32_t position = 0;
   for (std::size_t i = 0; i < regions.size(); ++i) {
     if (regions[i].empty()) {
-      fail(HF_ERROR_EMPTY, static_cast<std::uint32_t>(i), "pair %zu of the batch has no vertex on the %s; give at least one", i, side);
+      fail(HF_ERROR_EMPTY, static_cast<std::uint32_t>(i),
+           "pair %zu of the batch has no vertex on the %s; give at least one", i, side);
     }
     for (const std::int32_t v : regions[i]) {
       if (v < 0 || v >= core_->size()) {
-        fail(HF_ERROR_OUT_OF_RANGE, position, "entry %u of the %s regions is not a vertex of the surface", position, side);
+        fail(HF_ERROR_OUT_OF_RANGE, position, "entry %u of the %s regions is not a vertex of the surface", position,
+             side);
       }
       const auto mine = static_cast<std::int32_t>(numbers[i]);
       if (claimed[at(v)] != none && claimed[at(v)] != mine) {
-        fail(HF_ERROR_OVERLAP, position, "entry %u of the %s regions belongs to another pair already; regions must not overlap", position, side);
+        fail(HF_ERROR_OVERLAP, position,
+             "entry %u of the %s regions belongs to another pair already; regions must not overlap", position, side);
       }
       claimed[at(v)] = mine;
       ++position;

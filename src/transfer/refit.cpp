@@ -6,7 +6,7 @@
 namespace hf {
 namespace {
 
-constexpr double keep = 0.12;         // b
+constexpr double keep = 0.18;         // b
 constexpr double handle_share = 0.9;  // centres beyond belong to a handle
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -51,7 +51,8 @@ void Refit::prepare(const Mesh& target, Span<const double> area, const Clusters&
   }
 }
 
-void Refit::turn(const Quaternion* given, const Vec3* shifts, Quaternion* rotations, const Mat3* matrices) const noexcept {
+void Refit::turn(const Quaternion* given, const Vec3* shifts, Quaternion* rotations,
+                 const Mat3* matrices) const noexcept {
   for (std::size_t c = 0; c < at(count_); ++c) {
     if (!(spread_[c] > 0)) continue;
     // against the cluster's own place, which drops out of the moment but keeps the digits

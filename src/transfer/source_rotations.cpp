@@ -7,8 +7,8 @@
 namespace hf {
 namespace {
 
-constexpr double prior = 0.02;         // of the broad rotation, in spreads of the cluster
-constexpr double broad_prior = 1e-3;   // of the rotation of the whole
+constexpr double prior = 0.02;        // of the broad rotation, in spreads of the cluster
+constexpr double broad_prior = 1e-3;  // of the rotation of the whole
 constexpr std::size_t most_sampled = 4096;
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -25,7 +25,8 @@ Mat3 moment_of_vertices(const Mesh& mesh, const SourceKernels& kernels, std::int
   Mat3 moment;
   const std::int32_t first = kernels.start[at(c)], last = kernels.start[at(c) + 1];
   const Vec3 centroid = kernels.centroid[at(c)];
-  const Vec3 origin = posed[kernels.first[at(first)]];  // any point near the cluster: keeps the digits of far-away poses
+  const Vec3 origin =
+      posed[kernels.first[at(first)]];  // any point near the cluster: keeps the digits of far-away poses
   for (std::int32_t i = first; i < last; ++i) {
     const std::int32_t v = kernels.first[at(i)];
     add_outer(moment, kernels.weight[at(i)], posed[v] - origin, mesh.positions[at(v)] - centroid);
@@ -33,8 +34,10 @@ Mat3 moment_of_vertices(const Mesh& mesh, const SourceKernels& kernels, std::int
   return moment;
 }
 
-Quaternion kernel_rotation(const Mesh& mesh, const SourceKernels& kernels, std::int32_t c, const Vec3* posed, double share, const Quaternion& guide) noexcept {
-  const Mat3 moment = kernels.second.empty() ? moment_of_vertices(mesh, kernels, c, posed) : moment_of_edges(mesh, kernels, c, posed);
+Quaternion kernel_rotation(const Mesh& mesh, const SourceKernels& kernels, std::int32_t c, const Vec3* posed,
+                           double share, const Quaternion& guide) noexcept {
+  const Mat3 moment =
+      kernels.second.empty() ? moment_of_vertices(mesh, kernels, c, posed) : moment_of_edges(mesh, kernels, c, posed);
   return best_rotation_from(moment + share * to_matrix(guide), guide);
 }
 
@@ -66,7 +69,8 @@ WholeMotion SourceRotations::whole(const Mesh& mesh, Span<const double> area, co
   }
   Mat3 moment;
   for (std::size_t i = 0; i < sample_.size(); ++i) {
-    add_outer(moment, sample_weight_[i], posed[sample_[i]] - out.centroid, mesh.positions[at(sample_[i])] - sample_centroid_);
+    add_outer(moment, sample_weight_[i], posed[sample_[i]] - out.centroid,
+              mesh.positions[at(sample_[i])] - sample_centroid_);
   }
   if (sample_spread_ > 0) out.rotation = best_rotation((1 / sample_spread_) * moment, Quaternion());
   const Mat3 rotation = to_matrix(out.rotation);
@@ -79,7 +83,8 @@ WholeMotion SourceRotations::whole(const Mesh& mesh, Span<const double> area, co
   return out;
 }
 
-void SourceRotations::clusters(const Mesh& mesh, const Clusters& clusters, const Vec3* posed, const Quaternion& whole, Quaternion* out, JobRunner& jobs) const {
+void SourceRotations::clusters(const Mesh& mesh, const Clusters& clusters, const Vec3* posed, const Quaternion& whole,
+                               Quaternion* out, JobRunner& jobs) const {
   jobs.for_each(static_cast<std::uint32_t>(clusters.count), [&](std::uint32_t i) {
     const auto c = static_cast<std::int32_t>(i);
     const Quaternion broad = kernel_rotation(mesh, clusters.broad, c, posed, broad_prior, whole);

@@ -11,9 +11,10 @@ namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;
 constexpr std::uint32_t known_flags = HF_PAIR_ANCHOR | HF_PAIR_FOOT | HF_PAIR_TRUNK | HF_PAIR_NO_ALIGNMENT;
-constexpr double shortest_limb = 0.1;           // of the box: shorter limbs have no reliable direction
-constexpr double rigid_residual = 1e-3;         // of the box: frames much nearer to rigid are moved rigidly
-constexpr double turn_low = 20 * degree, turn_high = 50 * degree;  // between these a turn of the whole takes the anchors' offsets along
+constexpr double shortest_limb = 0.1;    // of the box: shorter limbs have no reliable direction
+constexpr double rigid_residual = 1e-3;  // of the box: frames much nearer to rigid are moved rigidly
+constexpr double turn_low = 20 * degree,
+                 turn_high = 50 * degree;  // between these a turn of the whole takes the anchors' offsets along
 constexpr std::int32_t enough_support = 6;
 constexpr std::int32_t refit_rounds = 4;
 constexpr std::size_t block = 2048;
@@ -49,8 +50,24 @@ Vec3 area_mean(const Mesh& mesh, const Vector<double>& area) noexcept {
 // What follows from the pairs, and the last frame. Made whole or not at all.
 struct Transfer::Prepared {
   explicit Prepared(Memory& memory)
-      : source_leak(&memory), target_leak(&memory), limb_angle(&memory), confidence(&memory), limb_turn(&memory), aligned(&memory), cluster_turn(&memory), clusters(memory),
-        source_rotations(memory), translations(memory), refit(memory), anchors(&memory), posed(&memory), given(&memory), rotations(&memory), matrices(&memory), shifts(&memory), cluster_goals(&memory),
+      : source_leak(&memory),
+        target_leak(&memory),
+        limb_angle(&memory),
+        confidence(&memory),
+        limb_turn(&memory),
+        aligned(&memory),
+        cluster_turn(&memory),
+        clusters(memory),
+        source_rotations(memory),
+        translations(memory),
+        refit(memory),
+        anchors(&memory),
+        posed(&memory),
+        given(&memory),
+        rotations(&memory),
+        matrices(&memory),
+        shifts(&memory),
+        cluster_goals(&memory),
         goals(&memory) {}
   struct Anchor {
     std::uint32_t number = 0;
@@ -73,13 +90,14 @@ struct Transfer::Prepared {
   double source_ground = 0, target_ground = 0;
   Vec3 target_centroid;
   // the last frame
-  Vector<Vec3> posed;  // source, inner units
+  Vector<Vec3> posed;                   // source, inner units
   Vector<Quaternion> given, rotations;  // from the source, and as refitted
   Vector<Mat3> matrices;
   Vector<Vec3> shifts, cluster_goals, goals;
 };
 
-Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target, const TransferOptions& options)
+Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target,
+                   const TransferOptions& options)
     : source_core_(std::move(source)),
       target_core_(std::move(target)),
       options_(options),
@@ -92,17 +110,23 @@ Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Cor
       flags_(target_core_->memory.get()),
       source_area_(area_shares(source_core_->mesh, *target_core_->memory)),
       target_area_(area_shares(target_core_->mesh, *target_core_->memory)) {
-  if (options.mode != HF_TRANSFER_FIELDS && options.mode != HF_TRANSFER_PAPER) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "mode %d is none of HF_TRANSFER_*", options.mode);
-  if (options.cluster_count > 512) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "cluster_count is %u; it may be 1 to 512, or 0 for the default", options.cluster_count);
-  if (!std::isfinite(options.kernel_width) || !std::isfinite(options.scale) || !std::isfinite(options.alignment_angle)) {
+  if (options.mode != HF_TRANSFER_FIELDS && options.mode != HF_TRANSFER_PAPER)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "mode %d is none of HF_TRANSFER_*", options.mode);
+  if (options.cluster_count > 512)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "cluster_count is %u; it may be 1 to 512, or 0 for the default",
+         options.cluster_count);
+  if (!std::isfinite(options.kernel_width) || !std::isfinite(options.scale) ||
+      !std::isfinite(options.alignment_angle)) {
     fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "kernel_width, scale and alignment_angle must be finite");
   }
   // the ABI gives floats: the bounds hold for their nearest values too
   if (options.kernel_width != 0 && (options.kernel_width < 0.00499999 || options.kernel_width > 0.5000001)) {
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "kernel_width is %g; it may be 0.005 to 0.5, or 0 for the default", options.kernel_width);
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "kernel_width is %g; it may be 0.005 to 0.5, or 0 for the default",
+         options.kernel_width);
   }
   if (options.scale != 0 && !(options.scale >= 1e-6 && options.scale <= 1e6)) {
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it may be 1e-6 to 1e6, or 0 for the ratio of the legs", options.scale);
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it may be 1e-6 to 1e6, or 0 for the ratio of the legs",
+         options.scale);
   }
   if (options_.kernel_width == 0) options_.kernel_width = 0.04;
   if (options_.alignment_angle == 0) options_.alignment_angle = 40 * degree;
@@ -114,10 +138,13 @@ void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs) 
   Memory& memory = *target_core_->memory;
   if (pairs.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the batch holds no pair");
   if (pairs.size() + numbers_.size() > handle_limit) {
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%zu pairs would be too many; a transfer holds at most %u", pairs.size() + numbers_.size(), handle_limit);
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%zu pairs would be too many; a transfer holds at most %u",
+         pairs.size() + numbers_.size(), handle_limit);
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (pairs[i].flags & ~known_flags) fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i), "pair %zu has flags that are none of HF_PAIR_*: %u", i, pairs[i].flags);
+    if (pairs[i].flags & ~known_flags)
+      fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i),
+           "pair %zu has flags that are none of HF_PAIR_*: %u", i, pairs[i].flags);
   }
   // the smallest free numbers
   Vector<std::uint32_t> fresh_numbers(&memory), numbers(numbers_, &memory), flags(flags_, &memory);
@@ -148,7 +175,8 @@ void Transfer::remove_pairs(Span<const std::uint32_t> pairs) {
   Vector<std::uint32_t> numbers(numbers_, &memory);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto found = std::lower_bound(numbers.begin(), numbers.end(), pairs[i]);
-    if (found == numbers.end() || *found != pairs[i]) fail(HF_ERROR_NO_SUCH_PAIR, static_cast<std::uint32_t>(i), "entry %zu: the transfer has no pair %u", i, pairs[i]);
+    if (found == numbers.end() || *found != pairs[i])
+      fail(HF_ERROR_NO_SUCH_PAIR, static_cast<std::uint32_t>(i), "entry %zu: the transfer has no pair %u", i, pairs[i]);
     numbers.erase(found);
   }
   PairFields source(source_), target(target_);
@@ -161,8 +189,10 @@ void Transfer::remove_pairs(Span<const std::uint32_t> pairs) {
 // Directions of the limbs at rest, which of them differ too much, and what that means for each cluster.
 void Transfer::prepare_alignment(Prepared& p) const {
   const std::size_t width = numbers_.size();
-  const RestSide source{&source_core_->mesh, {p.source_field.data(), p.source_field.size()}, source_area_, source_axes_};
-  const RestSide target{&target_core_->mesh, {p.target_field.data(), p.target_field.size()}, target_area_, target_axes_};
+  const RestSide source{
+      &source_core_->mesh, {p.source_field.data(), p.source_field.size()}, source_area_, source_axes_};
+  const RestSide target{
+      &target_core_->mesh, {p.target_field.data(), p.target_field.size()}, target_area_, target_axes_};
   p.limb_angle.assign(width, -1.0), p.aligned.assign(width, std::uint8_t{0}), p.limb_turn.assign(width, Quaternion());
   Vector<std::int32_t> feet(target_core_->memory.get());
   for (std::size_t h = 0; h < width; ++h) {
@@ -171,14 +201,16 @@ void Transfer::prepare_alignment(Prepared& p) const {
     if (flags & HF_PAIR_FOOT) feet.push_back(column);
     if (flags & HF_PAIR_TRUNK) continue;
     Vec3 from, to;
-    const bool known = limb_direction(source, column, region_mean(source_.region(number), source.mesh->positions.data()), to) &&
-                       limb_direction(target, column, region_mean(target_.region(number), target.mesh->positions.data()), from);
+    const bool known =
+        limb_direction(source, column, region_mean(source_.region(number), source.mesh->positions.data()), to) &&
+        limb_direction(target, column, region_mean(target_.region(number), target.mesh->positions.data()), from);
     if (!known || norm(from) < shortest_limb || norm(to) < shortest_limb) continue;
     to = rotate(axes_, to);
     const Vec3 right{target_axes_.m[0][0], target_axes_.m[0][1], target_axes_.m[0][2]};
     p.limb_turn[h] = minimal_rotation(from, to, right);
     p.limb_angle[h] = angle_between(p.limb_turn[h], Quaternion());
-    p.aligned[h] = options_.mode == HF_TRANSFER_FIELDS && options_.alignment_angle > 0 && p.limb_angle[h] > options_.alignment_angle && !(flags & HF_PAIR_NO_ALIGNMENT);
+    p.aligned[h] = options_.mode == HF_TRANSFER_FIELDS && options_.alignment_angle > 0 &&
+                   p.limb_angle[h] > options_.alignment_angle && !(flags & HF_PAIR_NO_ALIGNMENT);
   }
 
   p.confidence.assign(width, 0.0);
@@ -198,7 +230,8 @@ void Transfer::prepare_alignment(Prepared& p) const {
   if (options_.scale > 0) {
     p.scale = options_.scale * source_core_->mesh.scale / target_core_->mesh.scale;
   } else if (!feet.empty()) {
-    const double of_source = leg_length(source, {feet.data(), feet.size()}), of_target = leg_length(target, {feet.data(), feet.size()});
+    const double of_source = leg_length(source, {feet.data(), feet.size()}),
+                 of_target = leg_length(target, {feet.data(), feet.size()});
     if (of_source > 1e-6 && of_target > 1e-6) p.scale = of_target / of_source;
   }
 }
@@ -230,7 +263,8 @@ Transfer::Prepared& Transfer::prepare() {
   auto fresh = make_shared_in<Prepared>(memory, memory);
   Prepared& p = *fresh;
   const std::size_t width = numbers_.size();
-  p.source_field.allocate(memory, at(source_core_->size()) * width), p.target_field.allocate(memory, at(target_core_->size()) * width);
+  p.source_field.allocate(memory, at(source_core_->size()) * width),
+      p.target_field.allocate(memory, at(target_core_->size()) * width);
   p.source_leak.resize(width), p.target_leak.resize(width);
   source_.solve({numbers_.data(), width}, p.source_field.data(), p.source_leak.data());
   target_.solve({numbers_.data(), width}, p.target_field.data(), p.target_leak.data());
@@ -238,8 +272,10 @@ Transfer::Prepared& Transfer::prepare() {
   cluster_options.paper_bands = options_.mode == HF_TRANSFER_PAPER;
   cluster_options.cluster_count = static_cast<std::int32_t>(options_.cluster_count);
   cluster_options.kernel_width = options_.kernel_width;
-  p.clusters = make_clusters(cluster_options, static_cast<std::int32_t>(width), {p.source_field.data(), p.source_field.size()}, source_area_, *source_core_,
-                             {p.target_field.data(), p.target_field.size()}, target_area_, target_core_->mesh, memory, *target_core_->jobs);
+  p.clusters =
+      make_clusters(cluster_options, static_cast<std::int32_t>(width), {p.source_field.data(), p.source_field.size()},
+                    source_area_, *source_core_, {p.target_field.data(), p.target_field.size()}, target_area_,
+                    target_core_->mesh, memory, *target_core_->jobs);
   prepare_alignment(p);
   prepare_anchors(p);
   p.source_rotations.prepare(source_core_->mesh, source_area_);
@@ -249,7 +285,8 @@ Transfer::Prepared& Transfer::prepare() {
   // the frame before the first: rest
   const std::size_t count = at(p.clusters.count);
   p.posed.resize(at(source_core_->size()));
-  p.given.assign(count, Quaternion()), p.rotations.assign(count, Quaternion()), p.matrices.assign(count, Mat3::identity());
+  p.given.assign(count, Quaternion()), p.rotations.assign(count, Quaternion()),
+      p.matrices.assign(count, Mat3::identity());
   p.shifts.assign(count, Vec3()), p.cluster_goals.assign(count, Vec3()), p.goals.assign(p.anchors.size(), Vec3());
   prepared_ = std::move(fresh);
   return p;
@@ -273,19 +310,23 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
   const double rigid = 1 / (1 + ratio * ratio);
   const double share = std::max(rigid, smooth_step(turn_low, turn_high, angle_between(turn, Quaternion())));
   const Mat3 carried = to_matrix(power(turn, share));
-  const Vec3 source_up{source_axes_.m[1][0], source_axes_.m[1][1], source_axes_.m[1][2]}, up{target_axes_.m[1][0], target_axes_.m[1][1], target_axes_.m[1][2]};
+  const Vec3 source_up{source_axes_.m[1][0], source_axes_.m[1][1], source_axes_.m[1][2]},
+      up{target_axes_.m[1][0], target_axes_.m[1][1], target_axes_.m[1][2]};
   for (std::size_t k = 0; k < p.anchors.size(); ++k) {
     const Prepared::Anchor& anchor = p.anchors[k];
     const Span<const std::int32_t> from = source_.region(anchor.number), to = target_.region(anchor.number);
     const Vec3 path = p.scale * rotate(axes_, region_mean(from, p.posed.data()) - anchor.source_rest);
-    const Vec3 offset = anchor.target_rest - p.target_centroid - p.scale * rotate(axes_, anchor.source_rest - whole.rest_centroid);
+    const Vec3 offset =
+        anchor.target_rest - p.target_centroid - p.scale * rotate(axes_, anchor.source_rest - whole.rest_centroid);
     p.goals[k] = anchor.target_rest + path + (carried * offset - offset);
     if (!anchor.is_foot) continue;
     // not deeper under the ground than the source's foot
-    const double allowed = p.target_ground + std::min(0.0, p.scale * (lowest(from, p.posed.data(), source_up) - p.source_ground));
+    const double allowed =
+        p.target_ground + std::min(0.0, p.scale * (lowest(from, p.posed.data(), source_up) - p.source_ground));
     const Mat3 rotation = p.translations.mean_rotation(k, p.matrices.data());
     double low = 1e300;
-    for (const std::int32_t v : to) low = std::min(low, dot(up, rotation * (target_core_->mesh.positions[at(v)] - anchor.target_rest)));
+    for (const std::int32_t v : to)
+      low = std::min(low, dot(up, rotation * (target_core_->mesh.positions[at(v)] - anchor.target_rest)));
     const double lift = allowed - (dot(up, p.goals[k]) + low);
     if (lift > 0) p.goals[k] = p.goals[k] + (1 - share) * lift * up;
   }
@@ -293,7 +334,8 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
 
 void Transfer::apply(const Vec3* source, Vec3* out) {
   for (std::int32_t v = 0; v < source_core_->size(); ++v) {
-    if (!is_finite(source[v])) fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(v), "vertex %d of the posed source is not finite", v);
+    if (!is_finite(source[v]))
+      fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(v), "vertex %d of the posed source is not finite", v);
   }
   Prepared& p = prepare();
   const Mesh& from = source_core_->mesh;
@@ -312,11 +354,15 @@ void Transfer::apply(const Vec3* source, Vec3* out) {
     p.cluster_goals[c] = centroid + rotate(turn, p.clusters.pivot[c] - p.target_centroid);
   }
   place_anchors(p, whole, turn);
-  p.translations.solve(p.clusters, p.matrices.data(), {p.goals.data(), p.goals.size()}, centroid, p.cluster_goals.data(), p.shifts.data());
-  for (std::int32_t round = 0; round < (options_.mode == HF_TRANSFER_PAPER ? 0 : refit_rounds); ++round) {
+  p.translations.solve(p.clusters, p.matrices.data(), {p.goals.data(), p.goals.size()}, centroid,
+                       p.cluster_goals.data(), p.shifts.data());
+  // nothing pulls where there is no anchor
+  const std::int32_t rounds = options_.mode == HF_TRANSFER_PAPER || p.anchors.empty() ? 0 : refit_rounds;
+  for (std::int32_t round = 0; round < rounds; ++round) {
     p.refit.turn(p.given.data(), p.shifts.data(), p.rotations.data(), p.matrices.data());
     for (std::size_t c = 0; c < p.rotations.size(); ++c) p.matrices[c] = to_matrix(p.rotations[c]);
-    p.translations.solve(p.clusters, p.matrices.data(), {p.goals.data(), p.goals.size()}, centroid, p.cluster_goals.data(), p.shifts.data());
+    p.translations.solve(p.clusters, p.matrices.data(), {p.goals.data(), p.goals.size()}, centroid,
+                         p.cluster_goals.data(), p.shifts.data());
   }
 
   const std::size_t n = to.positions.size();

@@ -1,13 +1,15 @@
 // The motion of one surface played on another: what stands behind hf_transfer_*.
 //
-// pairs of regions -> the same harmonic coordinates on both surfaces (pair_fields) -> corresponding clusters (clusters) -> per frame: rotations of the
-// source's clusters (source_rotations), axes and rest alignment (alignment), translations of the target's clusters (translations), which then turn to meet each other (refit), blend of four per
+// pairs of regions -> the same harmonic coordinates on both surfaces (pair_fields) -> corresponding clusters (clusters)
+// -> per frame: rotations of the source's clusters (source_rotations), axes and rest alignment (alignment),
+// translations of the target's clusters (translations), which then turn to meet each other (refit), blend of four per
 // vertex. Xu, Zhang, Cohen-Or and Xiong 2009, Section 6; departures from the paper are named in those files.
 //
-// Pairs come and go at any time on both sides; no factor is touched. What depends on them is made again at the next question (pair_info, apply, skin).
-// Anchors: the target's region goes where the source's went, y = c + s A (q - p), s the scale; when the source turns or falls as a whole (or moves rigidly) the offsets
-// between the two rest shapes turn with it. A foot is kept from sinking deeper under the ground of the rest shape than its source does.
-// Everything is all or nothing. apply() allocates nothing once prepared. Results do not depend on the number of threads.
+// Pairs come and go at any time on both sides; no factor is touched. What depends on them is made again at the next
+// question (pair_info, apply, skin). Anchors: the target's region goes where the source's went, y = c + s A (q - p), s
+// the scale; when the source turns or falls as a whole (or moves rigidly) the offsets between the two rest shapes turn
+// with it. A foot is kept from sinking deeper under the ground of the rest shape than its source does. Everything is
+// all or nothing. apply() allocates nothing once prepared. Results do not depend on the number of threads.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -53,7 +55,8 @@ class Transfer {
   Transfer(const Transfer&) = delete;
   Transfer& operator=(const Transfer&) = delete;
 
-  // out_pairs: null, or one number per pair. Errors of PairFields::add; HF_ERROR_TOO_LARGE above 256 pairs, HF_ERROR_INVALID_ARGUMENT for unknown flags.
+  // out_pairs: null, or one number per pair. Errors of PairFields::add; HF_ERROR_TOO_LARGE above 256 pairs,
+  // HF_ERROR_INVALID_ARGUMENT for unknown flags.
   void add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs);
   // HF_ERROR_NO_SUCH_PAIR (index = position in the list), also for a number named twice.
   void remove_pairs(Span<const std::uint32_t> pairs);
@@ -69,7 +72,8 @@ class Transfer {
   std::int32_t cluster_count();
   // Each null or cluster_count() long, in given units: rest centroid, rotation, posed place of the centroid.
   void skin_motion(Vec3* pivots, Quaternion* rotations, Vec3* places);
-  // joint[weight_count], weight[weight_count] of an inner vertex of the target, falling, summing to 1 exactly; weight_count 4 or 8.
+  // joint[weight_count], weight[weight_count] of an inner vertex of the target, falling, summing to 1 exactly;
+  // weight_count 4 or 8.
   void skin_weights(std::int32_t vertex, std::uint32_t weight_count, std::uint32_t* joints, float* weights);
 
   const Core& source() const noexcept { return *source_core_; }

@@ -24,7 +24,8 @@ void add_point(Vector<double>& table, std::size_t entry, double w, Vec3 p) noexc
 
 }  // namespace
 
-void Translations::add_overlap(Span<const double> area, const Core& target, const Clusters& clusters, Buffer<double>& matrix, Vector<double>& table) const {
+void Translations::add_overlap(Span<const double> area, const Core& target, const Clusters& clusters,
+                               Buffer<double>& matrix, Vector<double>& table) const {
   const std::size_t count = at(count_);
   for (std::size_t v = 0; v < area.size(); ++v) {
     const std::int32_t* joint = clusters.joint.data() + v * blend_count;
@@ -42,7 +43,8 @@ void Translations::add_overlap(Span<const double> area, const Core& target, cons
   }
 }
 
-void Translations::add_spread(const Core& target, const Clusters& clusters, double share, Buffer<double>& matrix, Vector<double>& table) const {
+void Translations::add_spread(const Core& target, const Clusters& clusters, double share, Buffer<double>& matrix,
+                              Vector<double>& table) const {
   const std::size_t count = at(count_);
   Memory& memory = *target.memory;
   Vector<double> own_matrix(count * count, 0.0, &memory), own_table(3 * count * count, 0.0, &memory);
@@ -81,7 +83,8 @@ void Translations::add_spread(const Core& target, const Clusters& clusters, doub
   for (std::size_t i = 0; i < own_table.size(); ++i) table[i] += share / sum * own_table[i];
 }
 
-void Translations::add_row(Span<const std::int32_t> vertices, Span<const double> weights, const Core& target, const Clusters& clusters) {
+void Translations::add_row(Span<const std::int32_t> vertices, Span<const double> weights, const Core& target,
+                           const Clusters& clusters) {
   Vector<double> weight(at(count_), 0.0, target.memory.get());
   Vector<Vec3> point(at(count_), target.memory.get());
   double sum = 0;
@@ -101,7 +104,8 @@ void Translations::add_row(Span<const std::int32_t> vertices, Span<const double>
   row_start_.push_back(static_cast<std::int32_t>(row_column_.size()));
 }
 
-void Translations::prepare(const Core& target, Span<const double> area, const Clusters& clusters, Span<const Span<const std::int32_t>> regions, const TranslationOptions& options) {
+void Translations::prepare(const Core& target, Span<const double> area, const Clusters& clusters,
+                           Span<const Span<const std::int32_t>> regions, const TranslationOptions& options) {
   Memory& memory = *target.memory;
   count_ = clusters.count;
   const std::size_t count = at(count_);
@@ -154,28 +158,34 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
 
 Vec3 Translations::turned(std::size_t anchor, const Mat3* rotations) const noexcept {
   Vec3 sum;
-  for (std::int32_t i = row_start_[anchor]; i < row_start_[anchor + 1]; ++i) sum = sum + rotations[row_column_[at(i)]] * row_point_[at(i)];
+  for (std::int32_t i = row_start_[anchor]; i < row_start_[anchor + 1]; ++i)
+    sum = sum + rotations[row_column_[at(i)]] * row_point_[at(i)];
   return sum;
 }
 
 Mat3 Translations::mean_rotation(std::size_t anchor, const Mat3* rotations) const noexcept {
   Mat3 sum;
-  for (std::int32_t i = row_start_[anchor]; i < row_start_[anchor + 1]; ++i) sum = sum + row_weight_[at(i)] * rotations[row_column_[at(i)]];
+  for (std::int32_t i = row_start_[anchor]; i < row_start_[anchor + 1]; ++i)
+    sum = sum + row_weight_[at(i)] * rotations[row_column_[at(i)]];
   return sum;
 }
 
-void Translations::solve(const Clusters& clusters, const Mat3* rotations, Span<const Vec3> goals, Vec3 centroid, const Vec3* cluster_goals, Vec3* out) noexcept {
+void Translations::solve(const Clusters& clusters, const Mat3* rotations, Span<const Vec3> goals, Vec3 centroid,
+                         const Vec3* cluster_goals, Vec3* out) noexcept {
   for (std::int32_t c = 0; c < count_; ++c) {
     Vec3 rhs = whole_ * (cluster_goals[c] - rotations[c] * clusters.pivot[at(c)]);
-    for (std::int32_t i = table_start_[at(c)]; i < table_start_[at(c) + 1]; ++i) rhs = rhs + rotations[table_column_[at(i)]] * table_[at(i)];
+    for (std::int32_t i = table_start_[at(c)]; i < table_start_[at(c) + 1]; ++i)
+      rhs = rhs + rotations[table_column_[at(i)]] * table_[at(i)];
     out[c] = rhs;
   }
   for (std::size_t row = 0; row + 1 < row_start_.size(); ++row) {
     const bool is_root = row == goals.size();
     const Vec3 miss = (is_root ? root_ : anchor_) * ((is_root ? centroid : goals[row]) - turned(row, rotations));
-    for (std::int32_t i = row_start_[row]; i < row_start_[row + 1]; ++i) out[row_column_[at(i)]] = out[row_column_[at(i)]] + row_weight_[at(i)] * miss;
+    for (std::int32_t i = row_start_[row]; i < row_start_[row + 1]; ++i)
+      out[row_column_[at(i)]] = out[row_column_[at(i)]] + row_weight_[at(i)] * miss;
   }
-  for (std::size_t c = 0; c < at(count_); ++c) scratch_[4 * c] = out[c].x, scratch_[4 * c + 1] = out[c].y, scratch_[4 * c + 2] = out[c].z, scratch_[4 * c + 3] = 0;
+  for (std::size_t c = 0; c < at(count_); ++c)
+    scratch_[4 * c] = out[c].x, scratch_[4 * c + 1] = out[c].y, scratch_[4 * c + 2] = out[c].z, scratch_[4 * c + 3] = 0;
   factor_.solve(scratch_.data());
   for (std::size_t c = 0; c < at(count_); ++c) out[c] = {scratch_[4 * c], scratch_[4 * c + 1], scratch_[4 * c + 2]};
 }

@@ -1,14 +1,17 @@
 // Where the clusters of the target go when their rotations are given.
 //
 // The posed target is v' = Y_v + sum_c W_vc t_c, Y_v = sum_c W_vc R_c x_v. The C translations t minimise
-//     E_overlap / tr + a E_spread / tr + sum_k l |row_k - y_k|^2 + r |centroid - g|^2 + e sum_c |R_c x_c + t_c - g_c|^2,
-//     E_overlap = 1/2 sum_v a_v sum_cd W_vc W_vd |R_c x_v + t_c - R_d x_v - t_d|^2        (shape matching of overlapping clusters, Xu et al. 2009)
-//     E_spread  = sum_edges w_ij |(v'_i - v'_j) - (B_i + B_j)/2 (x_i - x_j)|^2,  B_v = sum_c W_vc R_c      (reduced Poisson)
-// rows k are anchored regions, the centroid is the root, and the last term keeps clusters that overlap nothing near the motion of the whole. Both energies give a right-hand side that is linear
-// in the rotations with constant coefficients, rhs_c = sum_d R_d g_cd, because the blended gradients of an edge combine to its midpoint:
-//     E_spread:  g_cd = - sum_edges w_ij (W_ic - W_jc)(W_id - W_jd) (x_i + x_j)/2,      E_overlap:  g_cd = sum_v a_v W_vc W_vd x_v, row sums subtracted.
-// So a frame costs one C x C triangular solve and a product with a sparse table; no vertex is touched. The matrix is constant and factored once.
-// A rigid motion of everything is a minimiser of every term, and is returned to rounding.
+//     E_overlap / tr + a E_spread / tr + sum_k l |row_k - y_k|^2 + r |centroid - g|^2 + e sum_c |R_c x_c + t_c -
+//     g_c|^2, E_overlap = 1/2 sum_v a_v sum_cd W_vc W_vd |R_c x_v + t_c - R_d x_v - t_d|^2        (shape matching of
+//     overlapping clusters, Xu et al. 2009) E_spread  = sum_edges w_ij |(v'_i - v'_j) - (B_i + B_j)/2 (x_i - x_j)|^2,
+//     B_v = sum_c W_vc R_c      (reduced Poisson)
+// rows k are anchored regions, the centroid is the root, and the last term keeps clusters that overlap nothing near the
+// motion of the whole. Both energies give a right-hand side that is linear in the rotations with constant coefficients,
+// rhs_c = sum_d R_d g_cd, because the blended gradients of an edge combine to its midpoint:
+//     E_spread:  g_cd = - sum_edges w_ij (W_ic - W_jc)(W_id - W_jd) (x_i + x_j)/2,      E_overlap:  g_cd = sum_v a_v
+//     W_vc W_vd x_v, row sums subtracted.
+// So a frame costs one C x C triangular solve and a product with a sparse table; no vertex is touched. The matrix is
+// constant and factored once. A rigid motion of everything is a minimiser of every term, and is returned to rounding.
 #pragma once
 #include <cstdint>
 
@@ -30,14 +33,24 @@ struct TranslationOptions {
 class Translations {
  public:
   explicit Translations(Memory& memory)
-      : factor_(memory), scratch_(&memory), table_start_(&memory), table_column_(&memory), table_(&memory), row_start_(&memory), row_column_(&memory), row_weight_(&memory), row_point_(&memory) {}
+      : factor_(memory),
+        scratch_(&memory),
+        table_start_(&memory),
+        table_column_(&memory),
+        table_(&memory),
+        row_start_(&memory),
+        row_column_(&memory),
+        row_weight_(&memory),
+        row_point_(&memory) {}
 
   // regions: vertices of each anchored region of the target.
-  void prepare(const Core& target, Span<const double> area, const Clusters& clusters, Span<const Span<const std::int32_t>> regions, const TranslationOptions& options);
+  void prepare(const Core& target, Span<const double> area, const Clusters& clusters,
+               Span<const Span<const std::int32_t>> regions, const TranslationOptions& options);
 
-  // goals: one per anchored region; centroid: of the whole; cluster_goals: one per cluster (x_c under the motion of the whole).
-  // out: t_c, one per cluster. Allocates nothing; not for two threads at once.
-  void solve(const Clusters& clusters, const Mat3* rotations, Span<const Vec3> goals, Vec3 centroid, const Vec3* cluster_goals, Vec3* out) noexcept;
+  // goals: one per anchored region; centroid: of the whole; cluster_goals: one per cluster (x_c under the motion of the
+  // whole). out: t_c, one per cluster. Allocates nothing; not for two threads at once.
+  void solve(const Clusters& clusters, const Mat3* rotations, Span<const Vec3> goals, Vec3 centroid,
+             const Vec3* cluster_goals, Vec3* out) noexcept;
 
   // Mean of the region's rest points under the blend of `rotations` alone: sum_c R_c y_kc.
   Vec3 turned(std::size_t anchor, const Mat3* rotations) const noexcept;
@@ -45,9 +58,12 @@ class Translations {
   Mat3 mean_rotation(std::size_t anchor, const Mat3* rotations) const noexcept;
 
  private:
-  void add_overlap(Span<const double> area, const Core& target, const Clusters& clusters, Buffer<double>& matrix, Vector<double>& table) const;
-  void add_spread(const Core& target, const Clusters& clusters, double share, Buffer<double>& matrix, Vector<double>& table) const;
-  void add_row(Span<const std::int32_t> vertices, Span<const double> weights, const Core& target, const Clusters& clusters);
+  void add_overlap(Span<const double> area, const Core& target, const Clusters& clusters, Buffer<double>& matrix,
+                   Vector<double>& table) const;
+  void add_spread(const Core& target, const Clusters& clusters, double share, Buffer<double>& matrix,
+                  Vector<double>& table) const;
+  void add_row(Span<const std::int32_t> vertices, Span<const double> weights, const Core& target,
+               const Clusters& clusters);
 
   std::int32_t count_ = 0;
   double anchor_ = 0, root_ = 0, whole_ = 0;

@@ -15,7 +15,8 @@ struct Animals {
   World world;
   Body horse = creature("horse", 1500, world), bull = creature("bull", 1200, world);
   Pairs pairs = find_pairs("horse_to_bull.json", horse, bull);
-  const samples::Animation& walk = horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
+  const samples::Animation& walk =
+      horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
 };
 
 const Animals& animals() {
@@ -40,7 +41,8 @@ TEST(TransferPairs, AddingAndRemovingPairsFactorisesNothingAndEqualsATransferMad
   const std::vector<hf::PairInput> inputs = a.pairs.inputs();
   const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.4);
   hf::Transfer edited(a.horse.core, a.bull.core, {});
-  const uint32_t source_before = edited.source_counters().factorisations, target_before = edited.target_counters().factorisations;
+  const uint32_t source_before = edited.source_counters().factorisations,
+                 target_before = edited.target_counters().factorisations;
   std::vector<uint32_t> numbers(inputs.size());
   // a random walk over pair sets, a frame after every step
   std::vector<char> present(inputs.size(), 0);
@@ -89,7 +91,9 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
   int32_t free_vertex = 0;
   const auto taken = [&](int32_t v) {
     return std::any_of(inputs.begin(), inputs.end(), [&](const hf::PairInput& input) {
-      return std::count(input.source.begin(), input.source.end(), v) + std::count(input.target.begin(), input.target.end(), v) > 0;
+      return std::count(input.source.begin(), input.source.end(), v) +
+                 std::count(input.target.begin(), input.target.end(), v) >
+             0;
     });
   };
   while (taken(free_vertex)) ++free_vertex;
@@ -141,9 +145,10 @@ TEST(TransferPairs, BadOptionsAreRefused) {
   EXPECT_EQ(refused([](hf::TransferOptions& o) { o.scale = std::nan(""); }), HF_ERROR_NON_FINITE);
   EXPECT_EQ(refused([](hf::TransferOptions& o) { o.source_axes[0] = 1; }), HF_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(refused([](hf::TransferOptions& o) {
-    const double mirrored[9] = {-1, 0, 0, 0, 1, 0, 0, 0, 1};
-    std::copy_n(mirrored, 9, o.target_axes);
-  }), HF_ERROR_INVALID_ARGUMENT);
+              const double mirrored[9] = {-1, 0, 0, 0, 1, 0, 0, 0, 1};
+              std::copy_n(mirrored, 9, o.target_axes);
+            }),
+            HF_ERROR_INVALID_ARGUMENT);
 }
 
 // Fails the allocation number `fail_at`, counted from when it is armed.
@@ -154,7 +159,9 @@ struct Faults {
     if (self->fail_at >= 0 && self->count++ == self->fail_at) return nullptr;
     return ::operator new(size, std::align_val_t(alignment), std::nothrow);
   }
-  static void release(void*, void* block, size_t, size_t alignment) { ::operator delete(block, std::align_val_t(alignment)); }
+  static void release(void*, void* block, size_t, size_t alignment) {
+    ::operator delete(block, std::align_val_t(alignment));
+  }
 };
 
 TEST(TransferPairs, WhenMemoryRunsOutAtAnyAllocationTheTransferStaysAsItWas) {
@@ -237,7 +244,8 @@ TEST(TransferPairs, OddRegionsGiveFiniteResultsAndKeepTheRules) {
   // all vertices of the target shared among two pairs
   hf::PairInput two[2];
   std::vector<int32_t> front, back, other_half;
-  for (int32_t v = 0; v < a.horse.core->size(); ++v) (a.horse.core->mesh.positions[static_cast<size_t>(v)].z > 0 ? front : back).push_back(v);
+  for (int32_t v = 0; v < a.horse.core->size(); ++v)
+    (a.horse.core->mesh.positions[static_cast<size_t>(v)].z > 0 ? front : back).push_back(v);
   for (int32_t v = a.bull.core->size() / 2; v < a.bull.core->size(); ++v) other_half.push_back(v);
   two[0].source = {front.data(), front.size()}, two[0].target = {half.data(), half.size()};
   two[1].source = {back.data(), back.size()}, two[1].target = {other_half.data(), other_half.size()};

@@ -13,7 +13,8 @@ struct Animals {
   World world;
   Body horse = creature("horse", 2500, world), bull = creature("bull", 2000, world);
   Pairs pairs = find_pairs("horse_to_bull.json", horse, bull);
-  const samples::Animation& walk = horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
+  const samples::Animation& walk =
+      horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
   double box = bull.core->mesh.scale;
 };
 
@@ -41,7 +42,8 @@ TEST(TransferRules, ARigidMotionOfTheSourceIsTheSameRigidMotionWithScaledTransla
   const Animals& a = animals();
   const std::vector<Vec3> rest = a.horse.rest(), target_rest = a.bull.rest();
   hf::Memory memory;
-  const auto source_area = hf::area_shares(a.horse.core->mesh, memory), target_area = hf::area_shares(a.bull.core->mesh, memory);
+  const auto source_area = hf::area_shares(a.horse.core->mesh, memory),
+             target_area = hf::area_shares(a.bull.core->mesh, memory);
   Vec3 source_centroid, target_centroid;
   for (size_t v = 0; v < rest.size(); ++v) source_centroid = source_centroid + source_area[v] * rest[v];
   for (size_t v = 0; v < target_rest.size(); ++v) target_centroid = target_centroid + target_area[v] * target_rest[v];
@@ -55,8 +57,10 @@ TEST(TransferRules, ARigidMotionOfTheSourceIsTheSameRigidMotionWithScaledTransla
       std::vector<Vec3> posed, expected;
       for (const Vec3& p : rest) posed.push_back(hf::rotate(rotation, p) + shift);
       const Vec3 moved = hf::rotate(rotation, source_centroid) + shift - source_centroid;
-      for (const Vec3& p : target_rest) expected.push_back(hf::rotate(rotation, p - target_centroid) + target_centroid + transfer.scale() * moved);
-      EXPECT_LT(largest_distance(frame_of(transfer, posed), expected), 1e-6 * a.box) << "mode " << mode << " turn " << turn.x << " " << turn.y << " " << turn.z;
+      for (const Vec3& p : target_rest)
+        expected.push_back(hf::rotate(rotation, p - target_centroid) + target_centroid + transfer.scale() * moved);
+      EXPECT_LT(largest_distance(frame_of(transfer, posed), expected), 1e-6 * a.box)
+          << "mode " << mode << " turn " << turn.x << " " << turn.y << " " << turn.z;
     }
   }
 }
@@ -64,7 +68,10 @@ TEST(TransferRules, ARigidMotionOfTheSourceIsTheSameRigidMotionWithScaledTransla
 TEST(TransferRules, TurningTheSourceAboutTheVerticalWithItsAxesGivesTheSameClip) {
   const Animals& a = animals();
   const double angle = 2.1;
-  const auto turned = [&](const glm::dvec3& p) { return glm::dvec3(std::cos(angle) * p.x + std::sin(angle) * p.z, p.y, -std::sin(angle) * p.x + std::cos(angle) * p.z); };
+  const auto turned = [&](const glm::dvec3& p) {
+    return glm::dvec3(std::cos(angle) * p.x + std::sin(angle) * p.z, p.y,
+                      -std::sin(angle) * p.x + std::cos(angle) * p.z);
+  };
   Body other = a.horse;
   other.move(a.world, turned);
   ASSERT_EQ(other.core->size(), a.horse.core->size());
@@ -77,7 +84,9 @@ TEST(TransferRules, TurningTheSourceAboutTheVerticalWithItsAxesGivesTheSameClip)
   for (const double time : {0.0, 0.2, 0.55, 0.9}) {
     std::vector<glm::dvec3> posed = samples::posed_positions(a.horse.model, a.horse.mesh, a.walk, time), moved;
     for (const glm::dvec3& p : posed) moved.push_back(turned(p));
-    EXPECT_LT(largest_distance(frame_of(first, a.horse.inner(posed)), frame_of(second, other.inner(moved))), 1e-6 * a.box) << time;
+    EXPECT_LT(largest_distance(frame_of(first, a.horse.inner(posed)), frame_of(second, other.inner(moved))),
+              1e-6 * a.box)
+        << time;
   }
 }
 
@@ -174,7 +183,8 @@ TEST(TransferRules, TheSkinReplaysTheFrameAndItsWeightsSumToExactlyOne) {
           if (i > 0) {
             ASSERT_LE(weights[i], weights[i - 1]);
           }
-          p = p + static_cast<double>(weights[i]) * (hf::rotate(rotations[joints[i]], rest[v] - pivots[joints[i]]) + places[joints[i]]);
+          p = p + static_cast<double>(weights[i]) *
+                      (hf::rotate(rotations[joints[i]], rest[v] - pivots[joints[i]]) + places[joints[i]]);
         }
         ASSERT_EQ(sum, 1.0f) << v;
         ASSERT_LT(hf::norm(p - out[v]), 1e-9 * a.box) << v;
@@ -187,7 +197,9 @@ TEST(TransferRules, WeightsOfAVertexAreRoundedToAnExactSum) {
   for (int trial = 0; trial < 1000; ++trial) {
     hf::Candidate candidates[6];
     const int count = 1 + trial % 6;
-    for (int i = 0; i < count; ++i) candidates[i].cluster = i, candidates[i].weight = trial % 7 == 0 ? 0.0 : std::fmod(0.137 * (trial + 1) * (i + 1), 1.0);
+    for (int i = 0; i < count; ++i)
+      candidates[i].cluster = i,
+      candidates[i].weight = trial % 7 == 0 ? 0.0 : std::fmod(0.137 * (trial + 1) * (i + 1), 1.0);
     int32_t joint[4];
     float weight[4];
     hf::write_weights(candidates, count, joint, weight);

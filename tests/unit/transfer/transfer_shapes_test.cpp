@@ -1,4 +1,5 @@
-// Transfers whose right answer is known: the same body remeshed and scaled, a copy with another rest pose, loose parts, planted feet.
+// Transfers whose right answer is known: the same body remeshed and scaled, a copy with another rest pose, loose parts,
+// planted feet.
 #include <gtest/gtest.h>
 
 #include "unit/transfer/transfer_support.h"
@@ -12,7 +13,8 @@ struct Animals {
   World world;
   Body horse = creature("horse", 2500, world), bull = creature("bull", 2000, world);
   Pairs pairs = find_pairs("horse_to_bull.json", horse, bull);
-  const samples::Animation& walk = horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
+  const samples::Animation& walk =
+      horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
 };
 
 const Animals& animals() {
@@ -47,7 +49,9 @@ TEST(TransferShapes, TheSameSurfaceRemeshedAndScaledFollowsWithinTwoPercentOfThe
     }
   }
   // the largest single vertex is at the knees, where the source's skin itself stretches
-  std::printf("remeshed and scaled: root mean square of a frame %.4f of the box, worst frame %.4f, largest vertex %.4f\n", sum / frames, worst, largest);
+  std::printf(
+      "remeshed and scaled: root mean square of a frame %.4f of the box, worst frame %.4f, largest vertex %.4f\n",
+      sum / frames, worst, largest);
   EXPECT_LT(sum / frames, 0.008);
   EXPECT_LT(worst, 0.02);
   EXPECT_LT(largest, 0.06);
@@ -108,11 +112,16 @@ void add_loose_parts(Body& body, const glm::dvec3& eye, const glm::dvec3& strap,
   auto& mesh = body.mesh;
   const auto base = static_cast<uint32_t>(mesh.positions.size());
   const double r = 0.02;
-  for (const glm::dvec3& d : {glm::dvec3(r, 0, 0), glm::dvec3(-r, 0, 0), glm::dvec3(0, r, 0), glm::dvec3(0, -r, 0), glm::dvec3(0, 0, r), glm::dvec3(0, 0, -r)}) mesh.positions.push_back(eye + d);
-  for (const uint32_t t : {0u, 2u, 4u, 2u, 1u, 4u, 1u, 3u, 4u, 3u, 0u, 4u, 2u, 0u, 5u, 1u, 2u, 5u, 3u, 1u, 5u, 0u, 3u, 5u}) mesh.triangles.push_back(base + t);
+  for (const glm::dvec3& d : {glm::dvec3(r, 0, 0), glm::dvec3(-r, 0, 0), glm::dvec3(0, r, 0), glm::dvec3(0, -r, 0),
+                              glm::dvec3(0, 0, r), glm::dvec3(0, 0, -r)})
+    mesh.positions.push_back(eye + d);
+  for (const uint32_t t :
+       {0u, 2u, 4u, 2u, 1u, 4u, 1u, 3u, 4u, 3u, 0u, 4u, 2u, 0u, 5u, 1u, 2u, 5u, 3u, 1u, 5u, 0u, 3u, 5u})
+    mesh.triangles.push_back(base + t);
   const uint32_t start = base + 6;
   for (uint32_t i = 0; i <= 12; ++i) {
-    mesh.positions.push_back(strap + glm::dvec3(-0.03, 0, 0.1 * i)), mesh.positions.push_back(strap + glm::dvec3(0.03, 0, 0.1 * i));
+    mesh.positions.push_back(strap + glm::dvec3(-0.03, 0, 0.1 * i)),
+        mesh.positions.push_back(strap + glm::dvec3(0.03, 0, 0.1 * i));
   }
   for (uint32_t i = 0; i < 12; ++i) {
     for (const uint32_t t : {0u, 2u, 1u, 1u, 2u, 3u}) mesh.triangles.push_back(start + 2 * i + t);
@@ -123,7 +132,8 @@ void add_loose_parts(Body& body, const glm::dvec3& eye, const glm::dvec3& strap,
 TEST(TransferShapes, LoosePartsFollowWhatTheyLieNextTo) {
   const Animals& a = animals();
   Body bull = a.bull;
-  const glm::dvec3 head = glm::dvec3(samples::global_matrices(bull.model, samples::rest_pose(bull.model))[static_cast<size_t>(samples::find_node(bull.model, "head"))][3]);
+  const glm::dvec3 head = glm::dvec3(samples::global_matrices(
+      bull.model, samples::rest_pose(bull.model))[static_cast<size_t>(samples::find_node(bull.model, "head"))][3]);
   const size_t first = bull.mesh.positions.size();
   add_loose_parts(bull, head + glm::dvec3(0.1, 0.1, 0.15), {0, 1.45, -0.6}, a.world);
   ASSERT_EQ(bull.core->mesh.component_count(), 3);
@@ -146,7 +156,8 @@ TEST(TransferShapes, LoosePartsFollowWhatTheyLieNextTo) {
     }
     // the eye stays rigid
     for (size_t v = first; v < first + 6; ++v) {
-      for (size_t w = first; w < v; ++w) EXPECT_NEAR(hf::norm(out[inner(v)] - out[inner(w)]), hf::norm(rest[inner(v)] - rest[inner(w)]), 1e-3);
+      for (size_t w = first; w < v; ++w)
+        EXPECT_NEAR(hf::norm(out[inner(v)] - out[inner(w)]), hf::norm(rest[inner(v)] - rest[inner(w)]), 1e-3);
     }
   }
 }
@@ -179,7 +190,8 @@ TEST(TransferShapes, FeetFollowTheScaledPathsOfTheSourcesFeetWithoutSinkingOrJit
     const std::vector<Vec3> posed = a.horse.posed(a.walk, duration * f / frames), out = frame_of(transfer, posed);
     for (size_t foot = 2; foot < 6; ++foot) {
       const Foot from = foot_of(a.pairs.source[foot], posed), to = foot_of(a.pairs.target[foot], out);
-      const Foot from_rest = foot_of(a.pairs.source[foot], source_rest), to_rest = foot_of(a.pairs.target[foot], target_rest);
+      const Foot from_rest = foot_of(a.pairs.source[foot], source_rest),
+                 to_rest = foot_of(a.pairs.target[foot], target_rest);
       const Vec3 goal = to_rest.centre + scale * (from.centre - from_rest.centre);
       const double miss = hf::norm(to.centre - goal) / box;
       sum += miss, largest = std::max(largest, miss), ++count;
@@ -189,11 +201,14 @@ TEST(TransferShapes, FeetFollowTheScaledPathsOfTheSourcesFeetWithoutSinkingOrJit
   }
   for (size_t foot = 0; foot < 4; ++foot) {
     for (size_t f = 0; f + 3 < frames; ++f) {
-      const auto jerk = [&](const std::vector<Vec3>& p) { return hf::norm(p[f + 3] - 3.0 * p[f + 2] + 3.0 * p[f + 1] - p[f]); };
+      const auto jerk = [&](const std::vector<Vec3>& p) {
+        return hf::norm(p[f + 3] - 3.0 * p[f + 2] + 3.0 * p[f + 1] - p[f]);
+      };
       source_jerk += jerk(paths[foot]), target_jerk += jerk(paths[foot + 4]);
     }
   }
-  std::printf("feet: path deviation mean %.4f max %.4f, sunk %.4f of the box, jerk %.3f of the source's\n", sum / count, largest, sunk, target_jerk / source_jerk);
+  std::printf("feet: path deviation mean %.4f max %.4f, sunk %.4f of the box, jerk %.3f of the source's\n", sum / count,
+              largest, sunk, target_jerk / source_jerk);
   EXPECT_LT(sum / count, 0.005);
   EXPECT_LT(largest, 0.012);
   EXPECT_LT(sunk, 0.01);

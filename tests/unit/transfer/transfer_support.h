@@ -1,4 +1,5 @@
-// What the tests of transfer share: a body is a model, its flat mesh and its core; posed positions of its inner vertices; pairs from a file.
+// What the tests of transfer share: a body is a model, its flat mesh and its core; posed positions of its inner
+// vertices; pairs from a file.
 #ifndef HF_TESTS_TRANSFER_SUPPORT_H
 #define HF_TESTS_TRANSFER_SUPPORT_H
 
@@ -23,17 +24,22 @@ inline std::filesystem::path data_folder() {
   return std::filesystem::path(HF_SOURCE_DIR) / "../shared/data";
 }
 
-inline std::filesystem::path pairs_path(const std::string& name) { return std::filesystem::path(HF_SOURCE_DIR) / "samples/transfer/pairs" / name; }
+inline std::filesystem::path pairs_path(const std::string& name) {
+  return std::filesystem::path(HF_SOURCE_DIR) / "samples/transfer/pairs" / name;
+}
 
 struct World {
-  explicit World(uint32_t threads = 1, const hf_allocator& hooks = {}) : memory(std::make_shared<hf::Memory>(hooks)), jobs(std::make_shared<hf::JobRunner>(threads)) {}
+  explicit World(uint32_t threads = 1, const hf_allocator& hooks = {})
+      : memory(std::make_shared<hf::Memory>(hooks)), jobs(std::make_shared<hf::JobRunner>(threads)) {}
   std::shared_ptr<hf::Memory> memory;
   std::shared_ptr<hf::JobRunner> jobs;
 };
 
-inline std::shared_ptr<const hf::Core> make_core(const std::vector<glm::dvec3>& positions, const std::vector<uint32_t>& triangles, const World& world) {
+inline std::shared_ptr<const hf::Core> make_core(const std::vector<glm::dvec3>& positions,
+                                                 const std::vector<uint32_t>& triangles, const World& world) {
   hf::MeshInput input;
-  input.vertex_count = static_cast<uint32_t>(positions.size()), input.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
+  input.vertex_count = static_cast<uint32_t>(positions.size()),
+  input.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
   input.positions = hf::ConstRows(&positions[0].x, sizeof(glm::dvec3)), input.triangles = triangles.data();
   return hf::Core::make(input, {}, world.memory, world.jobs);
 }
@@ -43,7 +49,9 @@ struct Body {
   samples::FlatMesh mesh;
   std::shared_ptr<const hf::Core> core;
 
-  Body(samples::Model from, const World& world) : model(std::move(from)), mesh(samples::flatten(model)) { build(world); }
+  Body(samples::Model from, const World& world) : model(std::move(from)), mesh(samples::flatten(model)) {
+    build(world);
+  }
   // Moves the rest shape (and nothing else), p -> f(p), and makes the core anew.
   template <class Function>
   void move(const World& world, Function f) {
@@ -62,7 +70,9 @@ struct Body {
     return out;
   }
   std::vector<hf::Vec3> rest() const { return inner(mesh.positions); }
-  std::vector<hf::Vec3> posed(const samples::Animation& clip, double time) const { return inner(samples::posed_positions(model, mesh, clip, time)); }
+  std::vector<hf::Vec3> posed(const samples::Animation& clip, double time) const {
+    return inner(samples::posed_positions(model, mesh, clip, time));
+  }
   std::vector<int32_t> inner_of(const std::vector<uint32_t>& flat) const {
     std::vector<int32_t> out;
     for (const uint32_t v : flat) {
@@ -72,7 +82,9 @@ struct Body {
   }
 };
 
-inline Body creature(const std::string& name, uint32_t vertices, const World& world) { return Body(samples::to_model(samples::make_creature(name, vertices)), world); }
+inline Body creature(const std::string& name, uint32_t vertices, const World& world) {
+  return Body(samples::to_model(samples::make_creature(name, vertices)), world);
+}
 
 // The regions of a pairs file as inner vertices of two bodies.
 struct Pairs {
@@ -81,7 +93,9 @@ struct Pairs {
   std::vector<uint32_t> flags;
   std::vector<hf::PairInput> inputs() const {
     std::vector<hf::PairInput> out(names.size());
-    for (size_t i = 0; i < out.size(); ++i) out[i].source = {source[i].data(), source[i].size()}, out[i].target = {target[i].data(), target[i].size()}, out[i].flags = flags[i];
+    for (size_t i = 0; i < out.size(); ++i)
+      out[i].source = {source[i].data(), source[i].size()}, out[i].target = {target[i].data(), target[i].size()},
+      out[i].flags = flags[i];
     return out;
   }
 };
@@ -89,10 +103,13 @@ struct Pairs {
 // as_source: both sides take the source's selectors (self-transfer).
 inline Pairs find_pairs(const std::string& file, const Body& source, const Body& target, bool as_source = false) {
   const samples::PairsFile pairs = samples::read_pairs(pairs_path(file));
-  const samples::RegionFinder on_source(source.model, source.mesh, pairs.source_axes), on_target(target.model, target.mesh, pairs.target_axes);
+  const samples::RegionFinder on_source(source.model, source.mesh, pairs.source_axes),
+      on_target(target.model, target.mesh, pairs.target_axes);
   std::vector<samples::Region> a, b;
-  for (const samples::PairEntry& entry : pairs.pairs) a.push_back(on_source.find(entry.source)), b.push_back(on_target.find(as_source ? entry.source : entry.target));
-  if (on_source.separate(a) >= 0 || on_target.separate(b) >= 0) throw std::runtime_error("a region is covered by others");
+  for (const samples::PairEntry& entry : pairs.pairs)
+    a.push_back(on_source.find(entry.source)), b.push_back(on_target.find(as_source ? entry.source : entry.target));
+  if (on_source.separate(a) >= 0 || on_target.separate(b) >= 0)
+    throw std::runtime_error("a region is covered by others");
   Pairs out;
   for (size_t i = 0; i < a.size(); ++i) {
     out.names.push_back(pairs.pairs[i].name), out.flags.push_back(pairs.pairs[i].flags());
@@ -101,7 +118,9 @@ inline Pairs find_pairs(const std::string& file, const Body& source, const Body&
   return out;
 }
 
-inline void add(hf::Transfer& transfer, const std::vector<hf::PairInput>& inputs, uint32_t* numbers = nullptr) { transfer.add_pairs({inputs.data(), inputs.size()}, numbers); }
+inline void add(hf::Transfer& transfer, const std::vector<hf::PairInput>& inputs, uint32_t* numbers = nullptr) {
+  transfer.add_pairs({inputs.data(), inputs.size()}, numbers);
+}
 
 inline std::vector<hf::Vec3> frame_of(hf::Transfer& transfer, const std::vector<hf::Vec3>& posed) {
   std::vector<hf::Vec3> out(static_cast<size_t>(transfer.target().size()));
@@ -116,7 +135,8 @@ inline double largest_distance(const std::vector<hf::Vec3>& a, const std::vector
 }
 
 // Area-weighted root mean square over the box diagonal; centred: the mean difference is taken out.
-inline double rms(const hf::Core& core, const std::vector<hf::Vec3>& a, const std::vector<hf::Vec3>& b, bool centred = false) {
+inline double rms(const hf::Core& core, const std::vector<hf::Vec3>& a, const std::vector<hf::Vec3>& b,
+                  bool centred = false) {
   hf::Memory memory;
   const auto area = hf::area_shares(core.mesh, memory);
   hf::Vec3 mean;

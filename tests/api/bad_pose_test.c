@@ -1,0 +1,322 @@
+/* Bad input to hf/deform.h and hf/transfer.h: one thing wrong per row; pose, transfer and outputs stay as they were. */
+#include "bad_scene.h"
+
+static Scene scene;
+
+/* The good input of every call; a row spoils one thing. */
+static uint32_t counts[2], target_counts[2], region[6], target_region[6], flags[2], out_numbers[2], numbers[3];
+static hf_handles_desc handles;
+static hf_pairs_desc pairs;
+static hf_pose_desc pose_desc;
+static hf_transfer_desc transfer_desc;
+static hf_transform transforms[3];
+static hf_deform_desc deform;
+static hf_transfer_frame frame;
+static hf_skin_info skin;
+static float source[3 * TUBE_VERTICES], floats[3 * TUBE_VERTICES], normals[3 * TUBE_VERTICES];
+static double doubles[3 * TUBE_VERTICES];
+static hf_pose out_pose;
+static hf_transfer out_transfer;
+
+static void good_input(void) {
+  for (uint32_t i = 0; i < 6; ++i) region[i] = target_region[i] = 5 * TUBE_AROUND + i;
+  counts[0] = target_counts[0] = 2, counts[1] = target_counts[1] = 4;
+  flags[0] = 0, flags[1] = HF_PAIR_ANCHOR, out_numbers[0] = 777;
+  numbers[0] = scene.handles[0], numbers[1] = scene.handles[1], numbers[2] = 0;
+  HF_INIT(handles), HF_INIT(pairs), HF_INIT(pose_desc), HF_INIT(transfer_desc), HF_INIT(deform), HF_INIT(frame), HF_INIT(skin);
+  handles.handle_count = 2, handles.region_counts = counts, handles.region_vertices = region;
+  pairs.pair_count = 2, pairs.flags = flags;
+  pairs.source_counts = counts, pairs.source_vertices = region;
+  pairs.target_counts = target_counts, pairs.target_vertices = target_region;
+  memset(transforms, 0, sizeof transforms);
+  transforms[0].rotation[3] = transforms[1].rotation[3] = 1, transforms[0].translation[0] = 3;
+  deform.positions = floats;
+  memcpy(source, scene.posed, sizeof source);
+  frame.source_positions = source, frame.target_positions = floats;
+  floats[0] = 777, doubles[0] = 777, normals[0] = 777;
+  out_pose = scene.pose, out_transfer = scene.transfer;
+}
+
+static int outputs_unwritten(void) { return out_numbers[0] == 777 && floats[0] == 777 && doubles[0] == 777 && normals[0] == 777; }
+static int pose_as_before(void) { return outputs_unwritten() && pose_unchanged(&scene); }
+static int transfer_as_before(void) { return outputs_unwritten() && transfer_unchanged(&scene); }
+static int no_pose(void) { return out_pose == NULL && pose_as_before(); }
+static int no_transfer(void) { return out_transfer == NULL && transfer_as_before(); }
+
+#define GOOD good_input
+#define UNCHANGED no_pose
+#define CREATE_POSE(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_pose_create(scene.body, &pose_desc, &out_pose))
+
+static hf_solver solver_of_engine(int32_t engine) {
+  hf_create_desc desc = surface_desc(&scene.tube);
+  desc.engine = engine;
+  hf_solver solver = NULL;
+  assert_ok(hf_create(&desc, &solver));
+  return solver;
+}
+
+static void bad_poses_are_not_made(void** state) {
+  (void)state;
+  scene_create(&scene);
+  hf_solver refactor = solver_of_engine(HF_ENGINE_REFACTOR);
+  CREATE_POSE("mode -1", HF_ERROR_INVALID_ARGUMENT, pose_desc.mode = -1);
+  CREATE_POSE("mode 2", HF_ERROR_INVALID_ARGUMENT, pose_desc.mode = 2);
+  CREATE_POSE("1 band", HF_ERROR_INVALID_ARGUMENT, pose_desc.band_count = 1);
+  CREATE_POSE("65 bands", HF_ERROR_INVALID_ARGUMENT, pose_desc.band_count = 65);
+  CREATE_POSE("2^32 - 1 bands", HF_ERROR_INVALID_ARGUMENT, pose_desc.band_count = UINT32_MAX);
+  CREATE_POSE("1001 iterations", HF_ERROR_INVALID_ARGUMENT, pose_desc.iteration_count = 1001);
+  CREATE_POSE("2^31 iterations", HF_ERROR_INVALID_ARGUMENT, pose_desc.iteration_count = 0x80000000u);
+  CREATE_POSE("2001 groups", HF_ERROR_INVALID_ARGUMENT, pose_desc.group_count = 2001);
+  CREATE_POSE("2^32 - 1 groups", HF_ERROR_INVALID_ARGUMENT, pose_desc.group_count = UINT32_MAX);
+  ROW("another engine", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0, hf_pose_create(refactor, NULL, &out_pose));
+  ROW("no solver", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_pose_create(NULL, NULL, &out_pose));
+  ROW("no pose to clone", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_pose_clone(scene.stale_pose, &out_pose));
+#undef UNCHANGED
+#define UNCHANGED pose_as_before
+  ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_create(scene.body, NULL, NULL));
+  ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_clone(scene.pose, NULL));
+  hf_destroy(refactor);
+  scene_destroy(&scene);
+  finish_rows("making poses");
+}
+
+#define ADD(what, expected, index, change) ROW(what, expected, index, change, hf_pose_add_handles(scene.pose, &handles, out_numbers))
+
+static void bad_handles_are_not_added(void** state) {
+  (void)state;
+  scene_create(&scene);
+  ADD("none", HF_ERROR_EMPTY, NO_INDEX, handles.handle_count = 0);
+  ADD("region_counts NULL", HF_ERROR_NULL_POINTER, NO_INDEX, handles.region_counts = NULL);
+  ADD("region_vertices NULL", HF_ERROR_NULL_POINTER, NO_INDEX, handles.region_vertices = NULL);
+  ADD("an empty region", HF_ERROR_EMPTY, 1, counts[1] = 0);
+  ADD("vertex = vertex_count", HF_ERROR_OUT_OF_RANGE, 3, region[3] = TUBE_VERTICES);
+  ADD("vertex UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 0, region[0] = UINT32_MAX);
+  ADD("vertex 2^31", HF_ERROR_OUT_OF_RANGE, 5, region[5] = 0x80000000u);
+  ADD("overlaps a handle that is there", HF_ERROR_OVERLAP, 1, region[1] = 0);
+  ADD("overlaps the other region", HF_ERROR_OVERLAP, 4, region[4] = region[0]);
+  ADD("257 handles", HF_ERROR_TOO_LARGE, NO_INDEX, handles.handle_count = 257);
+  ADD("2^31 handles", HF_ERROR_TOO_LARGE, NO_INDEX, handles.handle_count = 0x80000000u);
+  ADD("2^32 - 1 handles", HF_ERROR_TOO_LARGE, NO_INDEX, handles.handle_count = UINT32_MAX);
+  ADD("a region of 2^32 - 1", HF_ERROR_TOO_LARGE, 1, counts[1] = UINT32_MAX);
+  ADD("a region of 2^31", HF_ERROR_TOO_LARGE, 0, counts[0] = 0x80000000u);
+  scene_destroy(&scene);
+  finish_rows("adding handles");
+}
+
+static void isolated_vertices_and_welded_copies_in_regions_are_found(void** state) {
+  (void)state;
+  scene_create(&scene);
+  hf_pose pose = NULL;
+  assert_ok(hf_pose_create(scene.solver, NULL, &pose));
+  uint32_t sizes[2] = {2, 2}, vertices[4] = {0, 1, CUT_SEAM_LEFT, CUT_SEAM_RIGHT};
+  hf_handles_desc d;
+  HF_INIT(d);
+  d.handle_count = 2, d.region_counts = sizes, d.region_vertices = vertices;
+  assert_ok(hf_pose_add_handles(pose, &d, NULL)); /* two copies in one region are one vertex */
+  hf_handle_info info;
+  HF_INIT(info);
+  assert_ok(hf_pose_get_handle(pose, 1, &info));
+  assert_int_equal(info.vertex_count, 1);
+  const uint32_t both[] = {0, 1};
+  assert_ok(hf_pose_remove_handles(pose, 2, both));
+  vertices[1] = CUT_SEAM_RIGHT, vertices[3] = 9;
+  check_row(__LINE__, "copies in two regions", "hf_pose_add_handles", hf_pose_add_handles(pose, &d, NULL), HF_ERROR_OVERLAP, 2);
+  vertices[1] = 1, vertices[3] = CUT_ISOLATED;
+  check_row(__LINE__, "an isolated vertex", "hf_pose_add_handles", hf_pose_add_handles(pose, &d, NULL), HF_ERROR_INVALID_ARGUMENT, 3);
+  assert_int_equal(hf_pose_get_handle_count(pose), 0);
+  hf_pose_destroy(pose);
+  scene_destroy(&scene);
+  finish_rows("welded regions");
+}
+
+static void a_pose_takes_256_handles_and_no_more(void** state) {
+  (void)state;
+  Surface tube = surface_tube(16, 40);
+  hf_solver solver = surface_solver(&tube);
+  hf_pose pose = NULL;
+  assert_ok(hf_pose_create(solver, NULL, &pose));
+  uint32_t sizes[200], vertices[200];
+  for (uint32_t i = 0; i < 200; ++i) sizes[i] = 1, vertices[i] = 3 * i;
+  hf_handles_desc d;
+  HF_INIT(d);
+  d.handle_count = 200, d.region_counts = sizes, d.region_vertices = vertices;
+  assert_ok(hf_pose_add_handles(pose, &d, NULL));
+  for (uint32_t i = 0; i < 200; ++i) vertices[i] = 3 * i + 1;
+  d.handle_count = 57;
+  assert_code(HF_ERROR_TOO_LARGE, hf_pose_add_handles(pose, &d, NULL));
+  assert_int_equal(hf_pose_get_handle_count(pose), 200);
+  hf_pose_destroy(pose), hf_destroy(solver);
+  surface_free(&tube);
+}
+
+static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
+  (void)state;
+  scene_create(&scene);
+  hf_handle_info info;
+  HF_INIT(info);
+  ROW("none", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_pose_remove_handles(scene.pose, 0, numbers));
+  ROW("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_remove_handles(scene.pose, 1, NULL));
+  ROW("no such handle", HF_ERROR_NO_SUCH_HANDLE, 1, numbers[1] = 2, hf_pose_remove_handles(scene.pose, 2, numbers));
+  ROW("UINT32_MAX", HF_ERROR_NO_SUCH_HANDLE, 0, numbers[0] = UINT32_MAX, hf_pose_remove_handles(scene.pose, 2, numbers));
+  ROW("named twice", HF_ERROR_NO_SUCH_HANDLE, 2, (void)0, hf_pose_remove_handles(scene.pose, 3, numbers));
+  ROW("2^31 of them", HF_ERROR_NO_SUCH_HANDLE, 2, (void)0, hf_pose_remove_handles(scene.pose, 0x80000000u, numbers));
+
+#define PLACE(what, expected, index, change) ROW(what, expected, index, change, hf_pose_set_transforms(scene.pose, 2, numbers, transforms))
+  ROW("none", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_pose_set_transforms(scene.pose, 0, numbers, transforms));
+  ROW("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_set_transforms(scene.pose, 2, NULL, transforms));
+  ROW("transforms NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_set_transforms(scene.pose, 2, numbers, NULL));
+  ROW("2^32 - 1 of them", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0, hf_pose_set_transforms(scene.pose, UINT32_MAX, numbers, transforms));
+  PLACE("no such handle", HF_ERROR_NO_SUCH_HANDLE, 1, numbers[1] = 9);
+  PLACE("rotation NaN", HF_ERROR_NON_FINITE, 1, transforms[1].rotation[0] = (double)NAN);
+  PLACE("rotation w infinite", HF_ERROR_NON_FINITE, 0, transforms[0].rotation[3] = HUGE_VAL);
+  PLACE("translation NaN", HF_ERROR_NON_FINITE, 1, transforms[1].translation[2] = (double)NAN);
+  PLACE("translation infinite", HF_ERROR_NON_FINITE, 0, transforms[0].translation[0] = -HUGE_VAL);
+  PLACE("translation absurd", HF_ERROR_NON_FINITE, 1, transforms[1].translation[1] = 1e300);
+
+  ROW("no such handle", HF_ERROR_NO_SUCH_HANDLE, NO_INDEX, (void)0, hf_pose_get_handle(scene.pose, 2, &info));
+  ROW("UINT32_MAX", HF_ERROR_NO_SUCH_HANDLE, NO_INDEX, (void)0, hf_pose_get_handle(scene.pose, UINT32_MAX, &info));
+  ROW("no such handle", HF_ERROR_NO_SUCH_HANDLE, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 2, floats, 0));
+  ROW("output NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 0, NULL, 0));
+  ROW("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 0, floats, 3));
+
+#define DEFORM(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_deform(scene.pose, &deform, NULL))
+  DEFORM("no output", HF_ERROR_NULL_POINTER, deform.positions = NULL);
+  DEFORM("both outputs", HF_ERROR_INVALID_ARGUMENT, deform.positions_f64 = doubles);
+  DEFORM("stride 11", HF_ERROR_TOO_SMALL, deform.position_stride = 11);
+  DEFORM("stride of floats", HF_ERROR_TOO_SMALL, (deform.positions = NULL, deform.positions_f64 = doubles, deform.position_stride = 12));
+  DEFORM("normal stride 4", HF_ERROR_TOO_SMALL, (deform.normals = normals, deform.normal_stride = 4));
+  DEFORM("1001 iterations", HF_ERROR_INVALID_ARGUMENT, deform.iteration_count = 1001);
+  DEFORM("2^32 - 1 iterations", HF_ERROR_INVALID_ARGUMENT, deform.iteration_count = UINT32_MAX);
+  DEFORM("reserved set", HF_ERROR_INVALID_DESC, deform.reserved = 1);
+  GOOD();
+  assert_ok(hf_pose_create(scene.body, NULL, &out_pose));
+  check_row(__LINE__, "no handle", "hf_deform", hf_deform(out_pose, &deform, NULL), HF_ERROR_EMPTY, NO_INDEX);
+  check_row(__LINE__, "no handle", "hf_pose_get_handle", hf_pose_get_handle(out_pose, 0, &info), HF_ERROR_NO_SUCH_HANDLE, NO_INDEX);
+  check_row(__LINE__, "no handle", "hf_pose_get_field", hf_pose_get_field(out_pose, 0, floats, 0), HF_ERROR_NO_SUCH_HANDLE, NO_INDEX);
+  check_row(__LINE__, "no handle", "hf_pose_remove_handles", hf_pose_remove_handles(out_pose, 1, numbers), HF_ERROR_NO_SUCH_HANDLE, 0);
+  hf_pose_destroy(out_pose);
+  scene_destroy(&scene);
+  finish_rows("poses");
+}
+
+#undef UNCHANGED
+#define UNCHANGED no_transfer
+#define CREATE_TRANSFER(what, expected, change) \
+  ROW(what, expected, NO_INDEX, change, hf_transfer_create(scene.body, scene.body, &transfer_desc, &out_transfer))
+
+static void bad_transfers_are_not_made(void** state) {
+  (void)state;
+  scene_create(&scene);
+  hf_solver refactor = solver_of_engine(HF_ENGINE_REFACTOR);
+  CREATE_TRANSFER("mode -1", HF_ERROR_INVALID_ARGUMENT, transfer_desc.mode = -1);
+  CREATE_TRANSFER("mode 2", HF_ERROR_INVALID_ARGUMENT, transfer_desc.mode = 2);
+  CREATE_TRANSFER("513 clusters", HF_ERROR_INVALID_ARGUMENT, transfer_desc.cluster_count = 513);
+  CREATE_TRANSFER("2^32 - 1 clusters", HF_ERROR_INVALID_ARGUMENT, transfer_desc.cluster_count = UINT32_MAX);
+  CREATE_TRANSFER("kernel 0.001", HF_ERROR_INVALID_ARGUMENT, transfer_desc.kernel_width = 0.001f);
+  CREATE_TRANSFER("kernel 0.6", HF_ERROR_INVALID_ARGUMENT, transfer_desc.kernel_width = 0.6f);
+  CREATE_TRANSFER("kernel negative", HF_ERROR_INVALID_ARGUMENT, transfer_desc.kernel_width = -0.1f);
+  CREATE_TRANSFER("kernel NaN", HF_ERROR_INVALID_ARGUMENT, transfer_desc.kernel_width = (float)NAN);
+  CREATE_TRANSFER("scale negative", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = -1.0f);
+  CREATE_TRANSFER("scale NaN", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = (float)NAN);
+  CREATE_TRANSFER("scale infinite", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = (float)INFINITY);
+  CREATE_TRANSFER("scale absurd", HF_ERROR_INVALID_ARGUMENT, transfer_desc.scale = 1e30f);
+  CREATE_TRANSFER("angle NaN", HF_ERROR_NON_FINITE, transfer_desc.alignment_angle = (float)NAN);
+  CREATE_TRANSFER("angle infinite", HF_ERROR_NON_FINITE, transfer_desc.alignment_angle = (float)INFINITY);
+  CREATE_TRANSFER("source axis NaN", HF_ERROR_NON_FINITE, transfer_desc.source_axes[4] = (float)NAN);
+  CREATE_TRANSFER("target axis infinite", HF_ERROR_NON_FINITE, transfer_desc.target_axes[8] = (float)INFINITY);
+  CREATE_TRANSFER("source axes incomplete", HF_ERROR_INVALID_ARGUMENT, transfer_desc.source_axes[0] = 1.0f);
+  CREATE_TRANSFER("target axes no frame", HF_ERROR_INVALID_ARGUMENT,
+                  (transfer_desc.target_axes[0] = transfer_desc.target_axes[3] = transfer_desc.target_axes[8] = 1.0f));
+  ROW("source engine", HF_ERROR_UNSUPPORTED, 0, (void)0, hf_transfer_create(refactor, scene.body, NULL, &out_transfer));
+  ROW("target engine", HF_ERROR_UNSUPPORTED, 1, (void)0, hf_transfer_create(scene.body, refactor, NULL, &out_transfer));
+#undef UNCHANGED
+#define UNCHANGED transfer_as_before
+  ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_transfer_create(scene.body, scene.body, NULL, NULL));
+  hf_destroy(refactor);
+  scene_destroy(&scene);
+  finish_rows("making transfers");
+}
+
+#define PAIRS(what, expected, index, change) ROW(what, expected, index, change, hf_transfer_add_pairs(scene.transfer, &pairs, out_numbers))
+
+static void bad_pairs_are_not_added(void** state) {
+  (void)state;
+  scene_create(&scene);
+  PAIRS("none", HF_ERROR_EMPTY, NO_INDEX, pairs.pair_count = 0);
+  PAIRS("257", HF_ERROR_TOO_LARGE, NO_INDEX, pairs.pair_count = 257);
+  PAIRS("2^31", HF_ERROR_TOO_LARGE, NO_INDEX, pairs.pair_count = 0x80000000u);
+  PAIRS("2^32 - 1", HF_ERROR_TOO_LARGE, NO_INDEX, pairs.pair_count = UINT32_MAX);
+  PAIRS("source_counts NULL", HF_ERROR_NULL_POINTER, NO_INDEX, pairs.source_counts = NULL);
+  PAIRS("source_vertices NULL", HF_ERROR_NULL_POINTER, NO_INDEX, pairs.source_vertices = NULL);
+  PAIRS("target_counts NULL", HF_ERROR_NULL_POINTER, NO_INDEX, pairs.target_counts = NULL);
+  PAIRS("target_vertices NULL", HF_ERROR_NULL_POINTER, NO_INDEX, pairs.target_vertices = NULL);
+  PAIRS("empty source region", HF_ERROR_EMPTY, 0, counts[0] = 0);
+  PAIRS("empty target region", HF_ERROR_EMPTY, 1, target_counts[1] = 0);
+  PAIRS("source vertex = vertex_count", HF_ERROR_OUT_OF_RANGE, 2, region[2] = TUBE_VERTICES);
+  PAIRS("target vertex UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 5, target_region[5] = UINT32_MAX);
+  PAIRS("source overlaps a pair that is there", HF_ERROR_OVERLAP, 1, region[1] = 3);
+  PAIRS("target overlaps a pair that is there", HF_ERROR_OVERLAP, 0, target_region[0] = 3);
+  PAIRS("source regions overlap", HF_ERROR_OVERLAP, 3, region[3] = region[0]);
+  PAIRS("target regions overlap", HF_ERROR_OVERLAP, 4, target_region[4] = target_region[1]);
+  PAIRS("unknown flag", HF_ERROR_INVALID_ARGUMENT, 1, flags[1] = 16);
+  PAIRS("all flags", HF_ERROR_INVALID_ARGUMENT, 0, flags[0] = UINT32_MAX);
+  PAIRS("a source region of 2^31", HF_ERROR_TOO_LARGE, 0, counts[0] = 0x80000000u);
+  PAIRS("a target region of 2^32 - 1", HF_ERROR_TOO_LARGE, 1, target_counts[1] = UINT32_MAX);
+  scene_destroy(&scene);
+  finish_rows("adding pairs");
+}
+
+#define APPLY(what, expected, index, change) ROW(what, expected, index, change, hf_transfer_apply(scene.transfer, &frame))
+#define SKIN(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_transfer_get_skin(scene.transfer, &skin))
+
+static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
+  (void)state;
+  scene_create(&scene);
+  hf_pair_info info;
+  HF_INIT(info);
+  ROW("none", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_transfer_remove_pairs(scene.transfer, 0, numbers));
+  ROW("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_transfer_remove_pairs(scene.transfer, 1, NULL));
+  ROW("no such pair", HF_ERROR_NO_SUCH_PAIR, 1, numbers[1] = 2, hf_transfer_remove_pairs(scene.transfer, 2, numbers));
+  ROW("UINT32_MAX", HF_ERROR_NO_SUCH_PAIR, 0, numbers[0] = UINT32_MAX, hf_transfer_remove_pairs(scene.transfer, 2, numbers));
+  ROW("named twice", HF_ERROR_NO_SUCH_PAIR, 2, (void)0, hf_transfer_remove_pairs(scene.transfer, 3, numbers));
+  ROW("2^31 of them", HF_ERROR_NO_SUCH_PAIR, 2, (void)0, hf_transfer_remove_pairs(scene.transfer, 0x80000000u, numbers));
+  ROW("no such pair", HF_ERROR_NO_SUCH_PAIR, 2, (void)0, hf_transfer_get_pair(scene.transfer, 2, &info));
+  ROW("UINT32_MAX", HF_ERROR_NO_SUCH_PAIR, NO_INDEX, (void)0, hf_transfer_get_pair(scene.transfer, UINT32_MAX, &info));
+
+  APPLY("no source", HF_ERROR_NULL_POINTER, NO_INDEX, frame.source_positions = NULL);
+  APPLY("both sources", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, frame.source_positions_f64 = doubles);
+  APPLY("both outputs", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, frame.target_positions_f64 = doubles);
+  APPLY("source stride 11", HF_ERROR_TOO_SMALL, NO_INDEX, frame.source_stride = 11);
+  APPLY("target stride 8", HF_ERROR_TOO_SMALL, NO_INDEX, frame.target_stride = 8);
+  APPLY("normal stride 1", HF_ERROR_TOO_SMALL, NO_INDEX, (frame.target_normals = normals, frame.normal_stride = 1));
+  APPLY("source NaN", HF_ERROR_NON_FINITE, 17, source[3 * 17 + 2] = (float)NAN);
+  APPLY("source infinite", HF_ERROR_NON_FINITE, TUBE_VERTICES - 1, source[3 * TUBE_VERTICES - 1] = (float)INFINITY);
+
+  SKIN("5 weights", HF_ERROR_INVALID_ARGUMENT, skin.weight_count = 5);
+  SKIN("2^32 - 1 weights", HF_ERROR_INVALID_ARGUMENT, skin.weight_count = UINT32_MAX);
+  SKIN("reserved set", HF_ERROR_INVALID_DESC, skin.reserved = 1);
+
+  GOOD();
+  assert_ok(hf_transfer_create(scene.body, scene.body, NULL, &out_transfer));
+  check_row(__LINE__, "no pair", "hf_transfer_apply", hf_transfer_apply(out_transfer, &frame), HF_ERROR_EMPTY, NO_INDEX);
+  check_row(__LINE__, "no pair", "hf_transfer_get_skin", hf_transfer_get_skin(out_transfer, &skin), HF_ERROR_EMPTY, NO_INDEX);
+  check_row(__LINE__, "no pair", "hf_transfer_get_pair", hf_transfer_get_pair(out_transfer, 0, &info), HF_ERROR_NO_SUCH_PAIR, 0);
+  check_row(__LINE__, "no pair", "hf_transfer_remove_pairs", hf_transfer_remove_pairs(out_transfer, 1, numbers), HF_ERROR_NO_SUCH_PAIR, 0);
+  hf_transfer_destroy(out_transfer);
+  scene_destroy(&scene);
+  finish_rows("transfers");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(bad_poses_are_not_made),
+      cmocka_unit_test(bad_handles_are_not_added),
+      cmocka_unit_test(isolated_vertices_and_welded_copies_in_regions_are_found),
+      cmocka_unit_test(a_pose_takes_256_handles_and_no_more),
+      cmocka_unit_test(other_calls_of_a_pose_refuse_bad_arguments),
+      cmocka_unit_test(bad_transfers_are_not_made),
+      cmocka_unit_test(bad_pairs_are_not_added),
+      cmocka_unit_test(other_calls_of_a_transfer_refuse_bad_arguments),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# The binary gate: check_exports.sh LIBHF.SO HEADER_FOLDER ON|OFF (HF_WITH_GPL) NM READELF
+#   the exported symbols are exactly tests/api/exports.txt, and exactly the HF_API functions of the headers;
+#   nothing that ends, prints, draws random numbers or touches signals is called;
+#   without HF_WITH_GPL nothing of CHOLMOD or METIS is called or linked.
+set -u
+library=$1 headers=$2 with_gpl=$3 nm=$4 readelf=$5
+here=$(cd "$(dirname "$0")" && pwd)
+export LC_ALL=C
+status=0
+complain() { printf 'error: %s\n' "$1"; status=1; }
+
+exported=$("$nm" -D --defined-only "$library" | awk '{print $NF}' | sed 's/@.*//' | sort -u)
+[ -n "$exported" ] || complain "nm lists no exported symbol of $library"
+if ! changes=$(diff <(sort -u "$here/exports.txt") <(printf '%s\n' "$exported")); then
+  complain "the exported symbols differ from tests/api/exports.txt (< expected, > in the library):"
+  printf '%s\n' "$changes"
+fi
+declared=$(cat "$headers"/*.h | grep -E '^HF_API ' | grep -oE 'hf_[a-z0-9_]+\(' | tr -d '(' | sort -u)
+if ! changes=$(diff <(printf '%s\n' "$declared") <(printf '%s\n' "$exported")); then
+  complain "the exported symbols are not those the headers declare (< declared, > exported):"
+  printf '%s\n' "$changes"
+fi
+
+# snprintf and vsnprintf write into our own message buffer and are allowed
+called=$("$nm" -D --undefined-only "$library" | awk '{print $NF}' | sed 's/@.*//' | sort -u)
+forbidden='^(abort|_?_?exit|_Exit|quick_exit|atexit|__assert_fail|__chk_fail'
+forbidden+='|(__)?(f|d|v|vf|vd|w|fw|vw|vfw|as|vas)?printf(_chk)?|f?puts|f?putc|putchar|f?putws|fwrite|write|perror|psignal|syslog'
+forbidden+='|s?rand(_r)?|s?random(_r)?|[dlem]rand48|signal|sigaction|sigprocmask|raise|kill|_?_?(sig)?(set|long)jmp(_chk)?|setlocale|fork|exec[lv]p?e?|system|popen|fopen|open|_ZSt4c(out|err|log))$'
+if found=$(printf '%s\n' "$called" | grep -E "$forbidden"); then
+  complain "the library calls what may take its host down, print, or touch its state:"
+  printf '%s\n' "$found"
+fi
+
+if [ "$with_gpl" = OFF ]; then
+  if found=$({ "$nm" "$library" 2>/dev/null; "$nm" -D "$library"; } | grep -iE 'cholmod|metis' | sort -u); then
+    complain "HF_WITH_GPL is OFF, but the library names CHOLMOD or METIS:"
+    printf '%s\n' "$found"
+  fi
+  if found=$("$readelf" -d "$library" | grep NEEDED | grep -iE 'cholmod|metis|blas|lapack|gomp'); then
+    complain "HF_WITH_GPL is OFF, but the library links:"
+    printf '%s\n' "$found"
+  fi
+fi
+"$readelf" -d "$library" | grep -qE 'SONAME.*libhf\.so\.[0-9]+\]' || complain "the library has no soname libhf.so.MAJOR"
+if "$readelf" -d "$library" | grep -qE 'RPATH|TEXTREL'; then complain "the library has text relocations or an rpath"; fi
+[ "$status" -eq 0 ] && printf '%s exported symbols, %s called ones: as expected\n' "$(printf '%s\n' "$exported" | wc -l)" "$(printf '%s\n' "$called" | wc -l)"
+exit "$status"

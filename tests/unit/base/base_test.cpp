@@ -1,0 +1,122 @@
+// Memory, jobs, float environment: what every room stands on.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cfenv>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "base/error.h"
+#include "base/float_environment.h"
+#include "base/jobs.h"
+#include "base/memory.h"
+
+namespace {
+
+TEST(Memory, counts_live_and_peak_bytes_and_gives_everything_back) {
+  hf::Memory memory;
+  {
+    hf::Buffer<double> buffer(memory, 1000);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(buffer.data()) % hf::Buffer<double>::alignment, 0u);
+    hf::Vector<int> vector(10, 7, &memory);
+    EXPECT_EQ(memory.live_bytes(), 8000u + 40u);
+  }
+  EXPECT_EQ(memory.live_bytes(), 0u);
+  EXPECT_EQ(memory.peak_bytes(), 8040u);
+}
+
+TEST(Memory, refuses_beyond_its_limit_and_stays_usable) {
+  hf::Memory memory(hf_allocator{}, 1000);
+  EXPECT_THROW(hf::Buffer<double>(memory, 126), std::bad_alloc);
+  EXPECT_EQ(memory.live_bytes(), 0u);
+  hf::Buffer<double> fits(memory, 125);
+  EXPECT_THROW(fits.allocate(memory, 1u << 20), std::bad_alloc);
+  EXPECT_EQ(fits.size(), 125u);
+  EXPECT_THROW(hf::Buffer<double>(memory, SIZE_MAX / 4), std::bad_alloc);
+}
+
+TEST(Memory, an_owner_may_be_the_last_to_know_it) {
+  struct Owner {
+    explicit Owner(std::shared_ptr<hf::Memory> m) : memory(std::move(m)) {}
+    std::shared_ptr<hf::Memory> memory;
+  };
+  auto memory = std::make_shared<hf::Memory>();
+  auto owner = hf::make_owner_in<Owner>(memory, memory);
+  std::weak_ptr<hf::Memory> watch = memory;
+  memory.reset();
+  owner.reset();  // the block is released through a Memory that still lives
+  EXPECT_TRUE(watch.expired());
+}
+
+TEST(JobRunner, calls_every_index_once_for_any_number_of_threads) {
+  for (const std::uint32_t threads : {1u, 2u, 5u}) {
+    hf::JobRunner jobs(threads);
+    for (int round = 0; round < 50; ++round) {
+      std::vector<std::atomic<int>> calls(137);
+      jobs.for_each(137, [&](std::uint32_t i) { ++calls[i]; });
+      for (const auto& count : calls) EXPECT_EQ(count, 1);
+    }
+  }
+}
+
+TEST(JobRunner, takes_nested_and_simultaneous_batches) {
+  hf::JobRunner jobs(3);
+  std::atomic<int> sum{0};
+  std::vector<std::thread> callers;
+  for (int t = 0; t < 4; ++t) {
+    callers.emplace_back([&] { jobs.for_each(20, [&](std::uint32_t) { jobs.for_each(5, [&](std::uint32_t i) { sum += static_cast<int>(i); }); }); });
+  }
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ(sum, 4 * 20 * 10);
+}
+
+TEST(JobRunner, rethrows_the_exception_of_a_job) {
+  hf::JobRunner jobs(2);
+  EXPECT_THROW(jobs.for_each(50, [&](std::uint32_t i) { if (i == 31) hf::fail(HF_ERROR_CANCELLED, i, "job %u", i); }), hf::Error);
+  int calls = 0;
+  jobs.for_each(1, [&](std::uint32_t) { ++calls; });
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(JobRunner, works_with_a_host_that_runs_jobs_backwards_or_leaves_some_out) {
+  for (const bool lazy : {false, true}) {
+    hf_job_runner host{};
+    bool flag = lazy;
+    host.user = &flag;
+    host.run = [](void* user, std::uint32_t count, void (*job)(void*, std::uint32_t), void* data) {
+      for (std::uint32_t i = count; i-- > (*static_cast<bool*>(user) ? count / 2 : 0);) job(data, i);
+    };
+    hf::JobRunner jobs(4, host);
+    std::vector<int> calls(40, 0);
+    jobs.for_each(40, [&](std::uint32_t i) { ++calls[i]; });
+    EXPECT_EQ(calls, std::vector<int>(40, 1));
+  }
+}
+
+TEST(FloatEnvironment, restores_rounding_traps_and_flags) {
+  std::fesetround(FE_UPWARD);
+  std::feclearexcept(FE_ALL_EXCEPT);
+  {
+    const hf::FloatEnvironment inside;
+    EXPECT_EQ(std::fegetround(), FE_TONEAREST);
+    volatile double zero = 0;
+    volatile double infinity = 1 / zero;
+    EXPECT_GT(infinity, 0);
+  }
+  EXPECT_EQ(std::fegetround(), FE_UPWARD);
+  EXPECT_EQ(std::fetestexcept(FE_DIVBYZERO), 0);
+  std::fesetround(FE_TONEAREST);
+}
+
+TEST(Error, keeps_a_long_message_within_its_buffer) {
+  try {
+    hf::fail(HF_ERROR_INTERNAL, 3, "%s", std::string(1000, 'x').c_str());
+  } catch (const hf::Error& error) {
+    EXPECT_EQ(std::string(error.what()).size(), hf::Error::message_size - 1);
+    EXPECT_EQ(error.index(), 3u);
+  }
+}
+
+}  // namespace

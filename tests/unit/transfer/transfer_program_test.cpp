@@ -1,0 +1,232 @@
+// hf_transfer run as a user runs it: on the generated creatures, and on real animals when the shared data is there. The
+// files are read back, compared and validated.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "assets/creature_gltf.h"
+#include "common/gltf_read.h"
+#include "common/gltf_write.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+fs::path folder() {
+  const fs::path out = fs::path(HF_BUILD_DIR) / "transfer_program_test";
+  fs::create_directories(out);
+  return out;
+}
+
+fs::path pairs(const std::string& name) { return fs::path(HF_SOURCE_DIR) / "samples/transfer/pairs" / name; }
+
+fs::path data() {
+  const char* given = std::getenv("HF_SHARED_DATA");
+  return (given ? fs::path(given) : fs::path(HF_SOURCE_DIR) / "../shared/data") / "gltf";
+}
+
+std::string quoted(const fs::path& path) { return "\"" + path.string() + "\""; }
+
+// Runs a command; everything it says, and how it ended.
+int run(const std::string& command, std::string& output) {
+  output.clear();
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  if (!pipe) return -1;
+  char buffer[4096];
+  while (const size_t got = fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, got);
+  const int status = pclose(pipe);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+int transfer(const std::string& arguments, std::string& output) {
+  return run(quoted(HF_TRANSFER_PROGRAM) + " " + arguments, output);
+}
+
+fs::path creature(const std::string& name) {
+  const fs::path file = folder() / (name + ".glb");
+  samples::write_gltf(samples::to_model(samples::make_creature(name, 2000)), file);
+  return file;
+}
+
+// The target's surface and looks, a new skin, the clip.
+void check_output(const fs::path& file, const fs::path& target, size_t clips) {
+  const samples::Model made = samples::read_gltf(file), given = samples::read_gltf(target);
+  ASSERT_EQ(made.skins.size(), 1u);
+  EXPECT_GT(made.skins[0].joints.size(), 20u);
+  ASSERT_EQ(made.animations.size(), clips);
+  EXPECT_EQ(made.animations[0].channels.size(), 2 * made.skins[0].joints.size());
+  std::vector<const samples::Primitive*> before, after;
+  for (const samples::Node& node : given.nodes) {
+    if (node.mesh < 0) continue;
+    for (const samples::Primitive& primitive : given.meshes[static_cast<size_t>(node.mesh)].primitives)
+      before.push_back(&primitive);
+  }
+  for (const samples::MeshData& mesh : made.meshes) {
+    for (const samples::Primitive& primitive : mesh.primitives) after.push_back(&primitive);
+  }
+  ASSERT_EQ(before.size(), after.size());
+  EXPECT_EQ(made.materials.size(), given.materials.size());
+  for (size_t p = 0; p < before.size(); ++p) {
+    EXPECT_EQ(after[p]->indices, before[p]->indices);
+    EXPECT_EQ(after[p]->texcoords, before[p]->texcoords);
+    EXPECT_EQ(after[p]->material, before[p]->material);
+    EXPECT_EQ(after[p]->positions.size(), before[p]->positions.size());
+  }
+}
+
+void check_figures(const json& report) {
+  EXPECT_LT(report["replay_key_max"].get<double>(), 1e-5);
+  EXPECT_LT(report["replay_half_rms"].get<double>(), 0.003);
+  for (const json& clip : report["clips"]) {
+    EXPECT_LT(clip["foot_path_mean"].get<double>(), 0.005);
+    EXPECT_LT(clip["foot_path_max"].get<double>(), 0.012);
+    EXPECT_LT(clip["foot_sunk"].get<double>(), 0.01);
+  }
+  for (const json& pair : report["pairs"]) {
+    EXPECT_LT(pair["source_leak"].get<double>(), 1e-9);
+    EXPECT_LT(pair["target_leak"].get<double>(), 1e-9);
+  }
+}
+
+json read_json(const fs::path& file) { return json::parse(std::ifstream(file)); }
+
+TEST(TransferProgram, TheHorsesWalkGoesToTheBullAndPairsAreEditedInTheSameSession) {
+  const fs::path horse = creature("horse"), bull = creature("bull"), out = folder() / "horse_on_bull.glb",
+                 report = folder() / "horse_on_bull.json";
+  std::string said;
+  ASSERT_EQ(transfer(quoted(horse) + " " + quoted(bull) + " --pairs " + quoted(pairs("horse_to_bull.json")) + " -o " +
+                         quoted(out) + " --clip all --sheet " + quoted(folder() / "horse_on_bull.png") + " --report " +
+                         quoted(folder() / "horse_on_bull.txt") + " --json " + quoted(report) + " --edit " +
+                         quoted(pairs("horse_to_bull_edit.json")),
+                     said),
+            0)
+      << said;
+  check_output(out, bull, 2);
+  check_output(folder() / "horse_on_bull_edited.glb", bull, 2);
+  const json figures = read_json(report);
+  check_figures(figures), check_figures(figures["edited"]);
+  EXPECT_EQ(figures["edited"]["source_factorisations"], figures["source_factorisations"]);
+  EXPECT_EQ(figures["edited"]["target_factorisations"], figures["target_factorisations"]);
+  EXPECT_EQ(figures["edited"]["pairs"].size(), figures["pairs"].size());
+  for (const char* name : {"horse_on_bull.png", "horse_on_bull_edited.png", "horse_on_bull.txt"})
+    EXPECT_GT(fs::file_size(folder() / name), 500u) << name;
+  // no temporary file is left behind, and the two runs differ
+  EXPECT_NE(read_json(report)["pairs"], figures["edited"]["pairs"]);
+}
+
+TEST(TransferProgram, RealAnimalsTakeTheHorsesGallopWalkAndMeal) {
+  if (!fs::exists(data() / "q_Horse.glb") || !fs::exists(data() / "q_Wolf.glb") || !fs::exists(data() / "farm_Cow.glb"))
+    GTEST_SKIP() << "no q_Horse, q_Wolf, farm_Cow under " << data();
+  const std::pair<const char*, const char*> targets[] = {{"q_Wolf.glb", "q_horse_to_q_wolf.json"},
+                                                         {"farm_Cow.glb", "q_horse_to_farm_cow.json"}};
+  for (const auto& [name, list] : targets) {
+    for (const char* clip : {"Gallop", "Walk", "Eating"}) {
+      const std::string stem = std::string(clip) + "_on_" + name;
+      std::string said;
+      ASSERT_EQ(transfer(quoted(data() / "q_Horse.glb") + " " + quoted(data() / name) + " --pairs " +
+                             quoted(pairs(list)) + " -o " + quoted(folder() / stem) + " --clip " + clip +
+                             " --quiet --json " + quoted(folder() / (stem + ".json")),
+                         said),
+                0)
+          << said;
+      check_output(folder() / stem, data() / name, 1);
+      check_figures(read_json(folder() / (stem + ".json")));
+    }
+  }
+}
+
+TEST(TransferProgram, WhatIsWrongIsNamedWithFileAndKeyPath) {
+  const fs::path horse = creature("horse"), bull = creature("bull"), file = folder() / "bad.json";
+  const auto refused = [&](const std::string& text, const std::string& expected) {
+    std::ofstream(file) << text;
+    std::string said;
+    const int status = transfer(quoted(horse) + " " + quoted(bull) + " --quiet --pairs " + quoted(file) + " -o " +
+                                    quoted(folder() / "never.glb"),
+                                said);
+    EXPECT_EQ(status, 1) << text;
+    EXPECT_NE(said.find(expected), std::string::npos) << text << "\n  said: " << said;
+    EXPECT_NE(said.find("bad.json"), std::string::npos) << said;
+    EXPECT_FALSE(fs::exists(folder() / "never.glb"));
+  };
+  const auto pair = [](const std::string& selector) {
+    return "{\"pairs\": [{\"name\": \"a\", \"both\": " + selector + "}]}";
+  };
+  refused("{\"pairs\": [", "bad.json");
+  refused("{}", "pairs");
+  refused("{\"pairs\": []}", "pairs");
+  refused("{\"pears\": []}", "pears");
+  refused("{\"pairs\": [{\"both\": {\"joint\": \"head\"}}]}", "pairs[0]");
+  refused("{\"pairs\": [{\"name\": \"a\", \"source\": {\"joint\": \"head\"}}]}", "pairs[0]");
+  refused(pair("{}"), "pairs[0].both");
+  refused(pair("{\"joint\": 7}"), "pairs[0].both.joint");
+  refused(pair("{\"joint\": \"antler\"}"), "no joint \"antler\"");
+  refused(pair("{\"joint\": \"head\", \"extreme\": \"sideways\"}"), "pairs[0].both.extreme");
+  refused(pair("{\"joint\": \"head\", \"radius\": 9}"), "pairs[0].both.radius");
+  refused(pair("{\"position\": [0, 1]}"), "pairs[0].both.position");
+  refused(pair("{\"vertices\": [4000000]}"), "no vertex 4000000");
+  refused(pair("{\"vertices\": [-1]}"), "pairs[0].both.vertices[0]");
+  refused(pair("{\"joint\": \"head\", \"colour\": 1}"), "colour");
+  refused("{\"settings\": {\"clusters\": 9999}, \"pairs\": []}", "settings.clusters");
+  refused("{\"source_axes\": {\"up\": \"+y\", \"forward\": \"-y\"}, \"pairs\": []}", "source_axes");
+  refused(
+      "{\"pairs\": [{\"name\": \"a\", \"both\": {\"joint\": \"head\"}}, {\"name\": \"a\", \"both\": {\"joint\": "
+      "\"jaw\"}}]}",
+      "pairs[1].name");
+
+  std::string said;
+  EXPECT_EQ(transfer("--help", said), 0);
+  EXPECT_NE(said.find("usage"), std::string::npos);
+  EXPECT_EQ(transfer(quoted(horse), said), 1);
+  EXPECT_EQ(transfer("--fps 0", said), 1);
+  EXPECT_NE(said.find("--fps"), std::string::npos);
+  EXPECT_EQ(transfer("--joints " + quoted(horse), said), 0);
+  EXPECT_NE(said.find("front_hoof_L"), std::string::npos);
+  EXPECT_EQ(transfer(quoted(horse) + " " + quoted(bull) + " --quiet --clip dance --pairs " +
+                         quoted(pairs("horse_to_bull.json")) + " -o never.glb",
+                     said),
+            1);
+  EXPECT_NE(said.find("\"walk\""), std::string::npos) << said;
+}
+
+// Runs after the others by its name; what they wrote has no errors under the Khronos validator.
+TEST(TransferProgramValidation, TheFilesHaveNoErrorsUnderTheKhronosValidator) {
+  std::vector<fs::path> places = {fs::path(HF_BUILD_DIR) / "npm/node_modules", fs::path(HF_BUILD_DIR) / "node_modules"};
+  if (const char* given = std::getenv("HF_NODE_MODULES")) places.insert(places.begin(), given);
+  fs::path modules;
+  for (const fs::path& place : places) {
+    if (modules.empty() && fs::is_directory(place / "gltf-validator")) modules = place;
+  }
+  if (modules.empty()) GTEST_SKIP() << "the npm package gltf-validator is not in HF_NODE_MODULES or " << places.back();
+  const fs::path horse = creature("horse"), bull = creature("bull"), out = folder() / "validated";
+  fs::remove_all(out);
+  fs::create_directories(out);
+  std::string said;
+  ASSERT_EQ(transfer(quoted(horse) + " " + quoted(bull) + " --quiet --pairs " + quoted(pairs("horse_to_bull.json")) +
+                         " -o " + quoted(out / "horse_on_bull.glb"),
+                     said),
+            0)
+      << said;
+  if (fs::exists(data() / "q_Horse.glb")) {
+    for (const auto& [name, list] : {std::pair<const char*, const char*>("q_Wolf.glb", "q_horse_to_q_wolf.json"),
+                                     {"farm_Cow.glb", "q_horse_to_farm_cow.json"}}) {
+      ASSERT_EQ(transfer(quoted(data() / "q_Horse.glb") + " " + quoted(data() / name) + " --quiet --pairs " +
+                             quoted(pairs(list)) + " -o " + quoted(out / name),
+                         said),
+                0)
+          << said;
+    }
+  }
+  EXPECT_EQ(run("node " + quoted(fs::path(HF_SOURCE_DIR) / "tests/unit/samples/validate.mjs") + " " + quoted(modules) +
+                    " " + quoted(out),
+                said),
+            0)
+      << said;
+  std::printf("%s", said.c_str());
+}
+
+}  // namespace
