@@ -5,8 +5,8 @@
  * - Inputs are borrowed for the call. Outputs are written to the caller's memory; nothing is handed out to be freed.
  * - After a failure nothing has changed, unless the function says otherwise; batches are all or nothing.
  * - Descs start with struct_size (set it with HF_INIT or by hand); zero is the default of every other field.
- * - Threads: different handles may be used at the same time from different threads; functions that only read one handle may
- *   run at the same time on it; a call that overlaps a change of the same handle answers HF_ERROR_BUSY.
+ * - Threads: different handles may be used at the same time from different threads; functions that only read one handle
+ * may run at the same time on it; a call that overlaps a change of the same handle answers HF_ERROR_BUSY.
  * - The library prints nothing, keeps no global state but its handle table, starts no thread that was not granted, and
  *   leaves the floating-point environment, locale, signals and rand() of the host as they were.
  */
@@ -48,16 +48,16 @@ enum {
   HF_ERROR_EMPTY = -7,            /* nothing to work on: no vertices, no triangles, empty region */
   HF_ERROR_DUPLICATE_SITE = -8,   /* the vertex carries a site already, or is named twice in one batch */
   HF_ERROR_NO_SUCH_SITE = -9,     /* no site of that number in the solver */
-  HF_ERROR_CONFLICT = -10,        /* contradicting values: on welded copies of a vertex, or linearly dependent hard sites */
-  HF_ERROR_NO_SITES = -11,        /* the solver has no site at all; add one before solving */
-  HF_ERROR_NO_SUCH_HANDLE = -12,  /* no handle of that number in the pose */
-  HF_ERROR_NO_SUCH_PAIR = -13,    /* no pair of that number in the transfer */
-  HF_ERROR_OVERLAP = -14,         /* two handles claim one vertex */
-  HF_ERROR_UNSUPPORTED = -15,     /* not in this build or not for this object; the detail says what to use */
-  HF_ERROR_BUSY = -16,            /* another thread is changing this handle */
-  HF_ERROR_REENTRANT = -17,       /* called from inside a callback of the same handle */
-  HF_ERROR_TOO_SMALL = -18,       /* the caller's buffer or stride is too small */
-  HF_ERROR_NO_RECORD = -19,       /* nothing to undo or redo */
+  HF_ERROR_CONFLICT = -10, /* contradicting values: on welded copies of a vertex, or linearly dependent hard sites */
+  HF_ERROR_NO_SITES = -11, /* the solver has no site at all; add one before solving */
+  HF_ERROR_NO_SUCH_HANDLE = -12, /* no handle of that number in the pose */
+  HF_ERROR_NO_SUCH_PAIR = -13,   /* no pair of that number in the transfer */
+  HF_ERROR_OVERLAP = -14,        /* two handles claim one vertex */
+  HF_ERROR_UNSUPPORTED = -15,    /* not in this build or not for this object; the detail says what to use */
+  HF_ERROR_BUSY = -16,           /* another thread is changing this handle */
+  HF_ERROR_REENTRANT = -17,      /* called from inside a callback of the same handle */
+  HF_ERROR_TOO_SMALL = -18,      /* the caller's buffer or stride is too small */
+  HF_ERROR_NO_RECORD = -19,      /* nothing to undo or redo */
   /* resources */
   HF_ERROR_OUT_OF_MEMORY = -100, /* the allocator refused; the handle is as before */
   HF_ERROR_TOO_LARGE = -101,     /* beyond a limit of the library or of the desc; the detail names the limit */
@@ -84,15 +84,17 @@ typedef struct hf_error_detail {
   char message[HF_MESSAGE_SIZE]; /* one line: what is wrong and what to do; UTF-8, zero-terminated */
 } hf_error_detail;
 
-/* Copies the detail of the last failing call of the calling thread. A successful call leaves it as it was; before the first
- * failure it is all zero. The detail is kept preallocated, so running out of memory reports too.
- * Returns HF_OK or HF_ERROR_NULL_POINTER. Thread safety: any thread; the detail is per thread. Since 0.1. */
+/* Copies the detail of the last failing call of the calling thread. A successful call leaves it as it was; before the
+ * first failure it is all zero. The detail is kept preallocated, so running out of memory reports too. Returns HF_OK or
+ * HF_ERROR_NULL_POINTER. Thread safety: any thread; the detail is per thread. Since 0.1. */
 HF_API hf_result hf_get_error_detail(hf_error_detail* out_detail);
 
-/* A constant English name of a code, such as "HF_ERROR_BUSY"; "unknown" for others. Never NULL. Thread safety: any thread. Since 0.1. */
+/* A constant English name of a code, such as "HF_ERROR_BUSY"; "unknown" for others. Never NULL. Thread safety: any
+ * thread. Since 0.1. */
 HF_API const char* hf_result_name(hf_result result);
 
-/* Version of the library that is loaded: major * 1000000 + minor * 1000 + patch. Thread safety: any thread. Since 0.1. */
+/* Version of the library that is loaded: major * 1000000 + minor * 1000 + patch. Thread safety: any thread. Since 0.1.
+ */
 HF_API uint32_t hf_get_version(void);
 
 /* Memory of a solver and all that is made from it. Both functions, or neither (then malloc).
@@ -105,8 +107,9 @@ typedef struct hf_allocator {
   void* user;
 } hf_allocator;
 
-/* The host's own job system. run must call job(job_data, i) for i = 0 .. count - 1, on any threads, in any order, and return
- * when all of them have returned. NULL run: the library makes thread_count - 1 threads of its own for the object. */
+/* The host's own job system. run must call job(job_data, i) for i = 0 .. count - 1, on any threads, in any order, and
+ * return when all of them have returned. NULL run: the library makes thread_count - 1 threads of its own for the
+ * object. */
 typedef struct hf_job_runner {
   void (*run)(void* user, uint32_t count, void (*job)(void* job_data, uint32_t index), void* job_data);
   void* user;
@@ -115,13 +118,15 @@ typedef struct hf_job_runner {
 /* Progress of a long call, polled and cancelled from any thread; one object for one call at a time. */
 typedef struct hf_progress_object* hf_progress;
 
-/* Creates a progress object. *out_progress is set to NULL first. Returns HF_OK, HF_ERROR_NULL_POINTER, HF_ERROR_OUT_OF_MEMORY.
- * Thread safety: any thread. Since 0.1. */
+/* Creates a progress object. *out_progress is set to NULL first. Returns HF_OK, HF_ERROR_NULL_POINTER,
+ * HF_ERROR_OUT_OF_MEMORY. Thread safety: any thread. Since 0.1. */
 HF_API hf_result hf_progress_create(hf_progress* out_progress);
-/* Destroys it; NULL and stale handles are ignored. A call that still uses it keeps it alive. Thread safety: any thread. Since 0.1. */
+/* Destroys it; NULL and stale handles are ignored. A call that still uses it keeps it alive. Thread safety: any thread.
+ * Since 0.1. */
 HF_API void hf_progress_destroy(hf_progress progress);
-/* Writes the fraction done of the running call, 0 to 1. Granularity: phases of hf_create (weld, operator, ordering, analysis,
- * factorisation). Returns HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER. Thread safety: any thread. Since 0.1. */
+/* Writes the fraction done of the running call, 0 to 1. Granularity: phases of hf_create (weld, operator, ordering,
+ * analysis, factorisation). Returns HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER. Thread safety: any thread.
+ * Since 0.1. */
 HF_API hf_result hf_progress_get(hf_progress progress, float* out_fraction);
 /* Asks the running call, or the next one given this object, to stop with HF_ERROR_CANCELLED. Returns HF_OK or
  * HF_ERROR_INVALID_HANDLE. Thread safety: any thread. Since 0.1. */

@@ -1,9 +1,10 @@
 /* hf/field.h - sites and harmonic fields.
  *
- * A field u is harmonic off its sites: K u = W lambda, W' u = s, with K the Laplacian of the surface, one column w_i of W per site
- * (a vertex, or a point inside a triangle as three barycentric weights) and s the site values (Dirichlet conditions). A soft site of
- * stiffness alpha obeys w_i' u + lambda_i / alpha = s_i instead, which is the penalty method of Xu, Zhang, Cohen-Or and Xiong (2009).
- * Open borders are natural (zero flux). Sites are inserted, removed and moved at any time; nothing is factorised again.
+ * A field u is harmonic off its sites: K u = W lambda, W' u = s, with K the Laplacian of the surface, one column w_i of
+ * W per site (a vertex, or a point inside a triangle as three barycentric weights) and s the site values (Dirichlet
+ * conditions). A soft site of stiffness alpha obeys w_i' u + lambda_i / alpha = s_i instead, which is the penalty
+ * method of Xu, Zhang, Cohen-Or and Xiong (2009). Open borders are natural (zero flux). Sites are inserted, removed and
+ * moved at any time; nothing is factorised again.
  */
 #ifndef HF_FIELD_H
 #define HF_FIELD_H
@@ -17,52 +18,57 @@ extern "C" {
 /* A batch of new sites. Either vertices, or triangles with barycentrics. */
 typedef struct hf_sites_desc {
   uint32_t struct_size;
-  uint32_t site_count;        /* >= 1 */
-  const uint32_t* vertices;   /* [site_count] vertices of the mesh as given, or NULL */
-  const uint32_t* triangles;  /* [site_count] triangles of the mesh as given, or NULL */
-  const double* barycentrics; /* [site_count][3] with triangles: weights of the three corners, >= 0, summing to 1 within 1e-6 */
-  const double* values;       /* [site_count][channel_count]; NULL = 0 */
-  const double* stiffness;    /* [site_count] relative to the mean diagonal of K; 0 = hard (exact); NULL = all hard; clamped to [1e-12, 1e12] */
+  uint32_t site_count;       /* >= 1 */
+  const uint32_t* vertices;  /* [site_count] vertices of the mesh as given, or NULL */
+  const uint32_t* triangles; /* [site_count] triangles of the mesh as given, or NULL */
+  const double*
+      barycentrics; /* [site_count][3] with triangles: weights of the three corners, >= 0, summing to 1 within 1e-6 */
+  const double* values;    /* [site_count][channel_count]; NULL = 0 */
+  const double* stiffness; /* [site_count] relative to the mean diagonal of K; 0 = hard (exact); NULL = all hard;
+                              clamped to [1e-12, 1e12] */
 } hf_sites_desc;
 
-/* Adds sites. out_sites: NULL, or uint32_t[site_count] receiving the numbers of the new sites. A site keeps its number until it is
- * removed; numbers are reused later. All or nothing.
- * Results: HF_OK; HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_EMPTY (site_count 0); HF_ERROR_OUT_OF_RANGE (index =
- * position in the batch); HF_ERROR_NON_FINITE; HF_ERROR_INVALID_ARGUMENT (weights, stiffness; isolated vertex); HF_ERROR_DUPLICATE_SITE (the vertex,
- * or a welded copy of it, carries a site with the same values); HF_ERROR_CONFLICT (... with other values; or the point depends linearly on
- * hard sites that are there); HF_ERROR_TOO_LARGE (site_limit); HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY.
- * State after failure: unchanged. Thread safety: changes `solver`. Since 0.1. */
+/* Adds sites. out_sites: NULL, or uint32_t[site_count] receiving the numbers of the new sites. A site keeps its number
+ * until it is removed; numbers are reused later. All or nothing. Results: HF_OK; HF_ERROR_INVALID_HANDLE,
+ * HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_EMPTY (site_count 0); HF_ERROR_OUT_OF_RANGE (index = position
+ * in the batch); HF_ERROR_NON_FINITE; HF_ERROR_INVALID_ARGUMENT (weights, stiffness; isolated vertex);
+ * HF_ERROR_DUPLICATE_SITE (the vertex, or a welded copy of it, carries a site with the same values); HF_ERROR_CONFLICT
+ * (... with other values; or the point depends linearly on hard sites that are there); HF_ERROR_TOO_LARGE (site_limit);
+ * HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. State after failure: unchanged. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint32_t* out_sites);
 
-/* Removes sites by number: uint32_t[site_count]. Removing the last site of a component leaves it unreached; adding one again is exact.
- * Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_EMPTY, HF_ERROR_NO_SUCH_SITE (index = position in the list; also for a number named
- * twice), HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. State after failure: unchanged. Thread safety: changes `solver`. Since 0.1. */
+/* Removes sites by number: uint32_t[site_count]. Removing the last site of a component leaves it unreached; adding one
+ * again is exact. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_EMPTY, HF_ERROR_NO_SUCH_SITE
+ * (index = position in the list; also for a number named twice), HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. State after
+ * failure: unchanged. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_remove_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites);
 
-/* Moves sites to new places, keeping their numbers, values and stiffness. to: where, its site_count must match; its values and stiffness
- * must be NULL. Results: as hf_add_sites and hf_remove_sites. State after failure: unchanged. Thread safety: changes `solver`. Since 0.1. */
+/* Moves sites to new places, keeping their numbers, values and stiffness. to: where, its site_count must match; its
+ * values and stiffness must be NULL. Results: as hf_add_sites and hf_remove_sites. State after failure: unchanged.
+ * Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_move_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const hf_sites_desc* to);
 
-/* Gives sites new values: double[site_count][channel_count]. Costs nothing until the next solve. Results: HF_OK, HF_ERROR_INVALID_HANDLE,
- * HF_ERROR_NULL_POINTER, HF_ERROR_EMPTY, HF_ERROR_NO_SUCH_SITE, HF_ERROR_NON_FINITE, HF_ERROR_BUSY. State after failure: unchanged. Thread safety: changes `solver`. Since 0.1. */
+/* Gives sites new values: double[site_count][channel_count]. Costs nothing until the next solve. Results: HF_OK,
+ * HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_EMPTY, HF_ERROR_NO_SUCH_SITE, HF_ERROR_NON_FINITE,
+ * HF_ERROR_BUSY. State after failure: unchanged. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_set_site_values(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* values);
 
 /* One batch of all of these, in the order remove, move, set, add; all or nothing. Counts of 0 leave a part out. */
 typedef struct hf_edit_desc {
   uint32_t struct_size;
   uint32_t remove_count;
-  const uint32_t* remove_sites;   /* [remove_count] */
+  const uint32_t* remove_sites; /* [remove_count] */
   uint32_t move_count;
   uint32_t set_count;
-  const uint32_t* move_sites;     /* [move_count] */
-  const hf_sites_desc* move_to;   /* move_count places */
-  const uint32_t* set_sites;      /* [set_count] */
-  const double* set_values;       /* [set_count][channel_count] */
-  const hf_sites_desc* add;       /* NULL, or the sites to add */
+  const uint32_t* move_sites;   /* [move_count] */
+  const hf_sites_desc* move_to; /* move_count places */
+  const uint32_t* set_sites;    /* [set_count] */
+  const double* set_values;     /* [set_count][channel_count] */
+  const hf_sites_desc* add;     /* NULL, or the sites to add */
 } hf_edit_desc;
 
-/* Applies a batch. out_sites: NULL, or uint32_t[add->site_count]. Results and state after failure: as the single calls; the detail's
- * index is the position inside the failing part. Thread safety: changes `solver`. Since 0.1. */
+/* Applies a batch. out_sites: NULL, or uint32_t[add->site_count]. Results and state after failure: as the single calls;
+ * the detail's index is the position inside the failing part. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_edit_sites(hf_solver solver, const hf_edit_desc* edit, uint32_t* out_sites);
 
 /* Number of sites the solver holds, 0 for an invalid handle. Thread safety: reads `solver`. Since 0.1. */
@@ -71,17 +77,19 @@ HF_API uint32_t hf_get_site_count(hf_solver solver);
 /* Where sites are and what they hold. Arrays of the caller, each NULL or large enough for `capacity` sites. */
 typedef struct hf_site_info {
   uint32_t struct_size;
-  uint32_t capacity;      /* sites the arrays can take */
-  uint32_t* sites;        /* site numbers, ascending */
-  uint32_t* vertices;     /* the vertex given, HF_NO_INDEX for a point in a triangle */
+  uint32_t capacity;  /* sites the arrays can take */
+  uint32_t* sites;    /* site numbers, ascending */
+  uint32_t* vertices; /* the vertex given, HF_NO_INDEX for a point in a triangle */
   uint32_t* components;
-  double* values;         /* [capacity][channel_count] */
-  double* stiffness;      /* 0 = hard */
-  double* flux;           /* [capacity][channel_count] lambda of the last edit: what flows into the surface at the site, unit: value x weight */
+  double* values;    /* [capacity][channel_count] */
+  double* stiffness; /* 0 = hard */
+  double* flux; /* [capacity][channel_count] lambda of the last edit: what flows into the surface at the site, unit:
+                   value x weight */
 } hf_site_info;
 
-/* Writes all sites. out_info->capacity must be at least hf_get_site_count. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC,
- * HF_ERROR_TOO_SMALL, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread safety: reads `solver`. Since 0.1. */
+/* Writes all sites. out_info->capacity must be at least hf_get_site_count. Results: HF_OK, HF_ERROR_INVALID_HANDLE,
+ * HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_TOO_SMALL, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread
+ * safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_get_sites(hf_solver solver, hf_site_info* out_info);
 
 /* What a solve reached. struct_size must be set. */
@@ -94,49 +102,56 @@ typedef struct hf_solve_info {
 
 /* Solves for the field at every vertex of the mesh as given (welded copies get the same value).
  * out_values: float[vertex_count] rows of channel_count values, value_stride bytes apart (0 = packed).
- * Vertices that no site reaches (isolated, or in a component without a site) are written as unreached_value 0 and counted in out_info
- * (NULL, or a struct with struct_size set). The values of hard sites are exact.
- * Cost: one backward sweep through the factor. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_TOO_SMALL (stride), HF_ERROR_NO_SITES,
- * HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. On failure the output is not written. Thread safety: reads `solver`. Since 0.1. */
+ * Vertices that no site reaches (isolated, or in a component without a site) are written as unreached_value 0 and
+ * counted in out_info (NULL, or a struct with struct_size set). The values of hard sites are exact. Cost: one backward
+ * sweep through the factor. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_TOO_SMALL
+ * (stride), HF_ERROR_NO_SITES, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. On failure the output is not written. Thread
+ * safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
 
 /* The same in double. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve_f64(hf_solver solver, double* out_values, uint32_t value_stride, hf_solve_info* out_info);
 
-/* A tangent vector field, the paper's way (its Section 3.3): the three channels are the components of the constraint vectors; each is solved as a harmonic field, and the
- * result is projected on the tangent plane of the vertex, v - (n . v) n, n the area-weighted vertex normal. The solver needs channel_count 3. Constraint vectors are turned with
- * hf_set_site_values, which touches no factor. out_vectors: float[vertex_count][3], vector_stride bytes apart (0 = packed), not normalised. out_normals: NULL, or
- * double[vertex_count][3], packed: the normals used.
- * Results: as hf_solve; HF_ERROR_INVALID_ARGUMENT when channel_count is not 3. Thread safety: reads `solver`. Since 0.1. */
-HF_API hf_result hf_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info);
+/* A tangent vector field, the paper's way (its Section 3.3): the three channels are the components of the constraint
+ * vectors; each is solved as a harmonic field, and the result is projected on the tangent plane of the vertex, v - (n .
+ * v) n, n the area-weighted vertex normal. The solver needs channel_count 3. Constraint vectors are turned with
+ * hf_set_site_values, which touches no factor. out_vectors: float[vertex_count][3], vector_stride bytes apart (0 =
+ * packed), not normalised. out_normals: NULL, or double[vertex_count][3], packed: the normals used. Results: as
+ * hf_solve; HF_ERROR_INVALID_ARGUMENT when channel_count is not 3. Thread safety: reads `solver`. Since 0.1. */
+HF_API hf_result hf_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride, double* out_normals,
+                                  hf_solve_info* out_info);
 
 /* The same in double. Thread safety: reads `solver`. Since 0.1. */
-HF_API hf_result hf_solve_vectors_f64(hf_solver solver, double* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info);
+HF_API hf_result hf_solve_vectors_f64(hf_solver solver, double* out_vectors, uint32_t vector_stride,
+                                      double* out_normals, hf_solve_info* out_info);
 
-/* The field at chosen vertices only: double[vertex_count][channel_count] for uint32_t[vertex_count] vertices. No sweep over the mesh: the cost is that of
- * adding as many sites and does not grow with the mesh beyond the length of an elimination path. Unreached vertices get 0.
- * Results: as hf_solve; HF_ERROR_OUT_OF_RANGE (index = position in the list). Thread safety: reads `solver`. Since 0.1. */
+/* The field at chosen vertices only: double[vertex_count][channel_count] for uint32_t[vertex_count] vertices. No sweep
+ * over the mesh: the cost is that of adding as many sites and does not grow with the mesh beyond the length of an
+ * elimination path. Unreached vertices get 0. Results: as hf_solve; HF_ERROR_OUT_OF_RANGE (index = position in the
+ * list). Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve_at(hf_solver solver, uint32_t vertex_count, const uint32_t* vertices, double* out_values);
 
-/* Keeps the present site set on the undo stack (at most 256 are kept; the oldest goes first). Costs the site set, shared parts are not copied.
- * Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread safety: changes `solver`. Since 0.1. */
+/* Keeps the present site set on the undo stack (at most 256 are kept; the oldest goes first). Costs the site set,
+ * shared parts are not copied. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread
+ * safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_record(hf_solver solver);
 /* Goes back to the last record; hf_redo comes back. The field afterwards is the same bits as it was at the record.
- * Results: HF_OK, HF_ERROR_NO_RECORD, HF_ERROR_INVALID_HANDLE, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. State after failure: unchanged. Thread safety: changes `solver`. Since 0.1. */
+ * Results: HF_OK, HF_ERROR_NO_RECORD, HF_ERROR_INVALID_HANDLE, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. State after
+ * failure: unchanged. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_undo(hf_solver solver);
 HF_API hf_result hf_redo(hf_solver solver);
 
 /* Figures of a solver. Times in milliseconds of the phases of hf_create; bytes as double (exact to 2^53). */
 typedef struct hf_statistics {
   uint32_t struct_size;
-  uint32_t unknown_count;       /* size of the factored matrix */
+  uint32_t unknown_count; /* size of the factored matrix */
   double weld_ms, operator_ms, ordering_ms, symbolic_ms, numeric_ms;
-  double factor_entries;        /* non-zeros of the Cholesky factor */
-  double factor_bytes;          /* memory of the stored factor with its indices */
+  double factor_entries; /* non-zeros of the Cholesky factor */
+  double factor_bytes;   /* memory of the stored factor with its indices */
   double factor_flops;
-  double memory_bytes;          /* live, of this solver and all that share its allocator state */
+  double memory_bytes; /* live, of this solver and all that share its allocator state */
   double peak_memory_bytes;
-  double site_memory_bytes;     /* paths and dense part of this solver's sites */
+  double site_memory_bytes; /* paths and dense part of this solver's sites */
   uint32_t site_count;
   uint32_t factorisation_count; /* numeric factorisations since hf_create, that of hf_create included */
   uint32_t path_solve_count;    /* sites whose path was solved */
@@ -145,7 +160,8 @@ typedef struct hf_statistics {
   uint32_t thread_count;
 } hf_statistics;
 
-/* Writes the figures. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC. Thread safety: reads `solver`. Since 0.1. */
+/* Writes the figures. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC. Thread
+ * safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_get_statistics(hf_solver solver, hf_statistics* out_statistics);
 
 #ifdef __cplusplus

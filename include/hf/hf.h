@@ -3,9 +3,9 @@
 #define HF_HF_H
 
 #include "hf/base.h"
-#include "hf/mesh.h"
-#include "hf/field.h"
 #include "hf/deform.h"
+#include "hf/field.h"
+#include "hf/mesh.h"
 #include "hf/transfer.h"
 
 #endif

@@ -1,8 +1,8 @@
 /* hf/transfer.h - the motion of one surface played on another.
  *
- * Pairs of handle regions, one on the source and one on the target, give both surfaces the same harmonic coordinates; places of
- * equal coordinates correspond. The rotations of the source's clusters are carried over, the target's translations follow from its own shape
- * (Xu, Zhang, Cohen-Or and Xiong 2009, Section 6).
+ * Pairs of handle regions, one on the source and one on the target, give both surfaces the same harmonic coordinates;
+ * places of equal coordinates correspond. The rotations of the source's clusters are carried over, the target's
+ * translations follow from its own shape (Xu, Zhang, Cohen-Or and Xiong 2009, Section 6).
  */
 #ifndef HF_TRANSFER_H
 #define HF_TRANSFER_H
@@ -30,19 +30,23 @@ enum {
 
 typedef struct hf_transfer_desc {
   uint32_t struct_size;
-  int32_t mode;             /* HF_TRANSFER_* */
-  uint32_t cluster_count;   /* 1 to 512; 0 = 80 */
-  float kernel_width;       /* of a cluster in field space, 0.005 to 0.5; 0 = 0.04 */
-  float scale;              /* lengths of the target over those of the source; 0 = from the legs, or the boxes when no pair is a foot */
-  float alignment_angle;    /* rest directions that differ by more are aligned, radians; 0 = 40 degrees; negative = never */
-  float source_axes[9];     /* rows right, up, forward of the source; all zero = x, y, z (glTF: up +y, forward +z) */
+  int32_t mode;           /* HF_TRANSFER_* */
+  uint32_t cluster_count; /* 1 to 512; 0 = 80 */
+  float kernel_width;     /* of a cluster in field space, 0.005 to 0.5; 0 = 0.04 */
+  float scale; /* lengths of the target over those of the source; 0 = from the legs, or the boxes when no pair is a foot
+                */
+  float
+      alignment_angle;  /* rest directions that differ by more are aligned, radians; 0 = 40 degrees; negative = never */
+  float source_axes[9]; /* rows right, up, forward of the source; all zero = x, y, z (glTF: up +y, forward +z) */
   float target_axes[9];
 } hf_transfer_desc;
 
-/* Creates a transfer between the surfaces of two solvers (which may be one). Sites of the solvers are not touched. *out_transfer is set to NULL first.
- * desc: NULL for defaults. Results: HF_OK, HF_ERROR_INVALID_HANDLE (index 0 source, 1 target), HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT,
- * HF_ERROR_UNSUPPORTED (engine), HF_ERROR_OUT_OF_MEMORY. Thread safety: reads the solvers. Since 0.1. */
-HF_API hf_result hf_transfer_create(hf_solver source, hf_solver target, const hf_transfer_desc* desc, hf_transfer* out_transfer);
+/* Creates a transfer between the surfaces of two solvers (which may be one). Sites of the solvers are not touched.
+ * *out_transfer is set to NULL first. desc: NULL for defaults. Results: HF_OK, HF_ERROR_INVALID_HANDLE (index 0 source,
+ * 1 target), HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED (engine),
+ * HF_ERROR_OUT_OF_MEMORY. Thread safety: reads the solvers. Since 0.1. */
+HF_API hf_result hf_transfer_create(hf_solver source, hf_solver target, const hf_transfer_desc* desc,
+                                    hf_transfer* out_transfer);
 /* Destroys it; NULL, stale and foreign handles are ignored. Since 0.1. */
 HF_API void hf_transfer_destroy(hf_transfer transfer);
 
@@ -50,64 +54,71 @@ HF_API void hf_transfer_destroy(hf_transfer transfer);
 typedef struct hf_pairs_desc {
   uint32_t struct_size;
   uint32_t pair_count;
-  const uint32_t* source_counts;   /* [pair_count] */
+  const uint32_t* source_counts; /* [pair_count] */
   const uint32_t* source_vertices;
-  const uint32_t* target_counts;   /* [pair_count] */
+  const uint32_t* target_counts; /* [pair_count] */
   const uint32_t* target_vertices;
-  const uint32_t* flags;           /* [pair_count] HF_PAIR_*, or NULL for none */
+  const uint32_t* flags; /* [pair_count] HF_PAIR_*, or NULL for none */
 } hf_pairs_desc;
 
-/* Adds pairs. out_pairs: NULL, or uint32_t[pair_count]. No factorisation on either side. Results and state after failure: as hf_pose_add_handles. Thread safety: changes `transfer`. Since 0.1. */
+/* Adds pairs. out_pairs: NULL, or uint32_t[pair_count]. No factorisation on either side. Results and state after
+ * failure: as hf_pose_add_handles. Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_add_pairs(hf_transfer transfer, const hf_pairs_desc* pairs, uint32_t* out_pairs);
-/* Removes pairs by number. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_EMPTY, HF_ERROR_NO_SUCH_PAIR (index = position in the list), HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Since 0.1. */
+/* Removes pairs by number. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_EMPTY,
+ * HF_ERROR_NO_SUCH_PAIR (index = position in the list), HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Since 0.1. */
 HF_API hf_result hf_transfer_remove_pairs(hf_transfer transfer, uint32_t pair_count, const uint32_t* pairs);
 
 typedef struct hf_pair_info {
   uint32_t struct_size;
   uint32_t flags;
-  double source_leak;      /* of the pair's fields, see hf_handle_info */
+  double source_leak; /* of the pair's fields, see hf_handle_info */
   double target_leak;
-  double alignment_angle;  /* between the rest directions of the limb, radians; negative when unknown (trunk, short limb) */
-  double confidence;       /* 0..1: share of the pair's clusters that rest on enough source vertices */
-  int32_t aligned;         /* non-zero when the rest alignment is applied */
+  double
+      alignment_angle; /* between the rest directions of the limb, radians; negative when unknown (trunk, short limb) */
+  double confidence;   /* 0..1: share of the pair's clusters that rest on enough source vertices */
+  int32_t aligned;     /* non-zero when the rest alignment is applied */
   int32_t reserved;
 } hf_pair_info;
-/* Writes what is known of a pair (fields are solved when needed). Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_NO_SUCH_PAIR, HF_ERROR_OUT_OF_MEMORY,
- * HF_ERROR_BUSY. Thread safety: changes `transfer`. Since 0.1. */
+/* Writes what is known of a pair (fields are solved when needed). Results: HF_OK, HF_ERROR_INVALID_HANDLE,
+ * HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_NO_SUCH_PAIR, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread
+ * safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_pair(hf_transfer transfer, uint32_t pair, hf_pair_info* out_info);
 
 /* One frame. */
 typedef struct hf_transfer_frame {
   uint32_t struct_size;
-  uint32_t source_stride;          /* bytes; 0 = packed */
-  const float* source_positions;   /* [source vertex_count][3] the posed source, its own vertex order */
+  uint32_t source_stride;        /* bytes; 0 = packed */
+  const float* source_positions; /* [source vertex_count][3] the posed source, its own vertex order */
   const double* source_positions_f64;
   uint32_t target_stride;
   uint32_t normal_stride;
-  float* target_positions;         /* [target vertex_count][3], or NULL */
+  float* target_positions; /* [target vertex_count][3], or NULL */
   double* target_positions_f64;
-  float* target_normals;           /* or NULL */
+  float* target_normals; /* or NULL */
 } hf_transfer_frame;
 
-/* Transfers one posed frame. The rest frame of the source gives the rest of the target. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_EMPTY (no pair),
- * HF_ERROR_NON_FINITE (index = source vertex), HF_ERROR_TOO_SMALL, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread safety: changes `transfer`. Since 0.1. */
+/* Transfers one posed frame. The rest frame of the source gives the rest of the target. Results: HF_OK,
+ * HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE
+ * (index = source vertex), HF_ERROR_TOO_SMALL, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread safety: changes
+ * `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
 /* The transfer as a skin: cluster transforms of the last applied frame, and the fixed weights. */
 typedef struct hf_skin_info {
   uint32_t struct_size;
-  uint32_t joint_count;      /* out: clusters */
-  uint32_t weight_count;     /* in: joints per vertex, 4 or 8; 0 = 4 */
-  uint32_t reserved;         /* 0 */
-  double* pivots;            /* [joint_count][3] rest centroid of each cluster, or NULL */
-  double* rotations;         /* [joint_count][4] quaternion x, y, z, w of the last frame, or NULL */
-  double* translations;      /* [joint_count][3] posed place of the pivot, or NULL */
-  uint32_t* vertex_joints;   /* [target vertex_count][weight_count], or NULL */
-  float* vertex_weights;     /* [target vertex_count][weight_count] summing to 1, descending, or NULL */
+  uint32_t joint_count;    /* out: clusters */
+  uint32_t weight_count;   /* in: joints per vertex, 4 or 8; 0 = 4 */
+  uint32_t reserved;       /* 0 */
+  double* pivots;          /* [joint_count][3] rest centroid of each cluster, or NULL */
+  double* rotations;       /* [joint_count][4] quaternion x, y, z, w of the last frame, or NULL */
+  double* translations;    /* [joint_count][3] posed place of the pivot, or NULL */
+  uint32_t* vertex_joints; /* [target vertex_count][weight_count], or NULL */
+  float* vertex_weights;   /* [target vertex_count][weight_count] summing to 1, descending, or NULL */
 } hf_skin_info;
-/* Writes what is asked for; call with NULL arrays first for joint_count. The skin replays hf_transfer_apply within the weights left out (hf_transfer_apply itself uses
- * the four largest, so with weight_count 4 it is exact). Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_EMPTY, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY.
- * Thread safety: changes `transfer`. Since 0.1. */
+/* Writes what is asked for; call with NULL arrays first for joint_count. The skin replays hf_transfer_apply within the
+ * weights left out (hf_transfer_apply itself uses the four largest, so with weight_count 4 it is exact). Results:
+ * HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT,
+ * HF_ERROR_EMPTY, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* info);
 
 #ifdef __cplusplus

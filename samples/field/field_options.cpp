@@ -10,10 +10,12 @@ namespace samples {
 
 const char* const field_usage =
     "usage: hf_field MESH --site PLACE=VALUE[@STIFFNESS] ... [options]\n"
-    "  Solves the harmonic field of a .obj, .off, .ply, .gltf or .glb surface, edits it, and prints the time of every edit.\n"
+    "  Solves the harmonic field of a .obj, .off, .ply, .gltf or .glb surface, edits it, and prints the time of every "
+    "edit.\n"
     "  PLACE is a vertex number (from 0, as in the file), or TRIANGLE:B0,B1,B2 for a point inside a triangle.\n"
     "  STIFFNESS makes a soft site (relative to the mean diagonal); without it the site is exact.\n"
-    "  --script FILE      edits, one a line: add PLACE=VALUE ..., remove PLACE ..., move PLACE PLACE ..., set PLACE=VALUE ..., undo, redo\n"
+    "  --script FILE      edits, one a line: add PLACE=VALUE ..., remove PLACE ..., move PLACE PLACE ..., set "
+    "PLACE=VALUE ..., undo, redo\n"
     "  --out FILE         the field as text, one value a line in the file's own vertex order, 17 digits\n"
     "  --glb FILE         the surface cut into colour strips\n"
     "  --png FILE         a picture of the strips from blue to yellow, sites red\n"
@@ -29,14 +31,16 @@ namespace {
 double read_number(const std::string& text, const std::string& what) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) throw std::runtime_error(what + ": \"" + text + "\" is not a finite number");
+  if (text.empty() || *end != '\0' || !std::isfinite(value))
+    throw std::runtime_error(what + ": \"" + text + "\" is not a finite number");
   return value;
 }
 
 uint32_t read_index(const std::string& text, const std::string& what) {
   char* end = nullptr;
   const unsigned long long value = std::strtoull(text.c_str(), &end, 10);
-  if (text.empty() || text[0] == '-' || *end != '\0' || value > 0xFFFFFFFEull) throw std::runtime_error(what + ": \"" + text + "\" is not a number of a vertex or triangle");
+  if (text.empty() || text[0] == '-' || *end != '\0' || value > 0xFFFFFFFEull)
+    throw std::runtime_error(what + ": \"" + text + "\" is not a number of a vertex or triangle");
   return static_cast<uint32_t>(value);
 }
 
@@ -45,7 +49,8 @@ std::array<double, 3> read_triple(const std::string& text, const std::string& wh
   std::istringstream stream(text);
   std::string part;
   for (double& value : triple) {
-    if (!std::getline(stream, part, ',')) throw std::runtime_error(what + ": \"" + text + "\" must be three numbers with commas");
+    if (!std::getline(stream, part, ','))
+      throw std::runtime_error(what + ": \"" + text + "\" must be three numbers with commas");
     value = read_number(part, what);
   }
   if (std::getline(stream, part)) throw std::runtime_error(what + ": \"" + text + "\" has more than three numbers");
@@ -100,21 +105,36 @@ FieldOptions read_field_options(int argc, char** argv) {
       if (i + 1 >= argc) throw std::runtime_error(name + " needs a value");
       return argv[++i];
     };
-    if (name == "--help" || name == "-h") options.help = true;
-    else if (name == "--site") options.sites.push_back(read_site(next(), name));
-    else if (name == "--script") options.script = next();
-    else if (name == "--out") options.out = next();
-    else if (name == "--glb") options.glb = next();
-    else if (name == "--png") options.png = next();
-    else if (name == "--strips") options.strips = static_cast<int>(read_index(next(), name));
-    else if (name == "--direction") options.direction = read_triple(next(), name);
-    else if (name == "--threads") options.threads = read_index(next(), name);
-    else if (name == "--engine") options.engine = read_choice(next(), {"green", "updown", "refactor"}, name);
-    else if (name == "--operator") options.operator_kind = read_choice(next(), {"cotangent", "clamped", "uniform"}, name);
-    else if (name == "--weld") options.weld = read_choice(next(), {"exact", "none"}, name);
-    else if (name.rfind("--", 0) == 0) throw std::runtime_error("unknown option " + name + "; see --help");
-    else if (options.mesh.empty()) options.mesh = name;
-    else throw std::runtime_error("more than one mesh: " + options.mesh + " and " + name);
+    if (name == "--help" || name == "-h")
+      options.help = true;
+    else if (name == "--site")
+      options.sites.push_back(read_site(next(), name));
+    else if (name == "--script")
+      options.script = next();
+    else if (name == "--out")
+      options.out = next();
+    else if (name == "--glb")
+      options.glb = next();
+    else if (name == "--png")
+      options.png = next();
+    else if (name == "--strips")
+      options.strips = static_cast<int>(read_index(next(), name));
+    else if (name == "--direction")
+      options.direction = read_triple(next(), name);
+    else if (name == "--threads")
+      options.threads = read_index(next(), name);
+    else if (name == "--engine")
+      options.engine = read_choice(next(), {"green", "updown", "refactor"}, name);
+    else if (name == "--operator")
+      options.operator_kind = read_choice(next(), {"cotangent", "clamped", "uniform"}, name);
+    else if (name == "--weld")
+      options.weld = read_choice(next(), {"exact", "none"}, name);
+    else if (name.rfind("--", 0) == 0)
+      throw std::runtime_error("unknown option " + name + "; see --help");
+    else if (options.mesh.empty())
+      options.mesh = name;
+    else
+      throw std::runtime_error("more than one mesh: " + options.mesh + " and " + name);
   }
   if (options.help) return options;
   if (options.mesh.empty()) throw std::runtime_error("no mesh given; see --help");
@@ -148,7 +168,8 @@ std::vector<Edit> read_edit_script(const std::string& file) {
     }
     const bool needs = edit.kind != Edit::Kind::undo && edit.kind != Edit::Kind::redo;
     if (needs && edit.sites.empty()) throw std::runtime_error(where + ": no place given");
-    if (edit.kind == Edit::Kind::move && edit.sites.size() % 2) throw std::runtime_error(where + ": move takes pairs of places, from and to");
+    if (edit.kind == Edit::Kind::move && edit.sites.size() % 2)
+      throw std::runtime_error(where + ": move takes pairs of places, from and to");
     edits.push_back(std::move(edit));
   }
   return edits;

@@ -13,7 +13,8 @@ namespace samples {
 // One value a line, 17 digits: reads back to the same double.
 void write_field_text(const std::string& file, const std::vector<double>& field);
 
-// Every triangle is cut along the levels between strips, so that a strip has one colour and sharp borders at any mesh resolution.
+// Every triangle is cut along the levels between strips, so that a strip has one colour and sharp borders at any mesh
+// resolution.
 void write_field_glb(const std::string& file, const SurfaceMesh& mesh, const std::vector<double>& field, int strips);
 
 // Strips from blue to yellow with iso-lines, a red dot at every site.

@@ -21,7 +21,9 @@ void check(hf_result result) {
 
 class Clock {
  public:
-  double milliseconds() const { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count(); }
+  double milliseconds() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -35,7 +37,8 @@ struct Batch {
     const bool points = !sites.empty() && !sites[0].place.is_vertex();
     bool soft = false;
     for (const SiteArgument& site : sites) {
-      if (site.place.is_vertex() == points) throw std::runtime_error("vertices and points in triangles are mixed in one edit; write two");
+      if (site.place.is_vertex() == points)
+        throw std::runtime_error("vertices and points in triangles are mixed in one edit; write two");
       vertices.push_back(points ? site.place.triangle : site.place.vertex);
       barycentrics.insert(barycentrics.end(), site.place.weights.begin(), site.place.weights.end());
       values.push_back(site.value), stiffness.push_back(site.stiffness);
@@ -56,7 +59,8 @@ struct Batch {
 // The solver and the numbers of its sites by place.
 class Session {
  public:
-  Session(const SurfaceMesh& mesh, const FieldOptions& options) : vertex_count_(static_cast<uint32_t>(mesh.positions.size())) {
+  Session(const SurfaceMesh& mesh, const FieldOptions& options)
+      : vertex_count_(static_cast<uint32_t>(mesh.positions.size())) {
     hf_create_desc desc;
     HF_INIT(desc);
     desc.vertex_count = vertex_count_;
@@ -110,7 +114,8 @@ class Session {
         points.push_back(mesh.positions[place.vertex]);
       } else {
         glm::dvec3 p(0);
-        for (size_t k = 0; k < 3; ++k) p += place.weights[k] * mesh.positions[mesh.triangles[3 * size_t(place.triangle) + k]];
+        for (size_t k = 0; k < 3; ++k)
+          p += place.weights[k] * mesh.positions[mesh.triangles[3 * size_t(place.triangle) + k]];
         points.push_back(p);
       }
     }
@@ -120,13 +125,19 @@ class Session {
  private:
   static constexpr uint32_t no_triangle = 0xFFFFFFFFu;
   struct Order {
-    bool operator()(const Place& a, const Place& b) const { return std::tie(a.triangle, a.vertex, a.weights) < std::tie(b.triangle, b.vertex, b.weights); }
+    bool operator()(const Place& a, const Place& b) const {
+      return std::tie(a.triangle, a.vertex, a.weights) < std::tie(b.triangle, b.vertex, b.weights);
+    }
   };
   using Numbers = std::map<Place, uint32_t, Order>;
 
   uint32_t number(const Place& place) const {
     const auto found = sites_.find(place);
-    if (found == sites_.end()) throw std::runtime_error("there is no site at " + std::string(place.is_vertex() ? "vertex " + std::to_string(place.vertex) : "that point of triangle " + std::to_string(place.triangle)));
+    if (found == sites_.end())
+      throw std::runtime_error("there is no site at " +
+                               std::string(place.is_vertex()
+                                               ? "vertex " + std::to_string(place.vertex)
+                                               : "that point of triangle " + std::to_string(place.triangle)));
     return found->second;
   }
 
@@ -147,7 +158,8 @@ class Session {
         break;
       case Edit::Kind::move: {
         std::vector<SiteArgument> to;
-        for (size_t i = 0; i < edit.sites.size(); i += 2) numbers.push_back(number(edit.sites[i].place)), to.push_back(edit.sites[i + 1]);
+        for (size_t i = 0; i < edit.sites.size(); i += 2)
+          numbers.push_back(number(edit.sites[i].place)), to.push_back(edit.sites[i + 1]);
         const Batch batch(to, false);
         check(hf_move_sites(solver_, static_cast<uint32_t>(numbers.size()), numbers.data(), &batch.desc));
         for (size_t i = 0; i < edit.sites.size(); i += 2) sites_.erase(edit.sites[i].place);
@@ -161,7 +173,8 @@ class Session {
         break;
       }
       case Edit::Kind::undo:
-      case Edit::Kind::redo: break;
+      case Edit::Kind::redo:
+        break;
     }
   }
 
@@ -178,18 +191,24 @@ void describe(hf_solver solver, double create_ms) {
   hf_statistics statistics;
   HF_INIT(statistics);
   check(hf_get_statistics(solver, &statistics));
-  std::printf("mesh        %u vertices (%u welded), %u triangles, %u components\n", report.vertex_count, report.welded_vertex_count, report.triangle_count, report.component_count);
+  std::printf("mesh        %u vertices (%u welded), %u triangles, %u components\n", report.vertex_count,
+              report.welded_vertex_count, report.triangle_count, report.component_count);
   const struct {
     uint32_t count;
     const char* name;
-  } dirt[] = {{report.isolated_vertex_count, "isolated vertices"},      {report.degenerate_triangle_count, "zero-area triangles"},
-              {report.collapsed_triangle_count, "collapsed triangles"}, {report.duplicate_triangle_count, "duplicate triangles"},
-              {report.non_manifold_edge_count, "non-manifold edges"},   {report.flipped_edge_count, "flipped edges"},
-              {report.boundary_edge_count, "boundary edges"},           {report.negative_edge_count, "edges of negative weight"}};
+  } dirt[] = {{report.isolated_vertex_count, "isolated vertices"},
+              {report.degenerate_triangle_count, "zero-area triangles"},
+              {report.collapsed_triangle_count, "collapsed triangles"},
+              {report.duplicate_triangle_count, "duplicate triangles"},
+              {report.non_manifold_edge_count, "non-manifold edges"},
+              {report.flipped_edge_count, "flipped edges"},
+              {report.boundary_edge_count, "boundary edges"},
+              {report.negative_edge_count, "edges of negative weight"}};
   for (const auto& entry : dirt) {
     if (entry.count) std::printf("            %u %s\n", entry.count, entry.name);
   }
-  std::printf("create      %.1f ms (ordering %.1f, symbolic %.1f, factorisation %.1f; factor %.1f MB)\n", create_ms, statistics.ordering_ms, statistics.symbolic_ms, statistics.numeric_ms, statistics.factor_bytes / 1e6);
+  std::printf("create      %.1f ms (ordering %.1f, symbolic %.1f, factorisation %.1f; factor %.1f MB)\n", create_ms,
+              statistics.ordering_ms, statistics.symbolic_ms, statistics.numeric_ms, statistics.factor_bytes / 1e6);
 }
 
 int run(int argc, char** argv) {
@@ -205,7 +224,8 @@ int run(int argc, char** argv) {
     for (const SiteArgument& site : options.sites) {
       if (site.place.is_vertex() == vertices) first.sites.push_back(site);
     }
-    first.text = "add " + std::to_string(first.sites.size()) + (vertices ? " vertex sites" : " points") + " of the command line";
+    first.text =
+        "add " + std::to_string(first.sites.size()) + (vertices ? " vertex sites" : " points") + " of the command line";
     if (!first.sites.empty()) edits.push_back(first);
   }
   if (!options.script.empty()) {
@@ -232,15 +252,20 @@ int run(int argc, char** argv) {
     }
     const Clock solve_clock;
     field = session.solve(info);
-    std::printf("%-40.60s edit %8.3f ms, field %8.3f ms, %u sites\n", edit.text.c_str(), edit_ms, solve_clock.milliseconds(), hf_get_site_count(session.solver()));
+    std::printf("%-40.60s edit %8.3f ms, field %8.3f ms, %u sites\n", edit.text.c_str(), edit_ms,
+                solve_clock.milliseconds(), hf_get_site_count(session.solver()));
   }
   if (field.empty()) throw std::runtime_error("the script ends without a site; there is no field to write");
   if (info.unreached_vertex_count) {
-    std::fprintf(stderr, "warning: %u vertices are reached by no site (%u components without one, or isolated); they are written as 0\n", info.unreached_vertex_count, info.unreached_component_count);
+    std::fprintf(
+        stderr,
+        "warning: %u vertices are reached by no site (%u components without one, or isolated); they are written as 0\n",
+        info.unreached_vertex_count, info.unreached_component_count);
   }
   if (!options.out.empty()) write_field_text(options.out, field);
   if (!options.glb.empty()) write_field_glb(options.glb, mesh, field, options.strips);
-  if (!options.png.empty()) write_field_picture(options.png, mesh, field, options.strips, session.positions(mesh), options.direction);
+  if (!options.png.empty())
+    write_field_picture(options.png, mesh, field, options.strips, session.positions(mesh), options.direction);
   return 0;
 }
 

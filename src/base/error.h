@@ -1,5 +1,5 @@
-// The one exception of the library. Rooms throw it; capi catches it at the boundary, stores code, index and message in the
-// thread's error detail and returns the code. The message is built into a fixed buffer: failing never allocates.
+// The one exception of the library. Rooms throw it; capi catches it at the boundary, stores code, index and message in
+// the thread's error detail and returns the code. The message is built into a fixed buffer: failing never allocates.
 #pragma once
 #include <cstdint>
 #include <exception>
@@ -25,6 +25,7 @@ class Error final : public std::exception {
 
 // Throws Error. `index` is the vertex, triangle, site, handle or component the message is about, or HF_NO_INDEX.
 // The message is one line and says what to do.
-[[noreturn]] void fail(hf_result code, std::uint32_t index, const char* format, ...) __attribute__((format(printf, 3, 4)));
+[[noreturn]] void fail(hf_result code, std::uint32_t index, const char* format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 }  // namespace hf

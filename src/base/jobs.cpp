@@ -39,8 +39,9 @@ struct Batch {
 
 }  // namespace
 
-// Workers sleep on a condition variable between batches. One batch has the workers at a time: a caller that comes meanwhile (another clone, or a job
-// that has work to split itself) does its batch alone, so nobody waits and nothing can lock up.
+// Workers sleep on a condition variable between batches. One batch has the workers at a time: a caller that comes
+// meanwhile (another clone, or a job that has work to split itself) does its batch alone, so nobody waits and nothing
+// can lock up.
 struct JobRunner::Pool {
   std::atomic<bool> taken{false};
   std::mutex mutex;
@@ -110,8 +111,15 @@ void JobRunner::run(std::uint32_t count, Call call, void* context) {
   Batch batch;
   batch.count = count, batch.call = call, batch.context = context;
   if (host_.run) {
-    // the host calls us back once per index; anything it leaves out is done here, so a careless runner costs time, not truth
-    host_.run(host_.user, count, [](void* data, std::uint32_t) { FloatEnvironment environment; static_cast<Batch*>(data)->work(); }, &batch);
+    // the host calls us back once per index; anything it leaves out is done here, so a careless runner costs time, not
+    // truth
+    host_.run(
+        host_.user, count,
+        [](void* data, std::uint32_t) {
+          FloatEnvironment environment;
+          static_cast<Batch*>(data)->work();
+        },
+        &batch);
     batch.work();
   } else {
     pool_->run(batch);

@@ -1,6 +1,6 @@
-// Work split over the threads the caller grants: a pool the library owns (thread_count from the desc), or the host's own
-// job runner. Results never depend on the number of threads: work is cut into fixed pieces, each piece writes its own
-// output, and no sum crosses a piece in an order that depends on who ran it.
+// Work split over the threads the caller grants: a pool the library owns (thread_count from the desc), or the host's
+// own job runner. Results never depend on the number of threads: work is cut into fixed pieces, each piece writes its
+// own output, and no sum crosses a piece in an order that depends on who ran it.
 #pragma once
 #include <cstdint>
 #include <exception>
@@ -21,8 +21,9 @@ class JobRunner {
 
   std::uint32_t thread_count() const noexcept { return thread_count_; }
 
-  // Calls job(index) for index = 0 .. count-1, on any of the threads, in any order, each once; returns when all are done.
-  // The first exception of a job is rethrown on the calling thread; the remaining jobs are still called or skipped.
+  // Calls job(index) for index = 0 .. count-1, on any of the threads, in any order, each once; returns when all are
+  // done. The first exception of a job is rethrown on the calling thread; the remaining jobs are still called or
+  // skipped.
   template <class Job>
   void for_each(std::uint32_t count, Job&& job) {
     if (count == 0) return;
@@ -30,7 +31,10 @@ class JobRunner {
       for (std::uint32_t i = 0; i < count; ++i) job(i);
       return;
     }
-    run(count, [](void* context, std::uint32_t index) { (*static_cast<std::remove_reference_t<Job>*>(context))(index); }, const_cast<void*>(static_cast<const void*>(&job)));
+    run(
+        count,
+        [](void* context, std::uint32_t index) { (*static_cast<std::remove_reference_t<Job>*>(context))(index); },
+        const_cast<void*>(static_cast<const void*>(&job)));
   }
 
  private:

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 
-// Large blocks are aligned to 2 MiB and offered to the kernel as huge pages: reading a factor of 130 MB through 4 KiB pages
-// costs several times its time through large ones.
+// Large blocks are aligned to 2 MiB and offered to the kernel as huge pages: reading a factor of 130 MB through 4 KiB
+// pages costs several times its time through large ones.
 void* default_allocate(std::size_t bytes, std::size_t alignment) noexcept {
   const bool large = bytes >= 2 * huge_page;
   const std::size_t align = large ? huge_page : (alignment < sizeof(void*) ? sizeof(void*) : alignment);

@@ -1,9 +1,10 @@
-// All memory of a solver passes through one Memory: the host's hooks (or malloc), live and peak bytes, and a byte limit.
+// All memory of a solver passes through one Memory: the host's hooks (or malloc), live and peak bytes, and a byte
+// limit.
 //
-// Containers: hf::Vector<T> (std::pmr::vector on a Memory) for small and growing arrays, hf::Buffer<T> for large numeric
-// arrays (64-byte aligned, not initialised). Failure throws std::bad_alloc and leaves what was allocated before intact.
-// A Memory outlives everything allocated from it; handles share it by std::shared_ptr. Thread safety: allocate and
-// deallocate may be called from any thread if the host's hooks allow it (the default ones do).
+// Containers: hf::Vector<T> (std::pmr::vector on a Memory) for small and growing arrays, hf::Buffer<T> for large
+// numeric arrays (64-byte aligned, not initialised). Failure throws std::bad_alloc and leaves what was allocated before
+// intact. A Memory outlives everything allocated from it; handles share it by std::shared_ptr. Thread safety: allocate
+// and deallocate may be called from any thread if the host's hooks allow it (the default ones do).
 #pragma once
 #include <atomic>
 #include <cstddef>
@@ -22,7 +23,8 @@ class Memory final : public std::pmr::memory_resource {
  public:
   Memory() noexcept = default;
   // hooks: both functions set, or both null for malloc. byte_limit: 0 = none.
-  explicit Memory(const hf_allocator& hooks, std::uint64_t byte_limit = 0) noexcept : hooks_(hooks), byte_limit_(byte_limit) {}
+  explicit Memory(const hf_allocator& hooks, std::uint64_t byte_limit = 0) noexcept
+      : hooks_(hooks), byte_limit_(byte_limit) {}
 
   std::uint64_t live_bytes() const noexcept { return live_.load(std::memory_order_relaxed); }
   std::uint64_t peak_bytes() const noexcept { return peak_.load(std::memory_order_relaxed); }
@@ -48,8 +50,9 @@ std::shared_ptr<T> make_shared_in(Memory& memory, Arguments&&... arguments) {
   return std::allocate_shared<T>(std::pmr::polymorphic_allocator<T>(&memory), std::forward<Arguments>(arguments)...);
 }
 
-// An allocator that keeps its Memory alive: for objects that are, directly or through what they hold, owners of the Memory they
-// lie in. The block of such an object is given back after its destructor, when nobody else may hold the Memory any more.
+// An allocator that keeps its Memory alive: for objects that are, directly or through what they hold, owners of the
+// Memory they lie in. The block of such an object is given back after its destructor, when nobody else may hold the
+// Memory any more.
 template <class T>
 struct OwningAllocator {
   using value_type = T;
@@ -59,9 +62,13 @@ struct OwningAllocator {
   T* allocate(std::size_t count) { return static_cast<T*>(memory->allocate(count * sizeof(T), alignof(T))); }
   void deallocate(T* block, std::size_t count) noexcept { memory->deallocate(block, count * sizeof(T), alignof(T)); }
   template <class U>
-  bool operator==(const OwningAllocator<U>& other) const noexcept { return memory == other.memory; }
+  bool operator==(const OwningAllocator<U>& other) const noexcept {
+    return memory == other.memory;
+  }
   template <class U>
-  bool operator!=(const OwningAllocator<U>& other) const noexcept { return memory != other.memory; }
+  bool operator!=(const OwningAllocator<U>& other) const noexcept {
+    return memory != other.memory;
+  }
   std::shared_ptr<Memory> memory;
 };
 

@@ -10,12 +10,16 @@ namespace hf {
 class Progress {
  public:
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
-  void reset() noexcept { cancelled_.store(false, std::memory_order_relaxed), fraction_.store(0.0f, std::memory_order_relaxed); }
+  void reset() noexcept {
+    cancelled_.store(false, std::memory_order_relaxed), fraction_.store(0.0f, std::memory_order_relaxed);
+  }
   float fraction() const noexcept { return fraction_.load(std::memory_order_relaxed); }
   bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
   void report(float fraction) {
     fraction_.store(fraction, std::memory_order_relaxed);
-    if (cancelled()) fail(HF_ERROR_CANCELLED, HF_NO_INDEX, "cancelled by the caller at %.0f %%; nothing was changed", 100.0 * static_cast<double>(fraction));
+    if (cancelled())
+      fail(HF_ERROR_CANCELLED, HF_NO_INDEX, "cancelled by the caller at %.0f %%; nothing was changed",
+           100.0 * static_cast<double>(fraction));
   }
 
  private:

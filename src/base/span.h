@@ -13,9 +13,13 @@ class Span {
  public:
   constexpr Span() noexcept = default;
   constexpr Span(T* data, std::size_t size) noexcept : data_(data), size_(size) {}
-  template <class Container, class = std::enable_if_t<std::is_convertible_v<decltype(std::declval<Container&>().data()), T*>>>
+  template <class Container,
+            class = std::enable_if_t<std::is_convertible_v<decltype(std::declval<Container&>().data()), T*>>>
   constexpr Span(Container& container) noexcept : data_(container.data()), size_(container.size()) {}
-  template <class Container, class = std::enable_if_t<std::is_const_v<T> && std::is_convertible_v<decltype(std::declval<const Container&>().data()), T*>>, class = void>
+  template <class Container,
+            class = std::enable_if_t<std::is_const_v<T> &&
+                                     std::is_convertible_v<decltype(std::declval<const Container&>().data()), T*>>,
+            class = void>
   constexpr Span(const Container& container) noexcept : data_(container.data()), size_(container.size()) {}
 
   constexpr T* data() const noexcept { return data_; }
@@ -31,12 +35,15 @@ class Span {
   std::size_t size_ = 0;
 };
 
-// Rows of `width` numbers of type float or double, `stride` bytes apart, possibly unaligned; read and written as double.
+// Rows of `width` numbers of type float or double, `stride` bytes apart, possibly unaligned; read and written as
+// double.
 class ConstRows {
  public:
   ConstRows() noexcept = default;
-  ConstRows(const float* data, std::size_t stride) noexcept : bytes_(reinterpret_cast<const char*>(data)), stride_(stride), is_double_(false) {}
-  ConstRows(const double* data, std::size_t stride) noexcept : bytes_(reinterpret_cast<const char*>(data)), stride_(stride), is_double_(true) {}
+  ConstRows(const float* data, std::size_t stride) noexcept
+      : bytes_(reinterpret_cast<const char*>(data)), stride_(stride), is_double_(false) {}
+  ConstRows(const double* data, std::size_t stride) noexcept
+      : bytes_(reinterpret_cast<const char*>(data)), stride_(stride), is_double_(true) {}
   explicit operator bool() const noexcept { return bytes_ != nullptr; }
   double get(std::size_t row, std::size_t column) const noexcept {
     const char* p = bytes_ + row * stride_;
@@ -59,8 +66,10 @@ class ConstRows {
 class Rows {
  public:
   Rows() noexcept = default;
-  Rows(float* data, std::size_t stride) noexcept : bytes_(reinterpret_cast<char*>(data)), stride_(stride), is_double_(false) {}
-  Rows(double* data, std::size_t stride) noexcept : bytes_(reinterpret_cast<char*>(data)), stride_(stride), is_double_(true) {}
+  Rows(float* data, std::size_t stride) noexcept
+      : bytes_(reinterpret_cast<char*>(data)), stride_(stride), is_double_(false) {}
+  Rows(double* data, std::size_t stride) noexcept
+      : bytes_(reinterpret_cast<char*>(data)), stride_(stride), is_double_(true) {}
   explicit operator bool() const noexcept { return bytes_ != nullptr; }
   void set(std::size_t row, std::size_t column, double value) const noexcept {
     char* p = bytes_ + row * stride_;

@@ -6,11 +6,13 @@
 
 namespace hf {
 
-// Both triangles of a symmetric n x n matrix, compressed by columns (equally rows), the diagonal present in every column, row
-// indices ascending. column_start has n + 1 entries; entries < 2^31.
+// Both triangles of a symmetric n x n matrix, compressed by columns (equally rows), the diagonal present in every
+// column, row indices ascending. column_start has n + 1 entries; entries < 2^31.
 struct SymmetricMatrix {
   explicit SymmetricMatrix(Memory& memory) : column_start(&memory), row(&memory), value(&memory) {}
-  std::int32_t size() const noexcept { return column_start.empty() ? 0 : static_cast<std::int32_t>(column_start.size()) - 1; }
+  std::int32_t size() const noexcept {
+    return column_start.empty() ? 0 : static_cast<std::int32_t>(column_start.size()) - 1;
+  }
   Vector<std::int32_t> column_start;
   Vector<std::int32_t> row;
   Vector<double> value;

@@ -6,7 +6,9 @@ namespace hf {
 
 class Timer {
  public:
-  double milliseconds() const noexcept { return std::chrono::duration<double, std::milli>(Clock::now() - start_).count(); }
+  double milliseconds() const noexcept {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+  }
 
  private:
   using Clock = std::chrono::steady_clock;

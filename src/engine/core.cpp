@@ -31,7 +31,8 @@ void WorkspacePool::give(Buffer<double>&& buffer) noexcept {
       return;
     }
     // keep the larger ones
-    const auto smallest = std::min_element(free_.begin(), free_.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    const auto smallest =
+        std::min_element(free_.begin(), free_.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
     if (smallest->size() < buffer.size()) *smallest = std::move(buffer);
   } catch (...) {
     // no room to remember it: the buffer is released by its owner
@@ -62,8 +63,10 @@ void find_grounds(Core& core) {
   for (std::int32_t v = 0; v < core.size(); ++v) {
     const std::size_t c = static_cast<std::size_t>(core.mesh.component[static_cast<std::size_t>(v)]);
     if (core.ground[c] == Mesh::none) core.ground[c] = v;
-    const auto begin = k.row.begin() + k.column_start[static_cast<std::size_t>(v)], end = k.row.begin() + k.column_start[static_cast<std::size_t>(v) + 1];
-    core.mean_diagonal[c] += std::fabs(k.value[static_cast<std::size_t>(std::lower_bound(begin, end, v) - k.row.begin())]);
+    const auto begin = k.row.begin() + k.column_start[static_cast<std::size_t>(v)],
+               end = k.row.begin() + k.column_start[static_cast<std::size_t>(v) + 1];
+    core.mean_diagonal[c] +=
+        std::fabs(k.value[static_cast<std::size_t>(std::lower_bound(begin, end, v) - k.row.begin())]);
     count[c] += 1;
   }
   for (std::size_t c = 0; c < components; ++c) {
@@ -74,7 +77,8 @@ void find_grounds(Core& core) {
 
 }  // namespace
 
-std::shared_ptr<const Core> Core::make(const MeshInput& input, const CoreOptions& options, std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs) {
+std::shared_ptr<const Core> Core::make(const MeshInput& input, const CoreOptions& options,
+                                       std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs) {
   Memory& pool = *memory;
   std::shared_ptr<Core> core = make_owner_in<Core>(memory, memory, std::move(jobs));
   report(options.progress, 0.0f);
@@ -88,7 +92,8 @@ std::shared_ptr<const Core> Core::make(const MeshInput& input, const CoreOptions
   core->weights = edge_weights(core->mesh, core->topology, OperatorKind::cotangent, pool);
   MeshReport& found = core->mesh.report;
   found.negative_edge_count = count_negative(core->weights);
-  if (options.operator_kind != OperatorKind::cotangent) core->weights = edge_weights(core->mesh, core->topology, options.operator_kind, pool);
+  if (options.operator_kind != OperatorKind::cotangent)
+    core->weights = edge_weights(core->mesh, core->topology, options.operator_kind, pool);
   count_edges(core->mesh, core->topology, found);
   core->laplacian = hf::laplacian(core->topology, core->weights, pool);
   find_grounds(*core);
@@ -113,7 +118,8 @@ SymmetricMatrix grounded(const Core& core) {
   a.value.assign(core.laplacian.value.begin(), core.laplacian.value.end());
   for (std::size_t c = 0; c < core.ground.size(); ++c) {
     const std::int32_t g = core.ground[c];
-    const auto begin = a.row.begin() + a.column_start[static_cast<std::size_t>(g)], end = a.row.begin() + a.column_start[static_cast<std::size_t>(g) + 1];
+    const auto begin = a.row.begin() + a.column_start[static_cast<std::size_t>(g)],
+               end = a.row.begin() + a.column_start[static_cast<std::size_t>(g) + 1];
     a.value[static_cast<std::size_t>(std::lower_bound(begin, end, g) - a.row.begin())] += core.mean_diagonal[c];
   }
   return a;

@@ -1,5 +1,5 @@
-// What all solvers, clones, poses and transfers of one surface share: mesh, operator, factor. Immutable once made, so any
-// number of threads may read it; only the workspace pool inside has a lock.
+// What all solvers, clones, poses and transfers of one surface share: mesh, operator, factor. Immutable once made, so
+// any number of threads may read it; only the workspace pool inside has a lock.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -65,9 +65,10 @@ struct CoreTimes {
 
 struct Core {
   Core(std::shared_ptr<Memory> owner, std::shared_ptr<JobRunner> runner);
-  // Intake, operator, grounded factor A = K + sum_c beta_c e_gc e_gc' (beta_c = mean diagonal of component c, g_c its first vertex).
-  static std::shared_ptr<const Core> make(const MeshInput& input, const CoreOptions& options, std::shared_ptr<Memory> memory,
-                                          std::shared_ptr<JobRunner> jobs);
+  // Intake, operator, grounded factor A = K + sum_c beta_c e_gc e_gc' (beta_c = mean diagonal of component c, g_c its
+  // first vertex).
+  static std::shared_ptr<const Core> make(const MeshInput& input, const CoreOptions& options,
+                                          std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs);
 
   std::int32_t size() const noexcept { return mesh.vertex_count(); }
 
@@ -75,10 +76,10 @@ struct Core {
   std::shared_ptr<JobRunner> jobs;
   Mesh mesh;
   Topology topology;
-  Vector<double> weights;          // per edge
-  SymmetricMatrix laplacian;       // K
-  Vector<std::int32_t> ground;     // per component
-  Vector<double> mean_diagonal;    // per component
+  Vector<double> weights;        // per edge
+  SymmetricMatrix laplacian;     // K
+  Vector<std::int32_t> ground;   // per component
+  Vector<double> mean_diagonal;  // per component
   Ordering ordering = Ordering::nested_dissection;
   std::shared_ptr<const Factor> factor;  // of A; null when the options asked for none
   CoreTimes times;

@@ -9,12 +9,14 @@ namespace {
 
 constexpr std::int32_t tile = 4;
 
-// A pivot this far below its diagonal means linear dependence: independent sites stay above 1e-9 even on bi-harmonic patches.
+// A pivot this far below its diagonal means linear dependence: independent sites stay above 1e-9 even on bi-harmonic
+// patches.
 constexpr double pivot_floor = 1e-13;
 
-// dots[i * tile + j] = a_i . b_j over `count` entries, four running sums each, in one fixed order for every instruction set.
-// clones need the dynamic linker's help (glibc), and sanitizers cannot run before it
-#if defined(__GLIBC__) && defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+// dots[i * tile + j] = a_i . b_j over `count` entries, four running sums each, in one fixed order for every instruction
+// set. clones need the dynamic linker's help (glibc), and sanitizers cannot run before it
+#if defined(__GLIBC__) && defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__SANITIZE_ADDRESS__)
 __attribute__((target_clones("avx2", "default")))
 #endif
 void tile_dots(const double* const a[tile], const double* const b[tile], std::size_t count, double* dots) {
@@ -52,7 +54,8 @@ DenseBlock::DenseBlock(const DenseBlock& other)
 void DenseBlock::update_without(std::int32_t r) {
   // l = what column r leaves over below row r; rotate it into the columns that follow
   Vector<double> left(ids_.size(), 0.0, memory_);
-  for (std::int32_t i = r + 1; i < valid_; ++i) left[static_cast<std::size_t>(i)] = l_[row(i) + static_cast<std::size_t>(r)];
+  for (std::int32_t i = r + 1; i < valid_; ++i)
+    left[static_cast<std::size_t>(i)] = l_[row(i) + static_cast<std::size_t>(r)];
   for (std::int32_t j = r + 1; j < valid_; ++j) {
     double& pivot = l_[row(j) + static_cast<std::size_t>(j)];
     const double radius = std::hypot(pivot, left[static_cast<std::size_t>(j)]);
@@ -70,7 +73,8 @@ void DenseBlock::keep_rows(Span<const std::int32_t> rows) {
   for (Vector<double>* packed : {&m_, &l_}) {
     std::size_t to = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      for (std::size_t j = 0; j <= i; ++j) (*packed)[to++] = (*packed)[row(rows[i]) + static_cast<std::size_t>(rows[j])];
+      for (std::size_t j = 0; j <= i; ++j)
+        (*packed)[to++] = (*packed)[row(rows[i]) + static_cast<std::size_t>(rows[j])];
     }
     packed->resize(to);
   }
@@ -132,7 +136,9 @@ std::int32_t DenseBlock::factorise() {
   while (valid_ < k) {
     const std::int32_t grid = valid_ / tile * tile, end = std::min(grid + tile, k);
     const double* mine[tile];
-    for (std::int32_t i = 0; i < tile; ++i) mine[i] = scaled.data() + static_cast<std::size_t>(std::min(grid + i, end - 1) - grid) * static_cast<std::size_t>(k);
+    for (std::int32_t i = 0; i < tile; ++i)
+      mine[i] =
+          scaled.data() + static_cast<std::size_t>(std::min(grid + i, end - 1) - grid) * static_cast<std::size_t>(k);
     for (std::int32_t j0 = 0; j0 <= grid; j0 += tile) {
       const double* other[tile];
       for (std::int32_t j = 0; j < tile; ++j) other[j] = l_.data() + row(std::min(j0 + j, k - 1));

@@ -1,10 +1,12 @@
-// The dense part of engine green for one component: the symmetric matrix M of its rows and the factor M = L Sigma L', both as packed
-// lower rows, edited row by row. Sigma = diag(+1 or -1): rows of sites are positive; rows of free values (see green.h) are negative, which
-// makes M quasi-definite, so that it factors without pivoting in any order (Vanderbei 1995).
+// The dense part of engine green for one component: the symmetric matrix M of its rows and the factor M = L Sigma L',
+// both as packed lower rows, edited row by row. Sigma = diag(+1 or -1): rows of sites are positive; rows of free values
+// (see green.h) are negative, which makes M quasi-definite, so that it factors without pivoting in any order (Vanderbei
+// 1995).
 //
-// Append a row: one forward substitution, O(k^2). Remove a row r while all signs are positive: the rows of L below r get a rank-one update with
-// the column that is left over, L33 L33' + l l', by plane rotations, O((k - r)^2). Many removals at once, or signs mixed: factorised again
-// from M, O(k^3 / 3). A block is copied before it is edited, so a failure leaves the old one in place.
+// Append a row: one forward substitution, O(k^2). Remove a row r while all signs are positive: the rows of L below r
+// get a rank-one update with the column that is left over, L33 L33' + l l', by plane rotations, O((k - r)^2). Many
+// removals at once, or signs mixed: factorised again from M, O(k^3 / 3). A block is copied before it is edited, so a
+// failure leaves the old one in place.
 #pragma once
 #include <cstdint>
 
@@ -15,7 +17,8 @@ namespace hf {
 
 class DenseBlock {
  public:
-  explicit DenseBlock(Memory& memory) : memory_(&memory), ids_(&memory), sign_(&memory), m_(&memory), l_(&memory), ones_(&memory) {}
+  explicit DenseBlock(Memory& memory)
+      : memory_(&memory), ids_(&memory), sign_(&memory), m_(&memory), l_(&memory), ones_(&memory) {}
   DenseBlock(const DenseBlock& other);
 
   std::int32_t count() const noexcept { return static_cast<std::int32_t>(ids_.size()); }
@@ -37,7 +40,9 @@ class DenseBlock {
   double bytes() const noexcept { return 8.0 * static_cast<double>(m_.size() + l_.size()); }
 
  private:
-  static std::size_t row(std::int32_t i) noexcept { return static_cast<std::size_t>(i) * (static_cast<std::size_t>(i) + 1) / 2; }
+  static std::size_t row(std::int32_t i) noexcept {
+    return static_cast<std::size_t>(i) * (static_cast<std::size_t>(i) + 1) / 2;
+  }
   void update_without(std::int32_t r);            // rank-one update of L for the removal of row r
   void keep_rows(Span<const std::int32_t> rows);  // compacts everything to these rows, ascending
 

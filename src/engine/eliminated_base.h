@@ -1,6 +1,6 @@
-// The rebase: many hard vertex sites are taken out of the matrix itself. Their rows and columns become the identity (the pattern, the ordering and
-// the symbolic analysis stand), every component that keeps no such site is grounded as before. Immutable, shared by clones; the sites' values
-// are not part of it.
+// The rebase: many hard vertex sites are taken out of the matrix itself. Their rows and columns become the identity
+// (the pattern, the ordering and the symbolic analysis stand), every component that keeps no such site is grounded as
+// before. Immutable, shared by clones; the sites' values are not part of it.
 //
 //     u_F = A_FF^-1 (-K_FE s_E + ...),   A_FF = K_FF (+ ground)
 #pragma once

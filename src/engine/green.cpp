@@ -18,22 +18,33 @@ constexpr Index channel_block = 8;
 
 // The answer of the dense system: lambda or t by row, and the constant of every component.
 struct GreenSolver::Right {
-  explicit Right(Memory& memory) : slot(&memory), freed(&memory), centre(&memory), constant(&memory), x(&memory), probe(&memory) {}
-  const double* of(Index row, std::size_t m) const noexcept { return row >= 0 ? slot.data() + at(row) * m : freed.data() + at(base_index(row)) * m; }
-  double* of(Index row, std::size_t m) noexcept { return row >= 0 ? slot.data() + at(row) * m : freed.data() + at(base_index(row)) * m; }
+  explicit Right(Memory& memory)
+      : slot(&memory), freed(&memory), centre(&memory), constant(&memory), x(&memory), probe(&memory) {}
+  const double* of(Index row, std::size_t m) const noexcept {
+    return row >= 0 ? slot.data() + at(row) * m : freed.data() + at(base_index(row)) * m;
+  }
+  double* of(Index row, std::size_t m) noexcept {
+    return row >= 0 ? slot.data() + at(row) * m : freed.data() + at(base_index(row)) * m;
+  }
   Vector<double> slot, freed;
   Vector<double> centre;    // mean site value of every component: a large common offset must not cost digits
   Vector<double> constant;  // centre + a
   Vector<double> x, probe;
 };
 
-GreenSolver::GreenSolver(std::shared_ptr<const Core> core) : core_(std::move(core)), state_(core_->mesh.component_count(), *core_->memory) {}
+GreenSolver::GreenSolver(std::shared_ptr<const Core> core)
+    : core_(std::move(core)), state_(core_->mesh.component_count(), *core_->memory) {}
 
 GreenSolver::GreenSolver(const GreenSolver& other)
-    : core_(other.core_), state_(other.state_, *other.core_->memory), path_solves_(other.path_solves_.load()), sweeps_(other.sweeps_.load()), rebases_(other.rebases_.load()) {}
+    : core_(other.core_),
+      state_(other.state_, *other.core_->memory),
+      path_solves_(other.path_solves_.load()),
+      sweeps_(other.sweeps_.load()),
+      rebases_(other.rebases_.load()) {}
 
 void GreenSolver::State::swap(State& other) noexcept {
-  entries.swap(other.entries), base.swap(other.base), freed.swap(other.freed), groups.swap(other.groups), blocks.swap(other.blocks), sites_of.swap(other.sites_of);
+  entries.swap(other.entries), base.swap(other.base), freed.swap(other.freed), groups.swap(other.groups),
+      blocks.swap(other.blocks), sites_of.swap(other.sites_of);
   std::swap(rows, other.rows);
 }
 
@@ -48,7 +59,8 @@ EngineCounters GreenSolver::counters() const noexcept {
 }
 
 // z <- g = G^-1 P (-K_FE s_E), centred values.
-void GreenSolver::base_forward(const double* values, Index channels, Index first, Index count, const Vector<double>& centre, double* z) const {
+void GreenSolver::base_forward(const double* values, Index channels, Index first, Index count,
+                               const Vector<double>& centre, double* z) const {
   const std::size_t m = at(count);
   const SymmetricMatrix& k = core_->laplacian;
   const Span<const Index> position = factor(state_).position();
@@ -60,20 +72,24 @@ void GreenSolver::base_forward(const double* values, Index channels, Index first
     for (Index i = k.column_start[at(e)]; i < k.column_start[at(e) + 1]; ++i) {
       const Index v = k.row[at(i)];
       if (state_.base->eliminated(v)) continue;
-      for (std::size_t q = 0; q < m; ++q) z[at(position[at(v)]) * m + q] -= k.value[at(i)] * (values[slot * at(channels) + at(first) + q] - c[q]);
+      for (std::size_t q = 0; q < m; ++q)
+        z[at(position[at(v)]) * m + q] -= k.value[at(i)] * (values[slot * at(channels) + at(first) + q] - c[q]);
     }
   }
   state_.base->factor->forward(z, count, *core_->jobs);
   ++sweeps_;
 }
 
-void GreenSolver::solve_dense(const double* values, Index channels, Index first, Index count, const double* z, Right& right) const {
+void GreenSolver::solve_dense(const double* values, Index channels, Index first, Index count, const double* z,
+                              Right& right) const {
   const std::size_t m = at(count), stride = at(channels);
   const EliminatedBase* base = state_.base.get();
   right.slot.assign(state_.entries.size() * m, 0.0);
   right.freed.assign(state_.freed.size() * m, 0.0);
   right.constant.assign(right.centre.begin(), right.centre.end());
-  const auto centred = [&](std::size_t slot, std::size_t q) { return values[slot * stride + at(first) + q] - right.centre[at(state_.entries[slot].site.component) * m + q]; };
+  const auto centred = [&](std::size_t slot, std::size_t q) {
+    return values[slot * stride + at(first) + q] - right.centre[at(state_.entries[slot].site.component) * m + q];
+  };
 
   // right-hand side: s of the sites, less what the eliminated sites do to their rows
   Vector<Index> slot_of_base(state_.freed.size(), -1, &memory());
@@ -102,7 +118,8 @@ void GreenSolver::solve_dense(const double* values, Index channels, Index first,
       if (!entry.used() || entry.eliminated >= 0) continue;
       for (int c = 0; c < 3; ++c) {
         const Index there = entry.site.vertex[c] < 0 ? -1 : value_at(entry.site.vertex[c]);
-        for (std::size_t q = 0; there >= 0 && q < m; ++q) right.slot[slot * m + q] -= entry.site.weight[c] * centred(at(there), q);
+        for (std::size_t q = 0; there >= 0 && q < m; ++q)
+          right.slot[slot * m + q] -= entry.site.weight[c] * centred(at(there), q);
       }
     }
     const SymmetricMatrix& k = core_->laplacian;
@@ -111,7 +128,8 @@ void GreenSolver::solve_dense(const double* values, Index channels, Index first,
       const Index r = base->vertex[b];
       for (Index i = k.column_start[at(r)]; i < k.column_start[at(r) + 1]; ++i) {
         const Index there = value_at(k.row[at(i)]);
-        for (std::size_t q = 0; there >= 0 && q < m; ++q) right.freed[b * m + q] += k.value[at(i)] * centred(at(there), q);
+        for (std::size_t q = 0; there >= 0 && q < m; ++q)
+          right.freed[b * m + q] += k.value[at(i)] * centred(at(there), q);
       }
     }
   }
@@ -156,13 +174,15 @@ namespace {
 
 // Mean site value of every component.
 template <class Entries>
-void find_centres(const Entries& entries, const Vector<Index>& sites_of, const double* values, Index channels, Index first, Index count, Vector<double>& centre) {
+void find_centres(const Entries& entries, const Vector<Index>& sites_of, const double* values, Index channels,
+                  Index first, Index count, Vector<double>& centre) {
   const std::size_t m = at(count);
   centre.assign(sites_of.size() * m, 0.0);
   for (std::size_t slot = 0; slot < entries.size(); ++slot) {
     if (!entries[slot].used()) continue;
     const std::size_t c = at(entries[slot].site.component);
-    for (std::size_t q = 0; q < m; ++q) centre[c * m + q] += values[slot * at(channels) + at(first) + q] / static_cast<double>(sites_of[c]);
+    for (std::size_t q = 0; q < m; ++q)
+      centre[c * m + q] += values[slot * at(channels) + at(first) + q] / static_cast<double>(sites_of[c]);
   }
 }
 
@@ -182,7 +202,8 @@ void GreenSolver::solve(const double* values, Index channels, double* field, dou
     if (field) std::fill_n(z.data(), n * m, 0.0);
     if (state_.base) base_forward(values, channels, first, count, right.centre, z.data());
     solve_dense(values, channels, first, count, z.data(), right);
-    for (std::size_t slot = 0; flux && slot < state_.entries.size(); ++slot) std::copy_n(right.slot.data() + slot * m, m, flux + slot * stride + at(first));
+    for (std::size_t slot = 0; flux && slot < state_.entries.size(); ++slot)
+      std::copy_n(right.slot.data() + slot * m, m, flux + slot * stride + at(first));
     if (!field) continue;
     combine(right, count, z.data());
     factor(state_).backward(z.data(), count, *core_->jobs);
@@ -195,13 +216,15 @@ void GreenSolver::solve(const double* values, Index channels, double* field, dou
       for (std::size_t v = p * piece; v < end; ++v) {
         const std::size_t c = at(core_->mesh.component[v]);
         const bool reached = state_.sites_of[c] > 0;
-        for (std::size_t q = 0; q < m; ++q) field[v * stride + at(first) + q] = reached ? z[at(position[v]) * m + q] + right.constant[c * m + q] : 0.0;
+        for (std::size_t q = 0; q < m; ++q)
+          field[v * stride + at(first) + q] = reached ? z[at(position[v]) * m + q] + right.constant[c * m + q] : 0.0;
       }
     });
     for (std::size_t b = 0; b < state_.freed.size(); ++b) {
       if (state_.freed[b].path.group < 0) continue;
       const std::size_t v = at(state_.base->vertex[b]), c = at(core_->mesh.component[v]);
-      for (std::size_t q = 0; q < m; ++q) field[v * stride + at(first) + q] = right.freed[b * m + q] + right.constant[c * m + q];
+      for (std::size_t q = 0; q < m; ++q)
+        field[v * stride + at(first) + q] = right.freed[b * m + q] + right.constant[c * m + q];
     }
   }
   if (!field) return;
@@ -225,7 +248,8 @@ void GreenSolver::base_flux(const double*, Index channels, const double* field, 
     const std::size_t e = at(entry.site.vertex[0]);
     std::fill_n(flux + slot * m, m, 0.0);
     for (Index i = k.column_start[e]; i < k.column_start[e + 1]; ++i) {
-      for (std::size_t q = 0; q < m; ++q) flux[slot * m + q] += k.value[at(i)] * (field[at(k.row[at(i)]) * m + q] - field[e * m + q]);
+      for (std::size_t q = 0; q < m; ++q)
+        flux[slot * m + q] += k.value[at(i)] * (field[at(k.row[at(i)]) * m + q] - field[e * m + q]);
     }
   }
   for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
@@ -234,7 +258,8 @@ void GreenSolver::base_flux(const double*, Index channels, const double* field, 
     for (int c = 0; c < 3; ++c) {
       if (entry.site.vertex[c] < 0 || !state_.base->eliminated(entry.site.vertex[c])) continue;
       const Index there = slot_of_base[at(state_.base->index_of[at(entry.site.vertex[c])])];
-      for (std::size_t q = 0; there >= 0 && q < m; ++q) flux[at(there) * m + q] -= entry.site.weight[c] * flux[slot * m + q];
+      for (std::size_t q = 0; there >= 0 && q < m; ++q)
+        flux[at(there) * m + q] -= entry.site.weight[c] * flux[slot * m + q];
     }
   }
 }
@@ -245,7 +270,8 @@ void GreenSolver::solve_at(const double* values, Index channels, Span<const Inde
     // the eliminated sites reach everything: their part needs a sweep over the mesh
     Workspace field(core_->workspaces, n * stride);
     solve(values, channels, field.data(), nullptr);
-    for (std::size_t i = 0; i < vertices.size(); ++i) std::copy_n(field.data() + at(vertices[i]) * stride, stride, out + i * stride);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      std::copy_n(field.data() + at(vertices[i]) * stride, stride, out + i * stride);
     return;
   }
   SiteColumns columns(memory());
@@ -265,13 +291,15 @@ void GreenSolver::solve_at(const double* values, Index channels, Span<const Inde
     Workspace z(core_->zeroed_workspaces, n * m);
     z.soil();
     combine(right, count, z.data());
-    for (std::size_t g = 0; g < groups.size(); ++g) core_->factor->project(*groups[g], z.data(), count, probe.data() + g * PathGroup::capacity * m);
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      core_->factor->project(*groups[g], z.data(), count, probe.data() + g * PathGroup::capacity * m);
     for (const Group& used : state_.groups) core_->factor->clear(*used.paths, count, z.data());
     z.clean();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const std::size_t c = at(core_->mesh.component[at(vertices[i])]);
       const double* y = probe.data() + (at(group[i]) * PathGroup::capacity + at(column[i])) * m;
-      for (std::size_t q = 0; q < m; ++q) out[i * stride + at(first) + q] = state_.sites_of[c] > 0 ? y[q] + right.constant[c * m + q] : 0.0;
+      for (std::size_t q = 0; q < m; ++q)
+        out[i * stride + at(first) + q] = state_.sites_of[c] > 0 ? y[q] + right.constant[c * m + q] : 0.0;
     }
   }
   // hard sites among the vertices hold their values
@@ -282,7 +310,8 @@ void GreenSolver::solve_at(const double* values, Index channels, Span<const Inde
     const Entry& entry = state_.entries[slot];
     if (!entry.used() || !entry.site.is_vertex() || entry.site.compliance != 0) continue;
     const Index v = entry.site.vertex[0];
-    for (auto it = std::lower_bound(asked.begin(), asked.end(), std::make_pair(v, std::size_t{0})); it != asked.end() && it->first == v; ++it) {
+    for (auto it = std::lower_bound(asked.begin(), asked.end(), std::make_pair(v, std::size_t{0}));
+         it != asked.end() && it->first == v; ++it) {
       std::copy_n(values + slot * stride, channels, out + it->second * stride);
     }
   }

@@ -1,4 +1,5 @@
-// Engine green: factor once, never touch the factor again. With W = [w_1 .. w_k] and A = P(K + sum_c beta_c e_gc e_gc')P' = GG':
+// Engine green: factor once, never touch the factor again. With W = [w_1 .. w_k] and A = P(K + sum_c beta_c e_gc
+// e_gc')P' = GG':
 //
 //     y_i = G^-1 P w_i          sparse, along elimination-tree paths
 //     S   = Y'Y + D             k x k, one block per component; D = diag(1 / alpha_i), 0 for hard sites
@@ -6,11 +7,13 @@
 //     [ B' 0 ] [  a   ] = [ 0 ]  B_ic = 1 if site i lies in component c
 //     u = P' G^-T (Y lambda) + sum_c a_c 1_c
 //
-// K annihilates constants and B'lambda = 0 makes A^-1 W lambda vanish at the ground, so the ground leaves no trace: K u = W lambda and
-// W'u + D lambda = s hold exactly. Insert: path solves and rows of S. Remove: rows of S. Field: one backward sweep.
+// K annihilates constants and B'lambda = 0 makes A^-1 W lambda vanish at the ground, so the ground leaves no trace: K u
+// = W lambda and W'u + D lambda = s hold exactly. Insert: path solves and rows of S. Remove: rows of S. Field: one
+// backward sweep.
 //
-// Very many sites: a rebase (eliminated_base.h) takes the hard vertex sites E into the factor. Sites that come later are rows as above; a site r of E that
-// goes leaves a free value t_r, with the column y_r = G^-1 P (-K_Fr) and the equation (K u)_r = (W lambda)_r, a negative row of the same system:
+// Very many sites: a rebase (eliminated_base.h) takes the hard vertex sites E into the factor. Sites that come later
+// are rows as above; a site r of E that goes leaves a free value t_r, with the column y_r = G^-1 P (-K_Fr) and the
+// equation (K u)_r = (W lambda)_r, a negative row of the same system:
 //
 //     [ Y_w'Y_w + D     Y_w'Y_r + W_R   ] [lambda]   [ s - Y_w'g - W_E' s_E       ]
 //     [ (...)'          Y_r'Y_r - K_RR  ] [  t   ] = [ K_RE s_E - Y_r'g           ],   g = G^-1 P (-K_FE s_E)
@@ -33,11 +36,14 @@ class GreenSolver final : public SiteSolver {
 
   void edit(const SiteEdit& edit) override;
   void solve(const double* values, std::int32_t channels, double* field, double* flux) const override;
-  void solve_at(const double* values, std::int32_t channels, Span<const std::int32_t> vertices, double* out) const override;
+  void solve_at(const double* values, std::int32_t channels, Span<const std::int32_t> vertices,
+                double* out) const override;
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<GreenSolver>(core_->memory, *this); }
   EngineKind kind() const noexcept override { return EngineKind::green; }
   EngineCounters counters() const noexcept override;
-  std::int32_t site_count(std::int32_t component) const noexcept override { return state_.sites_of[static_cast<std::size_t>(component)]; }
+  std::int32_t site_count(std::int32_t component) const noexcept override {
+    return state_.sites_of[static_cast<std::size_t>(component)];
+  }
   std::int32_t slot_count() const noexcept override { return static_cast<std::int32_t>(state_.entries.size()); }
 
  private:
@@ -58,30 +64,41 @@ class GreenSolver final : public SiteSolver {
     Index live = 0;
   };
   struct Entry {
-    Site site;            // component -1: the slot is free
-    Path path;            // of a row
+    Site site;              // component -1: the slot is free
+    Path path;              // of a row
     Index eliminated = -1;  // base index of a site in the factor
     bool used() const noexcept { return site.component >= 0; }
   };
   struct Free {
-    Path path;            // group -1: the base site is in force
+    Path path;  // group -1: the base site is in force
   };
   struct State {
-    State(Index components, Memory& memory) : entries(&memory), freed(&memory), groups(&memory), blocks(static_cast<std::size_t>(components), &memory), sites_of(static_cast<std::size_t>(components), 0, &memory) {}
+    State(Index components, Memory& memory)
+        : entries(&memory),
+          freed(&memory),
+          groups(&memory),
+          blocks(static_cast<std::size_t>(components), &memory),
+          sites_of(static_cast<std::size_t>(components), 0, &memory) {}
     State(const State& other, Memory& memory)
-        : entries(other.entries, &memory), base(other.base), freed(other.freed, &memory), groups(other.groups, &memory), blocks(other.blocks, &memory), sites_of(other.sites_of, &memory), rows(other.rows) {}
+        : entries(other.entries, &memory),
+          base(other.base),
+          freed(other.freed, &memory),
+          groups(other.groups, &memory),
+          blocks(other.blocks, &memory),
+          sites_of(other.sites_of, &memory),
+          rows(other.rows) {}
     State(State&&) = default;
     void swap(State& other) noexcept;
-    Vector<Entry> entries;  // by slot
+    Vector<Entry> entries;                       // by slot
     std::shared_ptr<const EliminatedBase> base;  // null: the core's own factor
-    Vector<Free> freed;     // by base index
+    Vector<Free> freed;                          // by base index
     Vector<Group> groups;
     Vector<std::shared_ptr<const DenseBlock>> blocks;  // by component; null without a row
-    Vector<Index> sites_of; // sites by component
-    Index rows = 0;         // of all blocks
+    Vector<Index> sites_of;                            // sites by component
+    Index rows = 0;                                    // of all blocks
   };
   struct Addition {
-    Index row;              // slot or free_row
+    Index row;  // slot or free_row
     Index component;
     bool positive;
   };
@@ -100,14 +117,20 @@ class GreenSolver final : public SiteSolver {
 
   // solving, in green.cpp
   struct Right;
-  void base_forward(const double* values, Index channels, Index first, Index count, const Vector<double>& centre, double* z) const;
+  void base_forward(const double* values, Index channels, Index first, Index count, const Vector<double>& centre,
+                    double* z) const;
   void solve_dense(const double* values, Index channels, Index first, Index count, const double* z, Right& right) const;
   void combine(const Right& right, Index count, double* z) const;
   void base_flux(const double* values, Index channels, const double* field, double* flux) const;
 
   const Factor& factor(const State& state) const noexcept { return state.base ? *state.base->factor : *core_->factor; }
-  Path& path_of(State& state, Index row) const noexcept { return row >= 0 ? state.entries[static_cast<std::size_t>(row)].path : state.freed[static_cast<std::size_t>(base_index(row))].path; }
-  bool floating(const State& state, std::size_t component) const noexcept { return !state.base || state.base->floating[component]; }
+  Path& path_of(State& state, Index row) const noexcept {
+    return row >= 0 ? state.entries[static_cast<std::size_t>(row)].path
+                    : state.freed[static_cast<std::size_t>(base_index(row))].path;
+  }
+  bool floating(const State& state, std::size_t component) const noexcept {
+    return !state.base || state.base->floating[component];
+  }
   Memory& memory() const noexcept { return *core_->memory; }
 
   std::shared_ptr<const Core> core_;

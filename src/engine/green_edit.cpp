@@ -1,4 +1,5 @@
-// The edits of engine green: which rows leave the dense system, which come, and when the sites move into the factor or back.
+// The edits of engine green: which rows leave the dense system, which come, and when the sites move into the factor or
+// back.
 #include <algorithm>
 
 #include "base/error.h"
@@ -94,7 +95,8 @@ void GreenSolver::place_all(State& state, const SiteEdit& edit, bool eliminate) 
   Vector<Addition> additions(&memory());
   for (std::size_t slot = 0; slot < state.entries.size(); ++slot) {
     const Entry& entry = state.entries[slot];
-    if (entry.used() && entry.eliminated < 0) additions.push_back({static_cast<Index>(slot), entry.site.component, true});
+    if (entry.used() && entry.eliminated < 0)
+      additions.push_back({static_cast<Index>(slot), entry.site.component, true});
   }
   add_rows(state, additions, edit);
 }
@@ -109,14 +111,16 @@ void GreenSolver::apply(State& state, const SiteEdit& edit) const {
     Entry& entry = state.entries[at(edit.add[i])];
     entry.site = site;
     ++state.sites_of[at(site.component)];
-    const Index b = state.base && site.is_vertex() && site.compliance == 0 ? state.base->index_of[at(site.vertex[0])] : -1;
+    const Index b =
+        state.base && site.is_vertex() && site.compliance == 0 ? state.base->index_of[at(site.vertex[0])] : -1;
     if (b < 0) {
       additions.push_back({edit.add[i], site.component, true});
       continue;
     }
     // a hard site on an eliminated vertex: its value is given again
     entry.eliminated = b;
-    const auto pending = std::find_if(additions.begin(), additions.end(), [&](const Addition& a) { return a.row == free_row(b); });
+    const auto pending =
+        std::find_if(additions.begin(), additions.end(), [&](const Addition& a) { return a.row == free_row(b); });
     if (pending != additions.end()) {
       additions.erase(pending);
     } else {
@@ -128,7 +132,8 @@ void GreenSolver::apply(State& state, const SiteEdit& edit) const {
     if (state.base->floating[c]) continue;
     // an eliminated component needs a site in force there, or its free values hang in the air
     bool in_force = false;
-    for (const Entry& entry : state.entries) in_force = in_force || (entry.used() && entry.eliminated >= 0 && at(entry.site.component) == c);
+    for (const Entry& entry : state.entries)
+      in_force = in_force || (entry.used() && entry.eliminated >= 0 && at(entry.site.component) == c);
     if (!in_force) throw NeedsNewLayout{};
   }
   if (additions.empty()) return;
@@ -226,7 +231,8 @@ void GreenSolver::add_paths(State& state, Span<const Index> rows) const {
   path_solves_ += static_cast<std::uint32_t>(rows.size());
 }
 
-// Paths of rows that are gone still stand in their groups. When they outweigh the living, the sparse groups are solved anew.
+// Paths of rows that are gone still stand in their groups. When they outweigh the living, the sparse groups are solved
+// anew.
 void GreenSolver::repack(State& state) const {
   std::int64_t stored = 0;
   for (const Group& group : state.groups) stored += group.paths->count();
@@ -271,33 +277,37 @@ void GreenSolver::add_rows(State& state, Span<const Addition> additions, const S
   Vector<double> values(start.back(), 0.0, &memory());
 
   // Gram of every new group with every group; a piece writes only rows of its own new group
-  core_->jobs->for_each(static_cast<std::uint32_t>(state.groups.size()) - static_cast<std::uint32_t>(first_fresh), [&](std::uint32_t piece) {
-    const Index a = first_fresh + static_cast<Index>(piece);
-    const Group& mine = state.groups[at(a)];
-    double tile[PathGroup::capacity * PathGroup::capacity];
-    for (Index b = 0; b < static_cast<Index>(state.groups.size()); ++b) {
-      const Group& other = state.groups[at(b)];
-      // pairs of new groups are computed from the later one's side for both, so that M is symmetric to the bit
-      const bool transposed = b > a;
-      if (transposed) {
-        factor(state).gram(*other.paths, *mine.paths, tile, PathGroup::capacity);
-      } else {
-        factor(state).gram(*mine.paths, *other.paths, tile, PathGroup::capacity);
-      }
-      for (Index i = 0; i < mine.paths->count(); ++i) {
-        if (mine.row[i] == nobody) continue;
-        const Where& here = where(mine.row[i]);
-        for (Index j = 0; j < other.paths->count(); ++j) {
-          if (other.row[j] == nobody) continue;
-          const Where& there = where(other.row[j]);
-          if (there.component != here.component || there.place > here.place) continue;
-          values[start[at(here.batch)] + at(there.place)] = transposed ? tile[j * PathGroup::capacity + i] : tile[i * PathGroup::capacity + j];
-        }
-      }
-    }
-  });
+  core_->jobs->for_each(static_cast<std::uint32_t>(state.groups.size()) - static_cast<std::uint32_t>(first_fresh),
+                        [&](std::uint32_t piece) {
+                          const Index a = first_fresh + static_cast<Index>(piece);
+                          const Group& mine = state.groups[at(a)];
+                          double tile[PathGroup::capacity * PathGroup::capacity];
+                          for (Index b = 0; b < static_cast<Index>(state.groups.size()); ++b) {
+                            const Group& other = state.groups[at(b)];
+                            // pairs of new groups are computed from the later one's side for both, so that M is
+                            // symmetric to the bit
+                            const bool transposed = b > a;
+                            if (transposed) {
+                              factor(state).gram(*other.paths, *mine.paths, tile, PathGroup::capacity);
+                            } else {
+                              factor(state).gram(*mine.paths, *other.paths, tile, PathGroup::capacity);
+                            }
+                            for (Index i = 0; i < mine.paths->count(); ++i) {
+                              if (mine.row[i] == nobody) continue;
+                              const Where& here = where(mine.row[i]);
+                              for (Index j = 0; j < other.paths->count(); ++j) {
+                                if (other.row[j] == nobody) continue;
+                                const Where& there = where(other.row[j]);
+                                if (there.component != here.component || there.place > here.place) continue;
+                                values[start[at(here.batch)] + at(there.place)] =
+                                    transposed ? tile[j * PathGroup::capacity + i] : tile[i * PathGroup::capacity + j];
+                              }
+                            }
+                          }
+                        });
 
-  // what the eliminated vertices add: W_R between a site and a free value, -K_RR between free values; D on the diagonal of soft sites
+  // what the eliminated vertices add: W_R between a site and a free value, -K_RR between free values; D on the diagonal
+  // of soft sites
   const auto entry_of = [&](const Where& x, const Where& y) -> double* {
     if (x.component != y.component) return nullptr;
     const Where& later = x.place > y.place ? x : y;
@@ -334,7 +344,9 @@ void GreenSolver::add_rows(State& state, Span<const Addition> additions, const S
   Vector<std::shared_ptr<DenseBlock>> open(state.blocks.size(), &memory());
   for (std::size_t i = 0; i < additions.size(); ++i) {
     const std::size_t c = at(additions[i].component);
-    if (!open[c]) open[c] = state.blocks[c] ? make_shared_in<DenseBlock>(memory(), *state.blocks[c]) : make_shared_in<DenseBlock>(memory(), memory());
+    if (!open[c])
+      open[c] = state.blocks[c] ? make_shared_in<DenseBlock>(memory(), *state.blocks[c])
+                                : make_shared_in<DenseBlock>(memory(), memory());
     open[c]->append(additions[i].row, values.data() + start[i], additions[i].positive);
   }
   for (std::size_t c = 0; c < open.size(); ++c) {
@@ -345,8 +357,12 @@ void GreenSolver::add_rows(State& state, Span<const Addition> additions, const S
       if (state.base) throw NeedsNewLayout{};
       const Index slot = open[c]->ids()[at(lost)];
       const auto found = std::find(edit.add.begin(), edit.add.end(), slot);
-      const std::uint32_t position = found == edit.add.end() ? HF_NO_INDEX : static_cast<std::uint32_t>(found - edit.add.begin());
-      fail(HF_ERROR_CONFLICT, position, "site %u of the batch depends linearly on hard sites that are there (a triangle takes three independent points); leave it out or make it soft", position);
+      const std::uint32_t position =
+          found == edit.add.end() ? HF_NO_INDEX : static_cast<std::uint32_t>(found - edit.add.begin());
+      fail(HF_ERROR_CONFLICT, position,
+           "site %u of the batch depends linearly on hard sites that are there (a triangle takes three independent "
+           "points); leave it out or make it soft",
+           position);
     }
     state.blocks[c] = open[c];
   }

@@ -23,7 +23,10 @@ RefactorSolver::RefactorSolver(std::shared_ptr<const Core> core) : core_(std::mo
 }
 
 RefactorSolver::RefactorSolver(const RefactorSolver& other)
-    : core_(other.core_), state_(other.state_, *other.core_->memory), factorisations_(other.factorisations_.load()), sweeps_(other.sweeps_.load()) {}
+    : core_(other.core_),
+      state_(other.state_, *other.core_->memory),
+      factorisations_(other.factorisations_.load()),
+      sweeps_(other.sweeps_.load()) {}
 
 EngineCounters RefactorSolver::counters() const noexcept {
   EngineCounters counters;
@@ -94,7 +97,8 @@ void RefactorSolver::factorise(State& state) const {
     const Site& site = state.sites[at(state.points[i])];
     double* x = path->data() + i * n;
     for (int k = 0; k < 3; ++k) {
-      if (site.vertex[k] >= 0 && !eliminated[at(site.vertex[k])]) x[at(core_->factor->position()[at(site.vertex[k])])] += site.weight[k];
+      if (site.vertex[k] >= 0 && !eliminated[at(site.vertex[k])])
+        x[at(core_->factor->position()[at(site.vertex[k])])] += site.weight[k];
     }
     state.factor->forward(x, 1, *core_->jobs);
     state.factor->backward(x, 1, *core_->jobs);
@@ -106,14 +110,17 @@ void RefactorSolver::factorise(State& state) const {
       if (other.component != site.component) continue;
       double s = i == j ? site.compliance / core_->mean_diagonal[at(site.component)] : 0.0;
       for (int k = 0; k < 3; ++k) {
-        if (other.vertex[k] >= 0 && !eliminated[at(other.vertex[k])]) s += other.weight[k] * x[at(core_->factor->position()[at(other.vertex[k])])];
+        if (other.vertex[k] >= 0 && !eliminated[at(other.vertex[k])])
+          s += other.weight[k] * x[at(core_->factor->position()[at(other.vertex[k])])];
       }
       row.push_back(s);
     }
     block->append(static_cast<Index>(i), row.data());
   }
   for (std::size_t c = 0; c < open.size(); ++c) {
-    if (open[c] && open[c]->factorise() >= 0) fail(HF_ERROR_CONFLICT, HF_NO_INDEX, "points in one triangle depend linearly on each other or on its corners; leave one out or make it soft");
+    if (open[c] && open[c]->factorise() >= 0)
+      fail(HF_ERROR_CONFLICT, HF_NO_INDEX,
+           "points in one triangle depend linearly on each other or on its corners; leave one out or make it soft");
     state.dense[c] = open[c];
   }
   state.path = path;
@@ -137,9 +144,12 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
   for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
     const Site& site = state_.sites[slot];
     if (site.component < 0) continue;
-    for (std::size_t c = 0; c < m; ++c) centre[at(site.component) * m + c] += values[slot * m + c] / state_.count[at(site.component)];
+    for (std::size_t c = 0; c < m; ++c)
+      centre[at(site.component) * m + c] += values[slot * m + c] / state_.count[at(site.component)];
   }
-  const auto centred = [&](std::size_t slot, std::size_t c) { return values[slot * m + c] - centre[at(state_.sites[slot].component) * m + c]; };
+  const auto centred = [&](std::size_t slot, std::size_t c) {
+    return values[slot * m + c] - centre[at(state_.sites[slot].component) * m + c];
+  };
 
   Vector<double> right(n * m, 0.0, &memory), hard(n * m, 0.0, &memory), u(n * m, 0.0, &memory);
   for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
@@ -166,7 +176,8 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
   solve_linear(state_, right, channels, u.data());
 
   // bordered point sites, component by component
-  Vector<double> constant(state_.count.size() * m, 0.0, &memory), lambda(state_.points.size() * m, 0.0, &memory), x(&memory);
+  Vector<double> constant(state_.count.size() * m, 0.0, &memory), lambda(state_.points.size() * m, 0.0, &memory),
+      x(&memory);
   for (std::size_t component = 0; component < state_.dense.size(); ++component) {
     const DenseBlock* block = state_.dense[component].get();
     if (!block) continue;
@@ -206,7 +217,9 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
   for (std::size_t v = 0; v < n; ++v) {
     const std::size_t component = at(core_->mesh.component[v]);
     for (std::size_t c = 0; c < m; ++c) {
-      out[v * m + c] = state_.count[component] ? u[at(position[v]) * m + c] + constant[component * m + c] + centre[component * m + c] : 0.0;
+      out[v * m + c] = state_.count[component]
+                           ? u[at(position[v]) * m + c] + constant[component * m + c] + centre[component * m + c]
+                           : 0.0;
     }
   }
   if (flux) {
@@ -220,7 +233,8 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
       const std::size_t v = at(site.vertex[0]);
       for (std::size_t c = 0; c < m; ++c) {
         double sum = 0;
-        for (Index i = k.column_start[v]; i < k.column_start[v + 1]; ++i) sum += k.value[at(i)] * (out[at(k.row[at(i)]) * m + c] - out[v * m + c]);
+        for (Index i = k.column_start[v]; i < k.column_start[v + 1]; ++i)
+          sum += k.value[at(i)] * (out[at(k.row[at(i)]) * m + c] - out[v * m + c]);
         for (std::size_t p = 0; p < state_.points.size(); ++p) {
           const Site& point = state_.sites[at(state_.points[p])];
           for (int q = 0; q < 3; ++q) {
@@ -233,7 +247,8 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
   }
   for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
     const Site& site = state_.sites[slot];
-    if (site.component >= 0 && site.is_vertex() && site.compliance == 0) std::copy_n(values + slot * m, m, out + at(site.vertex[0]) * m);
+    if (site.component >= 0 && site.is_vertex() && site.compliance == 0)
+      std::copy_n(values + slot * m, m, out + at(site.vertex[0]) * m);
   }
 }
 
@@ -241,7 +256,8 @@ void RefactorSolver::solve_at(const double* values, Index channels, Span<const I
   // the baseline has no partial evaluation: it solves everything
   Vector<double> field(at(core_->size()) * at(channels), core_->memory.get());
   solve(values, channels, field.data(), nullptr);
-  for (std::size_t i = 0; i < vertices.size(); ++i) std::copy_n(field.data() + at(vertices[i]) * at(channels), channels, out + i * at(channels));
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    std::copy_n(field.data() + at(vertices[i]) * at(channels), channels, out + i * at(channels));
 }
 
 }  // namespace hf

@@ -1,10 +1,12 @@
-// Engine refactor: the baseline and the oracle. Every edit factorises K anew with the hard vertex sites eliminated (their rows and columns are
-// the identity, so ordering and symbolic analysis stand) and the soft vertex sites on the diagonal:
+// Engine refactor: the baseline and the oracle. Every edit factorises K anew with the hard vertex sites eliminated
+// (their rows and columns are the identity, so ordering and symbolic analysis stand) and the soft vertex sites on the
+// diagonal:
 //
 //     u_h = s_h,   (K_ff + diag(alpha)) u_f = alpha s - K_fh s_h
 //
-// Points inside triangles (W_p) are bordered: S = W_p' A^-1 W_p + D, and in a component without any vertex site, whose A is
-// grounded, with the row 1'lambda = 0, as in engine green. An edit costs a numeric factorisation, a field a forward and a backward sweep.
+// Points inside triangles (W_p) are bordered: S = W_p' A^-1 W_p + D, and in a component without any vertex site, whose
+// A is grounded, with the row 1'lambda = 0, as in engine green. An edit costs a numeric factorisation, a field a
+// forward and a backward sweep.
 #pragma once
 #include <atomic>
 
@@ -20,22 +22,32 @@ class RefactorSolver final : public SiteSolver {
 
   void edit(const SiteEdit& edit) override;
   void solve(const double* values, std::int32_t channels, double* field, double* flux) const override;
-  void solve_at(const double* values, std::int32_t channels, Span<const std::int32_t> vertices, double* out) const override;
+  void solve_at(const double* values, std::int32_t channels, Span<const std::int32_t> vertices,
+                double* out) const override;
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<RefactorSolver>(core_->memory, *this); }
   EngineKind kind() const noexcept override { return EngineKind::refactor; }
   EngineCounters counters() const noexcept override;
-  std::int32_t site_count(std::int32_t component) const noexcept override { return state_.count[static_cast<std::size_t>(component)]; }
+  std::int32_t site_count(std::int32_t component) const noexcept override {
+    return state_.count[static_cast<std::size_t>(component)];
+  }
   std::int32_t slot_count() const noexcept override { return static_cast<std::int32_t>(state_.sites.size()); }
 
  private:
   struct State {
-    explicit State(Memory& memory) : sites(&memory), count(&memory), floating(&memory), points(&memory), dense(&memory) {}
+    explicit State(Memory& memory)
+        : sites(&memory), count(&memory), floating(&memory), points(&memory), dense(&memory) {}
     State(const State& other, Memory& memory)
-        : sites(other.sites, &memory), count(other.count, &memory), floating(other.floating, &memory), points(other.points, &memory), dense(other.dense, &memory), factor(other.factor), path(other.path) {}
-    Vector<Site> sites;            // by slot; component -1: free
-    Vector<std::int32_t> count;    // sites by component
-    Vector<std::uint8_t> floating; // by component: no vertex site, so A is grounded there
-    Vector<std::int32_t> points;   // slots of the point sites
+        : sites(other.sites, &memory),
+          count(other.count, &memory),
+          floating(other.floating, &memory),
+          points(other.points, &memory),
+          dense(other.dense, &memory),
+          factor(other.factor),
+          path(other.path) {}
+    Vector<Site> sites;                               // by slot; component -1: free
+    Vector<std::int32_t> count;                       // sites by component
+    Vector<std::uint8_t> floating;                    // by component: no vertex site, so A is grounded there
+    Vector<std::int32_t> points;                      // slots of the point sites
     Vector<std::shared_ptr<const DenseBlock>> dense;  // by component, of its point sites
     std::shared_ptr<const Factor> factor;
     std::shared_ptr<const Vector<double>> path;  // A^-1 W_p, column after column

@@ -1,5 +1,6 @@
-// The sites of one solver as its user sees them: numbers, places, values, stiffness; and what the engine must be told to follow an
-// edit. A plain value: copied before an edit, swapped in after the engine has taken it, kept on the undo stack.
+// The sites of one solver as its user sees them: numbers, places, values, stiffness; and what the engine must be told
+// to follow an edit. A plain value: copied before an edit, swapped in after the engine has taken it, kept on the undo
+// stack.
 #pragma once
 #include <cstdint>
 
@@ -17,9 +18,14 @@ struct Places {
 
 class SiteSet {
  public:
-  SiteSet(Memory& memory, std::int32_t channels) : slots_(&memory), values_(&memory), by_vertex_(&memory), channels_(channels) {}
+  SiteSet(Memory& memory, std::int32_t channels)
+      : slots_(&memory), values_(&memory), by_vertex_(&memory), channels_(channels) {}
   SiteSet(const SiteSet& other, Memory& memory)
-      : slots_(other.slots_, &memory), values_(other.values_, &memory), by_vertex_(other.by_vertex_, &memory), channels_(other.channels_), count_(other.count_) {}
+      : slots_(other.slots_, &memory),
+        values_(other.values_, &memory),
+        by_vertex_(other.by_vertex_, &memory),
+        channels_(other.channels_),
+        count_(other.count_) {}
   SiteSet(const SiteSet&) = delete;  // a copy must name its memory
   SiteSet(SiteSet&&) = default;
   SiteSet& operator=(SiteSet&&) = default;
@@ -37,11 +43,13 @@ class SiteSet {
   const double* values() const noexcept { return values_.data(); }
   std::int32_t channels() const noexcept { return channels_; }
 
-  // Each throws as the C functions document, with the position in the batch as index, and may leave *this half edited: work on a copy.
+  // Each throws as the C functions document, with the position in the batch as index, and may leave *this half edited:
+  // work on a copy.
   void remove(std::uint32_t count, const std::uint32_t* sites);
   void move(const Mesh& mesh, std::uint32_t count, const std::uint32_t* sites, const Places& to);
   void set_values(std::uint32_t count, const std::uint32_t* sites, const double* values);
-  void add(const Mesh& mesh, const Places& places, const double* values, const double* stiffness, std::uint32_t limit, std::uint32_t* out_sites);
+  void add(const Mesh& mesh, const Places& places, const double* values, const double* stiffness, std::uint32_t limit,
+           std::uint32_t* out_sites);
 
  private:
   struct AtVertex {
@@ -50,12 +58,13 @@ class SiteSet {
   void check_site(std::uint32_t position, std::uint32_t site) const;
   Site locate(const Mesh& mesh, const Places& places, std::uint32_t i) const;
   const AtVertex* find_vertex(std::int32_t vertex) const noexcept;
-  void claim_vertex(std::uint32_t position, std::uint32_t given, const Site& site, std::int32_t slot, const double* values, double stiffness);
+  void claim_vertex(std::uint32_t position, std::uint32_t given, const Site& site, std::int32_t slot,
+                    const double* values, double stiffness);
   void release_vertex(std::int32_t slot) noexcept;
 
   Vector<Slot> slots_;
-  Vector<double> values_;      // slot * channels
-  Vector<AtVertex> by_vertex_; // vertex sites, ascending
+  Vector<double> values_;       // slot * channels
+  Vector<AtVertex> by_vertex_;  // vertex sites, ascending
   std::int32_t channels_;
   std::uint32_t count_ = 0;
 };

@@ -9,9 +9,12 @@ namespace hf {
 std::shared_ptr<SiteSolver> SiteSolver::make(EngineKind kind, std::shared_ptr<const Core> core, double penalty) {
   const std::shared_ptr<Memory> memory = core->memory;
   switch (kind) {
-    case EngineKind::updown: return make_updown_solver(std::move(core), penalty);
-    case EngineKind::refactor: return make_owner_in<RefactorSolver>(memory, std::move(core));
-    case EngineKind::green: break;
+    case EngineKind::updown:
+      return make_updown_solver(std::move(core), penalty);
+    case EngineKind::refactor:
+      return make_owner_in<RefactorSolver>(memory, std::move(core));
+    case EngineKind::green:
+      break;
   }
   return make_owner_in<GreenSolver>(memory, std::move(core));
 }

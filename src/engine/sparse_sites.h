@@ -16,7 +16,8 @@ struct SiteColumns {
   }
   // -K_Fr of an eliminated vertex r.
   void append_free(std::int32_t r, const SymmetricMatrix& k, const EliminatedBase& base) {
-    for (std::int32_t i = k.column_start[static_cast<std::size_t>(r)]; i < k.column_start[static_cast<std::size_t>(r) + 1]; ++i) {
+    for (std::int32_t i = k.column_start[static_cast<std::size_t>(r)];
+         i < k.column_start[static_cast<std::size_t>(r) + 1]; ++i) {
       const std::int32_t v = k.row[static_cast<std::size_t>(i)];
       if (!base.eliminated(v)) row.push_back(v), value.push_back(-k.value[static_cast<std::size_t>(i)]);
     }

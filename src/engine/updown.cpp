@@ -43,12 +43,19 @@ struct Common {
 
 class UpdownSolver final : public SiteSolver {
  public:
-  UpdownSolver(std::shared_ptr<const Core> core, double penalty) : core_(std::move(core)), penalty_(penalty), sites_(core_->memory.get()), count_(core_->memory.get()) {
+  UpdownSolver(std::shared_ptr<const Core> core, double penalty)
+      : core_(std::move(core)), penalty_(penalty), sites_(core_->memory.get()), count_(core_->memory.get()) {
     count_.assign(at(core_->mesh.component_count()), 0);
     rebuild();
   }
   UpdownSolver(const UpdownSolver& other)
-      : core_(other.core_), penalty_(other.penalty_), sites_(other.sites_, core_->memory.get()), count_(other.count_, core_->memory.get()), edits_(other.edits_), factorisations_(other.factorisations_), sweeps_(other.sweeps_.load()) {
+      : core_(other.core_),
+        penalty_(other.penalty_),
+        sites_(other.sites_, core_->memory.get()),
+        count_(other.count_, core_->memory.get()),
+        edits_(other.edits_),
+        factorisations_(other.factorisations_),
+        sweeps_(other.sweeps_.load()) {
     const std::lock_guard<std::mutex> lock(other.mutex_);
     position_.assign(other.position_.begin(), other.position_.end());
     factor_ = other.factor_ ? cholmod_copy_factor(other.factor_, &other.common_.c) : nullptr;
@@ -94,14 +101,17 @@ class UpdownSolver final : public SiteSolver {
 
   void solve(const double* values, Index channels, double* field, double* flux) const override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!factor_) fail(HF_ERROR_OUT_OF_MEMORY, HF_NO_INDEX, "the factor was lost when memory ran out; edit the sites to make it again");
+    if (!factor_)
+      fail(HF_ERROR_OUT_OF_MEMORY, HF_NO_INDEX,
+           "the factor was lost when memory ran out; edit the sites to make it again");
     Memory& memory = *core_->memory;
     const std::size_t n = at(core_->size()), m = at(channels);
     Vector<double> centre(count_.size() * m, 0.0, &memory);
     for (std::size_t slot = 0; slot < sites_.size(); ++slot) {
       const Site& site = sites_[slot];
       if (site.component < 0) continue;
-      for (std::size_t c = 0; c < m; ++c) centre[at(site.component) * m + c] += values[slot * m + c] / count_[at(site.component)];
+      for (std::size_t c = 0; c < m; ++c)
+        centre[at(site.component) * m + c] += values[slot * m + c] / count_[at(site.component)];
     }
     // right-hand side R R' s, by columns
     Workspace right(core_->workspaces, n * m);
@@ -122,7 +132,8 @@ class UpdownSolver final : public SiteSolver {
     if (edits_ > refine_after) {
       std::copy_n(u, n * m, refined.data());
       Workspace residual(core_->workspaces, n * m);
-      for (std::size_t c = 0; c < m; ++c) subtract_product(right.data() + c * n, refined.data() + c * n, residual.data() + c * n);
+      for (std::size_t c = 0; c < m; ++c)
+        subtract_product(right.data() + c * n, refined.data() + c * n, residual.data() + c * n);
       const double* correction = back_substitute(residual.data(), m);
       for (std::size_t i = 0; i < n * m; ++i) refined[i] += correction[i];
       u = refined.data();
@@ -130,7 +141,8 @@ class UpdownSolver final : public SiteSolver {
     if (field) {
       for (std::size_t v = 0; v < n; ++v) {
         const std::size_t component = at(core_->mesh.component[v]);
-        for (std::size_t c = 0; c < m; ++c) field[v * m + c] = count_[component] ? u[c * n + v] + centre[component * m + c] : 0.0;
+        for (std::size_t c = 0; c < m; ++c)
+          field[v * m + c] = count_[component] ? u[c * n + v] + centre[component * m + c] : 0.0;
       }
     }
     if (!flux) return;
@@ -154,7 +166,8 @@ class UpdownSolver final : public SiteSolver {
     // the paper's engine has no partial evaluation: it solves everything
     Vector<double> field(at(core_->size()) * at(channels), core_->memory.get());
     solve(values, channels, field.data(), nullptr);
-    for (std::size_t i = 0; i < vertices.size(); ++i) std::copy_n(field.data() + at(vertices[i]) * at(channels), channels, out + i * at(channels));
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      std::copy_n(field.data() + at(vertices[i]) * at(channels), channels, out + i * at(channels));
   }
 
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<UpdownSolver>(core_->memory, *this); }
@@ -172,15 +185,19 @@ class UpdownSolver final : public SiteSolver {
  private:
   // Penalty of a site in the unit of K; compliance 0 is a hard site.
   double alpha(const Site& site) const noexcept {
-    return core_->mean_diagonal[at(site.component)] * (site.compliance > 0 ? std::min(1 / site.compliance, penalty_) : penalty_);
+    return core_->mean_diagonal[at(site.component)] *
+           (site.compliance > 0 ? std::min(1 / site.compliance, penalty_) : penalty_);
   }
-  Site ground(Index component) const noexcept { return Site::at_vertex(core_->mesh, core_->ground[at(component)], 1.0); }
+  Site ground(Index component) const noexcept {
+    return Site::at_vertex(core_->mesh, core_->ground[at(component)], 1.0);
+  }
 
   // One update or downdate with all of these sites. False: CHOLMOD failed and the factor is not to be trusted.
   bool change(const Vector<Site>& sites, bool update) {
     if (sites.empty()) return true;
     const Span<const Index> position = position_;
-    cholmod_sparse* r = cholmod_allocate_sparse(at(core_->size()), sites.size(), 3 * sites.size(), 1, 1, 0, CHOLMOD_REAL, &common_.c);
+    cholmod_sparse* r =
+        cholmod_allocate_sparse(at(core_->size()), sites.size(), 3 * sites.size(), 1, 1, 0, CHOLMOD_REAL, &common_.c);
     if (!r) return false;
     int* start = static_cast<int*>(r->p);
     int* row = static_cast<int*>(r->i);
@@ -261,7 +278,8 @@ class UpdownSolver final : public SiteSolver {
     cholmod_dense b{};
     b.nrow = b.d = at(core_->size()), b.ncol = columns, b.nzmax = b.nrow * columns;
     b.x = const_cast<double*>(right), b.xtype = CHOLMOD_REAL, b.dtype = CHOLMOD_DOUBLE;
-    if (!cholmod_solve2(CHOLMOD_A, factor_, &b, nullptr, &work_.x, nullptr, &work_.y, &work_.e, &common_.c)) throw_status(common_.c);
+    if (!cholmod_solve2(CHOLMOD_A, factor_, &b, nullptr, &work_.x, nullptr, &work_.y, &work_.e, &common_.c))
+      throw_status(common_.c);
     sweeps_ += 2;
     return static_cast<double*>(work_.x->x);
   }
@@ -271,7 +289,8 @@ class UpdownSolver final : public SiteSolver {
     const SymmetricMatrix& k = core_->laplacian;
     for (Index v = 0; v < core_->size(); ++v) {
       double sum = right[v];
-      for (Index i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i) sum -= k.value[at(i)] * (u[k.row[at(i)]] - u[v]);
+      for (Index i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i)
+        sum -= k.value[at(i)] * (u[k.row[at(i)]] - u[v]);
       const Index c = core_->mesh.component[at(v)];
       if (count_[at(c)] == 0 && v == core_->ground[at(c)]) sum -= core_->mean_diagonal[at(c)] * u[v];
       residual[v] = sum;
@@ -316,7 +335,8 @@ std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core> core,
 namespace hf {
 
 std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core>, double) {
-  fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
+  fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+       "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
 }
 
 }  // namespace hf

@@ -7,7 +7,8 @@ namespace {
 constexpr std::size_t most_records = 256;
 }
 
-ScalarField::ScalarField(std::shared_ptr<const Core> core, EngineKind engine, double penalty, std::int32_t channels, std::uint32_t site_limit)
+ScalarField::ScalarField(std::shared_ptr<const Core> core, EngineKind engine, double penalty, std::int32_t channels,
+                         std::uint32_t site_limit)
     : core_(std::move(core)),
       site_limit_(site_limit),
       sites_(*core_->memory, channels),
@@ -16,7 +17,12 @@ ScalarField::ScalarField(std::shared_ptr<const Core> core, EngineKind engine, do
       redo_(core_->memory.get()) {}
 
 ScalarField::ScalarField(const ScalarField& other)
-    : core_(other.core_), site_limit_(other.site_limit_), sites_(other.sites_, *core_->memory), engine_(other.engine_->clone()), undo_(core_->memory.get()), redo_(core_->memory.get()) {}
+    : core_(other.core_),
+      site_limit_(other.site_limit_),
+      sites_(other.sites_, *core_->memory),
+      engine_(other.engine_->clone()),
+      undo_(core_->memory.get()),
+      redo_(core_->memory.get()) {}
 
 void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
   SiteSet next(sites_, memory());
@@ -34,10 +40,18 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
       // the engine counts in its own list: name the place in the caller's
       const std::uint32_t slot = static_cast<std::uint32_t>(difference.add[error.index()]);
       for (std::uint32_t i = 0; i < edit.add.count; ++i) {
-        if (numbers[i] == slot) fail(HF_ERROR_CONFLICT, i, "site %u of the batch depends linearly on hard sites that are there (a triangle takes three independent points); leave it out or make it soft", i);
+        if (numbers[i] == slot)
+          fail(HF_ERROR_CONFLICT, i,
+               "site %u of the batch depends linearly on hard sites that are there (a triangle takes three independent "
+               "points); leave it out or make it soft",
+               i);
       }
       for (std::uint32_t i = 0; i < edit.move_count; ++i) {
-        if (edit.move_sites[i] == slot) fail(HF_ERROR_CONFLICT, i, "entry %u of the list: at its new place site %u depends linearly on hard sites that are there; choose another place", i, slot);
+        if (edit.move_sites[i] == slot)
+          fail(HF_ERROR_CONFLICT, i,
+               "entry %u of the list: at its new place site %u depends linearly on hard sites that are there; choose "
+               "another place",
+               i, slot);
       }
       throw;
     }
@@ -47,7 +61,9 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
   for (std::uint32_t i = 0; out_sites && i < edit.add.count; ++i) out_sites[i] = numbers[i];
 }
 
-ScalarField::Record ScalarField::present() const { return Record(sites_, engine_->kind() == EngineKind::green ? engine_->clone() : nullptr, memory()); }
+ScalarField::Record ScalarField::present() const {
+  return Record(sites_, engine_->kind() == EngineKind::green ? engine_->clone() : nullptr, memory());
+}
 
 void ScalarField::restore(Record&& record) {
   if (record.engine) {
@@ -81,12 +97,14 @@ void ScalarField::undo() { step(undo_, redo_, "nothing is recorded; call hf_reco
 void ScalarField::redo() { step(redo_, undo_, "nothing was undone since the last edit"); }
 
 void ScalarField::solve(double* field) const {
-  if (sites_.count() == 0) fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; add at least one before solving");
+  if (sites_.count() == 0)
+    fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; add at least one before solving");
   engine_->solve(sites_.values(), sites_.channels(), field, nullptr);
 }
 
 void ScalarField::solve_at(Span<const std::int32_t> vertices, double* out) const {
-  if (sites_.count() == 0) fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; add at least one before solving");
+  if (sites_.count() == 0)
+    fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; add at least one before solving");
   engine_->solve_at(sites_.values(), sites_.channels(), vertices, out);
 }
 

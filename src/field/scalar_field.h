@@ -1,7 +1,8 @@
 // A harmonic field under edit: the site set, the engine that follows it, and the undo stack. What hf_solver is made of.
 //
-// Every edit works on a copy of the site set and swaps it in after the engine has taken the change, so an exception leaves
-// everything as it was. Records share the engine's immutable parts (paths, dense blocks), so undo restores the same bits.
+// Every edit works on a copy of the site set and swaps it in after the engine has taken the change, so an exception
+// leaves everything as it was. Records share the engine's immutable parts (paths, dense blocks), so undo restores the
+// same bits.
 #pragma once
 #include <memory>
 
@@ -25,7 +26,8 @@ struct FieldEdit {
 
 class ScalarField {
  public:
-  ScalarField(std::shared_ptr<const Core> core, EngineKind engine, double penalty, std::int32_t channels, std::uint32_t site_limit);
+  ScalarField(std::shared_ptr<const Core> core, EngineKind engine, double penalty, std::int32_t channels,
+              std::uint32_t site_limit);
   ScalarField(const ScalarField& other);  // shares the core; without the undo stack
 
   // out_sites: null, or add.count numbers; written only on success.
@@ -46,7 +48,8 @@ class ScalarField {
 
  private:
   struct Record {
-    Record(const SiteSet& set, std::shared_ptr<SiteSolver> solver, Memory& memory) : sites(set, memory), engine(std::move(solver)) {}
+    Record(const SiteSet& set, std::shared_ptr<SiteSolver> solver, Memory& memory)
+        : sites(set, memory), engine(std::move(solver)) {}
     SiteSet sites;
     std::shared_ptr<SiteSolver> engine;  // null: the engine has no cheap copy and follows by an edit
   };

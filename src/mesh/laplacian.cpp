@@ -9,9 +9,9 @@ namespace {
 using Index = std::int32_t;
 std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
-// A triangle thinner than working precision has a stiffness matrix of rank 1, and the Laplacian may lose definiteness. It is
-// taken as the triangle whose edges are longer by just enough to close properly (the mollification of Sharp and Crane 2020, on this triangle
-// alone): b + c - a >= 1e-6 a. Cotangents stay below about 1e3.
+// A triangle thinner than working precision has a stiffness matrix of rank 1, and the Laplacian may lose definiteness.
+// It is taken as the triangle whose edges are longer by just enough to close properly (the mollification of Sharp and
+// Crane 2020, on this triangle alone): b + c - a >= 1e-6 a. Cotangents stay below about 1e3.
 void thin_cotangents(const double squared[3], double cotangent[3]) noexcept {
   double length[3] = {std::sqrt(squared[0]), std::sqrt(squared[1]), std::sqrt(squared[2])};
   const double longest = std::max({length[0], length[1], length[2]});
@@ -26,7 +26,8 @@ void thin_cotangents(const double squared[3], double cotangent[3]) noexcept {
   if (a < b) std::swap(a, b);
   if (b < c) std::swap(b, c);
   if (a < b) std::swap(a, b);
-  const double area4 = std::sqrt((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)));  // Kahan's formula, 4 x area
+  const double area4 =
+      std::sqrt((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)));  // Kahan's formula, 4 x area
   for (int k = 0; k < 3; ++k) {
     const double x = length[k], y = length[(k + 1) % 3], z = length[(k + 2) % 3];
     cotangent[k] = (y * y + z * z - x * x) / area4;
@@ -53,7 +54,8 @@ Vector<double> cotangent_weights(const Mesh& mesh, const Topology& topology, Mem
       const Index t = topology.edge_triangle[at(i)];
       const Index* v = mesh.triangle(t);
       for (std::size_t k = 0; k < 3; ++k) {
-        if (v[k] != topology.first(e) && v[k] != topology.second(e)) weights[at(e)] += 0.5 * corner[std::size_t{3} * at(t) + k];
+        if (v[k] != topology.first(e) && v[k] != topology.second(e))
+          weights[at(e)] += 0.5 * corner[std::size_t{3} * at(t) + k];
       }
     }
   }

@@ -1,7 +1,8 @@
 // Discrete Laplacians on a Mesh: one weight per edge.
 //
-// Cotangent: w_ij = (1/2) sum over the triangles of ij of cot(angle opposite ij), cot = (a . b) / |a x b| (Pinkall and Polthier 1993).
-// Negative on obtuse pairs. Triangles thinner than 1e-9 are widened first, so that every weight is finite and K stays definite.
+// Cotangent: w_ij = (1/2) sum over the triangles of ij of cot(angle opposite ij), cot = (a . b) / |a x b| (Pinkall and
+// Polthier 1993). Negative on obtuse pairs. Triangles thinner than 1e-9 are widened first, so that every weight is
+// finite and K stays definite.
 #pragma once
 #include <cstdint>
 

@@ -23,8 +23,10 @@ void check_sizes(const MeshInput& input) {
   if (input.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the mesh has no vertices");
   if (input.triangle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the mesh has no triangles");
   constexpr std::uint32_t limit = 0x7fffffffu / 6;
-  if (input.vertex_count > limit) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; at most %u are supported", input.vertex_count, limit);
-  if (input.triangle_count > limit) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; at most %u are supported", input.triangle_count, limit);
+  if (input.vertex_count > limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; at most %u are supported", input.vertex_count, limit);
+  if (input.triangle_count > limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; at most %u are supported", input.triangle_count, limit);
 }
 
 void check_triangles(const MeshInput& input) {
@@ -32,7 +34,8 @@ void check_triangles(const MeshInput& input) {
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t v = input.triangles[std::size_t{3} * t + static_cast<std::size_t>(k)];
       if (v >= input.vertex_count) {
-        fail(HF_ERROR_OUT_OF_RANGE, t, "triangle %u: corner %d is vertex %u, but there are %u vertices", t, k, v, input.vertex_count);
+        fail(HF_ERROR_OUT_OF_RANGE, t, "triangle %u: corner %d is vertex %u, but there are %u vertices", t, k, v,
+             input.vertex_count);
       }
     }
   }
@@ -58,12 +61,15 @@ void find_frame(const MeshInput& input, Mesh& mesh) {
   mesh.centre = {centre[0], centre[1], centre[2]};
   mesh.scale = size > 0 ? 2 * size : 1;  // the box diagonal; may be infinite for coordinates near the limit of double
   mesh.report.bounding_box_diagonal = 2 * size;
-  if (!(mesh.scale < 1e300)) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the mesh is %g wide; scale it below 1e300", mesh.scale);
+  if (!(mesh.scale < 1e300))
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the mesh is %g wide; scale it below 1e300", mesh.scale);
 }
 
 // Components of the welded vertices over the usable triangles, by union-find with path halving.
 struct UnionFind {
-  explicit UnionFind(std::size_t count, Memory& memory) : parent(count, &memory) { std::iota(parent.begin(), parent.end(), 0); }
+  explicit UnionFind(std::size_t count, Memory& memory) : parent(count, &memory) {
+    std::iota(parent.begin(), parent.end(), 0);
+  }
   Index find(Index v) noexcept {
     while (parent[at(v)] != v) v = parent[at(v)] = parent[at(parent[at(v)])];
     return v;
@@ -103,7 +109,8 @@ void measure_triangles(Mesh& mesh) {
       smallest = std::min(smallest, std::atan2(norm(cross(a, b)), dot(a, b)));
       longest = std::max(longest, dot(a, a));
     }
-    const Vec3 normal = cross(mesh.positions[at(v[1])] - mesh.positions[at(v[0])], mesh.positions[at(v[2])] - mesh.positions[at(v[0])]);
+    const Vec3 normal =
+        cross(mesh.positions[at(v[1])] - mesh.positions[at(v[0])], mesh.positions[at(v[2])] - mesh.positions[at(v[0])]);
     mesh.report.degenerate_triangle_count += !(0.5 * norm(normal) > 1e-12 * longest);
   }
   mesh.report.smallest_angle = smallest;
@@ -120,7 +127,8 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory) {
 
   // weld: representative given vertex of every given vertex
   Vector<Index> representative = weld(input, memory);
-  for (std::uint32_t v = 0; v < input.vertex_count; ++v) mesh.report.welded_vertex_count += representative[v] == static_cast<Index>(v);
+  for (std::uint32_t v = 0; v < input.vertex_count; ++v)
+    mesh.report.welded_vertex_count += representative[v] == static_cast<Index>(v);
 
   // usable triangles: three different corners after welding
   mesh.triangle_of_given.assign(input.triangle_count, none);
@@ -135,7 +143,9 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory) {
     mesh.triangle_of_given[t] = mesh.triangle_count();
     mesh.corners.insert(mesh.corners.end(), v, v + 3);
   }
-  if (mesh.corners.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "every triangle has equal corners%s; nothing is left of the mesh", input.weld == Weld::none ? "" : " after welding");
+  if (mesh.corners.empty())
+    fail(HF_ERROR_EMPTY, HF_NO_INDEX, "every triangle has equal corners%s; nothing is left of the mesh",
+         input.weld == Weld::none ? "" : " after welding");
 
   // inner numbering: welded vertices of usable triangles, in the order given
   Vector<Index> inner(input.vertex_count, none, &memory);
@@ -150,7 +160,8 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory) {
     mesh.inner_of_given[v] = inner[at(representative[v])];
     if (mesh.inner_of_given[v] != none) continue;
     ++mesh.report.isolated_vertex_count;
-    mesh.isolated.push_back({static_cast<Index>(v), {input.positions.get(v, 0), input.positions.get(v, 1), input.positions.get(v, 2)}});
+    mesh.isolated.push_back(
+        {static_cast<Index>(v), {input.positions.get(v, 0), input.positions.get(v, 1), input.positions.get(v, 2)}});
   }
   for (Index& corner : mesh.corners) corner = inner[at(corner)];
 
@@ -158,7 +169,8 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory) {
   mesh.positions.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t v = at(mesh.given_of_inner[i]);
-    mesh.positions[i] = mesh.to_inner({input.positions.get(v, 0), input.positions.get(v, 1), input.positions.get(v, 2)});
+    mesh.positions[i] =
+        mesh.to_inner({input.positions.get(v, 0), input.positions.get(v, 1), input.positions.get(v, 2)});
   }
 
   UnionFind sets(count, memory);
@@ -169,7 +181,8 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory) {
   mesh.component.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Index root = sets.find(static_cast<Index>(i));
-    mesh.component[i] = root == static_cast<Index>(i) ? static_cast<Index>(mesh.report.component_count++) : mesh.component[at(root)];
+    mesh.component[i] =
+        root == static_cast<Index>(i) ? static_cast<Index>(mesh.report.component_count++) : mesh.component[at(root)];
   }
 
   count_duplicates(mesh, memory);

@@ -1,9 +1,9 @@
 // The surface as every room sees it: vertices welded, centred and scaled, usable triangles only, components known.
 //
-// Intake (Mesh::make) checks the input, welds vertices, drops collapsed triangles, numbers components and counts what is
-// dirty. Inner vertices are those of at least one usable triangle; the maps lead back to the vertices as given. Positions are
-// p' = (p - centre) / scale, with the box diagonal as scale, so that nothing inside depends on unit or offset.
-// Cost: O(n log n) for the weld, O(n) for the rest. On failure nothing is left behind.
+// Intake (Mesh::make) checks the input, welds vertices, drops collapsed triangles, numbers components and counts what
+// is dirty. Inner vertices are those of at least one usable triangle; the maps lead back to the vertices as given.
+// Positions are p' = (p - centre) / scale, with the box diagonal as scale, so that nothing inside depends on unit or
+// offset. Cost: O(n log n) for the weld, O(n) for the rest. On failure nothing is left behind.
 #pragma once
 #include <cstdint>
 
@@ -19,7 +19,9 @@ inline Vec3 operator+(Vec3 a, Vec3 b) noexcept { return {a.x + b.x, a.y + b.y, a
 inline Vec3 operator-(Vec3 a, Vec3 b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline Vec3 operator*(double s, Vec3 a) noexcept { return {s * a.x, s * a.y, s * a.z}; }
 inline double dot(Vec3 a, Vec3 b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3 cross(Vec3 a, Vec3 b) noexcept { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+inline Vec3 cross(Vec3 a, Vec3 b) noexcept {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 double norm(Vec3 a) noexcept;
 
 using Triangle = std::int32_t[3];
@@ -29,14 +31,15 @@ enum class Weld : std::int32_t { exact = 0, none = 1, tolerance = 2 };
 struct MeshInput {
   std::uint32_t vertex_count = 0;
   std::uint32_t triangle_count = 0;
-  ConstRows positions;                        // vertex_count x 3
+  ConstRows positions;                       // vertex_count x 3
   const std::uint32_t* triangles = nullptr;  // triangle_count x 3
   Weld weld = Weld::exact;
   double weld_tolerance = 0;
 };
 
 struct MeshReport {
-  std::uint32_t vertex_count = 0, triangle_count = 0, welded_vertex_count = 0, component_count = 0, isolated_vertex_count = 0;
+  std::uint32_t vertex_count = 0, triangle_count = 0, welded_vertex_count = 0, component_count = 0,
+                isolated_vertex_count = 0;
   std::uint32_t degenerate_triangle_count = 0, collapsed_triangle_count = 0, duplicate_triangle_count = 0;
   std::uint32_t non_manifold_edge_count = 0, flipped_edge_count = 0, boundary_edge_count = 0, negative_edge_count = 0;
   double smallest_angle = 0, bounding_box_diagonal = 0;
@@ -46,7 +49,13 @@ struct Mesh {
   static constexpr std::int32_t none = -1;
 
   explicit Mesh(Memory& memory)
-      : positions(&memory), corners(&memory), inner_of_given(&memory), given_of_inner(&memory), triangle_of_given(&memory), component(&memory), isolated(&memory) {}
+      : positions(&memory),
+        corners(&memory),
+        inner_of_given(&memory),
+        given_of_inner(&memory),
+        triangle_of_given(&memory),
+        component(&memory),
+        isolated(&memory) {}
 
   // Throws HF_ERROR_EMPTY, _OUT_OF_RANGE (triangle), _NON_FINITE (vertex), _INVALID_ARGUMENT, or std::bad_alloc.
   static Mesh make(const MeshInput& input, Memory& memory);
@@ -54,22 +63,25 @@ struct Mesh {
   std::int32_t vertex_count() const noexcept { return static_cast<std::int32_t>(positions.size()); }
   std::int32_t triangle_count() const noexcept { return static_cast<std::int32_t>(corners.size() / 3); }
   std::int32_t component_count() const noexcept { return static_cast<std::int32_t>(report.component_count); }
-  const std::int32_t* triangle(std::int32_t t) const noexcept { return corners.data() + std::size_t{3} * static_cast<std::size_t>(t); }
+  const std::int32_t* triangle(std::int32_t t) const noexcept {
+    return corners.data() + std::size_t{3} * static_cast<std::size_t>(t);
+  }
   // p = centre + scale p'
   Vec3 to_given(Vec3 p) const noexcept { return centre + scale * p; }
   Vec3 to_inner(Vec3 p) const noexcept { return (1.0 / scale) * (p - centre); }
 
-  Vector<Vec3> positions;              // inner vertices, centred and scaled
-  Vector<std::int32_t> corners;        // inner vertices, 3 per usable triangle
-  Vector<std::int32_t> inner_of_given; // per given vertex; none for isolated ones
-  Vector<std::int32_t> given_of_inner; // the first given copy
+  Vector<Vec3> positions;                  // inner vertices, centred and scaled
+  Vector<std::int32_t> corners;            // inner vertices, 3 per usable triangle
+  Vector<std::int32_t> inner_of_given;     // per given vertex; none for isolated ones
+  Vector<std::int32_t> given_of_inner;     // the first given copy
   Vector<std::int32_t> triangle_of_given;  // per given triangle its usable triangle, or none
-  Vector<std::int32_t> component;      // per inner vertex
+  Vector<std::int32_t> component;          // per inner vertex
   struct Isolated {
     std::int32_t given;
     Vec3 position;  // as given
   };
-  Vector<Isolated> isolated;           // given vertices without a usable triangle, ascending: they keep their places when the rest is posed
+  Vector<Isolated>
+      isolated;  // given vertices without a usable triangle, ascending: they keep their places when the rest is posed
   Vec3 centre;
   double scale = 1;
   MeshReport report;

@@ -32,7 +32,9 @@ Topology Topology::make(const Mesh& mesh, Memory& memory) {
   topology.edge_triangle.resize(corner_count);
   for (std::size_t v = 0; v < n; ++v) {
     const auto begin = halves.begin() + start[v], end = halves.begin() + start[v + 1];
-    std::sort(begin, end, [](const Half& a, const Half& b) { return a.second != b.second ? a.second < b.second : a.triangle < b.triangle; });
+    std::sort(begin, end, [](const Half& a, const Half& b) {
+      return a.second != b.second ? a.second < b.second : a.triangle < b.triangle;
+    });
     for (auto half = begin; half != end; ++half) {
       if (half == begin || half->second != (half - 1)->second) {
         topology.edge_triangle_start.push_back(static_cast<Index>(half - halves.begin()));

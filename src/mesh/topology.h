@@ -7,7 +7,13 @@
 namespace hf {
 
 struct Topology {
-  explicit Topology(Memory& memory) : edges(&memory), edge_triangle_start(&memory), edge_triangle(&memory), neighbour_start(&memory), neighbour(&memory), neighbour_edge(&memory) {}
+  explicit Topology(Memory& memory)
+      : edges(&memory),
+        edge_triangle_start(&memory),
+        edge_triangle(&memory),
+        neighbour_start(&memory),
+        neighbour(&memory),
+        neighbour_edge(&memory) {}
   static Topology make(const Mesh& mesh, Memory& memory);
 
   std::int32_t edge_count() const noexcept { return static_cast<std::int32_t>(edges.size() / 2); }
@@ -18,12 +24,13 @@ struct Topology {
   Vector<std::int32_t> edges;                // 2 per edge
   Vector<std::int32_t> edge_triangle_start;  // triangles of edge e: edge_triangle[start[e] .. start[e+1])
   Vector<std::int32_t> edge_triangle;
-  Vector<std::int32_t> neighbour_start;      // neighbours of vertex v, ascending: neighbour[start[v] .. start[v+1])
+  Vector<std::int32_t> neighbour_start;  // neighbours of vertex v, ascending: neighbour[start[v] .. start[v+1])
   Vector<std::int32_t> neighbour;
-  Vector<std::int32_t> neighbour_edge;       // the edge to that neighbour
+  Vector<std::int32_t> neighbour_edge;  // the edge to that neighbour
 };
 
-// Boundary, non-manifold and flipped edges into the report. An edge is flipped when two triangles run through it in one direction.
+// Boundary, non-manifold and flipped edges into the report. An edge is flipped when two triangles run through it in one
+// direction.
 void count_edges(const Mesh& mesh, const Topology& topology, MeshReport& report) noexcept;
 
 }  // namespace hf

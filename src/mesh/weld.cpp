@@ -46,7 +46,9 @@ struct Cell {
 
 Vector<Index> weld_tolerance(const MeshInput& input, Memory& memory) {
   const double tolerance = input.weld_tolerance;
-  if (!(tolerance > 0) || !std::isfinite(tolerance)) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "weld_tolerance must be a finite number above 0, in the unit of the positions");
+  if (!(tolerance > 0) || !std::isfinite(tolerance))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "weld_tolerance must be a finite number above 0, in the unit of the positions");
   Vec3 low = position(input, 0);
   for (std::uint32_t v = 1; v < input.vertex_count; ++v) {
     const Vec3 p = position(input, v);
@@ -70,7 +72,8 @@ Vector<Index> weld_tolerance(const MeshInput& input, Memory& memory) {
   Vector<Index> parent(input.vertex_count, &memory);
   std::iota(parent.begin(), parent.end(), 0);
   const auto find = [&](Index v) {
-    while (parent[static_cast<std::size_t>(v)] != v) v = parent[static_cast<std::size_t>(v)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(v)])];
+    while (parent[static_cast<std::size_t>(v)] != v)
+      v = parent[static_cast<std::size_t>(v)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(v)])];
     return v;
   };
   // half of the 27 cells: each pair of cells is looked at once
@@ -81,7 +84,8 @@ Vector<Index> weld_tolerance(const MeshInput& input, Memory& memory) {
         for (int dz = -1; dz <= 1; ++dz) {
           const Cell cell{entry.cell.x + dx, entry.cell.y + dy, entry.cell.z + dz};
           if (cell < entry.cell) continue;
-          for (auto it = std::lower_bound(entries.begin(), entries.end(), Entry{cell, 0}); it != entries.end() && it->cell == cell; ++it) {
+          for (auto it = std::lower_bound(entries.begin(), entries.end(), Entry{cell, 0});
+               it != entries.end() && it->cell == cell; ++it) {
             const Vec3 d = position(input, static_cast<std::size_t>(it->v)) - p;
             if (dot(d, d) > tolerance * tolerance) continue;
             const Index a = find(entry.v), b = find(it->v);
@@ -104,8 +108,10 @@ Vector<Index> weld(const MeshInput& input, Memory& memory) {
       std::iota(identity.begin(), identity.end(), 0);
       return identity;
     }
-    case Weld::tolerance: return weld_tolerance(input, memory);
-    case Weld::exact: break;
+    case Weld::tolerance:
+      return weld_tolerance(input, memory);
+    case Weld::exact:
+      break;
   }
   return weld_exact(input, memory);
 }

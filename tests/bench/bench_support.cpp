@@ -97,7 +97,8 @@ void write_json(const std::string& file, const nlohmann::json& value) {
   std::ofstream stream(file + ".part");
   stream << value.dump(1) << "\n";
   stream.close();
-  if (!stream || std::rename((file + ".part").c_str(), file.c_str()) != 0) throw std::runtime_error(file + ": cannot be written");
+  if (!stream || std::rename((file + ".part").c_str(), file.c_str()) != 0)
+    throw std::runtime_error(file + ": cannot be written");
 }
 
 double value_of(uint32_t vertex) { return samples::hash_to_unit(77, vertex); }

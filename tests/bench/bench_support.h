@@ -1,5 +1,5 @@
-// What the benchmarks share: timing, medians, the machine's name, solvers made through the C ABI. Every figure is taken from outside, as a
-// host program would see it.
+// What the benchmarks share: timing, medians, the machine's name, solvers made through the C ABI. Every figure is taken
+// from outside, as a host program would see it.
 #ifndef HF_BENCH_SUPPORT_H
 #define HF_BENCH_SUPPORT_H
 
@@ -16,7 +16,9 @@ namespace bench {
 
 class Clock {
  public:
-  double milliseconds() const { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count(); }
+  double milliseconds() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -10,8 +10,10 @@ namespace {
 
 const char* const usage =
     "usage: hf_bench COMMAND [--threads N] [--repeat N] [--rows TEXT] [--json FILE]\n"
-    "  table1       the rows of Table 1 of Xu, Zhang, Cohen-Or and Xiong (2009) on jittered tori of their sizes: edit and full field,\n"
-    "               engines green, updown (the paper's) and refactor, and CHOLMOD's numeric refactorisation beside them;\n"
+    "  table1       the rows of Table 1 of Xu, Zhang, Cohen-Or and Xiong (2009) on jittered tori of their sizes: edit "
+    "and full field,\n"
+    "               engines green, updown (the paper's) and refactor, and CHOLMOD's numeric refactorisation beside "
+    "them;\n"
     "               --rows keeps those whose names contain TEXT\n"
     "  large-sites  100 to 10,000 sites at once on 304,152 vertices, against our own refactorisation\n";
 
@@ -26,14 +28,20 @@ bench::Arguments read_arguments(const std::vector<std::string>& words) {
       const std::string text = next();
       char* end = nullptr;
       const unsigned long value = std::strtoul(text.c_str(), &end, 10);
-      if (text.empty() || *end != '\0' || value < 1 || value > 10000) throw std::runtime_error("\"" + text + "\" is not a whole number from 1 to 10000");
+      if (text.empty() || *end != '\0' || value < 1 || value > 10000)
+        throw std::runtime_error("\"" + text + "\" is not a whole number from 1 to 10000");
       return static_cast<uint32_t>(value);
     };
-    if (words[i] == "--threads") arguments.threads = number();
-    else if (words[i] == "--repeat") arguments.repetitions = number();
-    else if (words[i] == "--rows") arguments.rows = next();
-    else if (words[i] == "--json") arguments.json_file = next();
-    else throw std::runtime_error("unknown option " + words[i] + "; see --help");
+    if (words[i] == "--threads")
+      arguments.threads = number();
+    else if (words[i] == "--repeat")
+      arguments.repetitions = number();
+    else if (words[i] == "--rows")
+      arguments.rows = next();
+    else if (words[i] == "--json")
+      arguments.json_file = next();
+    else
+      throw std::runtime_error("unknown option " + words[i] + "; see --help");
   }
   return arguments;
 }

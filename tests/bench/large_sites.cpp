@@ -1,4 +1,5 @@
-// Thousands of sites at once: our own route against our own refactorisation with the sites eliminated and its two sweeps (engine refactor).
+// Thousands of sites at once: our own route against our own refactorisation with the sites eliminated and its two
+// sweeps (engine refactor).
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
@@ -31,14 +32,20 @@ int large_sites(const Arguments& arguments) {
     return median(times);
   };
   nlohmann::json out = {{"machine", machine_name()}, {"threads", arguments.threads}, {"rows", nlohmann::json::array()}};
-  std::printf("%s, %u thread%s, 304152 vertices; all sites at once and the whole field, ms\n", machine_name().c_str(), arguments.threads, arguments.threads == 1 ? "" : "s");
+  std::printf("%s, %u thread%s, 304152 vertices; all sites at once and the whole field, ms\n", machine_name().c_str(),
+              arguments.threads, arguments.threads == 1 ? "" : "s");
   for (const uint32_t count : {100u, 300u, 1000u, 2000u, 10000u}) {
     const uint32_t before = green.statistics().factorisation_count;
     const double ours = run(green, count), theirs = run(refactor, count);
     const bool rebased = green.statistics().factorisation_count > before;
-    std::printf("%6u sites  green %8.1f (%s)   refactor %8.1f   ratio %.2f\n", count, ours, rebased ? "rebased" : "dense", theirs, ours / theirs);
+    std::printf("%6u sites  green %8.1f (%s)   refactor %8.1f   ratio %.2f\n", count, ours,
+                rebased ? "rebased" : "dense", theirs, ours / theirs);
     std::fflush(stdout);
-    out["rows"].push_back({{"sites", count}, {"green_ms", ours}, {"rebased", rebased}, {"refactor_ms", theirs}, {"ratio", ours / theirs}});
+    out["rows"].push_back({{"sites", count},
+                           {"green_ms", ours},
+                           {"rebased", rebased},
+                           {"refactor_ms", theirs},
+                           {"ratio", ours / theirs}});
   }
   write_json(arguments.json_file, out);
   return 0;

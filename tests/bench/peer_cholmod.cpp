@@ -65,9 +65,12 @@ class Peer final : public CholmodPeer {
     plain_.assign(n_, 0.0);
     for (size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
       for (size_t k = 0; k < 3; ++k) {
-        const uint32_t i = mesh.triangles[t + (k + 1) % 3], j = mesh.triangles[t + (k + 2) % 3], o = mesh.triangles[t + k];
+        const uint32_t i = mesh.triangles[t + (k + 1) % 3], j = mesh.triangles[t + (k + 2) % 3],
+                       o = mesh.triangles[t + k];
         std::array<double, 3> a{}, b{};
-        for (size_t d = 0; d < 3; ++d) a[d] = mesh.positions[3 * i + d] - mesh.positions[3 * o + d], b[d] = mesh.positions[3 * j + d] - mesh.positions[3 * o + d];
+        for (size_t d = 0; d < 3; ++d)
+          a[d] = mesh.positions[3 * i + d] - mesh.positions[3 * o + d],
+          b[d] = mesh.positions[3 * j + d] - mesh.positions[3 * o + d];
         const double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         const double cx = a[1] * b[2] - a[2] * b[1], cy = a[2] * b[0] - a[0] * b[2], cz = a[0] * b[1] - a[1] * b[0];
         const double w = 0.5 * dot / std::sqrt(cx * cx + cy * cy + cz * cz);

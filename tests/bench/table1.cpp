@@ -1,7 +1,8 @@
 // Table 1 of the paper: sites inserted and removed on meshes of its sizes, then the whole field.
 //
-// Every row starts from base sites (the paper does not give their number), applies one batch through hf_edit_sites and solves; the batch is taken
-// back untimed. Edit and solve are timed apart, medians over the repetitions. The exact answer is engine refactor's (sites eliminated).
+// Every row starts from base sites (the paper does not give their number), applies one batch through hf_edit_sites and
+// solves; the batch is taken back untimed. Edit and solve are timed apart, medians over the repetitions. The exact
+// answer is engine refactor's (sites eliminated).
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -22,8 +23,9 @@ struct Row {
   uint32_t base, insert, remove;
 };
 constexpr Row rows[] = {
-    {"173K +40/-30", 416, 416, 100, 40, 30},    {"173K +200/-0", 416, 416, 100, 200, 0},    {"173K +0/-300", 416, 416, 400, 0, 300},
-    {"42K +150/-160", 205, 206, 260, 150, 160}, {"84K +150/-160", 290, 290, 260, 150, 160}, {"304K +60/-50", 551, 552, 150, 60, 50},
+    {"173K +40/-30", 416, 416, 100, 40, 30},    {"173K +200/-0", 416, 416, 100, 200, 0},
+    {"173K +0/-300", 416, 416, 400, 0, 300},    {"42K +150/-160", 205, 206, 260, 150, 160},
+    {"84K +150/-160", 290, 290, 260, 150, 160}, {"304K +60/-50", 551, 552, 150, 60, 50},
     {"304K +100/-80", 551, 552, 180, 100, 80},  {"304K +1/-1", 551, 552, 100, 1, 1},
 };
 
@@ -63,7 +65,8 @@ class Sites {
 };
 
 // What a repetition inserts and removes; one site pair is not a sample, so +1/-1 takes other sites every time.
-void choose(const Row& row, uint32_t n, const std::vector<uint32_t>& base, uint32_t repetition, std::vector<uint32_t>& insert, std::vector<uint32_t>& remove) {
+void choose(const Row& row, uint32_t n, const std::vector<uint32_t>& base, uint32_t repetition,
+            std::vector<uint32_t>& insert, std::vector<uint32_t>& remove) {
   insert.clear(), remove.clear();
   const std::vector<uint32_t> all = scattered_vertices(n, row.base + row.insert + 4 * repetition, 1000 + repetition);
   for (const uint32_t v : all) {
@@ -72,7 +75,8 @@ void choose(const Row& row, uint32_t n, const std::vector<uint32_t>& base, uint3
   for (uint32_t i = 0; i < row.remove; ++i) remove.push_back(base[(i + 7 * repetition) % base.size()]);
 }
 
-Times run_engine(const Row& row, const Solver& solver, const std::vector<uint32_t>& base, uint32_t repetitions, std::vector<double>& last_field) {
+Times run_engine(const Row& row, const Solver& solver, const std::vector<uint32_t>& base, uint32_t repetitions,
+                 std::vector<double>& last_field) {
   Times times;
   Sites sites(solver.handle());
   sites.edit(base, {});
@@ -114,7 +118,8 @@ double first_field_ms(const Mesh& mesh, uint32_t threads) {
 
 // Solvers of one mesh, made once for all its rows.
 struct Bed {
-  Bed(Mesh given, uint32_t threads) : mesh(std::move(given)), green(mesh, HF_ENGINE_GREEN, threads), refactor(mesh, HF_ENGINE_REFACTOR, threads) {
+  Bed(Mesh given, uint32_t threads)
+      : mesh(std::move(given)), green(mesh, HF_ENGINE_GREEN, threads), refactor(mesh, HF_ENGINE_REFACTOR, threads) {
     // the paper's engine on METIS, as its users have it; not in builds without the GPL part
     try {
       updown.emplace(mesh, HF_ENGINE_UPDOWN, threads, HF_ORDERING_METIS);
@@ -155,7 +160,11 @@ nlohmann::json run_row(const Row& row, Bed& bed, uint32_t repetitions) {
     Times again = run_engine(row, bed.green, base, repetitions, green_field);
     clear(bed.green);
   }
-  nlohmann::json out = {{"name", std::string(row.name) + "_torus"}, {"n", n}, {"base", row.base}, {"insert", row.insert}, {"remove", row.remove}};
+  nlohmann::json out = {{"name", std::string(row.name) + "_torus"},
+                        {"n", n},
+                        {"base", row.base},
+                        {"insert", row.insert},
+                        {"remove", row.remove}};
   out["green"] = green.json(), out["refactor"] = refactor.json();
   out["max_error_vs_exact"] = {{"green", largest_difference(exact, green_field)}};
   std::printf("%-16s green %7.2f + %6.2f", row.name, median(green.edit), median(green.solve));
@@ -165,9 +174,11 @@ nlohmann::json run_row(const Row& row, Bed& bed, uint32_t repetitions) {
     out["updown"] = updown.json();
     out["max_error_vs_exact"]["updown"] = largest_difference(exact, updown_field);
     out["ratio_updown"] = updown.total() / green.total();
-    std::printf("   updown %8.2f + %6.2f (%5.1fx)", median(updown.edit), median(updown.solve), updown.total() / green.total());
+    std::printf("   updown %8.2f + %6.2f (%5.1fx)", median(updown.edit), median(updown.solve),
+                updown.total() / green.total());
   }
-  std::printf("   refactor %7.1f + %6.2f (%5.1fx)", median(refactor.edit), median(refactor.solve), refactor.total() / green.total());
+  std::printf("   refactor %7.1f + %6.2f (%5.1fx)", median(refactor.edit), median(refactor.solve),
+              refactor.total() / green.total());
   if (bed.peer) {
     Times peer;
     std::vector<uint32_t> insert, remove;
@@ -184,7 +195,8 @@ nlohmann::json run_row(const Row& row, Bed& bed, uint32_t repetitions) {
     out["cholmod_refactor"] = peer.json();
     out["cholmod_analyse_ms"] = bed.peer->analyse_ms();
     out["ratio_cholmod_refactor"] = peer.total() / green.total();
-    std::printf("   CHOLMOD %7.1f + %6.2f (%5.1fx)", median(peer.edit), median(peer.solve), peer.total() / green.total());
+    std::printf("   CHOLMOD %7.1f + %6.2f (%5.1fx)", median(peer.edit), median(peer.solve),
+                peer.total() / green.total());
   }
   std::printf("\n");
   std::fflush(stdout);
@@ -199,7 +211,8 @@ int table1(const Arguments& arguments) {
   const uint32_t threads = arguments.threads, repetitions = std::max(arguments.repetitions, 5u);
   const std::string& filter = arguments.rows;
   nlohmann::json out = {{"machine", machine_name()}, {"threads", threads}, {"rows", nlohmann::json::array()}};
-  std::printf("%s, %u thread%s, medians of %u; milliseconds: edit + field (ratio to green)\n", machine_name().c_str(), threads, threads == 1 ? "" : "s", repetitions);
+  std::printf("%s, %u thread%s, medians of %u; milliseconds: edit + field (ratio to green)\n", machine_name().c_str(),
+              threads, threads == 1 ? "" : "s", repetitions);
   std::unique_ptr<Bed> bed;
   std::pair<uint32_t, uint32_t> size{0, 0};
   for (const Row& row : rows) {
@@ -210,8 +223,11 @@ int table1(const Arguments& arguments) {
       samples::ShapeMesh torus = samples::jittered_torus(row.nu, row.nv);
       bed = std::make_unique<Bed>(Mesh{row.name, std::move(torus.positions), std::move(torus.triangles)}, threads);
       const hf_statistics s = bed->green.statistics();
-      std::printf("-- %u vertices: create %.0f ms (ordering %.0f, symbolic %.0f, numeric %.0f), first field %.0f ms, factor %.1f MB, read once %.2f ms\n", bed->mesh.vertex_count(),
-                  bed->green.create_ms(), s.ordering_ms, s.symbolic_ms, s.numeric_ms, bed->first_field, s.factor_bytes / 1e6, bed->stream);
+      std::printf(
+          "-- %u vertices: create %.0f ms (ordering %.0f, symbolic %.0f, numeric %.0f), first field %.0f ms, factor "
+          "%.1f MB, read once %.2f ms\n",
+          bed->mesh.vertex_count(), bed->green.create_ms(), s.ordering_ms, s.symbolic_ms, s.numeric_ms,
+          bed->first_field, s.factor_bytes / 1e6, bed->stream);
     }
     out["rows"].push_back(run_row(row, *bed, repetitions));
   }

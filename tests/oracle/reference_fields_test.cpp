@@ -1,4 +1,5 @@
-// Harmonic fields of libigl (sites eliminated exactly, plain cotangents, vertices as stored) reproduced by every engine through the C ABI.
+// Harmonic fields of libigl (sites eliminated exactly, plain cotangents, vertices as stored) reproduced by every engine
+// through the C ABI.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,13 +24,15 @@ TEST_P(ReferenceField, is_reproduced_by_every_engine) {
   const std::filesystem::path folder = data_folder();
   std::filesystem::path mesh_file;
   for (const char* extension : {".obj", ".off", ".ply"}) {
-    if (std::filesystem::exists(folder / "meshes" / (std::string(GetParam()) + extension))) mesh_file = folder / "meshes" / (std::string(GetParam()) + extension);
+    if (std::filesystem::exists(folder / "meshes" / (std::string(GetParam()) + extension)))
+      mesh_file = folder / "meshes" / (std::string(GetParam()) + extension);
   }
   if (mesh_file.empty()) GTEST_SKIP() << "no shared data here: " << GetParam() << " is not in " << folder;
   const samples::SurfaceMesh mesh = samples::read_mesh_file(mesh_file);
   std::vector<std::uint32_t> vertices;
   std::vector<double> values, reference;
-  std::ifstream sites(folder / "reference" / (std::string(GetParam()) + ".sites.txt")), field(folder / "reference" / (std::string(GetParam()) + ".field.txt"));
+  std::ifstream sites(folder / "reference" / (std::string(GetParam()) + ".sites.txt")),
+      field(folder / "reference" / (std::string(GetParam()) + ".field.txt"));
   std::uint32_t v;
   double x;
   while (sites >> v >> x) vertices.push_back(v), values.push_back(x);
@@ -43,14 +46,16 @@ TEST_P(ReferenceField, is_reproduced_by_every_engine) {
 #endif
     hf_create_desc desc;
     HF_INIT(desc);
-    desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size()), desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
+    desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size()),
+    desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
     desc.positions_f64 = &mesh.positions[0].x, desc.triangles = mesh.triangles.data();
     desc.engine = engine, desc.weld = HF_WELD_NONE;
     hf_solver solver = nullptr;
     ASSERT_EQ(hf_create(&desc, &solver), HF_OK);
     hf_sites_desc batch;
     HF_INIT(batch);
-    batch.site_count = static_cast<std::uint32_t>(vertices.size()), batch.vertices = vertices.data(), batch.values = values.data();
+    batch.site_count = static_cast<std::uint32_t>(vertices.size()), batch.vertices = vertices.data(),
+    batch.values = values.data();
     ASSERT_EQ(hf_add_sites(solver, &batch, nullptr), HF_OK);
     std::vector<double> u(reference.size());
     ASSERT_EQ(hf_solve_f64(solver, u.data(), 0, nullptr), HF_OK);
@@ -63,7 +68,9 @@ TEST_P(ReferenceField, is_reproduced_by_every_engine) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Libigl, ReferenceField, testing::Values("spot", "hand_closed", "armadillo_43k", "skull", "boot", "cgal_knot1", "plane_holes"),
+INSTANTIATE_TEST_SUITE_P(Libigl, ReferenceField,
+                         testing::Values("spot", "hand_closed", "armadillo_43k", "skull", "boot", "cgal_knot1",
+                                         "plane_holes"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

@@ -52,12 +52,14 @@ inline PlainMesh torus(std::uint32_t nu, std::uint32_t nv, double jitter = 0.2, 
   for (std::uint32_t i = 0; i < nu; ++i) {
     for (std::uint32_t j = 0; j < nv; ++j) {
       const double u = two_pi * (i + offset(random)) / nu, v = two_pi * (j + offset(random)) / nv;
-      mesh.positions.insert(mesh.positions.end(), {(2 + std::cos(v)) * std::cos(u), (2 + std::cos(v)) * std::sin(u), std::sin(v)});
+      mesh.positions.insert(mesh.positions.end(),
+                            {(2 + std::cos(v)) * std::cos(u), (2 + std::cos(v)) * std::sin(u), std::sin(v)});
     }
   }
   for (std::uint32_t i = 0; i < nu; ++i) {
     for (std::uint32_t j = 0; j < nv; ++j) {
-      const std::uint32_t a = i * nv + j, b = ((i + 1) % nu) * nv + j, c = ((i + 1) % nu) * nv + (j + 1) % nv, d = i * nv + (j + 1) % nv;
+      const std::uint32_t a = i * nv + j, b = ((i + 1) % nu) * nv + j, c = ((i + 1) % nu) * nv + (j + 1) % nv,
+                          d = i * nv + (j + 1) % nv;
       mesh.triangles.insert(mesh.triangles.end(), {a, b, c, a, c, d});
     }
   }
@@ -67,11 +69,14 @@ inline PlainMesh torus(std::uint32_t nu, std::uint32_t nv, double jitter = 0.2, 
 // Appends `other` moved by dx.
 inline void append(PlainMesh& mesh, const PlainMesh& other, double dx) {
   const std::uint32_t base = mesh.vertex_count();
-  for (std::size_t i = 0; i < other.positions.size(); ++i) mesh.positions.push_back(other.positions[i] + (i % 3 == 0 ? dx : 0.0));
+  for (std::size_t i = 0; i < other.positions.size(); ++i)
+    mesh.positions.push_back(other.positions[i] + (i % 3 == 0 ? dx : 0.0));
   for (const std::uint32_t v : other.triangles) mesh.triangles.push_back(base + v);
 }
 
-inline std::shared_ptr<const hf::Core> make_core(const PlainMesh& mesh, std::uint32_t threads = 1, hf::CoreOptions options = {}, std::shared_ptr<hf::Memory> memory = std::make_shared<hf::Memory>()) {
+inline std::shared_ptr<const hf::Core> make_core(const PlainMesh& mesh, std::uint32_t threads = 1,
+                                                 hf::CoreOptions options = {},
+                                                 std::shared_ptr<hf::Memory> memory = std::make_shared<hf::Memory>()) {
   hf::MeshInput input;
   input.vertex_count = mesh.vertex_count(), input.triangle_count = mesh.triangle_count();
   input.positions = hf::ConstRows(mesh.positions.data(), 3 * sizeof(double));

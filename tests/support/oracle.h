@@ -9,8 +9,10 @@
 
 namespace hf_test {
 
-// sites in use only; values one row per site. Returns n x m (components without a site: zero rows). lambda: one row per site.
-inline Eigen::MatrixXd dense_field(const hf::Core& core, const std::vector<hf::Site>& sites, const Eigen::MatrixXd& values, Eigen::MatrixXd* lambda = nullptr) {
+// sites in use only; values one row per site. Returns n x m (components without a site: zero rows). lambda: one row per
+// site.
+inline Eigen::MatrixXd dense_field(const hf::Core& core, const std::vector<hf::Site>& sites,
+                                   const Eigen::MatrixXd& values, Eigen::MatrixXd* lambda = nullptr) {
   const int n = core.size(), k = static_cast<int>(sites.size());
   std::vector<int> reached(static_cast<std::size_t>(core.mesh.component_count()), 0);
   for (const hf::Site& site : sites) reached[static_cast<std::size_t>(site.component)] = 1;
@@ -20,7 +22,8 @@ inline Eigen::MatrixXd dense_field(const hf::Core& core, const std::vector<hf::S
       a(v, v) = 1;
       continue;
     }
-    for (int i = core.laplacian.column_start[static_cast<std::size_t>(v)]; i < core.laplacian.column_start[static_cast<std::size_t>(v) + 1]; ++i) {
+    for (int i = core.laplacian.column_start[static_cast<std::size_t>(v)];
+         i < core.laplacian.column_start[static_cast<std::size_t>(v) + 1]; ++i) {
       a(v, core.laplacian.row[static_cast<std::size_t>(i)]) = core.laplacian.value[static_cast<std::size_t>(i)];
     }
   }

@@ -66,7 +66,9 @@ TEST(JobRunner, takes_nested_and_simultaneous_batches) {
   std::atomic<int> sum{0};
   std::vector<std::thread> callers;
   for (int t = 0; t < 4; ++t) {
-    callers.emplace_back([&] { jobs.for_each(20, [&](std::uint32_t) { jobs.for_each(5, [&](std::uint32_t i) { sum += static_cast<int>(i); }); }); });
+    callers.emplace_back([&] {
+      jobs.for_each(20, [&](std::uint32_t) { jobs.for_each(5, [&](std::uint32_t i) { sum += static_cast<int>(i); }); });
+    });
   }
   for (std::thread& caller : callers) caller.join();
   EXPECT_EQ(sum, 4 * 20 * 10);
@@ -74,7 +76,11 @@ TEST(JobRunner, takes_nested_and_simultaneous_batches) {
 
 TEST(JobRunner, rethrows_the_exception_of_a_job) {
   hf::JobRunner jobs(2);
-  EXPECT_THROW(jobs.for_each(50, [&](std::uint32_t i) { if (i == 31) hf::fail(HF_ERROR_CANCELLED, i, "job %u", i); }), hf::Error);
+  EXPECT_THROW(jobs.for_each(50,
+                             [&](std::uint32_t i) {
+                               if (i == 31) hf::fail(HF_ERROR_CANCELLED, i, "job %u", i);
+                             }),
+               hf::Error);
   int calls = 0;
   jobs.for_each(1, [&](std::uint32_t) { ++calls; });
   EXPECT_EQ(calls, 1);

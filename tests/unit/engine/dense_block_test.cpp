@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
+#include <Eigen/Dense>
 #include <random>
 #include <vector>
 
@@ -33,7 +33,8 @@ TEST(DenseBlock, solves_with_the_present_rows_after_any_edits) {
     }
     ASSERT_EQ(block.factorise(), -1);
     // few: plane rotations; many: factorised again
-    const std::size_t leave = random() % 4 == 0 ? present.size() / 2 : std::min<std::size_t>(present.size() - 1, random() % 4);
+    const std::size_t leave =
+        random() % 4 == 0 ? present.size() / 2 : std::min<std::size_t>(present.size() - 1, random() % 4);
     std::vector<int> shuffled = present;
     std::shuffle(shuffled.begin(), shuffled.end(), random);
     std::vector<std::int32_t> leaving(shuffled.begin(), shuffled.begin() + static_cast<std::ptrdiff_t>(leave));
@@ -45,14 +46,17 @@ TEST(DenseBlock, solves_with_the_present_rows_after_any_edits) {
     const int k = static_cast<int>(present.size());
     Eigen::MatrixXd s(k, k);
     for (int i = 0; i < k; ++i) {
-      for (int j = 0; j < k; ++j) s(i, j) = y.col(present[static_cast<std::size_t>(i)]).dot(y.col(present[static_cast<std::size_t>(j)]));
+      for (int j = 0; j < k; ++j)
+        s(i, j) = y.col(present[static_cast<std::size_t>(i)]).dot(y.col(present[static_cast<std::size_t>(j)]));
     }
     std::vector<double> x(static_cast<std::size_t>(2 * k));
     for (double& v : x) v = normal(random);
     const Eigen::MatrixXd b = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>>(x.data(), k, 2);
     block.solve(x.data(), 2);
-    const Eigen::MatrixXd solved = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>>(x.data(), k, 2);
-    EXPECT_LE((s * solved - b).cwiseAbs().maxCoeff(), 1e-9 * b.cwiseAbs().maxCoeff() * s.norm() / s.cwiseAbs().minCoeff() * 1e-3 + 1e-8);
+    const Eigen::MatrixXd solved =
+        Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>>(x.data(), k, 2);
+    EXPECT_LE((s * solved - b).cwiseAbs().maxCoeff(),
+              1e-9 * b.cwiseAbs().maxCoeff() * s.norm() / s.cwiseAbs().minCoeff() * 1e-3 + 1e-8);
     EXPECT_LE((solved - s.ldlt().solve(b)).cwiseAbs().maxCoeff(), 1e-9);
     if (present.size() > 60) {
       std::vector<std::int32_t> all(present.begin() + 10, present.end());

@@ -23,7 +23,8 @@ std::vector<hf::EngineKind> engines() {
 double tolerance(hf::EngineKind kind) { return kind == hf::EngineKind::updown ? 2e-6 : 1e-11; }
 
 struct Script {
-  explicit Script(std::shared_ptr<const hf::Core> c, int channels, std::uint32_t seed, double offset = 0) : core(std::move(c)), m(channels), random(seed), shift(offset) {}
+  explicit Script(std::shared_ptr<const hf::Core> c, int channels, std::uint32_t seed, double offset = 0)
+      : core(std::move(c)), m(channels), random(seed), shift(offset) {}
 
   // a random site: a vertex, or a point in a triangle that shares no triangle with another point
   hf::Site random_site() {
@@ -63,7 +64,9 @@ struct Script {
       while (slot < sites.size() && sites[slot].component >= 0) ++slot;
       if (slot == sites.size()) sites.emplace_back(), values.resize(sites.size() * static_cast<std::size_t>(m));
       sites[slot] = site;
-      for (int c = 0; c < m; ++c) values[slot * static_cast<std::size_t>(m) + static_cast<std::size_t>(c)] = shift + std::uniform_real_distribution<double>(-1, 1)(random);
+      for (int c = 0; c < m; ++c)
+        values[slot * static_cast<std::size_t>(m) + static_cast<std::size_t>(c)] =
+            shift + std::uniform_real_distribution<double>(-1, 1)(random);
       slots.push_back(static_cast<std::int32_t>(slot)), fresh.push_back(site);
     }
     hf::SiteEdit edit;
@@ -76,7 +79,9 @@ struct Script {
       if (sites[s].component >= 0) used.push_back(static_cast<std::int32_t>(s));
     }
     std::shuffle(used.begin(), used.end(), random);
-    for (int i = 0; i < count && i < static_cast<int>(used.size()); ++i) slots.push_back(used[static_cast<std::size_t>(i)]), sites[static_cast<std::size_t>(used[static_cast<std::size_t>(i)])] = hf::Site{};
+    for (int i = 0; i < count && i < static_cast<int>(used.size()); ++i)
+      slots.push_back(used[static_cast<std::size_t>(i)]),
+          sites[static_cast<std::size_t>(used[static_cast<std::size_t>(i)])] = hf::Site{};
     hf::SiteEdit edit;
     edit.remove = slots;
     solver.edit(edit);
@@ -89,7 +94,8 @@ struct Script {
       if (sites[i].component < 0) continue;
       used.push_back(sites[i]), slot.push_back(i);
       s.conservativeResize(s.rows() + 1, m);
-      for (int c = 0; c < m; ++c) s(s.rows() - 1, c) = values[i * static_cast<std::size_t>(m) + static_cast<std::size_t>(c)];
+      for (int c = 0; c < m; ++c)
+        s(s.rows() - 1, c) = values[i * static_cast<std::size_t>(m) + static_cast<std::size_t>(c)];
     }
     Eigen::MatrixXd lambda;
     const Eigen::MatrixXd exact = hf_test::dense_field(*core, used, s, &lambda);
@@ -97,10 +103,14 @@ struct Script {
     solver.solve(values.data(), m, field.data(), flux.data());
     double worst = 0, worst_flux = 0;
     for (int v = 0; v < core->size(); ++v) {
-      for (int c = 0; c < m; ++c) worst = std::max(worst, std::fabs(field[static_cast<std::size_t>(v * m + c)] - exact(v, c)));
+      for (int c = 0; c < m; ++c)
+        worst = std::max(worst, std::fabs(field[static_cast<std::size_t>(v * m + c)] - exact(v, c)));
     }
     for (std::size_t i = 0; i < used.size(); ++i) {
-      for (int c = 0; c < m; ++c) worst_flux = std::max(worst_flux, std::fabs(flux[slot[i] * static_cast<std::size_t>(m) + static_cast<std::size_t>(c)] - lambda(static_cast<int>(i), c)));
+      for (int c = 0; c < m; ++c)
+        worst_flux =
+            std::max(worst_flux, std::fabs(flux[slot[i] * static_cast<std::size_t>(m) + static_cast<std::size_t>(c)] -
+                                           lambda(static_cast<int>(i), c)));
     }
     const double range = 2;
     EXPECT_LE(worst, tolerance_of_range * range);
@@ -112,7 +122,8 @@ struct Script {
     solver.solve_at(values.data(), m, probes, some.data());
     for (std::size_t i = 0; i < probes.size(); ++i) {
       for (int c = 0; c < m; ++c) {
-        EXPECT_NEAR(some[i * static_cast<std::size_t>(m) + static_cast<std::size_t>(c)], field[static_cast<std::size_t>(probes[i] * m + c)], 1e-12 * (range + std::fabs(shift)) + 1e-13);
+        EXPECT_NEAR(some[i * static_cast<std::size_t>(m) + static_cast<std::size_t>(c)],
+                    field[static_cast<std::size_t>(probes[i] * m + c)], 1e-12 * (range + std::fabs(shift)) + 1e-13);
       }
     }
   }
@@ -183,7 +194,8 @@ TEST(Green, refuses_a_dependent_site_and_stays_as_it_was) {
   const auto solver = hf::SiteSolver::make(hf::EngineKind::green, core, 1e8);
   std::vector<std::int32_t> slots;
   std::vector<hf::Site> sites;
-  for (int k = 0; k < 3; ++k) sites.push_back(hf::Site::at_vertex(core->mesh, core->mesh.triangle(5)[k])), slots.push_back(k);
+  for (int k = 0; k < 3; ++k)
+    sites.push_back(hf::Site::at_vertex(core->mesh, core->mesh.triangle(5)[k])), slots.push_back(k);
   hf::SiteEdit edit;
   edit.add = slots, edit.sites = sites;
   solver->edit(edit);
@@ -233,7 +245,8 @@ TEST(Green, moves_many_sites_into_the_factor_and_stays_exact_under_edits) {
     // hard vertex sites only at first, all at once
     std::vector<std::int32_t> slots;
     std::vector<hf::Site> sites;
-    for (int v = 0; v < core->size(); v += 3) sites.push_back(hf::Site::at_vertex(core->mesh, v)), slots.push_back(static_cast<std::int32_t>(slots.size()));
+    for (int v = 0; v < core->size(); v += 3)
+      sites.push_back(hf::Site::at_vertex(core->mesh, v)), slots.push_back(static_cast<std::int32_t>(slots.size()));
     script.sites = sites;
     for (std::size_t i = 0; i < 2 * sites.size(); ++i) script.values.push_back(std::sin(static_cast<double>(i)));
     hf::SiteEdit edit;

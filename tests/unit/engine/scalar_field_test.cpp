@@ -16,7 +16,8 @@ std::vector<double> field_of(const hf::ScalarField& field) {
 
 hf::FieldEdit adding(const std::vector<std::uint32_t>& vertices, const std::vector<double>& values) {
   hf::FieldEdit edit;
-  edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data(), edit.add_values = values.data();
+  edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data(),
+  edit.add_values = values.data();
   return edit;
 }
 

@@ -19,9 +19,11 @@ hf::ScalarField make_field(const PlainMesh& mesh, hf::EngineKind engine = hf::En
   return hf::ScalarField(hf_test::make_core(mesh), engine, 1e8, channels, 100000);
 }
 
-void add(hf::ScalarField& field, const std::vector<std::uint32_t>& vertices, const std::vector<double>& values, const std::vector<double>& stiffness = {}) {
+void add(hf::ScalarField& field, const std::vector<std::uint32_t>& vertices, const std::vector<double>& values,
+         const std::vector<double>& stiffness = {}) {
   hf::FieldEdit edit;
-  edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data(), edit.add_values = values.data();
+  edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data(),
+  edit.add_values = values.data();
   if (!stiffness.empty()) edit.add_stiffness = stiffness.data();
   field.edit(edit, nullptr);
 }
@@ -38,7 +40,9 @@ TEST(HarmonicField, is_linear_on_a_flat_patch_with_linear_borders) {
   hf::ScalarField field = make_field(mesh);
   std::vector<std::uint32_t> border;
   std::vector<double> values;
-  const auto linear = [&](std::uint32_t v) { return 1 + 0.1 * mesh.positions[3 * v] - 0.07 * mesh.positions[3 * v + 1]; };
+  const auto linear = [&](std::uint32_t v) {
+    return 1 + 0.1 * mesh.positions[3 * v] - 0.07 * mesh.positions[3 * v + 1];
+  };
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     const std::uint32_t i = v % (nx + 1), j = v / (nx + 1);
     if (i == 0 || j == 0 || i == nx || j == ny) border.push_back(v), values.push_back(linear(v));
@@ -55,7 +59,8 @@ TEST(HarmonicField, has_natural_borders) {
   hf::ScalarField field = make_field(mesh);
   std::vector<std::uint32_t> ends;
   std::vector<double> values;
-  for (std::uint32_t j = 0; j <= ny; ++j) ends.insert(ends.end(), {j * (nx + 1), j * (nx + 1) + nx}), values.insert(values.end(), {0.0, 1.0});
+  for (std::uint32_t j = 0; j <= ny; ++j)
+    ends.insert(ends.end(), {j * (nx + 1), j * (nx + 1) + nx}), values.insert(values.end(), {0.0, 1.0});
   add(field, ends, values);
   const auto u = solve(field);
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) EXPECT_NEAR(u[v], mesh.positions[3 * v] / nx, 1e-12);
@@ -74,20 +79,25 @@ double annulus_error(std::uint32_t rings) {
   }
   for (std::uint32_t i = 0; i < rings; ++i) {
     for (std::uint32_t j = 0; j < around; ++j) {
-      const std::uint32_t a = i * around + j, b = i * around + (j + 1) % around, c = a + around, d = (i + 1) * around + (j + 1) % around;
-      if (i % 2 == 0) mesh.triangles.insert(mesh.triangles.end(), {a, c, b, b, c, d});
-      else mesh.triangles.insert(mesh.triangles.end(), {a, c, d, a, d, b});
+      const std::uint32_t a = i * around + j, b = i * around + (j + 1) % around, c = a + around,
+                          d = (i + 1) * around + (j + 1) % around;
+      if (i % 2 == 0)
+        mesh.triangles.insert(mesh.triangles.end(), {a, c, b, b, c, d});
+      else
+        mesh.triangles.insert(mesh.triangles.end(), {a, c, d, a, d, b});
     }
   }
   hf::ScalarField field = make_field(mesh);
   std::vector<std::uint32_t> rim;
   std::vector<double> values;
-  for (std::uint32_t j = 0; j < around; ++j) rim.insert(rim.end(), {j, rings * around + j}), values.insert(values.end(), {0.0, 1.0});
+  for (std::uint32_t j = 0; j < around; ++j)
+    rim.insert(rim.end(), {j, rings * around + j}), values.insert(values.end(), {0.0, 1.0});
   add(field, rim, values);
   const auto u = solve(field);
   double worst = 0;
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-    worst = std::max(worst, std::fabs(u[v] - std::log(std::hypot(mesh.positions[3 * v], mesh.positions[3 * v + 1])) / std::log(3.0)));
+    worst = std::max(worst, std::fabs(u[v] - std::log(std::hypot(mesh.positions[3 * v], mesh.positions[3 * v + 1])) /
+                                                 std::log(3.0)));
   }
   return worst;
 }
@@ -130,7 +140,8 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes_up_to_300
       penalty_error = std::max(penalty_error, std::fabs(u[v] - penalty[v]));
       green_error = std::max(green_error, std::fabs(u[v] - green[v]));
     }
-    std::printf("%-12s penalty 1e8 against exact elimination %.2e, hard sites %.2e\n", entry.name, penalty_error, green_error);
+    std::printf("%-12s penalty 1e8 against exact elimination %.2e, hard sites %.2e\n", entry.name, penalty_error,
+                green_error);
     EXPECT_LE(penalty_error, 1e-6) << entry.name;
     EXPECT_LE(green_error, 1e-11) << entry.name;
 #ifdef HF_WITH_GPL
@@ -138,8 +149,11 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes_up_to_300
     add(updown, vertices, values);
     const auto paper = solve(updown);
     double paper_error = 0, same = 0;
-    for (std::size_t v = 0; v < u.size(); ++v) paper_error = std::max(paper_error, std::fabs(u[v] - paper[v])), same = std::max(same, std::fabs(penalty[v] - paper[v]));
-    std::printf("%-12s the paper's engine %.2e; soft sites of green differ from it by %.2e\n", entry.name, paper_error, same);
+    for (std::size_t v = 0; v < u.size(); ++v)
+      paper_error = std::max(paper_error, std::fabs(u[v] - paper[v])),
+      same = std::max(same, std::fabs(penalty[v] - paper[v]));
+    std::printf("%-12s the paper's engine %.2e; soft sites of green differ from it by %.2e\n", entry.name, paper_error,
+                same);
     EXPECT_LE(paper_error, 1e-6) << entry.name;
 #endif
   }
@@ -155,7 +169,9 @@ TEST(VectorField, is_tangent_and_its_constraints_turn_without_touching_the_facto
     auto v = solve(field);
     hf::project_on_tangent_planes(normals, v.data());
     double worst = 0;
-    for (std::size_t i = 0; i < normals.size(); ++i) worst = std::max(worst, std::fabs(normals[i].x * v[3 * i] + normals[i].y * v[3 * i + 1] + normals[i].z * v[3 * i + 2]));
+    for (std::size_t i = 0; i < normals.size(); ++i)
+      worst = std::max(worst,
+                       std::fabs(normals[i].x * v[3 * i] + normals[i].y * v[3 * i + 1] + normals[i].z * v[3 * i + 2]));
     EXPECT_LE(worst, 1e-15);
     return v;
   };
@@ -200,7 +216,9 @@ TEST(MaximumPrinciple, holds_with_clamped_weights_on_an_obtuse_mesh) {
     hf::ScalarField field(core, hf::EngineKind::green, 1e8, 1, 100);
     std::set<std::uint32_t> seen;
     std::vector<double> values;
-    for (std::uint32_t i = 0; seen.size() < 5; ++i) seen.insert(static_cast<std::uint32_t>(samples::hash_to_unit(static_cast<std::uint64_t>(trial), i) * mesh.vertex_count()));
+    for (std::uint32_t i = 0; seen.size() < 5; ++i)
+      seen.insert(static_cast<std::uint32_t>(samples::hash_to_unit(static_cast<std::uint64_t>(trial), i) *
+                                             mesh.vertex_count()));
     for (const std::uint32_t v : seen) values.push_back(samples::hash_to_unit(5, v));
     add(field, {seen.begin(), seen.end()}, values);
     const auto u = solve(field);

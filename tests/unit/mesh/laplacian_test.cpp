@@ -14,7 +14,8 @@ double largest_row_sum(const hf::SymmetricMatrix& k) {
   double worst = 0;
   for (std::int32_t v = 0; v < k.size(); ++v) {
     double sum = 0, size = 0;
-    for (std::int32_t i = k.column_start[static_cast<std::size_t>(v)]; i < k.column_start[static_cast<std::size_t>(v) + 1]; ++i) {
+    for (std::int32_t i = k.column_start[static_cast<std::size_t>(v)];
+         i < k.column_start[static_cast<std::size_t>(v) + 1]; ++i) {
       sum += k.value[static_cast<std::size_t>(i)], size += std::fabs(k.value[static_cast<std::size_t>(i)]);
     }
     worst = std::max(worst, std::fabs(sum) / size);
@@ -25,25 +26,31 @@ double largest_row_sum(const hf::SymmetricMatrix& k) {
 std::vector<double> times(const hf::SymmetricMatrix& k, const std::vector<double>& u) {
   std::vector<double> out(u.size(), 0.0);
   for (std::int32_t v = 0; v < k.size(); ++v) {
-    for (std::int32_t i = k.column_start[static_cast<std::size_t>(v)]; i < k.column_start[static_cast<std::size_t>(v) + 1]; ++i) {
-      out[static_cast<std::size_t>(v)] += k.value[static_cast<std::size_t>(i)] * u[static_cast<std::size_t>(k.row[static_cast<std::size_t>(i)])];
+    for (std::int32_t i = k.column_start[static_cast<std::size_t>(v)];
+         i < k.column_start[static_cast<std::size_t>(v) + 1]; ++i) {
+      out[static_cast<std::size_t>(v)] +=
+          k.value[static_cast<std::size_t>(i)] * u[static_cast<std::size_t>(k.row[static_cast<std::size_t>(i)])];
     }
   }
   return out;
 }
 
 TEST(Laplacian, annihilates_constants_and_is_symmetric) {
-  for (const hf::OperatorKind kind : {hf::OperatorKind::cotangent, hf::OperatorKind::clamped, hf::OperatorKind::uniform}) {
+  for (const hf::OperatorKind kind :
+       {hf::OperatorKind::cotangent, hf::OperatorKind::clamped, hf::OperatorKind::uniform}) {
     hf::CoreOptions options;
     options.operator_kind = kind;
     const auto core = hf_test::make_core(hf_test::torus(20, 15, 0.3), 1, options);
     const hf::SymmetricMatrix& k = core->laplacian;
     EXPECT_LE(largest_row_sum(k), 1e-15);
     for (std::int32_t v = 0; v < k.size(); ++v) {
-      EXPECT_TRUE(std::is_sorted(k.row.begin() + k.column_start[static_cast<std::size_t>(v)], k.row.begin() + k.column_start[static_cast<std::size_t>(v) + 1]));
-      for (std::int32_t i = k.column_start[static_cast<std::size_t>(v)]; i < k.column_start[static_cast<std::size_t>(v) + 1]; ++i) {
+      EXPECT_TRUE(std::is_sorted(k.row.begin() + k.column_start[static_cast<std::size_t>(v)],
+                                 k.row.begin() + k.column_start[static_cast<std::size_t>(v) + 1]));
+      for (std::int32_t i = k.column_start[static_cast<std::size_t>(v)];
+           i < k.column_start[static_cast<std::size_t>(v) + 1]; ++i) {
         const std::int32_t w = k.row[static_cast<std::size_t>(i)];
-        const auto begin = k.row.begin() + k.column_start[static_cast<std::size_t>(w)], end = k.row.begin() + k.column_start[static_cast<std::size_t>(w) + 1];
+        const auto begin = k.row.begin() + k.column_start[static_cast<std::size_t>(w)],
+                   end = k.row.begin() + k.column_start[static_cast<std::size_t>(w) + 1];
         const auto twin = std::lower_bound(begin, end, v);
         ASSERT_TRUE(twin != end && *twin == v);
         EXPECT_EQ(k.value[static_cast<std::size_t>(twin - k.row.begin())], k.value[static_cast<std::size_t>(i)]);

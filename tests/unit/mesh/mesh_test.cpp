@@ -21,7 +21,8 @@ struct Given {
 
   hf::Mesh make(hf::Memory& memory) const {
     hf::MeshInput input;
-    input.vertex_count = static_cast<std::uint32_t>(positions.size() / 3), input.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
+    input.vertex_count = static_cast<std::uint32_t>(positions.size() / 3),
+    input.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
     input.positions = hf::ConstRows(positions.data(), 3 * sizeof(double));
     input.triangles = triangles.data(), input.weld = weld, input.weld_tolerance = tolerance;
     hf::Mesh mesh = hf::Mesh::make(input, memory);
@@ -78,7 +79,8 @@ TEST(Mesh, welds_within_a_tolerance_across_cell_borders) {
 TEST(Mesh, counts_what_is_dirty) {
   hf::Memory memory;
   // three pages on one edge, one of them flipped; a duplicate; a collapsed and a zero-area triangle; an isolated vertex
-  const Given given{{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 9, 9, 9, 2, 0, 0}, {0, 1, 2, 0, 1, 3, 1, 0, 4, 2, 0, 1, 3, 3, 4, 0, 1, 6}};
+  const Given given{{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 9, 9, 9, 2, 0, 0},
+                    {0, 1, 2, 0, 1, 3, 1, 0, 4, 2, 0, 1, 3, 3, 4, 0, 1, 6}};
   const hf::Mesh mesh = given.make(memory);
   EXPECT_EQ(mesh.report.isolated_vertex_count, 1u);
   EXPECT_EQ(mesh.inner_of_given[5], hf::Mesh::none);
@@ -126,7 +128,8 @@ TEST(Mesh, is_the_same_at_any_scale_and_place) {
     std::vector<double> moved = plain.positions;
     for (double& x : moved) x = scale * x + (scale == 1024 ? 4096.0 : 0);
     const hf::Mesh mesh = Given{moved, plain.triangles}.make(memory);
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) EXPECT_LE(norm(mesh.positions[v] - first.positions[v]), 1e-14);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+      EXPECT_LE(norm(mesh.positions[v] - first.positions[v]), 1e-14);
   }
 }
 
