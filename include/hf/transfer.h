@@ -97,7 +97,8 @@ typedef struct hf_transfer_frame {
   float* target_normals; /* or NULL */
 } hf_transfer_frame;
 
-/* Transfers one posed frame. The rest frame of the source gives the rest of the target. Results: HF_OK,
+/* Transfers one posed frame. The rest frame of the source gives the rest of the target, except for limbs whose rest
+ * alignment is applied (hf_pair_info): those take the direction of the source's. Results: HF_OK,
  * HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE
  * (index = source vertex), HF_ERROR_TOO_SMALL, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread safety: changes
  * `transfer`. Since 0.1. */

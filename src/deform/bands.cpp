@@ -47,10 +47,20 @@ struct Partition {
 // Cuts one field after the other into clusters and collects entries (vertex, cluster, weight).
 class BandCutter {
  public:
-  BandCutter(const Core& core, const Rest& rest, const Reach& reach, const HandleFields& fields, const BandOptions& options, Memory& memory)
-      : core_(core), rest_(rest), reach_(reach), fields_(fields), options_(options), memory_(memory), entries_(&memory),
-        partition_(3 * static_cast<std::size_t>(core.size()), memory), values_(memory, core.size()), share_(memory, core.size()),
-        piece_area_(memory, 3 * static_cast<std::size_t>(core.size())), piece_cluster_(memory, 3 * static_cast<std::size_t>(core.size())),
+  BandCutter(const Core& core, const Rest& rest, const Reach& reach, const HandleFields& fields,
+             const BandOptions& options, Memory& memory)
+      : core_(core),
+        rest_(rest),
+        reach_(reach),
+        fields_(fields),
+        options_(options),
+        memory_(memory),
+        entries_(&memory),
+        partition_(3 * static_cast<std::size_t>(core.size()), memory),
+        values_(memory, core.size()),
+        share_(memory, core.size()),
+        piece_area_(memory, 3 * static_cast<std::size_t>(core.size())),
+        piece_cluster_(memory, 3 * static_cast<std::size_t>(core.size())),
         others_(core.size(), 0.0, &memory) {
     entries_.reserve(8 * static_cast<std::size_t>(core.size()));
   }
@@ -238,7 +248,8 @@ class WeightTable {
 };
 
 // Rows of all vertices. A vertex whose pieces were all dropped takes the fields themselves as weights of the handles.
-void write_rows(WeightTable& table, const Mesh& mesh, const Reach& reach, const HandleFields& fields, ClusterWeights& out) {
+void write_rows(WeightTable& table, const Mesh& mesh, const Reach& reach, const HandleFields& fields,
+                ClusterWeights& out) {
   const std::int32_t n = mesh.vertex_count();
   out.start.resize(n + 1);
   out.start[0] = 0;
@@ -281,7 +292,8 @@ std::int32_t bands_for(std::int32_t wished, std::int32_t field_count) noexcept {
   return std::max(2, std::min(wished, fit));
 }
 
-ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Reach& reach, const HandleFields& fields, const BandOptions& options, Memory& memory) {
+ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Reach& reach, const HandleFields& fields,
+                                    const BandOptions& options, Memory& memory) {
   const std::int32_t handle_count = static_cast<std::int32_t>(fields.leak.size());
   const Vector<FieldPart> parts = find_parts(core.mesh, reach, memory);
   BandOptions used = options;
@@ -292,12 +304,14 @@ ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Re
     cutter.begin(handle_count);
     for (std::size_t p = 0; p < parts.size(); ++p) {
       cutter.cut(parts[p], levels[p], area);
-      if (p + 1 == parts.size() || parts[p + 1].component != parts[p].component) cutter.finish_component(parts[p].component);
+      if (p + 1 == parts.size() || parts[p + 1].component != parts[p].component)
+        cutter.finish_component(parts[p].component);
     }
     if (cutter.cluster_count() - handle_count <= free_cluster_limit || area > 1) break;
   }
   ClusterWeights weights(memory);
-  weights.handle_count = handle_count, weights.cluster_count = cutter.cluster_count(), weights.band_count = used.band_count;
+  weights.handle_count = handle_count, weights.cluster_count = cutter.cluster_count(),
+  weights.band_count = used.band_count;
   weights.cluster.reserve(cutter.entries().size() + static_cast<std::size_t>(core.size()));
   weights.weight.reserve(cutter.entries().size() + static_cast<std::size_t>(core.size()));
   WeightTable table(cutter.entries(), core.size(), memory);

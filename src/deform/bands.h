@@ -1,12 +1,14 @@
-// Deformation clusters: the level bands of the handles' fields, split by connected component, overlapping, with weights.
+// Deformation clusters: the level bands of the handles' fields, split by connected component, overlapping, with
+// weights.
 //
-// The level s(phi) of a handle's field is cut by a clamped B-spline basis B_0 .. B_{K+1}, of degree 1 (the paper's linear bands, Xu, Zhang,
-// Cohen-Or and Xiong 2009, Section 5.2) or 2 (no banding in the blended surface). B_{K+1} is the handle itself, B_0 the other handles, with
-// shares phi_j / (1 - phi): handles are clusters, and the vertices of a handle belong to it alone. Each connected piece of
-// {B_k > 0}, 0 < k <= K, is a cluster of its own. With two handles in a component one field says all; with more, each field i counts
-// with beta_i = max(0, phi_i - 0.3 |phi|), a prune without cracks (measured on a scan with three handles: 2 per cent more energy
-// than with 0.03, half the weights; with 16 handles a quarter). A component with one handle moves with it, one without stays.
-// Cost: O(n) per field. On failure nothing is left behind.
+// The level s(phi) of a handle's field is cut by a clamped B-spline basis B_0 .. B_{K+1}, of degree 1 (the paper's
+// linear bands, Xu, Zhang, Cohen-Or and Xiong 2009, Section 5.2) or 2 (no banding in the blended surface). B_{K+1} is
+// the handle itself, B_0 the other handles, with shares phi_j / (1 - phi): handles are clusters, and the vertices of a
+// handle belong to it alone. Each connected piece of {B_k > 0}, 0 < k <= K, is a cluster of its own. With two handles
+// in a component one field says all; with more, each field i counts with beta_i = max(0, phi_i - 0.3 |phi|), a prune
+// without cracks (measured on a scan with three handles: 2 per cent more energy than with 0.03, half the weights; a
+// quarter of them with eight handles on a torus). A component with one handle moves with it, one without stays. Cost: O(n) per field. On failure
+// nothing is left behind.
 #pragma once
 #include <cstdint>
 
@@ -24,13 +26,15 @@ struct BandOptions {
 constexpr std::int32_t free_cluster_target = 480;
 constexpr std::int32_t free_cluster_limit = 768;
 
-// Bands per field when there are `field_count` fields: never more than wished, at least 2, together about free_cluster_target.
+// Bands per field when there are `field_count` fields: never more than wished, at least 2, together about
+// free_cluster_target.
 std::int32_t bands_for(std::int32_t wished, std::int32_t field_count) noexcept;
 
-// Weights of vertices in clusters, by vertex, clusters ascending; they sum to 1. Vertices of components without a handle have none.
-// Clusters 0 .. handle_count - 1 are the handles.
+// Weights of vertices in clusters, by vertex, clusters ascending; they sum to 1. Vertices of components without a
+// handle have none. Clusters 0 .. handle_count - 1 are the handles.
 struct ClusterWeights {
-  explicit ClusterWeights(Memory& memory) : start(&memory), cluster(&memory), weight(&memory), elastic_components(&memory) {}
+  explicit ClusterWeights(Memory& memory)
+      : start(&memory), cluster(&memory), weight(&memory), elastic_components(&memory) {}
   Vector<std::int32_t> start;
   Vector<std::int32_t> cluster;
   Vector<double> weight;
@@ -42,6 +46,7 @@ struct ClusterWeights {
   std::int32_t free_count() const noexcept { return cluster_count - handle_count; }
 };
 
-ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Reach& reach, const HandleFields& fields, const BandOptions& options, Memory& memory);
+ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Reach& reach, const HandleFields& fields,
+                                    const BandOptions& options, Memory& memory);
 
 }  // namespace hf

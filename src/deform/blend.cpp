@@ -5,7 +5,8 @@ namespace {
 
 Vec3 apply(const Affine& affine, Vec3 p) noexcept {
   const auto& a = affine.a;
-  return {a[0][0] * p.x + a[0][1] * p.y + a[0][2] * p.z + a[0][3], a[1][0] * p.x + a[1][1] * p.y + a[1][2] * p.z + a[1][3],
+  return {a[0][0] * p.x + a[0][1] * p.y + a[0][2] * p.z + a[0][3],
+          a[1][0] * p.x + a[1][1] * p.y + a[1][2] * p.z + a[1][3],
           a[2][0] * p.x + a[2][1] * p.y + a[2][2] * p.z + a[2][3]};
 }
 
@@ -27,9 +28,11 @@ Vec3 blend_vertex(const Mesh& mesh, const ClusterWeights& weights, const Affine*
           sum[8] * p.x + sum[9] * p.y + sum[10] * p.z + sum[11]};
 }
 
-void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, Vec3 offset, double scale, Vec3* positions, JobRunner& jobs) {
+void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, Vec3 offset, double scale,
+           Vec3* positions, JobRunner& jobs) {
   for_vertex_pieces(jobs, mesh.vertex_count(), [&](std::int32_t first, std::int32_t last) {
-    for (std::int32_t v = first; v < last; ++v) positions[v] = offset + scale * blend_vertex(mesh, weights, transforms, v);
+    for (std::int32_t v = first; v < last; ++v)
+      positions[v] = offset + scale * blend_vertex(mesh, weights, transforms, v);
   });
 }
 

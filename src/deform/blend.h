@@ -11,7 +11,8 @@ struct Affine {
 };
 
 // Blended positions in the mesh's own unit, moved to offset + scale x.
-void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, Vec3 offset, double scale, Vec3* positions, JobRunner& jobs);
+void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, Vec3 offset, double scale,
+           Vec3* positions, JobRunner& jobs);
 
 // One vertex, in the mesh's own unit.
 Vec3 blend_vertex(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, std::int32_t v) noexcept;

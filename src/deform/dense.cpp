@@ -9,7 +9,8 @@ namespace {
 constexpr double pivot_floor = 1e-10;  // of the diagonal
 
 // Products of row a with the four rows b0 .. b3 in a fixed order of summation.
-void dot_four(const double* a, const double* b0, const double* b1, const double* b2, const double* b3, std::int32_t count, double (&out)[4]) noexcept {
+void dot_four(const double* a, const double* b0, const double* b1, const double* b2, const double* b3,
+              std::int32_t count, double (&out)[4]) noexcept {
   double s[4][2] = {{0, 0}, {0, 0}, {0, 0}, {0, 0}};
   std::int32_t k = 0;
   for (; k + 2 <= count; k += 2) {
@@ -38,7 +39,8 @@ void DenseFactor::factorise(Buffer<double>&& lower, std::int32_t size, Memory& m
       // four columns at once as far as their common part goes, then the small triangle between them
       const std::int32_t columns = std::min(4, i - j);
       const double* other[4];
-      for (int c = 0; c < 4; ++c) other[c] = lower_.data() + stride * static_cast<std::size_t>(j + std::min(c, columns - 1));
+      for (int c = 0; c < 4; ++c)
+        other[c] = lower_.data() + stride * static_cast<std::size_t>(j + std::min(c, columns - 1));
       double sums[4];
       dot_four(row, other[0], other[1], other[2], other[3], j, sums);
       for (int c = 0; c < columns; ++c) {

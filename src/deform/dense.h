@@ -1,8 +1,8 @@
 // A dense symmetric positive semi-definite system, factored once and solved for three right-hand sides again and again.
 //
-// Row-oriented Cholesky L L'. Unknowns whose pivot falls below a fraction of their diagonal depend on the ones before them (clusters on a
-// mesh too coarse to tell them apart); they are set to zero, which leaves a minimiser of the same quadratic. Cost size^3 / 6 multiply-adds,
-// size^2 per solve and right-hand side. Solving allocates nothing.
+// Row-oriented Cholesky L L'. Unknowns whose pivot falls below a fraction of their diagonal depend on the ones before
+// them (clusters on a mesh too coarse to tell them apart); they are set to zero, which leaves a minimiser of the same
+// quadratic. Cost size^3 / 6 multiply-adds, size^2 per solve and right-hand side. Solving allocates nothing.
 #pragma once
 #include <cstdint>
 

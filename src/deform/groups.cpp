@@ -18,7 +18,8 @@ struct Front {
 // Spreads group `group` from its seed over the vertices that are nearer to it than to their present group.
 class Spreading {
  public:
-  Spreading(const Core& core, Memory& memory) : core_(core), distance_(core.size(), std::numeric_limits<double>::infinity(), &memory), heap_(&memory) {}
+  Spreading(const Core& core, Memory& memory)
+      : core_(core), distance_(core.size(), std::numeric_limits<double>::infinity(), &memory), heap_(&memory) {}
 
   void add(std::int32_t group, std::int32_t seed, Vector<std::int32_t>& group_of) {
     const Topology& topology = core_.topology;
@@ -29,7 +30,8 @@ class Spreading {
       const Front front = heap_.back();
       heap_.pop_back();
       if (front.distance > distance_[front.vertex]) continue;
-      for (std::int32_t k = topology.neighbour_start[front.vertex]; k < topology.neighbour_start[front.vertex + 1]; ++k) {
+      for (std::int32_t k = topology.neighbour_start[front.vertex]; k < topology.neighbour_start[front.vertex + 1];
+           ++k) {
         const std::int32_t u = topology.neighbour[k];
         const double distance = front.distance + norm(core_.mesh.positions[u] - core_.mesh.positions[front.vertex]);
         if (!(distance < distance_[u])) continue;
@@ -57,8 +59,8 @@ class Spreading {
 
 }  // namespace
 
-std::shared_ptr<const Groups> Groups::with(std::shared_ptr<const Groups> groups, const Core& core, const Rest& rest, Span<const std::int32_t> components,
-                                           std::int32_t wished, Memory& memory) {
+std::shared_ptr<const Groups> Groups::with(std::shared_ptr<const Groups> groups, const Core& core, const Rest& rest,
+                                           Span<const std::int32_t> components, std::int32_t wished, Memory& memory) {
   bool complete = groups != nullptr;
   for (const std::int32_t c : components) complete = complete && groups->has(c);
   if (complete) return groups;

@@ -1,9 +1,10 @@
-// Rotation groups: small patches of the surface on which the elastic energy fits one rotation each. They do not depend on the
-// handles, so their rotations survive every change of handles.
+// Rotation groups: small patches of the surface on which the elastic energy fits one rotation each. They do not depend
+// on the handles, so their rotations survive every change of handles.
 //
-// Farthest-point sampling along edges: each new seed is the vertex farthest from all seeds so far; Dijkstra's distances are only
-// relaxed where the new seed is nearer. A component gets its groups when two handles first meet in it: its share by area, and
-// at least a quarter of the count wished for. Cost O(n log n log groups). On failure nothing is left behind.
+// Farthest-point sampling along edges: each new seed is the vertex farthest from all seeds so far; Dijkstra's distances
+// are only relaxed where the new seed is nearer. A component gets its groups when two handles first meet in it: its
+// share by area, and at least a quarter of the count wished for. Cost O(n log n log groups). On failure nothing is left
+// behind.
 #pragma once
 #include <cstdint>
 
@@ -12,7 +13,8 @@
 namespace hf {
 
 struct Groups {
-  explicit Groups(Memory& memory) : group_of(&memory), seed(&memory), component(&memory), component_start(&memory), component_end(&memory) {}
+  explicit Groups(Memory& memory)
+      : group_of(&memory), seed(&memory), component(&memory), component_start(&memory), component_end(&memory) {}
   Vector<std::int32_t> group_of;         // per vertex, -1 in components without groups
   Vector<std::int32_t> seed;             // per group
   Vector<std::int32_t> component;        // per group
@@ -22,8 +24,8 @@ struct Groups {
   bool has(std::int32_t c) const noexcept { return component_end[c] > component_start[c]; }
 
   // A copy of `groups` (null: none yet) with groups for these components too; numbers that exist stay.
-  static std::shared_ptr<const Groups> with(std::shared_ptr<const Groups> groups, const Core& core, const Rest& rest, Span<const std::int32_t> components,
-                                            std::int32_t wished, Memory& memory);
+  static std::shared_ptr<const Groups> with(std::shared_ptr<const Groups> groups, const Core& core, const Rest& rest,
+                                            Span<const std::int32_t> components, std::int32_t wished, Memory& memory);
 };
 
 }  // namespace hf

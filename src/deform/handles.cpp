@@ -10,7 +10,8 @@ namespace hf {
 namespace {
 
 // Farthest-point sampling of the ring, one vertex of every component first so that no component loses its sites.
-Vector<std::int32_t> sample_ring(const Mesh& mesh, const Vector<std::int32_t>& ring, std::uint32_t count, Memory& memory) {
+Vector<std::int32_t> sample_ring(const Mesh& mesh, const Vector<std::int32_t>& ring, std::uint32_t count,
+                                 Memory& memory) {
   Vector<std::int32_t> chosen(&memory);
   chosen.reserve(std::min<std::size_t>(ring.size(), count));
   Vector<double> distance(ring.size(), std::numeric_limits<double>::infinity(), &memory);
@@ -41,7 +42,8 @@ std::int32_t solved_channels(std::size_t handle_count) noexcept {
 }
 
 // One vertex: what the solve gave, made a partition of unity over the handles of the component.
-void finish_vertex(std::int32_t v, const double* solved, std::int32_t channels, std::int32_t owner, Span<const std::int32_t> present, HandleFields& fields) {
+void finish_vertex(std::int32_t v, const double* solved, std::int32_t channels, std::int32_t owner,
+                   Span<const std::int32_t> present, HandleFields& fields) {
   const std::int32_t handle_count = static_cast<std::int32_t>(fields.leak.size());
   for (std::int32_t i = 0; i < handle_count; ++i) fields.of(i)[v] = 0;
   if (present.empty()) return;
@@ -56,19 +58,23 @@ void finish_vertex(std::int32_t v, const double* solved, std::int32_t channels, 
     fields.of(i)[v] = value;
     sum += value;
   }
-  for (const std::int32_t i : present) fields.of(i)[v] = sum > 0 ? fields.of(i)[v] / sum : 1.0 / static_cast<double>(present.size());
+  for (const std::int32_t i : present)
+    fields.of(i)[v] = sum > 0 ? fields.of(i)[v] / sum : 1.0 / static_cast<double>(present.size());
 }
 
 }  // namespace
 
-std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices, std::uint32_t samples_per_ring, Memory& memory) {
+std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices,
+                                          std::uint32_t samples_per_ring, Memory& memory) {
   const Mesh& mesh = core.mesh;
   const Topology& topology = core.topology;
   auto region = make_shared_in<HandleRegion>(memory, memory);
   region->vertices.assign(vertices.begin(), vertices.end());
   std::sort(region->vertices.begin(), region->vertices.end());
   region->vertices.erase(std::unique(region->vertices.begin(), region->vertices.end()), region->vertices.end());
-  const auto inside = [&](std::int32_t v) { return std::binary_search(region->vertices.begin(), region->vertices.end(), v); };
+  const auto inside = [&](std::int32_t v) {
+    return std::binary_search(region->vertices.begin(), region->vertices.end(), v);
+  };
   Vector<std::int32_t> ring(&memory);
   Vec3 sum;
   for (const std::int32_t v : region->vertices) {
@@ -90,7 +96,9 @@ std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int3
 }
 
 Reach::Reach(const Mesh& mesh, const Handles& handles, Memory& memory)
-    : owner(mesh.vertex_count(), -1, &memory), component_start(mesh.component_count() + 1, 0, &memory), handle(&memory) {
+    : owner(mesh.vertex_count(), -1, &memory),
+      component_start(mesh.component_count() + 1, 0, &memory),
+      handle(&memory) {
   // a handle may reach into several components: count each pair once
   Vector<std::int32_t> last_handle(mesh.component_count(), -1, &memory);
   const auto for_pairs = [&](auto&& use) {
@@ -114,7 +122,8 @@ Reach::Reach(const Mesh& mesh, const Handles& handles, Memory& memory)
   }
 }
 
-HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Handles& handles, const Reach& reach, Memory& memory) {
+HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Handles& handles, const Reach& reach,
+                                 Memory& memory) {
   const std::int32_t n = core.size(), handle_count = static_cast<std::int32_t>(handles.size());
   HandleFields fields(n, handle_count, memory);
   const std::int32_t channels = solved_channels(handles.size());
@@ -125,7 +134,8 @@ HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Han
   if (any_site) {
     Vector<double> values(width * static_cast<std::size_t>(solver.slot_count()), 0.0, &memory);
     for (std::int32_t i = 0; i < channels; ++i) {
-      for (const std::int32_t slot : handles[i].region->slots) values[width * static_cast<std::size_t>(slot) + static_cast<std::size_t>(i)] = 1;
+      for (const std::int32_t slot : handles[i].region->slots)
+        values[width * static_cast<std::size_t>(slot) + static_cast<std::size_t>(i)] = 1;
     }
     solver.solve(values.data(), channels, solved.data(), nullptr);
   } else {
@@ -146,7 +156,8 @@ HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Han
   }
   for_vertex_pieces(*core.jobs, n, [&](std::int32_t first, std::int32_t last) {
     for (std::int32_t v = first; v < last; ++v)
-      finish_vertex(v, solved.data() + width * static_cast<std::size_t>(v), channels, reach.owner[v], reach.handles_of(core.mesh.component[v]), fields);
+      finish_vertex(v, solved.data() + width * static_cast<std::size_t>(v), channels, reach.owner[v],
+                    reach.handles_of(core.mesh.component[v]), fields);
   });
   return fields;
 }

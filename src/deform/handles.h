@@ -2,10 +2,11 @@
 //
 //     K phi_i = 0 away from the rings,   phi_i = 1 on the ring of handle i, 0 on the rings of the others
 //
-// (Xu, Zhang, Cohen-Or and Xiong 2009, Section 5.1). A ring vertex is a region vertex with a neighbour outside; a harmonic field is constant
-// behind a full ring, so the ring says all. With samples of the ring as sites, the paper's economy, values leak through between
-// them: the leak is measured. Afterwards the fields are made exact on the regions, clipped to [0, 1] and normalised to sum 1.
-// Cost: one path solve per site, one backward sweep per handle. On failure nothing is left behind.
+// (Xu, Zhang, Cohen-Or and Xiong 2009, Section 5.1). A ring vertex is a region vertex with a neighbour outside; a
+// harmonic field is constant behind a full ring, so the ring says all. With samples of the ring as sites, the paper's
+// economy, values leak through between them: the leak is measured. Afterwards the fields are made exact on the regions,
+// clipped to [0, 1] and normalised to sum 1. Cost: one path solve per site, one backward sweep per handle. On failure
+// nothing is left behind.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -34,8 +35,10 @@ struct Handle {
 // The handles of a pose, in the order of the channels of their fields.
 using Handles = Vector<Handle>;
 
-// `vertices`: inner vertices, Mesh::none allowed nowhere; repeated ones count once. samples_per_ring: 0 = the whole ring. Slots are left open.
-std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices, std::uint32_t samples_per_ring, Memory& memory);
+// `vertices`: inner vertices, Mesh::none allowed nowhere; repeated ones count once. samples_per_ring: 0 = the whole
+// ring. Slots are left open.
+std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices,
+                                          std::uint32_t samples_per_ring, Memory& memory);
 
 // Which handle owns a vertex (index into handles, or -1), and which handles stand in each component.
 struct Reach {
@@ -44,22 +47,30 @@ struct Reach {
   Vector<std::int32_t> component_start;  // handles of component c: handle[start[c] .. start[c + 1]), ascending
   Vector<std::int32_t> handle;
   Span<const std::int32_t> handles_of(std::int32_t component) const noexcept {
-    const auto first = static_cast<std::size_t>(component_start[component]), last = static_cast<std::size_t>(component_start[component + 1]);
+    const auto first = static_cast<std::size_t>(component_start[component]),
+               last = static_cast<std::size_t>(component_start[component + 1]);
     return {handle.data() + first, last - first};
   }
 };
 
 struct HandleFields {
   HandleFields(std::int32_t vertex_count, std::int32_t handle_count, Memory& memory)
-      : vertices(vertex_count), values(memory, static_cast<std::size_t>(vertex_count) * static_cast<std::size_t>(handle_count)), leak(handle_count, 0.0, &memory) {}
-  const double* of(std::int32_t handle) const noexcept { return values.data() + static_cast<std::size_t>(handle) * static_cast<std::size_t>(vertices); }
-  double* of(std::int32_t handle) noexcept { return values.data() + static_cast<std::size_t>(handle) * static_cast<std::size_t>(vertices); }
+      : vertices(vertex_count),
+        values(memory, static_cast<std::size_t>(vertex_count) * static_cast<std::size_t>(handle_count)),
+        leak(handle_count, 0.0, &memory) {}
+  const double* of(std::int32_t handle) const noexcept {
+    return values.data() + static_cast<std::size_t>(handle) * static_cast<std::size_t>(vertices);
+  }
+  double* of(std::int32_t handle) noexcept {
+    return values.data() + static_cast<std::size_t>(handle) * static_cast<std::size_t>(vertices);
+  }
   std::int32_t vertices;
-  Buffer<double> values;   // handle by handle
-  Vector<double> leak;     // per handle
+  Buffer<double> values;  // handle by handle
+  Vector<double> leak;    // per handle
 };
 
 // Solves for all handles at once; `solver` holds the sites of every handle in their slots.
-HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Handles& handles, const Reach& reach, Memory& memory);
+HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Handles& handles, const Reach& reach,
+                                 Memory& memory);
 
 }  // namespace hf

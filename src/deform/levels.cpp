@@ -26,7 +26,8 @@ void add_triangle(const Mesh& mesh, const std::int32_t* corner, const double* ph
   const double values[3] = {phi[corner[0]], phi[corner[1]], phi[corner[2]]};
   const double low = std::min({values[0], values[1], values[2]}), high = std::max({values[0], values[1], values[2]});
   if (!(high > low)) return;
-  const TriangleGradient g = gradient(mesh.positions[corner[0]], mesh.positions[corner[1]], mesh.positions[corner[2]], values);
+  const TriangleGradient g =
+      gradient(mesh.positions[corner[0]], mesh.positions[corner[1]], mesh.positions[corner[2]], values);
   if (!(g.length > 0) || !(g.length < 1e9)) return;
   const int first = std::min(static_cast<int>(low * Levels::bins), Levels::bins - 1);
   const int last = std::min(static_cast<int>(high * Levels::bins), Levels::bins - 1);
@@ -47,7 +48,8 @@ bool mean_gradients(const Histogram& histogram, double (&smooth)[Levels::bins]) 
   for (int b = 0; b < Levels::bins; ++b) {
     if (!(histogram.squared[b] > 0)) continue;
     mean[b] = histogram.cubed[b] / histogram.squared[b];
-    for (int k = last_full + 1; k < b; ++k) mean[k] = last_full < 0 || b - k < k - last_full ? mean[b] : mean[last_full];
+    for (int k = last_full + 1; k < b; ++k)
+      mean[k] = last_full < 0 || b - k < k - last_full ? mean[b] : mean[last_full];
     last_full = b;
   }
   if (last_full < 0) return false;
@@ -82,7 +84,8 @@ double Levels::operator()(double phi) const noexcept {
   return level[b] + (x - b) * (level[b + 1] - level[b]);
 }
 
-Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleFields& fields, const Vector<FieldPart>& parts, LevelSpacing spacing, Memory& memory) {
+Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleFields& fields,
+                           const Vector<FieldPart>& parts, LevelSpacing spacing, Memory& memory) {
   const Mesh& mesh = core.mesh;
   Vector<Levels> levels(parts.size(), Levels(), &memory);
   if (spacing == LevelSpacing::equal_value) {
@@ -99,7 +102,8 @@ Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleField
     const std::int32_t c = mesh.component[corner[0]];
     if (part_start[c] == part_start[c + 1]) continue;
     if (scattered(static_cast<std::uint32_t>(t)) * rest.component_triangles[c] > triangle_samples) continue;
-    for (std::int32_t p = part_start[c]; p < part_start[c + 1]; ++p) add_triangle(mesh, corner, fields.of(parts[p].handle), histograms[p]);
+    for (std::int32_t p = part_start[c]; p < part_start[c + 1]; ++p)
+      add_triangle(mesh, corner, fields.of(parts[p].handle), histograms[p]);
   }
   for (std::size_t p = 0; p < parts.size(); ++p) set_equal_length(histograms[p], levels[p]);
   return levels;
@@ -116,7 +120,8 @@ BandValues band_values(double level, std::int32_t band_count, int degree) noexce
     b.value[0] = 1 - u, b.value[1] = u;
     return b;
   }
-  const double low = span == 0 ? 1.0 : 2.0, high = span == spans - 1 ? 1.0 : 2.0;  // widths of the neighbouring double spans
+  const double low = span == 0 ? 1.0 : 2.0,
+               high = span == spans - 1 ? 1.0 : 2.0;  // widths of the neighbouring double spans
   b.value[0] = (1 - u) * (1 - u) / low;
   b.value[2] = u * u / high;
   b.value[1] = 1 - b.value[0] - b.value[2];

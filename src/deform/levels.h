@@ -27,7 +27,8 @@ struct Levels {
 };
 
 // The levels of several fields in one pass over the triangles; parts ordered by component.
-Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleFields& fields, const Vector<FieldPart>& parts, LevelSpacing spacing, Memory& memory);
+Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleFields& fields,
+                           const Vector<FieldPart>& parts, LevelSpacing spacing, Memory& memory);
 
 // The clamped uniform B-spline basis B_0 .. B_{K+1} of degree 1 or 2 on [0, 1]: at most degree + 1 values are not zero.
 struct BandValues {

@@ -11,11 +11,13 @@ namespace {
 struct Members {
   Vector<std::int32_t> start, vertex;
   Vector<double> weight;
-  Members(const ClusterWeights& weights, std::int32_t vertex_count, Memory& memory) : start(weights.free_count() + 1, 0, &memory), vertex(&memory), weight(&memory) {
+  Members(const ClusterWeights& weights, std::int32_t vertex_count, Memory& memory)
+      : start(weights.free_count() + 1, 0, &memory), vertex(&memory), weight(&memory) {
     const auto for_entries = [&](auto&& use) {
       for (std::int32_t v = 0; v < vertex_count; ++v) {
         for (std::int32_t k = weights.start[v]; k < weights.start[v + 1]; ++k) {
-          if (weights.cluster[k] >= weights.handle_count) use(v, weights.cluster[k] - weights.handle_count, weights.weight[k]);
+          if (weights.cluster[k] >= weights.handle_count)
+            use(v, weights.cluster[k] - weights.handle_count, weights.weight[k]);
         }
       }
     };
@@ -40,13 +42,15 @@ Affine to_affine(const RigidMotion& motion) noexcept {
 
 // Shape matching of one cluster: the rigid motion from its samples at rest to `position_of(sample)`.
 template <class PositionOf>
-RigidMotion match_shape(const PaperSystem& system, const Mesh& mesh, std::int32_t f, const Quaternion& near, PositionOf&& position_of) noexcept {
+RigidMotion match_shape(const PaperSystem& system, const Mesh& mesh, std::int32_t f, const Quaternion& near,
+                        PositionOf&& position_of) noexcept {
   double sum = 0;
   Vec3 rest_centre, centre;
   for (std::int32_t k = system.cluster_start[f]; k < system.cluster_start[f + 1]; ++k) {
     const PaperSystem::Member& m = system.member[k];
     sum += m.weight;
-    rest_centre = rest_centre + m.weight * mesh.positions[system.sample[m.sample]], centre = centre + m.weight * position_of(m.sample);
+    rest_centre = rest_centre + m.weight * mesh.positions[system.sample[m.sample]],
+    centre = centre + m.weight * position_of(m.sample);
   }
   if (!(sum > 0)) return {near, {}};
   rest_centre = (1.0 / sum) * rest_centre, centre = (1.0 / sum) * centre;
@@ -64,7 +68,11 @@ RigidMotion match_shape(const PaperSystem& system, const Mesh& mesh, std::int32_
 }  // namespace
 
 PaperSystem::PaperSystem(const Core& core, const ClusterWeights& weights, Memory& memory)
-    : handle_count(weights.handle_count), free_count(weights.free_count()), sample(&memory), cluster_start(&memory), member(&memory) {
+    : handle_count(weights.handle_count),
+      free_count(weights.free_count()),
+      sample(&memory),
+      cluster_start(&memory),
+      member(&memory) {
   const Mesh& mesh = core.mesh;
   const Members members(weights, core.size(), memory);
   Vector<std::int32_t> number(core.size(), -1, &memory);
@@ -74,7 +82,8 @@ PaperSystem::PaperSystem(const Core& core, const ClusterWeights& weights, Memory
     // farthest-point sampling of the cluster's vertices, the heaviest first
     const std::int32_t first = members.start[f], count = members.start[f + 1] - first;
     distance.assign(count, std::numeric_limits<double>::infinity());
-    auto next = std::max_element(members.weight.begin() + first, members.weight.begin() + first + count) - (members.weight.begin() + first);
+    auto next = std::max_element(members.weight.begin() + first, members.weight.begin() + first + count) -
+                (members.weight.begin() + first);
     for (std::int32_t taken = 0; taken < std::min(count, samples_per_cluster); ++taken) {
       const std::int32_t v = members.vertex[first + next];
       if (number[v] < 0) number[v] = static_cast<std::int32_t>(sample.size()), sample.push_back(v);
@@ -97,23 +106,27 @@ void PaperState::fit(const PaperSystem& system) {
 
 void fit_motions(const PaperSystem& system, const Mesh& mesh, const Vec3* positions, PaperState& state) noexcept {
   for (std::int32_t f = 0; f < system.free_count; ++f)
-    state.motion[f] = match_shape(system, mesh, f, state.motion[f].rotation, [&](std::int32_t s) { return positions[system.sample[s]]; });
+    state.motion[f] = match_shape(system, mesh, f, state.motion[f].rotation,
+                                  [&](std::int32_t s) { return positions[system.sample[s]]; });
 }
 
-SolveReport solve_paper_pose(const PaperSystem& system, const Mesh& mesh, const ClusterWeights& weights, std::uint32_t iterations, double tolerance, PaperState& state,
+SolveReport solve_paper_pose(const PaperSystem& system, const Mesh& mesh, const ClusterWeights& weights,
+                             std::uint32_t iterations, double tolerance, PaperState& state,
                              Affine* transforms) noexcept {
   SolveReport report;
   for (std::int32_t f = 0; f < system.free_count; ++f) transforms[system.handle_count + f] = to_affine(state.motion[f]);
   if (system.free_count == 0) return report;
   while (report.iterations < iterations) {
     ++report.iterations, report.last_change = 0;
-    for (std::size_t s = 0; s < system.sample.size(); ++s) state.position[s] = blend_vertex(mesh, weights, transforms, system.sample[s]);
+    for (std::size_t s = 0; s < system.sample.size(); ++s)
+      state.position[s] = blend_vertex(mesh, weights, transforms, system.sample[s]);
     double moved = 0;
     for (std::int32_t f = 0; f < system.free_count; ++f) {
       const RigidMotion old = state.motion[f];
       state.motion[f] = match_shape(system, mesh, f, old.rotation, [&](std::int32_t s) { return state.position[s]; });
       transforms[system.handle_count + f] = to_affine(state.motion[f]);
-      const double turned = 2.0 * std::sqrt(2.0) * std::sin(0.5 * angle_between(state.motion[f].rotation, old.rotation));
+      const double turned =
+          2.0 * std::sqrt(2.0) * std::sin(0.5 * angle_between(state.motion[f].rotation, old.rotation));
       report.last_change = std::max(report.last_change, turned);
       moved = std::max(moved, norm(state.motion[f].translation - old.translation));
     }

@@ -11,22 +11,25 @@
 namespace hf {
 namespace {
 
-constexpr double settled_change = 1e-6;        // of a rotation: below, a pose that is asked for again is not solved on
-// iterations spent on one target: the smooth mode unwinds twists of many turns beyond, the paper's needs hundreds to arrive
+constexpr double settled_change = 1e-6;  // of a rotation: below, a pose that is asked for again is not solved on
+// iterations spent on one target: the smooth mode unwinds twists of many turns beyond, the paper's needs hundreds to
+// arrive
 constexpr std::uint32_t idle_limit_smooth = 100, idle_limit_paper = 2000;
-constexpr double jump_turn = 1.75;             // radians in one step: beyond, start afresh from the fields
-constexpr double largest_translation = 1e15;   // box diagonals
+constexpr double jump_turn = 1.75;            // radians in one step: beyond, start afresh from the fields
+constexpr double largest_translation = 1e15;  // box diagonals
 
 bool is_finite(Vec3 v) noexcept { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void require_range(std::uint32_t value, std::uint32_t low, std::uint32_t high, const char* name) {
   if (value != 0 && (value < low || value > high))
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s is %u; it must lie in %u to %u, or be 0 for the default", name, value, low, high);
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s is %u; it must lie in %u to %u, or be 0 for the default", name,
+         value, low, high);
 }
 
 PoseOptions checked(const PoseOptions& options) {
   if (options.mode != DeformMode::smooth && options.mode != DeformMode::paper)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "mode is %d; use HF_DEFORM_SMOOTH or HF_DEFORM_PAPER", static_cast<int>(options.mode));
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "mode is %d; use HF_DEFORM_SMOOTH or HF_DEFORM_PAPER",
+         static_cast<int>(options.mode));
   require_range(options.band_count, 2, 64, "band_count");
   require_range(options.iteration_count, 1, 1000, "iteration_count");
   require_range(options.group_count, 1, 2000, "group_count");
@@ -42,8 +45,11 @@ PoseOptions checked(const PoseOptions& options) {
 
 struct Pose::Layout {
   explicit Layout(const Handles& list, std::shared_ptr<SiteSolver> solver, const Core& core, Memory& memory)
-      : handles(list, &memory), sites(std::move(solver)), reach(core.mesh, handles, memory),
-        fields(solve_handle_fields(core, *sites, handles, reach, memory)), weights(memory) {}
+      : handles(list, &memory),
+        sites(std::move(solver)),
+        reach(core.mesh, handles, memory),
+        fields(solve_handle_fields(core, *sites, handles, reach, memory)),
+        weights(memory) {}
   Handles handles;
   std::shared_ptr<SiteSolver> sites;
   Reach reach;
@@ -55,7 +61,11 @@ struct Pose::Layout {
 };
 
 Pose::Pose(std::shared_ptr<const Core> core, const PoseOptions& options, std::shared_ptr<const Rest> rest)
-    : core_(std::move(core)), options_(options), rest_(std::move(rest)), positions_(memory(), static_cast<std::size_t>(core_->size())), turns_(memory(), handle_limit) {}
+    : core_(std::move(core)),
+      options_(options),
+      rest_(std::move(rest)),
+      positions_(memory(), static_cast<std::size_t>(core_->size())),
+      turns_(memory(), handle_limit) {}
 
 std::shared_ptr<Pose> Pose::make(std::shared_ptr<const Core> core, const PoseOptions& options) {
   if (!core->factor) fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "poses need a solver made with HF_ENGINE_GREEN");
@@ -77,7 +87,9 @@ std::shared_ptr<Pose> Pose::clone() const {
 
 // ---- handles ----
 
-std::uint32_t Pose::handle_count() const noexcept { return layout_ ? static_cast<std::uint32_t>(layout_->handles.size()) : 0; }
+std::uint32_t Pose::handle_count() const noexcept {
+  return layout_ ? static_cast<std::uint32_t>(layout_->handles.size()) : 0;
+}
 
 std::int32_t Pose::find(std::uint32_t number) const noexcept {
   for (std::uint32_t i = 0; i < handle_count(); ++i) {
@@ -96,7 +108,8 @@ void Pose::check_regions(Span<const std::uint32_t> start, Span<const std::int32_
   if (start.size() < 2) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no handle to add");
   const std::size_t added = start.size() - 1;
   if (added + handle_count() > handle_limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles and %zu more; a pose holds at most %u", handle_count(), added, handle_limit);
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles and %zu more; a pose holds at most %u", handle_count(), added,
+         handle_limit);
   Vector<std::int32_t> owner(static_cast<std::size_t>(core_->size()), -1, &memory());  // -2: a handle there is
   if (layout_) {
     for (std::int32_t v = 0; v < core_->size(); ++v) owner[v] = layout_->reach.owner[v] >= 0 ? -2 : -1;
@@ -105,16 +118,20 @@ void Pose::check_regions(Span<const std::uint32_t> start, Span<const std::int32_
     if (start[r + 1] <= start[r]) fail(HF_ERROR_EMPTY, static_cast<std::uint32_t>(r), "region %zu has no vertex", r);
     for (std::uint32_t k = start[r]; k < start[r + 1]; ++k) {
       const std::int32_t v = vertices[k];
-      if (v == Mesh::none) fail(HF_ERROR_INVALID_ARGUMENT, k, "entry %u of the regions is a vertex without a usable triangle", k);
-      if (v < 0 || v >= core_->size()) fail(HF_ERROR_OUT_OF_RANGE, k, "entry %u of the regions is no vertex of the mesh", k);
+      if (v == Mesh::none)
+        fail(HF_ERROR_INVALID_ARGUMENT, k, "entry %u of the regions is a vertex without a usable triangle", k);
+      if (v < 0 || v >= core_->size())
+        fail(HF_ERROR_OUT_OF_RANGE, k, "entry %u of the regions is no vertex of the mesh", k);
       if (owner[v] != -1 && owner[v] != static_cast<std::int32_t>(r))
-        fail(HF_ERROR_OVERLAP, k, "entry %u: the vertex belongs to %s already; regions must not overlap", k, owner[v] == -2 ? "a handle" : "an earlier region");
+        fail(HF_ERROR_OVERLAP, k, "entry %u: the vertex belongs to %s already; regions must not overlap", k,
+             owner[v] == -2 ? "a handle" : "an earlier region");
       owner[v] = static_cast<std::int32_t>(r);
     }
   }
 }
 
-void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, Span<std::uint32_t> out_numbers) {
+void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices,
+                       Span<std::uint32_t> out_numbers) {
   check_regions(start, vertices);
   Handles handles(&memory());
   if (layout_) handles.assign(layout_->handles.begin(), layout_->handles.end());
@@ -129,7 +146,8 @@ void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t>
   Vector<std::int32_t> slots(&memory());
   Vector<Site> added(&memory());
   for (std::size_t r = 0; r + 1 < start.size(); ++r) {
-    std::shared_ptr<HandleRegion> region = make_region(*core_, vertices.subspan(start[r], start[r + 1] - start[r]), options_.samples_per_ring, memory());
+    std::shared_ptr<HandleRegion> region =
+        make_region(*core_, vertices.subspan(start[r], start[r + 1] - start[r]), options_.samples_per_ring, memory());
     for (const std::int32_t v : region->sites) {
       while (slot < static_cast<std::int32_t>(slot_taken.size()) && slot_taken[slot]) ++slot;
       region->slots.push_back(slot), slots.push_back(slot++);
@@ -179,17 +197,21 @@ void Pose::remove_handles(Span<const std::uint32_t> numbers) {
   install(std::move(layout), std::move(state));
 }
 
-// The handles left are those before the last were added: back to that layout and solver state, with the transforms as they are now.
+// The handles left are those before the last were added: back to that layout and solver state, with the transforms as
+// they are now.
 bool Pose::restore_previous(const Handles& remaining) {
   if (!previous_layout_ || previous_layout_->handles.size() != remaining.size()) return false;
   for (std::size_t i = 0; i < remaining.size(); ++i) {
-    if (previous_layout_->handles[i].region != remaining[i].region || previous_layout_->handles[i].number != remaining[i].number) return false;
+    if (previous_layout_->handles[i].region != remaining[i].region ||
+        previous_layout_->handles[i].number != remaining[i].number)
+      return false;
   }
   auto state = make_shared_in<State>(memory(), *previous_state_, memory());
   for (std::size_t i = 0; i < remaining.size(); ++i) {
     const HandleState& now = state_->handles[find(remaining[i].number)];
     HandleState& then = state->handles[i];
-    const bool same = std::memcmp(&now.rotation, &then.rotation, sizeof now.rotation) == 0 && std::memcmp(&now.translation, &then.translation, sizeof now.translation) == 0;
+    const bool same = std::memcmp(&now.rotation, &then.rotation, sizeof now.rotation) == 0 &&
+                      std::memcmp(&now.translation, &then.translation, sizeof now.translation) == 0;
     state->changed = state->changed || !same;
     then.rotation = now.rotation, then.translation = now.translation, then.turn = now.turn;
   }
@@ -212,15 +234,18 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, st
   if (options_.mode == DeformMode::paper) bands.degree = 1, bands.spacing = LevelSpacing::equal_value;
   layout->weights = make_cluster_weights(*core_, *rest_, layout->reach, layout->fields, bands, memory());
   if (options_.mode == DeformMode::smooth) {
-    layout->groups = Groups::with(groups_, *core_, *rest_, layout->weights.elastic_components, static_cast<std::int32_t>(options_.group_count), memory());
-    layout->smooth = make_shared_in<SmoothSystem>(memory(), *core_, *rest_, layout->weights, *layout->groups, layout->fields, memory());
+    layout->groups = Groups::with(groups_, *core_, *rest_, layout->weights.elastic_components,
+                                  static_cast<std::int32_t>(options_.group_count), memory());
+    layout->smooth = make_shared_in<SmoothSystem>(memory(), *core_, *rest_, layout->weights, *layout->groups,
+                                                  layout->fields, memory());
   } else {
     layout->paper = make_shared_in<PaperSystem>(memory(), *core_, layout->weights, memory());
   }
   return layout;
 }
 
-// A new handle takes over the rotation the surface has where it stands, so that its way back to rest is predicted like any turn.
+// A new handle takes over the rotation the surface has where it stands, so that its way back to rest is predicted like
+// any turn.
 void Pose::carry_handle(const Handle& handle, HandleState& state) const {
   if (!posed_) return;
   const HandleRegion& region = *handle.region;
@@ -260,7 +285,8 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
   Vector<Vec3> turns(&memory());
   for (const HandleState& handle : state->handles) turns.push_back(handle.solved_turn);
   for (const std::int32_t c : layout.weights.elastic_components) {
-    const bool was_elastic = layout_ && std::binary_search(layout_->weights.elastic_components.begin(), layout_->weights.elastic_components.end(), c);
+    const bool was_elastic = layout_ && std::binary_search(layout_->weights.elastic_components.begin(),
+                                                           layout_->weights.elastic_components.end(), c);
     if (!was_elastic) start_rotations(*layout.smooth, *layout.groups, c, turns, state->smooth);
   }
   return state;
@@ -275,7 +301,8 @@ void Pose::set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTr
     if (!is_finite(axis) || !std::isfinite(t.rotation.w) || !is_finite(t.translation))
       fail(HF_ERROR_NON_FINITE, k, "transform %u holds a number that is not finite", k);
     if (!(norm(t.translation) <= largest_translation * core_->mesh.scale))
-      fail(HF_ERROR_NON_FINITE, k, "the translation of transform %u is beyond %g box diagonals", k, largest_translation);
+      fail(HF_ERROR_NON_FINITE, k, "the translation of transform %u is beyond %g box diagonals", k,
+           largest_translation);
   }
   for (std::uint32_t k = 0; k < numbers.size(); ++k) {
     HandleState& handle = state_->handles[find(numbers[k])];
@@ -305,11 +332,17 @@ Span<const double> Pose::field(std::uint32_t number) const {
 
 const ClusterWeights* Pose::weights() const noexcept { return layout_ ? &layout_->weights : nullptr; }
 
-Span<const Affine> Pose::cluster_transforms() const noexcept { return state_ ? Span<const Affine>(state_->transforms) : Span<const Affine>(); }
+Span<const Affine> Pose::cluster_transforms() const noexcept {
+  return state_ ? Span<const Affine>(state_->transforms) : Span<const Affine>();
+}
 
-std::int32_t Pose::group_count() const noexcept { return layout_ && layout_->smooth ? static_cast<std::int32_t>(layout_->smooth->subspace.group.size()) : 0; }
+std::int32_t Pose::group_count() const noexcept {
+  return layout_ && layout_->smooth ? static_cast<std::int32_t>(layout_->smooth->subspace.group.size()) : 0;
+}
 
-std::int32_t Pose::dropped_unknowns() const noexcept { return layout_ && layout_->smooth ? layout_->smooth->subspace.factor.dropped() : 0; }
+std::int32_t Pose::dropped_unknowns() const noexcept {
+  return layout_ && layout_->smooth ? layout_->smooth->subspace.factor.dropped() : 0;
+}
 
 // ---- the pose ----
 
@@ -349,7 +382,8 @@ void Pose::solve_smooth(std::uint32_t iterations) noexcept {
 
 void Pose::solve_paper(std::uint32_t iterations) noexcept {
   for (HandleState& handle : state_->handles) handle.solved = handle.rotation, handle.solved_turn = handle.turn;
-  report_ = solve_paper_pose(*layout_->paper, core_->mesh, layout_->weights, iterations, settled_change, state_->paper, state_->transforms.data());
+  report_ = solve_paper_pose(*layout_->paper, core_->mesh, layout_->weights, iterations, settled_change, state_->paper,
+                             state_->transforms.data());
 }
 
 DeformReport Pose::deform(const DeformRequest& request) {

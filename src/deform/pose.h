@@ -1,11 +1,12 @@
-// A pose: handles that come and go on one surface, and the deformation that follows them. Everything behind hf_pose_* and hf_deform.
+// A pose: handles that come and go on one surface, and the deformation that follows them. Everything behind hf_pose_*
+// and hf_deform.
 //
-// Data: regions -> sites on the shared factor -> fields -> cluster weights -> reduced system (a Layout, immutable, shared by clones) and, per
-// frame, transforms of handles -> transforms of clusters (a State) -> vertices -> normals.
+// Data: regions -> sites on the shared factor -> fields -> cluster weights -> reduced system (a Layout, immutable,
+// shared by clones) and, per frame, transforms of handles -> transforms of clusters (a State) -> vertices -> normals.
 //
-// Everything is transactional: on an exception the pose is as before. Repeated deform() calls allocate nothing. Results do not depend on
-// the number of threads. Adding handles and removing them again restores the layout and the solver state bit for bit (the layout before
-// the last change is kept for that).
+// Everything is transactional: on an exception the pose is as before. Repeated deform() calls allocate nothing. Results
+// do not depend on the number of threads. Adding handles and removing them again restores the layout and the solver
+// state bit for bit (the layout before the last change is kept for that).
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -26,7 +27,8 @@ struct PoseOptions {
   std::uint32_t group_count = 0;       // 1 to 2000; 200
 };
 
-// p -> rotation (p - centroid) + centroid + translation, in the unit of the mesh as given. The quaternion need not be normalised; all zero is the identity.
+// p -> rotation (p - centroid) + centroid + translation, in the unit of the mesh as given. The quaternion need not be
+// normalised; all zero is the identity.
 struct HandleTransform {
   Quaternion rotation;
   Vec3 translation;
@@ -57,8 +59,9 @@ class Pose {
   static std::shared_ptr<Pose> make(std::shared_ptr<const Core> core, const PoseOptions& options);
   std::shared_ptr<Pose> clone() const;
 
-  // Region r holds vertices[start[r] .. start[r + 1]) (inner; Mesh::none = an isolated vertex as given, an error). New handles stand at rest.
-  // out_numbers: empty or one per region. Throws HF_ERROR_EMPTY, _OUT_OF_RANGE, _INVALID_ARGUMENT, _OVERLAP (index = position in vertices), _TOO_LARGE.
+  // Region r holds vertices[start[r] .. start[r + 1]) (inner; Mesh::none = an isolated vertex as given, an error). New
+  // handles stand at rest. out_numbers: empty or one per region. Throws HF_ERROR_EMPTY, _OUT_OF_RANGE,
+  // _INVALID_ARGUMENT, _OVERLAP (index = position in vertices), _TOO_LARGE.
   void add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, Span<std::uint32_t> out_numbers);
   // Throws HF_ERROR_EMPTY, _NO_SUCH_HANDLE (index = position; also for a number named twice).
   void remove_handles(Span<const std::uint32_t> numbers);
@@ -69,39 +72,47 @@ class Pose {
   DeformReport deform(const DeformRequest& request);
 
   std::uint32_t handle_count() const noexcept;
-  HandleReport handle(std::uint32_t number) const;              // HF_ERROR_NO_SUCH_HANDLE
-  Span<const double> field(std::uint32_t number) const;         // per inner vertex
+  HandleReport handle(std::uint32_t number) const;       // HF_ERROR_NO_SUCH_HANDLE
+  Span<const double> field(std::uint32_t number) const;  // per inner vertex
   const Core& core() const noexcept { return *core_; }
   const PoseOptions& options() const noexcept { return options_; }
-  // Clusters as joints: weights, and their transforms in the mesh's own unit as of the last deform(). Null before the first handle.
+  // Clusters as joints: weights, and their transforms in the mesh's own unit as of the last deform(). Null before the
+  // first handle.
   const ClusterWeights* weights() const noexcept;
   Span<const Affine> cluster_transforms() const noexcept;
   // Rotation groups in use and unknowns the reduced system found dependent, for statistics and tests.
   std::int32_t group_count() const noexcept;
   std::int32_t dropped_unknowns() const noexcept;
 
-  Pose(std::shared_ptr<const Core> core, const PoseOptions& options, std::shared_ptr<const Rest> rest);  // for make_shared_in; use make()
+  Pose(std::shared_ptr<const Core> core, const PoseOptions& options,
+       std::shared_ptr<const Rest> rest);  // for make_shared_in; use make()
 
  private:
   struct Layout;
   struct HandleState {
-    Quaternion rotation;    // asked for
-    Vec3 translation;       // in the mesh's own unit
-    Vec3 turn;              // rotation vector of the motion so far, turns included
-    Quaternion solved;      // rotation the group rotations stand for
+    Quaternion rotation;  // asked for
+    Vec3 translation;     // in the mesh's own unit
+    Vec3 turn;            // rotation vector of the motion so far, turns included
+    Quaternion solved;    // rotation the group rotations stand for
     Vec3 solved_turn;
   };
   struct State {
     explicit State(Memory& memory) : handles(&memory), transforms(&memory), smooth(memory), paper(memory) {}
     State(const State& other, Memory& memory)
-        : handles(other.handles, &memory), transforms(other.transforms, &memory), smooth(other.smooth, memory), paper(other.paper, memory), started(other.started),
-          changed(other.changed), last_change(other.last_change), idle_iterations(other.idle_iterations) {}
+        : handles(other.handles, &memory),
+          transforms(other.transforms, &memory),
+          smooth(other.smooth, memory),
+          paper(other.paper, memory),
+          started(other.started),
+          changed(other.changed),
+          last_change(other.last_change),
+          idle_iterations(other.idle_iterations) {}
     Vector<HandleState> handles;  // like Layout::handles
     Vector<Affine> transforms;    // per cluster
     SmoothState smooth;
     PaperState paper;
-    bool started = false;         // a pose to go on from
-    bool changed = true;          // transforms or handles since the last solve
+    bool started = false;  // a pose to go on from
+    bool changed = true;   // transforms or handles since the last solve
     double last_change = 0;
     std::uint32_t idle_iterations = 0;  // since the last change
   };
@@ -124,7 +135,7 @@ class Pose {
   PoseOptions options_;
   std::shared_ptr<const Rest> rest_;
   std::shared_ptr<const Groups> groups_;
-  std::shared_ptr<const Layout> layout_;           // null: no handle
+  std::shared_ptr<const Layout> layout_;  // null: no handle
   std::shared_ptr<State> state_;
   std::shared_ptr<const Layout> previous_layout_;  // before the last handles were added
   std::shared_ptr<const State> previous_state_;

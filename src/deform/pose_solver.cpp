@@ -37,7 +37,8 @@ void set_right_hand_side(const SmoothSystem& system, SmoothState& state) noexcep
       if (f < 0) continue;
       double* x = state.unknown.data() + 16 * static_cast<std::size_t>(f);
       for (int a = 0; a < 4; ++a) {
-        for (int b = 0; b < 3; ++b) x[4 * a + b] += entry.q[a][0] * r[b][0] + entry.q[a][1] * r[b][1] + entry.q[a][2] * r[b][2];
+        for (int b = 0; b < 3; ++b)
+          x[4 * a + b] += entry.q[a][0] * r[b][0] + entry.q[a][1] * r[b][1] + entry.q[a][2] * r[b][2];
       }
     }
   }
@@ -77,7 +78,8 @@ Quaternion fit_group(const Subspace& s, std::size_t g, const Affine* transforms,
     const auto& a = transforms[entry.cluster].a;
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j)
-        sum.m[i][j] += a[i][0] * entry.q[0][j] + a[i][1] * entry.q[1][j] + a[i][2] * entry.q[2][j] + a[i][3] * entry.q[3][j];
+        sum.m[i][j] +=
+            a[i][0] * entry.q[0][j] + a[i][1] * entry.q[1][j] + a[i][2] * entry.q[2][j] + a[i][3] * entry.q[3][j];
     }
   }
   return best_rotation_from(sum, near);
@@ -109,7 +111,8 @@ double fit_rotations(const SmoothSystem& system, const Affine* transforms, bool 
     const Quaternion d{fit.x - q.x, fit.y - q.y, fit.z - q.z, fit.w - q.w};
     largest = std::max(largest, 2.0 * std::sqrt(2.0 * dot(d, d) * (1.0 - 0.25 * dot(d, d))));
     const double on = relax && cosine > 0.7 ? over_relaxation : 1.0, back = 1.0 - on;
-    q = normalised({on * fit.x + back * q.x, on * fit.y + back * q.y, on * fit.z + back * q.z, on * fit.w + back * q.w});
+    q = normalised(
+        {on * fit.x + back * q.x, on * fit.y + back * q.y, on * fit.z + back * q.z, on * fit.w + back * q.w});
     if (state.leash < pi) q = on_leash(q, state.anchor[g], state.leash);
     state.matrix[g] = to_matrix(q);
   }
@@ -118,8 +121,12 @@ double fit_rotations(const SmoothSystem& system, const Affine* transforms, bool 
 
 }  // namespace
 
-SmoothSystem::SmoothSystem(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups, const HandleFields& fields, Memory& memory)
-    : subspace(make_subspace(core, rest, weights, groups, memory)), handle_count(weights.handle_count), free_count(weights.free_count()), seed_field(&memory) {
+SmoothSystem::SmoothSystem(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,
+                           const HandleFields& fields, Memory& memory)
+    : subspace(make_subspace(core, rest, weights, groups, memory)),
+      handle_count(weights.handle_count),
+      free_count(weights.free_count()),
+      seed_field(&memory) {
   seed_field.reserve(subspace.group.size() * static_cast<std::size_t>(handle_count));
   for (const std::int32_t g : subspace.group) {
     for (std::int32_t i = 0; i < handle_count; ++i) seed_field.push_back(fields.of(i)[groups.seed[g]]);
@@ -135,7 +142,8 @@ void SmoothState::fit(const SmoothSystem& system, const Groups& groups) {
   known.assign(16 * static_cast<std::size_t>(system.free_count), 0.0);
 }
 
-void start_rotations(const SmoothSystem& system, const Groups& groups, std::int32_t component, Span<const Vec3> turns, SmoothState& state) noexcept {
+void start_rotations(const SmoothSystem& system, const Groups& groups, std::int32_t component, Span<const Vec3> turns,
+                     SmoothState& state) noexcept {
   const Subspace& s = system.subspace;
   for (std::size_t g = 0; g < s.group.size(); ++g) {
     if (component >= 0 && groups.component[s.group[g]] != component) continue;
@@ -160,10 +168,12 @@ void set_leash(const SmoothSystem& system, Span<const Vec3> turns, SmoothState& 
   constexpr double slack = 5.0, tight = 7.0, shortest = 0.3;
   state.leash = apart <= slack ? 10.0 : std::max(shortest, pi + (shortest - pi) * (apart - slack) / (tight - slack));
   if (state.leash >= pi) return;
-  for (std::size_t g = 0; g < system.subspace.group.size(); ++g) state.anchor[g] = exponential(blended_turn(system, g, turns));
+  for (std::size_t g = 0; g < system.subspace.group.size(); ++g)
+    state.anchor[g] = exponential(blended_turn(system, g, turns));
 }
 
-SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, double tolerance, SmoothState& state, Affine* transforms) noexcept {
+SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, double tolerance, SmoothState& state,
+                       Affine* transforms) noexcept {
   SolveReport report;
   if (system.free_count == 0) return report;
   const Subspace& s = system.subspace;

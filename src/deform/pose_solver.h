@@ -1,12 +1,16 @@
 // The pose solve of the smooth mode: a few local/global iterations on the reduced elastic energy (subspace.h).
 //
-//   predict: R_g <- exp(sum_i phi_i(seed_g) dw_i) R_g, dw_i = the turn of handle i since the last solve (turns add up, so 450 degrees stay 450);
+//   predict: R_g <- exp(sum_i phi_i(seed_g) dw_i) R_g, dw_i = the turn of handle i since the last solve; turns add up,
+//            so that 450 degrees stay 450;
 //   start:   R_g = exp(sum_i phi_i(seed_g) w_i), w_i = the accumulated turn of handle i;
 //   global:  transforms of the free clusters from the prefactored dense system;
 //   local:   R_g = argmax tr(R' S_g), the step over-relaxed by 1.5 except in the last iteration;
-//   leash:   handles turned against each other by more than 290 degrees leave a pose that can fall back by a whole turn. R_g is then kept
-//            within an angle of exp(sum_i phi_i(seed_g) w_i) that shrinks from 180 degrees to 17 at 400 degrees of turn.
-// Cost: size^2 / 2 multiply-adds on 4 lanes twice, and a rotation per group, per iteration. Allocates nothing, cannot fail.
+//   leash:   handles turned against each other by more than 290 degrees leave a pose that can fall back by a whole
+//            turn. R_g is then kept within an angle of exp(sum_i phi_i(seed_g) w_i) that shrinks from 180 degrees
+//            to 17 at 400 degrees of turn.
+//
+// Cost: size^2 / 2 multiply-adds on 4 lanes twice, and a rotation per group, per iteration. Allocates nothing, cannot
+// fail.
 #pragma once
 #include "deform/blend.h"
 #include "deform/subspace.h"
@@ -15,7 +19,8 @@ namespace hf {
 
 // What stays while handles stay. Immutable once made.
 struct SmoothSystem {
-  SmoothSystem(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups, const HandleFields& fields, Memory& memory);
+  SmoothSystem(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,
+               const HandleFields& fields, Memory& memory);
   Subspace subspace;
   std::int32_t handle_count, free_count;
   Vector<double> seed_field;  // phi_i at the seed of active group k: [k * handle_count + i]
@@ -23,9 +28,15 @@ struct SmoothSystem {
 
 // What a solve leaves for the next.
 struct SmoothState {
-  explicit SmoothState(Memory& memory) : rotation(&memory), anchor(&memory), matrix(&memory), unknown(&memory), known(&memory) {}
+  explicit SmoothState(Memory& memory)
+      : rotation(&memory), anchor(&memory), matrix(&memory), unknown(&memory), known(&memory) {}
   SmoothState(const SmoothState& other, Memory& memory)
-      : rotation(other.rotation, &memory), anchor(other.anchor, &memory), matrix(other.matrix, &memory), unknown(other.unknown, &memory), known(other.known, &memory), leash(other.leash) {}
+      : rotation(other.rotation, &memory),
+        anchor(other.anchor, &memory),
+        matrix(other.matrix, &memory),
+        unknown(other.unknown, &memory),
+        known(other.known, &memory),
+        leash(other.leash) {}
   // Makes room for a system; rotations of groups that were there stay.
   void fit(const SmoothSystem& system, const Groups& groups);
   Vector<Quaternion> rotation;  // per group of Groups
@@ -42,11 +53,14 @@ struct SolveReport {
 };
 
 // Groups of `component`, or of all when it is negative.
-void start_rotations(const SmoothSystem& system, const Groups& groups, std::int32_t component, Span<const Vec3> turns, SmoothState& state) noexcept;
+void start_rotations(const SmoothSystem& system, const Groups& groups, std::int32_t component, Span<const Vec3> turns,
+                     SmoothState& state) noexcept;
 void predict_rotations(const SmoothSystem& system, Span<const Vec3> increments, SmoothState& state) noexcept;
 // Sets leash and anchors for the accumulated turns of the handles.
 void set_leash(const SmoothSystem& system, Span<const Vec3> turns, SmoothState& state) noexcept;
-// transforms: those of the handles are read, those of the free clusters written. Stops early when last_change falls below `tolerance`.
-SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, double tolerance, SmoothState& state, Affine* transforms) noexcept;
+// transforms: those of the handles are read, those of the free clusters written. Stops early when last_change falls
+// below `tolerance`.
+SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, double tolerance, SmoothState& state,
+                       Affine* transforms) noexcept;
 
 }  // namespace hf

@@ -16,7 +16,8 @@ void sort_components(const Mesh& mesh, Rest& rest) {
   rest.component_area.assign(components, 0.0);
   for (std::int32_t v = 0; v < n; ++v) rest.component_area[mesh.component[v]] += rest.area[v];
   rest.component_triangles.assign(components, 0);
-  for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) ++rest.component_triangles[mesh.component[mesh.triangle(t)[0]]];
+  for (std::int32_t t = 0; t < mesh.triangle_count(); ++t)
+    ++rest.component_triangles[mesh.component[mesh.triangle(t)[0]]];
 }
 
 void find_incident_triangles(const Mesh& mesh, Rest& rest) {

@@ -1,5 +1,5 @@
-// The surface at rest as deformation needs it: vertex areas, vertices by component, triangles round a vertex, edge stiffness.
-// Made once per pose, shared by its clones. Cost O(n). On failure nothing is left behind.
+// The surface at rest as deformation needs it: vertex areas, vertices by component, triangles round a vertex, edge
+// stiffness. Made once per pose, shared by its clones. Cost O(n). On failure nothing is left behind.
 #pragma once
 #include <cstdint>
 
@@ -15,16 +15,17 @@ struct Rest {
   Vector<std::int32_t> component_vertex;
   Vector<std::int32_t> component_triangles;  // number of triangles per component
   Vector<double> component_area;
-  Vector<double> area;                       // lumped, per vertex
+  Vector<double> area;  // lumped, per vertex
   // Triangles round vertex v: incident[incident_start[v] .. incident_start[v + 1]), ascending.
   Vector<std::int32_t> incident_start;
   Vector<std::int32_t> incident;
-  // Edge weights of the elastic energy: the operator's, kept in [0.01, 25]. Negative ones would reward collapse, huge ones come
-  // from triangles without area.
+  // Edge weights of the elastic energy: the operator's, kept in [0.01, 25]. Negative ones would reward collapse, huge
+  // ones come from triangles without area.
   Vector<double> stiffness;
 
   Span<const std::int32_t> vertices_of(std::int32_t component) const noexcept {
-    const auto first = static_cast<std::size_t>(component_start[component]), last = static_cast<std::size_t>(component_start[component + 1]);
+    const auto first = static_cast<std::size_t>(component_start[component]),
+               last = static_cast<std::size_t>(component_start[component + 1]);
     return {component_vertex.data() + first, last - first};
   }
 };

@@ -68,7 +68,8 @@ Quadratic expand(const Mat3& s, const Mat3& r) noexcept {
   Quadratic q;
   q.a = {b.m[2][1] - b.m[1][2], b.m[0][2] - b.m[2][0], b.m[1][0] - b.m[0][1]};
   q.h00 = b.m[1][1] + b.m[2][2], q.h11 = b.m[0][0] + b.m[2][2], q.h22 = b.m[0][0] + b.m[1][1];
-  q.h01 = -0.5 * (b.m[0][1] + b.m[1][0]), q.h02 = -0.5 * (b.m[0][2] + b.m[2][0]), q.h12 = -0.5 * (b.m[1][2] + b.m[2][1]);
+  q.h01 = -0.5 * (b.m[0][1] + b.m[1][0]), q.h02 = -0.5 * (b.m[0][2] + b.m[2][0]),
+  q.h12 = -0.5 * (b.m[1][2] + b.m[2][1]);
   return q;
 }
 
@@ -148,7 +149,8 @@ Quaternion operator*(const Quaternion& a, const Quaternion& b) noexcept {
 }
 
 Quaternion normalised(const Quaternion& q) noexcept {
-  const double largest = std::fmax(std::fmax(std::fabs(q.x), std::fabs(q.y)), std::fmax(std::fabs(q.z), std::fabs(q.w)));
+  const double largest =
+      std::fmax(std::fmax(std::fabs(q.x), std::fabs(q.y)), std::fmax(std::fabs(q.z), std::fabs(q.w)));
   if (!(largest > 0) || !std::isfinite(q.x + q.y + q.z + q.w)) return {};
   const double x = q.x / largest, y = q.y / largest, z = q.z / largest, w = q.w / largest;
   const double s = 1.0 / std::sqrt(x * x + y * y + z * z + w * w);
@@ -271,7 +273,8 @@ Quaternion best_rotation_from(const Mat3& s, const Quaternion& near) noexcept {
   return best_rotation(s, near);
 }
 
-RigidMotion fit_rigid(Span<const Vec3> rest, Span<const Vec3> posed, Span<const double> weights, const Quaternion& near) noexcept {
+RigidMotion fit_rigid(Span<const Vec3> rest, Span<const Vec3> posed, Span<const double> weights,
+                      const Quaternion& near) noexcept {
   const std::size_t count = rest.size();
   double sum = 0;
   Vec3 rest_centre, posed_centre;

@@ -6,9 +6,9 @@
 namespace hf {
 namespace {
 
-constexpr double rigidity = 1e-3;            // eps, relative to the mean diagonal of the cluster's linear part
-constexpr double edge_samples = 60000;       // about this many edges are used
-constexpr std::int32_t few_edges = 1500;     // clusters with fewer are never sampled
+constexpr double rigidity = 1e-3;         // eps, relative to the mean diagonal of the cluster's linear part
+constexpr double edge_samples = 60000;    // about this many edges are used
+constexpr std::int32_t few_edges = 1500;  // clusters with fewer are never sampled
 
 // z_c(e) of one edge, clusters ascending.
 struct EdgeRow {
@@ -24,9 +24,19 @@ struct EdgeRow {
 
 class Assembly {
  public:
-  Assembly(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups, Subspace& out, Memory& memory)
-      : core_(core), rest_(rest), weights_(weights), groups_(groups), out_(out), memory_(memory), elastic_(&memory), slot_of_group_(&memory),
-        edge_count_(&memory), entry_of_(&memory), row_(memory) {}
+  Assembly(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups, Subspace& out,
+           Memory& memory)
+      : core_(core),
+        rest_(rest),
+        weights_(weights),
+        groups_(groups),
+        out_(out),
+        memory_(memory),
+        elastic_(&memory),
+        slot_of_group_(&memory),
+        edge_count_(&memory),
+        entry_of_(&memory),
+        row_(memory) {}
 
   void run() {
     find_elastic_components();
@@ -61,7 +71,8 @@ class Assembly {
   void count_edges() {
     edge_count_.assign(weights_.cluster_count, 0);
     std::int32_t widest = 0;
-    for (std::int32_t v = 0; v < core_.size(); ++v) widest = std::max(widest, weights_.start[v + 1] - weights_.start[v]);
+    for (std::int32_t v = 0; v < core_.size(); ++v)
+      widest = std::max(widest, weights_.start[v + 1] - weights_.start[v]);
     row_.resize(2 * static_cast<std::size_t>(widest));
     elastic_edges_ = 0;
     const Topology& topology = core_.topology;
@@ -117,7 +128,9 @@ class Assembly {
   }
 
   Subspace::Entry& entry(std::int32_t group, std::int32_t cluster) noexcept {
-    return out_.entry[entry_of_[static_cast<std::size_t>(slot_of_group_[group]) * static_cast<std::size_t>(weights_.cluster_count) + static_cast<std::size_t>(cluster)]];
+    return out_.entry[entry_of_[static_cast<std::size_t>(slot_of_group_[group]) *
+                                    static_cast<std::size_t>(weights_.cluster_count) +
+                                static_cast<std::size_t>(cluster)]];
   }
 
   void fill_row(std::int32_t i, std::int32_t j, EdgeRow& row) const noexcept {
@@ -127,7 +140,8 @@ class Assembly {
     const std::int32_t a_end = weights_.start[i + 1], b_end = weights_.start[j + 1];
     row.count = 0;
     while (a < a_end || b < b_end) {
-      const std::int32_t ca = a < a_end ? weights_.cluster[a] : 0x7fffffff, cb = b < b_end ? weights_.cluster[b] : 0x7fffffff;
+      const std::int32_t ca = a < a_end ? weights_.cluster[a] : 0x7fffffff,
+                         cb = b < b_end ? weights_.cluster[b] : 0x7fffffff;
       const double wa = ca <= cb ? weights_.weight[a] : 0.0, wb = cb <= ca ? weights_.weight[b] : 0.0;
       row.cluster[row.count] = std::min(ca, cb);
       for (int k = 0; k < 4; ++k) row.z[row.count].x[k] = wa * pi[k] - wb * pj[k];
@@ -158,14 +172,16 @@ class Assembly {
 
   // L of the edge's r-th cluster, a free one, with those before it and itself.
   void add_blocks(std::int32_t r, double w) noexcept {
-    const std::size_t handles = static_cast<std::size_t>(weights_.handle_count), size = 4 * static_cast<std::size_t>(weights_.free_count());
+    const std::size_t handles = static_cast<std::size_t>(weights_.handle_count),
+                      size = 4 * static_cast<std::size_t>(weights_.free_count());
     const std::size_t row_first = 4 * (static_cast<std::size_t>(row_.cluster[r]) - handles);
     double wz[4];
     for (int a = 0; a < 4; ++a) wz[a] = w * row_.z[r].x[a];
     for (std::int32_t s = 0; s <= r; ++s) {
       const std::size_t c = static_cast<std::size_t>(row_.cluster[s]);
       const std::size_t stride = c < handles ? 4 * handles : size;
-      double* block = (c < handles ? out_.coupling.data() + 4 * c : lower_.data() + 4 * (c - handles)) + row_first * stride;
+      double* block =
+          (c < handles ? out_.coupling.data() + 4 * c : lower_.data() + 4 * (c - handles)) + row_first * stride;
       for (std::size_t a = 0; a < 4; ++a) {
         for (std::size_t b = 0; b < 4; ++b) block[a * stride + b] += wz[a] * row_.z[s].x[b];
       }
@@ -198,7 +214,8 @@ class Assembly {
       for (std::size_t g = 0; g < out_.group.size(); ++g) {
         for (std::int32_t k = out_.entry_start[g]; k < out_.entry_start[g + 1]; ++k) {
           const Subspace::Entry& entry = out_.entry[k];
-          if (entry.cluster >= weights_.handle_count && entry.area > 0) use(static_cast<std::int32_t>(g), entry.cluster - weights_.handle_count, entry.area);
+          if (entry.cluster >= weights_.handle_count && entry.area > 0)
+            use(static_cast<std::int32_t>(g), entry.cluster - weights_.handle_count, entry.area);
         }
       }
     };
@@ -215,10 +232,10 @@ class Assembly {
   const Groups& groups_;
   Subspace& out_;
   Memory& memory_;
-  Vector<std::uint8_t> elastic_;           // per component
-  Vector<std::int32_t> slot_of_group_;     // position in out_.group, or -1
-  Vector<std::int32_t> edge_count_;        // per cluster, ends counted
-  Vector<std::int32_t> entry_of_;          // per active group and cluster
+  Vector<std::uint8_t> elastic_;        // per component
+  Vector<std::int32_t> slot_of_group_;  // position in out_.group, or -1
+  Vector<std::int32_t> edge_count_;     // per cluster, ends counted
+  Vector<std::int32_t> entry_of_;       // per active group and cluster
   double elastic_edges_ = 0;
   Buffer<double> lower_;
   EdgeRow row_;
@@ -226,7 +243,8 @@ class Assembly {
 
 }  // namespace
 
-Subspace make_subspace(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups, Memory& memory) {
+Subspace make_subspace(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,
+                       Memory& memory) {
   Subspace subspace(memory);
   Assembly(core, rest, weights, groups, subspace, memory).run();
   return subspace;

@@ -2,14 +2,16 @@
 //
 //     E(A, R) = 1/2 sum_e w_e |x_i - x_j - R (p_i - p_j)|^2,   x_v = sum_c W_vc A_c (p_v, 1)
 //
-// as-rigid-as-possible (Sorkine and Alexa 2007) in a reduced subspace with one rotation per group of vertices (Jacobson et al. 2012). With
-// z_c(e) = W_ic (p_i, 1) - W_jc (p_j, 1) and X_c = A_c' (4 x 3), for fixed rotations
-//     sum_d L_cd X_d = sum_g Q_gc R_g' + eps_c Rbar_c',   L_cd = sum_e w_e z_c z_d',   Q_gc = sum_{e at g} w_e/2 z_c (p_i - p_j)',
-// over the free clusters d; those of handles are given. eps_c keeps a cluster that the energy leaves free near the mean rotation Rbar_c of its
-// groups. For fixed transforms R_g = argmax tr(R' S_g), S_g = sum_c A_c Q_gc.
+// as-rigid-as-possible (Sorkine and Alexa 2007) in a reduced subspace with one rotation per group of vertices (Jacobson
+// et al. 2012). With z_c(e) = W_ic (p_i, 1) - W_jc (p_j, 1) and X_c = A_c' (4 x 3), for fixed rotations
+//     sum_d L_cd X_d = sum_g Q_gc R_g' + eps_c Rbar_c',
+//     L_cd = sum_e w_e z_c z_d',   Q_gc = sum_{e at g} w_e/2 z_c (p_i - p_j)',
+// over the free clusters d; those of handles are given. eps_c keeps a cluster that the energy leaves free near the mean
+// rotation Rbar_c of its groups. For fixed transforms R_g = argmax tr(R' S_g), S_g = sum_c A_c Q_gc.
 //
 // On large meshes edges are sampled, with 1 / probability as weight, never those of clusters that have few.
-// Cost: edges times the square of the clusters at an edge, and one dense factorisation. On failure nothing is left behind.
+// Cost: edges times the square of the clusters at an edge, and one dense factorisation. On failure nothing is left
+// behind.
 #pragma once
 #include <cstdint>
 
@@ -21,7 +23,14 @@
 namespace hf {
 
 struct Subspace {
-  explicit Subspace(Memory& memory) : group(&memory), entry_start(&memory), entry(&memory), mean_start(&memory), mean(&memory), stiffness(&memory), factor(memory) {}
+  explicit Subspace(Memory& memory)
+      : group(&memory),
+        entry_start(&memory),
+        entry(&memory),
+        mean_start(&memory),
+        mean(&memory),
+        stiffness(&memory),
+        factor(memory) {}
 
   // What a group says to a cluster.
   struct Entry {
@@ -37,13 +46,14 @@ struct Subspace {
   Vector<std::int32_t> group;        // groups of the elastic components, ascending
   Vector<std::int32_t> entry_start;  // entries of group[k]: entry[entry_start[k] .. entry_start[k + 1])
   Vector<Entry> entry;
-  Vector<std::int32_t> mean_start;   // groups under free cluster f: mean[mean_start[f] .. mean_start[f + 1])
+  Vector<std::int32_t> mean_start;  // groups under free cluster f: mean[mean_start[f] .. mean_start[f + 1])
   Vector<Share> mean;
-  Vector<double> stiffness;          // eps_c per free cluster
-  Buffer<double> coupling;           // L between free (rows) and handle clusters (columns), 4 x 4 blocks, row-major
-  DenseFactor factor;                // of the free block
+  Vector<double> stiffness;  // eps_c per free cluster
+  Buffer<double> coupling;   // L between free (rows) and handle clusters (columns), 4 x 4 blocks, row-major
+  DenseFactor factor;        // of the free block
 };
 
-Subspace make_subspace(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups, Memory& memory);
+Subspace make_subspace(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,
+                       Memory& memory);
 
 }  // namespace hf

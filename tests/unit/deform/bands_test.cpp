@@ -40,7 +40,8 @@ double leak_with(std::uint32_t samples) {
   PoseOptions options;
   options.samples_per_ring = samples;
   const auto pose = Pose::make(core, options);
-  const auto numbers = add(*pose, {select(*core, [](Vec3 p) { return p.y < 0.8; }), select(*core, [](Vec3 p) { return p.y > 3.2; })});
+  const auto numbers =
+      add(*pose, {select(*core, [](Vec3 p) { return p.y < 0.8; }), select(*core, [](Vec3 p) { return p.y > 3.2; })});
   const std::uint32_t expected = samples == 0 ? 128 : samples;
   EXPECT_EQ(pose->handle(numbers[0]).site_count, expected);
   return std::max(pose->handle(numbers[0]).leak, pose->handle(numbers[1]).leak);
@@ -84,7 +85,8 @@ TEST(Handles, FieldsEqualADirectSolve) {
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(a);
   const Eigen::VectorXd oracle = ldlt.solve(b);
   double largest = 0;
-  for (int v = 0; v < core.size(); ++v) largest = std::max(largest, std::fabs(d.pose->field(d.handles[1])[v] - oracle(v)));
+  for (int v = 0; v < core.size(); ++v)
+    largest = std::max(largest, std::fabs(d.pose->field(d.handles[1])[v] - oracle(v)));
   EXPECT_LT(largest, 1e-11);
 }
 
@@ -92,7 +94,8 @@ TEST(Handles, FieldsAreExactOnTheRegionsAndSumToOne) {
   const auto core = hf_test::make_core(plain(samples::cactus(2000)));
   const auto pose = Pose::make(core, {});
   std::vector<std::vector<std::int32_t>> regions;
-  for (int k = 0; k < 5; ++k) regions.push_back(select(*core, [&](Vec3 p) { return p.y > 0.4 * k && p.y < 0.4 * k + 0.06; }));
+  for (int k = 0; k < 5; ++k)
+    regions.push_back(select(*core, [&](Vec3 p) { return p.y > 0.4 * k && p.y < 0.4 * k + 0.06; }));
   const auto numbers = add(*pose, regions);
   for (std::int32_t v = 0; v < core->size(); ++v) {
     double sum = 0;
@@ -142,7 +145,8 @@ TEST(Bands, EqualLengthLevelsFollowTheLengthOfATubeOfChangingWidth) {
   }
   const auto core = hf_test::make_core(mesh);
   const auto pose = Pose::make(core, {});
-  const auto numbers = add(*pose, {select(*core, [](Vec3 p) { return p.y < 0.1; }), select(*core, [](Vec3 p) { return p.y > 3.9; })});
+  const auto numbers =
+      add(*pose, {select(*core, [](Vec3 p) { return p.y < 0.1; }), select(*core, [](Vec3 p) { return p.y > 3.9; })});
   Memory memory;
   const Rest rest_surface(*core, memory);
   HandleFields fields(core->size(), 2, memory);
@@ -172,7 +176,8 @@ TEST_P(Weights, CoverEveryVertexOfReachedComponentsAndSumToOne) {
   options.mode = static_cast<DeformMode>(GetParam());
   const auto pose = Pose::make(core, options);
   const auto top = select(*core, [](Vec3 p) { return p.x < 3 && p.y > 1.7; });
-  add(*pose, {select(*core, [](Vec3 p) { return p.x < 3 && p.y < 0.1; }), top, select(*core, [](Vec3 p) { return p.x > 0.5 && p.x < 2 && p.y > 1.2; }),
+  add(*pose, {select(*core, [](Vec3 p) { return p.x < 3 && p.y < 0.1; }), top,
+              select(*core, [](Vec3 p) { return p.x > 0.5 && p.x < 2 && p.y > 1.2; }),
               select(*core, [](Vec3 p) { return p.x > 4 && p.x < 6.5 && p.y > 0.5; })});
   const ClusterWeights& w = *pose->weights();
   EXPECT_EQ(w.handle_count, 4);
@@ -183,7 +188,9 @@ TEST_P(Weights, CoverEveryVertexOfReachedComponentsAndSumToOne) {
     double sum = 0;
     for (std::int32_t k = w.start[v]; k < w.start[v + 1]; ++k) {
       EXPECT_GT(w.weight[k], 0);
-      if (k > w.start[v]) { EXPECT_LT(w.cluster[k - 1], w.cluster[k]); }
+      if (k > w.start[v]) {
+        EXPECT_LT(w.cluster[k - 1], w.cluster[k]);
+      }
       sum += w.weight[k];
     }
     const double x = core->mesh.to_given(core->mesh.positions[v]).x;
@@ -193,7 +200,9 @@ TEST_P(Weights, CoverEveryVertexOfReachedComponentsAndSumToOne) {
     } else {
       EXPECT_NEAR(sum, 1, 1e-14);
     }
-    if (x > 3 && x < 8) { EXPECT_EQ(w.cluster[w.start[v]], 3); }
+    if (x > 3 && x < 8) {
+      EXPECT_EQ(w.cluster[w.start[v]], 3);
+    }
   }
   EXPECT_EQ(unreached, w.unreached_vertex_count);
   for (const std::int32_t v : top) {
@@ -203,11 +212,33 @@ TEST_P(Weights, CoverEveryVertexOfReachedComponentsAndSumToOne) {
 }
 INSTANTIATE_TEST_SUITE_P(Modes, Weights, ::testing::Values(0, 1));
 
+TEST(Bands, OfTwoHandlesAreTheBasisOfOneField) {
+  const auto core = hf_test::make_core(tube(24, 60, 4));
+  PoseOptions options;
+  options.mode = DeformMode::paper;
+  const auto pose = Pose::make(core, options);
+  const auto numbers =
+      add(*pose, {select(*core, [](Vec3 p) { return p.y < 0.5; }), select(*core, [](Vec3 p) { return p.y > 3.5; })});
+  const ClusterWeights& w = *pose->weights();
+  ASSERT_EQ(w.free_count(), w.band_count);
+  for (std::int32_t v = 0; v < core->size(); ++v) {
+    const BandValues b = band_values(pose->field(numbers[1])[v], w.band_count, 1);
+    double low = 0, high = 0;
+    for (std::int32_t k = w.start[v]; k < w.start[v + 1]; ++k) {
+      if (w.cluster[k] == 0) low = w.weight[k];
+      if (w.cluster[k] == 1) high = w.weight[k];
+    }
+    EXPECT_NEAR(low, b.first == 0 ? b.value[0] : 0.0, 2e-3);
+    EXPECT_NEAR(high, b.first == w.band_count ? b.value[1] : 0.0, 2e-3);
+  }
+}
+
 TEST(Bands, AreSplitByConnectedComponent) {
   // between two handles on a torus every level passes two tubes
   const auto core = hf_test::make_core(plain(samples::jittered_torus(60, 24)));
   const auto pose = Pose::make(core, {});
-  add(*pose, {select(*core, [](Vec3 p) { return p.x > 0 && std::fabs(p.z) < 0.06; }), select(*core, [](Vec3 p) { return p.x < 0 && std::fabs(p.z) < 0.06; })});
+  add(*pose, {select(*core, [](Vec3 p) { return p.x > 0 && std::fabs(p.z) < 0.06; }),
+              select(*core, [](Vec3 p) { return p.x < 0 && std::fabs(p.z) < 0.06; })});
   EXPECT_EQ(pose->weights()->free_count(), 2 * pose->weights()->band_count);
   // each cluster is one connected piece
   const ClusterWeights& w = *pose->weights();
@@ -264,7 +295,9 @@ TEST(Groups, CoverElasticComponentsAndKeepTheirNumbers) {
   EXPECT_EQ(both->count(), 200);
   for (std::int32_t v = 0; v < core->size(); ++v) {
     EXPECT_GE(both->group_of[v], 0);
-    if (core->mesh.component[v] == 0) { EXPECT_EQ(both->group_of[v], first->group_of[v]); }
+    if (core->mesh.component[v] == 0) {
+      EXPECT_EQ(both->group_of[v], first->group_of[v]);
+    }
     EXPECT_EQ(both->component[both->group_of[v]], core->mesh.component[v]);
   }
   for (std::int32_t g = 0; g < both->count(); ++g) EXPECT_EQ(both->group_of[both->seed[g]], g);
@@ -298,7 +331,9 @@ TEST(DenseFactor, SolvesLikeEigenAndDropsDependentUnknowns) {
       for (int k = 0; k < 3; ++k) solved(i, k) = x[static_cast<std::size_t>(4 * i + k)];
     }
     EXPECT_LT((a * solved - b).norm(), 1e-8 * (1 + b.norm()));
-    if (rank == size) { EXPECT_LT((solved - a.llt().solve(b)).norm(), 1e-6 * truth.norm()); }
+    if (rank == size) {
+      EXPECT_LT((solved - a.llt().solve(b)).norm(), 1e-6 * truth.norm());
+    }
   }
 }
 

@@ -88,7 +88,9 @@ inline Case bar_twist(double degrees, std::uint32_t n = 16) {
   c.name = "bar " + std::to_string(static_cast<int>(degrees));
   c.mesh = plain(samples::box(1, 6, 1, n, 6 * n, n));
   c.regions = {[](Vec3 p) { return p.y < 0.45; }, [](Vec3 p) { return p.y > 5.55; }};
-  c.motion = [=](std::size_t, double t, Vec3) { return hf::HandleTransform{about({0, 1, 0}, t * degrees * pi / 180), {}}; };
+  c.motion = [=](std::size_t, double t, Vec3) {
+    return hf::HandleTransform{about({0, 1, 0}, t * degrees * pi / 180), {}};
+  };
   return c;
 }
 
@@ -105,7 +107,8 @@ inline Case plane_lift(std::uint32_t side = 101) {
   Case c;
   c.name = "plane lift";
   c.mesh = plain(samples::bumpy_plane(side, side));
-  c.regions = {[](Vec3 p) { return std::max(std::fabs(p.x), std::fabs(p.z)) > 0.9; }, [](Vec3 p) { return std::hypot(p.x, p.z) < 0.2; }};
+  c.regions = {[](Vec3 p) { return std::max(std::fabs(p.x), std::fabs(p.z)) > 0.9; },
+               [](Vec3 p) { return std::hypot(p.x, p.z) < 0.2; }};
   c.motion = [](std::size_t, double t, Vec3) { return hf::HandleTransform{{}, {0, t * 1.0, 0}}; };
   c.closed = false;
   return c;
@@ -116,17 +119,21 @@ inline Case scan_reach(const hf_test::PlainMesh& mesh) {
   Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300}, hand{1e300, 0, 0};
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3 p{mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]};
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)}, high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)},
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     if (p.x < hand.x) hand = p;
   }
   const double height = high.y - low.y, middle = 0.5 * (low.x + high.x), floor = low.y + 0.13 * height;
   Case c;
   c.name = "scan reach";
   c.mesh = mesh;
-  c.regions = {[=](Vec3 p) { return p.y < floor && p.x < middle; }, [=](Vec3 p) { return p.y < floor && p.x >= middle; },
+  c.regions = {[=](Vec3 p) { return p.y < floor && p.x < middle; },
+               [=](Vec3 p) { return p.y < floor && p.x >= middle; },
                [=](Vec3 p) { return norm(p - hand) < 0.13 * height; }};
   c.motion = [=](std::size_t handle, double t, Vec3) {
-    return handle == 2 ? hf::HandleTransform{about({0, 1, 1}, t * 0.7), {-0.12 * t * height, 0.03 * t * height, -0.1 * t * height}} : hf::HandleTransform{};
+    return handle == 2 ? hf::HandleTransform{about({0, 1, 1}, t * 0.7),
+                                             {-0.12 * t * height, 0.03 * t * height, -0.1 * t * height}}
+                       : hf::HandleTransform{};
   };
   return c;
 }
@@ -149,10 +156,12 @@ inline Dragged set_up(const Case& c, const hf::PoseOptions& options, std::uint32
 }
 
 inline void move_to(const Case& c, Dragged& d, double t) {
-  for (std::size_t i = 1; i < d.handles.size(); ++i) place(*d.pose, d.handles[i], c.motion(i, t, d.pose->handle(d.handles[i]).centroid));
+  for (std::size_t i = 1; i < d.handles.size(); ++i)
+    place(*d.pose, d.handles[i], c.motion(i, t, d.pose->handle(d.handles[i]).centroid));
 }
 
-inline Dragged drag(const Case& c, const hf::PoseOptions& options, int frames = 30, std::uint32_t iterations = 5, std::uint32_t threads = 1) {
+inline Dragged drag(const Case& c, const hf::PoseOptions& options, int frames = 30, std::uint32_t iterations = 5,
+                    std::uint32_t threads = 1) {
   Dragged d = set_up(c, options, threads);
   d.pose->deform({});
   for (int frame = 1; frame <= frames; ++frame) {
@@ -162,7 +171,9 @@ inline Dragged drag(const Case& c, const hf::PoseOptions& options, int frames = 
   return d;
 }
 
-inline std::vector<Vec3> positions(const hf::DeformReport& report) { return {report.positions.begin(), report.positions.end()}; }
+inline std::vector<Vec3> positions(const hf::DeformReport& report) {
+  return {report.positions.begin(), report.positions.end()};
+}
 
 inline std::vector<Vec3> rest(const hf::Core& core) {
   std::vector<Vec3> out;
@@ -177,13 +188,14 @@ inline double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec
 }
 
 struct Quality {
-  double energy = 0;          // spokes-and-rims-free ARAP, one best rotation per vertex
-  double edge_share = 0;      // per cent of edges whose length ratio lies in [0.8, 1.25]
+  double energy = 0;      // spokes-and-rims-free ARAP, one best rotation per vertex
+  double edge_share = 0;  // per cent of edges whose length ratio lies in [0.8, 1.25]
   double edge_min = 1, edge_max = 1, p01 = 1, p99 = 1;
-  double volume = 0;          // change in per cent
+  double volume = 0;            // change in per cent
   double smallest_stretch = 1;  // smallest singular value of any triangle's map
-  double dihedral_max = 0;    // largest change, degrees
-  double roughness = 0;       // area-weighted jump between neighbours of the change of mean curvature, times the box diagonal
+  double dihedral_max = 0;      // largest change, degrees
+  double roughness =
+      0;  // area-weighted jump between neighbours of the change of mean curvature, times the box diagonal
 };
 
 inline double signed_volume(const hf::Mesh& mesh, const std::vector<Vec3>& x) {
@@ -224,7 +236,8 @@ inline double arap_energy(const hf::Core& core, const std::vector<Vec3>& rest_po
     hf::Mat3 s;
     for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
       const std::int32_t u = topology.neighbour[k];
-      hf::add_outer(s, std::max(core.weights[topology.neighbour_edge[k]], 0.01), x[v] - x[u], rest_positions[v] - rest_positions[u]);
+      hf::add_outer(s, std::max(core.weights[topology.neighbour_edge[k]], 0.01), x[v] - x[u],
+                    rest_positions[v] - rest_positions[u]);
     }
     const hf::Quaternion r = hf::best_rotation(s, {});
     for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
@@ -251,7 +264,8 @@ inline Quality measure(const hf::Core& core, const std::vector<Vec3>& x) {
   }
   std::sort(ratios.begin(), ratios.end());
   q.edge_share = 100.0 * inside / static_cast<double>(ratios.size());
-  q.edge_min = ratios.front(), q.edge_max = ratios.back(), q.p01 = ratios[ratios.size() / 100], q.p99 = ratios[ratios.size() * 99 / 100];
+  q.edge_min = ratios.front(), q.edge_max = ratios.back(), q.p01 = ratios[ratios.size() / 100],
+  q.p99 = ratios[ratios.size() * 99 / 100];
   q.volume = 100 * (signed_volume(mesh, x) / signed_volume(mesh, p) - 1);
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::int32_t* k = mesh.triangle(t);

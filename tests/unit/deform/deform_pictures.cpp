@@ -1,5 +1,5 @@
-// Pictures of the classic cases for the eye, and the table of their figures: paper's mode (10 iterations a frame, and converged) beside the
-// smooth mode. Not a test: run it by hand.
+// Pictures of the classic cases for the eye, and the table of their figures: paper's mode (10 iterations a frame, and
+// converged) beside the smooth mode. Not a test: run it by hand.
 //   deform_pictures OUT_FOLDER [large | time | SCAN_FILE]
 #include <chrono>
 #include <cstdio>
@@ -38,9 +38,12 @@ samples::Picture draw(const Dragged& d, const Case& c, bool stripes) {
 
 void row(const char* mode, const Case& c, const Dragged& d, double ms) {
   const Quality q = measure(*d.core, positions(d.report));
-  std::printf("%-13s n=%-6d %-14s C=%-3u it %-4u solve %6.2f blend %5.2f ms frame %6.2f | E %9.5f in %6.2f e %.2f..%.2f p99 %.3f vol %6.2f s2 %.3f dih %6.1f rough %.3f\n", c.name.c_str(),
-              d.core->size(), mode, d.report.cluster_count, d.report.iteration_count, d.report.solve_ms, d.report.blend_ms, ms, q.energy, q.edge_share, q.edge_min, q.edge_max, q.p99,
-              c.closed ? q.volume : 0.0, q.smallest_stretch, q.dihedral_max, q.roughness);
+  std::printf(
+      "%-13s n=%-6d %-14s C=%-3u it %-4u solve %6.2f blend %5.2f ms frame %6.2f | E %9.5f in %6.2f e %.2f..%.2f p99 "
+      "%.3f vol %6.2f s2 %.3f dih %6.1f rough %.3f\n",
+      c.name.c_str(), d.core->size(), mode, d.report.cluster_count, d.report.iteration_count, d.report.solve_ms,
+      d.report.blend_ms, ms, q.energy, q.edge_share, q.edge_min, q.edge_max, q.p99, c.closed ? q.volume : 0.0,
+      q.smallest_stretch, q.dihedral_max, q.roughness);
 }
 
 hf_test::PlainMesh read(const std::string& file) {
@@ -60,7 +63,9 @@ int time_all() {
       std::vector<std::vector<std::int32_t>> regions;
       for (int i = 0; i < count; ++i) {
         const double a = 2 * pi * i / count;
-        regions.push_back(select(*core, [&](Vec3 p) { return hf::norm(p - Vec3{1.4 * std::cos(a), 0, 1.4 * std::sin(a)}) < 0.1; }));
+        regions.push_back(select(*core, [&](Vec3 p) {
+          return hf::norm(p - Vec3{1.4 * std::cos(a), 0, 1.4 * std::sin(a)}) < 0.1;
+        }));
       }
       const auto seconds = [](auto&& work) {
         const auto start = std::chrono::steady_clock::now();
@@ -77,13 +82,17 @@ int time_all() {
       for (int frame = 0; frame < 20; ++frame) {
         place(*pose, numbers[0], {about({1, 0, 0}, 0.02 * frame), {0, 0, 0.01 * frame}});
         const hf::DeformReport r = pose->deform({true, 5, false});
-        solve = std::min(solve, r.solve_ms), blend = std::min(blend, r.blend_ms), normal = std::min(normal, r.normal_ms), clusters = r.cluster_count;
+        solve = std::min(solve, r.solve_ms), blend = std::min(blend, r.blend_ms),
+        normal = std::min(normal, r.normal_ms), clusters = r.cluster_count;
       }
       std::size_t sites = 0;
       for (const std::uint32_t n : numbers) sites += pose->handle(n).site_count;
       std::printf("sites %zu ", sites);
-      std::printf("n=%-6d handles %-3d C=%-4u weights %5.1f per vertex | add %7.1f ms, one more %7.1f ms | 5 iterations %6.3f ms, blend %5.2f ms (%.1f ns a vertex), normals %5.2f ms\n", core->size(),
-                  count, clusters, static_cast<double>(pose->weights()->weight.size()) / core->size(), first, second, solve, blend, 1e6 * blend / core->size(), normal);
+      std::printf(
+          "n=%-6d handles %-3d C=%-4u weights %5.1f per vertex | add %7.1f ms, one more %7.1f ms | 5 iterations %6.3f "
+          "ms, blend %5.2f ms (%.1f ns a vertex), normals %5.2f ms\n",
+          core->size(), count, clusters, static_cast<double>(pose->weights()->weight.size()) / core->size(), first,
+          second, solve, blend, 1e6 * blend / core->size(), normal);
     }
   }
   return 0;
@@ -104,7 +113,8 @@ int main(int argc, char** argv) {
     const auto run = [&](const char* mode, hf::PoseOptions options, std::uint32_t iterations, int settle) {
       const auto start = std::chrono::steady_clock::now();
       Dragged d = drag(c, options, 30, iterations);
-      const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() / 30;
+      const double ms =
+          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() / 30;
       for (int i = 0; i < settle; ++i) d.report = d.pose->deform({false, 1000, false});
       row(mode, c, d, ms);
       tiles.push_back(draw(d, c, false)), lower.push_back(draw(d, c, true));
@@ -117,7 +127,9 @@ int main(int argc, char** argv) {
     tiles.insert(tiles.end(), lower.begin(), lower.end());
     std::string file = c.name;
     std::replace(file.begin(), file.end(), ' ', '_');
-    samples::write_png(folder + "/" + file + ".png", samples::contact_sheet(tiles, 3, {"paper, 10 a frame", "paper, converged", "smooth, 5 a frame"}, c.name));
+    samples::write_png(
+        folder + "/" + file + ".png",
+        samples::contact_sheet(tiles, 3, {"paper, 10 a frame", "paper, converged", "smooth, 5 a frame"}, c.name));
   }
   return 0;
 }

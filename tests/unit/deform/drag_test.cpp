@@ -13,13 +13,15 @@ using namespace deform_test;
 // Turn of the surface from the lower to the upper end, section by section, in degrees.
 double total_twist(const Core& core, Span<const Vec3> x) {
   std::map<long, std::vector<std::int32_t>> sections;
-  for (std::int32_t v = 0; v < core.size(); ++v) sections[std::lround(1e4 * core.mesh.to_given(core.mesh.positions[v]).y)].push_back(v);
+  for (std::int32_t v = 0; v < core.size(); ++v)
+    sections[std::lround(1e4 * core.mesh.to_given(core.mesh.positions[v]).y)].push_back(v);
   double total = 0, last = 0;
   bool first = true;
   for (const auto& section : sections) {
     double sine = 0, cosine = 0;
     Vec3 centre, posed_centre;
-    for (const std::int32_t v : section.second) centre = centre + core.mesh.to_given(core.mesh.positions[v]), posed_centre = posed_centre + x[v];
+    for (const std::int32_t v : section.second)
+      centre = centre + core.mesh.to_given(core.mesh.positions[v]), posed_centre = posed_centre + x[v];
     const double scale = 1.0 / static_cast<double>(section.second.size());
     for (const std::int32_t v : section.second) {
       const Vec3 a = core.mesh.to_given(core.mesh.positions[v]) - scale * centre, b = x[v] - scale * posed_centre;
@@ -47,7 +49,8 @@ TEST(Drag, ATwistOf450DegreesIsKept) {
       }
       const double trembled = total_twist(*d.core, d.report.positions);
       const Quality q = measure(*d.core, positions(d.report));
-      std::printf("twist %.0f in %d frames: %.2f, held %.2f, trembling %.2f, volume %.1f %%, smallest stretch %.2f\n", degrees, frames, dragged, held, trembled, q.volume, q.smallest_stretch);
+      std::printf("twist %.0f in %d frames: %.2f, held %.2f, trembling %.2f, volume %.1f %%, smallest stretch %.2f\n",
+                  degrees, frames, dragged, held, trembled, q.volume, q.smallest_stretch);
       EXPECT_NEAR(dragged, degrees, 0.01);
       EXPECT_NEAR(held, degrees, 0.01);
       EXPECT_NEAR(trembled, degrees, 0.5);

@@ -62,14 +62,16 @@ INSTANTIATE_TEST_SUITE_P(SmoothAndPaper, Modes, ::testing::Values(0, 1));
 TEST_P(Modes, HandlesLandExactlyOnTheirTargets) {
   const auto core = hf_test::make_core(plain(samples::cactus(2000)));
   const auto pose = Pose::make(core, options());
-  const std::vector<std::vector<std::int32_t>> regions{
-      select(*core, [](Vec3 p) { return p.y < 0.1; }), select(*core, [](Vec3 p) { return p.x > 0.45 && p.y > 1.1; }), select(*core, [](Vec3 p) { return p.y > 1.75; }),
-      {core->size() / 2}};
+  const std::vector<std::vector<std::int32_t>> regions{select(*core, [](Vec3 p) { return p.y < 0.1; }),
+                                                       select(*core, [](Vec3 p) { return p.x > 0.45 && p.y > 1.1; }),
+                                                       select(*core, [](Vec3 p) { return p.y > 1.75; }),
+                                                       {core->size() / 2}};
   const auto numbers = add(*pose, regions);
   RandomMotion random(5);
   for (int round = 0; round < 20; ++round) {
     std::vector<HandleTransform> transforms;
-    for (const std::uint32_t n : numbers) transforms.push_back(random.transform(1.5, 0.5)), place(*pose, n, transforms.back());
+    for (const std::uint32_t n : numbers)
+      transforms.push_back(random.transform(1.5, 0.5)), place(*pose, n, transforms.back());
     const DeformReport report = pose->deform({});
     EXPECT_TRUE(all_finite(report));
     EXPECT_GE(report.iteration_count, 1u);
@@ -96,7 +98,9 @@ TEST(Pose, TheSameRigidMotionOnAllHandlesMovesTheWholeSurface) {
     const auto core = hf_test::make_core(plain(samples::cactus(3000)));
     const auto pose = Pose::make(core, {});
     std::vector<std::vector<std::int32_t>> regions;
-    for (int k = 0; k < handle_count; ++k) regions.push_back(select(*core, [&](Vec3 p) { return p.y > 1.8 * k / handle_count && p.y < 1.8 * k / handle_count + 0.08; }));
+    for (int k = 0; k < handle_count; ++k)
+      regions.push_back(
+          select(*core, [&](Vec3 p) { return p.y > 1.8 * k / handle_count && p.y < 1.8 * k / handle_count + 0.08; }));
     const auto numbers = add(*pose, regions);
     RandomMotion random(9);
     double largest = 0;
@@ -110,7 +114,8 @@ TEST(Pose, TheSameRigidMotionOnAllHandlesMovesTheWholeSurface) {
       const DeformReport report = pose->deform({});
       for (std::int32_t v = 0; v < core->size(); ++v) {
         const Vec3 p = core->mesh.to_given(core->mesh.positions[v]);
-        largest = std::max(largest, norm(report.positions[v] - rotate(motion.rotation, p) - motion.translation) / core->mesh.scale);
+        largest = std::max(
+            largest, norm(report.positions[v] - rotate(motion.rotation, p) - motion.translation) / core->mesh.scale);
       }
     }
     std::printf("rigid motion, %d handles: %.1e of the box\n", handle_count, largest);
@@ -128,7 +133,8 @@ TEST(Pose, ConvergesInAFewIterationsFromTheFields) {
     const double early = arap_energy(*d.core, p, positions(three));
     const DeformReport many = d.pose->deform({false, 200, true});
     const double late = arap_energy(*d.core, p, positions(many));
-    std::printf("%s: energy %.4f after 3, %.4f after %u iterations (last change %.1e)\n", c.name.c_str(), early, late, many.iteration_count, many.last_change);
+    std::printf("%s: energy %.4f after 3, %.4f after %u iterations (last change %.1e)\n", c.name.c_str(), early, late,
+                many.iteration_count, many.last_change);
     EXPECT_LT(early, 1.03 * late);
     EXPECT_LT(many.last_change, 2e-4);
   }
@@ -176,10 +182,13 @@ TEST(Pose, RemovingOlderHandlesLeavesAPoseLikeAFreshOne) {
   d.pose->remove_handles({&d.handles[1], 1});
   const auto fresh = Pose::make(d.core, {});
   const auto numbers = add(*fresh, {select(*d.core, c.regions[0]), arm});
-  for (std::int32_t v = 0; v < d.core->size(); ++v) EXPECT_NEAR(d.pose->field(added[0])[v], fresh->field(numbers[1])[v], 1e-10);
+  for (std::int32_t v = 0; v < d.core->size(); ++v)
+    EXPECT_NEAR(d.pose->field(added[0])[v], fresh->field(numbers[1])[v], 1e-10);
   const HandleTransform turn{about({0, 0, 1}, 0.5), {0.1, 0.2, 0}};
   place(*d.pose, added[0], turn), place(*fresh, numbers[1], turn);
-  EXPECT_LT(largest_distance(positions(d.pose->deform({false, 100, true})), positions(fresh->deform({false, 100, true}))), 1e-6);
+  EXPECT_LT(
+      largest_distance(positions(d.pose->deform({false, 100, true})), positions(fresh->deform({false, 100, true}))),
+      1e-6);
   d.pose->remove_handles(std::vector<std::uint32_t>{d.handles[0], added[0]});
   EXPECT_EQ(d.pose->handle_count(), 0u);
   EXPECT_EQ(code_of([&] { d.pose->deform({}); }), HF_ERROR_EMPTY);
@@ -222,7 +231,8 @@ TEST_P(Modes, ComponentsWithOneHandleMoveRigidlyAndThoseWithoutStay) {
   const auto core = hf_test::make_core(mesh);
   const auto pose = Pose::make(core, options());
   // one handle on two components, another on one of them too
-  const auto numbers = add(*pose, {select(*core, [](Vec3 p) { return p.y > 0.8 && p.x < 4; }), select(*core, [](Vec3 p) { return p.y < -0.8 && p.x > 2 && p.x < 4; })});
+  const auto numbers = add(*pose, {select(*core, [](Vec3 p) { return p.y > 0.8 && p.x < 4; }),
+                                   select(*core, [](Vec3 p) { return p.y < -0.8 && p.x > 2 && p.x < 4; })});
   const HandleTransform motion{about({0, 1, 1}, 0.8), {0, 4, 0}};
   place(*pose, numbers[0], motion);
   const Vec3 centroid = pose->handle(numbers[0]).centroid;
@@ -231,8 +241,13 @@ TEST_P(Modes, ComponentsWithOneHandleMoveRigidlyAndThoseWithoutStay) {
   std::uint32_t unreached = 0;
   for (std::int32_t v = 0; v < core->size(); ++v) {
     const Vec3 p = core->mesh.to_given(core->mesh.positions[v]);
-    if (p.x < 1.5) { EXPECT_LT(norm(report.positions[v] - rotate(motion.rotation, p - centroid) - centroid - motion.translation), 1e-12 * core->mesh.scale); }
-    if (p.x > 4.5) { EXPECT_LT(norm(report.positions[v] - p), 1e-12 * core->mesh.scale); }
+    if (p.x < 1.5) {
+      EXPECT_LT(norm(report.positions[v] - rotate(motion.rotation, p - centroid) - centroid - motion.translation),
+                1e-12 * core->mesh.scale);
+    }
+    if (p.x > 4.5) {
+      EXPECT_LT(norm(report.positions[v] - p), 1e-12 * core->mesh.scale);
+    }
     unreached += p.x > 4.5;
   }
   EXPECT_EQ(report.unreached_vertex_count, unreached);
@@ -247,7 +262,8 @@ TEST_P(Modes, RegionsThatFillAComponentHaveNoSitesAndStillMove) {
   EXPECT_EQ(pose->handle(left).site_count, 0u);
   EXPECT_EQ(pose->handle(left).leak, 0.0);
   // two handles that share a component between them: no free vertex
-  const auto halves = add(*pose, {select(*core, [](Vec3 p) { return p.x > 1.5 && p.y > 0; }), select(*core, [](Vec3 p) { return p.x > 1.5 && p.y <= 0; })});
+  const auto halves = add(*pose, {select(*core, [](Vec3 p) { return p.x > 1.5 && p.y > 0; }),
+                                  select(*core, [](Vec3 p) { return p.x > 1.5 && p.y <= 0; })});
   EXPECT_GT(pose->handle(halves[0]).site_count, 0u);
   place(*pose, left, {{}, {-1, 0, 0}}), place(*pose, halves[0], {{}, {0, 1, 0}});
   const DeformReport report = pose->deform({true, 0, false});
@@ -261,12 +277,13 @@ TEST_P(Modes, RegionsThatFillAComponentHaveNoSitesAndStillMove) {
 
 TEST_P(Modes, TinyMeshesAndOddHandlesArePosedWithFiniteNumbers) {
   std::vector<hf_test::PlainMesh> meshes;
-  meshes.push_back({{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}});                                                        // a triangle
-  meshes.push_back({{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}});                    // a tetrahedron
+  meshes.push_back({{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}});                                      // a triangle
+  meshes.push_back({{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}});  // a tetrahedron
   meshes.push_back(plain(samples::box(1, 1, 1, 1, 1, 1)));
-  meshes.push_back({{0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 1.5, 1e-12, 0}, {0, 1, 4, 1, 2, 4, 2, 3, 4}});              // needles
-  meshes.push_back({{0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, {0, 1, 2, 1, 2, 3}});                                      // no area at all
-  meshes.push_back({{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, .5, .5, 1}, {0, 1, 2, 1, 3, 2, 1, 2, 4}});                  // three triangles at an edge
+  meshes.push_back({{0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 1.5, 1e-12, 0}, {0, 1, 4, 1, 2, 4, 2, 3, 4}});  // needles
+  meshes.push_back({{0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, {0, 1, 2, 1, 2, 3}});  // no area at all
+  meshes.push_back(
+      {{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, .5, .5, 1}, {0, 1, 2, 1, 3, 2, 1, 2, 4}});  // three triangles at an edge
   meshes.push_back(hf_test::grid(2, 2));
   meshes.push_back(hf_test::grid(12, 1));
   meshes.push_back(plain(samples::sphere(3)));
@@ -285,7 +302,8 @@ TEST_P(Modes, TinyMeshesAndOddHandlesArePosedWithFiniteNumbers) {
       const auto numbers = add(*pose, sets[s]);
       const DeformReport still = pose->deform({true, 0, false});
       EXPECT_TRUE(all_finite(still)) << "mesh " << m << " set " << s;
-      EXPECT_LT(largest_distance(positions(still), rest(*core)), 1e-10 * core->mesh.scale) << "mesh " << m << " set " << s;
+      EXPECT_LT(largest_distance(positions(still), rest(*core)), 1e-10 * core->mesh.scale)
+          << "mesh " << m << " set " << s;
       RandomMotion random(1);
       for (int round = 0; round < 4; ++round) {
         for (const std::uint32_t number : numbers) place(*pose, number, random.transform(1, 1));
@@ -301,7 +319,8 @@ TEST_P(Modes, TinyMeshesAndOddHandlesArePosedWithFiniteNumbers) {
       const DeformReport moved = pose->deform({true, 200, true});
       for (std::int32_t v = 0; v < n; ++v) {
         const Vec3 p = core->mesh.to_given(core->mesh.positions[v]);
-        EXPECT_LT(norm(moved.positions[v] - rotate(motion.rotation, p) - motion.translation), 1e-7 * core->mesh.scale) << "mesh " << m << " set " << s << " vertex " << v;
+        EXPECT_LT(norm(moved.positions[v] - rotate(motion.rotation, p) - motion.translation), 1e-7 * core->mesh.scale)
+            << "mesh " << m << " set " << s << " vertex " << v;
       }
     }
   }
@@ -311,14 +330,16 @@ TEST(Pose, UnitAndPlaceOfTheMeshDoNotMatter) {
   const Case c = cactus_bend(70, 1500);
   Dragged d = set_up(c, {});
   Case far = c;
-  for (std::size_t i = 0; i < far.mesh.positions.size(); ++i) far.mesh.positions[i] = 1000 * far.mesh.positions[i] + (i % 3 == 1 ? 65536 : 0);
+  for (std::size_t i = 0; i < far.mesh.positions.size(); ++i)
+    far.mesh.positions[i] = 1000 * far.mesh.positions[i] + (i % 3 == 1 ? 65536 : 0);
   const auto core = hf_test::make_core(far.mesh);
   const auto pose = Pose::make(core, {});
   const auto numbers = add(*pose, {select(*d.core, c.regions[0]), select(*d.core, c.regions[1])});
   const HandleTransform t = c.motion(1, 1, d.pose->handle(d.handles[1]).centroid);
   place(*d.pose, d.handles[1], t), place(*pose, numbers[1], {t.rotation, 1000.0 * t.translation});
   const DeformReport a = d.pose->deform({false, 100, false}), b = pose->deform({false, 100, false});
-  for (std::int32_t v = 0; v < core->size(); ++v) EXPECT_LT(norm(0.001 * (b.positions[v] - Vec3{0, 65536, 0}) - a.positions[v]), 1e-6);
+  for (std::int32_t v = 0; v < core->size(); ++v)
+    EXPECT_LT(norm(0.001 * (b.positions[v] - Vec3{0, 65536, 0}) - a.positions[v]), 1e-6);
 }
 
 TEST(Pose, BadInputIsNamedAndChangesNothing) {
@@ -327,7 +348,9 @@ TEST(Pose, BadInputIsNamedAndChangesNothing) {
   const auto numbers = add(*pose, {{0, 1}, {50}});
   place(*pose, numbers[1], {about({1, 0, 0}, 0.5), {0.1, 0, 0}});
   const std::vector<Vec3> before = positions(pose->deform({false, 200, false}));
-  const auto try_add = [&](const std::vector<std::vector<std::int32_t>>& regions, std::uint32_t* index) { return code_of([&] { add(*pose, regions); }, index); };
+  const auto try_add = [&](const std::vector<std::vector<std::int32_t>>& regions, std::uint32_t* index) {
+    return code_of([&] { add(*pose, regions); }, index);
+  };
   std::uint32_t index = 0;
   EXPECT_EQ(try_add({}, &index), HF_ERROR_EMPTY);
   EXPECT_EQ(try_add({{7}, {}}, &index), HF_ERROR_EMPTY);
@@ -339,21 +362,28 @@ TEST(Pose, BadInputIsNamedAndChangesNothing) {
   EXPECT_EQ(try_add({{7, core->size()}}, &index), HF_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(index, 1u);
   EXPECT_EQ(try_add(std::vector<std::vector<std::int32_t>>(255, {7}), &index), HF_ERROR_TOO_LARGE);
-  const auto remove = [&](std::vector<std::uint32_t> list) { return code_of([&] { pose->remove_handles(list); }, &index); };
+  const auto remove = [&](std::vector<std::uint32_t> list) {
+    return code_of([&] { pose->remove_handles(list); }, &index);
+  };
   EXPECT_EQ(remove({}), HF_ERROR_EMPTY);
   EXPECT_EQ(remove({0, 5}), HF_ERROR_NO_SUCH_HANDLE);
   EXPECT_EQ(index, 1u);
   EXPECT_EQ(remove({0, 0}), HF_ERROR_NO_SUCH_HANDLE);
-  const auto transform = [&](HandleTransform t) { return code_of([&] { pose->set_transforms(numbers, std::vector<HandleTransform>{{}, t}); }, &index); };
+  const auto transform = [&](HandleTransform t) {
+    return code_of([&] { pose->set_transforms(numbers, std::vector<HandleTransform>{{}, t}); }, &index);
+  };
   EXPECT_EQ(transform({{0, 0, 0, std::numeric_limits<double>::quiet_NaN()}, {}}), HF_ERROR_NON_FINITE);
   EXPECT_EQ(index, 1u);
   EXPECT_EQ(transform({{}, {0, std::numeric_limits<double>::infinity(), 0}}), HF_ERROR_NON_FINITE);
   EXPECT_EQ(transform({{}, {1e300, 0, 0}}), HF_ERROR_NON_FINITE);
-  EXPECT_EQ(code_of([&] { pose->set_transforms(std::vector<std::uint32_t>{9}, std::vector<HandleTransform>(1)); }), HF_ERROR_NO_SUCH_HANDLE);
+  EXPECT_EQ(code_of([&] { pose->set_transforms(std::vector<std::uint32_t>{9}, std::vector<HandleTransform>(1)); }),
+            HF_ERROR_NO_SUCH_HANDLE);
   EXPECT_EQ(code_of([&] { pose->handle(9); }), HF_ERROR_NO_SUCH_HANDLE);
   EXPECT_EQ(code_of([&] { pose->deform({false, 1001, false}); }), HF_ERROR_INVALID_ARGUMENT);
-  for (PoseOptions bad : {PoseOptions{DeformMode::smooth, 1, 0, 0, 0}, PoseOptions{DeformMode::smooth, 65, 0, 0, 0}, PoseOptions{DeformMode::smooth, 0, 1001, 0, 0},
-                          PoseOptions{DeformMode::smooth, 0, 0, 0, 2001}, PoseOptions{static_cast<DeformMode>(2), 0, 0, 0, 0}}) {
+  for (PoseOptions bad :
+       {PoseOptions{DeformMode::smooth, 1, 0, 0, 0}, PoseOptions{DeformMode::smooth, 65, 0, 0, 0},
+        PoseOptions{DeformMode::smooth, 0, 1001, 0, 0}, PoseOptions{DeformMode::smooth, 0, 0, 0, 2001},
+        PoseOptions{static_cast<DeformMode>(2), 0, 0, 0, 0}}) {
     EXPECT_EQ(code_of([&] { Pose::make(core, bad); }), HF_ERROR_INVALID_ARGUMENT);
   }
   EXPECT_EQ(pose->handle_count(), 2u);
@@ -398,9 +428,17 @@ TEST_P(Modes, WhenMemoryRunsOutThePoseIsAsBefore) {
     };
     const auto reference = make();
     const std::vector<Vec3> expected = positions(reference->deform({}));
-    const std::vector<std::function<void(Pose&)>> scenarios{
-        [](Pose& pose) { add(pose, {{100}, {120, 121}}); }, [](Pose& pose) { const std::uint32_t n = 0; pose.remove_handles({&n, 1}); },
-        [](Pose& pose) { pose.clone(); }, [](Pose& pose) { pose.deform({true, 1, false}); }};
+    const std::vector<std::function<void(Pose&)>> scenarios{[](Pose& pose) {
+                                                              add(pose, {{100}, {120, 121}});
+                                                            },
+                                                            [](Pose& pose) {
+                                                              const std::uint32_t n = 0;
+                                                              pose.remove_handles({&n, 1});
+                                                            },
+                                                            [](Pose& pose) { pose.clone(); },
+                                                            [](Pose& pose) {
+                                                              pose.deform({true, 1, false});
+                                                            }};
     for (std::size_t s = 0; s < scenarios.size(); ++s) {
       const auto pose = make();
       for (std::int64_t k = 0;; ++k) {
@@ -419,7 +457,9 @@ TEST_P(Modes, WhenMemoryRunsOutThePoseIsAsBefore) {
       if (s == 0) {
         pose->remove_handles(std::vector<std::uint32_t>{2, 3});
       }
-      if (s != 1 && s != 3) { EXPECT_TRUE(same_bits(positions(pose->deform({})), expected)) << "scenario " << s; }
+      if (s != 1 && s != 3) {
+        EXPECT_TRUE(same_bits(positions(pose->deform({})), expected)) << "scenario " << s;
+      }
     }
   }
   std::printf("%llu faults\n", static_cast<unsigned long long>(faults));

@@ -1,4 +1,5 @@
-// The classic cases keep their volume, their smoothness and their triangles: dragged in 30 frames of 5 iterations, beside the paper's scheme.
+// The classic cases keep their volume, their smoothness and their triangles: dragged in 30 frames of 5 iterations,
+// beside the paper's scheme.
 #include <gtest/gtest.h>
 
 #include "cases.h"
@@ -23,8 +24,11 @@ Both measure_both(const Case& c) {
   both.paper = measure(*paper.core, positions(paper.report));
   for (const auto& entry : {std::make_pair("smooth", both.smooth), std::make_pair("paper", both.paper)}) {
     const Quality& q = entry.second;
-    std::printf("%-13s %-6s E %8.4f in %6.2f %% edges %.2f..%.2f volume %6.2f %% smallest stretch %.3f dihedral %5.1f roughness %.3f\n", c.name.c_str(), entry.first, q.energy, q.edge_share,
-                q.edge_min, q.edge_max, c.closed ? q.volume : 0.0, q.smallest_stretch, q.dihedral_max, q.roughness);
+    std::printf(
+        "%-13s %-6s E %8.4f in %6.2f %% edges %.2f..%.2f volume %6.2f %% smallest stretch %.3f dihedral %5.1f "
+        "roughness %.3f\n",
+        c.name.c_str(), entry.first, q.energy, q.edge_share, q.edge_min, q.edge_max, c.closed ? q.volume : 0.0,
+        q.smallest_stretch, q.dihedral_max, q.roughness);
   }
   return both;
 }

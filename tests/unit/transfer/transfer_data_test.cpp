@@ -114,5 +114,8 @@ TEST(TransferData, TheHorsesClipsStandOnTheWolfsFeet) { check_cross("q_horse_to_
 TEST(TransferData, TheHorsesClipsStandOnTheCowsFeet) {
   check_cross("q_horse_to_farm_cow.json", "farm_Cow.glb", 1.0, 1.3);
 }
+TEST(TransferData, TheDeersRumpStaysWholeUnderTheHorsesClips) {
+  check_cross("q_horse_to_q_deer.json", "q_Deer.glb", 0.8, 0.9);
+}
 
 }  // namespace

@@ -1,0 +1,345 @@
+/* The host's allocator: every byte through it, every byte back; and any single allocation may fail, after which the call says
+ * HF_ERROR_OUT_OF_MEMORY, nothing has leaked, and the objects are as they were before the call. */
+#include "api_support.h"
+
+enum { AROUND = 8, RINGS = 10, VERTICES = AROUND * RINGS };
+
+typedef struct World {
+  CountingAllocator memory;
+  Surface tube;
+  int32_t engine;
+  uint32_t threads;
+  hf_solver solver, made_solver;
+  hf_pose pose, made_pose;
+  hf_transfer transfer, made_transfer;
+  uint32_t *ends, sites[2], handles[2], pairs[2];
+  float posed[3 * VERTICES], result[3 * VERTICES];
+  double field[VERTICES];
+} World;
+
+/* The scenarios: a call each, from a world that is fully set up. */
+static hf_result call_create(World* w) {
+  hf_create_desc desc = surface_desc(&w->tube);
+  desc.allocator = counting_hooks(&w->memory), desc.engine = w->engine, desc.channel_count = 2;
+  return hf_create(&desc, &w->made_solver);
+}
+static hf_result call_clone(World* w) { return hf_clone(w->solver, &w->made_solver); }
+static hf_result call_add(World* w) {
+  const uint32_t vertices[3] = {11, 33, 60};
+  const double values[3] = {3, 4, 5};
+  const hf_sites_desc sites = sites_at(3, vertices, values);
+  return hf_add_sites(w->solver, &sites, NULL);
+}
+static hf_result call_remove(World* w) { return hf_remove_sites(w->solver, 1, w->sites); }
+static hf_result call_move(World* w) {
+  const uint32_t vertex = 44;
+  const hf_sites_desc to = sites_at(1, &vertex, NULL);
+  return hf_move_sites(w->solver, 1, w->sites, &to);
+}
+static hf_result call_set(World* w) { const double value = 9; return hf_set_site_values(w->solver, 1, w->sites, &value); }
+static hf_result call_edit(World* w) {
+  const uint32_t vertex = 21, place = 47;
+  const double value = 6;
+  const hf_sites_desc add = sites_at(1, &vertex, &value), to = sites_at(1, &place, NULL);
+  hf_edit_desc edit;
+  HF_INIT(edit);
+  edit.remove_count = 1, edit.remove_sites = w->sites;
+  edit.move_count = 1, edit.move_sites = w->sites + 1, edit.move_to = &to;
+  edit.add = &add;
+  return hf_edit_sites(w->solver, &edit, NULL);
+}
+static hf_result call_solve(World* w) { return hf_solve_f64(w->solver, w->field, 0, NULL); }
+static hf_result call_solve_at(World* w) { const uint32_t v[2] = {7, 70}; return hf_solve_at(w->solver, 2, v, w->field); }
+static hf_result call_get_sites(World* w) {
+  hf_site_info info;
+  HF_INIT(info);
+  info.capacity = 2, info.flux = w->field;
+  return hf_get_sites(w->solver, &info);
+}
+static hf_result call_record(World* w) { return hf_record(w->solver); }
+static hf_result call_undo(World* w) { return hf_undo(w->solver); }
+static hf_result call_pose_create(World* w) { return hf_pose_create(w->solver, NULL, &w->made_pose); }
+static hf_result call_pose_clone(World* w) { return hf_pose_clone(w->pose, &w->made_pose); }
+static hf_result call_add_handles(World* w) {
+  const uint32_t count = 2, region[2] = {5 * AROUND, 5 * AROUND + 1};
+  hf_handles_desc desc;
+  HF_INIT(desc);
+  desc.handle_count = 1, desc.region_counts = &count, desc.region_vertices = region;
+  return hf_pose_add_handles(w->pose, &desc, NULL);
+}
+static hf_result call_remove_handles(World* w) { return hf_pose_remove_handles(w->pose, 1, w->handles); }
+static hf_result deform_to(World* w, float* positions) {
+  hf_deform_desc desc;
+  HF_INIT(desc);
+  desc.positions = positions, desc.restart = 1;
+  return hf_deform(w->pose, &desc, NULL);
+}
+static hf_result call_deform(World* w) { return deform_to(w, w->result); }
+static hf_result call_transfer_create(World* w) { return hf_transfer_create(w->solver, w->solver, NULL, &w->made_transfer); }
+static hf_result call_add_pairs(World* w) {
+  const uint32_t count = 2, region[2] = {5 * AROUND, 5 * AROUND + 1};
+  hf_pairs_desc desc;
+  HF_INIT(desc);
+  desc.pair_count = 1, desc.source_counts = desc.target_counts = &count, desc.source_vertices = desc.target_vertices = region;
+  return hf_transfer_add_pairs(w->transfer, &desc, NULL);
+}
+static hf_result call_remove_pairs(World* w) { return hf_transfer_remove_pairs(w->transfer, 1, w->pairs); }
+static hf_result apply_to(World* w, float* positions, float* normals) {
+  hf_transfer_frame frame;
+  HF_INIT(frame);
+  frame.source_positions = w->posed, frame.target_positions = positions, frame.target_normals = normals;
+  return hf_transfer_apply(w->transfer, &frame);
+}
+static hf_result call_apply(World* w) {
+  float normals[3 * VERTICES];
+  return apply_to(w, w->result, normals);
+}
+static hf_result call_get_skin(World* w) {
+  hf_skin_info info;
+  HF_INIT(info);
+  return hf_transfer_get_skin(w->transfer, &info);
+}
+
+static const struct {
+  const char* name;
+  hf_result (*call)(World*);
+  int green_only;
+} scenarios[] = {
+    {"hf_create", call_create, 0},
+    {"hf_clone", call_clone, 0},
+    {"hf_add_sites", call_add, 0},
+    {"hf_remove_sites", call_remove, 0},
+    {"hf_move_sites", call_move, 0},
+    {"hf_set_site_values", call_set, 0},
+    {"hf_edit_sites", call_edit, 0},
+    {"hf_solve_f64", call_solve, 0},
+    {"hf_solve_at", call_solve_at, 0},
+    {"hf_get_sites", call_get_sites, 0},
+    {"hf_record", call_record, 0},
+    {"hf_undo", call_undo, 0},
+    {"hf_pose_create", call_pose_create, 1},
+    {"hf_pose_clone", call_pose_clone, 1},
+    {"hf_pose_add_handles", call_add_handles, 1},
+    {"hf_pose_remove_handles", call_remove_handles, 1},
+    {"hf_deform", call_deform, 1},
+    {"hf_transfer_create", call_transfer_create, 1},
+    {"hf_transfer_add_pairs", call_add_pairs, 1},
+    {"hf_transfer_remove_pairs", call_remove_pairs, 1},
+    {"hf_transfer_apply", call_apply, 1},
+    {"hf_transfer_get_skin", call_get_skin, 1},
+};
+
+static void create_world(World* w, int32_t engine) {
+  memset(w, 0, sizeof *w);
+  w->tube = surface_tube(AROUND, RINGS), w->engine = engine;
+  hf_create_desc desc = surface_desc(&w->tube);
+  desc.allocator = counting_hooks(&w->memory), desc.engine = engine;
+  assert_ok(hf_create(&desc, &w->solver));
+  w->sites[0] = add_site(w->solver, 0, 0);
+  assert_ok(hf_record(w->solver));
+  w->sites[1] = add_site(w->solver, VERTICES - 1, 1);
+  if (engine != HF_ENGINE_GREEN) return;
+  w->pose = tube_pose(w->solver, AROUND, RINGS, w->handles);
+  const hf_transform turned = {{0.5, 0, 0, 0.8660254}, {0, 1, 2}};
+  assert_ok(hf_pose_set_transforms(w->pose, 1, &w->handles[1], &turned));
+  assert_ok(deform_to(w, w->posed));
+  w->ends = tube_ends(AROUND, RINGS);
+  const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
+  hf_pairs_desc pairs;
+  HF_INIT(pairs);
+  pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts, pairs.source_vertices = pairs.target_vertices = w->ends;
+  assert_ok(hf_transfer_create(w->solver, w->solver, NULL, &w->transfer));
+  assert_ok(hf_transfer_add_pairs(w->transfer, &pairs, w->pairs));
+}
+
+static void destroy_world(World* w) {
+  w->memory.refuse_at = 0;
+  hf_destroy(w->solver), hf_pose_destroy(w->pose), hf_transfer_destroy(w->transfer);
+  hf_destroy(w->made_solver), hf_pose_destroy(w->made_pose), hf_transfer_destroy(w->made_transfer);
+  assert_int_equal(w->memory.live_blocks, 0);
+  assert_int_equal(w->memory.live_bytes, 0);
+  assert_int_equal(w->memory.mismatches, 0);
+  surface_free(&w->tube), free(w->ends);
+}
+
+/* What a world computes: to be the same after a refused allocation as before. */
+typedef struct Picture {
+  uint32_t site_count, handle_count;
+  double field[VERTICES];
+  float posed[3 * VERTICES], transferred[3 * VERTICES];
+} Picture;
+
+static void take_picture(World* w, Picture* p) {
+  memset(p, 0, sizeof *p);
+  p->site_count = hf_get_site_count(w->solver), p->handle_count = hf_pose_get_handle_count(w->pose);
+  assert_ok(hf_solve_f64(w->solver, p->field, 0, NULL));
+  if (!w->pose) return;
+  assert_ok(deform_to(w, p->posed));
+  assert_ok(apply_to(w, p->transferred, NULL));
+}
+
+static int same_picture(const Picture* a, const Picture* b) {
+  double worst = 0;
+  for (int v = 0; v < VERTICES; ++v) worst = fmax(worst, fabs(a->field[v] - b->field[v]));
+  return a->site_count == b->site_count && a->handle_count == b->handle_count && worst < 1e-7 && same_bits(a->posed, b->posed, sizeof a->posed) &&
+         same_bits(a->transferred, b->transferred, sizeof a->transferred);
+}
+
+/* Runs one scenario with allocation n = 1, 2, ... refused until the call succeeds. on: all later ones are refused too. */
+static unsigned refuse_each(size_t s, int32_t engine, int on) {
+  unsigned refused = 0;
+  for (size_t n = 1;; ++n) {
+    World world;
+    Picture before, after;
+    create_world(&world, engine);
+    take_picture(&world, &before);
+    /* what the world computes lazily is computed again by some calls: start them from an untouched world */
+    if (scenarios[s].call == call_apply || scenarios[s].call == call_get_skin) destroy_world(&world), create_world(&world, engine);
+    const size_t live = world.memory.live_blocks, bytes = world.memory.live_bytes;
+    world.memory.calls = 0, world.memory.refuse_at = n, world.memory.refuse_on = on;
+    const hf_result result = scenarios[s].call(&world);
+    const int reached = world.memory.calls >= n;
+    world.memory.refuse_at = 0, world.memory.refuse_on = 0;
+    if (result != HF_OK) {
+      if (result != HF_ERROR_OUT_OF_MEMORY) fail_msg("%s, engine %d, allocation %u: %s", scenarios[s].name, (int)engine, (unsigned)n, hf_result_name(result));
+      if (world.made_solver || world.made_pose || world.made_transfer) fail_msg("%s, allocation %u: a handle came back", scenarios[s].name, (unsigned)n);
+      hf_error_detail detail;
+      assert_ok(hf_get_error_detail(&detail));
+      assert_int_equal(detail.code, HF_ERROR_OUT_OF_MEMORY);
+      assert_string_equal(detail.function, scenarios[s].name);
+      ++refused;
+      /* a cache that the call has filled or a grown workspace may stay; a failed hf_create leaves nothing at all */
+      if (scenarios[s].call == call_create && (world.memory.live_blocks != live || world.memory.live_bytes != bytes)) fail_msg("hf_create leaked at allocation %u", (unsigned)n);
+      take_picture(&world, &after);
+      if (!same_picture(&before, &after)) fail_msg("%s, engine %d, allocation %u: the state has changed", scenarios[s].name, (int)engine, (unsigned)n);
+      assert_ok(scenarios[s].call(&world)); /* and the call succeeds when memory is there again */
+    }
+    destroy_world(&world);
+    if (!reached) return refused;
+  }
+}
+
+static void refuse_everywhere(int32_t engine) {
+  unsigned total = 0;
+  for (size_t s = 0; s < COUNT_OF(scenarios); ++s) {
+    if (scenarios[s].green_only && engine != HF_ENGINE_GREEN) continue;
+    total += refuse_each(s, engine, 0) + refuse_each(s, engine, 1);
+  }
+  print_message("engine %d: %u refused allocations\n", (int)engine, total);
+  assert_true(total > 100);
+}
+
+static void any_allocation_may_be_refused_with_the_green_engine(void** state) {
+  (void)state;
+  refuse_everywhere(HF_ENGINE_GREEN);
+}
+static void any_allocation_may_be_refused_with_the_refactor_engine(void** state) {
+  (void)state;
+  refuse_everywhere(HF_ENGINE_REFACTOR);
+}
+#ifdef HF_WITH_GPL
+static void any_allocation_may_be_refused_with_the_updown_engine(void** state) {
+  (void)state;
+  refuse_everywhere(HF_ENGINE_UPDOWN);
+}
+#endif
+
+static void dragging_allocates_nothing(void** state) {
+  (void)state;
+  World world;
+  create_world(&world, HF_ENGINE_GREEN);
+  float normals[3 * VERTICES];
+  hf_deform_desc desc;
+  HF_INIT(desc);
+  desc.positions = world.result, desc.normals = normals;
+  assert_ok(hf_deform(world.pose, &desc, NULL));
+  world.memory.calls = 0;
+  for (int i = 0; i < 20; ++i) {
+    const hf_transform moved = {{0, 0, 0, 0}, {0.1 * i, 0, 0}};
+    assert_ok(hf_pose_set_transforms(world.pose, 1, world.handles, &moved));
+    assert_ok(hf_deform(world.pose, &desc, NULL));
+  }
+  assert_int_equal(world.memory.calls, 0);
+  destroy_world(&world);
+}
+
+static void repeated_fields_hold_no_more_memory(void** state) {
+  (void)state;
+  World world;
+  create_world(&world, HF_ENGINE_GREEN);
+  assert_ok(call_solve(&world));
+  const size_t blocks = world.memory.live_blocks;
+  for (int i = 0; i < 200; ++i) {
+    const uint32_t site = add_site(world.solver, 40, i);
+    assert_ok(call_solve(&world));
+    assert_ok(hf_remove_sites(world.solver, 1, &site));
+    assert_ok(call_solve(&world));
+  }
+  assert_true(world.memory.live_blocks <= blocks + 8);
+  destroy_world(&world);
+}
+
+/* A callback that calls back. */
+typedef struct Reentrant {
+  CountingAllocator memory;
+  hf_allocator inner;
+  hf_solver solver;
+  int armed, expect_read;
+  unsigned tried;
+} Reentrant;
+static void* reentrant_allocate(void* user, size_t size, size_t alignment) {
+  Reentrant* r = user;
+  if (r->armed) {
+    r->armed = 0; /* once: what is called here allocates too */
+    double value[2];
+    const uint32_t vertex = 3, site = 0;
+    const hf_sites_desc sites = sites_at(1, &vertex, NULL);
+    assert_code(HF_ERROR_REENTRANT, hf_add_sites(r->solver, &sites, NULL));
+    assert_code(HF_ERROR_REENTRANT, hf_remove_sites(r->solver, 1, &site));
+    assert_code(HF_ERROR_REENTRANT, hf_record(r->solver));
+    assert_code(r->expect_read, hf_solve_at(r->solver, 1, &vertex, value));
+    ++r->tried;
+  }
+  return r->inner.allocate(&r->memory, size, alignment);
+}
+static void reentrant_release(void* user, void* block, size_t size, size_t alignment) {
+  Reentrant* r = user;
+  r->inner.release(&r->memory, block, size, alignment);
+}
+
+static void a_callback_that_calls_back_is_refused(void** state) {
+  (void)state;
+  Surface tube = surface_tube(AROUND, RINGS);
+  Reentrant r;
+  memset(&r, 0, sizeof r);
+  r.inner = counting_hooks(&r.memory);
+  hf_create_desc desc = surface_desc(&tube);
+  desc.allocator.allocate = reentrant_allocate, desc.allocator.release = reentrant_release, desc.allocator.user = &r;
+  assert_ok(hf_create(&desc, &r.solver));
+  add_site(r.solver, 0, 0);
+  r.armed = 1, r.expect_read = HF_ERROR_REENTRANT; /* inside a change nothing is allowed */
+  add_site(r.solver, 50, 1);
+  assert_int_equal(r.tried, 1);
+  double values[2];
+  const uint32_t vertices[2] = {7, 20};
+  r.armed = 1, r.expect_read = HF_OK; /* inside a read, reading is */
+  assert_ok(hf_solve_at(r.solver, 2, vertices, values));
+  assert_int_equal(r.tried, 2);
+  assert_int_equal(hf_get_site_count(r.solver), 2);
+  hf_destroy(r.solver), surface_free(&tube);
+  assert_int_equal(r.memory.live_blocks, 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(any_allocation_may_be_refused_with_the_green_engine),
+      cmocka_unit_test(any_allocation_may_be_refused_with_the_refactor_engine),
+#ifdef HF_WITH_GPL
+      cmocka_unit_test(any_allocation_may_be_refused_with_the_updown_engine),
+#endif
+      cmocka_unit_test(dragging_allocates_nothing),
+      cmocka_unit_test(repeated_fields_hold_no_more_memory),
+      cmocka_unit_test(a_callback_that_calls_back_is_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

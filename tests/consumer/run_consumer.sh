@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Builds and runs one consumer project the way its author would.
+# usage: run_consumer.sh find_package|add_subdirectory|pkg_config SOURCE_DIR BUILD_DIR
+set -eu
+kind=$1 source=$2 build=$3
+work="$build/consumer/$kind"
+rm -rf "$work"
+mkdir -p "$work"
+here="$source/tests/consumer"
+quiet() { "$@" >"$work/log" 2>&1 || { cat "$work/log"; echo "failed: $*"; exit 1; }; }
+
+case "$kind" in
+  find_package)
+    quiet cmake --install "$build" --prefix "$work/prefix"
+    quiet cmake -S "$here/find_package" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release
+    quiet cmake --build "$work/build"
+    if grep -rn "$source\|$build" "$work/prefix/lib"*/cmake "$work"/prefix/lib/*/cmake 2>/dev/null; then echo "the installed package names the build machine's folders"; exit 1; fi
+    "$work/build/shared_consumer"
+    "$work/build/static_consumer"
+    ;;
+  add_subdirectory)
+    quiet cmake -S "$here/add_subdirectory" -B "$work/build" -G Ninja -DHF_SOURCE_DIR="$source" -DCMAKE_BUILD_TYPE=Release
+    quiet cmake --build "$work/build" -j 2 --target shared_consumer
+    "$work/build/shared_consumer"
+    ;;
+  pkg_config)
+    quiet cmake --install "$build" --prefix "$work/prefix"
+    pc=$(find "$work/prefix" -name hf.pc)
+    sed -i "s|^prefix=.*|prefix=$work/prefix|" "$pc"
+    PKG_CONFIG_PATH=$(dirname "$pc") quiet make -C "$here/pkg_config" OUT="$work/consumer"
+    "$work/consumer"
+    ;;
+  *) echo "unknown kind $kind"; exit 1 ;;
+esac
