@@ -1,0 +1,196 @@
+// Reads the #include lines of the project and fails on a wrong arrow:
+//   base <- {mesh, factor} <- engine <- field <- {deform, detail, remesh} <- transfer <- capi
+// A room may include itself, the public headers, and the rooms to its left. mesh and factor do not see each other, nor do deform, detail and
+// remesh. Bindings and samples see only include/hf; include/hf sees only itself and the C standard library.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+struct Include {
+  std::string file;  // relative to the project
+  int line;
+  std::string name;
+  bool quoted;
+};
+
+bool is_source(const fs::path& path) {
+  static const Names endings = {".h", ".hpp", ".hxx", ".inl", ".ipp", ".in", ".c", ".cc", ".cpp", ".cxx"};
+  return endings.count(path.extension().string()) > 0;
+}
+
+// The include lines of one text. Blanks before and after the hash are allowed, as the preprocessor allows them.
+std::vector<Include> includes_of(std::istream& text, const std::string& file) {
+  std::vector<Include> found;
+  std::string line;
+  for (int number = 1; std::getline(text, line); ++number) {
+    std::size_t at = line.find_first_not_of(" \t");
+    if (at == std::string::npos || line[at] != '#') continue;
+    at = line.find_first_not_of(" \t", at + 1);
+    if (at == std::string::npos || line.compare(at, 7, "include") != 0) continue;
+    const std::size_t open = line.find_first_of("\"<", at);
+    if (open == std::string::npos) continue;
+    const std::size_t close = line.find(line[open] == '<' ? '>' : '"', open + 1);
+    if (close == std::string::npos) continue;
+    found.push_back({file, number, line.substr(open + 1, close - open - 1), line[open] == '"'});
+  }
+  return found;
+}
+
+const fs::path project = fs::path(HF_SOURCE_DIR);
+
+std::vector<Include> includes_below(const std::string& folder) {
+  std::vector<Include> found;
+  if (!fs::exists(project / folder)) return found;
+  for (const auto& entry : fs::recursive_directory_iterator(project / folder)) {
+    if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+    std::ifstream text(entry.path());
+    for (Include& include : includes_of(text, fs::relative(entry.path(), project).generic_string())) found.push_back(std::move(include));
+  }
+  return found;
+}
+
+// The rooms each room may include, itself among them.
+const std::map<std::string, Names>& arrows() {
+  static const std::map<std::string, Names> allowed = [] {
+    std::map<std::string, Names> a;
+    a["base"] = {"base"};
+    a["mesh"] = {"base", "mesh"};
+    a["factor"] = {"base", "factor"};
+    a["engine"] = {"base", "mesh", "factor", "engine"};
+    a["field"] = {"base", "mesh", "factor", "engine", "field"};
+    for (const char* room : {"deform", "detail", "remesh"}) {
+      a[room] = a["field"];
+      a[room].insert(room);
+    }
+    a["transfer"] = a["field"];
+    a["transfer"].insert({"deform", "detail", "remesh", "transfer"});
+    a["capi"] = a["transfer"];
+    a["capi"].insert("capi");
+    return a;
+  }();
+  return allowed;
+}
+
+// What is wrong with one include line of src/, or nothing.
+std::string fault_in_src(const Include& include) {
+  const std::string room = fs::path(include.file).lexically_relative("src").begin()->string();
+  const auto allowed = arrows().find(room);
+  if (allowed == arrows().end()) return "src/" + room + " is no room of the house: name it in this test";
+  if (include.name.find("..") != std::string::npos) return "climbs out of its folder";
+  const std::string head = fs::path(include.name).begin()->string();
+  if (include.name.find('/') == std::string::npos) {
+    // no folder: a system header, or a neighbour in the same room
+    if (include.quoted && !fs::exists((project / include.file).parent_path() / include.name)) return "is not a file of its own room";
+    return "";
+  }
+  if (head == "hf") return "";  // the public headers
+  if (arrows().count(head) && !allowed->second.count(head)) return "src/" + room + " must not see src/" + head;
+  if (head == "tests" || head == "samples" || head == "bindings") return "the library must not see " + head;
+  return "";
+}
+
+// What is wrong with an include line outside of the library: it names a room of src/.
+std::string fault_outside(const Include& include) {
+  if (include.name.find("src/") != std::string::npos) return "reaches into src/";
+  if (!include.quoted) return "";
+  const fs::path name(include.name);
+  if (name.begin() == name.end() || std::next(name.begin()) == name.end()) return "";
+  const std::string head = name.begin()->string();
+  // a folder of its own that bears a room's name is fine when the file is there
+  const bool own = fs::exists(project / fs::path(include.file).parent_path() / name) || fs::exists(project / "samples" / name) || fs::exists(project / "bindings" / name);
+  if (arrows().count(head) && !own) return "sees the inner room src/" + head + "; only include/hf is public";
+  return "";
+}
+
+std::string fault_in_public_header(const Include& include) {
+  static const Names c_library = {"assert.h", "complex.h", "ctype.h",  "errno.h",  "fenv.h",  "float.h",  "inttypes.h", "iso646.h", "limits.h", "locale.h", "math.h", "setjmp.h",
+                                  "signal.h", "stdarg.h",  "stdbool.h", "stddef.h", "stdint.h", "stdio.h", "stdlib.h", "string.h", "tgmath.h", "time.h", "wchar.h", "wctype.h"};
+  const fs::path file = project / include.file;
+  if (fs::exists(project / "include" / include.name) && include.name.rfind("hf/", 0) == 0) return "";
+  // the C++ wrapper sees the C++ standard library, whose headers have no ending
+  if (file.extension() == ".hpp" && !include.quoted && include.name.find_first_of("./") == std::string::npos) return "";
+  if (file.extension() == ".h" && !include.quoted && c_library.count(include.name)) return "";
+  return "is neither a public header nor of the standard library";
+}
+
+void expect_no_fault(const std::vector<Include>& includes, std::string (*fault)(const Include&)) {
+  for (const Include& include : includes) {
+    const std::string what = fault(include);
+    if (!what.empty()) ADD_FAILURE() << include.file << ":" << include.line << ": include of " << include.name << " " << what;
+  }
+}
+
+TEST(Rooms, IncludeOnlyWhatStandsToTheirLeft) {
+  const std::vector<Include> includes = includes_below("src");
+  EXPECT_GT(includes.size(), 100u);
+  expect_no_fault(includes, fault_in_src);
+}
+
+TEST(Rooms, PublicHeadersIncludeEachOtherAndTheStandardLibraryOnly) {
+  const std::vector<Include> includes = includes_below("include/hf");
+  EXPECT_GT(includes.size(), 5u);
+  expect_no_fault(includes, fault_in_public_header);
+}
+
+TEST(Rooms, SamplesAndBindingsSeePublicHeadersOnly) {
+  expect_no_fault(includes_below("samples"), fault_outside);
+  expect_no_fault(includes_below("bindings"), fault_outside);
+}
+
+TEST(Rooms, TestsOfThePublicAbiSeePublicHeadersOnly) {
+  expect_no_fault(includes_below("tests/api"), fault_outside);
+  expect_no_fault(includes_below("tests/consumer"), fault_outside);
+}
+
+TEST(Rooms, EveryRoomOfTheHouseIsKnownHere) {
+  for (const auto& entry : fs::directory_iterator(project / "src")) {
+    if (entry.is_directory()) EXPECT_TRUE(arrows().count(entry.path().filename().string())) << entry.path();
+  }
+}
+
+// The test must be able to fail: wrong arrows are found, right ones are not.
+TEST(Rooms, WrongArrowsAreFound) {
+  const auto fault = [](const char* file, const char* name) { return fault_in_src({file, 1, name, true}); };
+  EXPECT_NE(fault("src/mesh/mesh.cpp", "factor/factor.h"), "");
+  EXPECT_NE(fault("src/factor/factor.cpp", "mesh/mesh.h"), "");
+  EXPECT_NE(fault("src/base/memory.h", "engine/core.h"), "");
+  EXPECT_NE(fault("src/engine/core.h", "capi/boundary.h"), "");
+  EXPECT_NE(fault("src/deform/pose.cpp", "transfer/transfer.h"), "");
+  EXPECT_NE(fault("src/detail/a.cpp", "deform/pose.h"), "");
+  EXPECT_NE(fault("src/mesh/mesh.cpp", "../factor/factor.h"), "");
+  EXPECT_NE(fault("src/attic/a.cpp", "base/error.h"), "");
+  EXPECT_NE(fault("src/mesh/mesh.cpp", "no_such_neighbour.h"), "");
+  EXPECT_EQ(fault("src/capi/field_api.cpp", "transfer/transfer.h"), "");
+  EXPECT_EQ(fault("src/transfer/transfer.cpp", "deform/pose.h"), "");
+  EXPECT_EQ(fault("src/mesh/mesh.cpp", "hf/mesh.h"), "");
+  EXPECT_NE(fault_outside({"samples/field/main.cpp", 1, "engine/core.h", true}), "");
+  EXPECT_NE(fault_outside({"samples/field/main.cpp", 1, "../../src/engine/core.h", true}), "");
+  EXPECT_EQ(fault_outside({"samples/field/main.cpp", 1, "hf/hf.h", true}), "");
+  EXPECT_NE(fault_in_public_header({"include/hf/base.h", 1, "vector", false}), "");
+  EXPECT_NE(fault_in_public_header({"include/hf/base.h", 1, "unistd.h", false}), "");
+  EXPECT_EQ(fault_in_public_header({"include/hf/base.h", 1, "stdint.h", false}), "");
+}
+
+TEST(Rooms, IncludeLinesAreReadAsThePreprocessorReadsThem) {
+  std::istringstream text("  #  include \"a/b.h\"\n#include <c>\n// #include \"d.h\"\n#define include\n#include\t\"e.h\" // x\n");
+  const std::vector<Include> found = includes_of(text, "f");
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found[0].name, "a/b.h");
+  EXPECT_TRUE(found[0].quoted);
+  EXPECT_EQ(found[1].name, "c");
+  EXPECT_FALSE(found[1].quoted);
+  EXPECT_EQ(found[2].line, 5);
+}
+
+}  // namespace
