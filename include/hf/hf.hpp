@@ -171,6 +171,8 @@ class Solver {
       : handle_(raw), channels_(channels), vertices_(vertices) {}
   static hf_create_desc mesh(const std::vector<float>& positions, const std::vector<uint32_t>& triangles) {
     auto desc = make<hf_create_desc>();
+    if (positions.size() % 3 != 0 || triangles.size() % 3 != 0)
+      throw std::invalid_argument("positions and triangles hold three numbers each");
     desc.vertex_count = static_cast<uint32_t>(positions.size() / 3);
     desc.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
     desc.positions = positions.data(), desc.triangles = triangles.data();
@@ -243,7 +245,7 @@ class Pose {
 class Transfer {
  public:
   Transfer(const Solver& source, const Solver& target, const hf_transfer_desc* desc = nullptr)
-      : target_vertices_(target.mesh_report().vertex_count) {
+      : source_vertices_(source.mesh_report().vertex_count), target_vertices_(target.mesh_report().vertex_count) {
     hf_transfer raw = nullptr;
     check(hf_transfer_create(source.get(), target.get(), desc, &raw));
     handle_ = Handle<hf_transfer, hf_transfer_destroy>(raw);
@@ -263,6 +265,8 @@ class Transfer {
   void remove_pair(uint32_t pair) { check(hf_transfer_remove_pairs(get(), 1, &pair)); }
   // One posed frame of the source, in its own vertex order.
   std::vector<float> apply(const std::vector<float>& source_positions) {
+    if (source_positions.size() != size_t{source_vertices_} * 3)
+      throw std::invalid_argument("source_positions: three numbers for each vertex of the source are needed");
     std::vector<float> positions(size_t{target_vertices_} * 3);
     auto frame = make<hf_transfer_frame>();
     frame.source_positions = source_positions.data(), frame.target_positions = positions.data();
@@ -272,7 +276,7 @@ class Transfer {
 
  private:
   Handle<hf_transfer, hf_transfer_destroy> handle_;
-  uint32_t target_vertices_ = 0;
+  uint32_t source_vertices_ = 0, target_vertices_ = 0;
 };
 
 }  // namespace hfpp

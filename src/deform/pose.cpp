@@ -71,11 +71,11 @@ std::shared_ptr<Pose> Pose::make(std::shared_ptr<const Core> core, const PoseOpt
   if (!core->factor) fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "poses need a solver made with HF_ENGINE_GREEN");
   const PoseOptions filled = checked(options);
   Memory& memory = *core->memory;
-  return make_shared_in<Pose>(memory, core, filled, make_shared_in<Rest>(memory, *core, memory));
+  return make_owner_in<Pose>(core->memory, core, filled, make_shared_in<Rest>(memory, *core, memory));
 }
 
 std::shared_ptr<Pose> Pose::clone() const {
-  auto copy = make_shared_in<Pose>(memory(), core_, options_, rest_);
+  auto copy = make_owner_in<Pose>(core_->memory, core_, options_, rest_);
   copy->groups_ = groups_;
   copy->layout_ = layout_, copy->previous_layout_ = previous_layout_;
   if (state_) copy->state_ = make_shared_in<State>(memory(), *state_, memory());

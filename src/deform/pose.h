@@ -85,7 +85,7 @@ class Pose {
   std::int32_t dropped_unknowns() const noexcept;
 
   Pose(std::shared_ptr<const Core> core, const PoseOptions& options,
-       std::shared_ptr<const Rest> rest);  // for make_shared_in; use make()
+       std::shared_ptr<const Rest> rest);  // for make_owner_in; use make()
 
  private:
   struct Layout;

@@ -1,5 +1,5 @@
-/* The host's allocator: every byte through it, every byte back; and any single allocation may fail, after which the call says
- * HF_ERROR_OUT_OF_MEMORY, nothing has leaked, and the objects are as they were before the call. */
+/* The host's allocator: every byte through it, every byte back; and any single allocation may fail, after which the
+ * call says HF_ERROR_OUT_OF_MEMORY, nothing has leaked, and the objects are as they were before the call. */
 #include "api_support.h"
 
 enum { AROUND = 8, RINGS = 10, VERTICES = AROUND * RINGS };
@@ -36,7 +36,10 @@ static hf_result call_move(World* w) {
   const hf_sites_desc to = sites_at(1, &vertex, NULL);
   return hf_move_sites(w->solver, 1, w->sites, &to);
 }
-static hf_result call_set(World* w) { const double value = 9; return hf_set_site_values(w->solver, 1, w->sites, &value); }
+static hf_result call_set(World* w) {
+  const double value = 9;
+  return hf_set_site_values(w->solver, 1, w->sites, &value);
+}
 static hf_result call_edit(World* w) {
   const uint32_t vertex = 21, place = 47;
   const double value = 6;
@@ -49,7 +52,10 @@ static hf_result call_edit(World* w) {
   return hf_edit_sites(w->solver, &edit, NULL);
 }
 static hf_result call_solve(World* w) { return hf_solve_f64(w->solver, w->field, 0, NULL); }
-static hf_result call_solve_at(World* w) { const uint32_t v[2] = {7, 70}; return hf_solve_at(w->solver, 2, v, w->field); }
+static hf_result call_solve_at(World* w) {
+  const uint32_t v[2] = {7, 70};
+  return hf_solve_at(w->solver, 2, v, w->field);
+}
 static hf_result call_get_sites(World* w) {
   hf_site_info info;
   HF_INIT(info);
@@ -75,12 +81,15 @@ static hf_result deform_to(World* w, float* positions) {
   return hf_deform(w->pose, &desc, NULL);
 }
 static hf_result call_deform(World* w) { return deform_to(w, w->result); }
-static hf_result call_transfer_create(World* w) { return hf_transfer_create(w->solver, w->solver, NULL, &w->made_transfer); }
+static hf_result call_transfer_create(World* w) {
+  return hf_transfer_create(w->solver, w->solver, NULL, &w->made_transfer);
+}
 static hf_result call_add_pairs(World* w) {
   const uint32_t count = 2, region[2] = {5 * AROUND, 5 * AROUND + 1};
   hf_pairs_desc desc;
   HF_INIT(desc);
-  desc.pair_count = 1, desc.source_counts = desc.target_counts = &count, desc.source_vertices = desc.target_vertices = region;
+  desc.pair_count = 1, desc.source_counts = desc.target_counts = &count,
+  desc.source_vertices = desc.target_vertices = region;
   return hf_transfer_add_pairs(w->transfer, &desc, NULL);
 }
 static hf_result call_remove_pairs(World* w) { return hf_transfer_remove_pairs(w->transfer, 1, w->pairs); }
@@ -147,7 +156,8 @@ static void create_world(World* w, int32_t engine) {
   const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
   hf_pairs_desc pairs;
   HF_INIT(pairs);
-  pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts, pairs.source_vertices = pairs.target_vertices = w->ends;
+  pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts,
+  pairs.source_vertices = pairs.target_vertices = w->ends;
   assert_ok(hf_transfer_create(w->solver, w->solver, NULL, &w->transfer));
   assert_ok(hf_transfer_add_pairs(w->transfer, &pairs, w->pairs));
 }
@@ -181,11 +191,13 @@ static void take_picture(World* w, Picture* p) {
 static int same_picture(const Picture* a, const Picture* b) {
   double worst = 0;
   for (int v = 0; v < VERTICES; ++v) worst = fmax(worst, fabs(a->field[v] - b->field[v]));
-  return a->site_count == b->site_count && a->handle_count == b->handle_count && worst < 1e-7 && same_bits(a->posed, b->posed, sizeof a->posed) &&
+  return a->site_count == b->site_count && a->handle_count == b->handle_count && worst < 1e-7 &&
+         same_bits(a->posed, b->posed, sizeof a->posed) &&
          same_bits(a->transferred, b->transferred, sizeof a->transferred);
 }
 
-/* Runs one scenario with allocation n = 1, 2, ... refused until the call succeeds. on: all later ones are refused too. */
+/* Runs one scenario with allocation n = 1, 2, ... refused until the call succeeds. on: all later ones are refused too.
+ */
 static unsigned refuse_each(size_t s, int32_t engine, int on) {
   unsigned refused = 0;
   for (size_t n = 1;; ++n) {
@@ -194,24 +206,30 @@ static unsigned refuse_each(size_t s, int32_t engine, int on) {
     create_world(&world, engine);
     take_picture(&world, &before);
     /* what the world computes lazily is computed again by some calls: start them from an untouched world */
-    if (scenarios[s].call == call_apply || scenarios[s].call == call_get_skin) destroy_world(&world), create_world(&world, engine);
+    if (scenarios[s].call == call_apply || scenarios[s].call == call_get_skin)
+      destroy_world(&world), create_world(&world, engine);
     const size_t live = world.memory.live_blocks, bytes = world.memory.live_bytes;
     world.memory.calls = 0, world.memory.refuse_at = n, world.memory.refuse_on = on;
     const hf_result result = scenarios[s].call(&world);
     const int reached = world.memory.calls >= n;
     world.memory.refuse_at = 0, world.memory.refuse_on = 0;
     if (result != HF_OK) {
-      if (result != HF_ERROR_OUT_OF_MEMORY) fail_msg("%s, engine %d, allocation %u: %s", scenarios[s].name, (int)engine, (unsigned)n, hf_result_name(result));
-      if (world.made_solver || world.made_pose || world.made_transfer) fail_msg("%s, allocation %u: a handle came back", scenarios[s].name, (unsigned)n);
+      if (result != HF_ERROR_OUT_OF_MEMORY)
+        fail_msg("%s, engine %d, allocation %u: %s", scenarios[s].name, (int)engine, (unsigned)n,
+                 hf_result_name(result));
+      if (world.made_solver || world.made_pose || world.made_transfer)
+        fail_msg("%s, allocation %u: a handle came back", scenarios[s].name, (unsigned)n);
       hf_error_detail detail;
       assert_ok(hf_get_error_detail(&detail));
       assert_int_equal(detail.code, HF_ERROR_OUT_OF_MEMORY);
       assert_string_equal(detail.function, scenarios[s].name);
       ++refused;
       /* a cache that the call has filled or a grown workspace may stay; a failed hf_create leaves nothing at all */
-      if (scenarios[s].call == call_create && (world.memory.live_blocks != live || world.memory.live_bytes != bytes)) fail_msg("hf_create leaked at allocation %u", (unsigned)n);
+      if (scenarios[s].call == call_create && (world.memory.live_blocks != live || world.memory.live_bytes != bytes))
+        fail_msg("hf_create leaked at allocation %u", (unsigned)n);
       take_picture(&world, &after);
-      if (!same_picture(&before, &after)) fail_msg("%s, engine %d, allocation %u: the state has changed", scenarios[s].name, (int)engine, (unsigned)n);
+      if (!same_picture(&before, &after))
+        fail_msg("%s, engine %d, allocation %u: the state has changed", scenarios[s].name, (int)engine, (unsigned)n);
       assert_ok(scenarios[s].call(&world)); /* and the call succeeds when memory is there again */
     }
     destroy_world(&world);

@@ -65,7 +65,8 @@ Surface surface_cut(void) {
   t += put_sheet(&s, 25, t, 4, 4, 4.0f);
   t += put_sheet(&s, CUT_ISLAND, t, 2, 2, 20.0f);
   s.triangles[3 * t] = s.triangles[3 * t + 1] = 0, s.triangles[3 * t + 2] = 1;
-  s.positions[3 * CUT_ISOLATED] = 30.0f, s.positions[3 * CUT_ISOLATED + 1] = 1.0f, s.positions[3 * CUT_ISOLATED + 2] = 2.0f;
+  s.positions[3 * CUT_ISOLATED] = 30.0f, s.positions[3 * CUT_ISOLATED + 1] = 1.0f,
+                  s.positions[3 * CUT_ISOLATED + 2] = 2.0f;
   return s;
 }
 
@@ -180,7 +181,8 @@ void row_holds(int line, const char* what, const char* condition, int holds) {
 
 static int starts_with_name(const char* call, const char* name) {
   const size_t length = strlen(name);
-  return length > 0 && strncmp(call, name, length) == 0 && (call[length] == '(' || call[length] == '\0' || call[length] == ':' || call[length] == ' ');
+  return length > 0 && strncmp(call, name, length) == 0 &&
+         (call[length] == '(' || call[length] == '\0' || call[length] == ':' || call[length] == ' ');
 }
 
 void check_row(int line, const char* what, const char* call, hf_result got, hf_result expected, uint32_t index) {
@@ -188,7 +190,8 @@ void check_row(int line, const char* what, const char* call, hf_result got, hf_r
   ++rows.count;
   if (got != expected) {
     ++rows.failures;
-    print_error("row at line %d, %s, %s: got %s, expected %s\n", line, call, what, hf_result_name(got), hf_result_name(expected));
+    print_error("row at line %d, %s, %s: got %s, expected %s\n", line, call, what, hf_result_name(got),
+                hf_result_name(expected));
     if (got != HF_OK && hf_get_error_detail(&detail) == HF_OK) print_error("  detail: %s\n", detail.message);
     return;
   }
@@ -199,7 +202,8 @@ void check_row(int line, const char* what, const char* call, hf_result got, hf_r
   row_holds(line, what, "the message is one line of text", strlen(detail.message) > 8 && !strchr(detail.message, '\n'));
   if (detail.index != index) {
     ++rows.failures;
-    print_error("row at line %d, %s, %s: index %u, expected %u (%s)\n", line, call, what, detail.index, index, detail.message);
+    print_error("row at line %d, %s, %s: index %u, expected %u (%s)\n", line, call, what, detail.index, index,
+                detail.message);
   }
 }
 

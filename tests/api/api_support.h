@@ -1,8 +1,10 @@
-/* What the tests of the public ABI share: small surfaces, solvers on them, an allocator that counts and refuses, and the check that
- * a failing call reports what the headers promise. C99, over include/hf only. */
+/* What the tests of the public ABI share: small surfaces, solvers on them, an allocator that counts and refuses, and
+ * the check that a failing call reports what the headers promise. C99, over include/hf only. */
 #ifndef HF_API_SUPPORT_H
 #define HF_API_SUPPORT_H
 
+/* cmocka.h needs what stands before it */
+/* clang-format off */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,8 +13,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
 #include <cmocka.h>
+/* clang-format on */
 
 #include "hf/hf.h"
 
@@ -30,10 +32,11 @@ typedef struct Surface {
 
 /* A bumpy sheet of columns x rows quads over [0, columns] x [0, rows]. Vertex (i, j) is j * (columns + 1) + i. */
 Surface surface_sheet(uint32_t columns, uint32_t rows);
-/* An open tube of unit radius along y: `around` vertices on each of `rings` rings, one unit apart. Vertex (i, ring) is ring * around + i. */
+/* An open tube of unit radius along y: `around` vertices on each of `rings` rings, one unit apart. Vertex (i, ring) is
+ * ring * around + i. */
 Surface surface_tube(uint32_t around, uint32_t rings);
-/* The cut sheet: two sheets of 4 x 4 quads that share a seam of 5 stored copies (component 0), an island of 2 x 2 quads (component 1),
- * one vertex in no triangle, and one triangle of equal corners. 60 vertices, 73 triangles. */
+/* The cut sheet: two sheets of 4 x 4 quads that share a seam of 5 stored copies (component 0), an island of 2 x 2 quads
+ * (component 1), one vertex in no triangle, and one triangle of equal corners. 60 vertices, 73 triangles. */
 Surface surface_cut(void);
 enum {
   CUT_VERTICES = 60,
@@ -62,16 +65,16 @@ hf_pose tube_pose(hf_solver solver, uint32_t around, uint32_t rings, uint32_t ou
 /* The indices of the first and the last two rings of a tube, one list after the other. */
 uint32_t* tube_ends(uint32_t around, uint32_t rings);
 
-/* An allocator on malloc that counts, and refuses allocation number `refuse_at` (1-based; 0 = never), and all later ones when
- * refuse_on is set. Not thread safe. */
+/* An allocator on malloc that counts, and refuses allocation number `refuse_at` (1-based; 0 = never), and all later
+ * ones when refuse_on is set. Not thread safe. */
 typedef struct CountingAllocator {
   size_t live_blocks, live_bytes, calls, refuse_at;
   int refuse_on, mismatches;
 } CountingAllocator;
 hf_allocator counting_hooks(CountingAllocator* allocator);
 
-/* One row of a bad-input table: checks code, index and that the detail names the function and says something on one line.
- * call: the text of the call, whose first word is the function. Failures are printed and counted. */
+/* One row of a bad-input table: checks code, index and that the detail names the function and says something on one
+ * line. call: the text of the call, whose first word is the function. Failures are printed and counted. */
 void check_row(int line, const char* what, const char* call, hf_result got, hf_result expected, uint32_t index);
 typedef struct Rows {
   unsigned count, failures;

@@ -1,5 +1,5 @@
-/* Every struct with a struct_size: NULL, sizes below the first version, absurd sizes, and bytes behind the struct that this version does
- * not know. Zero bytes behind it (a newer header, nothing new used) are accepted. */
+/* Every struct with a struct_size: NULL, sizes below the first version, absurd sizes, and bytes behind the struct that
+ * this version does not know. Zero bytes behind it (a newer header, nothing new used) are accepted. */
 #include "bad_scene.h"
 
 static Scene scene;
@@ -99,7 +99,8 @@ static hf_result transfer_create(void* d) {
 static void fill_pairs(void* d) {
   hf_pairs_desc* pairs = d;
   HF_INIT(*pairs);
-  pairs->pair_count = 1, pairs->source_counts = pairs->target_counts = &one, pairs->source_vertices = pairs->target_vertices = &middle;
+  pairs->pair_count = 1, pairs->source_counts = pairs->target_counts = &one,
+  pairs->source_vertices = pairs->target_vertices = &middle;
 }
 static hf_result transfer_add_pairs(void* d) { return hf_transfer_add_pairs(scene.transfer, d, NULL); }
 static void fill_pair_info(void* d) { HF_INIT(*(hf_pair_info*)d); }
@@ -168,14 +169,16 @@ static void every_struct_is_checked_before_anything_is_done(void** state) {
     const uint32_t refused[] = {0, 1, 4, size / 2, size - 1, SPACE - 1, 0x80000000u, UINT32_MAX};
     if (!structs[s].optional) check_row(__LINE__, "NULL", what, structs[s].call(NULL), HF_ERROR_NULL_POINTER, NO_INDEX);
     for (size_t r = 0; r < COUNT_OF(refused); ++r) {
-      check_row(__LINE__, "struct_size wrong", what, structs[s].call(good(s, refused[r])), HF_ERROR_INVALID_DESC, NO_INDEX);
+      check_row(__LINE__, "struct_size wrong", what, structs[s].call(good(s, refused[r])), HF_ERROR_INVALID_DESC,
+                NO_INDEX);
     }
     for (uint32_t more = 1; more <= 64; more *= 8) {
       void* longer = good(s, size + more);
       given.bytes[size + more - 1] = 1;
       check_row(__LINE__, "an unknown byte is set", what, structs[s].call(longer), HF_ERROR_INVALID_DESC, NO_INDEX);
     }
-    row_holds(__LINE__, what, "the state is unchanged", solver_unchanged(&scene) && pose_unchanged(&scene) && transfer_unchanged(&scene));
+    row_holds(__LINE__, what, "the state is unchanged",
+              solver_unchanged(&scene) && pose_unchanged(&scene) && transfer_unchanged(&scene));
   }
   finish_rows("structs");
   scene_destroy(&scene);
@@ -186,7 +189,8 @@ static void a_longer_struct_with_zero_bytes_is_accepted_and_only_its_known_part_
   for (size_t s = 0; s < COUNT_OF(structs); ++s) {
     scene_create(&scene);
     const uint32_t size = (uint32_t)structs[s].size, longer = size + 24;
-    check_row(__LINE__, "zero bytes of a newer version", structs[s].what, structs[s].call(good(s, longer)), HF_OK, NO_INDEX);
+    check_row(__LINE__, "zero bytes of a newer version", structs[s].what, structs[s].call(good(s, longer)), HF_OK,
+              NO_INDEX);
     uint32_t stored;
     memcpy(&stored, given.bytes, sizeof stored);
     row_holds(__LINE__, structs[s].what, "struct_size is left as it was", stored == longer);

@@ -1,5 +1,5 @@
-/* Every function that takes a handle, called with every kind of handle that is not one of its own: HF_ERROR_INVALID_HANDLE, and
- * every live object as before. */
+/* Every function that takes a handle, called with every kind of handle that is not one of its own:
+ * HF_ERROR_INVALID_HANDLE, and every live object as before. */
 #include "bad_scene.h"
 
 static Scene scene;
@@ -9,10 +9,21 @@ static double doubles[3 * TUBE_VERTICES];
 static uint32_t numbers[TUBE_VERTICES];
 
 /* One call per function, everything but the handle in order. */
-static hf_result clone(void* h) { hf_solver out; return hf_clone(h, &out); }
-static hf_result get_mesh_report(void* h) { hf_mesh_report r; HF_INIT(r); return hf_get_mesh_report(h, &r); }
+static hf_result clone(void* h) {
+  hf_solver out;
+  return hf_clone(h, &out);
+}
+static hf_result get_mesh_report(void* h) {
+  hf_mesh_report r;
+  HF_INIT(r);
+  return hf_get_mesh_report(h, &r);
+}
 static hf_result get_components(void* h) { return hf_get_components(h, CUT_VERTICES, numbers); }
-static hf_result get_statistics(void* h) { hf_statistics s; HF_INIT(s); return hf_get_statistics(h, &s); }
+static hf_result get_statistics(void* h) {
+  hf_statistics s;
+  HF_INIT(s);
+  return hf_get_statistics(h, &s);
+}
 static hf_result add_sites(void* h) {
   const uint32_t vertex = 7;
   const hf_sites_desc d = sites_at(1, &vertex, NULL);
@@ -24,27 +35,50 @@ static hf_result move_sites(void* h) {
   const hf_sites_desc d = sites_at(1, &vertex, NULL);
   return hf_move_sites(h, 1, scene.sites, &d);
 }
-static hf_result set_site_values(void* h) { const double v = 3; return hf_set_site_values(h, 1, scene.sites, &v); }
+static hf_result set_site_values(void* h) {
+  const double v = 3;
+  return hf_set_site_values(h, 1, scene.sites, &v);
+}
 static hf_result edit_sites(void* h) {
   hf_edit_desc d;
   HF_INIT(d);
   d.remove_count = 1, d.remove_sites = scene.sites;
   return hf_edit_sites(h, &d, NULL);
 }
-static hf_result get_sites(void* h) { hf_site_info i; HF_INIT(i); i.capacity = 3; return hf_get_sites(h, &i); }
+static hf_result get_sites(void* h) {
+  hf_site_info i;
+  HF_INIT(i);
+  i.capacity = 3;
+  return hf_get_sites(h, &i);
+}
 static hf_result solve(void* h) { return hf_solve(h, floats, 0, NULL); }
 static hf_result solve_f64(void* h) { return hf_solve_f64(h, doubles, 0, NULL); }
 static hf_result solve_vectors(void* h) { return hf_solve_vectors(h, floats, 0, NULL, NULL); }
 static hf_result solve_vectors_f64(void* h) { return hf_solve_vectors_f64(h, doubles, 0, NULL, NULL); }
-static hf_result solve_at(void* h) { const uint32_t v = 3; return hf_solve_at(h, 1, &v, doubles); }
+static hf_result solve_at(void* h) {
+  const uint32_t v = 3;
+  return hf_solve_at(h, 1, &v, doubles);
+}
 static hf_result record(void* h) { return hf_record(h); }
 static hf_result undo(void* h) { return hf_undo(h); }
 static hf_result redo(void* h) { return hf_redo(h); }
-static hf_result pose_create(void* h) { hf_pose out; return hf_pose_create(h, NULL, &out); }
-static hf_result transfer_from(void* h) { hf_transfer out; return hf_transfer_create(h, scene.body, NULL, &out); }
-static hf_result transfer_to(void* h) { hf_transfer out; return hf_transfer_create(scene.body, h, NULL, &out); }
+static hf_result pose_create(void* h) {
+  hf_pose out;
+  return hf_pose_create(h, NULL, &out);
+}
+static hf_result transfer_from(void* h) {
+  hf_transfer out;
+  return hf_transfer_create(h, scene.body, NULL, &out);
+}
+static hf_result transfer_to(void* h) {
+  hf_transfer out;
+  return hf_transfer_create(scene.body, h, NULL, &out);
+}
 
-static hf_result pose_clone(void* h) { hf_pose out; return hf_pose_clone(h, &out); }
+static hf_result pose_clone(void* h) {
+  hf_pose out;
+  return hf_pose_clone(h, &out);
+}
 static hf_result pose_add_handles(void* h) {
   const uint32_t count = 1, vertex = 5 * TUBE_AROUND;
   hf_handles_desc d;
@@ -57,7 +91,11 @@ static hf_result pose_set_transforms(void* h) {
   const hf_transform rest = {{0, 0, 0, 1}, {0, 0, 0}};
   return hf_pose_set_transforms(h, 1, scene.handles, &rest);
 }
-static hf_result pose_get_handle(void* h) { hf_handle_info i; HF_INIT(i); return hf_pose_get_handle(h, scene.handles[0], &i); }
+static hf_result pose_get_handle(void* h) {
+  hf_handle_info i;
+  HF_INIT(i);
+  return hf_pose_get_handle(h, scene.handles[0], &i);
+}
 static hf_result pose_get_field(void* h) { return hf_pose_get_field(h, scene.handles[0], floats, 0); }
 static hf_result deform(void* h) {
   hf_deform_desc d;
@@ -74,16 +112,27 @@ static hf_result transfer_add_pairs(void* h) {
   return hf_transfer_add_pairs(h, &d, NULL);
 }
 static hf_result transfer_remove_pairs(void* h) { return hf_transfer_remove_pairs(h, 1, scene.pairs); }
-static hf_result transfer_get_pair(void* h) { hf_pair_info i; HF_INIT(i); return hf_transfer_get_pair(h, scene.pairs[0], &i); }
+static hf_result transfer_get_pair(void* h) {
+  hf_pair_info i;
+  HF_INIT(i);
+  return hf_transfer_get_pair(h, scene.pairs[0], &i);
+}
 static hf_result transfer_apply(void* h) {
   hf_transfer_frame f;
   HF_INIT(f);
   f.source_positions = scene.posed, f.target_positions = floats;
   return hf_transfer_apply(h, &f);
 }
-static hf_result transfer_get_skin(void* h) { hf_skin_info i; HF_INIT(i); return hf_transfer_get_skin(h, &i); }
+static hf_result transfer_get_skin(void* h) {
+  hf_skin_info i;
+  HF_INIT(i);
+  return hf_transfer_get_skin(h, &i);
+}
 
-static hf_result progress_get(void* h) { float f; return hf_progress_get(h, &f); }
+static hf_result progress_get(void* h) {
+  float f;
+  return hf_progress_get(h, &f);
+}
 static hf_result progress_cancel(void* h) { return hf_progress_cancel(h); }
 
 enum Kind { SOLVER, POSE, TRANSFER, PROGRESS, KIND_COUNT };
@@ -132,7 +181,8 @@ static const struct {
 };
 
 static int unchanged(enum Kind kind) {
-  return solver_unchanged(&scene) && (kind == SOLVER || kind == PROGRESS || (kind == POSE ? pose_unchanged(&scene) : transfer_unchanged(&scene)));
+  return solver_unchanged(&scene) &&
+         (kind == SOLVER || kind == PROGRESS || (kind == POSE ? pose_unchanged(&scene) : transfer_unchanged(&scene)));
 }
 
 static void every_function_refuses_every_handle_that_is_not_its_own(void** state) {
@@ -146,13 +196,19 @@ static void every_function_refuses_every_handle_that_is_not_its_own(void** state
     struct {
       const char* what;
       void* handle;
-    } bad[8] = {{"NULL", NULL}, {"destroyed", stale[kind]}, {"all bits set", (void*)UINTPTR_MAX}, {"the number 1", (void*)(uintptr_t)1}, {"a pointer", &on_the_stack}};
+    } bad[8] = {{"NULL", NULL},
+                {"destroyed", stale[kind]},
+                {"all bits set", (void*)UINTPTR_MAX},
+                {"the number 1", (void*)(uintptr_t)1},
+                {"a pointer", &on_the_stack}};
     size_t count = 5;
     for (int other = 0; other < KIND_COUNT; ++other) {
-      if ((enum Kind)other != kind) bad[count].what = "a live handle of another kind", bad[count++].handle = live[other];
+      if ((enum Kind)other != kind)
+        bad[count].what = "a live handle of another kind", bad[count++].handle = live[other];
     }
     for (size_t b = 0; b < count; ++b) {
-      check_row(__LINE__, bad[b].what, functions[f].function, functions[f].call(bad[b].handle), HF_ERROR_INVALID_HANDLE, functions[f].index);
+      check_row(__LINE__, bad[b].what, functions[f].function, functions[f].call(bad[b].handle), HF_ERROR_INVALID_HANDLE,
+                functions[f].index);
     }
     row_holds(__LINE__, functions[f].function, "the live objects are unchanged", unchanged(kind));
   }
@@ -163,7 +219,14 @@ static void every_function_refuses_every_handle_that_is_not_its_own(void** state
 static void destroying_what_is_no_handle_does_nothing(void** state) {
   (void)state;
   scene_create(&scene);
-  void* const bad[] = {NULL, (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &scene, scene.stale_solver, scene.stale_pose, scene.stale_transfer, scene.stale_progress};
+  void* const bad[] = {NULL,
+                       (void*)UINTPTR_MAX,
+                       (void*)(uintptr_t)1,
+                       &scene,
+                       scene.stale_solver,
+                       scene.stale_pose,
+                       scene.stale_transfer,
+                       scene.stale_progress};
   for (size_t b = 0; b < COUNT_OF(bad); ++b) {
     hf_destroy(bad[b]), hf_pose_destroy(bad[b]), hf_transfer_destroy(bad[b]), hf_progress_destroy(bad[b]);
   }

@@ -20,7 +20,9 @@ static void good_input(void) {
   desc.allocator = counting_hooks(&counter);
   out = scene.solver; /* must become NULL */
 }
-static int nothing_exists(void) { return out == NULL && counter.live_blocks == 0 && counter.mismatches == 0 && solver_unchanged(&scene); }
+static int nothing_exists(void) {
+  return out == NULL && counter.live_blocks == 0 && counter.mismatches == 0 && solver_unchanged(&scene);
+}
 
 #define GOOD good_input
 #define UNCHANGED nothing_exists
@@ -56,16 +58,20 @@ static void hf_create_refuses_bad_meshes(void** state) {
   CREATE("NaN in an isolated vertex", HF_ERROR_NON_FINITE, CUT_ISOLATED, positions[3 * CUT_ISOLATED] = (float)NAN);
   CREATE("NaN in double", HF_ERROR_NON_FINITE, 12, (in_double(), positions_f64[36] = (double)NAN));
   CREATE("infinity in double", HF_ERROR_NON_FINITE, 12, (in_double(), positions_f64[37] = -HUGE_VAL));
-  CREATE("wider than 1e300", HF_ERROR_TOO_LARGE, NO_INDEX, (in_double(), positions_f64[0] = 1e308, positions_f64[3] = -1e308));
+  CREATE("wider than 1e300", HF_ERROR_TOO_LARGE, NO_INDEX,
+         (in_double(), positions_f64[0] = 1e308, positions_f64[3] = -1e308));
   CREATE("every triangle collapses", HF_ERROR_EMPTY, NO_INDEX, memset(triangles, 0, sizeof triangles));
-  CREATE("everything welds to a point", HF_ERROR_EMPTY, NO_INDEX, (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = 100.0f));
+  CREATE("everything welds to a point", HF_ERROR_EMPTY, NO_INDEX,
+         (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = 100.0f));
   CREATE("all vertices at one place", HF_ERROR_EMPTY, NO_INDEX, memset(positions, 0, sizeof positions));
 
   CREATE("2^32 - 1 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_count = UINT32_MAX);
   CREATE("2^31 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_count = 0x80000000u);
-  CREATE("2^31 vertices, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX, (desc.vertex_count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
+  CREATE("2^31 vertices, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX,
+         (desc.vertex_count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
   CREATE("2^32 - 1 triangles", HF_ERROR_TOO_LARGE, NO_INDEX, desc.triangle_count = UINT32_MAX);
-  CREATE("2^31 triangles, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX, (desc.triangle_count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
+  CREATE("2^31 triangles, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX,
+         (desc.triangle_count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
   CREATE("above the vertex_limit", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_limit = CUT_VERTICES - 1);
 
   scene_destroy(&scene);
@@ -91,14 +97,18 @@ static void hf_create_refuses_bad_options(void** state) {
   CREATE("ordering -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.ordering = -1);
   CREATE("ordering 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.ordering = 3);
   CREATE("weld tolerance 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.weld = HF_WELD_TOLERANCE);
-  CREATE("weld tolerance negative", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = -1.0f));
-  CREATE("weld tolerance NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = (float)NAN));
-  CREATE("weld tolerance infinite", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = (float)INFINITY));
+  CREATE("weld tolerance negative", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+         (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = -1.0f));
+  CREATE("weld tolerance NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+         (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = (float)NAN));
+  CREATE("weld tolerance infinite", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+         (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = (float)INFINITY));
   CREATE("65 channels", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.channel_count = 65);
   CREATE("2^32 - 1 channels", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.channel_count = UINT32_MAX);
   CREATE("257 threads", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.thread_count = 257);
   CREATE("2^32 - 1 threads", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.thread_count = UINT32_MAX);
-  CREATE("257 threads of the host", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (desc.thread_count = 257, desc.job_runner.run = host_run));
+  CREATE("257 threads of the host", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+         (desc.thread_count = 257, desc.job_runner.run = host_run));
   CREATE("penalty negative", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.penalty = -1.0);
   CREATE("penalty NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.penalty = (double)NAN);
   CREATE("allocator without release", HF_ERROR_NULL_POINTER, NO_INDEX, desc.allocator.release = NULL);
@@ -106,8 +116,10 @@ static void hf_create_refuses_bad_options(void** state) {
   CREATE("allocator that refuses at once", HF_ERROR_OUT_OF_MEMORY, NO_INDEX, counter.refuse_at = counter.calls + 1);
   counter.refuse_at = 0;
   CREATE("progress destroyed", HF_ERROR_INVALID_HANDLE, NO_INDEX, desc.progress = scene.stale_progress);
-  CREATE("progress of another kind", HF_ERROR_INVALID_HANDLE, NO_INDEX, desc.progress = (hf_progress)(void*)scene.solver);
-  CREATE("progress cancelled before", HF_ERROR_CANCELLED, NO_INDEX, (desc.progress = scene.progress, hf_progress_cancel(scene.progress)));
+  CREATE("progress of another kind", HF_ERROR_INVALID_HANDLE, NO_INDEX,
+         desc.progress = (hf_progress)(void*)scene.solver);
+  CREATE("progress cancelled before", HF_ERROR_CANCELLED, NO_INDEX,
+         (desc.progress = scene.progress, hf_progress_cancel(scene.progress)));
 #ifndef HF_WITH_GPL
   CREATE("updown in a build without it", HF_ERROR_UNSUPPORTED, NO_INDEX, desc.engine = HF_ENGINE_UPDOWN);
   CREATE("METIS in a build without it", HF_ERROR_UNSUPPORTED, NO_INDEX, desc.ordering = HF_ORDERING_METIS);
@@ -152,10 +164,13 @@ static void readers_of_base_and_mesh_refuse_null_and_small_arrays(void** state) 
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_clone(scene.solver, NULL));
   ROW("out NULL and no handle", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_clone(NULL, NULL));
   ROW("array NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_get_components(scene.solver, CUT_VERTICES, NULL));
-  ROW("array too small", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_get_components(scene.solver, CUT_VERTICES - 1, components));
-  ROW("array too large", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_get_components(scene.solver, CUT_VERTICES + 1, components));
+  ROW("array too small", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
+      hf_get_components(scene.solver, CUT_VERTICES - 1, components));
+  ROW("array too large", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
+      hf_get_components(scene.solver, CUT_VERTICES + 1, components));
   ROW("array of 0", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_get_components(scene.solver, 0, components));
-  ROW("array of 2^32 - 1", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_get_components(scene.solver, UINT32_MAX, components));
+  ROW("array of 2^32 - 1", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
+      hf_get_components(scene.solver, UINT32_MAX, components));
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_progress_create(NULL));
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_progress_get(scene.progress, NULL));
   ROW("handle NULL", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_progress_get(NULL, &fraction));
@@ -170,7 +185,8 @@ static void every_code_has_its_name_and_others_are_unknown(void** state) {
   for (hf_result code = -400; code <= 400; ++code) {
     const char* name = hf_result_name(code);
     assert_non_null(name);
-    if (strcmp(name, "unknown") != 0) ++named, assert_int_equal(strncmp(name, code ? "HF_ERROR_" : "HF_OK", code ? 9 : 5), 0);
+    if (strcmp(name, "unknown") != 0)
+      ++named, assert_int_equal(strncmp(name, code ? "HF_ERROR_" : "HF_OK", code ? 9 : 5), 0);
   }
   assert_int_equal(named, 26);
   assert_string_equal(hf_result_name(INT32_MIN), "unknown");

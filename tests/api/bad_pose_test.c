@@ -23,7 +23,8 @@ static void good_input(void) {
   counts[0] = target_counts[0] = 2, counts[1] = target_counts[1] = 4;
   flags[0] = 0, flags[1] = HF_PAIR_ANCHOR, out_numbers[0] = 777;
   numbers[0] = scene.handles[0], numbers[1] = scene.handles[1], numbers[2] = 0;
-  HF_INIT(handles), HF_INIT(pairs), HF_INIT(pose_desc), HF_INIT(transfer_desc), HF_INIT(deform), HF_INIT(frame), HF_INIT(skin);
+  HF_INIT(handles), HF_INIT(pairs), HF_INIT(pose_desc), HF_INIT(transfer_desc), HF_INIT(deform), HF_INIT(frame),
+      HF_INIT(skin);
   handles.handle_count = 2, handles.region_counts = counts, handles.region_vertices = region;
   pairs.pair_count = 2, pairs.flags = flags;
   pairs.source_counts = counts, pairs.source_vertices = region;
@@ -37,7 +38,9 @@ static void good_input(void) {
   out_pose = scene.pose, out_transfer = scene.transfer;
 }
 
-static int outputs_unwritten(void) { return out_numbers[0] == 777 && floats[0] == 777 && doubles[0] == 777 && normals[0] == 777; }
+static int outputs_unwritten(void) {
+  return out_numbers[0] == 777 && floats[0] == 777 && doubles[0] == 777 && normals[0] == 777;
+}
 static int pose_as_before(void) { return outputs_unwritten() && pose_unchanged(&scene); }
 static int transfer_as_before(void) { return outputs_unwritten() && transfer_unchanged(&scene); }
 static int no_pose(void) { return out_pose == NULL && pose_as_before(); }
@@ -45,7 +48,8 @@ static int no_transfer(void) { return out_transfer == NULL && transfer_as_before
 
 #define GOOD good_input
 #define UNCHANGED no_pose
-#define CREATE_POSE(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_pose_create(scene.body, &pose_desc, &out_pose))
+#define CREATE_POSE(what, expected, change) \
+  ROW(what, expected, NO_INDEX, change, hf_pose_create(scene.body, &pose_desc, &out_pose))
 
 static hf_solver solver_of_engine(int32_t engine) {
   hf_create_desc desc = surface_desc(&scene.tube);
@@ -80,7 +84,8 @@ static void bad_poses_are_not_made(void** state) {
   finish_rows("making poses");
 }
 
-#define ADD(what, expected, index, change) ROW(what, expected, index, change, hf_pose_add_handles(scene.pose, &handles, out_numbers))
+#define ADD(what, expected, index, change) \
+  ROW(what, expected, index, change, hf_pose_add_handles(scene.pose, &handles, out_numbers))
 
 static void bad_handles_are_not_added(void** state) {
   (void)state;
@@ -120,9 +125,11 @@ static void isolated_vertices_and_welded_copies_in_regions_are_found(void** stat
   const uint32_t both[] = {0, 1};
   assert_ok(hf_pose_remove_handles(pose, 2, both));
   vertices[1] = CUT_SEAM_RIGHT, vertices[3] = 9;
-  check_row(__LINE__, "copies in two regions", "hf_pose_add_handles", hf_pose_add_handles(pose, &d, NULL), HF_ERROR_OVERLAP, 2);
+  check_row(__LINE__, "copies in two regions", "hf_pose_add_handles", hf_pose_add_handles(pose, &d, NULL),
+            HF_ERROR_OVERLAP, 2);
   vertices[1] = 1, vertices[3] = CUT_ISOLATED;
-  check_row(__LINE__, "an isolated vertex", "hf_pose_add_handles", hf_pose_add_handles(pose, &d, NULL), HF_ERROR_INVALID_ARGUMENT, 3);
+  check_row(__LINE__, "an isolated vertex", "hf_pose_add_handles", hf_pose_add_handles(pose, &d, NULL),
+            HF_ERROR_INVALID_ARGUMENT, 3);
   assert_int_equal(hf_pose_get_handle_count(pose), 0);
   hf_pose_destroy(pose);
   scene_destroy(&scene);
@@ -157,15 +164,19 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   ROW("none", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_pose_remove_handles(scene.pose, 0, numbers));
   ROW("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_remove_handles(scene.pose, 1, NULL));
   ROW("no such handle", HF_ERROR_NO_SUCH_HANDLE, 1, numbers[1] = 2, hf_pose_remove_handles(scene.pose, 2, numbers));
-  ROW("UINT32_MAX", HF_ERROR_NO_SUCH_HANDLE, 0, numbers[0] = UINT32_MAX, hf_pose_remove_handles(scene.pose, 2, numbers));
+  ROW("UINT32_MAX", HF_ERROR_NO_SUCH_HANDLE, 0, numbers[0] = UINT32_MAX,
+      hf_pose_remove_handles(scene.pose, 2, numbers));
   ROW("named twice", HF_ERROR_NO_SUCH_HANDLE, 2, (void)0, hf_pose_remove_handles(scene.pose, 3, numbers));
   ROW("2^31 of them", HF_ERROR_NO_SUCH_HANDLE, 2, (void)0, hf_pose_remove_handles(scene.pose, 0x80000000u, numbers));
 
-#define PLACE(what, expected, index, change) ROW(what, expected, index, change, hf_pose_set_transforms(scene.pose, 2, numbers, transforms))
+#define PLACE(what, expected, index, change) \
+  ROW(what, expected, index, change, hf_pose_set_transforms(scene.pose, 2, numbers, transforms))
   ROW("none", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_pose_set_transforms(scene.pose, 0, numbers, transforms));
   ROW("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_set_transforms(scene.pose, 2, NULL, transforms));
-  ROW("transforms NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_set_transforms(scene.pose, 2, numbers, NULL));
-  ROW("2^32 - 1 of them", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0, hf_pose_set_transforms(scene.pose, UINT32_MAX, numbers, transforms));
+  ROW("transforms NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
+      hf_pose_set_transforms(scene.pose, 2, numbers, NULL));
+  ROW("2^32 - 1 of them", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0,
+      hf_pose_set_transforms(scene.pose, UINT32_MAX, numbers, transforms));
   PLACE("no such handle", HF_ERROR_NO_SUCH_HANDLE, 1, numbers[1] = 9);
   PLACE("rotation NaN", HF_ERROR_NON_FINITE, 1, transforms[1].rotation[0] = (double)NAN);
   PLACE("rotation w infinite", HF_ERROR_NON_FINITE, 0, transforms[0].rotation[3] = HUGE_VAL);
@@ -183,7 +194,8 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   DEFORM("no output", HF_ERROR_NULL_POINTER, deform.positions = NULL);
   DEFORM("both outputs", HF_ERROR_INVALID_ARGUMENT, deform.positions_f64 = doubles);
   DEFORM("stride 11", HF_ERROR_TOO_SMALL, deform.position_stride = 11);
-  DEFORM("stride of floats", HF_ERROR_TOO_SMALL, (deform.positions = NULL, deform.positions_f64 = doubles, deform.position_stride = 12));
+  DEFORM("stride of floats", HF_ERROR_TOO_SMALL,
+         (deform.positions = NULL, deform.positions_f64 = doubles, deform.position_stride = 12));
   DEFORM("normal stride 4", HF_ERROR_TOO_SMALL, (deform.normals = normals, deform.normal_stride = 4));
   DEFORM("1001 iterations", HF_ERROR_INVALID_ARGUMENT, deform.iteration_count = 1001);
   DEFORM("2^32 - 1 iterations", HF_ERROR_INVALID_ARGUMENT, deform.iteration_count = UINT32_MAX);
@@ -191,9 +203,12 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   GOOD();
   assert_ok(hf_pose_create(scene.body, NULL, &out_pose));
   check_row(__LINE__, "no handle", "hf_deform", hf_deform(out_pose, &deform, NULL), HF_ERROR_EMPTY, NO_INDEX);
-  check_row(__LINE__, "no handle", "hf_pose_get_handle", hf_pose_get_handle(out_pose, 0, &info), HF_ERROR_NO_SUCH_HANDLE, NO_INDEX);
-  check_row(__LINE__, "no handle", "hf_pose_get_field", hf_pose_get_field(out_pose, 0, floats, 0), HF_ERROR_NO_SUCH_HANDLE, NO_INDEX);
-  check_row(__LINE__, "no handle", "hf_pose_remove_handles", hf_pose_remove_handles(out_pose, 1, numbers), HF_ERROR_NO_SUCH_HANDLE, 0);
+  check_row(__LINE__, "no handle", "hf_pose_get_handle", hf_pose_get_handle(out_pose, 0, &info),
+            HF_ERROR_NO_SUCH_HANDLE, NO_INDEX);
+  check_row(__LINE__, "no handle", "hf_pose_get_field", hf_pose_get_field(out_pose, 0, floats, 0),
+            HF_ERROR_NO_SUCH_HANDLE, NO_INDEX);
+  check_row(__LINE__, "no handle", "hf_pose_remove_handles", hf_pose_remove_handles(out_pose, 1, numbers),
+            HF_ERROR_NO_SUCH_HANDLE, 0);
   hf_pose_destroy(out_pose);
   scene_destroy(&scene);
   finish_rows("poses");
@@ -237,7 +252,8 @@ static void bad_transfers_are_not_made(void** state) {
   finish_rows("making transfers");
 }
 
-#define PAIRS(what, expected, index, change) ROW(what, expected, index, change, hf_transfer_add_pairs(scene.transfer, &pairs, out_numbers))
+#define PAIRS(what, expected, index, change) \
+  ROW(what, expected, index, change, hf_transfer_add_pairs(scene.transfer, &pairs, out_numbers))
 
 static void bad_pairs_are_not_added(void** state) {
   (void)state;
@@ -266,7 +282,8 @@ static void bad_pairs_are_not_added(void** state) {
   finish_rows("adding pairs");
 }
 
-#define APPLY(what, expected, index, change) ROW(what, expected, index, change, hf_transfer_apply(scene.transfer, &frame))
+#define APPLY(what, expected, index, change) \
+  ROW(what, expected, index, change, hf_transfer_apply(scene.transfer, &frame))
 #define SKIN(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_transfer_get_skin(scene.transfer, &skin))
 
 static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
@@ -277,9 +294,11 @@ static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
   ROW("none", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_transfer_remove_pairs(scene.transfer, 0, numbers));
   ROW("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_transfer_remove_pairs(scene.transfer, 1, NULL));
   ROW("no such pair", HF_ERROR_NO_SUCH_PAIR, 1, numbers[1] = 2, hf_transfer_remove_pairs(scene.transfer, 2, numbers));
-  ROW("UINT32_MAX", HF_ERROR_NO_SUCH_PAIR, 0, numbers[0] = UINT32_MAX, hf_transfer_remove_pairs(scene.transfer, 2, numbers));
+  ROW("UINT32_MAX", HF_ERROR_NO_SUCH_PAIR, 0, numbers[0] = UINT32_MAX,
+      hf_transfer_remove_pairs(scene.transfer, 2, numbers));
   ROW("named twice", HF_ERROR_NO_SUCH_PAIR, 2, (void)0, hf_transfer_remove_pairs(scene.transfer, 3, numbers));
-  ROW("2^31 of them", HF_ERROR_NO_SUCH_PAIR, 2, (void)0, hf_transfer_remove_pairs(scene.transfer, 0x80000000u, numbers));
+  ROW("2^31 of them", HF_ERROR_NO_SUCH_PAIR, 2, (void)0,
+      hf_transfer_remove_pairs(scene.transfer, 0x80000000u, numbers));
   ROW("no such pair", HF_ERROR_NO_SUCH_PAIR, 2, (void)0, hf_transfer_get_pair(scene.transfer, 2, &info));
   ROW("UINT32_MAX", HF_ERROR_NO_SUCH_PAIR, NO_INDEX, (void)0, hf_transfer_get_pair(scene.transfer, UINT32_MAX, &info));
 
@@ -298,10 +317,14 @@ static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
 
   GOOD();
   assert_ok(hf_transfer_create(scene.body, scene.body, NULL, &out_transfer));
-  check_row(__LINE__, "no pair", "hf_transfer_apply", hf_transfer_apply(out_transfer, &frame), HF_ERROR_EMPTY, NO_INDEX);
-  check_row(__LINE__, "no pair", "hf_transfer_get_skin", hf_transfer_get_skin(out_transfer, &skin), HF_ERROR_EMPTY, NO_INDEX);
-  check_row(__LINE__, "no pair", "hf_transfer_get_pair", hf_transfer_get_pair(out_transfer, 0, &info), HF_ERROR_NO_SUCH_PAIR, 0);
-  check_row(__LINE__, "no pair", "hf_transfer_remove_pairs", hf_transfer_remove_pairs(out_transfer, 1, numbers), HF_ERROR_NO_SUCH_PAIR, 0);
+  check_row(__LINE__, "no pair", "hf_transfer_apply", hf_transfer_apply(out_transfer, &frame), HF_ERROR_EMPTY,
+            NO_INDEX);
+  check_row(__LINE__, "no pair", "hf_transfer_get_skin", hf_transfer_get_skin(out_transfer, &skin), HF_ERROR_EMPTY,
+            NO_INDEX);
+  check_row(__LINE__, "no pair", "hf_transfer_get_pair", hf_transfer_get_pair(out_transfer, 0, &info),
+            HF_ERROR_NO_SUCH_PAIR, 0);
+  check_row(__LINE__, "no pair", "hf_transfer_remove_pairs", hf_transfer_remove_pairs(out_transfer, 1, numbers),
+            HF_ERROR_NO_SUCH_PAIR, 0);
   hf_transfer_destroy(out_transfer);
   scene_destroy(&scene);
   finish_rows("transfers");

@@ -1,4 +1,5 @@
-/* The scene the bad-input tables work on: one live object of each kind with a known state, and the check that nothing has changed. */
+/* The scene the bad-input tables work on: one live object of each kind with a known state, and the check that nothing
+ * has changed. */
 #ifndef HF_API_BAD_SCENE_H
 #define HF_API_BAD_SCENE_H
 
@@ -8,7 +9,8 @@ enum { TUBE_AROUND = 10, TUBE_RINGS = 14, TUBE_VERTICES = TUBE_AROUND * TUBE_RIN
 
 typedef struct Scene {
   Surface cut, tube;
-  hf_solver solver;     /* on the cut sheet, one channel, sites at CUT_LEFT = 0, CUT_RIGHT = 1, CUT_SEAM_LEFT = 5; undo record */
+  hf_solver
+      solver; /* on the cut sheet, one channel, sites at CUT_LEFT = 0, CUT_RIGHT = 1, CUT_SEAM_LEFT = 5; undo record */
   hf_solver three;      /* on the cut sheet, three channels, no site */
   hf_solver body;       /* on the tube, no site */
   hf_pose pose;         /* on the tube, two handles, one turned */
@@ -19,9 +21,9 @@ typedef struct Scene {
   hf_transfer stale_transfer;
   hf_progress stale_progress;
   uint32_t sites[3], handles[2], pairs[2];
-  uint32_t* ends;    /* the regions of both handles */
-  float* posed;      /* a posed tube, the source of the transfer */
-  double* field;     /* expected: field, pose and transfer */
+  uint32_t* ends; /* the regions of both handles */
+  float* posed;   /* a posed tube, the source of the transfer */
+  double* field;  /* expected: field, pose and transfer */
   float *deformed, *transferred;
 } Scene;
 
@@ -32,14 +34,14 @@ int solver_unchanged(const Scene* scene);
 int pose_unchanged(const Scene* scene);
 int transfer_unchanged(const Scene* scene);
 
-/* ROW(what is wrong, expected code, expected index, the change to the good input, the call): the variables of the good input are
- * refreshed by the function GOOD() of the including file, and UNCHANGED() is what must hold afterwards. */
-#define ROW(what, expected, index, change, call)                                    \
-  do {                                                                              \
-    GOOD();                                                                         \
-    change;                                                                         \
-    check_row(__LINE__, what, #call, (call), expected, index);                      \
-    row_holds(__LINE__, what, "the state is unchanged", UNCHANGED());               \
+/* ROW(what is wrong, expected code, expected index, the change to the good input, the call): the variables of the good
+ * input are refreshed by the function GOOD() of the including file, and UNCHANGED() is what must hold afterwards. */
+#define ROW(what, expected, index, change, call)                      \
+  do {                                                                \
+    GOOD();                                                           \
+    change;                                                           \
+    check_row(__LINE__, what, #call, (call), expected, index);        \
+    row_holds(__LINE__, what, "the state is unchanged", UNCHANGED()); \
   } while (0)
 
 #endif

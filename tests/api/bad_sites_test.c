@@ -30,16 +30,22 @@ static void good_input(void) {
 }
 
 static int as_before(void) {
-  return out_sites[0] == 777 && info_sites[0] == 777 && floats[0] == 777 && doubles[0] == 777 && points[0] == 777 && solver_unchanged(&scene);
+  return out_sites[0] == 777 && info_sites[0] == 777 && floats[0] == 777 && doubles[0] == 777 && points[0] == 777 &&
+         solver_unchanged(&scene);
 }
 
 #define GOOD good_input
 #define UNCHANGED as_before
-#define ADD(what, expected, index, change) ROW(what, expected, index, change, hf_add_sites(scene.solver, &sites, out_sites))
-#define REMOVE(what, expected, index, change) ROW(what, expected, index, change, hf_remove_sites(scene.solver, 3, numbers))
-#define MOVE(what, expected, index, change) ROW(what, expected, index, change, hf_move_sites(scene.solver, 3, numbers, &to))
-#define SET(what, expected, index, change) ROW(what, expected, index, change, hf_set_site_values(scene.solver, 3, numbers, values))
-#define EDIT(what, expected, index, change) ROW(what, expected, index, change, hf_edit_sites(scene.solver, &edit, out_sites))
+#define ADD(what, expected, index, change) \
+  ROW(what, expected, index, change, hf_add_sites(scene.solver, &sites, out_sites))
+#define REMOVE(what, expected, index, change) \
+  ROW(what, expected, index, change, hf_remove_sites(scene.solver, 3, numbers))
+#define MOVE(what, expected, index, change) \
+  ROW(what, expected, index, change, hf_move_sites(scene.solver, 3, numbers, &to))
+#define SET(what, expected, index, change) \
+  ROW(what, expected, index, change, hf_set_site_values(scene.solver, 3, numbers, values))
+#define EDIT(what, expected, index, change) \
+  ROW(what, expected, index, change, hf_edit_sites(scene.solver, &edit, out_sites))
 
 static void in_triangles(hf_sites_desc* d) { d->vertices = NULL, d->triangles = corners, d->barycentrics = weights; }
 
@@ -62,7 +68,8 @@ static void adding_bad_sites_is_refused(void** state) {
   ADD("weight negative", HF_ERROR_INVALID_ARGUMENT, 0, (in_triangles(&sites), weights[0] = 1.25, weights[1] = -0.5));
   ADD("weights sum to 0.999", HF_ERROR_INVALID_ARGUMENT, 2, (in_triangles(&sites), weights[6] = 0.499));
   ADD("weights sum to 1.001", HF_ERROR_INVALID_ARGUMENT, 1, (in_triangles(&sites), weights[3] = 0.501));
-  ADD("weights are all 0", HF_ERROR_INVALID_ARGUMENT, 0, (in_triangles(&sites), weights[0] = weights[1] = weights[2] = 0));
+  ADD("weights are all 0", HF_ERROR_INVALID_ARGUMENT, 0,
+      (in_triangles(&sites), weights[0] = weights[1] = weights[2] = 0));
   ADD("value NaN", HF_ERROR_NON_FINITE, 1, values[1] = (double)NAN);
   ADD("value infinite", HF_ERROR_NON_FINITE, 0, values[0] = -HUGE_VAL);
   ADD("stiffness NaN", HF_ERROR_NON_FINITE, 2, stiffness[2] = (double)NAN);
@@ -71,12 +78,16 @@ static void adding_bad_sites_is_refused(void** state) {
   ADD("the vertex has a site with the same value", HF_ERROR_DUPLICATE_SITE, 0, (places[0] = CUT_RIGHT, values[0] = 1));
   ADD("the vertex has a site with another value", HF_ERROR_CONFLICT, 0, places[0] = CUT_RIGHT);
   ADD("the vertex has a site with another stiffness", HF_ERROR_CONFLICT, 1, (places[1] = CUT_RIGHT, values[1] = 1));
-  ADD("a welded copy has a site with the same value", HF_ERROR_DUPLICATE_SITE, 0, (places[0] = CUT_SEAM_RIGHT, values[0] = 5));
+  ADD("a welded copy has a site with the same value", HF_ERROR_DUPLICATE_SITE, 0,
+      (places[0] = CUT_SEAM_RIGHT, values[0] = 5));
   ADD("a welded copy has a site with another value", HF_ERROR_CONFLICT, 0, places[0] = CUT_SEAM_RIGHT);
-  ADD("twice in one batch, same values", HF_ERROR_DUPLICATE_SITE, 2, (places[2] = places[0], values[2] = values[0], stiffness[2] = 0));
+  ADD("twice in one batch, same values", HF_ERROR_DUPLICATE_SITE, 2,
+      (places[2] = places[0], values[2] = values[0], stiffness[2] = 0));
   ADD("twice in one batch, other values", HF_ERROR_CONFLICT, 2, (places[2] = places[0]));
-  ADD("both copies in one batch, other values", HF_ERROR_CONFLICT, 1, (places[0] = CUT_SEAM_LEFT + 5, places[1] = CUT_SEAM_RIGHT + 5));
-  ADD("a corner of a triangle that has a site", HF_ERROR_CONFLICT, 0, (in_triangles(&sites), corners[0] = 0, weights[0] = 1, weights[1] = weights[2] = 0));
+  ADD("both copies in one batch, other values", HF_ERROR_CONFLICT, 1,
+      (places[0] = CUT_SEAM_LEFT + 5, places[1] = CUT_SEAM_RIGHT + 5));
+  ADD("a corner of a triangle that has a site", HF_ERROR_CONFLICT, 0,
+      (in_triangles(&sites), corners[0] = 0, weights[0] = 1, weights[1] = weights[2] = 0));
   ADD("site_limit", HF_ERROR_TOO_LARGE, NO_INDEX, sites.site_count = 100001);
   ADD("2^31 sites", HF_ERROR_TOO_LARGE, NO_INDEX, sites.site_count = 0x80000000u);
   ADD("2^32 - 1 sites", HF_ERROR_TOO_LARGE, NO_INDEX, sites.site_count = UINT32_MAX);
@@ -100,12 +111,15 @@ static void linearly_dependent_points_are_refused(void** state) {
   GOOD();
   in_triangles(&sites);
   sites.site_count = 1, sites.stiffness = NULL;
-  check_row(__LINE__, "a point between three hard sites", "hf_add_sites", hf_add_sites(solver, &sites, NULL), HF_ERROR_CONFLICT, 0);
+  check_row(__LINE__, "a point between three hard sites", "hf_add_sites", hf_add_sites(solver, &sites, NULL),
+            HF_ERROR_CONFLICT, 0);
   sites.site_count = 2, corners[0] = 20, corners[1] = 10;
-  check_row(__LINE__, "the second of a batch", "hf_add_sites", hf_add_sites(solver, &sites, NULL), HF_ERROR_CONFLICT, 1);
+  check_row(__LINE__, "the second of a batch", "hf_add_sites", hf_add_sites(solver, &sites, NULL), HF_ERROR_CONFLICT,
+            1);
   hf_sites_desc there = sites;
   there.values = NULL, there.site_count = 1, there.triangles = corners + 1;
-  check_row(__LINE__, "a move to such a point", "hf_move_sites", hf_move_sites(solver, 1, scene.sites, &there), HF_ERROR_CONFLICT, 0);
+  check_row(__LINE__, "a move to such a point", "hf_move_sites", hf_move_sites(solver, 1, scene.sites, &there),
+            HF_ERROR_CONFLICT, 0);
   assert_ok(hf_solve_f64(solver, after, 0, NULL));
   assert_true(same_bits(before, after, sizeof before));
   const double soft = 3;
@@ -144,12 +158,15 @@ static void removing_moving_and_setting_bad_sites_is_refused(void** state) {
   MOVE("vertex = vertex_count", HF_ERROR_OUT_OF_RANGE, 0, places[0] = CUT_VERTICES);
   MOVE("isolated vertex", HF_ERROR_INVALID_ARGUMENT, 2, places[2] = CUT_ISOLATED);
   MOVE("two to one place", HF_ERROR_CONFLICT, 1, places[1] = places[0]);
-  MOVE("two to copies of one place", HF_ERROR_CONFLICT, 2, (places[0] = CUT_SEAM_LEFT + 10, places[2] = CUT_SEAM_RIGHT + 10));
+  MOVE("two to copies of one place", HF_ERROR_CONFLICT, 2,
+       (places[0] = CUT_SEAM_LEFT + 10, places[2] = CUT_SEAM_RIGHT + 10));
   MOVE("weight NaN", HF_ERROR_NON_FINITE, 0, (in_triangles(&to), weights[1] = (double)NAN));
   MOVE("weights sum to 2", HF_ERROR_INVALID_ARGUMENT, 1, (in_triangles(&to), weights[3] = 1.5));
   MOVE("collapsed triangle", HF_ERROR_INVALID_ARGUMENT, 2, (in_triangles(&to), corners[2] = CUT_COLLAPSED));
-  ROW("to the place of a site that stays", HF_ERROR_CONFLICT, 0, places[0] = CUT_RIGHT, hf_move_sites(scene.solver, 1, numbers, (to.site_count = 1, &to)));
-  ROW("2^31 of them", HF_ERROR_NO_SUCH_SITE, 3, to.site_count = 0x80000000u, hf_move_sites(scene.solver, 0x80000000u, numbers, &to));
+  ROW("to the place of a site that stays", HF_ERROR_CONFLICT, 0, places[0] = CUT_RIGHT,
+      hf_move_sites(scene.solver, 1, numbers, (to.site_count = 1, &to)));
+  ROW("2^31 of them", HF_ERROR_NO_SUCH_SITE, 3, to.site_count = 0x80000000u,
+      hf_move_sites(scene.solver, 0x80000000u, numbers, &to));
 
   ROW("no site", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_set_site_values(scene.solver, 0, numbers, values));
   ROW("no list", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_set_site_values(scene.solver, 3, NULL, values));
@@ -215,14 +232,17 @@ static void reading_with_bad_arguments_is_refused(void** state) {
   ROW("stride 1", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solve(scene.solver, floats, 1, NULL));
   ROW("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solve(scene.solver, floats, 3, NULL));
   ROW("stride of floats", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solve_f64(scene.solver, doubles, 4, NULL));
-  ROW("stride of two of three channels", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solve_f64(scene.three, doubles, 16, NULL));
+  ROW("stride of two of three channels", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
+      hf_solve_f64(scene.three, doubles, 16, NULL));
   ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solve(scene.three, floats, 0, NULL));
   ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solve_f64(scene.three, doubles, 0, NULL));
   ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solve_at(scene.three, 1, list, points));
   ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solve_vectors(scene.three, floats, 0, NULL, NULL));
   ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solve_vectors_f64(scene.three, doubles, 0, NULL, NULL));
-  ROW("one channel", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, hf_solve_vectors(scene.solver, floats, 0, NULL, NULL));
-  ROW("one channel", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, hf_solve_vectors_f64(scene.solver, doubles, 0, NULL, NULL));
+  ROW("one channel", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0,
+      hf_solve_vectors(scene.solver, floats, 0, NULL, NULL));
+  ROW("one channel", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0,
+      hf_solve_vectors_f64(scene.solver, doubles, 0, NULL, NULL));
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solve_vectors(scene.three, NULL, 0, doubles, NULL));
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solve_vectors_f64(scene.three, NULL, 0, doubles, NULL));
   ROW("stride 11", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solve_vectors(scene.three, floats, 11, NULL, NULL));
@@ -230,7 +250,8 @@ static void reading_with_bad_arguments_is_refused(void** state) {
   ROW("no vertex", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solve_at(scene.solver, 0, list, points));
   ROW("no list", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solve_at(scene.solver, 2, NULL, points));
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solve_at(scene.solver, 2, list, NULL));
-  ROW("vertex = vertex_count", HF_ERROR_OUT_OF_RANGE, 1, list[1] = CUT_VERTICES, hf_solve_at(scene.solver, 2, list, points));
+  ROW("vertex = vertex_count", HF_ERROR_OUT_OF_RANGE, 1, list[1] = CUT_VERTICES,
+      hf_solve_at(scene.solver, 2, list, points));
   ROW("vertex UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 0, list[0] = UINT32_MAX, hf_solve_at(scene.solver, 2, list, points));
   ROW("2^31 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0, hf_solve_at(scene.solver, 0x80000000u, list, points));
   scene_destroy(&scene);

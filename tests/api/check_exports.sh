@@ -33,7 +33,8 @@ if found=$(printf '%s\n' "$called" | grep -E "$forbidden"); then
 fi
 
 if [ "$with_gpl" = OFF ]; then
-  if found=$({ "$nm" "$library" 2>/dev/null; "$nm" -D "$library"; } | grep -iE 'cholmod|metis' | sort -u); then
+  found=$({ "$nm" "$library" 2>/dev/null; "$nm" -D "$library"; } | awk '{print $NF}' | grep -E '^(cholmod|METIS|libmetis)_' | sort -u)
+  if [ -n "$found" ]; then
     complain "HF_WITH_GPL is OFF, but the library names CHOLMOD or METIS:"
     printf '%s\n' "$found"
   fi

@@ -1,5 +1,5 @@
-/* The host's own state before and after everything the library does: floating-point environment, rand(), locale, signals, descriptors,
- * threads, standard streams, stack. */
+/* The host's own state before and after everything the library does: floating-point environment, rand(), locale,
+ * signals, descriptors, threads, standard streams, stack. */
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <fenv.h>
@@ -62,7 +62,8 @@ static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t thread
     note(w, hf_deform(pose, &deform, NULL));
     hf_pairs_desc pairs;
     HF_INIT(pairs);
-    pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts, pairs.source_vertices = pairs.target_vertices = ends;
+    pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts,
+    pairs.source_vertices = pairs.target_vertices = ends;
     note(w, hf_transfer_create(solver, copy, NULL, &transfer));
     note(w, hf_transfer_add_pairs(transfer, &pairs, NULL));
     hf_transfer_frame frame;
@@ -129,7 +130,8 @@ static void flush_to_zero_is_kept_and_does_not_matter(void** state) {
   work(&done);
   const unsigned after = _mm_getcsr();
   _mm_setcsr(host);
-  assert_int_equal(after & 0xFFC0u, flushing & 0xFFC0u); /* masks, rounding, FTZ, DAZ; not the sticky flags our own cosf may raise */
+  assert_int_equal(after & 0xFFC0u,
+                   flushing & 0xFFC0u); /* masks, rounding, FTZ, DAZ; not the sticky flags our own cosf may raise */
   assert_same_work(done);
 }
 
@@ -156,7 +158,8 @@ static void floating_point_traps_of_the_host_do_not_strike(void** state) {
   (void)state;
   Surface tube = surface_tube(AROUND, RINGS);
   /* needles and points: zero areas divide by zero inside */
-  for (int i = 0; i < 30; ++i) tube.positions[3 * i + 90] = 0, tube.positions[3 * i + 91] = 1e-30f * (float)i, tube.positions[3 * i + 92] = 0;
+  for (int i = 0; i < 30; ++i)
+    tube.positions[3 * i + 90] = 0, tube.positions[3 * i + 91] = 1e-30f * (float)i, tube.positions[3 * i + 92] = 0;
   hf_create_desc desc = surface_desc(&tube);
   hf_solver solver = NULL;
   static double field[VERTICES];
@@ -166,7 +169,8 @@ static void floating_point_traps_of_the_host_do_not_strike(void** state) {
   feclearexcept(FE_ALL_EXCEPT);
   const int traps = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW | FE_UNDERFLOW | FE_INEXACT;
   feenableexcept(traps);
-  const hf_result made = hf_create(&desc, &solver), added = hf_add_sites(solver, &sites, NULL), solved = hf_solve_f64(solver, field, 0, NULL);
+  const hf_result made = hf_create(&desc, &solver), added = hf_add_sites(solver, &sites, NULL),
+                  solved = hf_solve_f64(solver, field, 0, NULL);
   const int still = fegetexcept();
   fedisableexcept(traps);
   assert_int_equal(made, HF_OK);
@@ -235,7 +239,8 @@ static void granted_threads_end_with_their_solver(void** state) {
   assert_ok(hf_create(&desc, &solver));
   assert_true(entries("/proc/self/task") <= threads + 3);
   hf_destroy(solver), surface_free(&tube);
-  for (int wait = 0; wait < 200 && entries("/proc/self/task") != threads; ++wait) usleep(5000); /* the kernel lists joined threads a moment longer */
+  for (int wait = 0; wait < 200 && entries("/proc/self/task") != threads; ++wait)
+    usleep(5000); /* the kernel lists joined threads a moment longer */
   assert_int_equal(entries("/proc/self/task"), threads);
 }
 
@@ -297,8 +302,10 @@ static void host_run(void* user, uint32_t count, void (*job)(void*, uint32_t), v
   ++jobs->batches, jobs->jobs += count;
   const int threaded = pthread_create(&thread, NULL, host_odd_jobs, &batch) == 0;
   for (uint32_t i = (count + 1) / 2; i-- > 0;) job(data, 2 * i);
-  if (threaded) pthread_join(thread, NULL);
-  else host_odd_jobs(&batch);
+  if (threaded)
+    pthread_join(thread, NULL);
+  else
+    host_odd_jobs(&batch);
 }
 
 static void threads_and_job_runners_give_the_same_bits(void** state) {
@@ -330,8 +337,10 @@ static void a_large_surface_gives_the_same_bits_on_any_threads(void** state) {
     assert_ok(hf_create(&desc, &solver));
     for (uint32_t i = 0; i < 25; ++i) add_site(solver, i * 1500, (double)(i % 6));
     double* field = field_of(solver, sheet.vertex_count);
-    if (reference) assert_true(same_bits(field, reference, sizeof(double) * sheet.vertex_count)), free(field);
-    else reference = field;
+    if (reference)
+      assert_true(same_bits(field, reference, sizeof(double) * sheet.vertex_count)), free(field);
+    else
+      reference = field;
     hf_destroy(solver);
   }
   assert_true(jobs.batches > 0 && jobs.jobs > jobs.batches);
@@ -340,19 +349,19 @@ static void a_large_surface_gives_the_same_bits_on_any_threads(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rounding_modes_are_kept_and_do_not_matter),
+    cmocka_unit_test(rounding_modes_are_kept_and_do_not_matter),
 #if defined(__SSE2__)
-      cmocka_unit_test(flush_to_zero_is_kept_and_does_not_matter),
-      cmocka_unit_test(sticky_flags_are_kept),
+    cmocka_unit_test(flush_to_zero_is_kept_and_does_not_matter),
+    cmocka_unit_test(sticky_flags_are_kept),
 #endif
-      cmocka_unit_test(floating_point_traps_of_the_host_do_not_strike),
-      cmocka_unit_test(random_numbers_of_the_host_are_not_drawn),
-      cmocka_unit_test(signals_locale_descriptors_and_threads_are_as_before),
-      cmocka_unit_test(granted_threads_end_with_their_solver),
-      cmocka_unit_test(nothing_is_printed),
-      cmocka_unit_test(a_stack_of_256_kilobytes_is_enough),
-      cmocka_unit_test(threads_and_job_runners_give_the_same_bits),
-      cmocka_unit_test(a_large_surface_gives_the_same_bits_on_any_threads),
+    cmocka_unit_test(floating_point_traps_of_the_host_do_not_strike),
+    cmocka_unit_test(random_numbers_of_the_host_are_not_drawn),
+    cmocka_unit_test(signals_locale_descriptors_and_threads_are_as_before),
+    cmocka_unit_test(granted_threads_end_with_their_solver),
+    cmocka_unit_test(nothing_is_printed),
+    cmocka_unit_test(a_stack_of_256_kilobytes_is_enough),
+    cmocka_unit_test(threads_and_job_runners_give_the_same_bits),
+    cmocka_unit_test(a_large_surface_gives_the_same_bits_on_any_threads),
   };
   return cmocka_run_group_tests(tests, create_expected, NULL);
 }

@@ -1,5 +1,5 @@
-/* Prints size and offsets of every public struct and the value of every constant. CTest compares the output with layout.txt, which was
- * pinned for 64-bit hosts: what stands there must never change, new fields only go to the end. */
+/* Prints size and offsets of every public struct and the value of every constant. CTest compares the output with
+ * layout.txt, which was pinned for 64-bit hosts: what stands there must never change, new fields only go to the end. */
 #include <stddef.h>
 #include <stdio.h>
 

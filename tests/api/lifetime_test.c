@@ -31,7 +31,8 @@ static void clones_are_independent(void** state) {
   hf_destroy(original), hf_destroy(copy), surface_free(&tube);
 }
 
-/* A family: a solver, two clones, a pose and its clone, a transfer. Each member does its work after any other is gone. */
+/* A family: a solver, two clones, a pose and its clone, a transfer. Each member does its work after any other is gone.
+ */
 enum { SOLVER, CLONE, CLONE_OF_CLONE, POSE, POSE_CLONE, TRANSFER, MEMBERS };
 
 typedef struct Family {
@@ -57,7 +58,8 @@ static void create_family(Family* f, const Surface* tube) {
   const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
   hf_pairs_desc pairs;
   HF_INIT(pairs);
-  pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts, pairs.source_vertices = pairs.target_vertices = ends;
+  pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts,
+  pairs.source_vertices = pairs.target_vertices = ends;
   assert_ok(hf_transfer_add_pairs(f->transfer, &pairs, NULL));
   free(ends);
 }
@@ -91,9 +93,12 @@ static void use_member(Family* f, int member, const Surface* tube) {
 }
 
 static void destroy_member(Family* f, int member) {
-  if (member < POSE) hf_destroy(f->solvers[member]);
-  else if (member < TRANSFER) hf_pose_destroy(f->poses[member - POSE]);
-  else hf_transfer_destroy(f->transfer);
+  if (member < POSE)
+    hf_destroy(f->solvers[member]);
+  else if (member < TRANSFER)
+    hf_pose_destroy(f->poses[member - POSE]);
+  else
+    hf_transfer_destroy(f->transfer);
 }
 
 static void a_family_may_be_destroyed_in_any_order(void** state) {
@@ -123,7 +128,8 @@ static void a_family_may_be_destroyed_in_any_order(void** state) {
   surface_free(&tube);
 }
 
-/* An allocator that cancels a progress object at a chosen allocation: a cancel in the middle of a call, without a second thread. */
+/* An allocator that cancels a progress object at a chosen allocation: a cancel in the middle of a call, without a
+ * second thread. */
 typedef struct Canceller {
   CountingAllocator memory;
   hf_allocator inner;
@@ -135,7 +141,8 @@ typedef struct Canceller {
 static void* cancelling_allocate(void* user, size_t size, size_t alignment) {
   Canceller* c = user;
   void* block = c->inner.allocate(&c->memory, size, alignment);
-  if (c->memory.calls == c->at) assert_ok(hf_progress_get(c->progress, &c->seen)), assert_ok(hf_progress_cancel(c->progress));
+  if (c->memory.calls == c->at)
+    assert_ok(hf_progress_get(c->progress, &c->seen)), assert_ok(hf_progress_cancel(c->progress));
   return block;
 }
 static void cancelling_release(void* user, void* block, size_t size, size_t alignment) {

@@ -53,10 +53,11 @@ static void dirty_triangles_are_counted_and_the_field_is_finite(void** state) {
   Surface sheet = surface_sheet(4, 4);
   uint32_t dirty[3 * 36];
   memcpy(dirty, sheet.triangles, sizeof(uint32_t) * 3 * 32);
-  const uint32_t more[12] = {dirty[0], dirty[1], dirty[2],  /* a duplicate */
-                             dirty[3], dirty[5], dirty[4],  /* a duplicate turned round */
-                             0,        1,        2,         /* three vertices on the border: an edge of three triangles, zero area when flat */
-                             0,        24,       12};       /* a flap across the sheet */
+  const uint32_t more[12] = {
+      dirty[0], dirty[1], dirty[2], /* a duplicate */
+      dirty[3], dirty[5], dirty[4], /* a duplicate turned round */
+      0,        1,        2,        /* three vertices on the border: an edge of three triangles, zero area when flat */
+      0,        24,       12};      /* a flap across the sheet */
   memcpy(dirty + 96, more, sizeof more);
   hf_create_desc desc = surface_desc(&sheet);
   desc.triangles = dirty, desc.triangle_count = 36;
@@ -78,7 +79,8 @@ static void components_are_numbered_by_their_smallest_vertex(void** state) {
   hf_solver solver = surface_solver(&cut);
   uint32_t component[CUT_VERTICES];
   assert_ok(hf_get_components(solver, CUT_VERTICES, component));
-  for (uint32_t v = 0; v < CUT_VERTICES; ++v) assert_int_equal(component[v], v == CUT_ISOLATED ? HF_NO_INDEX : v >= CUT_ISLAND);
+  for (uint32_t v = 0; v < CUT_VERTICES; ++v)
+    assert_int_equal(component[v], v == CUT_ISOLATED ? HF_NO_INDEX : v >= CUT_ISLAND);
   hf_destroy(solver), surface_free(&cut);
 }
 
@@ -158,12 +160,14 @@ static double* moved_field(const Surface* sheet, double scale, double offset, in
   const size_t n = 3 * (size_t)sheet->vertex_count;
   double* doubles = malloc(sizeof(double) * n);
   float* floats = malloc(sizeof(float) * n);
-  for (size_t i = 0; i < n; ++i) doubles[i] = scale * (double)sheet->positions[i] + offset, floats[i] = (float)doubles[i];
+  for (size_t i = 0; i < n; ++i)
+    doubles[i] = scale * (double)sheet->positions[i] + offset, floats[i] = (float)doubles[i];
   hf_create_desc desc = surface_desc(sheet);
   desc.positions = as_float ? floats : NULL, desc.positions_f64 = as_float ? NULL : doubles;
   hf_solver solver = NULL;
   assert_ok(hf_create(&desc, &solver));
-  add_site(solver, 0, -1e6), add_site(solver, sheet->vertex_count - 1, 1e6), add_site(solver, sheet->vertex_count / 2, 5e5);
+  add_site(solver, 0, -1e6), add_site(solver, sheet->vertex_count - 1, 1e6),
+      add_site(solver, sheet->vertex_count / 2, 5e5);
   double* field = field_of(solver, sheet->vertex_count);
   hf_destroy(solver), free(doubles), free(floats);
   return field;
@@ -176,14 +180,17 @@ static void unit_and_offset_do_not_matter(void** state) {
   const struct {
     double scale, offset, tolerance;
     int as_float;
-  } moves[] = {{0.001, 0, 1e-12, 0}, {1000, 0, 1e-12, 0},  {1e-30, 0, 1e-12, 0}, {1e30, 0, 1e-12, 0}, {1e100, 0, 1e-12, 0}, {1e-100, 0, 1e-12, 0},
-               {1, 1e6, 1e-9, 0},    {1, -1e9, 1e-6, 0},   {1000, 1e6, 1e-9, 0}, {1e-3, 1, 1e-12, 0}, {1024, 0, 1e-12, 1},  {0.001, 0, 1e-6, 1},
+  } moves[] = {{0.001, 0, 1e-12, 0}, {1000, 0, 1e-12, 0},   {1e-30, 0, 1e-12, 0}, {1e30, 0, 1e-12, 0},
+               {1e100, 0, 1e-12, 0}, {1e-100, 0, 1e-12, 0}, {1, 1e6, 1e-9, 0},    {1, -1e9, 1e-6, 0},
+               {1000, 1e6, 1e-9, 0}, {1e-3, 1, 1e-12, 0},   {1024, 0, 1e-12, 1},  {0.001, 0, 1e-6, 1},
                {1e30, 0, 1e-6, 1},   {1e-30, 0, 1e-6, 1}};
   for (size_t m = 0; m < COUNT_OF(moves); ++m) {
     double* field = moved_field(&sheet, moves[m].scale, moves[m].offset, moves[m].as_float);
     double worst = 0;
     for (uint32_t v = 0; v < sheet.vertex_count; ++v) worst = fmax(worst, fabs(field[v] - expected[v]) / 2e6);
-    if (!(worst <= moves[m].tolerance)) fail_msg("scale %g, offset %g, %s: the field differs by %g of its range", moves[m].scale, moves[m].offset, moves[m].as_float ? "float" : "double", worst);
+    if (!(worst <= moves[m].tolerance))
+      fail_msg("scale %g, offset %g, %s: the field differs by %g of its range", moves[m].scale, moves[m].offset,
+               moves[m].as_float ? "float" : "double", worst);
     free(field);
   }
   free(expected), surface_free(&sheet);
@@ -202,7 +209,8 @@ static void interleaved_vertices_are_read_by_their_stride(void** state) {
   assert_ok(hf_create(&desc, &strided));
   hf_solver both[2] = {plain, strided};
   double* field[2];
-  for (int i = 0; i < 2; ++i) add_site(both[i], 0, 0), add_site(both[i], 20, 1), field[i] = field_of(both[i], sheet.vertex_count);
+  for (int i = 0; i < 2; ++i)
+    add_site(both[i], 0, 0), add_site(both[i], 20, 1), field[i] = field_of(both[i], sheet.vertex_count);
   assert_true(same_bits(field[0], field[1], sizeof(double) * sheet.vertex_count));
   free(field[0]), free(field[1]), free(records);
   hf_destroy(plain), hf_destroy(strided), surface_free(&sheet);

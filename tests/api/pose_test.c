@@ -1,4 +1,5 @@
-/* Poses and transfers from the outside: rest comes back, handles land on their targets, outputs agree with each other. */
+/* Poses and transfers from the outside: rest comes back, handles land on their targets, outputs agree with each other.
+ */
 #include "api_support.h"
 
 enum { AROUND = 14, RINGS = 24, VERTICES = AROUND * RINGS };
@@ -9,7 +10,8 @@ static hf_solver solver;
 static int create_tube(void** state) {
   (void)state;
   tube = surface_tube(AROUND, RINGS);
-  for (uint32_t v = 0; v < VERTICES; ++v) tube.positions[3 * v] += 100.0f, tube.positions[3 * v + 2] -= 40.0f; /* not at the origin */
+  for (uint32_t v = 0; v < VERTICES; ++v)
+    tube.positions[3 * v] += 100.0f, tube.positions[3 * v + 2] -= 40.0f; /* not at the origin */
   solver = surface_solver(&tube);
   return 0;
 }
@@ -46,11 +48,15 @@ static hf_pose pose_of(int32_t mode, uint32_t out_handles[2]) {
 
 /* p -> rotation (p - centroid) + centroid + translation */
 static void place(const hf_transform* t, const double centroid[3], const float* rest, double out[3]) {
-  const double *q = t->rotation, d[3] = {(double)rest[0] - centroid[0], (double)rest[1] - centroid[1], (double)rest[2] - centroid[2]};
-  const double n = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]), x = q[0] / n, y = q[1] / n, z = q[2] / n, w = q[3] / n;
-  const double r[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), 2 * (x * y + w * z), 1 - 2 * (x * x + z * z),
-                       2 * (y * z - w * x), 2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)};
-  for (int k = 0; k < 3; ++k) out[k] = r[3 * k] * d[0] + r[3 * k + 1] * d[1] + r[3 * k + 2] * d[2] + centroid[k] + t->translation[k];
+  const double *q = t->rotation,
+               d[3] = {(double)rest[0] - centroid[0], (double)rest[1] - centroid[1], (double)rest[2] - centroid[2]};
+  const double n = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]), x = q[0] / n, y = q[1] / n,
+               z = q[2] / n, w = q[3] / n;
+  const double r[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
+                       2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+                       2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
+  for (int k = 0; k < 3; ++k)
+    out[k] = r[3 * k] * d[0] + r[3 * k + 1] * d[1] + r[3 * k + 2] * d[2] + centroid[k] + t->translation[k];
 }
 
 static void identity_transforms_give_the_rest_pose(void** state) {
@@ -60,7 +66,8 @@ static void identity_transforms_give_the_rest_pose(void** state) {
     hf_pose pose = pose_of(modes[m], handles);
     static double positions[3 * VERTICES];
     static float normals[3 * VERTICES];
-    const hf_transform identity[2] = {{{0, 0, 0, 1}, {0, 0, 0}}, {{0, 0, 0, 0}, {0, 0, 0}}}; /* all zero is identity, too */
+    const hf_transform identity[2] = {{{0, 0, 0, 1}, {0, 0, 0}},
+                                      {{0, 0, 0, 0}, {0, 0, 0}}}; /* all zero is identity, too */
     assert_ok(hf_pose_set_transforms(pose, 2, handles, identity));
     const hf_deform_desc desc = to_doubles(positions, normals);
     hf_deform_info info;
@@ -73,7 +80,9 @@ static void identity_transforms_give_the_rest_pose(void** state) {
       const float *n = normals + 3 * v, *p = tube.positions + 3 * v;
       assert_true(fabs(sqrt((double)(n[0] * n[0] + n[1] * n[1] + n[2] * n[2])) - 1) < 1e-5);
       const double outward = (double)(n[0] * (p[0] - 100) + n[2] * (p[2] + 40));
-      assert_true(fabs(outward) > 0.95 && outward * ((double)(normals[0] * (tube.positions[0] - 100) + normals[2] * (tube.positions[2] + 40))) > 0);
+      assert_true(fabs(outward) > 0.95 &&
+                  outward * ((double)(normals[0] * (tube.positions[0] - 100) + normals[2] * (tube.positions[2] + 40))) >
+                      0);
     }
     hf_pose_destroy(pose);
   }
@@ -138,7 +147,8 @@ static void one_rigid_motion_of_all_handles_moves_everything(void** state) {
       place(&body, origin, tube.positions + 3 * v, target);
       for (int k = 0; k < 3; ++k) worst = fmax(worst, fabs(positions[3 * v + (uint32_t)k] - target[k]));
     }
-    /* the paper's relaxation moves a cluster at a time and needs thousands of iterations to carry 40 units along the tube */
+    /* the paper's relaxation moves a cluster at a time and needs thousands of iterations to carry 40 units along the
+     * tube */
     const double allowed = modes[m] == HF_DEFORM_PAPER ? 10 : 1e-6;
     if (!(worst < allowed)) fail_msg("mode %d: a vertex lies %g beside its rigid place", (int)modes[m], worst);
     hf_pose_destroy(pose);
@@ -179,7 +189,8 @@ static void float_double_and_strided_outputs_agree(void** state) {
   assert_ok(hf_deform(pose, &desc, NULL));
   desc.positions_f64 = NULL, desc.positions = floats, desc.normals = normals;
   assert_ok(hf_deform(pose, &desc, NULL));
-  desc.positions = records[0].position, desc.normals = records[0].normal, desc.position_stride = desc.normal_stride = sizeof(Record);
+  desc.positions = records[0].position, desc.normals = records[0].normal,
+  desc.position_stride = desc.normal_stride = sizeof(Record);
   assert_ok(hf_deform(pose, &desc, NULL));
   for (uint32_t v = 0; v < VERTICES; ++v) {
     for (uint32_t k = 0; k < 3; ++k) {
@@ -246,21 +257,25 @@ static void what_no_handle_reaches_stays_at_rest(void** state) {
   HF_INIT(info);
   assert_ok(hf_deform(pose, &deform, &info));
   assert_int_equal(info.unreached_vertex_count, 10);
-  for (uint32_t i = 3 * CUT_ISLAND; i < 3 * CUT_VERTICES; ++i) assert_true(fabs(positions[i] - (double)cut.positions[i]) < 1e-9);
-  for (uint32_t j = 0; j < 5; ++j) assert_true(same_bits(positions + 3 * (CUT_SEAM_LEFT + 5 * j), positions + 3 * (CUT_SEAM_RIGHT + 5 * j), 24));
+  for (uint32_t i = 3 * CUT_ISLAND; i < 3 * CUT_VERTICES; ++i)
+    assert_true(fabs(positions[i] - (double)cut.positions[i]) < 1e-9);
+  for (uint32_t j = 0; j < 5; ++j)
+    assert_true(same_bits(positions + 3 * (CUT_SEAM_LEFT + 5 * j), positions + 3 * (CUT_SEAM_RIGHT + 5 * j), 24));
   assert_true(positions[3 * CUT_SEAM_LEFT + 2] > (double)cut.positions[3 * CUT_SEAM_LEFT + 2] + 0.1);
   hf_pose_destroy(pose), hf_destroy(both), surface_free(&cut);
 }
 
-static hf_transfer transfer_of(int32_t mode, hf_solver source, hf_solver target, uint32_t source_around, uint32_t source_rings, uint32_t target_around,
-                               uint32_t target_rings, uint32_t out_pairs[2]) {
+static hf_transfer transfer_of(int32_t mode, hf_solver source, hf_solver target, uint32_t source_around,
+                               uint32_t source_rings, uint32_t target_around, uint32_t target_rings,
+                               uint32_t out_pairs[2]) {
   hf_transfer_desc desc;
   HF_INIT(desc);
   desc.mode = mode;
   hf_transfer transfer = NULL;
   assert_ok(hf_transfer_create(source, target, &desc, &transfer));
   uint32_t *from = tube_ends(source_around, source_rings), *to = tube_ends(target_around, target_rings);
-  const uint32_t from_counts[2] = {2 * source_around, 2 * source_around}, to_counts[2] = {2 * target_around, 2 * target_around};
+  const uint32_t from_counts[2] = {2 * source_around, 2 * source_around},
+                 to_counts[2] = {2 * target_around, 2 * target_around};
   hf_pairs_desc pairs;
   HF_INIT(pairs);
   pairs.pair_count = 2;
@@ -285,11 +300,15 @@ static void the_rest_of_the_source_gives_the_rest_of_the_target(void** state) {
     frame.source_positions = tube.positions, frame.target_positions = positions, frame.target_normals = normals;
     assert_ok(hf_transfer_apply(transfer, &frame));
     for (uint32_t i = 0; i < 3 * 9 * 17; ++i) assert_true(fabs((double)(positions[i] - other.positions[i])) < 1e-4);
-    for (uint32_t v = 0; v < 9 * 17; ++v) assert_true(fabs((double)(normals[3 * v] * normals[3 * v] + normals[3 * v + 1] * normals[3 * v + 1] + normals[3 * v + 2] * normals[3 * v + 2]) - 1) < 1e-5);
+    for (uint32_t v = 0; v < 9 * 17; ++v)
+      assert_true(fabs((double)(normals[3 * v] * normals[3 * v] + normals[3 * v + 1] * normals[3 * v + 1] +
+                                normals[3 * v + 2] * normals[3 * v + 2]) -
+                       1) < 1e-5);
     hf_pair_info info;
     HF_INIT(info);
     assert_ok(hf_transfer_get_pair(transfer, pairs[1], &info));
-    assert_true(info.flags == 0 && info.source_leak < 1e-9 && info.target_leak < 1e-9 && info.confidence > 0 && info.confidence <= 1);
+    assert_true(info.flags == 0 && info.source_leak < 1e-9 && info.target_leak < 1e-9 && info.confidence > 0 &&
+                info.confidence <= 1);
     hf_transfer_destroy(transfer);
   }
   hf_destroy(target), surface_free(&other);
@@ -321,7 +340,8 @@ static void the_skin_replays_the_transfer(void** state) {
   double *pivots = malloc(24 * (size_t)n), *rotations = malloc(32 * (size_t)n), *translations = malloc(24 * (size_t)n);
   static uint32_t joints[4 * TARGET];
   static float weights[4 * TARGET];
-  skin.pivots = pivots, skin.rotations = rotations, skin.translations = translations, skin.vertex_joints = joints, skin.vertex_weights = weights;
+  skin.pivots = pivots, skin.rotations = rotations, skin.translations = translations, skin.vertex_joints = joints,
+  skin.vertex_weights = weights;
   assert_ok(hf_transfer_get_skin(transfer, &skin));
   assert_int_equal(skin.joint_count, n);
   double farthest = 0;
@@ -333,7 +353,8 @@ static void the_skin_replays_the_transfer(void** state) {
       assert_true(j < n && w >= 0 && (k == 0 || w <= (double)weights[4 * v + (uint32_t)k - 1]));
       hf_transform joint = {{0, 0, 0, 1}, {0, 0, 0}};
       memcpy(joint.rotation, rotations + 4 * j, sizeof joint.rotation);
-      for (int c = 0; c < 3; ++c) joint.translation[c] = translations[3 * j + (uint32_t)c] - pivots[3 * j + (uint32_t)c];
+      for (int c = 0; c < 3; ++c)
+        joint.translation[c] = translations[3 * j + (uint32_t)c] - pivots[3 * j + (uint32_t)c];
       double placed[3];
       place(&joint, pivots + 3 * j, other.positions + 3 * v, placed);
       for (int c = 0; c < 3; ++c) blended[c] += w * placed[c];

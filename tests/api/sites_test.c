@@ -4,9 +4,11 @@
 enum { COLUMNS = 14, ROWS_ = 11, VERTICES = (COLUMNS + 1) * (ROWS_ + 1) };
 static Surface sheet;
 
-static const int32_t engines[] = {HF_ENGINE_GREEN, HF_ENGINE_REFACTOR,
+static const int32_t engines[] = {
+    HF_ENGINE_GREEN,
+    HF_ENGINE_REFACTOR,
 #ifdef HF_WITH_GPL
-                                  HF_ENGINE_UPDOWN,
+    HF_ENGINE_UPDOWN,
 #endif
 };
 /* The share of the value range to which an engine holds hard sites and fields. */
@@ -83,10 +85,12 @@ static void hard_sites_are_exact_and_soft_ones_give_way(void** state) {
   uint32_t at[3], component[3];
   hf_site_info info;
   HF_INIT(info);
-  info.capacity = 3, info.flux = flux, info.values = held, info.stiffness = stiff, info.vertices = at, info.components = component;
+  info.capacity = 3, info.flux = flux, info.values = held, info.stiffness = stiff, info.vertices = at,
+  info.components = component;
   assert_ok(hf_get_sites(solver, &info));
   assert_true(fabs(flux[0] + flux[1] + flux[2]) < 1e-12);
-  assert_true(same_bits(held, values, sizeof held) && same_bits(stiff, stiffness, sizeof stiff) && same_bits(at, vertices, sizeof at));
+  assert_true(same_bits(held, values, sizeof held) && same_bits(stiff, stiffness, sizeof stiff) &&
+              same_bits(at, vertices, sizeof at));
   assert_true(component[0] == 0 && component[1] == 0 && component[2] == 0);
   free(field), hf_destroy(solver);
 }
@@ -198,9 +202,12 @@ static void all_engines_agree_after_edits(void** state) {
       }
     }
     double* field = field_of(solver, VERTICES);
-    for (int v = 0; reference && v < VERTICES; ++v) assert_true(fabs(field[v] - reference[v]) < 6 * tolerance_of(engines[e]));
-    if (reference) free(field);
-    else reference = field;
+    for (int v = 0; reference && v < VERTICES; ++v)
+      assert_true(fabs(field[v] - reference[v]) < 6 * tolerance_of(engines[e]));
+    if (reference)
+      free(field);
+    else
+      reference = field;
     hf_destroy(solver);
   }
   free(reference);
@@ -219,7 +226,8 @@ static void solving_at_vertices_equals_solving_everywhere(void** state) {
     assert_ok(hf_solve_f64(solver, everywhere, 0, NULL));
     assert_ok(hf_solve_at(solver, 7, ask, here));
     for (int i = 0; i < 7; ++i) {
-      for (int c = 0; c < 3; ++c) assert_true(fabs(here[3 * i + c] - everywhere[3 * ask[i] + (uint32_t)c]) < 1e3 * tolerance_of(engines[e]));
+      for (int c = 0; c < 3; ++c)
+        assert_true(fabs(here[3 * i + c] - everywhere[3 * ask[i] + (uint32_t)c]) < 1e3 * tolerance_of(engines[e]));
     }
     hf_destroy(solver);
   }
@@ -371,7 +379,8 @@ static void edits_never_factorise_again(void** state) {
   assert_int_equal(edited.engine, HF_ENGINE_GREEN);
   assert_int_equal(edited.thread_count, 1);
   assert_true(edited.unknown_count >= VERTICES - 1 && edited.factor_entries >= VERTICES - 1);
-  assert_true(edited.memory_bytes > 0 && edited.peak_memory_bytes >= edited.memory_bytes && edited.site_memory_bytes > 0);
+  assert_true(edited.memory_bytes > 0 && edited.peak_memory_bytes >= edited.memory_bytes &&
+              edited.site_memory_bytes > 0);
   double* field = field_of(solver, VERTICES);
   assert_true(statistics_of(solver).sweep_count > edited.sweep_count);
   assert_int_equal(statistics_of(solver).factorisation_count, 1);
@@ -388,7 +397,8 @@ static void values_may_be_set_without_the_factor_being_touched(void** state) {
   assert_ok(hf_set_site_values(solver, 2, numbers, values));
   assert_int_equal(statistics_of(solver).path_solve_count, paths);
   double* field = field_of(solver, VERTICES);
-  for (int v = 0; v < VERTICES; ++v) assert_true(fabs(field[v] - (-4 + 20 * unit[v])) < 1e-11); /* fields are linear in the values */
+  for (int v = 0; v < VERTICES; ++v)
+    assert_true(fabs(field[v] - (-4 + 20 * unit[v])) < 1e-11); /* fields are linear in the values */
   free(unit), free(field), hf_destroy(solver);
 }
 

@@ -1,5 +1,5 @@
-/* Threads: different handles at once, readers of one handle at once, and a change that overlaps is refused with HF_ERROR_BUSY or done
- * as if alone, never half. */
+/* Threads: different handles at once, readers of one handle at once, and a change that overlaps is refused with
+ * HF_ERROR_BUSY or done as if alone, never half. */
 #define _POSIX_C_SOURCE 200112L
 #include <pthread.h>
 #include <time.h>
@@ -62,7 +62,8 @@ static void* own_solver(void* user) {
     hf_destroy(solver);
     /* the detail belongs to the thread */
     hf_error_detail detail;
-    w->wrong += hf_pose_get_handle(NULL, w->number, NULL) != HF_ERROR_INVALID_HANDLE || hf_get_error_detail(&detail) != HF_OK;
+    w->wrong +=
+        hf_pose_get_handle(NULL, w->number, NULL) != HF_ERROR_INVALID_HANDLE || hf_get_error_detail(&detail) != HF_OK;
     w->wrong += strcmp(detail.function, "hf_pose_get_handle") != 0;
   }
   free(field);
@@ -115,7 +116,8 @@ static void* reader(void* user) {
     double at[2];
     hf_statistics statistics;
     HF_INIT(statistics);
-    w->wrong += hf_solve_f64(w->solver, field, 0, NULL) != HF_OK || !same_bits(field, w->expected, sizeof(double) * VERTICES);
+    w->wrong +=
+        hf_solve_f64(w->solver, field, 0, NULL) != HF_OK || !same_bits(field, w->expected, sizeof(double) * VERTICES);
     w->wrong += hf_solve_at(w->solver, 2, vertices, at) != HF_OK || fabs(at[1] - w->expected[300]) > 1e-11;
     w->wrong += hf_get_statistics(w->solver, &statistics) != HF_OK || hf_get_site_count(w->solver) != 2;
   }
@@ -136,8 +138,8 @@ static void many_threads_may_read_one_solver(void** state) {
   free(expected), hf_destroy(solver);
 }
 
-/* Odd workers change the site set, even ones read it. Every answer is HF_OK or HF_ERROR_BUSY, every field read is one of a whole set:
- * the pair of sites is always added together, so a field is 0 everywhere or 1 at the second site. */
+/* Odd workers change the site set, even ones read it. Every answer is HF_OK or HF_ERROR_BUSY, every field read is one
+ * of a whole set: the pair of sites is always added together, so a field is 0 everywhere or 1 at the second site. */
 static void pause_a_moment(void) {
   const struct timespec moment = {0, 200000};
   nanosleep(&moment, NULL);
@@ -188,8 +190,10 @@ static void an_overlapping_change_is_busy_or_whole(void** state) {
   for (int i = 0; i < THREADS; ++i) {
     assert_int_equal(workers[i].wrong, 0);
     busy += workers[i].busy;
-    if (i % 2) changed += workers[i].done;
-    else read += workers[i].done;
+    if (i % 2)
+      changed += workers[i].done;
+    else
+      read += workers[i].done;
   }
   print_message("%u fields read, %u changes made, %u calls busy\n", read, changed, busy);
   assert_true(read > 0 && changed > 0);

@@ -1,7 +1,8 @@
 // Reads the #include lines of the project and fails on a wrong arrow:
 //   base <- {mesh, factor} <- engine <- field <- {deform, detail, remesh} <- transfer <- capi
-// A room may include itself, the public headers, and the rooms to its left. mesh and factor do not see each other, nor do deform, detail and
-// remesh. Bindings and samples see only include/hf; include/hf sees only itself and the C standard library.
+// A room may include itself, the public headers, and the rooms to its left. mesh and factor do not see each other, nor
+// do deform, detail and remesh. Bindings and samples see only include/hf; include/hf sees only itself and the C
+// standard library.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -55,7 +56,8 @@ std::vector<Include> includes_below(const std::string& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(project / folder)) {
     if (!entry.is_regular_file() || !is_source(entry.path())) continue;
     std::ifstream text(entry.path());
-    for (Include& include : includes_of(text, fs::relative(entry.path(), project).generic_string())) found.push_back(std::move(include));
+    for (Include& include : includes_of(text, fs::relative(entry.path(), project).generic_string()))
+      found.push_back(std::move(include));
   }
   return found;
 }
@@ -91,7 +93,8 @@ std::string fault_in_src(const Include& include) {
   const std::string head = fs::path(include.name).begin()->string();
   if (include.name.find('/') == std::string::npos) {
     // no folder: a system header, or a neighbour in the same room
-    if (include.quoted && !fs::exists((project / include.file).parent_path() / include.name)) return "is not a file of its own room";
+    if (include.quoted && !fs::exists((project / include.file).parent_path() / include.name))
+      return "is not a file of its own room";
     return "";
   }
   if (head == "hf") return "";  // the public headers
@@ -108,14 +111,17 @@ std::string fault_outside(const Include& include) {
   if (name.begin() == name.end() || std::next(name.begin()) == name.end()) return "";
   const std::string head = name.begin()->string();
   // a folder of its own that bears a room's name is fine when the file is there
-  const bool own = fs::exists(project / fs::path(include.file).parent_path() / name) || fs::exists(project / "samples" / name) || fs::exists(project / "bindings" / name);
+  const bool own = fs::exists(project / fs::path(include.file).parent_path() / name) ||
+                   fs::exists(project / "samples" / name) || fs::exists(project / "bindings" / name);
   if (arrows().count(head) && !own) return "sees the inner room src/" + head + "; only include/hf is public";
   return "";
 }
 
 std::string fault_in_public_header(const Include& include) {
-  static const Names c_library = {"assert.h", "complex.h", "ctype.h",  "errno.h",  "fenv.h",  "float.h",  "inttypes.h", "iso646.h", "limits.h", "locale.h", "math.h", "setjmp.h",
-                                  "signal.h", "stdarg.h",  "stdbool.h", "stddef.h", "stdint.h", "stdio.h", "stdlib.h", "string.h", "tgmath.h", "time.h", "wchar.h", "wctype.h"};
+  static const Names c_library = {"assert.h",   "complex.h", "ctype.h",   "errno.h",  "fenv.h",   "float.h",
+                                  "inttypes.h", "iso646.h",  "limits.h",  "locale.h", "math.h",   "setjmp.h",
+                                  "signal.h",   "stdarg.h",  "stdbool.h", "stddef.h", "stdint.h", "stdio.h",
+                                  "stdlib.h",   "string.h",  "tgmath.h",  "time.h",   "wchar.h",  "wctype.h"};
   const fs::path file = project / include.file;
   if (fs::exists(project / "include" / include.name) && include.name.rfind("hf/", 0) == 0) return "";
   // the C++ wrapper sees the C++ standard library, whose headers have no ending
@@ -127,7 +133,8 @@ std::string fault_in_public_header(const Include& include) {
 void expect_no_fault(const std::vector<Include>& includes, std::string (*fault)(const Include&)) {
   for (const Include& include : includes) {
     const std::string what = fault(include);
-    if (!what.empty()) ADD_FAILURE() << include.file << ":" << include.line << ": include of " << include.name << " " << what;
+    if (!what.empty())
+      ADD_FAILURE() << include.file << ":" << include.line << ": include of " << include.name << " " << what;
   }
 }
 
@@ -155,7 +162,8 @@ TEST(Rooms, TestsOfThePublicAbiSeePublicHeadersOnly) {
 
 TEST(Rooms, EveryRoomOfTheHouseIsKnownHere) {
   for (const auto& entry : fs::directory_iterator(project / "src")) {
-    if (entry.is_directory()) EXPECT_TRUE(arrows().count(entry.path().filename().string())) << entry.path();
+    if (!entry.is_directory()) continue;
+    EXPECT_TRUE(arrows().count(entry.path().filename().string())) << entry.path();
   }
 }
 
@@ -183,7 +191,8 @@ TEST(Rooms, WrongArrowsAreFound) {
 }
 
 TEST(Rooms, IncludeLinesAreReadAsThePreprocessorReadsThem) {
-  std::istringstream text("  #  include \"a/b.h\"\n#include <c>\n// #include \"d.h\"\n#define include\n#include\t\"e.h\" // x\n");
+  std::istringstream text(
+      "  #  include \"a/b.h\"\n#include <c>\n// #include \"d.h\"\n#define include\n#include\t\"e.h\" // x\n");
   const std::vector<Include> found = includes_of(text, "f");
   ASSERT_EQ(found.size(), 3u);
   EXPECT_EQ(found[0].name, "a/b.h");
