@@ -69,6 +69,7 @@ void write_json(const std::string& file, const nlohmann::json& value);
 
 int table1(const Arguments& arguments);
 int large_sites(const Arguments& arguments);
+int partial(const Arguments& arguments);
 
 }  // namespace bench
 
