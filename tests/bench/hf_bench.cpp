@@ -16,7 +16,8 @@ const char* const usage =
     "them;\n"
     "               --rows keeps those whose names contain TEXT\n"
     "  large-sites  100 to 10,000 sites at once on 304,152 vertices, against our own refactorisation\n"
-    "  partial      the field at ten vertices against the whole field, 4,290 to 304,152 vertices: grows with the elimination path\n";
+    "  partial      the field at ten vertices against the whole field, 4,290 to 304,152 vertices: grows with the "
+    "elimination path\n";
 
 bench::Arguments read_arguments(const std::vector<std::string>& words) {
   bench::Arguments arguments;

@@ -1,5 +1,5 @@
-// Partial evaluation: the field at ten vertices under 100 sites, on meshes of growing size, beside the whole field. The first follows the
-// length of an elimination path, the second the size of the factor.
+// Partial evaluation: the field at ten vertices under 100 sites, on meshes of growing size, beside the whole field. The
+// first follows the length of an elimination path, the second the size of the factor.
 #include <cstdio>
 
 #include "assets/shapes.h"
@@ -33,8 +33,10 @@ int partial(const Arguments& arguments) {
       check(hf_solve_f64(solver.handle(), whole.data(), 0, nullptr));
       whole_times.push_back(clock.milliseconds());
     }
-    std::printf("%8u vertices   at ten vertices %7.3f   everywhere %7.3f\n", mesh.vertex_count(), median(at_times), median(whole_times));
-    out["rows"].push_back({{"n", mesh.vertex_count()}, {"solve_at_ms", median(at_times)}, {"solve_ms", median(whole_times)}});
+    std::printf("%8u vertices   at ten vertices %7.3f   everywhere %7.3f\n", mesh.vertex_count(), median(at_times),
+                median(whole_times));
+    out["rows"].push_back(
+        {{"n", mesh.vertex_count()}, {"solve_at_ms", median(at_times)}, {"solve_ms", median(whole_times)}});
   }
   write_json(arguments.json_file, out);
   return 0;
