@@ -142,34 +142,22 @@ std::int32_t DenseBlock::factorise() {
     for (std::int32_t j0 = 0; j0 <= grid; j0 += tile) {
       const double* other[tile];
       for (std::int32_t j = 0; j < tile; ++j) other[j] = l_.data() + row(std::min(j0 + j, k - 1));
-      if (j0 < grid) tile_dots(mine, other, static_cast<std::size_t>(j0), dots);
+      // at j0 = grid the four rows meet themselves: their first `grid` entries are known by then
+      tile_dots(mine, other, static_cast<std::size_t>(j0), dots);
       for (std::int32_t i = valid_; i < end; ++i) {
         double* l = l_.data() + row(i);
         double* sigma = scaled.data() + static_cast<std::size_t>(i - grid) * static_cast<std::size_t>(k);
         const double* m = m_.data() + row(i);
+        const double* known = dots + (i - grid) * tile;
         for (std::int32_t j = j0; j < std::min(j0 + tile, i); ++j) {
-          double sum = m[j];
-          if (j0 < grid) {
-            sum -= dots[(i - grid) * tile + (j - j0)];
-          } else {
-            // the diagonal tile: rows of the same four
-            const double* a[tile] = {sigma, sigma, sigma, sigma};
-            const double* b[tile] = {l_.data() + row(j), l_.data() + row(j), l_.data() + row(j), l_.data() + row(j)};
-            double own[tile * tile];
-            tile_dots(a, b, static_cast<std::size_t>(grid), own);
-            sum -= own[0];
-          }
           const double* lj = l_.data() + row(j);
+          double sum = m[j] - known[j - j0];
           for (std::int32_t p = j0; p < j; ++p) sum -= sigma[p] * lj[p];
           l[j] = sign_[static_cast<std::size_t>(j)] * sum / lj[j];
           sigma[j] = sign_[static_cast<std::size_t>(j)] * l[j];
         }
         if (j0 < grid) continue;
-        const double* a[tile] = {sigma, sigma, sigma, sigma};
-        const double* b[tile] = {l, l, l, l};
-        double own[tile * tile];
-        tile_dots(a, b, static_cast<std::size_t>(grid), own);
-        double pivot = m[i] - own[0];
+        double pivot = m[i] - known[i - grid];
         for (std::int32_t p = grid; p < i; ++p) pivot -= sigma[p] * l[p];
         pivot *= sign_[static_cast<std::size_t>(i)];
         if (!(pivot > pivot_floor * std::fabs(m[i]))) return i;

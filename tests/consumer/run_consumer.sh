@@ -26,7 +26,6 @@ case "$kind" in
   pkg_config)
     quiet cmake --install "$build" --prefix "$work/prefix"
     pc=$(find "$work/prefix" -name hf.pc)
-    sed -i "s|^prefix=.*|prefix=$work/prefix|" "$pc"
     PKG_CONFIG_PATH=$(dirname "$pc") quiet make -C "$here/pkg_config" OUT="$work/consumer"
     "$work/consumer"
     ;;
