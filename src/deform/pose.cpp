@@ -327,7 +327,9 @@ HandleReport Pose::handle(std::uint32_t number) const {
 }
 
 Span<const double> Pose::field(std::uint32_t number) const {
-  return {layout_->fields.of(require(number, HF_NO_INDEX)), static_cast<std::size_t>(core_->size())};
+  const std::int32_t handle =
+      require(number, HF_NO_INDEX);  // before the layout is looked at: there is none without a handle
+  return {layout_->fields.of(handle), static_cast<std::size_t>(core_->size())};
 }
 
 const ClusterWeights* Pose::weights() const noexcept { return layout_ ? &layout_->weights : nullptr; }

@@ -46,7 +46,12 @@ class UpdownSolver final : public SiteSolver {
   UpdownSolver(std::shared_ptr<const Core> core, double penalty)
       : core_(std::move(core)), penalty_(penalty), sites_(core_->memory.get()), count_(core_->memory.get()) {
     count_.assign(at(core_->mesh.component_count()), 0);
-    rebuild();
+    try {
+      rebuild();
+    } catch (...) {
+      cholmod_free_factor(&factor_, &common_.c);  // no destructor runs for a half-made object
+      throw;
+    }
   }
   UpdownSolver(const UpdownSolver& other)
       : core_(other.core_),

@@ -86,9 +86,25 @@ static void work(Work* w) {
   work_with(w, HF_ENGINE_GREEN, HF_ORDERING_NESTED_DISSECTION, 1, NULL);
 }
 
+static unsigned entries(const char* folder) {
+  unsigned count = 0;
+  DIR* d = opendir(folder);
+  assert_non_null(d);
+  while (readdir(d)) ++count;
+  closedir(d);
+  return count;
+}
+
 static Work expected;
+static unsigned threads_at_start, threads_after_own_engines;
+
 static int create_expected(void** state) {
   (void)state;
+  /* before anything else has run: Debian's CHOLMOD keeps OpenMP threads of its own once HF_ENGINE_UPDOWN was used */
+  threads_at_start = entries("/proc/self/task");
+  work_with(&expected, HF_ENGINE_REFACTOR, HF_ORDERING_MINIMUM_DEGREE, 1, NULL);
+  work_with(&expected, HF_ENGINE_GREEN, HF_ORDERING_NESTED_DISSECTION, 1, NULL);
+  threads_after_own_engines = entries("/proc/self/task");
   work(&expected);
   return expected.worst;
 }
@@ -196,15 +212,6 @@ static void random_numbers_of_the_host_are_not_drawn(void** state) {
   }
 }
 
-static unsigned entries(const char* folder) {
-  unsigned count = 0;
-  DIR* d = opendir(folder);
-  assert_non_null(d);
-  while (readdir(d)) ++count;
-  closedir(d);
-  return count;
-}
-
 static void signals_locale_descriptors_and_threads_are_as_before(void** state) {
   (void)state;
   static Work done;
@@ -227,6 +234,11 @@ static void signals_locale_descriptors_and_threads_are_as_before(void** state) {
   assert_int_equal(entries("/proc/self/fd"), descriptors);
   assert_int_equal(entries("/proc/self/task"), threads);
   free(locale);
+}
+
+static void no_thread_is_started_that_was_not_granted(void** state) {
+  (void)state;
+  assert_int_equal(threads_after_own_engines, threads_at_start);
 }
 
 static void granted_threads_end_with_their_solver(void** state) {
@@ -357,6 +369,7 @@ int main(void) {
     cmocka_unit_test(floating_point_traps_of_the_host_do_not_strike),
     cmocka_unit_test(random_numbers_of_the_host_are_not_drawn),
     cmocka_unit_test(signals_locale_descriptors_and_threads_are_as_before),
+    cmocka_unit_test(no_thread_is_started_that_was_not_granted),
     cmocka_unit_test(granted_threads_end_with_their_solver),
     cmocka_unit_test(nothing_is_printed),
     cmocka_unit_test(a_stack_of_256_kilobytes_is_enough),
