@@ -4,7 +4,8 @@
  * W per site (a vertex, or a point inside a triangle as three barycentric weights) and s the site values (Dirichlet
  * conditions). A soft site of stiffness alpha obeys w_i' u + lambda_i / alpha = s_i instead, which is the penalty
  * method of Xu, Zhang, Cohen-Or and Xiong (2009). Open borders are natural (zero flux). Sites are inserted, removed and
- * moved at any time; nothing is factorised again.
+ * moved at any time without a new factorisation; only batches of very many sites may be moved into the factor, when
+ * that is predicted to be cheaper (hf_statistics.factorisation_count counts it).
  */
 #ifndef HF_FIELD_H
 #define HF_FIELD_H
@@ -126,9 +127,10 @@ HF_API hf_result hf_solve_vectors_f64(hf_solver solver, double* out_vectors, uin
                                       double* out_normals, hf_solve_info* out_info);
 
 /* The field at chosen vertices only: double[vertex_count][channel_count] for uint32_t[vertex_count] vertices. No sweep
- * over the mesh: the cost is that of adding as many sites and does not grow with the mesh beyond the length of an
- * elimination path. Unreached vertices get 0. Results: as hf_solve; HF_ERROR_OUT_OF_RANGE (index = position in the
- * list). Thread safety: reads `solver`. Since 0.1. */
+ * over the mesh: the cost is that of adding as many sites, and follows the entries of their elimination paths (about a
+ * seventh of the factor each at worst). Once very many sites were moved into the factor it costs a whole solve.
+ * Unreached vertices get 0. Results: as hf_solve; HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE (more vertices than the mesh has),
+ * HF_ERROR_OUT_OF_RANGE (index = position in the list). Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve_at(hf_solver solver, uint32_t vertex_count, const uint32_t* vertices, double* out_values);
 
 /* Keeps the present site set on the undo stack (at most 256 are kept; the oldest goes first). Costs the site set,
