@@ -16,7 +16,10 @@
 extern "C" {
 #endif
 
-/* A batch of new sites. Either vertices, or triangles with barycentrics. */
+/* A batch of new sites. Either vertices, or triangles with barycentrics. A point is no obstacle in two dimensions: the
+ * finer the mesh, the less it holds of the field. A site with a radius holds a geodesic disc of the surface and acts the
+ * same on coarse and fine meshes; below the mesh spacing it is a point. A soft disc shares its stiffness among its
+ * vertices. The vertices on its rim (all of the disc for bi-harmonic fields) count towards site_limit. */
 typedef struct hf_sites_desc {
   uint32_t struct_size;
   uint32_t site_count;       /* >= 1 */
@@ -27,6 +30,7 @@ typedef struct hf_sites_desc {
   const double* values;    /* [site_count][channel_count]; NULL = 0 */
   const double* stiffness; /* [site_count] relative to the mean diagonal of K; 0 = hard (exact); NULL = all hard;
                               clamped to [1e-12, 1e12] */
+  const double* radii; /* [site_count] geodesic radius in the unit of the positions; 0 = a point; NULL = all points */
 } hf_sites_desc;
 
 /* Adds sites. out_sites: NULL, or uint32_t[site_count] receiving the numbers of the new sites. A site keeps its number
@@ -85,7 +89,8 @@ typedef struct hf_site_info {
   double* values;    /* [capacity][channel_count] */
   double* stiffness; /* 0 = hard */
   double* flux; /* [capacity][channel_count] lambda of the last edit: what flows into the surface at the site, unit:
-                   value x weight */
+                   value x weight; of a disc the sum over its vertices */
+  double* radii; /* 0 = a point */
 } hf_site_info;
 
 /* Writes all sites. out_info->capacity must be at least hf_get_site_count. Results: HF_OK, HF_ERROR_INVALID_HANDLE,
@@ -105,7 +110,7 @@ typedef struct hf_solve_info {
  * out_values: float[vertex_count] rows of channel_count values, value_stride bytes apart (0 = packed).
  * Vertices that no site reaches (isolated, or in a component without a site) are written as unreached_value 0 and
  * counted in out_info (NULL, or a struct with struct_size set). The values of hard sites are exact. Cost: one backward
- * sweep through the factor. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_TOO_SMALL
+ * sweep through the factor; bi-harmonic fields take a refinement step, three sweeps in all. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_TOO_SMALL
  * (stride), HF_ERROR_NO_SITES, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. On failure the output is not written. Thread
  * safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
@@ -126,11 +131,12 @@ HF_API hf_result hf_solve_vectors(hf_solver solver, float* out_vectors, uint32_t
 HF_API hf_result hf_solve_vectors_f64(hf_solver solver, double* out_vectors, uint32_t vector_stride,
                                       double* out_normals, hf_solve_info* out_info);
 
-/* The field at chosen vertices only: double[vertex_count][channel_count] for uint32_t[vertex_count] vertices. No sweep
- * over the mesh: the cost is that of adding as many sites, and follows the entries of their elimination paths (about a
- * seventh of the factor each at worst). Once very many sites were moved into the factor it costs a whole solve.
- * Unreached vertices get 0. Results: as hf_solve; HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE (more vertices than the mesh has),
- * HF_ERROR_OUT_OF_RANGE (index = position in the list). Thread safety: reads `solver`. Since 0.1. */
+/* The field at chosen vertices only: double[vertex_count][channel_count] for uint32_t[vertex_count] vertices, the same
+ * bits as hf_solve_f64 gives them. No sweep over the mesh: the backward sweep is done on the union of their elimination
+ * paths (one path is up to a sixth of the factor on a surface, many share most of it), on the calling thread. After very
+ * many sites were moved into the factor, and for bi-harmonic fields, it costs a whole solve. Unreached vertices get 0.
+ * Results: as hf_solve; HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE (more vertices than the mesh has), HF_ERROR_OUT_OF_RANGE
+ * (index = position in the list). Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve_at(hf_solver solver, uint32_t vertex_count, const uint32_t* vertices, double* out_values);
 
 /* Keeps the present site set on the undo stack (at most 256 are kept; the oldest goes first). Costs the site set,
@@ -142,6 +148,24 @@ HF_API hf_result hf_record(hf_solver solver);
  * failure: unchanged. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_undo(hf_solver solver);
 HF_API hf_result hf_redo(hf_solver solver);
+
+/* Moves the hard vertex sites there are into the factor, without a pause: factorises once on the calling thread, which
+ * is to be one of the host's own, while other threads go on editing and solving this solver. The result waits inside and
+ * the next edit takes it over, with what changed meanwhile applied on top, at the price of those changes; fields are the
+ * same before and after, to rounding. Worth calling when hf_statistics.rebase_advised says so; very large batches of new
+ * sites are moved by the edit itself when that is cheaper. Memory: one more factor while sites stay in it. Results:
+ * HF_OK; HF_ERROR_INVALID_HANDLE; HF_ERROR_NO_SITES (no hard site on a vertex); HF_ERROR_UNSUPPORTED (other engines than
+ * green); HF_ERROR_BUSY (another thread prepares one); HF_ERROR_OUT_OF_MEMORY. State after failure: unchanged. Thread
+ * safety: may run beside any function of the same solver. Since 0.1. */
+HF_API hf_result hf_prepare_rebase(hf_solver solver);
+
+/* Which way the last edit of places went (hf_statistics.last_route). */
+enum {
+  HF_ROUTE_NONE = 0,   /* no place was edited yet, or the engine is not green */
+  HF_ROUTE_DENSE = 1,  /* rows of the dense system came and went */
+  HF_ROUTE_FRESH = 2,  /* the dense system was made anew, which was cheaper */
+  HF_ROUTE_REBASE = 3  /* hard vertex sites were moved into the factor */
+};
 
 /* Figures of a solver. Times in milliseconds of the phases of hf_create; bytes as double (exact to 2^53). */
 typedef struct hf_statistics {
@@ -160,6 +184,17 @@ typedef struct hf_statistics {
   uint32_t sweep_count;         /* backward sweeps */
   uint32_t engine;              /* HF_ENGINE_* */
   uint32_t thread_count;
+  double load_ms;          /* of hf_create, to load a saved factor; the times to make it are then 0 */
+  uint32_t factor_loaded;  /* 1: the factor was loaded */
+  uint32_t factor_borrowed; /* 1: its numbers are read in place; factor_bytes counts them, memory_bytes does not */
+  uint32_t last_route;       /* HF_ROUTE_* of the last edit */
+  uint32_t rebase_count;     /* times sites were moved into the factor */
+  uint32_t dense_edit_count; /* edits that took the dense way */
+  uint32_t dense_row_count;  /* sites in the dense system at present */
+  uint32_t eliminated_count; /* sites in the factor at present */
+  uint32_t rebase_advised;   /* 1: the sites' paths outweigh the factor, fields get slower; see hf_prepare_rebase */
+  double predicted_dense_ms; /* what the cost model gave the last edit by rows of the dense system ... */
+  double predicted_rebase_ms; /* ... and by a rebase, on one thread of the machine it was measured on; 0: none */
 } hf_statistics;
 
 /* Writes the figures. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC. Thread

@@ -2,8 +2,11 @@
 #ifndef HF_HF_H
 #define HF_HF_H
 
+#include "hf/analysis.h"
 #include "hf/base.h"
 #include "hf/deform.h"
+#include "hf/direction.h"
+#include "hf/factor.h"
 #include "hf/field.h"
 #include "hf/mesh.h"
 #include "hf/transfer.h"

@@ -155,6 +155,23 @@ class Solver {
     check(hf_solve_at(get(), size(vertices), vertices.data(), values.data()));
     return values;
   }
+  // On a thread of the host's, beside edits and solves on others; see hf_prepare_rebase.
+  void prepare_rebase() { check(hf_prepare_rebase(get())); }
+  // Single precision, for previews; see hf_solve_preview.
+  std::vector<float> solve_preview(uint32_t correction_count = 0, hf_preview_info* info = nullptr) const {
+    std::vector<float> field(size_t{vertices_} * channels_);
+    check(hf_solve_preview(get(), field.data(), 0, correction_count, info));
+    return field;
+  }
+  void release_preview() { check(hf_release_preview(get())); }
+  // The factor's bytes; hand them to hf_create through hf_create_desc::saved_factor.
+  std::vector<uint8_t> save_factor() const {
+    size_t size = 0;
+    check(hf_get_factor_size(get(), &size));
+    std::vector<uint8_t> bytes(size);
+    check(hf_save_factor(get(), bytes.data(), size));
+    return bytes;
+  }
   hf_mesh_report mesh_report() const {
     auto report = make<hf_mesh_report>();
     check(hf_get_mesh_report(get(), &report));
@@ -189,6 +206,143 @@ class Solver {
   uint32_t channels_ = 1, vertices_ = 0;
 };
 
+// A direction field; vectors are three numbers each.
+class Direction {
+ public:
+  explicit Direction(const Solver& solver, uint32_t degree = 1) : vertices_(solver.mesh_report().vertex_count) {
+    auto desc = make<hf_direction_desc>();
+    desc.degree = degree;
+    hf_direction raw = nullptr;
+    check(hf_direction_create(solver.get(), &desc, &raw));
+    handle_ = Handle<hf_direction, hf_direction_destroy>(raw);
+  }
+  hf_direction get() const noexcept { return handle_.get(); }
+  std::vector<uint32_t> add_sites(const std::vector<uint32_t>& vertices, const std::vector<double>& vectors) {
+    need(vectors.size(), vertices.size());
+    std::vector<uint32_t> numbers(vertices.size());
+    check(hf_direction_add_sites(get(), size(vertices), vertices.data(), vectors.data(), numbers.data()));
+    return numbers;
+  }
+  void remove_sites(const std::vector<uint32_t>& sites) {
+    check(hf_direction_remove_sites(get(), size(sites), sites.data()));
+  }
+  void move_site(uint32_t site, uint32_t vertex) { check(hf_direction_move_sites(get(), 1, &site, &vertex)); }
+  void rotate_site(uint32_t site, double angle) { check(hf_direction_rotate_sites(get(), 1, &site, &angle)); }
+  void set_vectors(const std::vector<uint32_t>& sites, const std::vector<double>& vectors) {
+    need(vectors.size(), sites.size());
+    check(hf_direction_set_vectors(get(), size(sites), sites.data(), vectors.data()));
+  }
+  uint32_t site_count() const noexcept { return hf_direction_get_site_count(get()); }
+  std::vector<float> solve(hf_solve_info* info = nullptr) const {
+    std::vector<float> vectors(size_t{vertices_} * 3);
+    check(hf_direction_solve(get(), vectors.data(), 0, info));
+    return vectors;
+  }
+  std::vector<hf_singularity> singularities() const {
+    uint32_t count = 0;
+    check(hf_direction_get_singularities(get(), 0, nullptr, &count));
+    std::vector<hf_singularity> found(count);
+    if (count) check(hf_direction_get_singularities(get(), count, found.data(), &count));
+    return found;
+  }
+
+ private:
+  static uint32_t size(const std::vector<uint32_t>& list) { return static_cast<uint32_t>(list.size()); }
+  static void need(size_t numbers, size_t sites) {
+    if (numbers != 3 * sites) throw std::invalid_argument("vectors: three numbers for each site are needed");
+  }
+  Handle<hf_direction, hf_direction_destroy> handle_;
+  uint32_t vertices_ = 0;
+};
+
+// hf/analysis.h: what can be read from a field or from the shape alone. A field holds one value per vertex.
+inline hf_scalars scalars(const Solver& solver, const std::vector<double>& field) {
+  if (field.size() != solver.mesh_report().vertex_count)
+    throw std::invalid_argument("field: one value for each vertex of the mesh is needed");
+  auto desc = make<hf_scalars>();
+  desc.values_f64 = field.data();
+  return desc;
+}
+
+// spacing: HF_LEVELS_*.
+inline std::vector<double> space_levels(const Solver& solver, const std::vector<double>& field, int32_t spacing,
+                                        uint32_t count) {
+  const hf_scalars desc = scalars(solver, field);
+  std::vector<double> levels(count);
+  check(hf_space_levels(solver.get(), &desc, spacing, count, levels.data()));
+  return levels;
+}
+
+struct Isolines {
+  std::vector<uint32_t> point_edges;  // two vertices per point
+  std::vector<double> parameters, positions;
+  std::vector<uint32_t> line_starts, line_levels;
+  std::vector<int32_t> line_closed;
+};
+inline Isolines trace_isolines(const Solver& solver, const std::vector<double>& field,
+                               const std::vector<double>& levels) {
+  const hf_scalars desc = scalars(solver, field);
+  const uint32_t level_count = static_cast<uint32_t>(levels.size());
+  auto raw = make<hf_isolines>();
+  check(hf_trace_isolines(solver.get(), &desc, level_count, levels.data(), &raw));
+  Isolines lines;
+  lines.point_edges.resize(size_t{raw.point_count} * 2), lines.parameters.resize(raw.point_count);
+  lines.positions.resize(size_t{raw.point_count} * 3), lines.line_starts.resize(size_t{raw.line_count} + 1);
+  lines.line_levels.resize(raw.line_count), lines.line_closed.resize(raw.line_count);
+  raw.point_capacity = raw.point_count, raw.line_capacity = raw.line_count;
+  raw.point_edges = lines.point_edges.data(), raw.parameters = lines.parameters.data();
+  raw.positions = lines.positions.data(), raw.line_starts = lines.line_starts.data();
+  raw.line_levels = lines.line_levels.data(), raw.line_closed = lines.line_closed.data();
+  check(hf_trace_isolines(solver.get(), &desc, level_count, levels.data(), &raw));
+  return lines;
+}
+
+inline std::vector<hf_critical_point> find_critical_points(const Solver& solver, const std::vector<double>& field) {
+  const hf_scalars desc = scalars(solver, field);
+  auto info = make<hf_critical_info>();
+  check(hf_find_critical_points(solver.get(), &desc, 0, nullptr, &info));
+  std::vector<hf_critical_point> points(info.point_count);
+  if (!points.empty())
+    check(hf_find_critical_points(solver.get(), &desc, info.point_count, points.data(), &info));
+  return points;
+}
+
+// The longest first. desc: null for the defaults.
+inline std::vector<hf_extremity> find_extremities(const Solver& solver, const hf_extremities_desc* desc = nullptr) {
+  // room for as many as one search can propose in practice; a second search when that is not enough
+  std::vector<hf_extremity> found(256);
+  uint32_t count = 0;
+  hf_result result =
+      hf_find_extremities(solver.get(), desc, static_cast<uint32_t>(found.size()), found.data(), &count);
+  if (result == HF_ERROR_TOO_SMALL) {
+    found.resize(count);
+    result = hf_find_extremities(solver.get(), desc, count, found.data(), &count);
+  }
+  check(result);
+  found.resize(count);
+  return found;
+}
+
+class Geodesics {
+ public:
+  explicit Geodesics(const Solver& solver, const hf_geodesics_desc* desc = nullptr)
+      : vertices_(solver.mesh_report().vertex_count) {
+    hf_geodesics raw = nullptr;
+    check(hf_geodesics_create(solver.get(), desc, &raw));
+    handle_ = Handle<hf_geodesics, hf_geodesics_destroy>(raw);
+  }
+  hf_geodesics get() const noexcept { return handle_.get(); }
+  std::vector<double> distance(const std::vector<uint32_t>& sources) const {
+    std::vector<double> distances(vertices_);
+    check(hf_geodesics_distance_f64(get(), static_cast<uint32_t>(sources.size()), sources.data(), distances.data(), 0));
+    return distances;
+  }
+
+ private:
+  Handle<hf_geodesics, hf_geodesics_destroy> handle_;
+  uint32_t vertices_ = 0;
+};
+
 class Pose {
  public:
   explicit Pose(const Solver& solver, const hf_pose_desc* desc = nullptr)
@@ -204,14 +358,14 @@ class Pose {
     return Pose(raw, vertices_);
   }
   // One region of vertices per handle.
-  std::vector<uint32_t> add_handles(const std::vector<std::vector<uint32_t>>& regions) {
+  std::vector<uint32_t> add_handles(const std::vector<std::vector<uint32_t>>& regions, uint32_t layer = 0) {
     std::vector<uint32_t> counts, vertices, numbers(regions.size());
     for (const auto& region : regions) {
       counts.push_back(static_cast<uint32_t>(region.size()));
       vertices.insert(vertices.end(), region.begin(), region.end());
     }
     auto desc = make<hf_handles_desc>();
-    desc.handle_count = static_cast<uint32_t>(regions.size());
+    desc.handle_count = static_cast<uint32_t>(regions.size()), desc.layer = layer;
     desc.region_counts = counts.data(), desc.region_vertices = vertices.data();
     check(hf_pose_add_handles(get(), &desc, numbers.data()));
     return numbers;
@@ -221,6 +375,18 @@ class Pose {
   }
   void set_transform(uint32_t handle, const hf_transform& transform) {
     check(hf_pose_set_transforms(get(), 1, &handle, &transform));
+  }
+  // What hangs together with the vertex nearest to a point at rest, within a radius of it.
+  uint32_t add_handle(const double (&point)[3], double radius, uint32_t layer = 0) {
+    auto desc = make<hf_handles_desc>();
+    desc.handle_count = 1, desc.points = point, desc.radii = &radius, desc.layer = layer;
+    uint32_t number = 0;
+    check(hf_pose_add_handles(get(), &desc, &number));
+    return number;
+  }
+  // Rest place to posed place, column by column.
+  void set_matrix(uint32_t handle, const double (&matrix)[16]) {
+    check(hf_pose_set_matrices(get(), 1, &handle, matrix));
   }
   uint32_t handle_count() const noexcept { return hf_pose_get_handle_count(get()); }
   hf_handle_info handle(uint32_t number) const {
@@ -263,6 +429,11 @@ class Transfer {
     return number;
   }
   void remove_pair(uint32_t pair) { check(hf_transfer_remove_pairs(get(), 1, &pair)); }
+  hf_transfer_info info() const {
+    auto out = make<hf_transfer_info>();
+    check(hf_transfer_get_info(get(), &out));
+    return out;
+  }
   // One posed frame of the source, in its own vertex order.
   std::vector<float> apply(const std::vector<float>& source_positions) {
     if (source_positions.size() != size_t{source_vertices_} * 3)

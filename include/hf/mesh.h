@@ -24,7 +24,23 @@ enum {
 enum {
   HF_OPERATOR_COTANGENT = 0, /* w_ij = (cot a_ij + cot b_ij) / 2, the paper's; may be negative on obtuse triangles */
   HF_OPERATOR_CLAMPED = 1, /* the same, floored at 1e-3 of the median weight: the maximum principle holds on any mesh */
-  HF_OPERATOR_UNIFORM = 2  /* w_ij = 1 */
+  HF_OPERATOR_UNIFORM = 2, /* w_ij = 1 */
+  HF_OPERATOR_INTRINSIC_DELAUNAY = 3 /* cotangent weights of the intrinsic Delaunay triangulation of the same surface, on
+                                        the tufted cover where edges are open or shared by more than two triangles
+                                        (Bobenko and Springborn 2007; Sharp and Crane 2020): never negative, so the
+                                        maximum principle holds on any mesh; equal to the cotangent operator where the
+                                        triangles are Delaunay already */
+};
+
+/* What the field minimises, with L the operator_kind's Laplacian. All site edits and engines are the same. A bi-harmonic
+ * field is smooth through its sites and overshoots their values; its factor is 3 to 4 times larger, its solve takes one
+ * correction with the true operator. HF_ENGINE_UPDOWN, whose sites are penalties, gives a bi-harmonic field to about 2e-7
+ * of the largest value; the other engines to 1e-10. */
+enum {
+  HF_FIELD_HARMONIC = 0,        /* K = L */
+  HF_FIELD_BIHARMONIC = 1,      /* K = L M^-1 L, M the lumped vertex areas scaled to mean 1 by component: the same field
+                                   at any scale of the mesh */
+  HF_FIELD_BIHARMONIC_GRAPH = 2 /* K = L^2, the paper's: depends on how the surface is sampled */
 };
 
 /* How sites act on the factor; all three give the same field. See the README for which to choose. */
@@ -40,6 +56,18 @@ enum {
   HF_ORDERING_MINIMUM_DEGREE = 1,    /* AMD */
   HF_ORDERING_METIS = 2              /* METIS (builds with HF_WITH_GPL) */
 };
+
+/* A factor saved by hf_save_factor (hf/factor.h), to be loaded instead of made. byte_count is a size_t like the size of
+ * any block of memory: as wide as the pointer beside it. */
+typedef struct hf_factor_desc {
+  uint32_t struct_size;
+  int32_t borrow;    /* 0: the bytes are copied. Otherwise the numbers are read in place: the host keeps the bytes (a
+                        mapped file, say) where they are and unchanged until the solver, its clones and everything made
+                        from them are destroyed; bytes must then be aligned to HF_FACTOR_ALIGNMENT */
+  const void* bytes; /* all of them, as saved */
+  size_t byte_count;
+} hf_factor_desc;
+enum { HF_FACTOR_ALIGNMENT = 64 };
 
 /* What hf_create is given. Zero every field that is not needed (HF_INIT).
  * Either positions or positions_f64 is set. Strides are in bytes between vertices; 0 means tightly packed. */
@@ -66,6 +94,10 @@ typedef struct hf_create_desc {
   hf_allocator allocator;   /* zero = malloc */
   hf_job_runner job_runner; /* zero = threads of our own */
   hf_progress progress;     /* NULL, or an object to poll and cancel through */
+  const hf_factor_desc* saved_factor; /* NULL, or the factor of this mesh; ordering must then be 0 or that of the
+                                         factor */
+  int32_t field_kind; /* HF_FIELD_* */
+  int32_t reserved;   /* 0 */
 } hf_create_desc;
 
 /* Creates a solver: welds, builds the operator, orders and factorises it. The mesh is copied; nothing of the desc is
@@ -76,7 +108,10 @@ typedef struct hf_create_desc {
  * Results: HF_OK; HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT; HF_ERROR_EMPTY (no vertex or
  * no triangle); HF_ERROR_OUT_OF_RANGE (index = triangle); HF_ERROR_NON_FINITE (index = vertex); HF_ERROR_TOO_LARGE;
  * HF_ERROR_UNSUPPORTED (engine or ordering not in this build); HF_ERROR_OUT_OF_MEMORY; HF_ERROR_CANCELLED;
- * HF_ERROR_NOT_POSITIVE_DEFINITE. After a failure nothing exists. Thread safety: any thread. Since 0.1. */
+ * HF_ERROR_NOT_POSITIVE_DEFINITE. With saved_factor also: HF_ERROR_INVALID_ARGUMENT (bytes that are no saved factor, are
+ * cut short or damaged, belong to another mesh, to other positions or to another operator; borrowed bytes that are not
+ * aligned), HF_ERROR_UNSUPPORTED (another format version or byte order). Damage is found by a checksum; forged bytes can
+ * give a wrong field but no access outside them. After a failure nothing exists. Thread safety: any thread. Since 0.1. */
 HF_API hf_result hf_create(const hf_create_desc* desc, hf_solver* out_solver);
 
 /* Creates a solver that shares mesh, operator and factor with this one and has its own copy of the sites: many site

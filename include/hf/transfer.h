@@ -22,10 +22,12 @@ enum {
 
 /* What a pair is, beside two regions. */
 enum {
-  HF_PAIR_ANCHOR = 1,      /* the target's region follows the scaled path of the source's (feet, trunk) */
-  HF_PAIR_FOOT = 2,        /* an anchor that also stands on the ground, and whose leg gives the scale */
-  HF_PAIR_TRUNK = 4,       /* part of the trunk: no rest alignment */
-  HF_PAIR_NO_ALIGNMENT = 8 /* keep the source's rotations as they are even if the rest limbs point elsewhere */
+  HF_PAIR_ANCHOR = 1,       /* the target's region follows the scaled path of the source's (feet, trunk) */
+  HF_PAIR_FOOT = 2,         /* an anchor that also stands on the ground, and whose leg gives the scale */
+  HF_PAIR_TRUNK = 4,        /* part of the trunk: no rest alignment */
+  HF_PAIR_NO_ALIGNMENT = 8, /* keep the source's rotations as they are even if the rest limbs point elsewhere */
+  HF_PAIR_CONTACT = 16      /* comes as near to the ground as the source's region, scaled, while that is near it (a nose
+                               that grazes, a hand that leans); elsewhere it is free */
 };
 
 typedef struct hf_transfer_desc {
@@ -77,12 +79,28 @@ typedef struct hf_pair_info {
       alignment_angle; /* between the rest directions of the limb, radians; negative when unknown (trunk, short limb) */
   double confidence;   /* 0..1: share of the pair's clusters that rest on enough source vertices */
   int32_t aligned;     /* non-zero when the rest alignment is applied */
-  int32_t reserved;
+  int32_t crossed;     /* non-zero when the region lies on one side of the source and on the other of the target, by the
+                          axes: left and right may be exchanged */
 } hf_pair_info;
 /* Writes what is known of a pair (fields are solved when needed). Results: HF_OK, HF_ERROR_INVALID_HANDLE,
  * HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_NO_SUCH_PAIR, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread
  * safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_pair(hf_transfer transfer, uint32_t pair, hf_pair_info* out_info);
+
+/* The transfer as a whole. */
+typedef struct hf_transfer_info {
+  uint32_t struct_size;
+  uint32_t pair_count;
+  uint32_t cluster_count;
+  uint32_t aligned_count; /* pairs whose rest alignment is applied */
+  uint32_t crossed_count; /* pairs that change sides, see hf_pair_info */
+  int32_t scale_found;    /* non-zero: from the legs or the boxes; zero: given in the desc */
+  double scale;           /* lengths of the target over those of the source, both in the units of their meshes */
+} hf_transfer_info;
+/* Writes what is known of the transfer (fields are solved when needed). Results: HF_OK, HF_ERROR_INVALID_HANDLE,
+ * HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_EMPTY (no pair), HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread
+ * safety: changes `transfer`. Since 0.1. */
+HF_API hf_result hf_transfer_get_info(hf_transfer transfer, hf_transfer_info* out_info);
 
 /* One frame. */
 typedef struct hf_transfer_frame {
@@ -95,28 +113,28 @@ typedef struct hf_transfer_frame {
   float* target_positions; /* [target vertex_count][3], or NULL */
   double* target_positions_f64;
   float* target_normals; /* or NULL */
+  /* Places the caller decides in this frame: the mean of the target's region of a pair, welded copies counted once,
+     goes exactly there (a foot on a step, a hand on a rail), the rest follows. */
+  uint32_t hold_count;
+  uint32_t reserved;            /* 0 */
+  const uint32_t* hold_pairs;   /* [hold_count] each pair at most once */
+  const double* hold_positions; /* [hold_count][3] in the target's unit and frame */
 } hf_transfer_frame;
 
-/* Transfers one posed frame. The rest frame of the source gives the rest of the target, except for limbs whose rest
- * alignment is applied (hf_pair_info): those take the direction of the source's. Results: HF_OK,
- * HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE
- * (index = source vertex), HF_ERROR_TOO_SMALL, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread safety: changes
+/* Transfers one posed frame. A foot follows its scaled path exactly while the source's stands on the ground of its rest
+ * shape; the region of no pair sinks deeper under the target's ground than the source's does, scaled; a body that has
+ * fallen over is lifted by what would sink instead (all this in HF_TRANSFER_FIELDS, and for no rigid motion of the
+ * whole source, which stays one). The rest frame of
+ * the source gives the rest of the target, except for limbs whose rest alignment is applied (hf_pair_info): those take
+ * the direction of the source's. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC,
+ * HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE (index = source vertex, or position in the holds),
+ * HF_ERROR_NO_SUCH_PAIR, HF_ERROR_INVALID_ARGUMENT (a pair held twice; index = position in the holds),
+ * HF_ERROR_TOO_SMALL, HF_ERROR_TOO_LARGE (holds), HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread safety: changes
  * `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
-/* The transfer as a skin: cluster transforms of the last applied frame, and the fixed weights. */
-typedef struct hf_skin_info {
-  uint32_t struct_size;
-  uint32_t joint_count;    /* out: clusters */
-  uint32_t weight_count;   /* in: joints per vertex, 4 or 8; 0 = 4 */
-  uint32_t reserved;       /* 0 */
-  double* pivots;          /* [joint_count][3] rest centroid of each cluster, or NULL */
-  double* rotations;       /* [joint_count][4] quaternion x, y, z, w of the last frame, or NULL */
-  double* translations;    /* [joint_count][3] posed place of the pivot, or NULL */
-  uint32_t* vertex_joints; /* [target vertex_count][weight_count], or NULL */
-  float* vertex_weights;   /* [target vertex_count][weight_count] summing to 1, descending, or NULL */
-} hf_skin_info;
-/* Writes what is asked for; call with NULL arrays first for joint_count. The skin replays hf_transfer_apply within the
+/* The transfer as a skin (hf/deform.h). Writes what is asked for; call with NULL arrays first for joint_count. The skin
+ * replays hf_transfer_apply within the
  * weights left out (hf_transfer_apply itself uses the four largest, so with weight_count 4 it is exact). Results:
  * HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT,
  * HF_ERROR_EMPTY, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread safety: changes `transfer`. Since 0.1. */

@@ -10,19 +10,28 @@ namespace samples {
 
 const char* const field_usage =
     "usage: hf_field MESH --site PLACE=VALUE[@STIFFNESS] ... [options]\n"
-    "  Solves the harmonic field of a .obj, .off, .ply, .gltf or .glb surface, edits it, and prints the time of every "
-    "edit.\n"
+    "       hf_field --sheet MESH ... --png START\n"
+    "  Solves a field on a .obj, .off, .ply, .gltf or .glb surface, edits it, and prints the time of every edit.\n"
     "  PLACE is a vertex number (from 0, as in the file), or TRIANGLE:B0,B1,B2 for a point inside a triangle.\n"
+    "  VALUE is a number, with --kind vector and direction three with commas.\n"
     "  STIFFNESS makes a soft site (relative to the mean diagonal); without it the site is exact.\n"
+    "  --kind NAME        harmonic (default), biharmonic, vector (tangent vectors by components), direction (by "
+    "parallel\n"
+    "                     transport; sites at vertices, no undo; singularities are listed)\n"
     "  --script FILE      edits, one a line: add PLACE=VALUE ..., remove PLACE ..., move PLACE PLACE ..., set "
     "PLACE=VALUE ..., undo, redo\n"
-    "  --out FILE         the field as text, one value a line in the file's own vertex order, 17 digits\n"
-    "  --glb FILE         the surface cut into colour strips\n"
-    "  --png FILE         a picture of the strips from blue to yellow, sites red\n"
+    "  --extremities [poisson|geodesic]   lists the tips of the surface; without other sites they become the sites\n"
+    "  --isolines N       N iso-lines as lines, in the picture and in the glb\n"
+    "  --levels NAME      strips and lines of equal value (default), area, or length (mean width)\n"
+    "  --critical-points  lists minima, maxima and saddles; in the picture blue, red and green dots\n"
+    "  --out FILE         the field as text, one row a vertex in the file's own order, 17 digits\n"
+    "  --glb FILE         the surface cut into colour strips, iso-lines or arrows as lines\n"
+    "  --png FILE         a picture: strips from blue to yellow, sites red; vectors as arrows\n"
     "  --strips N         number of strips (24)\n"
     "  --direction X,Y,Z  from where the picture looks (0.8,0.35,1)\n"
+    "  --sheet MESH ...   every kind of field on every mesh, one picture a kind: START_harmonic.png and so on\n"
     "  --engine NAME      green (default), updown, refactor\n"
-    "  --operator NAME    cotangent (default), clamped, uniform\n"
+    "  --operator NAME    cotangent (default), clamped, uniform, delaunay\n"
     "  --weld NAME        exact (default), none\n"
     "  --threads N        threads the library may use (1)\n";
 
@@ -81,7 +90,12 @@ SiteArgument read_site(const std::string& text, const std::string& what) {
     if (!(site.stiffness > 0)) throw std::runtime_error(what + ": stiffness must be above 0");
     value.resize(mark);
   }
-  site.value = read_number(value, what);
+  if (value.find(',') == std::string::npos) {
+    site.values = {read_number(value, what)};
+  } else {
+    const auto vector = read_triple(value, what);
+    site.values.assign(vector.begin(), vector.end());
+  }
   return site;
 }
 
@@ -95,10 +109,21 @@ int read_choice(const std::string& text, std::initializer_list<const char*> name
   throw std::runtime_error(what + ": \"" + text + "\" is none of " + all);
 }
 
+// Every site has as many values as the field has components.
+void check_components(const std::vector<SiteArgument>& sites, size_t components, const std::string& what) {
+  for (const SiteArgument& site : sites) {
+    if (site.values.size() != components)
+      throw std::runtime_error(what + ": a site has " + std::to_string(site.values.size()) +
+                               " values; this kind of field " +
+                               (components == 3 ? "takes vectors, X,Y,Z" : "takes one"));
+  }
+}
+
 }  // namespace
 
 FieldOptions read_field_options(int argc, char** argv) {
   FieldOptions options;
+  bool sheet = false;
   for (int i = 1; i < argc; ++i) {
     const std::string name = argv[i];
     const auto next = [&]() -> std::string {
@@ -121,28 +146,56 @@ FieldOptions read_field_options(int argc, char** argv) {
       options.strips = static_cast<int>(read_index(next(), name));
     else if (name == "--direction")
       options.direction = read_triple(next(), name);
+    else if (name == "--kind")
+      options.kind =
+          static_cast<FieldType>(read_choice(next(), {"harmonic", "biharmonic", "vector", "direction"}, name));
+    else if (name == "--extremities")
+      options.extremities =
+          i + 1 < argc && (std::string(argv[i + 1]) == "poisson" || std::string(argv[i + 1]) == "geodesic")
+              ? read_choice(next(), {"poisson", "geodesic"}, name)
+              : 0;
+    else if (name == "--isolines")
+      options.isolines = static_cast<int>(read_index(next(), name));
+    else if (name == "--levels")
+      options.levels = read_choice(next(), {"value", "area", "length"}, name);
+    else if (name == "--critical-points")
+      options.critical_points = true;
+    else if (name == "--sheet")
+      sheet = true;
     else if (name == "--threads")
       options.threads = read_index(next(), name);
     else if (name == "--engine")
       options.engine = read_choice(next(), {"green", "updown", "refactor"}, name);
     else if (name == "--operator")
-      options.operator_kind = read_choice(next(), {"cotangent", "clamped", "uniform"}, name);
+      options.operator_kind = read_choice(next(), {"cotangent", "clamped", "uniform", "delaunay"}, name);
     else if (name == "--weld")
       options.weld = read_choice(next(), {"exact", "none"}, name);
     else if (name.rfind("--", 0) == 0)
       throw std::runtime_error("unknown option " + name + "; see --help");
+    else if (sheet)
+      options.sheet.push_back(name);
     else if (options.mesh.empty())
       options.mesh = name;
     else
       throw std::runtime_error("more than one mesh: " + options.mesh + " and " + name);
   }
   if (options.help) return options;
+  if (sheet) {
+    if (options.sheet.empty() || options.png.empty())
+      throw std::runtime_error("--sheet needs meshes behind it and --png START before");
+    return options;
+  }
   if (options.mesh.empty()) throw std::runtime_error("no mesh given; see --help");
   if (options.strips < 1 || options.strips > 1000) throw std::runtime_error("--strips must be 1 to 1000");
+  if (options.isolines < 0 || options.isolines > 10000) throw std::runtime_error("--isolines must be 0 to 10000");
+  const bool vectors = options.kind == FieldType::vector || options.kind == FieldType::direction;
+  check_components(options.sites, vectors ? 3 : 1, "--site");
+  if (vectors && (options.isolines || options.critical_points))
+    throw std::runtime_error("--isolines and --critical-points need a scalar field: --kind harmonic or biharmonic");
   return options;
 }
 
-std::vector<Edit> read_edit_script(const std::string& file) {
+std::vector<Edit> read_edit_script(const std::string& file, size_t components) {
   std::ifstream stream(file);
   if (!stream) throw std::runtime_error(file + ": cannot be read");
   std::vector<Edit> edits;
@@ -161,11 +214,12 @@ std::vector<Edit> read_edit_script(const std::string& file) {
       if (edit.kind == Edit::Kind::add || edit.kind == Edit::Kind::set) {
         edit.sites.push_back(read_site(word, where));
       } else if (edit.kind == Edit::Kind::remove || edit.kind == Edit::Kind::move) {
-        edit.sites.push_back({read_place(word, where), 0, 0});
+        edit.sites.push_back({read_place(word, where), {}, 0});
       } else {
         throw std::runtime_error(where + ": \"" + word + "\" after " + edit.text);
       }
     }
+    if (edit.kind == Edit::Kind::add || edit.kind == Edit::Kind::set) check_components(edit.sites, components, where);
     const bool needs = edit.kind != Edit::Kind::undo && edit.kind != Edit::Kind::redo;
     if (needs && edit.sites.empty()) throw std::runtime_error(where + ": no place given");
     if (edit.kind == Edit::Kind::move && edit.sites.size() % 2)

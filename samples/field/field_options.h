@@ -19,8 +19,8 @@ struct Place {
 
 struct SiteArgument {
   Place place;
-  double value = 0;
-  double stiffness = 0;  // 0 = hard
+  std::vector<double> values;  // one, or the three of a vector
+  double stiffness = 0;        // 0 = hard
 };
 
 // One line of a script.
@@ -30,9 +30,17 @@ struct Edit {
   std::vector<SiteArgument> sites;  // add, set: places with values; remove: places; move: from, to, from, to ...
 };
 
+enum class FieldType { harmonic, biharmonic, vector, direction };
+
 struct FieldOptions {
   std::string mesh, script, out, glb, png;
+  std::vector<std::string> sheet;  // meshes of a contact sheet; png is the start of its pictures' names
   std::vector<SiteArgument> sites;
+  FieldType kind = FieldType::harmonic;
+  int extremities = -1;  // 0 Poisson, 1 geodesic, -1 none
+  int isolines = 0;      // lines to draw; 0 = none
+  int levels = 0;        // of strips and lines: equal value, area, length
+  bool critical_points = false;
   int engine = 0, operator_kind = 0, weld = 0;
   uint32_t threads = 1;
   int strips = 24;
@@ -44,8 +52,8 @@ extern const char* const field_usage;
 
 // Throws std::runtime_error naming the argument.
 FieldOptions read_field_options(int argc, char** argv);
-// Throws std::runtime_error naming file and line.
-std::vector<Edit> read_edit_script(const std::string& file);
+// components: values of a site, 1 or 3. Throws std::runtime_error naming file and line.
+std::vector<Edit> read_edit_script(const std::string& file, size_t components);
 
 }  // namespace samples
 

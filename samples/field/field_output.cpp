@@ -6,15 +6,16 @@
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
+#include <unordered_map>
 
+#include "common/flat_mesh.h"
 #include "common/gltf_write.h"
-#include "common/picture.h"
 
 namespace samples {
 namespace {
 
 struct Corner {
-  glm::dvec3 position;
+  glm::dvec3 position, normal;
   double value;
 };
 
@@ -25,10 +26,161 @@ std::vector<Corner> clip(const std::vector<Corner>& polygon, double level, doubl
     const Corner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
     const double da = side * (a.value - level), db = side * (b.value - level);
     if (da >= 0) kept.push_back(a);
-    if ((da > 0 && db < 0) || (da < 0 && db > 0))
-      kept.push_back({glm::mix(a.position, b.position, da / (da - db)), level});
+    if ((da > 0 && db < 0) || (da < 0 && db > 0)) {
+      const double t = da / (da - db);
+      kept.push_back({glm::mix(a.position, b.position, t), glm::mix(a.normal, b.normal, t), level});
+    }
   }
   return kept;
+}
+
+// The surface cut along the levels; one colour (sRGB) per strip, grey without a value.
+struct Strips {
+  std::vector<glm::dvec3> positions, normals;
+  std::vector<Color> colors;
+  std::vector<uint32_t> triangles;
+};
+
+std::vector<glm::vec3> normals_of(const SurfaceMesh& mesh) {
+  return welded_normals(to_flat_mesh(mesh), mesh.positions);
+}
+
+Strips cut_into_strips(const FieldView& view) {
+  const SurfaceMesh& mesh = *view.mesh;
+  const std::vector<glm::vec3> normals = normals_of(mesh);
+  const std::vector<double>& levels = view.levels;
+  Strips strips;
+  for (size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
+    std::vector<Corner> triangle;
+    bool whole = true;
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t v = mesh.triangles[t + k];
+      const double value = view.components == 1 ? view.values[v] : 0;
+      whole = whole && std::isfinite(value);
+      triangle.push_back({mesh.positions[v], glm::dvec3(normals[v]), value});
+    }
+    size_t first = 0, last = 0;
+    if (whole) {
+      const auto [a, b] = std::minmax({triangle[0].value, triangle[1].value, triangle[2].value});
+      first = static_cast<size_t>(std::upper_bound(levels.begin(), levels.end(), a) - levels.begin());
+      last = static_cast<size_t>(std::lower_bound(levels.begin(), levels.end(), b) - levels.begin());
+    }
+    for (size_t strip = first; strip <= std::max(first, last); ++strip) {
+      std::vector<Corner> part = triangle;
+      if (strip > first) part = clip(part, levels[strip - 1], 1);
+      if (strip < last) part = clip(part, levels[strip], -1);
+      if (part.size() < 3) continue;
+      Color color{0.72, 0.72, 0.72};
+      if (view.components == 3) color = {0.86, 0.82, 0.74};
+      if (whole && view.components == 1) {
+        color = palette_color(Palette::blue_yellow,
+                              (static_cast<double>(strip) + 0.5) / static_cast<double>(levels.size() + 1));
+        const double shade = strip % 2 ? 1.0 : 0.87;  // every other strip a little darker
+        color = {shade * color.r, shade * color.g, shade * color.b};
+      }
+      const uint32_t base = static_cast<uint32_t>(strips.positions.size());
+      for (const Corner& corner : part) {
+        strips.positions.push_back(corner.position);
+        strips.normals.push_back(corner.normal);
+        strips.colors.push_back(color);
+      }
+      for (uint32_t k = 2; k < part.size(); ++k)
+        strips.triangles.insert(strips.triangles.end(), {base, base + k - 1, base + k});
+    }
+  }
+  return strips;
+}
+
+double diagonal_of(const SurfaceMesh& mesh) {
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const uint32_t v : mesh.triangles)
+    low = glm::min(low, mesh.positions[v]), high = glm::max(high, mesh.positions[v]);
+  return mesh.triangles.empty() ? 1 : glm::length(high - low);
+}
+
+// A place for an arrow: a point in a triangle.
+struct Spot {
+  uint32_t corner[3];
+  double weight[3];
+};
+
+glm::dvec3 at(const SurfaceMesh& mesh, const Spot& spot) {
+  glm::dvec3 p(0);
+  for (int k = 0; k < 3; ++k) p += spot.weight[k] * mesh.positions[spot.corner[k]];
+  return p;
+}
+
+// Places at least `gap` apart, all over the surface: the middles of triangles, and lattices on those longer than the
+// gap, kept when a grid of cells as wide as the gap knows of none near.
+std::vector<Spot> spread_spots(const SurfaceMesh& mesh, double gap) {
+  std::unordered_map<uint64_t, std::vector<glm::dvec3>> cells;
+  const auto key = [&](const glm::dvec3& p, int dx, int dy, int dz) {
+    const auto part = [&](double x, int d) {
+      return static_cast<uint64_t>(static_cast<int64_t>(std::floor(x / gap)) + d) & 0x1FFFFF;
+    };
+    return part(p.x, dx) << 42 | part(p.y, dy) << 21 | part(p.z, dz);
+  };
+  std::vector<Spot> chosen;
+  const auto offer = [&](const Spot& spot) {
+    const glm::dvec3 p = at(mesh, spot);
+    for (int d = 0; d < 27; ++d) {
+      const auto cell = cells.find(key(p, d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1));
+      if (cell == cells.end()) continue;
+      for (const glm::dvec3& q : cell->second) {
+        if (glm::distance(p, q) < gap) return;
+      }
+    }
+    cells[key(p, 0, 0, 0)].push_back(p);
+    chosen.push_back(spot);
+  };
+  for (size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
+    const uint32_t* v = &mesh.triangles[t];
+    double longest = 0;
+    for (int k = 0; k < 3; ++k)
+      longest = std::max(longest, glm::distance(mesh.positions[v[k]], mesh.positions[v[(k + 1) % 3]]));
+    const int n = std::min(100, std::max(1, static_cast<int>(std::ceil(longest / gap))));
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; i + j < n; ++j) {
+        const double a = (i + 1.0 / 3) / n, b = (j + 1.0 / 3) / n;
+        offer({{v[0], v[1], v[2]}, {1 - a - b, a, b}});
+      }
+    }
+  }
+  return chosen;
+}
+
+// Arrows along the vectors, a little above the surface; the longest as long as the gap between them.
+std::vector<Arrow> arrows_of(const FieldView& view) {
+  const SurfaceMesh& mesh = *view.mesh;
+  const std::vector<glm::vec3> normals = normals_of(mesh);
+  const double diagonal = diagonal_of(mesh), gap = 0.028 * diagonal;
+  const std::vector<Spot> spots = spread_spots(mesh, gap);
+  std::vector<glm::dvec3> vectors;
+  double longest = 0;
+  for (const Spot& spot : spots) {
+    glm::dvec3 sum(0);
+    for (int k = 0; k < 3; ++k) {
+      const double* v = &view.values[3 * size_t(spot.corner[k])];
+      sum += spot.weight[k] * glm::dvec3(v[0], v[1], v[2]);
+    }
+    vectors.push_back(sum);
+    longest = std::max(longest, glm::length(sum));
+  }
+  std::vector<Arrow> arrows;
+  for (size_t i = 0; i < spots.size(); ++i) {
+    const double length = glm::length(vectors[i]);
+    if (!(length > 1e-9 * longest)) continue;
+    glm::dvec3 normal(0);
+    for (int k = 0; k < 3; ++k) normal += spots[i].weight[k] * glm::dvec3(normals[spots[i].corner[k]]);
+    // square root: weak places still show where the field points
+    const glm::dvec3 along = 0.95 * gap * std::sqrt(length / longest) / length * vectors[i];
+    const glm::dvec3 from = at(mesh, spots[i]) + 0.006 * diagonal * normal - 0.5 * along, to = from + along;
+    Arrow arrow;
+    arrow.from = {from.x, from.y, from.z}, arrow.to = {to.x, to.y, to.z};
+    arrow.color = {0.08, 0.20, 0.55}, arrow.width = 1.5;
+    arrows.push_back(arrow);
+  }
+  return arrows;
 }
 
 float linear(double srgb) {
@@ -37,51 +189,25 @@ float linear(double srgb) {
 
 }  // namespace
 
-void write_field_text(const std::string& file, const std::vector<double>& field) {
+void write_field_text(const std::string& file, const std::vector<double>& field, size_t components) {
   const std::string temporary = file + ".part";
   std::unique_ptr<FILE, int (*)(FILE*)> stream(std::fopen(temporary.c_str(), "w"), &std::fclose);
   if (!stream) throw std::runtime_error(file + ": cannot be written");
-  for (const double value : field) {
-    if (std::fprintf(stream.get(), "%.17g\n", value) < 0)
+  for (size_t i = 0; i < field.size(); ++i) {
+    if (std::fprintf(stream.get(), "%.17g%c", field[i], (i + 1) % components ? ' ' : '\n') < 0)
       throw std::runtime_error(file + ": cannot be written; is the disk full?");
   }
   if (std::fclose(stream.release()) != 0) throw std::runtime_error(file + ": cannot be written; is the disk full?");
   std::filesystem::rename(temporary, file);
 }
 
-void write_field_glb(const std::string& file, const SurfaceMesh& mesh, const std::vector<double>& field, int strips) {
-  const auto [low, high] = std::minmax_element(field.begin(), field.end());
-  const double range = std::max(*high - *low, 1e-300), width = range / strips;
+void write_field_glb(const std::string& file, const FieldView& view) {
+  const Strips strips = cut_into_strips(view);
   Primitive surface;
-  for (size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
-    std::vector<Corner> triangle;
-    for (size_t k = 0; k < 3; ++k)
-      triangle.push_back({mesh.positions[mesh.triangles[t + k]], field[mesh.triangles[t + k]]});
-    const auto [a, b] = std::minmax_element(triangle.begin(), triangle.end(),
-                                            [](const Corner& x, const Corner& y) { return x.value < y.value; });
-    const auto strip_of = [&](double value) {
-      return std::clamp(static_cast<int>(std::floor((value - *low) / width)), 0, strips - 1);
-    };
-    const int first = strip_of(a->value), last = strip_of(b->value);
-    const glm::dvec3 cross =
-        glm::cross(triangle[1].position - triangle[0].position, triangle[2].position - triangle[0].position);
-    const glm::vec3 normal = glm::length(cross) > 0 ? glm::vec3(glm::normalize(cross)) : glm::vec3(0, 1, 0);
-    for (int strip = first; strip <= last; ++strip) {
-      std::vector<Corner> part = triangle;
-      if (strip > first) part = clip(part, *low + strip * width, 1);
-      if (strip < last) part = clip(part, *low + (strip + 1) * width, -1);
-      if (part.size() < 3) continue;
-      const Color color = palette_color(Palette::blue_yellow, (strip + 0.5) / strips);
-      const uint32_t base = static_cast<uint32_t>(surface.positions.size());
-      for (const Corner& corner : part) {
-        surface.positions.push_back(glm::vec3(corner.position));
-        surface.normals.push_back(normal);
-        surface.colors.push_back({linear(color.r), linear(color.g), linear(color.b), 1.0f});
-      }
-      for (uint32_t k = 2; k < part.size(); ++k)
-        surface.indices.insert(surface.indices.end(), {base, base + k - 1, base + k});
-    }
-  }
+  for (const glm::dvec3& p : strips.positions) surface.positions.push_back(glm::vec3(p));
+  for (const glm::dvec3& n : strips.normals) surface.normals.push_back(glm::vec3(n));
+  for (const Color& c : strips.colors) surface.colors.push_back({linear(c.r), linear(c.g), linear(c.b), 1.0f});
+  surface.indices = strips.triangles;
   Model model;
   model.name = file;
   Material material;
@@ -96,22 +222,78 @@ void write_field_glb(const std::string& file, const SurfaceMesh& mesh, const std
   node.name = "field", node.mesh = 0;
   model.nodes.push_back(node);
   model.scene_roots = {0};
+  std::vector<glm::dvec3> ends;
+  for (const IsoLine& line : view.lines) {
+    const size_t count = line.points.size();
+    for (size_t i = 0; i + (line.closed ? 0 : 1) < count; ++i)
+      ends.insert(ends.end(), {line.points[i], line.points[(i + 1) % count]});
+  }
+  if (!ends.empty()) add_lines(model, "iso-lines", ends, {0.02f, 0.02f, 0.03f, 1.0f});
+  if (view.components == 3) {
+    ends.clear();
+    const auto point = [](const Point& p) { return glm::dvec3(p[0], p[1], p[2]); };
+    for (const Arrow& arrow : arrows_of(view)) {
+      // shaft and two barbs
+      const glm::dvec3 from = point(arrow.from), to = point(arrow.to), along = to - from;
+      const glm::dvec3 side = glm::length(glm::cross(along, glm::dvec3(0, 1, 0))) > 1e-6 * glm::length(along)
+                                  ? glm::normalize(glm::cross(along, glm::dvec3(0, 1, 0)))
+                                  : glm::dvec3(1, 0, 0);
+      const glm::dvec3 wing = 0.15 * glm::length(along) * side, back = to - 0.3 * along;
+      ends.insert(ends.end(), {from, to, to, back + wing, to, back - wing});
+    }
+    if (!ends.empty()) add_lines(model, "vectors", ends, {0.01f, 0.04f, 0.3f, 1.0f});
+  }
   write_gltf(model, file);
 }
 
-void write_field_picture(const std::string& file, const SurfaceMesh& mesh, const std::vector<double>& field, int strips,
-                         const std::vector<glm::dvec3>& sites, const std::array<double, 3>& direction) {
+Picture field_picture(const FieldView& view) {
+  const Strips strips = cut_into_strips(view);
   Surface surface;
-  for (const glm::dvec3& p : mesh.positions) surface.positions.insert(surface.positions.end(), {p.x, p.y, p.z});
-  surface.triangles = mesh.triangles;
-  surface.scalars = field;
+  for (const glm::dvec3& p : strips.positions) surface.positions.insert(surface.positions.end(), {p.x, p.y, p.z});
+  for (const glm::dvec3& n : strips.normals) surface.normals.insert(surface.normals.end(), {n.x, n.y, n.z});
+  for (const Color& c : strips.colors) {
+    surface.colors.insert(surface.colors.end(),
+                          {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)});
+  }
+  surface.triangles = strips.triangles;
   SurfaceLook look;
-  look.fill = Fill::iso_strips, look.strips = strips;
+  look.fill = Fill::colors;
   Marks marks;
-  for (const glm::dvec3& p : sites) marks.dots.push_back({{p.x, p.y, p.z}});
-  View view;
-  view.width = 900, view.height = 760, view.direction = direction;
-  write_png(file, render(surface, view, look, marks));
+  for (const IsoLine& line : view.lines) {
+    Polyline polyline;
+    for (const glm::dvec3& p : line.points) polyline.points.push_back({p.x, p.y, p.z});
+    if (line.closed && !line.points.empty()) polyline.points.push_back(polyline.points.front());
+    polyline.width = 1.2;
+    marks.lines.push_back(std::move(polyline));
+  }
+  const bool critical = !view.critical.empty() || !view.singular.empty();
+  for (const glm::dvec3& p : view.sites) {
+    Dot dot;
+    dot.position = {p.x, p.y, p.z};
+    if (critical) dot.radius = 0.006, dot.color = {0.05, 0.05, 0.05};
+    marks.dots.push_back(dot);
+  }
+  for (const hf_critical_point& point : view.critical) {
+    const glm::dvec3 p = view.mesh->positions[point.vertex];
+    Dot dot;
+    dot.position = {p.x, p.y, p.z};
+    dot.radius = 0.010;
+    dot.color = point.kind == HF_CRITICAL_MINIMUM   ? Color{0.10, 0.25, 0.90}
+                : point.kind == HF_CRITICAL_MAXIMUM ? Color{0.88, 0.08, 0.08}
+                                                    : Color{0.10, 0.75, 0.20};
+    marks.dots.push_back(dot);
+  }
+  for (const hf_singularity& point : view.singular) {
+    const glm::dvec3 p = view.mesh->positions[point.vertex];
+    Dot dot;
+    dot.position = {p.x, p.y, p.z};
+    dot.color = point.index > 0 ? Color{0.88, 0.08, 0.08} : Color{0.10, 0.25, 0.90};
+    marks.dots.push_back(dot);
+  }
+  if (view.components == 3) marks.arrows = arrows_of(view);
+  View page;
+  page.width = view.width, page.height = view.height, page.direction = view.direction;
+  return render(surface, page, look, marks);
 }
 
 }  // namespace samples

@@ -1,23 +1,19 @@
 // hf_field: the harmonic field of a mesh file under an edit script. See README.md beside this file, or --help.
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <exception>
-#include <map>
+#include <filesystem>
 #include <stdexcept>
 
 #include "field/field_options.h"
 #include "field/field_output.h"
+#include "field/field_session.h"
 #include "hf/hf.h"
 
 namespace samples {
 namespace {
-
-void check(hf_result result) {
-  if (result == HF_OK) return;
-  hf_error_detail detail;
-  hf_get_error_detail(&detail);
-  throw std::runtime_error(std::string(detail.function) + ": " + detail.message + " (" + hf_result_name(result) + ")");
-}
 
 class Clock {
  public:
@@ -27,161 +23,6 @@ class Clock {
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-// Places of a list, as the library takes them.
-struct Batch {
-  explicit Batch(const std::vector<SiteArgument>& sites, bool with_values) {
-    HF_INIT(desc);
-    desc.site_count = static_cast<uint32_t>(sites.size());
-    const bool points = !sites.empty() && !sites[0].place.is_vertex();
-    bool soft = false;
-    for (const SiteArgument& site : sites) {
-      if (site.place.is_vertex() == points)
-        throw std::runtime_error("vertices and points in triangles are mixed in one edit; write two");
-      vertices.push_back(points ? site.place.triangle : site.place.vertex);
-      barycentrics.insert(barycentrics.end(), site.place.weights.begin(), site.place.weights.end());
-      values.push_back(site.value), stiffness.push_back(site.stiffness);
-      soft = soft || site.stiffness > 0;
-    }
-    (points ? desc.triangles : desc.vertices) = vertices.data();
-    if (points) desc.barycentrics = barycentrics.data();
-    if (with_values) desc.values = values.data();
-    if (with_values && soft) desc.stiffness = stiffness.data();
-  }
-  Batch(const Batch&) = delete;
-  Batch& operator=(const Batch&) = delete;
-  hf_sites_desc desc;
-  std::vector<uint32_t> vertices;
-  std::vector<double> barycentrics, values, stiffness;
-};
-
-// The solver and the numbers of its sites by place.
-class Session {
- public:
-  Session(const SurfaceMesh& mesh, const FieldOptions& options)
-      : vertex_count_(static_cast<uint32_t>(mesh.positions.size())) {
-    hf_create_desc desc;
-    HF_INIT(desc);
-    desc.vertex_count = vertex_count_;
-    desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
-    desc.positions_f64 = mesh.positions.empty() ? nullptr : &mesh.positions[0].x;
-    desc.triangles = mesh.triangles.data();
-    desc.engine = options.engine, desc.operator_kind = options.operator_kind, desc.weld = options.weld;
-    desc.thread_count = options.threads;
-    check(hf_create(&desc, &solver_));
-  }
-  ~Session() { hf_destroy(solver_); }
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-
-  hf_solver solver() const { return solver_; }
-
-  void apply(const Edit& edit) {
-    if (edit.kind == Edit::Kind::undo || edit.kind == Edit::Kind::redo) {
-      const bool undo = edit.kind == Edit::Kind::undo;
-      check(undo ? hf_undo(solver_) : hf_redo(solver_));
-      auto &from = undo ? undone_from_ : redone_from_, &to = undo ? redone_from_ : undone_from_;
-      to.push_back(sites_);
-      sites_ = from.back();
-      from.pop_back();
-      return;
-    }
-    check(hf_record(solver_));
-    const auto before = sites_;
-    try {
-      change(edit);
-    } catch (...) {
-      hf_undo(solver_);  // forgets the record; the failed edit has changed nothing
-      throw;
-    }
-    undone_from_.push_back(before);
-    redone_from_.clear();
-  }
-
-  std::vector<double> solve(hf_solve_info& info) const {
-    std::vector<double> field(vertex_count_);
-    HF_INIT(info);
-    check(hf_solve_f64(solver_, field.data(), 0, &info));
-    return field;
-  }
-  // Places of all sites, for pictures.
-  std::vector<glm::dvec3> positions(const SurfaceMesh& mesh) const {
-    std::vector<glm::dvec3> points;
-    for (const auto& [place, number] : sites_) {
-      (void)number;
-      if (place.triangle == no_triangle) {
-        points.push_back(mesh.positions[place.vertex]);
-      } else {
-        glm::dvec3 p(0);
-        for (size_t k = 0; k < 3; ++k)
-          p += place.weights[k] * mesh.positions[mesh.triangles[3 * size_t(place.triangle) + k]];
-        points.push_back(p);
-      }
-    }
-    return points;
-  }
-
- private:
-  static constexpr uint32_t no_triangle = 0xFFFFFFFFu;
-  struct Order {
-    bool operator()(const Place& a, const Place& b) const {
-      return std::tie(a.triangle, a.vertex, a.weights) < std::tie(b.triangle, b.vertex, b.weights);
-    }
-  };
-  using Numbers = std::map<Place, uint32_t, Order>;
-
-  uint32_t number(const Place& place) const {
-    const auto found = sites_.find(place);
-    if (found == sites_.end())
-      throw std::runtime_error("there is no site at " +
-                               std::string(place.is_vertex()
-                                               ? "vertex " + std::to_string(place.vertex)
-                                               : "that point of triangle " + std::to_string(place.triangle)));
-    return found->second;
-  }
-
-  void change(const Edit& edit) {
-    std::vector<uint32_t> numbers;
-    switch (edit.kind) {
-      case Edit::Kind::add: {
-        const Batch batch(edit.sites, true);
-        numbers.resize(edit.sites.size());
-        check(hf_add_sites(solver_, &batch.desc, numbers.data()));
-        for (size_t i = 0; i < numbers.size(); ++i) sites_[edit.sites[i].place] = numbers[i];
-        break;
-      }
-      case Edit::Kind::remove:
-        for (const SiteArgument& site : edit.sites) numbers.push_back(number(site.place));
-        check(hf_remove_sites(solver_, static_cast<uint32_t>(numbers.size()), numbers.data()));
-        for (const SiteArgument& site : edit.sites) sites_.erase(site.place);
-        break;
-      case Edit::Kind::move: {
-        std::vector<SiteArgument> to;
-        for (size_t i = 0; i < edit.sites.size(); i += 2)
-          numbers.push_back(number(edit.sites[i].place)), to.push_back(edit.sites[i + 1]);
-        const Batch batch(to, false);
-        check(hf_move_sites(solver_, static_cast<uint32_t>(numbers.size()), numbers.data(), &batch.desc));
-        for (size_t i = 0; i < edit.sites.size(); i += 2) sites_.erase(edit.sites[i].place);
-        for (size_t i = 0; i < to.size(); ++i) sites_[to[i].place] = numbers[i];
-        break;
-      }
-      case Edit::Kind::set: {
-        std::vector<double> values;
-        for (const SiteArgument& site : edit.sites) numbers.push_back(number(site.place)), values.push_back(site.value);
-        check(hf_set_site_values(solver_, static_cast<uint32_t>(numbers.size()), numbers.data(), values.data()));
-        break;
-      }
-      case Edit::Kind::undo:
-      case Edit::Kind::redo:
-        break;
-    }
-  }
-
-  hf_solver solver_ = nullptr;
-  uint32_t vertex_count_;
-  Numbers sites_;
-  std::vector<Numbers> undone_from_, redone_from_;
 };
 
 void describe(hf_solver solver, double create_ms) {
@@ -211,14 +52,76 @@ void describe(hf_solver solver, double create_ms) {
               statistics.ordering_ms, statistics.symbolic_ms, statistics.numeric_ms, statistics.factor_bytes / 1e6);
 }
 
-int run(int argc, char** argv) {
-  const FieldOptions options = read_field_options(argc, argv);
-  if (options.help) {
-    std::fputs(field_usage, stdout);
-    return 0;
+// What is shown of the present field: NaN where no site reaches, levels, lines, critical points as asked for.
+FieldView view_of(const Session& session, const SurfaceMesh& mesh, const std::vector<double>& field,
+                  const FieldOptions& options) {
+  FieldView view;
+  view.mesh = &mesh, view.values = field, view.components = session.components();
+  view.direction = options.direction;
+  view.sites = session.positions(mesh);
+  view.singular = session.singularities();
+  if (options.kind == FieldType::direction) {
+    // only where it points matters: the length fades away between the sites
+    for (size_t i = 0; i + 2 < view.values.size(); i += 3) {
+      const double length = std::hypot(view.values[i], view.values[i + 1], view.values[i + 2]);
+      for (size_t k = 0; k < 3; ++k) view.values[i + k] = length > 0 ? view.values[i + k] / length : 0;
+    }
   }
+  if (session.components() != 1) return view;
+  const std::vector<bool> reached = session.reached();
+  for (size_t v = 0; v < field.size(); ++v) {
+    if (!reached[v]) view.values[v] = std::nan("");
+  }
+  double low = INFINITY, high = -INFINITY;
+  for (const double value : view.values) {
+    if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  }
+  if (!(high > low)) return view;  // one strip
+  if (options.strips > 1) view.levels = session.levels(view.values, options.levels, options.strips - 1);
+  if (options.isolines > 0) {
+    view.lines = session.isolines(view.values, session.levels(view.values, options.levels, options.isolines));
+  }
+  if (options.critical_points) {
+    hf_critical_info info;
+    view.critical = session.critical_points(view.values, info);
+  }
+  return view;
+}
+
+void list_extremities(const SurfaceMesh& mesh, const FieldOptions& options) {
+  FieldOptions plain = options;  // extremities need the factor of a Laplacian
+  plain.kind = FieldType::harmonic;
+  const Session session(mesh, plain);
+  const Clock clock;
+  const std::vector<hf_extremity> found = session.extremities(options.extremities);
+  std::printf("extremities %zu, %.1f ms (twice: count, then list)\n", found.size(), clock.milliseconds());
+  for (const hf_extremity& tip : found) {
+    std::printf("            vertex %-8u component %-4u protrudes %-12.6g at %.6g %.6g %.6g\n", tip.vertex,
+                tip.component, tip.length, tip.position[0], tip.position[1], tip.position[2]);
+  }
+}
+
+void list_critical_points(const Session& session, const FieldView& view) {
+  hf_critical_info info;
+  session.critical_points(view.values, info);
+  std::printf("critical    %u minima, %u maxima, %u saddles; indices sum to %d, Euler characteristic %d\n",
+              info.minimum_count, info.maximum_count, info.saddle_count, info.index_sum, info.euler_characteristic);
+  const char* const names[] = {"minimum", "maximum", "saddle"};
+  size_t listed = 0;
+  for (const hf_critical_point& point : view.critical) {
+    if (++listed > 40) {
+      std::printf("            and %zu more\n", view.critical.size() - 40);
+      break;
+    }
+    std::printf("            %-8s vertex %-8u index %2d  value %.9g\n", names[point.kind], point.vertex, point.index,
+                point.value);
+  }
+}
+
+// The sites of the command line, those of the script, or the extremities when there are neither.
+std::vector<Edit> edits_of(const FieldOptions& options, const SurfaceMesh& mesh, const Session& session) {
   std::vector<Edit> edits;
-  // vertices and points of the command line go in as two batches
+  // vertices and points go in as two batches
   for (const bool vertices : {true, false}) {
     Edit first;
     for (const SiteArgument& site : options.sites) {
@@ -229,23 +132,33 @@ int run(int argc, char** argv) {
     if (!first.sites.empty()) edits.push_back(first);
   }
   if (!options.script.empty()) {
-    for (Edit& edit : read_edit_script(options.script)) edits.push_back(std::move(edit));
+    for (Edit& edit : read_edit_script(options.script, session.components())) edits.push_back(std::move(edit));
   }
-  if (edits.empty()) throw std::runtime_error("no sites given; use --site or --script");
+  if (edits.empty() && options.extremities >= 0) {
+    Edit proposed;
+    proposed.sites = propose_sites(mesh, session, options.extremities);
+    proposed.text = "add " + std::to_string(proposed.sites.size()) + " extremities as sites";
+    edits.push_back(proposed);
+  }
+  if (edits.empty()) throw std::runtime_error("no sites given; use --site, --script or --extremities");
+  return edits;
+}
 
+int run_one(const FieldOptions& options) {
   const SurfaceMesh mesh = read_mesh_file(options.mesh);
   for (const std::string& warning : mesh.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   const Clock create_clock;
   Session session(mesh, options);
   describe(session.solver(), create_clock.milliseconds());
+  if (options.extremities >= 0) list_extremities(mesh, options);
 
   std::vector<double> field;
   hf_solve_info info;
-  for (const Edit& edit : edits) {
+  for (const Edit& edit : edits_of(options, mesh, session)) {
     const Clock edit_clock;
     session.apply(edit);
     const double edit_ms = edit_clock.milliseconds();
-    if (hf_get_site_count(session.solver()) == 0) {
+    if (session.site_count() == 0) {
       field.clear();
       std::printf("%-40.60s edit %8.3f ms, no sites left\n", edit.text.c_str(), edit_ms);
       continue;
@@ -253,7 +166,7 @@ int run(int argc, char** argv) {
     const Clock solve_clock;
     field = session.solve(info);
     std::printf("%-40.60s edit %8.3f ms, field %8.3f ms, %u sites\n", edit.text.c_str(), edit_ms,
-                solve_clock.milliseconds(), hf_get_site_count(session.solver()));
+                solve_clock.milliseconds(), session.site_count());
   }
   if (field.empty()) throw std::runtime_error("the script ends without a site; there is no field to write");
   if (info.unreached_vertex_count) {
@@ -262,11 +175,75 @@ int run(int argc, char** argv) {
         "warning: %u vertices are reached by no site (%u components without one, or isolated); they are written as 0\n",
         info.unreached_vertex_count, info.unreached_component_count);
   }
-  if (!options.out.empty()) write_field_text(options.out, field);
-  if (!options.glb.empty()) write_field_glb(options.glb, mesh, field, options.strips);
-  if (!options.png.empty())
-    write_field_picture(options.png, mesh, field, options.strips, session.positions(mesh), options.direction);
+  if (!options.out.empty()) write_field_text(options.out, field, session.components());
+  const bool listed = options.critical_points || options.kind == FieldType::direction;
+  if (options.glb.empty() && options.png.empty() && !listed) return 0;
+  const FieldView view = view_of(session, mesh, field, options);
+  if (options.critical_points) list_critical_points(session, view);
+  if (options.kind == FieldType::direction) {
+    int sum = 0;
+    for (const hf_singularity& point : view.singular) sum += point.index;
+    std::printf("singular    %zu triangles; indices sum to %d\n", view.singular.size(), sum);
+  }
+  if (!options.glb.empty()) write_field_glb(options.glb, view);
+  if (!options.png.empty()) write_png(options.png, field_picture(view));
   return 0;
+}
+
+// One picture of a sheet: sites at the extremities, the field, everything finite.
+Picture sheet_tile(const SurfaceMesh& mesh, const FieldOptions& options, const std::string& name) {
+  Session session(mesh, options);
+  Edit edit;
+  edit.sites = propose_sites(mesh, session, options.extremities);
+  session.apply(edit);
+  hf_solve_info info;
+  const std::vector<double> field = session.solve(info);
+  for (size_t i = 0; i < field.size(); ++i) {
+    if (!std::isfinite(field[i]))
+      throw std::runtime_error(name + ": the field is not finite at vertex " +
+                               std::to_string(i / session.components()));
+  }
+  FieldView view = view_of(session, mesh, field, options);
+  view.width = 300, view.height = 250;
+  return field_picture(view);
+}
+
+int run_sheet(const FieldOptions& given) {
+  struct Kind {
+    const char* name;
+    FieldType type;
+    int extremities, levels, strips, isolines;
+    bool critical;
+  };
+  const Kind kinds[] = {
+      {"harmonic", FieldType::harmonic, 0, 0, 24, 0, false}, {"biharmonic", FieldType::biharmonic, 0, 0, 24, 0, false},
+      {"vector", FieldType::vector, 0, 0, 1, 0, false},      {"direction", FieldType::direction, 0, 0, 1, 0, false},
+      {"isolines", FieldType::harmonic, 1, 2, 1, 24, false}, {"critical", FieldType::harmonic, 1, 1, 12, 0, true}};
+  for (const Kind& kind : kinds) {
+    FieldOptions options = given;
+    options.kind = kind.type, options.extremities = kind.extremities, options.levels = kind.levels;
+    options.strips = kind.strips, options.isolines = kind.isolines, options.critical_points = kind.critical;
+    std::vector<Picture> tiles;
+    std::vector<std::string> labels;
+    for (const std::string& file : given.sheet) {
+      labels.push_back(std::filesystem::path(file).stem().string());
+      const Clock clock;
+      tiles.push_back(sheet_tile(read_mesh_file(file), options, file));
+      std::printf("%-12s %-36s %8.0f ms\n", kind.name, labels.back().c_str(), clock.milliseconds());
+      std::fflush(stdout);
+    }
+    write_png(given.png + "_" + kind.name + ".png", contact_sheet(tiles, 6, labels, kind.name));
+  }
+  return 0;
+}
+
+int run(int argc, char** argv) {
+  const FieldOptions options = read_field_options(argc, argv);
+  if (options.help) {
+    std::fputs(field_usage, stdout);
+    return 0;
+  }
+  return options.sheet.empty() ? run_one(options) : run_sheet(options);
 }
 
 }  // namespace

@@ -2,13 +2,17 @@
 // README.md.
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
 #include "common/animate.h"
 #include "common/file_bytes.h"
 #include "common/gltf_read.h"
 #include "common/gltf_write.h"
+#include "common/mesh_file.h"
 #include "transfer/clip_sheet.h"
+#include "transfer/outputs.h"
 #include "transfer/session.h"
+#include "transfer/suggest_pairs.h"
 #include "transfer/transfer_options.h"
 #include "transfer/transfer_report.h"
 
@@ -26,22 +30,98 @@ void list_joints(const std::filesystem::path& file) {
     std::printf("  clip \"%s\", %.2f s\n", clip.name.c_str(), clip_duration(clip));
 }
 
+bool is_mesh(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  return extension == ".obj" || extension == ".ply" || extension == ".off";
+}
+
+// A model of a file; a mesh file is a model without a skin, in its own vertex order.
+Model read_model(const std::filesystem::path& file) {
+  if (!is_mesh(file)) return read_gltf(file);
+  const SurfaceMesh mesh = read_mesh_file(file);
+  Model model = make_model(file.string(), mesh.positions, mesh.triangles);
+  model.warnings = mesh.warnings;
+  return model;
+}
+
+// The source's motion: clips, or one sequence of posed meshes.
+struct Motion {
+  std::vector<const Animation*> clips;
+  std::vector<std::vector<double>> poses;
+};
+
+Motion read_motion(const Model& source, const TransferCommand& command) {
+  Motion out;
+  if (command.poses.empty()) {
+    out.clips = choose_clips(source, command.clip);  // a wrong name should not cost a factorisation
+    return out;
+  }
+  const size_t vertices = flatten(source).positions.size();
+  for (const std::filesystem::path& file : command.poses) {
+    const SurfaceMesh mesh = read_mesh_file(file);
+    if (mesh.positions.size() != vertices) {
+      throw std::runtime_error(file.string() + ": " + std::to_string(mesh.positions.size()) + " vertices; a pose of " +
+                               source.name + " needs " + std::to_string(vertices) + " in its order");
+    }
+    out.poses.push_back(double_positions(mesh.positions));
+  }
+  return out;
+}
+
+// Some poses of everything that will be played, to look for contacts.
+std::vector<std::vector<double>> some_poses(const Model& source, const FlatMesh& mesh, const Motion& motion) {
+  std::vector<std::vector<double>> out = motion.poses;
+  for (const Animation* clip : motion.clips) {
+    for (int k = 0; k < 24; ++k)
+      out.push_back(double_positions(posed_positions(source, mesh, *clip, clip_duration(*clip) * k / 23)));
+  }
+  return out;
+}
+
+void write_output(Session& session, const Model& target, const TransferCommand& command,
+                  const std::filesystem::path& output, const std::vector<PlayedClip>& clips, RunReport& report) {
+  OutputFigures figures;
+  const double box = session.target_mesh().bounding_box_diagonal;
+  report.written_as = command.kind;
+  if (command.kind == "own-skin") {
+    write_gltf(own_skin_model(target, session.target_flat(), clips, box, figures), output);
+  } else if (command.kind == "morph") {
+    write_gltf(morph_model(target, session.target_flat(), clips, box, command.morph_tolerance, 64, figures), output);
+  } else if (command.kind == "frames") {
+    const bool mesh = is_mesh(command.target);
+    const SurfaceMesh rest = mesh ? read_mesh_file(command.target) : to_surface_mesh(session.target_flat());
+    write_frames(output, mesh ? command.target.extension().string() : ".ply", rest, clips);
+  } else {
+    SkinDescription skin = session.skin();
+    for (const PlayedClip& clip : clips) skin.clips.push_back(clip.clip);
+    write_gltf(skin_model(target, session.target_flat(), skin), output);
+    report.replay = measure_replay(read_gltf(output), clips, box);
+  }
+  report.written_rms = figures.rms, report.written_max = figures.max, report.written_parts = figures.parts;
+}
+
 // Plays the clips, writes file and sheet, reads the file again.
-RunReport run(Session& session, const Model& source, const Model& target, const TransferCommand& command, bool edited,
-              ProgressBar& bar) {
+RunReport run(Session& session, const Model& source, const Model& target, const Motion& motion,
+              const TransferCommand& command, bool edited, ProgressBar& bar) {
   const auto name = [&](const std::filesystem::path& file) { return edited ? edited_name(file) : file; };
+  const std::vector<std::string> contacts =
+      session.set_contacts(command.contacts, some_poses(source, session.source_flat(), motion));
   std::vector<PlayedClip> clips;
-  for (const Animation* animation : choose_clips(source, command.clip)) {
-    const double rate = command.rate > 0 ? command.rate : clip_duration(*animation) < 1 ? 60 : 30;
+  for (const Animation* animation : motion.clips) {
+    const double rate = command.rate != 0 ? command.rate : clip_duration(*animation) < 1 ? 60 : 30;
     clips.push_back(session.play(*animation, rate, bar));
   }
-  SkinDescription skin = session.skin();
-  for (const PlayedClip& clip : clips) skin.clips.push_back(clip.clip);
-  const std::filesystem::path output = name(command.output);
+  if (!motion.poses.empty()) {
+    std::vector<double> times;
+    for (size_t f = 0; f < motion.poses.size(); ++f)
+      times.push_back(static_cast<double>(f) / (command.rate > 0 ? command.rate : 30));
+    clips.push_back(session.play("", times, motion.poses, bar));
+  }
+  const std::filesystem::path output = name(command.kind == "frames" ? command.frames : command.output);
   bar.begin("writing " + output.string());
-  write_gltf(skin_model(target, session.target_flat(), skin), output);
   RunReport report = make_report(session, clips, output.string());
-  report.replay = measure_replay(read_gltf(output), clips, session.target_mesh().bounding_box_diagonal);
+  report.contacts = contacts;
+  write_output(session, target, command, output, clips, report);
   bar.end();
   if (!command.sheet.empty()) {
     const std::filesystem::path sheet = name(command.sheet);
@@ -52,17 +132,34 @@ RunReport run(Session& session, const Model& source, const Model& target, const 
   return report;
 }
 
+Suggestion propose(const Model& source, const Model& target) {
+  const Suggestion suggestion = suggest_pairs(source, flatten(source), target, flatten(target));
+  std::printf("proposed pairs            confidence  on the source; on the target\n");
+  for (const SuggestedPair& pair : suggestion.pairs) {
+    std::printf("  %-22s %11.2f  %s; %s\n", pair.name.c_str(), pair.confidence, pair.source_found.c_str(),
+                pair.target_found.c_str());
+  }
+  for (const std::string& note : suggestion.notes) std::printf("  note: %s\n", note.c_str());
+  return suggestion;
+}
+
 int transfer(const TransferCommand& command) {
   ProgressBar bar(command.quiet);
-  const PairsFile pairs = read_pairs(command.pairs);
+  PairsFile pairs;
+  if (!command.pairs.empty()) pairs = read_pairs(command.pairs);
   const EditsFile edits = command.edits.empty() ? EditsFile() : read_edits(command.edits);
   bar.begin("reading models");
-  const Model source = read_gltf(command.source), target = read_gltf(command.target);
+  const Model source = read_model(command.source), target = read_model(command.target);
   bar.end();
-  choose_clips(source, command.clip);  // a wrong name should not cost a factorisation
+  if (!command.suggest.empty()) {
+    write_json(command.suggest, propose(source, target).file);
+    return 0;
+  }
+  if (command.pairs.empty()) pairs = parse_pairs(propose(source, target).file, "the proposed pairs");
+  const Motion motion = read_motion(source, command);
 
   Session session(source, target, pairs, command.threads, bar);
-  const RunReport first = run(session, source, target, command, false, bar);
+  const RunReport first = run(session, source, target, motion, command, false, bar);
   std::string text = to_text(first, source.name + " on " + target.name);
   nlohmann::json json = to_json(first);
   bool factorised_again = false;
@@ -72,7 +169,7 @@ int transfer(const TransferCommand& command) {
     bar.begin("editing pairs");
     session.edit(edits);
     bar.end(std::to_string(edits.remove.size()) + " out, " + std::to_string(edits.add.size()) + " in");
-    const RunReport second = run(session, source, target, command, true, bar);
+    const RunReport second = run(session, source, target, motion, command, true, bar);
     char heading[256];
     std::snprintf(heading, sizeof heading,
                   "edited in the session: %zu pairs out, %zu in, %.2f ms and %.2f ms for fields and clusters; "

@@ -17,7 +17,7 @@ std::vector<Selector> read_selectors(const JsonReader& json) {
 }
 
 PairEntry read_pair(const JsonReader& json) {
-  json.expect_only({"name", "both", "source", "target", "anchor", "foot", "trunk", "align"});
+  json.expect_only({"name", "both", "source", "target", "anchor", "foot", "trunk", "contact", "align"});
   PairEntry pair;
   pair.name = json.at("name").string();
   if (pair.name.empty()) json.at("name").fail("a pair needs a name");
@@ -30,6 +30,7 @@ PairEntry read_pair(const JsonReader& json) {
   }
   pair.anchor = json.boolean_or("anchor", false), pair.foot = json.boolean_or("foot", false);
   pair.trunk = json.boolean_or("trunk", false), pair.align = json.boolean_or("align", true);
+  pair.contact = json.boolean_or("contact", false);
   return pair;
 }
 
@@ -58,12 +59,13 @@ void name_file(std::vector<PairEntry>& pairs, const std::filesystem::path& file)
 
 uint32_t PairEntry::flags() const {
   return (anchor ? uint32_t{HF_PAIR_ANCHOR} : 0u) | (foot ? uint32_t{HF_PAIR_FOOT} : 0u) |
-         (trunk ? uint32_t{HF_PAIR_TRUNK} : 0u) | (align ? 0u : uint32_t{HF_PAIR_NO_ALIGNMENT});
+         (trunk ? uint32_t{HF_PAIR_TRUNK} : 0u) | (contact ? uint32_t{HF_PAIR_CONTACT} : 0u) |
+         (align ? 0u : uint32_t{HF_PAIR_NO_ALIGNMENT});
 }
 
-PairsFile read_pairs(const std::filesystem::path& file) {
-  const JsonFile json(file);
-  const JsonReader root = json.root();
+namespace {
+
+PairsFile pairs_from(const JsonReader& root, const std::filesystem::path& file) {
   root.expect_only({"about", "source_axes", "target_axes", "settings", "pairs"});
   PairsFile out;
   if (root.has("source_axes")) out.source_axes = read_axes(root.at("source_axes"));
@@ -85,6 +87,17 @@ PairsFile read_pairs(const std::filesystem::path& file) {
   name_file(out.pairs, file);
   if (out.pairs.empty()) root.at("pairs").fail("at least one pair is needed");
   return out;
+}
+
+}  // namespace
+
+PairsFile read_pairs(const std::filesystem::path& file) {
+  const JsonFile json(file);
+  return pairs_from(json.root(), file);
+}
+
+PairsFile parse_pairs(const nlohmann::json& value, const std::string& what) {
+  return pairs_from(JsonReader(value, what, ""), what);
 }
 
 EditsFile read_edits(const std::filesystem::path& file) {

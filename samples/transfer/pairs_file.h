@@ -13,7 +13,7 @@ namespace samples {
 struct PairEntry {
   std::string name;
   std::vector<Selector> source, target;
-  bool anchor = false, foot = false, trunk = false, align = true;
+  bool anchor = false, foot = false, trunk = false, contact = false, align = true;
   uint32_t flags() const;  // HF_PAIR_*
 };
 
@@ -31,6 +31,8 @@ struct PairsFile {
 
 // Throws std::runtime_error "file: key path: what is wrong".
 PairsFile read_pairs(const std::filesystem::path& file);
+// The same from a value; what names it in messages.
+PairsFile parse_pairs(const nlohmann::json& value, const std::string& what);
 
 struct EditsFile {
   std::vector<std::string> remove;

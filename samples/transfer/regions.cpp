@@ -247,6 +247,23 @@ int RegionFinder::separate(std::vector<Region>& regions, size_t first) const {
   return -1;
 }
 
+const std::string& RegionFinder::owner_name(uint32_t vertex) const {
+  static const std::string none;
+  return owner_[vertex] < 0 ? none : model_.nodes[static_cast<size_t>(owner_[vertex])].name;
+}
+
+bool RegionFinder::is_joint(const std::string& name) const {
+  size_t nodes = 0;
+  bool joint = false;
+  for (size_t n = 0; n < model_.nodes.size(); ++n) {
+    if (model_.nodes[n].name != name) continue;
+    ++nodes;
+    for (const Skin& skin : model_.skins)
+      joint = joint || std::find(skin.joints.begin(), skin.joints.end(), static_cast<int>(n)) != skin.joints.end();
+  }
+  return nodes == 1 && joint;
+}
+
 std::vector<std::string> RegionFinder::describe_joints() const {
   std::vector<std::string> lines;
   for (size_t n = 0; n < model_.nodes.size(); ++n) {

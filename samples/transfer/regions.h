@@ -58,6 +58,10 @@ class RegionFinder {
   // One line per joint: name, vertices owned, place.
   std::vector<std::string> describe_joints() const;
   double diagonal() const { return diagonal_; }
+  // The joint (or mesh node) a vertex belongs to; empty without a name.
+  const std::string& owner_name(uint32_t vertex) const;
+  // There is one node of that name, a joint of a skin.
+  bool is_joint(const std::string& name) const;
 
  private:
   std::vector<uint32_t> owned_by(const Selector& selector) const;

@@ -12,35 +12,8 @@
 namespace samples {
 namespace {
 
-// Throws the library's own sentence.
-void check(hf_result result, const std::string& what) {
-  if (result == HF_OK) return;
-  hf_error_detail detail;
-  hf_get_error_detail(&detail);
-  throw std::runtime_error(what + ": " + (detail.code == result ? detail.message : hf_result_name(result)) + " (" +
-                           hf_result_name(result) + ")");
-}
-
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-hf_solver make_solver(const FlatMesh& mesh, const std::string& name, uint32_t threads) {
-  const std::vector<double> positions = double_positions(mesh.positions);
-  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
-  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
-  const glm::dvec3 extent = high - low;
-  hf_create_desc desc;
-  HF_INIT(desc);
-  desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
-  desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
-  // exporters round copies of a vertex differently now and then
-  desc.weld = HF_WELD_TOLERANCE,
-  desc.weld_tolerance = static_cast<float>(1e-5 * std::max({extent.x, extent.y, extent.z, 1e-20}));
-  desc.thread_count = threads;
-  hf_solver solver = nullptr;
-  check(hf_create(&desc, &solver), name);
-  return solver;
 }
 
 void copy_axes(const Axes& axes, float (&rows)[9]) {
@@ -48,6 +21,15 @@ void copy_axes(const Axes& axes, float (&rows)[9]) {
     rows[c] = static_cast<float>(axes.right[c]), rows[3 + c] = static_cast<float>(axes.up[c]),
     rows[6 + c] = static_cast<float>(axes.forward[c]);
   }
+}
+
+// The region with one of each set of copies at a place, as the library counts.
+Region without_copies(const Region& region, const FlatMesh& mesh) {
+  Region out;
+  std::vector<char> taken(mesh.welded_count, 0);
+  for (const uint32_t v : region.vertices)
+    if (!taken[mesh.welded[v]]) taken[mesh.welded[v]] = 1, out.vertices.push_back(v);
+  return out;
 }
 
 glm::dvec3 centre_of(const Region& region, const std::vector<double>& xyz) {
@@ -60,6 +42,13 @@ double lowest_of(const Region& region, const std::vector<double>& xyz, const glm
   double low = std::numeric_limits<double>::infinity();
   for (const uint32_t v : region.vertices)
     low = std::min(low, glm::dot(up, glm::dvec3(xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2])));
+  return low;
+}
+
+double lowest_of(const std::vector<double>& xyz, const glm::dvec3& up) {
+  double low = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < xyz.size(); i += 3)
+    low = std::min(low, glm::dot(up, glm::dvec3(xyz[i], xyz[i + 1], xyz[i + 2])));
   return low;
 }
 
@@ -76,20 +65,20 @@ Session::Session(const Model& source, const Model& target, const PairsFile& pair
   try {
     create(threads, bar);
   } catch (...) {
-    hf_transfer_destroy(transfer_), hf_destroy(source_solver_), hf_destroy(target_solver_);
+    hf_transfer_destroy(transfer_);
     throw;
   }
 }
 
-Session::~Session() { hf_transfer_destroy(transfer_), hf_destroy(source_solver_), hf_destroy(target_solver_); }
+Session::~Session() { hf_transfer_destroy(transfer_); }
 
 void Session::create(uint32_t threads, ProgressBar& bar) {
   const auto start = std::chrono::steady_clock::now();
   bar.begin("factorising " + source_.name);
-  source_solver_ = make_solver(source_flat_, source_.name, threads);
+  source_solver_ = std::make_unique<SurfaceSolver>(source_flat_, source_.name, threads);
   bar.end(std::to_string(source_mesh().welded_vertex_count) + " vertices after welding");
   bar.begin("factorising " + target_.name);
-  target_solver_ = make_solver(target_flat_, target_.name, threads);
+  target_solver_ = std::make_unique<SurfaceSolver>(target_flat_, target_.name, threads);
   bar.end(std::to_string(target_mesh().welded_vertex_count) + " vertices after welding");
   setup_ms_ = milliseconds_since(start);
 
@@ -101,7 +90,7 @@ void Session::create(uint32_t threads, ProgressBar& bar) {
   desc.kernel_width = static_cast<float>(settings.width), desc.scale = static_cast<float>(settings.scale);
   desc.alignment_angle = static_cast<float>(settings.alignment_degrees * 3.14159265358979323846 / 180);
   copy_axes(file_.source_axes, desc.source_axes), copy_axes(file_.target_axes, desc.target_axes);
-  check(hf_transfer_create(source_solver_, target_solver_, &desc, &transfer_), "the transfer");
+  check(hf_transfer_create(source_solver_->get(), target_solver_->get(), &desc, &transfer_), "the transfer");
   bar.begin("pairs, fields and clusters");
   add(file_.pairs);
   prepare();
@@ -166,22 +155,14 @@ void Session::edit(const EditsFile& edits) {
   prepare();
 }
 
-// Solves the fields and so on, by asking; and finds the scale: a shifted rest frame shifts the target by scale times as
-// much.
+// Solves the fields and so on, by asking for the scale.
 void Session::prepare() {
   const auto start = std::chrono::steady_clock::now();
-  cluster_count();
+  hf_transfer_info info;
+  HF_INIT(info);
+  check(hf_transfer_get_info(transfer_, &info), "the transfer");
   prepare_ms_ = milliseconds_since(start);
-  const hf_mesh_report report = source_mesh();
-  std::vector<double> posed = double_positions(source_flat_.positions), still, moved;
-  apply(posed, still);
-  for (size_t i = 1; i < posed.size(); i += 3) posed[i] += report.bounding_box_diagonal;
-  apply(posed, moved);
-  // the shift is along y of the source; on the target it lies along the same of its own axes
-  glm::dvec3 mean(0);
-  for (size_t i = 0; i < moved.size(); ++i)
-    mean[static_cast<int>(i % 3)] += (moved[i] - still[i]) * 3 / static_cast<double>(moved.size());
-  scale_ = glm::length(mean) / report.bounding_box_diagonal;
+  scale_ = info.scale;
 }
 
 void Session::apply(const std::vector<double>& posed, std::vector<double>& out) {
@@ -199,21 +180,120 @@ uint32_t Session::cluster_count() {
   return info.joint_count;
 }
 
+// The pairs of these names are put in again with these flags; the regions stay.
+void Session::change_flags(const std::vector<PairEntry>& entries) {
+  for (const PairEntry& entry : entries) {
+    const auto live =
+        std::find_if(live_.begin(), live_.end(), [&](const Live& other) { return other.entry.name == entry.name; });
+    if (live == live_.end() || live->entry.flags() == entry.flags()) continue;
+    check(hf_transfer_remove_pairs(transfer_, 1, &live->number), "pair \"" + entry.name + "\"");
+    const auto source_count = static_cast<uint32_t>(live->source.vertices.size()),
+               target_count = static_cast<uint32_t>(live->target.vertices.size());
+    const uint32_t flags = entry.flags();
+    hf_pairs_desc desc;
+    HF_INIT(desc);
+    desc.pair_count = 1, desc.flags = &flags;
+    desc.source_counts = &source_count, desc.source_vertices = live->source.vertices.data();
+    desc.target_counts = &target_count, desc.target_vertices = live->target.vertices.data();
+    check(hf_transfer_add_pairs(transfer_, &desc, &live->number), "pair \"" + entry.name + "\"");
+    live->entry = entry;
+  }
+  prepare();
+}
+
+std::vector<PairEntry> Session::found_contacts(const std::vector<std::vector<double>>& poses) const {
+  const std::vector<double> source_rest = double_positions(source_flat_.positions),
+                            target_rest = double_positions(target_flat_.positions);
+  const glm::dvec3 &up = file_.source_axes.up, &target_up = file_.target_axes.up;
+  const double ground = lowest_of(source_rest, up), target_ground = lowest_of(target_rest, target_up);
+  const bool has_feet = std::any_of(live_.begin(), live_.end(), [](const Live& live) { return live.entry.foot; });
+  std::vector<PairEntry> out;
+  for (const Live& live : live_) {
+    if (live.entry.foot || live.entry.trunk || live.entry.anchor) continue;
+    PairEntry entry = live.entry;
+    const double rest = lowest_of(live.source, source_rest, up) - ground,
+                 target = lowest_of(live.target, target_rest, target_up) - target_ground;
+    if (rest < 0.02 * source_finder_.diagonal() && target < 0.02 * target_finder_.diagonal()) {
+      if (!has_feet) entry.foot = true, out.push_back(entry);
+      continue;
+    }
+    for (const std::vector<double>& pose : poses) {
+      if (rest < 0.1 * source_finder_.diagonal() || lowest_of(live.source, pose, up) - ground > 0.15 * rest) continue;
+      entry.contact = true, out.push_back(entry);
+      break;
+    }
+  }
+  return out;
+}
+
+std::vector<PairEntry> Session::named_contacts(const std::vector<std::string>& names) const {
+  std::vector<PairEntry> out;
+  for (const std::string& name : names) {
+    const Live* found = nullptr;
+    std::string known;
+    for (const Live& live : live_) {
+      known += (known.empty() ? "" : ", ") + live.entry.name;
+      if (live.entry.name == name) found = &live;
+    }
+    // a joint stands for the pair that holds most of its vertices
+    size_t most = 0;
+    for (const Live& live : live_) {
+      size_t own = 0;
+      for (const uint32_t v : live.source.vertices) own += source_finder_.owner_name(v) == name;
+      if (!found && own > most) most = own;
+    }
+    for (const Live& live : live_) {
+      size_t own = 0;
+      for (const uint32_t v : live.source.vertices) own += source_finder_.owner_name(v) == name;
+      if (!found && most > 0 && own == most) found = &live;
+    }
+    if (!found)
+      throw std::runtime_error("--contacts: \"" + name +
+                               "\" is neither a pair nor a joint of the source with a pair; pairs are " + known);
+    PairEntry entry = found->entry;
+    // what stands at rest is a foot
+    const double rest = lowest_of(found->source, double_positions(source_flat_.positions), file_.source_axes.up) -
+                        lowest_of(double_positions(source_flat_.positions), file_.source_axes.up);
+    (rest < 0.02 * source_finder_.diagonal() ? entry.foot : entry.contact) = true;
+    out.push_back(entry);
+  }
+  return out;
+}
+
+std::vector<std::string> Session::set_contacts(const std::vector<std::string>& names,
+                                               const std::vector<std::vector<double>>& poses) {
+  if (names.size() == 1 && names.front() == "none") return {};
+  const std::vector<PairEntry> entries = names.empty() ? found_contacts(poses) : named_contacts(names);
+  if (!entries.empty()) change_flags(entries);
+  std::vector<std::string> out;
+  for (const PairEntry& entry : entries)
+    out.push_back("\"" + entry.name + "\" " +
+                  (entry.foot ? "stands on the ground" : "touches the ground now and then"));
+  return out;
+}
+
 PlayedClip Session::play(const Animation& animation, double rate, ProgressBar& bar) {
+  const std::vector<double> times = rate < 0 ? key_times(animation) : frame_times(animation, rate);
+  std::vector<std::vector<double>> poses;
+  for (const double time : times)
+    poses.push_back(double_positions(posed_positions(source_, source_flat_, animation, time)));
+  return play(animation.name, times, std::move(poses), bar);
+}
+
+PlayedClip Session::play(const std::string& name, const std::vector<double>& times,
+                         std::vector<std::vector<double>> poses, ProgressBar& bar) {
   PlayedClip out;
-  out.clip.name = animation.name;
+  out.clip.name = name;
   const uint32_t joints = cluster_count();
-  std::vector<double> pivots(3 * joints), rotations(4 * joints), places(3 * joints), posed, target;
+  std::vector<double> pivots(3 * joints), rotations(4 * joints), places(3 * joints), target;
   hf_skin_info info;
   HF_INIT(info);
   info.pivots = pivots.data(), info.rotations = rotations.data(), info.translations = places.data();
-  bar.begin("transferring \"" + animation.name + "\"");
-  const std::vector<double> times = frame_times(animation, rate);
+  bar.begin("transferring \"" + name + "\"");
   double inside = 0;
   for (size_t f = 0; f < times.size(); ++f) {
-    posed = double_positions(posed_positions(source_, source_flat_, animation, times[f]));
     const auto start = std::chrono::steady_clock::now();
-    apply(posed, target);
+    apply(poses[f], target);
     inside += milliseconds_since(start);
     check(hf_transfer_get_skin(transfer_, &info), "the skin");
     out.clip.times.push_back(times[f]);
@@ -224,7 +304,7 @@ PlayedClip Session::play(const Animation& animation, double rate, ProgressBar& b
           place(places[3 * j], places[3 * j + 1], places[3 * j + 2]);
       out.clip.rotations.push_back(rotation), out.clip.translations.push_back(place - rotation * pivot);
     }
-    out.source_frames.push_back(posed), out.target_frames.push_back(target);
+    out.source_frames.push_back(std::move(poses[f])), out.target_frames.push_back(target);
     bar.update(static_cast<double>(f + 1) / static_cast<double>(times.size()));
   }
   out.frame_ms = inside / static_cast<double>(times.size());
@@ -246,22 +326,35 @@ void Session::measure_feet(const PlayedClip& played, FootReport& feet) const {
   size_t count = 0;
   for (const Live& live : live_) {
     if (!live.entry.foot) continue;
+    const Region source = without_copies(live.source, source_flat_), target = without_copies(live.target, target_flat_);
     for (size_t f = 0; f < played.source_frames.size(); ++f) {
       const glm::dvec3 path =
-          scale_ *
-          (to_target * (centre_of(live.source, played.source_frames[f]) - centre_of(live.source, source_rest)));
-      const double miss =
-          glm::distance(centre_of(live.target, played.target_frames[f]), centre_of(live.target, target_rest) + path) /
-          box;
+          scale_ * (to_target * (centre_of(source, played.source_frames[f]) - centre_of(source, source_rest)));
+      const glm::dvec3 off = centre_of(target, played.target_frames[f]) - centre_of(target, target_rest) - path;
+      const double miss = glm::length(off) / box;
+      // along the ground: what would be seen as sliding; a lift keeps a turned foot from sinking
+      const double slide = glm::length(off - glm::dot(off, file_.target_axes.up) * file_.target_axes.up) / box;
       feet.path_mean += miss, feet.path_max = std::max(feet.path_max, miss), ++count;
-      const double from = scale_ * std::min(0.0, lowest_of(live.source, played.source_frames[f], file_.source_axes.up) -
-                                                     lowest_of(live.source, source_rest, file_.source_axes.up));
-      const double to = lowest_of(live.target, played.target_frames[f], file_.target_axes.up) -
-                        lowest_of(live.target, target_rest, file_.target_axes.up);
+      const double ground = lowest_of(source_rest, file_.source_axes.up);
+      if (scale_ * (lowest_of(source, played.source_frames[f], file_.source_axes.up) - ground) < 0.01 * box)
+        feet.planted_mean += slide, feet.planted_max = std::max(feet.planted_max, slide), ++feet.planted;
+      const double from = scale_ * std::min(0.0, lowest_of(source, played.source_frames[f], file_.source_axes.up) -
+                                                     lowest_of(source, source_rest, file_.source_axes.up));
+      const double to = lowest_of(target, played.target_frames[f], file_.target_axes.up) -
+                        lowest_of(target, target_rest, file_.target_axes.up);
       feet.sunk = std::max(feet.sunk, (from - to) / box);
     }
   }
   if (count > 0) feet.path_mean /= static_cast<double>(count);
+  if (feet.planted > 0) feet.planted_mean /= static_cast<double>(feet.planted);
+  const double source_ground = lowest_of(source_rest, file_.source_axes.up),
+               ground = lowest_of(target_rest, file_.target_axes.up);
+  for (size_t f = 0; f < played.source_frames.size(); ++f) {
+    const double allowed =
+        ground + scale_ * std::min(0.0, lowest_of(played.source_frames[f], file_.source_axes.up) - source_ground);
+    feet.surface_sunk =
+        std::max(feet.surface_sunk, (allowed - lowest_of(played.target_frames[f], file_.target_axes.up)) / box);
+  }
 }
 
 SkinDescription Session::skin() {
@@ -291,7 +384,8 @@ std::vector<PairReport> Session::pairs() {
     report.name = live.entry.name;
     report.source_vertices = live.source.vertices.size(), report.target_vertices = live.target.vertices.size();
     report.anchor = live.entry.anchor || live.entry.foot, report.foot = live.entry.foot,
-    report.trunk = live.entry.trunk, report.aligned = info.aligned != 0;
+    report.trunk = live.entry.trunk, report.contact = live.entry.contact, report.aligned = info.aligned != 0,
+    report.crossed = info.crossed != 0;
     report.source_leak = info.source_leak, report.target_leak = info.target_leak, report.confidence = info.confidence;
     report.alignment_degrees = info.alignment_angle < 0 ? -1 : info.alignment_angle * 180 / 3.14159265358979323846;
     out.push_back(report);
@@ -305,6 +399,7 @@ std::vector<std::string> Session::warnings() {
     for (const std::string& warning : model->warnings) out.push_back(model->name + ": " + warning);
   }
   bool feet = false, trunk = false;
+  size_t crossed = 0;
   for (const PairReport& pair : pairs()) {
     feet = feet || pair.foot, trunk = trunk || (pair.trunk && pair.anchor);
     if (pair.confidence < 0.3)
@@ -312,12 +407,20 @@ std::vector<std::string> Session::warnings() {
                     "\": few source vertices stand behind its clusters; the motion there may be coarse");
     if (pair.source_leak > 1e-6 || pair.target_leak > 1e-6)
       out.push_back("pair \"" + pair.name + "\": its fields leak; report it with the model");
+    if (pair.crossed) {
+      ++crossed;
+      out.push_back("pair \"" + pair.name +
+                    "\" lies on one side of the source and on the other of the target: left and right are crossed");
+    }
     if (pair.aligned)
       out.push_back(
           "pair \"" + pair.name + "\": the limb points " +
           std::to_string(static_cast<int>(pair.alignment_degrees + 0.5)) +
           " degrees elsewhere at rest and is aligned with the source; \"align\": false keeps its own direction");
   }
+  if (crossed > 1)
+    out.push_back(std::to_string(crossed) +
+                  " pairs are crossed: exchange their sides, or look at source_axes and target_axes (forward)");
   if (feet && !trunk)
     out.push_back(
         "feet are anchored but no trunk pair is: the trunk may float; give withers and rump with \"trunk\" and "

@@ -17,13 +17,14 @@
 #include "common/skin_write.h"
 #include "hf/hf.h"
 #include "transfer/pairs_file.h"
+#include "transfer/surface_solver.h"
 
 namespace samples {
 
 struct PairReport {
   std::string name;
   size_t source_vertices = 0, target_vertices = 0;  // of the files, copies included
-  bool anchor = false, foot = false, trunk = false, aligned = false;
+  bool anchor = false, foot = false, trunk = false, contact = false, aligned = false, crossed = false;
   double source_leak = 0, target_leak = 0, alignment_degrees = -1, confidence = 0;
 };
 
@@ -31,6 +32,9 @@ struct PairReport {
 struct FootReport {
   double path_mean = 0, path_max = 0;  // from the scaled path of the source's foot
   double sunk = 0;                     // deeper under the rest ground than the source's foot, scaled
+  // along the ground over the frames in which the source's foot stands; and how deep any vertex of the surface sinks
+  double planted_mean = 0, planted_max = 0, surface_sunk = 0;
+  size_t planted = 0;
 };
 
 struct PlayedClip {
@@ -50,7 +54,17 @@ class Session {
   // Removes pairs by name and adds others. Regions of new pairs give way to those that are there.
   void edit(const EditsFile& edits);
 
+  // Pairs that touch the ground in these clips become contacts, or feet when no pair is a foot. names: pairs or joints
+  // of the source that do; empty: found, a region that stands on both models being a foot and one that comes near the
+  // ground a contact; "none" alone: no contacts. Returns what was found or set, one line each.
+  std::vector<std::string> set_contacts(const std::vector<std::string>& names,
+                                        const std::vector<std::vector<double>>& poses);
+
+  // rate: frames per second; below 0: the clip's own key times.
   PlayedClip play(const Animation& animation, double rate, ProgressBar& bar);
+  // Posed copies of the source (x y z of every flat vertex).
+  PlayedClip play(const std::string& name, const std::vector<double>& times, std::vector<std::vector<double>> poses,
+                  ProgressBar& bar);
   // Joints and weights; the clips are left to the caller.
   SkinDescription skin();
 
@@ -60,10 +74,10 @@ class Session {
   uint32_t cluster_count();
 
   // Figures of the solvers.
-  hf_statistics source_statistics() const { return statistics(source_solver_); }
-  hf_statistics target_statistics() const { return statistics(target_solver_); }
-  hf_mesh_report source_mesh() const { return mesh_report(source_solver_); }
-  hf_mesh_report target_mesh() const { return mesh_report(target_solver_); }
+  hf_statistics source_statistics() const { return statistics(source_solver_->get()); }
+  hf_statistics target_statistics() const { return statistics(target_solver_->get()); }
+  hf_mesh_report source_mesh() const { return mesh_report(source_solver_->get()); }
+  hf_mesh_report target_mesh() const { return mesh_report(target_solver_->get()); }
   double setup_ms() const { return setup_ms_; }      // both solvers
   double prepare_ms() const { return prepare_ms_; }  // fields, clusters, translations after the last change of pairs
   double edit_ms() const { return edit_ms_; }        // the last edit's calls, without prepare
@@ -82,6 +96,9 @@ class Session {
   void create(uint32_t threads, ProgressBar& bar);
   void add(const std::vector<PairEntry>& entries);
   void prepare();
+  void change_flags(const std::vector<PairEntry>& entries);
+  std::vector<PairEntry> found_contacts(const std::vector<std::vector<double>>& poses) const;
+  std::vector<PairEntry> named_contacts(const std::vector<std::string>& names) const;
   void apply(const std::vector<double>& posed, std::vector<double>& out);
   void measure_feet(const PlayedClip& played, FootReport& feet) const;
   static hf_statistics statistics(hf_solver solver);
@@ -92,7 +109,7 @@ class Session {
   PairsFile file_;
   FlatMesh source_flat_, target_flat_;
   RegionFinder source_finder_, target_finder_;
-  hf_solver source_solver_ = nullptr, target_solver_ = nullptr;
+  std::unique_ptr<SurfaceSolver> source_solver_, target_solver_;
   hf_transfer transfer_ = nullptr;
   std::vector<Live> live_;
   double scale_ = 1, setup_ms_ = 0, prepare_ms_ = 0, edit_ms_ = 0;

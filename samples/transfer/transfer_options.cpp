@@ -1,6 +1,7 @@
 // See transfer_options.h.
 #include "transfer/transfer_options.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -26,13 +27,25 @@ std::string tail_of(const std::string& name) {
 
 const char* usage() {
   return "usage: hf_transfer SOURCE.glb TARGET.glb --pairs PAIRS.json -o OUT.glb [options]\n"
+         "       hf_transfer --source REF.obj --poses P1.ply P2.obj ... --target REF.obj --pairs PAIRS.json "
+         "--out-poses DIR\n"
+         "       hf_transfer SOURCE.glb TARGET.glb --suggest-pairs PAIRS.json\n"
          "       hf_transfer --joints FILE.glb\n"
          "Plays the motion of SOURCE on TARGET: pairs of places say what corresponds, the rotations go over, the\n"
          "target keeps its own shape. OUT.glb holds TARGET's surface and looks with a new skin and the clips.\n"
-         "  --pairs FILE    which places correspond (format in samples/transfer/README.md)\n"
+         "  --pairs FILE    which places correspond (format in samples/transfer/README.md); without\n"
+         "                  it pairs are proposed from shapes and joint names, and said\n"
+         "  --suggest-pairs FILE  write the proposal, to be edited, and stop\n"
          "  -o FILE         the result, .glb or .gltf\n"
          "  --clip NAME     a clip by name, by the part after '|', by index, or all (default: the first)\n"
-         "  --fps N         keys per second, 1 to 240 (default 30; 60 for clips below a second)\n"
+         "  --fps N         keys per second, 1 to 240 (default 30; 60 for clips below a second), or keys: the source's "
+         "own\n"
+         "  --onto-skin     keep TARGET's own skin: its joints turn so that its rig plays the motion\n"
+         "  --as KIND       skin (new, the default), own-skin, morph (morph targets), frames (with --out-poses)\n"
+         "  --morph-tolerance X  how far morph targets may be off, in boxes (default 0.001)\n"
+         "  --out-poses DIR a mesh file per frame, in TARGET's own vertex order\n"
+         "  --source FILE --target FILE --poses FILES  meshes: posed copies of the source instead of a clip\n"
+         "  --contacts LIST pairs or joints that touch the ground, with commas; none; found when not given\n"
          "  --sheet FILE    a picture: source above, target below, over the clip\n"
          "  --report FILE   what was done and how well, as text\n"
          "  --json FILE     the same as JSON\n"
@@ -60,7 +73,8 @@ TransferCommand parse_command(int count, char** arguments) {
     } else if (word == "--clip") {
       out.clip = value();
     } else if (word == "--fps") {
-      out.rate = number_of(word, value(), 1, 240);
+      const std::string rate = value();
+      out.rate = rate == "keys" ? -1 : number_of(word, rate, 1, 240);
     } else if (word == "--sheet") {
       out.sheet = value();
     } else if (word == "--report") {
@@ -71,6 +85,33 @@ TransferCommand parse_command(int count, char** arguments) {
       out.edits = value();
     } else if (word == "--joints") {
       out.joints = value();
+    } else if (word == "--onto-skin") {
+      out.kind = "own-skin";
+    } else if (word == "--as") {
+      out.kind = value();
+      if (out.kind != "skin" && out.kind != "own-skin" && out.kind != "morph" && out.kind != "frames")
+        throw std::runtime_error("--as takes skin, own-skin, morph or frames, not \"" + out.kind + "\"");
+    } else if (word == "--out-poses") {
+      out.frames = value(), out.kind = "frames";
+    } else if (word == "--source") {
+      out.source = value();
+    } else if (word == "--target") {
+      out.target = value();
+    } else if (word == "--poses") {
+      while (i + 1 < count && arguments[i + 1][0] != '-') out.poses.emplace_back(arguments[++i]);
+      if (out.poses.empty()) throw std::runtime_error("--poses needs at least one file");
+    } else if (word == "--contacts") {
+      const std::string list = value();
+      for (size_t from = 0; from <= list.size();) {
+        const size_t comma = std::min(list.find(',', from), list.size());
+        if (comma > from) out.contacts.push_back(list.substr(from, comma - from));
+        from = comma + 1;
+      }
+      if (out.contacts.empty()) throw std::runtime_error("--contacts takes names with commas between them, or none");
+    } else if (word == "--morph-tolerance") {
+      out.morph_tolerance = number_of(word, value(), 0, 1);
+    } else if (word == "--suggest-pairs") {
+      out.suggest = value();
     } else if (word == "--threads") {
       out.threads = static_cast<unsigned>(number_of(word, value(), 1, 256));
     } else if (word == "--quiet") {
@@ -82,11 +123,19 @@ TransferCommand parse_command(int count, char** arguments) {
     }
   }
   if (out.help || !out.joints.empty()) return out;
+  if (!out.source.empty() || !out.target.empty()) {
+    if (!files.empty() || out.source.empty() || out.target.empty())
+      throw std::runtime_error("--source and --target go together, and then no other file stands alone; see --help");
+    files = {out.source.string(), out.target.string()};
+  }
   if (files.size() != 2) throw std::runtime_error("two models are needed, the source and the target; see --help");
   out.source = files[0], out.target = files[1];
-  if (out.pairs.empty())
-    throw std::runtime_error("--pairs is needed: which places of the two models correspond; see --help");
-  if (out.output.empty()) throw std::runtime_error("-o is needed: the file to write; see --help");
+  if (!out.suggest.empty()) return out;
+  if (out.kind == "frames") {
+    if (out.frames.empty()) throw std::runtime_error("--out-poses is needed: the folder for the frames; see --help");
+  } else if (out.output.empty()) {
+    throw std::runtime_error("-o is needed: the file to write (or --out-poses, a folder of meshes); see --help");
+  }
   return out;
 }
 

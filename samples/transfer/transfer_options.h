@@ -12,10 +12,15 @@ namespace samples {
 
 struct TransferCommand {
   std::filesystem::path source, target, pairs, output;
-  std::filesystem::path sheet, report, json, edits, joints;  // empty: not asked for
-  std::string clip;                                          // name, index or all; empty: the first
-  double rate = 0;                                           // frames per second; 0: 30, or 60 for clips below a second
+  std::filesystem::path sheet, report, json, edits, joints, suggest;  // empty: not asked for
+  std::string clip;                                                   // name, index or all; empty: the first
+  double rate = 0;  // frames per second; 0: 30, or 60 for clips below a second; -1: the source's own keys
   unsigned threads = 1;
+  std::string kind = "skin";                 // skin, own-skin, morph, frames
+  std::filesystem::path frames;              // folder of --out-poses
+  std::vector<std::filesystem::path> poses;  // posed copies of the source's mesh
+  std::vector<std::string> contacts;         // empty: found
+  double morph_tolerance = 1e-3;             // of the box
   bool quiet = false, help = false;
 };
 

@@ -83,6 +83,8 @@ std::string to_text(const RunReport& report, const std::string& heading) {
     for (const auto& [is, word] : {std::pair<bool, const char*>(pair.foot, " foot"),
                                    {pair.anchor && !pair.foot, " anchor"},
                                    {pair.trunk, " trunk"},
+                                   {pair.contact, " contact"},
+                                   {pair.crossed, " CROSSED"},
                                    {pair.aligned, " aligned"}}) {
       if (is) kind += word;
     }
@@ -94,13 +96,20 @@ std::string to_text(const RunReport& report, const std::string& heading) {
   }
   for (size_t c = 0; c < report.clip_names.size(); ++c) {
     print(out,
-          "  clip \"%s\": %zu frames, %.3f ms each; feet off their scaled path by %.4f (largest %.4f), sunk by %.4f of "
-          "the box\n",
+          "  clip \"%s\": %zu frames, %.3f ms each; feet off their scaled path by %.4f (largest %.4f; standing "
+          "they slide %.4f, %.4f), sunk by %.4f of the box, the surface by %.4f\n",
           report.clip_names[c].c_str(), report.frames[c], report.frame_ms[c], report.feet[c].path_mean,
-          report.feet[c].path_max, report.feet[c].sunk);
+          report.feet[c].path_max, report.feet[c].planted_mean, report.feet[c].planted_max, report.feet[c].sunk,
+          report.feet[c].surface_sunk);
   }
-  print(out, "  read back     %.1e of the box at keys; half-way between keys about %.1e\n", report.replay.key_max,
-        report.replay.half_rms);
+  if (report.written_as == "skin")
+    print(out, "  read back     %.1e of the box at keys; half-way between keys about %.1e\n", report.replay.key_max,
+          report.replay.half_rms);
+  if (report.written_parts > 0)
+    print(out,
+          "  written as    %s, %zu parts: %.5f of the box from the computed frames (root mean square; largest %.4f)\n",
+          report.written_as.c_str(), report.written_parts, report.written_rms, report.written_max);
+  for (const std::string& contact : report.contacts) out += "  contact: " + contact + "\n";
   for (const std::string& warning : report.warnings) out += "  note: " + warning + "\n";
   return out;
 }
@@ -116,6 +125,8 @@ nlohmann::json to_json(const RunReport& report) {
          {"foot", pair.foot},
          {"trunk", pair.trunk},
          {"aligned", pair.aligned},
+         {"contact", pair.contact},
+         {"crossed", pair.crossed},
          {"source_leak", pair.source_leak},
          {"target_leak", pair.target_leak},
          {"rest_angle_degrees", pair.alignment_degrees < 0 ? nlohmann::json() : nlohmann::json(pair.alignment_degrees)},
@@ -127,7 +138,11 @@ nlohmann::json to_json(const RunReport& report) {
                      {"ms_per_frame", report.frame_ms[c]},
                      {"foot_path_mean", report.feet[c].path_mean},
                      {"foot_path_max", report.feet[c].path_max},
-                     {"foot_sunk", report.feet[c].sunk}});
+                     {"foot_sunk", report.feet[c].sunk},
+                     {"planted", report.feet[c].planted},
+                     {"planted_mean", report.feet[c].planted_mean},
+                     {"planted_max", report.feet[c].planted_max},
+                     {"surface_sunk", report.feet[c].surface_sunk}});
   }
   return {{"output", report.output},
           {"clusters", report.clusters},
@@ -139,6 +154,11 @@ nlohmann::json to_json(const RunReport& report) {
           {"target_factorisations", report.target_factorisations},
           {"pairs", pairs},
           {"clips", clips},
+          {"written_as", report.written_as},
+          {"written_rms", report.written_rms},
+          {"written_max", report.written_max},
+          {"written_parts", report.written_parts},
+          {"contacts", report.contacts},
           {"replay_key_max", report.replay.key_max},
           {"replay_half_rms", report.replay.half_rms},
           {"warnings", report.warnings}};

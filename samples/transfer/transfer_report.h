@@ -27,6 +27,10 @@ struct RunReport {
   std::vector<FootReport> feet;
   std::vector<double> frame_ms;
   ReplayReport replay;
+  std::string written_as = "skin";          // skin, own skin, morph targets, frames
+  double written_rms = 0, written_max = 0;  // of own skin and morph targets: from the computed frames, in box diagonals
+  size_t written_parts = 0;
+  std::vector<std::string> contacts;
   uint32_t clusters = 0;
   double scale = 1, setup_ms = 0, prepare_ms = 0, edit_ms = 0;
   uint32_t source_factorisations = 0, target_factorisations = 0;

@@ -47,4 +47,11 @@ class JobRunner {
   std::unique_ptr<Pool> pool_;
 };
 
+// The same on a runner that may be absent: then on the calling thread.
+template <class Job>
+void for_each(JobRunner* jobs, std::uint32_t count, Job&& job) {
+  if (jobs) return jobs->for_each(count, job);
+  for (std::uint32_t i = 0; i < count; ++i) job(i);
+}
+
 }  // namespace hf

@@ -102,12 +102,17 @@ class Buffer {
     release();
     memory_ = &memory, data_ = fresh, size_ = size;
   }
+  // Shows `size` elements that somebody else keeps alive; they are only read.
+  void borrow(const T* data, std::size_t size) noexcept {
+    release();
+    memory_ = nullptr, data_ = const_cast<T*>(data), size_ = size;
+  }
   // Like allocate, but keeps the present block when it is large enough; contents are not preserved.
   void reserve_at_least(Memory& memory, std::size_t size) {
     if (size > size_) allocate(memory, size);
   }
   void release() noexcept {
-    if (data_) memory_->deallocate(data_, size_ * sizeof(T), alignment);
+    if (memory_ && data_) memory_->deallocate(data_, size_ * sizeof(T), alignment);
     data_ = nullptr, size_ = 0;
   }
   void swap(Buffer& other) noexcept {

@@ -1,5 +1,6 @@
 // The symmetric sparse matrix that operators are written as and the factor is made from.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 
 #include "base/memory.h"
@@ -12,6 +13,12 @@ struct SymmetricMatrix {
   explicit SymmetricMatrix(Memory& memory) : column_start(&memory), row(&memory), value(&memory) {}
   std::int32_t size() const noexcept {
     return column_start.empty() ? 0 : static_cast<std::int32_t>(column_start.size()) - 1;
+  }
+  // Where the diagonal entry of column v stands.
+  std::size_t diagonal(std::int32_t v) const noexcept {
+    const auto begin = row.begin() + column_start[static_cast<std::size_t>(v)],
+               end = row.begin() + column_start[static_cast<std::size_t>(v) + 1];
+    return static_cast<std::size_t>(std::lower_bound(begin, end, v) - row.begin());
   }
   Vector<std::int32_t> column_start;
   Vector<std::int32_t> row;

@@ -17,6 +17,7 @@ Places read_places(const hf_sites_desc& desc) {
   if (desc.triangles && !desc.barycentrics) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "barycentrics is NULL, but the sites are in triangles");
   Places places;
   places.count = desc.site_count, places.vertices = desc.vertices, places.triangles = desc.triangles, places.barycentrics = desc.barycentrics;
+  places.radii = desc.radii;
   return places;
 }
 
@@ -30,7 +31,7 @@ void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_d
   if (count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
   require(sites, "sites");
   const hf_sites_desc desc = read_struct(to, "to");
-  if (desc.values || desc.stiffness) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "moving keeps values and stiffness: set both to NULL in the desc");
+  if (desc.values || desc.stiffness || desc.radii) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "moving keeps values, stiffness and radius: set them to NULL in the desc");
   edit.move_count = count, edit.move_sites = sites, edit.move_to = read_places(desc);
   if (edit.move_to.count != count) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
 }
@@ -41,6 +42,7 @@ void check_counts(const SolverObject& solver, const FieldEdit& edit) {
   if (edit.remove_count > there) fail(HF_ERROR_NO_SUCH_SITE, there, "%u sites to remove, but the solver has %u", edit.remove_count, there);
   const std::uint32_t left = there - edit.remove_count;
   if (edit.move_count > left) fail(HF_ERROR_NO_SUCH_SITE, left, "%u sites to move, but the solver has %u%s", edit.move_count, left, edit.remove_count ? " after the removals" : "");
+  if (edit.set_count > left) fail(HF_ERROR_NO_SUCH_SITE, left, "%u values to set, but the solver has %u sites%s", edit.set_count, left, edit.remove_count ? " after the removals" : "");
   if (edit.add.count > solver.site_limit) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u sites to add; the site_limit is %u", edit.add.count, solver.site_limit);
 }
 
@@ -73,10 +75,9 @@ void solve(hf_solver handle, float* f32, double* f64, std::uint32_t value_stride
   const Reading reading(*solver);
   const Core& core = solver->field.core();
   const std::size_t m = static_cast<std::size_t>(solver->field.sites().channels());
-  const Rows out = f64 ? Rows(f64, stride_of(value_stride, m * sizeof(double), "value_stride")) : Rows(f32, stride_of(value_stride, m * sizeof(float), "value_stride"));
-  Workspace field(core.workspaces, static_cast<std::size_t>(core.size()) * m);
-  solver->field.solve(field.data());
-  scatter(core, m, out, nullptr, [&](std::size_t v, double* values) { std::copy_n(field.data() + v * m, m, values); });
+  const std::size_t stride = stride_of(value_stride, m * (f64 ? sizeof(double) : sizeof(float)), "value_stride");
+  FieldWriter writer(core, f64 ? static_cast<void*>(f64) : f32, f64 != nullptr, stride);
+  solver->field.solve_into(writer);
   if (out_info) write_struct(out_info, unreached(*solver));
 }
 
@@ -177,15 +178,22 @@ hf_result hf_get_sites(hf_solver handle, hf_site_info* out_info) {
     if (info.capacity < sites.count()) fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "capacity is %u; the solver has %u sites", info.capacity, sites.count());
     const std::size_t m = static_cast<std::size_t>(sites.channels());
     Vector<double> flux(solver->memory.get());
-    if (info.flux) solver->field.flux(flux);
+    if (info.flux) {
+      solver->field.flux(flux);
+      for (std::size_t s = 0; s < sites.slots().size(); ++s) {
+        const std::int32_t owner = sites.slots()[s].owner;
+        for (std::size_t c = 0; owner >= 0 && c < m; ++c) flux[static_cast<std::size_t>(owner) * m + c] += flux[s * m + c];
+      }
+    }
     std::size_t at = 0;
     for (std::size_t s = 0; s < sites.slots().size(); ++s) {
       const SiteSet::Slot& slot = sites.slots()[s];
-      if (!slot.used()) continue;
+      if (!slot.is_site()) continue;
       if (info.sites) info.sites[at] = static_cast<std::uint32_t>(s);
       if (info.vertices) info.vertices[at] = slot.given_vertex;
       if (info.components) info.components[at] = static_cast<std::uint32_t>(slot.site.component);
       if (info.stiffness) info.stiffness[at] = slot.stiffness;
+      if (info.radii) info.radii[at] = slot.radius;
       if (info.values) std::copy_n(sites.values() + s * m, m, info.values + at * m);
       if (info.flux) std::copy_n(flux.data() + s * m, m, info.flux + at * m);
       ++at;
@@ -232,6 +240,13 @@ hf_result hf_solve_at(hf_solver handle, uint32_t vertex_count, const uint32_t* v
     for (std::size_t i = 0; i < vertex_count; ++i) {
       for (std::size_t c = 0; c < m; ++c) out_values[i * m + c] = place[i] == HF_NO_INDEX ? 0.0 : values[place[i] * m + c];
     }
+  });
+}
+
+hf_result hf_prepare_rebase(hf_solver handle) {
+  return guarded("hf_prepare_rebase", [&] {
+    // neither reading nor changing: it runs beside both, the field guards itself
+    get<SolverObject>(handle, Kind::solver, "solver")->field.prepare_rebase();
   });
 }
 

@@ -1,24 +1,28 @@
 // hf/deform.h: poses.
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <cstring>
 
 #include "capi/boundary.h"
 #include "capi/objects.h"
 #include "capi/scatter.h"
-#include "deform/pose.h"
+#include "base/error.h"
+#include "deform/pose_stack.h"
+#include "deform/skin.h"
 #include "hf/deform.h"
 
 namespace hf::capi {
 namespace {
 
 struct PoseObject final : Object {
-  PoseObject(std::shared_ptr<Memory> owner, std::shared_ptr<Pose> given) : Object(Kind::pose), memory(std::move(owner)), pose(std::move(given)), handle_count(pose->handle_count()) {}
+  PoseObject(std::shared_ptr<Memory> owner, std::shared_ptr<PoseStack> given) : Object(Kind::pose), memory(std::move(owner)), pose(std::move(given)), handle_count(pose->handle_count()) {}
   std::shared_ptr<Memory> memory;  // outlives the pose
-  std::shared_ptr<Pose> pose;
+  std::shared_ptr<PoseStack> pose;
   std::atomic<std::uint32_t> handle_count;  // of the last finished change: may be read while another thread changes the pose
 };
 
-hf_pose publish(std::shared_ptr<Pose> pose) {
+hf_pose publish(std::shared_ptr<PoseStack> pose) {
   const std::shared_ptr<Memory> memory = pose->core().memory;
   return reinterpret_cast<hf_pose>(insert(make_owner_in<PoseObject>(memory, memory, std::move(pose))));
 }
@@ -36,6 +40,93 @@ PoseOptions read_options(const hf_pose_desc* given) {
   return options;
 }
 
+// Regions of points and radii, as regions of inner vertices.
+void append_near(const Core& core, const hf_handles_desc& desc, Vector<std::uint32_t>& start, Vector<std::int32_t>& vertices) {
+  start.push_back(0);
+  for (std::uint32_t r = 0; r < desc.handle_count; ++r) {
+    const double* p = desc.points + 3 * std::size_t{r};
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) fail(HF_ERROR_NON_FINITE, r, "point %u is not finite", r);
+    if (!std::isfinite(desc.radii[r])) fail(HF_ERROR_NON_FINITE, r, "radius %u is not finite", r);
+    if (desc.radii[r] < 0) fail(HF_ERROR_INVALID_ARGUMENT, r, "radius %u is %g; it must not be negative", r, desc.radii[r]);
+    const Vector<std::int32_t> region = region_near(core, core.mesh.to_inner({p[0], p[1], p[2]}), desc.radii[r] / core.mesh.scale, *core.memory);
+    vertices.insert(vertices.end(), region.begin(), region.end());
+    start.push_back(static_cast<std::uint32_t>(vertices.size()));
+  }
+}
+
+// p -> M p as a rotation about the centroid and a translation.
+HandleTransform read_matrix(const double* m, std::uint32_t index, Vec3 centroid) {
+  for (int i = 0; i < 16; ++i) {
+    if (!std::isfinite(m[i])) fail(HF_ERROR_NON_FINITE, index, "matrix %u holds a number that is not finite", index);
+  }
+  Mat3 linear;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) linear.m[i][j] = m[4 * j + i];
+  }
+  const Quaternion rotation = best_rotation(linear, Quaternion());
+  const Mat3 exact = to_matrix(rotation);
+  double off = std::fabs(m[3]) + std::fabs(m[7]) + std::fabs(m[11]) + std::fabs(m[15] - 1);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) off = std::max(off, std::fabs(linear.m[i][j] - exact.m[i][j]));
+  }
+  if (!(off <= 1e-4)) fail(HF_ERROR_INVALID_ARGUMENT, index, "matrix %u is no rigid motion; scale and shear are not taken", index);
+  return {rotation, rotate(rotation, centroid) + Vec3{m[12], m[13], m[14]} - centroid};
+}
+
+// The vertices hf_deform writes.
+struct Range {
+  std::uint32_t first, count;
+  bool whole;
+};
+
+Range read_range(const hf_deform_desc& desc, std::uint32_t vertex_count) {
+  if (desc.first_vertex > vertex_count || desc.vertex_count > vertex_count - desc.first_vertex)
+    fail(HF_ERROR_OUT_OF_RANGE, HF_NO_INDEX, "vertices %u to %llu are asked for; the mesh has %u", desc.first_vertex, static_cast<unsigned long long>(desc.first_vertex) + desc.vertex_count, vertex_count);
+  const std::uint32_t count = desc.vertex_count ? desc.vertex_count : vertex_count - desc.first_vertex;
+  return {desc.first_vertex, count, count == vertex_count};
+}
+
+// All vertices, three numbers each: scatter() without a call per number.
+template <class Real>
+void write_points(const Core& core, Span<const Vec3> points, Real* out, std::size_t stride, IsolatedRow isolated) {
+  const std::size_t count = core.mesh.report.vertex_count;
+  constexpr std::size_t piece = 32768;
+  char* bytes = reinterpret_cast<char*>(out);
+  core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
+    const std::size_t end = std::min(count, (p + std::size_t{1}) * piece);
+    for (std::size_t v = p * piece; v < end; ++v) {
+      const std::int32_t inner = core.mesh.inner_of_given[v];
+      if (inner == Mesh::none) continue;
+      const Vec3 x = points[static_cast<std::size_t>(inner)];
+      const Real row[3] = {static_cast<Real>(x.x), static_cast<Real>(x.y), static_cast<Real>(x.z)};
+      std::memcpy(bytes + v * stride, row, sizeof row);
+    }
+  });
+  for (const Mesh::Isolated& entry : core.mesh.isolated) {
+    double values[3] = {0, 0, 0};
+    isolated(entry, values);
+    const Real row[3] = {static_cast<Real>(values[0]), static_cast<Real>(values[1]), static_cast<Real>(values[2])};
+    std::memcpy(bytes + static_cast<std::size_t>(entry.given) * stride, row, sizeof row);
+  }
+}
+
+// Rows of a range, one after the other: scatter() for a part.
+template <class Row>
+void scatter_range(const Core& core, const Range& range, const Rows& out, IsolatedRow isolated, Row&& row) {
+  for (std::uint32_t i = 0; i < range.count; ++i) {
+    const std::int32_t inner = core.mesh.inner_of_given[range.first + i];
+    double values[3] = {0, 0, 0};
+    if (inner != Mesh::none) {
+      row(static_cast<std::size_t>(inner), values);
+    } else {
+      for (const Mesh::Isolated& entry : core.mesh.isolated) {
+        if (static_cast<std::uint32_t>(entry.given) == range.first + i) isolated(entry, values);
+      }
+    }
+    for (std::size_t c = 0; c < 3; ++c) out.set(i, c, values[c]);
+  }
+}
+
 }  // namespace
 }  // namespace hf::capi
 
@@ -51,7 +142,7 @@ hf_result hf_pose_create(hf_solver handle, const hf_pose_desc* desc, hf_pose* ou
     const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
     const PoseOptions options = read_options(desc);
     if (solver->field.engine().kind() != EngineKind::green) fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "poses need a solver with HF_ENGINE_GREEN");
-    *out_pose = publish(Pose::make(solver->field.shared_core(), options));
+    *out_pose = publish(PoseStack::make(solver->field.shared_core(), options));
   });
 }
 
@@ -75,16 +166,34 @@ hf_result hf_pose_add_handles(hf_pose handle, const hf_handles_desc* given, uint
     const auto pose = get<PoseObject>(handle, Kind::pose, "pose");
     const hf_handles_desc desc = read_struct(given, "handles");
     if (desc.handle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "handle_count is 0");
-    require(desc.region_counts, "region_counts"), require(desc.region_vertices, "region_vertices");
+    if (desc.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "reserved is %u; it must be 0", desc.reserved);
+    const bool near = desc.points || desc.radii;
+    if (near) {
+      if (desc.region_counts || desc.region_vertices) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "regions and points are both set; set one");
+      require(desc.points, "points"), require(desc.radii, "radii");
+    } else {
+      require(desc.region_counts, "region_counts"), require(desc.region_vertices, "region_vertices");
+    }
+    if (desc.layer >= HF_LAYER_COUNT) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "layer is %u; it must be 0 to %d", desc.layer, HF_LAYER_COUNT - 1);
     if (desc.handle_count > 256) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles in one batch; a pose takes at most 256", desc.handle_count);
     const Changing changing(*pose);
     const Mesh& mesh = pose->pose->core().mesh;
     Vector<std::uint32_t> start(pose->memory.get());
-    append_starts(desc.handle_count, desc.region_counts, mesh.report.vertex_count, "region_counts", start);
     Vector<std::int32_t> vertices(pose->memory.get());
-    append_inner(mesh, start.back(), desc.region_vertices, "region_vertices", vertices);
+    if (near) {
+      append_near(pose->pose->core(), desc, start, vertices);
+    } else {
+      append_starts(desc.handle_count, desc.region_counts, mesh.report.vertex_count, "region_counts", start);
+      append_inner(mesh, start.back(), desc.region_vertices, "region_vertices", vertices);
+    }
     Vector<std::uint32_t> numbers(desc.handle_count, pose->memory.get());
-    pose->pose->add_handles(start, vertices, numbers);
+    try {
+      pose->pose->add_handles(start, vertices, desc.layer, numbers);
+    } catch (const Error& error) {
+      if (!near || error.code() != HF_ERROR_OVERLAP) throw;
+      const std::uint32_t r = static_cast<std::uint32_t>(std::upper_bound(start.begin(), start.end(), error.index()) - start.begin() - 1);
+      fail(HF_ERROR_OVERLAP, r, "the region of point %u overlaps another handle; make its radius smaller", r);
+    }
     pose->handle_count = pose->pose->handle_count();
     if (out_handles) std::copy(numbers.begin(), numbers.end(), out_handles);
   });
@@ -119,6 +228,19 @@ hf_result hf_pose_set_transforms(hf_pose handle, uint32_t handle_count, const ui
   });
 }
 
+hf_result hf_pose_set_matrices(hf_pose handle, uint32_t handle_count, const uint32_t* handles, const double* matrices) {
+  return guarded("hf_pose_set_matrices", [&] {
+    const auto pose = get<PoseObject>(handle, Kind::pose, "pose");
+    if (handle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "handle_count is 0");
+    require(handles, "handles"), require(matrices, "matrices");
+    if (handle_count > 256) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles; a pose has at most 256", handle_count);
+    const Changing changing(*pose);
+    HandleTransform placed[256];
+    for (std::uint32_t i = 0; i < handle_count; ++i) placed[i] = read_matrix(matrices + 16 * std::size_t{i}, i, pose->pose->handle_at(handles[i], i).centroid);
+    pose->pose->set_transforms({handles, handle_count}, {placed, handle_count});
+  });
+}
+
 hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* out_info) {
   return guarded("hf_pose_get_handle", [&] {
     const auto pose = get<PoseObject>(handle, Kind::pose, "pose");
@@ -129,6 +251,11 @@ hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* ou
     info.vertex_count = report.vertex_count, info.site_count = report.site_count, info.component = report.component;
     info.centroid[0] = report.centroid.x, info.centroid[1] = report.centroid.y, info.centroid[2] = report.centroid.z;
     info.leak = report.leak;
+    const HandleTransform placed = pose->pose->placed(number);
+    const double q[4] = {placed.rotation.x, placed.rotation.y, placed.rotation.z, placed.rotation.w};
+    std::copy_n(q, 4, info.rotation);
+    put(placed.translation, info.translation);
+    info.layer = pose->pose->layer_of(number);
     write_struct(out_info, info);
   });
 }
@@ -154,7 +281,7 @@ hf_result hf_deform(hf_pose handle, const hf_deform_desc* given, hf_deform_info*
     const auto pose = get<PoseObject>(handle, Kind::pose, "pose");
     const hf_deform_desc desc = read_struct(given, "desc");
     if (out_info) check_struct(out_info, "out_info");
-    if (desc.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "reserved is %d; it must be 0", desc.reserved);
+    check_choice(desc.refine, 2, "refine");
     if (desc.positions && desc.positions_f64) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "positions and positions_f64 are both set; set one");
     if (!desc.positions && !desc.positions_f64 && !desc.normals) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "positions, positions_f64 and normals are all NULL; nothing to write");
     const Rows positions = rows_of(desc.positions, desc.positions_f64, desc.position_stride, "position_stride");
@@ -162,19 +289,61 @@ hf_result hf_deform(hf_pose handle, const hf_deform_desc* given, hf_deform_info*
     DeformRequest request;
     request.normals = desc.normals != nullptr;
     request.iteration_count = count_of(desc.iteration_count, 0, 1, 1000, "iteration_count");
-    request.restart = desc.restart != 0;
+    request.restart = desc.restart != 0, request.refine = desc.refine == 1;
     const Changing changing(*pose);
-    const DeformReport report = pose->pose->deform(request);
     const Core& core = pose->pose->core();
-    if (positions) scatter(core, 3, positions, put_rest, [&](std::size_t v, double* values) { put(report.positions[v], values); });
-    if (normals) scatter(core, 3, normals, put_up, [&](std::size_t v, double* values) { put(report.normals[v], values); });
+    const Range range = read_range(desc, core.mesh.report.vertex_count);
+    request.surface = range.whole || request.normals || request.refine || pose->pose->has_layers();
+    const DeformReport report = pose->pose->deform(request);
+    const auto put_position = [&](std::size_t v, double* values) { put(request.surface ? report.positions[v] : pose->pose->base().blended(static_cast<std::int32_t>(v)), values); };
+    const auto put_normal = [&](std::size_t v, double* values) { put(report.normals[v], values); };
+    if (range.whole) {
+      if (desc.positions) write_points(core, report.positions, desc.positions, stride_of(desc.position_stride, 3 * sizeof(float), "position_stride"), put_rest);
+      if (desc.positions_f64) write_points(core, report.positions, desc.positions_f64, stride_of(desc.position_stride, 3 * sizeof(double), "position_stride"), put_rest);
+      if (desc.normals) write_points(core, report.normals, desc.normals, stride_of(desc.normal_stride, 3 * sizeof(float), "normal_stride"), put_up);
+    } else {
+      if (positions) scatter_range(core, range, positions, put_rest, put_position);
+      if (normals) scatter_range(core, range, normals, put_up, put_normal);
+    }
     if (!out_info) return;
     hf_deform_info info{};
     info.iteration_count = report.iteration_count, info.cluster_count = report.cluster_count;
     info.unreached_vertex_count = report.unreached_vertex_count + core.mesh.report.isolated_vertex_count;
     info.last_change = report.last_change;
-    info.solve_ms = report.solve_ms, info.blend_ms = report.blend_ms, info.normal_ms = report.normal_ms;
+    info.solve_ms = report.solve_ms, info.blend_ms = report.blend_ms, info.normal_ms = report.normal_ms, info.refine_ms = report.refine_ms;
     write_struct(out_info, info);
+  });
+}
+
+hf_result hf_pose_get_skin(hf_pose handle, hf_skin_info* info) {
+  return guarded("hf_pose_get_skin", [&] {
+    const auto pose = get<PoseObject>(handle, Kind::pose, "pose");
+    hf_skin_info out = read_struct(info, "info");
+    const std::uint32_t weight_count = out.weight_count == 0 ? 4 : out.weight_count;
+    if (weight_count != 4 && weight_count != 8) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "weight_count is %u; it must be 4 or 8, or 0 for 4", weight_count);
+    if (out.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "reserved is %u; it must be 0", out.reserved);
+    const Reading reading(*pose);
+    if (pose->pose->has_layers()) fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the pose has handles on higher layers; the surface they make is no blend of clusters");
+    const Pose& base = pose->pose->base();
+    if (base.handle_count() == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
+    const Skin skin = make_skin(base, weight_count, *pose->memory);
+    const std::size_t joints = skin.pivot.size();
+    for (std::size_t j = 0; j < joints; ++j) {
+      if (out.pivots) put(skin.pivot[j], out.pivots + 3 * j);
+      if (out.translations) put(skin.place[j], out.translations + 3 * j);
+      const double q[4] = {skin.rotation[j].x, skin.rotation[j].y, skin.rotation[j].z, skin.rotation[j].w};
+      if (out.rotations) std::copy_n(q, 4, out.rotations + 4 * j);
+    }
+    const Mesh& mesh = base.core().mesh;
+    for (std::size_t v = 0; (out.vertex_joints || out.vertex_weights) && v < mesh.report.vertex_count; ++v) {
+      std::uint32_t joint[8];
+      float weight[8];
+      skin_weights(base, mesh.inner_of_given[v] == Mesh::none ? -1 : mesh.inner_of_given[v], weight_count, joint, weight);
+      if (out.vertex_joints) std::copy_n(joint, weight_count, out.vertex_joints + v * weight_count);
+      if (out.vertex_weights) std::copy_n(weight, weight_count, out.vertex_weights + v * weight_count);
+    }
+    out.joint_count = static_cast<std::uint32_t>(joints), out.weight_count = weight_count;
+    write_struct(info, out);
   });
 }
 

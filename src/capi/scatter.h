@@ -1,9 +1,10 @@
 // From inner vertices back to the vertices as given: every welded copy gets its vertex's row.
 #pragma once
 #include <algorithm>
+#include <cstring>
 
 #include "base/span.h"
-#include "engine/core.h"
+#include "engine/site_solver.h"
 
 namespace hf::capi {
 
@@ -30,6 +31,42 @@ void scatter(const Core& core, std::size_t width, const Rows& out, IsolatedRow i
     for (std::size_t c = 0; c < width; ++c) out.set(static_cast<std::size_t>(entry.given), c, values[c]);
   }
 }
+
+// The field of a solver, from where the engine has it to the vertices as given.
+class FieldWriter final : public FieldSink {
+ public:
+  FieldWriter(const Core& core, void* out, bool is_double, std::size_t stride) noexcept
+      : core_(core), out_(static_cast<char*>(out)), is_double_(is_double), stride_(stride) {}
+  void take(std::int32_t first, std::int32_t count, const double* z, const std::int32_t* row) override {
+    if (is_double_) return write<double>(first, count, z, row);
+    write<float>(first, count, z, row);
+  }
+
+ private:
+  template <class T>
+  void write(std::int32_t first, std::int32_t count, const double* z, const std::int32_t* row) const {
+    const std::size_t vertices = core_.mesh.report.vertex_count, m = static_cast<std::size_t>(count);
+    constexpr std::size_t piece = 16384;
+    core_.jobs->for_each(static_cast<std::uint32_t>((vertices + piece - 1) / piece), [&](std::uint32_t p) {
+      const std::size_t end = std::min(vertices, (p + std::size_t{1}) * piece);
+      char* target = out_ + p * piece * stride_ + static_cast<std::size_t>(first) * sizeof(T);
+      for (std::size_t v = p * piece; v < end; ++v, target += stride_) {
+        const std::int32_t inner = core_.mesh.inner_of_given[v];
+        const double* source =
+            inner == Mesh::none ? nullptr : z + static_cast<std::size_t>(row ? row[inner] : inner) * m;
+        for (std::size_t c = 0; c < m; ++c) {
+          const T value = source ? static_cast<T>(source[c]) : T{0};
+          std::memcpy(target + c * sizeof(T), &value, sizeof value);
+        }
+      }
+    });
+  }
+
+  const Core& core_;
+  char* out_;
+  bool is_double_;
+  std::size_t stride_;
+};
 
 inline void put(Vec3 p, double* values) noexcept { values[0] = p.x, values[1] = p.y, values[2] = p.z; }
 inline void put_rest(const Mesh::Isolated& entry, double* values) { put(entry.position, values); }

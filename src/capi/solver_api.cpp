@@ -3,6 +3,7 @@
 
 #include "capi/boundary.h"
 #include "capi/objects.h"
+#include "factor/factor_bytes.h"
 #include "hf/field.h"
 
 namespace hf::capi {
@@ -44,7 +45,9 @@ struct Options {
 Options read_options(const hf_create_desc& desc) {
   Options options;
   check_choice(desc.weld, 3, "weld");
-  check_choice(desc.operator_kind, 3, "operator_kind");
+  check_choice(desc.operator_kind, 4, "operator_kind");
+  check_choice(desc.field_kind, 3, "field_kind");
+  check_choice(desc.reserved, 1, "reserved");
   check_choice(desc.engine, 3, "engine");
   check_choice(desc.ordering, 3, "ordering");
 #ifndef HF_WITH_GPL
@@ -53,6 +56,7 @@ Options read_options(const hf_create_desc& desc) {
 #endif
   if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr)) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
   options.core.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
+  options.core.field_kind = static_cast<FieldKind>(desc.field_kind);
   options.core.ordering = desc.ordering == HF_ORDERING_METIS ? Ordering::metis : desc.ordering == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree : Ordering::nested_dissection;
   options.engine = static_cast<EngineKind>(desc.engine);
   options.channels = count_of(desc.channel_count, 1, 1, 64, "channel_count");
@@ -61,6 +65,16 @@ Options read_options(const hf_create_desc& desc) {
   if (desc.penalty != 0 && !(desc.penalty > 0)) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
   options.penalty = desc.penalty > 0 ? std::min(desc.penalty, 1e10) : 1e8;
   return options;
+}
+
+void read_saved_factor(const hf_create_desc& desc, CoreOptions& options) {
+  const hf_factor_desc saved = read_struct(desc.saved_factor, "saved_factor");
+  require(saved.bytes, "saved_factor->bytes");
+  if (saved.byte_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "saved_factor->byte_count is 0");
+  options.saved_factor = {static_cast<const std::uint8_t*>(saved.bytes), saved.byte_count};
+  options.borrow_factor = saved.borrow != 0;
+  const Ordering ordering = check_saved_factor(options.saved_factor);
+  if (desc.ordering != 0 && options.ordering != ordering) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "ordering is %d, but the saved factor has ordering %d; set it to 0 to take the factor's", desc.ordering, static_cast<int>(ordering));
 }
 
 void count_given(SolverObject& solver) {
@@ -102,6 +116,7 @@ hf_result hf_create(const hf_create_desc* given, hf_solver* out_solver) {
     input.weld_tolerance = static_cast<double>(desc.weld_tolerance);
 
     std::shared_ptr<ProgressObject> progress;
+    if (desc.saved_factor) read_saved_factor(desc, options.core);
     if (desc.progress) progress = get<ProgressObject>(desc.progress, Kind::progress, "progress");
     options.core.progress = progress ? &progress->progress : nullptr;
 
@@ -200,6 +215,14 @@ hf_result hf_get_statistics(hf_solver handle, hf_statistics* out_statistics) {
     statistics.sweep_count = counters.sweeps;
     statistics.engine = static_cast<std::uint32_t>(solver->field.engine().kind());
     statistics.thread_count = core.jobs->thread_count();
+    statistics.last_route = static_cast<std::uint32_t>(counters.last_route);
+    statistics.rebase_count = counters.rebases, statistics.dense_edit_count = counters.dense_edits;
+    statistics.dense_row_count = counters.dense_rows, statistics.eliminated_count = counters.eliminated;
+    statistics.rebase_advised = counters.rebase_advised;
+    statistics.predicted_dense_ms = counters.dense_ms, statistics.predicted_rebase_ms = counters.rebase_ms;
+    statistics.load_ms = factor.load_ms, statistics.factor_loaded = factor.loaded, statistics.factor_borrowed = factor.borrowed;
+    // the engines count the factor of hf_create as made
+    if (factor.loaded && statistics.factorisation_count > 0 && solver->field.engine().kind() == EngineKind::green) --statistics.factorisation_count;
     write_struct(out_statistics, statistics);
   });
 }

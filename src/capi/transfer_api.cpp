@@ -131,7 +131,24 @@ hf_result hf_transfer_get_pair(hf_transfer handle, uint32_t pair, hf_pair_info* 
     info.flags = found.flags;
     info.source_leak = found.source_leak, info.target_leak = found.target_leak;
     info.alignment_angle = found.alignment_angle, info.confidence = found.confidence;
-    info.aligned = found.aligned ? 1 : 0;
+    info.aligned = found.aligned ? 1 : 0, info.crossed = found.crossed ? 1 : 0;
+    write_struct(out_info, info);
+  });
+}
+
+hf_result hf_transfer_get_info(hf_transfer handle, hf_transfer_info* out_info) {
+  return guarded("hf_transfer_get_info", [&] {
+    const auto object = get<TransferObject>(handle, Kind::transfer, "transfer");
+    check_struct(out_info, "out_info");
+    const Changing changing(*object);
+    hf_transfer_info info{};
+    info.cluster_count = static_cast<std::uint32_t>(object->transfer.cluster_count());
+    info.pair_count = object->transfer.pair_count();
+    for (const std::uint32_t pair : object->transfer.pairs()) {
+      const PairInfo found = object->transfer.pair_info(pair);
+      info.aligned_count += found.aligned ? 1u : 0u, info.crossed_count += found.crossed ? 1u : 0u;
+    }
+    info.scale = object->transfer.scale(), info.scale_found = object->transfer.scale_found() ? 1 : 0;
     write_struct(out_info, info);
   });
 }
@@ -146,6 +163,9 @@ hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) 
     const ConstRows posed = rows_of(frame.source_positions, frame.source_positions_f64, frame.source_stride, "source_stride");
     const Rows positions = rows_of(frame.target_positions, frame.target_positions_f64, frame.target_stride, "target_stride");
     const Rows normals = rows_of(frame.target_normals, static_cast<double*>(nullptr), frame.normal_stride, "normal_stride");
+    if (frame.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "reserved is %u; it must be 0", frame.reserved);
+    if (frame.hold_count > 256) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u holds in a frame; a transfer has at most 256 pairs", frame.hold_count);
+    if (frame.hold_count > 0) require(frame.hold_pairs, "hold_pairs"), require(frame.hold_positions, "hold_positions");
     const Changing changing(*object);
     const Mesh& source = object->transfer.source().mesh;
     for (std::size_t v = 0; v < source.given_of_inner.size(); ++v) {
@@ -160,7 +180,10 @@ hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) 
       object->normals.allocate(*object->memory, static_cast<std::size_t>(target.size()));
       object->rest = make_shared_in<Rest>(*object->memory, target, *object->memory);
     }
-    object->transfer.apply(object->source_posed.data(), object->target_posed.data());
+    PairHold holds[256];
+    for (std::uint32_t i = 0; i < frame.hold_count; ++i)
+      holds[i] = {frame.hold_pairs[i], {frame.hold_positions[3 * i], frame.hold_positions[3 * i + 1], frame.hold_positions[3 * i + 2]}};
+    object->transfer.apply(object->source_posed.data(), object->target_posed.data(), {holds, frame.hold_count});
     if (positions) scatter(target, 3, positions, put_rest, [&](std::size_t v, double* values) { put(object->target_posed[v], values); });
     if (normals) {
       vertex_normals(target.mesh, *object->rest, object->target_posed.data(), object->triangle_normals.data(), object->normals.data(), *target.jobs);

@@ -59,6 +59,7 @@ class BandCutter {
         partition_(3 * static_cast<std::size_t>(core.size()), memory),
         values_(memory, core.size()),
         share_(memory, core.size()),
+        floor_(memory, core.size()),
         piece_area_(memory, 3 * static_cast<std::size_t>(core.size())),
         piece_cluster_(memory, 3 * static_cast<std::size_t>(core.size())),
         others_(core.size(), 0.0, &memory) {
@@ -92,7 +93,9 @@ class BandCutter {
   // of the field at hand, per vertex or per vertex and band
   Partition partition_;
   Buffer<BandValues> values_;
-  Buffer<double> share_;  // beta
+  Buffer<double> share_;        // beta
+  Buffer<double> floor_;        // below, a field does not count at a vertex
+  std::int32_t floor_of_ = -1;  // the component floor_ was made for
   Buffer<double> piece_area_;
   Buffer<std::int32_t> piece_cluster_;
   Vector<double> others_;  // sum over the fields of beta_i B_0 / (1 - phi_i)
@@ -101,14 +104,19 @@ class BandCutter {
 void BandCutter::evaluate(const FieldPart& part, const Levels& levels) noexcept {
   const double* phi = fields_.of(part.handle);
   const Span<const std::int32_t> present = reach_.handles_of(part.component);
-  for (const std::int32_t v : rest_.vertices_of(part.component)) {
-    double beta = 1;
-    if (present.size() > 2) {
-      double square = 0;
-      for (const std::int32_t j : present) square += fields_.of(j)[v] * fields_.of(j)[v];
-      beta = std::max(0.0, phi[v] - field_prune * std::sqrt(square));
+  if (present.size() > 2 && floor_of_ != part.component) {  // once per component
+    const Span<const std::int32_t> vertices = rest_.vertices_of(part.component);
+    for (const std::int32_t v : vertices) floor_[v] = 0;
+    for (const std::int32_t j : present) {
+      const double* field = fields_.of(j);
+      for (const std::int32_t v : vertices) floor_[v] += field[v] * field[v];
     }
-    share_[v] = beta;
+    for (const std::int32_t v : vertices) floor_[v] = field_prune * std::sqrt(floor_[v]);
+    floor_of_ = part.component;
+  }
+  for (const std::int32_t v : rest_.vertices_of(part.component)) {
+    share_[v] = present.size() > 2 ? std::max(0.0, phi[v] - floor_[v]) : 1.0;
+    if (share_[v] <= 0) continue;  // nothing of this field counts here
     values_[v] = band_values(levels(phi[v]), options_.band_count, options_.degree);
   }
 }
@@ -171,6 +179,7 @@ void BandCutter::cut(const FieldPart& part, const Levels& levels, double smalles
   const double* phi = fields_.of(part.handle);
   const std::int32_t last = options_.band_count + 1;
   for (const std::int32_t v : vertices) {
+    if (share_[v] <= 0) continue;
     const BandValues& b = values_[v];
     const int top = last - b.first;
     double own = top <= options_.degree ? share_[v] * b.value[top] : 0.0;

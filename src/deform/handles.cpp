@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "deform/rest.h"
+#include "engine/rim.h"
 
 namespace hf {
 namespace {
@@ -79,11 +80,10 @@ std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int3
   Vec3 sum;
   for (const std::int32_t v : region->vertices) {
     sum = sum + mesh.positions[v];
-    for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
-      if (inside(topology.neighbour[k])) continue;
-      ring.push_back(v);
-      break;
-    }
+    bool rim = couples_outward(core, v, inside);
+    for (std::int32_t k = topology.neighbour_start[v]; !rim && k < topology.neighbour_start[v + 1]; ++k)
+      rim = !inside(topology.neighbour[k]);
+    if (rim) ring.push_back(v);
   }
   region->centroid = (1.0 / static_cast<double>(region->vertices.size())) * sum;
   region->component = mesh.component[region->vertices.front()];
@@ -92,6 +92,30 @@ std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int3
   } else {
     region->sites = std::move(ring);
   }
+  return region;
+}
+
+Vector<std::int32_t> region_near(const Core& core, Vec3 point, double radius, Memory& memory) {
+  const Mesh& mesh = core.mesh;
+  const Topology& topology = core.topology;
+  std::int32_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int32_t v = 0; v < core.size(); ++v) {
+    const Vec3 d = mesh.positions[v] - point;
+    if (dot(d, d) < least) least = dot(d, d), nearest = v;
+  }
+  Vector<std::int32_t> region(&memory);
+  Vector<std::uint8_t> seen(static_cast<std::size_t>(core.size()), 0, &memory);
+  region.push_back(nearest), seen[nearest] = 1;
+  for (std::size_t at = 0; at < region.size(); ++at) {
+    const std::int32_t v = region[at];
+    for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
+      const std::int32_t u = topology.neighbour[k];
+      if (seen[u] || !(norm(mesh.positions[u] - point) <= radius)) continue;
+      region.push_back(u), seen[u] = 1;
+    }
+  }
+  std::sort(region.begin(), region.end());
   return region;
 }
 

@@ -40,6 +40,10 @@ using Handles = Vector<Handle>;
 std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices,
                                           std::uint32_t samples_per_ring, Memory& memory);
 
+// The region of a point and a radius (in the mesh's own unit): the vertices within it that hang together, along edges
+// inside it, with the vertex nearest to the point; that vertex at least. Ascending.
+Vector<std::int32_t> region_near(const Core& core, Vec3 point, double radius, Memory& memory);
+
 // Which handle owns a vertex (index into handles, or -1), and which handles stand in each component.
 struct Reach {
   Reach(const Mesh& mesh, const Handles& handles, Memory& memory);

@@ -65,7 +65,8 @@ Pose::Pose(std::shared_ptr<const Core> core, const PoseOptions& options, std::sh
       options_(options),
       rest_(std::move(rest)),
       positions_(memory(), static_cast<std::size_t>(core_->size())),
-      turns_(memory(), handle_limit) {}
+      turns_(memory(), handle_limit),
+      start_(memory()) {}
 
 std::shared_ptr<Pose> Pose::make(std::shared_ptr<const Core> core, const PoseOptions& options) {
   if (!core->factor) fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "poses need a solver made with HF_ENGINE_GREEN");
@@ -80,8 +81,17 @@ std::shared_ptr<Pose> Pose::clone() const {
   copy->layout_ = layout_, copy->previous_layout_ = previous_layout_;
   if (state_) copy->state_ = make_shared_in<State>(memory(), *state_, memory());
   copy->previous_state_ = previous_state_;
-  if (posed_) std::memcpy(copy->positions_.data(), positions_.data(), positions_.size() * sizeof(Vec3));
+  if (posed_) {
+    ensure_surface();
+    std::memcpy(copy->positions_.data(), positions_.data(), positions_.size() * sizeof(Vec3));
+  }
   copy->posed_ = posed_, copy->report_ = report_;
+  return copy;
+}
+
+std::shared_ptr<Pose> Pose::without_handles() const {
+  auto copy = make_owner_in<Pose>(core_->memory, core_, options_, rest_);
+  copy->groups_ = groups_;
   return copy;
 }
 
@@ -224,7 +234,7 @@ bool Pose::restore_previous(const Handles& remaining) {
 void Pose::install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> state) noexcept {
   layout_ = std::move(layout), state_ = std::move(state);
   if (layout_ && layout_->groups) groups_ = layout_->groups;
-  if (!layout_) posed_ = false;
+  if (!layout_) posed_ = false, stale_ = false;
 }
 
 std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites) const {
@@ -248,6 +258,7 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, st
 // any turn.
 void Pose::carry_handle(const Handle& handle, HandleState& state) const {
   if (!posed_) return;
+  ensure_surface();
   const HandleRegion& region = *handle.region;
   Vector<Vec3> rest(&memory()), posed(&memory());
   for (const std::int32_t v : region.vertices) rest.push_back(core_->mesh.positions[v]), posed.push_back(positions_[v]);
@@ -272,6 +283,7 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
   if (layout.paper) {
     state->paper.fit(*layout.paper);
     if (posed_) {
+      ensure_surface();
       Vector<Vec3> own_unit(&memory());
       own_unit.reserve(positions_.size());
       for (const Vec3& x : positions_) own_unit.push_back(core_->mesh.to_inner(x));
@@ -292,17 +304,20 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
   return state;
 }
 
+void Pose::check_transform(const HandleTransform& transform, std::uint32_t index, double scale) {
+  const Quaternion& q = transform.rotation;
+  if (!is_finite({q.x, q.y, q.z}) || !std::isfinite(q.w) || !is_finite(transform.translation))
+    fail(HF_ERROR_NON_FINITE, index, "transform %u holds a number that is not finite", index);
+  if (!(norm(transform.translation) <= largest_translation * scale))
+    fail(HF_ERROR_NON_FINITE, index, "the translation of transform %u is beyond %g box diagonals", index,
+         largest_translation);
+}
+
 void Pose::set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTransform> transforms) {
   if (numbers.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no transform to set");
   for (std::uint32_t k = 0; k < numbers.size(); ++k) {
     require(numbers[k], k);
-    const HandleTransform& t = transforms[k];
-    const Vec3 axis{t.rotation.x, t.rotation.y, t.rotation.z};
-    if (!is_finite(axis) || !std::isfinite(t.rotation.w) || !is_finite(t.translation))
-      fail(HF_ERROR_NON_FINITE, k, "transform %u holds a number that is not finite", k);
-    if (!(norm(t.translation) <= largest_translation * core_->mesh.scale))
-      fail(HF_ERROR_NON_FINITE, k, "the translation of transform %u is beyond %g box diagonals", k,
-           largest_translation);
+    check_transform(transforms[k], k, core_->mesh.scale);
   }
   for (std::uint32_t k = 0; k < numbers.size(); ++k) {
     HandleState& handle = state_->handles[find(numbers[k])];
@@ -388,7 +403,7 @@ void Pose::solve_paper(std::uint32_t iterations) noexcept {
                              state_->transforms.data());
 }
 
-DeformReport Pose::deform(const DeformRequest& request) {
+void Pose::prepare(const DeformRequest& request) {
   if (!layout_) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
   require_range(request.iteration_count, 1, 1000, "iteration_count");
   const Mesh& mesh = core_->mesh;
@@ -397,6 +412,62 @@ DeformReport Pose::deform(const DeformRequest& request) {
     triangle_normals_.reserve_at_least(memory(), static_cast<std::size_t>(mesh.triangle_count()));
     normals_ = std::move(normals);
   }
+  if (request.refine && !refinement_) {
+    if (core_->refinements > 0)
+      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the refinement step needs a solver of the harmonic equation");
+    refinement_ = make_shared_in<Refinement>(memory(), *core_, memory());
+  }
+  if (request.refine) refinement_->fit(layout_->sites->slot_count());
+}
+
+void Pose::ensure_surface() const {
+  if (!stale_) return;
+  blend(core_->mesh, layout_->weights, state_->transforms.data(), core_->mesh.centre, core_->mesh.scale,
+        positions_.data(), *core_->jobs);
+  stale_ = false;
+}
+
+Vec3 Pose::blended(std::int32_t vertex) const noexcept {
+  return core_->mesh.to_given(blend_vertex(core_->mesh, layout_->weights, state_->transforms.data(), vertex));
+}
+
+// Vertices and normals from the transforms.
+void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
+  const Mesh& mesh = core_->mesh;
+  posed_ = true;
+  stale_ = !request.surface;
+  report.cluster_count = static_cast<std::uint32_t>(layout_->weights.cluster_count);
+  report.unreached_vertex_count = static_cast<std::uint32_t>(layout_->weights.unreached_vertex_count);
+  report.last_change = state_->last_change;
+  if (!request.surface) return;
+  const Timer blend_timer;
+  blend(mesh, layout_->weights, state_->transforms.data(), mesh.centre, mesh.scale, positions_.data(), *core_->jobs);
+  report.blend_ms = blend_timer.milliseconds();
+  if (request.refine) {
+    const Timer refine_timer;
+    const RefineInput input{*core_,
+                            *rest_,
+                            layout_->reach,
+                            layout_->weights,
+                            *layout_->sites,
+                            layout_->handles,
+                            layout_->groups.get(),
+                            layout_->smooth ? &state_->smooth.rotation : nullptr,
+                            state_->transforms.data()};
+    refinement_->apply(input, positions_.data());
+    report.refine_ms = refine_timer.milliseconds();
+  }
+  report.positions = {positions_.data(), positions_.size()};
+  if (request.normals) {
+    const Timer normal_timer;
+    vertex_normals(mesh, *rest_, positions_.data(), triangle_normals_.data(), normals_.data(), *core_->jobs);
+    report.normals = {normals_.data(), normals_.size()};
+    report.normal_ms = normal_timer.milliseconds();
+  }
+}
+
+DeformReport Pose::deform(const DeformRequest& request) {
+  prepare(request);
   State& state = *state_;
   if (request.restart) {
     for (HandleState& handle : state.handles) handle.turn = logarithm(handle.rotation);
@@ -421,22 +492,54 @@ DeformReport Pose::deform(const DeformRequest& request) {
     state.started = true, state.changed = false, state.last_change = report_.last_change;
   }
   report.solve_ms = solve_timer.milliseconds();
+  write_surface(request, report);
+  return report;
+}
 
-  const Timer blend_timer;
-  blend(mesh, layout_->weights, state.transforms.data(), mesh.centre, mesh.scale, positions_.data(), *core_->jobs);
-  posed_ = true;
-  report.blend_ms = blend_timer.milliseconds();
-  report.positions = {positions_.data(), positions_.size()};
+// ---- for layers ----
 
-  if (request.normals) {
-    const Timer normal_timer;
-    vertex_normals(mesh, *rest_, positions_.data(), triangle_normals_.data(), normals_.data(), *core_->jobs);
-    report.normals = {normals_.data(), normals_.size()};
-    report.normal_ms = normal_timer.milliseconds();
+Span<const std::int32_t> Pose::region(std::uint32_t number) const {
+  return layout_->handles[require(number, HF_NO_INDEX)].region->vertices;
+}
+
+void Pose::prepare_start() {
+  if (!layout_) return;
+  if (layout_->smooth) {
+    start_.choose(*core_, *layout_->groups, layout_->smooth->subspace.group);
+  } else {
+    start_.motion.assign(state_->paper.motion.begin(), state_->paper.motion.end());
+    start_.own_unit.resize(core_->size());
   }
-  report.cluster_count = static_cast<std::uint32_t>(layout_->weights.cluster_count);
-  report.unreached_vertex_count = static_cast<std::uint32_t>(layout_->weights.unreached_vertex_count);
-  report.last_change = state.last_change;
+}
+
+void Pose::take_start(Span<const Vec3> surface) noexcept {
+  if (layout_->smooth) return start_.fit(*core_, *rest_, surface);
+  for (std::size_t v = 0; v < surface.size(); ++v) start_.own_unit[v] = core_->mesh.to_inner(surface[v]);
+  fit_motions(*layout_->paper, core_->mesh, start_.own_unit.data(), state_->paper);
+  std::copy(state_->paper.motion.begin(), state_->paper.motion.end(), start_.motion.begin());
+}
+
+DeformReport Pose::deform_from(const Pose& start, Span<const Vec3> turns, const DeformRequest& request) {
+  prepare(request);
+  State& state = *state_;
+  DeformReport report;
+  const Timer solve_timer;
+  const std::uint32_t iterations = request.iteration_count ? request.iteration_count : options_.iteration_count;
+  place_handles();
+  if (layout_->smooth) {
+    std::copy(start.start_.rotation.begin(), start.start_.rotation.end(), state.smooth.rotation.begin());
+    predict_rotations(*layout_->smooth, turns, state.smooth);
+    state.smooth.leash = 10;  // no leash: the start stands close enough
+    report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());
+  } else {
+    std::copy(start.start_.motion.begin(), start.start_.motion.end(), state.paper.motion.begin());
+    report_ = solve_paper_pose(*layout_->paper, core_->mesh, layout_->weights, iterations, settled_change, state.paper,
+                               state.transforms.data());
+  }
+  report.iteration_count = report_.iterations;
+  state.started = true, state.changed = true, state.last_change = report_.last_change;
+  report.solve_ms = solve_timer.milliseconds();
+  write_surface(request, report);
   return report;
 }
 

@@ -13,6 +13,7 @@
 
 #include "deform/paper_scheme.h"
 #include "deform/pose_solver.h"
+#include "deform/refine.h"
 
 namespace hf {
 
@@ -44,13 +45,15 @@ struct DeformRequest {
   bool normals = false;
   std::uint32_t iteration_count = 0;  // 0: the pose's
   bool restart = false;               // forget the last pose, turns beyond 180 degrees included
+  bool refine = false;                // one full-mesh step on top (refine.h); needs a second-order operator
+  bool surface = true;                // false: transforms only; ask blended() for the vertices wanted
 };
 
 struct DeformReport {
   Span<const Vec3> positions;  // per inner vertex, in the unit and frame of the mesh as given
   Span<const Vec3> normals;    // unit; empty when not asked for
   std::uint32_t iteration_count = 0, cluster_count = 0, unreached_vertex_count = 0;
-  double last_change = 0, solve_ms = 0, blend_ms = 0, normal_ms = 0;
+  double last_change = 0, solve_ms = 0, blend_ms = 0, normal_ms = 0, refine_ms = 0;
 };
 
 class Pose {
@@ -80,9 +83,32 @@ class Pose {
   // first handle.
   const ClusterWeights* weights() const noexcept;
   Span<const Affine> cluster_transforms() const noexcept;
+  bool posed() const noexcept { return posed_; }  // the transforms hold a pose
   // Rotation groups in use and unknowns the reduced system found dependent, for statistics and tests.
   std::int32_t group_count() const noexcept;
   std::int32_t dropped_unknowns() const noexcept;
+
+  // ---- for layers (pose_stack.h), whose poses must depend on nothing but what is given here ----
+
+  // A pose without handles that shares what was made of the mesh.
+  std::shared_ptr<Pose> without_handles() const;
+  Span<const std::int32_t> region(std::uint32_t number) const;  // inner vertices
+  std::uint32_t position_of(std::uint32_t number) const {
+    return static_cast<std::uint32_t>(require(number, HF_NO_INDEX));
+  }
+  const Rest& rest() const noexcept { return *rest_; }
+  Span<const Vec3> surface() const noexcept { return {positions_.data(), positions_.size()}; }  // of the last deform
+  // Throws HF_ERROR_NON_FINITE with this index. scale: the mesh's.
+  static void check_transform(const HandleTransform& transform, std::uint32_t index, double scale);
+  // The rotations of the given surface (inner vertices, in the mesh's given frame) become the start of deform_from().
+  // prepare_start() makes the room for it; nothing allocates after.
+  void prepare_start();
+  void take_start(Span<const Vec3> surface) noexcept;
+  // Solves from the start of `start` (a clone), turned on by `turns` (rotation vectors by handle, in the order they
+  // were added), whatever was solved before. Bits depend on start, transforms, turns and request only.
+  DeformReport deform_from(const Pose& start, Span<const Vec3> turns, const DeformRequest& request);
+  // One vertex of the last pose, in the unit and frame of the mesh as given.
+  Vec3 blended(std::int32_t vertex) const noexcept;
 
   Pose(std::shared_ptr<const Core> core, const PoseOptions& options,
        std::shared_ptr<const Rest> rest);  // for make_owner_in; use make()
@@ -130,6 +156,9 @@ class Pose {
   void place_handles() noexcept;
   void solve_smooth(std::uint32_t iterations) noexcept;
   void solve_paper(std::uint32_t iterations) noexcept;
+  void prepare(const DeformRequest& request);
+  void write_surface(const DeformRequest& request, DeformReport& report);
+  void ensure_surface() const;
 
   std::shared_ptr<const Core> core_;
   PoseOptions options_;
@@ -139,9 +168,13 @@ class Pose {
   std::shared_ptr<State> state_;
   std::shared_ptr<const Layout> previous_layout_;  // before the last handles were added
   std::shared_ptr<const State> previous_state_;
-  Buffer<Vec3> positions_, normals_, triangle_normals_;
-  Buffer<Vec3> turns_;  // scratch, handle_limit
-  bool posed_ = false;  // positions_ hold the last pose
+  mutable Buffer<Vec3> positions_;
+  Buffer<Vec3> normals_, triangle_normals_;
+  Buffer<Vec3> turns_;                      // scratch, handle_limit
+  bool posed_ = false;                      // there is a last pose
+  mutable bool stale_ = false;              // positions_ do not hold it: only transforms were asked for
+  std::shared_ptr<Refinement> refinement_;  // made at the first refined frame
+  GroupStart start_;
   SolveReport report_;
 };
 

@@ -35,6 +35,7 @@ class Assembly {
         elastic_(&memory),
         slot_of_group_(&memory),
         edge_count_(&memory),
+        needs_all_(&memory),
         entry_of_(&memory),
         row_(memory) {}
 
@@ -75,12 +76,22 @@ class Assembly {
       widest = std::max(widest, weights_.start[v + 1] - weights_.start[v]);
     row_.resize(2 * static_cast<std::size_t>(widest));
     elastic_edges_ = 0;
+    // by vertex: each is an end of as many edges as it has neighbours
     const Topology& topology = core_.topology;
-    for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
-      if (!is_elastic(topology.first(e))) continue;
-      ++elastic_edges_;
-      for (const std::int32_t v : {topology.first(e), topology.second(e)}) {
-        for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k) ++edge_count_[weights_.cluster[k]];
+    double ends = 0;
+    for (std::int32_t v = 0; v < core_.size(); ++v) {
+      if (!is_elastic(v)) continue;
+      const std::int32_t degree = topology.neighbour_start[v + 1] - topology.neighbour_start[v];
+      ends += degree;
+      for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k)
+        edge_count_[weights_.cluster[k]] += degree;
+    }
+    elastic_edges_ = 0.5 * ends;
+    needs_all_.assign(core_.size(), 0);
+    for (std::int32_t v = 0; v < core_.size(); ++v) {
+      for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k) {
+        if (weights_.cluster[k] >= weights_.handle_count && edge_count_[weights_.cluster[k]] < few_edges)
+          needs_all_[v] = 1;
       }
     }
   }
@@ -91,11 +102,7 @@ class Assembly {
     if (!is_elastic(i)) return 0;
     const double probability = edge_samples / elastic_edges_;
     if (probability >= 1) return 1;
-    for (const std::int32_t v : {i, j}) {
-      for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k) {
-        if (weights_.cluster[k] >= weights_.handle_count && edge_count_[weights_.cluster[k]] < few_edges) return 1;
-      }
-    }
+    if (needs_all_[i] || needs_all_[j]) return 1;
     return scattered(static_cast<std::uint32_t>(e)) < probability ? 1 / probability : 0;
   }
 
@@ -112,8 +119,10 @@ class Assembly {
       const std::int32_t i = topology.first(e), j = topology.second(e);
       if (!is_elastic(i)) continue;
       const std::int32_t gi = groups_.group_of[i], gj = groups_.group_of[j];
-      mark(gi, i), mark(gi, j);
-      if (gj != gi) mark(gj, i), mark(gj, j);
+      if (gj != gi) mark(gi, j), mark(gj, i);
+    }
+    for (std::int32_t v = 0; v < core_.size(); ++v) {
+      if (is_elastic(v)) mark(groups_.group_of[v], v);
     }
     out_.entry_start.push_back(0);
     for (std::size_t g = 0; g < out_.group.size(); ++g) {
@@ -235,6 +244,7 @@ class Assembly {
   Vector<std::uint8_t> elastic_;        // per component
   Vector<std::int32_t> slot_of_group_;  // position in out_.group, or -1
   Vector<std::int32_t> edge_count_;     // per cluster, ends counted
+  Vector<std::uint8_t> needs_all_;      // per vertex: in a cluster with few edges
   Vector<std::int32_t> entry_of_;       // per active group and cluster
   double elastic_edges_ = 0;
   Buffer<double> lower_;

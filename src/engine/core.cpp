@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "base/timer.h"
+#include "factor/factor_bytes.h"
+#include "mesh/biharmonic.h"
+#include "mesh/intrinsic.h"
 
 namespace hf {
 
@@ -63,10 +67,7 @@ void find_grounds(Core& core) {
   for (std::int32_t v = 0; v < core.size(); ++v) {
     const std::size_t c = static_cast<std::size_t>(core.mesh.component[static_cast<std::size_t>(v)]);
     if (core.ground[c] == Mesh::none) core.ground[c] = v;
-    const auto begin = k.row.begin() + k.column_start[static_cast<std::size_t>(v)],
-               end = k.row.begin() + k.column_start[static_cast<std::size_t>(v) + 1];
-    core.mean_diagonal[c] +=
-        std::fabs(k.value[static_cast<std::size_t>(std::lower_bound(begin, end, v) - k.row.begin())]);
+    core.mean_diagonal[c] += std::fabs(k.value[k.diagonal(v)]);
     count[c] += 1;
   }
   for (std::size_t c = 0; c < components; ++c) {
@@ -75,40 +76,113 @@ void find_grounds(Core& core) {
   }
 }
 
+// Weights of a bi-harmonic operator's L stay below these multiples of their median: the first with which K factors.
+constexpr double weight_caps[] = {1e3, 1e2, 1e1};
+constexpr int cap_count = 3;
+
+// K of the options, on the mesh's own edges or on the intrinsic Delaunay ones. cap: of weight_caps.
+void make_operator(Core& core, const CoreOptions& options, int cap) {
+  Memory& pool = *core.memory;
+  Vector<double> areas(&pool);
+  if (options.operator_kind == OperatorKind::intrinsic_delaunay) {
+    IntrinsicTriangulation surface = IntrinsicTriangulation::make(core.mesh, core.topology, pool, core.jobs.get());
+    surface.flip_to_delaunay();
+    core.laplacian = surface.laplacian(core.size(), pool, core.jobs.get());
+    if (options.field_kind == FieldKind::biharmonic) areas = surface.vertex_areas(core.size(), pool);
+  } else {
+    core.laplacian = hf::laplacian(core.topology, core.weights, pool, core.jobs.get());
+    if (options.field_kind == FieldKind::biharmonic) areas = vertex_areas(core.mesh, pool);
+  }
+  if (options.field_kind != FieldKind::harmonic) {
+    if (options.field_kind == FieldKind::biharmonic) areas = inverse_masses(core.mesh, std::move(areas));
+    cap_weights(core.laplacian, weight_caps[cap], pool);
+    core.laplacian = biharmonic(core.laplacian, areas, pool, core.jobs.get());
+    core.refinements = 1;
+  }
+  find_grounds(core);
+}
+
+// K with its grounds added for as long as this lives: a copy of it would cost as much as building it.
+class InPlaceGrounds {
+ public:
+  explicit InPlaceGrounds(Core& core) : core_(core), plain_(core.memory.get()) {
+    plain_.reserve(core.ground.size());
+    for (std::size_t c = 0; c < core.ground.size(); ++c) {
+      double& diagonal = core.laplacian.value[core.laplacian.diagonal(core.ground[c])];
+      plain_.push_back(diagonal);
+      diagonal += core.mean_diagonal[c];
+    }
+  }
+  ~InPlaceGrounds() {
+    for (std::size_t c = 0; c < plain_.size(); ++c)
+      core_.laplacian.value[core_.laplacian.diagonal(core_.ground[c])] = plain_[c];
+  }
+  InPlaceGrounds(const InPlaceGrounds&) = delete;
+  InPlaceGrounds& operator=(const InPlaceGrounds&) = delete;
+
+ private:
+  Core& core_;
+  Vector<double> plain_;
+};
+
+void make_factor(Core& core, const CoreOptions& options) {
+  Memory& pool = *core.memory;
+  if (!options.saved_factor.empty()) {
+    LoadOptions load;
+    load.unknowns = core.size(), load.matrix_hash = grounded_hash(core), load.borrow = options.borrow_factor;
+    core.factor = load_factor(options.saved_factor, load, pool, *core.jobs);
+  } else if (options.need_factor) {
+    const Vector<float> coordinates = ordering_coordinates(core.mesh, pool);
+    FactorOptions factor_options;
+    factor_options.ordering = options.ordering;
+    const InPlaceGrounds grounds(core);
+    core.factor = Factor::make(core.laplacian, coordinates, factor_options, pool, *core.jobs);
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const Core> Core::make(const MeshInput& input, const CoreOptions& options,
                                        std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs) {
   Memory& pool = *memory;
+  if (!options.saved_factor.empty()) check_saved_factor(options.saved_factor);
   std::shared_ptr<Core> core = make_owner_in<Core>(memory, memory, std::move(jobs));
   report(options.progress, 0.0f);
   Timer weld_timer;
-  core->mesh = Mesh::make(input, pool);
+  core->mesh = Mesh::make(input, pool, core->jobs.get());
   core->times.weld_ms = weld_timer.milliseconds();
   report(options.progress, 0.1f);
 
   Timer operator_timer;
-  core->topology = Topology::make(core->mesh, pool);
-  core->weights = edge_weights(core->mesh, core->topology, OperatorKind::cotangent, pool);
+  core->topology = Topology::make(core->mesh, pool, core->jobs.get());
+  core->weights = edge_weights(core->mesh, core->topology, OperatorKind::cotangent, pool, core->jobs.get());
   MeshReport& found = core->mesh.report;
   found.negative_edge_count = count_negative(core->weights);
-  if (options.operator_kind != OperatorKind::cotangent)
-    core->weights = edge_weights(core->mesh, core->topology, options.operator_kind, pool);
+  if (options.operator_kind == OperatorKind::clamped || options.operator_kind == OperatorKind::uniform)
+    core->weights = edge_weights(core->mesh, core->topology, options.operator_kind, pool, core->jobs.get());
   count_edges(core->mesh, core->topology, found);
-  core->laplacian = hf::laplacian(core->topology, core->weights, pool);
-  find_grounds(*core);
+  make_operator(*core, options, 0);
   core->ordering = options.ordering;
   core->times.operator_ms = operator_timer.milliseconds();
   report(options.progress, 0.2f);
-
-  if (options.need_factor) {
-    const Vector<float> coordinates = ordering_coordinates(core->mesh, pool);
-    FactorOptions factor_options;
-    factor_options.ordering = options.ordering;
-    core->factor = Factor::make(grounded(*core), coordinates, factor_options, pool, *core->jobs);
+  for (int cap = 0;; ++cap) {
+    try {
+      make_factor(*core, options);
+      break;
+    } catch (const Error& error) {
+      // a lost pivot, or saved bytes of a factor that was made with the next cap
+      const bool again = options.field_kind != FieldKind::harmonic && cap + 1 < cap_count &&
+                         (error.code() == HF_ERROR_NOT_POSITIVE_DEFINITE || !options.saved_factor.empty());
+      if (!again) throw;
+    }
+    make_operator(*core, options, cap + 1);
   }
   report(options.progress, 1.0f);
   return core;
+}
+
+std::uint64_t grounded_hash(const Core& core) {
+  return hash_matrix(core.laplacian, core.ground, core.mean_diagonal, *core.memory, *core.jobs);
 }
 
 SymmetricMatrix grounded(const Core& core) {
@@ -116,12 +190,7 @@ SymmetricMatrix grounded(const Core& core) {
   a.column_start.assign(core.laplacian.column_start.begin(), core.laplacian.column_start.end());
   a.row.assign(core.laplacian.row.begin(), core.laplacian.row.end());
   a.value.assign(core.laplacian.value.begin(), core.laplacian.value.end());
-  for (std::size_t c = 0; c < core.ground.size(); ++c) {
-    const std::int32_t g = core.ground[c];
-    const auto begin = a.row.begin() + a.column_start[static_cast<std::size_t>(g)],
-               end = a.row.begin() + a.column_start[static_cast<std::size_t>(g) + 1];
-    a.value[static_cast<std::size_t>(std::lower_bound(begin, end, g) - a.row.begin())] += core.mean_diagonal[c];
-  }
+  for (std::size_t c = 0; c < core.ground.size(); ++c) a.value[a.diagonal(core.ground[c])] += core.mean_diagonal[c];
   return a;
 }
 

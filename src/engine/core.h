@@ -7,6 +7,7 @@
 
 #include "base/jobs.h"
 #include "base/memory.h"
+#include "engine/preview_cache.h"
 #include "factor/factor.h"
 #include "mesh/laplacian.h"
 #include "mesh/mesh.h"
@@ -54,8 +55,11 @@ class Workspace {
 
 struct CoreOptions {
   OperatorKind operator_kind = OperatorKind::cotangent;
+  FieldKind field_kind = FieldKind::harmonic;
   Ordering ordering = Ordering::nested_dissection;
   bool need_factor = true;  // the engines updown and refactor keep their own
+  Span<const std::uint8_t> saved_factor;  // not empty: the factor is loaded from these bytes instead of made
+  bool borrow_factor = false;             // its numbers are read in place: the bytes outlive the core
   Progress* progress = nullptr;
 };
 
@@ -76,19 +80,25 @@ struct Core {
   std::shared_ptr<JobRunner> jobs;
   Mesh mesh;
   Topology topology;
-  Vector<double> weights;        // per edge
-  SymmetricMatrix laplacian;     // K
+  Vector<double> weights;        // per edge of the mesh, of the Laplacian L
+  SymmetricMatrix laplacian;     // K: L, or bi-harmonic
   Vector<std::int32_t> ground;   // per component
   Vector<double> mean_diagonal;  // per component
+  // Corrections with the true operator, in difference form, that a field takes after its sweep: 0 for second-order
+  // operators, 1 for bi-harmonic ones, whose condition is squared.
+  std::int32_t refinements = 0;
   Ordering ordering = Ordering::nested_dissection;
   std::shared_ptr<const Factor> factor;  // of A; null when the options asked for none
   CoreTimes times;
+  mutable PreviewCache preview;  // the factor in single precision
   mutable WorkspacePool workspaces;
   mutable WorkspacePool zeroed_workspaces;
 };
 
 // The grounded matrix A.
 SymmetricMatrix grounded(const Core& core);
+// Its hash, by which a saved factor knows its mesh: pattern and numbers of K, grounds and their weights.
+std::uint64_t grounded_hash(const Core& core);
 // Coordinates of the inner vertices as the ordering takes them.
 Vector<float> ordering_coordinates(const Mesh& mesh, Memory& memory);
 

@@ -3,13 +3,14 @@
 // (see green.h) are negative, which makes M quasi-definite, so that it factors without pivoting in any order (Vanderbei
 // 1995).
 //
-// Append a row: one forward substitution, O(k^2). Remove a row r while all signs are positive: the rows of L below r
+// Append rows: the front kernels of the sparse factor on the rows that are new. Remove a row r while all signs are positive: the rows of L below r
 // get a rank-one update with the column that is left over, L33 L33' + l l', by plane rotations, O((k - r)^2). Many
 // removals at once, or signs mixed: factorised again from M, O(k^3 / 3). A block is copied before it is edited, so a
 // failure leaves the old one in place.
 #pragma once
 #include <cstdint>
 
+#include "base/jobs.h"
 #include "base/memory.h"
 #include "base/span.h"
 
@@ -30,7 +31,7 @@ class DenseBlock {
   // Appends a row: row[j] = M(new, j) for the present rows j, row[count] = M(new, new). factorise() must follow.
   void append(std::int32_t id, const double* row, bool positive = true);
   // Brings L up to date. Returns -1, or the row whose pivot is lost: that site depends linearly on the ones before it.
-  std::int32_t factorise();
+  std::int32_t factorise(JobRunner& jobs);
 
   // In place: x <- M^-1 x, x[i * channels + c].
   void solve(double* x, std::int32_t channels) const noexcept;
@@ -43,13 +44,15 @@ class DenseBlock {
   static std::size_t row(std::int32_t i) noexcept {
     return static_cast<std::size_t>(i) * (static_cast<std::size_t>(i) + 1) / 2;
   }
+  std::int32_t factorise_positive(JobRunner& jobs);
+  std::int32_t factorise_signed();
   void update_without(std::int32_t r);            // rank-one update of L for the removal of row r
   void keep_rows(Span<const std::int32_t> rows);  // compacts everything to these rows, ascending
 
   Memory* memory_;
   Vector<std::int32_t> ids_;
   Vector<double> sign_;
-  Vector<double> m_, l_;    // packed lower rows
+  Vector<double> m_, l_;    // packed lower rows; the diagonal of L inverted
   std::int32_t valid_ = 0;  // leading rows of l_ that are up to date
   std::int32_t negative_ = 0;
   Vector<double> ones_;

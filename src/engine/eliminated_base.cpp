@@ -1,10 +1,9 @@
 #include "engine/eliminated_base.h"
 
-#include <algorithm>
-
 namespace hf {
 
-std::shared_ptr<const EliminatedBase> EliminatedBase::make(const Core& core, Span<const std::int32_t> vertices) {
+std::shared_ptr<const EliminatedBase> EliminatedBase::make(const Core& core, Span<const std::int32_t> vertices,
+                                                           JobRunner& jobs) {
   Memory& memory = *core.memory;
   const auto base = make_shared_in<EliminatedBase>(memory, memory);
   base->vertex.assign(vertices.begin(), vertices.end());
@@ -20,12 +19,10 @@ std::shared_ptr<const EliminatedBase> EliminatedBase::make(const Core& core, Spa
   // only floating components stay grounded
   for (std::size_t c = 0; c < core.ground.size(); ++c) {
     if (base->floating[c]) continue;
-    const std::size_t g = static_cast<std::size_t>(core.ground[c]);
-    const auto begin = a.row.begin() + a.column_start[g], end = a.row.begin() + a.column_start[g + 1];
-    const std::size_t diagonal = static_cast<std::size_t>(std::lower_bound(begin, end, core.ground[c]) - a.row.begin());
+    const std::size_t diagonal = a.diagonal(core.ground[c]);
     a.value[diagonal] = core.laplacian.value[diagonal];
   }
-  base->factor = core.factor->refactor(a, eliminated, memory, *core.jobs);
+  base->factor = core.factor->refactor(a, eliminated, memory, jobs);
   return base;
 }
 

@@ -11,7 +11,8 @@ namespace hf {
 struct EliminatedBase {
   explicit EliminatedBase(Memory& memory) : vertex(&memory), index_of(&memory), floating(&memory) {}
   // vertices: inner, each once. Cost: one numeric factorisation.
-  static std::shared_ptr<const EliminatedBase> make(const Core& core, Span<const std::int32_t> vertices);
+  static std::shared_ptr<const EliminatedBase> make(const Core& core, Span<const std::int32_t> vertices,
+                                                    JobRunner& jobs);
 
   std::int32_t count() const noexcept { return static_cast<std::int32_t>(vertex.size()); }
   bool eliminated(std::int32_t v) const noexcept { return index_of[static_cast<std::size_t>(v)] >= 0; }

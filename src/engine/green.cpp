@@ -1,36 +1,17 @@
-#include "engine/green.h"
+#include "engine/green_right.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "engine/sparse_sites.h"
 
 namespace hf {
 namespace {
 
 using Index = std::int32_t;
 std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
-
-// Channels solved in one sweep: wider rows would push the right-hand sides out of the cache.
-constexpr Index channel_block = 8;
+constexpr std::size_t piece = 16384;  // rows a job takes
 
 }  // namespace
-
-// The answer of the dense system: lambda or t by row, and the constant of every component.
-struct GreenSolver::Right {
-  explicit Right(Memory& memory)
-      : slot(&memory), freed(&memory), centre(&memory), constant(&memory), x(&memory), probe(&memory) {}
-  const double* of(Index row, std::size_t m) const noexcept {
-    return row >= 0 ? slot.data() + at(row) * m : freed.data() + at(base_index(row)) * m;
-  }
-  double* of(Index row, std::size_t m) noexcept {
-    return row >= 0 ? slot.data() + at(row) * m : freed.data() + at(base_index(row)) * m;
-  }
-  Vector<double> slot, freed;
-  Vector<double> centre;    // mean site value of every component: a large common offset must not cost digits
-  Vector<double> constant;  // centre + a
-  Vector<double> x, probe;
-};
 
 GreenSolver::GreenSolver(std::shared_ptr<const Core> core)
     : core_(std::move(core)), state_(core_->mesh.component_count(), *core_->memory) {}
@@ -40,12 +21,14 @@ GreenSolver::GreenSolver(const GreenSolver& other)
       state_(other.state_, *other.core_->memory),
       path_solves_(other.path_solves_.load()),
       sweeps_(other.sweeps_.load()),
-      rebases_(other.rebases_.load()) {}
+      rebases_(other.rebases_.load()),
+      dense_edits_(other.dense_edits_.load()),
+      cloned_at_(other.counts()) {}
 
 void GreenSolver::State::swap(State& other) noexcept {
   entries.swap(other.entries), base.swap(other.base), freed.swap(other.freed), groups.swap(other.groups),
       blocks.swap(other.blocks), sites_of.swap(other.sites_of);
-  std::swap(rows, other.rows);
+  std::swap(rows, other.rows), std::swap(decision, other.decision);
 }
 
 EngineCounters GreenSolver::counters() const noexcept {
@@ -54,8 +37,20 @@ EngineCounters GreenSolver::counters() const noexcept {
   counters.path_solves = path_solves_, counters.sweeps = sweeps_;
   for (const Group& group : state_.groups) counters.bytes += group.paths->bytes();
   for (const auto& block : state_.blocks) counters.bytes += block ? block->bytes() : 0.0;
+  counters.rebase_advised = counters.bytes > core_->factor->statistics().bytes;
+  counters.rebases = rebases_, counters.dense_edits = dense_edits_;
+  counters.dense_rows = static_cast<std::uint32_t>(state_.rows);
+  for (const Entry& entry : state_.entries) counters.eliminated += entry.used() && entry.eliminated >= 0;
+  counters.last_route = state_.decision.route;
+  counters.dense_ms = state_.decision.dense_ms, counters.rebase_ms = state_.decision.rebase_ms;
   if (state_.base) counters.bytes += state_.base->factor->statistics().bytes;
   return counters;
+}
+
+void GreenSolver::succeed(const SiteSolver& predecessor) noexcept {
+  const Counts now = static_cast<const GreenSolver&>(predecessor).counts();
+  path_solves_ += now.paths - cloned_at_.paths, sweeps_ += now.sweeps - cloned_at_.sweeps;
+  rebases_ += now.rebases - cloned_at_.rebases, dense_edits_ += now.dense_edits - cloned_at_.dense_edits;
 }
 
 // z <- g = G^-1 P (-K_FE s_E), centred values.
@@ -103,15 +98,7 @@ void GreenSolver::solve_dense(const double* values, Index channels, Index first,
     }
   }
   if (base) {
-    right.probe.resize(PathGroup::capacity * m);
-    for (const Group& group : state_.groups) {
-      if (group.live == 0) continue;
-      base->factor->project(*group.paths, z, count, right.probe.data());
-      for (Index i = 0; i < group.paths->count(); ++i) {
-        if (group.row[i] == nobody) continue;
-        for (std::size_t q = 0; q < m; ++q) right.of(group.row[i], m)[q] -= right.probe[at(i) * m + q];
-      }
-    }
+    subtract_projections(z, count, right);
     const auto value_at = [&](Index v) { return base->eliminated(v) ? slot_of_base[at(base->index_of[at(v)])] : -1; };
     for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
       const Entry& entry = state_.entries[slot];
@@ -134,6 +121,26 @@ void GreenSolver::solve_dense(const double* values, Index channels, Index first,
     }
   }
 
+  solve_rows(count, right);
+}
+
+// right -= Y'z, row by row.
+void GreenSolver::subtract_projections(const double* z, Index count, Right& right) const {
+  const std::size_t m = at(count);
+  right.probe.resize(PathGroup::capacity * m);
+  for (const Group& group : state_.groups) {
+    if (group.live == 0) continue;
+    factor(state_).project(*group.paths, z, count, right.probe.data());
+    for (Index i = 0; i < group.paths->count(); ++i) {
+      if (group.row[i] == nobody) continue;
+      for (std::size_t q = 0; q < m; ++q) right.of(group.row[i], m)[q] -= right.probe[at(i) * m + q];
+    }
+  }
+}
+
+// right <- lambda, t and, added to the constants, a.
+void GreenSolver::solve_rows(Index count, Right& right) const {
+  const std::size_t m = at(count);
   for (std::size_t c = 0; c < state_.blocks.size(); ++c) {
     const DenseBlock* block = state_.blocks[c].get();
     if (!block) continue;
@@ -144,6 +151,7 @@ void GreenSolver::solve_dense(const double* values, Index channels, Index first,
     for (std::size_t q = 0; q < m; ++q) {
       double shift = 0;
       if (floating(state_, c)) {
+        if (!right.total.empty()) shift = right.total[c * m + q];
         for (std::size_t i = 0; i < rows.size(); ++i) shift += right.x[i * m + q];
         shift /= block->ones_sum();
         for (std::size_t i = 0; i < rows.size(); ++i) right.x[i * m + q] -= shift * block->ones()[i];
@@ -188,29 +196,81 @@ void find_centres(const Entries& entries, const Vector<Index>& sites_of, const d
 
 }  // namespace
 
-void GreenSolver::solve(const double* values, Index channels, double* field, double* flux) const {
+// z <- G^-T (g + Y_w lambda + Y_r t) for channels [first, first + count), and the rest of the answer in `right`.
+void GreenSolver::sweep(const double* values, Index channels, Index first, Index count, Right& right,
+                        double* z) const {
+  const std::size_t size = at(core_->size()) * at(count);
+  find_centres(state_.entries, state_.sites_of, values, channels, first, count, right.centre);
+  core_->jobs->for_each(static_cast<std::uint32_t>((size + piece - 1) / piece), [&](std::uint32_t p) {
+    std::fill(z + p * piece, z + std::min(size, (p + std::size_t{1}) * piece), 0.0);
+  });
+  if (state_.base) base_forward(values, channels, first, count, right.centre, z);
+  solve_dense(values, channels, first, count, z, right);
+  combine(right, count, z);
+  factor(state_).backward(z, count, *core_->jobs);
+  ++sweeps_;
+}
+
+void GreenSolver::solve_into(const double* values, Index channels, FieldSink& sink) const {
   const std::size_t n = at(core_->size()), stride = at(channels);
+  if (state_.base || core_->refinements > 0) return solve_copied(*this, *core_, values, channels, sink);
+  const Span<const Index> position = core_->factor->position(), order = core_->factor->order();
+  const bool one_component = state_.sites_of.size() == 1;
   Right right(memory());
-  // the flux of an eliminated site is read off the field
-  Workspace own(core_->workspaces, state_.base && flux && !field ? n * stride : 0);
-  if (state_.base && flux && !field) field = own.data();
   for (Index first = 0; first < channels; first += channel_block) {
     const Index count = std::min(channel_block, channels - first);
     const std::size_t m = at(count);
-    find_centres(state_.entries, state_.sites_of, values, channels, first, count, right.centre);
+    Workspace z(core_->workspaces, n * m);
+    sweep(values, channels, first, count, right, z.data());
+    core_->jobs->for_each(static_cast<std::uint32_t>((n + piece - 1) / piece), [&](std::uint32_t p) {
+      const std::size_t begin = p * piece, end = std::min(n, begin + piece);
+      if (one_component && m == 1) {
+        const double shift = right.constant[0];
+        for (std::size_t row = begin; row < end; ++row) z[row] += shift;
+        return;
+      }
+      for (std::size_t row = begin; row < end; ++row) {
+        const std::size_t c = one_component ? 0 : at(core_->mesh.component[at(order[row])]);
+        for (std::size_t q = 0; q < m; ++q) {
+          double& u = z[row * m + q];
+          u = state_.sites_of[c] > 0 ? u + right.constant[c * m + q] : 0.0;
+        }
+      }
+    });
+    for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
+      const Entry& entry = state_.entries[slot];
+      if (!entry.used() || !entry.site.is_vertex() || entry.site.compliance != 0) continue;
+      std::copy_n(values + slot * stride + at(first), m, &z[at(position[at(entry.site.vertex[0])]) * m]);
+    }
+    sink.take(first, count, z.data(), position.data());
+  }
+}
+
+void GreenSolver::solve(const double* values, Index channels, double* field, double* flux) const {
+  const std::size_t n = at(core_->size()), stride = at(channels);
+  Right right(memory());
+  // the flux of an eliminated site is read off the field, and a refinement starts from it
+  const bool needs_field = flux && !field && (state_.base || core_->refinements > 0);
+  Workspace own(core_->workspaces, needs_field ? n * stride : 0);
+  if (needs_field) field = own.data();
+  for (Index first = 0; first < channels; first += channel_block) {
+    const Index count = std::min(channel_block, channels - first);
+    const std::size_t m = at(count);
     Workspace z(core_->workspaces, field ? n * m : 0);
-    if (field) std::fill_n(z.data(), n * m, 0.0);
-    if (state_.base) base_forward(values, channels, first, count, right.centre, z.data());
-    solve_dense(values, channels, first, count, z.data(), right);
-    for (std::size_t slot = 0; flux && slot < state_.entries.size(); ++slot)
-      std::copy_n(right.slot.data() + slot * m, m, flux + slot * stride + at(first));
+    if (field) {
+      sweep(values, channels, first, count, right, z.data());
+    } else {
+      find_centres(state_.entries, state_.sites_of, values, channels, first, count, right.centre);
+      solve_dense(values, channels, first, count, nullptr, right);
+    }
+    const auto write_flux = [&] {
+      for (std::size_t slot = 0; flux && slot < state_.entries.size(); ++slot)
+        std::copy_n(right.slot.data() + slot * m, m, flux + slot * stride + at(first));
+    };
+    write_flux();
     if (!field) continue;
-    combine(right, count, z.data());
-    factor(state_).backward(z.data(), count, *core_->jobs);
-    ++sweeps_;
 
     const Span<const Index> position = core_->factor->position();
-    constexpr std::size_t piece = 16384;
     core_->jobs->for_each(static_cast<std::uint32_t>((n + piece - 1) / piece), [&](std::uint32_t p) {
       const std::size_t end = std::min(n, (p + std::size_t{1}) * piece);
       for (std::size_t v = p * piece; v < end; ++v) {
@@ -226,13 +286,17 @@ void GreenSolver::solve(const double* values, Index channels, double* field, dou
       for (std::size_t q = 0; q < m; ++q)
         field[v * stride + at(first) + q] = right.freed[b * m + q] + right.constant[c * m + q];
     }
+    for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
+      const Entry& entry = state_.entries[slot];
+      if (!entry.used() || !entry.site.is_vertex() || entry.site.compliance != 0) continue;
+      std::copy_n(values + slot * stride + at(first), m, field + at(entry.site.vertex[0]) * stride + at(first));
+    }
+    for (Index step = 0; step < core_->refinements; ++step) {
+      refine(values, channels, first, count, z.data(), right, field);
+      write_flux();
+    }
   }
   if (!field) return;
-  for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
-    const Entry& entry = state_.entries[slot];
-    if (!entry.used() || !entry.site.is_vertex() || entry.site.compliance != 0) continue;
-    std::copy_n(values + slot * stride, channels, field + at(entry.site.vertex[0]) * stride);
-  }
   if (state_.base && flux) base_flux(values, channels, field, flux);
 }
 
@@ -266,23 +330,16 @@ void GreenSolver::base_flux(const double*, Index channels, const double* field, 
 
 void GreenSolver::solve_at(const double* values, Index channels, Span<const Index> vertices, double* out) const {
   const std::size_t n = at(core_->size()), stride = at(channels);
-  if (state_.base) {
-    // the eliminated sites reach everything: their part needs a sweep over the mesh
+  if (state_.base || core_->refinements > 0) {
+    // the eliminated sites reach everything, and so does a residual: their part needs a sweep over the mesh
     Workspace field(core_->workspaces, n * stride);
     solve(values, channels, field.data(), nullptr);
     for (std::size_t i = 0; i < vertices.size(); ++i)
       std::copy_n(field.data() + at(vertices[i]) * stride, stride, out + i * stride);
     return;
   }
-  SiteColumns columns(memory());
-  for (const Index v : vertices) columns.append(Site::at_vertex(core_->mesh, v), nullptr);
-  Vector<std::shared_ptr<const PathGroup>> groups(&memory());
-  Vector<Index> group(vertices.size(), &memory()), column(vertices.size(), &memory());
-  core_->factor->solve_paths(columns.view(), memory(), *core_->jobs, groups, group, column);
-  path_solves_ += static_cast<std::uint32_t>(vertices.size());
-
+  const Span<const Index> position = core_->factor->position();
   Right right(memory());
-  Vector<double> probe(groups.size() * PathGroup::capacity * channel_block, &memory());
   for (Index first = 0; first < channels; first += channel_block) {
     const Index count = std::min(channel_block, channels - first);
     const std::size_t m = at(count);
@@ -291,16 +348,16 @@ void GreenSolver::solve_at(const double* values, Index channels, Span<const Inde
     Workspace z(core_->zeroed_workspaces, n * m);
     z.soil();
     combine(right, count, z.data());
-    for (std::size_t g = 0; g < groups.size(); ++g)
-      core_->factor->project(*groups[g], z.data(), count, probe.data() + g * PathGroup::capacity * m);
-    for (const Group& used : state_.groups) core_->factor->clear(*used.paths, count, z.data());
-    z.clean();
+    core_->factor->backward_at(vertices, z.data(), count);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const std::size_t c = at(core_->mesh.component[at(vertices[i])]);
-      const double* y = probe.data() + (at(group[i]) * PathGroup::capacity + at(column[i])) * m;
+      const double* y = z.data() + at(position[at(vertices[i])]) * m;
       for (std::size_t q = 0; q < m; ++q)
         out[i * stride + at(first) + q] = state_.sites_of[c] > 0 ? y[q] + right.constant[c * m + q] : 0.0;
     }
+    core_->factor->clear_at(vertices, z.data(), count);
+    for (const Group& used : state_.groups) core_->factor->clear(*used.paths, count, z.data());
+    z.clean();
   }
   // hard sites among the vertices hold their values
   Vector<std::pair<Index, std::size_t>> asked(&memory());

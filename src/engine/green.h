@@ -36,9 +36,14 @@ class GreenSolver final : public SiteSolver {
 
   void edit(const SiteEdit& edit) override;
   void solve(const double* values, std::int32_t channels, double* field, double* flux) const override;
+  void solve_into(const double* values, std::int32_t channels, FieldSink& sink) const override;
   void solve_at(const double* values, std::int32_t channels, Span<const std::int32_t> vertices,
                 double* out) const override;
+  void solve_preview(const double* values, std::int32_t channels, std::int32_t corrections, double* field,
+                     PreviewInfo& info) const override;
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<GreenSolver>(core_->memory, *this); }
+  void rebase(JobRunner& jobs) override;
+  void succeed(const SiteSolver& predecessor) noexcept override;
   EngineKind kind() const noexcept override { return EngineKind::green; }
   EngineCounters counters() const noexcept override;
   std::int32_t site_count(std::int32_t component) const noexcept override {
@@ -50,6 +55,8 @@ class GreenSolver final : public SiteSolver {
   using Index = std::int32_t;
   // A row of the dense system is named by the slot of its site, or, for the free value of base index b, by -2 - b.
   static constexpr Index nobody = -1;
+  // Channels solved in one sweep: wider rows would push the right-hand sides out of the cache.
+  static constexpr Index channel_block = 8;
   static Index free_row(Index base_index) noexcept { return -2 - base_index; }
   static Index base_index(Index row) noexcept { return -2 - row; }
 
@@ -72,6 +79,11 @@ class GreenSolver final : public SiteSolver {
   struct Free {
     Path path;  // group -1: the base site is in force
   };
+  // What the cost model said of an edit.
+  struct Decision {
+    EditRoute route = EditRoute::none;
+    double dense_ms = 0, rebase_ms = 0;
+  };
   struct State {
     State(Index components, Memory& memory)
         : entries(&memory),
@@ -86,7 +98,8 @@ class GreenSolver final : public SiteSolver {
           groups(other.groups, &memory),
           blocks(other.blocks, &memory),
           sites_of(other.sites_of, &memory),
-          rows(other.rows) {}
+          rows(other.rows),
+          decision(other.decision) {}
     State(State&&) = default;
     void swap(State& other) noexcept;
     Vector<Entry> entries;                       // by slot
@@ -96,6 +109,7 @@ class GreenSolver final : public SiteSolver {
     Vector<std::shared_ptr<const DenseBlock>> blocks;  // by component; null without a row
     Vector<Index> sites_of;                            // sites by component
     Index rows = 0;                                    // of all blocks
+    Decision decision;                                 // of the edit that led here
   };
   struct Addition {
     Index row;  // slot or free_row
@@ -113,14 +127,23 @@ class GreenSolver final : public SiteSolver {
   void repack(State& state) const;
   void place_all(State& state, const SiteEdit& edit, bool eliminate) const;
   State with_sites(const SiteEdit& edit) const;
-  bool wants_new_layout(const SiteEdit& edit, bool& eliminate) const;
+  Decision decide(const SiteEdit& edit) const;
 
   // solving, in green.cpp
   struct Right;
+  void sweep(const double* values, Index channels, Index first, Index count, Right& right, double* z) const;
   void base_forward(const double* values, Index channels, Index first, Index count, const Vector<double>& centre,
                     double* z) const;
   void solve_dense(const double* values, Index channels, Index first, Index count, const double* z, Right& right) const;
+  void subtract_projections(const double* z, Index count, Right& right) const;
+  void solve_rows(Index count, Right& right) const;
   void combine(const Right& right, Index count, double* z) const;
+  // in green_refine.cpp
+  struct SingleSweeps;
+  void refine(const double* values, Index channels, Index first, Index count, double* z, Right& right, double* field,
+              SingleSweeps* single = nullptr) const;
+  // in green_preview.cpp
+  double centre_and_range(const double* values, Index channels, Index first, Index count, Vector<double>& centre) const;
   void base_flux(const double* values, Index channels, const double* field, double* flux) const;
 
   const Factor& factor(const State& state) const noexcept { return state.base ? *state.base->factor : *core_->factor; }
@@ -132,10 +155,17 @@ class GreenSolver final : public SiteSolver {
     return !state.base || state.base->floating[component];
   }
   Memory& memory() const noexcept { return *core_->memory; }
+  JobRunner& jobs() const noexcept { return runner_ ? *runner_ : *core_->jobs; }
 
   std::shared_ptr<const Core> core_;
+  JobRunner* runner_ = nullptr;  // during a rebase: the threads it was given
   State state_;
-  mutable std::atomic<std::uint32_t> path_solves_{0}, sweeps_{0}, rebases_{0};
+  struct Counts {
+    std::uint32_t paths = 0, sweeps = 0, rebases = 0, dense_edits = 0;
+  };
+  Counts counts() const noexcept { return {path_solves_, sweeps_, rebases_, dense_edits_}; }
+  mutable std::atomic<std::uint32_t> path_solves_{0}, sweeps_{0}, rebases_{0}, dense_edits_{0};
+  Counts cloned_at_;  // counts of the engine this one was cloned from, at that time
 };
 
 }  // namespace hf

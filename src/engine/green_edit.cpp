@@ -19,29 +19,47 @@ struct NeedsNewLayout {};
 }  // namespace
 
 void GreenSolver::edit(const SiteEdit& edit) {
-  bool eliminate = false;
-  if (!wants_new_layout(edit, eliminate)) {
+  Decision decision = decide(edit);
+  if (decision.route == EditRoute::dense) {
     State next(state_, memory());
     try {
       apply(next, edit);
+      next.decision = decision;
       state_.swap(next);
+      ++dense_edits_;
       return;
     } catch (const NeedsNewLayout&) {
-      eliminate = false;
-      wants_new_layout(edit, eliminate);
+      decision.route = EditRoute::fresh;
     }
   }
   State next = with_sites(edit);
-  place_all(next, edit, eliminate);
+  place_all(next, edit, decision.route == EditRoute::rebase);
+  next.decision = decision;
   state_.swap(next);
 }
 
-// Compares going on with starting over, plainly or with the hard vertex sites eliminated. True: start over.
-bool GreenSolver::wants_new_layout(const SiteEdit& edit, bool& eliminate) const {
-  double entries = 0, columns = 0;
-  for (const Group& group : state_.groups) entries += group.paths->bytes() / 8, columns += group.paths->count();
-  // bytes of a group are rows, not entries of the factor it has passed: keep the planar estimate for those
-  const SiteCost cost(core_->factor->statistics(), core_->size(), 0, columns >= 16 ? entries / columns : 0);
+void GreenSolver::rebase(JobRunner& jobs) {
+  const SiteEdit nothing;
+  State next = with_sites(nothing);
+  bool hard = false;
+  for (const Entry& entry : next.entries)
+    hard = hard || (entry.used() && entry.site.is_vertex() && entry.site.compliance == 0);
+  if (!hard) fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "no hard site on a vertex: there is nothing to move into the factor");
+  runner_ = &jobs;
+  try {
+    place_all(next, nothing, true);
+  } catch (...) {
+    runner_ = nullptr;
+    throw;
+  }
+  runner_ = nullptr;
+  next.decision.route = EditRoute::rebase;
+  state_.swap(next);
+}
+
+// Compares going on with starting over, plainly or with the hard vertex sites eliminated.
+GreenSolver::Decision GreenSolver::decide(const SiteEdit& edit) const {
+  const SiteCost cost(core_->factor->statistics());
   double sites = 0, hard = 0, soft_removed = 0, freed = 0;
   for (const Entry& entry : state_.entries) {
     if (!entry.used()) continue;
@@ -59,8 +77,13 @@ bool GreenSolver::wants_new_layout(const SiteEdit& edit, bool& eliminate) const 
   const double kept = std::max(0.0, static_cast<double>(state_.rows) - soft_removed);
   const double going_on = cost.dense_ns(kept, static_cast<double>(edit.add.size()) + freed);
   const double plain = cost.dense_ns(0, sites), rebase = cost.rebase_ns(sites - hard);
-  eliminate = hard > 0 && rebase < plain;
-  return going_on > 1.25 * std::min(plain, hard > 0 ? rebase : plain);
+  const bool eliminate = hard > 0 && rebase < plain;
+  Decision decision;
+  decision.dense_ms = std::min(going_on, plain) / 1e6, decision.rebase_ms = hard > 0 ? rebase / 1e6 : 0;
+  decision.route = !(going_on > 1.25 * std::min(plain, hard > 0 ? rebase : plain)) ? EditRoute::dense
+                   : eliminate                                                     ? EditRoute::rebase
+                                                                                   : EditRoute::fresh;
+  return decision;
 }
 
 // The sites there will be, nothing placed yet.
@@ -88,7 +111,7 @@ void GreenSolver::place_all(State& state, const SiteEdit& edit, bool eliminate) 
       entry.eliminated = static_cast<Index>(vertices.size());
       vertices.push_back(entry.site.vertex[0]);
     }
-    state.base = EliminatedBase::make(*core_, vertices);
+    state.base = EliminatedBase::make(*core_, vertices, jobs());
     state.freed.resize(vertices.size());
     ++rebases_;
   }
@@ -177,7 +200,7 @@ void GreenSolver::remove_rows(State& state, Span<const Index> rows, Span<const I
     }
     const auto copy = make_shared_in<DenseBlock>(memory(), *block);
     copy->remove(of_component);
-    if (copy->factorise() >= 0) throw NeedsNewLayout{};
+    if (copy->factorise(jobs()) >= 0) throw NeedsNewLayout{};
     block = copy;
   }
   for (const Index row : rows) {
@@ -214,7 +237,7 @@ void GreenSolver::add_paths(State& state, Span<const Index> rows) const {
   }
   Vector<std::shared_ptr<const PathGroup>> groups(&memory());
   Vector<Index> group(rows.size(), &memory()), column(rows.size(), &memory());
-  factor(state).solve_paths(columns.view(), memory(), *core_->jobs, groups, group, column);
+  factor(state).solve_paths(columns.view(), memory(), jobs(), groups, group, column);
   const Index first = static_cast<Index>(state.groups.size());
   for (auto& paths : groups) {
     Group fresh;
@@ -276,35 +299,33 @@ void GreenSolver::add_rows(State& state, Span<const Addition> additions, const S
   }
   Vector<double> values(start.back(), 0.0, &memory());
 
-  // Gram of every new group with every group; a piece writes only rows of its own new group
-  core_->jobs->for_each(static_cast<std::uint32_t>(state.groups.size()) - static_cast<std::uint32_t>(first_fresh),
-                        [&](std::uint32_t piece) {
-                          const Index a = first_fresh + static_cast<Index>(piece);
-                          const Group& mine = state.groups[at(a)];
-                          double tile[PathGroup::capacity * PathGroup::capacity];
-                          for (Index b = 0; b < static_cast<Index>(state.groups.size()); ++b) {
-                            const Group& other = state.groups[at(b)];
-                            // pairs of new groups are computed from the later one's side for both, so that M is
-                            // symmetric to the bit
-                            const bool transposed = b > a;
-                            if (transposed) {
-                              factor(state).gram(*other.paths, *mine.paths, tile, PathGroup::capacity);
-                            } else {
-                              factor(state).gram(*mine.paths, *other.paths, tile, PathGroup::capacity);
-                            }
-                            for (Index i = 0; i < mine.paths->count(); ++i) {
-                              if (mine.row[i] == nobody) continue;
-                              const Where& here = where(mine.row[i]);
-                              for (Index j = 0; j < other.paths->count(); ++j) {
-                                if (other.row[j] == nobody) continue;
-                                const Where& there = where(other.row[j]);
-                                if (there.component != here.component || there.place > here.place) continue;
-                                values[start[at(here.batch)] + at(there.place)] =
-                                    transposed ? tile[j * PathGroup::capacity + i] : tile[i * PathGroup::capacity + j];
-                              }
-                            }
-                          }
-                        });
+  // Gram of every new group with itself and every group before it: one piece a pair of groups, one entry a pair of rows
+  struct Pair {
+    Index a, b;
+  };
+  Vector<Pair> pairs(&memory());
+  for (Index a = first_fresh; a < static_cast<Index>(state.groups.size()); ++a) {
+    for (Index b = 0; b <= a; ++b) pairs.push_back({a, b});
+  }
+  jobs().for_each(static_cast<std::uint32_t>(pairs.size()), [&](std::uint32_t piece) {
+    const Group& mine = state.groups[at(pairs[piece].a)];
+    const Group& other = state.groups[at(pairs[piece].b)];
+    double tile[PathGroup::capacity * PathGroup::capacity];
+    factor(state).gram(*mine.paths, *other.paths, tile, PathGroup::capacity);
+    const bool own = &mine == &other;
+    for (Index i = 0; i < mine.paths->count(); ++i) {
+      if (mine.row[i] == nobody) continue;
+      const Where& x = where(mine.row[i]);
+      for (Index j = 0; j < (own ? i + 1 : other.paths->count()); ++j) {
+        if (other.row[j] == nobody) continue;
+        const Where& y = where(other.row[j]);
+        if (x.component != y.component) continue;
+        const Where& later = x.place > y.place ? x : y;
+        const Where& earlier = x.place > y.place ? y : x;
+        values[start[at(later.batch)] + at(earlier.place)] = tile[i * PathGroup::capacity + j];
+      }
+    }
+  });
 
   // what the eliminated vertices add: W_R between a site and a free value, -K_RR between free values; D on the diagonal
   // of soft sites
@@ -351,7 +372,7 @@ void GreenSolver::add_rows(State& state, Span<const Addition> additions, const S
   }
   for (std::size_t c = 0; c < open.size(); ++c) {
     if (!open[c]) continue;
-    const Index lost = open[c]->factorise();
+    const Index lost = open[c]->factorise(jobs());
     if (lost >= 0) {
       // with eliminated sites about, the order of the rows may be at fault: a plain layout decides
       if (state.base) throw NeedsNewLayout{};

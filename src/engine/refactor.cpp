@@ -118,7 +118,7 @@ void RefactorSolver::factorise(State& state) const {
     block->append(static_cast<Index>(i), row.data());
   }
   for (std::size_t c = 0; c < open.size(); ++c) {
-    if (open[c] && open[c]->factorise() >= 0)
+    if (open[c] && open[c]->factorise(*core_->jobs) >= 0)
       fail(HF_ERROR_CONFLICT, HF_NO_INDEX,
            "points in one triangle depend linearly on each other or on its corners; leave one out or make it soft");
     state.dense[c] = open[c];

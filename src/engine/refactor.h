@@ -22,6 +22,9 @@ class RefactorSolver final : public SiteSolver {
 
   void edit(const SiteEdit& edit) override;
   void solve(const double* values, std::int32_t channels, double* field, double* flux) const override;
+  void solve_into(const double* values, std::int32_t channels, FieldSink& sink) const override {
+    solve_copied(*this, *core_, values, channels, sink);
+  }
   void solve_at(const double* values, std::int32_t channels, Span<const std::int32_t> vertices,
                 double* out) const override;
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<RefactorSolver>(core_->memory, *this); }

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "engine/rim.h"
+#include "mesh/geodesic_disc.h"
 
 namespace hf {
 namespace {
@@ -19,11 +21,12 @@ bool same_site(const Site& a, const Site& b) noexcept {
 
 void SiteSet::swap(SiteSet& other) noexcept {
   slots_.swap(other.slots_), values_.swap(other.values_), by_vertex_.swap(other.by_vertex_);
-  std::swap(channels_, other.channels_), std::swap(count_, other.count_);
+  std::swap(channels_, other.channels_), std::swap(count_, other.count_), std::swap(hidden_, other.hidden_);
+  std::swap(first_free_, other.first_free_);
 }
 
 void SiteSet::check_site(std::uint32_t position, std::uint32_t site) const {
-  if (site >= slots_.size() || !slots_[site].used())
+  if (site >= slots_.size() || !slots_[site].is_site())
     fail(HF_ERROR_NO_SUCH_SITE, position, "entry %u of the list: there is no site %u (removed already, or never added)",
          position, site);
 }
@@ -75,43 +78,123 @@ const SiteSet::AtVertex* SiteSet::find_vertex(std::int32_t vertex) const noexcep
   return it != by_vertex_.end() && it->vertex == vertex ? &*it : nullptr;
 }
 
-void SiteSet::claim_vertex(std::uint32_t position, std::uint32_t given, const Site& site, std::int32_t slot,
-                           const double* values, double stiffness) {
-  if (!site.is_vertex()) return;
-  if (const AtVertex* there = find_vertex(site.vertex[0])) {
-    const Slot& other = slots_[at(there->slot)];
-    bool same = other.stiffness == stiffness;
-    for (std::int32_t c = 0; c < channels_; ++c)
-      same = same && values_[at(there->slot * channels_ + c)] == (values ? values[c] : 0.0);
-    fail(same ? HF_ERROR_DUPLICATE_SITE : HF_ERROR_CONFLICT, position,
-         "site %u of the batch: vertex %u%s carries site %d already%s; set its values or move it", position, given,
-         other.given_vertex == given ? "" : " (through a copy at the same place)", there->slot,
-         same ? "" : " with other values");
-  }
-  const auto it = std::lower_bound(by_vertex_.begin(), by_vertex_.end(), site.vertex[0],
+void SiteSet::claim_vertex(const Arrival& arrival, std::int32_t vertex, std::int32_t slot) {
+  const auto it = std::lower_bound(by_vertex_.begin(), by_vertex_.end(), vertex,
                                    [](const AtVertex& a, std::int32_t v) { return a.vertex < v; });
-  by_vertex_.insert(it, AtVertex{site.vertex[0], slot});
+  if (it == by_vertex_.end() || it->vertex != vertex) {
+    by_vertex_.insert(it, AtVertex{vertex, slot});
+    return;
+  }
+  const Slot& other = slots_[at(it->slot)];
+  bool same = other.stiffness == arrival.stiffness;
+  for (std::int32_t c = 0; c < channels_; ++c)
+    same = same && values_[at(it->slot * channels_ + c)] == (arrival.values ? arrival.values[c] : 0.0);
+  const hf_result code = same ? HF_ERROR_DUPLICATE_SITE : HF_ERROR_CONFLICT;
+  if (arrival.radius > 0 || other.radius > 0)
+    fail(code, arrival.position,
+         "site %u of the batch: its place overlaps site %d%s; use a smaller radius, or move one of them",
+         arrival.position, it->slot, same ? "" : ", which has other values");
+  fail(code, arrival.position,
+       "site %u of the batch: vertex %u%s carries site %d already%s; set its values or move it", arrival.position,
+       arrival.given_vertex, other.given_vertex == arrival.given_vertex ? "" : " (through a copy at the same place)",
+       it->slot, same ? "" : " with other values");
 }
 
-void SiteSet::release_vertex(std::int32_t slot) noexcept {
-  const Site& site = slots_[at(slot)].site;
-  if (!site.is_vertex()) return;
-  const AtVertex* there = find_vertex(site.vertex[0]);
+// Gives its vertices and hidden slots back; the slot itself stays used.
+void SiteSet::release(std::int32_t slot) noexcept {
+  const Slot& own = slots_[at(slot)];
+  if (own.radius > 0) {
+    by_vertex_.erase(std::remove_if(by_vertex_.begin(), by_vertex_.end(), [&](const AtVertex& a) { return a.slot == slot; }),
+                     by_vertex_.end());
+    for (std::size_t s = 0; s < slots_.size(); ++s) {
+      if (slots_[s].owner != slot) continue;
+      slots_[s] = Slot{};
+      std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(s) * channels_, channels_, 0.0);
+      first_free_ = std::min(first_free_, static_cast<std::int32_t>(s));
+      --hidden_;
+    }
+    return;
+  }
+  if (!own.site.is_vertex()) return;
+  const AtVertex* there = find_vertex(own.site.vertex[0]);
   if (there && there->slot == slot) by_vertex_.erase(by_vertex_.begin() + (there - by_vertex_.data()));
+}
+
+std::int32_t SiteSet::free_slot() {
+  while (at(first_free_) < slots_.size() && slots_[at(first_free_)].used()) ++first_free_;
+  if (at(first_free_) == slots_.size()) {
+    slots_.push_back(Slot{});
+    values_.resize(slots_.size() * at(channels_), 0.0);
+  }
+  return first_free_;
+}
+
+void SiteSet::set_value(std::int32_t slot, const double* values) noexcept {
+  for (std::int32_t c = 0; c < channels_; ++c) values_[at(slot * channels_ + c)] = values ? values[c] : 0.0;
+}
+
+// Puts an arrival into a slot; a disc takes more of them.
+void SiteSet::settle(const Core& core, const Arrival& arrival, std::int32_t slot, std::uint32_t limit) {
+  Slot own;
+  own.site = arrival.site, own.given_vertex = arrival.given_vertex;
+  own.stiffness = arrival.stiffness, own.radius = arrival.radius;
+  const double compliance = arrival.stiffness > 0 ? 1 / arrival.stiffness : 0.0;
+  own.site.compliance = compliance;
+  if (!(arrival.radius > 0)) {
+    if (own.site.is_vertex()) claim_vertex(arrival, own.site.vertex[0], slot);
+    slots_[at(slot)] = own;
+    set_value(slot, arrival.values);
+    return;
+  }
+  const Vector<DiscVertex> disc =
+      geodesic_disc(core.mesh, core.topology, arrival.site.vertex, arrival.site.weight,
+                    arrival.radius / core.mesh.scale, *core.memory);
+  Vector<std::int32_t> held(core.memory.get()), taken(core.memory.get());
+  const bool whole = core.refinements > 0;  // of fourth order: values on a rim leave the slope free
+  for (const DiscVertex& v : disc) {
+    claim_vertex(arrival, v.vertex, slot);
+    taken.push_back(v.vertex);
+  }
+  std::sort(taken.begin(), taken.end());
+  const auto inside = [&](std::int32_t v) { return std::binary_search(taken.begin(), taken.end(), v); };
+  for (const DiscVertex& v : disc) {
+    if (whole || v.rim || couples_outward(core, v.vertex, inside)) held.push_back(v.vertex);
+  }
+  if (held.empty() && !disc.empty()) held.push_back(disc[0].vertex);  // the disc is the whole component
+  // smaller than the mesh can show: the point itself
+  if (disc.empty() && own.site.is_vertex()) claim_vertex(arrival, own.site.vertex[0], slot);
+  if (held.size() > 1 && (held.size() - 1 > limit || count_ + hidden_ > limit - (held.size() - 1)))
+    fail(HF_ERROR_TOO_LARGE, arrival.position,
+         "site %u of the batch: its disc holds %zu vertices beside the %u there are; the site_limit is %u",
+         arrival.position, held.size(), count_ + hidden_, limit);
+  const double share = compliance * static_cast<double>(std::max<std::size_t>(1, held.size()));
+  if (!held.empty()) own.site = Site::at_vertex(core.mesh, held[0], share);
+  slots_[at(slot)] = own;
+  set_value(slot, arrival.values);
+  for (std::size_t i = 1; i < held.size(); ++i) {
+    const std::int32_t member = free_slot();
+    Slot& other = slots_[at(member)];
+    other.site = Site::at_vertex(core.mesh, held[i], share);
+    other.stiffness = arrival.stiffness, other.owner = slot;
+    set_value(member, arrival.values);
+    ++hidden_;
+  }
 }
 
 void SiteSet::remove(std::uint32_t count, const std::uint32_t* sites) {
   for (std::uint32_t i = 0; i < count; ++i) {
     check_site(i, sites[i]);
     const std::int32_t slot = static_cast<std::int32_t>(sites[i]);
-    release_vertex(slot);
+    release(slot);
     slots_[sites[i]] = Slot{};
-    std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(slot) * channels_, channels_, 0.0);
+    set_value(slot, nullptr);
+    first_free_ = std::min(first_free_, slot);
     --count_;
   }
 }
 
-void SiteSet::move(const Mesh& mesh, std::uint32_t count, const std::uint32_t* sites, const Places& to) {
+void SiteSet::move(const Core& core, std::uint32_t count, const std::uint32_t* sites, const Places& to,
+                   std::uint32_t limit) {
   // all leave before any arrives, so that sites may swap places
   for (std::uint32_t i = 0; i < count; ++i) {
     check_site(i, sites[i]);
@@ -119,25 +202,27 @@ void SiteSet::move(const Mesh& mesh, std::uint32_t count, const std::uint32_t* s
       if (sites[j] == sites[i])
         fail(HF_ERROR_NO_SUCH_SITE, i, "entry %u of the list: site %u is named twice", i, sites[i]);
     }
-    release_vertex(static_cast<std::int32_t>(sites[i]));
+    release(static_cast<std::int32_t>(sites[i]));
     slots_[sites[i]].given_vertex = HF_NO_INDEX - 1;  // under way
   }
+  Vector<double> values(at(channels_), core.memory.get());
   for (std::uint32_t i = 0; i < count; ++i) {
-    Slot& slot = slots_[sites[i]];
+    const Slot slot = slots_[sites[i]];
     if (slot.given_vertex != HF_NO_INDEX - 1)
       fail(HF_ERROR_NO_SUCH_SITE, i, "entry %u of the list: site %u is named twice", i, sites[i]);
-    Site site = locate(mesh, to, i);
-    site.compliance = slot.site.compliance;
-    const std::uint32_t given = to.vertices ? to.vertices[i] : HF_NO_INDEX;
-    claim_vertex(i, given, site, static_cast<std::int32_t>(sites[i]),
-                 values_.data() + std::size_t{sites[i]} * at(channels_), slot.stiffness);
-    slot.site = site, slot.given_vertex = given;
+    std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(sites[i]) * channels_, channels_, values.begin());
+    settle(core,
+           {i, to.vertices ? to.vertices[i] : HF_NO_INDEX, locate(core.mesh, to, i), slot.radius, slot.stiffness,
+            values.data()},
+           static_cast<std::int32_t>(sites[i]), limit);
   }
 }
 
 void SiteSet::set_values(std::uint32_t count, const std::uint32_t* sites, const double* values) {
+  bool discs = false;
   for (std::uint32_t i = 0; i < count; ++i) {
     check_site(i, sites[i]);
+    discs = discs || slots_[sites[i]].radius > 0;
     for (std::int32_t c = 0; c < channels_; ++c) {
       const double value = values[std::size_t{i} * at(channels_) + at(c)];
       if (!std::isfinite(value))
@@ -145,39 +230,44 @@ void SiteSet::set_values(std::uint32_t count, const std::uint32_t* sites, const 
       values_[std::size_t{sites[i]} * at(channels_) + at(c)] = value;
     }
   }
+  for (std::size_t s = 0; discs && s < slots_.size(); ++s) {
+    if (slots_[s].owner >= 0)
+      set_value(static_cast<std::int32_t>(s), values_.data() + at(slots_[s].owner) * at(channels_));
+  }
 }
 
-void SiteSet::add(const Mesh& mesh, const Places& places, const double* values, const double* stiffness,
+void SiteSet::add(const Core& core, const Places& places, const double* values, const double* stiffness,
                   std::uint32_t limit, std::uint32_t* out_sites) {
-  if (places.count > limit || count_ > limit - places.count)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u sites and %u more; the site_limit is %u", count_, places.count, limit);
-  std::size_t free = 0;
+  if (places.count > limit || count_ + hidden_ > limit - places.count)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u sites and %u more; the site_limit is %u", count_ + hidden_, places.count,
+         limit);
   for (std::uint32_t i = 0; i < places.count; ++i) {
-    Site site = locate(mesh, places, i);
-    double given_stiffness = stiffness ? stiffness[i] : 0.0;
-    if (!std::isfinite(given_stiffness))
+    Arrival arrival;
+    arrival.position = i;
+    arrival.site = locate(core.mesh, places, i);
+    arrival.given_vertex = places.vertices ? places.vertices[i] : HF_NO_INDEX;
+    arrival.stiffness = stiffness ? stiffness[i] : 0.0;
+    if (!std::isfinite(arrival.stiffness))
       fail(HF_ERROR_NON_FINITE, i, "site %u of the batch: stiffness is not a finite number", i);
-    if (given_stiffness < 0)
+    if (arrival.stiffness < 0)
       fail(HF_ERROR_INVALID_ARGUMENT, i,
-           "site %u of the batch: stiffness is %g; use 0 for a hard site or a number above 0", i, given_stiffness);
-    if (given_stiffness > 0) given_stiffness = std::min(std::max(given_stiffness, 1e-12), 1e12);
-    site.compliance = given_stiffness > 0 ? 1 / given_stiffness : 0.0;
-    const double* own = values ? values + std::size_t{i} * at(channels_) : nullptr;
-    for (std::int32_t c = 0; own && c < channels_; ++c) {
-      if (!std::isfinite(own[c]))
+           "site %u of the batch: stiffness is %g; use 0 for a hard site or a number above 0", i, arrival.stiffness);
+    if (arrival.stiffness > 0) arrival.stiffness = std::min(std::max(arrival.stiffness, 1e-12), 1e12);
+    arrival.radius = places.radii ? places.radii[i] : 0.0;
+    if (!std::isfinite(arrival.radius))
+      fail(HF_ERROR_NON_FINITE, i, "site %u of the batch: radius is not a finite number", i);
+    if (arrival.radius < 0)
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "site %u of the batch: radius is %g; use 0 for a point or a number above 0", i,
+           arrival.radius);
+    arrival.values = values ? values + std::size_t{i} * at(channels_) : nullptr;
+    for (std::int32_t c = 0; arrival.values && c < channels_; ++c) {
+      if (!std::isfinite(arrival.values[c]))
         fail(HF_ERROR_NON_FINITE, i, "site %u of the batch: value of channel %d is not a finite number", i, c);
     }
-    while (free < slots_.size() && slots_[free].used()) ++free;
-    const std::uint32_t given = places.vertices ? places.vertices[i] : HF_NO_INDEX;
-    claim_vertex(i, given, site, static_cast<std::int32_t>(free), own, given_stiffness);
-    if (free == slots_.size()) {
-      slots_.push_back(Slot{});
-      values_.resize(slots_.size() * at(channels_), 0.0);
-    }
-    slots_[free].site = site, slots_[free].given_vertex = given, slots_[free].stiffness = given_stiffness;
-    if (own) std::copy_n(own, channels_, values_.begin() + static_cast<std::ptrdiff_t>(free) * channels_);
-    if (out_sites) out_sites[i] = static_cast<std::uint32_t>(free);
+    const std::int32_t slot = free_slot();
     ++count_;
+    settle(core, arrival, slot, limit);
+    if (out_sites) out_sites[i] = static_cast<std::uint32_t>(slot);
   }
 }
 

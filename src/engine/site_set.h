@@ -1,6 +1,10 @@
 // The sites of one solver as its user sees them: numbers, places, values, stiffness; and what the engine must be told
 // to follow an edit. A plain value: copied before an edit, swapped in after the engine has taken it, kept on the undo
 // stack.
+//
+// A site of finite radius is the condition u = s on a geodesic disc. For a second-order operator its rim decides (inside
+// it the field is constant by itself), for a fourth-order one all its vertices are held. The first such vertex stands in
+// the site's own slot, the others in slots that only the engine sees; every vertex of the disc is taken.
 #pragma once
 #include <cstdint>
 
@@ -14,6 +18,7 @@ struct Places {
   const std::uint32_t* vertices = nullptr;
   const std::uint32_t* triangles = nullptr;
   const double* barycentrics = nullptr;
+  const double* radii = nullptr;  // geodesic, in the unit of the mesh; null or 0: points
 };
 
 class SiteSet {
@@ -25,7 +30,8 @@ class SiteSet {
         values_(other.values_, &memory),
         by_vertex_(other.by_vertex_, &memory),
         channels_(other.channels_),
-        count_(other.count_) {}
+        count_(other.count_),
+        hidden_(other.hidden_) {}
   SiteSet(const SiteSet&) = delete;  // a copy must name its memory
   SiteSet(SiteSet&&) = default;
   SiteSet& operator=(SiteSet&&) = default;
@@ -35,7 +41,10 @@ class SiteSet {
     Site site;  // component -1: free
     std::uint32_t given_vertex = HF_NO_INDEX;
     double stiffness = 0;
+    double radius = 0;         // of a disc, in the unit of the mesh
+    std::int32_t owner = -1;   // the slot of the disc that this one belongs to
     bool used() const noexcept { return site.component >= 0; }
+    bool is_site() const noexcept { return used() && owner < 0; }  // of its own, with a number
   };
 
   std::uint32_t count() const noexcept { return count_; }
@@ -46,27 +55,39 @@ class SiteSet {
   // Each throws as the C functions document, with the position in the batch as index, and may leave *this half edited:
   // work on a copy.
   void remove(std::uint32_t count, const std::uint32_t* sites);
-  void move(const Mesh& mesh, std::uint32_t count, const std::uint32_t* sites, const Places& to);
+  void move(const Core& core, std::uint32_t count, const std::uint32_t* sites, const Places& to, std::uint32_t limit);
   void set_values(std::uint32_t count, const std::uint32_t* sites, const double* values);
-  void add(const Mesh& mesh, const Places& places, const double* values, const double* stiffness, std::uint32_t limit,
+  void add(const Core& core, const Places& places, const double* values, const double* stiffness, std::uint32_t limit,
            std::uint32_t* out_sites);
 
  private:
   struct AtVertex {
     std::int32_t vertex, slot;
   };
+  // A site on its way in: the point, and for a disc the vertices it holds and takes.
+  struct Arrival {
+    std::uint32_t position;  // in the batch
+    std::uint32_t given_vertex;
+    Site site;
+    double radius, stiffness;
+    const double* values;  // null: 0
+  };
   void check_site(std::uint32_t position, std::uint32_t site) const;
   Site locate(const Mesh& mesh, const Places& places, std::uint32_t i) const;
   const AtVertex* find_vertex(std::int32_t vertex) const noexcept;
-  void claim_vertex(std::uint32_t position, std::uint32_t given, const Site& site, std::int32_t slot,
-                    const double* values, double stiffness);
-  void release_vertex(std::int32_t slot) noexcept;
+  void claim_vertex(const Arrival& arrival, std::int32_t vertex, std::int32_t slot);
+  void release(std::int32_t slot) noexcept;
+  void settle(const Core& core, const Arrival& arrival, std::int32_t slot, std::uint32_t limit);
+  std::int32_t free_slot();
+  void set_value(std::int32_t slot, const double* values) noexcept;
 
   Vector<Slot> slots_;
   Vector<double> values_;       // slot * channels
   Vector<AtVertex> by_vertex_;  // vertex sites, ascending
   std::int32_t channels_;
-  std::uint32_t count_ = 0;
+  std::uint32_t count_ = 0;   // sites
+  std::uint32_t hidden_ = 0;  // slots of discs besides their own
+  std::int32_t first_free_ = 0;
 };
 
 // The engine edit that leads from one set to another.

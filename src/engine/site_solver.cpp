@@ -1,10 +1,15 @@
 #include "engine/site_solver.h"
 
+#include "base/error.h"
 #include "engine/green.h"
 #include "engine/refactor.h"
 #include "engine/updown.h"
 
 namespace hf {
+
+void SiteSolver::rebase(JobRunner&) {
+  fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "only engine green keeps its sites outside the factor; there is nothing to rebase");
+}
 
 std::shared_ptr<SiteSolver> SiteSolver::make(EngineKind kind, std::shared_ptr<const Core> core, double penalty) {
   const std::shared_ptr<Memory> memory = core->memory;

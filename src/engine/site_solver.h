@@ -28,9 +28,32 @@ struct Site {
 
 enum class EngineKind : std::int32_t { green = 0, updown = 1, refactor = 2 };
 
+// Which way the last edit of places went.
+enum class EditRoute : std::int32_t {
+  none = 0,
+  dense = 1,   // rows of the dense system came and went
+  fresh = 2,   // the dense system was made anew: cheaper than editing it
+  rebase = 3,  // hard vertex sites went into the factor
+};
+
 struct EngineCounters {
   std::uint32_t factorisations = 0, path_solves = 0, sweeps = 0;
+  std::uint32_t rebases = 0, dense_edits = 0;
+  std::uint32_t dense_rows = 0, eliminated = 0;  // sites at present
+  EditRoute last_route = EditRoute::none;
+  double dense_ms = 0, rebase_ms = 0;  // what the cost model said at the last edit: rows, or a rebase
+  bool rebase_advised = false;         // a field reads more of the sites' paths than of the factor
   double bytes = 0;
+};
+
+// What a preview reached.
+struct PreviewInfo {
+  bool exact = false;            // answered by solve: no single precision in it
+  std::int32_t corrections = 0;  // made
+  double value_range = 0;        // of the site values, the widest over components and channels
+  double largest_correction = 0;  // largest change of a value by the last correction
+  double error_estimate = 0;      // of the field; 0 when exact
+  double bytes = 0;               // of the single-precision copy
 };
 
 // Slots to leave and slots to fill. A slot may stand in both: a move.
@@ -38,6 +61,14 @@ struct SiteEdit {
   Span<const std::int32_t> remove;
   Span<const std::int32_t> add;
   Span<const Site> sites;  // for `add`, in its order
+};
+
+// Takes channels [first, first + count) of a field where they lie: inner vertex v at z[row[v] * count], or at z[v *
+// count] when row is null.
+class FieldSink {
+ public:
+  virtual ~FieldSink() = default;
+  virtual void take(std::int32_t first, std::int32_t count, const double* z, const std::int32_t* row) = 0;
 };
 
 class SiteSolver {
@@ -55,12 +86,30 @@ class SiteSolver {
   // values. Const functions may run at the same time on one engine.
   virtual void solve(const double* values, std::int32_t channels, double* field, double* flux) const = 0;
 
-  // The field at chosen inner vertices, at the cost of their elimination paths.
+  // The same field, handed on without a copy in between.
+  virtual void solve_into(const double* values, std::int32_t channels, FieldSink& sink) const = 0;
+
+  // The field at chosen inner vertices: for engine green at the cost of their elimination paths.
   virtual void solve_at(const double* values, std::int32_t channels, Span<const std::int32_t> vertices,
                         double* out) const = 0;
 
+  // The field by a single-precision factor and so many corrections in double; engines that have none give the field.
+  virtual void solve_preview(const double* values, std::int32_t channels, std::int32_t corrections, double* field,
+                             PreviewInfo& info) const {
+    (void)corrections;
+    solve(values, channels, field, nullptr);
+    info = PreviewInfo{};
+    info.exact = true;
+  }
+
   // A copy that shares what is immutable.
   virtual std::shared_ptr<SiteSolver> clone() const = 0;
+
+  // Moves the hard vertex sites there are into the factor, on these threads. Throws HF_ERROR_UNSUPPORTED (engines other
+  // than green), HF_ERROR_NO_SITES (none is hard). All or nothing.
+  virtual void rebase(JobRunner& jobs);
+  // Takes over the counts that `predecessor`, of which this is a clone, has made since.
+  virtual void succeed(const SiteSolver& predecessor) noexcept { (void)predecessor; }
 
   virtual EngineKind kind() const noexcept = 0;
   virtual EngineCounters counters() const noexcept = 0;
@@ -68,5 +117,13 @@ class SiteSolver {
   virtual std::int32_t site_count(std::int32_t component) const noexcept = 0;
   virtual std::int32_t slot_count() const noexcept = 0;  // 1 + the largest slot ever used
 };
+
+// solve_into by way of solve, for engines that have nothing better.
+inline void solve_copied(const SiteSolver& solver, const Core& core, const double* values, std::int32_t channels,
+                         FieldSink& sink) {
+  Workspace field(core.workspaces, static_cast<std::size_t>(core.size()) * static_cast<std::size_t>(channels));
+  solver.solve(values, channels, field.data(), nullptr);
+  sink.take(0, channels, field.data(), nullptr);
+}
 
 }  // namespace hf

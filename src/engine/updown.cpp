@@ -133,8 +133,8 @@ class UpdownSolver final : public SiteSolver {
       }
     }
     const double* u = back_substitute(right.data(), m);
-    Workspace refined(core_->workspaces, edits_ > refine_after ? n * m : 0);
-    if (edits_ > refine_after) {
+    Workspace refined(core_->workspaces, edits_ > refine_after || core_->refinements > 0 ? n * m : 0);
+    if (edits_ > refine_after || core_->refinements > 0) {
       std::copy_n(u, n * m, refined.data());
       Workspace residual(core_->workspaces, n * m);
       for (std::size_t c = 0; c < m; ++c)
@@ -167,6 +167,9 @@ class UpdownSolver final : public SiteSolver {
     }
   }
 
+  void solve_into(const double* values, Index channels, FieldSink& sink) const override {
+    solve_copied(*this, *core_, values, channels, sink);
+  }
   void solve_at(const double* values, Index channels, Span<const Index> vertices, double* out) const override {
     // the paper's engine has no partial evaluation: it solves everything
     Vector<double> field(at(core_->size()) * at(channels), core_->memory.get());

@@ -98,6 +98,26 @@ SupernodalFactor::SupernodalFactor(std::shared_ptr<const Analysis> analysis, Mem
   statistics_.flops = symbolic().flops;
   statistics_.supernodes = symbolic().supernodes;
   statistics_.bytes = 8.0 * symbolic().stored_entries + symbolic().index_bytes() + plan().bytes();
+  measure_paths();
+}
+
+// Every path is that of the parent and the supernode's own columns.
+void SupernodalFactor::measure_paths() {
+  const Symbolic& pattern = symbolic();
+  struct Path {
+    double entries, rows;
+  };
+  Buffer<Path> path(memory_, static_cast<std::size_t>(pattern.supernodes));
+  Path total{0, 0};
+  for (std::int32_t s = pattern.supernodes - 1; s >= 0; --s) {
+    const double columns = pattern.columns(s);
+    const Path above = pattern.parent[s] >= 0 ? path[static_cast<std::size_t>(pattern.parent[s])] : Path{0, 0};
+    path[static_cast<std::size_t>(s)] = {above.entries + columns * (0.5 * columns + pattern.below(s)), above.rows + columns};
+    total.entries += columns * path[static_cast<std::size_t>(s)].entries;
+    total.rows += columns * path[static_cast<std::size_t>(s)].rows;
+  }
+  if (pattern.size == 0) return;
+  statistics_.path_entries = total.entries / pattern.size, statistics_.path_rows = total.rows / pattern.size;
 }
 
 void SupernodalFactor::compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, JobRunner& jobs,
@@ -135,7 +155,7 @@ std::shared_ptr<const Factor> Factor::make(const SymmetricMatrix& matrix, Coordi
   }
   order.release();
   make_plan(analysis->symbolic, memory, analysis->plan);
-  analysis->pattern_hash = hash_pattern(matrix);
+  analysis->pattern_hash = hash_pattern(matrix), analysis->ordering = options.ordering;
   const double symbolic_ms = watch.lap_ms();
   report(options.progress, 0.55f);
   std::shared_ptr<SupernodalFactor> factor = make_shared_in<SupernodalFactor>(memory, std::move(analysis), memory);

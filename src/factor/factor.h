@@ -35,7 +35,11 @@ struct FactorStatistics {
   double stored_entries = 0;  // with the relaxation zeros
   double flops = 0;           // sum of squared column counts
   double bytes = 0;           // of the stored factor with its index lists
+  double path_entries = 0, path_rows = 0;  // of the elimination path of an unknown, in the mean
   std::int32_t supernodes = 0;
+  bool loaded = false;    // from bytes, not made here: the three times above are 0
+  bool borrowed = false;  // the numbers are the caller's, read in place
+  double load_ms = 0;
 };
 
 // A batch of sparse columns w_1 .. w_k in the caller's numbering: column i holds entries [start[i], start[i+1]).
@@ -68,6 +72,13 @@ class Factor {
   // In place on z[row * channels + channel], rows in factor order.
   virtual void forward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
   virtual void backward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
+
+  // The backward sweep as far as these unknowns (caller's numbering) need it: over their elimination paths. Their rows of
+  // z get the bits that backward() gives; the other rows of the paths hold numbers of their own. Cost: one read of the
+  // factor's entries on the union of the paths.
+  virtual void backward_at(Span<const std::int32_t> unknowns, double* z, std::int32_t channels) const = 0;
+  // z = 0 on those paths.
+  virtual void clear_at(Span<const std::int32_t> unknowns, double* z, std::int32_t channels) const = 0;
 
   // Numeric refactorisation with the same pattern. `eliminated` (per unknown, caller's numbering, may be empty): rows
   // and columns set to the identity, pattern kept: the rebase. Shares symbolic analysis and ordering with *this.

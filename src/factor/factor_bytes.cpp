@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/timer.h"
+#include "factor/bytes_hash.h"
 #include "factor/numeric.h"
 #include "factor/supernodal_factor.h"
 
@@ -13,57 +15,101 @@ namespace {
 
 constexpr std::uint64_t magic = 0x524F544341464648ull;  // "HFFACTOR"
 constexpr std::uint32_t version = 1;
-constexpr std::uint64_t copy_step = std::uint64_t{1} << 19;  // numbers a job copies
+constexpr std::uint64_t copy_step = std::uint64_t{1} << 22;  // bytes a job copies
+constexpr std::uint32_t byte_order = 0x01020304u;
 
 struct Header {
   std::uint64_t magic;
   std::uint32_t version;
+  std::uint32_t byte_order;
   std::int32_t unknowns;
   std::int32_t supernodes;
+  std::int32_t ordering;
   std::uint32_t reserved;
   std::uint64_t row_count;
   std::uint64_t value_count;
   std::uint64_t pattern_hash;
+  std::uint64_t matrix_hash;
   double entries, flops;
   std::uint64_t length;
-  std::uint64_t checksum;
-  std::uint64_t header_check;  // checksum of the fields above
+  std::uint64_t checksum;  // of all that follows the header
+  std::uint64_t unused[3];
+  std::uint64_t header_check;  // hash of the fields above
 };
-static_assert(sizeof(Header) == 88);
+static_assert(sizeof(Header) == 128);
 
-// Four independent chains of multiply and shift over 8-byte words.
-std::uint64_t checksum_of(const std::uint8_t* bytes, std::uint64_t length) noexcept {
-  std::uint64_t chain[4] = {1, 2, 3, 4};
-  std::uint64_t k = 0;
-  const auto mix = [](std::uint64_t state, std::uint64_t word) {
-    state = (state ^ word) * 0x9E3779B97F4A7C15ull;
-    return state ^ (state >> 32);
-  };
-  for (; k + 32 <= length; k += 32) {
-    std::uint64_t word[4];
-    std::memcpy(word, bytes + k, sizeof word);
-    for (int c = 0; c < 4; ++c) chain[c] = mix(chain[c], word[c]);
-  }
-  for (; k < length; ++k) chain[k & 3] = mix(chain[k & 3], bytes[k]);
-  return mix(mix(chain[0], chain[1]), mix(chain[2], chain[3]) ^ length);
+std::uint64_t check_of(const Header& header) noexcept {
+  return hash_piece(reinterpret_cast<const std::uint8_t*>(&header), offsetof(Header, header_check));
 }
 
-// Bytes of each section for given sizes; no sum overflows for sizes below 2^59.
+constexpr std::uint64_t padded(std::uint64_t bytes) noexcept { return (bytes + 63) & ~std::uint64_t{63}; }
+
+// Where each section begins; no sum overflows for counts below 2^48.
 struct Layout {
   Layout(std::uint64_t unknowns, std::uint64_t supernodes, std::uint64_t row_count, std::uint64_t value_count) {
     order = sizeof(Header);
-    first = order + 4 * unknowns;
-    below = first + 4 * (supernodes + 1);
-    rows = below + 4 * supernodes;
-    values = (rows + 4 * row_count + 7) & ~std::uint64_t{7};
-    length = values + 8 * value_count;
+    first = order + padded(4 * unknowns);
+    below = first + padded(4 * (supernodes + 1));
+    rows = below + padded(4 * supernodes);
+    values = rows + padded(4 * row_count);
+    length = values + padded(8 * (value_count + value_slack));
   }
+  explicit Layout(const Header& header)
+      : Layout(static_cast<std::uint64_t>(header.unknowns), static_cast<std::uint64_t>(header.supernodes),
+               header.row_count, header.value_count) {}
   std::uint64_t order, first, below, rows, values, length;
 };
 
 [[noreturn]] void refuse(const char* what) {
   fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the bytes are no saved factor: %s; save it again with this library",
        what);
+}
+
+Header read_header(Span<const std::uint8_t> bytes) {
+  Header header;
+  if (bytes.size() < sizeof header) refuse("too short");
+  std::memcpy(&header, bytes.data(), sizeof header);
+  if (header.magic != magic) refuse("wrong beginning");
+  if (header.byte_order != byte_order) {
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the saved factor has another byte order; save it on this kind of machine");
+  }
+  if (header.version != version) {
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the saved factor has version %u, this library reads %u; save it again",
+         header.version, version);
+  }
+  if (header.header_check != check_of(header)) refuse("its header is damaged");
+  constexpr std::uint64_t most = std::uint64_t{1} << 48;
+  if (header.unknowns < 0 || header.supernodes < 0 || header.supernodes > header.unknowns || header.row_count > most ||
+      header.value_count > most || header.ordering < 0 || header.ordering > 3 ||
+      !(header.entries >= 0 && header.entries < 1e300) || !(header.flops >= 0 && header.flops < 1e300)) {
+    refuse("its sizes make no sense");
+  }
+  if (Layout(header).length != header.length || header.length != bytes.size()) {
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "the bytes are no saved factor: %zu bytes were given, its header asks for %llu; give all of them",
+         bytes.size(), static_cast<unsigned long long>(header.length));
+  }
+  return header;
+}
+
+// Whether none of the numbers is NaN or infinite, from bytes of any alignment: an exponent of all ones, plus one,
+// reaches the sign.
+bool finite_numbers(const std::uint8_t* bytes, std::uint64_t count) noexcept {
+  constexpr std::uint64_t exponent = 0x7FF0000000000000ull, one = 0x0010000000000000ull;
+  std::uint64_t bad[8] = {};
+  std::uint64_t k = 0;
+  for (; k + 8 <= count; k += 8) {
+    std::uint64_t word[8];
+    std::memcpy(word, bytes + 8 * k, sizeof word);
+    for (int c = 0; c < 8; ++c) bad[c] |= (word[c] & exponent) + one;
+  }
+  for (; k < count; ++k) {
+    std::uint64_t word;
+    std::memcpy(&word, bytes + 8 * k, sizeof word);
+    bad[0] |= (word & exponent) + one;
+  }
+  for (int c = 1; c < 8; ++c) bad[0] |= bad[c];
+  return bad[0] >> 63 == 0;
 }
 
 void read_lists(const std::uint8_t* bytes, const Layout& layout, const Header& header, Memory& memory, Symbolic& out) {
@@ -102,28 +148,38 @@ void check_columns(Symbolic& out) {
   }
 }
 
+// work(s) for every supernode, in pieces.
+template <class Work>
+void for_supernodes(const Symbolic& symbolic, JobRunner& jobs, Work&& work) {
+  constexpr std::int32_t step = 2048;
+  jobs.for_each(static_cast<std::uint32_t>((symbolic.supernodes + step - 1) / step), [&](std::uint32_t piece) {
+    const std::int32_t begin = static_cast<std::int32_t>(piece) * step;
+    for (std::int32_t s = begin; s < std::min(symbolic.supernodes, begin + step); ++s) work(s);
+  });
+}
+
 // Row lists ascend, lie below their columns, and go on in the parent: its columns or its list.
-void check_rows(Symbolic& out) {
-  for (std::int32_t s = 0; s < out.supernodes; ++s) {
+void check_rows(Symbolic& out, JobRunner& jobs) {
+  for_supernodes(out, jobs, [&](std::int32_t s) {
     const std::int32_t* rows = out.row_list(s);
     const std::int32_t count = out.below(s);
     std::int32_t previous = out.first[s + 1] - 1;
-    for (std::int32_t k = 0; k < count; ++k) {
-      if (rows[k] <= previous || rows[k] >= out.size) refuse("a row list does not ascend inside the matrix");
-      previous = rows[k];
-    }
+    bool ascends = true;
+    for (std::int32_t k = 0; k < count; previous = rows[k++]) ascends &= rows[k] > previous;
+    if (!ascends || previous >= out.size) refuse("a row list does not ascend inside the matrix");
     out.parent[s] = count > 0 ? out.supernode[rows[0]] : -1;
-  }
-  for (std::int32_t s = 0; s < out.supernodes; ++s) {
+  });
+  for_supernodes(out, jobs, [&](std::int32_t s) {
     const std::int32_t parent = out.parent[s];
-    if (parent < 0) continue;
-    const std::int32_t *rows = out.row_list(s), *up = out.row_list(parent), *end = up + out.below(parent);
-    for (std::int32_t k = 0; k < out.below(s); ++k) {
-      if (rows[k] < out.first[parent + 1]) continue;
-      while (up < end && *up < rows[k]) ++up;
-      if (up == end || *up != rows[k]) refuse("a row list does not go on in its parent");
+    if (parent < 0) return;
+    const std::int32_t *rows = out.row_list(s), *end = rows + out.below(s);
+    const std::int32_t *up = out.row_list(parent), *up_end = up + out.below(parent);
+    while (rows < end && *rows < out.first[parent + 1]) ++rows;
+    for (; rows < end; ++rows) {
+      while (up < up_end && *up < *rows) ++up;
+      if (up == up_end || *up != *rows) refuse("a row list does not go on in its parent");
     }
-  }
+  });
   // postorder: the subtree of s is the run of supernodes that ends in s
   Buffer<std::int32_t>& first = out.subtree;
   for (std::int32_t s = 0; s < out.supernodes; ++s) first[s] = s;
@@ -155,100 +211,143 @@ void place_values(Symbolic& out, std::uint64_t value_count) {
   if (next != static_cast<std::int64_t>(value_count)) refuse("its numbers do not fit its supernodes");
 }
 
-}  // namespace
-
-std::uint64_t saved_factor_size(const Factor& factor) {
-  const SupernodalFactor& full = static_cast<const SupernodalFactor&>(factor);
-  const Symbolic& symbolic = full.symbolic();
-  return Layout(static_cast<std::uint64_t>(symbolic.size), static_cast<std::uint64_t>(symbolic.supernodes),
-                static_cast<std::uint64_t>(symbolic.row_start[symbolic.supernodes]),
-                static_cast<std::uint64_t>(symbolic.stored_entries))
-      .length;
+// The diagonals are stored inverted: each must be positive.
+void check_diagonals(const Symbolic& symbolic, const double* values, JobRunner& jobs) {
+  for_supernodes(symbolic, jobs, [&](std::int32_t s) {
+    const double* triangle = values + symbolic.value_start[s];
+    bool good = true;
+    for (std::int64_t j = 0, at = 0; j < symbolic.columns(s); ++j, at += j + 1) good &= triangle[at] > 0;
+    if (!good) refuse("a diagonal is not positive");
+  });
 }
 
-void save_factor(const Factor& factor, Span<std::uint8_t> out) {
+Layout layout_of(const Symbolic& symbolic) {
+  return Layout(static_cast<std::uint64_t>(symbolic.size), static_cast<std::uint64_t>(symbolic.supernodes),
+                static_cast<std::uint64_t>(symbolic.row_start[symbolic.supernodes]),
+                static_cast<std::uint64_t>(symbolic.stored_entries));
+}
+
+}  // namespace
+
+std::uint64_t hash_matrix(const SymmetricMatrix& matrix, Span<const std::int32_t> extra_row,
+                          Span<const double> extra_value, Memory& memory, JobRunner& jobs) {
+  std::uint64_t state = hash_array(matrix.column_start.data(), matrix.column_start.size(), memory, jobs);
+  state = hash_step(state, hash_array(matrix.row.data(), matrix.row.size(), memory, jobs));
+  state = hash_step(state, hash_array(matrix.value.data(), matrix.value.size(), memory, jobs));
+  state = hash_step(state, hash_array(extra_row.data(), extra_row.size(), memory, jobs));
+  return hash_step(state, hash_array(extra_value.data(), extra_value.size(), memory, jobs));
+}
+
+std::uint64_t saved_factor_size(const Factor& factor) {
+  return layout_of(static_cast<const SupernodalFactor&>(factor).symbolic()).length;
+}
+
+void save_factor(const Factor& factor, std::uint64_t matrix_hash, Span<std::uint8_t> out, Memory& memory,
+                 JobRunner& jobs) {
   const SupernodalFactor& full = static_cast<const SupernodalFactor&>(factor);
   const Symbolic& symbolic = full.symbolic();
-  Header header{};
-  header.magic = magic, header.version = version;
-  header.unknowns = symbolic.size, header.supernodes = symbolic.supernodes;
-  header.row_count = static_cast<std::uint64_t>(symbolic.row_start[symbolic.supernodes]);
-  header.value_count = static_cast<std::uint64_t>(symbolic.stored_entries);
-  header.pattern_hash = full.analysis()->pattern_hash;
-  header.entries = symbolic.entries, header.flops = symbolic.flops;
-  const Layout layout(static_cast<std::uint64_t>(symbolic.size), static_cast<std::uint64_t>(symbolic.supernodes),
-                      header.row_count, header.value_count);
-  header.length = layout.length;
+  const Layout layout = layout_of(symbolic);
   if (out.size() < layout.length) {
     fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "the saved factor takes %llu bytes, the buffer has %zu",
          static_cast<unsigned long long>(layout.length), out.size());
   }
+  Header header{};
+  header.magic = magic, header.version = version, header.byte_order = byte_order;
+  header.unknowns = symbolic.size, header.supernodes = symbolic.supernodes;
+  header.ordering = static_cast<std::int32_t>(full.analysis()->ordering);
+  header.row_count = static_cast<std::uint64_t>(symbolic.row_start[symbolic.supernodes]);
+  header.value_count = static_cast<std::uint64_t>(symbolic.stored_entries);
+  header.pattern_hash = full.analysis()->pattern_hash, header.matrix_hash = matrix_hash;
+  header.entries = symbolic.entries, header.flops = symbolic.flops;
+  header.length = layout.length;
   std::uint8_t* bytes = out.data();
-  if (symbolic.size > 0) std::memcpy(bytes + layout.order, symbolic.order.data(), 4 * symbolic.order.size());
-  std::memcpy(bytes + layout.first, symbolic.first.data(), 4 * symbolic.first.size());
+  const auto put = [&](std::uint64_t from, std::uint64_t to, const void* data, std::uint64_t length) {
+    if (length > 0) std::memcpy(bytes + from, data, length);
+    std::fill(bytes + from + length, bytes + to, std::uint8_t{0});
+  };
+  put(layout.order, layout.first, symbolic.order.data(), 4 * symbolic.order.size());
+  put(layout.first, layout.below, symbolic.first.data(), 4 * symbolic.first.size());
+  std::fill(bytes + layout.below, bytes + layout.rows, std::uint8_t{0});
   for (std::int32_t s = 0; s < symbolic.supernodes; ++s) {
     const std::int32_t below = symbolic.below(s);
     std::memcpy(bytes + layout.below + 4 * static_cast<std::size_t>(s), &below, sizeof below);
   }
-  if (header.row_count > 0) std::memcpy(bytes + layout.rows, symbolic.rows.data(), 4 * header.row_count);
-  std::fill(bytes + layout.rows + 4 * header.row_count, bytes + layout.values, std::uint8_t{0});
-  if (header.value_count > 0) std::memcpy(bytes + layout.values, full.values().data(), 8 * header.value_count);
-  header.checksum = checksum_of(bytes + sizeof header, layout.length - sizeof header);
-  header.header_check = checksum_of(reinterpret_cast<const std::uint8_t*>(&header), offsetof(Header, header_check));
+  put(layout.rows, layout.values, symbolic.rows.data(), 4 * header.row_count);
+  const std::uint64_t numbers = 8 * header.value_count;
+  std::fill(bytes + layout.values + numbers, bytes + layout.length, std::uint8_t{0});
+  const std::uint8_t* values = reinterpret_cast<const std::uint8_t*>(full.values().data());
+  jobs.for_each(static_cast<std::uint32_t>((numbers + copy_step - 1) / copy_step), [&](std::uint32_t piece) {
+    const std::uint64_t begin = piece * copy_step, end = std::min(numbers, begin + copy_step);
+    std::memcpy(bytes + layout.values + begin, values + begin, end - begin);
+  });
+  header.checksum = hash_bytes(bytes + sizeof header, layout.length - sizeof header, memory, jobs,
+                               [](std::uint64_t, std::uint64_t) {});
+  header.header_check = check_of(header);
   std::memcpy(bytes, &header, sizeof header);
 }
 
-std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, std::int32_t unknowns, Memory& memory,
-                                          JobRunner* jobs) {
-  Header header;
-  if (bytes.size() < sizeof header) refuse("too short");
-  std::memcpy(&header, bytes.data(), sizeof header);
-  if (header.magic != magic) refuse("wrong beginning");
-  if (header.version != version) {
-    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the saved factor has version %u, this library reads %u; save it again",
-         header.version, version);
-  }
-  if (header.header_check != checksum_of(bytes.data(), offsetof(Header, header_check))) refuse("its header is damaged");
-  constexpr std::uint64_t most = std::uint64_t{1} << 48;
-  if (header.unknowns < 0 || header.supernodes < 0 || header.supernodes > header.unknowns || header.row_count > most ||
-      header.value_count > most) {
-    refuse("its sizes make no sense");
-  }
-  if (header.unknowns != unknowns) {
+Ordering check_saved_factor(Span<const std::uint8_t> bytes) {
+  return static_cast<Ordering>(read_header(bytes).ordering);
+}
+
+std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, const LoadOptions& options, Memory& memory,
+                                          JobRunner& jobs) {
+  const Timer timer;
+  const Header header = read_header(bytes);
+  if (header.unknowns != options.unknowns) {
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "the saved factor has %d unknowns, %d are expected: it belongs to another mesh", header.unknowns, unknowns);
+         "the saved factor has %d unknowns, %d are expected: it belongs to another mesh", header.unknowns,
+         options.unknowns);
   }
-  const Layout layout(static_cast<std::uint64_t>(header.unknowns), static_cast<std::uint64_t>(header.supernodes),
-                      header.row_count, header.value_count);
-  if (layout.length != header.length || layout.length != bytes.size()) refuse("its length is wrong");
-  if (header.checksum != checksum_of(bytes.data() + sizeof header, layout.length - sizeof header))
-    refuse("its checksum is wrong");
+  if (header.matrix_hash != options.matrix_hash) {
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "the saved factor belongs to another mesh, to other positions of this one, or to another operator; save it "
+         "again for this mesh");
+  }
+  const std::uint8_t* given = bytes.data();
+  if (options.borrow && reinterpret_cast<std::uintptr_t>(given) % saved_factor_alignment != 0) {
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "borrowed bytes must be aligned to %zu bytes; align them, or let them be copied", saved_factor_alignment);
+  }
+  const Layout layout(header);
+  const std::uint64_t number_end = layout.values + 8 * header.value_count;
   std::shared_ptr<Analysis> analysis = make_shared_in<Analysis>(memory);
+  Buffer<double> values;
+  if (!options.borrow) values.allocate(memory, static_cast<std::size_t>(header.value_count) + value_slack);
+
+  // one pass: check, look for NaN, copy. First touch of fresh memory costs more than the copy: all threads touch theirs
+  const std::uint64_t checksum = hash_bytes(
+      given + sizeof header, layout.length - sizeof header, memory, jobs, [&](std::uint64_t from, std::uint64_t to) {
+        const std::uint64_t begin = std::max(layout.values, from + sizeof header);
+        const std::uint64_t end = std::min(number_end, to + sizeof header);
+        if (begin >= end) return;
+        if (!finite_numbers(given + begin, (end - begin) / 8)) refuse("it holds NaN or infinity");
+        if (!options.borrow)
+          std::memcpy(reinterpret_cast<std::uint8_t*>(values.data()) + (begin - layout.values), given + begin,
+                      end - begin);
+      });
+  if (checksum != header.checksum) refuse("its checksum is wrong");
+  if (options.borrow) {
+    values.borrow(reinterpret_cast<const double*>(given + layout.values),
+                  static_cast<std::size_t>(header.value_count) + value_slack);
+  } else {
+    std::fill(values.data() + header.value_count, values.data() + values.size(), 0.0);
+  }
+
   Symbolic& symbolic = analysis->symbolic;
-  read_lists(bytes.data(), layout, header, memory, symbolic);
+  read_lists(given, layout, header, memory, symbolic);
   check_columns(symbolic);
-  check_rows(symbolic);
+  check_rows(symbolic, jobs);
   check_postorder(symbolic, memory);
   place_values(symbolic, header.value_count);
+  check_diagonals(symbolic, values.data(), jobs);
   make_plan(symbolic, memory, analysis->plan);
   analysis->pattern_hash = header.pattern_hash;
+  analysis->ordering = static_cast<Ordering>(header.ordering);
   analysis->loaded = true;
   std::shared_ptr<SupernodalFactor> factor = make_shared_in<SupernodalFactor>(memory, std::move(analysis), memory);
-  Buffer<double>& values = factor->values();
-  values.allocate(memory, header.value_count + value_slack);
-  // fresh memory costs more at its first touch than the copy does: all threads touch their part
-  auto copy = [&](std::uint32_t piece) {
-    const std::uint64_t begin = piece * copy_step, end = std::min<std::uint64_t>(header.value_count, begin + copy_step);
-    std::memcpy(values.data() + begin, bytes.data() + layout.values + 8 * begin, 8 * (end - begin));
-    if (!all_finite(values.data() + begin, end - begin)) refuse("it holds NaN or infinity");
-  };
-  const std::uint32_t pieces = static_cast<std::uint32_t>((header.value_count + copy_step - 1) / copy_step);
-  if (jobs) {
-    jobs->for_each(pieces, copy);
-  } else {
-    for (std::uint32_t piece = 0; piece < pieces; ++piece) copy(piece);
-  }
-  std::fill(values.data() + header.value_count, values.data() + header.value_count + value_slack, 0.0);
+  factor->values() = std::move(values);
+  factor->set_loaded(options.borrow, timer.milliseconds());
   return factor;
 }
 

@@ -75,6 +75,9 @@ struct Kernels {
   void (*forward_triangle)(const double* triangle, std::int32_t columns, double* z, std::int32_t channels);
   void (*forward_rows)(const double* below, std::int32_t row_count, std::int32_t columns, const double* z, double* out,
                        std::int32_t channels);
+  void (*forward_triangle_f32)(const float* triangle, std::int32_t columns, float* z, std::int32_t channels);
+  void (*forward_rows_f32)(const float* below, std::int32_t row_count, std::int32_t columns, const float* z, float* out,
+                           std::int32_t channels);
 
   // Path blocks x[nc][lanes], lanes a multiple of 8: x <- L^-1 x, then x[target[k]] -= B[k] x for every row below.
   void (*path_triangle)(const double* triangle, std::int32_t columns, double* x, std::int32_t lanes);

@@ -23,6 +23,8 @@ extern const Kernels kernels_avx2_set = {
     backward_triangle_f32,
     forward_triangle,
     forward_rows,
+    forward_triangle_f32,
+    forward_rows_f32,
     path_triangle,
     path_rows,
     gram,

@@ -379,85 +379,110 @@ void backward_triangle_f32(const float* triangle, std::int32_t columns, float* z
   backward_triangle_any<float>(triangle, columns, z, channels);
 }
 
-// Dot product in 8 partial sums, joined as a fixed tree.
-inline double dot8(const double* a, const double* b, std::int32_t count) noexcept {
-  constexpr int vectors = 8 / D::width;
-  if (count < 8) {
-    double total = 0;
+// Dot product in one vector's worth of partial sums (64 bytes on every set), joined as a fixed tree.
+template <class T>
+inline T dot(const T* a, const T* b, std::int32_t count) noexcept {
+  using S = Simd<T>;
+  constexpr std::int32_t sums = 64 / sizeof(T);
+  constexpr int vectors = sums / S::width;
+  if (count < sums) {
+    T total = 0;
     for (std::int32_t k = 0; k < count; ++k) total = multiply_add_scalar(a[k], b[k], total);
     return total;
   }
-  D::Type part[vectors];
-  for (int p = 0; p < vectors; ++p) part[p] = D::zero();
+  typename S::Type part[vectors];
+  for (int p = 0; p < vectors; ++p) part[p] = S::zero();
   std::int32_t k = 0;
-  for (; k + 8 <= count; k += 8) {
+  for (; k + sums <= count; k += sums) {
     for (int p = 0; p < vectors; ++p)
-      part[p] = D::multiply_add(D::load(a + k + p * D::width), D::load(b + k + p * D::width), part[p]);
+      part[p] = S::multiply_add(S::load(a + k + p * S::width), S::load(b + k + p * S::width), part[p]);
   }
-  alignas(64) double lane[8];
-  for (int p = 0; p < vectors; ++p) D::store(lane + p * D::width, part[p]);
+  alignas(64) T lane[sums];
+  for (int p = 0; p < vectors; ++p) S::store(lane + p * S::width, part[p]);
   for (std::int32_t r = 0; k + r < count; ++r) lane[r] = multiply_add_scalar(a[k + r], b[k + r], lane[r]);
-  return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+  for (std::int32_t half = sums / 2; half > 0; half /= 2) {
+    for (std::int32_t r = 0; r < half; ++r) lane[r] += lane[r + half];
+  }
+  return lane[0];
 }
 
-void forward_triangle(const double* triangle, std::int32_t columns, double* z, std::int32_t channels) {
-  const double* row = triangle;
+inline double dot8(const double* a, const double* b, std::int32_t count) noexcept { return dot<double>(a, b, count); }
+
+template <class T>
+void forward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::int32_t channels) {
+  using S = Simd<T>;
+  const T* row = triangle;
   if (channels == 1) {
-    for (std::int32_t j = 0; j < columns; row += ++j) z[j] = (z[j] - dot8(row, z, j)) * row[j];
+    for (std::int32_t j = 0; j < columns; row += ++j) z[j] = (z[j] - dot<T>(row, z, j)) * row[j];
     return;
   }
-  for (std::int32_t c = 0; c < channels; c += D::width) {
-    const int count = channels - c < D::width ? channels - c : D::width;
+  for (std::int32_t c = 0; c < channels; c += S::width) {
+    const int count = channels - c < S::width ? channels - c : S::width;
     row = triangle;
     for (std::int32_t j = 0; j < columns; row += ++j) {
       // two chains: even and odd columns
-      D::Type even = D::zero(), odd = D::zero();
-      const double* x = z + c;
+      typename S::Type even = S::zero(), odd = S::zero();
+      const T* x = z + c;
       std::int32_t i = 0;
       for (; i + 2 <= j; i += 2, x += 2 * channels) {
-        even = D::multiply_add(D::all(row[i]), load_lanes<double>(x, count), even);
-        odd = D::multiply_add(D::all(row[i + 1]), load_lanes<double>(x + channels, count), odd);
+        even = S::multiply_add(S::all(row[i]), load_lanes<T>(x, count), even);
+        odd = S::multiply_add(S::all(row[i + 1]), load_lanes<T>(x + channels, count), odd);
       }
-      if (i < j) even = D::multiply_add(D::all(row[i]), load_lanes<double>(x, count), even);
-      double* own = z + static_cast<std::int64_t>(j) * channels + c;
-      const D::Type rest = D::subtract_product(D::all(1.0), D::add(even, odd), load_lanes<double>(own, count));
-      store_lanes<double>(own, D::multiply(rest, D::all(row[j])), count);
+      if (i < j) even = S::multiply_add(S::all(row[i]), load_lanes<T>(x, count), even);
+      T* own = z + static_cast<std::int64_t>(j) * channels + c;
+      const typename S::Type rest = S::subtract_product(S::all(T{1}), S::add(even, odd), load_lanes<T>(own, count));
+      store_lanes<T>(own, S::multiply(rest, S::all(row[j])), count);
     }
   }
 }
 
-void forward_rows(const double* below, std::int32_t row_count, std::int32_t columns, const double* z, double* out,
-                  std::int32_t channels) {
+template <class T>
+void forward_rows_any(const T* below, std::int32_t row_count, std::int32_t columns, const T* z, T* out,
+                      std::int32_t channels) {
+  using S = Simd<T>;
   if (channels == 1) {
-    for (std::int32_t r = 0; r < row_count; ++r, below += columns) out[r] = dot8(below, z, columns);
+    for (std::int32_t r = 0; r < row_count; ++r, below += columns) out[r] = dot<T>(below, z, columns);
     return;
   }
   // channels in groups of one vector, four rows at a time: the factor's entries are broadcast
-  for (std::int32_t c = 0; c < channels; c += D::width) {
-    const int count = channels - c < D::width ? channels - c : D::width;
+  for (std::int32_t c = 0; c < channels; c += S::width) {
+    const int count = channels - c < S::width ? channels - c : S::width;
     std::int32_t r = 0;
     for (; r + 4 <= row_count; r += 4) {
-      const double* b = below + static_cast<std::int64_t>(r) * columns;
-      D::Type sum[4] = {D::zero(), D::zero(), D::zero(), D::zero()};
-      const double* x = z + c;
+      const T* b = below + static_cast<std::int64_t>(r) * columns;
+      typename S::Type sum[4] = {S::zero(), S::zero(), S::zero(), S::zero()};
+      const T* x = z + c;
       for (std::int32_t j = 0; j < columns; ++j, x += channels) {
-        const D::Type value = load_lanes<double>(x, count);
+        const typename S::Type value = load_lanes<T>(x, count);
         for (int k = 0; k < 4; ++k)
-          sum[k] = D::multiply_add(D::all(b[j + static_cast<std::int64_t>(k) * columns]), value, sum[k]);
+          sum[k] = S::multiply_add(S::all(b[j + static_cast<std::int64_t>(k) * columns]), value, sum[k]);
       }
       for (int k = 0; k < 4; ++k)
-        store_lanes<double>(out + static_cast<std::int64_t>(r + k) * channels + c, sum[k], count);
+        store_lanes<T>(out + static_cast<std::int64_t>(r + k) * channels + c, sum[k], count);
     }
     for (; r < row_count; ++r) {
-      const double* b = below + static_cast<std::int64_t>(r) * columns;
-      D::Type sum = D::zero();
-      for (std::int32_t j = 0; j < columns; ++j) {
-        sum = D::multiply_add(D::all(b[j]), load_lanes<double>(z + static_cast<std::int64_t>(j) * channels + c, count),
-                              sum);
-      }
-      store_lanes<double>(out + static_cast<std::int64_t>(r) * channels + c, sum, count);
+      const T* b = below + static_cast<std::int64_t>(r) * columns;
+      typename S::Type sum = S::zero();
+      for (std::int32_t j = 0; j < columns; ++j)
+        sum = S::multiply_add(S::all(b[j]), load_lanes<T>(z + static_cast<std::int64_t>(j) * channels + c, count), sum);
+      store_lanes<T>(out + static_cast<std::int64_t>(r) * channels + c, sum, count);
     }
   }
+}
+
+void forward_triangle(const double* triangle, std::int32_t columns, double* z, std::int32_t channels) {
+  forward_triangle_any<double>(triangle, columns, z, channels);
+}
+void forward_rows(const double* below, std::int32_t row_count, std::int32_t columns, const double* z, double* out,
+                  std::int32_t channels) {
+  forward_rows_any<double>(below, row_count, columns, z, out, channels);
+}
+void forward_triangle_f32(const float* triangle, std::int32_t columns, float* z, std::int32_t channels) {
+  forward_triangle_any<float>(triangle, columns, z, channels);
+}
+void forward_rows_f32(const float* below, std::int32_t row_count, std::int32_t columns, const float* z, float* out,
+                      std::int32_t channels) {
+  forward_rows_any<float>(below, row_count, columns, z, out, channels);
 }
 
 }  // namespace

@@ -111,10 +111,12 @@ void SupernodalFactor::solve_paths(const SparseColumns& columns, Memory& memory,
   }
   std::sort(members.begin(), members.end(),
             [&](std::int32_t a, std::int32_t b) { return key[a] != key[b] ? key[a] < key[b] : a < b; });
-  // even groups; from 8 sites on at least two, so that two threads have work
-  const std::int32_t groups = std::max((count + PathGroup::capacity - 1) / PathGroup::capacity, count >= 8 ? 2 : 1);
+  // groups of whole lanes of 8, and an even number of them, so that two threads have the same work
+  const std::int32_t lanes = (count + 7) / 8;
+  std::int32_t groups = (count + PathGroup::capacity - 1) / PathGroup::capacity;
+  if (groups % 2 == 1 && groups < lanes) ++groups;
   const auto begin_of = [&](std::int32_t g) {
-    return static_cast<std::int32_t>(static_cast<std::int64_t>(g) * count / groups);
+    return std::min(count, 8 * static_cast<std::int32_t>(static_cast<std::int64_t>(g) * lanes / groups));
   };
   Vector<std::shared_ptr<const PathGroup>> made(static_cast<std::size_t>(groups), nullptr, &memory);
   jobs.for_each(static_cast<std::uint32_t>(groups), [&](std::uint32_t g) {

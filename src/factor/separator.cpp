@@ -394,7 +394,10 @@ Cut SeparatorSearch::bisect(const GraphView& graph, std::uint8_t* side, bool tho
       }
     }
   }
-  if (!spread || !best.usable() || thorough) {
+  // far above the square root of the size: the places mislead (a tube with long triangles along it is cut lengthwise),
+  // so distances in the graph get their say
+  const bool poor = static_cast<double>(best.separator) * best.separator > 2.5 * n;
+  if (!spread || !best.usable() || thorough || poor) {
     breadth_first_keys(graph);
     if (!try_keys(graph, side, best, share) && !best.usable()) try_keys(graph, side, best, 0.05);
   }

@@ -55,6 +55,7 @@ constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of 
 constexpr int lane_vectors = 2, lane_rows = 4;
 
 inline double multiply_add_scalar(double a, double b, double c) noexcept { return a * b + c; }
+inline float multiply_add_scalar(float a, float b, float c) noexcept { return a * b + c; }
 
 // out[r][at + c] = tile[8 c + r] for r < rows, c < columns.
 inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows,

@@ -13,6 +13,7 @@ namespace hf {
 struct Analysis {
   Symbolic symbolic;
   Plan plan;
+  Ordering ordering = Ordering::nested_dissection;  // that was asked for
   std::uint64_t pattern_hash = 0;  // of the matrix: refactor takes the same pattern only
   bool loaded = false;             // from bytes: the hash is not to be trusted
 };
@@ -50,6 +51,8 @@ class SupernodalFactor final : public Factor {
 
   void forward(double* z, std::int32_t channels, JobRunner& jobs) const override;
   void backward(double* z, std::int32_t channels, JobRunner& jobs) const override;
+  void backward_at(Span<const std::int32_t> unknowns, double* z, std::int32_t channels) const override;
+  void clear_at(Span<const std::int32_t> unknowns, double* z, std::int32_t channels) const override;
   std::shared_ptr<const Factor> refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated,
                                          Memory& memory, JobRunner& jobs) const override;
   void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
@@ -60,6 +63,8 @@ class SupernodalFactor final : public Factor {
   void clear(const PathGroup& group, std::int32_t channels, double* z) const override;
   void project(const PathGroup& group, const double* z, std::int32_t channels, double* out) const override;
 
+  // Supernodes on the paths of these unknowns, ascending.
+  Vector<std::int32_t> path_union(Span<const std::int32_t> unknowns) const;
   const Symbolic& symbolic() const noexcept { return analysis_->symbolic; }
   const Plan& plan() const noexcept { return analysis_->plan; }
   const Kernels& kernels() const noexcept { return *kernels_; }
@@ -76,10 +81,15 @@ class SupernodalFactor final : public Factor {
   void set_timings(double ordering_ms, double symbolic_ms) noexcept {
     statistics_.ordering_ms = ordering_ms, statistics_.symbolic_ms = symbolic_ms;
   }
+  void set_loaded(bool borrowed, double load_ms) noexcept {
+    statistics_.loaded = true, statistics_.borrowed = borrowed, statistics_.load_ms = load_ms;
+  }
   // Another set of kernels, for tests that compare them.
   void use_kernels(const Kernels& kernels) noexcept { kernels_ = &kernels; }
 
  private:
+  void measure_paths();
+
   Memory& memory_;
   std::shared_ptr<const Analysis> analysis_;
   const Kernels* kernels_;

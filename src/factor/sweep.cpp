@@ -5,6 +5,7 @@
 // G^-1 z: supernodes first to last; a task keeps what it contributes above itself in a buffer of its own, and the
 // buffers are added in the order of the tasks. Cost: one read of the factor per call for up to 8 channels.
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 
 #include "factor/preview.h"
@@ -103,19 +104,28 @@ struct BackwardPass {
 };
 
 // What one thread needs in a forward sweep.
+template <class T>
 struct ForwardScratch {
   ForwardScratch(Memory& memory, std::int32_t unknowns, std::int32_t below, std::int32_t channels)
       : place_of(memory, unknowns), product(memory, static_cast<std::size_t>(below) * channels + 8) {}
   Buffer<std::int32_t> place_of;  // row above the task -> its place in the task's buffer
-  Buffer<double> product;
+  Buffer<T> product;
 };
 
+// One forward sweep on double or single-precision numbers.
+template <class T>
 class ForwardPass {
  public:
-  ForwardPass(const SupernodalFactor& factor, double* z, std::int32_t channels, Memory& memory)
-      : factor_(factor), z_(z), channels_(channels), memory_(memory), free_(&memory) {
-    const Symbolic& symbolic = factor.symbolic();
-    const Plan& plan = factor.plan();
+  ForwardPass(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const T* values, T* z,
+              std::int32_t channels, Memory& memory)
+      : symbolic_(symbolic),
+        plan_(plan),
+        kernels_(kernels),
+        values_(values),
+        z_(z),
+        channels_(channels),
+        memory_(memory),
+        free_(&memory) {
     for (std::int32_t s = 0; s < symbolic.supernodes; ++s) longest_ = std::max(longest_, symbolic.below(s));
     start_.allocate(memory, plan.task_root.size() + 1);
     std::int64_t total = 0;
@@ -126,108 +136,129 @@ class ForwardPass {
   }
 
   void run(JobRunner& jobs) {
-    const Plan& plan = factor_.plan();
-    const Symbolic& symbolic = factor_.symbolic();
-    jobs.for_each(static_cast<std::uint32_t>(plan.tasks), [&](std::uint32_t k) {
-      std::shared_ptr<ForwardScratch> scratch = take();
-      const std::int32_t task = plan.task_order[k];
-      for (std::int32_t r = plan.task_start[task]; r < plan.task_start[task + 1]; ++r) run_subtree(r, *scratch);
+    jobs.for_each(static_cast<std::uint32_t>(plan_.tasks), [&](std::uint32_t k) {
+      std::shared_ptr<Scratch> scratch = take();
+      const std::int32_t task = plan_.task_order[k];
+      for (std::int32_t r = plan_.task_start[task]; r < plan_.task_start[task + 1]; ++r) run_subtree(r, *scratch);
       give_back(std::move(scratch));
     });
-    for (std::size_t r = 0; r < plan.task_root.size(); ++r) {
-      const std::int32_t root = plan.task_root[r];
-      subtract(symbolic.row_list(root), symbolic.below(root), above_.data() + start_[r] * channels_);
+    for (std::size_t r = 0; r < plan_.task_root.size(); ++r) {
+      const std::int32_t root = plan_.task_root[r];
+      subtract(symbolic_.row_list(root), symbolic_.below(root), above_.data() + start_[r] * channels_);
     }
-    std::shared_ptr<ForwardScratch> scratch = take();
-    const std::int32_t top_count = static_cast<std::int32_t>(plan.top.size());
+    std::shared_ptr<Scratch> scratch = take();
+    const std::int32_t top_count = static_cast<std::int32_t>(plan_.top.size());
     for (std::int32_t k = 0; k < top_count; ++k) {
-      const std::int32_t s = plan.top[k];
+      const std::int32_t s = plan_.top[k];
       solve(s, scratch->product.data(), jobs);
-      subtract(symbolic.row_list(s), symbolic.below(s), scratch->product.data());
+      subtract(symbolic_.row_list(s), symbolic_.below(s), scratch->product.data());
     }
   }
 
  private:
-  void run_subtree(std::int32_t r, ForwardScratch& scratch) noexcept {
-    const Symbolic& symbolic = factor_.symbolic();
-    const std::int32_t root = factor_.plan().task_root[r];
-    const std::int32_t last = symbolic.first[root + 1];
-    double* above = above_.data() + start_[r] * channels_;
-    std::fill(above, above + static_cast<std::int64_t>(symbolic.below(root)) * channels_, 0.0);
-    for (std::int32_t k = 0; k < symbolic.below(root); ++k) scratch.place_of[symbolic.row_list(root)[k]] = k;
-    for (std::int32_t s = symbolic.subtree[root]; s <= root; ++s) {
+  using Scratch = ForwardScratch<T>;
+
+  const T* triangle(std::int32_t s) const noexcept { return values_ + symbolic_.value_start[s]; }
+  const T* below(std::int32_t s) const noexcept {
+    const std::int64_t width = symbolic_.columns(s);
+    return triangle(s) + width * (width + 1) / 2;
+  }
+
+  void run_subtree(std::int32_t r, Scratch& scratch) noexcept {
+    const std::int32_t root = plan_.task_root[r];
+    const std::int32_t last = symbolic_.first[root + 1];
+    T* above = above_.data() + start_[r] * channels_;
+    std::fill(above, above + static_cast<std::int64_t>(symbolic_.below(root)) * channels_, T{0});
+    for (std::int32_t k = 0; k < symbolic_.below(root); ++k) scratch.place_of[symbolic_.row_list(root)[k]] = k;
+    for (std::int32_t s = symbolic_.subtree[root]; s <= root; ++s) {
       solve(s, scratch.product.data());
-      const std::int32_t* rows = symbolic.row_list(s);
-      const std::int32_t count = symbolic.below(s);
+      const std::int32_t* rows = symbolic_.row_list(s);
+      const std::int32_t count = symbolic_.below(s);
       std::int32_t inside = 0;
       while (inside < count && rows[inside] < last) ++inside;
       subtract(rows, inside, scratch.product.data());
       for (std::int32_t k = inside; k < count; ++k) {
-        double* target = above + static_cast<std::int64_t>(scratch.place_of[rows[k]]) * channels_;
+        T* target = above + static_cast<std::int64_t>(scratch.place_of[rows[k]]) * channels_;
         for (std::int32_t c = 0; c < channels_; ++c)
           target[c] += scratch.product[static_cast<std::size_t>(k) * channels_ + c];
       }
     }
   }
 
-  void solve(std::int32_t s, double* product) const noexcept {
-    const Symbolic& symbolic = factor_.symbolic();
-    double* z = z_ + static_cast<std::int64_t>(symbolic.first[s]) * channels_;
-    factor_.kernels().forward_triangle(factor_.triangle(s), symbolic.columns(s), z, channels_);
-    factor_.kernels().forward_rows(factor_.below(s), symbolic.below(s), symbolic.columns(s), z, product, channels_);
+  void solve_triangle(std::int32_t s, T* z) const noexcept {
+    if constexpr (sizeof(T) == sizeof(double)) {
+      kernels_.forward_triangle(triangle(s), symbolic_.columns(s), z, channels_);
+    } else {
+      kernels_.forward_triangle_f32(triangle(s), symbolic_.columns(s), z, channels_);
+    }
+  }
+  void multiply_rows(std::int32_t s, std::int32_t begin, std::int32_t end, const T* z, T* product) const noexcept {
+    const T* first = below(s) + static_cast<std::int64_t>(begin) * symbolic_.columns(s);
+    product += static_cast<std::int64_t>(begin) * channels_;
+    if constexpr (sizeof(T) == sizeof(double)) {
+      kernels_.forward_rows(first, end - begin, symbolic_.columns(s), z, product, channels_);
+    } else {
+      kernels_.forward_rows_f32(first, end - begin, symbolic_.columns(s), z, product, channels_);
+    }
+  }
+
+  void solve(std::int32_t s, T* product) const noexcept {
+    T* z = z_ + static_cast<std::int64_t>(symbolic_.first[s]) * channels_;
+    solve_triangle(s, z);
+    multiply_rows(s, 0, symbolic_.below(s), z, product);
   }
 
   // The same with the rows of a large supernode cut over the threads.
-  void solve(std::int32_t s, double* product, JobRunner& jobs) const {
-    const Symbolic& symbolic = factor_.symbolic();
-    const std::int32_t columns = symbolic.columns(s), rows = symbolic.below(s);
+  void solve(std::int32_t s, T* product, JobRunner& jobs) const {
+    const std::int32_t columns = symbolic_.columns(s), rows = symbolic_.below(s);
     constexpr std::int32_t step = 128;
     if (jobs.thread_count() == 1 || static_cast<double>(columns) * rows < 40000 || rows <= step)
       return solve(s, product);
-    double* z = z_ + static_cast<std::int64_t>(symbolic.first[s]) * channels_;
-    factor_.kernels().forward_triangle(factor_.triangle(s), columns, z, channels_);
+    T* z = z_ + static_cast<std::int64_t>(symbolic_.first[s]) * channels_;
+    solve_triangle(s, z);
     jobs.for_each(static_cast<std::uint32_t>((rows + step - 1) / step), [&](std::uint32_t piece) {
       const std::int32_t begin = static_cast<std::int32_t>(piece) * step;
-      factor_.kernels().forward_rows(factor_.below(s) + static_cast<std::int64_t>(begin) * columns,
-                                     std::min(step, rows - begin), columns, z,
-                                     product + static_cast<std::int64_t>(begin) * channels_, channels_);
+      multiply_rows(s, begin, std::min(rows, begin + step), z, product);
     });
   }
 
-  void subtract(const std::int32_t* rows, std::int32_t count, const double* product) const noexcept {
+  void subtract(const std::int32_t* rows, std::int32_t count, const T* product) const noexcept {
     for (std::int32_t k = 0; k < count; ++k) {
-      double* target = z_ + static_cast<std::int64_t>(rows[k]) * channels_;
+      T* target = z_ + static_cast<std::int64_t>(rows[k]) * channels_;
       for (std::int32_t c = 0; c < channels_; ++c) target[c] -= product[static_cast<std::int64_t>(k) * channels_ + c];
     }
   }
 
-  std::shared_ptr<ForwardScratch> take() {
+  std::shared_ptr<Scratch> take() {
     {
       std::lock_guard<std::mutex> lock(mutex_);
       if (!free_.empty()) {
-        std::shared_ptr<ForwardScratch> taken = free_.back();
+        std::shared_ptr<Scratch> taken = free_.back();
         free_.pop_back();
         return taken;
       }
       ++made_;
       free_.reserve(made_);
     }
-    return make_shared_in<ForwardScratch>(memory_, memory_, factor_.size(), longest_, channels_);
+    return make_shared_in<Scratch>(memory_, memory_, symbolic_.size, longest_, channels_);
   }
-  void give_back(std::shared_ptr<ForwardScratch> scratch) noexcept {
+  void give_back(std::shared_ptr<Scratch> scratch) noexcept {
     std::lock_guard<std::mutex> lock(mutex_);
     free_.push_back(std::move(scratch));
   }
 
-  const SupernodalFactor& factor_;
-  double* z_;
+  const Symbolic& symbolic_;
+  const Plan& plan_;
+  const Kernels& kernels_;
+  const T* values_;
+  T* z_;
   std::int32_t channels_;
   Memory& memory_;
   std::int32_t longest_ = 0;
   Buffer<std::int64_t> start_;
-  Buffer<double> above_;
+  Buffer<T> above_;
   std::mutex mutex_;
-  Vector<std::shared_ptr<ForwardScratch>> free_;
+  Vector<std::shared_ptr<Scratch>> free_;
   std::size_t made_ = 0;
 };
 
@@ -237,13 +268,45 @@ void SupernodalFactor::backward(double* z, std::int32_t channels, JobRunner& job
   BackwardPass<double>{symbolic(), plan(), kernels(), values_.data(), z, channels}.run(jobs);
 }
 
+Vector<std::int32_t> SupernodalFactor::path_union(Span<const std::int32_t> unknowns) const {
+  const Symbolic& pattern = symbolic();
+  Vector<std::int32_t> nodes(&memory_);
+  for (const std::int32_t unknown : unknowns) nodes.push_back(pattern.supernode[pattern.position[unknown]]);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  // every path up to the first supernode that is marked
+  Vector<std::uint8_t> marked(static_cast<std::size_t>(pattern.supernodes), 0, &memory_);
+  for (const std::int32_t s : nodes) marked[static_cast<std::size_t>(s)] = 1;
+  const std::size_t starts = nodes.size();
+  for (std::size_t i = 0; i < starts; ++i) {
+    for (std::int32_t s = pattern.parent[nodes[i]]; s >= 0 && !marked[static_cast<std::size_t>(s)];
+         s = pattern.parent[s])
+      marked[static_cast<std::size_t>(s)] = 1, nodes.push_back(s);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+void SupernodalFactor::backward_at(Span<const std::int32_t> unknowns, double* z, std::int32_t channels) const {
+  const BackwardPass<double> pass{symbolic(), plan(), kernels(), values_.data(), z, channels};
+  const Vector<std::int32_t> nodes = path_union(unknowns);
+  for (auto s = nodes.rbegin(); s != nodes.rend(); ++s) pass.whole(*s);
+}
+
+void SupernodalFactor::clear_at(Span<const std::int32_t> unknowns, double* z, std::int32_t channels) const {
+  for (const std::int32_t s : path_union(unknowns)) {
+    const std::int64_t first = symbolic().first[s], last = symbolic().first[s + 1];
+    std::fill(z + first * channels, z + last * channels, 0.0);
+  }
+}
+
 void SupernodalFactor::forward(double* z, std::int32_t channels, JobRunner& jobs) const {
-  ForwardPass(*this, z, channels, memory_).run(jobs);
+  ForwardPass<double>(symbolic(), plan(), kernels(), values_.data(), z, channels, memory_).run(jobs);
 }
 
 PreviewFactor::PreviewFactor(std::shared_ptr<const Analysis> analysis, const Kernels& kernels,
                              const Buffer<double>& values, Memory& memory, JobRunner& jobs)
-    : analysis_(std::move(analysis)), kernels_(&kernels), values_(memory, values.size()) {
+    : memory_(memory), analysis_(std::move(analysis)), kernels_(&kernels), values_(memory, values.size()) {
   constexpr std::size_t step = std::size_t{1} << 18;
   jobs.for_each(static_cast<std::uint32_t>((values.size() + step - 1) / step), [&](std::uint32_t piece) {
     const std::size_t begin = piece * step, end = std::min(values.size(), begin + step);
@@ -256,8 +319,64 @@ std::shared_ptr<const PreviewFactor> PreviewFactor::make(const Factor& factor, M
   return make_shared_in<PreviewFactor>(memory, full.analysis(), full.kernels(), full.values(), memory, jobs);
 }
 
+void PreviewFactor::forward(float* z, std::int32_t channels, JobRunner& jobs) const {
+  ForwardPass<float>(analysis_->symbolic, analysis_->plan, *kernels_, values_.data(), z, channels, memory_).run(jobs);
+}
+
 void PreviewFactor::backward(float* z, std::int32_t channels, JobRunner& jobs) const {
   BackwardPass<float>{analysis_->symbolic, analysis_->plan, *kernels_, values_.data(), z, channels}.run(jobs);
 }
+
+namespace {
+
+constexpr std::size_t convert_step = std::size_t{1} << 15;
+
+// The largest magnitude, as a power of two: dividing by it is exact, and single precision neither overflows nor meets
+// its subnormal numbers. 1 for zero.
+double scale_of(const double* z, std::size_t count, Memory& memory, JobRunner& jobs) {
+  const std::size_t pieces = (count + convert_step - 1) / convert_step;
+  Buffer<double> largest(memory, pieces);
+  jobs.for_each(static_cast<std::uint32_t>(pieces), [&](std::uint32_t piece) {
+    double most = 0;
+    for (std::size_t i = piece * convert_step; i < std::min(count, (piece + 1) * convert_step); ++i)
+      most = std::max(most, std::fabs(z[i]));
+    largest[piece] = most;
+  });
+  double most = 0;
+  for (const double value : largest) most = std::max(most, value);
+  int exponent = 0;
+  if (!(most > 0) || !std::isfinite(most)) return 1;
+  std::frexp(most, &exponent);
+  return std::ldexp(1.0, std::min(std::max(exponent, -1000), 1000));
+}
+
+template <class Sweep>
+void in_single(double* z, std::size_t count, float* scratch, Memory& memory, JobRunner& jobs, Sweep&& sweep) {
+  const double scale = scale_of(z, count, memory, jobs), inverse = 1 / scale;
+  const std::uint32_t pieces = static_cast<std::uint32_t>((count + convert_step - 1) / convert_step);
+  jobs.for_each(pieces, [&](std::uint32_t piece) {
+    for (std::size_t i = piece * convert_step; i < std::min(count, (piece + 1) * convert_step); ++i)
+      scratch[i] = static_cast<float>(z[i] * inverse);
+  });
+  sweep();
+  jobs.for_each(pieces, [&](std::uint32_t piece) {
+    for (std::size_t i = piece * convert_step; i < std::min(count, (piece + 1) * convert_step); ++i)
+      z[i] = static_cast<double>(scratch[i]) * scale;
+  });
+}
+
+}  // namespace
+
+void PreviewFactor::forward(double* z, std::int32_t channels, float* scratch, JobRunner& jobs) const {
+  in_single(z, size() * static_cast<std::size_t>(channels), scratch, memory_, jobs,
+            [&] { forward(scratch, channels, jobs); });
+}
+
+void PreviewFactor::backward(double* z, std::int32_t channels, float* scratch, JobRunner& jobs) const {
+  in_single(z, size() * static_cast<std::size_t>(channels), scratch, memory_, jobs,
+            [&] { backward(scratch, channels, jobs); });
+}
+
+std::size_t PreviewFactor::size() const noexcept { return static_cast<std::size_t>(analysis_->symbolic.size); }
 
 }  // namespace hf

@@ -24,13 +24,50 @@ ScalarField::ScalarField(const ScalarField& other)
       undo_(core_->memory.get()),
       redo_(core_->memory.get()) {}
 
+void ScalarField::prepare_rebase() {
+  if (preparing_.exchange(true))
+    fail(HF_ERROR_BUSY, HF_NO_INDEX, "another thread is preparing a rebase of this solver; wait for it");
+  try {
+    std::optional<Record> made;
+    {
+      const std::lock_guard<std::mutex> lock(guard_);
+      made.emplace(sites_, engine_->clone(), memory());
+    }
+    // one thread: those of the core belong to the edits and solves that go on meanwhile
+    JobRunner alone(1);
+    made->engine->rebase(alone);
+    const std::lock_guard<std::mutex> lock(guard_);
+    prepared_ = std::move(made);
+  } catch (...) {
+    preparing_ = false;
+    throw;
+  }
+  preparing_ = false;
+}
+
+// Whatever fails here, the present engine stands and is right.
+void ScalarField::adopt() noexcept {
+  if (!prepared_) return;
+  try {
+    const SiteDifference since(prepared_->sites, sites_, memory());
+    if (!since.empty()) prepared_->engine->edit(since.edit());
+    prepared_->engine->succeed(*engine_);
+    engine_ = std::move(prepared_->engine);
+  } catch (...) {
+    // memory ran out: the rebase is given up
+  }
+  prepared_.reset();
+}
+
 void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
+  const std::lock_guard<std::mutex> lock(guard_);
+  adopt();
   SiteSet next(sites_, memory());
   Vector<std::uint32_t> numbers(edit.add.count, &memory());
   next.remove(edit.remove_count, edit.remove_sites);
-  next.move(core_->mesh, edit.move_count, edit.move_sites, edit.move_to);
+  next.move(*core_, edit.move_count, edit.move_sites, edit.move_to, site_limit_);
   next.set_values(edit.set_count, edit.set_sites, edit.set_values);
-  next.add(core_->mesh, edit.add, edit.add_values, edit.add_stiffness, site_limit_, numbers.data());
+  next.add(*core_, edit.add, edit.add_values, edit.add_stiffness, site_limit_, numbers.data());
   const SiteDifference difference(sites_, next, memory());
   if (!difference.empty()) {
     try {
@@ -38,7 +75,9 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
     } catch (Error& error) {
       if (error.code() != HF_ERROR_CONFLICT || error.index() >= difference.add.size()) throw;
       // the engine counts in its own list: name the place in the caller's
-      const std::uint32_t slot = static_cast<std::uint32_t>(difference.add[error.index()]);
+      const std::size_t found = static_cast<std::size_t>(difference.add[error.index()]);
+      const std::int32_t owner = next.slots()[found].owner;
+      const std::uint32_t slot = static_cast<std::uint32_t>(owner >= 0 ? owner : difference.add[error.index()]);
       for (std::uint32_t i = 0; i < edit.add.count; ++i) {
         if (numbers[i] == slot)
           fail(HF_ERROR_CONFLICT, i,
@@ -76,12 +115,14 @@ void ScalarField::restore(Record&& record) {
 }
 
 void ScalarField::record() {
+  const std::lock_guard<std::mutex> lock(guard_);
   if (undo_.size() == most_records) undo_.erase(undo_.begin());
   undo_.push_back(present());
   redo_.clear();
 }
 
 void ScalarField::step(Vector<Record>& from, Vector<Record>& to, const char* nothing) {
+  const std::lock_guard<std::mutex> lock(guard_);
   if (from.empty()) fail(HF_ERROR_NO_RECORD, HF_NO_INDEX, "%s", nothing);
   to.push_back(present());
   try {
@@ -96,15 +137,31 @@ void ScalarField::step(Vector<Record>& from, Vector<Record>& to, const char* not
 void ScalarField::undo() { step(undo_, redo_, "nothing is recorded; call hf_record before the edits to be undone"); }
 void ScalarField::redo() { step(redo_, undo_, "nothing was undone since the last edit"); }
 
-void ScalarField::solve(double* field) const {
+void ScalarField::require_sites() const {
   if (sites_.count() == 0)
     fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; add at least one before solving");
+}
+
+void ScalarField::solve(double* field) const {
+  require_sites();
   engine_->solve(sites_.values(), sites_.channels(), field, nullptr);
 }
 
-void ScalarField::solve_at(Span<const std::int32_t> vertices, double* out) const {
+void ScalarField::solve_into(FieldSink& sink) const {
+  require_sites();
+  engine_->solve_into(sites_.values(), sites_.channels(), sink);
+}
+
+PreviewInfo ScalarField::solve_preview(std::int32_t corrections, double* field) const {
   if (sites_.count() == 0)
     fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; add at least one before solving");
+  PreviewInfo info;
+  engine_->solve_preview(sites_.values(), sites_.channels(), corrections, field, info);
+  return info;
+}
+
+void ScalarField::solve_at(Span<const std::int32_t> vertices, double* out) const {
+  require_sites();
   engine_->solve_at(sites_.values(), sites_.channels(), vertices, out);
 }
 

@@ -4,7 +4,10 @@
 // leaves everything as it was. Records share the engine's immutable parts (paths, dense blocks), so undo restores the
 // same bits.
 #pragma once
+#include <atomic>
 #include <memory>
+#include <mutex>
+#include <optional>
 
 #include "engine/site_set.h"
 
@@ -36,6 +39,11 @@ class ScalarField {
   void undo();
   void redo();
 
+  // Factorises with the present hard sites eliminated, on the calling thread, and keeps the result for the next edit,
+  // which brings it up to date and swaps it in. The one function that may run beside any other of the same object.
+  // Throws HF_ERROR_BUSY when another thread does the same, and as SiteSolver::rebase.
+  void prepare_rebase();
+
   const Core& core() const noexcept { return *core_; }
   const std::shared_ptr<const Core>& shared_core() const noexcept { return core_; }
   const SiteSet& sites() const noexcept { return sites_; }
@@ -43,6 +51,8 @@ class ScalarField {
 
   // Throws HF_ERROR_NO_SITES when there is none. field: inner vertex * channels + c.
   void solve(double* field) const;
+  void solve_into(FieldSink& sink) const;
+  PreviewInfo solve_preview(std::int32_t corrections, double* field) const;
   void solve_at(Span<const std::int32_t> vertices, double* out) const;
   void flux(Vector<double>& out) const;  // slot * channels + c
 
@@ -53,7 +63,9 @@ class ScalarField {
     SiteSet sites;
     std::shared_ptr<SiteSolver> engine;  // null: the engine has no cheap copy and follows by an edit
   };
+  void adopt() noexcept;
   Record present() const;
+  void require_sites() const;
   void restore(Record&& record);
   void step(Vector<Record>& from, Vector<Record>& to, const char* nothing);
   Memory& memory() const noexcept { return *core_->memory; }
@@ -63,6 +75,9 @@ class ScalarField {
   SiteSet sites_;
   std::shared_ptr<SiteSolver> engine_;
   Vector<Record> undo_, redo_;
+  std::mutex guard_;  // sites_, engine_ and prepared_, between prepare_rebase and the functions that change them
+  std::atomic<bool> preparing_{false};
+  std::optional<Record> prepared_;  // a rebased engine and the sites it was made for
 };
 
 }  // namespace hf

@@ -18,6 +18,23 @@ Vector<Vec3> vertex_normals(const Mesh& mesh, Memory& memory) {
   return normals;
 }
 
+Vec3 vertex_normal(const Mesh& mesh, const Topology& topology, std::int32_t vertex) noexcept {
+  const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
+  Vec3 sum;
+  for (std::int32_t i = topology.neighbour_start[at(vertex)]; i < topology.neighbour_start[at(vertex) + 1]; ++i) {
+    const std::int32_t e = topology.neighbour_edge[at(i)], next = topology.neighbour[at(i)];
+    for (std::int32_t s = topology.edge_triangle_start[at(e)]; s < topology.edge_triangle_start[at(e) + 1]; ++s) {
+      const std::int32_t* t = mesh.triangle(topology.edge_triangle[at(s)]);
+      const int k = t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
+      if (t[(k + 1) % 3] != next) continue;  // every triangle from the edge that leaves the vertex
+      const Vec3 a = mesh.positions[at(vertex)];
+      sum = sum + cross(mesh.positions[at(next)] - a, mesh.positions[at(t[(k + 2) % 3])] - a);
+    }
+  }
+  const double length = norm(sum);
+  return length > 0 ? (1 / length) * sum : Vec3{};
+}
+
 void project_on_tangent_planes(const Vector<Vec3>& normals, double* vectors) noexcept {
   for (std::size_t v = 0; v < normals.size(); ++v) {
     double* p = vectors + 3 * v;

@@ -9,9 +9,39 @@ namespace {
 using Index = std::int32_t;
 std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
+// Runs work(begin, end) over [0, count) in fixed pieces.
+template <class Work>
+void in_pieces(JobRunner* jobs, std::size_t count, Work&& work) {
+  constexpr std::size_t piece = 32768;
+  for_each(jobs, static_cast<std::uint32_t>((count + piece - 1) / piece),
+           [&](std::uint32_t p) { work(p * piece, std::min(count, (p + std::size_t{1}) * piece)); });
+}
+
+}  // namespace
+
+// Kahan's formula, stable on needles, from lengths a >= b >= c.
+double quadruple_area(const double length[3]) noexcept {
+  double a = length[0], b = length[1], c = length[2];
+  if (a < b) std::swap(a, b);
+  if (b < c) std::swap(b, c);
+  if (a < b) std::swap(a, b);
+  const double gap = std::max(c - (a - b), 1e-12 * a);
+  return std::sqrt((a + (b + c)) * gap * (c + (a - b)) * (a + (b - c)));
+}
+
+void cotangents_of_lengths(const double length[3], double cotangent[3]) noexcept {
+  const double area4 = quadruple_area(length);
+  for (int k = 0; k < 3; ++k) {
+    const double x = length[k], y = length[(k + 1) % 3], z = length[(k + 2) % 3];
+    cotangent[k] = (y * y + z * z - x * x) / area4;
+  }
+}
+
+namespace {
+
 // A triangle thinner than working precision has a stiffness matrix of rank 1, and the Laplacian may lose definiteness.
 // It is taken as the triangle whose edges are longer by just enough to close properly (the mollification of Sharp and
-// Crane 2020, on this triangle alone): b + c - a >= 1e-6 a. Cotangents stay below about 1e3.
+// Crane 2020, on this triangle alone): b + c - a >= 1e-6 a.
 void thin_cotangents(const double squared[3], double cotangent[3]) noexcept {
   double length[3] = {std::sqrt(squared[0]), std::sqrt(squared[1]), std::sqrt(squared[2])};
   const double longest = std::max({length[0], length[1], length[2]});
@@ -22,19 +52,12 @@ void thin_cotangents(const double squared[3], double cotangent[3]) noexcept {
   const double gap = length[0] + length[1] + length[2] - 2 * longest;
   const double more = std::max(0.0, 1e-6 * longest - gap);
   for (int k = 0; k < 3; ++k) length[k] += more;
-  double a = length[0], b = length[1], c = length[2];
-  if (a < b) std::swap(a, b);
-  if (b < c) std::swap(b, c);
-  if (a < b) std::swap(a, b);
-  const double area4 =
-      std::sqrt((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)));  // Kahan's formula, 4 x area
-  for (int k = 0; k < 3; ++k) {
-    const double x = length[k], y = length[(k + 1) % 3], z = length[(k + 2) % 3];
-    cotangent[k] = (y * y + z * z - x * x) / area4;
-  }
+  cotangents_of_lengths(length, cotangent);
 }
 
-// Cotangents at the three corners of a triangle: (u . v) / |u x v|.
+}  // namespace
+
+// (u . v) / |u x v|
 void corner_cotangents(const Mesh& mesh, Index t, double cotangent[3]) noexcept {
   const Index* v = mesh.triangle(t);
   const Vec3 p[3] = {mesh.positions[at(v[0])], mesh.positions[at(v[1])], mesh.positions[at(v[2])]};
@@ -45,28 +68,35 @@ void corner_cotangents(const Mesh& mesh, Index t, double cotangent[3]) noexcept 
   for (int k = 0; k < 3; ++k) cotangent[k] = -dot(e[(k + 1) % 3], e[(k + 2) % 3]) / area2;
 }
 
-Vector<double> cotangent_weights(const Mesh& mesh, const Topology& topology, Memory& memory) {
-  Vector<double> corner(mesh.corners.size(), &memory);
-  for (Index t = 0; t < mesh.triangle_count(); ++t) corner_cotangents(mesh, t, &corner[std::size_t{3} * at(t)]);
+namespace {
+
+Vector<double> cotangent_weights(const Mesh& mesh, const Topology& topology, Memory& memory, JobRunner* jobs) {
+  Buffer<double> corner(memory, mesh.corners.size());
+  in_pieces(jobs, at(mesh.triangle_count()), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) corner_cotangents(mesh, static_cast<Index>(t), corner.data() + 3 * t);
+  });
   Vector<double> weights(at(topology.edge_count()), 0.0, &memory);
-  for (Index e = 0; e < topology.edge_count(); ++e) {
-    for (Index i = topology.edge_triangle_start[at(e)]; i < topology.edge_triangle_start[at(e) + 1]; ++i) {
-      const Index t = topology.edge_triangle[at(i)];
-      const Index* v = mesh.triangle(t);
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (v[k] != topology.first(e) && v[k] != topology.second(e))
-          weights[at(e)] += 0.5 * corner[std::size_t{3} * at(t) + k];
+  in_pieces(jobs, weights.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      for (Index i = topology.edge_triangle_start[e]; i < topology.edge_triangle_start[e + 1]; ++i) {
+        const Index t = topology.edge_triangle[at(i)];
+        const Index* v = mesh.triangle(t);
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (v[k] != topology.first(static_cast<Index>(e)) && v[k] != topology.second(static_cast<Index>(e)))
+            weights[e] += 0.5 * corner[std::size_t{3} * at(t) + k];
+        }
       }
     }
-  }
+  });
   return weights;
 }
 
 }  // namespace
 
-Vector<double> edge_weights(const Mesh& mesh, const Topology& topology, OperatorKind kind, Memory& memory) {
+Vector<double> edge_weights(const Mesh& mesh, const Topology& topology, OperatorKind kind, Memory& memory,
+                            JobRunner* jobs) {
   if (kind == OperatorKind::uniform) return Vector<double>(at(topology.edge_count()), 1.0, &memory);
-  Vector<double> weights = cotangent_weights(mesh, topology, memory);
+  Vector<double> weights = cotangent_weights(mesh, topology, memory, jobs);
   if (kind == OperatorKind::clamped) {
     // the mean of many equal-length halves would be dominated by needles: take the median of the magnitudes instead
     Vector<double> magnitude(weights.size(), &memory);
@@ -94,29 +124,31 @@ Vector<double> vertex_areas(const Mesh& mesh, Memory& memory) {
   return areas;
 }
 
-SymmetricMatrix laplacian(const Topology& topology, const Vector<double>& weights, Memory& memory) {
+SymmetricMatrix laplacian(const Topology& topology, const Vector<double>& weights, Memory& memory, JobRunner* jobs) {
   SymmetricMatrix matrix(memory);
   const std::size_t n = topology.neighbour_start.size() - 1;
   matrix.column_start.resize(n + 1);
   matrix.row.resize(topology.neighbour.size() + n);
   matrix.value.resize(topology.neighbour.size() + n);
-  std::size_t k = 0;
-  for (std::size_t v = 0; v < n; ++v) {
-    matrix.column_start[v] = static_cast<Index>(k);
-    double sum = 0;
-    std::size_t diagonal = 0;
-    bool placed = false;
-    const auto place = [&] { diagonal = k, matrix.row[k++] = static_cast<Index>(v), placed = true; };
-    for (Index i = topology.neighbour_start[v]; i < topology.neighbour_start[v + 1]; ++i) {
-      if (!placed && at(topology.neighbour[at(i)]) > v) place();
-      const double w = weights[at(topology.neighbour_edge[at(i)])];
-      matrix.row[k] = topology.neighbour[at(i)], matrix.value[k++] = -w;
-      sum += w;
+  in_pieces(jobs, n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      std::size_t k = at(topology.neighbour_start[v]) + v;  // one diagonal entry in every column before
+      matrix.column_start[v] = static_cast<Index>(k);
+      double sum = 0;
+      std::size_t diagonal = 0;
+      bool placed = false;
+      const auto place = [&] { diagonal = k, matrix.row[k++] = static_cast<Index>(v), placed = true; };
+      for (Index i = topology.neighbour_start[v]; i < topology.neighbour_start[v + 1]; ++i) {
+        if (!placed && at(topology.neighbour[at(i)]) > v) place();
+        const double w = weights[at(topology.neighbour_edge[at(i)])];
+        matrix.row[k] = topology.neighbour[at(i)], matrix.value[k++] = -w;
+        sum += w;
+      }
+      if (!placed) place();
+      matrix.value[diagonal] = sum;
     }
-    if (!placed) place();
-    matrix.value[diagonal] = sum;
-  }
-  matrix.column_start[n] = static_cast<Index>(k);
+  });
+  matrix.column_start[n] = static_cast<Index>(matrix.row.size());
   return matrix;
 }
 

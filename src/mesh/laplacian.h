@@ -11,10 +11,23 @@
 
 namespace hf {
 
-enum class OperatorKind : std::int32_t { cotangent = 0, clamped = 1, uniform = 2 };
+enum class OperatorKind : std::int32_t { cotangent = 0, clamped = 1, uniform = 2, intrinsic_delaunay = 3 };
+
+// Which operator of L the field solves: K = L, K = L M^-1 L, or the paper's K = L^2 (biharmonic.h).
+enum class FieldKind : std::int32_t { harmonic = 0, biharmonic = 1, biharmonic_graph = 2 };
+
+// Cotangents at the three corners of triangle t.
+void corner_cotangents(const Mesh& mesh, std::int32_t t, double cotangent[3]) noexcept;
+// Four times the area of a triangle with these edges, at least that of one that closes by 1e-12.
+double quadruple_area(const double length[3]) noexcept;
+// Cotangents from edge lengths, cotangent[k] opposite length[k]; lengths that do not close are taken as a
+// thin triangle.
+void cotangents_of_lengths(const double length[3], double cotangent[3]) noexcept;
 
 // Edge weights w_ij by edge number. Clamped: floored at 1e-3 of the median absolute weight.
-Vector<double> edge_weights(const Mesh& mesh, const Topology& topology, OperatorKind kind, Memory& memory);
+// jobs, here and below: threads to use, null for the caller's alone; the result is the same.
+Vector<double> edge_weights(const Mesh& mesh, const Topology& topology, OperatorKind kind, Memory& memory,
+                            JobRunner* jobs = nullptr);
 
 // Number of edges whose cotangent weight is negative.
 std::uint32_t count_negative(const Vector<double>& weights) noexcept;
@@ -23,6 +36,7 @@ std::uint32_t count_negative(const Vector<double>& weights) noexcept;
 Vector<double> vertex_areas(const Mesh& mesh, Memory& memory);
 
 // K_ij = -w_ij, K_ii = sum_j w_ij: symmetric, K 1 = 0 exactly in each row up to the rounding of one sum.
-SymmetricMatrix laplacian(const Topology& topology, const Vector<double>& weights, Memory& memory);
+SymmetricMatrix laplacian(const Topology& topology, const Vector<double>& weights, Memory& memory,
+                          JobRunner* jobs = nullptr);
 
 }  // namespace hf

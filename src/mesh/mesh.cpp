@@ -82,43 +82,77 @@ struct UnionFind {
   Vector<Index> parent;
 };
 
+// Triangles with the same three corners as one before: bucketed by the smallest corner, compared inside a bucket.
 void count_duplicates(Mesh& mesh, Memory& memory) {
   struct Key {
-    Index v[3];
-    bool operator<(const Key& o) const noexcept { return std::lexicographical_compare(v, v + 3, o.v, o.v + 3); }
-    bool operator==(const Key& o) const noexcept { return std::equal(v, v + 3, o.v); }
+    Index middle, largest;
+    bool operator<(const Key& o) const noexcept { return middle != o.middle ? middle < o.middle : largest < o.largest; }
+    bool operator==(const Key& o) const noexcept { return middle == o.middle && largest == o.largest; }
   };
-  Vector<Key> keys(at(mesh.triangle_count()), &memory);
-  for (Index t = 0; t < mesh.triangle_count(); ++t) {
-    std::copy_n(mesh.triangle(t), 3, keys[at(t)].v);
-    std::sort(keys[at(t)].v, keys[at(t)].v + 3);
-  }
-  std::sort(keys.begin(), keys.end());
-  for (std::size_t i = 1; i < keys.size(); ++i) mesh.report.duplicate_triangle_count += keys[i] == keys[i - 1];
-}
-
-// Smallest angle and zero-area triangles: area below 1e-12 of the longest edge squared.
-void measure_triangles(Mesh& mesh) {
-  double smallest = std::numeric_limits<double>::infinity();
+  Vector<Index> start(mesh.positions.size() + 1, 0, &memory);
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
     const Index* v = mesh.triangle(t);
-    double longest = 0;
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 a = mesh.positions[at(v[(k + 1) % 3])] - mesh.positions[at(v[k])];
-      const Vec3 b = mesh.positions[at(v[(k + 2) % 3])] - mesh.positions[at(v[k])];
-      smallest = std::min(smallest, std::atan2(norm(cross(a, b)), dot(a, b)));
-      longest = std::max(longest, dot(a, a));
-    }
-    const Vec3 normal =
-        cross(mesh.positions[at(v[1])] - mesh.positions[at(v[0])], mesh.positions[at(v[2])] - mesh.positions[at(v[0])]);
-    mesh.report.degenerate_triangle_count += !(0.5 * norm(normal) > 1e-12 * longest);
+    ++start[at(std::min({v[0], v[1], v[2]})) + 1];
   }
-  mesh.report.smallest_angle = smallest;
+  for (std::size_t v = 0; v + 1 < start.size(); ++v) start[v + 1] += start[v];
+  Vector<Key> keys(at(mesh.triangle_count()), &memory);
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const Index* v = mesh.triangle(t);
+    const Index least = std::min({v[0], v[1], v[2]}), most = std::max({v[0], v[1], v[2]});
+    const Index middle = std::max(std::min(v[0], v[1]), std::min(std::max(v[0], v[1]), v[2]));
+    keys[at(start[at(least)]++)] = {middle, most};
+  }
+  std::size_t begin = 0;  // start[v] is the end of bucket v now
+  for (std::size_t v = 0; v + 1 < start.size(); ++v) {
+    const std::size_t end = at(start[v]);
+    if (end - begin > 1) {
+      std::sort(keys.begin() + static_cast<std::ptrdiff_t>(begin), keys.begin() + static_cast<std::ptrdiff_t>(end));
+      for (std::size_t i = begin + 1; i < end; ++i) mesh.report.duplicate_triangle_count += keys[i] == keys[i - 1];
+    }
+    begin = end;
+  }
+}
+
+// Smallest angle (the one of largest cotangent) and zero-area triangles: area below 1e-12 of the longest edge squared.
+void measure_triangles(Mesh& mesh, JobRunner* jobs, Memory& memory) {
+  struct Found {
+    double cotangent = -std::numeric_limits<double>::infinity();
+    std::uint32_t degenerate = 0;
+  };
+  constexpr std::size_t piece = 65536;
+  const std::size_t count = at(mesh.triangle_count()), pieces = (count + piece - 1) / piece;
+  Vector<Found> found(pieces, &memory);
+  const auto measure = [&](std::uint32_t p) {
+    Found own;
+    for (std::size_t t = p * piece; t < std::min(count, (p + std::size_t{1}) * piece); ++t) {
+      const Index* v = mesh.triangle(static_cast<Index>(t));
+      const Vec3 e[3] = {mesh.positions[at(v[1])] - mesh.positions[at(v[0])],
+                         mesh.positions[at(v[2])] - mesh.positions[at(v[1])],
+                         mesh.positions[at(v[0])] - mesh.positions[at(v[2])]};
+      const double area2 = norm(cross(e[0], e[2]));
+      const double longest = std::max({dot(e[0], e[0]), dot(e[1], e[1]), dot(e[2], e[2])});
+      for (int k = 0; k < 3; ++k) {
+        const double cosine = -dot(e[k], e[(k + 2) % 3]);
+        // without area: an angle of 0 or pi; two corners at one place count as 0
+        const double cotangent =
+            area2 > 0 ? cosine / area2 : (cosine < 0 ? -1 : 1) * std::numeric_limits<double>::infinity();
+        own.cotangent = std::max(own.cotangent, cotangent);
+      }
+      own.degenerate += !(0.5 * area2 > 1e-12 * longest);
+    }
+    found[p] = own;
+  };
+  for_each(jobs, static_cast<std::uint32_t>(pieces), measure);
+  Found all;
+  for (const Found& own : found)
+    all.cotangent = std::max(all.cotangent, own.cotangent), all.degenerate += own.degenerate;
+  mesh.report.smallest_angle = std::atan2(1.0, all.cotangent);
+  mesh.report.degenerate_triangle_count += all.degenerate;
 }
 
 }  // namespace
 
-Mesh Mesh::make(const MeshInput& input, Memory& memory) {
+Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
   check_sizes(input);
   check_triangles(input);
   Mesh mesh(memory);
@@ -186,7 +220,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory) {
   }
 
   count_duplicates(mesh, memory);
-  measure_triangles(mesh);
+  measure_triangles(mesh, jobs, memory);
   return mesh;
 }
 

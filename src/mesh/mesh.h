@@ -7,6 +7,7 @@
 #pragma once
 #include <cstdint>
 
+#include "base/jobs.h"
 #include "base/memory.h"
 #include "base/span.h"
 
@@ -58,7 +59,8 @@ struct Mesh {
         isolated(&memory) {}
 
   // Throws HF_ERROR_EMPTY, _OUT_OF_RANGE (triangle), _NON_FINITE (vertex), _INVALID_ARGUMENT, or std::bad_alloc.
-  static Mesh make(const MeshInput& input, Memory& memory);
+  // jobs: threads to use; null works on the caller's alone, with the same result.
+  static Mesh make(const MeshInput& input, Memory& memory, JobRunner* jobs = nullptr);
 
   std::int32_t vertex_count() const noexcept { return static_cast<std::int32_t>(positions.size()); }
   std::int32_t triangle_count() const noexcept { return static_cast<std::int32_t>(corners.size() / 3); }

@@ -4,7 +4,7 @@
 
 namespace hf {
 
-Topology Topology::make(const Mesh& mesh, Memory& memory) {
+Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
   using Index = std::int32_t;
   const auto at = [](Index i) { return static_cast<std::size_t>(i); };
   Topology topology(memory);
@@ -30,11 +30,17 @@ Topology Topology::make(const Mesh& mesh, Memory& memory) {
   topology.edges.reserve(corner_count + 8);
   topology.edge_triangle_start.reserve(corner_count / 2 + 8);
   topology.edge_triangle.resize(corner_count);
-  for (std::size_t v = 0; v < n; ++v) {
-    const auto begin = halves.begin() + start[v], end = halves.begin() + start[v + 1];
-    std::sort(begin, end, [](const Half& a, const Half& b) {
+  const auto sort_bucket = [&](std::size_t v) {
+    std::sort(halves.begin() + start[v], halves.begin() + start[v + 1], [](const Half& a, const Half& b) {
       return a.second != b.second ? a.second < b.second : a.triangle < b.triangle;
     });
+  };
+  constexpr std::size_t piece = 16384;
+  for_each(jobs, static_cast<std::uint32_t>((n + piece - 1) / piece), [&](std::uint32_t p) {
+    for (std::size_t v = p * piece; v < std::min(n, (p + std::size_t{1}) * piece); ++v) sort_bucket(v);
+  });
+  for (std::size_t v = 0; v < n; ++v) {
+    const auto begin = halves.begin() + start[v], end = halves.begin() + start[v + 1];
     for (auto half = begin; half != end; ++half) {
       if (half == begin || half->second != (half - 1)->second) {
         topology.edge_triangle_start.push_back(static_cast<Index>(half - halves.begin()));

@@ -14,7 +14,7 @@ struct Topology {
         neighbour_start(&memory),
         neighbour(&memory),
         neighbour_edge(&memory) {}
-  static Topology make(const Mesh& mesh, Memory& memory);
+  static Topology make(const Mesh& mesh, Memory& memory, JobRunner* jobs = nullptr);
 
   std::int32_t edge_count() const noexcept { return static_cast<std::int32_t>(edges.size() / 2); }
   // Ends of edge e, the smaller vertex first; edges ordered by (first, second).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 #include "base/error.h"
@@ -16,7 +17,49 @@ Vec3 position(const MeshInput& input, std::size_t v) noexcept {
   return {input.positions.get(v, 0) + 0.0, input.positions.get(v, 1) + 0.0, input.positions.get(v, 2) + 0.0};
 }
 
+std::uint64_t mixed(Vec3 p) noexcept {
+  const auto bits = [](double x) {
+    std::uint64_t b;
+    std::memcpy(&b, &x, sizeof b);
+    return b;
+  };
+  std::uint64_t h = bits(p.x) * 0x9e3779b97f4a7c15u;
+  h = ((h ^ (h >> 29)) + bits(p.y)) * 0xbf58476d1ce4e5b9u;
+  h = ((h ^ (h >> 32)) + bits(p.z)) * 0x94d049bb133111ebu;
+  return h ^ (h >> 31);
+}
+
+// Vertices in ascending order into a table with open addressing: the first of a place stands for it. False when the
+// table degenerates (many places with one hash), which only made-up positions do.
+bool weld_by_hash(const MeshInput& input, Vector<Index>& representative, Memory& memory) {
+  std::size_t size = 64;
+  while (size < std::size_t{2} * input.vertex_count) size *= 2;
+  Vector<Index> table(size, -1, &memory);
+  std::uint64_t steps = 0;
+  const std::uint64_t most = std::uint64_t{16} * input.vertex_count + 1024;
+  for (std::uint32_t v = 0; v < input.vertex_count; ++v) {
+    const Vec3 p = position(input, v);
+    std::size_t slot = static_cast<std::size_t>(mixed(p)) & (size - 1);
+    for (;; slot = (slot + 1) & (size - 1)) {
+      if (++steps > most) return false;
+      Index& first = table[slot];
+      if (first < 0) {
+        first = static_cast<Index>(v);
+        break;
+      }
+      const Vec3 q = position(input, static_cast<std::size_t>(first));
+      if (p.x == q.x && p.y == q.y && p.z == q.z) break;
+    }
+    representative[v] = table[slot];
+  }
+  return true;
+}
+
 Vector<Index> weld_exact(const MeshInput& input, Memory& memory) {
+  {
+    Vector<Index> found(input.vertex_count, &memory);
+    if (weld_by_hash(input, found, memory)) return found;
+  }
   struct Entry {
     Vec3 p;
     Index v;

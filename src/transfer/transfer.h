@@ -8,8 +8,11 @@
 // Pairs come and go at any time on both sides; no factor is touched. What depends on them is made again at the next
 // question (pair_info, apply, skin). Anchors: the target's region goes where the source's went, y = c + s A (q - p), s
 // the scale; when the source turns or falls as a whole (or moves rigidly) the offsets between the two rest shapes turn
-// with it. A foot is kept from sinking deeper under the ground of the rest shape than its source does. Everything is
-// all or nothing. apply() allocates nothing once prepared. Results do not depend on the number of threads.
+// with it. Touching the ground: a foot follows its path exactly while its source stands, and no region sinks deeper
+// under the ground of the rest shape than its source does; a contact (a nose that grazes) comes as near to the ground
+// as its source while that is near. These are holds: constraints solved beside the energies, at no cost in factors.
+// Everything is all or nothing. apply() allocates nothing once prepared. Results do not depend on the number of
+// threads.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -44,7 +47,13 @@ struct PairInfo {
   double source_leak = 0, target_leak = 0;
   double alignment_angle = -1;  // negative = unknown
   double confidence = 0;
-  bool aligned = false;
+  bool aligned = false, crossed = false;
+};
+
+// The mean of a pair's target region in one frame, given units.
+struct PairHold {
+  std::uint32_t pair = 0;
+  Vec3 place;
 };
 
 class Transfer {
@@ -62,11 +71,15 @@ class Transfer {
   void remove_pairs(Span<const std::uint32_t> pairs);
   std::uint32_t pair_count() const noexcept { return static_cast<std::uint32_t>(numbers_.size()); }
 
+  Span<const std::uint32_t> pairs() const noexcept { return {numbers_.data(), numbers_.size()}; }  // ascending
+
   PairInfo pair_info(std::uint32_t pair);
 
   // source: posed inner vertices of the source in given units; out: inner vertices of the target in given units.
-  // HF_ERROR_EMPTY without a pair, HF_ERROR_NON_FINITE (index = inner vertex of the source).
-  void apply(const Vec3* source, Vec3* out);
+  // HF_ERROR_EMPTY without a pair, HF_ERROR_NON_FINITE (index = inner vertex of the source). holds: regions of the
+  // target that go where the caller says in this frame. HF_ERROR_NO_SUCH_PAIR, HF_ERROR_NON_FINITE,
+  // HF_ERROR_INVALID_ARGUMENT (a pair twice), index = position in the list.
+  void apply(const Vec3* source, Vec3* out, Span<const PairHold> holds = {});
 
   // The skin of the last frame (at rest when there was none since the pairs changed).
   std::int32_t cluster_count();
@@ -78,6 +91,7 @@ class Transfer {
 
   const Core& source() const noexcept { return *source_core_; }
   const Core& target() const noexcept { return *target_core_; }
+  bool scale_found() const noexcept { return options_.scale == 0; }
   double scale();  // target lengths over source lengths as used, given units
   EngineCounters source_counters() const noexcept { return source_.counters(); }
   EngineCounters target_counters() const noexcept { return target_.counters(); }
@@ -87,7 +101,12 @@ class Transfer {
   Prepared& prepare();
   void prepare_alignment(Prepared& p) const;
   void prepare_anchors(Prepared& p) const;
+  bool is_crossed(std::uint32_t number) const;
   void place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const;
+  void read_holds(Prepared& p, Span<const PairHold> holds) const;
+  void hold_regions(Prepared& p, double share) const;
+  Vec3 blended(const Prepared& p, std::size_t vertex) const noexcept;  // posed, inner units
+  void lift_surface(Prepared& p, double share) const noexcept;
 
   std::shared_ptr<const Core> source_core_, target_core_;
   TransferOptions options_;

@@ -105,7 +105,8 @@ void Translations::add_row(Span<const std::int32_t> vertices, Span<const double>
 }
 
 void Translations::prepare(const Core& target, Span<const double> area, const Clusters& clusters,
-                           Span<const Span<const std::int32_t>> regions, const TranslationOptions& options) {
+                           Span<const Span<const std::int32_t>> regions, Span<const Span<const std::int32_t>> loose,
+                           const TranslationOptions& options) {
   Memory& memory = *target.memory;
   count_ = clusters.count;
   const std::size_t count = at(count_);
@@ -133,7 +134,8 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
   }
   for (std::int32_t v = 0; v < target.size(); ++v) all.push_back(v);
   add_row({all.data(), all.size()}, area, target, clusters);
-  for (std::size_t row = 0; row + 1 < row_start_.size(); ++row) {
+  anchored_ = regions.size();
+  for (std::size_t row = 0; row <= anchored_; ++row) {
     const double l = row == regions.size() ? root_ : anchor_;
     for (std::int32_t i = row_start_[row]; i < row_start_[row + 1]; ++i) {
       for (std::int32_t j = row_start_[row]; j < row_start_[row + 1]; ++j) {
@@ -144,6 +146,11 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
   for (std::size_t c = 0; c < count; ++c) matrix[c * count + c] += whole_;
   factor_.factorise(std::move(matrix), count_, memory);
   scratch_.assign(4 * count, 0.0);
+  for (const Span<const std::int32_t>& region : loose) {
+    weights.assign(region.size(), 1.0);
+    add_row(region, {weights.data(), weights.size()}, target, clusters);
+  }
+  add_influences(memory);
 
   // keep what is not zero
   for (std::size_t c = 0; c < count; ++c) {
@@ -154,6 +161,77 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
     }
   }
   table_start_.push_back(static_cast<std::int32_t>(table_column_.size()));
+}
+
+void Translations::add_influences(Memory&) {
+  const std::size_t rows = row_start_.size() - 1, count = at(count_);
+  influence_.assign(rows * count, 0.0), gram_.assign(rows * rows, 0.0);
+  hold_matrix_.assign(rows * rows, 0.0), hold_rhs_.assign(rows, Vec3());
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::fill(scratch_.begin(), scratch_.end(), 0.0);
+    for (std::int32_t i = row_start_[row]; i < row_start_[row + 1]; ++i)
+      scratch_[4 * at(row_column_[at(i)])] = row_weight_[at(i)];
+    factor_.solve(scratch_.data());
+    for (std::size_t c = 0; c < count; ++c) influence_[row * count + c] = scratch_[4 * c];
+  }
+  for (std::size_t a = 0; a < rows; ++a) {
+    for (std::size_t b = 0; b < rows; ++b) {
+      double sum = 0;
+      for (std::int32_t i = row_start_[a]; i < row_start_[a + 1]; ++i)
+        sum += row_weight_[at(i)] * influence_[b * count + at(row_column_[at(i)])];
+      gram_[a * rows + b] = sum;
+    }
+  }
+}
+
+Vec3 Translations::place(std::size_t row, const Mat3* rotations, const Vec3* shifts) const noexcept {
+  Vec3 sum = turned(row, rotations);
+  for (std::int32_t i = row_start_[row]; i < row_start_[row + 1]; ++i)
+    sum = sum + row_weight_[at(i)] * shifts[row_column_[at(i)]];
+  return sum;
+}
+
+// Cholesky of a small positive definite matrix in place, three right-hand sides at once. The rows of holds that take no
+// part are those of the identity.
+void Translations::solve_holds(Span<const Hold> holds, bool with_vertical) noexcept {
+  const std::size_t k = holds.size(), rows = row_start_.size() - 1;
+  double* m = hold_matrix_.data();
+  const auto absent = [&](std::size_t i) { return holds[i].vertical && !with_vertical; };
+  for (std::size_t i = 0; i < k; ++i) {
+    if (absent(i)) hold_rhs_[i] = Vec3();
+    for (std::size_t j = 0; j <= i; ++j) {
+      double x = absent(i) || absent(j) ? 0.0 : gram_[holds[i].row * rows + holds[j].row];
+      if (i == j) x = absent(i) ? 1.0 : x * (1 + 1e-9 + (1 - holds[i].share) / holds[i].share);
+      for (std::size_t l = 0; l < j; ++l) x -= m[i * k + l] * m[j * k + l];
+      m[i * k + j] = i == j ? std::sqrt(std::max(x, 1e-300)) : x / m[j * k + j];
+    }
+  }
+  for (std::size_t i = 0; i < k; ++i) {
+    for (std::size_t l = 0; l < i; ++l) hold_rhs_[i] = hold_rhs_[i] - m[i * k + l] * hold_rhs_[l];
+    hold_rhs_[i] = (1 / m[i * k + i]) * hold_rhs_[i];
+  }
+  for (std::size_t i = k; i-- > 0;) {
+    for (std::size_t l = i + 1; l < k; ++l) hold_rhs_[i] = hold_rhs_[i] - m[l * k + i] * hold_rhs_[l];
+    hold_rhs_[i] = (1 / m[i * k + i]) * hold_rhs_[i];
+  }
+}
+
+void Translations::hold(Span<const Hold> holds, Vec3 up, const Mat3* rotations, Vec3* shifts) noexcept {
+  if (holds.empty()) return;
+  const std::size_t count = at(count_);
+  // across: full holds alone; along up: all of them, against the places the first pass has not touched
+  for (const bool along : {false, true}) {
+    for (std::size_t i = 0; i < holds.size(); ++i) {
+      const Vec3 miss = holds[i].goal - place(holds[i].row, rotations, shifts);
+      const Vec3 upward = dot(up, miss) * up;
+      hold_rhs_[i] = along ? upward : miss - upward;
+    }
+    solve_holds(holds, along);
+    for (std::size_t i = 0; i < holds.size(); ++i) {
+      const double* influence = influence_.data() + holds[i].row * count;
+      for (std::size_t c = 0; c < count; ++c) shifts[c] = shifts[c] + influence[c] * hold_rhs_[i];
+    }
+  }
 }
 
 Vec3 Translations::turned(std::size_t anchor, const Mat3* rotations) const noexcept {
@@ -178,7 +256,7 @@ void Translations::solve(const Clusters& clusters, const Mat3* rotations, Span<c
       rhs = rhs + rotations[table_column_[at(i)]] * table_[at(i)];
     out[c] = rhs;
   }
-  for (std::size_t row = 0; row + 1 < row_start_.size(); ++row) {
+  for (std::size_t row = 0; row <= anchored_; ++row) {
     const bool is_root = row == goals.size();
     const Vec3 miss = (is_root ? root_ : anchor_) * ((is_root ? centroid : goals[row]) - turned(row, rotations));
     for (std::int32_t i = row_start_[row]; i < row_start_[row + 1]; ++i)

@@ -30,6 +30,14 @@ struct TranslationOptions {
   double whole = 1e-6;        // e, likewise
 };
 
+// A region whose mean goes to a place whatever the energies say, wholly (share 1) or in part; vertical: only along up.
+struct Hold {
+  std::size_t row = 0;
+  Vec3 goal;
+  double share = 1;
+  bool vertical = false;
+};
+
 class Translations {
  public:
   explicit Translations(Memory& memory)
@@ -41,16 +49,29 @@ class Translations {
         row_start_(&memory),
         row_column_(&memory),
         row_weight_(&memory),
-        row_point_(&memory) {}
+        row_point_(&memory),
+        influence_(&memory),
+        gram_(&memory),
+        hold_matrix_(&memory),
+        hold_rhs_(&memory) {}
 
-  // regions: vertices of each anchored region of the target.
+  // regions: vertices of each anchored region of the target; loose: of regions that only holds move. Rows are numbered
+  // anchored regions first, then loose ones from regions.size() + 1 on (the root lies between).
   void prepare(const Core& target, Span<const double> area, const Clusters& clusters,
-               Span<const Span<const std::int32_t>> regions, const TranslationOptions& options);
+               Span<const Span<const std::int32_t>> regions, Span<const Span<const std::int32_t>> loose,
+               const TranslationOptions& options);
 
   // goals: one per anchored region; centroid: of the whole; cluster_goals: one per cluster (x_c under the motion of the
   // whole). out: t_c, one per cluster. Allocates nothing; not for two threads at once.
   void solve(const Clusters& clusters, const Mat3* rotations, Span<const Vec3> goals, Vec3 centroid,
              const Vec3* cluster_goals, Vec3* out) noexcept;
+
+  // Moves the solution so that the holds are met and the energies rise least: t += A^-1 R^T m with
+  // (R A^-1 R^T + diag(s_k (1 - share) / share)) m = goal - place, R the rows held, s the diagonal (Woodbury). At most
+  // one hold per row. Allocates nothing.
+  void hold(Span<const Hold> holds, Vec3 up, const Mat3* rotations, Vec3* shifts) noexcept;
+  // Where the mean of a row's region is now.
+  Vec3 place(std::size_t row, const Mat3* rotations, const Vec3* shifts) const noexcept;
 
   // Mean of the region's rest points under the blend of `rotations` alone: sum_c R_c y_kc.
   Vec3 turned(std::size_t anchor, const Mat3* rotations) const noexcept;
@@ -65,7 +86,12 @@ class Translations {
   void add_row(Span<const std::int32_t> vertices, Span<const double> weights, const Core& target,
                const Clusters& clusters);
 
+  void add_influences(Memory& memory);
+  // m of the held rows, `dimensions` numbers each in hold_rhs_; vertical holds take part when they are wanted.
+  void solve_holds(Span<const Hold> holds, bool with_vertical) noexcept;
+
   std::int32_t count_ = 0;
+  std::size_t anchored_ = 0;
   double anchor_ = 0, root_ = 0, whole_ = 0;
   DenseFactor factor_;
   Vector<double> scratch_;  // right-hand side and solution, four numbers per cluster
@@ -75,6 +101,9 @@ class Translations {
   Vector<std::int32_t> row_start_, row_column_;
   Vector<double> row_weight_;
   Vector<Vec3> row_point_;
+  // A^-1 of every row (rows x clusters), R A^-1 R^T, and scratch of the holds
+  Vector<double> influence_, gram_, hold_matrix_;
+  Vector<Vec3> hold_rhs_;
 };
 
 }  // namespace hf

@@ -12,7 +12,8 @@ typedef struct World {
   hf_solver solver, made_solver;
   hf_pose pose, made_pose;
   hf_transfer transfer, made_transfer;
-  uint32_t *ends, sites[2], handles[2], pairs[2];
+  hf_direction direction, made_direction;
+  uint32_t *ends, sites[2], handles[2], pairs[2], constraints[2];
   float posed[3 * VERTICES], result[3 * VERTICES];
   double field[VERTICES];
 } World;
@@ -73,6 +74,20 @@ static hf_result call_add_handles(World* w) {
   desc.handle_count = 1, desc.region_counts = &count, desc.region_vertices = region;
   return hf_pose_add_handles(w->pose, &desc, NULL);
 }
+static hf_result call_add_layer(World* w) {
+  const double point[3] = {(double)w->tube.positions[3 * 4 * AROUND], (double)w->tube.positions[3 * 4 * AROUND + 1],
+                           (double)w->tube.positions[3 * 4 * AROUND + 2]};
+  const double radius = 0;
+  hf_handles_desc desc;
+  HF_INIT(desc);
+  desc.handle_count = 1, desc.points = point, desc.radii = &radius, desc.layer = 1;
+  return hf_pose_add_handles(w->pose, &desc, NULL);
+}
+static hf_result call_pose_skin(World* w) {
+  hf_skin_info info;
+  HF_INIT(info);
+  return hf_pose_get_skin(w->pose, &info);
+}
 static hf_result call_remove_handles(World* w) { return hf_pose_remove_handles(w->pose, 1, w->handles); }
 static hf_result deform_to(World* w, float* positions) {
   hf_deform_desc desc;
@@ -109,6 +124,31 @@ static hf_result call_get_skin(World* w) {
   return hf_transfer_get_skin(w->transfer, &info);
 }
 
+static hf_result call_direction_create(World* w) { return hf_direction_create(w->solver, NULL, &w->made_direction); }
+static hf_result call_direction_add(World* w) {
+  const uint32_t vertices[2] = {30, 50};
+  const double vectors[6] = {0, 1, 0, 0, -1, 0};
+  return hf_direction_add_sites(w->direction, 2, vertices, vectors, NULL);
+}
+static hf_result call_direction_remove(World* w) { return hf_direction_remove_sites(w->direction, 1, w->constraints); }
+static hf_result call_direction_move(World* w) {
+  const uint32_t vertex = 44;
+  return hf_direction_move_sites(w->direction, 1, w->constraints, &vertex);
+}
+static hf_result call_direction_set(World* w) {
+  const double vector[3] = {0, 3, 0};
+  return hf_direction_set_vectors(w->direction, 1, w->constraints, vector);
+}
+static hf_result call_direction_rotate(World* w) {
+  const double angle = 1;
+  return hf_direction_rotate_sites(w->direction, 1, w->constraints, &angle);
+}
+static hf_result call_direction_solve(World* w) { return hf_direction_solve(w->direction, w->result, 0, NULL); }
+static hf_result call_singularities(World* w) {
+  uint32_t count;
+  return hf_direction_get_singularities(w->direction, 0, NULL, &count);
+}
+
 static const struct {
   const char* name;
   hf_result (*call)(World*);
@@ -129,6 +169,8 @@ static const struct {
     {"hf_pose_create", call_pose_create, 1},
     {"hf_pose_clone", call_pose_clone, 1},
     {"hf_pose_add_handles", call_add_handles, 1},
+    {"hf_pose_add_handles", call_add_layer, 1},
+    {"hf_pose_get_skin", call_pose_skin, 1},
     {"hf_pose_remove_handles", call_remove_handles, 1},
     {"hf_deform", call_deform, 1},
     {"hf_transfer_create", call_transfer_create, 1},
@@ -136,6 +178,14 @@ static const struct {
     {"hf_transfer_remove_pairs", call_remove_pairs, 1},
     {"hf_transfer_apply", call_apply, 1},
     {"hf_transfer_get_skin", call_get_skin, 1},
+    {"hf_direction_create", call_direction_create, 1},
+    {"hf_direction_add_sites", call_direction_add, 1},
+    {"hf_direction_remove_sites", call_direction_remove, 1},
+    {"hf_direction_move_sites", call_direction_move, 1},
+    {"hf_direction_set_vectors", call_direction_set, 1},
+    {"hf_direction_rotate_sites", call_direction_rotate, 1},
+    {"hf_direction_solve", call_direction_solve, 1},
+    {"hf_direction_get_singularities", call_singularities, 1},
 };
 
 static void create_world(World* w, int32_t engine) {
@@ -148,6 +198,10 @@ static void create_world(World* w, int32_t engine) {
   assert_ok(hf_record(w->solver));
   w->sites[1] = add_site(w->solver, VERTICES - 1, 1);
   if (engine != HF_ENGINE_GREEN) return;
+  const uint32_t constrained[2] = {9, 70};
+  const double vectors[6] = {0, 1, 0, 0, 2, 0};
+  assert_ok(hf_direction_create(w->solver, NULL, &w->direction));
+  assert_ok(hf_direction_add_sites(w->direction, 2, constrained, vectors, w->constraints));
   w->pose = tube_pose(w->solver, AROUND, RINGS, w->handles);
   const hf_transform turned = {{0.5, 0, 0, 0.8660254}, {0, 1, 2}};
   assert_ok(hf_pose_set_transforms(w->pose, 1, &w->handles[1], &turned));
@@ -165,6 +219,7 @@ static void create_world(World* w, int32_t engine) {
 static void destroy_world(World* w) {
   w->memory.refuse_at = 0;
   hf_destroy(w->solver), hf_pose_destroy(w->pose), hf_transfer_destroy(w->transfer);
+  hf_direction_destroy(w->direction), hf_direction_destroy(w->made_direction);
   hf_destroy(w->made_solver), hf_pose_destroy(w->made_pose), hf_transfer_destroy(w->made_transfer);
   assert_int_equal(w->memory.live_blocks, 0);
   assert_int_equal(w->memory.live_bytes, 0);
@@ -176,7 +231,7 @@ static void destroy_world(World* w) {
 typedef struct Picture {
   uint32_t site_count, handle_count;
   double field[VERTICES];
-  float posed[3 * VERTICES], transferred[3 * VERTICES];
+  float posed[3 * VERTICES], transferred[3 * VERTICES], directed[3 * VERTICES];
 } Picture;
 
 static void take_picture(World* w, Picture* p) {
@@ -186,6 +241,7 @@ static void take_picture(World* w, Picture* p) {
   if (!w->pose) return;
   assert_ok(deform_to(w, p->posed));
   assert_ok(apply_to(w, p->transferred, NULL));
+  assert_ok(hf_direction_solve(w->direction, p->directed, 0, NULL));
 }
 
 static int same_picture(const Picture* a, const Picture* b) {
@@ -193,7 +249,8 @@ static int same_picture(const Picture* a, const Picture* b) {
   for (int v = 0; v < VERTICES; ++v) worst = fmax(worst, fabs(a->field[v] - b->field[v]));
   return a->site_count == b->site_count && a->handle_count == b->handle_count && worst < 1e-7 &&
          same_bits(a->posed, b->posed, sizeof a->posed) &&
-         same_bits(a->transferred, b->transferred, sizeof a->transferred);
+         same_bits(a->transferred, b->transferred, sizeof a->transferred) &&
+         same_bits(a->directed, b->directed, sizeof a->directed);
 }
 
 /* Runs one scenario with allocation n = 1, 2, ... refused until the call succeeds. on: all later ones are refused too.
@@ -217,7 +274,7 @@ static unsigned refuse_each(size_t s, int32_t engine, int on) {
       if (result != HF_ERROR_OUT_OF_MEMORY)
         fail_msg("%s, engine %d, allocation %u: %s", scenarios[s].name, (int)engine, (unsigned)n,
                  hf_result_name(result));
-      if (world.made_solver || world.made_pose || world.made_transfer)
+      if (world.made_solver || world.made_pose || world.made_transfer || world.made_direction)
         fail_msg("%s, allocation %u: a handle came back", scenarios[s].name, (unsigned)n);
       hf_error_detail detail;
       assert_ok(hf_get_error_detail(&detail));

@@ -17,6 +17,23 @@ static hf_result create(void* d) {
   hf_destroy(solver);
   return result;
 }
+static union {
+  double align[4];
+  unsigned char bytes[1 << 16];
+} saved;
+static void fill_factor(void* d) {
+  hf_factor_desc* factor = d;
+  HF_INIT(*factor);
+  factor->bytes = saved.bytes;
+  if (hf_get_factor_size(scene.solver, &factor->byte_count) != HF_OK || factor->byte_count > sizeof saved.bytes ||
+      hf_save_factor(scene.solver, saved.bytes, sizeof saved.bytes) != HF_OK)
+    factor->byte_count = 0;
+}
+static hf_result create_loaded(void* d) {
+  hf_create_desc desc = surface_desc(&scene.cut);
+  desc.saved_factor = d;
+  return create(&desc);
+}
 static void fill_report(void* d) { HF_INIT(*(hf_mesh_report*)d); }
 static hf_result get_mesh_report(void* d) { return hf_get_mesh_report(scene.solver, d); }
 static void fill_statistics(void* d) { HF_INIT(*(hf_statistics*)d); }
@@ -48,6 +65,9 @@ static hf_result get_sites(void* d) { return hf_get_sites(scene.solver, d); }
 static void fill_solve_info(void* d) { HF_INIT(*(hf_solve_info*)d); }
 static hf_result solve(void* d) { return hf_solve(scene.solver, floats, 0, d); }
 static hf_result solve_f64(void* d) { return hf_solve_f64(scene.solver, doubles, 0, d); }
+static void fill_preview_info(void* d) { HF_INIT(*(hf_preview_info*)d); }
+static hf_result solve_preview(void* d) { return hf_solve_preview(scene.solver, floats, 0, 1, d); }
+static hf_result solve_preview_f64(void* d) { return hf_solve_preview_f64(scene.solver, doubles, 0, 0, d); }
 static hf_result with_three_sites(hf_result (*call)(hf_solver, void*), void* d) {
   hf_solver copy = NULL;
   hf_result result = hf_clone(scene.three, &copy);
@@ -88,6 +108,9 @@ static hf_result deform_info(void* d) {
   return hf_deform(scene.pose, &desc, d);
 }
 
+static void fill_pose_skin(void* d) { HF_INIT(*(hf_skin_info*)d); }
+static hf_result pose_get_skin(void* d) { return hf_pose_get_skin(scene.pose, d); }
+
 static void fill_transfer(void* d) { HF_INIT(*(hf_transfer_desc*)d); }
 static hf_result transfer_create(void* d) {
   hf_transfer transfer = (hf_transfer)(void*)&scene;
@@ -104,6 +127,8 @@ static void fill_pairs(void* d) {
 }
 static hf_result transfer_add_pairs(void* d) { return hf_transfer_add_pairs(scene.transfer, d, NULL); }
 static void fill_pair_info(void* d) { HF_INIT(*(hf_pair_info*)d); }
+static void fill_transfer_info(void* d) { HF_INIT(*(hf_transfer_info*)d); }
+static hf_result transfer_get_info(void* d) { return hf_transfer_get_info(scene.transfer, d); }
 static hf_result transfer_get_pair(void* d) { return hf_transfer_get_pair(scene.transfer, scene.pairs[0], d); }
 static void fill_frame(void* d) {
   hf_transfer_frame* frame = d;
@@ -114,6 +139,64 @@ static hf_result transfer_apply(void* d) { return hf_transfer_apply(scene.transf
 static void fill_skin(void* d) { HF_INIT(*(hf_skin_info*)d); }
 static hf_result transfer_get_skin(void* d) { return hf_transfer_get_skin(scene.transfer, d); }
 
+static void fill_scalars(void* d) {
+  for (uint32_t v = 0; v < CUT_VERTICES; ++v) doubles[v] = v;
+  HF_INIT(*(hf_scalars*)d), ((hf_scalars*)d)->values_f64 = doubles;
+}
+static hf_result space_levels(void* d) {
+  double level;
+  return hf_space_levels(scene.solver, d, HF_LEVELS_AREA, 1, &level);
+}
+static hf_result trace_field(void* d) {
+  hf_isolines lines;
+  HF_INIT(lines);
+  return hf_trace_isolines(scene.solver, d, 1, &value, &lines);
+}
+static void fill_isolines(void* d) { HF_INIT(*(hf_isolines*)d); }
+static hf_result trace_isolines(void* d) {
+  hf_scalars field;
+  fill_scalars(&field);
+  return hf_trace_isolines(scene.solver, &field, 1, &value, d);
+}
+static hf_result critical_field(void* d) {
+  hf_critical_info info;
+  HF_INIT(info);
+  return hf_find_critical_points(scene.solver, d, 0, NULL, &info);
+}
+static void fill_critical_info(void* d) { HF_INIT(*(hf_critical_info*)d); }
+static hf_result critical_info(void* d) {
+  static hf_critical_point points[CUT_VERTICES];
+  hf_scalars field;
+  fill_scalars(&field);
+  return hf_find_critical_points(scene.solver, &field, CUT_VERTICES, points, d);
+}
+static void fill_geodesics(void* d) { HF_INIT(*(hf_geodesics_desc*)d); }
+static hf_result geodesics_create(void* d) {
+  hf_geodesics geodesics = (hf_geodesics)(void*)&scene;
+  const hf_result result = hf_geodesics_create(scene.body, d, &geodesics);
+  if (result != HF_OK && geodesics != NULL) return HF_ERROR_INTERNAL;
+  hf_geodesics_destroy(geodesics);
+  return result;
+}
+static void fill_extremities(void* d) { HF_INIT(*(hf_extremities_desc*)d); }
+static hf_result find_extremities(void* d) {
+  uint32_t count;
+  return hf_find_extremities(scene.body, d, 0, NULL, &count);
+}
+
+static void fill_direction(void* d) { HF_INIT(*(hf_direction_desc*)d); }
+static hf_result direction_create(void* d) {
+  hf_direction direction = (hf_direction)(void*)&scene;
+  const hf_result result = hf_direction_create(scene.body, d, &direction);
+  if (result != HF_OK && direction != NULL) return HF_ERROR_INTERNAL;
+  hf_direction_destroy(direction);
+  return result;
+}
+static hf_result direction_solve(void* d) { return hf_direction_solve(scene.direction, floats, 0, d); }
+static hf_result direction_solve_f64(void* d) { return hf_direction_solve_f64(scene.direction, doubles, 0, d); }
+static void fill_direction_statistics(void* d) { HF_INIT(*(hf_direction_statistics*)d); }
+static hf_result direction_statistics(void* d) { return hf_direction_get_statistics(scene.direction, d); }
+
 static const struct {
   const char* what; /* function and argument */
   size_t size;
@@ -122,6 +205,7 @@ static const struct {
   int optional; /* NULL is allowed */
 } structs[] = {
     {"hf_create: desc", sizeof(hf_create_desc), fill_create, create, 0},
+    {"hf_create: desc->saved_factor", sizeof(hf_factor_desc), fill_factor, create_loaded, 1},
     {"hf_get_mesh_report: out_report", sizeof(hf_mesh_report), fill_report, get_mesh_report, 0},
     {"hf_get_statistics: out_statistics", sizeof(hf_statistics), fill_statistics, get_statistics, 0},
     {"hf_add_sites: sites", sizeof(hf_sites_desc), fill_sites, add_sites, 0},
@@ -132,17 +216,32 @@ static const struct {
     {"hf_get_sites: out_info", sizeof(hf_site_info), fill_site_info, get_sites, 0},
     {"hf_solve: out_info", sizeof(hf_solve_info), fill_solve_info, solve, 1},
     {"hf_solve_f64: out_info", sizeof(hf_solve_info), fill_solve_info, solve_f64, 1},
+    {"hf_solve_preview: out_info", sizeof(hf_preview_info), fill_preview_info, solve_preview, 1},
+    {"hf_solve_preview_f64: out_info", sizeof(hf_preview_info), fill_preview_info, solve_preview_f64, 1},
     {"hf_solve_vectors: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors, 1},
     {"hf_solve_vectors_f64: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors_f64, 1},
     {"hf_pose_create: desc", sizeof(hf_pose_desc), fill_pose, pose_create, 1},
     {"hf_pose_add_handles: handles", sizeof(hf_handles_desc), fill_handles, pose_add_handles, 0},
+    {"hf_pose_get_skin: info", sizeof(hf_skin_info), fill_pose_skin, pose_get_skin, 0},
     {"hf_pose_get_handle: out_info", sizeof(hf_handle_info), fill_handle_info, pose_get_handle, 0},
     {"hf_deform: desc", sizeof(hf_deform_desc), fill_deform, deform, 0},
     {"hf_deform: out_info", sizeof(hf_deform_info), fill_deform_info, deform_info, 1},
     {"hf_transfer_create: desc", sizeof(hf_transfer_desc), fill_transfer, transfer_create, 1},
     {"hf_transfer_add_pairs: pairs", sizeof(hf_pairs_desc), fill_pairs, transfer_add_pairs, 0},
     {"hf_transfer_get_pair: out_info", sizeof(hf_pair_info), fill_pair_info, transfer_get_pair, 0},
+    {"hf_transfer_get_info: out_info", sizeof(hf_transfer_info), fill_transfer_info, transfer_get_info, 0},
     {"hf_transfer_apply: frame", sizeof(hf_transfer_frame), fill_frame, transfer_apply, 0},
+    {"hf_space_levels: field", sizeof(hf_scalars), fill_scalars, space_levels, 0},
+    {"hf_trace_isolines: field", sizeof(hf_scalars), fill_scalars, trace_field, 0},
+    {"hf_trace_isolines: out_lines", sizeof(hf_isolines), fill_isolines, trace_isolines, 0},
+    {"hf_find_critical_points: field", sizeof(hf_scalars), fill_scalars, critical_field, 0},
+    {"hf_find_critical_points: out_info", sizeof(hf_critical_info), fill_critical_info, critical_info, 1},
+    {"hf_geodesics_create: desc", sizeof(hf_geodesics_desc), fill_geodesics, geodesics_create, 1},
+    {"hf_find_extremities: desc", sizeof(hf_extremities_desc), fill_extremities, find_extremities, 1},
+    {"hf_direction_create: desc", sizeof(hf_direction_desc), fill_direction, direction_create, 1},
+    {"hf_direction_solve: out_info", sizeof(hf_solve_info), fill_solve_info, direction_solve, 1},
+    {"hf_direction_solve_f64: out_info", sizeof(hf_solve_info), fill_solve_info, direction_solve_f64, 1},
+    {"hf_direction_get_statistics: out_statistics", sizeof(hf_direction_statistics), fill_direction_statistics, direction_statistics, 0},
     {"hf_transfer_get_skin: info", sizeof(hf_skin_info), fill_skin, transfer_get_skin, 0},
 };
 

@@ -24,6 +24,14 @@ static hf_result get_statistics(void* h) {
   HF_INIT(s);
   return hf_get_statistics(h, &s);
 }
+static hf_result get_factor_size(void* h) {
+  size_t size;
+  return hf_get_factor_size(h, &size);
+}
+static hf_result save_factor(void* h) { return hf_save_factor(h, doubles, sizeof doubles); }
+static hf_result solve_preview(void* h) { return hf_solve_preview(h, floats, 0, 0, NULL); }
+static hf_result solve_preview_f64(void* h) { return hf_solve_preview_f64(h, doubles, 0, 1, NULL); }
+static hf_result release_preview(void* h) { return hf_release_preview(h); }
 static hf_result add_sites(void* h) {
   const uint32_t vertex = 7;
   const hf_sites_desc d = sites_at(1, &vertex, NULL);
@@ -60,6 +68,7 @@ static hf_result solve_at(void* h) {
   return hf_solve_at(h, 1, &v, doubles);
 }
 static hf_result record(void* h) { return hf_record(h); }
+static hf_result prepare_rebase(void* h) { return hf_prepare_rebase(h); }
 static hf_result undo(void* h) { return hf_undo(h); }
 static hf_result redo(void* h) { return hf_redo(h); }
 static hf_result pose_create(void* h) {
@@ -73,6 +82,98 @@ static hf_result transfer_from(void* h) {
 static hf_result transfer_to(void* h) {
   hf_transfer out;
   return hf_transfer_create(scene.body, h, NULL, &out);
+}
+
+static hf_scalars scalars(void) {
+  hf_scalars f;
+  HF_INIT(f);
+  f.values_f64 = doubles;
+  return f;
+}
+static hf_result space_levels(void* h) {
+  const hf_scalars f = scalars();
+  double level;
+  return hf_space_levels(h, &f, HF_LEVELS_VALUE, 1, &level);
+}
+static hf_result trace_isolines(void* h) {
+  const hf_scalars f = scalars();
+  const double level = 0.5;
+  hf_isolines lines;
+  HF_INIT(lines);
+  return hf_trace_isolines(h, &f, 1, &level, &lines);
+}
+static hf_result find_critical_points(void* h) {
+  const hf_scalars f = scalars();
+  hf_critical_info info;
+  HF_INIT(info);
+  return hf_find_critical_points(h, &f, 0, NULL, &info);
+}
+static hf_result geodesics_create(void* h) {
+  hf_geodesics out;
+  return hf_geodesics_create(h, NULL, &out);
+}
+static hf_result find_extremities(void* h) {
+  uint32_t count;
+  return hf_find_extremities(h, NULL, 0, NULL, &count);
+}
+static hf_result geodesics_distance(void* h) {
+  const uint32_t v = 3;
+  return hf_geodesics_distance(h, 1, &v, floats, 0);
+}
+static hf_result geodesics_distance_f64(void* h) {
+  const uint32_t v = 3;
+  return hf_geodesics_distance_f64(h, 1, &v, doubles, 0);
+}
+static hf_result find_extremities_with(void* h) {
+  hf_extremities_desc d;
+  uint32_t count;
+  HF_INIT(d);
+  d.kind = HF_EXTREMITIES_GEODESIC, d.geodesics = h;
+  return h ? hf_find_extremities(scene.body, &d, 0, NULL, &count)
+           : hf_find_extremities(NULL, &d, 0, NULL, &count); /* NULL there asks for one of its own */
+}
+
+static hf_result move_vector_sites(void* h) {
+  const uint32_t vertex = 7;
+  return hf_move_vector_sites(h, 1, scene.sites, &vertex);
+}
+static hf_result rotate_vector_sites(void* h) {
+  const double angle = 1;
+  return hf_rotate_vector_sites(h, 1, scene.sites, &angle);
+}
+static hf_result direction_create(void* h) {
+  hf_direction out;
+  return hf_direction_create(h, NULL, &out);
+}
+static hf_result direction_add_sites(void* h) {
+  const uint32_t vertex = 7;
+  const double vector[3] = {1, 0, 0};
+  return hf_direction_add_sites(h, 1, &vertex, vector, NULL);
+}
+static hf_result direction_remove_sites(void* h) { return hf_direction_remove_sites(h, 1, scene.sites); }
+static hf_result direction_move_sites(void* h) {
+  const uint32_t vertex = 7;
+  return hf_direction_move_sites(h, 1, scene.sites, &vertex);
+}
+static hf_result direction_set_vectors(void* h) {
+  const double vector[3] = {1, 0, 0};
+  return hf_direction_set_vectors(h, 1, scene.sites, vector);
+}
+static hf_result direction_rotate_sites(void* h) {
+  const double angle = 1;
+  return hf_direction_rotate_sites(h, 1, scene.sites, &angle);
+}
+static hf_result direction_get_sites(void* h) { return hf_direction_get_sites(h, 2, numbers, NULL, NULL); }
+static hf_result direction_solve(void* h) { return hf_direction_solve(h, floats, 0, NULL); }
+static hf_result direction_solve_f64(void* h) { return hf_direction_solve_f64(h, doubles, 0, NULL); }
+static hf_result direction_get_singularities(void* h) {
+  uint32_t count;
+  return hf_direction_get_singularities(h, 0, NULL, &count);
+}
+static hf_result direction_get_statistics(void* h) {
+  hf_direction_statistics s;
+  HF_INIT(s);
+  return hf_direction_get_statistics(h, &s);
 }
 
 static hf_result pose_clone(void* h) {
@@ -90,6 +191,15 @@ static hf_result pose_remove_handles(void* h) { return hf_pose_remove_handles(h,
 static hf_result pose_set_transforms(void* h) {
   const hf_transform rest = {{0, 0, 0, 1}, {0, 0, 0}};
   return hf_pose_set_transforms(h, 1, scene.handles, &rest);
+}
+static hf_result pose_set_matrices(void* h) {
+  const double unit[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  return hf_pose_set_matrices(h, 1, scene.handles, unit);
+}
+static hf_result pose_get_skin(void* h) {
+  hf_skin_info info;
+  HF_INIT(info);
+  return hf_pose_get_skin(h, &info);
 }
 static hf_result pose_get_handle(void* h) {
   hf_handle_info i;
@@ -117,6 +227,11 @@ static hf_result transfer_get_pair(void* h) {
   HF_INIT(i);
   return hf_transfer_get_pair(h, scene.pairs[0], &i);
 }
+static hf_result transfer_get_info(void* h) {
+  hf_transfer_info i;
+  HF_INIT(i);
+  return hf_transfer_get_info(h, &i);
+}
 static hf_result transfer_apply(void* h) {
   hf_transfer_frame f;
   HF_INIT(f);
@@ -135,7 +250,7 @@ static hf_result progress_get(void* h) {
 }
 static hf_result progress_cancel(void* h) { return hf_progress_cancel(h); }
 
-enum Kind { SOLVER, POSE, TRANSFER, PROGRESS, KIND_COUNT };
+enum Kind { SOLVER, POSE, TRANSFER, PROGRESS, GEODESICS, DIRECTION, KIND_COUNT };
 
 static const struct {
   const char* function;
@@ -147,6 +262,11 @@ static const struct {
     {"hf_get_mesh_report", SOLVER, get_mesh_report, NO_INDEX},
     {"hf_get_components", SOLVER, get_components, NO_INDEX},
     {"hf_get_statistics", SOLVER, get_statistics, NO_INDEX},
+    {"hf_get_factor_size", SOLVER, get_factor_size, NO_INDEX},
+    {"hf_save_factor", SOLVER, save_factor, NO_INDEX},
+    {"hf_solve_preview", SOLVER, solve_preview, NO_INDEX},
+    {"hf_solve_preview_f64", SOLVER, solve_preview_f64, NO_INDEX},
+    {"hf_release_preview", SOLVER, release_preview, NO_INDEX},
     {"hf_add_sites", SOLVER, add_sites, NO_INDEX},
     {"hf_remove_sites", SOLVER, remove_sites, NO_INDEX},
     {"hf_move_sites", SOLVER, move_sites, NO_INDEX},
@@ -159,6 +279,7 @@ static const struct {
     {"hf_solve_vectors_f64", SOLVER, solve_vectors_f64, NO_INDEX},
     {"hf_solve_at", SOLVER, solve_at, NO_INDEX},
     {"hf_record", SOLVER, record, NO_INDEX},
+    {"hf_prepare_rebase", SOLVER, prepare_rebase, NO_INDEX},
     {"hf_undo", SOLVER, undo, NO_INDEX},
     {"hf_redo", SOLVER, redo, NO_INDEX},
     {"hf_pose_create", SOLVER, pose_create, NO_INDEX},
@@ -168,35 +289,59 @@ static const struct {
     {"hf_pose_add_handles", POSE, pose_add_handles, NO_INDEX},
     {"hf_pose_remove_handles", POSE, pose_remove_handles, NO_INDEX},
     {"hf_pose_set_transforms", POSE, pose_set_transforms, NO_INDEX},
+    {"hf_pose_set_matrices", POSE, pose_set_matrices, NO_INDEX},
+    {"hf_pose_get_skin", POSE, pose_get_skin, NO_INDEX},
     {"hf_pose_get_handle", POSE, pose_get_handle, NO_INDEX},
     {"hf_pose_get_field", POSE, pose_get_field, NO_INDEX},
     {"hf_deform", POSE, deform, NO_INDEX},
     {"hf_transfer_add_pairs", TRANSFER, transfer_add_pairs, NO_INDEX},
     {"hf_transfer_remove_pairs", TRANSFER, transfer_remove_pairs, NO_INDEX},
     {"hf_transfer_get_pair", TRANSFER, transfer_get_pair, NO_INDEX},
+    {"hf_transfer_get_info", TRANSFER, transfer_get_info, NO_INDEX},
     {"hf_transfer_apply", TRANSFER, transfer_apply, NO_INDEX},
     {"hf_transfer_get_skin", TRANSFER, transfer_get_skin, NO_INDEX},
+    {"hf_space_levels", SOLVER, space_levels, NO_INDEX},
+    {"hf_trace_isolines", SOLVER, trace_isolines, NO_INDEX},
+    {"hf_find_critical_points", SOLVER, find_critical_points, NO_INDEX},
+    {"hf_geodesics_create", SOLVER, geodesics_create, NO_INDEX},
+    {"hf_find_extremities", SOLVER, find_extremities, NO_INDEX},
+    {"hf_geodesics_distance", GEODESICS, geodesics_distance, NO_INDEX},
+    {"hf_geodesics_distance_f64", GEODESICS, geodesics_distance_f64, NO_INDEX},
+    {"hf_find_extremities", GEODESICS, find_extremities_with, NO_INDEX},
+    {"hf_move_vector_sites", SOLVER, move_vector_sites, NO_INDEX},
+    {"hf_rotate_vector_sites", SOLVER, rotate_vector_sites, NO_INDEX},
+    {"hf_direction_create", SOLVER, direction_create, NO_INDEX},
+    {"hf_direction_add_sites", DIRECTION, direction_add_sites, NO_INDEX},
+    {"hf_direction_remove_sites", DIRECTION, direction_remove_sites, NO_INDEX},
+    {"hf_direction_move_sites", DIRECTION, direction_move_sites, NO_INDEX},
+    {"hf_direction_set_vectors", DIRECTION, direction_set_vectors, NO_INDEX},
+    {"hf_direction_rotate_sites", DIRECTION, direction_rotate_sites, NO_INDEX},
+    {"hf_direction_get_sites", DIRECTION, direction_get_sites, NO_INDEX},
+    {"hf_direction_solve", DIRECTION, direction_solve, NO_INDEX},
+    {"hf_direction_solve_f64", DIRECTION, direction_solve_f64, NO_INDEX},
+    {"hf_direction_get_singularities", DIRECTION, direction_get_singularities, NO_INDEX},
+    {"hf_direction_get_statistics", DIRECTION, direction_get_statistics, NO_INDEX},
     {"hf_progress_get", PROGRESS, progress_get, NO_INDEX},
     {"hf_progress_cancel", PROGRESS, progress_cancel, NO_INDEX},
 };
 
 static int unchanged(enum Kind kind) {
   return solver_unchanged(&scene) &&
-         (kind == SOLVER || kind == PROGRESS || (kind == POSE ? pose_unchanged(&scene) : transfer_unchanged(&scene)));
+         (kind == SOLVER || kind == PROGRESS || kind == GEODESICS || kind == DIRECTION || (kind == POSE ? pose_unchanged(&scene) : transfer_unchanged(&scene)));
 }
 
 static void every_function_refuses_every_handle_that_is_not_its_own(void** state) {
   (void)state;
   scene_create(&scene);
   int on_the_stack = 0;
-  void* const live[KIND_COUNT] = {scene.solver, scene.pose, scene.transfer, scene.progress};
-  void* const stale[KIND_COUNT] = {scene.stale_solver, scene.stale_pose, scene.stale_transfer, scene.stale_progress};
+  void* const live[KIND_COUNT] = {scene.solver, scene.pose, scene.transfer, scene.progress, scene.geodesics, scene.direction};
+  void* const stale[KIND_COUNT] = {scene.stale_solver, scene.stale_pose, scene.stale_transfer, scene.stale_progress, scene.stale_geodesics, scene.stale_direction};
   for (size_t f = 0; f < COUNT_OF(functions); ++f) {
     const enum Kind kind = functions[f].kind;
     struct {
       const char* what;
       void* handle;
-    } bad[8] = {{"NULL", NULL},
+    } bad[4 + KIND_COUNT] = {{"NULL", NULL},
                 {"destroyed", stale[kind]},
                 {"all bits set", (void*)UINTPTR_MAX},
                 {"the number 1", (void*)(uintptr_t)1},
@@ -226,18 +371,24 @@ static void destroying_what_is_no_handle_does_nothing(void** state) {
                        scene.stale_solver,
                        scene.stale_pose,
                        scene.stale_transfer,
-                       scene.stale_progress};
+                       scene.stale_progress,
+                       scene.stale_geodesics,
+                       scene.stale_direction};
   for (size_t b = 0; b < COUNT_OF(bad); ++b) {
     hf_destroy(bad[b]), hf_pose_destroy(bad[b]), hf_transfer_destroy(bad[b]), hf_progress_destroy(bad[b]);
+    hf_geodesics_destroy(bad[b]), hf_direction_destroy(bad[b]);
   }
-  void* const live[KIND_COUNT] = {scene.solver, scene.pose, scene.transfer, scene.progress};
+  void* const live[KIND_COUNT] = {scene.solver, scene.pose, scene.transfer, scene.progress, scene.geodesics, scene.direction};
   for (int k = 0; k < KIND_COUNT; ++k) {
     if (k != SOLVER) hf_destroy(live[k]);
     if (k != POSE) hf_pose_destroy(live[k]);
     if (k != TRANSFER) hf_transfer_destroy(live[k]);
     if (k != PROGRESS) hf_progress_destroy(live[k]);
+    if (k != GEODESICS) hf_geodesics_destroy(live[k]);
+    if (k != DIRECTION) hf_direction_destroy(live[k]);
   }
   float fraction;
+  assert_ok(geodesics_distance(scene.geodesics));
   assert_true(solver_unchanged(&scene) && pose_unchanged(&scene) && transfer_unchanged(&scene));
   assert_ok(hf_progress_get(scene.progress, &fraction));
   scene_destroy(&scene);
@@ -248,6 +399,9 @@ static void counts_of_what_is_no_handle_are_zero(void** state) {
   (void)state;
   scene_create(&scene);
   assert_int_equal(hf_get_site_count(NULL), 0);
+  assert_int_equal(hf_direction_get_site_count(NULL), 0);
+  assert_int_equal(hf_direction_get_site_count(scene.stale_direction), 0);
+  assert_int_equal(hf_direction_get_site_count(scene.direction), 2);
   assert_int_equal(hf_get_site_count(scene.stale_solver), 0);
   assert_int_equal(hf_get_site_count((hf_solver)(void*)scene.pose), 0);
   assert_int_equal(hf_pose_get_handle_count(NULL), 0);

@@ -90,7 +90,10 @@ static void hf_create_refuses_bad_options(void** state) {
   CREATE("weld 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.weld = 3);
   CREATE("weld INT32_MAX", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.weld = INT32_MAX);
   CREATE("operator -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.operator_kind = -1);
-  CREATE("operator 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.operator_kind = 3);
+  CREATE("operator 4", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.operator_kind = 4);
+  CREATE("field kind -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.field_kind = -1);
+  CREATE("field kind 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.field_kind = 3);
+  CREATE("reserved 1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.reserved = 1);
   CREATE("engine -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.engine = -1);
   CREATE("engine 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.engine = 3);
   CREATE("engine INT32_MIN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.engine = INT32_MIN);

@@ -10,6 +10,7 @@ static hf_pairs_desc pairs;
 static hf_pose_desc pose_desc;
 static hf_transfer_desc transfer_desc;
 static hf_transform transforms[3];
+static double matrices[2 * 16], points[2 * 3], radii[2];
 static hf_deform_desc deform;
 static hf_transfer_frame frame;
 static hf_skin_info skin;
@@ -30,6 +31,10 @@ static void good_input(void) {
   pairs.source_counts = counts, pairs.source_vertices = region;
   pairs.target_counts = target_counts, pairs.target_vertices = target_region;
   memset(transforms, 0, sizeof transforms);
+  memset(matrices, 0, sizeof matrices);
+  for (int i = 0; i < 4; ++i) matrices[5 * i] = matrices[16 + 5 * i] = 1;
+  for (int i = 0; i < 6; ++i) points[i] = (double)scene.tube.positions[3 * (5 * TUBE_AROUND + i / 3 * 20) + i % 3];
+  radii[0] = radii[1] = 0;
   transforms[0].rotation[3] = transforms[1].rotation[3] = 1, transforms[0].translation[0] = 3;
   deform.positions = floats;
   memcpy(source, scene.posed, sizeof source);
@@ -104,6 +109,25 @@ static void bad_handles_are_not_added(void** state) {
   ADD("2^32 - 1 handles", HF_ERROR_TOO_LARGE, NO_INDEX, handles.handle_count = UINT32_MAX);
   ADD("a region of 2^32 - 1", HF_ERROR_TOO_LARGE, 1, counts[1] = UINT32_MAX);
   ADD("a region of 2^31", HF_ERROR_TOO_LARGE, 0, counts[0] = 0x80000000u);
+  ADD("layer 8", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, handles.layer = 8);
+  ADD("layer 2^32 - 1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, handles.layer = UINT32_MAX);
+  ADD("overlap on a higher layer", HF_ERROR_OVERLAP, 1, (region[1] = 0, handles.layer = 3));
+  ADD("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, handles.reserved = 1);
+  ADD("regions and points", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (handles.points = points, handles.radii = radii));
+#define NEAR(what, expected, index, change)                                                                    \
+  ADD(what, expected, index,                                                                                   \
+      (handles.region_counts = handles.region_vertices = NULL, handles.points = points, handles.radii = radii, \
+       change))
+  NEAR("radii NULL", HF_ERROR_NULL_POINTER, NO_INDEX, handles.radii = NULL);
+  NEAR("points NULL", HF_ERROR_NULL_POINTER, NO_INDEX, handles.points = NULL);
+  NEAR("point NaN", HF_ERROR_NON_FINITE, 1, points[4] = (double)NAN);
+  NEAR("radius infinite", HF_ERROR_NON_FINITE, 0, radii[0] = HUGE_VAL);
+  NEAR("radius negative", HF_ERROR_INVALID_ARGUMENT, 1, radii[1] = -1);
+  NEAR("a point in a handle that is there", HF_ERROR_OVERLAP, 1,
+       memcpy(points + 3,
+              (double[3]){(double)scene.tube.positions[0], (double)scene.tube.positions[1],
+                          (double)scene.tube.positions[2]},
+              24));
   scene_destroy(&scene);
   finish_rows("adding handles");
 }
@@ -199,10 +223,35 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   DEFORM("normal stride 4", HF_ERROR_TOO_SMALL, (deform.normals = normals, deform.normal_stride = 4));
   DEFORM("1001 iterations", HF_ERROR_INVALID_ARGUMENT, deform.iteration_count = 1001);
   DEFORM("2^32 - 1 iterations", HF_ERROR_INVALID_ARGUMENT, deform.iteration_count = UINT32_MAX);
-  DEFORM("reserved set", HF_ERROR_INVALID_DESC, deform.reserved = 1);
+  DEFORM("refine 2", HF_ERROR_INVALID_ARGUMENT, deform.refine = 2);
+  DEFORM("refine -1", HF_ERROR_INVALID_ARGUMENT, deform.refine = -1);
+  DEFORM("a range from beyond the end", HF_ERROR_OUT_OF_RANGE, deform.first_vertex = TUBE_VERTICES + 1);
+  DEFORM("a range to beyond the end", HF_ERROR_OUT_OF_RANGE,
+         (deform.first_vertex = 5, deform.vertex_count = TUBE_VERTICES));
+  DEFORM("a range that wraps", HF_ERROR_OUT_OF_RANGE, (deform.first_vertex = 1, deform.vertex_count = UINT32_MAX));
+
+#define MATRICES(what, expected, index, change) \
+  ROW(what, expected, index, change, hf_pose_set_matrices(scene.pose, 2, numbers, matrices))
+  ROW("none", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_pose_set_matrices(scene.pose, 0, numbers, matrices));
+  ROW("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_set_matrices(scene.pose, 2, NULL, matrices));
+  ROW("matrices NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_set_matrices(scene.pose, 2, numbers, NULL));
+  ROW("257 of them", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0, hf_pose_set_matrices(scene.pose, 257, numbers, matrices));
+  MATRICES("no such handle", HF_ERROR_NO_SUCH_HANDLE, 1, numbers[1] = 9);
+  MATRICES("NaN", HF_ERROR_NON_FINITE, 1, matrices[16 + 13] = (double)NAN);
+  MATRICES("scaled", HF_ERROR_INVALID_ARGUMENT, 0, matrices[5] = 1.01);
+  MATRICES("sheared", HF_ERROR_INVALID_ARGUMENT, 1, matrices[16 + 4] = 0.1);
+  MATRICES("mirrored", HF_ERROR_INVALID_ARGUMENT, 1, matrices[16] = -1);
+  MATRICES("projective", HF_ERROR_INVALID_ARGUMENT, 0, matrices[3] = 0.5);
+  MATRICES("too far", HF_ERROR_NON_FINITE, 0, matrices[12] = 1e300);
+
+#define POSE_SKIN(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_pose_get_skin(scene.pose, &skin))
+  POSE_SKIN("5 weights", HF_ERROR_INVALID_ARGUMENT, skin.weight_count = 5);
+  POSE_SKIN("2^32 - 1 weights", HF_ERROR_INVALID_ARGUMENT, skin.weight_count = UINT32_MAX);
+  POSE_SKIN("reserved set", HF_ERROR_INVALID_DESC, skin.reserved = 1);
   GOOD();
   assert_ok(hf_pose_create(scene.body, NULL, &out_pose));
   check_row(__LINE__, "no handle", "hf_deform", hf_deform(out_pose, &deform, NULL), HF_ERROR_EMPTY, NO_INDEX);
+  check_row(__LINE__, "no handle", "hf_pose_get_skin", hf_pose_get_skin(out_pose, &skin), HF_ERROR_EMPTY, NO_INDEX);
   check_row(__LINE__, "no handle", "hf_pose_get_handle", hf_pose_get_handle(out_pose, 0, &info),
             HF_ERROR_NO_SUCH_HANDLE, NO_INDEX);
   check_row(__LINE__, "no handle", "hf_pose_get_field", hf_pose_get_field(out_pose, 0, floats, 0),
@@ -274,7 +323,7 @@ static void bad_pairs_are_not_added(void** state) {
   PAIRS("target overlaps a pair that is there", HF_ERROR_OVERLAP, 0, target_region[0] = 3);
   PAIRS("source regions overlap", HF_ERROR_OVERLAP, 3, region[3] = region[0]);
   PAIRS("target regions overlap", HF_ERROR_OVERLAP, 4, target_region[4] = target_region[1]);
-  PAIRS("unknown flag", HF_ERROR_INVALID_ARGUMENT, 1, flags[1] = 16);
+  PAIRS("unknown flag", HF_ERROR_INVALID_ARGUMENT, 1, flags[1] = 32);
   PAIRS("all flags", HF_ERROR_INVALID_ARGUMENT, 0, flags[0] = UINT32_MAX);
   PAIRS("a source region of 2^31", HF_ERROR_TOO_LARGE, 0, counts[0] = 0x80000000u);
   PAIRS("a target region of 2^32 - 1", HF_ERROR_TOO_LARGE, 1, target_counts[1] = UINT32_MAX);

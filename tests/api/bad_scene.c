@@ -60,11 +60,20 @@ void scene_create(Scene* s) {
   create_pose(s);
   create_transfer(s);
   assert_ok(hf_progress_create(&s->progress));
+  assert_ok(hf_geodesics_create(s->body, NULL, &s->geodesics));
 
   assert_ok(hf_clone(s->solver, &s->stale_solver));
   assert_ok(hf_pose_clone(s->pose, &s->stale_pose));
   assert_ok(hf_transfer_create(s->body, s->body, NULL, &s->stale_transfer));
   assert_ok(hf_progress_create(&s->stale_progress));
+  assert_ok(hf_geodesics_create(s->body, NULL, &s->stale_geodesics));
+  hf_geodesics_destroy(s->stale_geodesics);
+  const uint32_t corners[2] = {CUT_LEFT, CUT_RIGHT};
+  const double vectors[6] = {1, 0, 0, 0, 1, 0};
+  assert_ok(hf_direction_create(s->solver, NULL, &s->direction));
+  assert_ok(hf_direction_add_sites(s->direction, 2, corners, vectors, NULL));
+  assert_ok(hf_direction_create(s->solver, NULL, &s->stale_direction));
+  hf_direction_destroy(s->stale_direction);
   hf_destroy(s->stale_solver), hf_pose_destroy(s->stale_pose);
   hf_transfer_destroy(s->stale_transfer), hf_progress_destroy(s->stale_progress);
 }
@@ -72,6 +81,7 @@ void scene_create(Scene* s) {
 void scene_destroy(Scene* s) {
   hf_destroy(s->solver), hf_destroy(s->three), hf_destroy(s->body);
   hf_pose_destroy(s->pose), hf_transfer_destroy(s->transfer), hf_progress_destroy(s->progress);
+  hf_geodesics_destroy(s->geodesics), hf_direction_destroy(s->direction);
   surface_free(&s->cut), surface_free(&s->tube);
   free(s->ends), free(s->posed), free(s->field), free(s->deformed), free(s->transferred);
 }

@@ -16,10 +16,14 @@ typedef struct Scene {
   hf_pose pose;         /* on the tube, two handles, one turned */
   hf_transfer transfer; /* tube to tube, two pairs */
   hf_progress progress;
+  hf_geodesics geodesics; /* of the tube */
+  hf_direction direction; /* on the cut sheet, constraint 0 at CUT_LEFT and 1 at CUT_RIGHT */
   hf_solver stale_solver; /* destroyed */
   hf_pose stale_pose;
   hf_transfer stale_transfer;
   hf_progress stale_progress;
+  hf_geodesics stale_geodesics;
+  hf_direction stale_direction;
   uint32_t sites[3], handles[2], pairs[2];
   uint32_t* ends; /* the regions of both handles */
   float* posed;   /* a posed tube, the source of the transfer */

@@ -54,6 +54,29 @@ static void print_create_desc(void) {
   FIELD(hf_create_desc, allocator);
   FIELD(hf_create_desc, job_runner);
   FIELD(hf_create_desc, progress);
+  FIELD(hf_create_desc, saved_factor);
+  FIELD(hf_create_desc, field_kind);
+  FIELD(hf_create_desc, reserved);
+}
+
+static void print_preview_info(void) {
+  STRUCT(hf_preview_info);
+  FIELD(hf_preview_info, struct_size);
+  FIELD(hf_preview_info, exact);
+  FIELD(hf_preview_info, correction_count);
+  FIELD(hf_preview_info, unreached_component_count);
+  FIELD(hf_preview_info, value_range);
+  FIELD(hf_preview_info, largest_correction);
+  FIELD(hf_preview_info, error_estimate);
+  FIELD(hf_preview_info, preview_bytes);
+}
+
+static void print_factor_desc(void) {
+  STRUCT(hf_factor_desc);
+  FIELD(hf_factor_desc, struct_size);
+  FIELD(hf_factor_desc, borrow);
+  FIELD(hf_factor_desc, bytes);
+  FIELD(hf_factor_desc, byte_count);
 }
 
 static void print_mesh_report(void) {
@@ -84,6 +107,7 @@ static void print_sites_desc(void) {
   FIELD(hf_sites_desc, barycentrics);
   FIELD(hf_sites_desc, values);
   FIELD(hf_sites_desc, stiffness);
+  FIELD(hf_sites_desc, radii);
 }
 
 static void print_edit_desc(void) {
@@ -110,6 +134,7 @@ static void print_site_info(void) {
   FIELD(hf_site_info, values);
   FIELD(hf_site_info, stiffness);
   FIELD(hf_site_info, flux);
+  FIELD(hf_site_info, radii);
 }
 
 static void print_solve_info(void) {
@@ -141,6 +166,17 @@ static void print_statistics(void) {
   FIELD(hf_statistics, sweep_count);
   FIELD(hf_statistics, engine);
   FIELD(hf_statistics, thread_count);
+  FIELD(hf_statistics, load_ms);
+  FIELD(hf_statistics, factor_loaded);
+  FIELD(hf_statistics, factor_borrowed);
+  FIELD(hf_statistics, last_route);
+  FIELD(hf_statistics, rebase_count);
+  FIELD(hf_statistics, dense_edit_count);
+  FIELD(hf_statistics, dense_row_count);
+  FIELD(hf_statistics, eliminated_count);
+  FIELD(hf_statistics, rebase_advised);
+  FIELD(hf_statistics, predicted_dense_ms);
+  FIELD(hf_statistics, predicted_rebase_ms);
 }
 
 static void print_pose_desc(void) {
@@ -159,6 +195,10 @@ static void print_handles_desc(void) {
   FIELD(hf_handles_desc, handle_count);
   FIELD(hf_handles_desc, region_counts);
   FIELD(hf_handles_desc, region_vertices);
+  FIELD(hf_handles_desc, points);
+  FIELD(hf_handles_desc, radii);
+  FIELD(hf_handles_desc, layer);
+  FIELD(hf_handles_desc, reserved);
 }
 
 static void print_transform(void) {
@@ -175,6 +215,10 @@ static void print_handle_info(void) {
   FIELD(hf_handle_info, component);
   FIELD(hf_handle_info, centroid);
   FIELD(hf_handle_info, leak);
+  FIELD(hf_handle_info, rotation);
+  FIELD(hf_handle_info, translation);
+  FIELD(hf_handle_info, layer);
+  FIELD(hf_handle_info, reserved);
 }
 
 static void print_deform_desc(void) {
@@ -187,7 +231,9 @@ static void print_deform_desc(void) {
   FIELD(hf_deform_desc, normal_stride);
   FIELD(hf_deform_desc, iteration_count);
   FIELD(hf_deform_desc, restart);
-  FIELD(hf_deform_desc, reserved);
+  FIELD(hf_deform_desc, refine);
+  FIELD(hf_deform_desc, first_vertex);
+  FIELD(hf_deform_desc, vertex_count);
 }
 
 static void print_deform_info(void) {
@@ -200,6 +246,7 @@ static void print_deform_info(void) {
   FIELD(hf_deform_info, solve_ms);
   FIELD(hf_deform_info, blend_ms);
   FIELD(hf_deform_info, normal_ms);
+  FIELD(hf_deform_info, refine_ms);
 }
 
 static void print_transfer_desc(void) {
@@ -234,7 +281,15 @@ static void print_pair_info(void) {
   FIELD(hf_pair_info, alignment_angle);
   FIELD(hf_pair_info, confidence);
   FIELD(hf_pair_info, aligned);
-  FIELD(hf_pair_info, reserved);
+  FIELD(hf_pair_info, crossed);
+  STRUCT(hf_transfer_info);
+  FIELD(hf_transfer_info, struct_size);
+  FIELD(hf_transfer_info, pair_count);
+  FIELD(hf_transfer_info, cluster_count);
+  FIELD(hf_transfer_info, aligned_count);
+  FIELD(hf_transfer_info, crossed_count);
+  FIELD(hf_transfer_info, scale_found);
+  FIELD(hf_transfer_info, scale);
 }
 
 static void print_transfer_frame(void) {
@@ -248,6 +303,10 @@ static void print_transfer_frame(void) {
   FIELD(hf_transfer_frame, target_positions);
   FIELD(hf_transfer_frame, target_positions_f64);
   FIELD(hf_transfer_frame, target_normals);
+  FIELD(hf_transfer_frame, hold_count);
+  FIELD(hf_transfer_frame, reserved);
+  FIELD(hf_transfer_frame, hold_pairs);
+  FIELD(hf_transfer_frame, hold_positions);
 }
 
 static void print_skin_info(void) {
@@ -261,6 +320,108 @@ static void print_skin_info(void) {
   FIELD(hf_skin_info, translations);
   FIELD(hf_skin_info, vertex_joints);
   FIELD(hf_skin_info, vertex_weights);
+}
+
+static void print_scalars(void) {
+  STRUCT(hf_scalars);
+  FIELD(hf_scalars, struct_size);
+  FIELD(hf_scalars, value_stride);
+  FIELD(hf_scalars, values);
+  FIELD(hf_scalars, values_f64);
+}
+
+static void print_isolines(void) {
+  STRUCT(hf_isolines);
+  FIELD(hf_isolines, struct_size);
+  FIELD(hf_isolines, point_capacity);
+  FIELD(hf_isolines, line_capacity);
+  FIELD(hf_isolines, point_count);
+  FIELD(hf_isolines, line_count);
+  FIELD(hf_isolines, reserved);
+  FIELD(hf_isolines, point_edges);
+  FIELD(hf_isolines, parameters);
+  FIELD(hf_isolines, positions);
+  FIELD(hf_isolines, line_starts);
+  FIELD(hf_isolines, line_levels);
+  FIELD(hf_isolines, line_closed);
+}
+
+static void print_critical_point(void) {
+  STRUCT(hf_critical_point);
+  FIELD(hf_critical_point, vertex);
+  FIELD(hf_critical_point, kind);
+  FIELD(hf_critical_point, index);
+  FIELD(hf_critical_point, component);
+  FIELD(hf_critical_point, value);
+}
+
+static void print_critical_info(void) {
+  STRUCT(hf_critical_info);
+  FIELD(hf_critical_info, struct_size);
+  FIELD(hf_critical_info, point_count);
+  FIELD(hf_critical_info, minimum_count);
+  FIELD(hf_critical_info, maximum_count);
+  FIELD(hf_critical_info, saddle_count);
+  FIELD(hf_critical_info, index_sum);
+  FIELD(hf_critical_info, euler_characteristic);
+  FIELD(hf_critical_info, reserved);
+}
+
+static void print_geodesics_desc(void) {
+  STRUCT(hf_geodesics_desc);
+  FIELD(hf_geodesics_desc, struct_size);
+  FIELD(hf_geodesics_desc, smoothing);
+}
+
+static void print_extremities_desc(void) {
+  STRUCT(hf_extremities_desc);
+  FIELD(hf_extremities_desc, struct_size);
+  FIELD(hf_extremities_desc, kind);
+  FIELD(hf_extremities_desc, least_length);
+  FIELD(hf_extremities_desc, source_count);
+  FIELD(hf_extremities_desc, geodesics);
+  FIELD(hf_extremities_desc, progress);
+  FIELD(hf_extremities_desc, out_field);
+}
+
+static void print_extremity(void) {
+  STRUCT(hf_extremity);
+  FIELD(hf_extremity, vertex);
+  FIELD(hf_extremity, component);
+  FIELD(hf_extremity, length);
+  FIELD(hf_extremity, position);
+}
+
+static void print_direction_desc(void) {
+  STRUCT(hf_direction_desc);
+  FIELD(hf_direction_desc, struct_size);
+  FIELD(hf_direction_desc, degree);
+  FIELD(hf_direction_desc, site_limit);
+  FIELD(hf_direction_desc, reserved);
+}
+
+static void print_singularity(void) {
+  STRUCT(hf_singularity);
+  FIELD(hf_singularity, triangle);
+  FIELD(hf_singularity, vertex);
+  FIELD(hf_singularity, index);
+}
+
+static void print_direction_statistics(void) {
+  STRUCT(hf_direction_statistics);
+  FIELD(hf_direction_statistics, struct_size);
+  FIELD(hf_direction_statistics, unknown_count);
+  FIELD(hf_direction_statistics, site_count);
+  FIELD(hf_direction_statistics, factorisation_count);
+  FIELD(hf_direction_statistics, path_solve_count);
+  FIELD(hf_direction_statistics, sweep_count);
+  FIELD(hf_direction_statistics, irregular_vertex_count);
+  FIELD(hf_direction_statistics, sites_eliminated);
+  FIELD(hf_direction_statistics, operator_ms);
+  FIELD(hf_direction_statistics, numeric_ms);
+  FIELD(hf_direction_statistics, factor_entries);
+  FIELD(hf_direction_statistics, factor_bytes);
+  FIELD(hf_direction_statistics, site_memory_bytes);
 }
 
 static void print_constants(void) {
@@ -296,20 +457,34 @@ static void print_constants(void) {
   CONSTANT(HF_OPERATOR_COTANGENT);
   CONSTANT(HF_OPERATOR_CLAMPED);
   CONSTANT(HF_OPERATOR_UNIFORM);
+  CONSTANT(HF_OPERATOR_INTRINSIC_DELAUNAY);
+  CONSTANT(HF_FIELD_HARMONIC);
+  CONSTANT(HF_FIELD_BIHARMONIC);
+  CONSTANT(HF_FIELD_BIHARMONIC_GRAPH);
   CONSTANT(HF_ENGINE_GREEN);
   CONSTANT(HF_ENGINE_UPDOWN);
   CONSTANT(HF_ENGINE_REFACTOR);
   CONSTANT(HF_ORDERING_NESTED_DISSECTION);
   CONSTANT(HF_ORDERING_MINIMUM_DEGREE);
   CONSTANT(HF_ORDERING_METIS);
+  CONSTANT(HF_FACTOR_ALIGNMENT);
   CONSTANT(HF_DEFORM_SMOOTH);
   CONSTANT(HF_DEFORM_PAPER);
+  CONSTANT(HF_LAYER_COUNT);
   CONSTANT(HF_TRANSFER_FIELDS);
   CONSTANT(HF_TRANSFER_PAPER);
   CONSTANT(HF_PAIR_ANCHOR);
   CONSTANT(HF_PAIR_FOOT);
   CONSTANT(HF_PAIR_TRUNK);
   CONSTANT(HF_PAIR_NO_ALIGNMENT);
+  CONSTANT(HF_LEVELS_VALUE);
+  CONSTANT(HF_LEVELS_AREA);
+  CONSTANT(HF_LEVELS_LENGTH);
+  CONSTANT(HF_CRITICAL_MINIMUM);
+  CONSTANT(HF_CRITICAL_MAXIMUM);
+  CONSTANT(HF_CRITICAL_SADDLE);
+  CONSTANT(HF_EXTREMITIES_POISSON);
+  CONSTANT(HF_EXTREMITIES_GEODESIC);
   CONSTANT(HF_NO_INDEX);
   CONSTANT(HF_MESSAGE_SIZE);
 }
@@ -319,6 +494,8 @@ int main(void) {
   print_allocator();
   print_job_runner();
   print_create_desc();
+  print_factor_desc();
+  print_preview_info();
   print_mesh_report();
   print_sites_desc();
   print_edit_desc();
@@ -336,6 +513,16 @@ int main(void) {
   print_pair_info();
   print_transfer_frame();
   print_skin_info();
+  print_scalars();
+  print_isolines();
+  print_critical_point();
+  print_critical_info();
+  print_geodesics_desc();
+  print_extremities_desc();
+  print_extremity();
+  print_direction_desc();
+  print_singularity();
+  print_direction_statistics();
   print_constants();
   return 0;
 }

@@ -394,8 +394,250 @@ static void a_frame_may_be_transferred_in_place_and_leaves_the_solvers_alone(voi
   hf_transfer_destroy(transfer), hf_pose_destroy(pose);
 }
 
+static void a_transfer_says_its_scale_and_holds_regions_where_the_caller_wants_them(void** state) {
+  (void)state;
+  Surface other = surface_tube(AROUND, RINGS);
+  for (uint32_t i = 0; i < 3 * VERTICES; ++i) other.positions[i] *= 2;
+  hf_solver target = surface_solver(&other);
+  uint32_t pairs[2];
+  hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, solver, target, AROUND, RINGS, AROUND, RINGS, pairs);
+  hf_transfer_info info;
+  HF_INIT(info);
+  assert_ok(hf_transfer_get_info(transfer, &info));
+  assert_int_equal(info.pair_count, 2);
+  assert_true(info.cluster_count > 1 && info.scale_found && info.crossed_count == 0);
+  assert_true(fabs(info.scale - 2) < 1e-6);
+  /* the far end where it is asked to be, the other free */
+  static float out[3 * VERTICES];
+  const double place[3] = {1.5, -0.25, 7.0};
+  hf_transfer_frame frame;
+  HF_INIT(frame);
+  frame.source_positions = tube.positions, frame.target_positions = out;
+  frame.hold_count = 1, frame.hold_pairs = &pairs[1], frame.hold_positions = place;
+  assert_ok(hf_transfer_apply(transfer, &frame));
+  uint32_t* ends = tube_ends(AROUND, RINGS);
+  double mean[3] = {0, 0, 0};
+  for (uint32_t i = 2 * AROUND; i < 4 * AROUND; ++i)
+    for (int c = 0; c < 3; ++c) mean[c] += (double)out[3 * ends[i] + (uint32_t)c] / (2 * AROUND);
+  for (int c = 0; c < 3; ++c) assert_true(fabs(mean[c] - place[c]) < 1e-4);
+  free(ends);
+  /* what is wrong is said and changes nothing */
+  static float before[3 * VERTICES];
+  memcpy(before, out, sizeof out);
+  const uint32_t twice[2] = {pairs[0], pairs[0]}, missing[1] = {99};
+  const double places[6] = {0};
+  frame.hold_positions = places;
+  frame.hold_count = 2, frame.hold_pairs = twice;
+  assert_int_equal(hf_transfer_apply(transfer, &frame), HF_ERROR_INVALID_ARGUMENT);
+  frame.hold_count = 1, frame.hold_pairs = missing;
+  assert_int_equal(hf_transfer_apply(transfer, &frame), HF_ERROR_NO_SUCH_PAIR);
+  frame.hold_pairs = NULL;
+  assert_int_equal(hf_transfer_apply(transfer, &frame), HF_ERROR_NULL_POINTER);
+  frame.hold_pairs = pairs, frame.hold_count = 257;
+  assert_int_equal(hf_transfer_apply(transfer, &frame), HF_ERROR_TOO_LARGE);
+  assert_true(same_bits(before, out, sizeof out));
+  hf_transfer_destroy(transfer), hf_destroy(target), surface_free(&other);
+}
+
+/* Bent, and settled so that another hf_deform gives the same bits. */
+static hf_pose bent_pose(int32_t mode, uint32_t handles[2], double* positions) {
+  hf_pose pose = pose_of(mode, handles);
+  const hf_transform bent = {{0, 0, 0.4, 1}, {1, 0.5, 0}};
+  assert_ok(hf_pose_set_transforms(pose, 1, &handles[1], &bent));
+  hf_deform_desc desc = to_doubles(positions, NULL);
+  hf_deform_info info;
+  HF_INIT(info);
+  info.iteration_count = 1;
+  for (int i = 0; i < 400 && info.iteration_count > 0; ++i) assert_ok(hf_deform(pose, &desc, &info));
+  return pose;
+}
+
+static double farthest_apart(const double* a, const double* b) {
+  double farthest = 0;
+  for (uint32_t i = 0; i < 3 * VERTICES; ++i) farthest = fmax(farthest, fabs(a[i] - b[i]));
+  return farthest;
+}
+
+static void a_handle_on_a_layer_comes_without_a_jump_and_goes_without_a_trace(void** state) {
+  (void)state;
+  for (size_t m = 0; m < COUNT_OF(modes); ++m) {
+    uint32_t handles[2], fine, region[AROUND];
+    static double before[3 * VERTICES], after[3 * VERTICES];
+    hf_pose pose = bent_pose(modes[m], handles, before);
+    const uint32_t count = 3;
+    for (uint32_t i = 0; i < count; ++i) region[i] = (RINGS / 2) * AROUND + i;
+    hf_handles_desc desc;
+    HF_INIT(desc);
+    desc.handle_count = 1, desc.region_counts = &count, desc.region_vertices = region, desc.layer = 1;
+    assert_ok(hf_pose_add_handles(pose, &desc, &fine));
+    const hf_deform_desc out = to_doubles(after, NULL);
+    assert_ok(hf_deform(pose, &out, NULL));
+    assert_true(farthest_apart(before, after) < 1e-9);
+    hf_handle_info info;
+    HF_INIT(info);
+    assert_ok(hf_pose_get_handle(pose, fine, &info));
+    assert_int_equal(info.layer, 1);
+    assert_true(fabs(info.rotation[2]) > 0.05); /* turned by the layer below */
+    const hf_transform edit = {{0, 0, 0, 1}, {0, 0, 0.3}};
+    assert_ok(hf_pose_set_transforms(pose, 1, &fine, &edit));
+    assert_ok(hf_deform(pose, &out, NULL));
+    assert_true(farthest_apart(before, after) > 0.25);
+    /* a skin cannot say what a layer does */
+    hf_skin_info skin;
+    HF_INIT(skin);
+    assert_code(HF_ERROR_UNSUPPORTED, hf_pose_get_skin(pose, &skin));
+    assert_ok(hf_pose_remove_handles(pose, 1, &fine));
+    assert_ok(hf_deform(pose, &out, NULL));
+    assert_true(same_bits(before, after, sizeof before));
+    assert_ok(hf_pose_get_skin(pose, &skin));
+    hf_pose_destroy(pose);
+  }
+}
+
+static void matrices_place_handles_like_transforms(void** state) {
+  (void)state;
+  uint32_t handles[2];
+  static double by_transform[3 * VERTICES], by_matrix[3 * VERTICES];
+  hf_pose pose = pose_of(HF_DEFORM_SMOOTH, handles), other = pose_of(HF_DEFORM_SMOOTH, handles);
+  hf_handle_info info;
+  HF_INIT(info);
+  assert_ok(hf_pose_get_handle(pose, handles[1], &info));
+  const double c = cos(0.8), s = sin(0.8), *p = info.centroid;
+  const hf_transform turned = {{0, 0, sin(0.4), cos(0.4)}, {0.5, 0, 0.25}};
+  /* rotation about z through the centroid, then the translation */
+  const double matrix[16] = {
+      c, s, 0, 0, -s, c, 0, 0, 0, 0, 1, 0, p[0] - c * p[0] + s * p[1] + 0.5, p[1] - s * p[0] - c * p[1], 0.25, 1};
+  assert_ok(hf_pose_set_transforms(pose, 1, &handles[1], &turned));
+  assert_ok(hf_pose_set_matrices(other, 1, &handles[1], matrix));
+  hf_deform_desc desc = to_doubles(by_transform, NULL);
+  assert_ok(hf_deform(pose, &desc, NULL));
+  desc.positions_f64 = by_matrix;
+  assert_ok(hf_deform(other, &desc, NULL));
+  assert_true(farthest_apart(by_transform, by_matrix) < 1e-9);
+  hf_pose_destroy(pose), hf_pose_destroy(other);
+}
+
+static void a_point_and_a_radius_make_a_handle(void** state) {
+  (void)state;
+  hf_pose pose = NULL;
+  assert_ok(hf_pose_create(solver, NULL, &pose));
+  const uint32_t at = 5 * AROUND;
+  double points[6], radii[2] = {0, 0};
+  for (uint32_t i = 0; i < 3; ++i)
+    points[i] = (double)tube.positions[3 * at + i], points[3 + i] = (double)tube.positions[i];
+  hf_handles_desc desc;
+  HF_INIT(desc);
+  desc.handle_count = 2, desc.points = points, desc.radii = radii;
+  uint32_t handles[2];
+  assert_ok(hf_pose_add_handles(pose, &desc, handles));
+  hf_handle_info info;
+  HF_INIT(info);
+  assert_ok(hf_pose_get_handle(pose, handles[0], &info));
+  assert_int_equal(info.vertex_count, 1);
+  for (int i = 0; i < 3; ++i) assert_true(fabs(info.centroid[i] - points[i]) < 1e-9);
+  assert_ok(hf_pose_remove_handles(pose, 2, handles));
+  radii[0] = 1000; /* all that hangs together */
+  desc.handle_count = 1;
+  assert_ok(hf_pose_add_handles(pose, &desc, handles));
+  assert_ok(hf_pose_get_handle(pose, handles[0], &info));
+  assert_int_equal(info.vertex_count, VERTICES);
+  hf_pose_destroy(pose);
+}
+
+static void a_range_of_vertices_is_the_same_as_in_the_whole(void** state) {
+  (void)state;
+  uint32_t handles[2];
+  static double whole[3 * VERTICES], part[3 * VERTICES];
+  static float normals[3 * VERTICES], part_normals[3 * VERTICES];
+  hf_pose pose = bent_pose(HF_DEFORM_SMOOTH, handles, whole);
+  hf_deform_desc desc = to_doubles(whole, normals);
+  assert_ok(hf_deform(pose, &desc, NULL));
+  const uint32_t first = 3 * AROUND + 5, count = 2 * AROUND;
+  for (int with_normals = 0; with_normals < 2; ++with_normals) {
+    part[3 * count] = 777;
+    desc = to_doubles(part, with_normals ? part_normals : NULL);
+    desc.first_vertex = first, desc.vertex_count = count;
+    assert_ok(hf_deform(pose, &desc, NULL));
+    for (uint32_t i = 0; i < 3 * count; ++i) {
+      assert_true(fabs(part[i] - whole[3 * first + i]) < 1e-12);
+      if (with_normals) assert_true(part_normals[i] == normals[3 * first + i]);
+    }
+    assert_true(part[3 * count] == 777);
+  }
+  desc = to_doubles(part, NULL);
+  desc.first_vertex = VERTICES - 2; /* to the end */
+  assert_ok(hf_deform(pose, &desc, NULL));
+  assert_true(fabs(part[5] - whole[3 * VERTICES - 1]) < 1e-12);
+  hf_pose_destroy(pose);
+}
+
+static void a_refined_frame_keeps_the_handles_and_moves_the_rest_a_little(void** state) {
+  (void)state;
+  uint32_t handles[2];
+  static double plain[3 * VERTICES], refined[3 * VERTICES];
+  hf_pose pose = bent_pose(HF_DEFORM_SMOOTH, handles, plain);
+  hf_deform_desc desc = to_doubles(refined, NULL);
+  desc.refine = 1;
+  hf_deform_info info;
+  HF_INIT(info);
+  assert_ok(hf_deform(pose, &desc, &info));
+  const double moved = farthest_apart(plain, refined);
+  assert_true(moved > 1e-4 && moved < 0.5);
+  for (uint32_t i = 0; i < 3 * 2 * AROUND; ++i) assert_true(fabs(plain[i] - refined[i]) < 1e-9);
+  desc.refine = 0;
+  assert_ok(hf_deform(pose, &desc, NULL));
+  assert_true(farthest_apart(plain, refined) == 0);
+  hf_pose_destroy(pose);
+}
+
+static void the_skin_replays_the_pose(void** state) {
+  (void)state;
+  uint32_t handles[2];
+  static double posed[3 * VERTICES];
+  hf_pose pose = bent_pose(HF_DEFORM_SMOOTH, handles, posed);
+  for (uint32_t count = 4; count <= 8; count += 4) {
+    hf_skin_info skin;
+    HF_INIT(skin);
+    skin.weight_count = count;
+    assert_ok(hf_pose_get_skin(pose, &skin));
+    const uint32_t n = skin.joint_count;
+    double *pivots = malloc(24 * (size_t)n), *rotations = malloc(32 * (size_t)n), *places = malloc(24 * (size_t)n);
+    static uint32_t joints[8 * VERTICES];
+    static float weights[8 * VERTICES];
+    skin.pivots = pivots, skin.rotations = rotations, skin.translations = places;
+    skin.vertex_joints = joints, skin.vertex_weights = weights;
+    assert_ok(hf_pose_get_skin(pose, &skin));
+    assert_int_equal(skin.joint_count, n);
+    for (uint32_t v = 0; v < VERTICES; ++v) {
+      float sum = 0;
+      double blended[3] = {0, 0, 0};
+      for (uint32_t k = 0; k < count; ++k) {
+        const uint32_t j = joints[count * v + k];
+        assert_true(j < n && weights[count * v + k] >= 0);
+        sum += weights[count * v + k];
+        hf_transform joint = {{0, 0, 0, 1}, {0, 0, 0}};
+        memcpy(joint.rotation, rotations + 4 * j, sizeof joint.rotation);
+        for (uint32_t c = 0; c < 3; ++c) joint.translation[c] = places[3 * j + c] - pivots[3 * j + c];
+        double placed[3];
+        place(&joint, pivots + 3 * j, tube.positions + 3 * v, placed);
+        for (uint32_t c = 0; c < 3; ++c) blended[c] += (double)weights[count * v + k] * placed[c];
+      }
+      assert_true(sum == 1.0f);
+      for (uint32_t c = 0; c < 3; ++c) assert_true(fabs(blended[c] - posed[3 * v + c]) < 0.1); /* 1 % of the box */
+    }
+    free(pivots), free(rotations), free(places);
+  }
+  hf_pose_destroy(pose);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_handle_on_a_layer_comes_without_a_jump_and_goes_without_a_trace),
+      cmocka_unit_test(matrices_place_handles_like_transforms),
+      cmocka_unit_test(a_point_and_a_radius_make_a_handle),
+      cmocka_unit_test(a_range_of_vertices_is_the_same_as_in_the_whole),
+      cmocka_unit_test(a_refined_frame_keeps_the_handles_and_moves_the_rest_a_little),
+      cmocka_unit_test(the_skin_replays_the_pose),
       cmocka_unit_test(identity_transforms_give_the_rest_pose),
       cmocka_unit_test(handles_land_exactly_where_their_transforms_put_them),
       cmocka_unit_test(one_rigid_motion_of_all_handles_moves_everything),
@@ -406,6 +648,7 @@ int main(void) {
       cmocka_unit_test(the_rest_of_the_source_gives_the_rest_of_the_target),
       cmocka_unit_test(the_skin_replays_the_transfer),
       cmocka_unit_test(a_frame_may_be_transferred_in_place_and_leaves_the_solvers_alone),
+      cmocka_unit_test(a_transfer_says_its_scale_and_holds_regions_where_the_caller_wants_them),
   };
   return cmocka_run_group_tests(tests, create_tube, free_tube);
 }

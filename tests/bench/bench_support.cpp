@@ -1,12 +1,9 @@
 #include "bench/bench_support.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <fstream>
-#include <numeric>
+#include <cmath>
 #include <set>
 #include <stdexcept>
-#include <thread>
 
 #include "assets/shapes.h"
 
@@ -17,16 +14,29 @@ double median(std::vector<double> values) {
   return values.empty() ? 0 : values[values.size() / 2];
 }
 
-std::string machine_name() {
-  std::ifstream cpu("/proc/cpuinfo");
-  std::string line, name = "unknown processor";
-  while (std::getline(cpu, line)) {
-    if (line.rfind("model name", 0) == 0) {
-      name = line.substr(line.find(':') + 2);
-      break;
+double time_ms(const std::function<void()>& work) {
+  const Clock clock;
+  work();
+  return clock.milliseconds();
+}
+
+double median_ms(uint32_t count, const std::function<void()>& work) {
+  std::vector<double> times;
+  for (uint32_t i = 0; i < count; ++i) times.push_back(time_ms(work));
+  return median(times);
+}
+
+std::map<std::string, double> take_turns(const std::vector<Candidate>& candidates, uint32_t rounds) {
+  std::map<std::string, std::vector<double>> times;
+  for (uint32_t round = 0; round < rounds; ++round) {
+    for (const auto& [name, once] : candidates) {
+      once();
+      for (int i = 0; i < 3; ++i) times[name].push_back(once());
     }
   }
-  return name + ", " + std::to_string(std::thread::hardware_concurrency()) + " cores";
+  std::map<std::string, double> medians;
+  for (const auto& [name, values] : times) medians[name] = median(values);
+  return medians;
 }
 
 void check(hf_result result) {
@@ -36,16 +46,17 @@ void check(hf_result result) {
   throw std::runtime_error(std::string(detail.function) + ": " + detail.message);
 }
 
-Solver::Solver(const Mesh& mesh, int engine, uint32_t threads, int ordering) {
+Solver::Solver(const Mesh& mesh, const SolverOptions& options)
+    : vertex_count_(mesh.vertex_count()), channels_(options.channels) {
   hf_create_desc desc;
   HF_INIT(desc);
   desc.vertex_count = mesh.vertex_count();
   desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
   desc.positions_f64 = mesh.positions.data(), desc.triangles = mesh.triangles.data();
-  desc.engine = engine, desc.thread_count = threads, desc.ordering = ordering;
-  const Clock clock;
-  check(hf_create(&desc, &handle_));
-  create_ms_ = clock.milliseconds();
+  desc.engine = options.engine, desc.thread_count = options.threads, desc.ordering = options.ordering;
+  desc.channel_count = options.channels, desc.operator_kind = options.operator_kind;
+  desc.field_kind = options.field_kind, desc.saved_factor = options.saved_factor;
+  create_ms_ = time_ms([&] { check(hf_create(&desc, &handle_)); });
 }
 
 hf_statistics Solver::statistics() const {
@@ -55,34 +66,61 @@ hf_statistics Solver::statistics() const {
   return statistics;
 }
 
-double stream_ms(double bytes, uint32_t threads) {
-  const size_t count = std::max<size_t>(1, static_cast<size_t>(bytes / 8));
-  std::vector<double> data(count, 1.0);
-  std::vector<double> times;
-  volatile double sink = 0;
-  for (int repetition = 0; repetition < 7; ++repetition) {
-    const Clock clock;
-    std::vector<std::thread> helpers;
-    std::vector<double> sums(threads, 0.0);
-    const auto read = [&](uint32_t t) {
-      const size_t begin = count * t / threads, end = count * (t + 1) / threads;
-      double s[8] = {0, 0, 0, 0, 0, 0, 0, 0};
-      size_t i = begin;
-      for (; i + 8 <= end; i += 8) {
-        for (size_t k = 0; k < 8; ++k) s[k] += data[i + k];
-      }
-      sums[t] = std::accumulate(s, s + 8, 0.0);
-    };
-    for (uint32_t t = 1; t < threads; ++t) helpers.emplace_back(read, t);
-    read(0);
-    for (std::thread& helper : helpers) helper.join();
-    times.push_back(clock.milliseconds());
-    sink = sink + std::accumulate(sums.begin(), sums.end(), 0.0);
+void Solver::solve(std::vector<float>& field) const {
+  field.resize(size_t{vertex_count_} * channels_);
+  check(hf_solve(handle_, field.data(), 0, nullptr));
+}
+
+void Solver::solve(std::vector<double>& field) const {
+  field.resize(size_t{vertex_count_} * channels_);
+  check(hf_solve_f64(handle_, field.data(), 0, nullptr));
+}
+
+double Sites::edit(const std::vector<uint32_t>& insert, const std::vector<uint32_t>& remove) {
+  if (insert.empty() && remove.empty()) return 0;
+  std::vector<uint32_t> leaving, numbers(insert.size());
+  std::vector<double> values;
+  for (const uint32_t v : remove) leaving.push_back(number_.at(v));
+  for (const uint32_t v : insert) {
+    for (uint32_t c = 0; c < solver_.channels(); ++c) values.push_back(value_of(v) + c + offset_);
   }
-  return median(times);
+  hf_sites_desc add;
+  HF_INIT(add);
+  add.site_count = static_cast<uint32_t>(insert.size()), add.vertices = insert.data(), add.values = values.data();
+  hf_edit_desc edit;
+  HF_INIT(edit);
+  edit.remove_count = static_cast<uint32_t>(leaving.size()), edit.remove_sites = leaving.data();
+  if (!insert.empty()) edit.add = &add;
+  const double ms = time_ms([&] { check(hf_edit_sites(solver_.handle(), &edit, numbers.data())); });
+  for (const uint32_t v : remove) number_.erase(v);
+  for (size_t i = 0; i < insert.size(); ++i) number_[insert[i]] = numbers[i];
+  return ms;
+}
+
+double Sites::clear() {
+  std::vector<uint32_t> all;
+  for (const auto& [vertex, number] : number_) all.push_back(vertex);
+  return edit({}, all);
+}
+
+void Sites::move(uint32_t from, uint32_t to) {
+  const uint32_t number = number_.at(from);
+  hf_sites_desc place;
+  HF_INIT(place);
+  place.site_count = 1, place.vertices = &to;
+  check(hf_move_sites(solver_.handle(), 1, &number, &place));
+  number_.erase(from), number_[to] = number;
+}
+
+void Sites::set_value(uint32_t vertex, double value) {
+  const std::vector<double> values(solver_.channels(), value + offset_);
+  check(hf_set_site_values(solver_.handle(), 1, &number_.at(vertex), values.data()));
 }
 
 std::vector<uint32_t> scattered_vertices(uint32_t vertex_count, uint32_t count, uint64_t seed) {
+  if (count > vertex_count / 2)
+    throw std::runtime_error("a mesh of " + std::to_string(vertex_count) + " vertices is too small for " +
+                             std::to_string(count) + " scattered sites");
   std::set<uint32_t> seen;
   std::vector<uint32_t> vertices;
   for (uint64_t i = 0; vertices.size() < count; ++i) {
@@ -92,15 +130,12 @@ std::vector<uint32_t> scattered_vertices(uint32_t vertex_count, uint32_t count, 
   return vertices;
 }
 
-void write_json(const std::string& file, const nlohmann::json& value) {
-  if (file.empty()) return;
-  std::ofstream stream(file + ".part");
-  stream << value.dump(1) << "\n";
-  stream.close();
-  if (!stream || std::rename((file + ".part").c_str(), file.c_str()) != 0)
-    throw std::runtime_error(file + ": cannot be written");
-}
-
 double value_of(uint32_t vertex) { return samples::hash_to_unit(77, vertex); }
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double worst = 0;
+  for (size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::fabs(a[i] - b[i]));
+  return worst;
+}
 
 }  // namespace bench

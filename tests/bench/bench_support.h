@@ -1,11 +1,14 @@
-// What the benchmarks share: timing, medians, the machine's name, solvers made through the C ABI. Every figure is taken
-// from outside, as a host program would see it.
+// What the benchmarks share: timing, medians, solvers made through the C ABI, sites chosen by a hash.
+//
+// Every figure is taken from outside, as a host program would see it; what the ABI cannot show (the ordering alone, one
+// permutation for us and the peer, the single-precision sweep) goes through inner_factor.h.
 #ifndef HF_BENCH_SUPPORT_H
 #define HF_BENCH_SUPPORT_H
 
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -25,7 +28,16 @@ class Clock {
 };
 
 double median(std::vector<double> values);
-std::string machine_name();
+// Milliseconds of one call of `work`.
+double time_ms(const std::function<void()>& work);
+// Median of `count` calls.
+double median_ms(uint32_t count, const std::function<void()>& work);
+
+// Candidates and baselines in turns, so that a noisy minute of the machine falls on all of them: `rounds` times, each
+// runs once untimed and three times timed. A candidate returns its own milliseconds. Medians by name.
+using Candidate = std::pair<std::string, std::function<double()>>;
+std::map<std::string, double> take_turns(const std::vector<Candidate>& candidates, uint32_t rounds);
+
 // Throws with the detail of the failing call.
 void check(hf_result result);
 
@@ -36,40 +48,64 @@ struct Mesh {
   uint32_t vertex_count() const { return static_cast<uint32_t>(positions.size() / 3); }
 };
 
+struct SolverOptions {
+  int engine = HF_ENGINE_GREEN;
+  uint32_t threads = 1;
+  int ordering = HF_ORDERING_NESTED_DISSECTION;
+  uint32_t channels = 1;
+  int operator_kind = HF_OPERATOR_COTANGENT;
+  int field_kind = HF_FIELD_HARMONIC;
+  const hf_factor_desc* saved_factor = nullptr;
+};
+
 // A solver of the C ABI that is destroyed with its scope.
 class Solver {
  public:
-  Solver(const Mesh& mesh, int engine, uint32_t threads, int ordering = HF_ORDERING_NESTED_DISSECTION);
+  Solver(const Mesh& mesh, const SolverOptions& options);
   ~Solver() { hf_destroy(handle_); }
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
   hf_solver handle() const { return handle_; }
   double create_ms() const { return create_ms_; }
   hf_statistics statistics() const;
+  uint32_t vertex_count() const { return vertex_count_; }
+  uint32_t channels() const { return channels_; }
+
+  // Whole field in single precision, as a host draws it; and in double.
+  void solve(std::vector<float>& field) const;
+  void solve(std::vector<double>& field) const;
 
  private:
   hf_solver handle_ = nullptr;
+  uint32_t vertex_count_, channels_;
   double create_ms_ = 0;
 };
 
-// Milliseconds to read this many bytes once from memory with this many threads: the floor under every sweep.
-double stream_ms(double bytes, uint32_t threads);
+// The vertex sites of a solver by vertex. Channel c of a site holds value_of(vertex) + c + offset.
+class Sites {
+ public:
+  explicit Sites(const Solver& solver, double offset = 0) : solver_(solver), offset_(offset) {}
+  // One batch through hf_edit_sites; milliseconds of that call.
+  double edit(const std::vector<uint32_t>& insert, const std::vector<uint32_t>& remove);
+  double clear();
+  // Moves the site of one vertex to another.
+  void move(uint32_t from, uint32_t to);
+  void set_value(uint32_t vertex, double value);
+  bool has(uint32_t vertex) const { return number_.count(vertex) != 0; }
+  const std::map<uint32_t, uint32_t>& numbers() const { return number_; }
+
+ private:
+  const Solver& solver_;
+  double offset_;
+  std::map<uint32_t, uint32_t> number_;  // vertex -> site
+};
 
 // Deterministic: different vertices, spread by a hash.
 std::vector<uint32_t> scattered_vertices(uint32_t vertex_count, uint32_t count, uint64_t seed);
 // Deterministic value in [0, 1) of a vertex.
 double value_of(uint32_t vertex);
 
-struct Arguments {
-  uint32_t threads = 1, repetitions = 5;
-  std::string json_file, rows;
-};
-// Writes a JSON file by a temporary name; nothing when the name is empty.
-void write_json(const std::string& file, const nlohmann::json& value);
-
-int table1(const Arguments& arguments);
-int large_sites(const Arguments& arguments);
-int partial(const Arguments& arguments);
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace bench
 

@@ -34,6 +34,46 @@ TEST(Wrapper, solves_edits_and_undoes) {
   EXPECT_EQ(solver.statistics().factorisation_count, 1u);
 }
 
+TEST(Wrapper, saves_and_loads_a_factor_and_previews_with_it) {
+  const Strip strip(40);
+  hfpp::Solver made(strip.positions, strip.triangles);
+  const std::vector<uint8_t> bytes = made.save_factor();
+  auto saved = hfpp::make<hf_factor_desc>();
+  saved.bytes = bytes.data(), saved.byte_count = bytes.size();
+  auto desc = hfpp::make<hf_create_desc>();
+  desc.vertex_count = static_cast<uint32_t>(strip.positions.size() / 3), desc.positions = strip.positions.data();
+  desc.triangle_count = static_cast<uint32_t>(strip.triangles.size() / 3), desc.triangles = strip.triangles.data();
+  desc.saved_factor = &saved;
+  hfpp::Solver loaded(desc);
+  EXPECT_EQ(loaded.statistics().factor_loaded, 1u);
+  made.add_sites({0, 80}, {0, 1}), loaded.add_sites({0, 80}, {0, 1});
+  EXPECT_EQ(made.solve_f64(), loaded.solve_f64());
+  auto info = hfpp::make<hf_preview_info>();
+  EXPECT_NEAR(loaded.solve_preview(1, &info)[40], loaded.solve()[40], 1e-6f);
+  EXPECT_EQ(info.correction_count, 1u);
+  loaded.release_preview();
+}
+
+TEST(Wrapper, directions_follow_their_constraints) {
+  const Strip strip(8);
+  const hfpp::Solver solver(strip.positions, strip.triangles);
+  hfpp::Direction direction(solver);
+  const auto sites = direction.add_sites({4}, {1, 2, 0});
+  std::vector<float> field = direction.solve();  // flat: parallel everywhere
+  EXPECT_NEAR(field[3 * 15], 1, 1e-6);
+  EXPECT_NEAR(field[3 * 15 + 1], 2, 1e-6);
+  EXPECT_TRUE(direction.singularities().empty());
+  direction.rotate_site(sites[0], std::acos(0.0));
+  direction.move_site(sites[0], 9);
+  field = direction.solve();
+  EXPECT_NEAR(field[3 * 15], -2, 1e-6);
+  direction.set_vectors(sites, {3, 0, 0});
+  EXPECT_NEAR(direction.solve()[3 * 2], 3, 1e-6);
+  EXPECT_THROW(direction.add_sites({1}, {1, 0}), std::invalid_argument);
+  direction.remove_sites(sites);
+  EXPECT_EQ(direction.site_count(), 0u);
+}
+
 TEST(Wrapper, throws_with_code_and_index) {
   const Strip strip(2);
   hfpp::Solver solver(strip.positions, strip.triangles);
@@ -70,6 +110,29 @@ TEST(Wrapper, handles_move_and_children_outlive_parents) {
   transfer.add_pair({16, 17}, {16, 17});
   const auto played = transfer.apply(strip.positions);
   for (size_t i = 0; i < played.size(); ++i) EXPECT_NEAR(played[i], strip.positions[i], 1e-5);
+}
+
+TEST(Wrapper, reads_lines_points_distances_and_tips_of_a_strip) {
+  const Strip strip(8);
+  hfpp::Solver solver(strip.positions, strip.triangles);
+  solver.add_sites({0, 1, 16, 17}, {0, 0, 1, 1});
+  const auto field = solver.solve_f64();
+  const auto levels = hfpp::space_levels(solver, field, HF_LEVELS_LENGTH, 3);
+  ASSERT_EQ(levels.size(), 3u);
+  EXPECT_NEAR(levels[1], 0.5, 1e-9);
+  const auto lines = hfpp::trace_isolines(solver, field, levels);
+  EXPECT_EQ(lines.line_levels, (std::vector<uint32_t>{0, 1, 2}));
+  EXPECT_EQ(lines.line_closed, (std::vector<int32_t>{0, 0, 0}));
+  EXPECT_EQ(lines.positions.size(), 3 * lines.parameters.size());
+  int index = 0;
+  for (const auto& point : hfpp::find_critical_points(solver, field)) index += point.index;
+  EXPECT_EQ(index, 1);  // a disk
+  const hfpp::Geodesics geodesics(solver);
+  const auto distance = geodesics.distance({0, 1});
+  EXPECT_NEAR(distance[16], 8, 0.8);
+  const auto tips = hfpp::find_extremities(solver);
+  ASSERT_EQ(tips.size(), 2u);
+  EXPECT_NEAR(std::fabs(tips[0].position[0] - tips[1].position[0]), 8, 0.01);
 }
 
 }  // namespace

@@ -7,19 +7,20 @@
 #include "cases.h"
 #include "common/mesh_file.h"
 #include "common/picture.h"
+#include "support/arap_oracle.h"
 
 using namespace deform_test;
 
 namespace {
 
-samples::Picture draw(const Dragged& d, const Case& c, bool stripes) {
+samples::Picture draw(const Dragged& d, const std::vector<Vec3>& posed, const Case& c, bool stripes) {
   samples::Surface surface;
   const hf::Mesh& mesh = d.core->mesh;
-  for (const Vec3& x : d.report.positions) surface.positions.insert(surface.positions.end(), {x.x, x.y, x.z});
+  for (const Vec3& x : posed) surface.positions.insert(surface.positions.end(), {x.x, x.y, x.z});
   for (const std::int32_t v : mesh.corners) surface.triangles.push_back(static_cast<std::uint32_t>(v));
   samples::SurfaceLook look;
   if (stripes) {
-    look.fill = samples::Fill::stripes;
+    look.fill = samples::Fill::stripes, look.stripe_count = 8;
   } else {
     look.fill = samples::Fill::colors;
     surface.colors.assign(3 * static_cast<std::size_t>(mesh.vertex_count()), 0.62f);
@@ -31,13 +32,13 @@ samples::Picture draw(const Dragged& d, const Case& c, bool stripes) {
     }
   }
   samples::View view;
-  view.width = 420, view.height = 420;
+  view.width = view.height = c.mesh.vertex_count() > 20000 ? 150 : 175;
   view.direction = c.closed ? samples::Point{0.35, 0.25, 1.0} : samples::Point{0.5, 0.7, 1.0};
   return samples::render(surface, view, look);
 }
 
-void row(const char* mode, const Case& c, const Dragged& d, double ms) {
-  const Quality q = measure(*d.core, positions(d.report));
+void row(const char* mode, const Case& c, const Dragged& d, const std::vector<Vec3>& posed, double ms) {
+  const Quality q = measure(*d.core, posed);
   std::printf(
       "%-13s n=%-6d %-14s C=%-3u it %-4u solve %6.2f blend %5.2f ms frame %6.2f | E %9.5f in %6.2f e %.2f..%.2f p99 "
       "%.3f vol %6.2f s2 %.3f dih %6.1f rough %.3f\n",
@@ -116,8 +117,32 @@ int main(int argc, char** argv) {
       const double ms =
           std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() / 30;
       for (int i = 0; i < settle; ++i) d.report = d.pose->deform({false, 1000, false});
-      row(mode, c, d, ms);
-      tiles.push_back(draw(d, c, false)), lower.push_back(draw(d, c, true));
+      const auto show = [&](const char* name, const std::vector<Vec3>& posed) {
+        row(name, c, d, posed, ms);
+        tiles.push_back(draw(d, posed, c, false)), lower.push_back(draw(d, posed, c, true));
+      };
+      const std::vector<Vec3> posed = positions(d.report);
+      show(mode, posed);
+      if (options.mode == hf::DeformMode::paper) return;
+      hf::DeformRequest request;
+      request.iteration_count = 1, request.refine = true;
+      show("smooth, refined", positions(d.pose->deform(request)));
+      // converged as-rigid-as-possible iterations from here
+      std::vector<std::uint8_t> fixed(posed.size(), 0);
+      for (const auto& region : c.regions) {
+        for (const std::int32_t v : select(*d.core, region)) fixed[static_cast<std::size_t>(v)] = 1;
+      }
+      const std::vector<Vec3> p = rest(*d.core);
+      std::vector<Vec3> x;
+      for (const Vec3& q : posed) x.push_back(d.core->mesh.to_inner(q));
+      const auto given = [&] {
+        std::vector<Vec3> out;
+        for (const Vec3& q : x) out.push_back(d.core->mesh.to_given(q));
+        return out;
+      };
+      hf_test::ArapOracle oracle(*d.core, fixed);
+      oracle.converge(x, 300, [&](const std::vector<Vec3>&) { return arap_energy(*d.core, p, given()); });
+      show("ARAP, converged", given());
     };
     hf::PoseOptions paper;
     paper.mode = hf::DeformMode::paper;
@@ -129,7 +154,9 @@ int main(int argc, char** argv) {
     std::replace(file.begin(), file.end(), ' ', '_');
     samples::write_png(
         folder + "/" + file + ".png",
-        samples::contact_sheet(tiles, 3, {"paper, 10 a frame", "paper, converged", "smooth, 5 a frame"}, c.name));
+        samples::contact_sheet(
+            tiles, 5, {"paper, 10 a frame", "paper, converged", "smooth", "smooth, refined", "ARAP, converged"},
+            c.name));
   }
   return 0;
 }

@@ -12,6 +12,7 @@ namespace {
 
 TEST(DenseBlock, solves_with_the_present_rows_after_any_edits) {
   hf::Memory memory;
+  hf::JobRunner jobs(2);
   hf::DenseBlock block(memory);
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
@@ -31,7 +32,7 @@ TEST(DenseBlock, solves_with_the_present_rows_after_any_edits) {
       block.append(next, row.data());
       present.push_back(next);
     }
-    ASSERT_EQ(block.factorise(), -1);
+    ASSERT_EQ(block.factorise(jobs), -1);
     // few: plane rotations; many: factorised again
     const std::size_t leave =
         random() % 4 == 0 ? present.size() / 2 : std::min<std::size_t>(present.size() - 1, random() % 4);
@@ -39,7 +40,7 @@ TEST(DenseBlock, solves_with_the_present_rows_after_any_edits) {
     std::shuffle(shuffled.begin(), shuffled.end(), random);
     std::vector<std::int32_t> leaving(shuffled.begin(), shuffled.begin() + static_cast<std::ptrdiff_t>(leave));
     block.remove(leaving);
-    ASSERT_EQ(block.factorise(), -1);
+    ASSERT_EQ(block.factorise(jobs), -1);
     for (const int s : leaving) present.erase(std::find(present.begin(), present.end(), s));
     ASSERT_TRUE(std::equal(present.begin(), present.end(), block.ids().begin(), block.ids().end()));
 
@@ -61,7 +62,7 @@ TEST(DenseBlock, solves_with_the_present_rows_after_any_edits) {
     if (present.size() > 60) {
       std::vector<std::int32_t> all(present.begin() + 10, present.end());
       block.remove(all);
-      ASSERT_EQ(block.factorise(), -1);
+      ASSERT_EQ(block.factorise(jobs), -1);
       present.resize(10);
     }
   }
@@ -69,10 +70,11 @@ TEST(DenseBlock, solves_with_the_present_rows_after_any_edits) {
 
 TEST(DenseBlock, names_the_row_that_depends_on_those_before_it) {
   hf::Memory memory;
+  hf::JobRunner jobs(2);
   hf::DenseBlock block(memory);
   const double first[] = {2}, second[] = {1, 3}, copy_of_first[] = {2, 1, 2};
   block.append(7, first), block.append(8, second), block.append(9, copy_of_first);
-  EXPECT_EQ(block.factorise(), 2);
+  EXPECT_EQ(block.factorise(jobs), 2);
 }
 
 }  // namespace

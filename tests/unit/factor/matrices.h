@@ -1,4 +1,4 @@
-// Matrices the factor's tests and its probe share. All are symmetric positive definite unless the name says otherwise.
+// Matrices the factor's tests share. All are symmetric positive definite unless the name says otherwise.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,282 @@
+// hf_deform_script MESH --script POSE.json -o OUT.glb --sheet S.png: handles come, go and are dragged by a script. See
+// README.md.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+
+#include "common/gltf_write.h"
+#include "common/progress_bar.h"
+#include "deform/pose_sheet.h"
+
+namespace {
+
+using namespace samples;
+
+const char* usage =
+    "usage: hf_deform_script MESH --script POSE.json [-o OUT.glb] [--sheet S.png] [--frames-obj DIR] [options]\n"
+    "Plays a script of handle insertions, removals and drags on a surface (.glb, .gltf, .obj, .off, .ply).\n"
+    "  --script FILE      the script (format in samples/deform/README.md)\n"
+    "  -o FILE            the animation as .glb or .gltf: one shape key per key frame, exact at the keys\n"
+    "  --keys N           key frames per second in OUT.glb (default 8)\n"
+    "  --sheet FILE       a contact sheet, .png\n"
+    "  --tiles N          frames on the sheet, 2 to 23 (default 7)\n"
+    "  --frames-obj DIR   every key frame as DIR/frame_0000.obj ..., in the vertex order of MESH\n"
+    "  --mode MODE        smooth or paper, instead of the script's\n"
+    "  --refine           one full-mesh step on every frame\n"
+    "  --threads N        threads the library may use (default 1)\n"
+    "  --quiet            no progress bar\n";
+
+struct Command {
+  std::filesystem::path mesh, script, output, sheet, frames;
+  std::string mode;
+  double keys = 8;
+  uint32_t tiles = 7, threads = 1;
+  bool refine = false, quiet = false, help = false;
+};
+
+Command parse(int count, char** arguments) {
+  Command out;
+  for (int i = 1; i < count; ++i) {
+    const std::string word = arguments[i];
+    const auto value = [&]() -> std::string {
+      if (i + 1 >= count) throw std::runtime_error(word + " needs a value; see --help");
+      return arguments[++i];
+    };
+    const auto number = [&](double low, double high) {
+      const std::string text = value();
+      char* end = nullptr;
+      const double n = std::strtod(text.c_str(), &end);
+      if (text.empty() || *end != 0 || !(n >= low && n <= high))
+        throw std::runtime_error(word + " takes a number from " + std::to_string(low) + " to " + std::to_string(high) +
+                                 ", not \"" + text + "\"");
+      return n;
+    };
+    if (word == "--help" || word == "-h") {
+      out.help = true;
+    } else if (word == "--script") {
+      out.script = value();
+    } else if (word == "-o" || word == "--output") {
+      out.output = value();
+    } else if (word == "--sheet") {
+      out.sheet = value();
+    } else if (word == "--frames-obj") {
+      out.frames = value();
+    } else if (word == "--keys") {
+      out.keys = number(0.5, 60);
+    } else if (word == "--tiles") {
+      out.tiles = static_cast<uint32_t>(number(2, 23));
+    } else if (word == "--threads") {
+      out.threads = static_cast<uint32_t>(number(1, 256));
+    } else if (word == "--mode") {
+      out.mode = value();
+      if (out.mode != "smooth" && out.mode != "paper") throw std::runtime_error("--mode takes smooth or paper");
+    } else if (word == "--refine") {
+      out.refine = true;
+    } else if (word == "--quiet") {
+      out.quiet = true;
+    } else if (!word.empty() && word[0] == '-') {
+      throw std::runtime_error("unknown option " + word + "; see --help");
+    } else if (out.mesh.empty()) {
+      out.mesh = word;
+    } else {
+      throw std::runtime_error("one mesh only, not also " + word);
+    }
+  }
+  if (out.help) return out;
+  if (out.mesh.empty()) throw std::runtime_error("name a mesh; see --help");
+  if (out.script.empty()) throw std::runtime_error("--script is needed; see --help");
+  if (out.output.empty() && out.sheet.empty() && out.frames.empty())
+    throw std::runtime_error("nothing to write: give -o, --sheet or --frames-obj; see --help");
+  return out;
+}
+
+struct Key {
+  double time = 0;
+  SheetFrame frame;
+  std::vector<float> normals;
+};
+
+SheetFrame sheet_frame(const Posable& posable, const std::vector<double>& positions, const std::string& label) {
+  SheetFrame out;
+  out.positions = positions, out.label = label;
+  out.layer.assign(positions.size() / 3, 0);
+  for (const Posable::Live& live : posable.handles()) {
+    for (const uint32_t v : posable.region_of(live)) out.layer[v] = static_cast<uint8_t>(1 + live.entry.layer);
+  }
+  return out;
+}
+
+// Plays the script; keys at its ends and every 1/rate seconds of motion.
+std::vector<Key> play(const ScriptFile& script, const Command& command, Posable& posable, ProgressBar& bar) {
+  std::vector<Key> keys;
+  std::vector<double> positions, before;
+  std::vector<float> normals;
+  double time = 0, next_key = 0, frame_ms = 0, jump = 0;
+  uint32_t frames = 0;
+  const auto keep = [&](const std::string& label) {
+    if (!keys.empty() && time <= keys.back().time) time = keys.back().time + 1e-3;
+    keys.push_back({time, sheet_frame(posable, positions, label), normals});
+  };
+  const bool refine = script.refine || command.refine;
+  for (size_t s = 0; s < script.steps.size(); ++s) {
+    const Step& step = script.steps[s];
+    bar.begin("step " + std::to_string(s + 1) + " of " + std::to_string(script.steps.size()));
+    const bool layered =
+        !step.add.empty() && !positions.empty() &&
+        std::all_of(step.add.begin(), step.add.end(), [](const HandleEntry& h) { return h.layer > 0; });
+    if (layered) {  // settled, so that what moves now is the insertion's doing
+      for (int i = 0; i < 30; ++i) posable.deform(refine, before, normals);
+    }
+    posable.remove(step.remove);
+    posable.add(step.add);
+    const int count =
+        step.drag.empty() ? 1 : std::max(1, static_cast<int>(std::lround(step.seconds * script.frame_rate)));
+    posable.begin(step);
+    for (int f = 1; f <= count; ++f) {
+      if (layered && f == 1) {
+        posable.deform(refine, positions, normals);
+        for (size_t i = 0; i < positions.size(); ++i) jump = std::max(jump, std::abs(positions[i] - before[i]));
+      }
+      posable.drag(static_cast<double>(f) / count);
+      const auto start = std::chrono::steady_clock::now();
+      posable.deform(refine, positions, normals);
+      frame_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(), ++frames;
+      if (!step.drag.empty()) time += step.seconds / count;
+      if (f == count || time >= next_key) {
+        keep(f == count ? step.label : "");
+        next_key = time + 1 / command.keys;
+      }
+      bar.update(static_cast<double>(f) / count);
+    }
+    if (step.drag.empty() && step.seconds > 0) time += step.seconds, keep("");
+    bar.end(std::to_string(posable.handles().size()) + " handles");
+  }
+  std::printf("%u frames, %.2f ms each; handles inserted on higher layers moved the surface by %.1e of the box\n",
+              frames, frame_ms / std::max(frames, 1u), jump / posable.diagonal());
+  return keys;
+}
+
+// A still model with one shape key per key frame and a clip that goes from one to the next.
+Model animated(const PosableMesh& mesh, const std::vector<Key>& keys) {
+  Model out = bake(mesh.model, mesh.flat, mesh.flat.positions);
+  std::vector<Primitive*> primitives;
+  for (MeshData& data : out.meshes) {
+    data.weights.assign(keys.size(), 0.0f);
+    for (Primitive& primitive : data.primitives) primitives.push_back(&primitive);
+  }
+  if (primitives.size() != mesh.flat.parts.size()) throw std::runtime_error("the still model has other parts");
+  for (size_t p = 0; p < primitives.size(); ++p) {
+    const FlatPart& part = mesh.flat.parts[p];
+    Primitive& primitive = *primitives[p];
+    primitive.tangents.clear();
+    for (const Key& key : keys) {
+      MorphTarget target;
+      for (uint32_t i = 0; i < part.vertex_count; ++i) {
+        const size_t v = 3 * static_cast<size_t>(part.first_vertex + i);
+        const std::vector<double>& x = key.frame.positions;
+        target.positions.push_back(
+            glm::vec3(glm::dvec3(x[v], x[v + 1], x[v + 2]) - glm::dvec3(primitive.positions[i])));
+        if (!primitive.normals.empty())
+          target.normals.push_back(glm::vec3(key.normals[v], key.normals[v + 1], key.normals[v + 2]) -
+                                   primitive.normals[i]);
+      }
+      primitive.targets.push_back(std::move(target));
+    }
+  }
+  Animation clip;
+  clip.name = "pose";
+  for (size_t n = 0; n < out.nodes.size(); ++n) {
+    if (out.nodes[n].mesh < 0) continue;
+    out.nodes[n].weights.clear();
+    Channel channel;
+    channel.node = static_cast<int>(n), channel.path = Path::weights, channel.width = keys.size();
+    for (size_t k = 0; k < keys.size(); ++k) {
+      channel.times.push_back(static_cast<float>(keys[k].time));
+      for (size_t i = 0; i < keys.size(); ++i) channel.values.push_back(i == k ? 1.0f : 0.0f);
+    }
+    clip.channels.push_back(std::move(channel));
+  }
+  out.animations = {clip};
+  return out;
+}
+
+void run(const Command& command) {
+  ProgressBar bar(command.quiet);
+  ScriptFile script = read_script(command.script);
+  if (!command.mode.empty()) script.paper = command.mode == "paper";
+  bar.begin("reading " + command.mesh.string());
+  const PosableMesh mesh = read_posable(command.mesh);
+  bar.begin("factorising");
+  Posable::Options options;
+  options.paper = script.paper, options.threads = command.threads;
+  Posable posable(mesh.flat, options);
+  bar.end(std::to_string(mesh.flat.vertex_count()) + " vertices");
+  const std::vector<Key> keys = play(script, command, posable, bar);
+
+  if (!command.output.empty()) {
+    bar.begin("writing " + command.output.string());
+    write_gltf(animated(mesh, keys), command.output);
+    bar.end(std::to_string(keys.size()) + " keys");
+  }
+  if (!command.frames.empty()) {
+    bar.begin("writing frames to " + command.frames.string());
+    std::filesystem::create_directories(command.frames);
+    SurfaceMesh frame = mesh.surface;
+    for (size_t k = 0; k < keys.size(); ++k) {
+      frame.positions = to_points(keys[k].frame.positions);
+      if (!frame.normals.empty()) {
+        for (size_t v = 0; v < frame.normals.size(); ++v)
+          frame.normals[v] = {keys[k].normals[3 * v], keys[k].normals[3 * v + 1], keys[k].normals[3 * v + 2]};
+      }
+      char name[32];
+      std::snprintf(name, sizeof name, "frame_%04zu.obj", k);
+      write_mesh_file(frame, command.frames / name);
+      bar.update(static_cast<double>(k + 1) / static_cast<double>(keys.size()));
+    }
+    bar.end(std::to_string(keys.size()) + " frames");
+  }
+  if (command.sheet.empty()) return;
+  bar.begin("drawing " + command.sheet.string());
+  // every labelled key, and unlabelled ones between them as far as there is room
+  std::vector<size_t> shown;
+  for (size_t k = 0; k < keys.size(); ++k) {
+    if (!keys[k].frame.label.empty()) shown.push_back(k);
+  }
+  if (shown.size() > command.tiles) shown.resize(command.tiles);
+  for (size_t i = 0; shown.size() < command.tiles && i < command.tiles; ++i) {
+    const size_t k = i * (keys.size() - 1) / (command.tiles - 1);
+    if (std::find(shown.begin(), shown.end(), k) == shown.end()) shown.push_back(k);
+  }
+  std::sort(shown.begin(), shown.end());
+  std::vector<SheetFrame> frames;
+  for (const size_t k : shown) {
+    frames.push_back(keys[k].frame);
+    char label[32];
+    std::snprintf(label, sizeof label, "%.1f s", keys[k].time);
+    if (frames.back().label.empty()) frames.back().label = label;
+  }
+  write_pose_sheet(command.sheet, mesh, frames, script,
+                   command.mesh.filename().string() + ", " + command.script.stem().string() +
+                       (script.paper ? ", the paper's scheme" : ""));
+  bar.end();
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    const Command command = parse(count, arguments);
+    if (command.help) {
+      std::fputs(usage, stdout);
+      return 0;
+    }
+    run(command);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "hf_deform_script: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,231 @@
+// hf_rig MESH --handles H.json -o OUT.glb: a surface with handles becomes a skinned model that plays the same poses.
+// See README.md.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+
+#include "common/animate.h"
+#include "common/gltf_read.h"
+#include "common/gltf_write.h"
+#include "common/json_file.h"
+#include "common/progress_bar.h"
+#include "common/skin_write.h"
+#include "deform/posable.h"
+
+namespace {
+
+using namespace samples;
+
+const char* usage =
+    "usage: hf_rig MESH --handles H.json -o OUT.glb [options]\n"
+    "Makes a skinned model of a surface (.glb, .gltf, .obj, .off, .ply): the handles' clusters are its joints, the "
+    "clips\n"
+    "of H.json are its clips. Beside OUT.glb a JSON of handles, joints and weights is written for tools.\n"
+    "  --handles FILE   handles and clips (format in samples/deform/README.md)\n"
+    "  -o FILE          the result, .glb or .gltf\n"
+    "  --json FILE      handles, joints and weights (default: OUT.json)\n"
+    "  --weights N      joints per vertex, 4 or 8 (default 4)\n"
+    "  --threads N      threads the library may use (default 1)\n"
+    "  --quiet          no progress bar\n";
+
+struct Command {
+  std::filesystem::path mesh, handles, output, json;
+  uint32_t weights = 4, threads = 1;
+  bool quiet = false, help = false;
+};
+
+Command parse(int count, char** arguments) {
+  Command out;
+  for (int i = 1; i < count; ++i) {
+    const std::string word = arguments[i];
+    const auto value = [&]() -> std::string {
+      if (i + 1 >= count) throw std::runtime_error(word + " needs a value; see --help");
+      return arguments[++i];
+    };
+    const auto number = [&](unsigned long low, unsigned long high) {
+      const std::string text = value();
+      char* end = nullptr;
+      const unsigned long n = std::strtoul(text.c_str(), &end, 10);
+      if (text.empty() || *end != 0 || n < low || n > high)
+        throw std::runtime_error(word + " takes a number from " + std::to_string(low) + " to " + std::to_string(high) +
+                                 ", not \"" + text + "\"");
+      return static_cast<uint32_t>(n);
+    };
+    if (word == "--help" || word == "-h") {
+      out.help = true;
+    } else if (word == "--handles") {
+      out.handles = value();
+    } else if (word == "-o" || word == "--output") {
+      out.output = value();
+    } else if (word == "--json") {
+      out.json = value();
+    } else if (word == "--weights") {
+      out.weights = number(4, 8);
+      if (out.weights != 4 && out.weights != 8) throw std::runtime_error("--weights takes 4 or 8");
+    } else if (word == "--threads") {
+      out.threads = number(1, 256);
+    } else if (word == "--quiet") {
+      out.quiet = true;
+    } else if (!word.empty() && word[0] == '-') {
+      throw std::runtime_error("unknown option " + word + "; see --help");
+    } else if (out.mesh.empty()) {
+      out.mesh = word;
+    } else {
+      throw std::runtime_error("one mesh only, not also " + word);
+    }
+  }
+  if (out.help) return out;
+  if (out.mesh.empty()) throw std::runtime_error("name a mesh; see --help");
+  if (out.handles.empty()) throw std::runtime_error("--handles is needed; see --help");
+  if (out.output.empty()) throw std::runtime_error("-o is needed: the file to write; see --help");
+  if (out.json.empty()) out.json = std::filesystem::path(out.output).replace_extension(".json");
+  return out;
+}
+
+// The joints' motions of the pose at present, appended to a clip.
+void append_frame(const Posable& posable, uint32_t weight_count, const std::vector<double>& pivots, SkinClip& clip) {
+  const size_t joints = pivots.size() / 3;
+  std::vector<double> rotations(4 * joints), places(3 * joints);
+  hf_skin_info info;
+  HF_INIT(info);
+  info.weight_count = weight_count;
+  info.rotations = rotations.data(), info.translations = places.data();
+  expect_ok(hf_pose_get_skin(posable.pose(), &info), "the skin");
+  for (size_t j = 0; j < joints; ++j) {
+    const double* q = &rotations[4 * j];
+    const glm::dquat rotation(q[3], q[0], q[1], q[2]);
+    const glm::dvec3 pivot(pivots[3 * j], pivots[3 * j + 1], pivots[3 * j + 2]),
+        place(places[3 * j], places[3 * j + 1], places[3 * j + 2]);
+    clip.rotations.push_back(rotation), clip.translations.push_back(place - rotation * pivot);
+  }
+}
+
+nlohmann::json describe(const Posable& posable, const SkinDescription& skin, uint32_t weight_count) {
+  nlohmann::json out;
+  for (const Posable::Live& live : posable.handles()) {
+    hf_handle_info info;
+    HF_INIT(info);
+    expect_ok(hf_pose_get_handle(posable.pose(), live.number, &info), "handle \"" + live.name + "\"");
+    out["handles"].push_back({{"name", live.name},
+                              {"joint", out["handles"].size()},
+                              {"centroid", info.centroid},
+                              {"vertex_count", info.vertex_count},
+                              {"site_count", info.site_count},
+                              {"vertices", posable.region_of(live)}});
+  }
+  for (const SkinJoint& joint : skin.joints)
+    out["joints"].push_back({{"name", joint.name}, {"pivot", {joint.pivot.x, joint.pivot.y, joint.pivot.z}}});
+  out["weights_per_vertex"] = weight_count;
+  out["vertex_joints"] = skin.vertex_joints, out["vertex_weights"] = skin.vertex_weights;
+  for (const SkinClip& clip : skin.clips)
+    out["clips"].push_back({{"name", clip.name}, {"frames", clip.times.size()}, {"seconds", clip.times.back()}});
+  return out;
+}
+
+void run(const Command& command) {
+  ProgressBar bar(command.quiet);
+  const RigFile rig = read_rig(command.handles);
+  bar.begin("reading " + command.mesh.string());
+  const PosableMesh mesh = read_posable(command.mesh);
+  bar.begin("factorising");
+  Posable::Options options;
+  options.bands = rig.bands, options.threads = command.threads;
+  Posable posable(mesh.flat, options);
+  bar.begin("handles");
+  posable.add(rig.handles);
+  bar.end(std::to_string(rig.handles.size()) + " handles");
+
+  hf_skin_info info;
+  HF_INIT(info);
+  expect_ok(hf_pose_get_skin(posable.pose(), &info), "the skin");
+  const size_t joints = info.joint_count;
+  SkinDescription skin;
+  skin.influences_per_vertex = command.weights;
+  skin.vertex_joints.resize(mesh.flat.positions.size() * command.weights),
+      skin.vertex_weights.resize(skin.vertex_joints.size());
+  std::vector<double> pivots(3 * joints);
+  info.weight_count = command.weights, info.pivots = pivots.data();
+  info.vertex_joints = skin.vertex_joints.data(), info.vertex_weights = skin.vertex_weights.data();
+  expect_ok(hf_pose_get_skin(posable.pose(), &info), "the skin");
+  for (size_t j = 0; j < joints; ++j) {
+    const std::string name = j < posable.handles().size() ? posable.handles()[j].name : "cluster_" + std::to_string(j);
+    skin.joints.push_back({name, {pivots[3 * j], pivots[3 * j + 1], pivots[3 * j + 2]}});
+  }
+
+  std::vector<std::vector<std::vector<double>>> posed;  // by clip and frame
+  std::vector<float> normals;
+  for (const ClipEntry& entry : rig.clips) {
+    bar.begin("clip \"" + entry.name + "\"");
+    Posable player(mesh.flat, options);
+    player.add(rig.handles);
+    SkinClip clip;
+    clip.name = entry.name;
+    posed.emplace_back();
+    const auto frame = [&](double time) {
+      posed.back().emplace_back();
+      player.deform(false, posed.back().back(), normals, 12);
+      clip.times.push_back(time);
+      append_frame(player, command.weights, pivots, clip);
+    };
+    frame(0);
+    double time = 0;
+    for (const Step& step : entry.steps) {
+      const int count = std::max(1, static_cast<int>(std::lround(step.seconds * rig.frame_rate)));
+      player.begin(step);
+      for (int f = 1; f <= count; ++f) {
+        player.drag(static_cast<double>(f) / count);
+        frame(time + std::max(step.seconds, 1e-3) * f / count);
+        bar.update(static_cast<double>(f) / count);
+      }
+      time += std::max(step.seconds, 1e-3);
+    }
+    skin.clips.push_back(clip);
+    bar.end(std::to_string(clip.times.size()) + " frames");
+  }
+  bar.begin("writing " + command.output.string());
+  write_gltf(skin_model(mesh.model, mesh.flat, skin), command.output);
+  write_json(command.json, describe(posable, skin, command.weights));
+  bar.end();
+
+  // the file, read again and played, beside what hf_deform gave
+  const Model written = read_gltf(command.output);
+  const FlatMesh flat = flatten(written);
+  std::printf("%s: %u vertices, %zu handles, %zu joints, %u weights a vertex\n", command.output.string().c_str(),
+              flat.vertex_count(), posable.handles().size(), joints, command.weights);
+  for (size_t c = 0; c < posed.size(); ++c) {
+    double worst = 0, squares = 0, count = 0;
+    for (size_t f = 0; f < posed[c].size(); ++f) {
+      const std::vector<glm::dvec3> played =
+          posed_positions(written, flat, written.animations[c], skin.clips[c].times[f]);
+      for (size_t v = 0; v < played.size(); ++v) {
+        const double off =
+            glm::length(played[v] - glm::dvec3(posed[c][f][3 * v], posed[c][f][3 * v + 1], posed[c][f][3 * v + 2]));
+        worst = std::max(worst, off), squares += off * off, count += 1;
+      }
+    }
+    std::printf(
+        "  clip \"%s\", %zu frames: played by the skin, vertices are off by %.2f %% of the box at most, %.2f %% in the "
+        "mean\n",
+        skin.clips[c].name.c_str(), posed[c].size(), 100 * worst / posable.diagonal(),
+        100 * std::sqrt(squares / count) / posable.diagonal());
+  }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    const Command command = parse(count, arguments);
+    if (command.help) {
+      std::fputs(usage, stdout);
+      return 0;
+    }
+    run(command);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "hf_rig: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

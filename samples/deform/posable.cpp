@@ -1,0 +1,198 @@
+// See posable.h.
+#include "deform/posable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "common/gltf_read.h"
+
+namespace samples {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
+
+}  // namespace
+
+void expect_ok(hf_result result, const std::string& what) {
+  if (result == HF_OK) return;
+  hf_error_detail detail;
+  HF_INIT(detail);
+  hf_get_error_detail(&detail);
+  throw std::runtime_error(what + ": " + detail.message);
+}
+
+PosableMesh read_posable(const std::filesystem::path& file) {
+  PosableMesh out;
+  const std::string extension = lower_case(file.extension().string());
+  if (extension == ".glb" || extension == ".gltf") {
+    out.model = read_gltf(file);
+    out.flat = flatten(out.model);
+    out.surface = to_surface_mesh(out.flat);
+  } else {
+    out.surface = read_mesh_file(file);
+    out.flat = to_flat_mesh(out.surface);
+    out.model = make_model(file.stem().string(), out.surface.positions, out.surface.triangles);
+  }
+  if (out.flat.triangles.empty()) throw std::runtime_error(file.string() + " holds no triangle to pose");
+  return out;
+}
+
+Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
+  lower_ = upper_ = mesh.positions.front();
+  for (const glm::dvec3& p : mesh.positions) lower_ = glm::min(lower_, p), upper_ = glm::max(upper_, p);
+  diagonal_ = glm::length(upper_ - lower_);
+  const std::vector<double> positions = double_positions(mesh.positions);
+  hf_create_desc desc;
+  HF_INIT(desc);
+  desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
+  desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
+  desc.thread_count = options.threads;
+  expect_ok(hf_create(&desc, &solver_), "the surface");
+  hf_pose_desc pose;
+  HF_INIT(pose);
+  pose.mode = options.paper ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH, pose.band_count = options.bands;
+  const hf_result result = hf_pose_create(solver_, &pose, &pose_);
+  if (result != HF_OK) {
+    hf_destroy(solver_);
+    expect_ok(result, "the pose");
+  }
+}
+
+Posable::~Posable() { hf_pose_destroy(pose_), hf_destroy(solver_); }
+
+std::vector<uint32_t> Posable::vertices_of(const HandleEntry& entry) const {
+  if (!entry.has_box) return entry.vertices;
+  std::vector<uint32_t> out;
+  const glm::dvec3 lower = at(entry.lower), upper = at(entry.upper);
+  const double slack = 1e-9 * diagonal_;
+  std::set<uint32_t> used(mesh_.triangles.begin(), mesh_.triangles.end());
+  for (const uint32_t v : used) {
+    const glm::dvec3& p = mesh_.positions[v];
+    bool inside = true;
+    for (int c = 0; c < 3; ++c) inside = inside && p[c] >= lower[c] - slack && p[c] <= upper[c] + slack;
+    if (inside != entry.outside) out.push_back(v);
+  }
+  if (out.empty()) throw std::runtime_error("handle \"" + entry.name + "\": no vertex lies in its box");
+  return out;
+}
+
+void Posable::add(const std::vector<HandleEntry>& handles) {
+  for (const HandleEntry& entry : handles) {
+    for (const Live& live : live_) {
+      if (live.name == entry.name) throw std::runtime_error("there is a handle \"" + entry.name + "\" already");
+    }
+    Live live;
+    live.name = entry.name, live.entry = entry;
+    hf_handles_desc desc;
+    HF_INIT(desc);
+    desc.handle_count = 1, desc.layer = entry.layer;
+    const glm::dvec3 point = at(entry.point);
+    const double xyz[3] = {point.x, point.y, point.z}, radius = entry.radius * diagonal_;
+    uint32_t count = 0;
+    if (entry.has_point) {
+      desc.points = xyz, desc.radii = &radius;
+    } else {
+      live.vertices = vertices_of(entry);
+      count = static_cast<uint32_t>(live.vertices.size());
+      desc.region_counts = &count, desc.region_vertices = live.vertices.data();
+    }
+    expect_ok(hf_pose_add_handles(pose_, &desc, &live.number), "handle \"" + entry.name + "\"");
+    hf_handle_info info;
+    HF_INIT(info);
+    expect_ok(hf_pose_get_handle(pose_, live.number, &info), "handle \"" + entry.name + "\"");
+    live.centroid = {info.centroid[0], info.centroid[1], info.centroid[2]};
+    live_.push_back(live);
+  }
+}
+
+void Posable::remove(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    const auto found = std::find_if(live_.begin(), live_.end(), [&](const Live& live) { return live.name == name; });
+    if (found == live_.end()) throw std::runtime_error("there is no handle \"" + name + "\" to remove");
+    expect_ok(hf_pose_remove_handles(pose_, 1, &found->number), "removing \"" + name + "\"");
+    live_.erase(found);
+  }
+}
+
+HandlePlace Posable::place(const Live& live, const MotionEntry& motion, double amount) const {
+  const double angle = amount * motion.degrees * pi / 180;
+  HandlePlace out;
+  out.rotation = glm::angleAxis(angle, motion.axis);
+  if (motion.bend) {
+    const glm::dvec3 from = at(motion.bend_from), to = at(motion.bend_to);
+    const double length = glm::length(to - from);
+    if (!(length > 0)) throw std::runtime_error("handle \"" + live.name + "\": bend_from and bend_to are one point");
+    const glm::dvec3 along = (to - from) / length, side = glm::cross(motion.axis, along);
+    glm::dvec3 end = to;
+    if (std::abs(angle) > 1e-9) end = from + length / angle * (std::sin(angle) * along + (1 - std::cos(angle)) * side);
+    out.translation = out.rotation * (live.centroid - to) + end - live.centroid;
+  } else if (motion.has_pivot) {
+    const glm::dvec3 pivot = at(motion.pivot);
+    out.translation = out.rotation * (live.centroid - pivot) + pivot - live.centroid;
+  }
+  out.translation += amount * diagonal_ * motion.move;
+  return out;
+}
+
+void Posable::begin(const Step& step) {
+  for (Live& live : live_) live.moving = false;
+  for (const auto& [name, motion] : step.drag) {
+    const auto found = std::find_if(live_.begin(), live_.end(), [&](const Live& live) { return live.name == name; });
+    if (found == live_.end()) throw std::runtime_error("there is no handle \"" + name + "\" to drag");
+    found->before = found->motion, found->motion = motion;
+    found->from = found->now, found->moving = true;
+  }
+}
+
+void Posable::drag(double t) {
+  for (Live& live : live_) {
+    if (!live.moving) continue;
+    const MotionEntry &a = live.before, &b = live.motion;
+    if (live.from_rest) {
+      live.now = place(live, b, t);
+    } else if (a.axis == b.axis && a.bend == b.bend && a.has_pivot == b.has_pivot && a.pivot == b.pivot) {
+      MotionEntry between = b;
+      between.degrees = (1 - t) * a.degrees + t * b.degrees, between.move = (1 - t) * a.move + t * b.move;
+      live.now = place(live, between, 1);
+    } else {
+      const HandlePlace to = place(live, b, 1);
+      live.now = {glm::slerp(live.from.rotation, to.rotation, t), (1 - t) * live.from.translation + t * to.translation};
+    }
+    if (t >= 1) live.from_rest = false;
+    hf_transform transform;
+    const glm::dquat& q = live.now.rotation;
+    const glm::dvec3& m = live.now.translation;
+    const double rotation[4] = {q.x, q.y, q.z, q.w}, translation[3] = {m.x, m.y, m.z};
+    std::copy_n(rotation, 4, transform.rotation), std::copy_n(translation, 3, transform.translation);
+    expect_ok(hf_pose_set_transforms(pose_, 1, &live.number, &transform), "moving \"" + live.name + "\"");
+  }
+}
+
+void Posable::deform(bool refine, std::vector<double>& positions, std::vector<float>& normals, uint32_t iterations) {
+  positions.resize(3 * mesh_.positions.size()), normals.resize(positions.size());
+  hf_deform_desc desc;
+  HF_INIT(desc);
+  desc.positions_f64 = positions.data(), desc.normals = normals.data();
+  desc.refine = refine ? 1 : 0, desc.iteration_count = iterations;
+  expect_ok(hf_deform(pose_, &desc, nullptr), "a frame");
+}
+
+std::vector<uint32_t> Posable::region_of(const Live& live) const {
+  if (!live.vertices.empty()) return live.vertices;
+  std::vector<float> field(mesh_.positions.size());
+  expect_ok(hf_pose_get_field(pose_, live.number, field.data(), 0), "handle \"" + live.name + "\"");
+  std::vector<uint32_t> out;
+  for (uint32_t v = 0; v < field.size(); ++v) {
+    if (field[v] == 1.0f) out.push_back(v);
+  }
+  return out;
+}
+
+}  // namespace samples

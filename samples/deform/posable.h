@@ -1,0 +1,90 @@
+// A surface from a file with a pose of the library on it: handles by name, motions over time, frames.
+#ifndef HF_SAMPLES_DEFORM_POSABLE_H
+#define HF_SAMPLES_DEFORM_POSABLE_H
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/flat_mesh.h"
+#include "common/mesh_file.h"
+#include "common/model.h"
+#include "deform/rig_file.h"
+#include "hf/hf.h"
+
+namespace samples {
+
+// What a file holds: a glTF scene at rest, or a plain surface. `surface` keeps its faces and vertex order.
+struct PosableMesh {
+  Model model;
+  FlatMesh flat;
+  SurfaceMesh surface;
+};
+PosableMesh read_posable(const std::filesystem::path& file);
+
+// x -> R (x - centroid) + centroid + translation, of one handle.
+struct HandlePlace {
+  glm::dquat rotation{1, 0, 0, 0};
+  glm::dvec3 translation{0};
+};
+
+class Posable {
+ public:
+  struct Options {
+    bool paper = false;
+    uint32_t bands = 0, threads = 1;
+  };
+  Posable(const FlatMesh& mesh, const Options& options);
+  ~Posable();
+  Posable(const Posable&) = delete;
+  Posable& operator=(const Posable&) = delete;
+
+  // Throw std::runtime_error naming the handle.
+  void add(const std::vector<HandleEntry>& handles);
+  void remove(const std::vector<std::string>& names);
+  // The motions of a step begin where the handles stand; `t` from 0 to 1 of the way.
+  void begin(const Step& step);
+  void drag(double t);
+  // Vertices (xyz) and normals; refine: with the full-mesh step.
+  void deform(bool refine, std::vector<double>& positions, std::vector<float>& normals, uint32_t iterations = 0);
+
+  hf_pose pose() const { return pose_; }
+  double diagonal() const { return diagonal_; }
+  // Name, number and region of the handles there are, in the order they were added.
+  struct Live {
+    std::string name;
+    uint32_t number;
+    HandleEntry entry;
+    std::vector<uint32_t> vertices;
+    glm::dvec3 centroid;
+    MotionEntry motion;     // asked for last
+    HandlePlace from, now;  // where the drag at hand began
+    bool moving = false, from_rest = true;
+    MotionEntry before;
+  };
+  const std::vector<Live>& handles() const { return live_; }
+  // The vertices of a handle: its field is 1 there.
+  std::vector<uint32_t> region_of(const Live& live) const;
+
+ private:
+  glm::dvec3 at(const glm::dvec3& fraction) const { return lower_ + fraction * (upper_ - lower_); }
+  std::vector<uint32_t> vertices_of(const HandleEntry& entry) const;
+  HandlePlace place(const Live& live, const MotionEntry& motion, double amount) const;
+
+  const FlatMesh& mesh_;
+  hf_solver solver_ = nullptr;
+  hf_pose pose_ = nullptr;
+  glm::dvec3 lower_{0}, upper_{0};
+  double diagonal_ = 1;
+  std::vector<Live> live_;
+};
+
+// Throws std::runtime_error "what: the library's own sentence" unless the result is HF_OK.
+void expect_ok(hf_result result, const std::string& what);
+
+}  // namespace samples
+
+#endif

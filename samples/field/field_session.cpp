@@ -1,0 +1,358 @@
+#include "field/field_session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <type_traits>
+
+namespace samples {
+namespace {
+
+// Places of a list, as the library takes them.
+struct Batch {
+  explicit Batch(const std::vector<SiteArgument>& sites, bool with_values) {
+    HF_INIT(desc);
+    desc.site_count = static_cast<uint32_t>(sites.size());
+    const bool points = !sites.empty() && !sites[0].place.is_vertex();
+    bool soft = false;
+    for (const SiteArgument& site : sites) {
+      if (site.place.is_vertex() == points)
+        throw std::runtime_error("vertices and points in triangles are mixed in one edit; write two");
+      vertices.push_back(points ? site.place.triangle : site.place.vertex);
+      barycentrics.insert(barycentrics.end(), site.place.weights.begin(), site.place.weights.end());
+      values.insert(values.end(), site.values.begin(), site.values.end());
+      stiffness.push_back(site.stiffness);
+      soft = soft || site.stiffness > 0;
+    }
+    (points ? desc.triangles : desc.vertices) = vertices.data();
+    if (points) desc.barycentrics = barycentrics.data();
+    if (with_values) desc.values = values.data();
+    if (with_values && soft) desc.stiffness = stiffness.data();
+  }
+  Batch(const Batch&) = delete;
+  Batch& operator=(const Batch&) = delete;
+  hf_sites_desc desc;
+  std::vector<uint32_t> vertices;
+  std::vector<double> barycentrics, values, stiffness;
+};
+
+hf_scalars scalars(const std::vector<double>& field) {
+  hf_scalars desc;
+  HF_INIT(desc);
+  desc.values_f64 = field.data();
+  return desc;
+}
+
+// The area-weighted normal of every given vertex, not normalised.
+std::vector<glm::dvec3> normals_of(const SurfaceMesh& mesh) {
+  std::vector<glm::dvec3> normals(mesh.positions.size(), glm::dvec3(0));
+  for (size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
+    const glm::dvec3 a = mesh.positions[mesh.triangles[t]];
+    const glm::dvec3 n =
+        glm::cross(mesh.positions[mesh.triangles[t + 1]] - a, mesh.positions[mesh.triangles[t + 2]] - a);
+    for (size_t k = 0; k < 3; ++k) normals[mesh.triangles[t + k]] += n;
+  }
+  return normals;
+}
+
+// A unit vector along the surface: the axis that lies flattest, projected.
+std::vector<double> tangent(const glm::dvec3& normal, size_t turn) {
+  const double length = glm::length(normal);
+  const glm::dvec3 n = length > 0 ? normal / length : glm::dvec3(0, 0, 1);
+  glm::dvec3 axis(0);
+  const int flattest = std::fabs(n.x) <= std::fabs(n.y) && std::fabs(n.x) <= std::fabs(n.z) ? 0
+                       : std::fabs(n.y) <= std::fabs(n.z)                                   ? 1
+                                                                                            : 2;
+  axis[flattest] = turn % 2 ? -1 : 1;
+  const glm::dvec3 v = glm::normalize(axis - glm::dot(axis, n) * n);
+  return {v.x, v.y, v.z};
+}
+
+}  // namespace
+
+void check(hf_result result) {
+  if (result == HF_OK) return;
+  hf_error_detail detail;
+  hf_get_error_detail(&detail);
+  throw std::runtime_error(std::string(detail.function) + ": " + detail.message + " (" + hf_result_name(result) + ")");
+}
+
+Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
+    : vertex_count_(static_cast<uint32_t>(mesh.positions.size())),
+      components_(options.kind == FieldType::vector || options.kind == FieldType::direction ? 3 : 1) {
+  hf_create_desc desc;
+  HF_INIT(desc);
+  desc.vertex_count = vertex_count_;
+  desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
+  desc.positions_f64 = mesh.positions.empty() ? nullptr : &mesh.positions[0].x;
+  desc.triangles = mesh.triangles.data();
+  desc.engine = options.engine, desc.operator_kind = options.operator_kind, desc.weld = options.weld;
+  desc.thread_count = options.threads;
+  desc.channel_count = options.kind == FieldType::vector ? 3 : 1;
+  if (options.kind == FieldType::biharmonic) desc.field_kind = HF_FIELD_BIHARMONIC;
+  check(hf_create(&desc, &solver_));
+  if (options.kind == FieldType::direction) {
+    const hf_result result = hf_direction_create(solver_, nullptr, &direction_);
+    if (result != HF_OK) hf_destroy(solver_);
+    check(result);
+  }
+}
+
+void Session::change_directions(const Edit& edit) {
+  if (edit.kind == Edit::Kind::undo || edit.kind == Edit::Kind::redo)
+    throw std::runtime_error("direction fields have no " + edit.text);
+  std::vector<uint32_t> vertices, numbers;
+  std::vector<double> vectors;
+  for (const SiteArgument& site : edit.sites) {
+    if (!site.place.is_vertex() || site.stiffness > 0)
+      throw std::runtime_error("the sites of a direction field are hard and lie at vertices");
+    vertices.push_back(site.place.vertex);
+    vectors.insert(vectors.end(), site.values.begin(), site.values.end());
+  }
+  const uint32_t count = static_cast<uint32_t>(edit.sites.size());
+  if (edit.kind == Edit::Kind::add) {
+    numbers.resize(count);
+    check(hf_direction_add_sites(direction_, count, vertices.data(), vectors.data(), numbers.data()));
+    for (size_t i = 0; i < count; ++i) sites_[edit.sites[i].place] = numbers[i];
+  } else if (edit.kind == Edit::Kind::move) {
+    std::vector<uint32_t> to;
+    for (size_t i = 0; i < count; i += 2) numbers.push_back(number(edit.sites[i].place)), to.push_back(vertices[i + 1]);
+    check(hf_direction_move_sites(direction_, count / 2, numbers.data(), to.data()));
+    for (size_t i = 0; i < count; i += 2) sites_.erase(edit.sites[i].place);
+    for (size_t i = 0; i < count; i += 2) sites_[edit.sites[i + 1].place] = numbers[i / 2];
+  } else {
+    for (const SiteArgument& site : edit.sites) numbers.push_back(number(site.place));
+    if (edit.kind == Edit::Kind::set) {
+      check(hf_direction_set_vectors(direction_, count, numbers.data(), vectors.data()));
+    } else {
+      check(hf_direction_remove_sites(direction_, count, numbers.data()));
+      for (const SiteArgument& site : edit.sites) sites_.erase(site.place);
+    }
+  }
+}
+
+std::vector<hf_singularity> Session::singularities() const {
+  if (!direction_) return {};
+  uint32_t count = 0;
+  check(hf_direction_get_singularities(direction_, 0, nullptr, &count));
+  std::vector<hf_singularity> found(count);
+  if (count > 0) check(hf_direction_get_singularities(direction_, count, found.data(), &count));
+  return found;
+}
+
+void Session::apply(const Edit& edit) {
+  if (direction_) return change_directions(edit);
+  if (edit.kind == Edit::Kind::undo || edit.kind == Edit::Kind::redo) {
+    const bool undo = edit.kind == Edit::Kind::undo;
+    check(undo ? hf_undo(solver_) : hf_redo(solver_));
+    auto &from = undo ? undone_from_ : redone_from_, &to = undo ? redone_from_ : undone_from_;
+    to.push_back(sites_);
+    sites_ = from.back();
+    from.pop_back();
+    return;
+  }
+  check(hf_record(solver_));
+  const auto before = sites_;
+  try {
+    change(edit);
+  } catch (...) {
+    hf_undo(solver_);  // forgets the record; the failed edit has changed nothing
+    throw;
+  }
+  undone_from_.push_back(before);
+  redone_from_.clear();
+}
+
+std::vector<double> Session::solve(hf_solve_info& info) const {
+  std::vector<double> field(vertex_count_ * components_);
+  HF_INIT(info);
+  if (direction_) {
+    check(hf_direction_solve_f64(direction_, field.data(), 0, &info));
+  } else if (components_ == 3) {
+    check(hf_solve_vectors_f64(solver_, field.data(), 0, nullptr, &info));
+  } else {
+    check(hf_solve_f64(solver_, field.data(), 0, &info));
+  }
+  return field;
+}
+
+std::vector<glm::dvec3> Session::positions(const SurfaceMesh& mesh) const {
+  std::vector<glm::dvec3> points;
+  for (const auto& [place, number] : sites_) {
+    (void)number;
+    if (place.triangle == no_triangle) {
+      points.push_back(mesh.positions[place.vertex]);
+    } else {
+      glm::dvec3 p(0);
+      for (size_t k = 0; k < 3; ++k)
+        p += place.weights[k] * mesh.positions[mesh.triangles[3 * size_t(place.triangle) + k]];
+      points.push_back(p);
+    }
+  }
+  return points;
+}
+
+uint32_t Session::number(const Place& place) const {
+  const auto found = sites_.find(place);
+  if (found == sites_.end())
+    throw std::runtime_error("there is no site at " +
+                             std::string(place.is_vertex()
+                                             ? "vertex " + std::to_string(place.vertex)
+                                             : "that point of triangle " + std::to_string(place.triangle)));
+  return found->second;
+}
+
+void Session::change(const Edit& edit) {
+  std::vector<uint32_t> numbers;
+  switch (edit.kind) {
+    case Edit::Kind::add: {
+      const Batch batch(edit.sites, true);
+      numbers.resize(edit.sites.size());
+      check(hf_add_sites(solver_, &batch.desc, numbers.data()));
+      for (size_t i = 0; i < numbers.size(); ++i) sites_[edit.sites[i].place] = numbers[i];
+      break;
+    }
+    case Edit::Kind::remove:
+      for (const SiteArgument& site : edit.sites) numbers.push_back(number(site.place));
+      check(hf_remove_sites(solver_, static_cast<uint32_t>(numbers.size()), numbers.data()));
+      for (const SiteArgument& site : edit.sites) sites_.erase(site.place);
+      break;
+    case Edit::Kind::move: {
+      std::vector<SiteArgument> to;
+      for (size_t i = 0; i < edit.sites.size(); i += 2)
+        numbers.push_back(number(edit.sites[i].place)), to.push_back(edit.sites[i + 1]);
+      const Batch batch(to, false);
+      check(hf_move_sites(solver_, static_cast<uint32_t>(numbers.size()), numbers.data(), &batch.desc));
+      for (size_t i = 0; i < edit.sites.size(); i += 2) sites_.erase(edit.sites[i].place);
+      for (size_t i = 0; i < to.size(); ++i) sites_[to[i].place] = numbers[i];
+      break;
+    }
+    case Edit::Kind::set: {
+      std::vector<double> values;
+      for (const SiteArgument& site : edit.sites) {
+        numbers.push_back(number(site.place));
+        values.insert(values.end(), site.values.begin(), site.values.end());
+      }
+      check(hf_set_site_values(solver_, static_cast<uint32_t>(numbers.size()), numbers.data(), values.data()));
+      break;
+    }
+    case Edit::Kind::undo:
+    case Edit::Kind::redo:
+      break;
+  }
+}
+
+std::vector<bool> Session::reached() const {
+  std::vector<uint32_t> component(vertex_count_), served(hf_get_site_count(solver_));
+  check(hf_get_components(solver_, vertex_count_, component.data()));
+  hf_site_info info;
+  HF_INIT(info);
+  info.capacity = static_cast<uint32_t>(served.size()), info.components = served.data();
+  check(hf_get_sites(solver_, &info));
+  const std::set<uint32_t> found(served.begin(), served.end());
+  std::vector<bool> reached(vertex_count_);
+  for (uint32_t v = 0; v < vertex_count_; ++v) reached[v] = found.count(component[v]) > 0;
+  return reached;
+}
+
+std::vector<hf_extremity> Session::extremities(int kind) const {
+  hf_extremities_desc desc;
+  HF_INIT(desc);
+  desc.kind = kind;
+  uint32_t count = 0;
+  check(hf_find_extremities(solver_, &desc, 0, nullptr, &count));
+  std::vector<hf_extremity> found(count);
+  check(hf_find_extremities(solver_, &desc, count, found.data(), &count));
+  return found;
+}
+
+std::vector<double> Session::distance(const std::vector<uint32_t>& sources) const {
+  hf_geodesics raw = nullptr;
+  check(hf_geodesics_create(solver_, nullptr, &raw));
+  const std::unique_ptr<std::remove_pointer_t<hf_geodesics>, void (*)(hf_geodesics)> geodesics(raw,
+                                                                                               hf_geodesics_destroy);
+  std::vector<double> distance(vertex_count_);
+  check(hf_geodesics_distance_f64(raw, static_cast<uint32_t>(sources.size()), sources.data(), distance.data(), 0));
+  return distance;
+}
+
+std::vector<double> Session::levels(const std::vector<double>& field, int spacing, int count) const {
+  std::vector<double> levels(static_cast<size_t>(count));
+  const hf_scalars desc = scalars(field);
+  check(hf_space_levels(solver_, &desc, spacing, static_cast<uint32_t>(count), levels.data()));
+  return levels;
+}
+
+std::vector<IsoLine> Session::isolines(const std::vector<double>& field, const std::vector<double>& levels) const {
+  hf_isolines lines;
+  HF_INIT(lines);
+  const hf_scalars desc = scalars(field);
+  const uint32_t level_count = static_cast<uint32_t>(levels.size());
+  check(hf_trace_isolines(solver_, &desc, level_count, levels.data(), &lines));
+  std::vector<double> positions(3 * size_t(lines.point_count));
+  std::vector<uint32_t> starts(size_t(lines.line_count) + 1), of_level(lines.line_count);
+  std::vector<int32_t> closed(lines.line_count);
+  if (lines.line_count == 0) return {};
+  lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
+  lines.positions = positions.data(), lines.line_starts = starts.data(), lines.line_levels = of_level.data();
+  lines.line_closed = closed.data();
+  check(hf_trace_isolines(solver_, &desc, level_count, levels.data(), &lines));
+  std::vector<IsoLine> found(lines.line_count);
+  for (size_t l = 0; l < found.size(); ++l) {
+    found[l].level = of_level[l], found[l].closed = closed[l] != 0;
+    for (size_t i = starts[l]; i < starts[l + 1]; ++i)
+      found[l].points.push_back({positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]});
+  }
+  return found;
+}
+
+std::vector<hf_critical_point> Session::critical_points(const std::vector<double>& field,
+                                                        hf_critical_info& info) const {
+  HF_INIT(info);
+  const hf_scalars desc = scalars(field);
+  check(hf_find_critical_points(solver_, &desc, 0, nullptr, &info));
+  std::vector<hf_critical_point> points(info.point_count);
+  check(hf_find_critical_points(solver_, &desc, info.point_count, points.data(), &info));
+  return points;
+}
+
+std::vector<SiteArgument> propose_sites(const SurfaceMesh& mesh, const Session& session, int extremities) {
+  // a harmonic solver of its own: the session's may be bi-harmonic
+  const Session laplacian(mesh, FieldOptions());
+  std::vector<uint32_t> vertices, component(mesh.positions.size());
+  check(hf_get_components(laplacian.solver(), static_cast<uint32_t>(component.size()), component.data()));
+  std::map<uint32_t, int> count{{HF_NO_INDEX, 2}};
+  for (const hf_extremity& tip : laplacian.extremities(extremities)) {
+    vertices.push_back(tip.vertex);
+    ++count[tip.component];
+  }
+  for (uint32_t v = 0; v < component.size(); ++v) {
+    int& there = count[component[v]];
+    if (there == 0) vertices.push_back(v), there = 1;
+  }
+  // where there is only one, the vertex farthest from it
+  const std::vector<double> distance = laplacian.distance(vertices);
+  std::map<uint32_t, uint32_t> farthest;
+  for (uint32_t v = 0; v < component.size(); ++v) {
+    if (count[component[v]] != 1) continue;
+    const auto [entry, first] = farthest.try_emplace(component[v], v);
+    if (!first && distance[v] > distance[entry->second]) entry->second = v;
+  }
+  for (const auto& [name, vertex] : farthest) {
+    if (distance[vertex] > 0) vertices.push_back(vertex);
+  }
+  const std::vector<glm::dvec3> normals = normals_of(mesh);
+  std::vector<SiteArgument> sites;
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    SiteArgument site;
+    site.place.vertex = vertices[i];
+    site.values =
+        session.components() == 3 ? tangent(normals[vertices[i]], i) : std::vector<double>{static_cast<double>(i % 2)};
+    sites.push_back(site);
+  }
+  return sites;
+}
+
+}  // namespace samples

@@ -1,0 +1,41 @@
+// Places of a creature that a transfer needs, found from its shape and, where they say something, its joint names:
+// feet, head or nose, tail, hands, and two places on the trunk.
+//
+// Feet are the pieces of the surface below 12 % of the height that stand on the ground, so any number of legs is found
+// and a front leg named "hand" does no harm. The side axis is the one the shape is most symmetric along, forward is
+// where toes and head point (+z when in doubt, as glTF says). Head, tail and hands go by joint names first, else by the
+// extremities of the surface (hf_find_extremities). The trunk places lie where a line through the belly, or through
+// the back of someone upright, leaves the body. Every landmark says how it was found and how far to trust it.
+#ifndef HF_SAMPLES_TRANSFER_LANDMARKS_H
+#define HF_SAMPLES_TRANSFER_LANDMARKS_H
+
+#include <string>
+#include <vector>
+
+#include "transfer/regions.h"
+
+namespace samples {
+
+struct Landmark {
+  std::string
+      name;  // "nose", "front foot left", ...; left is the side of the axes' right (+x of a model that faces +z)
+  Selector place;
+  glm::dvec3 position{0, 0, 0};
+  double confidence = 0;  // 0..1
+  std::string found;      // how, for people
+};
+
+struct Landmarks {
+  Axes axes;
+  bool upright = false;  // a body that stands on two legs and is higher than long
+  size_t leg_pairs = 0;
+  std::vector<Landmark> list;
+  const Landmark* get(const std::string& name) const;
+};
+
+// Throws std::runtime_error when the surface has no feet to speak of. axes: null to find them.
+Landmarks find_landmarks(const Model& model, const FlatMesh& mesh, const Axes* axes);
+
+}  // namespace samples
+
+#endif

@@ -1,0 +1,263 @@
+// See outputs.h.
+#include "transfer/outputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+
+#include "common/animate.h"
+#include "transfer/rig_fit.h"
+
+namespace samples {
+namespace {
+
+void measure(const std::vector<glm::dvec3>& got, const std::vector<double>& wanted, double box, double& sum,
+             OutputFigures& figures) {
+  for (size_t v = 0; v < got.size(); ++v) {
+    const double miss = glm::distance(got[v], glm::dvec3(wanted[3 * v], wanted[3 * v + 1], wanted[3 * v + 2])) / box;
+    sum += miss * miss / static_cast<double>(got.size());
+    figures.max = std::max(figures.max, miss);
+  }
+}
+
+// Eigenvectors of a symmetric matrix by Jacobi's rotations, largest value first: columns of `vectors`.
+void eigen(std::vector<double> a, size_t n, std::vector<double>& values, std::vector<double>& vectors) {
+  std::vector<double> u(n * n, 0.0);
+  for (size_t i = 0; i < n; ++i) u[i * n + i] = 1;
+  double diagonal = 0;
+  for (size_t i = 0; i < n; ++i) diagonal += std::abs(a[i * n + i]);
+  for (int sweep = 0; sweep < 30; ++sweep) {
+    double off = 0;
+    for (size_t p = 0; p < n; ++p)
+      for (size_t q = p + 1; q < n; ++q) off += std::abs(a[p * n + q]);
+    if (off <= 1e-14 * diagonal) break;
+    for (size_t p = 0; p < n; ++p) {
+      for (size_t q = p + 1; q < n; ++q) {
+        if (a[p * n + q] == 0) continue;
+        const double theta = (a[q * n + q] - a[p * n + p]) / (2 * a[p * n + q]);
+        const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1)),
+                     c = 1 / std::sqrt(t * t + 1), s = t * c;
+        for (size_t k = 0; k < n; ++k) {
+          const double x = a[k * n + p], y = a[k * n + q];
+          a[k * n + p] = c * x - s * y, a[k * n + q] = s * x + c * y;
+        }
+        for (size_t k = 0; k < n; ++k) {
+          const double x = a[p * n + k], y = a[q * n + k];
+          a[p * n + k] = c * x - s * y, a[q * n + k] = s * x + c * y;
+          const double f = u[k * n + p], g = u[k * n + q];
+          u[k * n + p] = c * f - s * g, u[k * n + q] = s * f + c * g;
+        }
+      }
+    }
+  }
+  std::vector<size_t> order(n);
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::sort(order.begin(), order.end(), [&](size_t i, size_t j) { return a[i * n + i] > a[j * n + j]; });
+  values.resize(n), vectors.resize(n * n);
+  for (size_t k = 0; k < n; ++k) {
+    values[k] = a[order[k] * n + order[k]];
+    for (size_t i = 0; i < n; ++i) vectors[i * n + k] = u[i * n + order[k]];
+  }
+}
+
+// Displacements of all frames of all clips, and how many of their leading directions are needed.
+struct Directions {
+  size_t frames = 0, count = 0;
+  std::vector<double> values, vectors;  // of the Gram matrix: frames x frames
+};
+
+Directions directions_of(const std::vector<std::vector<double>>& rows, double vertices, double box, double tolerance,
+                         size_t limit) {
+  Directions out;
+  const size_t n = out.frames = rows.size();
+  std::vector<double> gram(n * n);
+  for (size_t i = 0; i < n; ++i)
+    for (size_t j = 0; j <= i; ++j)
+      gram[i * n + j] = gram[j * n + i] = std::inner_product(rows[i].begin(), rows[i].end(), rows[j].begin(), 0.0);
+  eigen(gram, n, out.values, out.vectors);
+  // what is left of every frame after k directions: G_ff - sum_k s_k^2 V_fk^2
+  std::vector<double> left(n);
+  for (size_t f = 0; f < n; ++f) left[f] = gram[f * n + f];
+  while (out.count < std::min(n, limit)) {
+    double worst = 0;
+    for (const double x : left) worst = std::max(worst, std::sqrt(std::max(x, 0.0) / vertices) / box);
+    if (worst <= tolerance || !(out.values[out.count] > 0)) break;
+    for (size_t f = 0; f < n; ++f)
+      left[f] -= out.values[out.count] * out.vectors[f * n + out.count] * out.vectors[f * n + out.count];
+    ++out.count;
+  }
+  out.count = std::max<size_t>(out.count, 1);
+  return out;
+}
+
+std::string safe_name(const std::string& name) {
+  std::string out = name.empty() ? "pose" : name;
+  for (char& c : out)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
+  return out;
+}
+
+}  // namespace
+
+Model own_skin_model(const Model& target, const FlatMesh& mesh, const std::vector<PlayedClip>& clips, double box,
+                     OutputFigures& figures) {
+  const RigFit rig(target, mesh);
+  Model out = target;
+  out.animations.clear();
+  const Pose rest = rest_pose(target);
+  double sum = 0;
+  size_t frames = 0;
+  for (const PlayedClip& clip : clips) {
+    std::vector<Pose> poses;
+    for (const std::vector<double>& frame : clip.target_frames) {
+      poses.push_back(rig.fit(frame, poses.empty() ? rest : poses.back(), poses.empty() ? 30 : 6));
+      measure(posed_positions(target, mesh, poses.back()), frame, box, sum, figures);
+      ++frames;
+    }
+    out.animations.push_back(rig.clip(clip.clip.name, clip.clip.times, poses));
+  }
+  // nodes that are animated may not have a matrix
+  for (const Animation& animation : out.animations) {
+    for (const Channel& channel : animation.channels) {
+      Node& node = out.nodes[static_cast<size_t>(channel.node)];
+      if (!node.matrix) continue;
+      const glm::mat4 m = *node.matrix;
+      node.matrix.reset(), node.translation = glm::vec3(m[3]);
+      for (int c = 0; c < 3; ++c) node.scale[c] = glm::length(glm::vec3(m[c]));
+      if (glm::determinant(glm::mat3(m)) < 0) node.scale = -node.scale;
+      glm::mat3 turn(m);
+      for (int c = 0; c < 3; ++c) turn[c] /= node.scale[c];
+      node.rotation = glm::normalize(glm::quat_cast(turn));
+    }
+  }
+  figures.rms = frames > 0 ? std::sqrt(sum / static_cast<double>(frames)) : 0;
+  figures.parts = rig.turning();
+  return out;
+}
+
+Model morph_model(const Model& target, const FlatMesh& mesh, const std::vector<PlayedClip>& clips, double box,
+                  double tolerance, size_t limit, OutputFigures& figures) {
+  std::vector<std::vector<double>> rows;
+  const std::vector<double> rest = double_positions(mesh.positions);
+  const std::vector<glm::vec3> rest_normals = welded_normals(mesh, mesh.positions);
+  for (const PlayedClip& clip : clips) {
+    for (std::vector<double> frame : clip.target_frames) {
+      for (size_t i = 0; i < frame.size(); ++i) frame[i] -= rest[i];
+      rows.push_back(std::move(frame));
+    }
+  }
+  const size_t n = rows.size(), vertices = mesh.positions.size();
+  if (n > 2000)
+    throw std::runtime_error("morph targets: " + std::to_string(n) +
+                             " frames are too many; choose fewer clips or a lower --fps");
+  const Directions directions = directions_of(rows, static_cast<double>(vertices), box, tolerance, limit);
+  const size_t count = directions.count;
+  // target k = sum_f V_fk d_f times the largest |V_fk|; the weight of frame f is V_fk over that
+  std::vector<std::vector<glm::vec3>> moves(count, std::vector<glm::vec3>(vertices)), turns = moves;
+  std::vector<float> weights(n * count);
+  for (size_t k = 0; k < count; ++k) {
+    double largest = 0;
+    for (size_t f = 0; f < n; ++f) largest = std::max(largest, std::abs(directions.vectors[f * n + k]));
+    for (size_t f = 0; f < n; ++f) weights[f * count + k] = static_cast<float>(directions.vectors[f * n + k] / largest);
+    std::vector<double> sum(3 * vertices, 0.0);
+    for (size_t f = 0; f < n; ++f)
+      for (size_t i = 0; i < sum.size(); ++i) sum[i] += largest * directions.vectors[f * n + k] * rows[f][i];
+    for (size_t v = 0; v < vertices; ++v)
+      moves[k][v] = glm::vec3(static_cast<float>(sum[3 * v]), static_cast<float>(sum[3 * v + 1]),
+                              static_cast<float>(sum[3 * v + 2]));
+  }
+  size_t row = 0;
+  for (const PlayedClip& clip : clips) {
+    for (const std::vector<double>& frame : clip.target_frames) {
+      const std::vector<glm::vec3> normals = welded_normals(mesh, to_points(frame));
+      for (size_t k = 0; k < count; ++k) {
+        // V is orthonormal, so the projection is a product; the scale cancels as above
+        double largest = 0;
+        for (size_t f = 0; f < n; ++f) largest = std::max(largest, std::abs(directions.vectors[f * n + k]));
+        const auto w = static_cast<float>(directions.vectors[row * n + k] * largest);
+        for (size_t v = 0; v < vertices; ++v) turns[k][v] += w * (normals[v] - rest_normals[v]);
+      }
+      ++row;
+    }
+  }
+  // programs clamp weights to 0..1, so a direction that goes both ways is two targets; between keys their sum is as
+  // linear as one weight
+  struct Part {
+    size_t direction;
+    float sign;
+  };
+  std::vector<Part> parts;
+  for (size_t k = 0; k < count; ++k) {
+    for (const float sign : {1.0f, -1.0f}) {
+      bool used = false;
+      for (size_t f = 0; f < n; ++f) used = used || sign * weights[f * count + k] > 0;
+      if (used) parts.push_back({k, sign});
+    }
+  }
+  figures.parts = parts.size();
+  Model out = bake(target, mesh, mesh.positions);
+  std::map<int, size_t> mesh_of;
+  std::vector<size_t> filled(out.meshes.size(), 0);
+  for (const FlatPart& from : mesh.parts) {
+    const size_t m = mesh_of.emplace(from.node, mesh_of.size()).first->second;
+    Primitive& primitive = out.meshes[m].primitives[filled[m]++];
+    for (const Part& part : parts) {
+      MorphTarget morph;
+      for (size_t v = from.first_vertex; v < size_t{from.first_vertex} + from.vertex_count; ++v) {
+        morph.positions.push_back(part.sign * moves[part.direction][v]);
+        morph.normals.push_back(part.sign * turns[part.direction][v]);
+      }
+      primitive.targets.push_back(std::move(morph));
+    }
+  }
+  row = 0;
+  for (const PlayedClip& clip : clips) {
+    Animation animation;
+    animation.name = clip.clip.name;
+    for (size_t node = 0; node < out.nodes.size(); ++node) {
+      if (out.nodes[node].mesh < 0) continue;
+      Channel channel;
+      channel.node = static_cast<int>(node), channel.path = Path::weights, channel.width = parts.size();
+      channel.times.assign(clip.clip.times.begin(), clip.clip.times.end());
+      for (size_t f = row; f < row + clip.target_frames.size(); ++f) {
+        for (const Part& part : parts)
+          channel.values.push_back(std::max(0.0f, part.sign * weights[f * count + part.direction]));
+      }
+      animation.channels.push_back(std::move(channel));
+    }
+    row += clip.target_frames.size();
+    out.animations.push_back(std::move(animation));
+  }
+  const FlatMesh again = flatten(out);
+  double sum = 0;
+  for (size_t c = 0; c < clips.size(); ++c) {
+    for (size_t f = 0; f < clips[c].target_frames.size(); ++f)
+      measure(posed_positions(out, again, out.animations[c], clips[c].clip.times[f]), clips[c].target_frames[f], box,
+              sum, figures);
+  }
+  figures.rms = std::sqrt(sum / static_cast<double>(std::max<size_t>(n, 1)));
+  return out;
+}
+
+std::vector<std::filesystem::path> write_frames(const std::filesystem::path& folder, const std::string& extension,
+                                                const SurfaceMesh& rest, const std::vector<PlayedClip>& clips) {
+  std::filesystem::create_directories(folder);
+  std::vector<std::filesystem::path> out;
+  SurfaceMesh mesh = rest;
+  mesh.normals.clear();
+  for (const PlayedClip& clip : clips) {
+    for (size_t f = 0; f < clip.target_frames.size(); ++f) {
+      mesh.positions = to_points(clip.target_frames[f]);
+      char number[32];
+      std::snprintf(number, sizeof number, "_%04zu", f);
+      out.push_back(folder / (safe_name(clip.clip.name) + number + extension));
+      write_mesh_file(mesh, out.back());
+    }
+  }
+  return out;
+}
+
+}  // namespace samples

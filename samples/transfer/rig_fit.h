@@ -1,0 +1,59 @@
+// Joint rotations of a model's own rig that bring its skin nearest to given vertex positions.
+//
+// Per frame: minimise sum_v a_v |sum_j w_vj G_j B_j p_v - y_v|^2 + k sum_j |turn of j from rest|^2 over the local
+// rotations, by damped Gauss-Newton from the frame before. With x_j = G_j B_j p_v and o_a the origin of joint a, a
+// small world turn w of a moves v by w x (sum_{j below a} w_vj (x_j - o_a)), so a vertex touches only the joints above
+// its influences: O(V d^2 + J^3) an iteration. Joints that the model's own clips move (roots, and feet that a rig
+// places by inverse kinematics) may shift too, others keep their bones' lengths. Positions are in world space, in
+// double.
+#ifndef HF_SAMPLES_TRANSFER_RIG_FIT_H
+#define HF_SAMPLES_TRANSFER_RIG_FIT_H
+
+#include <vector>
+
+#include "common/animate.h"
+
+namespace samples {
+
+class RigFit {
+ public:
+  // Throws std::runtime_error when no mesh of the model has a skin.
+  RigFit(const Model& model, const FlatMesh& mesh);
+
+  // The pose for the frame (x y z of every flat vertex), found from `start`. iterations: of Gauss-Newton.
+  Pose fit(const std::vector<double>& frame, const Pose& start, int iterations) const;
+  // A model like the given one whose only clip is the poses at the times.
+  Animation clip(const std::string& name, const std::vector<double>& times, const std::vector<Pose>& poses) const;
+
+  size_t turning() const { return joints_.size(); }
+  size_t shifting() const { return shifting_; }
+
+ private:
+  struct Joint {
+    int node = -1, parent = -1;           // parent: in joints_, -1 at the top
+    int rotation = -1, translation = -1;  // first unknown
+  };
+  struct Influence {
+    int joint;  // in joints_, the lowest that may move; -1 when none above does
+    double weight;
+    glm::dvec3 rest;  // B p, in the space of `node`
+    int node;
+  };
+  struct Vertex {
+    double area = 0;
+    uint32_t flat = 0;
+    std::vector<Influence> influences;
+  };
+  void find_joints(), find_vertices(const FlatMesh&mesh);
+
+  const Model& model_;
+  std::vector<Joint> joints_;
+  std::vector<int> joint_of_node_;
+  std::vector<Vertex> vertices_;
+  size_t unknowns_ = 0, shifting_ = 0;
+  double diagonal_ = 1;
+};
+
+}  // namespace samples
+
+#endif

@@ -1,0 +1,31 @@
+// PAIRS.json proposed from the landmarks of two models: the places both have. To be looked at and edited.
+#ifndef HF_SAMPLES_TRANSFER_SUGGEST_PAIRS_H
+#define HF_SAMPLES_TRANSFER_SUGGEST_PAIRS_H
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "transfer/landmarks.h"
+
+namespace samples {
+
+struct SuggestedPair {
+  std::string name;
+  double confidence = 0;  // the smaller of the two
+  std::string source_found, target_found;
+};
+
+struct Suggestion {
+  nlohmann::json file;  // what read_pairs reads
+  std::vector<SuggestedPair> pairs;
+  std::vector<std::string> notes;  // places only one of them has, axes, what to check
+};
+
+// Throws std::runtime_error when the two have too little in common, and says what each has.
+Suggestion suggest_pairs(const Model& source, const FlatMesh& source_mesh, const Model& target,
+                         const FlatMesh& target_mesh);
+
+}  // namespace samples
+
+#endif

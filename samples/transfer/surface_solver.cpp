@@ -1,0 +1,33 @@
+// See surface_solver.h.
+#include "transfer/surface_solver.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace samples {
+
+void check(hf_result result, const std::string& what) {
+  if (result == HF_OK) return;
+  hf_error_detail detail;
+  hf_get_error_detail(&detail);
+  throw std::runtime_error(what + ": " + (detail.code == result ? detail.message : hf_result_name(result)) + " (" +
+                           hf_result_name(result) + ")");
+}
+
+SurfaceSolver::SurfaceSolver(const FlatMesh& mesh, const std::string& name, uint32_t threads) {
+  const std::vector<double> positions = double_positions(mesh.positions);
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
+  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  const glm::dvec3 extent = high - low;
+  hf_create_desc desc;
+  HF_INIT(desc);
+  desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
+  desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
+  desc.weld = HF_WELD_TOLERANCE,
+  desc.weld_tolerance = static_cast<float>(1e-5 * std::max({extent.x, extent.y, extent.z, 1e-20}));
+  desc.thread_count = threads;
+  check(hf_create(&desc, &solver_), name);
+}
+
+}  // namespace samples

@@ -1,0 +1,371 @@
+#include "deform/pose_stack.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/timer.h"
+#include "deform/normals.h"
+
+namespace hf {
+namespace {
+
+// A layer starts from the surface below whenever anything moves, and takes at least this many steps.
+constexpr std::uint32_t least_iterations = 16;
+
+Mat3 linear_part(const Affine& affine) noexcept {
+  Mat3 m;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) m.m[i][j] = affine.a[i][j];
+  }
+  return m;
+}
+
+// p -> R (p - c) + c + t as p -> R p + t', and back.
+RigidMotion motion_of(const HandleTransform& transform, Vec3 centroid) noexcept {
+  return {transform.rotation, centroid - rotate(transform.rotation, centroid) + transform.translation};
+}
+
+HandleTransform transform_of(const RigidMotion& motion, Vec3 centroid) noexcept {
+  return {motion.rotation, apply(motion, centroid) - centroid};
+}
+
+}  // namespace
+
+PoseStack::PoseStack(std::shared_ptr<const Core> core, std::shared_ptr<Pose> base)
+    : core_(std::move(core)), base_(std::move(base)), entries_(core_->memory.get()) {}
+
+std::shared_ptr<PoseStack> PoseStack::make(std::shared_ptr<const Core> core, const PoseOptions& options) {
+  std::shared_ptr<Pose> base = Pose::make(core, options);
+  return make_owner_in<PoseStack>(core->memory, core, std::move(base));
+}
+
+std::shared_ptr<PoseStack> PoseStack::clone() const {
+  auto copy = make_owner_in<PoseStack>(core_->memory, core_, base_->clone());
+  copy->entries_.assign(entries_.begin(), entries_.end());
+  for (std::uint32_t k = 1; k < layer_limit; ++k) {
+    if (layers_[k]) copy->layers_[k] = make_layer(layers_[k]->plain->clone());
+  }
+  return copy;
+}
+
+bool PoseStack::has_layers() const noexcept {
+  return std::any_of(layers_.begin(), layers_.end(), [](const auto& layer) { return layer != nullptr; });
+}
+
+std::int32_t PoseStack::require(std::uint32_t number, std::uint32_t position) const {
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (entries_[i].number == number) return static_cast<std::int32_t>(i);
+  }
+  fail(HF_ERROR_NO_SUCH_HANDLE, position, "the pose has no handle %u", number);
+}
+
+Span<const std::int32_t> PoseStack::region_of(const Entry& entry) const {
+  const Pose& pose = entry.layer == 0 ? *base_ : *layers_[entry.layer]->plain;
+  return pose.region(entry.inner[entry.layer]);
+}
+
+void PoseStack::mark_stale(std::uint32_t layer) noexcept {
+  if (layer == 0) base_stale_ = true;
+  for (std::uint32_t k = std::max(layer, 1u); k < layer_limit; ++k) {
+    if (!layers_[k]) continue;
+    layers_[k]->edited_stale = true;
+    if (k > layer) layers_[k]->plain_stale = true;
+  }
+}
+
+// ---- handles ----
+
+std::shared_ptr<Pose> PoseStack::make_plain(Vector<Entry>& entries, std::uint32_t k) const {
+  std::shared_ptr<Pose> plain = base_->without_handles();
+  Vector<std::uint32_t> start(1, 0u, &memory());
+  Vector<std::int32_t> vertices(&memory());
+  for (const Entry& entry : entries_) {
+    if (entry.layer > k) continue;
+    const Span<const std::int32_t> region = region_of(entry);
+    vertices.insert(vertices.end(), region.begin(), region.end());
+    start.push_back(static_cast<std::uint32_t>(vertices.size()));
+  }
+  Vector<std::uint32_t> numbers(start.size() - 1, 0u, &memory());
+  if (numbers.empty()) return plain;
+  plain->add_handles(start, vertices, numbers);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (entries_[i].layer <= k) entries[i].inner[k] = numbers[at++];
+  }
+  return plain;
+}
+
+std::shared_ptr<PoseStack::Layer> PoseStack::make_layer(std::shared_ptr<Pose> plain) const {
+  auto layer = make_shared_in<Layer>(memory(), memory());
+  layer->plain = std::move(plain);
+  layer->edited = layer->plain->clone();
+  layer->plain->prepare_start();
+  layer->surface.allocate(memory(), static_cast<std::size_t>(core_->size()));
+  layer->relative.allocate(memory(), static_cast<std::size_t>(layer->plain->weights()->cluster_count));
+  layer->turns.assign(layer->plain->handle_count(), Vec3());
+  layer->zeros.assign(layer->plain->handle_count(), Vec3());
+  return layer;
+}
+
+void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, std::uint32_t layer,
+                            Span<std::uint32_t> out_numbers) {
+  if (layer >= layer_limit)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "layer is %u; it must be 0 to %u", layer, layer_limit - 1);
+  const std::size_t added = start.size() < 2 ? 0 : start.size() - 1, first = entries_.size();
+  if (added + first > handle_limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%zu handles and %zu more; a pose holds at most %u", first, added,
+         handle_limit);
+  Vector<Entry> entries(&memory());
+  entries.assign(entries_.begin(), entries_.end());
+  std::uint32_t number = 0;
+  for (std::size_t r = 0; r < added; ++r) {
+    const auto taken = [&](const Entry& entry) { return entry.number == number; };
+    while (std::any_of(entries.begin(), entries.end(), taken)) ++number;
+    entries.push_back({});
+    entries.back().number = number, entries.back().layer = layer;
+  }
+  Vector<std::uint32_t> inner(added, 0u, &memory());
+  const auto enter = [&](Pose& pose, std::uint32_t k) {
+    pose.add_handles(start, vertices, inner);
+    for (std::size_t r = 0; r < added; ++r) {
+      entries[first + r].inner[k] = inner[r];
+      entries[first + r].centroid = pose.handle(inner[r]).centroid;
+    }
+  };
+  // the layers at and above get the new handles on copies; their own layer comes into being
+  std::array<std::shared_ptr<Layer>, layer_limit> layers = layers_;
+  for (std::uint32_t k = std::max(layer, 1u); k < layer_limit; ++k) {
+    if (!layers_[k] && k != layer) continue;
+    std::shared_ptr<Pose> plain = layers_[k] ? layers_[k]->plain->clone() : make_plain(entries, k);
+    enter(*plain, k);
+    layers[k] = make_layer(std::move(plain));
+  }
+  if (layer == 0) enter(*base_, 0);  // all or nothing itself; what follows cannot fail
+  entries_ = std::move(entries);
+  layers_ = std::move(layers);
+  mark_stale(layer);
+  for (std::size_t r = 0; r < out_numbers.size(); ++r) out_numbers[r] = entries_[first + r].number;
+}
+
+void PoseStack::remove_handles(Span<const std::uint32_t> numbers) {
+  if (numbers.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no handle to remove");
+  Vector<std::uint8_t> leaving(entries_.size(), 0, &memory());
+  std::uint32_t lowest = layer_limit;
+  for (std::uint32_t k = 0; k < numbers.size(); ++k) {
+    const std::int32_t i = require(numbers[k], k);
+    if (leaving[i]) fail(HF_ERROR_NO_SUCH_HANDLE, k, "handle %u is named twice", numbers[k]);
+    leaving[i] = 1;
+    lowest = std::min(lowest, entries_[i].layer);
+  }
+  Vector<Entry> entries(&memory());
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (!leaving[i]) entries.push_back(entries_[i]);
+  }
+  Vector<std::uint32_t> inner(&memory());
+  const auto collect = [&](std::uint32_t k) {
+    inner.clear();
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      if (leaving[i] && entries_[i].layer <= k) inner.push_back(entries_[i].inner[k]);
+    }
+    return !inner.empty();
+  };
+  std::array<std::shared_ptr<Layer>, layer_limit> layers = layers_;
+  for (std::uint32_t k = 1; k < layer_limit; ++k) {
+    if (!layers_[k] || !collect(k)) continue;
+    layers[k].reset();
+    if (std::none_of(entries.begin(), entries.end(), [&](const Entry& entry) { return entry.layer == k; })) continue;
+    std::shared_ptr<Pose> plain = layers_[k]->plain->clone();
+    plain->remove_handles(inner);
+    layers[k] = make_layer(std::move(plain));
+  }
+  if (collect(0)) base_->remove_handles(inner);  // all or nothing itself; what follows cannot fail
+  entries_ = std::move(entries);
+  layers_ = std::move(layers);
+  mark_stale(lowest);
+}
+
+void PoseStack::set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTransform> transforms) {
+  if (numbers.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no transform to set");
+  for (std::uint32_t k = 0; k < numbers.size(); ++k) {
+    require(numbers[k], k);
+    Pose::check_transform(transforms[k], k, core_->mesh.scale);
+  }
+  for (std::uint32_t k = 0; k < numbers.size(); ++k) {
+    Entry& entry = entries_[require(numbers[k], k)];
+    const Quaternion rotation = normalised(transforms[k].rotation);
+    entry.edit = {rotation, transforms[k].translation};
+    entry.turn = continued_logarithm(rotation, entry.turn);
+    if (entry.layer == 0) {
+      entry.placed = motion_of(entry.edit, entry.centroid);
+      base_->set_transforms({&entry.inner[0], 1}, {&entry.edit, 1});
+    }
+    mark_stale(entry.layer);
+  }
+}
+
+std::uint32_t PoseStack::layer_of(std::uint32_t number) const { return entries_[require(number, HF_NO_INDEX)].layer; }
+
+HandleReport PoseStack::handle(std::uint32_t number) const {
+  const Entry& entry = entries_[require(number, HF_NO_INDEX)];
+  return (entry.layer == 0 ? *base_ : *layers_[entry.layer]->plain).handle(entry.inner[entry.layer]);
+}
+
+HandleReport PoseStack::handle_at(std::uint32_t number, std::uint32_t index) const {
+  require(number, index);
+  return handle(number);
+}
+
+Span<const double> PoseStack::field(std::uint32_t number) const {
+  const Entry& entry = entries_[require(number, HF_NO_INDEX)];
+  return (entry.layer == 0 ? *base_ : *layers_[entry.layer]->plain).field(entry.inner[entry.layer]);
+}
+
+HandleTransform PoseStack::placed(std::uint32_t number) const {
+  const Entry& entry = entries_[require(number, HF_NO_INDEX)];
+  return transform_of(entry.placed, entry.centroid);
+}
+
+// ---- the pose ----
+
+// The rotation of the edges at the region's vertices, and the mean of its vertices.
+RigidMotion PoseStack::fit_region(const Entry& entry, Span<const std::int32_t> region,
+                                  const Vec3* surface) const noexcept {
+  Mat3 sum;
+  Vec3 mean;
+  for (const std::int32_t v : region) {
+    add_ring(*core_, base_->rest(), surface, v, sum);
+    mean = mean + surface[v];
+  }
+  RigidMotion motion;
+  motion.rotation = best_rotation(sum, Quaternion());
+  motion.translation = (1.0 / static_cast<double>(region.size())) * mean - rotate(motion.rotation, entry.centroid);
+  return motion;
+}
+
+bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_changed, const DeformRequest& request) {
+  Layer& layer = *layers_[k];
+  layer.plain_stale = layer.plain_stale || below_changed;
+  layer.edited_stale = layer.edited_stale || layer.plain_stale;
+  layer.report = DeformReport();
+  if (!layer.edited_stale) return false;
+  DeformRequest own = request;
+  own.normals = false, own.restart = false, own.surface = true;
+  if (own.iteration_count == 0) own.iteration_count = base_->options().iteration_count;
+  own.iteration_count = std::max(own.iteration_count, least_iterations);
+
+  const Timer place_timer;
+  for (Entry& entry : entries_) {
+    if (entry.layer > k) continue;
+    const std::uint32_t inner = entry.inner[k];
+    RigidMotion found = entry.placed;
+    Vec3& turn = layer.turns[layer.plain->position_of(inner)];
+    turn = Vec3();
+    if (entry.layer == k) {
+      found = fit_region(entry, layer.plain->region(inner), below.data());
+      const RigidMotion edit = motion_of(entry.edit, entry.centroid);
+      entry.placed = {normalised(found.rotation * edit.rotation),
+                      rotate(found.rotation, edit.translation) + found.translation};
+      const bool at_rest = norm(entry.turn) == 0 && norm(entry.edit.translation) == 0;
+      if (at_rest) entry.placed = found;  // the same bits for U and E
+      turn = rotate(found.rotation, entry.turn);
+    }
+    const HandleTransform unedited = transform_of(found, entry.centroid),
+                          edited = transform_of(entry.placed, entry.centroid);
+    layer.plain->set_transforms({&inner, 1}, {&unedited, 1});
+    layer.edited->set_transforms({&inner, 1}, {&edited, 1});
+  }
+  if (layer.plain_stale) layer.plain->take_start(below);
+  const double place_ms = place_timer.milliseconds();
+  DeformReport unedited;
+  if (layer.plain_stale) unedited = layer.plain->deform_from(*layer.plain, layer.zeros, own);
+  layer.report = layer.edited->deform_from(*layer.plain, layer.turns, own);
+  const Timer combine_timer;
+  combine(layer, below);
+  layer.report.solve_ms += unedited.solve_ms + place_ms;
+  layer.report.blend_ms += unedited.blend_ms + combine_timer.milliseconds();
+  layer.report.refine_ms += unedited.refine_ms;
+  layer.report.iteration_count += unedited.iteration_count;
+  layer.plain_stale = layer.edited_stale = false;
+  return true;
+}
+
+// X = E + q (X_below - U)
+void PoseStack::combine(Layer& layer, Span<const Vec3> below) noexcept {
+  const Span<const Affine> from = layer.plain->cluster_transforms(), to = layer.edited->cluster_transforms();
+  for (std::size_t c = 0; c < from.size(); ++c) {
+    const Quaternion unedited = best_rotation(linear_part(from[c]), Quaternion()),
+                     edited = best_rotation(linear_part(to[c]), unedited);
+    layer.relative[c] = edited * conjugate(unedited);
+  }
+  const ClusterWeights& weights = *layer.plain->weights();
+  const Span<const Vec3> plain = layer.plain->surface(), edited = layer.edited->surface();
+  for_vertex_pieces(*core_->jobs, core_->size(), [&](std::int32_t first, std::int32_t last) {
+    for (std::int32_t v = first; v < last; ++v) {
+      const std::int32_t row = weights.start[v], end = weights.start[v + 1];
+      Quaternion sum{0, 0, 0, row == end ? 1.0 : 0.0};
+      for (std::int32_t k = row; k < end; ++k) {
+        const Quaternion& q = layer.relative[weights.cluster[k]];
+        const double w = dot(q, sum) < 0 ? -weights.weight[k] : weights.weight[k];
+        sum = {sum.x + w * q.x, sum.y + w * q.y, sum.z + w * q.z, sum.w + w * q.w};
+      }
+      layer.surface[v] = edited[v] + rotate(normalised(sum), below[v] - plain[v]);
+    }
+  });
+}
+
+DeformReport PoseStack::deform(const DeformRequest& request) {
+  if (entries_.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
+  if (!has_layers()) {
+    base_stale_ = true;  // layers that come find nothing to go on from
+    return base_->deform(request);
+  }
+  const std::size_t n = static_cast<std::size_t>(core_->size());
+  if (request.normals && normals_.empty()) {
+    Buffer<Vec3> normals(memory(), n);
+    triangle_normals_.reserve_at_least(memory(), static_cast<std::size_t>(core_->mesh.triangle_count()));
+    normals_ = std::move(normals);
+  }
+  if (request.restart) {
+    for (Entry& entry : entries_) entry.turn = logarithm(entry.edit.rotation);
+  }
+  DeformReport report;
+  Span<const Vec3> surface;
+  bool changed = base_stale_ || request.restart || request.refine != refined_;
+  if (base_->handle_count() > 0) {
+    DeformRequest own = request;
+    own.normals = false, own.surface = true;
+    report = base_->deform(own);
+    surface = report.positions;
+    changed = changed || report.iteration_count > 0;
+  } else {
+    if (rest_.empty()) {
+      rest_.allocate(memory(), n);
+      for (std::size_t v = 0; v < n; ++v) rest_[v] = core_->mesh.to_given(core_->mesh.positions[v]);
+    }
+    surface = {rest_.data(), n};
+  }
+  for (std::uint32_t k = 1; k < layer_limit; ++k) {
+    if (!layers_[k]) continue;
+    changed = update(k, surface, changed, request) || changed;
+    const DeformReport& own = layers_[k]->report;
+    report.iteration_count += own.iteration_count;
+    report.solve_ms += own.solve_ms, report.blend_ms += own.blend_ms, report.refine_ms += own.refine_ms;
+    report.last_change = std::max(report.last_change, own.last_change);
+    report.cluster_count = static_cast<std::uint32_t>(layers_[k]->plain->weights()->cluster_count);
+    report.unreached_vertex_count = static_cast<std::uint32_t>(layers_[k]->plain->weights()->unreached_vertex_count);
+    surface = {layers_[k]->surface.data(), n};
+  }
+  base_stale_ = false, refined_ = request.refine;
+  report.positions = surface;
+  report.normals = {};
+  if (request.normals) {
+    const Timer normal_timer;
+    vertex_normals(core_->mesh, base_->rest(), surface.data(), triangle_normals_.data(), normals_.data(), *core_->jobs);
+    report.normals = {normals_.data(), n};
+    report.normal_ms = normal_timer.milliseconds();
+  }
+  return report;
+}
+
+}  // namespace hf

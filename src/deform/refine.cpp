@@ -1,0 +1,148 @@
+#include "deform/refine.h"
+
+#include <algorithm>
+
+namespace hf {
+namespace {
+
+constexpr std::int32_t samples_per_group = 24;
+
+Mat3 linear_part(const Affine& affine) noexcept {
+  Mat3 m;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) m.m[i][j] = affine.a[i][j];
+  }
+  return m;
+}
+
+}  // namespace
+
+void add_ring(const Core& core, const Rest& rest, const Vec3* positions, std::int32_t v, Mat3& sum) noexcept {
+  const Topology& topology = core.topology;
+  for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
+    const std::int32_t u = topology.neighbour[k];
+    add_outer(sum, rest.stiffness[topology.neighbour_edge[k]], positions[v] - positions[u],
+              core.mesh.positions[v] - core.mesh.positions[u]);
+  }
+}
+
+Refinement::Refinement(const Core& core, Memory& memory)
+    : rotation_(memory, static_cast<std::size_t>(core.size())),
+      field_(memory, 3 * static_cast<std::size_t>(core.size())),
+      values_(&memory),
+      elastic_(core.mesh.component_count(), 0, &memory) {}
+
+void Refinement::fit(std::int32_t slot_count) { values_.resize(3 * static_cast<std::size_t>(slot_count)); }
+
+void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) {
+  const Core& core = input.core;
+  for_vertex_pieces(*core.jobs, core.size(), [&](std::int32_t first, std::int32_t last) {
+    for (std::int32_t v = first; v < last; ++v) {
+      const std::int32_t owner = input.reach.owner[v];
+      if (owner >= 0) {
+        rotation_[v] = linear_part(input.transforms[owner]);
+      } else if (elastic_[core.mesh.component[v]]) {
+        Mat3 s;
+        add_ring(core, input.rest, positions, v, s);
+        const Quaternion q = input.groups ? best_rotation_from(s, (*input.group_rotation)[input.groups->group_of[v]])
+                                          : best_rotation(s, Quaternion());
+        rotation_[v] = to_matrix(q);
+      } else {
+        rotation_[v] = Mat3::identity();
+      }
+    }
+  });
+}
+
+// b in factor order, in the mesh's own unit.
+void Refinement::set_right_hand_side(const RefineInput& input, double* z) {
+  const Core& core = input.core;
+  const Topology& topology = core.topology;
+  const Span<const std::int32_t> position = core.factor->position();
+  for_vertex_pieces(*core.jobs, core.size(), [&](std::int32_t first, std::int32_t last) {
+    for (std::int32_t v = first; v < last; ++v) {
+      Vec3 sum;
+      if (elastic_[core.mesh.component[v]]) {
+        for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
+          const std::int32_t u = topology.neighbour[k];
+          const Vec3 edge =
+              0.5 * core.weights[topology.neighbour_edge[k]] * (core.mesh.positions[v] - core.mesh.positions[u]);
+          sum = sum + rotation_[v] * edge + rotation_[u] * edge;
+        }
+      }
+      double* row = z + 3 * static_cast<std::size_t>(position[v]);
+      row[0] = sum.x, row[1] = sum.y, row[2] = sum.z;
+    }
+  });
+}
+
+void Refinement::apply(const RefineInput& input, Vec3* positions) {
+  if (input.weights.elastic_components.empty()) return;
+  const Core& core = input.core;
+  const Mesh& mesh = core.mesh;
+  std::fill(elastic_.begin(), elastic_.end(), std::uint8_t{0});
+  for (const std::int32_t c : input.weights.elastic_components) elastic_[c] = 1;
+  fit_rotations(input, positions);
+  const std::size_t n = static_cast<std::size_t>(core.size());
+  Workspace z(core.workspaces, 3 * n);
+  set_right_hand_side(input, z.data());
+  core.factor->forward(z.data(), 3, *core.jobs);
+  core.factor->backward(z.data(), 3, *core.jobs);
+
+  // what is missing to the handles' places on the rings, carried over the surface by its harmonic field
+  const Span<const std::int32_t> position = core.factor->position();
+  std::fill(values_.begin(), values_.end(), 0.0);
+  for (const Handle& handle : input.handles) {
+    for (std::size_t k = 0; k < handle.region->sites.size(); ++k) {
+      const std::int32_t v = handle.region->sites[k];
+      const Vec3 target = mesh.to_inner(positions[v]);
+      const double* y = z.data() + 3 * static_cast<std::size_t>(position[v]);
+      double* value = values_.data() + 3 * static_cast<std::size_t>(handle.region->slots[k]);
+      value[0] = target.x - y[0], value[1] = target.y - y[1], value[2] = target.z - y[2];
+    }
+  }
+  input.sites.solve(values_.data(), 3, field_.data(), nullptr);
+  for_vertex_pieces(*core.jobs, core.size(), [&](std::int32_t first, std::int32_t last) {
+    for (std::int32_t v = first; v < last; ++v) {
+      if (input.reach.owner[v] >= 0 || !elastic_[mesh.component[v]]) continue;
+      const double* y = z.data() + 3 * static_cast<std::size_t>(position[v]);
+      const double* u = field_.data() + 3 * static_cast<std::size_t>(v);
+      positions[v] = mesh.to_given({y[0] + u[0], y[1] + u[1], y[2] + u[2]});
+    }
+  });
+}
+
+void GroupStart::choose(const Core& core, const Groups& groups, const Vector<std::int32_t>& active) {
+  rotation.assign(groups.count(), Quaternion());
+  group_.assign(active.begin(), active.end());
+  Vector<std::int32_t> size(groups.count(), 0, start_.get_allocator()),
+      slot(groups.count(), -1, start_.get_allocator());
+  for (std::size_t g = 0; g < group_.size(); ++g) slot[group_[g]] = static_cast<std::int32_t>(g);
+  for (std::int32_t v = 0; v < core.size(); ++v) {
+    if (groups.group_of[v] >= 0) ++size[groups.group_of[v]];
+  }
+  start_.assign(group_.size() + 1, 0);
+  for (std::size_t g = 0; g < group_.size(); ++g)
+    start_[g + 1] = start_[g] + std::min(size[group_[g]], samples_per_group);
+  vertex_.assign(start_.back(), 0);
+  // every size/count-th vertex of a group, in the order of numbers
+  Vector<std::int32_t> seen(groups.count(), 0, start_.get_allocator()), taken(group_.size(), 0, start_.get_allocator());
+  for (std::int32_t v = 0; v < core.size(); ++v) {
+    const std::int32_t group = groups.group_of[v];
+    if (group < 0 || slot[group] < 0) continue;
+    const std::size_t g = static_cast<std::size_t>(slot[group]);
+    const std::int64_t count = start_[g + 1] - start_[g];
+    if (std::int64_t{seen[group]++} * count / size[group] >= taken[g] && taken[g] < count)
+      vertex_[start_[g] + taken[g]++] = v;
+  }
+}
+
+void GroupStart::fit(const Core& core, const Rest& rest, Span<const Vec3> surface) noexcept {
+  for (std::size_t g = 0; g < group_.size(); ++g) {
+    Mat3 sum;
+    for (std::int32_t k = start_[g]; k < start_[g + 1]; ++k) add_ring(core, rest, surface.data(), vertex_[k], sum);
+    rotation[group_[g]] = best_rotation(sum, Quaternion());
+  }
+}
+
+}  // namespace hf

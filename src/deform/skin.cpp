@@ -1,0 +1,190 @@
+#include "deform/skin.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hf {
+namespace {
+
+constexpr double fit_vertices = 20000;
+constexpr int fit_rounds = 8;
+
+// The least-squares fit of the joints, in the mesh's own unit.
+class JointFit {
+ public:
+  JointFit(const Pose& pose, std::uint32_t weight_count, Memory& memory)
+      : pose_(pose), start_(&memory), row_(&memory), rest_(&memory), residual_(&memory), area_(&memory) {
+    const Core& core = pose.core();
+    const ClusterWeights& table = *pose.weights();
+    joint_count_ = static_cast<std::size_t>(table.cluster_count);
+    start_.assign(joint_count_ + 1, 0);
+    Vector<std::int32_t> chosen(&memory);
+    for (std::int32_t v = 0; v < core.size(); ++v) {
+      if (table.start[v + 1] - table.start[v] < 2) continue;  // on one joint: nothing to fit
+      if (scattered(static_cast<std::uint32_t>(v)) * core.size() < fit_vertices) chosen.push_back(v);
+    }
+    std::uint32_t joint[8];
+    float weight[8];
+    for (const bool count_only : {true, false}) {
+      Vector<std::int32_t> next(start_, &memory);
+      for (std::size_t i = 0; i < chosen.size(); ++i) {
+        skin_weights(pose, chosen[i], weight_count, joint, weight);
+        for (std::uint32_t k = 0; k < weight_count; ++k) {
+          if (weight[k] <= 0) continue;
+          if (count_only) {
+            ++start_[joint[k] + 1];
+          } else {
+            row_[next[joint[k]]++] = {static_cast<std::int32_t>(i), static_cast<double>(weight[k])};
+          }
+        }
+      }
+      if (!count_only) break;
+      for (std::size_t j = 0; j < joint_count_; ++j) start_[j + 1] += start_[j];
+      row_.resize(start_[joint_count_]);
+    }
+    for (const std::int32_t v : chosen) {
+      rest_.push_back(core.mesh.positions[v]);
+      residual_.push_back(-1.0 * blend_vertex(core.mesh, table, pose.cluster_transforms().data(), v));
+      area_.push_back(std::max(pose.rest().area[v], 1e-12));
+    }
+  }
+
+  // residual = blend - posed, kept up to date.
+  void run(RigidMotion* motion) {
+    for (std::size_t j = 0; j < joint_count_; ++j) move(j, motion[j], 1);
+    const std::size_t handles = static_cast<std::size_t>(pose_.weights()->handle_count);
+    for (int round = 0; round < fit_rounds; ++round) {
+      for (std::size_t j = handles; j < joint_count_; ++j) {
+        move(j, motion[j], -1);
+        motion[j] = fit(j, motion[j]);
+        move(j, motion[j], 1);
+      }
+    }
+  }
+
+ private:
+  struct Item {
+    std::int32_t vertex;  // of those chosen
+    double weight;
+  };
+
+  void move(std::size_t j, const RigidMotion& motion, double sign) noexcept {
+    const Mat3 r = to_matrix(motion.rotation);
+    for (std::int32_t k = start_[j]; k < start_[j + 1]; ++k) {
+      const Item& item = row_[k];
+      residual_[item.vertex] =
+          residual_[item.vertex] + sign * item.weight * (r * rest_[item.vertex] + motion.translation);
+    }
+  }
+
+  // With joint j taken out of the residual: it is to bring -residual / weight.
+  RigidMotion fit(std::size_t j, const RigidMotion& present) const noexcept {
+    double total = 0;
+    Vec3 from, to;
+    for (std::int32_t k = start_[j]; k < start_[j + 1]; ++k) {
+      const Item& item = row_[k];
+      const double w = area_[item.vertex] * item.weight;
+      total += w * item.weight;
+      from = from + w * item.weight * rest_[item.vertex], to = to + -w * residual_[item.vertex];
+    }
+    if (!(total > 0)) return present;
+    from = (1.0 / total) * from, to = (1.0 / total) * to;
+    Mat3 sum;
+    for (std::int32_t k = start_[j]; k < start_[j + 1]; ++k) {
+      const Item& item = row_[k];
+      const double w = area_[item.vertex] * item.weight;
+      add_outer(sum, w, -1.0 * residual_[item.vertex] - item.weight * to, rest_[item.vertex] - from);
+    }
+    RigidMotion motion;
+    motion.rotation = best_rotation(sum, present.rotation);
+    motion.translation = to - rotate(motion.rotation, from);
+    return motion;
+  }
+
+  const Pose& pose_;
+  std::size_t joint_count_ = 0;
+  Vector<std::int32_t> start_;
+  Vector<Item> row_;
+  Vector<Vec3> rest_, residual_;
+  Vector<double> area_;
+};
+
+}  // namespace
+
+Skin make_skin(const Pose& pose, std::uint32_t weight_count, Memory& memory) {
+  const Core& core = pose.core();
+  const Mesh& mesh = core.mesh;
+  const ClusterWeights& weights = *pose.weights();
+  const std::size_t clusters = static_cast<std::size_t>(weights.cluster_count);
+  Skin skin(memory);
+  Vector<Vec3> sum(clusters, Vec3(), &memory);
+  Vector<double> total(clusters, 0.0, &memory);
+  for (std::int32_t v = 0; v < core.size(); ++v) {
+    for (std::int32_t k = weights.start[v]; k < weights.start[v + 1]; ++k) {
+      const double w = weights.weight[k] * std::max(pose.rest().area[v], 1e-12);
+      sum[weights.cluster[k]] = sum[weights.cluster[k]] + w * mesh.positions[v];
+      total[weights.cluster[k]] += w;
+    }
+  }
+  const Span<const Affine> transforms = pose.cluster_transforms();
+  Vector<RigidMotion> motion(clusters, RigidMotion(), &memory);
+  for (std::size_t c = 0; c < clusters; ++c) {
+    const Vec3 pivot = total[c] > 0 ? (1.0 / total[c]) * sum[c] : Vec3();
+    skin.pivot.push_back(pivot);
+    if (!pose.posed()) continue;
+    Mat3 linear;
+    const auto& a = transforms[c].a;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) linear.m[i][j] = a[i][j];
+    }
+    motion[c].rotation = best_rotation(linear, Quaternion());
+    motion[c].translation = linear * pivot + Vec3{a[0][3], a[1][3], a[2][3]} - rotate(motion[c].rotation, pivot);
+  }
+  if (pose.posed()) JointFit(pose, weight_count, memory).run(motion.data());
+  for (std::size_t c = 0; c < clusters; ++c) {
+    skin.place.push_back(mesh.to_given(apply(motion[c], skin.pivot[c])));
+    skin.pivot[c] = mesh.to_given(skin.pivot[c]);
+    skin.rotation.push_back(motion[c].rotation);
+  }
+  skin.rest_joint = weights.unreached_vertex_count > 0 || mesh.report.isolated_vertex_count > 0;
+  if (skin.rest_joint) {
+    skin.pivot.push_back(mesh.centre), skin.place.push_back(mesh.centre);
+    skin.rotation.push_back(Quaternion());
+  }
+  return skin;
+}
+
+void skin_weights(const Pose& pose, std::int32_t vertex, std::uint32_t count, std::uint32_t* joints, float* weights) {
+  const ClusterWeights& table = *pose.weights();
+  std::fill_n(joints, count, 0u), std::fill_n(weights, count, 0.0f);
+  const std::int32_t first = vertex < 0 ? 0 : table.start[vertex], last = vertex < 0 ? 0 : table.start[vertex + 1];
+  if (first == last) {
+    joints[0] = static_cast<std::uint32_t>(table.cluster_count), weights[0] = 1;
+    return;
+  }
+  // the largest, by insertion: rows are short
+  double kept[8] = {0};
+  std::uint32_t used = 0;
+  for (std::int32_t k = first; k < last; ++k) {
+    std::uint32_t at = used < count ? used++ : count;
+    if (at == count) {
+      if (table.weight[k] <= kept[count - 1]) continue;
+      at = count - 1;
+    }
+    for (; at > 0 && kept[at - 1] < table.weight[k]; --at) kept[at] = kept[at - 1], joints[at] = joints[at - 1];
+    kept[at] = table.weight[k], joints[at] = static_cast<std::uint32_t>(table.cluster[k]);
+  }
+  double sum = 0;
+  for (std::uint32_t i = 0; i < used; ++i) sum += kept[i];
+  constexpr double steps = 16777216;  // 2^24
+  double left = steps;
+  for (std::uint32_t i = used; i-- > 1;) {
+    const double whole = std::floor(steps * kept[i] / sum + 0.5);
+    weights[i] = static_cast<float>(whole / steps);
+    left -= whole;
+    if (whole == 0) joints[i] = 0;
+  }
+  weights[0] = static_cast<float>(left / steps);
+}
+
+}  // namespace hf

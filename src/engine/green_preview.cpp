@@ -1,0 +1,103 @@
+// The field by the single-precision copy of the factor: the dense part and the paths in double, the backward sweep in
+// single precision, the error about 1e-6 of the range of the site values. A correction (green_refine.cpp) forms the
+// residual in double and takes it through both single-precision sweeps:
+//
+//     K du - W dlambda = r,  W'du + D dlambda = g,     r, g of the present field and flux
+//
+// Each shrinks the error by the relative error of the two sweeps on a rough right-hand side (3e-4 at worst on 304K
+// vertices), so the size of the last one tells the error: what is left is about that times the factor. Sites inside the
+// factor (after a rebase) are answered by the exact field. Cost: a sweep over half the bytes; a correction is a product
+// with K and two such sweeps.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/green_right.h"
+
+namespace hf {
+namespace {
+
+using Index = std::int32_t;
+std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+constexpr double sweep_error = 1e-5;   // of a single-precision sweep, at most seen on hard site sets
+constexpr double first_shrink = 2e-3;  // of the error by the first correction, at most seen; later ones are measured
+constexpr double least_error = 1e-13;
+
+}  // namespace
+
+// Mean and range of the site values of every component, for channels [first, first + count).
+double GreenSolver::centre_and_range(const double* values, Index channels, Index first, Index count,
+                                     Vector<double>& centre) const {
+  const std::size_t m = at(count), components = state_.sites_of.size();
+  Vector<double> low(components * m, HUGE_VAL, &memory()), high(components * m, -HUGE_VAL, &memory());
+  centre.assign(components * m, 0.0);
+  for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
+    if (!state_.entries[slot].used()) continue;
+    const std::size_t c = at(state_.entries[slot].site.component);
+    for (std::size_t q = 0; q < m; ++q) {
+      const double value = values[slot * at(channels) + at(first) + q];
+      centre[c * m + q] += value / static_cast<double>(state_.sites_of[c]);
+      low[c * m + q] = std::min(low[c * m + q], value), high[c * m + q] = std::max(high[c * m + q], value);
+    }
+  }
+  double range = 0;
+  for (std::size_t i = 0; i < low.size(); ++i) range = std::max(range, high[i] - low[i]);
+  return range;
+}
+
+void GreenSolver::solve_preview(const double* values, Index channels, Index corrections, double* field,
+                                PreviewInfo& info) const {
+  info = PreviewInfo{};
+  if (state_.base) {
+    solve(values, channels, field, nullptr);
+    info.exact = true;
+    return;
+  }
+  const std::shared_ptr<const PreviewFactor> single = core_->preview.get(*core_->factor, memory(), *core_->jobs);
+  info.bytes = single->bytes();
+  info.corrections = corrections;
+  const std::size_t n = at(core_->size()), stride = at(channels), widest = at(std::min(channels, channel_block));
+  Workspace z(core_->workspaces, n * widest);
+  Workspace scratch(core_->workspaces, (n * widest + 1) / 2);
+  Right right(memory());
+  for (Index first = 0; first < channels; first += channel_block) {
+    const Index count = std::min(channel_block, channels - first);
+    const std::size_t m = at(count);
+    const double range = centre_and_range(values, channels, first, count, right.centre);
+    std::fill_n(z.data(), n * m, 0.0);
+    solve_dense(values, channels, first, count, nullptr, right);
+    combine(right, count, z.data());
+    SingleSweeps sweeps{*single, reinterpret_cast<float*>(scratch.data()), 0.0};
+    single->backward(z.data(), count, sweeps.scratch, *core_->jobs);
+    ++sweeps_;
+
+    const Span<const Index> position = core_->factor->position();
+    constexpr std::size_t piece = 16384;
+    core_->jobs->for_each(static_cast<std::uint32_t>((n + piece - 1) / piece), [&](std::uint32_t p) {
+      const std::size_t end = std::min(n, (p + std::size_t{1}) * piece);
+      for (std::size_t v = p * piece; v < end; ++v) {
+        const std::size_t c = at(core_->mesh.component[v]);
+        const bool reached = state_.sites_of[c] > 0;
+        for (std::size_t q = 0; q < m; ++q)
+          field[v * stride + at(first) + q] = reached ? z[at(position[v]) * m + q] + right.constant[c * m + q] : 0.0;
+      }
+    });
+    for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
+      const Entry& entry = state_.entries[slot];
+      if (!entry.used() || !entry.site.is_vertex() || entry.site.compliance != 0) continue;
+      std::copy_n(values + slot * stride + at(first), m, field + at(entry.site.vertex[0]) * stride + at(first));
+    }
+
+    double error = sweep_error * range, last = 0;
+    for (Index step = 0; step < corrections; ++step) {
+      refine(values, channels, first, count, z.data(), right, field, &sweeps);
+      const double shrinks = last > 0 ? std::min(1.0, sweeps.largest / last) : first_shrink;
+      error = sweeps.largest * shrinks, last = sweeps.largest;
+    }
+    if (corrections > 0) info.largest_correction = std::max(info.largest_correction, sweeps.largest);
+    info.value_range = std::max(info.value_range, range);
+    info.error_estimate = std::max(info.error_estimate, std::max(error, least_error * range));
+  }
+}
+
+}  // namespace hf

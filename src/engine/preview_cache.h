@@ -1,0 +1,25 @@
+// The single-precision copy of a core's factor: made at the first preview, shared by all that share the core, dropped
+// on demand. Any number of threads may ask for it at once.
+#pragma once
+#include <memory>
+#include <mutex>
+
+#include "factor/preview.h"
+
+namespace hf {
+
+class PreviewCache {
+ public:
+  // The copy, made when there is none. Two threads that come first at the same time both make one, and share the one
+  // that was ready first: nothing waits on a lock while the threads of the host work.
+  std::shared_ptr<const PreviewFactor> get(const Factor& factor, Memory& memory, JobRunner& jobs);
+  // Calls that use it keep it until they are done.
+  void release() noexcept;
+  double bytes() const noexcept;  // 0: there is none
+
+ private:
+  mutable std::mutex mutex_;
+  std::shared_ptr<const PreviewFactor> made_;
+};
+
+}  // namespace hf

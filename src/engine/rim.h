@@ -1,0 +1,20 @@
+// The rim of a region: the vertices that hold its inside apart from the rest once they are sites. On the mesh's own edges
+// these are the vertices with a neighbour outside; an intrinsic operator has edges of its own, a bi-harmonic one reaches
+// two rings far, so what K couples counts as well.
+#pragma once
+#include "engine/core.h"
+
+namespace hf {
+
+// Whether K couples v with a vertex that is not inside.
+template <class Inside>
+bool couples_outward(const Core& core, std::int32_t v, Inside&& inside) {
+  const SymmetricMatrix& k = core.laplacian;
+  for (std::int32_t i = k.column_start[static_cast<std::size_t>(v)];
+       i < k.column_start[static_cast<std::size_t>(v) + 1]; ++i) {
+    if (k.value[static_cast<std::size_t>(i)] != 0 && !inside(k.row[static_cast<std::size_t>(i)])) return true;
+  }
+  return false;
+}
+
+}  // namespace hf

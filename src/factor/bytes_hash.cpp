@@ -1,0 +1,25 @@
+#include "factor/bytes_hash.h"
+
+namespace hf {
+
+std::uint64_t hash_piece(const std::uint8_t* bytes, std::uint64_t length) noexcept {
+  constexpr int chains = 8;
+  std::uint64_t chain[chains] = {1, 2, 3, 4, 5, 6, 7, 8};
+  std::uint64_t k = 0;
+  for (; k + 8 * chains <= length; k += 8 * chains) {
+    __builtin_prefetch(bytes + k + 4096);  // the chains alone keep too few lines on their way
+    std::uint64_t word[chains];
+    std::memcpy(word, bytes + k, sizeof word);
+    for (int c = 0; c < chains; ++c) chain[c] = hash_step(chain[c], word[c]);
+  }
+  for (int c = 0; k < length; k += 8, ++c) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes + k, static_cast<std::size_t>(std::min<std::uint64_t>(8, length - k)));
+    chain[c] = hash_step(chain[c], word);
+  }
+  std::uint64_t state = length;
+  for (const std::uint64_t c : chain) state = hash_step(state, c);
+  return state;
+}
+
+}  // namespace hf

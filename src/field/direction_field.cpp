@@ -1,0 +1,235 @@
+#include "field/direction_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace hf {
+namespace {
+
+using Index = std::int32_t;
+using Complex = std::complex<double>;
+std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+constexpr double two_pi = 6.283185307179586476925286766559;
+
+// |z| e^{i n phi}
+Complex raised(Complex z, Index degree) noexcept {
+  if (degree == 1) return z;
+  const double length = std::abs(z);
+  if (!(length > 0)) return 0;
+  const Complex unit = z / length;
+  Complex power = 1;
+  for (Index k = 0; k < degree; ++k) power *= unit;
+  return length * power;
+}
+
+Complex root(Complex z, Index degree) noexcept {
+  return degree == 1 ? z : std::polar(std::abs(z), std::arg(z) / degree);
+}
+
+double wrapped(double angle) noexcept { return angle - two_pi * std::nearbyint(angle / two_pi); }
+
+}  // namespace
+
+DirectionField::DirectionField(std::shared_ptr<const Core> core, std::int32_t degree, std::uint32_t site_limit)
+    : solver_(std::move(core), degree), site_limit_(site_limit), constraints_(solver_.core().memory.get()) {}
+
+void DirectionField::check_site(const Vector<DirectionConstraint>& list, std::uint32_t position,
+                                std::uint32_t site) const {
+  if (site >= list.size() || list[site].vertex < 0)
+    fail(HF_ERROR_NO_SUCH_SITE, position,
+         "entry %u of the list: there is no constraint %u (removed already, or never added)", position, site);
+}
+
+std::int32_t DirectionField::locate(std::uint32_t position, std::uint32_t vertex) const {
+  const Mesh& mesh = solver_.core().mesh;
+  if (vertex >= mesh.report.vertex_count)
+    fail(HF_ERROR_OUT_OF_RANGE, position, "entry %u of the list: vertex %u, but there are %u vertices", position,
+         vertex, mesh.report.vertex_count);
+  const Index inner = mesh.inner_of_given[vertex];
+  if (inner == Mesh::none)
+    fail(HF_ERROR_INVALID_ARGUMENT, position,
+         "entry %u of the list: vertex %u belongs to no usable triangle; choose a vertex of the surface", position,
+         vertex);
+  return inner;
+}
+
+Complex DirectionField::projected(std::uint32_t position, Index vertex, const double* vector) const {
+  Vec3 v{vector[0], vector[1], vector[2]};
+  if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+    fail(HF_ERROR_NON_FINITE, position, "entry %u of the list: the vector has a coordinate that is not a finite number",
+         position);
+  const double most = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+  if (!(most > 0)) return 0;
+  if (!(most < 1e150))
+    fail(HF_ERROR_TOO_LARGE, position, "entry %u of the list: the vector has coordinate %g; scale it below 1e150",
+         position, most);
+  const Complex z = solver_.connection().to_frame(vertex, (1 / most) * v);
+  if (!(std::abs(z) > 1e-9))
+    fail(HF_ERROR_INVALID_ARGUMENT, position,
+         "entry %u of the list: the vector stands on the surface and has no part along it; give a direction in the "
+         "tangent plane",
+         position);
+  return most * z;
+}
+
+void DirectionField::check_free(const Vector<DirectionConstraint>& list, std::uint32_t position,
+                                std::uint32_t own) const {
+  for (std::size_t s = 0; s < list.size(); ++s) {
+    if (s == own || list[s].vertex != list[own].vertex) continue;
+    fail(HF_ERROR_DUPLICATE_SITE, position,
+         "entry %u of the list: vertex %u carries constraint %zu already; set its vector or move it", position,
+         list[own].given_vertex, s);
+  }
+}
+
+void DirectionField::add(std::uint32_t count, const std::uint32_t* vertices, const double* vectors,
+                         std::uint32_t* out_sites) {
+  if (count > site_limit_ || count_ > site_limit_ - count)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u constraints and %u more; the site_limit is %u", count_, count,
+         site_limit_);
+  Vector<DirectionConstraint> next(constraints_, &memory());
+  Vector<Index> slots(&memory()), inner(&memory());
+  Vector<std::uint8_t> taken(at(solver_.core().size()), 0, &memory());
+  for (const DirectionConstraint& c : next) {
+    if (c.vertex >= 0) taken[at(c.vertex)] = 1;
+  }
+  std::size_t free = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    while (free < next.size() && next[free].vertex >= 0) ++free;
+    if (free == next.size()) next.emplace_back();
+    const Index v = locate(i, vertices[i]);
+    next[free] = {v, vertices[i], projected(i, v, vectors + std::size_t{3} * i)};
+    if (taken[at(v)]) check_free(next, i, static_cast<std::uint32_t>(free));
+    taken[at(v)] = 1, slots.push_back(static_cast<Index>(free)), inner.push_back(v);
+  }
+  DirectionSolver::Edit edit;
+  edit.add = slots, edit.vertices = inner;
+  solver_.edit(edit);
+  constraints_.swap(next);
+  count_ += count;
+  for (std::uint32_t i = 0; out_sites && i < count; ++i) out_sites[i] = static_cast<std::uint32_t>(slots[i]);
+}
+
+void DirectionField::remove(std::uint32_t count, const std::uint32_t* sites) {
+  Vector<DirectionConstraint> next(constraints_, &memory());
+  Vector<Index> slots(&memory());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    check_site(next, i, sites[i]);
+    next[sites[i]] = DirectionConstraint{}, slots.push_back(static_cast<Index>(sites[i]));
+  }
+  DirectionSolver::Edit edit;
+  edit.remove = slots;
+  solver_.edit(edit);
+  constraints_.swap(next);
+  count_ -= count;
+}
+
+void DirectionField::move(std::uint32_t count, const std::uint32_t* sites, const std::uint32_t* vertices) {
+  const Core& core = solver_.core();
+  Vector<DirectionConstraint> next(constraints_, &memory());
+  Vector<Index> slots(&memory()), inner(&memory());
+  Vector<std::uint8_t> named(next.size(), 0, &memory());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    check_site(next, i, sites[i]);
+    if (named[sites[i]]++)
+      fail(HF_ERROR_NO_SUCH_SITE, i, "entry %u of the list: constraint %u is named twice", i, sites[i]);
+    DirectionConstraint& site = next[sites[i]];
+    const Index to = locate(i, vertices[i]);
+    if (core.mesh.component[at(to)] != core.mesh.component[at(site.vertex)])
+      fail(HF_ERROR_INVALID_ARGUMENT, i,
+           "entry %u of the list: vertex %u lies in another component than constraint %u; remove it there and add it "
+           "here",
+           i, vertices[i], sites[i]);
+    double turn = 0;
+    Index here = site.vertex;
+    for (const Index e : edge_path(core.mesh, core.topology, site.vertex, to, memory())) {
+      here = core.topology.first(e) == here ? core.topology.second(e) : core.topology.first(e);
+      turn += solver_.connection().turn(core.topology, e, here);
+    }
+    site = {to, vertices[i], site.vector * std::polar(1.0, turn)};
+    slots.push_back(static_cast<Index>(sites[i])), inner.push_back(to);
+  }
+  for (std::uint32_t i = 0; i < count; ++i) check_free(next, i, sites[i]);
+  DirectionSolver::Edit edit;
+  edit.remove = slots, edit.add = slots, edit.vertices = inner;
+  solver_.edit(edit);
+  constraints_.swap(next);
+}
+
+void DirectionField::set_vectors(std::uint32_t count, const std::uint32_t* sites, const double* vectors) {
+  Vector<DirectionConstraint> next(constraints_, &memory());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    check_site(next, i, sites[i]);
+    next[sites[i]].vector = projected(i, next[sites[i]].vertex, vectors + std::size_t{3} * i);
+  }
+  constraints_.swap(next);
+}
+
+void DirectionField::rotate(std::uint32_t count, const std::uint32_t* sites, const double* angles) {
+  Vector<DirectionConstraint> next(constraints_, &memory());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    check_site(next, i, sites[i]);
+    if (!std::isfinite(angles[i]))
+      fail(HF_ERROR_NON_FINITE, i, "entry %u of the list: the angle is not a finite number", i);
+    next[sites[i]].vector *= std::polar(1.0, wrapped(angles[i]));
+  }
+  constraints_.swap(next);
+}
+
+Vector<Complex> DirectionField::solved() const {
+  if (count_ == 0)
+    fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the field has no constraints; add at least one before solving");
+  Vector<Complex> values(constraints_.size(), &memory()), field(at(solver_.core().size()), &memory());
+  for (std::size_t s = 0; s < values.size(); ++s) values[s] = raised(constraints_[s].vector, solver_.degree());
+  solver_.solve(values, field.data());
+  return field;
+}
+
+void DirectionField::solve(Vec3* out) const {
+  const Vector<Complex> field = solved();
+  for (std::size_t v = 0; v < field.size(); ++v)
+    out[v] = solver_.connection().to_space(static_cast<Index>(v), root(field[v], solver_.degree()));
+  // constraints hold to the bit, whatever root the field takes
+  for (const DirectionConstraint& c : constraints_) {
+    if (c.vertex >= 0) out[c.vertex] = solver_.connection().to_space(c.vertex, c.vector);
+  }
+}
+
+Vector<Singularity> DirectionField::singularities() const {
+  const Vector<Complex> field = solved();
+  const Core& core = solver_.core();
+  const Connection& connection = solver_.connection();
+  const Index n = solver_.degree();
+  // the turn of the field along an edge, beyond the connection's; the same number, negated, from its other side
+  Vector<double> turn(at(core.topology.edge_count()), 0.0, &memory());
+  for (Index e = 0; e < core.topology.edge_count(); ++e) {
+    const Complex from = field[at(core.topology.first(e))], to = field[at(core.topology.second(e))];
+    if (from == 0.0 || to == 0.0) continue;
+    turn[at(e)] = wrapped(std::arg(to) - std::arg(from) - n * connection.rotation[at(e)]);
+  }
+  Vector<Singularity> found(&memory());
+  for (Index t = 0; t < core.mesh.triangle_count(); ++t) {
+    const Index* v = core.mesh.triangle(t);
+    if (solver_.constraint_count(core.mesh.component[at(v[0])]) == 0) continue;
+    double sum = n * connection.curvature[at(t)];
+    for (int k = 0; k < 3; ++k) {
+      const Index from = v[k], to = v[(k + 1) % 3];
+      const auto begin = core.topology.neighbour.begin() + core.topology.neighbour_start[at(from)],
+                 end = core.topology.neighbour.begin() + core.topology.neighbour_start[at(from) + 1];
+      const Index e = core.topology.neighbour_edge[static_cast<std::size_t>(std::lower_bound(begin, end, to) -
+                                                                            core.topology.neighbour.begin())];
+      sum += to == core.topology.second(e) ? turn[at(e)] : -turn[at(e)];
+    }
+    const Index index = static_cast<Index>(std::lround(sum / two_pi));
+    if (index == 0) continue;
+    Index corner = v[0];
+    for (const Index w : {v[1], v[2]}) corner = std::abs(field[at(w)]) < std::abs(field[at(corner)]) ? w : corner;
+    found.push_back({t, corner, index});
+  }
+  return found;
+}
+
+}  // namespace hf

@@ -1,0 +1,64 @@
+// A smooth tangent direction field whose constraint vectors are added, removed, moved, turned and rewritten: what
+// hf_direction is made of. Constraints are vectors at vertices, projected on their tangent planes; the field between
+// them is that of DirectionSolver.
+//
+// A vector v = |v| e^{i phi} in its frame stands in the solver as |v| e^{i n phi}, n the degree; the field answers with
+// the root whose angle is nearest to that of the x axis. Moving a constraint carries its vector along the shortest way
+// of edges. Every edit works on a copy of the constraints and swaps it in after the solver has taken the change.
+//
+// Singularities: a triangle ijk has index I = (1 / 2 pi)(sum of omega + n Omega), omega_ij = arg(z_j / r_ij z_i) the
+// turn of the field along an edge beyond that of the connection, Omega the curvature of the triangle (Crane, Desbrun
+// and Schroeder 2010, Section 5). I / n sums to the Euler characteristic over a closed component.
+#pragma once
+#include <memory>
+
+#include "field/direction_solver.h"
+
+namespace hf {
+
+struct DirectionConstraint {
+  std::int32_t vertex = -1;                  // inner; -1: the slot is free
+  std::uint32_t given_vertex = HF_NO_INDEX;  // as named by the caller
+  std::complex<double> vector;               // in the frame of the vertex
+};
+
+struct Singularity {
+  std::int32_t triangle;  // of the inner mesh
+  std::int32_t vertex;    // its corner of the shortest vector
+  std::int32_t index;     // times the degree
+};
+
+class DirectionField {
+ public:
+  DirectionField(std::shared_ptr<const Core> core, std::int32_t degree, std::uint32_t site_limit);
+
+  // Each all or nothing; throws with the position in the list as index.
+  void add(std::uint32_t count, const std::uint32_t* vertices, const double* vectors, std::uint32_t* out_sites);
+  void remove(std::uint32_t count, const std::uint32_t* sites);
+  void move(std::uint32_t count, const std::uint32_t* sites, const std::uint32_t* vertices);
+  void set_vectors(std::uint32_t count, const std::uint32_t* sites, const double* vectors);
+  void rotate(std::uint32_t count, const std::uint32_t* sites, const double* angles);
+
+  std::uint32_t count() const noexcept { return count_; }
+  Span<const DirectionConstraint> constraints() const noexcept { return constraints_; }
+  const DirectionSolver& solver() const noexcept { return solver_; }
+
+  // The field of every inner vertex as a vector in space. Throws HF_ERROR_NO_SITES.
+  void solve(Vec3* out) const;
+  Vector<Singularity> singularities() const;  // by triangle
+
+ private:
+  void check_site(const Vector<DirectionConstraint>& list, std::uint32_t position, std::uint32_t site) const;
+  std::int32_t locate(std::uint32_t position, std::uint32_t vertex) const;
+  std::complex<double> projected(std::uint32_t position, std::int32_t vertex, const double* vector) const;
+  void check_free(const Vector<DirectionConstraint>& list, std::uint32_t position, std::uint32_t own) const;
+  Vector<std::complex<double>> solved() const;
+  Memory& memory() const noexcept { return *solver_.core().memory; }
+
+  DirectionSolver solver_;
+  std::uint32_t site_limit_;
+  Vector<DirectionConstraint> constraints_;  // by slot
+  std::uint32_t count_ = 0;
+};
+
+}  // namespace hf

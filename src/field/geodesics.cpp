@@ -1,0 +1,200 @@
+#include "field/geodesics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "field/spread.h"
+
+namespace hf {
+namespace {
+
+using Index = std::int32_t;
+std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+constexpr Index group_size = 8;
+constexpr std::size_t piece = 8192;  // triangles of one job
+
+template <class Job>
+void for_triangles(const Core& core, Job&& job) {
+  const std::size_t count = at(core.mesh.triangle_count());
+  core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
+    const std::size_t end = std::min(count, (p + std::size_t{1}) * piece);
+    for (std::size_t t = p * piece; t < end; ++t) job(static_cast<Index>(t));
+  });
+}
+
+double mean_edge(const Core& core) noexcept {
+  double sum = 0;
+  for (Index e = 0; e < core.topology.edge_count(); ++e)
+    sum += norm(core.mesh.positions[at(core.topology.first(e))] - core.mesh.positions[at(core.topology.second(e))]);
+  return sum / std::max(1, core.topology.edge_count());
+}
+
+}  // namespace
+
+void require_laplacian(const Core& core) {
+  if (!core.factor || core.refinements != 0) {
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+         "distances and extremities need the factor of a Laplacian; make a harmonic solver of this mesh for them");
+  }
+}
+
+Geodesics::Geodesics(std::shared_ptr<const Core> core, double smoothing)
+    : core_(std::move(core)), areas_(vertex_areas(core_->mesh, *core_->memory), core_->memory.get()) {
+  const Core& c = *core_;
+  require_laplacian(c);
+  const double h = mean_edge(c), least = 1.0 / 250;
+  step_ = std::max(smoothing * h * h, least * least);
+  SymmetricMatrix matrix = grounded(c);
+  // a vertex without area still needs a positive diagonal
+  const double floor = 1e-12 / std::max(1, c.size());
+  for (std::size_t v = 0; v < at(c.size()); ++v) {
+    for (Index i = c.laplacian.column_start[v]; i < c.laplacian.column_start[v + 1]; ++i) {
+      matrix.value[at(i)] = step_ * c.laplacian.value[at(i)];
+      if (at(c.laplacian.row[at(i)]) == v) matrix.value[at(i)] += std::max(areas_[v], floor);
+    }
+  }
+  heat_ = c.factor->refactor(matrix, {}, *c.memory, *c.jobs);
+}
+
+Vector<Geodesics::Frame> Geodesics::frames() const {
+  const Mesh& mesh = core_->mesh;
+  Vector<Frame> frames(at(mesh.triangle_count()), core_->memory.get());
+  for_triangles(*core_, [&](Index t) {
+    const Index* v = mesh.triangle(t);
+    const Vec3 a = mesh.positions[at(v[0])], e1 = mesh.positions[at(v[1])] - a, e2 = mesh.positions[at(v[2])] - a;
+    const Vec3 n = cross(e1, e2);
+    const double along = std::sqrt(dot(e1, e1)), area2 = std::sqrt(dot(n, n));
+    if (area2 > 1e-9 * along * along) {
+      frames[at(t)] = {along, dot(e1, e2) / along, area2 / along};
+    } else {
+      frames[at(t)] = {0, 0, 0};
+    }
+  });
+  return frames;
+}
+
+// sums[2 t], [2 t + 1] += sum over the channels of weight times X, in the frame of triangle t.
+// heat[row * channels + c], rows in factor order; weights[component * channels + c].
+void Geodesics::add_directions(const Vector<Frame>& frames, const double* heat, Index channels, const double* weights,
+                               Vector<double>& sums) const {
+  const Mesh& mesh = core_->mesh;
+  const Span<const Index> position = heat_->position();
+  for_triangles(*core_, [&](Index t) {
+    const Frame frame = frames[at(t)];
+    if (!(frame.py > 0)) return;
+    const Index* v = mesh.triangle(t);
+    const double* u[3];
+    for (int k = 0; k < 3; ++k) u[k] = heat + at(position[at(v[k])]) * at(channels);
+    const double* weight = weights + at(mesh.component[at(v[0])]) * at(channels);
+    double x = 0, y = 0;
+    // no branches, so that the compiler takes several channels at once
+    for (std::size_t c = 0; c < at(channels); ++c) {
+      // scaled first: far from the source the heat is 1e-200 and its square nothing
+      const double d1 = u[1][c] - u[0][c], d2 = u[2][c] - u[0][c];
+      const double a1 = std::fabs(d1), a2 = std::fabs(d2), larger = a1 > a2 ? a1 : a2;
+      const double scale = 1 / (larger > 1e-300 ? larger : 1e-300);
+      // grad v times twice the area: d1 n x (p0 - p2) + d2 n x (p1 - p0), and n x (x, y) = (-y, x)
+      const double gx = scale * d1 * frame.py;
+      const double gy = scale * d2 * frame.along - scale * d1 * frame.px;
+      const double squared = gx * gx + gy * gy;
+      const double factor = -weight[c] / std::sqrt(squared > 1e-100 ? squared : 1e-100);
+      x += factor * gx, y += factor * gy;
+    }
+    sums[2 * at(t)] += x, sums[2 * at(t) + 1] += y;
+  });
+}
+
+// Solves K d = b, b_i = sum over the triangles of area grad(hat_i) . X = n x e_i . X / 2.
+void Geodesics::integrate(const Vector<Frame>& frames, const Vector<double>& sums, double* out) const {
+  const Mesh& mesh = core_->mesh;
+  const Factor& factor = *core_->factor;
+  const Span<const Index> position = factor.position();
+  Workspace z(core_->workspaces, at(core_->size()));
+  std::fill_n(z.data(), at(core_->size()), 0.0);
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const Frame& f = frames[at(t)];
+    if (!(f.py > 0)) continue;
+    const Index* v = mesh.triangle(t);
+    const double x = 0.5 * sums[2 * at(t)], y = 0.5 * sums[2 * at(t) + 1];
+    // n x (edge opposite to the corner)
+    z[at(position[at(v[0])])] += -f.py * x + (f.px - f.along) * y;
+    z[at(position[at(v[1])])] += f.py * x - f.px * y;
+    z[at(position[at(v[2])])] += f.along * y;
+  }
+  factor.forward(z.data(), 1, *core_->jobs);
+  factor.backward(z.data(), 1, *core_->jobs);
+  for (Index v = 0; v < core_->size(); ++v) out[v] = z[at(position[at(v)])];
+}
+
+void Geodesics::distance(Span<const Index> sources, double* out) const {
+  const Core& core = *core_;
+  const std::size_t n = at(core.size()), components = at(core.mesh.component_count());
+  const Span<const Index> position = heat_->position();
+  const Vector<Frame> frames = this->frames();
+  Vector<double> sums(2 * at(core.mesh.triangle_count()), 0.0, core.memory.get());
+  const Vector<double> ones(components, 1.0, core.memory.get());
+  {
+    Workspace heat(core.workspaces, n);
+    std::fill_n(heat.data(), n, 0.0);
+    for (const Index s : sources) heat[at(position[at(s)])] = 1;
+    heat_->forward(heat.data(), 1, *core.jobs);
+    heat_->backward(heat.data(), 1, *core.jobs);
+    add_directions(frames, heat.data(), 1, ones.data(), sums);
+  }
+  integrate(frames, sums, out);
+  // zero at the sources, in the mean over them
+  Vector<double> offset(components, 0.0, core.memory.get()), count(components, 0.0, core.memory.get());
+  for (const Index s : sources) {
+    offset[at(core.mesh.component[at(s)])] += out[s], count[at(core.mesh.component[at(s)])] += 1;
+  }
+  for (std::size_t v = 0; v < n; ++v) {
+    const std::size_t c = at(core.mesh.component[v]);
+    out[v] = count[c] > 0 ? std::max(0.0, out[v] - offset[c] / count[c]) : -1.0;
+  }
+  for (const Index s : sources) out[s] = 0;
+}
+
+void Geodesics::average(Index count, double* out, Progress* progress, float from, float to) const {
+  const Core& core = *core_;
+  Memory& memory = *core.memory;
+  const std::size_t n = at(core.size()), components = at(core.mesh.component_count());
+  const SpreadSamples samples = spread_samples(core.mesh, core.topology, areas_, count, memory);
+  report(progress, from + 0.2f * (to - from));
+  const Vector<Frame> frames = this->frames();
+  Vector<double> sums(2 * at(core.mesh.triangle_count()), 0.0, &memory);
+  Workspace heat(core.workspaces, n * at(group_size));
+  for (Index first = 0; first < count; first += group_size) {
+    const Index channels = std::min(group_size, count - first);
+    // a channel is heated at one source in every component
+    Vector<Index> start(1, 0, &memory), row(&memory), group_of(at(channels), &memory), column_of(at(channels), &memory);
+    Vector<double> value(&memory), weights(components * at(channels), 0.0, &memory);
+    for (Index k = 0; k < channels; ++k) {
+      for (std::size_t c = 0; c < components; ++c) {
+        const std::size_t i = c * at(count) + at(first + k);
+        if (samples.vertex[i] == Mesh::none) continue;
+        row.push_back(samples.vertex[i]), value.push_back(1);
+        weights[c * at(channels) + at(k)] = samples.share[i];
+      }
+      start.push_back(static_cast<Index>(row.size()));
+    }
+    Vector<std::shared_ptr<const PathGroup>> groups(&memory);
+    heat_->solve_paths({start, row, value}, memory, *core.jobs, groups, group_of, column_of);
+    std::fill_n(heat.data(), n * at(channels), 0.0);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      Vector<double> identity(at(groups[g]->count()) * at(channels), 0.0, &memory);
+      for (Index k = 0; k < channels; ++k) {
+        if (at(group_of[at(k)]) == g) identity[at(column_of[at(k)]) * at(channels) + at(k)] = 1;
+      }
+      heat_->combine(*groups[g], identity.data(), channels, heat.data());
+    }
+    heat_->backward(heat.data(), channels, *core.jobs);
+    add_directions(frames, heat.data(), channels, weights.data(), sums);
+    report(progress,
+           from + (0.2f + 0.7f * static_cast<float>(first + channels) / static_cast<float>(count)) * (to - from));
+  }
+  integrate(frames, sums, out);
+  report(progress, to);
+}
+
+}  // namespace hf

@@ -1,0 +1,152 @@
+#include "field/levels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace hf {
+namespace {
+
+using Index = std::int32_t;
+std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+// A triangle as the field sees it: its values in order, its area, and area times |grad u|.
+struct Part {
+  double low, middle, high, area, rise;
+
+  // Area with values below c.
+  double area_below(double c) const noexcept {
+    if (c <= low) return 0;
+    if (c >= high) return area;
+    if (c <= middle) return area * ((c - low) / (middle - low)) * ((c - low) / (high - low));
+    return area * (1 - ((high - c) / (high - middle)) * ((high - c) / (high - low)));
+  }
+};
+
+// Values are scaled to 0..1 over the range.
+Vector<Part> parts_of(const Mesh& mesh, Span<const double> field, double& low, double& high, Memory& memory) {
+  Vector<Part> parts(&memory);
+  parts.reserve(at(mesh.triangle_count()));
+  bool first = true;
+  for (const bool measure : {true, false}) {
+    for (Index t = 0; t < mesh.triangle_count(); ++t) {
+      const Index* v = mesh.triangle(t);
+      double u[3] = {field[at(v[0])], field[at(v[1])], field[at(v[2])]};
+      if (std::isnan(u[0]) || std::isnan(u[1]) || std::isnan(u[2])) continue;
+      if (measure) {
+        for (const double value : u) {
+          low = first ? value : std::min(low, value), high = first ? value : std::max(high, value);
+          first = false;
+        }
+        continue;
+      }
+      for (double& value : u) value = (0.5 * value - 0.5 * low) / (0.5 * high - 0.5 * low);
+      const Vec3 a = mesh.positions[at(v[0])], e1 = mesh.positions[at(v[1])] - a, e2 = mesh.positions[at(v[2])] - a;
+      Part part;
+      part.area = 0.5 * norm(cross(e1, e2));
+      // |grad u| area = |(u1 - u0) n x (p0 - p2) + (u2 - u0) n x (p1 - p0)| / 2, and n x keeps lengths in the plane
+      part.rise = 0.5 * norm((u[2] - u[0]) * e1 - (u[1] - u[0]) * e2);
+      std::sort(u, u + 3);
+      part.low = u[0], part.middle = u[1], part.high = u[2];
+      parts.push_back(part);
+    }
+    if (first) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no triangle has a value at each of its corners");
+    if (!(high > low))
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the field is constant (%g); it has no levels to space", low);
+  }
+  return parts;
+}
+
+// All targets are bisected at once; trial levels stay in order because the targets do.
+void equal_areas(const Vector<Part>& parts, Span<double> out, Memory& memory) {
+  const std::size_t count = out.size();
+  double total = 0;
+  for (const Part& part : parts) total += part.area;
+  Vector<double> below(count, 0.0, &memory), above(count, 1.0, &memory), partial(count, &memory),
+      whole(count + 1, &memory);
+  for (int pass = 0; pass < 52; ++pass) {
+    for (std::size_t k = 0; k < count; ++k) out[k] = 0.5 * (below[k] + above[k]);
+    std::fill(partial.begin(), partial.end(), 0.0), std::fill(whole.begin(), whole.end(), 0.0);
+    for (const Part& part : parts) {
+      const double* level = std::upper_bound(out.begin(), out.end(), part.low);
+      for (; level != out.end() && *level < part.high; ++level)
+        partial[static_cast<std::size_t>(level - out.begin())] += part.area_below(*level);
+      whole[static_cast<std::size_t>(level - out.begin())] += part.area;
+    }
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      sum += whole[k];
+      const double target = total * static_cast<double>(k + 1) / static_cast<double>(count + 1);
+      (sum + partial[k] < target ? below[k] : above[k]) = out[k];
+    }
+  }
+}
+
+void equal_widths(const Vector<Part>& parts, Span<double> out, Memory& memory) {
+  // cells: equal values, and quantiles of the triangles' middle values where most of the surface is
+  constexpr std::size_t most = 2048;
+  Vector<double> middle(parts.size(), &memory), edge(&memory);
+  for (std::size_t i = 0; i < parts.size(); ++i) middle[i] = parts[i].middle;
+  std::sort(middle.begin(), middle.end());
+  for (std::size_t k = 0; k <= most; ++k) {
+    edge.push_back(static_cast<double>(k) / most);
+    edge.push_back(middle[(middle.size() - 1) * k / most]);
+  }
+  std::sort(edge.begin(), edge.end());
+  // cells far thinner than the numbers are exact to would only collect rounding errors
+  Vector<double> kept(&memory);
+  for (const double c : edge) {
+    if (kept.empty() || c - kept.back() > 1e-9) kept.push_back(c);
+  }
+  kept.back() = 1;
+  edge.swap(kept);
+  const std::size_t cells = edge.size() - 1;
+  Vector<double> area(cells, 0.0, &memory), rise(cells, 0.0, &memory), width(cells + 1, 0.0, &memory);
+  for (const Part& part : parts) {
+    std::size_t k = static_cast<std::size_t>(std::upper_bound(edge.begin(), edge.end(), part.low) - edge.begin());
+    k = std::min(std::max<std::size_t>(k, 1), cells) - 1;
+    double before = 0;
+    for (; k < cells && (edge[k] < part.high || part.high == part.low); ++k) {
+      const double below = k + 1 == cells ? part.area : part.area_below(edge[k + 1]);
+      const double inside = part.high == part.low ? part.area : below - before;
+      area[k] += inside;
+      if (part.area > 0) rise[k] += part.rise * (inside / part.area);
+      before = below;
+      if (part.high == part.low) break;
+    }
+  }
+  for (std::size_t k = 0; k < cells; ++k) {
+    // area over the mean length of the lines, mean length = rise over the height of the cell
+    width[k + 1] = width[k] + (rise[k] > 0 ? area[k] * (edge[k + 1] - edge[k]) / rise[k] : 0.0);
+  }
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double target = width[cells] * static_cast<double>(i + 1) / static_cast<double>(out.size() + 1);
+    while (k + 1 < cells && width[k + 1] < target) ++k;
+    const double step = width[k + 1] - width[k];
+    out[i] = edge[k] + (step > 0 ? (target - width[k]) / step : 0.0) * (edge[k + 1] - edge[k]);
+  }
+}
+
+}  // namespace
+
+void space_levels(const Mesh& mesh, Span<const double> field, LevelSpacing spacing, Span<double> out, Memory& memory) {
+  double low = 0, high = 0;
+  const Vector<Part> parts = parts_of(mesh, field, low, high, memory);
+  switch (spacing) {
+    case LevelSpacing::value:
+      for (std::size_t k = 0; k < out.size(); ++k)
+        out[k] = static_cast<double>(k + 1) / static_cast<double>(out.size() + 1);
+      break;
+    case LevelSpacing::area:
+      equal_areas(parts, out, memory);
+      break;
+    case LevelSpacing::length:
+      equal_widths(parts, out, memory);
+      break;
+  }
+  for (double& level : out) level = (1 - level) * low + level * high;
+}
+
+}  // namespace hf

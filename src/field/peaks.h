@@ -1,0 +1,21 @@
+// Local maxima of a field with their persistence: how deep one must go down to get to a higher one.
+//
+// Every vertex belongs to the peak that steepest ascent over the edges leads to; edges between the basins of two peaks,
+// taken from the highest down, join them, and the lower peak dies there (the merge tree of the superlevel sets;
+// Edelsbrunner, Letscher and Zomorodian 2002). Ties are broken by vertex number.
+// Cost: O(E) and a sort of the edges between basins.
+#pragma once
+#include "base/span.h"
+#include "mesh/topology.h"
+
+namespace hf {
+
+struct Peak {
+  std::int32_t vertex;  // inner
+  std::int32_t saddle;  // where it meets a higher peak; Mesh::none for the highest of its component
+};
+
+// Every local maximum, by vertex. field: finite, one value per inner vertex.
+Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memory& memory);
+
+}  // namespace hf

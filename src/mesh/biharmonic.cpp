@@ -1,0 +1,143 @@
+#include "mesh/biharmonic.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace hf {
+namespace {
+
+using Index = std::int32_t;
+std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+constexpr std::size_t piece = 8192;
+
+// Columns of K of one piece, kept until all lengths are known.
+struct Columns {
+  explicit Columns(Memory& memory) : row(&memory), value(&memory) {}
+  Vector<Index> row;
+  Vector<double> value;
+};
+
+// K_ij = sum_k (L_ik L_kj) / m_k over ascending k: the same sum, bit for bit, for K_ji.
+class ColumnMaker {
+ public:
+  ColumnMaker(const SymmetricMatrix& l, const Vector<double>& inverse_mass, Memory& memory)
+      : l_(l), inverse_mass_(inverse_mass), sum_(at(l.size()), 0.0, &memory), stamp_(at(l.size()), -1, &memory) {}
+
+  // Appends column v to `out` and returns its length.
+  Index append(Index v, Columns& out) {
+    const std::size_t first = out.row.size();
+    for (Index i = l_.column_start[at(v)]; i < l_.column_start[at(v) + 1]; ++i) {
+      const Index k = l_.row[at(i)];
+      const double weight = inverse_mass_.empty() ? 1.0 : inverse_mass_[at(k)];
+      for (Index j = l_.column_start[at(k)]; j < l_.column_start[at(k) + 1]; ++j) {
+        const Index w = l_.row[at(j)];
+        if (stamp_[at(w)] != v) stamp_[at(w)] = v, sum_[at(w)] = 0, out.row.push_back(w);
+        sum_[at(w)] += weight * (l_.value[at(i)] * l_.value[at(j)]);
+      }
+    }
+    std::sort(out.row.begin() + static_cast<std::ptrdiff_t>(first), out.row.end());
+    double rest = 0;
+    std::size_t diagonal = first;
+    for (std::size_t i = first; i < out.row.size(); ++i) {
+      if (out.row[i] == v)
+        diagonal = i;
+      else
+        rest += sum_[at(out.row[i])];
+      out.value.push_back(sum_[at(out.row[i])]);
+    }
+    out.value[diagonal] = -rest;
+    return static_cast<Index>(out.row.size() - first);
+  }
+
+ private:
+  const SymmetricMatrix& l_;
+  const Vector<double>& inverse_mass_;
+  Vector<double> sum_;
+  Vector<Index> stamp_;
+};
+
+}  // namespace
+
+Vector<double> inverse_masses(const Mesh& mesh, Vector<double> areas) {
+  const std::size_t components = at(mesh.component_count());
+  Vector<double> mean(components, 0.0, areas.get_allocator()), count(components, 0.0, areas.get_allocator());
+  for (std::size_t v = 0; v < areas.size(); ++v)
+    mean[at(mesh.component[v])] += areas[v], count[at(mesh.component[v])] += 1;
+  for (std::size_t c = 0; c < components; ++c) mean[c] = mean[c] > 0 ? mean[c] / count[c] : 1.0;
+  for (std::size_t v = 0; v < areas.size(); ++v) {
+    const double whole = mean[at(mesh.component[v])];
+    areas[v] = whole / std::max(areas[v], 1e-4 * whole);
+  }
+  return areas;
+}
+
+std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memory) {
+  Vector<double> magnitude(&memory);
+  magnitude.reserve(laplacian.row.size());
+  const auto each_column = [&](auto&& work) {
+    for (Index v = 0; v < laplacian.size(); ++v) {
+      for (Index i = laplacian.column_start[at(v)]; i < laplacian.column_start[at(v) + 1]; ++i) work(v, at(i));
+    }
+  };
+  each_column([&](Index v, std::size_t i) {
+    if (laplacian.row[i] != v && laplacian.value[i] != 0) magnitude.push_back(std::fabs(laplacian.value[i]));
+  });
+  if (magnitude.empty()) return 0;
+  const auto middle = magnitude.begin() + static_cast<std::ptrdiff_t>(magnitude.size() / 2);
+  std::nth_element(magnitude.begin(), middle, magnitude.end());
+  const double most = times * *middle;
+  std::int32_t cut = 0;
+  each_column([&](Index v, std::size_t i) {
+    if (laplacian.row[i] == v || std::fabs(laplacian.value[i]) <= most) return;
+    laplacian.value[i] = std::copysign(most, laplacian.value[i]), ++cut;
+  });
+  if (cut == 0) return 0;
+  for (Index v = 0; v < laplacian.size(); ++v) {
+    double rest = 0;
+    std::size_t diagonal = 0;
+    for (std::size_t i = at(laplacian.column_start[at(v)]); i < at(laplacian.column_start[at(v) + 1]); ++i) {
+      if (laplacian.row[i] == v)
+        diagonal = i;
+      else
+        rest += laplacian.value[i];
+    }
+    laplacian.value[diagonal] = -rest;
+  }
+  return cut / 2;
+}
+
+SymmetricMatrix biharmonic(const SymmetricMatrix& laplacian, const Vector<double>& inverse_mass, Memory& memory,
+                           JobRunner* jobs) {
+  const std::size_t n = at(laplacian.size()), pieces = (n + piece - 1) / piece;
+  SymmetricMatrix matrix(memory);
+  matrix.column_start.assign(n + 1, 0);
+  Vector<Columns> part(&memory);
+  for (std::size_t p = 0; p < pieces; ++p) part.emplace_back(memory);
+  // one maker per thread would do; one per strip of pieces keeps the work deterministic and its memory small
+  const std::size_t strips = std::min<std::size_t>(pieces, 8);
+  for_each(jobs, static_cast<std::uint32_t>(strips), [&](std::uint32_t strip) {
+    ColumnMaker maker(laplacian, inverse_mass, memory);
+    for (std::size_t p = strip; p < pieces; p += strips) {
+      for (std::size_t v = p * piece; v < std::min(n, (p + 1) * piece); ++v)
+        matrix.column_start[v + 1] = maker.append(static_cast<Index>(v), part[p]);
+    }
+  });
+  std::size_t total = 0;
+  for (const Columns& columns : part) total += columns.row.size();
+  if (total > at(INT32_MAX))
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the bi-harmonic operator has %zu entries; at most 2^31 - 1 are supported",
+         total);
+  for (std::size_t v = 0; v < n; ++v) matrix.column_start[v + 1] += matrix.column_start[v];
+  matrix.row.resize(total), matrix.value.resize(total);
+  for_each(jobs, static_cast<std::uint32_t>(pieces), [&](std::uint32_t p) {
+    const std::ptrdiff_t start = matrix.column_start[p * piece];
+    std::copy(part[p].row.begin(), part[p].row.end(), matrix.row.begin() + start);
+    std::copy(part[p].value.begin(), part[p].value.end(), matrix.value.begin() + start);
+  });
+  return matrix;
+}
+
+}  // namespace hf

@@ -1,0 +1,129 @@
+#include "mesh/geodesic_disc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace hf {
+namespace {
+
+using Index = std::int32_t;
+std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+constexpr double beyond = 0.3;  // of the mean edge
+
+// Distance of C from a source that is `a` from A and `b` from B, with the triangle's edge lengths.
+double across(double a, double b, double ab, double ac, double bc) noexcept {
+  const double along_edges = std::min(a + ac, b + bc);
+  if (!(ab > 0)) return along_edges;
+  // A at the origin, B at (ab, 0), C above and the source below the axis
+  const double cx = (ac * ac - bc * bc + ab * ab) / (2 * ab), sx = (a * a - b * b + ab * ab) / (2 * ab);
+  const double cy2 = ac * ac - cx * cx, sy2 = a * a - sx * sx;
+  if (!(cy2 > 0) || sy2 < 0) return along_edges;
+  const double cy = std::sqrt(cy2), sy = std::sqrt(sy2);
+  const double crossing = sx + (cx - sx) * sy / (sy + cy);
+  if (crossing < 0 || crossing > ab) return along_edges;
+  return std::min(along_edges, std::hypot(cx - sx, cy + sy));
+}
+
+// Distances that only fall: a vertex is spread again when a better way to it is found, since behind an obtuse corner the
+// right edge to look through may come later than the vertex itself.
+class Front {
+ public:
+  Front(const Mesh& mesh, const Topology& topology, Memory& memory)
+      : mesh_(mesh), topology_(topology), distance_(&memory), heap_(&memory) {}
+
+  void offer(Index v, double distance) {
+    const auto [it, fresh] = distance_.try_emplace(v, distance);
+    if (!fresh && !(distance < it->second * (1 - 1e-13))) return;
+    it->second = distance;
+    heap_.push_back({distance, v});
+    std::push_heap(heap_.begin(), heap_.end(), later);
+  }
+
+  // Spreads as long as within(v, distance) says so.
+  template <class Within>
+  void run(Within&& within) {
+    while (!heap_.empty()) {
+      std::pop_heap(heap_.begin(), heap_.end(), later);
+      const auto [distance, v] = heap_.back();
+      heap_.pop_back();
+      if (distance > distance_.at(v) || !within(v, distance)) continue;
+      spread(v, distance);
+    }
+  }
+  const std::pmr::unordered_map<Index, double>& distances() const noexcept { return distance_; }
+  // Infinite for vertices the front has not seen.
+  double distance(Index v) const {
+    const auto found = distance_.find(v);
+    return found == distance_.end() ? std::numeric_limits<double>::infinity() : found->second;
+  }
+
+ private:
+  using Entry = std::pair<double, Index>;
+  static bool later(const Entry& a, const Entry& b) noexcept { return a > b; }
+  double length(Index a, Index b) const noexcept {
+    return norm(mesh_.positions[at(a)] - mesh_.positions[at(b)]);
+  }
+
+  void spread(Index v, double own) {
+    for (Index i = topology_.neighbour_start[at(v)]; i < topology_.neighbour_start[at(v) + 1]; ++i) {
+      const Index w = topology_.neighbour[at(i)], e = topology_.neighbour_edge[at(i)];
+      const double edge = length(v, w);
+      offer(w, own + edge);
+      const double other = distance(w);
+      // the third corner may be seen through the edge
+      for (Index k = topology_.edge_triangle_start[at(e)]; k < topology_.edge_triangle_start[at(e) + 1]; ++k) {
+        const Index* corner = mesh_.triangle(topology_.edge_triangle[at(k)]);
+        Index third = Mesh::none;
+        for (int c = 0; c < 3; ++c) {
+          if (corner[c] != v && corner[c] != w) third = corner[c];
+        }
+        offer(third, across(own, other, edge, length(v, third), length(w, third)));
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  const Topology& topology_;
+  std::pmr::unordered_map<Index, double> distance_;
+  Vector<Entry> heap_;
+};
+
+}  // namespace
+
+Vector<DiscVertex> geodesic_disc(const Mesh& mesh, const Topology& topology, const Index vertex[3],
+                                 const double weight[3], double radius, Memory& memory) {
+  Front front(mesh, topology, memory);
+  Vec3 source;
+  for (int k = 0; k < 3; ++k) {
+    if (vertex[k] >= 0) source = source + weight[k] * mesh.positions[at(vertex[k])];
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (vertex[k] >= 0) front.offer(vertex[k], norm(mesh.positions[at(vertex[k])] - source));
+  }
+  const auto mean_edge = [&](Index v) {
+    double sum = 0;
+    const Index begin = topology.neighbour_start[at(v)], end = topology.neighbour_start[at(v) + 1];
+    for (Index i = begin; i < end; ++i) sum += norm(mesh.positions[at(topology.neighbour[at(i)])] - mesh.positions[at(v)]);
+    return end > begin ? sum / (end - begin) : 0.0;
+  };
+  // two edges further than asked, for the corners behind
+  front.run([&](Index v, double distance) { return distance <= radius + 2 * mean_edge(v); });
+  Vector<DiscVertex> disc(&memory);
+  const auto inside = [&](Index v) { return front.distance(v) <= radius + beyond * mean_edge(v); };
+  for (const auto& [v, distance] : front.distances()) {
+    if (inside(v)) disc.push_back({v, distance, false});
+  }
+  std::sort(disc.begin(), disc.end(), [](const DiscVertex& a, const DiscVertex& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.vertex < b.vertex;
+  });
+  for (DiscVertex& entry : disc) {
+    for (Index i = topology.neighbour_start[at(entry.vertex)]; i < topology.neighbour_start[at(entry.vertex) + 1]; ++i)
+      entry.rim = entry.rim || !inside(topology.neighbour[at(i)]);
+  }
+  return disc;
+}
+
+}  // namespace hf

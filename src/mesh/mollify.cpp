@@ -1,0 +1,108 @@
+#include "mesh/mollify.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hf {
+namespace {
+
+using Index = std::int32_t;
+std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+constexpr std::size_t piece = 16384;
+constexpr double closing = 1e-8, smallest = 1e-3;
+constexpr int most_rounds = 64;
+
+void find_lengths(const Mesh& mesh, const Topology& topology, MollifiedLengths& out, JobRunner* jobs) {
+  const std::size_t edges = at(topology.edge_count());
+  for_each(jobs, static_cast<std::uint32_t>((edges + piece - 1) / piece), [&](std::uint32_t p) {
+    for (std::size_t e = p * piece; e < std::min(edges, (p + std::size_t{1}) * piece); ++e) {
+      const Index first = topology.first(static_cast<Index>(e)), second = topology.second(static_cast<Index>(e));
+      out.length[e] = norm(mesh.positions[at(second)] - mesh.positions[at(first)]);
+      for (Index i = topology.edge_triangle_start[e]; i < topology.edge_triangle_start[e + 1]; ++i) {
+        const Index t = topology.edge_triangle[at(i)];
+        const Index* v = mesh.triangle(t);
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Index a = v[k], b = v[(k + 1) % 3];
+          if ((a == first && b == second) || (a == second && b == first))
+            out.edge_of_side[3 * at(t) + k] = static_cast<Index>(e);
+        }
+      }
+    }
+  });
+}
+
+// What is missing for a triangle to close, 0 for a proper one; `longest` is its side of that length.
+double missing(const double length[3], double floor, std::size_t& longest) noexcept {
+  longest = 0;
+  for (std::size_t k = 1; k < 3; ++k) longest = length[k] > length[longest] ? k : longest;
+  const double a = length[longest], b = length[(longest + 1) % 3], c = length[(longest + 2) % 3];
+  const double gap = std::min(b, c) - (a - std::max(b, c)), wanted = closing * std::max(a, floor);
+  return gap < wanted ? 1.0001 * wanted - gap : 0.0;
+}
+
+}  // namespace
+
+MollifiedLengths MollifiedLengths::make(const Mesh& mesh, const Topology& topology, Memory& memory, JobRunner* jobs) {
+  MollifiedLengths out(memory);
+  const std::size_t edges = at(topology.edge_count()), triangles = at(mesh.triangle_count());
+  out.length.resize(edges), out.edge_of_side.resize(3 * triangles);
+  find_lengths(mesh, topology, out, jobs);
+  double sum = 0;
+  for (const double l : out.length) sum += l;
+  const double floor = sum > 0 ? smallest * sum / static_cast<double>(edges) : 1.0;
+
+  const std::uint32_t pieces = static_cast<std::uint32_t>((triangles + piece - 1) / piece);
+  struct Thin {
+    std::uint32_t triangle;
+    std::size_t longest;
+    double missing;
+  };
+  Vector<Vector<Thin>> thin(&memory);
+  for (std::uint32_t p = 0; p < pieces; ++p) thin.emplace_back();
+  Vector<double> raise(&memory);
+  for (int round = 0;; ++round) {
+    for_each(jobs, pieces, [&](std::uint32_t p) {
+      thin[p].clear();
+      for (std::size_t t = p * piece; t < std::min(triangles, (p + std::size_t{1}) * piece); ++t) {
+        double length[3];
+        for (std::size_t k = 0; k < 3; ++k) length[k] = out.length[at(out.edge_of_side[3 * t + k])];
+        std::size_t longest = 0;
+        const double more = missing(length, floor, longest);
+        if (more > 0) thin[p].push_back({static_cast<std::uint32_t>(t), longest, more});
+      }
+    });
+    std::size_t count = 0;
+    double most = 0;
+    for (const auto& list : thin) {
+      count += list.size();
+      for (const Thin& t : list) most = std::max(most, t.missing);
+    }
+    if (round == 0) out.thin_count = static_cast<std::uint32_t>(count);
+    if (count == 0) return out;
+    if (out.changed.empty()) out.changed.assign(edges, 0), raise.assign(edges, 0.0);
+    if (round == most_rounds) {
+      for (double& l : out.length) l += most;
+      std::fill(out.changed.begin(), out.changed.end(), std::uint8_t{1});
+      return out;
+    }
+    for (const auto& list : thin) {
+      for (const Thin& t : list) {
+        for (std::size_t k = 1; k < 3; ++k) {
+          const std::size_t e = at(out.edge_of_side[3 * std::size_t{t.triangle} + (t.longest + k) % 3]);
+          raise[e] = std::max(raise[e], 0.5 * t.missing), out.changed[e] = 1;
+        }
+      }
+    }
+    for (const auto& list : thin) {
+      for (const Thin& t : list) {
+        for (std::size_t k = 1; k < 3; ++k) {
+          const std::size_t e = at(out.edge_of_side[3 * std::size_t{t.triangle} + (t.longest + k) % 3]);
+          out.length[e] += raise[e], raise[e] = 0;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace hf

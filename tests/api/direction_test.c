@@ -1,0 +1,294 @@
+/* Vector fields through the ABI: the paper's three channels with vectors carried and turned, direction objects, and
+ * bi-harmonic solvers. */
+#include "api_support.h"
+
+enum { AROUND = 24, RINGS = 18, VERTICES = AROUND * RINGS };
+
+static double dot3(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* The tube unrolled has no curvature: a field along it is known everywhere. Outward is +x at vertex 0 or inward, as the
+ * triangles run; only lengths and heights are asked for. */
+static hf_solver tube_solver(Surface* tube, uint32_t channels) {
+  *tube = surface_tube(AROUND, RINGS);
+  hf_create_desc desc = surface_desc(tube);
+  desc.channel_count = channels;
+  hf_solver solver;
+  assert_ok(hf_create(&desc, &solver));
+  return solver;
+}
+
+static void a_vector_of_three_channels_is_carried_and_turned_without_touching_the_factor(void** state) {
+  (void)state;
+  Surface tube;
+  const hf_solver solver = tube_solver(&tube, 3);
+  const uint32_t ring = RINGS / 2 * AROUND, places[2] = {ring, ring + AROUND / 2};
+  /* at `ring` straight up the tube and around it by as much: around is the tangent of the circle there */
+  const float* p = tube.positions + 3 * ring;
+  const double around[3] = {-p[2], 0, p[0]}, values[6] = {around[0], 1, around[2], 0, 1, 0};
+  const hf_sites_desc batch = sites_at(2, places, values);
+  uint32_t sites[2];
+  assert_ok(hf_add_sites(solver, &batch, sites));
+  static double field[3 * VERTICES], normals[3 * VERTICES];
+  assert_ok(hf_solve_vectors_f64(solver, field, 0, normals, NULL));
+  for (uint32_t v = 0; v < VERTICES; ++v) {
+    assert_true(fabs(dot3(field + 3 * v, normals + 3 * v)) <= 1e-12);
+    assert_true(fabs(dot3(normals + 3 * v, normals + 3 * v) - 1) <= 1e-12);
+  }
+
+  hf_statistics before, after;
+  HF_INIT(before), HF_INIT(after);
+  assert_ok(hf_get_statistics(solver, &before));
+  const double quarter = acos(0.0);
+  assert_ok(hf_rotate_vector_sites(solver, 1, sites + 1, &quarter));
+  assert_ok(hf_get_statistics(solver, &after));
+  assert_int_equal(after.factorisation_count, before.factorisation_count);
+  assert_int_equal(after.path_solve_count, before.path_solve_count);
+  assert_ok(hf_solve_vectors_f64(solver, field, 0, normals, NULL));
+  const double up[3] = {0, 1, 0};
+  assert_true(fabs(dot3(field + 3 * places[1], up)) <= 1e-9);
+  assert_true(fabs(dot3(field + 3 * places[1], field + 3 * places[1]) - 1) <= 1e-9);
+
+  /* a quarter of the way around: still as much up, and around */
+  const uint32_t there = ring + AROUND / 4;
+  assert_ok(hf_move_vector_sites(solver, 1, sites, &there));
+  assert_ok(hf_get_statistics(solver, &after));
+  assert_int_equal(after.factorisation_count, before.factorisation_count);
+  assert_ok(hf_solve_vectors_f64(solver, field, 0, normals, NULL));
+  const float* q = tube.positions + 3 * there;
+  const double along[3] = {-q[2], 0, q[0]};
+  assert_true(fabs(dot3(field + 3 * there, up) - 1) <= 1e-6);
+  assert_true(fabs(dot3(field + 3 * there, along) - 1) <= 1e-6);
+  hf_destroy(solver);
+  surface_free(&tube);
+}
+
+static void vectors_are_refused_with_their_place_in_the_list(void** state) {
+  (void)state;
+  Surface tube;
+  const hf_solver solver = tube_solver(&tube, 3), flat = surface_solver(&tube);
+  const uint32_t places[2] = {3, 90}, far[2] = {100, VERTICES}, taken[1] = {90}, absent[2] = {0, 7};
+  const double values[6] = {1, 0, 0, 0, 1, 0}, angles[2] = {1, HUGE_VAL};
+  const hf_sites_desc batch = sites_at(2, places, values);
+  uint32_t sites[2];
+  assert_ok(hf_add_sites(solver, &batch, sites));
+  add_site(flat, 3, 1);
+  check_row(__LINE__, "past the end", "hf_move_vector_sites", hf_move_vector_sites(solver, 2, sites, far),
+            HF_ERROR_OUT_OF_RANGE, 1);
+  check_row(__LINE__, "taken", "hf_move_vector_sites", hf_move_vector_sites(solver, 1, sites, taken), HF_ERROR_CONFLICT,
+            0);
+  check_row(__LINE__, "absent", "hf_move_vector_sites", hf_move_vector_sites(solver, 2, absent, places),
+            HF_ERROR_NO_SUCH_SITE, 1);
+  check_row(__LINE__, "none", "hf_move_vector_sites", hf_move_vector_sites(solver, 0, sites, places), HF_ERROR_EMPTY,
+            NO_INDEX);
+  check_row(__LINE__, "NULL", "hf_move_vector_sites", hf_move_vector_sites(solver, 1, NULL, places),
+            HF_ERROR_NULL_POINTER, NO_INDEX);
+  check_row(__LINE__, "NULL", "hf_move_vector_sites", hf_move_vector_sites(solver, 1, sites, NULL),
+            HF_ERROR_NULL_POINTER, NO_INDEX);
+  check_row(__LINE__, "one channel", "hf_move_vector_sites", hf_move_vector_sites(flat, 1, sites, places),
+            HF_ERROR_INVALID_ARGUMENT, NO_INDEX);
+  check_row(__LINE__, "infinite", "hf_rotate_vector_sites", hf_rotate_vector_sites(solver, 2, sites, angles),
+            HF_ERROR_NON_FINITE, 1);
+  check_row(__LINE__, "absent", "hf_rotate_vector_sites", hf_rotate_vector_sites(solver, 2, absent, values),
+            HF_ERROR_NO_SUCH_SITE, 1);
+  check_row(__LINE__, "too many", "hf_rotate_vector_sites", hf_rotate_vector_sites(solver, 1000000, sites, angles),
+            HF_ERROR_NO_SUCH_SITE, 2);
+  check_row(__LINE__, "one channel", "hf_rotate_vector_sites", hf_rotate_vector_sites(flat, 1, sites, angles),
+            HF_ERROR_INVALID_ARGUMENT, NO_INDEX);
+  double now[6];
+  hf_site_info info;
+  HF_INIT(info);
+  info.capacity = 2, info.values = now;
+  assert_ok(hf_get_sites(solver, &info));
+  row_holds(__LINE__, "values", "are as they were", same_bits(now, values, sizeof now));
+  finish_rows("vectors");
+  hf_destroy(solver), hf_destroy(flat);
+  surface_free(&tube);
+}
+
+static void a_direction_field_follows_its_constraints(void** state) {
+  (void)state;
+  Surface tube;
+  const hf_solver solver = tube_solver(&tube, 1);
+  for (uint32_t degree = 1; degree <= 4; degree *= 2) {
+    hf_direction_desc desc;
+    HF_INIT(desc);
+    desc.degree = degree;
+    hf_direction direction;
+    assert_ok(hf_direction_create(solver, &desc, &direction));
+    const uint32_t places[2] = {3 * AROUND, 9 * AROUND + 5};
+    const double up[6] = {0, 1, 0, 0, 2, 0};
+    uint32_t sites[2], numbers[2], vertices[2];
+    static float field[3 * VERTICES];
+    static double exact[3 * VERTICES];
+    check_row(__LINE__, "no constraint", "hf_direction_solve", hf_direction_solve(direction, field, 0, NULL),
+              HF_ERROR_NO_SITES, NO_INDEX);
+    assert_ok(hf_direction_add_sites(direction, 1, places, up, sites));
+    assert_ok(hf_direction_solve(direction, field, 0, NULL));
+    for (uint32_t v = 0; v < VERTICES; ++v) { /* flat in itself: the field is parallel */
+      const double length =
+          sqrt((double)field[3 * v] * (double)field[3 * v] + (double)field[3 * v + 1] * (double)field[3 * v + 1] +
+               (double)field[3 * v + 2] * (double)field[3 * v + 2]);
+      assert_true(fabs(length - 1) <= 1e-5);
+      if (degree == 1) assert_true((double)field[3 * v + 1] >= 0.95);
+    }
+    assert_ok(hf_direction_add_sites(direction, 1, places + 1, up + 3, sites + 1));
+    assert_int_equal(hf_direction_get_site_count(direction), 2);
+    hf_solve_info info;
+    HF_INIT(info);
+    assert_ok(hf_direction_solve_f64(direction, exact, 0, &info));
+    assert_int_equal(info.unreached_component_count, 0);
+    double vectors[6];
+    assert_ok(hf_direction_get_sites(direction, 2, numbers, vertices, vectors));
+    for (int i = 0; i < 2; ++i) {
+      assert_int_equal(numbers[i], sites[i]);
+      assert_int_equal(vertices[i], places[i]);
+      for (int k = 0; k < 3; ++k) assert_true(exact[3 * places[i] + (uint32_t)k] == vectors[3 * i + k]);
+    }
+    hf_direction_statistics before, after;
+    HF_INIT(before), HF_INIT(after);
+    assert_ok(hf_direction_get_statistics(direction, &before));
+    assert_int_equal(before.unknown_count, 2 * VERTICES);
+    assert_int_equal(before.path_solve_count, 4);
+    assert_int_equal(before.irregular_vertex_count, 0);
+    const double half = 2 * acos(0.0), other[3] = {0, -3, 0};
+    assert_ok(hf_direction_rotate_sites(direction, 1, sites, &half));
+    assert_ok(hf_direction_set_vectors(direction, 1, sites + 1, other));
+    assert_ok(hf_direction_solve_f64(direction, exact, 0, NULL));
+    assert_ok(hf_direction_get_statistics(direction, &after));
+    assert_int_equal(after.factorisation_count, before.factorisation_count);
+    assert_int_equal(after.path_solve_count, before.path_solve_count);
+    assert_true(fabs(exact[3 * places[0] + 1] + 1) <= 1e-12 && fabs(exact[3 * places[1] + 1] + 3) <= 1e-12);
+    const uint32_t there = 12 * AROUND + 7;
+    assert_ok(hf_direction_move_sites(direction, 1, sites, &there));
+    assert_ok(hf_direction_get_sites(direction, 2, NULL, vertices, vectors));
+    assert_int_equal(vertices[0], there);
+    assert_true(fabs(dot3(vectors, vectors) - 1) <= 1e-12 && vectors[1] <= -0.99);
+    uint32_t count = 99;
+    assert_ok(hf_direction_get_singularities(direction, 0, NULL, &count));
+    hf_singularity* found = calloc(count + 1, sizeof *found);
+    assert_non_null(found);
+    assert_ok(hf_direction_get_singularities(direction, count, found, &count));
+    for (uint32_t i = 0; i < count; ++i)
+      assert_true(found[i].triangle < tube.triangle_count && found[i].vertex < VERTICES && found[i].index != 0);
+    free(found);
+    assert_ok(hf_direction_remove_sites(direction, 1, sites + 1));
+    assert_int_equal(hf_direction_get_site_count(direction), 1);
+    hf_direction_destroy(direction);
+  }
+  finish_rows("direction");
+  /* children keep what they share */
+  hf_direction direction;
+  assert_ok(hf_direction_create(solver, NULL, &direction));
+  hf_destroy(solver);
+  const uint32_t vertex = 5;
+  const double vector[3] = {0, 1, 0};
+  assert_ok(hf_direction_add_sites(direction, 1, &vertex, vector, NULL));
+  static float field[3 * VERTICES];
+  assert_ok(hf_direction_solve(direction, field, 0, NULL));
+  hf_direction_destroy(direction);
+  surface_free(&tube);
+}
+
+static void a_direction_object_refuses_bad_input_and_stays_as_it_was(void** state) {
+  (void)state;
+  Surface cut = surface_cut();
+  const hf_solver solver = surface_solver(&cut);
+  hf_direction_desc desc;
+  HF_INIT(desc);
+  hf_direction direction;
+  desc.degree = 3;
+  check_row(__LINE__, "degree 3", "hf_direction_create", hf_direction_create(solver, &desc, &direction),
+            HF_ERROR_INVALID_ARGUMENT, NO_INDEX);
+  desc.degree = 0, desc.reserved = 1;
+  check_row(__LINE__, "reserved", "hf_direction_create", hf_direction_create(solver, &desc, &direction),
+            HF_ERROR_INVALID_ARGUMENT, NO_INDEX);
+  check_row(__LINE__, "NULL", "hf_direction_create", hf_direction_create(solver, NULL, NULL), HF_ERROR_NULL_POINTER,
+            NO_INDEX);
+  desc.reserved = 0, desc.site_limit = 3;
+  assert_ok(hf_direction_create(solver, &desc, &direction));
+  const uint32_t places[2] = {CUT_LEFT, CUT_SEAM_LEFT};
+  const double vectors[12] = {1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 1, 0};
+  uint32_t sites[2];
+  assert_ok(hf_direction_add_sites(direction, 2, places, vectors, sites));
+  static double before[3 * CUT_VERTICES], now[3 * CUT_VERTICES];
+  hf_solve_info info;
+  HF_INIT(info);
+  assert_ok(hf_direction_solve_f64(direction, before, 0, &info));
+  assert_int_equal(info.unreached_component_count, 1); /* the island */
+  assert_int_equal(info.unreached_vertex_count, 10);
+  assert_true(same_bits(before + 3 * CUT_SEAM_LEFT, before + 3 * CUT_SEAM_RIGHT, 3 * sizeof(double)));
+
+  const uint32_t copy[2] = {10, CUT_SEAM_RIGHT}, isolated[1] = {CUT_ISOLATED}, island[1] = {CUT_ISLAND},
+                 past[2] = {10, CUT_VERTICES};
+  const uint32_t twice[2] = {0, 0}, absent[1] = {9};
+  const double bad[6] = {1, 0, 0, 0, NAN, 0};
+#define REFUSED(what, expected, index, call) check_row(__LINE__, what, #call, call, expected, index)
+  REFUSED("a welded copy", HF_ERROR_TOO_LARGE, NO_INDEX, hf_direction_add_sites(direction, 2, copy, vectors, NULL));
+  REFUSED("a welded copy", HF_ERROR_DUPLICATE_SITE, 0, hf_direction_add_sites(direction, 1, copy + 1, vectors, NULL));
+  REFUSED("isolated", HF_ERROR_INVALID_ARGUMENT, 0, hf_direction_add_sites(direction, 1, isolated, vectors, NULL));
+  REFUSED("past the end", HF_ERROR_OUT_OF_RANGE, 0, hf_direction_add_sites(direction, 1, past + 1, vectors, NULL));
+  REFUSED("none", HF_ERROR_EMPTY, NO_INDEX, hf_direction_add_sites(direction, 0, copy, vectors, NULL));
+  REFUSED("NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_direction_add_sites(direction, 1, NULL, vectors, NULL));
+  REFUSED("NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_direction_add_sites(direction, 1, copy, NULL, NULL));
+  REFUSED("another component", HF_ERROR_INVALID_ARGUMENT, 0, hf_direction_move_sites(direction, 1, sites, island));
+  REFUSED("twice", HF_ERROR_NO_SUCH_SITE, 1, hf_direction_move_sites(direction, 2, twice, places));
+  REFUSED("taken", HF_ERROR_DUPLICATE_SITE, 0, hf_direction_move_sites(direction, 1, sites, copy + 1));
+  REFUSED("past the end", HF_ERROR_OUT_OF_RANGE, 1, hf_direction_move_sites(direction, 2, sites, past));
+  REFUSED("not finite", HF_ERROR_NON_FINITE, 1, hf_direction_set_vectors(direction, 2, sites, bad));
+  REFUSED("not finite", HF_ERROR_NON_FINITE, 0, hf_direction_rotate_sites(direction, 1, sites, bad + 4));
+  REFUSED("absent", HF_ERROR_NO_SUCH_SITE, 0, hf_direction_rotate_sites(direction, 1, absent, vectors));
+  REFUSED("absent", HF_ERROR_NO_SUCH_SITE, 0, hf_direction_remove_sites(direction, 1, absent));
+  REFUSED("twice", HF_ERROR_NO_SUCH_SITE, 1, hf_direction_remove_sites(direction, 2, twice));
+  REFUSED("too many", HF_ERROR_NO_SUCH_SITE, 2, hf_direction_remove_sites(direction, 3000000000u, twice));
+  REFUSED("room for one", HF_ERROR_TOO_SMALL, NO_INDEX, hf_direction_get_sites(direction, 1, sites, NULL, NULL));
+  REFUSED("narrow", HF_ERROR_TOO_SMALL, NO_INDEX, hf_direction_solve_f64(direction, now, 16, NULL));
+  REFUSED("NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_direction_solve(direction, NULL, 0, NULL));
+  REFUSED("NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_direction_get_singularities(direction, 0, NULL, NULL));
+  assert_ok(hf_direction_solve_f64(direction, now, 0, NULL));
+  row_holds(__LINE__, "the field", "is as it was", same_bits(before, now, sizeof now));
+  finish_rows("direction input");
+  hf_direction_destroy(direction);
+  hf_destroy(solver);
+  surface_free(&cut);
+}
+
+static void a_biharmonic_solver_takes_the_same_edits_and_overshoots(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(20, 20);
+  for (int32_t kind = HF_FIELD_BIHARMONIC; kind <= HF_FIELD_BIHARMONIC_GRAPH; ++kind) {
+    static const int32_t engines[] = {HF_ENGINE_GREEN, HF_ENGINE_REFACTOR};
+    double* fields[2];
+    for (int e = 0; e < 2; ++e) {
+      hf_create_desc desc = surface_desc(&sheet);
+      desc.field_kind = kind, desc.engine = engines[e];
+      hf_solver solver;
+      assert_ok(hf_create(&desc, &solver));
+      const uint32_t row = 10 * 21;
+      add_site(solver, row + 2, 0), add_site(solver, row + 6, 1);
+      const uint32_t gone = add_site(solver, 5, 9);
+      add_site(solver, row + 10, 0), add_site(solver, 6 * 21 + 6, 1), add_site(solver, 14 * 21 + 6, 1);
+      assert_ok(hf_remove_sites(solver, 1, &gone));
+      fields[e] = field_of(solver, sheet.vertex_count);
+      hf_destroy(solver);
+    }
+    double low = 0, high = 0;
+    for (uint32_t v = 0; v < sheet.vertex_count; ++v) {
+      low = fmin(low, fields[0][v]), high = fmax(high, fields[0][v]);
+      assert_true(fabs(fields[0][v] - fields[1][v]) <= 1e-8);
+    }
+    assert_true(low < -0.05 || high > 1.05);
+    free(fields[0]), free(fields[1]);
+  }
+  surface_free(&sheet);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_vector_of_three_channels_is_carried_and_turned_without_touching_the_factor),
+      cmocka_unit_test(vectors_are_refused_with_their_place_in_the_list),
+      cmocka_unit_test(a_direction_field_follows_its_constraints),
+      cmocka_unit_test(a_direction_object_refuses_bad_input_and_stays_as_it_was),
+      cmocka_unit_test(a_biharmonic_solver_takes_the_same_edits_and_overshoots),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

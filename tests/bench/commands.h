@@ -1,0 +1,72 @@
+// The commands of hf_bench. Each runs at one number of threads, prints as it goes, enters its figures in the report and
+// returns its rows as JSON; each draws the rows of its runs (one per number of threads) as one SVG.
+#ifndef HF_BENCH_COMMANDS_H
+#define HF_BENCH_COMMANDS_H
+
+#include <string>
+#include <vector>
+
+#include "bench/bench_support.h"
+#include "bench/figures.h"
+
+namespace bench {
+
+struct Run {
+  uint32_t threads = 1, repetitions = 5;
+  bool small = false;  // meshes of a few thousand vertices: does everything run?
+  std::string rows;    // keep rows whose names contain this
+  bool wants(const std::string& name) const { return name.find(rows) != std::string::npos; }
+};
+
+using Rows = nlohmann::json;  // an array of objects with a "name"
+// The runs of one command: objects with "threads" and "rows".
+using Runs = std::vector<nlohmann::json>;
+
+struct Command {
+  const char* name;
+  const char* help;
+  Rows (*run)(const Run& run, Report& report);
+  void (*plot)(const Runs& runs, const std::string& file);
+};
+
+Rows run_first_field(const Run& run, Report& report);
+void plot_first_field(const Runs& runs, const std::string& file);
+Rows run_factor(const Run& run, Report& report);
+void plot_factor(const Runs& runs, const std::string& file);
+Rows run_sweep(const Run& run, Report& report);
+void plot_sweep(const Runs& runs, const std::string& file);
+Rows run_table1(const Run& run, Report& report);
+void plot_table1(const Runs& runs, const std::string& file);
+Rows run_large_sites(const Run& run, Report& report);
+void plot_large_sites(const Runs& runs, const std::string& file);
+Rows run_memory(const Run& run, Report& report);
+void plot_memory(const Runs& runs, const std::string& file);
+Rows run_accuracy(const Run& run, Report& report);
+void plot_accuracy(const Runs& runs, const std::string& file);
+Rows run_scaling(const Run& run, Report& report);
+void plot_scaling(const Runs& runs, const std::string& file);
+Rows run_paths(const Run& run, Report& report);
+void plot_paths(const Runs& runs, const std::string& file);
+Rows run_partial(const Run& run, Report& report);
+void plot_partial(const Runs& runs, const std::string& file);
+Rows run_analysis(const Run& run, Report& report);
+void plot_analysis(const Runs& runs, const std::string& file);
+Rows run_deform(const Run& run, Report& report);
+void plot_deform(const Runs& runs, const std::string& file);
+Rows run_deform_quality(const Run& run, Report& report);
+void plot_deform_quality(const Runs& runs, const std::string& file);
+Rows run_transfer(const Run& run, Report& report);
+void plot_transfer(const Runs& runs, const std::string& file);
+
+// "2 threads".
+std::string threads_text(uint32_t threads);
+// A number of a row by its path of keys, NaN where it is missing.
+double number_of(const nlohmann::json& row, const char* pointer);
+// The distinct row names of several runs, in order.
+std::vector<std::string> row_names(const Runs& runs);
+// The row of that name, or null.
+const nlohmann::json* find_row(const nlohmann::json& run, const std::string& name);
+
+}  // namespace bench
+
+#endif

@@ -1,0 +1,113 @@
+// From a mesh in memory to its first field: hf_create, ten sites, hf_solve, beside METIS + CHOLMOD doing the same
+// (cholmod_analyze, cholmod_factorize, cholmod_solve). The peer gets its matrix for nothing; we weld, check and build
+// ours inside hf_create. Cold is the first time in this process, the figure is the median of warm repetitions in turns.
+#include <cstdio>
+
+#include "bench/bench_mesh.h"
+#include "bench/commands.h"
+#include "bench/peer_cholmod.h"
+#include "bench/svg_plot.h"
+
+namespace bench {
+namespace {
+
+struct Ours {
+  double total = 0;
+  hf_statistics statistics;
+};
+
+Ours our_first_field(const Mesh& mesh, const std::vector<uint32_t>& sites, uint32_t threads) {
+  Ours ours;
+  std::vector<float> field(mesh.vertex_count());
+  const Clock clock;
+  const Solver solver(mesh, {HF_ENGINE_GREEN, threads});
+  Sites(solver).edit(sites, {});
+  solver.solve(field);
+  ours.total = clock.milliseconds();
+  ours.statistics = solver.statistics();
+  return ours;
+}
+
+nlohmann::json run_mesh(const Mesh& mesh, const Run& run, Report& report) {
+  const std::vector<uint32_t> sites = scattered_vertices(mesh.vertex_count(), 10, 5);
+  const std::unique_ptr<CholmodPeer> peer = CholmodPeer::make(cotangent_matrix(mesh), run.threads);
+  if (peer) peer->set_sites(sites);
+  std::vector<double> ours, analyse, factorise, solve, theirs;
+  double cold_ours = 0, cold_theirs = 0;
+  hf_statistics phases{};
+  for (uint32_t r = 0; r < run.repetitions + 1; ++r) {
+    const Ours own = our_first_field(mesh, sites, run.threads);
+    phases = own.statistics;
+    double total = 0;
+    if (peer) {
+      analyse.push_back(peer->analyse_ms()), factorise.push_back(peer->factorise_ms());
+      solve.push_back(peer->solve_ms());
+      total = analyse.back() + factorise.back() + solve.back();
+    }
+    if (r == 0)
+      cold_ours = own.total, cold_theirs = total;
+    else
+      ours.push_back(own.total), theirs.push_back(total);
+  }
+  nlohmann::json row = {{"name", mesh.name},
+                        {"n", mesh.vertex_count()},
+                        {"first_field_ms", median(ours)},
+                        {"cold_ms", cold_ours},
+                        {"weld_ms", phases.weld_ms},
+                        {"operator_ms", phases.operator_ms},
+                        {"ordering_ms", phases.ordering_ms},
+                        {"symbolic_ms", phases.symbolic_ms},
+                        {"numeric_ms", phases.numeric_ms}};
+  std::printf("%-14s ours %7.1f (cold %7.1f; weld %.0f operator %.0f ordering %.0f symbolic %.0f numeric %.0f)",
+              mesh.name.c_str(), median(ours), cold_ours, phases.weld_ms, phases.operator_ms, phases.ordering_ms,
+              phases.symbolic_ms, phases.numeric_ms);
+  if (peer) {
+    const double ratio = median(theirs) / median(ours);
+    row["peer_ms"] = median(theirs), row["peer_cold_ms"] = cold_theirs, row["peer_analyse_ms"] = median(analyse);
+    row["peer_factorise_ms"] = median(factorise), row["peer_solve_ms"] = median(solve), row["ratio"] = ratio;
+    std::printf("   METIS + CHOLMOD %7.1f (cold %7.1f; analyze %.0f factorize %.0f solve %.0f)  %.2fx, cold %.2fx",
+                median(theirs), cold_theirs, median(analyse), median(factorise), median(solve), ratio,
+                cold_theirs / cold_ours);
+    report.measure("first_field", mesh.name, run.threads, ratio);
+  }
+  std::printf("\n");
+  std::fflush(stdout);
+  return row;
+}
+
+}  // namespace
+
+Rows run_first_field(const Run& run, Report& report) {
+  Rows rows = Rows::array();
+  for (const Family family : families) {
+    const auto mesh = make_mesh(family, Size::k304, run.small);
+    if (run.wants(mesh->name)) rows.push_back(run_mesh(*mesh, run, report));
+  }
+  return rows;
+}
+
+void plot_first_field(const Runs& runs, const std::string& file) {
+  BarPlot plot;
+  plot.text = {"From a mesh to its first field", "create + 10 sites + one field; medians, milliseconds", "", "ms"};
+  plot.format = "%.0f";
+  for (const nlohmann::json& run : runs) {
+    for (const nlohmann::json& row : run.at("rows"))
+      plot.groups.push_back(row.at("name").get<std::string>() + ", " + threads_text(run.at("threads")));
+  }
+  const std::pair<const char*, const char*> series[] = {{"this library, all", "/first_field_ms"},
+                                                        {"METIS + CHOLMOD, all", "/peer_ms"},
+                                                        {"our ordering", "/ordering_ms"},
+                                                        {"METIS and symbolic analysis", "/peer_analyse_ms"},
+                                                        {"our numeric factorisation", "/numeric_ms"},
+                                                        {"CHOLMOD numeric factorisation", "/peer_factorise_ms"}};
+  for (const auto& [name, key] : series) {
+    Bars bars{name, {}};
+    for (const nlohmann::json& run : runs) {
+      for (const nlohmann::json& row : run.at("rows")) bars.values.push_back(number_of(row, key));
+    }
+    plot.bars.push_back(bars);
+  }
+  write_svg(file, plot);
+}
+
+}  // namespace bench

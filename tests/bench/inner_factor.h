@@ -1,0 +1,35 @@
+// Behind the C ABI, for what it cannot show: the grounded matrix a solver factorises, made the way hf_create makes it.
+#ifndef HF_BENCH_INNER_FACTOR_H
+#define HF_BENCH_INNER_FACTOR_H
+
+#include <memory>
+
+#include "bench/bench_support.h"
+#include "bench/peer_cholmod.h"
+#include "engine/core.h"
+
+namespace bench {
+
+class InnerSystem {
+ public:
+  InnerSystem(const Mesh& mesh, uint32_t threads, hf::FieldKind kind = hf::FieldKind::harmonic);
+  hf::Memory& memory() const { return *memory_; }
+  hf::JobRunner& jobs() const { return *jobs_; }
+  const hf::SymmetricMatrix& matrix() const { return matrix_; }
+  hf::Coordinates coordinates() const { return {coordinates_.data(), coordinates_.size()}; }
+  // The operator without its grounds, in the core's own vertex numbers.
+  const hf::Core& core() const { return *core_; }
+  // The same matrix as the peer takes it.
+  PeerMatrix peer_matrix() const;
+
+ private:
+  std::shared_ptr<hf::Memory> memory_;
+  std::shared_ptr<hf::JobRunner> jobs_;
+  std::shared_ptr<const hf::Core> core_;
+  hf::SymmetricMatrix matrix_;
+  hf::Vector<float> coordinates_;
+};
+
+}  // namespace bench
+
+#endif

@@ -1,0 +1,88 @@
+// As-rigid-as-possible deformation of the full mesh (Sorkine and Alexa 2007), alternating a rotation per vertex and one
+// prefactored Laplace solve, handles fixed: the oracle poses are compared with. Spokes energy, clamped cotangent
+// weights; the factor is that of the library with the handles' rows eliminated. On cylinders and bars its minima
+// collapse, so it is a target for planes and scans only.
+#pragma once
+#include <algorithm>
+#include <vector>
+
+#include "deform/refine.h"
+#include "deform/rest.h"
+#include "engine/core.h"
+
+namespace hf_test {
+
+class ArapOracle {
+ public:
+  // fixed: per inner vertex, non-zero where it belongs to a handle.
+  ArapOracle(const hf::Core& core, std::vector<std::uint8_t> fixed)
+      : core_(core),
+        rest_(core, *core.memory),
+        fixed_(std::move(fixed)),
+        rotation_(static_cast<std::size_t>(core.size())),
+        z_(3 * static_cast<std::size_t>(core.size())) {
+    factor_ = core.factor->refactor(core.laplacian, {fixed_.data(), fixed_.size()}, *core.memory, *core.jobs);
+  }
+
+  // One iteration on positions in the mesh's own unit; the fixed ones stay.
+  void iterate(std::vector<hf::Vec3>& x) {
+    const hf::Topology& topology = core_.topology;
+    const auto& p = core_.mesh.positions;
+    hf::for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
+      for (std::int32_t v = first; v < last; ++v) {
+        hf::Mat3 s;
+        hf::add_ring(core_, rest_, x.data(), v, s);
+        rotation_[v] = hf::best_rotation_from(s, rotation_[v]);
+      }
+    });
+    const hf::Span<const std::int32_t> position = core_.factor->position();
+    hf::for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
+      for (std::int32_t v = first; v < last; ++v) {
+        hf::Vec3 sum;
+        if (!fixed_[v]) {
+          const hf::Mat3 own = hf::to_matrix(rotation_[v]);
+          for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
+            const std::int32_t u = topology.neighbour[k];
+            const double w = core_.weights[topology.neighbour_edge[k]];
+            const hf::Mat3 r = own + hf::to_matrix(rotation_[u]);
+            sum = sum + 0.5 * w * (r * (p[v] - p[u]));
+            if (fixed_[u]) sum = sum + w * x[u];
+          }
+        }
+        double* row = z_.data() + 3 * static_cast<std::size_t>(position[v]);
+        row[0] = sum.x, row[1] = sum.y, row[2] = sum.z;
+      }
+    });
+    factor_->forward(z_.data(), 3, *core_.jobs);
+    factor_->backward(z_.data(), 3, *core_.jobs);
+    for (std::int32_t v = 0; v < core_.size(); ++v) {
+      const double* row = z_.data() + 3 * static_cast<std::size_t>(position[v]);
+      if (!fixed_[v]) x[v] = {row[0], row[1], row[2]};
+    }
+  }
+
+  // Until 20 iterations lower the energy by less than 2e-5 of it, or `limit`. Returns the iterations done.
+  template <class Energy>
+  int converge(std::vector<hf::Vec3>& x, int limit, Energy&& energy) {
+    double last = energy(x);
+    int done = 0;
+    while (done < limit) {
+      for (int i = 0; i < 20; ++i) iterate(x);
+      done += 20;
+      const double now = energy(x);
+      if (last - now < 2e-5 * now) break;
+      last = now;
+    }
+    return done;
+  }
+
+ private:
+  const hf::Core& core_;
+  hf::Rest rest_;
+  std::vector<std::uint8_t> fixed_;
+  std::shared_ptr<const hf::Factor> factor_;
+  std::vector<hf::Quaternion> rotation_;
+  std::vector<double> z_;
+};
+
+}  // namespace hf_test

@@ -1,0 +1,124 @@
+// Geodesic distance against closed forms, and what must hold of it whatever the mesh.
+#include "field/geodesics.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "analysis_support.h"
+#include "base/error.h"
+#include "field/spread.h"
+
+namespace {
+
+using hf_test::PlainMesh;
+
+std::vector<double> distance(const PlainMesh& mesh, const std::vector<std::int32_t>& sources, double smoothing = 1,
+                             std::uint32_t threads = 1) {
+  const auto core = hf_test::make_core(mesh, threads);
+  const hf::Geodesics geodesics(core, smoothing);
+  std::vector<double> d(mesh.vertex_count());
+  geodesics.distance(sources, d.data());
+  for (double& value : d) value *= value < 0 ? 1 : core->mesh.scale;
+  return d;
+}
+
+TEST(GeodesicDistance, on_a_sphere_is_the_angle_and_the_error_falls_with_the_edge_length) {
+  double last = 1;
+  for (const std::uint32_t frequency : {12u, 24u, 48u}) {
+    const PlainMesh mesh = hf_test::from_shape(samples::sphere(frequency));
+    const auto d = distance(mesh, {7});
+    double worst = 0, mean = 0;
+    for (std::size_t v = 0; v < d.size(); ++v) {
+      double cosine = 0;
+      for (std::size_t k = 0; k < 3; ++k) cosine += mesh.positions[3 * v + k] * mesh.positions[21 + k];
+      const double error = std::fabs(d[v] - std::acos(std::min(1.0, std::max(-1.0, cosine))));
+      worst = std::max(worst, error), mean += error / static_cast<double>(d.size());
+    }
+    EXPECT_LT(worst, 0.8 * last) << "frequency " << frequency;
+    EXPECT_LT(mean, 0.02);
+    last = worst;
+  }
+  EXPECT_LT(last, 0.02);
+}
+
+TEST(GeodesicDistance, on_a_flat_patch_is_the_distance_to_the_nearest_source) {
+  const PlainMesh mesh = hf_test::grid(80, 80, 1.0 / 80, 0.25, 2);
+  const std::int32_t a = 20 * 81 + 20, b = 60 * 81 + 55;
+  const auto d = distance(mesh, {a, b});
+  double worst = 0, mean = 0;
+  for (std::size_t v = 0; v < d.size(); ++v) {
+    double nearest = 1e9;
+    for (const std::int32_t s : {a, b}) {
+      const std::size_t i = 3 * static_cast<std::size_t>(s);
+      nearest = std::min(nearest, std::hypot(mesh.positions[3 * v] - mesh.positions[i],
+                                             mesh.positions[3 * v + 1] - mesh.positions[i + 1]));
+    }
+    worst = std::max(worst, std::fabs(d[v] - nearest)),
+    mean += std::fabs(d[v] - nearest) / static_cast<double>(d.size());
+  }
+  EXPECT_LT(worst, 0.05);
+  EXPECT_LT(mean, 0.02);
+  EXPECT_EQ(d[static_cast<std::size_t>(a)], 0.0);
+  EXPECT_EQ(d[static_cast<std::size_t>(b)], 0.0);
+}
+
+TEST(GeodesicDistance, scales_with_the_mesh_and_does_not_move_with_it) {
+  const PlainMesh mesh = hf_test::torus(40, 20);
+  PlainMesh moved = mesh;
+  for (std::size_t i = 0; i < moved.positions.size(); ++i)
+    moved.positions[i] = 1000 * mesh.positions[i] + 5e4 * static_cast<double>(i % 3);
+  const auto d = distance(mesh, {3}), e = distance(moved, {3});
+  for (std::size_t v = 0; v < d.size(); ++v) EXPECT_NEAR(e[v], 1000 * d[v], 1e-6);
+}
+
+TEST(GeodesicDistance, is_minus_one_where_no_source_is_and_the_same_bits_for_any_threads) {
+  PlainMesh mesh = hf_test::torus(120, 100);
+  const std::uint32_t first = mesh.vertex_count();
+  hf_test::append(mesh, hf_test::from_shape(samples::sphere(6)), 10);
+  const auto d = distance(mesh, {5}), e = distance(mesh, {5}, 1, 3);
+  EXPECT_EQ(d, e);
+  for (std::size_t v = 0; v < d.size(); ++v) EXPECT_EQ(d[v] < 0, v >= first);
+}
+
+TEST(GeodesicDistance, is_finite_on_needles_and_far_from_the_source) {
+  // a strip 2,000 edges long: the heat at its end would be exp(-2000)
+  const PlainMesh strip = hf_test::grid(2000, 1);
+  const auto d = distance(strip, {0});
+  for (std::uint32_t i = 1; i <= 2000; ++i) EXPECT_GT(d[i], d[i - 1]);
+  EXPECT_NEAR(d[2000], 2000, 20);
+  PlainMesh needles = hf_test::grid(20, 20);
+  for (std::size_t v = 0; v < needles.positions.size(); v += 3) needles.positions[v] *= 1e-7;
+  for (const double value : distance(needles, {0})) EXPECT_TRUE(std::isfinite(value) && value >= 0);
+}
+
+TEST(SpreadSamples, are_far_apart_cover_every_component_and_share_its_area) {
+  PlainMesh mesh = hf_test::torus(40, 24);
+  hf_test::append(mesh, hf_test::grid(1, 1), 10);
+  const auto core = hf_test::make_core(mesh);
+  const auto areas = hf::vertex_areas(core->mesh, *core->memory);
+  const auto samples = hf::spread_samples(core->mesh, core->topology, areas, 12, *core->memory);
+  for (int c = 0; c < 2; ++c) {
+    double sum = 0;
+    std::vector<int> chosen;
+    for (std::size_t i = 0; i < 12; ++i) {
+      const std::size_t k = static_cast<std::size_t>(c) * 12 + i;
+      sum += samples.share[k];
+      if (samples.vertex[k] != hf::Mesh::none) chosen.push_back(samples.vertex[k]);
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_EQ(chosen.size(), c == 0 ? 12u : 4u);
+    std::sort(chosen.begin(), chosen.end());
+    EXPECT_EQ(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  }
+  double nearest = 1e9;
+  for (std::size_t i = 0; i < 12; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      nearest = std::min(nearest, norm(core->mesh.positions[static_cast<std::size_t>(samples.vertex[i])] -
+                                       core->mesh.positions[static_cast<std::size_t>(samples.vertex[j])]));
+    }
+  }
+  EXPECT_GT(nearest * core->mesh.scale, 1.0);  // the torus has an area of 79: discs of radius 1.4
+}
+
+}  // namespace

@@ -1,0 +1,195 @@
+// hf_field run as a user runs it: every kind of field on generated surfaces, its text, glb and picture read back, the
+// glb under the Khronos validator where that is there; and on every mesh of the shared data in the long form.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "assets/shapes.h"
+#include "common/gltf_read.h"
+#include "common/mesh_file.h"
+#include "gltf_support.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace samples;
+using samples_test::TemporaryFolder;
+
+struct Result {
+  int status = -1;
+  std::string output;
+};
+
+Result run(const std::string& arguments) {
+  const std::string command = "\"" HF_FIELD_PROGRAM "\" " + arguments + " 2>&1";
+  Result result;
+  FILE* pipe = popen(command.c_str(), "r");
+  if (!pipe) return result;
+  std::array<char, 4096> buffer;
+  while (const size_t got = fread(buffer.data(), 1, buffer.size(), pipe)) result.output.append(buffer.data(), got);
+  const int status = pclose(pipe);
+  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  return result;
+}
+
+std::string in_quotes(const fs::path& path) { return "\"" + path.string() + "\""; }
+
+SurfaceMesh surface(const ShapeMesh& shape) {
+  SurfaceMesh mesh;
+  for (size_t i = 0; i < shape.positions.size(); i += 3)
+    mesh.positions.push_back({shape.positions[i], shape.positions[i + 1], shape.positions[i + 2]});
+  mesh.triangles = shape.triangles;
+  return mesh;
+}
+
+std::vector<std::vector<double>> rows_of(const fs::path& file) {
+  std::vector<std::vector<double>> rows;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    std::istringstream words(line);
+    rows.emplace_back();
+    for (double value; words >> value;) rows.back().push_back(value);
+  }
+  return rows;
+}
+
+// Line primitives of a written file, as segment ends.
+std::vector<glm::dvec3> segments_of(const fs::path& file) {
+  const Model model = read_gltf(file);
+  std::vector<glm::dvec3> ends;
+  for (const MeshData& mesh : model.meshes) {
+    for (const Primitive& primitive : mesh.primitives) {
+      if (primitive.topology != Topology::lines) continue;
+      for (const uint32_t i : primitive.indices) ends.push_back(glm::dvec3(primitive.positions[i]));
+    }
+  }
+  return ends;
+}
+
+std::string modules() {
+  const char* given = std::getenv("HF_NODE_MODULES");
+  for (const fs::path& place : {fs::path(given ? given : ""), fs::path(HF_BUILD_DIR "/npm/node_modules")}) {
+    if (!place.empty() && fs::is_directory(place / "gltf-validator")) return place.string();
+  }
+  return {};
+}
+
+TEST(FieldProgram, writes_every_kind_of_field_as_text_glb_and_picture) {
+  TemporaryFolder folder;
+  const fs::path mesh_file = folder.path / "cactus.obj", glbs = folder.path / "glb";
+  fs::create_directory(glbs);
+  const SurfaceMesh mesh = surface(cactus(2500));
+  write_mesh_file(mesh, mesh_file);
+  const struct {
+    const char *kind, *more;
+    size_t components;
+  } kinds[] = {{"harmonic", "--isolines 12 --levels length --critical-points", 1},
+               {"biharmonic", "--isolines 5 --levels area", 1},
+               {"vector", "", 3},
+               {"direction", "", 3}};
+  for (const auto& kind : kinds) {
+    const fs::path base = folder.path / kind.kind, glb = glbs / (std::string(kind.kind) + ".glb");
+    const Result result = run(in_quotes(mesh_file) + " --kind " + kind.kind + " --extremities " + kind.more +
+                              " --out " + in_quotes(base.string() + ".txt") + " --glb " + in_quotes(glb) + " --png " +
+                              in_quotes(base.string() + ".png"));
+    ASSERT_EQ(result.status, 0) << result.output;
+    EXPECT_NE(result.output.find("extremities 4"), std::string::npos) << result.output;
+    const auto rows = rows_of(base.string() + ".txt");
+    ASSERT_EQ(rows.size(), mesh.positions.size());
+    for (const auto& row : rows) {
+      ASSERT_EQ(row.size(), kind.components);
+      for (const double value : row) ASSERT_TRUE(std::isfinite(value));
+    }
+    const std::vector<glm::dvec3> ends = segments_of(glb);
+    EXPECT_GT(ends.size(), 200u) << kind.kind;
+    EXPECT_GT(fs::file_size(base.string() + ".png"), 20000u);
+    if (std::string(kind.kind) == "harmonic") {
+      EXPECT_NE(result.output.find("indices sum to 2, Euler characteristic 2"), std::string::npos) << result.output;
+    }
+    if (std::string(kind.kind) == "direction") {
+      EXPECT_NE(result.output.find("indices sum to 2"), std::string::npos) << result.output;
+    }
+  }
+  const std::string validator = modules();
+  if (validator.empty()) {
+    std::printf("npm's gltf-validator is not there (HF_NODE_MODULES): the glb files are not validated\n");
+    return;
+  }
+  const std::string command = "node \"" HF_SOURCE_DIR "/tests/unit/samples/validate.mjs\" \"" + validator + "\" " +
+                              in_quotes(glbs) + " > " + in_quotes(folder.path / "report.txt") + " 2>&1";
+  std::ifstream report(folder.path / "report.txt");
+  EXPECT_EQ(std::system(command.c_str()), 0) << std::string(std::istreambuf_iterator<char>(report), {});
+}
+
+TEST(FieldProgram, draws_iso_lines_that_lie_on_their_levels) {
+  TemporaryFolder folder;
+  const fs::path mesh_file = folder.path / "cylinder.obj", glb = folder.path / "lines.glb";
+  const SurfaceMesh mesh = surface(cylinder(6, 40));
+  write_mesh_file(mesh, mesh_file);
+  uint32_t top = 0, bottom = 0;
+  for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    if (mesh.positions[v].y > mesh.positions[top].y) top = v;
+    if (mesh.positions[v].y < mesh.positions[bottom].y) bottom = v;
+  }
+  const Result result = run(in_quotes(mesh_file) + " --site " + std::to_string(top) + "=1 --site " +
+                            std::to_string(bottom) + "=0 --isolines 7 --levels length --glb " + in_quotes(glb));
+  ASSERT_EQ(result.status, 0) << result.output;
+  const std::vector<glm::dvec3> ends = segments_of(glb);
+  ASSERT_FALSE(ends.empty());
+  // closed lines: every point ends as many segments as it starts, so the segments add up to nothing
+  glm::dvec3 sum(0);
+  for (size_t i = 0; i + 1 < ends.size(); i += 2) sum += ends[i + 1] - ends[i];
+  EXPECT_LT(glm::length(sum), 1e-4);
+  for (const glm::dvec3& p : ends) EXPECT_LT(std::hypot(p.x, p.z), 0.501);
+}
+
+TEST(FieldProgram, refuses_what_does_not_fit_together_with_a_sentence) {
+  TemporaryFolder folder;
+  const fs::path mesh_file = folder.path / "sphere.obj";
+  write_mesh_file(surface(sphere(6)), mesh_file);
+  const struct {
+    const char *arguments, *says;
+  } cases[] = {{"", "no sites given"},
+               {"--site 0=1,2", "must be three numbers"},
+               {"--site 0=1,0,0", "takes one"},
+               {"--kind vector --site 0=1", "takes vectors"},
+               {"--kind vector --site 0=1,0,0 --isolines 5", "scalar field"},
+               {"--kind tensor --site 0=1", "is none of harmonic"},
+               {"--levels width --site 0=1", "is none of value"},
+               {"--site 0=1 --isolines 99999", "--isolines must be"},
+               {"--site 9999=1", "hf_add_sites"},
+               {"--kind direction --site 5:1,0,0=1,0,0", "lie at vertices"},
+               {"--sheet", "--sheet needs"}};
+  for (const auto& row : cases) {
+    const Result result = run(in_quotes(mesh_file) + " " + row.arguments);
+    EXPECT_EQ(result.status, 1) << row.arguments;
+    EXPECT_NE(result.output.find(row.says), std::string::npos) << row.arguments << ": " << result.output;
+  }
+}
+
+TEST(FieldProgram, is_finite_with_every_kind_of_field_on_every_mesh) {
+  TemporaryFolder folder;
+  std::string list;
+  const char* given = std::getenv("HF_SHARED_DATA");
+  const fs::path shared = (given ? fs::path(given) : fs::path(HF_SOURCE_DIR) / "../shared/data") / "meshes";
+  if (!fs::is_directory(shared)) GTEST_SKIP() << shared << " is not there";
+  const char* full = std::getenv("HF_FULL_TESTS");
+  for (const auto& entry : fs::directory_iterator(shared)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".obj" && extension != ".off" && extension != ".ply") continue;
+    // the short form leaves the large scans out
+    if (full || entry.file_size() < 110000) list += " " + in_quotes(entry.path());
+  }
+  const Result result = run("--png " + in_quotes(folder.path / "sheet") + " --sheet" + list);
+  EXPECT_EQ(result.status, 0) << result.output;
+  for (const char* kind : {"harmonic", "biharmonic", "vector", "direction", "isolines", "critical"})
+    EXPECT_TRUE(fs::exists(folder.path / (std::string("sheet_") + kind + ".png"))) << kind;
+}
+
+}  // namespace

@@ -1,0 +1,215 @@
+// Touching the ground and being held: planted feet, contacts, places the caller decides, exchanged sides; and the
+// comparison with joint rotations copied by name, on real animals when the shared data is there.
+#include <gtest/gtest.h>
+
+#include "unit/transfer/transfer_support.h"
+
+namespace {
+
+using namespace transfer_test;
+using hf::Vec3;
+
+struct Animals {
+  World world;
+  Body horse = creature("horse", 2500, world), bull = creature("bull", 2000, world);
+  Pairs pairs = find_pairs("horse_to_bull.json", horse, bull);
+  const samples::Animation& walk =
+      horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
+  double box = bull.core->mesh.scale;
+  size_t pair(const std::string& name) const {
+    return static_cast<size_t>(std::find(pairs.names.begin(), pairs.names.end(), name) - pairs.names.begin());
+  }
+};
+
+const Animals& animals() {
+  static const Animals made;
+  return made;
+}
+
+// Mean over the vertices of a region, each once.
+Vec3 centre_of(std::vector<int32_t> region, const std::vector<Vec3>& points) {
+  std::sort(region.begin(), region.end());
+  region.erase(std::unique(region.begin(), region.end()), region.end());
+  Vec3 sum;
+  for (const int32_t v : region)
+    sum = sum + (1.0 / static_cast<double>(region.size())) * points[static_cast<size_t>(v)];
+  return sum;
+}
+
+double lowest_of(const std::vector<int32_t>& region, const std::vector<Vec3>& points) {
+  double low = 1e300;
+  for (const int32_t v : region) low = std::min(low, points[static_cast<size_t>(v)].y);
+  return low;
+}
+
+double lowest_of(const std::vector<Vec3>& points) {
+  double low = 1e300;
+  for (const Vec3& p : points) low = std::min(low, p.y);
+  return low;
+}
+
+TEST(TransferContacts, ARegionTheCallerHoldsGoesExactlyWhereItIsSaidAndTheRestFollows) {
+  const Animals& a = animals();
+  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  std::vector<uint32_t> numbers(a.pairs.names.size());
+  add(transfer, a.pairs.inputs(), numbers.data());
+  const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.3);
+  const std::vector<Vec3> free_frame = frame_of(transfer, posed);
+  // a foot, which is an anchor, and the nose, which is none
+  const size_t foot = 2, nose = a.pair("nose");
+  ASSERT_LT(nose, numbers.size());
+  const Vec3 step = centre_of(a.pairs.target[foot], free_frame) + Vec3{0, 0.05 * a.box, 0.02 * a.box};
+  const Vec3 rail = centre_of(a.pairs.target[nose], free_frame) + Vec3{0.03 * a.box, 0.02 * a.box, 0};
+  const hf::PairHold holds[] = {{numbers[foot], step}, {numbers[nose], rail}};
+  std::vector<Vec3> held(static_cast<size_t>(transfer.target().size()));
+  transfer.apply(posed.data(), held.data(), {holds, 2});
+  EXPECT_LT(hf::norm(centre_of(a.pairs.target[foot], held) - step), 1e-6 * a.box);
+  EXPECT_LT(hf::norm(centre_of(a.pairs.target[nose], held) - rail), 1e-6 * a.box);
+  // another foot stays, and nothing tears
+  EXPECT_LT(hf::norm(centre_of(a.pairs.target[5], held) - centre_of(a.pairs.target[5], free_frame)), 0.01 * a.box);
+  EXPECT_LT(largest_distance(held, free_frame), 0.12 * a.box);
+  // holds are of one frame
+  EXPECT_EQ(largest_distance(frame_of(transfer, posed), free_frame), 0.0);
+}
+
+TEST(TransferContacts, BadHoldsAreNamedAndChangeNothing) {
+  const Animals& a = animals();
+  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  std::vector<uint32_t> numbers(a.pairs.names.size());
+  add(transfer, a.pairs.inputs(), numbers.data());
+  const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.3), before = frame_of(transfer, posed);
+  std::vector<Vec3> out = before;
+  const auto refused = [&](std::vector<hf::PairHold> holds, hf_result code, uint32_t index) {
+    try {
+      transfer.apply(posed.data(), out.data(), {holds.data(), holds.size()});
+      ADD_FAILURE() << "not refused";
+    } catch (const hf::Error& error) {
+      EXPECT_EQ(error.code(), code);
+      EXPECT_EQ(error.index(), index);
+    }
+    EXPECT_EQ(largest_distance(out, before), 0.0);
+  };
+  refused({{numbers[0], {0, 0, 0}}, {77, {0, 0, 0}}}, HF_ERROR_NO_SUCH_PAIR, 1);
+  refused({{numbers[0], {0, NAN, 0}}}, HF_ERROR_NON_FINITE, 0);
+  refused({{numbers[0], {0, 0, 0}}, {numbers[0], {1, 0, 0}}}, HF_ERROR_INVALID_ARGUMENT, 1);
+  EXPECT_EQ(largest_distance(frame_of(transfer, posed), before), 0.0);
+}
+
+TEST(TransferContacts, AStandingFootDoesNotSlideOffItsScaledPath) {
+  const Animals& a = animals();
+  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  add(transfer, a.pairs.inputs());
+  const std::vector<Vec3> source_rest = a.horse.rest(), rest = a.bull.rest();
+  double worst = 0;
+  int standing = 0;
+  for (int f = 0; f < 40; ++f) {
+    const std::vector<Vec3> posed = a.horse.posed(a.walk, samples::clip_duration(a.walk) * f / 40),
+                            out = frame_of(transfer, posed);
+    for (size_t foot = 2; foot < 6; ++foot) {
+      if (transfer.scale() * (lowest_of(a.pairs.source[foot], posed) - lowest_of(source_rest)) > 0.009 * a.box)
+        continue;
+      ++standing;
+      Vec3 off =
+          centre_of(a.pairs.target[foot], out) - centre_of(a.pairs.target[foot], rest) -
+          transfer.scale() * (centre_of(a.pairs.source[foot], posed) - centre_of(a.pairs.source[foot], source_rest));
+      off.y = 0;
+      worst = std::max(worst, hf::norm(off) / a.box);
+    }
+  }
+  EXPECT_GT(standing, 40);
+  EXPECT_LT(worst, 1e-3);
+}
+
+TEST(TransferContacts, AContactComesAsNearToTheGroundAsItsSource) {
+  const Animals& a = animals();
+  const size_t nose = a.pair("nose");
+  const std::vector<Vec3> rest = a.horse.rest();
+  const double ground = lowest_of(rest), target_ground = lowest_of(a.bull.rest());
+  // the horse's front bows until its nose is near the ground
+  const double tip = centre_of(a.pairs.source[nose], rest).z, from = 0.3 * tip,
+               drop = lowest_of(a.pairs.source[nose], rest) - ground - 0.02 * a.horse.core->mesh.scale;
+  std::vector<Vec3> posed = rest;
+  for (Vec3& p : posed) {
+    const double t = std::clamp((p.z - from) / (tip - from), 0.0, 1.0);
+    if (p.y - ground > 0.3 * a.horse.core->mesh.scale) p.y -= drop * t * t;
+  }
+  const double low = lowest_of(a.pairs.source[nose], posed) - ground;
+  double miss[2];
+  for (const bool contact : {false, true}) {
+    Pairs pairs = a.pairs;
+    if (contact) pairs.flags[nose] |= HF_PAIR_CONTACT;
+    hf::Transfer transfer(a.horse.core, a.bull.core, {});
+    add(transfer, pairs.inputs());
+    const std::vector<Vec3> out = frame_of(transfer, posed);
+    miss[contact] = std::abs(lowest_of(pairs.target[nose], out) - target_ground - transfer.scale() * low) / a.box;
+  }
+  std::printf("contact: the nose is off the scaled height by %.4f of the box, %.4f without\n", miss[1], miss[0]);
+  EXPECT_LT(miss[1], 0.01);
+  EXPECT_LT(miss[1], 0.5 * miss[0]);
+}
+
+TEST(TransferContacts, PairsThatChangeSidesAreSaidToBeCrossed) {
+  const Animals& a = animals();
+  Pairs pairs = a.pairs;
+  const size_t left = a.pair("front foot left"), right = a.pair("front foot right");
+  ASSERT_LT(std::max(left, right), pairs.names.size());
+  std::swap(pairs.target[left], pairs.target[right]);
+  hf::Transfer good(a.horse.core, a.bull.core, {}), bad(a.horse.core, a.bull.core, {});
+  std::vector<uint32_t> numbers(pairs.names.size());
+  add(good, a.pairs.inputs(), numbers.data()), add(bad, pairs.inputs());
+  for (size_t p = 0; p < numbers.size(); ++p) {
+    EXPECT_FALSE(good.pair_info(numbers[p]).crossed) << pairs.names[p];
+    EXPECT_EQ(bad.pair_info(numbers[p]).crossed, p == left || p == right) << pairs.names[p];
+  }
+}
+
+// ---- against joints copied by name ----
+
+// Local rotations of the source's joints on the target's joints of the same name; translations by their change, scaled.
+std::vector<glm::dvec3> copied_by_name(const Body& source, const samples::Animation& clip, double time,
+                                       const Body& target, double scale) {
+  const samples::Pose from = samples::sample(source.model, clip, time), from_rest = samples::rest_pose(source.model);
+  samples::Pose to = samples::rest_pose(target.model);
+  for (size_t n = 0; n < to.size(); ++n) {
+    const int other = samples::find_node(source.model, target.model.nodes[n].name);
+    if (other < 0) continue;
+    const auto o = static_cast<size_t>(other);
+    to[n].rotation = from[o].rotation;
+    to[n].translation += scale * (from[o].translation - from_rest[o].translation);
+  }
+  return samples::posed_positions(target.model, target.mesh, to);
+}
+
+void check_against_names(const std::string& target_name, const std::string& list) {
+  const auto file = [](const std::string& name) { return data_folder() / "gltf" / name; };
+  if (!std::filesystem::exists(file("q_Horse.glb")) || !std::filesystem::exists(file(target_name)))
+    GTEST_SKIP() << "no q_Horse.glb or " << target_name << " under " << data_folder();
+  const World world;
+  const Body horse(samples::read_gltf(file("q_Horse.glb")), world), other(samples::read_gltf(file(target_name)), world);
+  hf::Transfer transfer(horse.core, other.core, {});
+  add(transfer, find_pairs(list, horse, other).inputs());
+  for (const char* name : {"AnimalArmature|Gallop", "AnimalArmature|Walk"}) {
+    const samples::Animation& clip =
+        horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, name))];
+    double mean = 0, nothing = 0;
+    for (int k = 0; k < 12; ++k) {
+      const double time = samples::clip_duration(clip) * k / 11;
+      const std::vector<Vec3> named = other.inner(copied_by_name(horse, clip, time, other, transfer.scale()));
+      mean += rms(*other.core, frame_of(transfer, horse.posed(clip, time)), named, true) / 12;
+      nothing += rms(*other.core, other.rest(), named, true) / 12;
+    }
+    std::printf("q_Horse -> %s, %s: %.4f of the box from joints copied by name (rest: %.4f)\n", target_name.c_str(),
+                name, mean, nothing);
+    EXPECT_LT(mean, 0.040) << name;
+    EXPECT_LT(mean, nothing) << name;
+  }
+}
+
+TEST(TransferContacts, TheWolfMovesAsWithJointsCopiedByName) {
+  check_against_names("q_Wolf.glb", "q_horse_to_q_wolf.json");
+}
+TEST(TransferContacts, TheFoxMovesAsWithJointsCopiedByName) {
+  check_against_names("q_Fox.glb", "q_horse_to_q_fox.json");
+}
+
+}  // namespace

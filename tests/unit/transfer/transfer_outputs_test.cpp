@@ -1,0 +1,230 @@
+// The other ways hf_transfer is used: proposed pairs, contacts, the target's own skin, morph targets, mesh sequences,
+// and the live sample.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "assets/creature_gltf.h"
+#include "common/animate.h"
+#include "common/gltf_read.h"
+#include "common/gltf_write.h"
+#include "common/mesh_file.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+fs::path folder() {
+  const fs::path out = fs::path(HF_BUILD_DIR) / "transfer_outputs_test";
+  fs::create_directories(out);
+  return out;
+}
+
+std::string quoted(const fs::path& path) { return "\"" + path.string() + "\""; }
+fs::path horse_to_bull() { return fs::path(HF_SOURCE_DIR) / "samples/transfer/pairs/horse_to_bull.json"; }
+
+int run(const std::string& command, std::string& output) {
+  output.clear();
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  if (!pipe) return -1;
+  char buffer[4096];
+  while (const size_t got = fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, got);
+  const int status = pclose(pipe);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+int transfer(const std::string& arguments, std::string& output) {
+  return run(quoted(HF_TRANSFER_PROGRAM) + " --quiet " + arguments, output);
+}
+
+fs::path creature(const std::string& name) {
+  static std::set<std::string> made;  // they take a moment
+  const fs::path file = folder() / (name + ".glb");
+  if (made.insert(name).second) samples::write_gltf(samples::to_model(samples::make_creature(name, 1500)), file);
+  return file;
+}
+
+std::string both() { return quoted(creature("horse")) + " " + quoted(creature("bull")); }
+json read_json(const fs::path& file) { return json::parse(std::ifstream(file)); }
+
+TEST(TransferOutputs, ProposedPairsFindEveryPlaceAndCrossNone) {
+  const fs::path list = folder() / "proposed.json", report = folder() / "proposed_report.json";
+  std::string said;
+  ASSERT_EQ(transfer(both() + " --suggest-pairs " + quoted(list), said), 0) << said;
+  std::vector<std::string> names;
+  const json proposed = read_json(list);
+  for (const json& pair : proposed["pairs"]) names.push_back(pair["name"]);
+  for (const char* name :
+       {"nose", "tail", "front foot left", "front foot right", "hind foot left", "hind foot right", "withers", "rump"})
+    EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name << "\n" << said;
+  ASSERT_EQ(transfer(both() + " --pairs " + quoted(list) + " -o " + quoted(folder() / "proposed.glb") + " --json " +
+                         quoted(report),
+                     said),
+            0)
+      << said;
+  const json figures = read_json(report);
+  for (const json& pair : figures["pairs"]) EXPECT_FALSE(pair["crossed"].get<bool>()) << pair["name"];
+  EXPECT_LT(figures["clips"][0]["foot_path_mean"].get<double>(), 0.005);
+  EXPECT_LT(figures["clips"][0]["planted_max"].get<double>(), 0.005);
+  EXPECT_LT(figures["clips"][0]["foot_sunk"].get<double>(), 0.002);
+  // and without a file at all
+  EXPECT_EQ(transfer(both() + " -o " + quoted(folder() / "unasked.glb"), said), 0) << said;
+  EXPECT_NE(said.find("proposed pairs"), std::string::npos);
+}
+
+TEST(TransferOutputs, ExchangedSidesAreSaid) {
+  json list = read_json(horse_to_bull());
+  json* sides[2] = {nullptr, nullptr};
+  for (json& pair : list["pairs"]) {
+    if (pair.contains("both")) pair["source"] = pair["target"] = pair["both"], pair.erase("both");
+    if (pair["name"] == "front foot left") sides[0] = &pair["target"];
+    if (pair["name"] == "front foot right") sides[1] = &pair["target"];
+  }
+  ASSERT_TRUE(sides[0] && sides[1]);
+  std::swap(*sides[0], *sides[1]);
+  std::ofstream(folder() / "crossed.json") << list;
+  std::string said;
+  ASSERT_EQ(
+      transfer(both() + " --pairs " + quoted(folder() / "crossed.json") + " -o " + quoted(folder() / "crossed.glb"),
+               said),
+      0)
+      << said;
+  EXPECT_NE(said.find("left and right are crossed"), std::string::npos) << said;
+}
+
+TEST(TransferOutputs, ContactsAreNamedByPairOrJointAndWrongNamesAreRefused) {
+  const std::string start =
+      both() + " --pairs " + quoted(horse_to_bull()) + " -o " + quoted(folder() / "contacts.glb") + " --contacts ";
+  std::string said;
+  ASSERT_EQ(transfer(start + "nose", said), 0) << said;
+  EXPECT_NE(said.find("\"nose\" touches the ground"), std::string::npos) << said;
+  ASSERT_EQ(transfer(start + "head", said), 0) << said;
+  EXPECT_NE(said.find("\"nose\" touches the ground"), std::string::npos) << said;
+  ASSERT_EQ(transfer(start + "none", said), 0) << said;
+  EXPECT_EQ(said.find("contact:"), std::string::npos) << said;
+  EXPECT_EQ(transfer(start + "antlers", said), 1);
+  EXPECT_NE(said.find("antlers"), std::string::npos) << said;
+}
+
+TEST(TransferOutputs, TheTargetsOwnRigPlaysTheMotion) {
+  const fs::path out = folder() / "own.glb", report = folder() / "own.json";
+  std::string said;
+  ASSERT_EQ(transfer(both() + " --pairs " + quoted(horse_to_bull()) + " --onto-skin -o " + quoted(out) + " --json " +
+                         quoted(report),
+                     said),
+            0)
+      << said;
+  const samples::Model made = samples::read_gltf(out), given = samples::read_gltf(folder() / "bull.glb");
+  ASSERT_EQ(made.skins.size(), given.skins.size());
+  EXPECT_EQ(made.skins[0].joints, given.skins[0].joints);
+  EXPECT_EQ(made.nodes.size(), given.nodes.size());
+  ASSERT_EQ(made.meshes.size(), given.meshes.size());
+  EXPECT_EQ(made.meshes[0].primitives[0].positions, given.meshes[0].primitives[0].positions);
+  ASSERT_EQ(made.animations.size(), 1u);
+  const json figures = read_json(report);
+  EXPECT_LT(figures["written_rms"].get<double>(), 0.015);
+  EXPECT_LT(figures["written_max"].get<double>(), 0.08);
+  EXPECT_GT(figures["written_parts"].get<int>(), 10);
+}
+
+TEST(TransferOutputs, ARigThatMadeTheMotionPlaysItBack) {
+  // the horse on itself: the frames are nearly those of its own joints
+  const fs::path out = folder() / "itself.glb", report = folder() / "itself.json";
+  std::string said;
+  ASSERT_EQ(transfer(quoted(creature("horse")) + " " + quoted(folder() / "horse.glb") + " --onto-skin -o " +
+                         quoted(out) + " --json " + quoted(report),
+                     said),
+            0)
+      << said;
+  EXPECT_LT(read_json(report)["written_rms"].get<double>(), 0.006);
+}
+
+TEST(TransferOutputs, MorphTargetsKeepEveryFrameWithinTheTolerance) {
+  const fs::path out = folder() / "morph.glb", report = folder() / "morph.json";
+  std::string said;
+  ASSERT_EQ(transfer(both() + " --pairs " + quoted(horse_to_bull()) + " --as morph --morph-tolerance 0.0005 -o " +
+                         quoted(out) + " --json " + quoted(report),
+                     said),
+            0)
+      << said;
+  const samples::Model made = samples::read_gltf(out);
+  EXPECT_TRUE(made.skins.empty());
+  const json figures = read_json(report);
+  EXPECT_EQ(made.meshes[0].primitives[0].targets.size(), figures["written_parts"].get<size_t>());
+  EXPECT_LT(figures["written_rms"].get<double>(), 5.01e-4);
+  EXPECT_LT(figures["written_parts"].get<int>(), 50);
+  for (const float weight : made.animations[0].channels[0].values) EXPECT_TRUE(weight >= 0 && weight <= 1) << weight;
+}
+
+TEST(TransferOutputs, MeshSequencesGiveWhatTheClipGives) {
+  // the walk of the horse as posed meshes, the bull as a mesh; places as vertices and positions
+  const samples::Model horse = samples::read_gltf(creature("horse")), bull = samples::read_gltf(creature("bull"));
+  const samples::FlatMesh from = samples::flatten(horse), to = samples::flatten(bull);
+  const fs::path place = folder() / "sequence";
+  fs::remove_all(place);
+  fs::create_directories(place);
+  const auto mesh = [](const samples::FlatMesh& flat, const std::vector<glm::dvec3>& positions) {
+    samples::SurfaceMesh out;
+    out.positions = positions, out.triangles = flat.triangles;
+    return out;
+  };
+  samples::write_mesh_file(mesh(from, from.positions), place / "horse.obj");
+  samples::write_mesh_file(mesh(to, to.positions), place / "bull.ply");
+  std::string poses;
+  for (int f = 0; f < 4; ++f) {
+    const fs::path file = place / ("pose" + std::to_string(f) + (f % 2 ? ".obj" : ".ply"));
+    samples::write_mesh_file(mesh(from, samples::posed_positions(horse, from, horse.animations[0], f * 0.1)), file);
+    poses += " " + quoted(file);
+  }
+  std::string said;
+  ASSERT_EQ(transfer("--source " + quoted(place / "horse.obj") + " --poses" + poses + " --target " +
+                         quoted(place / "bull.ply") + " --suggest-pairs " + quoted(place / "pairs.json"),
+                     said),
+            0)
+      << said;
+  ASSERT_EQ(transfer("--source " + quoted(place / "horse.obj") + " --poses" + poses + " --target " +
+                         quoted(place / "bull.ply") + " --pairs " + quoted(place / "pairs.json") + " --out-poses " +
+                         quoted(place / "out"),
+                     said),
+            0)
+      << said;
+  ASSERT_EQ(
+      transfer(both() + " --pairs " + quoted(place / "pairs.json") + " --fps 10 --out-poses " + quoted(place / "clip"),
+               said),
+      0)
+      << said;
+  double box = 0;
+  for (const glm::dvec3& p : to.positions) box = std::max(box, glm::length(p - to.positions[0]));
+  for (int f = 0; f < 4; ++f) {
+    const std::string number = "_000" + std::to_string(f) + ".ply";
+    const samples::SurfaceMesh got = samples::read_mesh_file(place / "out" / ("pose" + number)),
+                               clip = samples::read_mesh_file(place / "clip" / (horse.animations[0].name + number));
+    ASSERT_EQ(got.positions.size(), to.positions.size());
+    EXPECT_EQ(got.triangles, to.triangles);
+    double worst = 0;
+    for (size_t v = 0; v < got.positions.size(); ++v)
+      worst = std::max(worst, glm::distance(got.positions[v], clip.positions[v]));
+    EXPECT_LT(worst, 1e-4 * box) << f;
+  }
+  // a pose with another number of vertices is named
+  EXPECT_EQ(transfer("--source " + quoted(place / "horse.obj") + " --poses " + quoted(place / "bull.ply") +
+                         " --target " + quoted(place / "bull.ply") + " --pairs " + quoted(place / "pairs.json") +
+                         " --out-poses " + quoted(place / "bad"),
+                     said),
+            1);
+  EXPECT_NE(said.find("bull.ply"), std::string::npos) << said;
+}
+
+TEST(TransferOutputs, TheLiveSampleRunsWhileItsHandlesChange) {
+  std::string said;
+  ASSERT_EQ(run(quoted(HF_LIVE_TRANSFER_PROGRAM), said), 0) << said;
+  EXPECT_NE(said.find("frame 55"), std::string::npos) << said;
+}
+
+}  // namespace
