@@ -1,6 +1,7 @@
 #include "base/jobs.h"
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -37,19 +38,35 @@ struct Batch {
   }
 };
 
+// Calls done() until it holds or some 40 microseconds are over. A solve is a dozen batches in a row: waking a sleeping
+// thread for each costs more than the smaller ones, while a longer spin would take a core from the host.
+template <class Done>
+bool spin(Done&& done) noexcept {
+  const auto until = std::chrono::steady_clock::now() + std::chrono::microseconds(40);
+  for (;;) {
+    for (int i = 0; i < 64; ++i) {
+      if (done()) return true;
+#if defined(__x86_64__) || defined(__i386__)
+      __builtin_ia32_pause();
+#endif
+    }
+    if (std::chrono::steady_clock::now() > until) return false;
+  }
+}
+
 }  // namespace
 
-// Workers sleep on a condition variable between batches. One batch has the workers at a time: a caller that comes
-// meanwhile (another clone, or a job that has work to split itself) does its batch alone, so nobody waits and nothing
-// can lock up.
+// Between batches workers spin for a moment, then sleep on a condition variable. One batch has the workers at a time: a
+// caller that comes meanwhile (another clone, or a job that has work to split itself) does its batch alone, so nobody
+// waits and nothing can lock up.
 struct JobRunner::Pool {
   std::atomic<bool> taken{false};
   std::mutex mutex;
   std::condition_variable wake, done;
   Batch* batch = nullptr;
-  std::uint64_t generation = 0;
-  std::uint32_t busy = 0;
-  bool stop = false;
+  std::atomic<std::uint64_t> generation{0};  // written under the mutex, like the next two
+  std::atomic<std::uint32_t> busy{0};
+  std::atomic<bool> stop{false};
   std::vector<std::thread> workers;
 
   explicit Pool(std::uint32_t count) {
@@ -71,8 +88,10 @@ struct JobRunner::Pool {
   void loop() {
     FloatEnvironment environment;
     std::uint64_t seen = 0;
-    std::unique_lock<std::mutex> lock(mutex);
+    std::unique_lock<std::mutex> lock(mutex, std::defer_lock);
     for (;;) {
+      spin([&] { return stop || generation != seen; });
+      lock.lock();
       wake.wait(lock, [&] { return stop || (batch && generation != seen); });
       if (stop) return;
       seen = generation;
@@ -82,6 +101,7 @@ struct JobRunner::Pool {
       mine->work();
       lock.lock();
       if (--busy == 0) done.notify_all();
+      lock.unlock();
     }
   }
   void run(Batch& work) {
@@ -94,7 +114,12 @@ struct JobRunner::Pool {
     wake.notify_all();
     work.work();
     std::unique_lock<std::mutex> lock(mutex);
-    batch = nullptr;
+    batch = nullptr;  // nobody joins any more
+    if (busy > 0) {
+      lock.unlock();
+      spin([&] { return busy == 0; });
+      lock.lock();
+    }
     done.wait(lock, [&] { return busy == 0; });
     taken.store(false, std::memory_order_release);
   }
