@@ -14,7 +14,7 @@ namespace hf {
 namespace {
 
 constexpr std::uint64_t magic = 0x524F544341464648ull;  // "HFFACTOR"
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 constexpr std::uint64_t copy_step = std::uint64_t{1} << 22;  // bytes a job copies
 constexpr std::uint32_t byte_order = 0x01020304u;
 

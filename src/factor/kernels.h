@@ -37,7 +37,8 @@ struct ChildView {
   const std::int32_t* run;    // first rows of the runs, ending with `size`
 };
 
-constexpr std::int32_t small_columns = 8;
+// Supernodes of at most this many columns are stored solved: X = L^-1 and B X in place of L and B (kernels_narrow.inl).
+constexpr std::int32_t narrow_columns = 8;
 
 struct Kernels {
   const char* name;
@@ -53,6 +54,9 @@ struct Kernels {
   void (*form_update)(const FrontView& front, std::int32_t tile_begin, std::int32_t tile_end);
   // Adds columns [begin, end) of the child's update matrix to panel and update matrix.
   void (*extend_add)(const FrontView& front, const ChildView& child, std::int32_t begin, std::int32_t end);
+  // A narrow front, after its update matrix: X in place of L, then W = B X on tiles [tile_begin, tile_end) below.
+  void (*invert_triangle)(const FrontView& front);
+  void (*multiply_inverse)(const FrontView& front, std::int32_t tile_begin, std::int32_t tile_end);
   // Writes tiles [tile_begin, tile_end) row by row: packed triangle, then the rows below.
   void (*store_tiles)(const FrontView& front, double* values, std::int32_t tile_begin, std::int32_t tile_end);
 
@@ -62,16 +66,17 @@ struct Kernels {
                         std::int32_t begin, std::int32_t end, double* z, std::int32_t first, std::int32_t channels);
   // z <- L^-T z on the packed triangle.
   void (*backward_triangle)(const double* triangle, std::int32_t columns, double* z, std::int32_t channels);
-  // Both for at most small_columns columns and one channel.
-  void (*backward_small)(const double* triangle, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
-                         double* z, std::int32_t first);
-  void (*backward_small_f32)(const float* triangle, const std::int32_t* rows, std::int32_t row_count,
-                             std::int32_t columns, float* z, std::int32_t first);
+  // Both of a narrow supernode.
+  void (*backward_narrow)(const double* triangle, const std::int32_t* rows, std::int32_t row_count,
+                          std::int32_t columns, double* z, std::int32_t first, std::int32_t channels);
+  void (*backward_narrow_f32)(const float* triangle, const std::int32_t* rows, std::int32_t row_count,
+                              std::int32_t columns, float* z, std::int32_t first, std::int32_t channels);
   // The same two on the single-precision copy.
   void (*backward_rows_f32)(const float* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
                             std::int32_t begin, std::int32_t end, float* z, std::int32_t first, std::int32_t channels);
   void (*backward_triangle_f32)(const float* triangle, std::int32_t columns, float* z, std::int32_t channels);
-  // Forward: z <- L^-1 z on the triangle, then out[k * channels] = B[k] z for every row k below (not subtracted).
+  // Forward: z <- L^-1 z on the triangle, then out[k * channels] = B[k] z for every row k below (not subtracted); for a
+  // narrow supernode the rows come before the triangle.
   void (*forward_triangle)(const double* triangle, std::int32_t columns, double* z, std::int32_t channels);
   void (*forward_rows)(const double* below, std::int32_t row_count, std::int32_t columns, const double* z, double* out,
                        std::int32_t channels);
@@ -79,7 +84,8 @@ struct Kernels {
   void (*forward_rows_f32)(const float* below, std::int32_t row_count, std::int32_t columns, const float* z, float* out,
                            std::int32_t channels);
 
-  // Path blocks x[nc][lanes], lanes a multiple of 8: x <- L^-1 x, then x[target[k]] -= B[k] x for every row below.
+  // Path blocks x[nc][lanes], lanes a multiple of 8: x <- L^-1 x, then x[target[k]] -= B[k] x for every row below;
+  // narrow ones the other way round.
   void (*path_triangle)(const double* triangle, std::int32_t columns, double* x, std::int32_t lanes);
   void (*path_rows)(const double* below, std::int32_t row_count, std::int32_t columns, const double* x,
                     std::int32_t lanes, double* base, const std::int64_t* target);

@@ -3,6 +3,8 @@
 #include "factor/simd_avx512.h"
 #include "factor/kernels_factor.inl"
 #include "factor/kernels_sweep.inl"
+#include "factor/kernels_narrow.inl"
+#include "factor/kernels_triangle.inl"
 #include "factor/kernels_path.inl"
 // clang-format on
 
@@ -14,11 +16,13 @@ extern const Kernels kernels_avx512_set = {
     solve_tiles,
     form_update,
     extend_add,
+    invert_triangle,
+    multiply_inverse,
     store_tiles,
     backward_rows,
     backward_triangle,
-    backward_small,
-    backward_small_f32,
+    backward_narrow,
+    backward_narrow_f32,
     backward_rows_f32,
     backward_triangle_f32,
     forward_triangle,

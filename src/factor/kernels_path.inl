@@ -63,6 +63,7 @@ inline void lane_rows_any(const double* const* a, std::int64_t a_step, const dou
 }
 
 void path_triangle(const double* triangle, std::int32_t columns, double* x, std::int32_t lanes) {
+  if (columns <= most_narrow) return path_narrow(triangle, columns, x, lanes);
   if (lanes == 1) {
     const double* row = triangle;
     for (std::int32_t j = 0; j < columns; row += ++j) x[j] = (x[j] - dot8(row, x, j)) * row[j];

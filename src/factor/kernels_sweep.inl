@@ -1,8 +1,8 @@
 // Sweep kernels: one supernode on m interleaved right-hand sides. Included after a simd_*.h, see kernels_factor.inl.
 //
 // A column's sum over the rows below is one chain in row order, except for one right-hand side on at most 16 columns,
-// where 4 (up to 8 columns) or 2 chains hide the latency: a rule in columns of the supernode, not in vector lengths or
-// pieces, so all sets and all numbers of threads give the same bits.
+// where 2 chains hide the latency: a rule in columns of the supernode, not in vector lengths or pieces, so all sets and
+// all numbers of threads give the same bits. Supernodes of at most 8 columns: kernels_narrow.inl.
 #include <cstddef>
 #include <cstdint>
 
@@ -54,8 +54,6 @@ inline void sum_in_registers(const T* block, std::int64_t stride, const std::int
     for (int v = 0; v < NV; ++v) {
       typename S::Type total = part[0][c][v];
       if (Chains == 2) total = S::add(total, part[Chains - 1][c][v]);
-      if (Chains == 4)
-        total = S::add(S::add(total, part[1 % Chains][c][v]), S::add(part[2 % Chains][c][v], part[3 % Chains][c][v]));
       S::store(sum + c * chunk_columns + v * S::width, total);
     }
   }
@@ -123,12 +121,6 @@ inline void sum_rows(const T* block, std::int64_t stride, const std::int32_t* ro
                      std::int32_t width, const T* z, std::int32_t channels, T* sum) noexcept {
   using S = Simd<T>;
   if (C == 1) {
-    if (stride <= 8) {
-      for (std::int32_t j = 0; j < width; j += S::width) {
-        sum_in_registers<T, 1, 1, 4>(block + j, stride, rows, row_count, z, channels, sum + j);
-      }
-      return;
-    }
     if (stride <= 16) {
       constexpr int vectors = S::width <= 4 ? 2 : 1;
       for (std::int32_t j = 0; j < width; j += vectors * S::width) {
@@ -331,39 +323,6 @@ void backward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::i
   }
 }
 
-// Rows and triangle of one supernode of at most 8 columns and one right-hand side, by the same operations as the two
-// kernels apart: most supernodes are that small, and their time is the way in and out.
-template <class T>
-void backward_small_any(const T* triangle, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns, T* z,
-                        std::int32_t first) noexcept {
-  using S = Simd<T>;
-  constexpr int vectors = S::width >= 8 ? 1 : 8 / S::width;
-  alignas(64) T x[16 + 16], sum[vectors * S::width];
-  const T* below = triangle + columns * (columns + 1) / 2;
-  for (int v = 0; v < vectors; ++v) {
-    if (v * S::width >= columns) break;
-    sum_in_registers<T, 1, 1, 4>(below + v * S::width, columns, rows, row_count, z, 1, sum + v * S::width);
-  }
-  for (std::int32_t j = 0; j < columns; ++j) x[j] = z[first + j] - sum[j];
-  const T* row = triangle + columns * (columns - 1) / 2;
-  for (std::int32_t j = columns - 1; j >= 0; row -= j, --j) {
-    const T value = x[j] * row[j];
-    z[first + j] = value;
-    const typename S::Type factor = S::all(value);
-    for (std::int32_t i = 0; i < j; i += S::width)
-      S::store(x + i, S::subtract_product(S::load(row + i), factor, S::load(x + i)));
-  }
-}
-
-void backward_small(const double* triangle, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
-                    double* z, std::int32_t first) {
-  backward_small_any<double>(triangle, rows, row_count, columns, z, first);
-}
-void backward_small_f32(const float* triangle, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
-                        float* z, std::int32_t first) {
-  backward_small_any<float>(triangle, rows, row_count, columns, z, first);
-}
-
 void backward_rows(const double* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
                    std::int32_t begin, std::int32_t end, double* z, std::int32_t first, std::int32_t channels) {
   backward_rows_any<double>(below, rows, row_count, columns, begin, end, z, first, channels);
@@ -377,112 +336,6 @@ void backward_rows_f32(const float* below, const std::int32_t* rows, std::int32_
 }
 void backward_triangle_f32(const float* triangle, std::int32_t columns, float* z, std::int32_t channels) {
   backward_triangle_any<float>(triangle, columns, z, channels);
-}
-
-// Dot product in one vector's worth of partial sums (64 bytes on every set), joined as a fixed tree.
-template <class T>
-inline T dot(const T* a, const T* b, std::int32_t count) noexcept {
-  using S = Simd<T>;
-  constexpr std::int32_t sums = 64 / sizeof(T);
-  constexpr int vectors = sums / S::width;
-  if (count < sums) {
-    T total = 0;
-    for (std::int32_t k = 0; k < count; ++k) total = multiply_add_scalar(a[k], b[k], total);
-    return total;
-  }
-  typename S::Type part[vectors];
-  for (int p = 0; p < vectors; ++p) part[p] = S::zero();
-  std::int32_t k = 0;
-  for (; k + sums <= count; k += sums) {
-    for (int p = 0; p < vectors; ++p)
-      part[p] = S::multiply_add(S::load(a + k + p * S::width), S::load(b + k + p * S::width), part[p]);
-  }
-  alignas(64) T lane[sums];
-  for (int p = 0; p < vectors; ++p) S::store(lane + p * S::width, part[p]);
-  for (std::int32_t r = 0; k + r < count; ++r) lane[r] = multiply_add_scalar(a[k + r], b[k + r], lane[r]);
-  for (std::int32_t half = sums / 2; half > 0; half /= 2) {
-    for (std::int32_t r = 0; r < half; ++r) lane[r] += lane[r + half];
-  }
-  return lane[0];
-}
-
-inline double dot8(const double* a, const double* b, std::int32_t count) noexcept { return dot<double>(a, b, count); }
-
-template <class T>
-void forward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::int32_t channels) {
-  using S = Simd<T>;
-  const T* row = triangle;
-  if (channels == 1) {
-    for (std::int32_t j = 0; j < columns; row += ++j) z[j] = (z[j] - dot<T>(row, z, j)) * row[j];
-    return;
-  }
-  for (std::int32_t c = 0; c < channels; c += S::width) {
-    const int count = channels - c < S::width ? channels - c : S::width;
-    row = triangle;
-    for (std::int32_t j = 0; j < columns; row += ++j) {
-      // two chains: even and odd columns
-      typename S::Type even = S::zero(), odd = S::zero();
-      const T* x = z + c;
-      std::int32_t i = 0;
-      for (; i + 2 <= j; i += 2, x += 2 * channels) {
-        even = S::multiply_add(S::all(row[i]), load_lanes<T>(x, count), even);
-        odd = S::multiply_add(S::all(row[i + 1]), load_lanes<T>(x + channels, count), odd);
-      }
-      if (i < j) even = S::multiply_add(S::all(row[i]), load_lanes<T>(x, count), even);
-      T* own = z + static_cast<std::int64_t>(j) * channels + c;
-      const typename S::Type rest = S::subtract_product(S::all(T{1}), S::add(even, odd), load_lanes<T>(own, count));
-      store_lanes<T>(own, S::multiply(rest, S::all(row[j])), count);
-    }
-  }
-}
-
-template <class T>
-void forward_rows_any(const T* below, std::int32_t row_count, std::int32_t columns, const T* z, T* out,
-                      std::int32_t channels) {
-  using S = Simd<T>;
-  if (channels == 1) {
-    for (std::int32_t r = 0; r < row_count; ++r, below += columns) out[r] = dot<T>(below, z, columns);
-    return;
-  }
-  // channels in groups of one vector, four rows at a time: the factor's entries are broadcast
-  for (std::int32_t c = 0; c < channels; c += S::width) {
-    const int count = channels - c < S::width ? channels - c : S::width;
-    std::int32_t r = 0;
-    for (; r + 4 <= row_count; r += 4) {
-      const T* b = below + static_cast<std::int64_t>(r) * columns;
-      typename S::Type sum[4] = {S::zero(), S::zero(), S::zero(), S::zero()};
-      const T* x = z + c;
-      for (std::int32_t j = 0; j < columns; ++j, x += channels) {
-        const typename S::Type value = load_lanes<T>(x, count);
-        for (int k = 0; k < 4; ++k)
-          sum[k] = S::multiply_add(S::all(b[j + static_cast<std::int64_t>(k) * columns]), value, sum[k]);
-      }
-      for (int k = 0; k < 4; ++k)
-        store_lanes<T>(out + static_cast<std::int64_t>(r + k) * channels + c, sum[k], count);
-    }
-    for (; r < row_count; ++r) {
-      const T* b = below + static_cast<std::int64_t>(r) * columns;
-      typename S::Type sum = S::zero();
-      for (std::int32_t j = 0; j < columns; ++j)
-        sum = S::multiply_add(S::all(b[j]), load_lanes<T>(z + static_cast<std::int64_t>(j) * channels + c, count), sum);
-      store_lanes<T>(out + static_cast<std::int64_t>(r) * channels + c, sum, count);
-    }
-  }
-}
-
-void forward_triangle(const double* triangle, std::int32_t columns, double* z, std::int32_t channels) {
-  forward_triangle_any<double>(triangle, columns, z, channels);
-}
-void forward_rows(const double* below, std::int32_t row_count, std::int32_t columns, const double* z, double* out,
-                  std::int32_t channels) {
-  forward_rows_any<double>(below, row_count, columns, z, out, channels);
-}
-void forward_triangle_f32(const float* triangle, std::int32_t columns, float* z, std::int32_t channels) {
-  forward_triangle_any<float>(triangle, columns, z, channels);
-}
-void forward_rows_f32(const float* below, std::int32_t row_count, std::int32_t columns, const float* z, float* out,
-                      std::int32_t channels) {
-  forward_rows_any<float>(below, row_count, columns, z, out, channels);
 }
 
 }  // namespace

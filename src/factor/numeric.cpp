@@ -206,6 +206,10 @@ class Factorisation {
     for (std::int32_t c = 0; c < workspace.child_count; ++c) {
       kernels_.extend_add(front, workspace.children[c], workspace.children[c].into_panel, workspace.children[c].size);
     }
+    if (front.columns <= narrow_columns) {
+      kernels_.invert_triangle(front);
+      kernels_.multiply_inverse(front, 1, tiles);
+    }
     kernels_.store_tiles(front, values_ + symbolic_.value_start[s], 0, tiles);
   }
 
@@ -289,6 +293,11 @@ class Factorisation {
       const ChildView& child = workspace.children[c];
       in_pieces(child.into_panel, child.size, 32,
                 [&](std::int32_t begin, std::int32_t end) { kernels_.extend_add(front, child, begin, end); });
+    }
+    if (front.columns <= narrow_columns) {
+      kernels_.invert_triangle(front);
+      in_pieces(1, tiles, 32,
+                [&](std::int32_t begin, std::int32_t end) { kernels_.multiply_inverse(front, begin, end); });
     }
     in_pieces(0, tiles, 16, [&](std::int32_t begin, std::int32_t end) {
       kernels_.store_tiles(front, values_ + symbolic_.value_start[s], begin, end);

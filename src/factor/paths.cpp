@@ -74,12 +74,14 @@ std::shared_ptr<const PathGroup> solve_group(const SupernodalFactor& factor, con
   const Kernels& kernels = factor.kernels();
   for (const PathBlock& block : blocks) {
     const std::int32_t s = block.supernode;
-    kernels.path_triangle(factor.triangle(s), symbolic.columns(s), values + block.at, block.lanes);
+    const bool narrow = symbolic.columns(s) <= narrow_columns;  // stored solved: rows first
+    if (!narrow) kernels.path_triangle(factor.triangle(s), symbolic.columns(s), values + block.at, block.lanes);
     const std::int32_t* rows = symbolic.row_list(s);
     const std::int32_t count = symbolic.below(s);
     for (std::int32_t k = 0; k < count; ++k) target[k] = place_of[rows[k]] + block.low;
     kernels.path_rows(factor.below(s), count, symbolic.columns(s), values + block.at, block.lanes, values,
                       target.data());
+    if (narrow) kernels.path_triangle(factor.triangle(s), symbolic.columns(s), values + block.at, block.lanes);
   }
   return group;
 }

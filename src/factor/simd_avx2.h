@@ -4,47 +4,20 @@
 
 #include <cstdint>
 
+#include "factor/simd_256.h"
+
 namespace {
 
 template <class T>
 struct Simd;
 
 template <>
-struct Simd<double> {
-  using Type = __m256d;
-  static constexpr int width = 4;
-  static __m256i mask(int count) noexcept {
-    return _mm256_cmpgt_epi64(_mm256_set1_epi64x(count), _mm256_setr_epi64x(0, 1, 2, 3));
-  }
-  static Type zero() noexcept { return _mm256_setzero_pd(); }
-  static Type all(double x) noexcept { return _mm256_set1_pd(x); }
-  static Type load(const double* p) noexcept { return _mm256_loadu_pd(p); }
-  static void store(double* p, Type v) noexcept { _mm256_storeu_pd(p, v); }
-  static Type load_part(const double* p, int count) noexcept { return _mm256_maskload_pd(p, mask(count)); }
-  static void store_part(double* p, Type v, int count) noexcept { _mm256_maskstore_pd(p, mask(count), v); }
-  static Type add(Type a, Type b) noexcept { return _mm256_add_pd(a, b); }
-  static Type multiply(Type a, Type b) noexcept { return _mm256_mul_pd(a, b); }
-  static Type multiply_add(Type a, Type b, Type c) noexcept { return _mm256_fmadd_pd(a, b, c); }
-  static Type subtract_product(Type a, Type b, Type c) noexcept { return _mm256_fnmadd_pd(a, b, c); }
-};
-
+struct Simd<double> : Double4 {};
 template <>
-struct Simd<float> {
-  using Type = __m256;
-  static constexpr int width = 8;
-  static __m256i mask(int count) noexcept {
-    return _mm256_cmpgt_epi32(_mm256_set1_epi32(count), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
-  }
-  static Type zero() noexcept { return _mm256_setzero_ps(); }
-  static Type all(float x) noexcept { return _mm256_set1_ps(x); }
-  static Type load(const float* p) noexcept { return _mm256_loadu_ps(p); }
-  static void store(float* p, Type v) noexcept { _mm256_storeu_ps(p, v); }
-  static Type load_part(const float* p, int count) noexcept { return _mm256_maskload_ps(p, mask(count)); }
-  static void store_part(float* p, Type v, int count) noexcept { _mm256_maskstore_ps(p, mask(count), v); }
-  static Type add(Type a, Type b) noexcept { return _mm256_add_ps(a, b); }
-  static Type multiply(Type a, Type b) noexcept { return _mm256_mul_ps(a, b); }
-  static Type multiply_add(Type a, Type b, Type c) noexcept { return _mm256_fmadd_ps(a, b, c); }
-  static Type subtract_product(Type a, Type b, Type c) noexcept { return _mm256_fnmadd_ps(a, b, c); }
+struct Simd<float> : Float8 {};
+template <class T, int Columns>
+struct Narrow {
+  using Set = Simd<T>;
 };
 
 constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of one accumulator block

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "factor/simd_256.h"
+
 namespace {
 
 template <class T>
@@ -20,6 +22,13 @@ struct Simd<double> {
   static void store(double* p, Type v) noexcept { _mm512_storeu_pd(p, v); }
   static Type load_part(const double* p, int count) noexcept { return _mm512_maskz_loadu_pd(mask(count), p); }
   static void store_part(double* p, Type v, int count) noexcept { _mm512_mask_storeu_pd(p, mask(count), v); }
+  static void store_first(double* p, Type v, int count) noexcept {
+    if (count >= 8) return store(p, v);
+    const __m256d low = _mm512_maskz_extractf64x4_pd(0xff, v, 0);
+    if (count <= 4) return Double4::store_first(p, low, count);
+    Double4::store(p, low);
+    Double4::store_first(p + 4, _mm512_maskz_extractf64x4_pd(0xff, v, 1), count - 4);
+  }
   static Type add(Type a, Type b) noexcept { return _mm512_add_pd(a, b); }
   static Type multiply(Type a, Type b) noexcept { return _mm512_mul_pd(a, b); }
   static Type multiply_add(Type a, Type b, Type c) noexcept { return _mm512_fmadd_pd(a, b, c); }
@@ -43,6 +52,24 @@ struct Simd<float> {
   static Type multiply(Type a, Type b) noexcept { return _mm512_mul_ps(a, b); }
   static Type multiply_add(Type a, Type b, Type c) noexcept { return _mm512_fmadd_ps(a, b, c); }
   static Type subtract_product(Type a, Type b, Type c) noexcept { return _mm512_fnmadd_ps(a, b, c); }
+};
+
+// Numbers of a supernode of at most 8 columns: half a vector where that holds them.
+template <class T, int Columns>
+struct Narrow {
+  using Set = Float8;
+};
+template <int Columns>
+struct Narrow<double, Columns> {
+  template <bool Half, class Dummy = void>
+  struct Choice {
+    using Set = Double4;
+  };
+  template <class Dummy>
+  struct Choice<false, Dummy> {
+    using Set = Simd<double>;
+  };
+  using Set = typename Choice<Columns <= 4>::Set;
 };
 
 constexpr int gemm_rows = 3, gemm_columns = 8;  // vectors of rows x columns of one accumulator block

@@ -40,6 +40,7 @@ struct PlainSimd {
       if (i < count) p[i] = v[i];
     }
   }
+  static void store_first(T* p, Type v, int count) noexcept { store_part(p, v, count < Width ? count : Width); }
   static Type add(Type a, Type b) noexcept { return a + b; }
   static Type multiply(Type a, Type b) noexcept { return a * b; }
   static Type multiply_add(Type a, Type b, Type c) noexcept { return a * b + c; }
@@ -50,6 +51,11 @@ template <>
 struct Simd<double> : PlainSimd<double, Vector2, 2> {};
 template <>
 struct Simd<float> : PlainSimd<float, Vector4f, 4> {};
+
+template <class T, int Columns>
+struct Narrow {
+  using Set = Simd<T>;
+};
 
 constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of one accumulator block
 constexpr int lane_vectors = 2, lane_rows = 4;

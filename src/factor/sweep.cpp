@@ -26,6 +26,7 @@ struct BackwardPass {
   T* z;
   std::int32_t channels;
 
+  bool narrow(std::int32_t s) const noexcept { return symbolic.columns(s) <= narrow_columns; }
   void rows(std::int32_t s, std::int32_t begin, std::int32_t end) const noexcept {
     const std::int64_t width = symbolic.columns(s);
     const T* below = values + symbolic.value_start[s] + width * (width + 1) / 2;
@@ -46,13 +47,14 @@ struct BackwardPass {
     }
   }
   void whole(std::int32_t s) const noexcept {
-    if (channels == 1 && symbolic.columns(s) <= small_columns) {
+    if (narrow(s)) {
       const T* own = values + symbolic.value_start[s];
       if constexpr (sizeof(T) == sizeof(double)) {
-        kernels.backward_small(own, symbolic.row_list(s), symbolic.below(s), symbolic.columns(s), z, symbolic.first[s]);
+        kernels.backward_narrow(own, symbolic.row_list(s), symbolic.below(s), symbolic.columns(s), z, symbolic.first[s],
+                                channels);
       } else {
-        kernels.backward_small_f32(own, symbolic.row_list(s), symbolic.below(s), symbolic.columns(s), z,
-                                   symbolic.first[s]);
+        kernels.backward_narrow_f32(own, symbolic.row_list(s), symbolic.below(s), symbolic.columns(s), z,
+                                    symbolic.first[s], channels);
       }
       return;
     }
@@ -82,9 +84,12 @@ struct BackwardPass {
       std::int32_t left = static_cast<std::int32_t>(piece), k = begin;
       for (; left >= pieces_of(top[k]); ++k) left -= pieces_of(top[k]);
       const std::int32_t s = top[k], from = left * piece_columns;
-      if (symbolic.below(s) > 0) rows(s, from, std::min(symbolic.columns(s), from + piece_columns));
+      if (symbolic.below(s) > 0 && !narrow(s)) rows(s, from, std::min(symbolic.columns(s), from + piece_columns));
     });
-    jobs.for_each(count, [&](std::uint32_t k) { triangle(top[begin + static_cast<std::int32_t>(k)]); });
+    jobs.for_each(count, [&](std::uint32_t k) {
+      const std::int32_t s = top[begin + static_cast<std::int32_t>(k)];
+      narrow(s) ? whole(s) : triangle(s);
+    });
   }
 
   void run(JobRunner& jobs) const {
@@ -204,15 +209,18 @@ class ForwardPass {
 
   void solve(std::int32_t s, T* product) const noexcept {
     T* z = z_ + static_cast<std::int64_t>(symbolic_.first[s]) * channels_;
-    solve_triangle(s, z);
+    const bool narrow = symbolic_.columns(s) <= narrow_columns;  // stored solved: rows first
+    if (!narrow) solve_triangle(s, z);
     multiply_rows(s, 0, symbolic_.below(s), z, product);
+    if (narrow) solve_triangle(s, z);
   }
 
   // The same with the rows of a large supernode cut over the threads.
   void solve(std::int32_t s, T* product, JobRunner& jobs) const {
     const std::int32_t columns = symbolic_.columns(s), rows = symbolic_.below(s);
     constexpr std::int32_t step = 128;
-    if (jobs.thread_count() == 1 || static_cast<double>(columns) * rows < 40000 || rows <= step)
+    if (jobs.thread_count() == 1 || static_cast<double>(columns) * rows < 40000 || rows <= step ||
+        columns <= narrow_columns)
       return solve(s, product);
     T* z = z_ + static_cast<std::int64_t>(symbolic_.first[s]) * channels_;
     solve_triangle(s, z);

@@ -1,0 +1,210 @@
+// Narrow supernodes, at most 8 columns: most of a factor's supernodes, in which a sweep's time is latency, not memory.
+// They are stored solved: with the columns (L; B) of the factor, the packed triangle holds X = L^-1 and the rows below
+// hold W = B L^-1, so that both sweeps are products without a chain from column to column:
+//   backward  z <- X' z - W' y     (y: the rows below)
+//   forward   y <- y - W z, then z <- X z
+// An inverse of at most 8 columns of a Cholesky factor is as accurate as the substitution it stands for (Higham 2002,
+// chapter 8). Making it costs nc (nc + 1) / 2 products a row, a few percent of the factorisation's.
+//
+// Sums: with one right-hand side the own rows and then the rows below go round four chains, else they form one chain.
+#include <cstddef>
+#include <cstdint>
+
+namespace {
+
+constexpr int most_narrow = hf::narrow_columns;
+
+// The triangle tile [column][8] of a factored front: X in place of L (whose diagonal is inverted already).
+void invert_triangle(const FrontView& front) {
+  double* tile = front.panel;
+  for (std::int32_t j = 0; j < front.columns; ++j) {
+    for (std::int32_t i = j + 1; i < front.columns; ++i) {
+      double sum = 0;
+      for (std::int32_t k = j; k < i; ++k) sum = multiply_add_scalar(tile[8 * k + i], tile[8 * j + k], sum);
+      tile[8 * j + i] = -(sum * tile[9 * i]);
+    }
+  }
+}
+
+// Vector-rows of `Width` columns times the triangle X: w_j = sum over i >= j of b_i X_ij.
+template <int Width>
+void multiply_rows_fixed(double* panel, std::int64_t stride, std::int32_t v, std::int32_t v_end) noexcept {
+  for (; v < v_end; ++v) {
+    double* row = vector_row(panel, v, stride);
+    D::Type b[Width];
+    for (int j = 0; j < Width; ++j) b[j] = D::load(row + 8 * j);
+    for (int j = 0; j < Width; ++j) {
+      D::Type sum = D::multiply(b[j], D::all(panel[9 * j]));
+      for (int i = j + 1; i < Width; ++i) sum = D::multiply_add(b[i], D::all(panel[8 * j + i]), sum);
+      D::store(row + 8 * j, sum);
+    }
+  }
+}
+
+// Calls body with Constant<columns>; 1 <= columns <= 8.
+template <class Body>
+inline void with_columns(std::int32_t columns, Body&& body) noexcept {
+  switch (columns) {
+    case 1:
+      return body(Constant<1>{});
+    case 2:
+      return body(Constant<2>{});
+    case 3:
+      return body(Constant<3>{});
+    case 4:
+      return body(Constant<4>{});
+    case 5:
+      return body(Constant<5>{});
+    case 6:
+      return body(Constant<6>{});
+    case 7:
+      return body(Constant<7>{});
+    default:
+      return body(Constant<8>{});
+  }
+}
+
+void multiply_inverse(const FrontView& front, std::int32_t tile_begin, std::int32_t tile_end) {
+  const std::int64_t stride = 8 * static_cast<std::int64_t>(front.columns);
+  with_columns(front.columns, [&](auto columns) {
+    multiply_rows_fixed<decltype(columns)::value>(front.panel, stride, tile_begin * tile_vectors,
+                                                  tile_end * tile_vectors);
+  });
+}
+
+// Backward, up to 4 right-hand sides: the columns lie along the lanes.
+template <class T, int N, int C>
+inline void backward_narrow_columns(const T* triangle, const std::int32_t* rows, std::int32_t row_count, T* z,
+                                    std::int32_t first) noexcept {
+  using S = typename Narrow<T, N>::Set;
+  constexpr int vectors = (N + S::width - 1) / S::width, chains = C == 1 ? 4 : 1;
+  typename S::Type part[chains][C][vectors];
+  for (int h = 0; h < chains; ++h) {
+    for (int c = 0; c < C; ++c) {
+      for (int v = 0; v < vectors; ++v) part[h][c][v] = S::zero();
+    }
+  }
+  T* own = z + static_cast<std::int64_t>(first) * C;
+  const T* row = triangle;
+  for (int j = 0; j < N; row += ++j) {
+    for (int v = 0; v < vectors; ++v) {
+      const int left = j + 1 - v * S::width;
+      if (left <= 0) continue;
+      const typename S::Type entry = left >= S::width ? S::load(row + v * S::width)
+                                                      : S::load_part(row + v * S::width, left);
+      for (int c = 0; c < C; ++c)
+        part[j % chains][c][v] = S::multiply_add(entry, S::all(own[j * C + c]), part[j % chains][c][v]);
+    }
+  }
+  const auto add = [&](int h, const T* x, const T* b) {
+    for (int v = 0; v < vectors; ++v) {
+      const typename S::Type entry = S::load(b + v * S::width);
+      for (int c = 0; c < C; ++c) part[h][c][v] = S::subtract_product(entry, S::all(x[c]), part[h][c][v]);
+    }
+  };
+  std::int32_t r = 0;
+  for (; r + chains <= row_count; r += chains, row += chains * N) {
+    for (int h = 0; h < chains; ++h) add(h, z + static_cast<std::int64_t>(rows[r + h]) * C, row + h * N);
+  }
+  for (int h = 0; h < chains - 1; ++h, row += N) {
+    if (r + h >= row_count) break;
+    add(h, z + static_cast<std::int64_t>(rows[r + h]) * C, row);
+  }
+  for (int v = 0; v < vectors; ++v) {
+    constexpr int two = 1 % chains, three = 2 % chains, four = 3 % chains;
+    const int count = N - v * S::width < S::width ? N - v * S::width : S::width;
+    if (C == 1) {
+      const typename S::Type total =
+          S::add(S::add(part[0][0][v], part[two][0][v]), S::add(part[three][0][v], part[four][0][v]));
+      S::store_first(own + v * S::width, total, count);
+      continue;
+    }
+    alignas(64) T lane[C][S::width];
+    for (int c = 0; c < C; ++c) S::store(lane[c], part[0][c][v]);
+    for (int j = 0; j < count; ++j) {
+      for (int c = 0; c < C; ++c) own[(v * S::width + j) * C + c] = lane[c][j];
+    }
+  }
+}
+
+// Backward, one vector of right-hand sides along the lanes, N columns in registers.
+template <class T, int N>
+inline void backward_narrow_lanes(const T* triangle, const std::int32_t* rows, std::int32_t row_count, T* z,
+                                  std::int32_t first, std::int32_t channels, int count) noexcept {
+  using S = Simd<T>;
+  typename S::Type sum[N];
+  for (int j = 0; j < N; ++j) sum[j] = S::zero();
+  T* own = z + static_cast<std::int64_t>(first) * channels;
+  const T* row = triangle;
+  for (int i = 0; i < N; row += ++i) {
+    const typename S::Type x = load_lanes<T>(own + static_cast<std::int64_t>(i) * channels, count);
+    for (int j = 0; j <= i; ++j) sum[j] = S::multiply_add(S::all(row[j]), x, sum[j]);
+  }
+  for (std::int32_t r = 0; r < row_count; ++r, row += N) {
+    const typename S::Type x = load_lanes<T>(z + static_cast<std::int64_t>(rows[r]) * channels, count);
+    for (int j = 0; j < N; ++j) sum[j] = S::subtract_product(S::all(row[j]), x, sum[j]);
+  }
+  for (int j = 0; j < N; ++j) store_lanes<T>(own + static_cast<std::int64_t>(j) * channels, sum[j], count);
+}
+
+template <class T>
+void backward_narrow_any(const T* triangle, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
+                         T* z, std::int32_t first, std::int32_t channels) noexcept {
+  with_columns(columns, [&](auto size) {
+    constexpr int n = decltype(size)::value;
+    switch (channels) {
+      case 1:
+        return backward_narrow_columns<T, n, 1>(triangle, rows, row_count, z, first);
+      case 2:
+        return backward_narrow_columns<T, n, 2>(triangle, rows, row_count, z, first);
+      case 3:
+        return backward_narrow_columns<T, n, 3>(triangle, rows, row_count, z, first);
+      case 4:
+        return backward_narrow_columns<T, n, 4>(triangle, rows, row_count, z, first);
+      default:
+        for (std::int32_t c = 0; c < channels; c += Simd<T>::width) {
+          const int count = channels - c < Simd<T>::width ? channels - c : Simd<T>::width;
+          backward_narrow_lanes<T, n>(triangle, rows, row_count, z + c, first, channels, count);
+        }
+    }
+  });
+}
+
+void backward_narrow(const double* triangle, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
+                     double* z, std::int32_t first, std::int32_t channels) {
+  backward_narrow_any<double>(triangle, rows, row_count, columns, z, first, channels);
+}
+void backward_narrow_f32(const float* triangle, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
+                         float* z, std::int32_t first, std::int32_t channels) {
+  backward_narrow_any<float>(triangle, rows, row_count, columns, z, first, channels);
+}
+
+// z <- X z, last row first.
+template <class T>
+inline void forward_narrow(const T* triangle, std::int32_t columns, T* z, std::int32_t channels) noexcept {
+  using S = Simd<T>;
+  const T* row = triangle + columns * (columns + 1) / 2;
+  for (std::int32_t j = columns - 1; j >= 0; --j) {
+    row -= j + 1;
+    if (channels == 1) {
+      T sum = 0;
+      for (std::int32_t i = 0; i <= j; ++i) sum = multiply_add_scalar(row[i], z[i], sum);
+      z[j] = sum;
+      continue;
+    }
+    for (std::int32_t c = 0; c < channels; c += S::width) {
+      const int count = channels - c < S::width ? channels - c : S::width;
+      typename S::Type sum = S::zero();
+      for (std::int32_t i = 0; i <= j; ++i)
+        sum = S::multiply_add(S::all(row[i]), load_lanes<T>(z + i * channels + c, count), sum);
+      store_lanes<T>(z + j * channels + c, sum, count);
+    }
+  }
+}
+
+// The same on a path block, lanes 1 or a multiple of 8.
+inline void path_narrow(const double* triangle, std::int32_t columns, double* x, std::int32_t lanes) noexcept {
+  forward_narrow<double>(triangle, columns, x, lanes);
+}
+
+}  // namespace

@@ -1,0 +1,59 @@
+// Vectors of 256 bits: those of the AVX2 build, and of the narrow supernodes in the AVX-512 build.
+#pragma once
+#include <immintrin.h>
+
+#include <cstdint>
+
+namespace {
+
+struct Double4 {
+  using Type = __m256d;
+  static constexpr int width = 4;
+  static __m256i mask(int count) noexcept {
+    return _mm256_cmpgt_epi64(_mm256_set1_epi64x(count), _mm256_setr_epi64x(0, 1, 2, 3));
+  }
+  static Type zero() noexcept { return _mm256_setzero_pd(); }
+  static Type all(double x) noexcept { return _mm256_set1_pd(x); }
+  static Type load(const double* p) noexcept { return _mm256_loadu_pd(p); }
+  static void store(double* p, Type v) noexcept { _mm256_storeu_pd(p, v); }
+  static Type load_part(const double* p, int count) noexcept { return _mm256_maskload_pd(p, mask(count)); }
+  static void store_part(double* p, Type v, int count) noexcept { _mm256_maskstore_pd(p, mask(count), v); }
+  // The same by whole stores, which later loads can take from the store buffer; for counts known when compiled.
+  static void store_first(double* p, Type v, int count) noexcept {
+    if (count >= 4) return store(p, v);
+    __m128d rest = _mm256_castpd256_pd128(v);
+    if (count & 2) _mm_storeu_pd(p, rest), rest = _mm256_extractf128_pd(v, 1), p += 2;
+    if (count & 1) _mm_store_sd(p, rest);
+  }
+  static Type add(Type a, Type b) noexcept { return _mm256_add_pd(a, b); }
+  static Type multiply(Type a, Type b) noexcept { return _mm256_mul_pd(a, b); }
+  static Type multiply_add(Type a, Type b, Type c) noexcept { return _mm256_fmadd_pd(a, b, c); }
+  static Type subtract_product(Type a, Type b, Type c) noexcept { return _mm256_fnmadd_pd(a, b, c); }
+};
+
+struct Float8 {
+  using Type = __m256;
+  static constexpr int width = 8;
+  static __m256i mask(int count) noexcept {
+    return _mm256_cmpgt_epi32(_mm256_set1_epi32(count), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+  }
+  static Type zero() noexcept { return _mm256_setzero_ps(); }
+  static Type all(float x) noexcept { return _mm256_set1_ps(x); }
+  static Type load(const float* p) noexcept { return _mm256_loadu_ps(p); }
+  static void store(float* p, Type v) noexcept { _mm256_storeu_ps(p, v); }
+  static Type load_part(const float* p, int count) noexcept { return _mm256_maskload_ps(p, mask(count)); }
+  static void store_part(float* p, Type v, int count) noexcept { _mm256_maskstore_ps(p, mask(count), v); }
+  static void store_first(float* p, Type v, int count) noexcept {
+    if (count >= 8) return store(p, v);
+    __m128 rest = _mm256_castps256_ps128(v);
+    if (count & 4) _mm_storeu_ps(p, rest), rest = _mm256_extractf128_ps(v, 1), p += 4;
+    if (count & 2) _mm_storel_pi(reinterpret_cast<__m64*>(p), rest), rest = _mm_movehl_ps(rest, rest), p += 2;
+    if (count & 1) _mm_store_ss(p, rest);
+  }
+  static Type add(Type a, Type b) noexcept { return _mm256_add_ps(a, b); }
+  static Type multiply(Type a, Type b) noexcept { return _mm256_mul_ps(a, b); }
+  static Type multiply_add(Type a, Type b, Type c) noexcept { return _mm256_fmadd_ps(a, b, c); }
+  static Type subtract_product(Type a, Type b, Type c) noexcept { return _mm256_fnmadd_ps(a, b, c); }
+};
+
+}  // namespace
