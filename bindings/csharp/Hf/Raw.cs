@@ -1,0 +1,617 @@
+// Generated from include/hf/*.h by bindings/generate; do not edit. The C ABI as P/Invoke sees it.
+using System;
+using System.Runtime.InteropServices;
+
+namespace Hf.Native
+{
+    public static class Constants
+    {
+        public const string HeaderVersion = "0.1.0";
+        public const uint HF_NO_INDEX = 4294967295u;
+        public const int HF_MESSAGE_SIZE = 256;
+        public const int HF_OK = 0;
+        public const int HF_ERROR_INVALID_ARGUMENT = -1;
+        public const int HF_ERROR_NULL_POINTER = -2;
+        public const int HF_ERROR_INVALID_HANDLE = -3;
+        public const int HF_ERROR_INVALID_DESC = -4;
+        public const int HF_ERROR_OUT_OF_RANGE = -5;
+        public const int HF_ERROR_NON_FINITE = -6;
+        public const int HF_ERROR_EMPTY = -7;
+        public const int HF_ERROR_DUPLICATE_SITE = -8;
+        public const int HF_ERROR_NO_SUCH_SITE = -9;
+        public const int HF_ERROR_CONFLICT = -10;
+        public const int HF_ERROR_NO_SITES = -11;
+        public const int HF_ERROR_NO_SUCH_HANDLE = -12;
+        public const int HF_ERROR_NO_SUCH_PAIR = -13;
+        public const int HF_ERROR_OVERLAP = -14;
+        public const int HF_ERROR_UNSUPPORTED = -15;
+        public const int HF_ERROR_BUSY = -16;
+        public const int HF_ERROR_REENTRANT = -17;
+        public const int HF_ERROR_TOO_SMALL = -18;
+        public const int HF_ERROR_NO_RECORD = -19;
+        public const int HF_ERROR_OUT_OF_MEMORY = -100;
+        public const int HF_ERROR_TOO_LARGE = -101;
+        public const int HF_ERROR_CANCELLED = -102;
+        public const int HF_ERROR_NOT_POSITIVE_DEFINITE = -200;
+        public const int HF_ERROR_INACCURATE = -201;
+        public const int HF_ERROR_INTERNAL = -300;
+        public const int HF_WELD_EXACT = 0;
+        public const int HF_WELD_NONE = 1;
+        public const int HF_WELD_TOLERANCE = 2;
+        public const int HF_OPERATOR_COTANGENT = 0;
+        public const int HF_OPERATOR_CLAMPED = 1;
+        public const int HF_OPERATOR_UNIFORM = 2;
+        public const int HF_OPERATOR_INTRINSIC_DELAUNAY = 3;
+        public const int HF_FIELD_HARMONIC = 0;
+        public const int HF_FIELD_BIHARMONIC = 1;
+        public const int HF_FIELD_BIHARMONIC_GRAPH = 2;
+        public const int HF_ENGINE_GREEN = 0;
+        public const int HF_ENGINE_UPDOWN = 1;
+        public const int HF_ENGINE_REFACTOR = 2;
+        public const int HF_ORDERING_NESTED_DISSECTION = 0;
+        public const int HF_ORDERING_MINIMUM_DEGREE = 1;
+        public const int HF_ORDERING_METIS = 2;
+        public const int HF_FACTOR_ALIGNMENT = 64;
+        public const int HF_ROUTE_NONE = 0;
+        public const int HF_ROUTE_DENSE = 1;
+        public const int HF_ROUTE_FRESH = 2;
+        public const int HF_ROUTE_REBASE = 3;
+        public const int HF_LEVELS_VALUE = 0;
+        public const int HF_LEVELS_AREA = 1;
+        public const int HF_LEVELS_LENGTH = 2;
+        public const int HF_CRITICAL_MINIMUM = 0;
+        public const int HF_CRITICAL_MAXIMUM = 1;
+        public const int HF_CRITICAL_SADDLE = 2;
+        public const int HF_EXTREMITIES_POISSON = 0;
+        public const int HF_EXTREMITIES_GEODESIC = 1;
+        public const int HF_DEFORM_SMOOTH = 0;
+        public const int HF_DEFORM_PAPER = 1;
+        public const int HF_LAYER_COUNT = 8;
+        public const int HF_TRANSFER_FIELDS = 0;
+        public const int HF_TRANSFER_PAPER = 1;
+        public const int HF_PAIR_ANCHOR = 1;
+        public const int HF_PAIR_FOOT = 2;
+        public const int HF_PAIR_TRUNK = 4;
+        public const int HF_PAIR_NO_ALIGNMENT = 8;
+        public const int HF_PAIR_CONTACT = 16;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_error_detail
+    {
+        public int code;
+        public uint index;
+        public fixed byte function[48];
+        public fixed byte message[256];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_allocator
+    {
+        public IntPtr allocate;
+        public IntPtr release;
+        public IntPtr user;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_job_runner
+    {
+        public IntPtr run;
+        public IntPtr user;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_factor_desc
+    {
+        public uint struct_size;
+        public int borrow;
+        public IntPtr bytes;
+        public UIntPtr byte_count;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_create_desc
+    {
+        public uint struct_size;
+        public uint vertex_count;
+        public uint triangle_count;
+        public uint position_stride;
+        public IntPtr positions;
+        public IntPtr positions_f64;
+        public IntPtr triangles;
+        public int weld;
+        public float weld_tolerance;
+        public int operator_kind;
+        public int engine;
+        public int ordering;
+        public uint channel_count;
+        public uint thread_count;
+        public uint site_limit;
+        public uint vertex_limit;
+        public uint memory_limit_mb;
+        public double penalty;
+        public hf_allocator allocator;
+        public hf_job_runner job_runner;
+        public IntPtr progress;
+        public IntPtr saved_factor;
+        public int field_kind;
+        public int reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_mesh_report
+    {
+        public uint struct_size;
+        public uint vertex_count;
+        public uint triangle_count;
+        public uint welded_vertex_count;
+        public uint component_count;
+        public uint isolated_vertex_count;
+        public uint degenerate_triangle_count;
+        public uint collapsed_triangle_count;
+        public uint duplicate_triangle_count;
+        public uint non_manifold_edge_count;
+        public uint flipped_edge_count;
+        public uint boundary_edge_count;
+        public uint negative_edge_count;
+        public float smallest_angle;
+        public double bounding_box_diagonal;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_sites_desc
+    {
+        public uint struct_size;
+        public uint site_count;
+        public IntPtr vertices;
+        public IntPtr triangles;
+        public IntPtr barycentrics;
+        public IntPtr values;
+        public IntPtr stiffness;
+        public IntPtr radii;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_edit_desc
+    {
+        public uint struct_size;
+        public uint remove_count;
+        public IntPtr remove_sites;
+        public uint move_count;
+        public uint set_count;
+        public IntPtr move_sites;
+        public IntPtr move_to;
+        public IntPtr set_sites;
+        public IntPtr set_values;
+        public IntPtr add;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_site_info
+    {
+        public uint struct_size;
+        public uint capacity;
+        public IntPtr sites;
+        public IntPtr vertices;
+        public IntPtr components;
+        public IntPtr values;
+        public IntPtr stiffness;
+        public IntPtr flux;
+        public IntPtr radii;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_solve_info
+    {
+        public uint struct_size;
+        public uint unreached_component_count;
+        public uint first_unreached_component;
+        public uint unreached_vertex_count;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_statistics
+    {
+        public uint struct_size;
+        public uint unknown_count;
+        public double weld_ms;
+        public double operator_ms;
+        public double ordering_ms;
+        public double symbolic_ms;
+        public double numeric_ms;
+        public double factor_entries;
+        public double factor_bytes;
+        public double factor_flops;
+        public double memory_bytes;
+        public double peak_memory_bytes;
+        public double site_memory_bytes;
+        public uint site_count;
+        public uint factorisation_count;
+        public uint path_solve_count;
+        public uint sweep_count;
+        public uint engine;
+        public uint thread_count;
+        public double load_ms;
+        public uint factor_loaded;
+        public uint factor_borrowed;
+        public uint last_route;
+        public uint rebase_count;
+        public uint dense_edit_count;
+        public uint dense_row_count;
+        public uint eliminated_count;
+        public uint rebase_advised;
+        public double predicted_dense_ms;
+        public double predicted_rebase_ms;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_scalars
+    {
+        public uint struct_size;
+        public uint value_stride;
+        public IntPtr values;
+        public IntPtr values_f64;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_isolines
+    {
+        public uint struct_size;
+        public uint point_capacity;
+        public uint line_capacity;
+        public uint point_count;
+        public uint line_count;
+        public uint reserved;
+        public IntPtr point_edges;
+        public IntPtr parameters;
+        public IntPtr positions;
+        public IntPtr line_starts;
+        public IntPtr line_levels;
+        public IntPtr line_closed;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_critical_point
+    {
+        public uint vertex;
+        public int kind;
+        public int index;
+        public uint component;
+        public double value;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_critical_info
+    {
+        public uint struct_size;
+        public uint point_count;
+        public uint minimum_count;
+        public uint maximum_count;
+        public uint saddle_count;
+        public int index_sum;
+        public int euler_characteristic;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_geodesics_desc
+    {
+        public uint struct_size;
+        public float smoothing;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_extremities_desc
+    {
+        public uint struct_size;
+        public int kind;
+        public float least_length;
+        public uint source_count;
+        public IntPtr geodesics;
+        public IntPtr progress;
+        public IntPtr out_field;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_extremity
+    {
+        public uint vertex;
+        public uint component;
+        public double length;
+        public fixed double position[3];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_pose_desc
+    {
+        public uint struct_size;
+        public int mode;
+        public uint band_count;
+        public uint iteration_count;
+        public uint samples_per_ring;
+        public uint group_count;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_handles_desc
+    {
+        public uint struct_size;
+        public uint handle_count;
+        public IntPtr region_counts;
+        public IntPtr region_vertices;
+        public IntPtr points;
+        public IntPtr radii;
+        public uint layer;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_transform
+    {
+        public fixed double rotation[4];
+        public fixed double translation[3];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_handle_info
+    {
+        public uint struct_size;
+        public uint vertex_count;
+        public uint site_count;
+        public uint component;
+        public fixed double centroid[3];
+        public double leak;
+        public fixed double rotation[4];
+        public fixed double translation[3];
+        public uint layer;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_deform_desc
+    {
+        public uint struct_size;
+        public uint position_stride;
+        public IntPtr positions;
+        public IntPtr positions_f64;
+        public IntPtr normals;
+        public uint normal_stride;
+        public uint iteration_count;
+        public int restart;
+        public int refine;
+        public uint first_vertex;
+        public uint vertex_count;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_deform_info
+    {
+        public uint struct_size;
+        public uint iteration_count;
+        public uint cluster_count;
+        public uint unreached_vertex_count;
+        public double last_change;
+        public double solve_ms;
+        public double blend_ms;
+        public double normal_ms;
+        public double refine_ms;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_skin_info
+    {
+        public uint struct_size;
+        public uint joint_count;
+        public uint weight_count;
+        public uint reserved;
+        public IntPtr pivots;
+        public IntPtr rotations;
+        public IntPtr translations;
+        public IntPtr vertex_joints;
+        public IntPtr vertex_weights;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_direction_desc
+    {
+        public uint struct_size;
+        public uint degree;
+        public uint site_limit;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_singularity
+    {
+        public uint triangle;
+        public uint vertex;
+        public int index;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_direction_statistics
+    {
+        public uint struct_size;
+        public uint unknown_count;
+        public uint site_count;
+        public uint factorisation_count;
+        public uint path_solve_count;
+        public uint sweep_count;
+        public uint irregular_vertex_count;
+        public uint sites_eliminated;
+        public double operator_ms;
+        public double numeric_ms;
+        public double factor_entries;
+        public double factor_bytes;
+        public double site_memory_bytes;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_preview_info
+    {
+        public uint struct_size;
+        public uint exact;
+        public uint correction_count;
+        public uint unreached_component_count;
+        public double value_range;
+        public double largest_correction;
+        public double error_estimate;
+        public double preview_bytes;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_transfer_desc
+    {
+        public uint struct_size;
+        public int mode;
+        public uint cluster_count;
+        public float kernel_width;
+        public float scale;
+        public float alignment_angle;
+        public fixed float source_axes[9];
+        public fixed float target_axes[9];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_pairs_desc
+    {
+        public uint struct_size;
+        public uint pair_count;
+        public IntPtr source_counts;
+        public IntPtr source_vertices;
+        public IntPtr target_counts;
+        public IntPtr target_vertices;
+        public IntPtr flags;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_pair_info
+    {
+        public uint struct_size;
+        public uint flags;
+        public double source_leak;
+        public double target_leak;
+        public double alignment_angle;
+        public double confidence;
+        public int aligned;
+        public int crossed;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_transfer_info
+    {
+        public uint struct_size;
+        public uint pair_count;
+        public uint cluster_count;
+        public uint aligned_count;
+        public uint crossed_count;
+        public int scale_found;
+        public double scale;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_transfer_frame
+    {
+        public uint struct_size;
+        public uint source_stride;
+        public IntPtr source_positions;
+        public IntPtr source_positions_f64;
+        public uint target_stride;
+        public uint normal_stride;
+        public IntPtr target_positions;
+        public IntPtr target_positions_f64;
+        public IntPtr target_normals;
+        public uint hold_count;
+        public uint reserved;
+        public IntPtr hold_pairs;
+        public IntPtr hold_positions;
+    }
+
+    public static unsafe class Functions
+    {
+#if UNITY_IOS && !UNITY_EDITOR
+        const string Library = "__Internal";
+#else
+        const string Library = "hf";
+#endif
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_init_desc(void* desc, uint struct_size);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_get_error_detail(void* out_detail);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern IntPtr hf_result_name(int result);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_get_version();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_progress_create(void* out_progress);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_progress_destroy(IntPtr progress);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_progress_get(IntPtr progress, void* out_fraction);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_progress_cancel(IntPtr progress);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_create(void* desc, void* out_solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_clone(IntPtr solver, void* out_solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_destroy(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_get_mesh_report(IntPtr solver, void* out_report);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_get_components(IntPtr solver, uint vertex_count, void* out_components);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_add_sites(IntPtr solver, void* sites, void* out_sites);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_remove_sites(IntPtr solver, uint site_count, void* sites);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_move_sites(IntPtr solver, uint site_count, void* sites, void* to);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_set_site_values(IntPtr solver, uint site_count, void* sites, void* values);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_edit_sites(IntPtr solver, void* edit, void* out_sites);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_get_site_count(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_get_sites(IntPtr solver, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve(IntPtr solver, void* out_values, uint value_stride, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_f64(IntPtr solver, void* out_values, uint value_stride, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_vectors(IntPtr solver, void* out_vectors, uint vector_stride, void* out_normals, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_vectors_f64(IntPtr solver, void* out_vectors, uint vector_stride, void* out_normals, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_at(IntPtr solver, uint vertex_count, void* vertices, void* out_values);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_record(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_undo(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_redo(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_prepare_rebase(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_get_statistics(IntPtr solver, void* out_statistics);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_space_levels(IntPtr solver, void* field, int spacing, uint level_count, void* out_levels);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_trace_isolines(IntPtr solver, void* field, uint level_count, void* levels, void* out_lines);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_find_critical_points(IntPtr solver, void* field, uint capacity, void* out_points, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_create(IntPtr solver, void* desc, void* out_geodesics);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_geodesics_destroy(IntPtr geodesics);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_distance(IntPtr geodesics, uint source_count, void* sources, void* out_distances, uint value_stride);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_distance_f64(IntPtr geodesics, uint source_count, void* sources, void* out_distances, uint value_stride);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_find_extremities(IntPtr solver, void* desc, uint capacity, void* out_extremities, void* out_count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_create(IntPtr solver, void* desc, void* out_pose);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_clone(IntPtr pose, void* out_pose);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_pose_destroy(IntPtr pose);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_add_handles(IntPtr pose, void* handles, void* out_handles);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_remove_handles(IntPtr pose, uint handle_count, void* handles);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_transforms(IntPtr pose, uint handle_count, void* handles, void* transforms);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_matrices(IntPtr pose, uint handle_count, void* handles, void* matrices);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_handle(IntPtr pose, uint handle, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_pose_get_handle_count(IntPtr pose);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_field(IntPtr pose, uint handle, void* out_values, uint value_stride);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_deform(IntPtr pose, void* desc, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_skin(IntPtr pose, void* info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_move_vector_sites(IntPtr solver, uint site_count, void* sites, void* vertices);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_rotate_vector_sites(IntPtr solver, uint site_count, void* sites, void* angles);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_create(IntPtr solver, void* desc, void* out_direction);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_direction_destroy(IntPtr direction);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_add_sites(IntPtr direction, uint site_count, void* vertices, void* vectors, void* out_sites);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_remove_sites(IntPtr direction, uint site_count, void* sites);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_move_sites(IntPtr direction, uint site_count, void* sites, void* vertices);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_set_vectors(IntPtr direction, uint site_count, void* sites, void* vectors);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_rotate_sites(IntPtr direction, uint site_count, void* sites, void* angles);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_direction_get_site_count(IntPtr direction);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_get_sites(IntPtr direction, uint capacity, void* out_sites, void* out_vertices, void* out_vectors);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_solve(IntPtr direction, void* out_vectors, uint vector_stride, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_solve_f64(IntPtr direction, void* out_vectors, uint vector_stride, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_get_singularities(IntPtr direction, uint capacity, void* out_singularities, void* out_count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_get_statistics(IntPtr direction, void* out_statistics);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_get_factor_size(IntPtr solver, void* out_size);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_save_factor(IntPtr solver, void* out_bytes, UIntPtr size);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_preview(IntPtr solver, void* out_values, uint value_stride, uint correction_count, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_preview_f64(IntPtr solver, void* out_values, uint value_stride, uint correction_count, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_release_preview(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_create(IntPtr source, IntPtr target, void* desc, void* out_transfer);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_transfer_destroy(IntPtr transfer);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_add_pairs(IntPtr transfer, void* pairs, void* out_pairs);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_remove_pairs(IntPtr transfer, uint pair_count, void* pairs);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_pair(IntPtr transfer, uint pair, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_info(IntPtr transfer, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_apply(IntPtr transfer, void* frame);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_skin(IntPtr transfer, void* info);
+    }
+}

@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""Writes bindings/api.json and the raw layer of every language from include/hf/*.h.
+
+usage: generate.py           writes what has changed
+       generate.py --check   writes nothing; fails and names the files that are not as the headers say (a CTest test)
+"""
+
+import pathlib
+import re
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+import layer_csharp
+import layer_js
+import layer_lua
+import layer_python
+import parse_headers
+
+BINDINGS = pathlib.Path(__file__).resolve().parent.parent
+ROOT = BINDINGS.parent
+
+
+def files():
+    api = parse_headers.read_api(ROOT / "include")
+    version = re.search(r"project\(hf VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
+    api = {"version": version, **api}
+    result = {"api.json": parse_headers.to_text(api)}
+    for layer in (layer_python, layer_js, layer_csharp, layer_lua):
+        result.update(layer.write(api))
+    return result
+
+
+def main():
+    check = sys.argv[1:] == ["--check"]
+    if sys.argv[1:] and not check:
+        sys.exit(__doc__)
+    stale = []
+    for name, text in files().items():
+        path = BINDINGS / name
+        if path.exists() and path.read_text() == text:
+            continue
+        stale.append(name)
+        if not check:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+            print("wrote bindings/" + name)
+    if check and stale:
+        sys.exit("error: not as the headers say, run bindings/generate/generate.py: " + ", ".join(stale))
+    if check:
+        print(f"{len(files())} generated files agree with the headers")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except parse_headers.HeaderError as error:
+        sys.exit(f"error: {error}")

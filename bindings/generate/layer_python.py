@@ -1,0 +1,52 @@
+"""bindings/python/hf/_raw.py: ctypes structures, prototypes and constants."""
+
+from layout import is_pointer
+
+TYPES = {"int32_t": "c_int32", "uint32_t": "c_uint32", "hf_result": "c_int32", "float": "c_float", "double": "c_double",
+         "size_t": "c_size_t", "char": "c_char", "uint8_t": "c_uint8", "int64_t": "c_int64", "uint64_t": "c_uint64"}
+HINTS = {"float": "float", "double": "float", "char": "bytes"}
+
+
+def ctype(api, item):
+    if is_pointer(api, item):
+        return "c_void_p"
+    base = TYPES.get(item["type"], item["type"])
+    return f"{base} * {item['count']}" if item.get("count") else base
+
+
+def hint(api, field):
+    if is_pointer(api, field):
+        return "int"
+    if field["type"] not in TYPES or (field["count"] and field["type"] != "char"):
+        return "object"
+    return HINTS.get(field["type"], "int")
+
+
+def write(api):
+    out = ['"""Generated from include/hf/*.h by bindings/generate; do not edit. The C ABI as ctypes sees it."""',
+           "# fmt: off",
+           "from ctypes import (CDLL, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_void_p)", "",
+           f'HEADER_VERSION = "{api["version"]}"', ""]
+    out += [f"{c['name']} = {c['value']}" for c in api["constants"]]
+    out += ["", "RESULT_NAMES = {",
+            *[f"    {c['value']}: \"{c['name']}\"," for c in api["constants"] if c["name"] == "HF_OK" or c["name"].startswith("HF_ERROR_")],
+            "}", ""]
+    for struct in api["structs"]:
+        out += ["", f"class {struct['name']}(Structure):"]
+        if struct["doc"]:
+            out.append(f'    """{struct["doc"]}"""')
+        out += [f"    {f['name']}: {hint(api, f)}" for f in struct["fields"]]
+        out += ["    _fields_ = [", *[f"        (\"{f['name']}\", {ctype(api, f)})," for f in struct["fields"]], "    ]", ""]
+    out += ["", "STRUCTS = [" + ", ".join(s["name"] for s in api["structs"]) + "]", "",
+            "# name: (result type, argument types); every pointer and handle is a c_void_p", "PROTOTYPES = {"]
+    for function in api["functions"]:
+        returns = function["returns"]
+        kind = "c_char_p" if returns["type"] == "char" else "None" if returns["type"] == "void" else ctype(api, returns)
+        arguments = ", ".join(ctype(api, p) for p in function["parameters"])
+        out.append(f"    \"{function['name']}\": ({kind}, [{arguments}]),")
+    out += ["}", "", "",
+            "def load(path: str) -> CDLL:", '    """Loads the shared library and gives every function its prototype."""',
+            "    library = CDLL(path)", "    for name, (result, arguments) in PROTOTYPES.items():",
+            "        function = getattr(library, name)", "        function.restype = result",
+            "        function.argtypes = arguments", "    return library"]
+    return {"python/hf/_raw.py": "\n".join(out) + "\n"}

@@ -1,0 +1,511 @@
+-- Generated from include/hf/*.h by bindings/generate; do not edit. The C ABI for LuaJIT's FFI.
+local ffi = require('ffi')
+
+ffi.cdef[[
+typedef int32_t hf_result;
+typedef struct hf_progress_object* hf_progress;
+typedef struct hf_solver_object* hf_solver;
+typedef struct hf_geodesics_object* hf_geodesics;
+typedef struct hf_pose_object* hf_pose;
+typedef struct hf_direction_object* hf_direction;
+typedef struct hf_transfer_object* hf_transfer;
+typedef struct hf_error_detail {
+  hf_result code;
+  uint32_t index;
+  char function[48];
+  char message[256];
+} hf_error_detail;
+typedef struct hf_allocator {
+  void *allocate;
+  void *release;
+  void* user;
+} hf_allocator;
+typedef struct hf_job_runner {
+  void *run;
+  void* user;
+} hf_job_runner;
+typedef struct hf_factor_desc {
+  uint32_t struct_size;
+  int32_t borrow;
+  const void* bytes;
+  size_t byte_count;
+} hf_factor_desc;
+typedef struct hf_create_desc {
+  uint32_t struct_size;
+  uint32_t vertex_count;
+  uint32_t triangle_count;
+  uint32_t position_stride;
+  const float* positions;
+  const double* positions_f64;
+  const uint32_t* triangles;
+  int32_t weld;
+  float weld_tolerance;
+  int32_t operator_kind;
+  int32_t engine;
+  int32_t ordering;
+  uint32_t channel_count;
+  uint32_t thread_count;
+  uint32_t site_limit;
+  uint32_t vertex_limit;
+  uint32_t memory_limit_mb;
+  double penalty;
+  hf_allocator allocator;
+  hf_job_runner job_runner;
+  hf_progress progress;
+  const hf_factor_desc* saved_factor;
+  int32_t field_kind;
+  int32_t reserved;
+} hf_create_desc;
+typedef struct hf_mesh_report {
+  uint32_t struct_size;
+  uint32_t vertex_count;
+  uint32_t triangle_count;
+  uint32_t welded_vertex_count;
+  uint32_t component_count;
+  uint32_t isolated_vertex_count;
+  uint32_t degenerate_triangle_count;
+  uint32_t collapsed_triangle_count;
+  uint32_t duplicate_triangle_count;
+  uint32_t non_manifold_edge_count;
+  uint32_t flipped_edge_count;
+  uint32_t boundary_edge_count;
+  uint32_t negative_edge_count;
+  float smallest_angle;
+  double bounding_box_diagonal;
+} hf_mesh_report;
+typedef struct hf_sites_desc {
+  uint32_t struct_size;
+  uint32_t site_count;
+  const uint32_t* vertices;
+  const uint32_t* triangles;
+  const double* barycentrics;
+  const double* values;
+  const double* stiffness;
+  const double* radii;
+} hf_sites_desc;
+typedef struct hf_edit_desc {
+  uint32_t struct_size;
+  uint32_t remove_count;
+  const uint32_t* remove_sites;
+  uint32_t move_count;
+  uint32_t set_count;
+  const uint32_t* move_sites;
+  const hf_sites_desc* move_to;
+  const uint32_t* set_sites;
+  const double* set_values;
+  const hf_sites_desc* add;
+} hf_edit_desc;
+typedef struct hf_site_info {
+  uint32_t struct_size;
+  uint32_t capacity;
+  uint32_t* sites;
+  uint32_t* vertices;
+  uint32_t* components;
+  double* values;
+  double* stiffness;
+  double* flux;
+  double* radii;
+} hf_site_info;
+typedef struct hf_solve_info {
+  uint32_t struct_size;
+  uint32_t unreached_component_count;
+  uint32_t first_unreached_component;
+  uint32_t unreached_vertex_count;
+} hf_solve_info;
+typedef struct hf_statistics {
+  uint32_t struct_size;
+  uint32_t unknown_count;
+  double weld_ms;
+  double operator_ms;
+  double ordering_ms;
+  double symbolic_ms;
+  double numeric_ms;
+  double factor_entries;
+  double factor_bytes;
+  double factor_flops;
+  double memory_bytes;
+  double peak_memory_bytes;
+  double site_memory_bytes;
+  uint32_t site_count;
+  uint32_t factorisation_count;
+  uint32_t path_solve_count;
+  uint32_t sweep_count;
+  uint32_t engine;
+  uint32_t thread_count;
+  double load_ms;
+  uint32_t factor_loaded;
+  uint32_t factor_borrowed;
+  uint32_t last_route;
+  uint32_t rebase_count;
+  uint32_t dense_edit_count;
+  uint32_t dense_row_count;
+  uint32_t eliminated_count;
+  uint32_t rebase_advised;
+  double predicted_dense_ms;
+  double predicted_rebase_ms;
+} hf_statistics;
+typedef struct hf_scalars {
+  uint32_t struct_size;
+  uint32_t value_stride;
+  const float* values;
+  const double* values_f64;
+} hf_scalars;
+typedef struct hf_isolines {
+  uint32_t struct_size;
+  uint32_t point_capacity;
+  uint32_t line_capacity;
+  uint32_t point_count;
+  uint32_t line_count;
+  uint32_t reserved;
+  uint32_t* point_edges;
+  double* parameters;
+  double* positions;
+  uint32_t* line_starts;
+  uint32_t* line_levels;
+  int32_t* line_closed;
+} hf_isolines;
+typedef struct hf_critical_point {
+  uint32_t vertex;
+  int32_t kind;
+  int32_t index;
+  uint32_t component;
+  double value;
+} hf_critical_point;
+typedef struct hf_critical_info {
+  uint32_t struct_size;
+  uint32_t point_count;
+  uint32_t minimum_count;
+  uint32_t maximum_count;
+  uint32_t saddle_count;
+  int32_t index_sum;
+  int32_t euler_characteristic;
+  uint32_t reserved;
+} hf_critical_info;
+typedef struct hf_geodesics_desc {
+  uint32_t struct_size;
+  float smoothing;
+} hf_geodesics_desc;
+typedef struct hf_extremities_desc {
+  uint32_t struct_size;
+  int32_t kind;
+  float least_length;
+  uint32_t source_count;
+  hf_geodesics geodesics;
+  hf_progress progress;
+  double* out_field;
+} hf_extremities_desc;
+typedef struct hf_extremity {
+  uint32_t vertex;
+  uint32_t component;
+  double length;
+  double position[3];
+} hf_extremity;
+typedef struct hf_pose_desc {
+  uint32_t struct_size;
+  int32_t mode;
+  uint32_t band_count;
+  uint32_t iteration_count;
+  uint32_t samples_per_ring;
+  uint32_t group_count;
+} hf_pose_desc;
+typedef struct hf_handles_desc {
+  uint32_t struct_size;
+  uint32_t handle_count;
+  const uint32_t* region_counts;
+  const uint32_t* region_vertices;
+  const double* points;
+  const double* radii;
+  uint32_t layer;
+  uint32_t reserved;
+} hf_handles_desc;
+typedef struct hf_transform {
+  double rotation[4];
+  double translation[3];
+} hf_transform;
+typedef struct hf_handle_info {
+  uint32_t struct_size;
+  uint32_t vertex_count;
+  uint32_t site_count;
+  uint32_t component;
+  double centroid[3];
+  double leak;
+  double rotation[4];
+  double translation[3];
+  uint32_t layer;
+  uint32_t reserved;
+} hf_handle_info;
+typedef struct hf_deform_desc {
+  uint32_t struct_size;
+  uint32_t position_stride;
+  float* positions;
+  double* positions_f64;
+  float* normals;
+  uint32_t normal_stride;
+  uint32_t iteration_count;
+  int32_t restart;
+  int32_t refine;
+  uint32_t first_vertex;
+  uint32_t vertex_count;
+} hf_deform_desc;
+typedef struct hf_deform_info {
+  uint32_t struct_size;
+  uint32_t iteration_count;
+  uint32_t cluster_count;
+  uint32_t unreached_vertex_count;
+  double last_change;
+  double solve_ms;
+  double blend_ms;
+  double normal_ms;
+  double refine_ms;
+} hf_deform_info;
+typedef struct hf_skin_info {
+  uint32_t struct_size;
+  uint32_t joint_count;
+  uint32_t weight_count;
+  uint32_t reserved;
+  double* pivots;
+  double* rotations;
+  double* translations;
+  uint32_t* vertex_joints;
+  float* vertex_weights;
+} hf_skin_info;
+typedef struct hf_direction_desc {
+  uint32_t struct_size;
+  uint32_t degree;
+  uint32_t site_limit;
+  uint32_t reserved;
+} hf_direction_desc;
+typedef struct hf_singularity {
+  uint32_t triangle;
+  uint32_t vertex;
+  int32_t index;
+} hf_singularity;
+typedef struct hf_direction_statistics {
+  uint32_t struct_size;
+  uint32_t unknown_count;
+  uint32_t site_count;
+  uint32_t factorisation_count;
+  uint32_t path_solve_count;
+  uint32_t sweep_count;
+  uint32_t irregular_vertex_count;
+  uint32_t sites_eliminated;
+  double operator_ms;
+  double numeric_ms;
+  double factor_entries;
+  double factor_bytes;
+  double site_memory_bytes;
+} hf_direction_statistics;
+typedef struct hf_preview_info {
+  uint32_t struct_size;
+  uint32_t exact;
+  uint32_t correction_count;
+  uint32_t unreached_component_count;
+  double value_range;
+  double largest_correction;
+  double error_estimate;
+  double preview_bytes;
+} hf_preview_info;
+typedef struct hf_transfer_desc {
+  uint32_t struct_size;
+  int32_t mode;
+  uint32_t cluster_count;
+  float kernel_width;
+  float scale;
+  float alignment_angle;
+  float source_axes[9];
+  float target_axes[9];
+} hf_transfer_desc;
+typedef struct hf_pairs_desc {
+  uint32_t struct_size;
+  uint32_t pair_count;
+  const uint32_t* source_counts;
+  const uint32_t* source_vertices;
+  const uint32_t* target_counts;
+  const uint32_t* target_vertices;
+  const uint32_t* flags;
+} hf_pairs_desc;
+typedef struct hf_pair_info {
+  uint32_t struct_size;
+  uint32_t flags;
+  double source_leak;
+  double target_leak;
+  double alignment_angle;
+  double confidence;
+  int32_t aligned;
+  int32_t crossed;
+} hf_pair_info;
+typedef struct hf_transfer_info {
+  uint32_t struct_size;
+  uint32_t pair_count;
+  uint32_t cluster_count;
+  uint32_t aligned_count;
+  uint32_t crossed_count;
+  int32_t scale_found;
+  double scale;
+} hf_transfer_info;
+typedef struct hf_transfer_frame {
+  uint32_t struct_size;
+  uint32_t source_stride;
+  const float* source_positions;
+  const double* source_positions_f64;
+  uint32_t target_stride;
+  uint32_t normal_stride;
+  float* target_positions;
+  double* target_positions_f64;
+  float* target_normals;
+  uint32_t hold_count;
+  uint32_t reserved;
+  const uint32_t* hold_pairs;
+  const double* hold_positions;
+} hf_transfer_frame;
+void hf_init_desc(void* desc, uint32_t struct_size);
+hf_result hf_get_error_detail(hf_error_detail* out_detail);
+const char* hf_result_name(hf_result result);
+uint32_t hf_get_version(void);
+hf_result hf_progress_create(hf_progress* out_progress);
+void hf_progress_destroy(hf_progress progress);
+hf_result hf_progress_get(hf_progress progress, float* out_fraction);
+hf_result hf_progress_cancel(hf_progress progress);
+hf_result hf_create(const hf_create_desc* desc, hf_solver* out_solver);
+hf_result hf_clone(hf_solver solver, hf_solver* out_solver);
+void hf_destroy(hf_solver solver);
+hf_result hf_get_mesh_report(hf_solver solver, hf_mesh_report* out_report);
+hf_result hf_get_components(hf_solver solver, uint32_t vertex_count, uint32_t* out_components);
+hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint32_t* out_sites);
+hf_result hf_remove_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites);
+hf_result hf_move_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const hf_sites_desc* to);
+hf_result hf_set_site_values(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* values);
+hf_result hf_edit_sites(hf_solver solver, const hf_edit_desc* edit, uint32_t* out_sites);
+uint32_t hf_get_site_count(hf_solver solver);
+hf_result hf_get_sites(hf_solver solver, hf_site_info* out_info);
+hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
+hf_result hf_solve_f64(hf_solver solver, double* out_values, uint32_t value_stride, hf_solve_info* out_info);
+hf_result hf_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info);
+hf_result hf_solve_vectors_f64(hf_solver solver, double* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info);
+hf_result hf_solve_at(hf_solver solver, uint32_t vertex_count, const uint32_t* vertices, double* out_values);
+hf_result hf_record(hf_solver solver);
+hf_result hf_undo(hf_solver solver);
+hf_result hf_redo(hf_solver solver);
+hf_result hf_prepare_rebase(hf_solver solver);
+hf_result hf_get_statistics(hf_solver solver, hf_statistics* out_statistics);
+hf_result hf_space_levels(hf_solver solver, const hf_scalars* field, int32_t spacing, uint32_t level_count, double* out_levels);
+hf_result hf_trace_isolines(hf_solver solver, const hf_scalars* field, uint32_t level_count, const double* levels, hf_isolines* out_lines);
+hf_result hf_find_critical_points(hf_solver solver, const hf_scalars* field, uint32_t capacity, hf_critical_point* out_points, hf_critical_info* out_info);
+hf_result hf_geodesics_create(hf_solver solver, const hf_geodesics_desc* desc, hf_geodesics* out_geodesics);
+void hf_geodesics_destroy(hf_geodesics geodesics);
+hf_result hf_geodesics_distance(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources, float* out_distances, uint32_t value_stride);
+hf_result hf_geodesics_distance_f64(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources, double* out_distances, uint32_t value_stride);
+hf_result hf_find_extremities(hf_solver solver, const hf_extremities_desc* desc, uint32_t capacity, hf_extremity* out_extremities, uint32_t* out_count);
+hf_result hf_pose_create(hf_solver solver, const hf_pose_desc* desc, hf_pose* out_pose);
+hf_result hf_pose_clone(hf_pose pose, hf_pose* out_pose);
+void hf_pose_destroy(hf_pose pose);
+hf_result hf_pose_add_handles(hf_pose pose, const hf_handles_desc* handles, uint32_t* out_handles);
+hf_result hf_pose_remove_handles(hf_pose pose, uint32_t handle_count, const uint32_t* handles);
+hf_result hf_pose_set_transforms(hf_pose pose, uint32_t handle_count, const uint32_t* handles, const hf_transform* transforms);
+hf_result hf_pose_set_matrices(hf_pose pose, uint32_t handle_count, const uint32_t* handles, const double* matrices);
+hf_result hf_pose_get_handle(hf_pose pose, uint32_t handle, hf_handle_info* out_info);
+uint32_t hf_pose_get_handle_count(hf_pose pose);
+hf_result hf_pose_get_field(hf_pose pose, uint32_t handle, float* out_values, uint32_t value_stride);
+hf_result hf_deform(hf_pose pose, const hf_deform_desc* desc, hf_deform_info* out_info);
+hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* info);
+hf_result hf_move_vector_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const uint32_t* vertices);
+hf_result hf_rotate_vector_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* angles);
+hf_result hf_direction_create(hf_solver solver, const hf_direction_desc* desc, hf_direction* out_direction);
+void hf_direction_destroy(hf_direction direction);
+hf_result hf_direction_add_sites(hf_direction direction, uint32_t site_count, const uint32_t* vertices, const double* vectors, uint32_t* out_sites);
+hf_result hf_direction_remove_sites(hf_direction direction, uint32_t site_count, const uint32_t* sites);
+hf_result hf_direction_move_sites(hf_direction direction, uint32_t site_count, const uint32_t* sites, const uint32_t* vertices);
+hf_result hf_direction_set_vectors(hf_direction direction, uint32_t site_count, const uint32_t* sites, const double* vectors);
+hf_result hf_direction_rotate_sites(hf_direction direction, uint32_t site_count, const uint32_t* sites, const double* angles);
+uint32_t hf_direction_get_site_count(hf_direction direction);
+hf_result hf_direction_get_sites(hf_direction direction, uint32_t capacity, uint32_t* out_sites, uint32_t* out_vertices, double* out_vectors);
+hf_result hf_direction_solve(hf_direction direction, float* out_vectors, uint32_t vector_stride, hf_solve_info* out_info);
+hf_result hf_direction_solve_f64(hf_direction direction, double* out_vectors, uint32_t vector_stride, hf_solve_info* out_info);
+hf_result hf_direction_get_singularities(hf_direction direction, uint32_t capacity, hf_singularity* out_singularities, uint32_t* out_count);
+hf_result hf_direction_get_statistics(hf_direction direction, hf_direction_statistics* out_statistics);
+hf_result hf_get_factor_size(hf_solver solver, size_t* out_size);
+hf_result hf_save_factor(hf_solver solver, void* out_bytes, size_t size);
+hf_result hf_solve_preview(hf_solver solver, float* out_values, uint32_t value_stride, uint32_t correction_count, hf_preview_info* out_info);
+hf_result hf_solve_preview_f64(hf_solver solver, double* out_values, uint32_t value_stride, uint32_t correction_count, hf_preview_info* out_info);
+hf_result hf_release_preview(hf_solver solver);
+hf_result hf_transfer_create(hf_solver source, hf_solver target, const hf_transfer_desc* desc, hf_transfer* out_transfer);
+void hf_transfer_destroy(hf_transfer transfer);
+hf_result hf_transfer_add_pairs(hf_transfer transfer, const hf_pairs_desc* pairs, uint32_t* out_pairs);
+hf_result hf_transfer_remove_pairs(hf_transfer transfer, uint32_t pair_count, const uint32_t* pairs);
+hf_result hf_transfer_get_pair(hf_transfer transfer, uint32_t pair, hf_pair_info* out_info);
+hf_result hf_transfer_get_info(hf_transfer transfer, hf_transfer_info* out_info);
+hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
+hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* info);
+]]
+
+local constants = { header_version = '0.1.0',
+  HF_NO_INDEX = 4294967295,
+  HF_MESSAGE_SIZE = 256,
+  HF_OK = 0,
+  HF_ERROR_INVALID_ARGUMENT = -1,
+  HF_ERROR_NULL_POINTER = -2,
+  HF_ERROR_INVALID_HANDLE = -3,
+  HF_ERROR_INVALID_DESC = -4,
+  HF_ERROR_OUT_OF_RANGE = -5,
+  HF_ERROR_NON_FINITE = -6,
+  HF_ERROR_EMPTY = -7,
+  HF_ERROR_DUPLICATE_SITE = -8,
+  HF_ERROR_NO_SUCH_SITE = -9,
+  HF_ERROR_CONFLICT = -10,
+  HF_ERROR_NO_SITES = -11,
+  HF_ERROR_NO_SUCH_HANDLE = -12,
+  HF_ERROR_NO_SUCH_PAIR = -13,
+  HF_ERROR_OVERLAP = -14,
+  HF_ERROR_UNSUPPORTED = -15,
+  HF_ERROR_BUSY = -16,
+  HF_ERROR_REENTRANT = -17,
+  HF_ERROR_TOO_SMALL = -18,
+  HF_ERROR_NO_RECORD = -19,
+  HF_ERROR_OUT_OF_MEMORY = -100,
+  HF_ERROR_TOO_LARGE = -101,
+  HF_ERROR_CANCELLED = -102,
+  HF_ERROR_NOT_POSITIVE_DEFINITE = -200,
+  HF_ERROR_INACCURATE = -201,
+  HF_ERROR_INTERNAL = -300,
+  HF_WELD_EXACT = 0,
+  HF_WELD_NONE = 1,
+  HF_WELD_TOLERANCE = 2,
+  HF_OPERATOR_COTANGENT = 0,
+  HF_OPERATOR_CLAMPED = 1,
+  HF_OPERATOR_UNIFORM = 2,
+  HF_OPERATOR_INTRINSIC_DELAUNAY = 3,
+  HF_FIELD_HARMONIC = 0,
+  HF_FIELD_BIHARMONIC = 1,
+  HF_FIELD_BIHARMONIC_GRAPH = 2,
+  HF_ENGINE_GREEN = 0,
+  HF_ENGINE_UPDOWN = 1,
+  HF_ENGINE_REFACTOR = 2,
+  HF_ORDERING_NESTED_DISSECTION = 0,
+  HF_ORDERING_MINIMUM_DEGREE = 1,
+  HF_ORDERING_METIS = 2,
+  HF_FACTOR_ALIGNMENT = 64,
+  HF_ROUTE_NONE = 0,
+  HF_ROUTE_DENSE = 1,
+  HF_ROUTE_FRESH = 2,
+  HF_ROUTE_REBASE = 3,
+  HF_LEVELS_VALUE = 0,
+  HF_LEVELS_AREA = 1,
+  HF_LEVELS_LENGTH = 2,
+  HF_CRITICAL_MINIMUM = 0,
+  HF_CRITICAL_MAXIMUM = 1,
+  HF_CRITICAL_SADDLE = 2,
+  HF_EXTREMITIES_POISSON = 0,
+  HF_EXTREMITIES_GEODESIC = 1,
+  HF_DEFORM_SMOOTH = 0,
+  HF_DEFORM_PAPER = 1,
+  HF_LAYER_COUNT = 8,
+  HF_TRANSFER_FIELDS = 0,
+  HF_TRANSFER_PAPER = 1,
+  HF_PAIR_ANCHOR = 1,
+  HF_PAIR_FOOT = 2,
+  HF_PAIR_TRUNK = 4,
+  HF_PAIR_NO_ALIGNMENT = 8,
+  HF_PAIR_CONTACT = 16,
+}
+
+return constants

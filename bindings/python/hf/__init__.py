@@ -1,0 +1,31 @@
+"""hf: dynamic harmonic fields. Sites come and go on a factored surface; handles pose it; motion plays on another surface.
+
+    import numpy as np, hf
+    with hf.Solver(positions, triangles) as solver:
+        solver.add_sites([0, 41], [0.0, 1.0])
+        field = solver.solve()
+
+The C headers (include/hf) are the reference. Objects close themselves, in any order; failures are exceptions with the
+library's own message, HfError and its subclasses.
+"""
+
+from . import _raw as constants
+from ._library import (BusyError, CancelledError, ConflictError, DuplicateSiteError, EmptyError, InaccurateError, InternalError,
+                       InvalidArgumentError, InvalidDescError, InvalidHandleError, NoRecordError, NoSitesError, NoSuchHandleError,
+                       NoSuchPairError, NoSuchSiteError, NonFiniteError, NotPositiveDefiniteError, NullPointerError,
+                       OutOfMemoryError, OutOfRangeError, OverlapError, ReentrantError, TooLargeError, TooSmallError,
+                       UnsupportedError)
+from ._library import EXCEPTIONS, NO_INDEX, HfError, library
+from ._raw import (hf_deform_info as DeformInfo, hf_direction_statistics as DirectionStatistics, hf_handle_info as HandleInfo,
+                   hf_mesh_report as MeshReport, hf_pair_info as PairInfo, hf_solve_info as SolveInfo, hf_statistics as Statistics,
+                   hf_transfer_info as TransferInfo)
+from .pose import DeformMode, Pair, Pose, Skin, Transfer, TransferMode
+from .solver import (Direction, Engine, Extremities, FieldKind, Geodesics, Isolines, Levels, Operator, Progress, Solver, Weld)
+
+__version__ = constants.HEADER_VERSION
+
+
+def version() -> tuple:
+    """Version of the loaded library: (major, minor, patch)."""
+    number = library().hf_get_version()
+    return number // 1000000, number // 1000 % 1000, number % 1000

@@ -1,0 +1,261 @@
+"""Finds and loads the shared library; exceptions from result codes; arrays in and out without copies; owned handles."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import pathlib
+import sys
+from typing import Any, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _raw
+
+ArrayLike = Any
+NO_INDEX = _raw.HF_NO_INDEX
+
+
+class HfError(Exception):
+    """A call that failed. code: HF_ERROR_*; name: its name; index: what it is about, or None; function: of the C ABI."""
+
+    code: int = 0
+
+    def __init__(self, message: str, code: Optional[int] = None, index: Optional[int] = None, function: str = "") -> None:
+        self.code = type(self).code if code is None else code
+        self.name = _raw.RESULT_NAMES.get(self.code, str(self.code))
+        self.index, self.function, self.message = index, function, message
+        super().__init__(f"{function + ': ' if function else ''}{message} ({self.name})")
+
+
+class InvalidArgumentError(HfError, ValueError): code = _raw.HF_ERROR_INVALID_ARGUMENT
+class NullPointerError(HfError, TypeError): code = _raw.HF_ERROR_NULL_POINTER
+class InvalidHandleError(HfError): code = _raw.HF_ERROR_INVALID_HANDLE
+class InvalidDescError(HfError): code = _raw.HF_ERROR_INVALID_DESC
+class OutOfRangeError(HfError, IndexError): code = _raw.HF_ERROR_OUT_OF_RANGE
+class NonFiniteError(HfError, ValueError): code = _raw.HF_ERROR_NON_FINITE
+class EmptyError(HfError, ValueError): code = _raw.HF_ERROR_EMPTY
+class DuplicateSiteError(HfError, ValueError): code = _raw.HF_ERROR_DUPLICATE_SITE
+class NoSuchSiteError(HfError, KeyError): code = _raw.HF_ERROR_NO_SUCH_SITE
+class ConflictError(HfError, ValueError): code = _raw.HF_ERROR_CONFLICT
+class NoSitesError(HfError): code = _raw.HF_ERROR_NO_SITES
+class NoSuchHandleError(HfError, KeyError): code = _raw.HF_ERROR_NO_SUCH_HANDLE
+class NoSuchPairError(HfError, KeyError): code = _raw.HF_ERROR_NO_SUCH_PAIR
+class OverlapError(HfError, ValueError): code = _raw.HF_ERROR_OVERLAP
+class UnsupportedError(HfError, NotImplementedError): code = _raw.HF_ERROR_UNSUPPORTED
+class BusyError(HfError): code = _raw.HF_ERROR_BUSY
+class ReentrantError(HfError): code = _raw.HF_ERROR_REENTRANT
+class TooSmallError(HfError, ValueError): code = _raw.HF_ERROR_TOO_SMALL
+class NoRecordError(HfError): code = _raw.HF_ERROR_NO_RECORD
+class OutOfMemoryError(HfError, MemoryError): code = _raw.HF_ERROR_OUT_OF_MEMORY
+class TooLargeError(HfError, ValueError): code = _raw.HF_ERROR_TOO_LARGE
+class CancelledError(HfError): code = _raw.HF_ERROR_CANCELLED
+class NotPositiveDefiniteError(HfError, ArithmeticError): code = _raw.HF_ERROR_NOT_POSITIVE_DEFINITE
+class InaccurateError(HfError, ArithmeticError): code = _raw.HF_ERROR_INACCURATE
+class InternalError(HfError): code = _raw.HF_ERROR_INTERNAL
+
+
+EXCEPTIONS = {cls.code: cls for cls in HfError.__subclasses__()}
+for _cls in EXCEPTIONS.values():  # KeyError would show the repr of the message
+    _cls.__str__ = Exception.__str__  # type: ignore[method-assign]
+
+
+def _candidates() -> list:
+    given = os.environ.get("HF_LIBRARY")
+    if given:
+        return [given]
+    name = {"win32": "hf.dll", "darwin": "libhf.dylib"}.get(sys.platform, "libhf.so.0")
+    beside = [pathlib.Path(__file__).resolve().parent / n for n in (name, "libhf.so")]
+    return [str(path) for path in beside if path.exists()] + [name]
+
+
+_loaded: Optional[ctypes.CDLL] = None
+
+
+def library() -> ctypes.CDLL:
+    """The loaded shared library: $HF_LIBRARY, the file inside this package, or the system's."""
+    global _loaded
+    if _loaded is None:
+        tried = []
+        for path in _candidates():
+            try:
+                _loaded = _raw.load(path)
+                break
+            except OSError as error:
+                tried.append(f"{path}: {error}")
+        if _loaded is None:
+            raise ImportError("the hf library was not found; set HF_LIBRARY to libhf.so, or put it beside the package. " + "; ".join(tried))
+        _check_version(_loaded.hf_get_version())
+    return _loaded
+
+
+def _check_version(loaded: int) -> None:
+    major, minor, patch = (int(part) for part in _raw.HEADER_VERSION.split("."))
+    if loaded // 1000000 != major or loaded < major * 1000000 + minor * 1000:
+        raise ImportError(f"the hf library is of version {loaded // 1000000}.{loaded // 1000 % 1000}.{loaded % 1000}, "
+                          f"this package of {_raw.HEADER_VERSION}; install matching ones")
+
+
+def call(name: str, *arguments: Any) -> None:
+    """Calls a function that returns an hf_result; raises the exception of its code."""
+    lib = library()
+    code = getattr(lib, name)(*arguments)
+    if code != _raw.HF_OK:
+        detail = _raw.hf_error_detail()
+        lib.hf_get_error_detail(ctypes.byref(detail))
+        index = None if detail.index == NO_INDEX else detail.index
+        raise EXCEPTIONS.get(code, HfError)(detail.message.decode("utf-8", "replace"), code, index, detail.function.decode())
+
+
+def make(struct: type, **fields: Any) -> Any:
+    """A desc with every byte zero but its size and the given fields."""
+    desc = struct()
+    desc.struct_size = ctypes.sizeof(struct)
+    for key, value in fields.items():
+        setattr(desc, key, value)
+    return desc
+
+
+def options_into(desc: Any, options: dict) -> None:
+    """Sets the named scalar options of a desc; an unknown one is an error that names it."""
+    allowed = {f[0] for f in desc._fields_} - {"struct_size", "reserved"}
+    for key, value in options.items():
+        if key not in allowed:
+            raise InvalidArgumentError(f"no option '{key}'; there are: {', '.join(sorted(allowed))}")
+        try:
+            setattr(desc, key, value)
+        except TypeError as error:
+            raise InvalidArgumentError(f"option '{key}': {error}") from None
+
+
+def address(array: Optional[np.ndarray]) -> Optional[int]:
+    """Where an array's memory is; None is NULL."""
+    return None if array is None or array.size == 0 else array.__array_interface__["data"][0]
+
+
+def integers(values: Optional[ArrayLike], name: str) -> Optional[np.ndarray]:
+    """uint32, as given when it is that already."""
+    if values is None:
+        return None
+    array = np.asarray(values)
+    if array.dtype == np.int32 and array.flags.c_contiguous and (array.size == 0 or array.min() >= 0):
+        array = array.view(np.uint32)  # the same bits
+    if array.dtype != np.uint32:
+        if array.size and array.dtype.kind not in "iu":
+            raise InvalidArgumentError(f"{name} must be whole numbers, not {array.dtype}")
+        bad = np.flatnonzero((array.ravel() < 0) | (array.ravel() > NO_INDEX)) if array.size else ()
+        if len(bad):
+            raise OutOfRangeError(f"{name} holds {array.ravel()[bad[0]]}", index=int(bad[0]))
+        array = array.astype(np.uint32)
+    return np.ascontiguousarray(array)
+
+
+def doubles(values: Optional[ArrayLike], name: str, count: Optional[int] = None) -> Optional[np.ndarray]:
+    """float64, as given when it is that already; count: how many numbers there must be."""
+    if values is None:
+        return None
+    try:
+        array = np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidArgumentError(f"{name} must be numbers: {error}") from None
+    if count is not None and array.size != count:
+        raise InvalidArgumentError(f"{name} must hold {count} numbers, not {array.size}")
+    return array
+
+
+def points(values: ArrayLike, name: str) -> tuple:
+    """Rows of xyz in float32 or float64 with any stride between rows, without a copy. Returns (array, stride)."""
+    if values is None:
+        raise NullPointerError(f"{name} is None")
+    array = np.asarray(values)
+    if array.dtype not in (np.float32, np.float64):
+        try:
+            array = array.astype(np.float64)
+        except (TypeError, ValueError) as error:
+            raise InvalidArgumentError(f"{name} must be numbers: {error}") from None
+    if array.ndim == 1 and array.size % 3 == 0:
+        array = np.ascontiguousarray(array).reshape(-1, 3)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InvalidArgumentError(f"{name} must have the shape (n, 3), not {array.shape}")
+    if array.strides[1] != array.itemsize or array.strides[0] < 3 * array.itemsize or array.strides[0] >= 1 << 31:
+        array = np.ascontiguousarray(array)
+    return array, array.strides[0] if len(array) > 1 else 0
+
+
+def output(out: Optional[np.ndarray], shape: tuple, dtype: Any, name: str = "out") -> tuple:
+    """The caller's array, or a new one; any stride between rows. Returns (array, stride)."""
+    if out is None:
+        return np.empty(shape, dtype), 0
+    wanted = [np.dtype(t) for t in (dtype if isinstance(dtype, tuple) else (dtype,))]
+    if not isinstance(out, np.ndarray) or out.dtype not in wanted:
+        raise InvalidArgumentError(f"{name} must be an array of {' or '.join(str(t) for t in wanted)}")
+    if out.size != int(np.prod(shape)):
+        raise TooSmallError(f"{name} must have the shape {shape}, not {out.shape}")
+    if not out.flags.writeable:
+        raise InvalidArgumentError(f"{name} is read-only")
+    row = out.itemsize * (shape[1] if len(shape) > 1 else 1)
+    if out.flags.c_contiguous:
+        return out, 0
+    if out.shape != tuple(shape) or out.strides[0] < row or (len(shape) > 1 and out.strides[1] != out.itemsize):
+        raise InvalidArgumentError(f"{name} may have a stride between rows only")
+    return out, out.strides[0]
+
+
+def regions(lists: Optional[Sequence[ArrayLike]], name: str) -> tuple:
+    """Lists of vertices one after the other. Returns (counts, vertices)."""
+    if lists is None:
+        return None, None
+    arrays = [integers(region, f"{name}[{i}]") for i, region in enumerate(lists)]
+    if any(a is None for a in arrays):
+        raise NullPointerError(f"{name} holds None")
+    counts = np.array([a.size for a in arrays], np.uint32)
+    return counts, np.concatenate([a.ravel() for a in arrays]) if arrays else np.empty(0, np.uint32)
+
+
+class Object:
+    """Owns one handle of the library: close() it, use it in a with statement, or leave it to the garbage collector.
+
+    Objects may be closed in any order and more than once. A call on a closed one raises InvalidHandleError.
+    """
+
+    _destroy = ""
+    _raw_handle: Optional[int] = None
+    _open = False
+
+    def _own(self, handle: ctypes.c_void_p) -> None:
+        self._raw_handle, self._open = handle.value, True
+
+    @property
+    def handle(self) -> Optional[int]:
+        """The handle of the C ABI."""
+        return self._raw_handle
+
+    @property
+    def closed(self) -> bool:
+        return not self._open
+
+    def close(self) -> None:
+        """Gives the memory back. Later calls do nothing."""
+        if self._open:
+            self._open = False
+            getattr(library(), self._destroy)(self._raw_handle)
+
+    def __enter__(self) -> Any:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        try:
+            self.close()
+        except Exception:  # at the end of the interpreter
+            pass
+
+
+def handle_of(thing: Optional[Union[Object, int]], kind: type, name: str) -> Optional[int]:
+    if thing is None:
+        return None
+    if not isinstance(thing, kind):
+        raise InvalidArgumentError(f"{name} must be a {kind.__name__}, not {type(thing).__name__}")
+    return thing._raw_handle

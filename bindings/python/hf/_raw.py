@@ -1,0 +1,958 @@
+"""Generated from include/hf/*.h by bindings/generate; do not edit. The C ABI as ctypes sees it."""
+# fmt: off
+from ctypes import (CDLL, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_void_p)
+
+HEADER_VERSION = "0.1.0"
+
+HF_NO_INDEX = 4294967295
+HF_MESSAGE_SIZE = 256
+HF_OK = 0
+HF_ERROR_INVALID_ARGUMENT = -1
+HF_ERROR_NULL_POINTER = -2
+HF_ERROR_INVALID_HANDLE = -3
+HF_ERROR_INVALID_DESC = -4
+HF_ERROR_OUT_OF_RANGE = -5
+HF_ERROR_NON_FINITE = -6
+HF_ERROR_EMPTY = -7
+HF_ERROR_DUPLICATE_SITE = -8
+HF_ERROR_NO_SUCH_SITE = -9
+HF_ERROR_CONFLICT = -10
+HF_ERROR_NO_SITES = -11
+HF_ERROR_NO_SUCH_HANDLE = -12
+HF_ERROR_NO_SUCH_PAIR = -13
+HF_ERROR_OVERLAP = -14
+HF_ERROR_UNSUPPORTED = -15
+HF_ERROR_BUSY = -16
+HF_ERROR_REENTRANT = -17
+HF_ERROR_TOO_SMALL = -18
+HF_ERROR_NO_RECORD = -19
+HF_ERROR_OUT_OF_MEMORY = -100
+HF_ERROR_TOO_LARGE = -101
+HF_ERROR_CANCELLED = -102
+HF_ERROR_NOT_POSITIVE_DEFINITE = -200
+HF_ERROR_INACCURATE = -201
+HF_ERROR_INTERNAL = -300
+HF_WELD_EXACT = 0
+HF_WELD_NONE = 1
+HF_WELD_TOLERANCE = 2
+HF_OPERATOR_COTANGENT = 0
+HF_OPERATOR_CLAMPED = 1
+HF_OPERATOR_UNIFORM = 2
+HF_OPERATOR_INTRINSIC_DELAUNAY = 3
+HF_FIELD_HARMONIC = 0
+HF_FIELD_BIHARMONIC = 1
+HF_FIELD_BIHARMONIC_GRAPH = 2
+HF_ENGINE_GREEN = 0
+HF_ENGINE_UPDOWN = 1
+HF_ENGINE_REFACTOR = 2
+HF_ORDERING_NESTED_DISSECTION = 0
+HF_ORDERING_MINIMUM_DEGREE = 1
+HF_ORDERING_METIS = 2
+HF_FACTOR_ALIGNMENT = 64
+HF_ROUTE_NONE = 0
+HF_ROUTE_DENSE = 1
+HF_ROUTE_FRESH = 2
+HF_ROUTE_REBASE = 3
+HF_LEVELS_VALUE = 0
+HF_LEVELS_AREA = 1
+HF_LEVELS_LENGTH = 2
+HF_CRITICAL_MINIMUM = 0
+HF_CRITICAL_MAXIMUM = 1
+HF_CRITICAL_SADDLE = 2
+HF_EXTREMITIES_POISSON = 0
+HF_EXTREMITIES_GEODESIC = 1
+HF_DEFORM_SMOOTH = 0
+HF_DEFORM_PAPER = 1
+HF_LAYER_COUNT = 8
+HF_TRANSFER_FIELDS = 0
+HF_TRANSFER_PAPER = 1
+HF_PAIR_ANCHOR = 1
+HF_PAIR_FOOT = 2
+HF_PAIR_TRUNK = 4
+HF_PAIR_NO_ALIGNMENT = 8
+HF_PAIR_CONTACT = 16
+
+RESULT_NAMES = {
+    0: "HF_OK",
+    -1: "HF_ERROR_INVALID_ARGUMENT",
+    -2: "HF_ERROR_NULL_POINTER",
+    -3: "HF_ERROR_INVALID_HANDLE",
+    -4: "HF_ERROR_INVALID_DESC",
+    -5: "HF_ERROR_OUT_OF_RANGE",
+    -6: "HF_ERROR_NON_FINITE",
+    -7: "HF_ERROR_EMPTY",
+    -8: "HF_ERROR_DUPLICATE_SITE",
+    -9: "HF_ERROR_NO_SUCH_SITE",
+    -10: "HF_ERROR_CONFLICT",
+    -11: "HF_ERROR_NO_SITES",
+    -12: "HF_ERROR_NO_SUCH_HANDLE",
+    -13: "HF_ERROR_NO_SUCH_PAIR",
+    -14: "HF_ERROR_OVERLAP",
+    -15: "HF_ERROR_UNSUPPORTED",
+    -16: "HF_ERROR_BUSY",
+    -17: "HF_ERROR_REENTRANT",
+    -18: "HF_ERROR_TOO_SMALL",
+    -19: "HF_ERROR_NO_RECORD",
+    -100: "HF_ERROR_OUT_OF_MEMORY",
+    -101: "HF_ERROR_TOO_LARGE",
+    -102: "HF_ERROR_CANCELLED",
+    -200: "HF_ERROR_NOT_POSITIVE_DEFINITE",
+    -201: "HF_ERROR_INACCURATE",
+    -300: "HF_ERROR_INTERNAL",
+}
+
+
+class hf_error_detail(Structure):
+    """What the last failing call on this thread was about."""
+    code: int
+    index: int
+    function: bytes
+    message: bytes
+    _fields_ = [
+        ("code", c_int32),
+        ("index", c_uint32),
+        ("function", c_char * 48),
+        ("message", c_char * 256),
+    ]
+
+
+class hf_allocator(Structure):
+    """Memory of a solver and all that is made from it."""
+    allocate: int
+    release: int
+    user: int
+    _fields_ = [
+        ("allocate", c_void_p),
+        ("release", c_void_p),
+        ("user", c_void_p),
+    ]
+
+
+class hf_job_runner(Structure):
+    """The host's own job system."""
+    run: int
+    user: int
+    _fields_ = [
+        ("run", c_void_p),
+        ("user", c_void_p),
+    ]
+
+
+class hf_factor_desc(Structure):
+    """A factor saved by hf_save_factor (hf/factor.h), to be loaded instead of made."""
+    struct_size: int
+    borrow: int
+    bytes: int
+    byte_count: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("borrow", c_int32),
+        ("bytes", c_void_p),
+        ("byte_count", c_size_t),
+    ]
+
+
+class hf_create_desc(Structure):
+    """What hf_create is given."""
+    struct_size: int
+    vertex_count: int
+    triangle_count: int
+    position_stride: int
+    positions: int
+    positions_f64: int
+    triangles: int
+    weld: int
+    weld_tolerance: float
+    operator_kind: int
+    engine: int
+    ordering: int
+    channel_count: int
+    thread_count: int
+    site_limit: int
+    vertex_limit: int
+    memory_limit_mb: int
+    penalty: float
+    allocator: object
+    job_runner: object
+    progress: int
+    saved_factor: int
+    field_kind: int
+    reserved: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("vertex_count", c_uint32),
+        ("triangle_count", c_uint32),
+        ("position_stride", c_uint32),
+        ("positions", c_void_p),
+        ("positions_f64", c_void_p),
+        ("triangles", c_void_p),
+        ("weld", c_int32),
+        ("weld_tolerance", c_float),
+        ("operator_kind", c_int32),
+        ("engine", c_int32),
+        ("ordering", c_int32),
+        ("channel_count", c_uint32),
+        ("thread_count", c_uint32),
+        ("site_limit", c_uint32),
+        ("vertex_limit", c_uint32),
+        ("memory_limit_mb", c_uint32),
+        ("penalty", c_double),
+        ("allocator", hf_allocator),
+        ("job_runner", hf_job_runner),
+        ("progress", c_void_p),
+        ("saved_factor", c_void_p),
+        ("field_kind", c_int32),
+        ("reserved", c_int32),
+    ]
+
+
+class hf_mesh_report(Structure):
+    """What was found in the mesh."""
+    struct_size: int
+    vertex_count: int
+    triangle_count: int
+    welded_vertex_count: int
+    component_count: int
+    isolated_vertex_count: int
+    degenerate_triangle_count: int
+    collapsed_triangle_count: int
+    duplicate_triangle_count: int
+    non_manifold_edge_count: int
+    flipped_edge_count: int
+    boundary_edge_count: int
+    negative_edge_count: int
+    smallest_angle: float
+    bounding_box_diagonal: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("vertex_count", c_uint32),
+        ("triangle_count", c_uint32),
+        ("welded_vertex_count", c_uint32),
+        ("component_count", c_uint32),
+        ("isolated_vertex_count", c_uint32),
+        ("degenerate_triangle_count", c_uint32),
+        ("collapsed_triangle_count", c_uint32),
+        ("duplicate_triangle_count", c_uint32),
+        ("non_manifold_edge_count", c_uint32),
+        ("flipped_edge_count", c_uint32),
+        ("boundary_edge_count", c_uint32),
+        ("negative_edge_count", c_uint32),
+        ("smallest_angle", c_float),
+        ("bounding_box_diagonal", c_double),
+    ]
+
+
+class hf_sites_desc(Structure):
+    """A batch of new sites."""
+    struct_size: int
+    site_count: int
+    vertices: int
+    triangles: int
+    barycentrics: int
+    values: int
+    stiffness: int
+    radii: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("site_count", c_uint32),
+        ("vertices", c_void_p),
+        ("triangles", c_void_p),
+        ("barycentrics", c_void_p),
+        ("values", c_void_p),
+        ("stiffness", c_void_p),
+        ("radii", c_void_p),
+    ]
+
+
+class hf_edit_desc(Structure):
+    """One batch of all of these, in the order remove, move, set, add; all or nothing."""
+    struct_size: int
+    remove_count: int
+    remove_sites: int
+    move_count: int
+    set_count: int
+    move_sites: int
+    move_to: int
+    set_sites: int
+    set_values: int
+    add: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("remove_count", c_uint32),
+        ("remove_sites", c_void_p),
+        ("move_count", c_uint32),
+        ("set_count", c_uint32),
+        ("move_sites", c_void_p),
+        ("move_to", c_void_p),
+        ("set_sites", c_void_p),
+        ("set_values", c_void_p),
+        ("add", c_void_p),
+    ]
+
+
+class hf_site_info(Structure):
+    """Where sites are and what they hold."""
+    struct_size: int
+    capacity: int
+    sites: int
+    vertices: int
+    components: int
+    values: int
+    stiffness: int
+    flux: int
+    radii: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("capacity", c_uint32),
+        ("sites", c_void_p),
+        ("vertices", c_void_p),
+        ("components", c_void_p),
+        ("values", c_void_p),
+        ("stiffness", c_void_p),
+        ("flux", c_void_p),
+        ("radii", c_void_p),
+    ]
+
+
+class hf_solve_info(Structure):
+    """What a solve reached."""
+    struct_size: int
+    unreached_component_count: int
+    first_unreached_component: int
+    unreached_vertex_count: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("unreached_component_count", c_uint32),
+        ("first_unreached_component", c_uint32),
+        ("unreached_vertex_count", c_uint32),
+    ]
+
+
+class hf_statistics(Structure):
+    """Figures of a solver."""
+    struct_size: int
+    unknown_count: int
+    weld_ms: float
+    operator_ms: float
+    ordering_ms: float
+    symbolic_ms: float
+    numeric_ms: float
+    factor_entries: float
+    factor_bytes: float
+    factor_flops: float
+    memory_bytes: float
+    peak_memory_bytes: float
+    site_memory_bytes: float
+    site_count: int
+    factorisation_count: int
+    path_solve_count: int
+    sweep_count: int
+    engine: int
+    thread_count: int
+    load_ms: float
+    factor_loaded: int
+    factor_borrowed: int
+    last_route: int
+    rebase_count: int
+    dense_edit_count: int
+    dense_row_count: int
+    eliminated_count: int
+    rebase_advised: int
+    predicted_dense_ms: float
+    predicted_rebase_ms: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("unknown_count", c_uint32),
+        ("weld_ms", c_double),
+        ("operator_ms", c_double),
+        ("ordering_ms", c_double),
+        ("symbolic_ms", c_double),
+        ("numeric_ms", c_double),
+        ("factor_entries", c_double),
+        ("factor_bytes", c_double),
+        ("factor_flops", c_double),
+        ("memory_bytes", c_double),
+        ("peak_memory_bytes", c_double),
+        ("site_memory_bytes", c_double),
+        ("site_count", c_uint32),
+        ("factorisation_count", c_uint32),
+        ("path_solve_count", c_uint32),
+        ("sweep_count", c_uint32),
+        ("engine", c_uint32),
+        ("thread_count", c_uint32),
+        ("load_ms", c_double),
+        ("factor_loaded", c_uint32),
+        ("factor_borrowed", c_uint32),
+        ("last_route", c_uint32),
+        ("rebase_count", c_uint32),
+        ("dense_edit_count", c_uint32),
+        ("dense_row_count", c_uint32),
+        ("eliminated_count", c_uint32),
+        ("rebase_advised", c_uint32),
+        ("predicted_dense_ms", c_double),
+        ("predicted_rebase_ms", c_double),
+    ]
+
+
+class hf_scalars(Structure):
+    """A field with one value per vertex of the mesh as given."""
+    struct_size: int
+    value_stride: int
+    values: int
+    values_f64: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("value_stride", c_uint32),
+        ("values", c_void_p),
+        ("values_f64", c_void_p),
+    ]
+
+
+class hf_isolines(Structure):
+    """Iso-lines as polylines."""
+    struct_size: int
+    point_capacity: int
+    line_capacity: int
+    point_count: int
+    line_count: int
+    reserved: int
+    point_edges: int
+    parameters: int
+    positions: int
+    line_starts: int
+    line_levels: int
+    line_closed: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("point_capacity", c_uint32),
+        ("line_capacity", c_uint32),
+        ("point_count", c_uint32),
+        ("line_count", c_uint32),
+        ("reserved", c_uint32),
+        ("point_edges", c_void_p),
+        ("parameters", c_void_p),
+        ("positions", c_void_p),
+        ("line_starts", c_void_p),
+        ("line_levels", c_void_p),
+        ("line_closed", c_void_p),
+    ]
+
+
+class hf_critical_point(Structure):
+    """---- critical points ----"""
+    vertex: int
+    kind: int
+    index: int
+    component: int
+    value: float
+    _fields_ = [
+        ("vertex", c_uint32),
+        ("kind", c_int32),
+        ("index", c_int32),
+        ("component", c_uint32),
+        ("value", c_double),
+    ]
+
+
+class hf_critical_info(Structure):
+    struct_size: int
+    point_count: int
+    minimum_count: int
+    maximum_count: int
+    saddle_count: int
+    index_sum: int
+    euler_characteristic: int
+    reserved: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("point_count", c_uint32),
+        ("minimum_count", c_uint32),
+        ("maximum_count", c_uint32),
+        ("saddle_count", c_uint32),
+        ("index_sum", c_int32),
+        ("euler_characteristic", c_int32),
+        ("reserved", c_uint32),
+    ]
+
+
+class hf_geodesics_desc(Structure):
+    struct_size: int
+    smoothing: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("smoothing", c_float),
+    ]
+
+
+class hf_extremities_desc(Structure):
+    """What makes a vertex an extremity"""
+    struct_size: int
+    kind: int
+    least_length: float
+    source_count: int
+    geodesics: int
+    progress: int
+    out_field: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("least_length", c_float),
+        ("source_count", c_uint32),
+        ("geodesics", c_void_p),
+        ("progress", c_void_p),
+        ("out_field", c_void_p),
+    ]
+
+
+class hf_extremity(Structure):
+    vertex: int
+    component: int
+    length: float
+    position: object
+    _fields_ = [
+        ("vertex", c_uint32),
+        ("component", c_uint32),
+        ("length", c_double),
+        ("position", c_double * 3),
+    ]
+
+
+class hf_pose_desc(Structure):
+    """How vertices follow the handles."""
+    struct_size: int
+    mode: int
+    band_count: int
+    iteration_count: int
+    samples_per_ring: int
+    group_count: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("mode", c_int32),
+        ("band_count", c_uint32),
+        ("iteration_count", c_uint32),
+        ("samples_per_ring", c_uint32),
+        ("group_count", c_uint32),
+    ]
+
+
+class hf_handles_desc(Structure):
+    """Handles to add"""
+    struct_size: int
+    handle_count: int
+    region_counts: int
+    region_vertices: int
+    points: int
+    radii: int
+    layer: int
+    reserved: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("handle_count", c_uint32),
+        ("region_counts", c_void_p),
+        ("region_vertices", c_void_p),
+        ("points", c_void_p),
+        ("radii", c_void_p),
+        ("layer", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class hf_transform(Structure):
+    """A rigid motion of a handle from its rest place"""
+    rotation: object
+    translation: object
+    _fields_ = [
+        ("rotation", c_double * 4),
+        ("translation", c_double * 3),
+    ]
+
+
+class hf_handle_info(Structure):
+    """What is known of a handle."""
+    struct_size: int
+    vertex_count: int
+    site_count: int
+    component: int
+    centroid: object
+    leak: float
+    rotation: object
+    translation: object
+    layer: int
+    reserved: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("vertex_count", c_uint32),
+        ("site_count", c_uint32),
+        ("component", c_uint32),
+        ("centroid", c_double * 3),
+        ("leak", c_double),
+        ("rotation", c_double * 4),
+        ("translation", c_double * 3),
+        ("layer", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class hf_deform_desc(Structure):
+    """Where hf_deform writes, and what it found."""
+    struct_size: int
+    position_stride: int
+    positions: int
+    positions_f64: int
+    normals: int
+    normal_stride: int
+    iteration_count: int
+    restart: int
+    refine: int
+    first_vertex: int
+    vertex_count: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("position_stride", c_uint32),
+        ("positions", c_void_p),
+        ("positions_f64", c_void_p),
+        ("normals", c_void_p),
+        ("normal_stride", c_uint32),
+        ("iteration_count", c_uint32),
+        ("restart", c_int32),
+        ("refine", c_int32),
+        ("first_vertex", c_uint32),
+        ("vertex_count", c_uint32),
+    ]
+
+
+class hf_deform_info(Structure):
+    struct_size: int
+    iteration_count: int
+    cluster_count: int
+    unreached_vertex_count: int
+    last_change: float
+    solve_ms: float
+    blend_ms: float
+    normal_ms: float
+    refine_ms: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("iteration_count", c_uint32),
+        ("cluster_count", c_uint32),
+        ("unreached_vertex_count", c_uint32),
+        ("last_change", c_double),
+        ("solve_ms", c_double),
+        ("blend_ms", c_double),
+        ("normal_ms", c_double),
+        ("refine_ms", c_double),
+    ]
+
+
+class hf_skin_info(Structure):
+    """A pose or a transfer (hf/transfer.h) as a skin for linear blend skinning"""
+    struct_size: int
+    joint_count: int
+    weight_count: int
+    reserved: int
+    pivots: int
+    rotations: int
+    translations: int
+    vertex_joints: int
+    vertex_weights: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("joint_count", c_uint32),
+        ("weight_count", c_uint32),
+        ("reserved", c_uint32),
+        ("pivots", c_void_p),
+        ("rotations", c_void_p),
+        ("translations", c_void_p),
+        ("vertex_joints", c_void_p),
+        ("vertex_weights", c_void_p),
+    ]
+
+
+class hf_direction_desc(Structure):
+    """Zero every field that is not needed (HF_INIT)."""
+    struct_size: int
+    degree: int
+    site_limit: int
+    reserved: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("degree", c_uint32),
+        ("site_limit", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class hf_singularity(Structure):
+    """A triangle around which the field turns against the surface."""
+    triangle: int
+    vertex: int
+    index: int
+    _fields_ = [
+        ("triangle", c_uint32),
+        ("vertex", c_uint32),
+        ("index", c_int32),
+    ]
+
+
+class hf_direction_statistics(Structure):
+    """What the object has done and holds."""
+    struct_size: int
+    unknown_count: int
+    site_count: int
+    factorisation_count: int
+    path_solve_count: int
+    sweep_count: int
+    irregular_vertex_count: int
+    sites_eliminated: int
+    operator_ms: float
+    numeric_ms: float
+    factor_entries: float
+    factor_bytes: float
+    site_memory_bytes: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("unknown_count", c_uint32),
+        ("site_count", c_uint32),
+        ("factorisation_count", c_uint32),
+        ("path_solve_count", c_uint32),
+        ("sweep_count", c_uint32),
+        ("irregular_vertex_count", c_uint32),
+        ("sites_eliminated", c_uint32),
+        ("operator_ms", c_double),
+        ("numeric_ms", c_double),
+        ("factor_entries", c_double),
+        ("factor_bytes", c_double),
+        ("site_memory_bytes", c_double),
+    ]
+
+
+class hf_preview_info(Structure):
+    """What a preview reached; struct_size must be set."""
+    struct_size: int
+    exact: int
+    correction_count: int
+    unreached_component_count: int
+    value_range: float
+    largest_correction: float
+    error_estimate: float
+    preview_bytes: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("exact", c_uint32),
+        ("correction_count", c_uint32),
+        ("unreached_component_count", c_uint32),
+        ("value_range", c_double),
+        ("largest_correction", c_double),
+        ("error_estimate", c_double),
+        ("preview_bytes", c_double),
+    ]
+
+
+class hf_transfer_desc(Structure):
+    """What a pair is, beside two regions."""
+    struct_size: int
+    mode: int
+    cluster_count: int
+    kernel_width: float
+    scale: float
+    alignment_angle: float
+    source_axes: object
+    target_axes: object
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("mode", c_int32),
+        ("cluster_count", c_uint32),
+        ("kernel_width", c_float),
+        ("scale", c_float),
+        ("alignment_angle", c_float),
+        ("source_axes", c_float * 9),
+        ("target_axes", c_float * 9),
+    ]
+
+
+class hf_pairs_desc(Structure):
+    """Pairs to add"""
+    struct_size: int
+    pair_count: int
+    source_counts: int
+    source_vertices: int
+    target_counts: int
+    target_vertices: int
+    flags: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("pair_count", c_uint32),
+        ("source_counts", c_void_p),
+        ("source_vertices", c_void_p),
+        ("target_counts", c_void_p),
+        ("target_vertices", c_void_p),
+        ("flags", c_void_p),
+    ]
+
+
+class hf_pair_info(Structure):
+    struct_size: int
+    flags: int
+    source_leak: float
+    target_leak: float
+    alignment_angle: float
+    confidence: float
+    aligned: int
+    crossed: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("flags", c_uint32),
+        ("source_leak", c_double),
+        ("target_leak", c_double),
+        ("alignment_angle", c_double),
+        ("confidence", c_double),
+        ("aligned", c_int32),
+        ("crossed", c_int32),
+    ]
+
+
+class hf_transfer_info(Structure):
+    """The transfer as a whole."""
+    struct_size: int
+    pair_count: int
+    cluster_count: int
+    aligned_count: int
+    crossed_count: int
+    scale_found: int
+    scale: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("pair_count", c_uint32),
+        ("cluster_count", c_uint32),
+        ("aligned_count", c_uint32),
+        ("crossed_count", c_uint32),
+        ("scale_found", c_int32),
+        ("scale", c_double),
+    ]
+
+
+class hf_transfer_frame(Structure):
+    """One frame."""
+    struct_size: int
+    source_stride: int
+    source_positions: int
+    source_positions_f64: int
+    target_stride: int
+    normal_stride: int
+    target_positions: int
+    target_positions_f64: int
+    target_normals: int
+    hold_count: int
+    reserved: int
+    hold_pairs: int
+    hold_positions: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("source_stride", c_uint32),
+        ("source_positions", c_void_p),
+        ("source_positions_f64", c_void_p),
+        ("target_stride", c_uint32),
+        ("normal_stride", c_uint32),
+        ("target_positions", c_void_p),
+        ("target_positions_f64", c_void_p),
+        ("target_normals", c_void_p),
+        ("hold_count", c_uint32),
+        ("reserved", c_uint32),
+        ("hold_pairs", c_void_p),
+        ("hold_positions", c_void_p),
+    ]
+
+
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_create_desc, hf_mesh_report, hf_sites_desc, hf_edit_desc, hf_site_info, hf_solve_info, hf_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_pose_desc, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_desc, hf_deform_info, hf_skin_info, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_preview_info, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame]
+
+# name: (result type, argument types); every pointer and handle is a c_void_p
+PROTOTYPES = {
+    "hf_init_desc": (None, [c_void_p, c_uint32]),
+    "hf_get_error_detail": (c_int32, [c_void_p]),
+    "hf_result_name": (c_char_p, [c_int32]),
+    "hf_get_version": (c_uint32, []),
+    "hf_progress_create": (c_int32, [c_void_p]),
+    "hf_progress_destroy": (None, [c_void_p]),
+    "hf_progress_get": (c_int32, [c_void_p, c_void_p]),
+    "hf_progress_cancel": (c_int32, [c_void_p]),
+    "hf_create": (c_int32, [c_void_p, c_void_p]),
+    "hf_clone": (c_int32, [c_void_p, c_void_p]),
+    "hf_destroy": (None, [c_void_p]),
+    "hf_get_mesh_report": (c_int32, [c_void_p, c_void_p]),
+    "hf_get_components": (c_int32, [c_void_p, c_uint32, c_void_p]),
+    "hf_add_sites": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_remove_sites": (c_int32, [c_void_p, c_uint32, c_void_p]),
+    "hf_move_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_set_site_values": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_edit_sites": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_get_site_count": (c_uint32, [c_void_p]),
+    "hf_get_sites": (c_int32, [c_void_p, c_void_p]),
+    "hf_solve": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
+    "hf_solve_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
+    "hf_solve_vectors": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_solve_vectors_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_solve_at": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_record": (c_int32, [c_void_p]),
+    "hf_undo": (c_int32, [c_void_p]),
+    "hf_redo": (c_int32, [c_void_p]),
+    "hf_prepare_rebase": (c_int32, [c_void_p]),
+    "hf_get_statistics": (c_int32, [c_void_p, c_void_p]),
+    "hf_space_levels": (c_int32, [c_void_p, c_void_p, c_int32, c_uint32, c_void_p]),
+    "hf_trace_isolines": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_find_critical_points": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_geodesics_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_geodesics_destroy": (None, [c_void_p]),
+    "hf_geodesics_distance": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_uint32]),
+    "hf_geodesics_distance_f64": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_uint32]),
+    "hf_find_extremities": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_pose_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_pose_clone": (c_int32, [c_void_p, c_void_p]),
+    "hf_pose_destroy": (None, [c_void_p]),
+    "hf_pose_add_handles": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_pose_remove_handles": (c_int32, [c_void_p, c_uint32, c_void_p]),
+    "hf_pose_set_transforms": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_pose_set_matrices": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_pose_get_handle": (c_int32, [c_void_p, c_uint32, c_void_p]),
+    "hf_pose_get_handle_count": (c_uint32, [c_void_p]),
+    "hf_pose_get_field": (c_int32, [c_void_p, c_uint32, c_void_p, c_uint32]),
+    "hf_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_pose_get_skin": (c_int32, [c_void_p, c_void_p]),
+    "hf_move_vector_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_rotate_vector_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_direction_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_direction_destroy": (None, [c_void_p]),
+    "hf_direction_add_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p]),
+    "hf_direction_remove_sites": (c_int32, [c_void_p, c_uint32, c_void_p]),
+    "hf_direction_move_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_direction_set_vectors": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_direction_rotate_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_direction_get_site_count": (c_uint32, [c_void_p]),
+    "hf_direction_get_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p]),
+    "hf_direction_solve": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
+    "hf_direction_solve_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
+    "hf_direction_get_singularities": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_direction_get_statistics": (c_int32, [c_void_p, c_void_p]),
+    "hf_get_factor_size": (c_int32, [c_void_p, c_void_p]),
+    "hf_save_factor": (c_int32, [c_void_p, c_void_p, c_size_t]),
+    "hf_solve_preview": (c_int32, [c_void_p, c_void_p, c_uint32, c_uint32, c_void_p]),
+    "hf_solve_preview_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_uint32, c_void_p]),
+    "hf_release_preview": (c_int32, [c_void_p]),
+    "hf_transfer_create": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
+    "hf_transfer_destroy": (None, [c_void_p]),
+    "hf_transfer_add_pairs": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_transfer_remove_pairs": (c_int32, [c_void_p, c_uint32, c_void_p]),
+    "hf_transfer_get_pair": (c_int32, [c_void_p, c_uint32, c_void_p]),
+    "hf_transfer_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_transfer_apply": (c_int32, [c_void_p, c_void_p]),
+    "hf_transfer_get_skin": (c_int32, [c_void_p, c_void_p]),
+}
+
+
+def load(path: str) -> CDLL:
+    """Loads the shared library and gives every function its prototype."""
+    library = CDLL(path)
+    for name, (result, arguments) in PROTOTYPES.items():
+        function = getattr(library, name)
+        function.restype = result
+        function.argtypes = arguments
+    return library

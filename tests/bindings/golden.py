@@ -1,0 +1,209 @@
+"""The golden scenes (bindings/golden/README.md) run through the Python package.
+
+usage: golden.py FILE...    each file's scenes; prints a line per scene, exits 1 when one fails
+"""
+
+import json
+import math
+import pathlib
+import sys
+
+import numpy as np
+
+import hf
+
+GOLDEN = pathlib.Path(__file__).resolve().parents[2] / "bindings" / "golden"
+
+
+def numbers(values, depth=0):
+    """JSON to numbers: "nan" and "inf" are spelt out."""
+    if isinstance(values, list):
+        return [numbers(value) for value in values]
+    return float(values) if values in ("nan", "inf", "-inf") else values
+
+
+def digest(array):
+    """The figures of an array that every language compares."""
+    a = np.asarray(array, np.float64).ravel()
+    weights = np.arange(a.size) % 7 + 1
+    return {"count": int(a.size), "sum": math.fsum(a), "weighted": math.fsum(a * weights), "min": float(a.min()) if a.size else 0.0,
+            "max": float(a.max()) if a.size else 0.0}
+
+
+def check_array(array, expect):
+    found = digest(array)
+    tolerance = expect.get("tolerance", 0)
+    flat = np.asarray(array, np.float64).ravel()
+    assert np.isfinite(flat).all(), "not finite"
+    for key in ("count", "sum", "weighted", "min", "max"):
+        if key in expect:
+            room = {"count": 0, "sum": tolerance * flat.size, "weighted": 7 * tolerance * flat.size}.get(key, tolerance)
+            assert abs(found[key] - expect[key]) <= room, f"{key} is {found[key]!r}, not {expect[key]!r}"
+    for place, value in zip(expect.get("at", ()), expect.get("values", ())):
+        assert abs(flat[place] - value) <= tolerance, f"[{place}] is {flat[place]!r}, not {value!r}"
+
+
+def check_struct(info, expect):
+    for key, value in expect.items():
+        if key != "tolerance":
+            found = getattr(info, key)
+            assert abs(found - value) <= expect.get("tolerance", 0), f"{key} is {found!r}, not {value!r}"
+
+
+class Scene:
+    def __init__(self, meshes):
+        self.meshes, self.objects, self.kept = meshes, {}, {}
+
+    def array(self, step, key, default=None):
+        value = step.get(key, default)
+        return self.kept[value] if isinstance(value, str) else numbers(value)
+
+    def run(self, step):
+        do, on = step["do"], self.objects.get(step.get("on"))
+        get = lambda key, default=None: self.array(step, key, default)
+        options = {k: getattr(hf.constants, v) if isinstance(v, str) else v for k, v in step.get("options", {}).items()}
+        if do == "solver":
+            mesh = self.meshes[step["mesh"]] if step["mesh"] else {"positions": None, "triangles": None}
+            positions, triangles = (mesh[k] and list(mesh[k]) for k in ("positions", "triangles"))
+            for key, value in step.get("positions", {}).items():
+                positions[int(key)] = numbers(value)
+            for key, value in step.get("triangles", {}).items():
+                triangles[int(key)] = value
+            if step.get("no_triangles"):
+                triangles = []
+            factor = self.kept[step["factor"]] if "factor" in step else None
+            if factor is not None and "damage" in step:
+                factor = bytes(b ^ (1 if i == step["damage"] else 0) for i, b in enumerate(factor))
+            self.objects[step["as"]] = hf.Solver(None if positions is None else np.array(positions, np.float64), triangles, saved_factor=factor, **options)
+        elif do == "clone":
+            self.objects[step["as"]] = on.clone()
+        elif do == "dispose":
+            on.close()
+        elif do == "add_sites":
+            return "numbers", on.add_sites(get("vertices"), get("values"), stiffness=get("stiffness"), radii=get("radii"),
+                                           triangles=get("triangles"), barycentrics=get("barycentrics"))
+        elif do == "remove_sites":
+            on.remove_sites(get("sites"))
+        elif do == "move_sites":
+            on.move_sites(get("sites"), get("vertices"))
+        elif do == "set_values":
+            on.set_site_values(get("sites"), get("values"))
+        elif do == "edit":
+            return "numbers", on.edit_sites(remove=get("remove", []), move=get("move", []), move_to=get("move_to"), set=get("set", []),
+                                            set_values=get("set_values"), add=get("add"), add_values=get("add_values"))
+        elif do in ("record", "undo", "redo"):
+            getattr(on, do)()
+        elif do == "solve":
+            return "array", on.solve(dtype=np.float64)
+        elif do == "solve_f32":
+            return "array", on.solve()
+        elif do == "preview":
+            return "array", on.solve_preview(dtype=np.float64, correction_count=step.get("correction_count", 0))
+        elif do == "solve_at":
+            return "array", on.solve_at(get("vertices"))
+        elif do == "report":
+            return "struct", on.report
+        elif do == "statistics":
+            return "struct", on.statistics
+        elif do == "save_factor":
+            self.kept[step["as"]] = on.save_factor()
+        elif do == "levels":
+            return "array", on.space_levels(get("field"), step["count"], getattr(hf.constants, step["spacing"]))
+        elif do == "isolines":
+            lines = on.trace_isolines(get("field"), get("levels"))
+            if "expect" in step:
+                assert len(lines.line_levels) == step["lines"] and int(lines.line_closed.sum()) == step["closed"], "lines"
+            return "array", lines.positions
+        elif do == "critical":
+            points = on.find_critical_points(get("field"))
+            return "array", points["index"].astype(np.float64)
+        elif do == "extremities":
+            return "array", np.sort(on.find_extremities(**options)["vertex"].astype(np.float64))
+        elif do == "geodesics":
+            self.objects[step["as"]] = hf.Geodesics(on, **options)
+        elif do == "distance":
+            return "array", on.distance(get("sources"), dtype=np.float64)
+        elif do == "direction":
+            self.objects[step["as"]] = hf.Direction(on, **options)
+        elif do == "add_vectors":
+            return "numbers", on.add_sites(get("vertices"), get("vectors"))
+        elif do == "rotate":
+            on.rotate_sites(get("sites"), get("angles"))
+        elif do == "directions":
+            return "array", on.solve(dtype=np.float64)
+        elif do == "singularities":
+            return "array", on.singularities()["index"].astype(np.float64)
+        elif do == "pose":
+            self.objects[step["as"]] = hf.Pose(on, **options)
+        elif do == "add_handles":
+            return "numbers", on.add_handles(get("regions"), points=get("points"), radii=get("radii"), layer=step.get("layer", 0))
+        elif do == "remove_handles":
+            on.remove_handles(get("handles"))
+        elif do == "set_transforms":
+            on.set_transforms(get("handles"), get("rotations"), get("translations"))
+        elif do == "deform":
+            return "array", on.deform(dtype=np.float64, **options)
+        elif do == "handle_field":
+            return "array", on.handle_field(step["handle"])
+        elif do == "handle_info":
+            return "struct", on.handle_info(step["handle"])
+        elif do == "skin":
+            skin = on.skin(step["weight_count"])
+            assert len(skin.pivots) == step["joints"], f"{len(skin.pivots)} joints"
+            return "array", skin.weights
+        elif do == "transfer":
+            self.objects[step["as"]] = hf.Transfer(self.objects[step["source"]], self.objects[step["target"]], **options)
+        elif do == "add_pairs":
+            return "numbers", on.add_pairs(get("source_regions"), get("target_regions"), get("flags"))
+        elif do == "remove_pairs":
+            on.remove_pairs(get("pairs"))
+        elif do == "transfer_info":
+            return "struct", on.info
+        elif do == "apply":
+            return "array", on.apply(np.array(get("positions")), dtype=np.float64)
+        else:
+            raise ValueError(f"unknown step {do}")
+        return None, None
+
+    def step(self, step):
+        try:
+            kind, result = self.run(step)
+        except hf.HfError as error:
+            assert error.name == step.get("error"), f"raised {error}"
+            assert "index" not in step or error.index == step["index"], f"index {error.index}: {error}"
+            return
+        assert "error" not in step, f"did not fail with {step['error']}"
+        if kind == "array":
+            if "expect" in step:
+                check_array(result, step["expect"])
+            if "same_as" in step:
+                assert np.array_equal(result.ravel(), self.kept[step["same_as"]].ravel()), f"differs from {step['same_as']}"
+            if "keep" in step:
+                self.kept[step["keep"]] = result
+        elif kind == "numbers" and "numbers" in step:
+            assert list(result) == step["numbers"], f"numbers {list(result)}"
+        elif kind == "struct":
+            check_struct(result, step.get("expect", {}))
+
+
+def load_meshes():
+    return {path.stem: json.loads(path.read_text()) for path in (GOLDEN / "meshes").glob("*.json")}
+
+
+def main(paths):
+    meshes, failed = load_meshes(), 0
+    for path in paths:
+        for scene in json.loads(pathlib.Path(path).read_text())["scenes"]:
+            runner = Scene(meshes)
+            for place, step in enumerate(scene["steps"]):
+                try:
+                    runner.step(step)
+                except AssertionError as error:
+                    failed += 1
+                    print(f"FAILED {scene['name']}, step {place} ({step['do']}): {error}")
+            print(f"{scene['name']}: {len(scene['steps'])} steps")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:] or [GOLDEN / "scenes.json", GOLDEN / "bad_input.json"]))
