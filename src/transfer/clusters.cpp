@@ -145,14 +145,32 @@ void finish(KernelRow& row, std::size_t most, std::int32_t fallback) {
 
 // Scales the entries from `begin` on so that the trace of the moment is 1 at rest, and closes the row.
 void close_row(std::size_t begin, double trace, SourceKernels& out) {
-  for (std::size_t i = begin; i < out.weight.size(); ++i) out.weight[i] = trace > 0 ? out.weight[i] / trace : 0.0;
-  out.start.push_back(static_cast<std::int32_t>(out.weight.size()));
+  for (std::size_t i = begin; i < out.slope.size(); ++i) out.slope[i] = (trace > 0 ? 1 / trace : 0.0) * out.slope[i];
+  out.start.push_back(static_cast<std::int32_t>(out.slope.size()));
 }
 
-// Edges of the kernel's vertices; `kernel` is zero everywhere before and after.
-void append_edges(const KernelRow& row, const Core& core, Vector<double>& kernel, SourceKernels& out) {
-  const std::size_t begin = out.weight.size();
+// Per source vertex, zero everywhere between two rows.
+struct EdgeScratch {
+  EdgeScratch(std::size_t count, Memory& memory)
+      : kernel(count, 0.0, &memory),
+        slope(count, Vec3(), &memory),
+        met(count, std::uint8_t{0}, &memory),
+        list(&memory) {}
+  Vector<double> kernel;
+  Vector<Vec3> slope;
+  Vector<std::uint8_t> met;
+  Vector<std::int32_t> list;
+};
+
+// Edges of the kernel's vertices, gathered at their ends.
+void append_edges(const KernelRow& row, const Core& core, EdgeScratch& scratch, SourceKernels& out) {
+  const std::size_t begin = out.slope.size();
+  Vector<double>& kernel = scratch.kernel;
   for (std::size_t i = 0; i < row.vertex.size(); ++i) kernel[at(row.vertex[i])] = row.weight[i];
+  const auto add = [&](std::int32_t v, Vec3 g) {
+    if (!scratch.met[at(v)]) scratch.met[at(v)] = 1, scratch.list.push_back(v);
+    scratch.slope[at(v)] = scratch.slope[at(v)] + g;
+  };
   double trace = 0;
   for (const std::int32_t v : row.vertex) {
     for (std::int32_t e = core.topology.neighbour_start[at(v)]; e < core.topology.neighbour_start[at(v) + 1]; ++e) {
@@ -161,26 +179,31 @@ void append_edges(const KernelRow& row, const Core& core, Vector<double>& kernel
       const double w = std::clamp(core.weights[at(core.topology.neighbour_edge[at(e)])], flattest, steepest) *
                        (kernel[at(v)] + kernel[at(u)]);
       const Vec3 d = core.mesh.positions[at(v)] - core.mesh.positions[at(u)];
-      out.first.push_back(v), out.second.push_back(u), out.weight.push_back(w);
+      add(v, w * d), add(u, -w * d);
       trace += w * dot(d, d);
     }
   }
+  std::sort(scratch.list.begin(), scratch.list.end());
+  for (const std::int32_t v : scratch.list) {
+    out.vertex.push_back(v), out.slope.push_back(scratch.slope[at(v)]);
+    scratch.slope[at(v)] = Vec3(), scratch.met[at(v)] = 0;
+  }
+  scratch.list.clear();
   close_row(begin, trace, out);
   for (const std::int32_t v : row.vertex) kernel[at(v)] = 0;
 }
 
 void append_vertices(const KernelRow& row, const Core& core, SourceKernels& out) {
-  const std::size_t begin = out.weight.size();
+  const std::size_t begin = out.slope.size();
   Vec3 centroid;
   for (std::size_t i = 0; i < row.vertex.size(); ++i)
     centroid = centroid + row.weight[i] * core.mesh.positions[at(row.vertex[i])];
   double trace = 0;
   for (std::size_t i = 0; i < row.vertex.size(); ++i) {
     const Vec3 p = core.mesh.positions[at(row.vertex[i])] - centroid;
-    out.first.push_back(row.vertex[i]), out.weight.push_back(row.weight[i]);
+    out.vertex.push_back(row.vertex[i]), out.slope.push_back(row.weight[i] * p);
     trace += row.weight[i] * dot(p, p);
   }
-  out.centroid.push_back(centroid);
   close_row(begin, trace, out);
 }
 
@@ -345,14 +368,14 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
   }
   out.centre.swap(centres);
   out.count = static_cast<std::int32_t>(kept.size());
-  Vector<double> kernel(source_area.size(), 0.0, &memory);
+  EdgeScratch scratch(source_area.size(), memory);
   out.narrow.start.assign(1, 0), out.broad.start.assign(1, 0);
   for (const ClusterRows& row : rows) {
     if (options.paper_bands) {
       append_vertices(row.narrow, source_core, out.narrow), append_vertices(row.broad, source_core, out.broad);
     } else {
-      append_edges(row.narrow, source_core, kernel, out.narrow),
-          append_edges(row.broad, source_core, kernel, out.broad);
+      append_edges(row.narrow, source_core, scratch, out.narrow),
+          append_edges(row.broad, source_core, scratch, out.broad);
     }
     out.support.push_back(row.support);
   }

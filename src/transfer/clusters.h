@@ -26,16 +26,17 @@ struct ClusterOptions {
   double kernel_width = 0.04;
 };
 
-// What the rotation of a cluster is fitted to: M = sum_i w_i (q_first - q_second)(p_first - p_second)' over edges, or
-// over vertices about their centroid (second empty: the paper's shape matching). Edges see only how the surface turns,
-// not how its parts shift against each other: 10 to 20 % nearer to the truth on the animals measured. Compressed rows;
-// weights are scaled so that the trace of M at rest is 1 (0 for a cluster without extent).
+// What the rotation of a cluster is fitted to: M = sum_ij w_ij (q_i - q_j)(p_i - p_j)' over edges, or
+// M = sum_i w_i (q_i - q')(p_i - p')' over vertices about their centroid (the paper's shape matching). Edges see only
+// how the surface turns, not how its parts shift against each other: 10 to 20 % nearer to the truth on the animals
+// measured. Both are linear in q, so a kernel is kept as M = sum_v q_v g_v', one constant g_v per vertex:
+//     g_v = sum_j w_vj (p_v - p_j),     g_v = w_v (p_v - p'),      sum_v g_v = 0
+// a third as many terms as edges, and no rest position is read. Compressed rows; scaled so that the trace of M at rest
+// is 1 (g = 0 for a cluster without extent).
 struct SourceKernels {
-  explicit SourceKernels(Memory& memory)
-      : start(&memory), first(&memory), second(&memory), weight(&memory), centroid(&memory) {}
-  Vector<std::int32_t> start, first, second;
-  Vector<double> weight;
-  Vector<Vec3> centroid;  // at rest; of vertices only
+  explicit SourceKernels(Memory& memory) : start(&memory), vertex(&memory), slope(&memory) {}
+  Vector<std::int32_t> start, vertex;
+  Vector<Vec3> slope;  // g
 };
 
 struct Clusters {

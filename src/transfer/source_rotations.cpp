@@ -12,33 +12,21 @@ constexpr double broad_prior = 1e-3;  // of the rotation of the whole
 constexpr std::size_t most_sampled = 4096;
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
-Mat3 moment_of_edges(const Mesh& mesh, const SourceKernels& kernels, std::int32_t c, const Vec3* posed) noexcept {
-  Mat3 moment;
-  for (std::int32_t i = kernels.start[at(c)]; i < kernels.start[at(c) + 1]; ++i) {
-    const std::int32_t u = kernels.first[at(i)], v = kernels.second[at(i)];
-    add_outer(moment, kernels.weight[at(i)], posed[u] - posed[v], mesh.positions[at(u)] - mesh.positions[at(v)]);
-  }
-  return moment;
-}
-
-Mat3 moment_of_vertices(const Mesh& mesh, const SourceKernels& kernels, std::int32_t c, const Vec3* posed) noexcept {
+// M = sum_v q_v g_v'. The slopes sum to zero, so any origin will do; one near the cluster keeps the digits of far-away
+// poses.
+Mat3 moment_of(const SourceKernels& kernels, std::int32_t c, const Vec3* posed) noexcept {
   Mat3 moment;
   const std::int32_t first = kernels.start[at(c)], last = kernels.start[at(c) + 1];
-  const Vec3 centroid = kernels.centroid[at(c)];
-  const Vec3 origin =
-      posed[kernels.first[at(first)]];  // any point near the cluster: keeps the digits of far-away poses
-  for (std::int32_t i = first; i < last; ++i) {
-    const std::int32_t v = kernels.first[at(i)];
-    add_outer(moment, kernels.weight[at(i)], posed[v] - origin, mesh.positions[at(v)] - centroid);
-  }
+  if (first == last) return moment;
+  const Vec3 origin = posed[kernels.vertex[at(first)]];
+  for (std::int32_t i = first; i < last; ++i)
+    add_outer(moment, 1.0, posed[kernels.vertex[at(i)]] - origin, kernels.slope[at(i)]);
   return moment;
 }
 
-Quaternion kernel_rotation(const Mesh& mesh, const SourceKernels& kernels, std::int32_t c, const Vec3* posed,
-                           double share, const Quaternion& guide) noexcept {
-  const Mat3 moment =
-      kernels.second.empty() ? moment_of_vertices(mesh, kernels, c, posed) : moment_of_edges(mesh, kernels, c, posed);
-  return best_rotation_from(moment + share * to_matrix(guide), guide);
+Quaternion kernel_rotation(const SourceKernels& kernels, std::int32_t c, const Vec3* posed, double share,
+                           const Quaternion& guide) noexcept {
+  return best_rotation_from(moment_of(kernels, c, posed) + share * to_matrix(guide), guide);
 }
 
 }  // namespace
@@ -83,12 +71,12 @@ WholeMotion SourceRotations::whole(const Mesh& mesh, Span<const double> area, co
   return out;
 }
 
-void SourceRotations::clusters(const Mesh& mesh, const Clusters& clusters, const Vec3* posed, const Quaternion& whole,
-                               Quaternion* out, JobRunner& jobs) const {
+void SourceRotations::clusters(const Clusters& clusters, const Vec3* posed, const Quaternion& whole, Quaternion* out,
+                               JobRunner& jobs) const {
   jobs.for_each(static_cast<std::uint32_t>(clusters.count), [&](std::uint32_t i) {
     const auto c = static_cast<std::int32_t>(i);
-    const Quaternion broad = kernel_rotation(mesh, clusters.broad, c, posed, broad_prior, whole);
-    out[i] = kernel_rotation(mesh, clusters.narrow, c, posed, prior, broad);
+    const Quaternion broad = kernel_rotation(clusters.broad, c, posed, broad_prior, whole);
+    out[i] = kernel_rotation(clusters.narrow, c, posed, prior, broad);
   });
 }
 

@@ -28,7 +28,7 @@ class SourceRotations {
 
   // posed: inner coordinates of the source.
   WholeMotion whole(const Mesh& mesh, Span<const double> area, const Vec3* posed) const noexcept;
-  void clusters(const Mesh& mesh, const Clusters& clusters, const Vec3* posed, const Quaternion& whole, Quaternion* out,
+  void clusters(const Clusters& clusters, const Vec3* posed, const Quaternion& whole, Quaternion* out,
                 JobRunner& jobs) const;
 
  private:

@@ -452,7 +452,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   JobRunner& jobs = *target_core_->jobs;
   for (std::size_t v = 0; v < p.posed.size(); ++v) p.posed[v] = from.to_inner(source[v]);
   const WholeMotion whole = p.source_rotations.whole(from, source_area_, p.posed.data());
-  p.source_rotations.clusters(from, p.clusters, p.posed.data(), whole.rotation, p.given.data(), jobs);
+  p.source_rotations.clusters(p.clusters, p.posed.data(), whole.rotation, p.given.data(), jobs);
 
   // into the target's axes and rest directions
   const Quaternion turn = normalised(axes_ * whole.rotation * conjugate(axes_));
