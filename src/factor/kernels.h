@@ -38,7 +38,7 @@ struct ChildView {
 };
 
 // Supernodes of at most this many columns are stored solved: X = L^-1 and B X in place of L and B (kernels_narrow.inl).
-constexpr std::int32_t narrow_columns = 8;
+constexpr std::int32_t narrow_columns = 16;
 
 struct Kernels {
   const char* name;

@@ -1,12 +1,13 @@
-// Narrow supernodes, at most 8 columns: most of a factor's supernodes, in which a sweep's time is latency, not memory.
+// Narrow supernodes, at most 16 columns: most of a factor's supernodes, in which a sweep's time is latency, not memory.
 // They are stored solved: with the columns (L; B) of the factor, the packed triangle holds X = L^-1 and the rows below
 // hold W = B L^-1, so that both sweeps are products without a chain from column to column:
 //   backward  z <- X' z - W' y     (y: the rows below)
 //   forward   y <- y - W z, then z <- X z
-// An inverse of at most 8 columns of a Cholesky factor is as accurate as the substitution it stands for (Higham 2002,
+// An inverse of at most 16 columns of a Cholesky factor is as accurate as the substitution it stands for (Higham 2002,
 // chapter 8). Making it costs nc (nc + 1) / 2 products a row, a few percent of the factorisation's.
 //
-// Sums: with one right-hand side the own rows and then the rows below go round four chains, else they form one chain.
+// Sums: with one right-hand side the own rows and then the rows below go round four chains (two above 8 columns), else
+// they form one chain.
 #include <cstddef>
 #include <cstdint>
 
@@ -14,14 +15,20 @@ namespace {
 
 constexpr int most_narrow = hf::narrow_columns;
 
-// The triangle tile [column][8] of a factored front: X in place of L (whose diagonal is inverted already).
+// Entry (i, j) of the triangle tiles of a front.
+inline double& triangle_entry(double* panel, std::int64_t stride, std::int32_t i, std::int32_t j) noexcept {
+  return panel[(i >> 3) * stride + 8 * j + (i & 7)];
+}
+
+// X in place of L (whose diagonal is inverted already) in the triangle tiles.
 void invert_triangle(const FrontView& front) {
-  double* tile = front.panel;
+  const std::int64_t stride = 8 * static_cast<std::int64_t>(front.columns);
+  const auto at = [&](std::int32_t i, std::int32_t j) -> double& { return triangle_entry(front.panel, stride, i, j); };
   for (std::int32_t j = 0; j < front.columns; ++j) {
     for (std::int32_t i = j + 1; i < front.columns; ++i) {
       double sum = 0;
-      for (std::int32_t k = j; k < i; ++k) sum = multiply_add_scalar(tile[8 * k + i], tile[8 * j + k], sum);
-      tile[8 * j + i] = -(sum * tile[9 * i]);
+      for (std::int32_t k = j; k < i; ++k) sum = multiply_add_scalar(at(i, k), at(k, j), sum);
+      at(i, j) = -(sum * at(i, i));
     }
   }
 }
@@ -34,39 +41,24 @@ void multiply_rows_fixed(double* panel, std::int64_t stride, std::int32_t v, std
     D::Type b[Width];
     for (int j = 0; j < Width; ++j) b[j] = D::load(row + 8 * j);
     for (int j = 0; j < Width; ++j) {
-      D::Type sum = D::multiply(b[j], D::all(panel[9 * j]));
-      for (int i = j + 1; i < Width; ++i) sum = D::multiply_add(b[i], D::all(panel[8 * j + i]), sum);
+      D::Type sum = D::multiply(b[j], D::all(triangle_entry(panel, stride, j, j)));
+      for (int i = j + 1; i < Width; ++i)
+        sum = D::multiply_add(b[i], D::all(triangle_entry(panel, stride, i, j)), sum);
       D::store(row + 8 * j, sum);
     }
   }
 }
 
-// Calls body with Constant<columns>; 1 <= columns <= 8.
-template <class Body>
+// Calls body with Constant<columns>; 1 <= columns <= Most.
+template <int Most, class Body>
 inline void with_columns(std::int32_t columns, Body&& body) noexcept {
-  switch (columns) {
-    case 1:
-      return body(Constant<1>{});
-    case 2:
-      return body(Constant<2>{});
-    case 3:
-      return body(Constant<3>{});
-    case 4:
-      return body(Constant<4>{});
-    case 5:
-      return body(Constant<5>{});
-    case 6:
-      return body(Constant<6>{});
-    case 7:
-      return body(Constant<7>{});
-    default:
-      return body(Constant<8>{});
-  }
+  if (columns == Most) return body(Constant<Most>{});
+  if constexpr (Most > 1) with_columns<Most - 1>(columns, body);
 }
 
 void multiply_inverse(const FrontView& front, std::int32_t tile_begin, std::int32_t tile_end) {
   const std::int64_t stride = 8 * static_cast<std::int64_t>(front.columns);
-  with_columns(front.columns, [&](auto columns) {
+  with_columns<most_narrow>(front.columns, [&](auto columns) {
     multiply_rows_fixed<decltype(columns)::value>(front.panel, stride, tile_begin * tile_vectors,
                                                   tile_end * tile_vectors);
   });
@@ -77,7 +69,7 @@ template <class T, int N, int C>
 inline void backward_narrow_columns(const T* triangle, const std::int32_t* rows, std::int32_t row_count, T* z,
                                     std::int32_t first) noexcept {
   using S = typename Narrow<T, N>::Set;
-  constexpr int vectors = (N + S::width - 1) / S::width, chains = C == 1 ? 4 : 1;
+  constexpr int vectors = (N + S::width - 1) / S::width, chains = C > 1 ? 1 : N > 8 ? 2 : 4;
   typename S::Type part[chains][C][vectors];
   for (int h = 0; h < chains; ++h) {
     for (int c = 0; c < C; ++c) {
@@ -111,11 +103,10 @@ inline void backward_narrow_columns(const T* triangle, const std::int32_t* rows,
     add(h, z + static_cast<std::int64_t>(rows[r + h]) * C, row);
   }
   for (int v = 0; v < vectors; ++v) {
-    constexpr int two = 1 % chains, three = 2 % chains, four = 3 % chains;
     const int count = N - v * S::width < S::width ? N - v * S::width : S::width;
     if (C == 1) {
-      const typename S::Type total =
-          S::add(S::add(part[0][0][v], part[two][0][v]), S::add(part[three][0][v], part[four][0][v]));
+      typename S::Type total = S::add(part[0][0][v], part[1 % chains][0][v]);
+      if (chains == 4) total = S::add(total, S::add(part[2 % chains][0][v], part[3 % chains][0][v]));
       S::store_first(own + v * S::width, total, count);
       continue;
     }
@@ -147,14 +138,37 @@ inline void backward_narrow_lanes(const T* triangle, const std::int32_t* rows, s
   for (int j = 0; j < N; ++j) store_lanes<T>(own + static_cast<std::int64_t>(j) * channels, sum[j], count);
 }
 
+// z <- X' z, first row first.
+template <class T>
+inline void backward_own(const T* triangle, std::int32_t columns, T* own, std::int32_t channels) noexcept {
+  using S = Simd<T>;
+  for (std::int32_t j = 0; j < columns; ++j) {
+    for (std::int32_t c = 0; c < channels; c += S::width) {
+      const int count = channels - c < S::width ? channels - c : S::width;
+      typename S::Type sum = S::zero();
+      for (std::int32_t i = j; i < columns; ++i)
+        sum = S::multiply_add(S::all(triangle[i * (i + 1) / 2 + j]), load_lanes<T>(own + i * channels + c, count), sum);
+      store_lanes<T>(own + j * channels + c, sum, count);
+    }
+  }
+}
+
 template <class T>
 void backward_narrow_any(const T* triangle, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
                          T* z, std::int32_t first, std::int32_t channels) noexcept {
-  with_columns(columns, [&](auto size) {
+  if (channels == 1) {
+    return with_columns<most_narrow>(columns, [&](auto size) {
+      backward_narrow_columns<T, decltype(size)::value, 1>(triangle, rows, row_count, z, first);
+    });
+  }
+  if (columns > 8) {
+    backward_own<T>(triangle, columns, z + static_cast<std::int64_t>(first) * channels, channels);
+    return backward_rows_any<T>(triangle + columns * (columns + 1) / 2, rows, row_count, columns, 0, columns, z, first,
+                                channels);
+  }
+  with_columns<8>(columns, [&](auto size) {
     constexpr int n = decltype(size)::value;
     switch (channels) {
-      case 1:
-        return backward_narrow_columns<T, n, 1>(triangle, rows, row_count, z, first);
       case 2:
         return backward_narrow_columns<T, n, 2>(triangle, rows, row_count, z, first);
       case 3:

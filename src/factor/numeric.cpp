@@ -208,7 +208,7 @@ class Factorisation {
     }
     if (front.columns <= narrow_columns) {
       kernels_.invert_triangle(front);
-      kernels_.multiply_inverse(front, 1, tiles);
+      kernels_.multiply_inverse(front, front.triangle_tiles, tiles);
     }
     kernels_.store_tiles(front, values_ + symbolic_.value_start[s], 0, tiles);
   }
@@ -296,7 +296,7 @@ class Factorisation {
     }
     if (front.columns <= narrow_columns) {
       kernels_.invert_triangle(front);
-      in_pieces(1, tiles, 32,
+      in_pieces(front.triangle_tiles, tiles, 32,
                 [&](std::int32_t begin, std::int32_t end) { kernels_.multiply_inverse(front, begin, end); });
     }
     in_pieces(0, tiles, 16, [&](std::int32_t begin, std::int32_t end) {

@@ -48,29 +48,40 @@ struct Simd<float> {
   static void store(float* p, Type v) noexcept { _mm512_storeu_ps(p, v); }
   static Type load_part(const float* p, int count) noexcept { return _mm512_maskz_loadu_ps(mask(count), p); }
   static void store_part(float* p, Type v, int count) noexcept { _mm512_mask_storeu_ps(p, mask(count), v); }
+  static void store_first(float* p, Type v, int count) noexcept {
+    if (count >= 16) return store(p, v);
+    const __m256 low = _mm512_maskz_extractf32x8_ps(0xff, v, 0);
+    if (count <= 8) return Float8::store_first(p, low, count);
+    Float8::store(p, low);
+    Float8::store_first(p + 8, _mm512_maskz_extractf32x8_ps(0xff, v, 1), count - 8);
+  }
   static Type add(Type a, Type b) noexcept { return _mm512_add_ps(a, b); }
   static Type multiply(Type a, Type b) noexcept { return _mm512_mul_ps(a, b); }
   static Type multiply_add(Type a, Type b, Type c) noexcept { return _mm512_fmadd_ps(a, b, c); }
   static Type subtract_product(Type a, Type b, Type c) noexcept { return _mm512_fnmadd_ps(a, b, c); }
 };
 
-// Numbers of a supernode of at most 8 columns: half a vector where that holds them.
-template <class T, int Columns>
-struct Narrow {
+// Vectors for supernodes of a known number of columns: 256 bits where that holds them.
+template <bool Half>
+struct NarrowDouble {
+  using Set = Simd<double>;
+};
+template <>
+struct NarrowDouble<true> {
+  using Set = Double4;
+};
+template <bool Half>
+struct NarrowFloat {
+  using Set = Simd<float>;
+};
+template <>
+struct NarrowFloat<true> {
   using Set = Float8;
 };
+template <class T, int Columns>
+struct Narrow : NarrowDouble<Columns <= 4> {};
 template <int Columns>
-struct Narrow<double, Columns> {
-  template <bool Half, class Dummy = void>
-  struct Choice {
-    using Set = Double4;
-  };
-  template <class Dummy>
-  struct Choice<false, Dummy> {
-    using Set = Simd<double>;
-  };
-  using Set = typename Choice<Columns <= 4>::Set;
-};
+struct Narrow<float, Columns> : NarrowFloat<Columns <= 8> {};
 
 constexpr int gemm_rows = 3, gemm_columns = 8;  // vectors of rows x columns of one accumulator block
 constexpr int lane_vectors = 3, lane_rows = 8;
