@@ -1,0 +1,300 @@
+#include "remesh/flux_sites.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "base/error.h"
+#include "factor/factor.h"
+
+namespace hf {
+namespace {
+
+constexpr double circle_radius = 0.1;
+
+// Lengths of shortest paths over the edges from one vertex; -1 where there is none. The rim of a border is 0 from its
+// apex.
+void distances_from(const FluxSurface& s, std::int32_t source, Table<double>& distance, Memory& memory) {
+  using Entry = std::pair<double, std::int32_t>;
+  Vector<Entry> heap(&memory);
+  const auto later = std::greater<Entry>();
+  distance.assign(s.vertex_count(), -1.0);
+  distance[source] = 0, heap.push_back({0.0, source});
+  while (!heap.empty()) {
+    std::pop_heap(heap.begin(), heap.end(), later);
+    const Entry entry = heap.back();
+    heap.pop_back();
+    const std::int32_t v = entry.second;
+    if (entry.first > distance[v]) continue;
+    if (s.is_apex(v) && v != source) continue;  // no way across a hole
+    const std::int32_t begin = s.out[v];
+    for (std::int32_t g = begin;;) {
+      const std::int32_t w = s.head(g);
+      const double step = s.is_apex(v) || s.is_apex(w) ? 0.0 : norm(s.position[w] - s.position[v]);
+      const double d = entry.first + step;
+      if (distance[w] < 0 || d < distance[w]) {
+        distance[w] = d, heap.push_back({d, w});
+        std::push_heap(heap.begin(), heap.end(), later);
+      }
+      g = s.turn_left(g);
+      if (g == begin) break;
+    }
+  }
+}
+
+Table<double> vertex_shares(const FluxSurface& s, Memory& memory) {
+  Table<double> area(s.vertex_count(), 0.0, memory);
+  for (std::int32_t t = 0; t < s.real_triangles; ++t) {
+    const Vec3 a = s.position[s.tail[3 * t]], b = s.position[s.tail[3 * t + 1]], c = s.position[s.tail[3 * t + 2]];
+    const double third = norm(cross(b - a, c - a)) / 6;
+    for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) area[s.tail[h]] += third;
+  }
+  return area;
+}
+
+double border_length(const FluxSurface& s, std::int32_t apex) {
+  double length = 0;
+  const std::int32_t begin = s.out[apex];
+  for (std::int32_t g = begin;;) {
+    length += norm(s.position[s.head(g)] - s.position[s.head(s.turn_left(g))]);
+    g = s.turn_left(g);
+    if (g == begin) return length;
+  }
+}
+
+double even(double x) { return std::max(4.0, 2 * std::round(x / 2)); }
+
+// One component's sites with their distances.
+struct Group {
+  explicit Group(Memory& memory) : sites(&memory), distance(&memory) {}
+  Vector<FluxSite> sites;
+  Vector<double> distance;  // [i * count + j]
+};
+
+double division_cost(const Group& g, std::uint64_t sinks) {
+  const std::size_t k = g.sites.size();
+  double up = 0, down = 0, mean = 0, pairs = 0, close = 0, like = 0;
+  for (std::size_t i = 0; i < k; ++i) ((sinks >> i & 1) ? up : down) += g.sites[i].lines;
+  if (up <= 0 || down <= 0) return 1e300;
+  for (std::size_t i = 0; i < k; ++i)
+    for (std::size_t j = 0; j < i; ++j) mean += g.distance[i * k + j], pairs += 1;
+  mean = std::max(mean / pairs, 1e-12);
+  for (std::size_t i = 0; i < k; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if ((sinks >> i & 1) != (sinks >> j & 1)) continue;
+      close += std::exp(-g.distance[i * k + j] / mean), like += 1;
+    }
+  }
+  return std::fabs(up - down) / (up + down) + (like > 0 ? 0.5 * close / like : 0.0);
+}
+
+// Which sites are sinks.
+std::uint64_t divide(const Group& g) {
+  const std::size_t k = g.sites.size();
+  std::uint64_t best = 1;
+  double least = division_cost(g, best);
+  if (k <= 12) {
+    for (std::uint64_t d = 1; d < (std::uint64_t{1} << (k - 1)); ++d) {
+      const double cost = division_cost(g, d);
+      if (cost < least) least = cost, best = d;
+    }
+    return best;
+  }
+  for (std::size_t i = 0; i < k; i += 2) best |= std::uint64_t{1} << i;
+  least = division_cost(g, best);
+  for (bool better = true; better;) {
+    better = false;
+    for (std::size_t i = 0; i < k; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        const std::uint64_t d = best ^ (std::uint64_t{1} << i) ^ (i == j ? 0 : std::uint64_t{1} << j);
+        const double cost = division_cost(g, d);
+        if (cost < least - 1e-12) least = cost, best = d, better = true;
+      }
+    }
+  }
+  return best;
+}
+
+// Scales one side to `total` lines, in steps of two.
+void share_out(Vector<FluxSite>& sites, bool sinks, double total) {
+  double sum = 0;
+  for (const FluxSite& site : sites)
+    if ((site.lines > 0) == sinks) sum += std::fabs(site.lines);
+  double given = 0;
+  Vector<std::pair<double, std::size_t>> rest(sites.get_allocator());
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if ((sites[i].lines > 0) != sinks) continue;
+    const double exact = std::fabs(sites[i].lines) * total / sum, whole = std::max(4.0, 2 * std::floor(exact / 2));
+    rest.push_back({whole - exact, i});
+    sites[i].lines = sinks ? whole : -whole, given += whole;
+  }
+  std::sort(rest.begin(), rest.end());
+  for (std::size_t turn = 0; given != total; turn = (turn + 1) % rest.size()) {
+    FluxSite& site = sites[rest[given < total ? turn : rest.size() - 1 - turn].second];
+    const double step = given < total ? 2.0 : -2.0;
+    if (std::fabs(site.lines) + step < 4) continue;
+    site.lines += sinks ? step : -step, given += step;
+  }
+}
+
+void balance(Group& group) {
+  bool chosen = false;
+  for (const FluxSite& site : group.sites) chosen |= site.lines < 0;
+  if (!chosen) {
+    const std::uint64_t sinks = divide(group);
+    for (std::size_t i = 0; i < group.sites.size(); ++i)
+      if (!(sinks >> i & 1)) group.sites[i].lines = -group.sites[i].lines;
+  }
+  double up = 0, down = 0;
+  std::size_t up_count = 0, down_count = 0;
+  for (const FluxSite& site : group.sites) {
+    (site.lines > 0 ? up : down) += std::fabs(site.lines);
+    ++(site.lines > 0 ? up_count : down_count);
+  }
+  const double least = 4.0 * static_cast<double>(std::max(up_count, down_count));
+  const double total = std::max(2 * std::round(std::max(up, down) / 2), least);
+  share_out(group.sites, true, total);
+  share_out(group.sites, false, total);
+}
+
+}  // namespace
+
+Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> given, double edge_length,
+                                   Memory& memory, Progress* progress) {
+  Vector<FluxSite> all(&memory);
+  const Table<double> area = vertex_shares(s, memory);
+  Table<std::int32_t> euler(s.component_count, 0, memory);  // of the closed components
+  Table<std::int32_t> first(s.component_count, -1, memory);
+  for (std::int32_t v = 0; v < s.vertex_count(); ++v) {
+    euler[s.component[v]] += 1;
+    if (first[s.component[v]] < 0) first[s.component[v]] = v;
+  }
+  // V - E + F with E = 3 F / 2
+  Table<std::int32_t> faces(s.component_count, 0, memory);
+  for (std::int32_t t = 0; 3 * t < s.half_count(); ++t) faces[s.component[s.tail[3 * t]]] += 1;
+  for (std::int32_t c = 0; c < s.component_count; ++c) euler[c] -= faces[c] / 2;
+  Table<double> distance(memory), nearest(memory);
+  for (std::int32_t c = 0; c < s.component_count; ++c) {
+    Group group(memory);
+    bool signs = false;
+    for (const FluxSite& site : given)
+      if (s.component[site.vertex] == c) group.sites.push_back(site), signs |= site.lines != 0;
+    for (std::int32_t v = s.first_apex; v < s.vertex_count(); ++v)
+      if (s.component[v] == c) group.sites.push_back({v, 0.0});
+    const std::size_t wanted = euler[c] < 2 && given.empty() ? 4 : 2;
+    if (group.sites.size() > 60)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "a component has %zu sites and borders; at most 60 can be divided",
+           group.sites.size());
+    Vector<Table<double>> from(&memory);
+    nearest.assign(s.vertex_count(), 1e300);
+    auto reach = [&](std::size_t i) {
+      distances_from(s, group.sites[i].vertex, distance, memory);
+      // the lines a site should carry: the derivative of the area of discs is the length of the circle
+      if (group.sites[i].lines == 0) {
+        double circumference = 0;
+        if (s.is_apex(group.sites[i].vertex)) {
+          circumference = border_length(s, group.sites[i].vertex);
+        } else {
+          for (std::int32_t v = 0; v < s.first_apex; ++v)
+            if (distance[v] >= 0.8 * circle_radius && distance[v] < 1.2 * circle_radius) circumference += area[v];
+          circumference /= 0.4 * circle_radius;
+        }
+        group.sites[i].lines = even(circumference / edge_length);
+      }
+      for (std::int32_t v = 0; v < s.vertex_count(); ++v)
+        if (distance[v] >= 0) nearest[v] = std::min(nearest[v], distance[v]);
+      from.push_back(distance);
+    };
+    for (std::size_t i = 0; i < group.sites.size(); ++i) reach(i);
+    while (group.sites.size() < wanted) {
+      if (group.sites.empty()) {  // the far end as seen from anywhere
+        distances_from(s, first[c], distance, memory);
+        std::int32_t far = first[c];
+        for (std::int32_t v = 0; v < s.first_apex; ++v)
+          if (distance[v] > distance[far]) far = v;
+        group.sites.push_back({far, 0.0});
+      } else {
+        std::int32_t far = -1;
+        for (std::int32_t v = 0; v < s.first_apex; ++v)
+          if (s.component[v] == c && (far < 0 || nearest[v] > nearest[far])) far = v;
+        if (far < 0 || nearest[far] <= 0)
+          fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a component of the surface has no room for two sites");
+        group.sites.push_back({far, 0.0});
+      }
+      reach(group.sites.size() - 1);
+    }
+    const std::size_t k = group.sites.size();
+    for (std::size_t i = 0; i < k; ++i)
+      for (std::size_t j = 0; j < k; ++j) group.distance.push_back(std::max(from[i][group.sites[j].vertex], 0.0));
+    if (signs) {
+      bool sink = false, source = false;
+      for (const FluxSite& site : group.sites) sink |= site.lines > 0, source |= site.lines < 0;
+      if (!sink || !source)
+        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+             "the sites of a component are all %s; give lines of both signs, or 0 for all", sink ? "sinks" : "sources");
+    }
+    balance(group);
+    all.insert(all.end(), group.sites.begin(), group.sites.end());
+    report(progress, 0.2f * static_cast<float>(c + 1) / static_cast<float>(s.component_count));
+  }
+  return all;
+}
+
+Vector<double> solve_flux(const FluxSurface& s, Span<const FluxSite> sites, Memory& memory, JobRunner& jobs) {
+  const std::int32_t n = s.vertex_count();
+  SymmetricMatrix k(memory);
+  k.column_start.push_back(0);
+  Vector<std::pair<std::int32_t, double>> column(&memory);
+  Table<std::uint8_t> grounded(s.component_count, 0, memory);
+  Vector<float> coordinates(&memory);
+  for (std::int32_t v = 0; v < n; ++v) {
+    column.clear();
+    double diagonal = 0;
+    const std::int32_t begin = s.out[v];
+    for (std::int32_t g = begin;;) {
+      column.push_back({s.head(g), -s.weight[g]}), diagonal += s.weight[g];
+      g = s.turn_left(g);
+      if (g == begin) break;
+    }
+    if (!grounded[s.component[v]]) grounded[s.component[v]] = 1, column.push_back({v, 2 * diagonal});
+    else column.push_back({v, diagonal});
+    std::sort(column.begin(), column.end());
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      if (i > 0 && k.row.back() == column[i].first && static_cast<std::int32_t>(k.row.size()) > k.column_start.back()) {
+        k.value.back() += column[i].second;  // two edges between one pair
+      } else {
+        k.row.push_back(column[i].first), k.value.push_back(column[i].second);
+      }
+    }
+    k.column_start.push_back(static_cast<std::int32_t>(k.row.size()));
+    const Vec3 p = s.position[v];
+    coordinates.push_back(static_cast<float>(p.x)), coordinates.push_back(static_cast<float>(p.y));
+    coordinates.push_back(static_cast<float>(p.z));
+  }
+  const std::shared_ptr<const Factor> factor = Factor::make(k, coordinates, {}, memory, jobs);
+  const Span<const std::int32_t> position = factor->position();
+  Vector<double> b(static_cast<std::size_t>(n), 0.0, &memory), z(static_cast<std::size_t>(n), 0.0, &memory),
+      u(static_cast<std::size_t>(n), 0.0, &memory), r(&memory);
+  for (const FluxSite& site : sites) b[static_cast<std::size_t>(site.vertex)] += site.lines;
+  // two corrections: the balance of every vertex is what lines live on
+  r = b;
+  for (int round = 0; round < 3; ++round) {
+    for (std::size_t v = 0; v < z.size(); ++v) z[static_cast<std::size_t>(position[v])] = r[v];
+    factor->forward(z.data(), 1, jobs);
+    factor->backward(z.data(), 1, jobs);
+    for (std::size_t v = 0; v < z.size(); ++v) u[v] += z[static_cast<std::size_t>(position[v])];
+    for (std::int32_t v = 0; v < n; ++v) {
+      double sum = b[static_cast<std::size_t>(v)];
+      const std::int32_t begin = s.out[v];
+      for (std::int32_t g = begin;;) {
+        sum += s.weight[g] * (u[static_cast<std::size_t>(s.head(g))] - u[static_cast<std::size_t>(v)]);
+        g = s.turn_left(g);
+        if (g == begin) break;
+      }
+      r[static_cast<std::size_t>(v)] = sum;
+    }
+  }
+  return u;
+}
+
+}  // namespace hf

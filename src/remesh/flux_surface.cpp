@@ -1,0 +1,184 @@
+#include "remesh/flux_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace hf {
+namespace {
+
+constexpr std::int32_t none = -1;
+
+std::uint32_t given(const Mesh& mesh, std::int32_t v) {
+  return static_cast<std::uint32_t>(mesh.given_of_inner[static_cast<std::size_t>(v)]);
+}
+
+// The two half-edges of every edge, or one at a border, by the vertices of the Mesh.
+struct Pairs {
+  Pairs(const Mesh& mesh, Memory& memory) : twin(3 * mesh.triangle_count(), none, memory) {
+    struct Side {
+      std::int32_t a, b, half;
+    };
+    Vector<Side> sides(&memory);
+    sides.reserve(static_cast<std::size_t>(twin.size()));
+    for (std::int32_t h = 0; h < twin.size(); ++h) {
+      const std::int32_t a = mesh.corners[static_cast<std::size_t>(h)],
+                         b = mesh.corners[static_cast<std::size_t>(FluxSurface::next(h))];
+      sides.push_back({std::min(a, b), std::max(a, b), h});
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+      return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.half < y.half;
+    });
+    for (std::size_t i = 0; i < sides.size();) {
+      std::size_t j = i;
+      while (j < sides.size() && sides[j].a == sides[i].a && sides[j].b == sides[i].b) ++j;
+      if (j - i > 2)
+        fail(HF_ERROR_UNSUPPORTED, given(mesh, sides[i].a),
+             "the edge from vertex %u to %u joins %zu triangles; quads need a manifold surface: split it there",
+             given(mesh, sides[i].a), given(mesh, sides[i].b), j - i);
+      if (j - i == 2) twin[sides[i].half] = sides[i + 1].half, twin[sides[i + 1].half] = sides[i].half;
+      i = j;
+    }
+  }
+  Table<std::int32_t> twin;
+};
+
+// Which triangles must be turned round so that all of a component agree with its first one.
+Table<std::uint8_t> orient(const Mesh& mesh, const Pairs& pairs, Memory& memory) {
+  Table<std::uint8_t> turned(mesh.triangle_count(), 2, memory);
+  Table<std::int32_t> stack(memory);
+  for (std::int32_t start = 0; start < mesh.triangle_count(); ++start) {
+    if (turned[start] != 2) continue;
+    turned[start] = 0, stack.push_back(start);
+    while (!stack.empty()) {
+      const std::int32_t t = stack.back();
+      stack.pop_back();
+      for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        const std::int32_t other = pairs.twin[h];
+        if (other == none) continue;
+        const std::int32_t a = mesh.corners[static_cast<std::size_t>(h)];
+        const bool same_way = mesh.corners[static_cast<std::size_t>(other)] == a;  // both run from a: they disagree
+        const std::uint8_t wanted = static_cast<std::uint8_t>(turned[t] ^ (same_way ? 1 : 0));
+        if (turned[other / 3] == 2) {
+          turned[other / 3] = wanted, stack.push_back(other / 3);
+        } else if (turned[other / 3] != wanted) {
+          fail(HF_ERROR_UNSUPPORTED, given(mesh, a), "the surface at vertex %u cannot be oriented (a Moebius band)",
+               given(mesh, a));
+        }
+      }
+    }
+  }
+  return turned;
+}
+
+}  // namespace
+
+FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double apex_weight, Memory& memory) {
+  FluxSurface s(memory);
+  const Pairs pairs(mesh, memory);
+  const Table<std::uint8_t> turned = orient(mesh, pairs, memory);
+  s.real_triangles = mesh.triangle_count();
+  const std::int32_t real_halves = 3 * s.real_triangles;
+
+  // corners in their new order: a turned triangle (a, b, c) becomes (a, c, b); its side k becomes side 2 - k
+  s.tail.assign(real_halves, none), s.twin.assign(real_halves, none);
+  Table<std::int32_t> corner(real_halves, none, memory);
+  auto moved = [&](std::int32_t h) { return turned[h / 3] ? 3 * (h / 3) + 2 - h % 3 : h; };
+  for (std::int32_t t = 0; t < s.real_triangles; ++t) {
+    const std::int32_t* c = mesh.triangle(t);
+    corner[3 * t] = c[0], corner[3 * t + 1] = c[turned[t] ? 2 : 1], corner[3 * t + 2] = c[turned[t] ? 1 : 2];
+    for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h)
+      if (pairs.twin[h] != none) s.twin[moved(h)] = moved(pairs.twin[h]);
+  }
+
+  // one vertex per fan: the corners that turning about the vertex joins
+  for (std::int32_t h = 0; h < real_halves; ++h) {
+    if (s.tail[h] != none) continue;
+    std::int32_t first = h;  // back to the right end of the fan, or once around
+    while (s.twin[first] != none) {
+      first = next(s.twin[first]);
+      if (first == h) break;
+    }
+    const std::int32_t v = s.out.push_back(first);
+    s.mesh_vertex.push_back(corner[h]);
+    s.position.push_back(mesh.positions[static_cast<std::size_t>(corner[h])]);
+    for (std::int32_t g = first;;) {
+      s.tail[g] = v;
+      g = s.twin[previous(g)];
+      if (g == none || g == first) break;
+    }
+  }
+  s.first_apex = s.out.size();
+
+  // weights
+  const Vector<double> weights = edge_weights(mesh, topology, OperatorKind::clamped, memory);
+  Vector<double> sorted(weights.begin(), weights.end(), &memory);
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double median = *middle;
+  s.weight.assign(real_halves, 0);
+  for (std::int32_t h = 0; h < real_halves; ++h) {
+    const std::int32_t a = std::min(corner[h], corner[next(h)]), b = std::max(corner[h], corner[next(h)]);
+    const auto begin = topology.neighbour.begin() + topology.neighbour_start[static_cast<std::size_t>(a)],
+               end = topology.neighbour.begin() + topology.neighbour_start[static_cast<std::size_t>(a) + 1];
+    const auto found = std::lower_bound(begin, end, b) - topology.neighbour.begin();
+    s.weight[h] = weights[static_cast<std::size_t>(topology.neighbour_edge[static_cast<std::size_t>(found)])];
+  }
+
+  // a fan of triangles from an apex to every border loop; border half-edge a -> b gets the triangle (b, a, apex)
+  std::int32_t edges = 0, border_edges = 0;
+  for (std::int32_t h = 0; h < real_halves; ++h) edges += s.twin[h] == none ? 2 : 1, border_edges += s.twin[h] == none;
+  s.euler_characteristic = s.first_apex - edges / 2 + s.real_triangles;
+  for (std::int32_t start = 0; start < real_halves; ++start) {
+    if (s.twin[start] != none) continue;
+    const std::int32_t apex = s.out.push_back(none);
+    s.mesh_vertex.push_back(none);
+    Vec3 middle_point;
+    double count = 0;
+    std::int32_t last = none, first = none;
+    for (std::int32_t h = start;;) {
+      const std::int32_t a = s.tail[h], b = s.head(h), fresh = s.tail.size();
+      s.tail.push_back(b), s.tail.push_back(a), s.tail.push_back(apex);
+      s.twin.push_back(h), s.twin.push_back(none), s.twin.push_back(none);
+      s.weight.push_back(s.weight[h]), s.weight.push_back(apex_weight * median), s.weight.push_back(apex_weight * median);
+      s.twin[h] = fresh;
+      // a -> apex of this triangle is apex -> b of the one before it on the border
+      if (last != none) s.twin[last + 2] = fresh + 1, s.twin[fresh + 1] = last + 2;
+      if (first == none) first = fresh;
+      last = fresh;
+      middle_point = middle_point + s.position[a], count += 1;
+      // the next border half-edge leaves b: turn about b through its fan
+      std::int32_t g = next(h);
+      while (s.twin[g] != none && s.twin[g] < real_halves) g = next(s.twin[g]);
+      if (g == start || s.twin[g] != none) break;
+      h = g;
+    }
+    s.twin[last + 2] = first + 1, s.twin[first + 1] = last + 2;
+    s.out[apex] = last + 2;
+    s.position.push_back((1.0 / count) * middle_point);
+  }
+
+  // components
+  s.component.assign(s.vertex_count(), none);
+  Table<std::int32_t> stack(memory);
+  for (std::int32_t v = 0; v < s.vertex_count(); ++v) {
+    if (s.component[v] != none) continue;
+    const std::int32_t c = s.component_count++;
+    s.component[v] = c, stack.push_back(v);
+    while (!stack.empty()) {
+      const std::int32_t w = stack.back();
+      stack.pop_back();
+      const std::int32_t begin = s.out[w];
+      for (std::int32_t g = begin;;) {
+        const std::int32_t other = s.head(g);
+        if (s.component[other] == none) s.component[other] = c, stack.push_back(other);
+        g = s.turn_left(g);
+        if (g == begin) break;
+      }
+    }
+  }
+  return s;
+}
+
+}  // namespace hf

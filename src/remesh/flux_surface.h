@@ -1,0 +1,50 @@
+// The surface as flux lines see it: an oriented half-edge mesh without borders, one positive weight per edge.
+//
+// Triangles are turned so that neighbours agree; a vertex where several fans meet becomes one vertex per fan. Every
+// border loop is closed by a vertex of its own, an apex, joined to all its vertices: the apex is a site like any other
+// (a source or sink of the flux through the border), and everything downstream knows only closed surfaces. Weights are
+// the cotangent ones floored at 1e-3 of their median, which keeps every flux positive uphill; edges to an apex weigh
+// `apex_weight` medians, so that the border is nearly at one level, or nothing.
+//
+// Half-edge 3 t + k of triangle t runs from its corner k to the next. Cost: O(n log n).
+#pragma once
+#include "mesh/laplacian.h"
+#include "remesh/table.h"
+
+namespace hf {
+
+struct FluxSurface {
+  explicit FluxSurface(Memory& memory)
+      : tail(memory),
+        twin(memory),
+        weight(memory),
+        out(memory),
+        position(memory),
+        mesh_vertex(memory),
+        component(memory) {}
+  // Throws HF_ERROR_UNSUPPORTED with a vertex as given: an edge of three or more triangles, or a surface that cannot be
+  // oriented.
+  static FluxSurface make(const Mesh& mesh, const Topology& topology, double apex_weight, Memory& memory);
+
+  std::int32_t vertex_count() const noexcept { return out.size(); }
+  std::int32_t half_count() const noexcept { return tail.size(); }
+  static std::int32_t next(std::int32_t h) noexcept { return h % 3 == 2 ? h - 2 : h + 1; }
+  static std::int32_t previous(std::int32_t h) noexcept { return h % 3 == 0 ? h + 2 : h - 1; }
+  std::int32_t head(std::int32_t h) const noexcept { return tail[next(h)]; }
+  // The next half-edge that leaves the same vertex, counter-clockwise.
+  std::int32_t turn_left(std::int32_t h) const noexcept { return twin[previous(h)]; }
+  std::int32_t turn_right(std::int32_t h) const noexcept { return next(twin[h]); }
+  bool is_apex(std::int32_t v) const noexcept { return v >= first_apex; }
+  bool is_real(std::int32_t h) const noexcept { return h < 3 * real_triangles; }  // not of a triangle at an apex
+
+  Table<std::int32_t> tail, twin;    // by half-edge
+  Table<double> weight;              // by half-edge; both of an edge carry the same
+  Table<std::int32_t> out;           // by vertex, a half-edge that leaves it; at the rim of a border any
+  Table<Vec3> position;              // by vertex, inner units; of an apex the middle of its border
+  Table<std::int32_t> mesh_vertex;   // by vertex, the inner vertex of the Mesh, none for an apex
+  Table<std::int32_t> component;     // by vertex; components of fans
+  std::int32_t real_triangles = 0, first_apex = 0, component_count = 0;
+  std::int32_t euler_characteristic = 0;  // of the surface without the apexes
+};
+
+}  // namespace hf

@@ -1,0 +1,38 @@
+// Rings and lines to polygons, and polygons to quads.
+//
+// Faces are the orbits of "go along a half-edge, turn back, turn one step clockwise" over the nodes, whose half-edges
+// stand next, up, previous, down counter-clockwise. A polygon of 2 m corners around a site or saddle is split into m
+// quads by a vertex put there, joined to every second corner; others lose quads by their best chords. Faces across
+// borders (the caps of apexes) are left out.
+//
+// check() is the oracle: every directed edge once, no corner repeated in a face, the Euler characteristic of the input.
+#pragma once
+#include "remesh/rings.h"
+
+namespace hf {
+
+struct QuadMesh {
+  explicit QuadMesh(Memory& memory)
+      : location(memory), position(memory), pinned(memory), border(memory), face_start(memory), corner(memory) {}
+  Table<SurfacePoint> location;  // by vertex
+  Table<Vec3> position;          // inner units
+  Table<std::uint8_t> pinned;    // by vertex: a site
+  Table<std::uint8_t> border;    // by vertex
+  Table<std::int32_t> face_start, corner;
+  std::int32_t face_count() const noexcept { return face_start.size() - 1; }
+  std::int32_t size(std::int32_t f) const noexcept { return face_start[f + 1] - face_start[f]; }
+  std::int32_t quad_count() const noexcept;
+};
+
+Vec3 position_of(const FluxSurface& surface, const SurfacePoint& point) noexcept;
+
+// centre: by face, the critical vertex of the surface in it, -1 for faces between rings of one arc.
+QuadMesh make_polygons(const FluxField& field, const ArcGraph& graph, const RingMesh& rings, Table<std::int32_t>& centre,
+                       Memory& memory);
+QuadMesh split_polygons(const FluxSurface& surface, const QuadMesh& polygons, const Table<std::int32_t>& centre,
+                        Memory& memory);
+
+// Throws HF_ERROR_INTERNAL naming what does not hold.
+void check_quads(const QuadMesh& mesh, std::int32_t euler_characteristic, Memory& memory);
+
+}  // namespace hf

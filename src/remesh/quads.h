@@ -1,0 +1,31 @@
+// Quad meshes from harmonic fields: the room's front. Sites -> field -> arcs -> rings -> polygons -> quads -> relaxed.
+#pragma once
+#include "engine/core.h"
+#include "remesh/flux_sites.h"
+#include "remesh/quad_mesh.h"
+
+namespace hf {
+
+struct QuadOptions {
+  double edge_length = 0.022;    // inner units
+  bool uniform = false;
+  bool split = true;
+  std::int32_t relax = 20;  // rounds
+  Span<const FluxSite> sites;    // FluxSite::vertex an inner vertex of the core; empty: automatic
+  bool automatic = true;
+  Progress* progress = nullptr;
+};
+
+struct QuadResult {
+  explicit QuadResult(Memory& memory) : mesh(memory), sites(&memory), triangle(memory) {}
+  QuadMesh mesh;
+  Vector<FluxSite> sites;  // FluxSite::vertex inner, none for a border
+  Table<std::int32_t> triangle;  // by vertex of the mesh: the inner triangle its location is in, weights as the Mesh has them
+  std::int32_t raw_faces = 0, raw_quads = 0, saddles = 0, euler_characteristic = 0;
+  std::int32_t extra_extrema = 0;
+  double imbalance = 0;  // the largest at a vertex that is no site
+};
+
+QuadResult make_quads(const Core& core, const QuadOptions& options);
+
+}  // namespace hf

@@ -1,0 +1,28 @@
+// Evens out a quad mesh by moving its vertices along the surface it lies on.
+//
+// Every quad proposes for its corners those of the square that fits it best: with the corners as complex numbers z_k
+// about their centre in the plane of the mean normal, the square's first corner is r = 1/4 sum z_k i^-k; its size is
+// kept, or drawn half way to edge_length. A vertex goes half way to the mean of its proposals (a local-global scheme as
+// in Bouaziz, Deuss, Schwartzburg, Weise and Pauly 2012). It goes there by walking: straight in its triangle, unfolded
+// over every edge it crosses. So it never leaves the surface, cannot jump between sheets, and stops at a border.
+// Vertices that would turn a corner over stay where they were; sites stay; border vertices stay on their border.
+//
+// Cost: O(vertices) a round.
+#pragma once
+#include "base/progress.h"
+#include "remesh/quad_mesh.h"
+
+namespace hf {
+
+struct RelaxOptions {
+  std::int32_t rounds = 20;
+  double edge_length = 0;  // 0: quads keep their sizes
+  Progress* progress = nullptr;
+};
+
+void relax_quads(const FluxSurface& surface, QuadMesh& mesh, const RelaxOptions& options, Memory& memory);
+
+// The point reached by going `way` (its part in the plane of the triangle) from `from`.
+SurfacePoint walk_surface(const FluxSurface& surface, SurfacePoint from, Vec3 way) noexcept;
+
+}  // namespace hf

@@ -1,0 +1,372 @@
+#include "remesh/rings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "remesh/loop_line.h"
+#include "remesh/ring_levels.h"
+
+namespace hf {
+namespace {
+
+constexpr std::int32_t none = -1;
+
+class Builder {
+ public:
+  Builder(const FluxField& field, const ArcGraph& graph, const Table<double>& lines_at, const RingOptions& options,
+          Memory& memory, RingMesh& out)
+      : field_(field),
+        surface_(field.surface()),
+        graph_(graph),
+        lines_at_(lines_at),
+        options_(options),
+        memory_(memory),
+        out_(out),
+        line_(memory),
+        lower_line_(memory),
+        index_of_edge_(surface_.half_count(), none, memory),
+        arc_of_edge_(surface_.half_count(), none, memory),
+        ended_(memory),
+        arrivals_(&memory),
+        by_arc_(&memory) {}
+
+  void run(Progress* progress) {
+    for (std::int32_t i = 0; i < graph_.critical.size(); ++i) {
+      if (graph_.down_start[i] == graph_.down_start[i + 1]) {
+        start_at_source(i);
+      } else {
+        pass_saddle(i);
+      }
+      for (std::int32_t j = graph_.up_start[i]; j < graph_.up_start[i + 1]; ++j) climb(graph_.up_arc[j]);
+      report(progress, 0.3f + 0.3f * static_cast<float>(i + 1) / static_cast<float>(graph_.critical.size()));
+    }
+  }
+
+ private:
+  struct Arrival {
+    std::int32_t from;  // node below
+    FluxPoint point;
+    double place;
+  };
+
+  bool is_extremum(std::int32_t v) const { return field_.sign_changes(v) == 0; }
+  std::int32_t last_ring(std::int32_t arc) const { return out_.ring_start[arc + 1] - 1; }
+
+  void build(std::int32_t r, LoopLine& line) {
+    const Ring& ring = out_.rings[r];
+    line.build(field_, {ring.threshold, ring.seed}, ring.value, ring.border);
+  }
+  // The ring everything below speaks of.
+  void open(std::int32_t r) {
+    build(r, line_);
+    for (std::int32_t i = 0; i < line_.edges().size(); ++i) index_of_edge_[line_.edges()[i]] = i;
+    out_.rings[r].length = line_.length();
+  }
+  void close(std::int32_t r) {
+    for (const std::int32_t h : line_.edges()) index_of_edge_[h] = none;
+    Ring& ring = out_.rings[r];
+    std::int32_t n = ring.node;
+    for (std::int32_t i = 0; i < ring.count; ++i, n = out_.nodes[n].next)
+      out_.location[n] = line_.location(out_.nodes[n].place);
+  }
+
+  std::int32_t add_node(std::int32_t r, double place, FluxPoint point, std::int32_t down) {
+    RingNode node;
+    node.ring = r, node.place = place, node.point = point, node.down = down;
+    const std::int32_t n = out_.nodes.push_back(node);
+    out_.location.push_back({});
+    ended_.push_back(0);
+    if (down != none) out_.nodes[down].up = n;
+    ++out_.rings[r].count;
+    return n;
+  }
+  void link(std::int32_t a, std::int32_t b) { out_.nodes[a].next = b, out_.nodes[b].previous = a; }
+  // A node behind `after`.
+  std::int32_t insert(std::int32_t after, double place) {
+    const std::int32_t r = out_.nodes[after].ring, before = out_.nodes[after].next;
+    const std::int32_t n = add_node(r, place, line_.at(place), none);
+    link(after, n), link(n, before);
+    out_.nodes[n].place = place - line_.length() * std::floor(place / line_.length());
+    return n;
+  }
+  double gap(std::int32_t n) const {  // to the next node
+    const double length = out_.rings[out_.nodes[n].ring].length;
+    double g = out_.nodes[out_.nodes[n].next].place - out_.nodes[n].place;
+    if (out_.nodes[n].next == n) return length;
+    return g < 0 ? g + length : g;
+  }
+  // So many nodes evenly into the gap behind n.
+  void fill(std::int32_t n, std::int32_t count) {
+    const double from = out_.nodes[n].place, width = gap(n);
+    for (std::int32_t k = 1; k <= count; ++k) n = insert(n, from + width * k / (count + 1));
+  }
+
+  void start_at_source(std::int32_t i) {
+    const std::int32_t v = graph_.critical[i];
+    for (std::int32_t j = graph_.up_start[i]; j < graph_.up_start[i + 1]; ++j) {
+      const std::int32_t r = out_.ring_start[graph_.up_arc[j]];
+      open(r);
+      double count = options_.uniform ? 2 * std::round(line_.length() / options_.edge_length / 2) : lines_at_[v];
+      count = std::max(count, surface_.is_apex(v) ? 4.0 : least_beside_site());
+      const std::int32_t n = static_cast<std::int32_t>(std::min(count, 1e6));
+      std::int32_t first = none, last = none;
+      double sum = 0;
+      std::int32_t edge = 0;
+      for (std::int32_t k = 0; k < n; ++k) {
+        FluxPoint p;
+        double place;
+        if (options_.uniform) {
+          place = line_.length() * (k + 0.5) / n, p = line_.at(place);
+        } else {
+          const double want = graph_.arcs[graph_.up_arc[j]].flux * (k + 0.5) / n;
+          while (edge + 1 < line_.edges().size() && sum + field_.flux(line_.edges()[edge]) < want)
+            sum += field_.flux(line_.edges()[edge++]);
+          p = {line_.edges()[edge], want - sum}, place = line_.place(edge, p.offset);
+        }
+        const std::int32_t node = add_node(r, place, p, none);
+        if (first == none) first = node;
+        if (last != none) link(last, node);
+        last = node;
+      }
+      link(last, first);
+      out_.rings[r].node = first;
+      settle(r);
+    }
+  }
+
+  double least_beside_site() const { return options_.uniform ? 6.0 : 4.0; }
+
+  void pass_saddle(std::int32_t i) {
+    const std::int32_t v = graph_.critical[i], rank = field_.rank(v);
+    if (graph_.up_start[i] == graph_.up_start[i + 1]) return;  // a sink: the lines end
+    Table<std::int32_t> loop(memory_);
+    Table<std::int32_t> marked(memory_);
+    auto mark = [&](const Loop& at, std::int32_t arc) {
+      walk_loop(field_, at, loop);
+      for (const std::int32_t h : loop) arc_of_edge_[h] = arc, marked.push_back(h);
+    };
+    for (std::int32_t j = graph_.up_start[i]; j < graph_.up_start[i + 1]; ++j)
+      mark({rank + 1, graph_.arcs[graph_.up_arc[j]].seed}, graph_.up_arc[j]);
+    by_arc_.clear();
+    for (std::int32_t j = graph_.down_start[i]; j < graph_.down_start[i + 1]; ++j) {
+      const Ring& below = out_.rings[last_ring(graph_.down_arc[j])];
+      std::int32_t n = below.node;
+      for (std::int32_t k = 0; k < below.count; ++k, n = out_.nodes[n].next) {
+        if (ended_[n]) continue;
+        FluxPoint p = out_.nodes[n].point;
+        while (p.half != none && field_.rank(surface_.head(p.half)) <= rank) p = field_.up(p);
+        if (p.half == none || arc_of_edge_[p.half] == none) lost();
+        by_arc_.push_back({n, p, static_cast<double>(arc_of_edge_[p.half])});
+      }
+    }
+    for (const std::int32_t h : marked) arc_of_edge_[h] = none;
+    marked.clear();
+    for (std::int32_t j = graph_.down_start[i]; j < graph_.down_start[i + 1]; ++j) {
+      const Arc& arc = graph_.arcs[graph_.down_arc[j]];
+      mark({rank, graph_.loop(field_, arc, arc.last - arc.first).seed}, graph_.down_arc[j]);
+    }
+    for (std::int32_t j = graph_.up_start[i]; j < graph_.up_start[i + 1]; ++j) {
+      const std::int32_t arc = graph_.up_arc[j];
+      arrivals_.clear();
+      for (const Arrival& a : by_arc_)
+        if (static_cast<std::int32_t>(a.place) == arc) arrivals_.push_back(a);
+      arrive(out_.ring_start[arc], true, rank);
+    }
+    for (const std::int32_t h : marked) arc_of_edge_[h] = none;
+  }
+
+  void climb(std::int32_t arc) {
+    for (std::int32_t r = out_.ring_start[arc] + 1; r < out_.ring_start[arc + 1]; ++r) {
+      arrivals_.clear();
+      const Ring& below = out_.rings[r - 1];
+      std::int32_t n = below.node;
+      for (std::int32_t k = 0; k < below.count; ++k, n = out_.nodes[n].next)
+        if (!ended_[n]) arrivals_.push_back({n, out_.nodes[n].point, 0});
+      arrive(r, false, 0);
+    }
+  }
+
+  // Lines reach ring r: out of one ring in its order, or out of several through a saddle.
+  void arrive(std::int32_t r, bool saddle, std::int32_t rank) {
+    open(r);
+    const std::int32_t threshold = out_.rings[r].threshold;
+    for (Arrival& a : arrivals_) {
+      while (a.point.half != none && field_.rank(surface_.head(a.point.half)) < threshold) a.point = field_.up(a.point);
+      if (a.point.half == none || index_of_edge_[a.point.half] == none) lost();
+      a.place = line_.place(index_of_edge_[a.point.half], a.point.offset);
+    }
+    const std::int32_t count = static_cast<std::int32_t>(arrivals_.size());
+    if (saddle) {
+      std::sort(arrivals_.begin(), arrivals_.end(), [](const Arrival& a, const Arrival& b) { return a.place < b.place; });
+    } else if (count > 1) {
+      // the order is that of the ring below; only where it begins is to be found
+      std::size_t begin = 0;
+      double drop = -1;
+      for (std::size_t k = 0; k < arrivals_.size(); ++k) {
+        const double fall = arrivals_[(k + arrivals_.size() - 1) % arrivals_.size()].place - arrivals_[k].place;
+        if (fall > drop) drop = fall, begin = k;
+      }
+      std::rotate(arrivals_.begin(), arrivals_.begin() + static_cast<std::ptrdiff_t>(begin), arrivals_.end());
+      for (std::size_t k = 1; k < arrivals_.size(); ++k)
+        arrivals_[k].place = std::max(arrivals_[k].place, arrivals_[k - 1].place);
+    }
+    std::int32_t first = none, last = none;
+    for (const Arrival& a : arrivals_) {
+      const std::int32_t n = add_node(r, a.place, a.point, a.from);
+      if (first == none) first = n;
+      if (last != none) link(last, n);
+      last = n;
+    }
+    if (first != none) link(last, first), out_.rings[r].node = first;
+    if (saddle) {
+      while (out_.rings[r].count < 2) join_down(r, rank);
+      mend_saddle_ring(r);
+    }
+    settle(r);
+  }
+
+  // A line from ring r, half around from its only node, down to a ring below the saddle of that rank.
+  void join_down(std::int32_t r, std::int32_t rank) {
+    const std::int32_t only = out_.rings[r].node;
+    const double place = only == none ? 0.0 : out_.nodes[only].place + line_.length() / 2;
+    std::int32_t n;
+    if (only == none) {
+      n = add_node(r, place, line_.at(place), none);
+      link(n, n), out_.rings[r].node = n;
+    } else {
+      n = insert(only, place);
+    }
+    FluxPoint p = out_.nodes[n].point;
+    while (p.half != none && field_.rank(surface_.tail[p.half]) >= rank) p = field_.down(p);
+    if (p.half == none || arc_of_edge_[p.half] == none) lost();
+    const std::int32_t below = last_ring(arc_of_edge_[p.half]);
+    while (p.half != none && field_.rank(surface_.tail[p.half]) >= out_.rings[below].threshold) p = field_.down(p);
+    if (p.half == none) lost();
+    build(below, lower_line_);
+    const double low_place = lower_line_.place_of(p);
+    // behind the last node that stands before it, or the last of all
+    std::int32_t after = out_.rings[below].node, best = none, m = after;
+    for (std::int32_t k = 0; k < out_.rings[below].count; ++k, m = out_.nodes[m].next) {
+      if (out_.nodes[m].place <= low_place && (best == none || out_.nodes[m].place >= out_.nodes[best].place)) best = m;
+      if (out_.nodes[m].place >= out_.nodes[after].place) after = m;
+    }
+    if (best != none) after = best;
+    const std::int32_t low = add_node(below, low_place, p, none), before = out_.nodes[after].next;
+    link(after, low), link(low, before);
+    out_.location[low] = lower_line_.location(low_place);
+    out_.nodes[low].up = n, out_.nodes[n].down = low;
+  }
+
+  // Whether the strip below the gap behind n is bounded by neighbours on one ring: if not, the saddle looks into it.
+  bool faces_saddle(std::int32_t n) const {
+    const std::int32_t a = out_.nodes[n].down, b = out_.nodes[out_.nodes[n].next].down;
+    if (a == none || b == none) return true;
+    if (a == b) return true;
+    std::int32_t m = out_.nodes[a].next;
+    while (m != a && (ended_[m] || out_.nodes[m].up == none)) m = out_.nodes[m].next;
+    return m != b;
+  }
+
+  // Above a saddle: an even number of nodes, and gaps at the saddle filled as the edge length asks.
+  void mend_saddle_ring(std::int32_t r) {
+    std::int32_t widest = none, n = out_.rings[r].node;
+    double width = -1;
+    for (std::int32_t k = 0; k < out_.rings[r].count; ++k, n = out_.nodes[n].next)
+      if (faces_saddle(n) && gap(n) > width) width = gap(n), widest = n;
+    if (widest == none) return;
+    std::int32_t wanted = out_.rings[r].count % 2;
+    if (options_.uniform) {
+      const double more = width / options_.edge_length - 1 - wanted;
+      wanted += 2 * std::max(0, static_cast<std::int32_t>(std::lround(std::min(more, 1e6) / 2)));
+    }
+    fill(widest, wanted);
+  }
+
+  // The rules every ring is left with.
+  void settle(std::int32_t r) {
+    const Ring& ring = out_.rings[r];
+    const std::int32_t upper = graph_.arcs[ring.arc].upper;
+    const bool last = r == last_ring(ring.arc);
+    const double least = last && is_extremum(upper) && !surface_.is_apex(upper) ? least_beside_site() : 4.0;
+    if (ring.count % 2) fill(widest_gap(r), 1);
+    while (out_.rings[r].count < least) fill(widest_gap(r), 2);
+    if (options_.uniform) {
+      add_pairs(r);
+      if (!last) end_pairs(r);
+    }
+    close(r);
+  }
+
+  std::int32_t widest_gap(std::int32_t r) const {
+    std::int32_t n = out_.rings[r].node, best = n;
+    for (std::int32_t k = 0; k < out_.rings[r].count; ++k, n = out_.nodes[n].next)
+      if (gap(n) > gap(best)) best = n;
+    return best;
+  }
+
+  void add_pairs(std::int32_t r) {
+    const double widest = options_.widest * options_.edge_length;
+    std::int32_t n = out_.rings[r].node;
+    for (std::int32_t k = out_.rings[r].count; k > 0; --k) {
+      const std::int32_t following = out_.nodes[n].next;
+      if (gap(n) > widest && out_.nodes[n].down != none && out_.nodes[following].down != none) fill(n, 2);
+      n = following;
+    }
+  }
+
+  void end_pairs(std::int32_t r) {
+    const double narrowest = options_.narrowest * options_.edge_length;
+    struct Candidate {
+      double width;
+      std::int32_t node;
+    };
+    Vector<Candidate> list(&memory_);
+    std::int32_t n = out_.rings[r].node, lined = 0;
+    for (std::int32_t k = 0; k < out_.rings[r].count; ++k, n = out_.nodes[n].next) {
+      ++lined;
+      const std::int32_t b = out_.nodes[n].next, c = out_.nodes[b].next;
+      const double width = gap(n) + gap(b) + gap(c);
+      if (width < narrowest) list.push_back({width, n});
+    }
+    std::sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) {
+      return a.width != b.width ? a.width < b.width : a.node < b.node;
+    });
+    for (const Candidate& candidate : list) {
+      if (lined <= 6) return;
+      const std::int32_t a = candidate.node, b = out_.nodes[a].next, c = out_.nodes[b].next, d = out_.nodes[c].next;
+      if (ended_[a] || ended_[b] || ended_[c] || ended_[d]) continue;
+      if (out_.nodes[b].down == none || out_.nodes[c].down == none) continue;
+      ended_[b] = ended_[c] = 1, lined -= 2;
+    }
+  }
+
+  [[noreturn]] static void lost() {
+    fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "a flux line left its arc; report it with the mesh");
+  }
+
+  const FluxField& field_;
+  const FluxSurface& surface_;
+  const ArcGraph& graph_;
+  const Table<double>& lines_at_;
+  const RingOptions& options_;
+  Memory& memory_;
+  RingMesh& out_;
+  LoopLine line_, lower_line_;
+  Table<std::int32_t> index_of_edge_, arc_of_edge_;
+  Table<std::uint8_t> ended_;
+  Vector<Arrival> arrivals_, by_arc_;
+};
+
+}  // namespace
+
+RingMesh make_rings(const FluxField& field, const ArcGraph& graph, const Table<double>& lines_at,
+                    const RingOptions& options, Memory& memory, Progress* progress) {
+  RingMesh out(memory);
+  place_rings(field, graph, options, memory, out);
+  Builder builder(field, graph, lines_at, options, memory, out);
+  builder.run(progress);
+  return out;
+}
+
+}  // namespace hf
