@@ -37,7 +37,7 @@ PoseOptions checked(const PoseOptions& options) {
   const bool smooth = options.mode == DeformMode::smooth;
   if (filled.band_count == 0) filled.band_count = smooth ? 10 : 12;
   if (filled.iteration_count == 0) filled.iteration_count = smooth ? 8 : 200;
-  if (filled.group_count == 0) filled.group_count = 200;
+  if (filled.group_count == 0) filled.group_count = 250;
   return filled;
 }
 

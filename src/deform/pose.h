@@ -25,7 +25,7 @@ struct PoseOptions {
   std::uint32_t band_count = 0;        // 2 to 64; 10 (smooth) or 12 (paper)
   std::uint32_t iteration_count = 0;   // 1 to 1000; 8 or 200
   std::uint32_t samples_per_ring = 0;  // the full ring
-  std::uint32_t group_count = 0;       // 1 to 2000; 200
+  std::uint32_t group_count = 0;       // 1 to 2000; 250
 };
 
 // p -> rotation (p - centroid) + centroid + translation, in the unit of the mesh as given. The quaternion need not be

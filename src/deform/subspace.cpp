@@ -9,6 +9,7 @@ namespace {
 constexpr double rigidity = 1e-3;         // eps, relative to the mean diagonal of the cluster's linear part
 constexpr double edge_samples = 60000;    // about this many edges are used
 constexpr std::int32_t few_edges = 1500;  // clusters with fewer are never sampled
+constexpr double border_stiffness = 0.25;  // what edges at a handle's border gain
 
 // z_c(e) of one edge, clusters ascending.
 struct EdgeRow {
@@ -159,12 +160,22 @@ class Assembly {
     }
   }
 
+  // The largest weight of a handle at a vertex: 1 on it, 0 beyond its last band.
+  double handle_share(std::int32_t v) const noexcept {
+    double largest = 0;
+    for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k) {
+      if (weights_.cluster[k] < weights_.handle_count) largest = std::max(largest, weights_.weight[k]);
+    }
+    return largest;
+  }
+
   void add_edge(std::int32_t e) {
     const double sampled = sample_weight(e);
     if (sampled == 0) return;
     const std::int32_t i = core_.topology.first(e), j = core_.topology.second(e);
     fill_row(i, j, row_);
-    const double w = sampled * rest_.stiffness[e];
+    const double close = std::max(handle_share(i), handle_share(j)), square = close * close;
+    const double w = sampled * rest_.stiffness[e] * (1 + border_stiffness * square * square);
     const Vec3 d = core_.mesh.positions[i] - core_.mesh.positions[j];
     const double dp[3] = {d.x, d.y, d.z};
     for (std::int32_t r = 0; r < row_.count; ++r) {
