@@ -1,0 +1,188 @@
+// Between JavaScript and the C ABI: arrays, structs in the memory layout of the backend, errors. A backend is
+// { width: 0 | 1 (pointers of 4 or 8 bytes), call(name, args), newHandle() }; arguments are numbers, handles, null,
+// structs, and arrays marked as read or written.
+import { constants, layouts } from './raw.js';
+
+const names = new Map(Object.entries(constants).filter(([name]) => name === 'HF_OK' || name.startsWith('HF_ERROR_')).map(([name, code]) => [code, name]));
+
+/** A failed call: code, codeName (HF_ERROR_*), index (or null), functionName. */
+export class HfError extends Error {
+  constructor(message, code, index = null, functionName = '') {
+    super(`${functionName ? functionName + ': ' : ''}${message} (${names.get(code) ?? code})`);
+    this.name = 'HfError';
+    this.code = code;
+    this.codeName = names.get(code) ?? 'unknown';
+    this.index = index;
+    this.functionName = functionName;
+  }
+}
+
+export function fail(message, code = 'HF_ERROR_INVALID_ARGUMENT', index = null) {
+  throw new HfError(message, constants[code], index);
+}
+
+/** An array the library reads, or writes (copied back from WebAssembly's memory). */
+export class Memory {
+  constructor(array, written) {
+    this.array = array;
+    this.written = written;
+  }
+}
+export const read = (array) => (array === null || array.length === 0 ? null : new Memory(array, false));
+export const written = (array) => (array === null || array.length === 0 ? null : new Memory(array, true));
+
+const isArray = (values) => Array.isArray(values) || ArrayBuffer.isView(values);
+
+/** uint32 numbers: a Uint32Array is used as it is, others are checked and converted; null stays null. */
+export function integers(values, name) {
+  if (values === null || values === undefined) return null;
+  if (values instanceof Uint32Array) return values;
+  if (!isArray(values)) fail(`${name} must be an array of whole numbers`);
+  const flat = Array.isArray(values) && Array.isArray(values[0]) ? values.flat() : values;
+  for (let i = 0; i < flat.length; ++i) {
+    if (!Number.isInteger(flat[i])) fail(`${name}[${i}] must be a whole number, not ${String(flat[i])}`);
+    if (flat[i] < 0 || flat[i] > 0xffffffff) fail(`${name}[${i}] is ${flat[i]}`, 'HF_ERROR_OUT_OF_RANGE', i);
+  }
+  return Uint32Array.from(flat);
+}
+
+/** float64 numbers, count of them when given; a Float64Array is used as it is. */
+export function doubles(values, name, count) {
+  if (values === null || values === undefined) return null;
+  if (!isArray(values)) fail(`${name} must be an array of numbers`);
+  let array = values;
+  if (!(values instanceof Float64Array)) {
+    const flat = Array.isArray(values) && isArray(values[0]) ? values.map((row) => Array.from(row)).flat() : values;
+    for (let i = 0; i < flat.length; ++i) if (typeof flat[i] !== 'number') fail(`${name}[${i}] must be a number, not ${String(flat[i])}`);
+    array = Float64Array.from(flat);
+  }
+  if (count !== undefined && array.length !== count) fail(`${name} must hold ${count} numbers, not ${array.length}`);
+  return array;
+}
+
+/** Positions: Float32Array or Float64Array as they are, others as float64. */
+export function points(values, name, count) {
+  if (values === null || values === undefined) fail(`${name} is ${values}`, 'HF_ERROR_NULL_POINTER');
+  const array = values instanceof Float32Array ? values : doubles(values, name);
+  if (count === undefined ? array.length % 3 : array.length !== count) fail(`${name} must hold ${count ?? 'three numbers a vertex'}, not ${array.length}`);
+  return array;
+}
+
+/** The caller's array of that many numbers, or a new one of `Type`. */
+export function output(out, count, Type) {
+  if (out === undefined || out === null) return new Type(count);
+  if (!(out instanceof Float32Array) && !(out instanceof Float64Array)) fail('out must be a Float32Array or Float64Array');
+  if (out.length !== count) fail(`out must hold ${count} numbers, not ${out.length}`, 'HF_ERROR_TOO_SMALL');
+  return out;
+}
+
+/** Lists of vertices one after the other: { counts, vertices }. */
+export function regions(lists, name) {
+  if (lists === null || lists === undefined) return { counts: null, vertices: null };
+  if (!Array.isArray(lists)) fail(`${name} must be a list of lists`);
+  const arrays = lists.map((list, i) => integers(list, `${name}[${i}]`) ?? fail(`${name}[${i}] is null`, 'HF_ERROR_NULL_POINTER'));
+  const vertices = new Uint32Array(arrays.reduce((sum, array) => sum + array.length, 0));
+  let at = 0;
+  for (const array of arrays) {
+    vertices.set(array, at);
+    at += array.length;
+  }
+  return { counts: Uint32Array.from(arrays, (array) => array.length), vertices };
+}
+
+const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
+const fieldNames = new Map(); // struct -> camelCase -> C name
+function fieldsOf(struct) {
+  let map = fieldNames.get(struct);
+  if (!map) fieldNames.set(struct, (map = new Map(Object.keys(layouts[struct].fields).map((name) => [camel(name), name]))));
+  return map;
+}
+
+const setters = {
+  i32: (view, at, value) => view.setInt32(at, value, true),
+  u32: (view, at, value) => view.setUint32(at, value, true),
+  f32: (view, at, value) => view.setFloat32(at, value, true),
+  f64: (view, at, value) => view.setFloat64(at, value, true),
+};
+const getters = {
+  i32: (view, at) => view.getInt32(at, true),
+  u32: (view, at) => view.getUint32(at, true),
+  f32: (view, at) => view.getFloat32(at, true),
+  f64: (view, at) => view.getFloat64(at, true),
+};
+const strides = { i32: 4, u32: 4, f32: 4, f64: 8 };
+
+/** A struct in the layout of a backend. Pointers are kept beside it and filled in for the call. */
+export class Struct {
+  constructor(width, type, fields = {}) {
+    this.width = width;
+    this.layout = layouts[type];
+    this.type = type;
+    this.bytes = new Uint8Array(this.layout.size[width]);
+    this.view = new DataView(this.bytes.buffer);
+    this.pointers = []; // [offset, Memory | Struct | handle]
+    if (this.layout.fields.struct_size) this.set('struct_size', this.bytes.length);
+    for (const [name, value] of Object.entries(fields)) this.set(name, value);
+  }
+
+  set(name, value) {
+    const [kind, offsets, count] = this.layout.fields[name];
+    const at = offsets[this.width];
+    if (value === null || value === undefined) return this;
+    if (kind === 'ptr') this.pointers.push([at, value]);
+    else if (kind === 'size') this.width ? this.view.setBigUint64(at, BigInt(value), true) : this.view.setUint32(at, value, true);
+    else if (count) for (let i = 0; i < count; ++i) setters[kind](this.view, at + i * strides[kind], value[i]);
+    else setters[kind](this.view, at, value);
+    return this;
+  }
+
+  get(name) {
+    const [kind, offsets, count] = this.layout.fields[name];
+    const at = offsets[this.width];
+    if (kind === 'char') {
+      const text = this.bytes.subarray(at, at + count);
+      const end = text.indexOf(0);
+      return new TextDecoder().decode(text.slice(0, end < 0 ? count : end));
+    }
+    if (count) return Array.from({ length: count }, (_, i) => getters[kind](this.view, at + i * strides[kind]));
+    return getters[kind](this.view, at);
+  }
+
+  /** Sets scalar options by their camelCase names; an unknown one is an error that names it. */
+  options(options = {}) {
+    const map = fieldsOf(this.type);
+    for (const [key, value] of Object.entries(options)) {
+      const name = map.get(key);
+      const kind = name && this.layout.fields[name][0];
+      if (!setters[kind] || name === 'struct_size' || name === 'reserved') {
+        const allowed = [...map].filter(([, field]) => setters[this.layout.fields[field][0]] && !['struct_size', 'reserved'].includes(field));
+        fail(`no option '${key}'; there are: ${allowed.map(([shown]) => shown).join(', ')}`);
+      }
+      const count = this.layout.fields[name][2];
+      if (count ? !isArray(value) || value.length !== count : typeof value !== 'number' && typeof value !== 'boolean') {
+        fail(`option '${key}' must be ${count ? count + ' numbers' : 'a number'}`);
+      }
+      this.set(name, count ? Array.from(value) : Number(value));
+    }
+    return this;
+  }
+
+  /** The scalar fields as a plain object with camelCase names. */
+  toObject() {
+    const result = {};
+    for (const [shown, name] of fieldsOf(this.type)) {
+      const kind = this.layout.fields[name][0];
+      if ((getters[kind] || kind === 'char') && name !== 'struct_size' && name !== 'reserved') result[shown] = this.get(name);
+    }
+    return result;
+  }
+}
+
+/** Rows of a packed array of structs as plain objects. */
+export function rows(width, type, bytes, count) {
+  const row = new Struct(width, type);
+  return Array.from({ length: count }, (_, i) => {
+    row.bytes.set(bytes.subarray(i * row.bytes.length, (i + 1) * row.bytes.length));
+    return row.toObject();
+  });
+}

@@ -1,0 +1,78 @@
+// The classes, over a backend. Every object owns one handle: close() it, or leave it to the garbage collector.
+import { constants, headerVersion } from './raw.js';
+import { HfError, Struct, doubles, fail, integers, output, points, read, regions, rows, written } from './marshal.js';
+import { solverClasses } from './solver.js';
+import { poseClasses } from './pose.js';
+
+export function makeApi(backend) {
+  const make = (type, fields) => new Struct(backend.width, type, fields);
+  const call = (name, ...args) => {
+    const code = backend.call(name, args);
+    if (code === 0) return;
+    const detail = make('hf_error_detail');
+    backend.call('hf_get_error_detail', [detail]);
+    const index = detail.get('index');
+    throw new HfError(detail.get('message'), code, index === constants.HF_NO_INDEX ? null : index, detail.get('function'));
+  };
+
+  const registry = new FinalizationRegistry(({ destroy, handle }) => backend.call(destroy, [handle]));
+
+  /** Owns one handle. Objects may be closed in any order and more than once; a call on a closed one throws. */
+  class Handle {
+    #open = false;
+    _own(destroy, array) {
+      this._handle = array[0];
+      this._destroy = destroy;
+      this.#open = true;
+      registry.register(this, { destroy, handle: this._handle }, this);
+      return this;
+    }
+    get closed() {
+      return !this.#open;
+    }
+    close() {
+      if (!this.#open) return;
+      this.#open = false;
+      registry.unregister(this);
+      backend.call(this._destroy, [this._handle]);
+    }
+  }
+  if (Symbol.dispose) Handle.prototype[Symbol.dispose] = Handle.prototype.close;
+
+  /** Creates an object's handle: fn(...args, out). */
+  const create = (object, destroy, name, ...args) => {
+    const handle = backend.newHandle();
+    call(name, ...args, written(handle));
+    return object._own(destroy, handle);
+  };
+  const handleOf = (thing, kind, name) => {
+    if (thing === null || thing === undefined) return 0;
+    if (!(thing instanceof kind)) fail(`${name} must be a ${kind.name}`);
+    return thing._handle;
+  };
+  /** A struct the library fills, as a plain object. */
+  const query = (type, name, ...args) => {
+    const info = make(type);
+    call(name, ...args, info);
+    return info.toObject();
+  };
+  const table = (type, bytes, count) => rows(backend.width, type, bytes, count);
+  const rowSize = (type) => make(type).bytes.length;
+  const direct = (name, ...args) => backend.call(name, args);
+
+  const tools = { backend, make, call, create, direct, handleOf, query, table, rowSize, Handle, doubles, fail, integers, output, points, read, regions, written };
+  const number = direct('hf_get_version');
+  const [major, minor] = headerVersion.split('.').map(Number);
+  if (Math.floor(number / 1000000) !== major || number < major * 1000000 + minor * 1000) {
+    throw new Error(`the hf library is of version ${number}, this package of ${headerVersion}; use matching ones`);
+  }
+  const solverApi = solverClasses(tools);
+  return Object.freeze({
+    ...solverApi,
+    ...poseClasses(tools, solverApi.Solver),
+    HfError,
+    constants,
+    backend: backend.name,
+    version: [Math.floor(number / 1000000), Math.floor(number / 1000) % 1000, number % 1000],
+  });
+}

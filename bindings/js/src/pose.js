@@ -1,0 +1,148 @@
+// Pose and Transfer.
+export function poseClasses(tools, Solver) {
+  const { make, call, create, direct, handleOf, query, Handle, doubles, fail, integers, output, points, read, regions, written } = tools;
+  const counted = (array) => (array === null ? 1 : array.length);
+
+  const bare = Symbol('an object whose handle is made elsewhere');
+
+  const skinOf = (name, handle, vertexCount, weightCount) => {
+    const ask = make('hf_skin_info', { weight_count: weightCount });
+    call(name, handle, ask);
+    const n = ask.get('joint_count');
+    const skin = { pivots: new Float64Array(3 * n), rotations: new Float64Array(4 * n), translations: new Float64Array(3 * n),
+      joints: new Uint32Array(vertexCount * weightCount), weights: new Float32Array(vertexCount * weightCount) };
+    call(name, handle, make('hf_skin_info', { weight_count: weightCount, pivots: written(skin.pivots), rotations: written(skin.rotations),
+      translations: written(skin.translations), vertex_joints: written(skin.joints), vertex_weights: written(skin.weights) }));
+    return { jointCount: n, ...skin };
+  };
+
+  class Pose extends Handle {
+    constructor(solver, options = {}) {
+      super();
+      if (solver === bare) return;
+      create(this, 'hf_pose_destroy', 'hf_pose_create', handleOf(solver, Solver, 'solver'), make('hf_pose_desc').options(options));
+      this.vertexCount = solver.vertexCount;
+    }
+    clone() {
+      const made = create(new Pose(bare), 'hf_pose_destroy', 'hf_pose_clone', this._handle);
+      return Object.assign(made, { vertexCount: this.vertexCount });
+    }
+    addHandles(lists, { points: centres = null, radii = null, layer = 0 } = {}) {
+      const desc = make('hf_handles_desc');
+      if (centres) {
+        const at = doubles(centres, 'points');
+        if (at.length % 3) fail('points must hold three numbers each');
+        const reach = doubles(radii, 'radii', at.length / 3);
+        desc.set('handle_count', at.length / 3).set('points', read(at)).set('radii', reach && read(reach));
+      } else {
+        const { counts, vertices } = regions(lists, 'regions');
+        desc.set('handle_count', counted(counts)).set('region_counts', counts && read(counts)).set('region_vertices', vertices && read(vertices));
+      }
+      desc.options({ layer });
+      const out = new Uint32Array(desc.get('handle_count'));
+      call('hf_pose_add_handles', this._handle, desc, written(out));
+      return out;
+    }
+    removeHandles(handles) {
+      const numbers = integers(handles, 'handles');
+      call('hf_pose_remove_handles', this._handle, counted(numbers), numbers && read(numbers));
+    }
+    /** Rigid motions from rest about the handles' centroids: quaternions x, y, z, w and translations, flat. */
+    setTransforms(handles, { rotations = null, translations = null } = {}) {
+      const numbers = integers(handles, 'handles');
+      const count = counted(numbers);
+      const turns = doubles(rotations, 'rotations', 4 * count);
+      const shifts = doubles(translations, 'translations', 3 * count);
+      const packed = new Float64Array(7 * count);
+      for (let i = 0; i < count; ++i) {
+        if (turns) packed.set(turns.subarray(4 * i, 4 * i + 4), 7 * i);
+        if (shifts) packed.set(shifts.subarray(3 * i, 3 * i + 3), 7 * i + 4);
+      }
+      call('hf_pose_set_transforms', this._handle, count, numbers && read(numbers), read(packed));
+    }
+    /** 4 x 4 matrices rest -> posed, column by column as WebGL and three.js have them. */
+    setMatrices(handles, matrices) {
+      const numbers = integers(handles, 'handles');
+      const given = doubles(matrices, 'matrices', 16 * counted(numbers));
+      call('hf_pose_set_matrices', this._handle, counted(numbers), numbers && read(numbers), given && read(given));
+    }
+    handleInfo(handle) {
+      return query('hf_handle_info', 'hf_pose_get_handle', this._handle, integers([handle], 'handle')[0]);
+    }
+    get handleCount() {
+      return direct('hf_pose_get_handle_count', this._handle);
+    }
+    handleField(handle, out) {
+      out = output(out, this.vertexCount, Float32Array);
+      if (!(out instanceof Float32Array)) fail('out must be a Float32Array');
+      call('hf_pose_get_field', this._handle, integers([handle], 'handle')[0], written(out), 0);
+      return out;
+    }
+    deform(out, { normals = null, Type = Float32Array, ...options } = {}) {
+      out = output(out, 3 * this.vertexCount, Type);
+      const desc = make('hf_deform_desc').options(options);
+      desc.set(out instanceof Float32Array ? 'positions' : 'positions_f64', written(out));
+      if (normals) {
+        if (!(normals instanceof Float32Array) || normals.length !== 3 * this.vertexCount) fail(`normals must be a Float32Array of ${3 * this.vertexCount} numbers`);
+        desc.set('normals', written(normals));
+      }
+      call('hf_deform', this._handle, desc, null);
+      return out;
+    }
+    skin(weightCount = 4) {
+      return skinOf('hf_pose_get_skin', this._handle, this.vertexCount, weightCount);
+    }
+  }
+
+  class Transfer extends Handle {
+    constructor(source, target, options = {}) {
+      super();
+      create(this, 'hf_transfer_destroy', 'hf_transfer_create', handleOf(source, Solver, 'source'), handleOf(target, Solver, 'target'), make('hf_transfer_desc').options(options));
+      this.sourceVertexCount = source.vertexCount;
+      this.vertexCount = target.vertexCount;
+    }
+    addPairs(sourceRegions, targetRegions, flags = null) {
+      const [source, target] = [regions(sourceRegions, 'sourceRegions'), regions(targetRegions, 'targetRegions')];
+      if (!source.counts || !target.counts || source.counts.length !== target.counts.length) fail('sourceRegions and targetRegions must be of one length');
+      const count = source.counts.length;
+      const marks = integers(flags, 'flags');
+      if (marks && marks.length !== count) fail(`flags must hold ${count} numbers, not ${marks.length}`);
+      const out = new Uint32Array(count);
+      call('hf_transfer_add_pairs', this._handle, make('hf_pairs_desc', { pair_count: count, source_counts: read(source.counts), source_vertices: read(source.vertices),
+        target_counts: read(target.counts), target_vertices: read(target.vertices), flags: marks && read(marks) }), written(out));
+      return out;
+    }
+    removePairs(pairs) {
+      const numbers = integers(pairs, 'pairs');
+      call('hf_transfer_remove_pairs', this._handle, counted(numbers), numbers && read(numbers));
+    }
+    pairInfo(pair) {
+      return query('hf_pair_info', 'hf_transfer_get_pair', this._handle, integers([pair], 'pair')[0]);
+    }
+    get info() {
+      return query('hf_transfer_info', 'hf_transfer_get_info', this._handle);
+    }
+    apply(sourcePositions, out, { normals = null, Type = Float32Array, holds = null, holdPositions = null } = {}) {
+      const posed = points(sourcePositions, 'sourcePositions', 3 * this.sourceVertexCount);
+      out = output(out, 3 * this.vertexCount, Type);
+      const frame = make('hf_transfer_frame');
+      frame.set(posed instanceof Float32Array ? 'source_positions' : 'source_positions_f64', read(posed));
+      frame.set(out instanceof Float32Array ? 'target_positions' : 'target_positions_f64', written(out));
+      if (normals) {
+        if (!(normals instanceof Float32Array) || normals.length !== 3 * this.vertexCount) fail(`normals must be a Float32Array of ${3 * this.vertexCount} numbers`);
+        frame.set('target_normals', written(normals));
+      }
+      if (holds) {
+        const numbers = integers(holds, 'holds');
+        frame.set('hold_count', numbers.length).set('hold_pairs', read(numbers)).set('hold_positions', read(doubles(holdPositions ?? [], 'holdPositions', 3 * numbers.length)));
+      }
+      call('hf_transfer_apply', this._handle, frame);
+      return out;
+    }
+    skin(weightCount = 4) {
+      return skinOf('hf_transfer_get_skin', this._handle, this.vertexCount, weightCount);
+    }
+  }
+
+  return { Pose, Transfer };
+}
