@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "transfer/prepared.h"
 
 namespace hf {
 namespace {
@@ -12,50 +13,11 @@ namespace {
 constexpr double degree = 3.14159265358979323846 / 180;
 constexpr std::uint32_t known_flags =
     HF_PAIR_ANCHOR | HF_PAIR_FOOT | HF_PAIR_TRUNK | HF_PAIR_NO_ALIGNMENT | HF_PAIR_CONTACT;
-constexpr double shortest_limb = 0.1;    // of the box: shorter limbs have no reliable direction
-constexpr double rigid_residual = 1e-3;  // of the box: frames much nearer to rigid are moved rigidly
-constexpr double turn_low = 20 * degree,
-                 turn_high = 50 * degree;  // between these a turn of the whole takes the anchors' offsets along
-// heights over the ground: of a foot, in boxes, that stands or flies; of a contact, in its own rest heights
-constexpr double stands = 0.01, flies = 0.05, touches = 0.1, leaves = 0.45;
-constexpr double least_side = 0.03;  // of the box: nearer to the middle a region is neither left nor right
+constexpr double shortest_limb = 0.1;  // of the box: shorter limbs have no reliable direction
+constexpr double least_side = 0.03;    // of the box: nearer to the middle a region is neither left nor right
 constexpr std::int32_t enough_support = 6;
-constexpr std::int32_t refit_rounds = 4;
-constexpr std::size_t block = 2048;
+constexpr double rides_from = 0.75;  // share of a vertex in the clusters of a region from which it moves with it
 std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
-
-bool is_finite(Vec3 p) noexcept { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-
-double smooth_step(double low, double high, double x) noexcept {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-// How rigid a frame of the source is, and how far it has turned as a whole, 0 to 1.
-double rigid_share(const WholeMotion& whole) noexcept {
-  const double ratio = whole.residual / rigid_residual;
-  return 1 / (1 + ratio * ratio);
-}
-double turned_share(const Quaternion& turn) noexcept {
-  return smooth_step(turn_low, turn_high, angle_between(turn, Quaternion()));
-}
-
-// How far it has fallen over: turns about the vertical do not count.
-double fallen_share(const Quaternion& turn, Vec3 up) noexcept {
-  return smooth_step(turn_low, turn_high, std::acos(std::clamp(dot(up, rotate(turn, up)), -1.0, 1.0)));
-}
-
-Vec3 region_mean(Span<const std::int32_t> region, const Vec3* points) noexcept {
-  Vec3 sum;
-  for (const std::int32_t v : region) sum = sum + points[v];
-  return (1.0 / static_cast<double>(region.size())) * sum;
-}
-
-double lowest(Span<const std::int32_t> region, const Vec3* points, Vec3 up) noexcept {
-  double low = 1e300;
-  for (const std::int32_t v : region) low = std::min(low, dot(points[v], up));
-  return low;
-}
 
 Vec3 area_mean(const Mesh& mesh, const Vector<double>& area) noexcept {
   Vec3 sum;
@@ -64,61 +26,6 @@ Vec3 area_mean(const Mesh& mesh, const Vector<double>& area) noexcept {
 }
 
 }  // namespace
-
-// What follows from the pairs, and the last frame. Made whole or not at all.
-struct Transfer::Prepared {
-  explicit Prepared(Memory& memory)
-      : source_leak(&memory),
-        target_leak(&memory),
-        limb_angle(&memory),
-        confidence(&memory),
-        limb_turn(&memory),
-        aligned(&memory),
-        cluster_turn(&memory),
-        clusters(memory),
-        source_rotations(memory),
-        translations(memory),
-        refit(memory),
-        anchors(&memory),
-        posed(&memory),
-        given(&memory),
-        rotations(&memory),
-        matrices(&memory),
-        shifts(&memory),
-        cluster_goals(&memory),
-        goals(&memory),
-        loose(&memory),
-        holds(&memory),
-        given_hold(&memory) {}
-  struct Anchor {
-    std::uint32_t number = 0, flags = 0;
-    bool is_foot = false;
-    Vec3 source_rest, target_rest;
-  };
-
-  Buffer<double> source_field, target_field;
-  // per pair, in the order of numbers_
-  Vector<double> source_leak, target_leak, limb_angle, confidence;
-  Vector<Quaternion> limb_turn;  // D_h
-  Vector<std::uint8_t> aligned;
-  Vector<Quaternion> cluster_turn;  // D_h^w
-  Clusters clusters;
-  SourceRotations source_rotations;
-  Translations translations;
-  Refit refit;
-  Vector<Anchor> anchors;
-  double scale = 1;  // s in inner units
-  double source_ground = 0, target_ground = 0;
-  Vec3 target_centroid;
-  // the last frame
-  Vector<Vec3> posed;                   // source, inner units
-  Vector<Quaternion> given, rotations;  // from the source, and as refitted
-  Vector<Mat3> matrices;
-  Vector<Vec3> shifts, cluster_goals, goals;
-  Vector<Anchor> loose;     // pairs that are no anchors: only holds move them
-  Vector<Hold> holds;       // of this round; room for one per pair
-  Vector<Hold> given_hold;  // of the caller, per row; share 0 = none
-};
 
 Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target,
                    const TransferOptions& options)
@@ -281,7 +188,47 @@ void Transfer::prepare_anchors(Prepared& p) const {
   options.root = p.anchors.empty() ? 1.0 : holds_trunk ? 1e-3 : 0.1;
   p.translations.prepare(*target_core_, target_area_, p.clusters, {regions.data(), regions.size()},
                          {loose.data(), loose.size()}, options);
-  p.holds.reserve(numbers_.size()), p.given_hold.assign(numbers_.size() + 1, Hold());
+  p.holds.reserve(numbers_.size() + vertex_rows), p.given_hold.assign(numbers_.size() + 1, Hold());
+  for (std::size_t k = 0; k < p.anchors.size(); ++k) p.anchors[k].cluster = p.translations.heaviest(k);
+
+  // vertices that move with the region of a pair, being blended from the same clusters
+  p.rides.assign(at(target_core_->size()), -1);
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    const std::size_t row = i < p.anchors.size() ? i : i + 1;
+    for (std::size_t v = 0; v < p.rides.size(); ++v) {
+      double share = 0;
+      for (std::size_t k = v * blend_count; k < (v + 1) * blend_count; ++k)
+        if (p.translations.row_weight(row, p.clusters.joint[k]) > 0.05)
+          share += static_cast<double>(p.clusters.weight[k]);
+      if (share > rides_from) p.rides[v] = static_cast<std::int32_t>(row);
+    }
+  }
+}
+
+// Which cluster each source vertex belongs to, and how high the clusters are at rest.
+void Transfer::prepare_ground(Prepared& p) const {
+  const std::size_t width = numbers_.size(), count = at(p.clusters.count);
+  const Mesh& mesh = source_core_->mesh;
+  p.source_owner.assign(mesh.positions.size(), 0);
+  p.rest_lows.assign(count, 1e300), p.source_lows.assign(count, 0.0), p.target_lows.assign(count, 0.0),
+      p.touch.assign(count, 0.0);
+  target_core_->jobs->for_each(static_cast<std::uint32_t>((mesh.positions.size() + 255) / 256), [&](std::uint32_t b) {
+    for (std::size_t v = std::size_t{b} * 256; v < std::min(mesh.positions.size(), (std::size_t{b} + 1) * 256); ++v) {
+      const double* row = p.source_field.data() + v * width;
+      double nearest = 1e300;
+      for (std::size_t c = 0; c < count; ++c) {
+        const double* centre = p.clusters.centre.data() + c * width;
+        double d = 0;
+        for (std::size_t h = 0; h < width; ++h) d += (row[h] - centre[h]) * (row[h] - centre[h]);
+        if (d < nearest) nearest = d, p.source_owner[v] = static_cast<std::int32_t>(c);
+      }
+    }
+  });
+  const Vec3 up = up_of(source_axes_);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    double& low = p.rest_lows[at(p.source_owner[v])];
+    low = std::min(low, p.scale * (dot(up, mesh.positions[v]) - p.source_ground));
+  }
 }
 
 Transfer::Prepared& Transfer::prepare() {
@@ -309,12 +256,15 @@ Transfer::Prepared& Transfer::prepare() {
   p.source_rotations.prepare(source_core_->mesh, source_area_);
   p.refit.prepare(target_core_->mesh, target_area_, p.clusters, memory);
   p.target_centroid = area_mean(target_core_->mesh, target_area_);
+  prepare_ground(p);
 
   // the frame before the first: rest
   const std::size_t count = at(p.clusters.count);
   p.posed.resize(at(source_core_->size()));
   p.given.assign(count, Quaternion()), p.rotations.assign(count, Quaternion()),
       p.matrices.assign(count, Mat3::identity());
+  p.columns.assign(count, BlendColumns()), p.blended.resize(at(target_core_->size()));
+  p.deepest.assign(numbers_.size() + 1 + count, Prepared::Sunk());
   p.shifts.assign(count, Vec3()), p.cluster_goals.assign(count, Vec3()), p.goals.assign(p.anchors.size(), Vec3());
   prepared_ = std::move(fresh);
   return p;
@@ -343,174 +293,6 @@ bool Transfer::is_crossed(std::uint32_t number) const {
   const double a = side(*source_core_, source_axes_, source_.region(number), source_area_),
                b = side(*target_core_, target_axes_, target_.region(number), target_area_);
   return std::abs(a) > least_side && std::abs(b) > least_side && a * b < 0;
-}
-
-// Where the anchored regions go. turn: rotation of the whole source in the target's frame.
-void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const {
-  const double share = std::max(rigid_share(whole), turned_share(turn));
-  const Mat3 carried = to_matrix(power(turn, share));
-  const Vec3 source_up{source_axes_.m[1][0], source_axes_.m[1][1], source_axes_.m[1][2]},
-      up{target_axes_.m[1][0], target_axes_.m[1][1], target_axes_.m[1][2]};
-  for (std::size_t k = 0; k < p.anchors.size(); ++k) {
-    const Prepared::Anchor& anchor = p.anchors[k];
-    const Span<const std::int32_t> from = source_.region(anchor.number), to = target_.region(anchor.number);
-    const Vec3 path = p.scale * rotate(axes_, region_mean(from, p.posed.data()) - anchor.source_rest);
-    const Vec3 offset =
-        anchor.target_rest - p.target_centroid - p.scale * rotate(axes_, anchor.source_rest - whole.rest_centroid);
-    p.goals[k] = anchor.target_rest + path + (carried * offset - offset);
-    if (!anchor.is_foot) continue;
-    // not deeper under the ground than the source's foot
-    const double allowed =
-        p.target_ground + std::min(0.0, p.scale * (lowest(from, p.posed.data(), source_up) - p.source_ground));
-    const Mat3 rotation = p.translations.mean_rotation(k, p.matrices.data());
-    double low = 1e300;
-    for (const std::int32_t v : to)
-      low = std::min(low, dot(up, rotation * (target_core_->mesh.positions[at(v)] - anchor.target_rest)));
-    const double lift = allowed - (dot(up, p.goals[k]) + low);
-    if (lift > 0) p.goals[k] = p.goals[k] + (1 - share) * lift * up;
-  }
-}
-
-void Transfer::read_holds(Prepared& p, Span<const PairHold> holds) const {
-  for (Hold& hold : p.given_hold) hold.share = 0;
-  for (std::size_t i = 0; i < holds.size(); ++i) {
-    const auto index = static_cast<std::uint32_t>(i);
-    const std::uint32_t number = holds[i].pair;
-    if (!std::binary_search(numbers_.begin(), numbers_.end(), number))
-      fail(HF_ERROR_NO_SUCH_PAIR, index, "entry %zu of the holds: the transfer has no pair %u", i, number);
-    if (!is_finite(holds[i].place))
-      fail(HF_ERROR_NON_FINITE, index, "entry %zu of the holds: the place of pair %u is not finite", i, number);
-    const auto row_in = [&](const Vector<Prepared::Anchor>& list) {
-      std::size_t k = 0;
-      while (k < list.size() && list[k].number != number) ++k;
-      return k;
-    };
-    std::size_t row = row_in(p.anchors);
-    if (row == p.anchors.size()) row = p.anchors.size() + 1 + row_in(p.loose);
-    Hold& hold = p.given_hold[row];
-    if (hold.share > 0)
-      fail(HF_ERROR_INVALID_ARGUMENT, index, "entry %zu of the holds: pair %u is held already", i, number);
-    hold.row = row, hold.goal = target_core_->mesh.to_inner(holds[i].place), hold.share = 1, hold.vertical = false;
-  }
-}
-
-// Holds the regions that stand, touch, would sink, or that the caller places. share: how far the frame is a rigid
-// motion or the body has fallen over, where none of them hold by themselves.
-void Transfer::hold_regions(Prepared& p, double share) const {
-  const Vec3 source_up{source_axes_.m[1][0], source_axes_.m[1][1], source_axes_.m[1][2]},
-      up{target_axes_.m[1][0], target_axes_.m[1][1], target_axes_.m[1][2]};
-  const bool by_itself = options_.mode == HF_TRANSFER_FIELDS && share < 1;
-  p.holds.clear();
-  for (std::size_t row = 0; row < p.given_hold.size(); ++row) {
-    if (p.given_hold[row].share > 0) {
-      p.holds.push_back(p.given_hold[row]);
-      continue;
-    }
-    if (!by_itself || row == p.anchors.size()) continue;
-    const bool anchored = row < p.anchors.size();
-    const Prepared::Anchor& pair = anchored ? p.anchors[row] : p.loose[row - p.anchors.size() - 1];
-    const double height = lowest(source_.region(pair.number), p.posed.data(), source_up) - p.source_ground;
-    Hold hold;
-    hold.row = row;
-    if (pair.is_foot) {
-      hold.goal = p.goals[row], hold.share = (1 - share) * (1 - smooth_step(stands, flies, p.scale * height));
-      if (hold.share > 0) p.holds.push_back(hold);
-      continue;
-    }
-    // lowest vertex of the region about its mean, as the blend turns it
-    const Mat3 rotation = p.translations.mean_rotation(row, p.matrices.data());
-    double low = 1e300;
-    for (const std::int32_t v : target_.region(pair.number))
-      low = std::min(low, dot(up, rotation * (target_core_->mesh.positions[at(v)] - pair.target_rest)));
-    const Vec3 now = p.translations.place(row, p.matrices.data(), p.shifts.data());
-    const double at_height = dot(up, now) + low - p.target_ground;
-    const double rest =
-        lowest(source_.region(pair.number), source_core_->mesh.positions.data(), source_up) - p.source_ground;
-    double wanted = at_height;
-    if ((pair.flags & HF_PAIR_CONTACT) && rest > 0) {
-      hold.share = (1 - share) * (1 - smooth_step(touches, leaves, std::max(height, 0.0) / rest));
-      wanted = p.scale * height;
-    }
-    const double allowed = std::min(0.0, p.scale * height);
-    if (at_height + hold.share * (wanted - at_height) < allowed) wanted = allowed, hold.share = 1 - share;
-    if (wanted == at_height || !(hold.share > 1e-6)) continue;
-    hold.goal = now + (wanted - at_height) * up, hold.vertical = true;
-    p.holds.push_back(hold);
-  }
-  p.translations.hold({p.holds.data(), p.holds.size()}, up, p.matrices.data(), p.shifts.data());
-}
-
-void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) {
-  for (std::int32_t v = 0; v < source_core_->size(); ++v) {
-    if (!is_finite(source[v]))
-      fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(v), "vertex %d of the posed source is not finite", v);
-  }
-  Prepared& p = prepare();
-  read_holds(p, holds);
-  const Mesh& from = source_core_->mesh;
-  const Mesh& to = target_core_->mesh;
-  JobRunner& jobs = *target_core_->jobs;
-  for (std::size_t v = 0; v < p.posed.size(); ++v) p.posed[v] = from.to_inner(source[v]);
-  const WholeMotion whole = p.source_rotations.whole(from, source_area_, p.posed.data());
-  p.source_rotations.clusters(p.clusters, p.posed.data(), whole.rotation, p.given.data(), jobs);
-
-  // into the target's axes and rest directions
-  const Quaternion turn = normalised(axes_ * whole.rotation * conjugate(axes_));
-  const Vec3 centroid = p.target_centroid + p.scale * rotate(axes_, whole.centroid - whole.rest_centroid);
-  for (std::size_t c = 0; c < p.rotations.size(); ++c) {
-    p.given[c] = p.rotations[c] = normalised(axes_ * p.given[c] * conjugate(axes_) * p.cluster_turn[c]);
-    p.matrices[c] = to_matrix(p.rotations[c]);
-    p.cluster_goals[c] = centroid + rotate(turn, p.clusters.pivot[c] - p.target_centroid);
-  }
-  place_anchors(p, whole, turn);
-  const double fallen = fallen_share(turn, {target_axes_.m[1][0], target_axes_.m[1][1], target_axes_.m[1][2]});
-  const double share = std::max(rigid_share(whole), fallen);
-  p.translations.solve(p.clusters, p.matrices.data(), {p.goals.data(), p.goals.size()}, centroid,
-                       p.cluster_goals.data(), p.shifts.data());
-  hold_regions(p, share);
-  // nothing pulls where there is no anchor
-  const std::int32_t rounds =
-      options_.mode == HF_TRANSFER_PAPER || (p.anchors.empty() && holds.empty()) ? 0 : refit_rounds;
-  for (std::int32_t round = 0; round < rounds; ++round) {
-    p.refit.turn(p.given.data(), p.shifts.data(), p.rotations.data(), p.matrices.data());
-    for (std::size_t c = 0; c < p.rotations.size(); ++c) p.matrices[c] = to_matrix(p.rotations[c]);
-    p.translations.solve(p.clusters, p.matrices.data(), {p.goals.data(), p.goals.size()}, centroid,
-                         p.cluster_goals.data(), p.shifts.data());
-    hold_regions(p, share);
-  }
-
-  lift_surface(p, (1 - rigid_share(whole)) * fallen);
-
-  const std::size_t n = to.positions.size();
-  jobs.for_each(static_cast<std::uint32_t>((n + block - 1) / block), [&](std::uint32_t b) {
-    const std::size_t last = std::min(n, (std::size_t{b} + 1) * block);
-    for (std::size_t v = std::size_t{b} * block; v < last; ++v) out[v] = to.to_given(blended(p, v));
-  });
-}
-
-Vec3 Transfer::blended(const Prepared& p, std::size_t v) const noexcept {
-  Vec3 sum;
-  for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
-    const double w = static_cast<double>(p.clusters.weight[i]);
-    if (w <= 0) break;
-    const std::size_t c = at(p.clusters.joint[i]);
-    sum = sum + w * (p.matrices[c] * target_core_->mesh.positions[v] + p.shifts[c]);
-  }
-  return sum;
-}
-
-// A body that has turned over lies on any part of its surface: all of it goes up by what sinks deeper under the ground
-// than the source does. Upright bodies stand on their feet, which stay.
-void Transfer::lift_surface(Prepared& p, double share) const noexcept {
-  if (!(share > 0) || p.anchors.empty() || options_.mode != HF_TRANSFER_FIELDS) return;
-  const Vec3 source_up{source_axes_.m[1][0], source_axes_.m[1][1], source_axes_.m[1][2]},
-      up{target_axes_.m[1][0], target_axes_.m[1][1], target_axes_.m[1][2]};
-  double source_low = 1e300, low = 1e300;
-  for (const Vec3& point : p.posed) source_low = std::min(source_low, dot(point, source_up));
-  for (std::size_t v = 0; v < target_core_->mesh.positions.size(); ++v) low = std::min(low, dot(blended(p, v), up));
-  const double sunk = p.target_ground + p.scale * std::min(0.0, source_low - p.source_ground) - low;
-  if (!(sunk > 0)) return;
-  for (Vec3& shift : p.shifts) shift = shift + share * sunk * up;
 }
 
 std::int32_t Transfer::cluster_count() { return prepare().clusters.count; }

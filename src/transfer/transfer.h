@@ -101,12 +101,19 @@ class Transfer {
   Prepared& prepare();
   void prepare_alignment(Prepared& p) const;
   void prepare_anchors(Prepared& p) const;
+  void prepare_ground(Prepared& p) const;
   bool is_crossed(std::uint32_t number) const;
   void place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const;
   void read_holds(Prepared& p, Span<const PairHold> holds) const;
   void hold_regions(Prepared& p, double share) const;
-  Vec3 blended(const Prepared& p, std::size_t vertex) const noexcept;  // posed, inner units
-  void lift_surface(Prepared& p, double share) const noexcept;
+  void settle(Prepared& p, Vec3 centroid) const;  // translations of the present rotations and goals
+  void turn_clusters(Prepared& p) const;
+  void blend(Prepared& p) const;
+  double lying_share(Prepared& p) const noexcept;
+  void lie_down(Prepared& p, Vec3 centroid, double lies, double fallen, double share) const;
+  void keep_above_ground(Prepared& p, Vec3 centroid, double share, double fallen) const;
+  void find_sunk(Prepared& p, Vec3 up, double allowed) const noexcept;
+  bool hold_sunk(Prepared& p, Vec3 up, double share, std::size_t& held) const noexcept;
 
   std::shared_ptr<const Core> source_core_, target_core_;
   TransferOptions options_;

@@ -150,7 +150,7 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
     weights.assign(region.size(), 1.0);
     add_row(region, {weights.data(), weights.size()}, target, clusters);
   }
-  add_influences(memory);
+  add_influences();
 
   // keep what is not zero
   for (std::size_t c = 0; c < count; ++c) {
@@ -163,25 +163,65 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
   table_start_.push_back(static_cast<std::int32_t>(table_column_.size()));
 }
 
-void Translations::add_influences(Memory&) {
-  const std::size_t rows = row_start_.size() - 1, count = at(count_);
-  influence_.assign(rows * count, 0.0), gram_.assign(rows * rows, 0.0);
-  hold_matrix_.assign(rows * rows, 0.0), hold_rhs_.assign(rows, Vec3());
-  for (std::size_t row = 0; row < rows; ++row) {
-    std::fill(scratch_.begin(), scratch_.end(), 0.0);
-    for (std::int32_t i = row_start_[row]; i < row_start_[row + 1]; ++i)
-      scratch_[4 * at(row_column_[at(i)])] = row_weight_[at(i)];
-    factor_.solve(scratch_.data());
-    for (std::size_t c = 0; c < count; ++c) influence_[row * count + c] = scratch_[4 * c];
+void Translations::add_influences() {
+  region_rows_ = row_start_.size() - 1;
+  for (std::size_t i = 0; i < vertex_rows * blend_count; ++i) {
+    row_column_.push_back(0), row_weight_.push_back(0), row_point_.push_back(Vec3());
+    if ((i + 1) % blend_count == 0) row_start_.push_back(static_cast<std::int32_t>(row_column_.size()));
   }
-  for (std::size_t a = 0; a < rows; ++a) {
-    for (std::size_t b = 0; b < rows; ++b) {
+  const std::size_t rows = row_start_.size() - 1;
+  influence_.assign(rows * at(count_), 0.0), gram_.assign(rows * rows, 0.0);
+  hold_matrix_.assign(rows * rows, 0.0), hold_rhs_.assign(rows, Vec3());
+  fill_influences(0, region_rows_);
+}
+
+void Translations::fill_influences(std::size_t first, std::size_t last) noexcept {
+  const std::size_t rows = row_start_.size() - 1, count = at(count_);
+  for (std::size_t row = first; row < last; row += 4) {
+    const std::size_t width = std::min<std::size_t>(4, last - row);
+    std::fill(scratch_.begin(), scratch_.end(), 0.0);
+    for (std::size_t k = 0; k < width; ++k) {
+      for (std::int32_t i = row_start_[row + k]; i < row_start_[row + k + 1]; ++i)
+        scratch_[4 * at(row_column_[at(i)]) + k] += row_weight_[at(i)];
+    }
+    factor_.solve(scratch_.data());
+    for (std::size_t k = 0; k < width; ++k)
+      for (std::size_t c = 0; c < count; ++c) influence_[(row + k) * count + c] = scratch_[4 * c + k];
+  }
+  for (std::size_t a = 0; a < last; ++a) {
+    for (std::size_t b = first; b < last; ++b) {
       double sum = 0;
       for (std::int32_t i = row_start_[a]; i < row_start_[a + 1]; ++i)
         sum += row_weight_[at(i)] * influence_[b * count + at(row_column_[at(i)])];
-      gram_[a * rows + b] = sum;
+      gram_[a * rows + b] = gram_[b * rows + a] = sum;
     }
   }
+}
+
+void Translations::set_vertex_rows(std::size_t first, Span<const std::int32_t> vertices, const Core& target,
+                                   const Clusters& clusters) noexcept {
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    const std::size_t from = at(vertices[k]) * blend_count, to = at(row_start_[region_rows_ + first + k]);
+    for (std::size_t i = 0; i < blend_count; ++i) {
+      const double w = static_cast<double>(clusters.weight[from + i]);
+      row_column_[to + i] = w > 0 ? clusters.joint[from + i] : 0;
+      row_weight_[to + i] = w, row_point_[to + i] = w * target.mesh.positions[at(vertices[k])];
+    }
+  }
+  fill_influences(region_rows_ + first, region_rows_ + first + vertices.size());
+}
+
+std::int32_t Translations::heaviest(std::size_t row) const noexcept {
+  std::int32_t best = row_start_[row];
+  for (std::int32_t i = best; i < row_start_[row + 1]; ++i)
+    if (row_weight_[at(i)] > row_weight_[at(best)]) best = i;
+  return row_column_[at(best)];
+}
+
+double Translations::row_weight(std::size_t row, std::int32_t cluster) const noexcept {
+  for (std::int32_t i = row_start_[row]; i < row_start_[row + 1]; ++i)
+    if (row_column_[at(i)] == cluster) return row_weight_[at(i)];
+  return 0;
 }
 
 Vec3 Translations::place(std::size_t row, const Mat3* rotations, const Vec3* shifts) const noexcept {

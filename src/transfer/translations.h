@@ -23,6 +23,8 @@
 
 namespace hf {
 
+constexpr std::size_t vertex_rows = 24;  // single vertices that can be held in one frame
+
 struct TranslationOptions {
   double spread_share = 0.5;  // a
   double anchor = 1;          // l, relative to the mean diagonal of the energies
@@ -70,6 +72,14 @@ class Translations {
   // (R A^-1 R^T + diag(s_k (1 - share) / share)) m = goal - place, R the rows held, s the diagonal (Woodbury). At most
   // one hold per row. Allocates nothing.
   void hold(Span<const Hold> holds, Vec3 up, const Mat3* rotations, Vec3* shifts) noexcept;
+  // Rows of single vertices, vertex_row(i) for i = first .. first + vertices.size() - 1 < vertex_rows, to be held like
+  // regions: O(C^2) for four of them. Those before `first` stay, those after are void. Allocates nothing.
+  std::size_t vertex_row(std::size_t i) const noexcept { return region_rows_ + i; }
+  void set_vertex_rows(std::size_t first, Span<const std::int32_t> vertices, const Core& target,
+                       const Clusters& clusters) noexcept;
+  // The cluster of largest weight in a row.
+  std::int32_t heaviest(std::size_t row) const noexcept;
+  double row_weight(std::size_t row, std::int32_t cluster) const noexcept;
   // Where the mean of a row's region is now.
   Vec3 place(std::size_t row, const Mat3* rotations, const Vec3* shifts) const noexcept;
 
@@ -86,12 +96,14 @@ class Translations {
   void add_row(Span<const std::int32_t> vertices, Span<const double> weights, const Core& target,
                const Clusters& clusters);
 
-  void add_influences(Memory& memory);
+  void add_influences();
+  // A^-1 of the rows first .. last - 1, and their columns and rows of the Gram matrix against all before `last`.
+  void fill_influences(std::size_t first, std::size_t last) noexcept;
   // m of the held rows, `dimensions` numbers each in hold_rhs_; vertical holds take part when they are wanted.
   void solve_holds(Span<const Hold> holds, bool with_vertical) noexcept;
 
   std::int32_t count_ = 0;
-  std::size_t anchored_ = 0;
+  std::size_t anchored_ = 0, region_rows_ = 0;
   double anchor_ = 0, root_ = 0, whole_ = 0;
   DenseFactor factor_;
   Vector<double> scratch_;  // right-hand side and solution, four numbers per cluster
@@ -101,7 +113,8 @@ class Translations {
   Vector<std::int32_t> row_start_, row_column_;
   Vector<double> row_weight_;
   Vector<Vec3> row_point_;
-  // A^-1 of every row (rows x clusters), R A^-1 R^T, and scratch of the holds
+  // A^-1 of every row (rows x clusters), R A^-1 R^T, and scratch of the holds; the last vertex_rows rows are those of
+  // set_vertex_rows
   Vector<double> influence_, gram_, hold_matrix_;
   Vector<Vec3> hold_rhs_;
 };

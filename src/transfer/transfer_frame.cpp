@@ -1,0 +1,182 @@
+// One frame of a transfer (transfer.h): where the regions go, how the clusters turn and move, the blend.
+#include <cmath>
+
+#include "base/error.h"
+#include "transfer/prepared.h"
+
+namespace hf {
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double rigid_residual = 1e-3;  // of the box: frames much nearer to rigid are moved rigidly
+constexpr double turn_low = 20 * degree,
+                 turn_high = 50 * degree;  // between these a turn of the whole takes the anchors' offsets along
+constexpr std::int32_t refit_rounds = 4;
+constexpr std::size_t block = 2048;
+std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+bool is_finite(Vec3 p) noexcept { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+// How rigid a frame of the source is, and how far it has turned as a whole, 0 to 1.
+double rigid_share(const WholeMotion& whole) noexcept {
+  const double ratio = whole.residual / rigid_residual;
+  return 1 / (1 + ratio * ratio);
+}
+double turned_share(const Quaternion& turn) noexcept {
+  return smooth_step(turn_low, turn_high, angle_between(turn, Quaternion()));
+}
+
+// How far it has fallen over: turns about the vertical do not count.
+double fallen_share(const Quaternion& turn, Vec3 up) noexcept {
+  return smooth_step(turn_low, turn_high, std::acos(std::clamp(dot(up, rotate(turn, up)), -1.0, 1.0)));
+}
+
+// The part of a rotation about an axis.
+Quaternion about(const Quaternion& q, Vec3 axis) noexcept {
+  const double s = q.x * axis.x + q.y * axis.y + q.z * axis.z;
+  return normalised({s * axis.x, s * axis.y, s * axis.z, q.w});
+}
+
+}  // namespace
+
+// Where the anchored regions go. turn: rotation of the whole source in the target's frame. The offset between the two
+// rest shapes turns with a body that turns. A foot stands while the body turns over it: upright, its offset turns only
+// as far about the vertical as the foot itself has turned.
+void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const {
+  const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
+  const double rigid = rigid_share(whole), share = std::max(rigid, turned_share(turn)),
+               upright = 1 - std::max(rigid, fallen_share(turn, up));
+  const Mat3 carried = to_matrix(power(turn, share));
+  for (std::size_t k = 0; k < p.anchors.size(); ++k) {
+    const Prepared::Anchor& anchor = p.anchors[k];
+    const Span<const std::int32_t> from = source_.region(anchor.number), to = target_.region(anchor.number);
+    const Vec3 path = p.scale * rotate(axes_, region_mean(from, p.posed.data()) - anchor.source_rest);
+    const Vec3 offset =
+        anchor.target_rest - p.target_centroid - p.scale * rotate(axes_, anchor.source_rest - whole.rest_centroid);
+    Vec3 turned = carried * offset - offset;
+    if (anchor.is_foot && upright > 0) {
+      const auto c = static_cast<std::size_t>(anchor.cluster);
+      const Quaternion own = about(p.given[c] * conjugate(p.cluster_turn[c]), up);
+      turned = (1 - upright) * turned + upright * (rotate(power(own, turned_share(own)), offset) - offset);
+    }
+    p.goals[k] = anchor.target_rest + path + turned;
+    if (!anchor.is_foot) continue;
+    // not deeper under the ground than the source's foot
+    const double allowed =
+        p.target_ground + std::min(0.0, p.scale * (lowest(from, p.posed.data(), source_up) - p.source_ground));
+    const Mat3 rotation = p.translations.mean_rotation(k, p.matrices.data());
+    double low = 1e300;
+    for (const std::int32_t v : to)
+      low = std::min(low, dot(up, rotation * (target_core_->mesh.positions[at(v)] - anchor.target_rest)));
+    const double lift = allowed - (dot(up, p.goals[k]) + low);
+    if (lift > 0) p.goals[k] = p.goals[k] + (1 - share) * lift * up;
+  }
+}
+
+void Transfer::read_holds(Prepared& p, Span<const PairHold> holds) const {
+  for (Hold& hold : p.given_hold) hold.share = 0;
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    const auto index = static_cast<std::uint32_t>(i);
+    const std::uint32_t number = holds[i].pair;
+    if (!std::binary_search(numbers_.begin(), numbers_.end(), number))
+      fail(HF_ERROR_NO_SUCH_PAIR, index, "entry %zu of the holds: the transfer has no pair %u", i, number);
+    if (!is_finite(holds[i].place))
+      fail(HF_ERROR_NON_FINITE, index, "entry %zu of the holds: the place of pair %u is not finite", i, number);
+    const auto row_in = [&](const Vector<Prepared::Anchor>& list) {
+      std::size_t k = 0;
+      while (k < list.size() && list[k].number != number) ++k;
+      return k;
+    };
+    std::size_t row = row_in(p.anchors);
+    if (row == p.anchors.size()) row = p.anchors.size() + 1 + row_in(p.loose);
+    Hold& hold = p.given_hold[row];
+    if (hold.share > 0)
+      fail(HF_ERROR_INVALID_ARGUMENT, index, "entry %zu of the holds: pair %u is held already", i, number);
+    hold.row = row, hold.goal = target_core_->mesh.to_inner(holds[i].place), hold.share = 1, hold.vertical = false;
+  }
+}
+
+void Transfer::settle(Prepared& p, Vec3 centroid) const {
+  p.translations.solve(p.clusters, p.matrices.data(), {p.goals.data(), p.goals.size()}, centroid,
+                       p.cluster_goals.data(), p.shifts.data());
+}
+
+void Transfer::turn_clusters(Prepared& p) const {
+  p.refit.turn(p.given.data(), p.shifts.data(), p.rotations.data(), p.matrices.data());
+  for (std::size_t c = 0; c < p.rotations.size(); ++c) p.matrices[c] = to_matrix(p.rotations[c]);
+}
+
+void Transfer::blend(Prepared& p) const {
+  for (std::size_t c = 0; c < p.columns.size(); ++c) {
+    BlendColumns& to = p.columns[c];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) to.m[j][i] = p.matrices[c].m[i][j];
+    to.m[3][0] = p.shifts[c].x, to.m[3][1] = p.shifts[c].y, to.m[3][2] = p.shifts[c].z;
+  }
+  const Vec3* rest = target_core_->mesh.positions.data();
+  const std::size_t n = p.blended.size();
+  target_core_->jobs->for_each(static_cast<std::uint32_t>((n + block - 1) / block), [&](std::uint32_t b) {
+    const std::size_t last = std::min(n, (std::size_t{b} + 1) * block);
+    for (std::size_t v = std::size_t{b} * block; v < last; ++v) {
+      const Vec3 x = rest[v];
+      double sum[4] = {0, 0, 0, 0};
+      for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
+        const double w = static_cast<double>(p.clusters.weight[i]);
+        if (w <= 0) break;
+        const BlendColumns& c = p.columns[at(p.clusters.joint[i])];
+        for (int k = 0; k < 4; ++k) sum[k] += w * (c.m[0][k] * x.x + c.m[1][k] * x.y + c.m[2][k] * x.z + c.m[3][k]);
+      }
+      p.blended[v] = {sum[0], sum[1], sum[2]};
+    }
+  });
+}
+
+void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) {
+  for (std::int32_t v = 0; v < source_core_->size(); ++v) {
+    if (!is_finite(source[v]))
+      fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(v), "vertex %d of the posed source is not finite", v);
+  }
+  Prepared& p = prepare();
+  read_holds(p, holds);
+  const Mesh& from = source_core_->mesh;
+  const Mesh& to = target_core_->mesh;
+  for (std::size_t v = 0; v < p.posed.size(); ++v) p.posed[v] = from.to_inner(source[v]);
+  const WholeMotion whole = p.source_rotations.whole(from, source_area_, p.posed.data());
+  p.source_rotations.clusters(p.clusters, p.posed.data(), whole.rotation, p.given.data(), *target_core_->jobs);
+
+  // into the target's axes and rest directions
+  const Quaternion turn = normalised(axes_ * whole.rotation * conjugate(axes_));
+  const Vec3 centroid = p.target_centroid + p.scale * rotate(axes_, whole.centroid - whole.rest_centroid);
+  for (std::size_t c = 0; c < p.rotations.size(); ++c) {
+    p.given[c] = p.rotations[c] = normalised(axes_ * p.given[c] * conjugate(axes_) * p.cluster_turn[c]);
+    p.matrices[c] = to_matrix(p.rotations[c]);
+    p.cluster_goals[c] = centroid + rotate(turn, p.clusters.pivot[c] - p.target_centroid);
+  }
+  place_anchors(p, whole, turn);
+  const double rigid = rigid_share(whole), fallen = fallen_share(turn, up_of(target_axes_));
+  const double share = std::max(rigid, fallen);
+  settle(p, centroid);
+  hold_regions(p, share);
+  const bool over_ground = options_.mode == HF_TRANSFER_FIELDS && !p.anchors.empty();
+  const double lies = over_ground ? (1 - rigid) * lying_share(p) : 0.0;
+  if (lies > 0) lie_down(p, centroid, lies, fallen, share);
+  // nothing pulls where there is no anchor
+  const std::int32_t rounds =
+      options_.mode == HF_TRANSFER_PAPER || (p.anchors.empty() && holds.empty()) ? 0 : refit_rounds;
+  for (std::int32_t round = 0; round < rounds; ++round) {
+    turn_clusters(p);
+    settle(p, centroid);
+    hold_regions(p, share);
+  }
+  if (lies > 0) lie_down(p, centroid, lies, fallen, share);
+  blend(p);
+  if (over_ground) keep_above_ground(p, centroid, 1 - rigid, (1 - lies) * fallen);
+  target_core_->jobs->for_each(static_cast<std::uint32_t>((p.blended.size() + block - 1) / block),
+                               [&](std::uint32_t b) {
+                                 const std::size_t last = std::min(p.blended.size(), (std::size_t{b} + 1) * block);
+                                 for (std::size_t v = std::size_t{b} * block; v < last; ++v)
+                                   out[v] = to.to_given(p.blended[v]);
+                               });
+}
+
+}  // namespace hf

@@ -1,0 +1,200 @@
+// Over the ground: regions that stand, touch or would sink, and the rest of the surface.
+//
+// A frame's ground is the lowest point of the rest shape. What the source allows is the scaled depth to which it sinks
+// itself. Regions are held while the translations are solved (hold_regions). The rest of the surface:
+// - A source that lies touches the ground with clusters that are far above it at rest. The same clusters of the target
+//   shall touch: the anchors go down, or up, by the mean of their heights over those of the source's, scaled
+//   (lie_down).
+// - A body that has fallen over and does not lie yet goes up as a whole by what sinks.
+// - Of what still sinks - a tail that hangs down to the ground, a toe, a hem - the deepest vertex of each cluster is
+//   held at the allowed height like a region, or, where the vertex moves with the region of a pair, that region
+//   is raised, and the clusters turn to follow.
+// Nothing is paid in frames where nothing lies or sinks but a look at every height.
+#include <cmath>
+
+#include "transfer/prepared.h"
+
+namespace hf {
+namespace {
+
+// heights over the ground: of a foot, in boxes, that stands or flies; of a contact, in its own rest heights
+constexpr double stands = 0.01, flies = 0.05, touches = 0.1, leaves = 0.45;
+constexpr double lies_low = 0.01, lies_high = 0.06;  // share of the surface in clusters that touch and do not at rest
+constexpr double least_depth = 1e-4;                 // of the box: less is no sinking
+constexpr double firm = 0.98;                        // share of a held vertex
+constexpr std::int32_t sunk_rounds = 8, turning_rounds = 3;
+std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+// Holds the regions that stand, touch, would sink, or that the caller places. share: how far the frame is a rigid
+// motion or the body has fallen over, where none of them hold by themselves.
+void Transfer::hold_regions(Prepared& p, double share) const {
+  const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
+  const bool by_itself = options_.mode == HF_TRANSFER_FIELDS && share < 1;
+  p.holds.clear();
+  for (std::size_t row = 0; row < p.given_hold.size(); ++row) {
+    if (p.given_hold[row].share > 0) {
+      p.holds.push_back(p.given_hold[row]);
+      continue;
+    }
+    if (!by_itself || row == p.anchors.size()) continue;
+    const bool anchored = row < p.anchors.size();
+    const Prepared::Anchor& pair = anchored ? p.anchors[row] : p.loose[row - p.anchors.size() - 1];
+    const double height = lowest(source_.region(pair.number), p.posed.data(), source_up) - p.source_ground;
+    Hold hold;
+    hold.row = row;
+    if (pair.is_foot) {
+      hold.goal = p.goals[row], hold.share = (1 - share) * (1 - smooth_step(stands, flies, p.scale * height));
+      if (hold.share > 0) p.holds.push_back(hold);
+      continue;
+    }
+    // lowest vertex of the region about its mean, as the blend turns it
+    const Mat3 rotation = p.translations.mean_rotation(row, p.matrices.data());
+    double low = 1e300;
+    for (const std::int32_t v : target_.region(pair.number))
+      low = std::min(low, dot(up, rotation * (target_core_->mesh.positions[at(v)] - pair.target_rest)));
+    const Vec3 now = p.translations.place(row, p.matrices.data(), p.shifts.data());
+    const double at_height = dot(up, now) + low - p.target_ground;
+    const double rest =
+        lowest(source_.region(pair.number), source_core_->mesh.positions.data(), source_up) - p.source_ground;
+    double wanted = at_height;
+    if ((pair.flags & HF_PAIR_CONTACT) && rest > 0) {
+      hold.share = (1 - share) * (1 - smooth_step(touches, leaves, std::max(height, 0.0) / rest));
+      wanted = p.scale * height;
+    }
+    const double allowed = std::min(0.0, p.scale * height);
+    if (at_height + hold.share * (wanted - at_height) < allowed) wanted = allowed, hold.share = 1 - share;
+    if (wanted == at_height || !(hold.share > 1e-6)) continue;
+    hold.goal = now + (wanted - at_height) * up, hold.vertical = true;
+    p.holds.push_back(hold);
+  }
+  p.translations.hold({p.holds.data(), p.holds.size()}, up, p.matrices.data(), p.shifts.data());
+}
+
+// Heights of the source's clusters, scaled, and how far the source lies, 0 to 1.
+double Transfer::lying_share(Prepared& p) const noexcept {
+  const Vec3 up = up_of(source_axes_);
+  p.source_low = 1e300;
+  std::fill(p.source_lows.begin(), p.source_lows.end(), 1e300);
+  for (std::size_t v = 0; v < p.posed.size(); ++v) {
+    const double height = dot(p.posed[v], up);
+    p.source_low = std::min(p.source_low, height);
+    double& low = p.source_lows[at(p.source_owner[v])];
+    low = std::min(low, height);
+  }
+  double touching = 0;
+  for (std::size_t c = 0; c < p.source_lows.size(); ++c) {
+    double& low = p.source_lows[c];
+    low = p.scale * (low - p.source_ground);
+    p.touch[c] = p.rest_lows[c] > flies ? p.clusters.mass[c] * (1 - smooth_step(stands, flies, low)) : 0.0;
+    touching += p.touch[c];
+  }
+  return smooth_step(lies_low, lies_high, touching);
+}
+
+// The anchors follow the clusters that touch.
+void Transfer::lie_down(Prepared& p, Vec3 centroid, double lies, double fallen, double share) const {
+  const Vec3 up = up_of(target_axes_);
+  blend(p);
+  std::fill(p.target_lows.begin(), p.target_lows.end(), 1e300);
+  for (std::size_t v = 0; v < p.blended.size(); ++v) {
+    double& low = p.target_lows[at(p.clusters.joint[v * blend_count])];
+    low = std::min(low, dot(up, p.blended[v]));
+  }
+  double sum = 0, mass = 0;
+  for (std::size_t c = 0; c < p.target_lows.size(); ++c) {
+    if (!(p.touch[c] > 0) || p.target_lows[c] > 1e299) continue;
+    sum += p.touch[c] * (p.target_lows[c] - p.target_ground - p.source_lows[c]), mass += p.touch[c];
+  }
+  if (!(mass > 0)) return;
+  for (std::size_t k = 0; k < p.anchors.size(); ++k)
+    p.goals[k] = p.goals[k] - lies * (p.anchors[k].is_foot ? fallen : 1.0) * (sum / mass) * up;
+  settle(p, centroid);
+  hold_regions(p, share);
+}
+
+void Transfer::find_sunk(Prepared& p, Vec3 up, double allowed) const noexcept {
+  std::fill(p.deepest.begin(), p.deepest.end(), Prepared::Sunk());
+  const std::size_t rows = p.given_hold.size();
+  for (std::size_t v = 0; v < p.blended.size(); ++v) {
+    const double depth = allowed - dot(up, p.blended[v]);
+    if (!(depth > least_depth)) continue;
+    const std::int32_t row = p.rides[v];
+    if (row >= 0 && p.given_hold[at(row)].share > 0) continue;  // the caller has put it there
+    Prepared::Sunk& sunk = p.deepest[row >= 0 ? at(row) : rows + at(p.clusters.joint[v * blend_count])];
+    if (depth > sunk.depth) sunk.depth = depth, sunk.vertex = static_cast<std::int32_t>(v);
+  }
+}
+
+// Raises the hold of each row that sinks, or makes one, and holds the deepest vertices of the clusters. False when
+// nothing sinks.
+bool Transfer::hold_sunk(Prepared& p, Vec3 up, double share, std::size_t& held) const noexcept {
+  const std::size_t rows = p.given_hold.size();
+  bool any = false;
+  const auto raise = [&](std::size_t row, double depth) {
+    any = true;
+    Hold fresh;
+    fresh.row = row, fresh.share = firm * share, fresh.vertical = true;
+    fresh.goal = p.translations.place(row, p.matrices.data(), p.shifts.data()) + (depth - p.lift) * up;
+    for (Hold& hold : p.holds) {
+      if (hold.row != row) continue;
+      if (hold.share < 0.5 * firm * share)
+        hold = fresh;  // hardly held
+      else
+        hold.goal = hold.goal + depth / hold.share * up;
+      return;
+    }
+    p.holds.push_back(fresh);
+  };
+  for (std::size_t row = 0; row < rows; ++row)
+    if (p.deepest[row].vertex >= 0) raise(row, p.deepest[row].depth);
+  // the deepest clusters first, as far as there are rows
+  while (true) {
+    Prepared::Sunk* deepest = nullptr;
+    for (std::size_t c = rows; c < p.deepest.size(); ++c)
+      if (p.deepest[c].vertex >= 0 && (!deepest || p.deepest[c].depth > deepest->depth)) deepest = &p.deepest[c];
+    if (!deepest) return any;
+    const std::int32_t vertex = deepest->vertex;
+    deepest->vertex = -1;
+    std::size_t slot = 0;
+    const auto cluster_of = [&](std::int32_t v) { return p.clusters.joint[at(v) * blend_count]; };
+    while (slot < held && cluster_of(p.held_vertices[slot]) != cluster_of(vertex)) ++slot;
+    if (slot == vertex_rows) continue;
+    if (slot == held) {
+      p.held_vertices[held++] = vertex;
+      p.translations.set_vertex_rows(slot, {&p.held_vertices[slot], 1}, *target_core_, p.clusters);
+    }
+    raise(p.translations.vertex_row(slot), deepest->depth);
+  }
+}
+
+// share: how far the frame is none of a rigid motion; fallen: how far the body has fallen over and does not lie.
+void Transfer::keep_above_ground(Prepared& p, Vec3 centroid, double share, double fallen) const {
+  if (!(share > 1e-3)) return;
+  const Vec3 up = up_of(target_axes_);
+  double low = 1e300;
+  for (const Vec3& point : p.blended) low = std::min(low, dot(point, up));
+  const double allowed = p.target_ground + p.scale * std::min(0.0, p.source_low - p.source_ground);
+  if (!(allowed - low > least_depth)) return;
+  p.lift = share * fallen * (allowed - low);
+  const auto move = [&] {
+    for (Vec3& shift : p.shifts) shift = shift + p.lift * up;
+    blend(p);
+  };
+  if (p.lift > 0) move();
+  std::size_t held = 0;
+  for (std::int32_t round = 0; round < sunk_rounds; ++round) {
+    find_sunk(p, up, allowed);
+    if (!hold_sunk(p, up, share, held)) return;
+    for (const bool again : {true, false}) {
+      settle(p, centroid);
+      p.translations.hold({p.holds.data(), p.holds.size()}, up, p.matrices.data(), p.shifts.data());
+      if (!again || round >= turning_rounds) break;
+      turn_clusters(p);
+    }
+    move();
+  }
+}
+
+}  // namespace hf
