@@ -49,13 +49,6 @@ void multiply_rows_fixed(double* panel, std::int64_t stride, std::int32_t v, std
   }
 }
 
-// Calls body with Constant<columns>; 1 <= columns <= Most.
-template <int Most, class Body>
-inline void with_columns(std::int32_t columns, Body&& body) noexcept {
-  if (columns == Most) return body(Constant<Most>{});
-  if constexpr (Most > 1) with_columns<Most - 1>(columns, body);
-}
-
 void multiply_inverse(const FrontView& front, std::int32_t tile_begin, std::int32_t tile_end) {
   const std::int64_t stride = 8 * static_cast<std::int64_t>(front.columns);
   with_columns<most_narrow>(front.columns, [&](auto columns) {
@@ -118,39 +111,45 @@ inline void backward_narrow_columns(const T* triangle, const std::int32_t* rows,
   }
 }
 
-// Backward, one vector of right-hand sides along the lanes, N columns in registers.
+// Backward, one vector of right-hand sides along the lanes, columns [begin, begin + N) in registers; the columns before
+// are done already, those behind are not.
 template <class T, int N>
-inline void backward_narrow_lanes(const T* triangle, const std::int32_t* rows, std::int32_t row_count, T* z,
-                                  std::int32_t first, std::int32_t channels, int count) noexcept {
+inline void backward_narrow_lanes(const T* triangle, std::int32_t columns, std::int32_t begin, const std::int32_t* rows,
+                                  std::int32_t row_count, T* z, std::int32_t first, std::int32_t channels,
+                                  int count) noexcept {
   using S = Simd<T>;
   typename S::Type sum[N];
   for (int j = 0; j < N; ++j) sum[j] = S::zero();
   T* own = z + static_cast<std::int64_t>(first) * channels;
-  const T* row = triangle;
-  for (int i = 0; i < N; row += ++i) {
-    const typename S::Type x = load_lanes<T>(own + static_cast<std::int64_t>(i) * channels, count);
+  const T* row = triangle + begin * (begin + 1) / 2 + begin;
+  for (int i = 0; i < N; row += begin + ++i) {
+    const typename S::Type x = load_lanes<T>(own + static_cast<std::int64_t>(begin + i) * channels, count);
     for (int j = 0; j <= i; ++j) sum[j] = S::multiply_add(S::all(row[j]), x, sum[j]);
   }
-  for (std::int32_t r = 0; r < row_count; ++r, row += N) {
-    const typename S::Type x = load_lanes<T>(z + static_cast<std::int64_t>(rows[r]) * channels, count);
-    for (int j = 0; j < N; ++j) sum[j] = S::subtract_product(S::all(row[j]), x, sum[j]);
+  for (std::int32_t i = begin + N; i < columns; row += ++i) {
+    const typename S::Type x = load_lanes<T>(own + static_cast<std::int64_t>(i) * channels, count);
+    for (int j = 0; j < N; ++j) sum[j] = S::multiply_add(S::all(row[j]), x, sum[j]);
   }
-  for (int j = 0; j < N; ++j) store_lanes<T>(own + static_cast<std::int64_t>(j) * channels, sum[j], count);
+  const T* below = triangle + columns * (columns + 1) / 2 + begin;
+  for (std::int32_t r = 0; r < row_count; ++r, below += columns) {
+    const typename S::Type x = load_lanes<T>(z + static_cast<std::int64_t>(rows[r]) * channels, count);
+    for (int j = 0; j < N; ++j) sum[j] = S::subtract_product(S::all(below[j]), x, sum[j]);
+  }
+  for (int j = 0; j < N; ++j) store_lanes<T>(own + static_cast<std::int64_t>(begin + j) * channels, sum[j], count);
 }
 
-// z <- X' z, first row first.
 template <class T>
-inline void backward_own(const T* triangle, std::int32_t columns, T* own, std::int32_t channels) noexcept {
-  using S = Simd<T>;
-  for (std::int32_t j = 0; j < columns; ++j) {
-    for (std::int32_t c = 0; c < channels; c += S::width) {
-      const int count = channels - c < S::width ? channels - c : S::width;
-      typename S::Type sum = S::zero();
-      for (std::int32_t i = j; i < columns; ++i)
-        sum = S::multiply_add(S::all(triangle[i * (i + 1) / 2 + j]), load_lanes<T>(own + i * channels + c, count), sum);
-      store_lanes<T>(own + j * channels + c, sum, count);
-    }
-  }
+void backward_narrow_vector(const T* triangle, std::int32_t columns, const std::int32_t* rows, std::int32_t row_count,
+                            T* z, std::int32_t first, std::int32_t channels, int count) noexcept {
+  constexpr int most = gemm_columns == 8 ? most_narrow : 8;  // 32 registers or 16
+  std::int32_t begin = 0;
+  const auto run = [&](auto size) {
+    constexpr int n = decltype(size)::value;
+    backward_narrow_lanes<T, n>(triangle, columns, begin, rows, row_count, z, first, channels, count);
+    begin += n;
+  };
+  while (begin + most < columns) run(Constant<most>{});
+  with_columns<most>(columns - begin, run);
 }
 
 template <class T>
@@ -161,25 +160,22 @@ void backward_narrow_any(const T* triangle, const std::int32_t* rows, std::int32
       backward_narrow_columns<T, decltype(size)::value, 1>(triangle, rows, row_count, z, first);
     });
   }
-  if (columns > 8) {
-    backward_own<T>(triangle, columns, z + static_cast<std::int64_t>(first) * channels, channels);
-    return backward_rows_any<T>(triangle + columns * (columns + 1) / 2, rows, row_count, columns, 0, columns, z, first,
-                                channels);
+  if (channels > 4) {
+    for (std::int32_t c = 0; c < channels; c += Simd<T>::width) {
+      const int count = channels - c < Simd<T>::width ? channels - c : Simd<T>::width;
+      backward_narrow_vector<T>(triangle, columns, rows, row_count, z + c, first, channels, count);
+    }
+    return;
   }
-  with_columns<8>(columns, [&](auto size) {
+  with_columns<most_narrow>(columns, [&](auto size) {
     constexpr int n = decltype(size)::value;
     switch (channels) {
       case 2:
         return backward_narrow_columns<T, n, 2>(triangle, rows, row_count, z, first);
       case 3:
         return backward_narrow_columns<T, n, 3>(triangle, rows, row_count, z, first);
-      case 4:
-        return backward_narrow_columns<T, n, 4>(triangle, rows, row_count, z, first);
       default:
-        for (std::int32_t c = 0; c < channels; c += Simd<T>::width) {
-          const int count = channels - c < Simd<T>::width ? channels - c : Simd<T>::width;
-          backward_narrow_lanes<T, n>(triangle, rows, row_count, z + c, first, channels, count);
-        }
+        return backward_narrow_columns<T, n, 4>(triangle, rows, row_count, z, first);
     }
   });
 }

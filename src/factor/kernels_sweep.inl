@@ -11,16 +11,33 @@ namespace {
 constexpr std::int32_t chunk_columns = 256;   // columns summed at a time on the stack, several right-hand sides
 constexpr std::int32_t single_columns = 1024;  // and one: as many as rows have, so that a block is one stream
 
+template <class T>
+constexpr int line = 64 / sizeof(T);  // numbers of a cache line
+
+// Rows that stay in the second-level cache while strips of columns go over them.
+inline std::int32_t rows_of_pass(std::int64_t columns) noexcept {
+  constexpr std::int64_t numbers = 8192;
+  return columns * 16 > numbers ? 16 : static_cast<std::int32_t>(numbers / columns);
+}
+
 template <int N>
 struct Constant {
   static constexpr int value = N;
 };
 
+// Calls body with Constant<columns>; 1 <= columns <= Most.
+template <int Most, class Body>
+inline void with_columns(std::int32_t columns, Body&& body) noexcept {
+  if (columns == Most) return body(Constant<Most>{});
+  if constexpr (Most > 1) with_columns<Most - 1>(columns, body);
+}
+
 // Sums of up to NV vectors of columns over all rows, C right-hand sides, `Chains` rows in flight: sum[c * chunk +
 // column].
-template <class T, int C, int NV, int Chains>
+// Strips of a wide block read it out of order: each row asks for as many numbers `ahead` in order.
+template <class T, int C, int NV, int Chains, bool Ahead = false>
 inline void sum_in_registers(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
-                             const T* z, std::int32_t channels, T* sum) noexcept {
+                             const T* z, std::int32_t channels, T* sum, const T* ahead = nullptr) noexcept {
   using S = Simd<T>;
   typename S::Type part[Chains][C][NV];
   for (int h = 0; h < Chains; ++h) {
@@ -33,6 +50,10 @@ inline void sum_in_registers(const T* block, std::int64_t stride, const std::int
   for (; r + Chains <= row_count; r += Chains) {
     for (int h = 0; h < Chains; ++h) {
       const T* x = z + static_cast<std::int64_t>(rows[r + h]) * channels;
+      if (Ahead) {
+        for (int v = 0; v < NV; ++v) __builtin_prefetch(ahead + v * S::width);
+        ahead += NV * S::width;
+      }
       typename S::Type entry[NV];
       for (int v = 0; v < NV; ++v) entry[v] = S::load(block + v * S::width);
       for (int c = 0; c < C; ++c) {
@@ -92,24 +113,22 @@ inline void sum_channels(const T* block, std::int64_t stride, const std::int32_t
   using S = Simd<T>;
   // sums kept in registers: about 16 vectors of 32 or 12 of 16
   constexpr int most = gemm_columns == 8 ? (C >= 8 ? 2 : 16 / C >= 8 ? 8 : 16 / C) : (C >= 4 ? (C > 4 ? 1 : 2) : 8 / C);
-  // rows in passes that stay in the second-level cache while the column groups go over them
-  const std::int32_t pass = stride > 2048 ? 16 : static_cast<std::int32_t>(32768 / stride);
+  const std::int32_t pass = rows_of_pass(stride);
   for (std::int32_t r = 0; r < row_count; r += pass) {
     const std::int32_t count = row_count - r < pass ? row_count - r : pass;
     const T* first = block + r * stride;
+    const T* ahead = first + static_cast<std::int64_t>(pass) * stride;
+    const auto strip = [&](auto vectors, std::int32_t j) {
+      constexpr int n = decltype(vectors)::value;
+      sum_in_registers<T, C, n, 1, true>(first + j, stride, rows + r, count, z, channels, sum + j,
+                                         ahead + static_cast<std::int64_t>(j) * count);
+      return j + n * S::width;
+    };
     std::int32_t j = 0;
-    while (j < width) {
-      const std::int32_t vectors = (width - j + S::width - 1) / S::width;
-      if (vectors >= most) {
-        sum_in_registers<T, C, most, 1>(first + j, stride, rows + r, count, z, channels, sum + j);
-        j += most * S::width;
-      } else if (vectors >= 2 && most > 2) {
-        sum_in_registers<T, C, most >= 2 ? 2 : 1, 1>(first + j, stride, rows + r, count, z, channels, sum + j);
-        j += 2 * S::width;
-      } else {
-        sum_in_registers<T, C, 1, 1>(first + j, stride, rows + r, count, z, channels, sum + j);
-        j += S::width;
-      }
+    while (j + (most - 1) * S::width < width) j = strip(Constant<most>{}, j);
+    if (most > 1 && j < width) {
+      with_columns<(most > 1 ? most - 1 : 1)>((width - j + S::width - 1) / S::width,
+                                              [&](auto vectors) { strip(vectors, j); });
     }
   }
 }
@@ -161,15 +180,18 @@ inline void store_lanes(T* p, typename Simd<T>::Type v, int count) noexcept {
     Simd<T>::store_part(p, v, count);
 }
 
-// N columns for one vector of channels: the factor's entries are broadcast, target[j] -= sum over the rows.
+// N columns for one vector of channels: the factor's entries are broadcast, target[j] -= sum over the rows. The strips
+// of N columns read the block out of order, so each row asks for as many numbers `ahead` as it reads, in order.
 template <class T, int N>
 inline void subtract_lanes(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
-                           const T* z, T* target, std::int32_t channels, int count) noexcept {
+                           const T* z, T* target, std::int32_t channels, int count, const T* ahead) noexcept {
   using S = Simd<T>;
   typename S::Type sum[N];
   for (int j = 0; j < N; ++j) sum[j] = S::zero();
   for (std::int32_t r = 0; r < row_count; ++r, block += stride) {
     const typename S::Type x = load_lanes<T>(z + static_cast<std::int64_t>(rows[r]) * channels, count);
+    for (int k = 0; k < N; k += line<T>) __builtin_prefetch(ahead + k);
+    ahead += N;
     for (int j = 0; j < N; ++j) sum[j] = S::multiply_add(S::all(block[j]), x, sum[j]);
   }
   for (int j = 0; j < N; ++j) {
@@ -183,24 +205,23 @@ template <class T>
 void backward_rows_lanes(const T* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
                          std::int32_t width, T* z, T* target, std::int32_t channels) noexcept {
   constexpr int group = gemm_columns == 8 ? 16 : 8;
-  const std::int32_t pass = columns > 2048 ? 16 : 32768 / columns;
+  const std::int32_t pass = rows_of_pass(columns);
   for (std::int32_t r = 0; r < row_count; r += pass) {
     const std::int32_t left = row_count - r < pass ? row_count - r : pass;
     const T* first = below + static_cast<std::int64_t>(r) * columns;
+    const std::int64_t ahead = static_cast<std::int64_t>(pass) * columns;
     for (std::int32_t c = 0; c < channels; c += Simd<T>::width) {
       const int count = channels - c < Simd<T>::width ? channels - c : Simd<T>::width;
       std::int32_t j = 0;
       const auto run = [&](auto size) {
         constexpr int n = decltype(size)::value;
         subtract_lanes<T, n>(first + j, columns, rows + r, left, z + c,
-                             target + static_cast<std::int64_t>(j) * channels + c, channels, count);
+                             target + static_cast<std::int64_t>(j) * channels + c, channels, count,
+                             first + ahead + static_cast<std::int64_t>(j) * left);
         j += n;
       };
       while (j + group <= width) run(Constant<group>{});
-      if (j + 8 <= width) run(Constant<8>{});
-      if (j + 4 <= width) run(Constant<4>{});
-      if (j + 2 <= width) run(Constant<2>{});
-      if (j < width) run(Constant<1>{});
+      if (j < width) with_columns<group - 1>(width - j, run);
     }
   }
 }
@@ -257,56 +278,73 @@ void backward_triangle_single(const T* triangle, std::int32_t columns, T* z) noe
   }
 }
 
-// Rows [begin, end) of the triangle, one vector of channels: own[j - begin] are those rows, other[i - left] the columns
-// from `left` on, each a whole vector.
-template <class T>
-inline void backward_lanes(const T* triangle, std::int64_t begin, std::int64_t end, std::int64_t left,
-                           std::int64_t right, T* own, T* other, std::int64_t step) noexcept {
-  using S = Simd<T>;
-  for (std::int64_t j = end - 1; j >= begin; --j) {
-    const T* row = triangle + j * (j + 1) / 2;
-    T* at = own + (j - begin) * step;
-    typename S::Type value = S::load(at);
-    if (left == begin) value = S::multiply(value, S::all(row[j])), S::store(at, value);
-    const std::int64_t last = left == begin ? j : right;
-    T* target = other;
-    for (std::int64_t i = left; i < last; ++i, target += step)
-      S::store(target, S::subtract_product(S::all(row[i]), value, S::load(target)));
+// Rows [begin, end) of the packed triangle, at most 8 and solved in `x`: what they contribute to columns [left, right),
+// which lie in a copy of whole vectors, the nearest first.
+template <class T, class S>
+inline void subtract_solved(const T* const* row, const typename S::Type* x, std::int32_t left, std::int32_t right,
+                            T* copy) noexcept {
+  for (std::int32_t i = right - 1; i >= left; --i) {
+    T* at = copy + (i - left) * S::width;
+    typename S::Type target = S::load(at);
+    for (std::int32_t k = 7; k >= 0; --k) target = S::subtract_product(S::all(row[k][i]), x[k], target);
+    S::store(at, target);
   }
 }
 
-// The channels lie along the lanes, the entries of the triangle are broadcast. Part vectors go through copies of whole
-// ones: a masked store would not be forwarded to the load after it.
+// Several right-hand sides along the lanes, 256 columns at a time in a copy (part vectors stored next to each other
+// would not be forwarded to the loads after them), 8 rows at a time: each target is loaded and stored once for 8 rows.
+template <class T, class S>
+inline void backward_triangle_lanes(const T* triangle, std::int32_t columns, T* z, std::int32_t channels,
+                                    int count) noexcept {
+  constexpr std::int32_t block = 8, segment = 256;
+  alignas(64) T copy[segment * S::width];
+  const auto load = [&](const T* p) { return count == S::width ? S::load(p) : S::load_part(p, count); };
+  const std::int64_t step = channels;
+  const T* row[block];
+  typename S::Type x[block];
+  const auto take_rows = [&](std::int32_t from, std::int32_t to) {
+    for (std::int64_t k = 0; k < block; ++k) row[k] = triangle + (from + k) * (from + k + 1) / 2;
+    for (std::int32_t k = to - from; k < block; ++k) row[k] = row[0], x[k] = S::zero();
+  };
+  std::int32_t left = (columns - 1) / segment * segment;
+  for (std::int32_t right = columns; right > 0; right = left, left -= segment) {
+    for (std::int32_t i = left; i < right; ++i) S::store(copy + (i - left) * S::width, load(z + i * step));
+    for (std::int32_t to = columns; to > right; to = (to - 1) / block * block) {
+      const std::int32_t from = (to - 1) / block * block;
+      take_rows(from, to);
+      for (std::int32_t k = 0; k < to - from; ++k) x[k] = load(z + (from + k) * step);
+      subtract_solved<T, S>(row, x, left, right, copy);
+    }
+    for (std::int32_t to = right; to > left; to = (to - 1) / block * block) {
+      const std::int32_t from = (to - 1) / block * block;
+      take_rows(from, to);
+      T* own = copy + (from - left) * S::width;
+      for (std::int32_t k = 0; k < to - from; ++k) x[k] = S::load(own + k * S::width);
+      for (std::int32_t k = to - from - 1; k >= 0; --k) {
+        x[k] = S::multiply(x[k], S::all(row[k][from + k]));
+        S::store(own + k * S::width, x[k]);
+        for (std::int32_t l = 0; l < k; ++l) x[l] = S::subtract_product(S::all(row[k][from + l]), x[k], x[l]);
+      }
+      subtract_solved<T, S>(row, x, left, from, copy);
+    }
+    for (std::int32_t i = left; i < right; ++i) {
+      const typename S::Type value = S::load(copy + (i - left) * S::width);
+      count == S::width ? S::store(z + i * step, value) : S::store_part(z + i * step, value, count);
+    }
+  }
+}
+
 template <class T>
 void backward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::int32_t channels) {
   using S = Simd<T>;
+  using Half = typename Narrow<T, 4>::Set;
   if (channels == 1) return backward_triangle_single<T>(triangle, columns, z);
-  constexpr std::int32_t block = 64;
   for (std::int32_t c = 0; c < channels; c += S::width) {
     const int count = channels - c < S::width ? channels - c : S::width;
-    if (count == S::width) {
-      backward_lanes<T>(triangle, 0, columns, 0, columns, z + c, z + c, channels);
-      continue;
-    }
-    alignas(64) T own[block * S::width], other[block * S::width];
-    const auto fetch = [&](T* copy, std::int32_t from, std::int32_t to) {
-      for (std::int32_t j = from; j < to; ++j)
-        S::store(copy + (j - from) * S::width, S::load_part(z + static_cast<std::int64_t>(j) * channels + c, count));
-    };
-    const auto put = [&](const T* copy, std::int32_t from, std::int32_t to) {
-      for (std::int32_t j = from; j < to; ++j)
-        S::store_part(z + static_cast<std::int64_t>(j) * channels + c, S::load(copy + (j - from) * S::width), count);
-    };
-    std::int32_t begin = (columns - 1) / block * block;
-    for (std::int32_t end = columns; end > 0; end = begin, begin -= block) {
-      fetch(own, begin, end);
-      backward_lanes<T>(triangle, begin, end, begin, end, own, own, S::width);
-      put(own, begin, end);
-      for (std::int32_t left = 0; left < begin; left += block) {
-        fetch(other, left, left + block);
-        backward_lanes<T>(triangle, begin, end, left, left + block, own, other, S::width);
-        put(other, left, left + block);
-      }
+    if (count <= Half::width) {
+      backward_triangle_lanes<T, Half>(triangle, columns, z + c, channels, count);
+    } else {
+      backward_triangle_lanes<T, S>(triangle, columns, z + c, channels, count);
     }
   }
 }
