@@ -9,45 +9,6 @@ namespace {
 using namespace transfer_test;
 using hf::Vec3;
 
-struct Animals {
-  World world;
-  Body horse = creature("horse", 2500, world), bull = creature("bull", 2000, world);
-  Pairs pairs = find_pairs("horse_to_bull.json", horse, bull);
-  const samples::Animation& walk =
-      horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
-  double box = bull.core->mesh.scale;
-  size_t pair(const std::string& name) const {
-    return static_cast<size_t>(std::find(pairs.names.begin(), pairs.names.end(), name) - pairs.names.begin());
-  }
-};
-
-const Animals& animals() {
-  static const Animals made;
-  return made;
-}
-
-// Mean over the vertices of a region, each once.
-Vec3 centre_of(std::vector<int32_t> region, const std::vector<Vec3>& points) {
-  std::sort(region.begin(), region.end());
-  region.erase(std::unique(region.begin(), region.end()), region.end());
-  Vec3 sum;
-  for (const int32_t v : region)
-    sum = sum + (1.0 / static_cast<double>(region.size())) * points[static_cast<size_t>(v)];
-  return sum;
-}
-
-double lowest_of(const std::vector<int32_t>& region, const std::vector<Vec3>& points) {
-  double low = 1e300;
-  for (const int32_t v : region) low = std::min(low, points[static_cast<size_t>(v)].y);
-  return low;
-}
-
-double lowest_of(const std::vector<Vec3>& points) {
-  double low = 1e300;
-  for (const Vec3& p : points) low = std::min(low, p.y);
-  return low;
-}
-
 TEST(TransferContacts, ARegionTheCallerHoldsGoesExactlyWhereItIsSaidAndTheRestFollows) {
   const Animals& a = animals();
   hf::Transfer transfer(a.horse.core, a.bull.core, {});

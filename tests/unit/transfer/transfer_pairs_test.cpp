@@ -11,19 +11,6 @@ namespace {
 using namespace transfer_test;
 using hf::Vec3;
 
-struct Animals {
-  World world;
-  Body horse = creature("horse", 1500, world), bull = creature("bull", 1200, world);
-  Pairs pairs = find_pairs("horse_to_bull.json", horse, bull);
-  const samples::Animation& walk =
-      horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
-};
-
-const Animals& animals() {
-  static const Animals made;
-  return made;
-}
-
 template <class Call>
 hf_result code_of(Call&& call, uint32_t* index = nullptr) {
   try {

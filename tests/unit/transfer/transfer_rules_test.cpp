@@ -8,21 +8,6 @@ namespace {
 using namespace transfer_test;
 using hf::Vec3;
 
-// Made once: the creatures take a moment.
-struct Animals {
-  World world;
-  Body horse = creature("horse", 2500, world), bull = creature("bull", 2000, world);
-  Pairs pairs = find_pairs("horse_to_bull.json", horse, bull);
-  const samples::Animation& walk =
-      horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
-  double box = bull.core->mesh.scale;
-};
-
-const Animals& animals() {
-  static const Animals made;
-  return made;
-}
-
 hf::TransferOptions options(int32_t mode, double alignment = -1) {
   hf::TransferOptions out;
   out.mode = mode, out.alignment_angle = alignment;

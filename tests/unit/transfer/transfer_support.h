@@ -118,6 +118,46 @@ inline Pairs find_pairs(const std::string& file, const Body& source, const Body&
   return out;
 }
 
+// The horse and the bull of most tests, and their pairs. Made once: the creatures take a moment.
+struct Animals {
+  World world;
+  Body horse = creature("horse", 2500, world), bull = creature("bull", 1600, world);
+  Pairs pairs = find_pairs("horse_to_bull.json", horse, bull);
+  const samples::Animation& walk =
+      horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "walk"))];
+  double box = bull.core->mesh.scale;
+  size_t pair(const std::string& name) const {
+    return static_cast<size_t>(std::find(pairs.names.begin(), pairs.names.end(), name) - pairs.names.begin());
+  }
+};
+
+inline const Animals& animals() {
+  static const Animals made;
+  return made;
+}
+
+// Mean over the vertices of a region, each once.
+inline hf::Vec3 centre_of(std::vector<int32_t> region, const std::vector<hf::Vec3>& points) {
+  std::sort(region.begin(), region.end());
+  region.erase(std::unique(region.begin(), region.end()), region.end());
+  hf::Vec3 sum;
+  for (const int32_t v : region)
+    sum = sum + (1.0 / static_cast<double>(region.size())) * points[static_cast<size_t>(v)];
+  return sum;
+}
+
+inline double lowest_of(const std::vector<int32_t>& region, const std::vector<hf::Vec3>& points) {
+  double low = 1e300;
+  for (const int32_t v : region) low = std::min(low, points[static_cast<size_t>(v)].y);
+  return low;
+}
+
+inline double lowest_of(const std::vector<hf::Vec3>& points) {
+  double low = 1e300;
+  for (const hf::Vec3& p : points) low = std::min(low, p.y);
+  return low;
+}
+
 inline void add(hf::Transfer& transfer, const std::vector<hf::PairInput>& inputs, uint32_t* numbers = nullptr) {
   transfer.add_pairs({inputs.data(), inputs.size()}, numbers);
 }

@@ -1,0 +1,175 @@
+// The ground under a transfer: feet that stand while the body turns, surfaces that would sink, bodies that lie.
+#include <gtest/gtest.h>
+
+#include "unit/transfer/transfer_support.h"
+
+namespace {
+
+using namespace transfer_test;
+using hf::Vec3;
+
+constexpr double pi = 3.14159265358979323846;
+
+double smooth(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+Vec3 centroid_of(const Body& body, const std::vector<Vec3>& points) {
+  hf::Memory memory;
+  const auto area = hf::area_shares(body.core->mesh, memory);
+  Vec3 sum;
+  for (size_t v = 0; v < points.size(); ++v) sum = sum + area[v] * points[v];
+  return sum;
+}
+
+// The horse turns about the vertical, by `angle` above `from` boxes over the ground and not at all at its feet.
+std::vector<Vec3> twisted(const Body& horse, double angle, double from) {
+  std::vector<Vec3> posed = horse.rest();
+  const double ground = lowest_of(posed), box = horse.core->mesh.scale;
+  const Vec3 middle = centroid_of(horse, posed);
+  for (Vec3& p : posed) {
+    const double share = from > 0 ? smooth(0.5 * from * box, from * box, p.y - ground) : 1.0;
+    const Vec3 d = hf::rotate(hf::exponential({0, share * angle, 0}), p - middle);
+    p = middle + d;
+  }
+  return posed;
+}
+
+// The walking horse falls to its side by `angle`, its lowest point on the ground.
+std::vector<Vec3> falling(const Animals& a, double angle, double time) {
+  std::vector<Vec3> posed = a.horse.posed(a.walk, time);
+  const double ground = lowest_of(a.horse.rest());
+  for (Vec3& p : posed) p = hf::rotate(hf::exponential({0, 0, angle}), p);
+  const double low = lowest_of(posed);
+  for (Vec3& p : posed) p.y += ground - low;
+  return posed;
+}
+
+TEST(TransferGround, AFootThatStandsStaysWhileTheBodyTurnsOverIt) {
+  const Animals& a = animals();
+  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  add(transfer, a.pairs.inputs());
+  const std::vector<Vec3> still = frame_of(transfer, a.horse.rest());
+  for (const double degrees : {25.0, 40.0, 60.0}) {
+    const std::vector<Vec3> out = frame_of(transfer, twisted(a.horse, degrees * pi / 180, 0.3));
+    for (size_t foot = 2; foot < 6; ++foot) {
+      Vec3 off = centre_of(a.pairs.target[foot], out) - centre_of(a.pairs.target[foot], still);
+      off.y = 0;
+      EXPECT_LT(hf::norm(off) / a.box, 1e-3) << a.pairs.names[foot] << " at " << degrees << " degrees";
+    }
+  }
+}
+
+TEST(TransferGround, FeetThatTurnWithTheBodyComeRoundWithIt) {
+  // all of it turned, and the head bent so that the motion is not rigid: the frame before, turned
+  const Animals& a = animals();
+  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  add(transfer, a.pairs.inputs());
+  const auto bent = [&](std::vector<Vec3> points) {
+    const std::vector<Vec3> rest = a.horse.rest();
+    const double tip = centre_of(a.pairs.source[a.pair("nose")], rest).z;
+    for (size_t v = 0; v < points.size(); ++v)
+      points[v].y -= 0.15 * a.horse.core->mesh.scale * smooth(0.4 * tip, tip, rest[v].z);
+    return points;
+  };
+  const std::vector<Vec3> straight = frame_of(transfer, bent(a.horse.rest()));
+  const std::vector<Vec3> out = frame_of(transfer, bent(twisted(a.horse, 0.5 * pi, 0)));
+  const hf::Quaternion turn = hf::exponential({0, 0.5 * pi, 0});
+  const Vec3 from = centroid_of(a.bull, straight), to = centroid_of(a.bull, out);
+  for (size_t foot = 2; foot < 6; ++foot) {
+    const Vec3 expected = hf::rotate(turn, centre_of(a.pairs.target[foot], straight) - from) + to;
+    EXPECT_LT(hf::norm(centre_of(a.pairs.target[foot], out) - expected) / a.box, 0.01) << a.pairs.names[foot];
+  }
+}
+
+// Deepest vertex of the target under the ground, beyond what the source sinks, in boxes.
+double sunk(const Animals& a, const std::vector<Vec3>& posed, const std::vector<Vec3>& out, double scale) {
+  const double source = std::min(0.0, lowest_of(posed) - lowest_of(a.horse.rest()));
+  return (lowest_of(a.bull.rest()) + scale * source - lowest_of(out)) / a.box;
+}
+
+TEST(TransferGround, NoPartOfTheSurfaceSinks) {
+  const Animals& a = animals();
+  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  std::vector<hf::PairInput> inputs = a.pairs.inputs();
+  add(transfer, inputs);
+  const std::vector<Vec3> rest = a.horse.rest();
+  const double ground = lowest_of(rest), box = a.horse.core->mesh.scale;
+  // upright: the trunk sinks between the legs until it all but lies; head and tail hang
+  for (const double drop : {0.2, 0.3, 0.4}) {
+    std::vector<Vec3> posed = rest;
+    for (Vec3& p : posed) {
+      const double height = p.y - ground;
+      p.y = ground + std::max(0.25 * height, height - drop * box * smooth(0, 0.3 * box, height));
+    }
+    EXPECT_LT(sunk(a, posed, frame_of(transfer, posed), transfer.scale()), 1e-3) << "drop " << drop;
+  }
+  // on its side, and on the way there
+  double deepest = 0;
+  for (int k = 0; k <= 12; ++k) {
+    const std::vector<Vec3> posed = falling(a, k * pi / 24, 0.05 * k);
+    deepest = std::max(deepest, sunk(a, posed, frame_of(transfer, posed), transfer.scale()));
+  }
+  std::printf("falling to the side: sunk by %.5f of the box\n", deepest);
+  EXPECT_LT(deepest, 2e-3);
+}
+
+TEST(TransferGround, ABodyThatLiesRestsOnItsTrunkNotOnWhateverReachesLowest) {
+  const Animals& a = animals();
+  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  add(transfer, a.pairs.inputs());
+  const std::vector<Vec3> rest = a.bull.rest(), source_rest = a.horse.rest();
+  const auto trunk_height = [](const Body& body, const std::vector<Vec3>& still, const std::vector<Vec3>& points) {
+    // the barrel: the middle of the body's length, off the ground at rest
+    double front = -1e300, back = 1e300, low = 1e300;
+    for (const Vec3& p : still) front = std::max(front, p.z), back = std::min(back, p.z);
+    for (size_t v = 0; v < points.size(); ++v) {
+      const double along = (still[v].z - back) / (front - back);
+      if (along > 0.4 && along < 0.6 && still[v].y - lowest_of(still) > 0.25 * body.core->mesh.scale)
+        low = std::min(low, points[v].y);
+    }
+    return low - lowest_of(still);
+  };
+  for (const double degrees : {80.0, 90.0, 100.0}) {
+    const std::vector<Vec3> posed = falling(a, degrees * pi / 180, 0.3), out = frame_of(transfer, posed);
+    const double source = transfer.scale() * trunk_height(a.horse, source_rest, posed),
+                 target = trunk_height(a.bull, rest, out);
+    std::printf("lying at %.0f degrees: barrel %.4f over the ground, the source's %.4f\n", degrees, target / a.box,
+                source / a.box);
+    EXPECT_NEAR(target, source, 0.02 * a.box) << degrees;
+  }
+}
+
+TEST(TransferGround, FallingIsAsSmoothAsItsSource) {
+  const Animals& a = animals();
+  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  add(transfer, a.pairs.inputs());
+  std::vector<Vec3> before, source_before;
+  double worst = 0;
+  for (int k = 0; k <= 90; ++k) {
+    const std::vector<Vec3> posed = falling(a, k * pi / 180, 0.3), out = frame_of(transfer, posed);
+    if (k > 0)
+      worst =
+          std::max(worst, largest_distance(out, before) / (transfer.scale() * largest_distance(posed, source_before)));
+    before = out, source_before = posed;
+  }
+  std::printf("falling: largest step of a vertex %.2f times the source's\n", worst);
+  EXPECT_LT(worst, 3.0);
+}
+
+TEST(TransferGround, FramesInWhichSomethingSinksAllocateNothingAndRepeat) {
+  const Animals& a = animals();
+  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  add(transfer, a.pairs.inputs());
+  const std::vector<Vec3> posed = falling(a, 1.2, 0.2);
+  const std::vector<Vec3> first = frame_of(transfer, posed);
+  std::vector<Vec3> out = first;
+  const uint64_t before = a.world.memory->allocation_count();
+  for (const double angle : {0.3, 0.8, 1.5}) transfer.apply(falling(a, angle, 0.4).data(), out.data());
+  transfer.apply(posed.data(), out.data());
+  EXPECT_EQ(a.world.memory->allocation_count(), before);
+  EXPECT_EQ(largest_distance(out, first), 0.0);
+}
+
+}  // namespace
