@@ -45,18 +45,45 @@ class FieldWriter final : public FieldSink {
  private:
   template <class T>
   void write(std::int32_t first, std::int32_t count, const double* z, const std::int32_t* row) const {
-    const std::size_t vertices = core_.mesh.report.vertex_count, m = static_cast<std::size_t>(count);
-    constexpr std::size_t piece = 16384;
+    switch (count) {
+      case 1:
+        return write_rows<T, 1>(first, 1, z, row);
+      case 3:
+        return write_rows<T, 3>(first, 3, z, row);
+      case 8:
+        return write_rows<T, 8>(first, 8, z, row);
+      default:
+        return write_rows<T, 0>(first, static_cast<std::size_t>(count), z, row);
+    }
+  }
+
+  // M: the number of channels when known as the code is compiled, else 0. The rows of z are read in no order, so they
+  // are asked for some vertices ahead.
+  template <class T, std::size_t M>
+  void write_rows(std::int32_t first, std::size_t count, const double* z, const std::int32_t* row) const {
+    const std::size_t vertices = core_.mesh.report.vertex_count, m = M > 0 ? M : count;
+    const std::int32_t* inner = core_.mesh.inner_of_given.data();
+    const auto source_of = [&](std::int32_t i) { return z + static_cast<std::size_t>(row ? row[i] : i) * m; };
+    constexpr std::size_t piece = 16384, ahead = 24;
     core_.jobs->for_each(static_cast<std::uint32_t>((vertices + piece - 1) / piece), [&](std::uint32_t p) {
       const std::size_t end = std::min(vertices, (p + std::size_t{1}) * piece);
       char* target = out_ + p * piece * stride_ + static_cast<std::size_t>(first) * sizeof(T);
       for (std::size_t v = p * piece; v < end; ++v, target += stride_) {
-        const std::int32_t inner = core_.mesh.inner_of_given[v];
-        const double* source =
-            inner == Mesh::none ? nullptr : z + static_cast<std::size_t>(row ? row[inner] : inner) * m;
+        if (v + ahead < end && inner[v + ahead] != Mesh::none) __builtin_prefetch(source_of(inner[v + ahead]));
+        T values[M > 0 ? M : 1];
+        if (inner[v] == Mesh::none) {
+          for (std::size_t c = 0; c < m; ++c) std::memset(target + c * sizeof(T), 0, sizeof(T));
+          continue;
+        }
+        const double* source = source_of(inner[v]);
+        if (M > 0) {
+          for (std::size_t c = 0; c < M; ++c) values[c] = static_cast<T>(source[c]);
+          std::memcpy(target, values, M * sizeof(T));
+          continue;
+        }
         for (std::size_t c = 0; c < m; ++c) {
-          const T value = source ? static_cast<T>(source[c]) : T{0};
-          std::memcpy(target + c * sizeof(T), &value, sizeof value);
+          values[0] = static_cast<T>(source[c]);
+          std::memcpy(target + c * sizeof(T), values, sizeof(T));
         }
       }
     });

@@ -229,6 +229,12 @@ void GreenSolver::solve_into(const double* values, Index channels, FieldSink& si
         for (std::size_t row = begin; row < end; ++row) z[row] += shift;
         return;
       }
+      if (one_component && m == 8) {  // of a size known when compiled
+        for (std::size_t row = begin; row < end; ++row) {
+          for (std::size_t q = 0; q < 8; ++q) z[row * 8 + q] += right.constant[q];
+        }
+        return;
+      }
       for (std::size_t row = begin; row < end; ++row) {
         const std::size_t c = one_component ? 0 : at(core_->mesh.component[at(order[row])]);
         for (std::size_t q = 0; q < m; ++q) {
