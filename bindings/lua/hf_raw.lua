@@ -268,6 +268,8 @@ typedef struct hf_skin_info {
   double* translations;
   uint32_t* vertex_joints;
   float* vertex_weights;
+  double* axes;
+  double* scales;
 } hf_skin_info;
 typedef struct hf_direction_desc {
   uint32_t struct_size;

@@ -25,6 +25,8 @@ void check(const FlatMesh& mesh, const SkinDescription& skin) {
   }
   for (size_t j = 0; j < joints; ++j) {
     if (!is_finite(skin.joints[j].pivot)) fail("the pivot of joint " + std::to_string(j) + " is not finite");
+    if (!(std::abs(glm::length(skin.joints[j].axes) - 1) < 1e-3))
+      fail("the axes of joint " + std::to_string(j) + " are no rotation of unit length");
   }
   for (size_t i = 0; i < slots; ++i) {
     const float weight = skin.vertex_weights[i];
@@ -40,6 +42,13 @@ void check(const FlatMesh& mesh, const SkinDescription& skin) {
     if (clip.times.empty()) fail(name + " has no frames");
     if (clip.rotations.size() != motions || clip.translations.size() != motions) {
       fail(name + " needs " + std::to_string(motions) + " rotations and translations");
+    }
+    if (!clip.scales.empty() && clip.scales.size() != motions)
+      fail(name + " needs " + std::to_string(motions) + " scales or none");
+    for (size_t i = 0; i < clip.scales.size(); ++i) {
+      if (!is_finite(clip.scales[i]))
+        fail(name + ", frame " + std::to_string(i / joints) + ", joint " + std::to_string(i % joints) +
+             ": the scale is not finite");
     }
     for (size_t i = 0; i < motions; ++i) {
       const double length = glm::length(clip.rotations[i]);
@@ -111,6 +120,10 @@ void add_joints(const SkinDescription& skin, Model& out) {
     to.joints.push_back(number);
     glm::mat4 inverse_bind(1);
     inverse_bind[3] = glm::vec4(-joint.translation, 1);
+    if (skin.joints[j].axes != glm::dquat(1, 0, 0, 0)) {
+      joint.rotation = glm::quat(glm::normalize(skin.joints[j].axes));
+      inverse_bind = glm::mat4_cast(glm::conjugate(joint.rotation)) * inverse_bind;
+    }
     to.inverse_bind.push_back(inverse_bind);
     out.nodes.push_back(std::move(joint));
   }
@@ -125,23 +138,29 @@ Animation make_clip(const SkinDescription& skin, const SkinClip& clip) {
   const size_t joints = skin.joints.size();
   const std::vector<float> times(clip.times.begin(), clip.times.end());
   for (size_t j = 0; j < joints; ++j) {
-    Channel rotation, translation;
-    rotation.node = translation.node = static_cast<int>(j) + 1;
+    Channel rotation, translation, scale;
+    rotation.node = translation.node = scale.node = static_cast<int>(j) + 1;
     rotation.path = Path::rotation;
     rotation.width = 4;
-    rotation.times = translation.times = times;
+    scale.path = Path::scale;
+    rotation.times = translation.times = scale.times = times;
+    const glm::dquat axes = glm::normalize(skin.joints[j].axes);
     const glm::dvec3 pivot = float_rounded(skin.joints[j].pivot);
     glm::dquat before(1, 0, 0, 0);
     for (size_t f = 0; f < times.size(); ++f) {
       glm::dquat q = glm::normalize(clip.rotations[f * joints + j]);
+      const glm::dvec3 t = q * pivot + clip.translations[f * joints + j];
+      q = glm::normalize(q * axes);
       if (glm::dot(q, before) < 0) q = -q;
       before = q;
-      const glm::dvec3 t = q * pivot + clip.translations[f * joints + j];
       for (const double value : {q.x, q.y, q.z, q.w}) rotation.values.push_back(static_cast<float>(value));
       for (int c = 0; c < 3; ++c) translation.values.push_back(static_cast<float>(t[c]));
+      for (int c = 0; c < 3 && !clip.scales.empty(); ++c)
+        scale.values.push_back(static_cast<float>(clip.scales[f * joints + j][c]));
     }
     animation.channels.push_back(std::move(translation));
     animation.channels.push_back(std::move(rotation));
+    if (!clip.scales.empty()) animation.channels.push_back(std::move(scale));
   }
   return animation;
 }

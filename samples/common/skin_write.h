@@ -2,7 +2,8 @@
 //
 // The joints stand flat under one root node, each with its pivot c at the point given: a joint whose motion takes x to
 // R x + t has node translation R c + t, rotation R and inverse bind matrix translate(-c), so that interpolation between
-// keys turns about the pivot and not about the origin. Keys are LINEAR; quaternion signs are made continuous. Vertex
+// keys turns about the pivot and not about the origin. A joint that stretches by s along its axes B takes x to
+// R B diag(s) B' (x - c) + c + R c + t - c: its node has rotation R B, scale s and inverse bind matrix B' translate(-c). Keys are LINEAR; quaternion signs are made continuous. Vertex
 // positions are the rest positions in world space; materials and texture coordinates of every primitive are kept.
 #ifndef HF_SAMPLES_COMMON_SKIN_WRITE_H
 #define HF_SAMPLES_COMMON_SKIN_WRITE_H
@@ -20,14 +21,17 @@ namespace samples {
 struct SkinJoint {
   std::string name;
   glm::dvec3 pivot{0, 0, 0};
+  glm::dquat axes{1, 0, 0, 0};
 };
 
-// rotations[f * joints + j], translations the same: the motion x -> R x + t of joint j at times[f].
+// rotations[f * joints + j], translations the same: the motion x -> R x + t of joint j at times[f]. scales the same, or
+// none: what is stretched about the pivot before.
 struct SkinClip {
   std::string name;
   std::vector<double> times;  // increasing, from 0
   std::vector<glm::dquat> rotations;
   std::vector<glm::dvec3> translations;
+  std::vector<glm::dvec3> scales = {};
 };
 
 struct SkinDescription {

@@ -87,11 +87,11 @@ Command parse(int count, char** arguments) {
 // The joints' motions of the pose at present, appended to a clip.
 void append_frame(const Posable& posable, uint32_t weight_count, const std::vector<double>& pivots, SkinClip& clip) {
   const size_t joints = pivots.size() / 3;
-  std::vector<double> rotations(4 * joints), places(3 * joints);
+  std::vector<double> rotations(4 * joints), places(3 * joints), scales(3 * joints);
   hf_skin_info info;
   HF_INIT(info);
   info.weight_count = weight_count;
-  info.rotations = rotations.data(), info.translations = places.data();
+  info.rotations = rotations.data(), info.translations = places.data(), info.scales = scales.data();
   expect_ok(hf_pose_get_skin(posable.pose(), &info), "the skin");
   for (size_t j = 0; j < joints; ++j) {
     const double* q = &rotations[4 * j];
@@ -99,6 +99,7 @@ void append_frame(const Posable& posable, uint32_t weight_count, const std::vect
     const glm::dvec3 pivot(pivots[3 * j], pivots[3 * j + 1], pivots[3 * j + 2]),
         place(places[3 * j], places[3 * j + 1], places[3 * j + 2]);
     clip.rotations.push_back(rotation), clip.translations.push_back(place - rotation * pivot);
+    clip.scales.push_back({scales[3 * j], scales[3 * j + 1], scales[3 * j + 2]});
   }
 }
 
@@ -145,13 +146,15 @@ void run(const Command& command) {
   skin.influences_per_vertex = command.weights;
   skin.vertex_joints.resize(mesh.flat.positions.size() * command.weights),
       skin.vertex_weights.resize(skin.vertex_joints.size());
-  std::vector<double> pivots(3 * joints);
-  info.weight_count = command.weights, info.pivots = pivots.data();
+  std::vector<double> pivots(3 * joints), axes(4 * joints);
+  info.weight_count = command.weights, info.pivots = pivots.data(), info.axes = axes.data();
   info.vertex_joints = skin.vertex_joints.data(), info.vertex_weights = skin.vertex_weights.data();
   expect_ok(hf_pose_get_skin(posable.pose(), &info), "the skin");
   for (size_t j = 0; j < joints; ++j) {
     const std::string name = j < posable.handles().size() ? posable.handles()[j].name : "cluster_" + std::to_string(j);
-    skin.joints.push_back({name, {pivots[3 * j], pivots[3 * j + 1], pivots[3 * j + 2]}});
+    skin.joints.push_back({name,
+                           {pivots[3 * j], pivots[3 * j + 1], pivots[3 * j + 2]},
+                           {axes[4 * j + 3], axes[4 * j], axes[4 * j + 1], axes[4 * j + 2]}});
   }
 
   std::vector<std::vector<std::vector<double>>> posed;  // by clip and frame

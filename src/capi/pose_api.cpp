@@ -326,13 +326,16 @@ hf_result hf_pose_get_skin(hf_pose handle, hf_skin_info* info) {
     if (pose->pose->has_layers()) fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the pose has handles on higher layers; the surface they make is no blend of clusters");
     const Pose& base = pose->pose->base();
     if (base.handle_count() == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
-    const Skin skin = make_skin(base, weight_count, *pose->memory);
+    const Skin skin = make_skin(base, weight_count, out.scales != nullptr, *pose->memory);
     const std::size_t joints = skin.pivot.size();
     for (std::size_t j = 0; j < joints; ++j) {
       if (out.pivots) put(skin.pivot[j], out.pivots + 3 * j);
       if (out.translations) put(skin.place[j], out.translations + 3 * j);
       const double q[4] = {skin.rotation[j].x, skin.rotation[j].y, skin.rotation[j].z, skin.rotation[j].w};
       if (out.rotations) std::copy_n(q, 4, out.rotations + 4 * j);
+      const double axes[4] = {skin.axes[j].x, skin.axes[j].y, skin.axes[j].z, skin.axes[j].w};
+      if (out.axes) std::copy_n(axes, 4, out.axes + 4 * j);
+      if (out.scales) put(skin.stretch[j], out.scales + 3 * j);
     }
     const Mesh& mesh = base.core().mesh;
     for (std::size_t v = 0; (out.vertex_joints || out.vertex_weights) && v < mesh.report.vertex_count; ++v) {

@@ -212,6 +212,9 @@ hf_result hf_transfer_get_skin(hf_transfer handle, hf_skin_info* info) {
         const double q[4] = {rotations[j].x, rotations[j].y, rotations[j].z, rotations[j].w};
         std::copy_n(q, 4, skin.rotations + 4 * j);
       }
+      const double identity[4] = {0, 0, 0, 1}, ones[3] = {1, 1, 1};  // a transfer's joints are rigid
+      if (skin.axes) std::copy_n(identity, 4, skin.axes + 4 * j);
+      if (skin.scales) std::copy_n(ones, 3, skin.scales + 3 * j);
     }
     if (skin.vertex_joints || skin.vertex_weights) {
       const Mesh& mesh = object->transfer.target().mesh;

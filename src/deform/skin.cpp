@@ -8,15 +8,59 @@ namespace {
 
 constexpr double fit_vertices = 20000;
 constexpr int fit_rounds = 8;
+constexpr int stretch_rounds = 6;         // rotation and stretch of one joint in turn
+constexpr double stretch_ballast = 1e-6;  // of the moments: directions the joint hardly reaches into keep s = 1
+
+struct JointMotion {
+  Quaternion rotation;
+  Vec3 stretch{1, 1, 1};
+  Vec3 translation;
+};
+
+// R B diag(s) B'
+Mat3 linear_part(const JointMotion& motion, const Mat3& axes) noexcept {
+  Mat3 scaled = axes;
+  const double s[3] = {motion.stretch.x, motion.stretch.y, motion.stretch.z};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) scaled.m[i][k] *= s[k];
+  }
+  return to_matrix(motion.rotation) * (scaled * transpose(axes));
+}
+
+// Eigenvectors of a symmetric matrix as columns, a rotation: cyclic Jacobi.
+Mat3 principal_axes(Mat3 a) noexcept {
+  Mat3 v = Mat3::identity();
+  for (int sweep = 0; sweep < 8; ++sweep) {
+    for (int p = 0; p < 3; ++p) {
+      const int q = (p + 1) % 3;
+      if (std::fabs(a.m[p][q]) <= 1e-15 * (std::fabs(a.m[p][p]) + std::fabs(a.m[q][q]))) continue;
+      const double angle = 0.5 * std::atan2(2 * a.m[p][q], a.m[p][p] - a.m[q][q]);
+      Mat3 turn = Mat3::identity();
+      turn.m[p][p] = turn.m[q][q] = std::cos(angle);
+      turn.m[q][p] = std::sin(angle), turn.m[p][q] = -turn.m[q][p];
+      a = transpose(turn) * a * turn, v = v * turn;
+    }
+  }
+  return v;
+}
 
 // The least-squares fit of the joints, in the mesh's own unit.
 class JointFit {
  public:
-  JointFit(const Pose& pose, std::uint32_t weight_count, Memory& memory)
-      : pose_(pose), start_(&memory), row_(&memory), rest_(&memory), residual_(&memory), area_(&memory) {
+  JointFit(const Pose& pose, std::uint32_t weight_count, bool stretching, const Vector<Quaternion>& axes,
+           Memory& memory)
+      : pose_(pose),
+        stretching_(stretching),
+        axes_(&memory),
+        start_(&memory),
+        row_(&memory),
+        rest_(&memory),
+        residual_(&memory),
+        area_(&memory) {
     const Core& core = pose.core();
     const ClusterWeights& table = *pose.weights();
     joint_count_ = static_cast<std::size_t>(table.cluster_count);
+    for (const Quaternion& q : axes) axes_.push_back(to_matrix(q));
     start_.assign(joint_count_ + 1, 0);
     Vector<std::int32_t> chosen(&memory);
     for (std::int32_t v = 0; v < core.size(); ++v) {
@@ -50,7 +94,7 @@ class JointFit {
   }
 
   // residual = blend - posed, kept up to date.
-  void run(RigidMotion* motion) {
+  void run(JointMotion* motion) {
     for (std::size_t j = 0; j < joint_count_; ++j) move(j, motion[j], 1);
     const std::size_t handles = static_cast<std::size_t>(pose_.weights()->handle_count);
     for (int round = 0; round < fit_rounds; ++round) {
@@ -68,8 +112,8 @@ class JointFit {
     double weight;
   };
 
-  void move(std::size_t j, const RigidMotion& motion, double sign) noexcept {
-    const Mat3 r = to_matrix(motion.rotation);
+  void move(std::size_t j, const JointMotion& motion, double sign) noexcept {
+    const Mat3 r = linear_part(motion, axes_[j]);
     for (std::int32_t k = start_[j]; k < start_[j + 1]; ++k) {
       const Item& item = row_[k];
       residual_[item.vertex] =
@@ -78,7 +122,7 @@ class JointFit {
   }
 
   // With joint j taken out of the residual: it is to bring -residual / weight.
-  RigidMotion fit(std::size_t j, const RigidMotion& present) const noexcept {
+  JointMotion fit(std::size_t j, const JointMotion& present) const noexcept {
     double total = 0;
     Vec3 from, to;
     for (std::int32_t k = start_[j]; k < start_[j + 1]; ++k) {
@@ -89,19 +133,45 @@ class JointFit {
     }
     if (!(total > 0)) return present;
     from = (1.0 / total) * from, to = (1.0 / total) * to;
-    Mat3 sum;
+    Mat3 target, rest;
     for (std::int32_t k = start_[j]; k < start_[j + 1]; ++k) {
       const Item& item = row_[k];
       const double w = area_[item.vertex] * item.weight;
-      add_outer(sum, w, -1.0 * residual_[item.vertex] - item.weight * to, rest_[item.vertex] - from);
+      const Vec3 arm = rest_[item.vertex] - from;
+      add_outer(target, w, -1.0 * residual_[item.vertex] - item.weight * to, arm);
+      add_outer(rest, w * item.weight, arm, arm);
     }
-    RigidMotion motion;
-    motion.rotation = best_rotation(sum, present.rotation);
-    motion.translation = to - rotate(motion.rotation, from);
+    JointMotion motion = present;
+    if (stretching_) {
+      fit_stretch(target, rest, axes_[j], motion);
+    } else {
+      motion.rotation = best_rotation(target, present.rotation);
+    }
+    motion.translation = to - linear_part(motion, axes_[j]) * from;
     return motion;
   }
 
+  // min |R B s B' - target rest^-1| in the norm of the rest moments, rotation and stretch in turn.
+  static void fit_stretch(const Mat3& target, const Mat3& rest, const Mat3& axes, JointMotion& motion) noexcept {
+    const Mat3 seen = transpose(axes) * rest * axes;
+    const double ballast = stretch_ballast * (seen.m[0][0] + seen.m[1][1] + seen.m[2][2]);
+    for (int round = 0; round < stretch_rounds; ++round) {
+      const Mat3 along = transpose(to_matrix(motion.rotation) * axes) * target * axes;
+      double s[3];
+      for (int i = 0; i < 3; ++i)
+        s[i] = std::max(1e-3, (along.m[i][i] + ballast) / std::max(seen.m[i][i] + ballast, 1e-300));
+      motion.stretch = {s[0], s[1], s[2]};
+      Mat3 scaled = axes;
+      for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k) scaled.m[i][k] *= s[k];
+      }
+      motion.rotation = best_rotation(target * (axes * transpose(scaled)), motion.rotation);
+    }
+  }
+
   const Pose& pose_;
+  const bool stretching_;
+  Vector<Mat3> axes_;
   std::size_t joint_count_ = 0;
   Vector<std::int32_t> start_;
   Vector<Item> row_;
@@ -111,7 +181,12 @@ class JointFit {
 
 }  // namespace
 
-Skin make_skin(const Pose& pose, std::uint32_t weight_count, Memory& memory) {
+Vec3 skinned(const Skin& skin, std::size_t j, Vec3 p) noexcept {
+  const JointMotion motion{skin.rotation[j], skin.stretch[j], {}};
+  return linear_part(motion, to_matrix(skin.axes[j])) * (p - skin.pivot[j]) + skin.place[j];
+}
+
+Skin make_skin(const Pose& pose, std::uint32_t weight_count, bool stretching, Memory& memory) {
   const Core& core = pose.core();
   const Mesh& mesh = core.mesh;
   const ClusterWeights& weights = *pose.weights();
@@ -127,10 +202,19 @@ Skin make_skin(const Pose& pose, std::uint32_t weight_count, Memory& memory) {
     }
   }
   const Span<const Affine> transforms = pose.cluster_transforms();
-  Vector<RigidMotion> motion(clusters, RigidMotion(), &memory);
+  Vector<JointMotion> motion(clusters, JointMotion(), &memory);
+  for (std::size_t c = 0; c < clusters; ++c) skin.pivot.push_back(total[c] > 0 ? (1.0 / total[c]) * sum[c] : Vec3());
+  Vector<Mat3> spread(clusters, Mat3(), &memory);
+  for (std::int32_t v = 0; v < core.size(); ++v) {
+    for (std::int32_t k = weights.start[v]; k < weights.start[v + 1]; ++k) {
+      const std::int32_t c = weights.cluster[k];
+      const Vec3 arm = mesh.positions[v] - skin.pivot[c];
+      add_outer(spread[c], weights.weight[k] * std::max(pose.rest().area[v], 1e-12), arm, arm);
+    }
+  }
   for (std::size_t c = 0; c < clusters; ++c) {
-    const Vec3 pivot = total[c] > 0 ? (1.0 / total[c]) * sum[c] : Vec3();
-    skin.pivot.push_back(pivot);
+    const Vec3 pivot = skin.pivot[c];
+    skin.axes.push_back(to_quaternion(principal_axes(spread[c])));
     if (!pose.posed()) continue;
     Mat3 linear;
     const auto& a = transforms[c].a;
@@ -140,16 +224,18 @@ Skin make_skin(const Pose& pose, std::uint32_t weight_count, Memory& memory) {
     motion[c].rotation = best_rotation(linear, Quaternion());
     motion[c].translation = linear * pivot + Vec3{a[0][3], a[1][3], a[2][3]} - rotate(motion[c].rotation, pivot);
   }
-  if (pose.posed()) JointFit(pose, weight_count, memory).run(motion.data());
+  if (pose.posed()) JointFit(pose, weight_count, stretching, skin.axes, memory).run(motion.data());
   for (std::size_t c = 0; c < clusters; ++c) {
-    skin.place.push_back(mesh.to_given(apply(motion[c], skin.pivot[c])));
+    const Mat3 linear = linear_part(motion[c], to_matrix(skin.axes[c]));
+    skin.place.push_back(mesh.to_given(linear * skin.pivot[c] + motion[c].translation));
     skin.pivot[c] = mesh.to_given(skin.pivot[c]);
-    skin.rotation.push_back(motion[c].rotation);
+    skin.rotation.push_back(motion[c].rotation), skin.stretch.push_back(motion[c].stretch);
   }
   skin.rest_joint = weights.unreached_vertex_count > 0 || mesh.report.isolated_vertex_count > 0;
   if (skin.rest_joint) {
     skin.pivot.push_back(mesh.centre), skin.place.push_back(mesh.centre);
     skin.rotation.push_back(Quaternion());
+    skin.axes.push_back(Quaternion()), skin.stretch.push_back({1, 1, 1});
   }
   return skin;
 }

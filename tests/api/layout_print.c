@@ -320,6 +320,8 @@ static void print_skin_info(void) {
   FIELD(hf_skin_info, translations);
   FIELD(hf_skin_info, vertex_joints);
   FIELD(hf_skin_info, vertex_weights);
+  FIELD(hf_skin_info, axes);
+  FIELD(hf_skin_info, scales);
 }
 
 static void print_scalars(void) {

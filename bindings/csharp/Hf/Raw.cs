@@ -409,6 +409,8 @@ namespace Hf.Native
         public IntPtr translations;
         public IntPtr vertex_joints;
         public IntPtr vertex_weights;
+        public IntPtr axes;
+        public IntPtr scales;
     }
 
     [StructLayout(LayoutKind.Sequential)]

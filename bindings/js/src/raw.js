@@ -323,7 +323,7 @@ export const layouts = {
     normal_ms: ['f64', [40, 40], 0],
     refine_ms: ['f64', [48, 48], 0],
   } },
-  hf_skin_info: { size: [36, 56], fields: {
+  hf_skin_info: { size: [44, 72], fields: {
     struct_size: ['u32', [0, 0], 0],
     joint_count: ['u32', [4, 4], 0],
     weight_count: ['u32', [8, 8], 0],
@@ -333,6 +333,8 @@ export const layouts = {
     translations: ['ptr', [24, 32], 0],
     vertex_joints: ['ptr', [28, 40], 0],
     vertex_weights: ['ptr', [32, 48], 0],
+    axes: ['ptr', [36, 56], 0],
+    scales: ['ptr', [40, 64], 0],
   } },
   hf_direction_desc: { size: [16, 16], fields: {
     struct_size: ['u32', [0, 0], 0],

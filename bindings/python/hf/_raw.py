@@ -655,6 +655,8 @@ class hf_skin_info(Structure):
     translations: int
     vertex_joints: int
     vertex_weights: int
+    axes: int
+    scales: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("joint_count", c_uint32),
@@ -665,6 +667,8 @@ class hf_skin_info(Structure):
         ("translations", c_void_p),
         ("vertex_joints", c_void_p),
         ("vertex_weights", c_void_p),
+        ("axes", c_void_p),
+        ("scales", c_void_p),
     ]
 
 
