@@ -55,8 +55,8 @@ hf_build() {
 hf_install_node_modules() {
   command -v npm >/dev/null 2>&1 || return 1
   local folder="$hf_root/build/npm"
-  [ -d "$folder/node_modules/gltf-validator" ] && return 0
+  [ -d "$folder/node_modules/gltf-validator" ] && [ -d "$folder/node_modules/three" ] && return 0
   mkdir -p "$folder"
-  hf_say "installing the Khronos glTF validator (npm)"
-  (cd "$folder" && npm install --no-audit --no-fund --no-save --prefix . gltf-validator@2.0.0-dev.3.10 >npm.log 2>&1 || npm install --no-audit --no-fund --no-save --prefix . gltf-validator >npm.log 2>&1) || return 1
+  hf_say "installing the Khronos glTF validator and three.js (npm)"
+  (cd "$folder" && npm install --no-audit --no-fund --no-save --prefix . gltf-validator@2.0.0-dev.3.10 three@0.160.0 >npm.log 2>&1 || npm install --no-audit --no-fund --no-save --prefix . gltf-validator three >npm.log 2>&1) || return 1
 }

@@ -1,57 +1,16 @@
 // The other ways hf_transfer is used: proposed pairs, contacts, the target's own skin, morph targets, mesh sequences,
 // and the live sample.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <set>
-
-#include "assets/creature_gltf.h"
 #include "common/animate.h"
-#include "common/gltf_read.h"
-#include "common/gltf_write.h"
 #include "common/mesh_file.h"
+#include "unit/transfer/transfer_program_support.h"
 
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
+using namespace transfer_program;
 
-fs::path folder() {
-  const fs::path out = fs::path(HF_BUILD_DIR) / "transfer_outputs_test";
-  fs::create_directories(out);
-  return out;
-}
-
-std::string quoted(const fs::path& path) { return "\"" + path.string() + "\""; }
-fs::path horse_to_bull() { return fs::path(HF_SOURCE_DIR) / "samples/transfer/pairs/horse_to_bull.json"; }
-
-int run(const std::string& command, std::string& output) {
-  output.clear();
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (!pipe) return -1;
-  char buffer[4096];
-  while (const size_t got = fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, got);
-  const int status = pclose(pipe);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-int transfer(const std::string& arguments, std::string& output) {
-  return run(quoted(HF_TRANSFER_PROGRAM) + " --quiet " + arguments, output);
-}
-
-fs::path creature(const std::string& name) {
-  static std::set<std::string> made;  // they take a moment
-  const fs::path file = folder() / (name + ".glb");
-  if (made.insert(name).second) samples::write_gltf(samples::to_model(samples::make_creature(name, 1500)), file);
-  return file;
-}
-
-std::string both() { return quoted(creature("horse")) + " " + quoted(creature("bull")); }
-json read_json(const fs::path& file) { return json::parse(std::ifstream(file)); }
+fs::path horse_to_bull() { return pairs("horse_to_bull.json"); }
 
 TEST(TransferOutputs, ProposedPairsFindEveryPlaceAndCrossNone) {
   const fs::path list = folder() / "proposed.json", report = folder() / "proposed_report.json";
@@ -219,6 +178,41 @@ TEST(TransferOutputs, MeshSequencesGiveWhatTheClipGives) {
                      said),
             1);
   EXPECT_NE(said.find("bull.ply"), std::string::npos) << said;
+}
+
+TEST(TransferOutputs, HalfWayBetweenKeysTheFileIsNearTheSolver) {
+  // the file at 30 keys a second, played at 60; the solver's own frames at 60
+  const fs::path file = folder() / "thirty.glb", frames = folder() / "sixty";
+  fs::remove_all(frames);
+  const std::string start = both() + " --pairs " + quoted(horse_to_bull());
+  std::string said;
+  ASSERT_EQ(transfer(start + " --fps 30 -o " + quoted(file), said), 0) << said;
+  ASSERT_EQ(transfer(start + " --fps 60 --out-poses " + quoted(frames), said), 0) << said;
+  const samples::Model made = samples::read_gltf(file);
+  const samples::FlatMesh mesh = samples::flatten(made);
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(frames)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  ASSERT_GT(files.size(), 20u);
+  double at_keys = 0, between = 0;
+  for (size_t f = 0; f + 1 < files.size(); ++f) {
+    const samples::SurfaceMesh expected = samples::read_mesh_file(files[f]);
+    const std::vector<glm::dvec3> got =
+        samples::posed_positions(made, mesh, made.animations[0], static_cast<double>(f) / 60);
+    ASSERT_EQ(got.size(), expected.positions.size());
+    double sum = 0, largest = 0;
+    for (size_t v = 0; v < got.size(); ++v) {
+      const double d = glm::distance(got[v], expected.positions[v]) / glm::length(high - low);
+      sum += d * d / static_cast<double>(got.size()), largest = std::max(largest, d);
+    }
+    if (f % 2 == 0) at_keys = std::max(at_keys, largest);
+    if (f % 2 == 1) between = std::max(between, std::sqrt(sum));
+  }
+  std::printf("file against solver: at keys %.1e of the box, half-way between keys %.5f\n", at_keys, between);
+  EXPECT_LT(at_keys, 1e-5);
+  EXPECT_LT(between, 0.003);
 }
 
 TEST(TransferOutputs, TheLiveSampleRunsWhileItsHandlesChange) {

@@ -2,62 +2,27 @@
 // takes ten seconds). Posed vertices at three times, at keys and between them, against our own reading of the same
 // file. Each is skipped with a message where the program is absent.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-
-#include "assets/creature_gltf.h"
 #include "common/animate.h"
-#include "common/gltf_read.h"
-#include "common/gltf_write.h"
+#include "unit/transfer/transfer_program_support.h"
 
 namespace {
 
-namespace fs = std::filesystem;
+using namespace transfer_program;
 
-fs::path folder() {
-  const fs::path out = fs::path(HF_BUILD_DIR) / "transfer_readers_test";
-  fs::create_directories(out);
-  return out;
-}
-
-std::string quoted(const fs::path& path) { return "\"" + path.string() + "\""; }
 fs::path script(const std::string& name) { return fs::path(HF_SOURCE_DIR) / "tests/unit/transfer" / name; }
-
-int run(const std::string& command, std::string& output) {
-  output.clear();
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (!pipe) return -1;
-  char buffer[4096];
-  while (const size_t got = fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, got);
-  const int status = pclose(pipe);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-bool works(const std::string& command) {
-  std::string said;
-  return run(command, said) == 0;
-}
 
 // The files: a new skin, the target's own, morph targets. Made once.
 fs::path written(const std::string& kind) {
-  const fs::path out = folder() / ("bull_" + kind + ".glb");
-  if (fs::exists(out) && fs::last_write_time(out) > fs::last_write_time(HF_TRANSFER_PROGRAM)) return out;
-  for (const char* name : {"horse", "bull"})
-    if (!fs::exists(folder() / (std::string(name) + ".glb")))
-      samples::write_gltf(samples::to_model(samples::make_creature(name, 1500)),
-                          folder() / (std::string(name) + ".glb"));
+  static std::set<std::string> made;
+  const fs::path out = folder() / ("played_" + kind + ".glb");
+  if (!made.insert(kind).second) return out;
   std::string said;
-  const int status =
-      run(quoted(HF_TRANSFER_PROGRAM) + " " + quoted(folder() / "horse.glb") + " " + quoted(folder() / "bull.glb") +
-              " --pairs " + quoted(fs::path(HF_SOURCE_DIR) / "samples/transfer/pairs/horse_to_bull.json") +
-              " --quiet --fps 30 --as " + kind + " -o " + quoted(out),
-          said);
-  EXPECT_EQ(status, 0) << said;
+  EXPECT_EQ(transfer(both() + " --pairs " + quoted(pairs("horse_to_bull.json")) + " --fps 30 --as " + kind + " -o " +
+                         quoted(out),
+                     said),
+            0)
+      << said;
   return out;
 }
 
@@ -86,12 +51,9 @@ void compare(const fs::path& file, const fs::path& answer, const std::string& wh
 }
 
 TEST(TransferReaders, ThreePosesTheVerticesAsWeDo) {
-  std::vector<fs::path> places = {fs::path(HF_BUILD_DIR) / "npm/node_modules", fs::path(HF_BUILD_DIR) / "node_modules"};
-  if (const char* given = std::getenv("HF_NODE_MODULES")) places.insert(places.begin(), given);
-  fs::path modules;
-  for (const fs::path& place : places)
-    if (modules.empty() && fs::is_directory(place / "three")) modules = place;
-  if (modules.empty()) GTEST_SKIP() << "the npm package three is not in HF_NODE_MODULES or " << places.back();
+  std::string searched;
+  const fs::path modules = node_modules("three", searched);
+  if (modules.empty()) GTEST_SKIP() << searched;
   for (const char* kind : {"skin", "own-skin", "morph"}) {
     const fs::path answer = folder() / "three.json", file = written(kind);
     std::string said;
