@@ -43,9 +43,11 @@ def torus(nu=24, nv=12):
 
 
 def bar(length, radius, rings, around):
-    """A round bar along z with closed ends."""
-    points = [(radius * math.cos(2 * math.pi * j / around), radius * math.sin(2 * math.pi * j / around), length * i / (rings - 1))
-              for i in range(rings) for j in range(around)]
+    """A round bar along z with closed ends, uneven so that nothing is decided by ties that platforms break differently."""
+    draw = np.random.default_rng(rings)
+    turn = lambda j: 2 * math.pi * (j + draw.uniform(-0.2, 0.2)) / around
+    uneven = lambda angle: (radius * draw.uniform(0.9, 1.1) * math.cos(angle), radius * draw.uniform(0.9, 1.1) * math.sin(angle))
+    points = [(*uneven(turn(j)), length * i / (rings - 1)) for i in range(rings) for j in range(around)]
     at = lambda i, j: i * around + j % around
     triangles = [t for i in range(rings - 1) for j in range(around) for t in
                  ((at(i, j), at(i, j + 1), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i + 1, j)))]
@@ -205,16 +207,17 @@ def scenes(meshes):
 
     q = np.array(meshes["long_bar"]["positions"]).reshape(-1, 3)
     ends = lambda points, length: [[int(v) for v in np.flatnonzero(points[:, 2] <= 0.13 * length)], [int(v) for v in np.flatnonzero(points[:, 2] >= 0.87 * length)]]
+    patch = lambda points, length: [int(v) for v in np.flatnonzero((np.abs(points[:, 2] / length - 0.5) < 0.06) & (points[:, 0] > 0.05 * length))]
     scene("transfer", "A bend of one bar played on a longer, thicker one (agreement); rest stays rest.", solver("bar"), solver("long_bar", "t"),
           {"do": "pose", "on": "s", "as": "p"}, pose(do="add_handles", regions=ends(p, 6)),
           pose(do="set_transforms", handles=[0, 1], rotations=[0, 0, 0, 1] + turn, translations=[0, 0, 0, 1, 0, 0]),
           pose(do="deform", options={"restart": 1, "iteration_count": 20}, keep="bent"),
           {"do": "transfer", "as": "x", "source": "s", "target": "t", "options": {"scale": 1.5}},
-          {"do": "add_pairs", "on": "x", "source_regions": ends(p, 6), "target_regions": ends(q, 9), "flags": [1, 0], "numbers": [0, 1]},
-          {"do": "transfer_info", "on": "x", "expect": {"pair_count": 2, "scale": 1.5, "tolerance": 1e-6}},
+          {"do": "add_pairs", "on": "x", "source_regions": [*ends(p, 6), patch(p, 6)], "target_regions": [*ends(q, 9), patch(q, 9)], "flags": [1, 0, 0], "numbers": [0, 1, 2]},
+          {"do": "transfer_info", "on": "x", "expect": {"pair_count": 3, "scale": 1.5, "tolerance": 1e-6}},
           {"do": "apply", "on": "x", "positions": mesh["positions"], "expect": expect(q, 1e-8)},
           {"do": "apply", "on": "x", "positions": "bent", "expect": agree()},
-          {"do": "remove_pairs", "on": "x", "pairs": [1]}, {"do": "transfer_info", "on": "x", "expect": {"pair_count": 1}})
+          {"do": "remove_pairs", "on": "x", "pairs": [1]}, {"do": "transfer_info", "on": "x", "expect": {"pair_count": 2}})
     return found
 
 
