@@ -103,7 +103,8 @@ typedef struct hf_critical_info {
 /* Critical points of the piecewise linear field by the signs around each vertex (Banchoff 1970): index = 1 - chi(part
  * of the ring around the vertex that lies below it). Equal values are told apart by the vertex number, so a flat area
  * has critical points of its own. The indices always sum to the Euler characteristic, on every component, with borders
- * and non-manifold edges. out_points: NULL, or room for `capacity` points, ordered by welded vertex; out_info: NULL, or
+ * and non-manifold edges. On meshes that are not Delaunay a harmonic field may seem to have an extremum off its sites
+ * here, along the mesh's edges: the operator has others (HF_OPERATOR_CLAMPED has not). out_points: NULL, or room for `capacity` points, ordered by welded vertex; out_info: NULL, or
  * a struct with struct_size set, written also with HF_ERROR_TOO_SMALL. Results: HF_OK, HF_ERROR_INVALID_HANDLE,
  * HF_ERROR_NULL_POINTER (field, or both outputs), HF_ERROR_INVALID_DESC, HF_ERROR_NON_FINITE (index = vertex),
  * HF_ERROR_TOO_SMALL (capacity below the count; stride), HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread safety: reads

@@ -22,14 +22,14 @@ enum {
 
 /* The discrete Laplacian K: (K u)_i = sum_j w_ij (u_i - u_j). */
 enum {
-  HF_OPERATOR_COTANGENT = 0, /* w_ij = (cot a_ij + cot b_ij) / 2, the paper's; may be negative on obtuse triangles */
-  HF_OPERATOR_CLAMPED = 1, /* the same, floored at 1e-3 of the median weight: the maximum principle holds on any mesh */
-  HF_OPERATOR_UNIFORM = 2, /* w_ij = 1 */
-  HF_OPERATOR_INTRINSIC_DELAUNAY = 3 /* cotangent weights of the intrinsic Delaunay triangulation of the same surface, on
-                                        the tufted cover where edges are open or shared by more than two triangles
-                                        (Bobenko and Springborn 2007; Sharp and Crane 2020): never negative, so the
-                                        maximum principle holds on any mesh; equal to the cotangent operator where the
-                                        triangles are Delaunay already */
+  HF_OPERATOR_INTRINSIC_DELAUNAY = 0, /* the default: cotangent weights of the intrinsic Delaunay triangulation of the
+                                         same surface, on the tufted cover where edges are open or shared by more than
+                                         two triangles (Bobenko and Springborn 2007; Sharp and Crane 2020): never
+                                         negative, so the maximum principle holds on any mesh; equal to the cotangent
+                                         operator where the triangles are Delaunay already */
+  HF_OPERATOR_CLAMPED = 1,  /* cotangents, floored at 1e-3 of the median weight: the maximum principle holds on any mesh */
+  HF_OPERATOR_UNIFORM = 2,  /* w_ij = 1 */
+  HF_OPERATOR_COTANGENT = 3 /* w_ij = (cot a_ij + cot b_ij) / 2, the paper's; may be negative on obtuse triangles */
 };
 
 /* What the field minimises, with L the operator_kind's Laplacian. All site edits and engines are the same. A bi-harmonic

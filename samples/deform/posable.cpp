@@ -54,6 +54,7 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
   desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
   desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
   desc.thread_count = options.threads;
+  if (options.paper) desc.operator_kind = HF_OPERATOR_COTANGENT;
   expect_ok(hf_create(&desc, &solver_), "the surface");
   hf_pose_desc pose;
   HF_INIT(pose);

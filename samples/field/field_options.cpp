@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "hf/hf.h"
+
 namespace samples {
 
 const char* const field_usage =
@@ -31,7 +33,8 @@ const char* const field_usage =
     "  --direction X,Y,Z  from where the picture looks (0.8,0.35,1)\n"
     "  --sheet MESH ...   every kind of field on every mesh, one picture a kind: START_harmonic.png and so on\n"
     "  --engine NAME      green (default), updown, refactor\n"
-    "  --operator NAME    cotangent (default), clamped, uniform, delaunay\n"
+    "  --operator NAME    delaunay (default), clamped, uniform, cotangent (the paper's)\n"
+    "  --paper            the paper's own way: --engine updown --operator cotangent\n"
     "  --weld NAME        exact (default), none\n"
     "  --threads N        threads the library may use (1)\n";
 
@@ -167,7 +170,9 @@ FieldOptions read_field_options(int argc, char** argv) {
     else if (name == "--engine")
       options.engine = read_choice(next(), {"green", "updown", "refactor"}, name);
     else if (name == "--operator")
-      options.operator_kind = read_choice(next(), {"cotangent", "clamped", "uniform", "delaunay"}, name);
+      options.operator_kind = read_choice(next(), {"delaunay", "clamped", "uniform", "cotangent"}, name);
+    else if (name == "--paper")
+      options.engine = HF_ENGINE_UPDOWN, options.operator_kind = HF_OPERATOR_COTANGENT;
     else if (name == "--weld")
       options.weld = read_choice(next(), {"exact", "none"}, name);
     else if (name.rfind("--", 0) == 0)

@@ -75,10 +75,10 @@ Session::~Session() { hf_transfer_destroy(transfer_); }
 void Session::create(uint32_t threads, ProgressBar& bar) {
   const auto start = std::chrono::steady_clock::now();
   bar.begin("factorising " + source_.name);
-  source_solver_ = std::make_unique<SurfaceSolver>(source_flat_, source_.name, threads);
+  source_solver_ = std::make_unique<SurfaceSolver>(source_flat_, source_.name, threads, file_.settings.paper);
   bar.end(std::to_string(source_mesh().welded_vertex_count) + " vertices after welding");
   bar.begin("factorising " + target_.name);
-  target_solver_ = std::make_unique<SurfaceSolver>(target_flat_, target_.name, threads);
+  target_solver_ = std::make_unique<SurfaceSolver>(target_flat_, target_.name, threads, file_.settings.paper);
   bar.end(std::to_string(target_mesh().welded_vertex_count) + " vertices after welding");
   setup_ms_ = milliseconds_since(start);
 

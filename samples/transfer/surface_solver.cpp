@@ -15,7 +15,7 @@ void check(hf_result result, const std::string& what) {
                            hf_result_name(result) + ")");
 }
 
-SurfaceSolver::SurfaceSolver(const FlatMesh& mesh, const std::string& name, uint32_t threads) {
+SurfaceSolver::SurfaceSolver(const FlatMesh& mesh, const std::string& name, uint32_t threads, bool paper) {
   const std::vector<double> positions = double_positions(mesh.positions);
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
   for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
@@ -27,6 +27,7 @@ SurfaceSolver::SurfaceSolver(const FlatMesh& mesh, const std::string& name, uint
   desc.weld = HF_WELD_TOLERANCE,
   desc.weld_tolerance = static_cast<float>(1e-5 * std::max({extent.x, extent.y, extent.z, 1e-20}));
   desc.thread_count = threads;
+  if (paper) desc.operator_kind = HF_OPERATOR_COTANGENT;
   check(hf_create(&desc, &solver_), name);
 }
 

@@ -15,7 +15,8 @@ void check(hf_result result, const std::string& what);
 
 class SurfaceSolver {
  public:
-  SurfaceSolver(const FlatMesh& mesh, const std::string& name, uint32_t threads);
+  // paper: plain cotangents, as the paper has them, instead of the library's default operator.
+  SurfaceSolver(const FlatMesh& mesh, const std::string& name, uint32_t threads, bool paper = false);
   ~SurfaceSolver() { hf_destroy(solver_); }
   SurfaceSolver(const SurfaceSolver&) = delete;
   SurfaceSolver& operator=(const SurfaceSolver&) = delete;

@@ -7,7 +7,7 @@
 #include "base/timer.h"
 #include "factor/factor_bytes.h"
 #include "mesh/biharmonic.h"
-#include "mesh/intrinsic.h"
+#include "mesh/delaunay_patches.h"
 
 namespace hf {
 
@@ -85,10 +85,9 @@ void make_operator(Core& core, const CoreOptions& options, int cap) {
   Memory& pool = *core.memory;
   Vector<double> areas(&pool);
   if (options.operator_kind == OperatorKind::intrinsic_delaunay) {
-    IntrinsicTriangulation surface = IntrinsicTriangulation::make(core.mesh, core.topology, pool, core.jobs.get());
-    surface.flip_to_delaunay();
-    core.laplacian = surface.laplacian(core.size(), pool, core.jobs.get());
-    if (options.field_kind == FieldKind::biharmonic) areas = surface.vertex_areas(core.size(), pool);
+    DelaunayOperator made = delaunay_operator(core.mesh, core.topology, core.weights,
+                                              options.field_kind == FieldKind::biharmonic, pool, core.jobs.get());
+    core.laplacian = std::move(made.laplacian), areas = std::move(made.areas);
   } else {
     core.laplacian = hf::laplacian(core.topology, core.weights, pool, core.jobs.get());
     if (options.field_kind == FieldKind::biharmonic) areas = vertex_areas(core.mesh, pool);

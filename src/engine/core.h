@@ -54,7 +54,7 @@ class Workspace {
 };
 
 struct CoreOptions {
-  OperatorKind operator_kind = OperatorKind::cotangent;
+  OperatorKind operator_kind = OperatorKind::intrinsic_delaunay;
   FieldKind field_kind = FieldKind::harmonic;
   Ordering ordering = Ordering::nested_dissection;
   bool need_factor = true;  // the engines updown and refactor keep their own

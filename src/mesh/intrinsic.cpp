@@ -48,13 +48,15 @@ void sort_by_angle(const Mesh& mesh, Index first, Index second, Vector<Side>& si
 }
 
 // Components whose every edge joins two triangles that run through it in opposite directions.
-Vector<std::uint8_t> plain_components(const Mesh& mesh, const Topology& topology, Memory& memory, JobRunner* jobs) {
+Vector<std::uint8_t> plain_components(const Mesh& mesh, const Topology& topology, const Vector<std::uint8_t>* held,
+                                      Memory& memory, JobRunner* jobs) {
   constexpr std::size_t piece = 16384;
   const std::size_t edges = at(topology.edge_count()), pieces = (edges + piece - 1) / piece;
   Vector<Vector<Index>> broken(pieces, &memory);  // components of the edges that are not so
   for_each(jobs, static_cast<std::uint32_t>(pieces), [&](std::uint32_t p) {
     for (std::size_t e = p * piece; e < std::min(edges, (p + std::size_t{1}) * piece); ++e) {
       const Index begin = topology.edge_triangle_start[e], end = topology.edge_triangle_start[e + 1];
+      if (held && (*held)[e]) continue;
       const Index i = topology.first(static_cast<Index>(e)), j = topology.second(static_cast<Index>(e));
       if (end - begin == 2 && side_of(mesh, topology.edge_triangle[at(begin)], i, j).forward !=
                                   side_of(mesh, topology.edge_triangle[at(begin) + 1], i, j).forward)
@@ -73,10 +75,10 @@ Vector<std::uint8_t> plain_components(const Mesh& mesh, const Topology& topology
 }  // namespace
 
 IntrinsicTriangulation IntrinsicTriangulation::make(const Mesh& mesh, const Topology& topology, Memory& memory,
-                                                    JobRunner* jobs) {
+                                                    JobRunner* jobs, const Vector<std::uint8_t>* held) {
   IntrinsicTriangulation cover(memory);
   const std::size_t triangles = at(mesh.triangle_count());
-  const Vector<std::uint8_t> plain = plain_components(mesh, topology, memory, jobs);
+  const Vector<std::uint8_t> plain = plain_components(mesh, topology, held, memory, jobs);
   Vector<Index> back(triangles, &memory);
   Index faces = mesh.triangle_count();
   for (std::size_t t = 0; t < triangles; ++t) {
@@ -89,14 +91,14 @@ IntrinsicTriangulation IntrinsicTriangulation::make(const Mesh& mesh, const Topo
   }
   cover.tail_.resize(3 * at(faces)), cover.twin_.resize(3 * at(faces));
   cover.length_.resize(3 * at(faces)), cover.cotangent_.resize(3 * at(faces));
-  cover.glue(mesh, topology, back, jobs);
+  cover.glue(mesh, topology, back, held, jobs);
   cover.measure(mesh, topology, back, jobs);
   return cover;
 }
 
 // The back of a triangle (v0 v1 v2) is the face (v0 v2 v1): its half-edge on side k is 2 - k.
 void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, const Vector<Index>& back,
-                                  JobRunner* jobs) {
+                                  const Vector<std::uint8_t>* held, JobRunner* jobs) {
   constexpr std::size_t piece = 16384;
   const auto pieces = [](std::size_t count) { return static_cast<std::uint32_t>((count + piece - 1) / piece); };
   const std::size_t triangles = back.size(), edges = at(topology.edge_count());
@@ -119,6 +121,13 @@ void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, co
       if (sides.size() > 2) sort_by_angle(mesh, first, second, sides);
       const auto front = [](const Side& s) { return 3 * s.triangle + s.corner; };
       const auto reverse = [&](const Side& s) { return 3 * back[at(s.triangle)] + 2 - s.corner; };
+      if (held && (*held)[e]) {
+        for (const Side& side : sides) {
+          twin_[at(front(side))] = front(side);
+          if (back[at(side.triangle)] != side.triangle) twin_[at(reverse(side))] = reverse(side);
+        }
+        continue;
+      }
       if (back[at(sides[0].triangle)] == sides[0].triangle) {
         twin_[at(front(sides[0]))] = front(sides[1]), twin_[at(front(sides[1]))] = front(sides[0]);
         continue;
@@ -219,7 +228,7 @@ std::uint64_t IntrinsicTriangulation::flip_to_delaunay(std::uint64_t flip_limit)
   std::uint64_t flips = 0;
   for (std::size_t head = 0; head < queue.size() && flips < flip_limit; ++head) {
     const Index h = queue[head], g = twin_[at(h)];
-    if (h / 3 == g / 3 || is_delaunay(h)) continue;
+    if (h / 3 == g / 3 || is_delaunay(h)) continue;  // held edges are their own twins
     flip(h), ++flips;
     for (const Index outer : {next(h), next(next(h)), next(g), next(next(g))}) {
       if (!is_delaunay(outer)) queue.push_back(outer);

@@ -27,9 +27,14 @@ namespace hf {
 
 class IntrinsicTriangulation {
  public:
-  // The cover of the mesh with its own edges. On failure (std::bad_alloc) nothing exists.
+  // Of no mesh yet.
+  explicit IntrinsicTriangulation(Memory& memory)
+      : memory_(&memory), tail_(&memory), twin_(&memory), length_(&memory), cotangent_(&memory), doubled_(&memory) {}
+  // The cover of the mesh with its own edges. held: null, or by edge whether more of the surface lies beyond it: such an
+  // edge is no border, is never flipped, and its half-edges are their own twins. On failure (std::bad_alloc) nothing
+  // exists.
   static IntrinsicTriangulation make(const Mesh& mesh, const Topology& topology, Memory& memory,
-                                     JobRunner* jobs = nullptr);
+                                     JobRunner* jobs = nullptr, const Vector<std::uint8_t>* held = nullptr);
 
   // Flips until every edge is Delaunay. Stops at flip_limit flips (0: 64 per edge), where the weights that are still
   // negative count as zero: that keeps the maximum principle and gives up some accuracy. Returns the number of flips.
@@ -38,6 +43,7 @@ class IntrinsicTriangulation {
   std::int32_t face_count() const noexcept { return static_cast<std::int32_t>(tail_.size() / 3); }
   // Half-edge 3 f + k of face f runs from its corner k to the next.
   std::int32_t tail(std::int32_t half) const noexcept { return tail_[at(half)]; }
+  std::int32_t head(std::int32_t half) const noexcept { return tail_[at(next(half))]; }
   std::int32_t twin(std::int32_t half) const noexcept { return twin_[at(half)]; }
   double length(std::int32_t half) const noexcept { return length_[at(half)]; }
   // Of the angle opposite the half-edge.
@@ -56,13 +62,12 @@ class IntrinsicTriangulation {
   Vector<double> vertex_areas(std::int32_t vertex_count, Memory& memory) const;
 
  private:
-  explicit IntrinsicTriangulation(Memory& memory)
-      : memory_(&memory), tail_(&memory), twin_(&memory), length_(&memory), cotangent_(&memory), doubled_(&memory) {}
   static std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
   static std::int32_t next(std::int32_t half) noexcept { return half % 3 == 2 ? half - 2 : half + 1; }
 
   // back: of every triangle of the mesh, the face of its back; its own number where the component is its own cover.
-  void glue(const Mesh& mesh, const Topology& topology, const Vector<std::int32_t>& back, JobRunner* jobs);
+  void glue(const Mesh& mesh, const Topology& topology, const Vector<std::int32_t>& back,
+            const Vector<std::uint8_t>* held, JobRunner* jobs);
   void measure(const Mesh& mesh, const Topology& topology, const Vector<std::int32_t>& back, JobRunner* jobs);
   bool is_delaunay(std::int32_t half) const noexcept;
   void flip(std::int32_t half) noexcept;

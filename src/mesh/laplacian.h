@@ -11,7 +11,7 @@
 
 namespace hf {
 
-enum class OperatorKind : std::int32_t { cotangent = 0, clamped = 1, uniform = 2, intrinsic_delaunay = 3 };
+enum class OperatorKind : std::int32_t { intrinsic_delaunay = 0, clamped = 1, uniform = 2, cotangent = 3 };
 
 // Which operator of L the field solves: K = L, K = L M^-1 L, or the paper's K = L^2 (biharmonic.h).
 enum class FieldKind : std::int32_t { harmonic = 0, biharmonic = 1, biharmonic_graph = 2 };

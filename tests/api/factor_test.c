@@ -162,7 +162,7 @@ static void a_factor_of_another_surface_is_refused(void** state) {
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_create(&desc, &out));
   assert_null(out);
   /* another ordering asked for */
-  desc.operator_kind = HF_OPERATOR_COTANGENT, desc.ordering = HF_ORDERING_MINIMUM_DEGREE;
+  desc.operator_kind = HF_OPERATOR_INTRINSIC_DELAUNAY, desc.ordering = HF_ORDERING_MINIMUM_DEGREE;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_create(&desc, &out));
   desc.ordering = HF_ORDERING_NESTED_DISSECTION;
   assert_ok(hf_create(&desc, &out));

@@ -15,7 +15,7 @@ Rows run_analysis(const Run& run, Report& report) {
       if (run.small && n > 12000) continue;
       const auto mesh = make_mesh(family, run.small ? 4000 : n);
       if (!run.wants(mesh->name)) continue;
-      const Solver solver(*mesh, {HF_ENGINE_GREEN, run.threads});
+      const Solver solver(*mesh, own_defaults(run.threads));
       Sites(solver).edit({0}, {});
       hf_geodesics geodesics = nullptr;
       const double factor = median_ms(run.repetitions, [&] {

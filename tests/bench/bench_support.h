@@ -53,10 +53,17 @@ struct SolverOptions {
   uint32_t threads = 1;
   int ordering = HF_ORDERING_NESTED_DISSECTION;
   uint32_t channels = 1;
-  int operator_kind = HF_OPERATOR_COTANGENT;
+  int operator_kind = HF_OPERATOR_COTANGENT;  // what the peers factorise; not the library's default
   int field_kind = HF_FIELD_HARMONIC;
   const hf_factor_desc* saved_factor = nullptr;
 };
+
+// The library as it comes, for figures without a peer that factorises the same matrix.
+inline SolverOptions own_defaults(uint32_t threads) {
+  SolverOptions options;
+  options.threads = threads, options.operator_kind = HF_OPERATOR_INTRINSIC_DELAUNAY;
+  return options;
+}
 
 // A solver of the C ABI that is destroyed with its scope.
 class Solver {

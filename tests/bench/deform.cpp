@@ -117,7 +117,7 @@ double arap_iteration_ms(const Mesh& mesh, const std::vector<std::vector<uint32_
 // From nothing: operator, factor, fields, bands, first frame, with the handle there.
 double scratch_ms(const Mesh& mesh, const std::vector<std::vector<uint32_t>>& regions, const Run& run) {
   return median_ms(std::min(3u, run.repetitions), [&] {
-    const Solver solver(mesh, {HF_ENGINE_GREEN, run.threads});
+    const Solver solver(mesh, own_defaults(run.threads));
     Rig rig(mesh, solver, regions);
     rig.move(rig.handles[1], 0.5);
     rig.deform();
@@ -224,7 +224,7 @@ Rows run_deform(const Run& run, Report& report) {
     if (run.small && size != Size::k84) continue;
     const auto mesh = make_mesh(Family::torus, size, run.small);
     if (!run.wants(mesh->name)) continue;
-    const Solver solver(*mesh, {HF_ENGINE_GREEN, run.threads});
+    const Solver solver(*mesh, own_defaults(run.threads));
     nlohmann::json row = {{"name", mesh->name}, {"n", mesh->vertex_count()}};
     for (const uint32_t handles : {2u, 4u}) {
       const auto regions = regions_of(*mesh, handles);

@@ -12,6 +12,7 @@ std::shared_ptr<const hf::Core> make_core(const Mesh& mesh, const std::shared_pt
   input.triangles = mesh.triangles.data();
   hf::CoreOptions options;
   options.need_factor = false, options.field_kind = kind;
+  options.operator_kind = hf::OperatorKind::cotangent;  // the matrix the peers get
   return hf::Core::make(input, options, memory, jobs);
 }
 

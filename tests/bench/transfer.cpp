@@ -90,7 +90,7 @@ Rows run_transfer(const Run& run, Report&) {
   Rows rows = Rows::array();
   const auto source = make_mesh(Family::creature, run.small ? 2000 : 4000),
              target = make_mesh(Family::creature, run.small ? 2500 : 10000);
-  const Solver from(*source, {HF_ENGINE_GREEN, 1}), to(*target, {HF_ENGINE_GREEN, 1});
+  const Solver from(*source, own_defaults(1)), to(*target, own_defaults(1));
   std::vector<hf_extremity> tips(64);
   uint32_t tip_count = 0;
   check(hf_find_extremities(from.handle(), nullptr, 64, tips.data(), &tip_count));

@@ -49,7 +49,7 @@ TEST_P(ReferenceField, is_reproduced_by_every_engine) {
     desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size()),
     desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
     desc.positions_f64 = &mesh.positions[0].x, desc.triangles = mesh.triangles.data();
-    desc.engine = engine, desc.weld = HF_WELD_NONE;
+    desc.engine = engine, desc.weld = HF_WELD_NONE, desc.operator_kind = HF_OPERATOR_COTANGENT;
     hf_solver solver = nullptr;
     ASSERT_EQ(hf_create(&desc, &solver), HF_OK);
     hf_sites_desc batch;

@@ -38,10 +38,10 @@ namespace Hf.Native
         public const int HF_WELD_EXACT = 0;
         public const int HF_WELD_NONE = 1;
         public const int HF_WELD_TOLERANCE = 2;
-        public const int HF_OPERATOR_COTANGENT = 0;
+        public const int HF_OPERATOR_INTRINSIC_DELAUNAY = 0;
         public const int HF_OPERATOR_CLAMPED = 1;
         public const int HF_OPERATOR_UNIFORM = 2;
-        public const int HF_OPERATOR_INTRINSIC_DELAUNAY = 3;
+        public const int HF_OPERATOR_COTANGENT = 3;
         public const int HF_FIELD_HARMONIC = 0;
         public const int HF_FIELD_BIHARMONIC = 1;
         public const int HF_FIELD_BIHARMONIC_GRAPH = 2;

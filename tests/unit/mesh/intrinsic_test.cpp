@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "mesh/delaunay_patches.h"
 #include "support/dirty_meshes.h"
 #include "support/meshes.h"
 
@@ -207,6 +208,141 @@ TEST(Intrinsic, stopped_early_it_still_has_no_negative_weight) {
     if (ij.first != ij.second) {
       EXPECT_LE(value, 0.0);
     }
+  }
+}
+
+// The operator by patches and the one of the whole triangulation, and how many triangles the patches took.
+struct TwoWays {
+  explicit TwoWays(const PlainMesh& mesh, std::uint32_t threads = 1) : surface(mesh, threads) {
+    const hf::Core& core = *surface.core;
+    patches.emplace(hf::delaunay_operator(core.mesh, core.topology, core.weights, true, *core.memory, core.jobs.get()));
+    flips = surface.triangulation->flip_to_delaunay();
+  }
+  double share() const { return patches->patch_triangles / static_cast<double>(surface.core->mesh.triangle_count()); }
+  Surface surface;
+  std::optional<hf::DelaunayOperator> patches;
+  std::uint64_t flips = 0;
+};
+
+// Bumps that make some triangles obtuse, here and there.
+PlainMesh with_folds(PlainMesh mesh, int count, double height, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  for (int i = 0; i < count; ++i) {
+    const std::size_t v = random() % mesh.vertex_count();
+    for (std::size_t k = 0; k < 3; ++k)
+      mesh.positions[3 * v + k] += height * std::uniform_real_distribution<double>(-1, 1)(random);
+  }
+  return mesh;
+}
+
+TEST(DelaunayPatches, give_the_operator_and_areas_of_the_whole_triangulation) {
+  std::vector<std::pair<std::string, PlainMesh>> meshes = hf_test::dirty_meshes();
+  for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+    const std::string number = std::to_string(seed);
+    // spread out so far that a few patches are the rule, many enough that flips run into their borders
+    meshes.emplace_back("sphere " + number, with_folds(hf_test::sphere(40), 25, 0.05, seed));
+    meshes.emplace_back("open disk " + number, with_folds(hf_test::disk(40), 25, 0.03, seed));
+    meshes.emplace_back("book " + number, with_folds(hf_test::book(3, 40, 40, 0.0), 25, 0.03, seed));
+    meshes.emplace_back("turned over " + number,
+                        with_folds(hf_test::turned_over(hf_test::sphere(40), 97), 25, 0.05, seed));
+    // a long thin fold: flips spread far from the edges that are broken at the start
+    PlainMesh folded = hf_test::grid(60, 60, 1, 0.1, seed);
+    for (std::size_t i = 0; i < folded.positions.size(); i += 3) {
+      const double x = folded.positions[i], y = folded.positions[i + 1];
+      if (y > 28 && y < 32) folded.positions[i] = x + 3 * (y - 28) * (seed / 6.0);
+    }
+    meshes.emplace_back("slid " + number, std::move(folded));
+  }
+  int by_patches = 0, beyond = 0;
+  for (const auto& [name, mesh] : meshes) {
+    SCOPED_TRACE(name);
+    const TwoWays ways(mesh);
+    const hf::Core& core = *ways.surface.core;
+    const Entries whole = entries_of(ways.surface.laplacian()), patched = entries_of(ways.patches->laplacian);
+    double size = 0;
+    for (const auto& entry : whole) size = std::max(size, std::fabs(entry.second));
+    EXPECT_LE(largest_difference(whole, patched), 1e-9 * size);
+    const hf::Vector<double> areas = ways.surface.triangulation->vertex_areas(core.size(), *core.memory);
+    double largest = 0, worst = 0;
+    for (const double a : areas) largest = std::max(largest, a);
+    if (hf_test::is_generic(name) || name.find("disk") != std::string::npos || name.find("sphere") == 0) {
+      // where two diagonals serve, areas depend on which is taken
+      for (std::size_t v = 0; v < areas.size(); ++v)
+        worst = std::max(worst, std::fabs(areas[v] - ways.patches->areas[v]));
+      EXPECT_LE(worst, 1e-9 * largest);
+    }
+    by_patches += ways.share() > 0 && ways.share() < 0.3;
+    beyond += ways.flips > 0 && ways.share() < 0.3;
+    for (const auto& [ij, value] : patched) {
+      if (ij.first != ij.second) {
+        ASSERT_LE(value, 0.0);
+        ASSERT_EQ(value, value_of(patched, ij.second, ij.first)) << "symmetric to the bit";
+      }
+    }
+  }
+  EXPECT_GE(by_patches, 15);
+  EXPECT_GE(beyond, 15);
+}
+
+// Points on an arc that bends a little more than a circle, triangulated by halving the arc, and a point inside the
+// circle beyond the chord: only the chord is not Delaunay, but its flip makes the next edges so, and in the end all
+// points hang on the point inside.
+PlainMesh halved_arc(std::uint32_t halvings) {
+  const std::uint32_t last = 1u << halvings;
+  PlainMesh mesh;
+  mesh.positions.assign(3 * (std::size_t{last} + 2), 0.0);
+  const auto put = [&](std::uint32_t i, double x, double y) {
+    mesh.positions[3 * std::size_t{i}] = x, mesh.positions[3 * std::size_t{i} + 1] = y;
+  };
+  put(0, std::cos(0.5), std::sin(0.5)), put(last, std::cos(2.5), std::sin(2.5)), put(last + 1, 0.05, 0.2);
+  mesh.triangles = {0, last, last + 1};
+  for (std::uint32_t step = last; step > 1; step /= 2) {
+    for (std::uint32_t i = 0; i < last; i += step) {
+      mesh.triangles.insert(mesh.triangles.end(), {i, i + step / 2, i + step});
+      const double *a = &mesh.positions[3 * std::size_t{i}], *b = &mesh.positions[3 * std::size_t{i + step}];
+      const double x = 0.5 * (a[0] + b[0]), y = 0.5 * (a[1] + b[1]), dx = b[0] - a[0], dy = b[1] - a[1];
+      const double turn = std::tan(0.25 * 2.0 * step / last) / 2 * 1.001;  // height over chord: tan(angle / 4) / 2
+      put(i + step / 2, x + turn * dy, y - turn * dx);
+    }
+  }
+  return mesh;
+}
+
+TEST(DelaunayPatches, grow_as_far_as_the_flips_reach) {
+  PlainMesh mesh = halved_arc(12);
+  hf_test::append(mesh, hf_test::sphere(70), 4);
+  const TwoWays ways(mesh);
+  EXPECT_GT(ways.flips, 2u * 4000u);  // front and back
+  EXPECT_GT(ways.patches->patch_triangles, 4000);
+  EXPECT_LT(ways.share(), 0.25);
+  const Entries whole = entries_of(ways.surface.laplacian());
+  double size = 0;
+  for (const auto& entry : whole) size = std::max(size, std::fabs(entry.second));
+  EXPECT_LE(largest_difference(whole, entries_of(ways.patches->laplacian)), 1e-12 * size);
+}
+
+TEST(DelaunayPatches, leave_a_delaunay_mesh_its_cotangent_bits) {
+  for (const PlainMesh& mesh : {hf_test::sphere(12), hf_test::disk(9)}) {
+    const TwoWays ways(mesh);
+    EXPECT_EQ(ways.patches->patch_triangles, 0);
+    const hf::SymmetricMatrix& cotangent = ways.surface.core->laplacian;
+    EXPECT_TRUE(ways.patches->laplacian.column_start == cotangent.column_start);
+    EXPECT_TRUE(ways.patches->laplacian.row == cotangent.row);
+    EXPECT_TRUE(ways.patches->laplacian.value == cotangent.value);
+  }
+}
+
+TEST(DelaunayPatches, give_the_same_bits_for_any_number_of_threads) {
+  const PlainMesh mesh = with_folds(hf_test::sphere(90), 60, 0.02, 3);
+  std::vector<double> first;
+  for (const std::uint32_t threads : {1u, 2u, 4u}) {
+    const TwoWays ways(mesh, threads);
+    EXPECT_GT(ways.patches->patch_triangles, 0);
+    EXPECT_LT(ways.share(), 0.25);
+    const auto& k = ways.patches->laplacian.value;
+    const std::vector<double> value(k.begin(), k.end());
+    if (first.empty()) first = value;
+    EXPECT_EQ(first, value);
   }
 }
 
