@@ -4,12 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <stdexcept>
 
 #include "common/gltf_write.h"
 #include "common/progress_bar.h"
 #include "deform/pose_sheet.h"
+#include "deform/program.h"
 
 namespace {
 
@@ -37,52 +37,34 @@ struct Command {
   bool refine = false, quiet = false, help = false;
 };
 
-Command parse(int count, char** arguments) {
+Command parse(Words words) {
   Command out;
-  for (int i = 1; i < count; ++i) {
-    const std::string word = arguments[i];
-    const auto value = [&]() -> std::string {
-      if (i + 1 >= count) throw std::runtime_error(word + " needs a value; see --help");
-      return arguments[++i];
-    };
-    const auto number = [&](double low, double high) {
-      const std::string text = value();
-      char* end = nullptr;
-      const double n = std::strtod(text.c_str(), &end);
-      if (text.empty() || *end != 0 || !(n >= low && n <= high))
-        throw std::runtime_error(word + " takes a number from " + std::to_string(low) + " to " + std::to_string(high) +
-                                 ", not \"" + text + "\"");
-      return n;
-    };
-    if (word == "--help" || word == "-h") {
+  while (words.next()) {
+    if (words.is("--help", "-h")) {
       out.help = true;
-    } else if (word == "--script") {
-      out.script = value();
-    } else if (word == "-o" || word == "--output") {
-      out.output = value();
-    } else if (word == "--sheet") {
-      out.sheet = value();
-    } else if (word == "--frames-obj") {
-      out.frames = value();
-    } else if (word == "--keys") {
-      out.keys = number(0.5, 60);
-    } else if (word == "--tiles") {
-      out.tiles = static_cast<uint32_t>(number(2, 23));
-    } else if (word == "--threads") {
-      out.threads = static_cast<uint32_t>(number(1, 256));
-    } else if (word == "--mode") {
-      out.mode = value();
+    } else if (words.is("--script")) {
+      out.script = words.value();
+    } else if (words.is("-o", "--output")) {
+      out.output = words.value();
+    } else if (words.is("--sheet")) {
+      out.sheet = words.value();
+    } else if (words.is("--frames-obj")) {
+      out.frames = words.value();
+    } else if (words.is("--keys")) {
+      out.keys = words.number(0.5, 60);
+    } else if (words.is("--tiles")) {
+      out.tiles = words.whole(2, 23);
+    } else if (words.is("--threads")) {
+      out.threads = words.whole(1, 256);
+    } else if (words.is("--mode")) {
+      out.mode = words.value();
       if (out.mode != "smooth" && out.mode != "paper") throw std::runtime_error("--mode takes smooth or paper");
-    } else if (word == "--refine") {
+    } else if (words.is("--refine")) {
       out.refine = true;
-    } else if (word == "--quiet") {
+    } else if (words.is("--quiet")) {
       out.quiet = true;
-    } else if (!word.empty() && word[0] == '-') {
-      throw std::runtime_error("unknown option " + word + "; see --help");
-    } else if (out.mesh.empty()) {
-      out.mesh = word;
     } else {
-      throw std::runtime_error("one mesh only, not also " + word);
+      words.take_mesh(out.mesh);
     }
   }
   if (out.help) return out;
@@ -132,15 +114,11 @@ std::vector<Key> play(const ScriptFile& script, const Command& command, Posable&
     }
     posable.remove(step.remove);
     posable.add(step.add);
-    const int count =
-        step.drag.empty() ? 1 : std::max(1, static_cast<int>(std::lround(step.seconds * script.frame_rate)));
-    posable.begin(step);
-    for (int f = 1; f <= count; ++f) {
-      if (layered && f == 1) {
-        posable.deform(refine, positions, normals);
-        for (size_t i = 0; i < positions.size(); ++i) jump = std::max(jump, std::abs(positions[i] - before[i]));
-      }
-      posable.drag(static_cast<double>(f) / count);
+    if (layered) {
+      posable.deform(refine, positions, normals);
+      for (size_t i = 0; i < positions.size(); ++i) jump = std::max(jump, std::abs(positions[i] - before[i]));
+    }
+    posable.play(step, step.drag.empty() ? 0 : script.frame_rate, [&](int f, int count) {
       const auto start = std::chrono::steady_clock::now();
       posable.deform(refine, positions, normals);
       frame_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(), ++frames;
@@ -150,7 +128,7 @@ std::vector<Key> play(const ScriptFile& script, const Command& command, Posable&
         next_key = time + 1 / command.keys;
       }
       bar.update(static_cast<double>(f) / count);
-    }
+    });
     if (step.drag.empty() && step.seconds > 0) time += step.seconds, keep("");
     bar.end(std::to_string(posable.handles().size()) + " handles");
   }
@@ -266,17 +244,4 @@ void run(const Command& command) {
 
 }  // namespace
 
-int main(int count, char** arguments) {
-  try {
-    const Command command = parse(count, arguments);
-    if (command.help) {
-      std::fputs(usage, stdout);
-      return 0;
-    }
-    run(command);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "hf_deform_script: %s\n", error.what());
-    return 1;
-  }
-  return 0;
-}
+int main(int count, char** arguments) { return run_program("hf_deform_script", usage, count, arguments, parse, run); }

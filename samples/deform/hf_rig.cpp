@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <stdexcept>
 
 #include "common/animate.h"
@@ -13,6 +12,7 @@
 #include "common/progress_bar.h"
 #include "common/skin_write.h"
 #include "deform/posable.h"
+#include "deform/program.h"
 
 namespace {
 
@@ -36,44 +36,26 @@ struct Command {
   bool quiet = false, help = false;
 };
 
-Command parse(int count, char** arguments) {
+Command parse(Words words) {
   Command out;
-  for (int i = 1; i < count; ++i) {
-    const std::string word = arguments[i];
-    const auto value = [&]() -> std::string {
-      if (i + 1 >= count) throw std::runtime_error(word + " needs a value; see --help");
-      return arguments[++i];
-    };
-    const auto number = [&](unsigned long low, unsigned long high) {
-      const std::string text = value();
-      char* end = nullptr;
-      const unsigned long n = std::strtoul(text.c_str(), &end, 10);
-      if (text.empty() || *end != 0 || n < low || n > high)
-        throw std::runtime_error(word + " takes a number from " + std::to_string(low) + " to " + std::to_string(high) +
-                                 ", not \"" + text + "\"");
-      return static_cast<uint32_t>(n);
-    };
-    if (word == "--help" || word == "-h") {
+  while (words.next()) {
+    if (words.is("--help", "-h")) {
       out.help = true;
-    } else if (word == "--handles") {
-      out.handles = value();
-    } else if (word == "-o" || word == "--output") {
-      out.output = value();
-    } else if (word == "--json") {
-      out.json = value();
-    } else if (word == "--weights") {
-      out.weights = number(4, 8);
+    } else if (words.is("--handles")) {
+      out.handles = words.value();
+    } else if (words.is("-o", "--output")) {
+      out.output = words.value();
+    } else if (words.is("--json")) {
+      out.json = words.value();
+    } else if (words.is("--weights")) {
+      out.weights = words.whole(4, 8);
       if (out.weights != 4 && out.weights != 8) throw std::runtime_error("--weights takes 4 or 8");
-    } else if (word == "--threads") {
-      out.threads = number(1, 256);
-    } else if (word == "--quiet") {
+    } else if (words.is("--threads")) {
+      out.threads = words.whole(1, 256);
+    } else if (words.is("--quiet")) {
       out.quiet = true;
-    } else if (!word.empty() && word[0] == '-') {
-      throw std::runtime_error("unknown option " + word + "; see --help");
-    } else if (out.mesh.empty()) {
-      out.mesh = word;
     } else {
-      throw std::runtime_error("one mesh only, not also " + word);
+      words.take_mesh(out.mesh);
     }
   }
   if (out.help) return out;
@@ -175,13 +157,10 @@ void run(const Command& command) {
     frame(0);
     double time = 0;
     for (const Step& step : entry.steps) {
-      const int count = std::max(1, static_cast<int>(std::lround(step.seconds * rig.frame_rate)));
-      player.begin(step);
-      for (int f = 1; f <= count; ++f) {
-        player.drag(static_cast<double>(f) / count);
+      player.play(step, rig.frame_rate, [&](int f, int count) {
         frame(time + std::max(step.seconds, 1e-3) * f / count);
         bar.update(static_cast<double>(f) / count);
-      }
+      });
       time += std::max(step.seconds, 1e-3);
     }
     skin.clips.push_back(clip);
@@ -218,17 +197,4 @@ void run(const Command& command) {
 
 }  // namespace
 
-int main(int count, char** arguments) {
-  try {
-    const Command command = parse(count, arguments);
-    if (command.help) {
-      std::fputs(usage, stdout);
-      return 0;
-    }
-    run(command);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "hf_rig: %s\n", error.what());
-    return 1;
-  }
-  return 0;
-}
+int main(int count, char** arguments) { return run_program("hf_rig", usage, count, arguments, parse, run); }

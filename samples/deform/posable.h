@@ -2,6 +2,8 @@
 #ifndef HF_SAMPLES_DEFORM_POSABLE_H
 #define HF_SAMPLES_DEFORM_POSABLE_H
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -48,6 +50,16 @@ class Posable {
   // The motions of a step begin where the handles stand; `t` from 0 to 1 of the way.
   void begin(const Step& step);
   void drag(double t);
+  // A step frame by frame: its drags go on by equal parts, frame(f, count) after each, f from 1 to count.
+  template <class Frame>
+  void play(const Step& step, double frame_rate, Frame&& frame) {
+    const int count = std::max(1, static_cast<int>(std::lround(step.seconds * frame_rate)));
+    begin(step);
+    for (int f = 1; f <= count; ++f) {
+      drag(static_cast<double>(f) / count);
+      frame(f, count);
+    }
+  }
   // Vertices (xyz) and normals; refine: with the full-mesh step.
   void deform(bool refine, std::vector<double>& positions, std::vector<float>& normals, uint32_t iterations = 0);
 

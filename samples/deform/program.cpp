@@ -1,0 +1,55 @@
+// See program.h.
+#include "deform/program.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace samples {
+namespace {
+
+// 8 as "8", 0.5 as "0.5".
+std::string text_of(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", number);
+  return text;
+}
+
+}  // namespace
+
+bool Words::next() {
+  if (at_ + 1 >= count_) return false;
+  word_ = arguments_[++at_];
+  return true;
+}
+
+bool Words::is(const char* name, const char* other) const { return word_ == name || (other && word_ == other); }
+
+std::string Words::value() {
+  if (at_ + 1 >= count_) throw std::runtime_error(word_ + " needs a value; see --help");
+  return arguments_[++at_];
+}
+
+double Words::number(double low, double high) {
+  const std::string text = value();
+  char* end = nullptr;
+  const double n = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != 0 || !(n >= low && n <= high))
+    throw std::runtime_error(word_ + " takes a number from " + text_of(low) + " to " + text_of(high) + ", not \"" +
+                             text + "\"");
+  return n;
+}
+
+uint32_t Words::whole(uint32_t low, uint32_t high) {
+  const double n = number(low, high);
+  if (n != std::floor(n)) throw std::runtime_error(word_ + " takes a whole number, not \"" + text_of(n) + "\"");
+  return static_cast<uint32_t>(n);
+}
+
+void Words::take_mesh(std::filesystem::path& mesh) const {
+  if (!word_.empty() && word_[0] == '-') throw std::runtime_error("unknown option " + word_ + "; see --help");
+  if (!mesh.empty()) throw std::runtime_error("one mesh only, not also " + word_);
+  mesh = word_;
+}
+
+}  // namespace samples

@@ -1,0 +1,52 @@
+// What hf_deform_script and hf_rig have in common: reading the words of a command line, and a main() that reports what
+// went wrong in one line.
+#ifndef HF_SAMPLES_DEFORM_PROGRAM_H
+#define HF_SAMPLES_DEFORM_PROGRAM_H
+
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+
+namespace samples {
+
+// The words of a command line, one after the other. Throws std::runtime_error naming the word that does not fit.
+class Words {
+ public:
+  Words(int count, char** arguments) : count_(count), arguments_(arguments) {}
+  bool next();  // false: there is none left
+  bool is(const char* name, const char* other = nullptr) const;
+  // What follows the option at hand.
+  std::string value();
+  double number(double low, double high);
+  uint32_t whole(uint32_t low, uint32_t high);
+  // The word at hand is no option of the program: the mesh, once.
+  void take_mesh(std::filesystem::path& mesh) const;
+
+ private:
+  int count_, at_ = 0;
+  char** arguments_;
+  std::string word_;
+};
+
+// parse(words) gives a command with a member `help`; run(command) does it. Returns what main() is to return.
+template <class Parse, class Run>
+int run_program(const char* name, const char* usage, int count, char** arguments, Parse&& parse, Run&& run) {
+  try {
+    const auto command = parse(Words(count, arguments));
+    if (command.help) {
+      std::fputs(usage, stdout);
+      return 0;
+    }
+    run(command);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace samples
+
+#endif
