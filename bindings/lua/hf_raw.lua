@@ -8,6 +8,8 @@ typedef struct hf_solver_object* hf_solver;
 typedef struct hf_geodesics_object* hf_geodesics;
 typedef struct hf_pose_object* hf_pose;
 typedef struct hf_direction_object* hf_direction;
+typedef struct hf_quads_object* hf_quads;
+typedef struct hf_flow_object* hf_flow;
 typedef struct hf_transfer_object* hf_transfer;
 typedef struct hf_error_detail {
   hf_result code;
@@ -307,6 +309,61 @@ typedef struct hf_preview_info {
   double error_estimate;
   double preview_bytes;
 } hf_preview_info;
+typedef struct hf_quads_desc {
+  uint32_t struct_size;
+  int32_t kind;
+  float edge_length;
+  uint32_t site_count;
+  const uint32_t* site_vertices;
+  const int32_t* site_lines;
+  int32_t keep_polygons;
+  uint32_t relax_count;
+  hf_progress progress;
+} hf_quads_desc;
+typedef struct hf_quads_info {
+  uint32_t struct_size;
+  uint32_t vertex_count;
+  uint32_t face_count;
+  uint32_t corner_count;
+  uint32_t quad_count;
+  uint32_t polygon_count;
+  uint32_t polygon_quad_count;
+  uint32_t site_count;
+  uint32_t saddle_count;
+  int32_t euler_characteristic;
+  float edge_length;
+  uint32_t reserved;
+} hf_quads_info;
+typedef struct hf_quads_mesh {
+  uint32_t struct_size;
+  uint32_t vertex_capacity;
+  uint32_t face_capacity;
+  uint32_t corner_capacity;
+  uint32_t site_capacity;
+  uint32_t reserved;
+  double* positions;
+  uint32_t* triangles;
+  double* barycentrics;
+  uint32_t* face_starts;
+  uint32_t* face_corners;
+  uint32_t* site_vertices;
+  int32_t* site_lines;
+} hf_quads_mesh;
+typedef struct hf_flow_lines {
+  uint32_t struct_size;
+  uint32_t wanted_count;
+  uint32_t seed_count;
+  uint32_t point_capacity;
+  uint32_t line_capacity;
+  uint32_t point_count;
+  uint32_t line_count;
+  uint32_t reserved;
+  const uint32_t* seeds;
+  double* positions;
+  double* values;
+  uint32_t* line_starts;
+  uint32_t* line_ends;
+} hf_flow_lines;
 typedef struct hf_transfer_desc {
   uint32_t struct_size;
   int32_t mode;
@@ -430,6 +487,13 @@ hf_result hf_save_factor(hf_solver solver, void* out_bytes, size_t size);
 hf_result hf_solve_preview(hf_solver solver, float* out_values, uint32_t value_stride, uint32_t correction_count, hf_preview_info* out_info);
 hf_result hf_solve_preview_f64(hf_solver solver, double* out_values, uint32_t value_stride, uint32_t correction_count, hf_preview_info* out_info);
 hf_result hf_release_preview(hf_solver solver);
+hf_result hf_quads_create(hf_solver solver, const hf_quads_desc* desc, hf_quads* out_quads);
+void hf_quads_destroy(hf_quads quads);
+hf_result hf_quads_get_info(hf_quads quads, hf_quads_info* out_info);
+hf_result hf_quads_get_mesh(hf_quads quads, const hf_quads_mesh* out_mesh);
+hf_result hf_flow_create(hf_solver solver, hf_flow* out_flow);
+void hf_flow_destroy(hf_flow flow);
+hf_result hf_flow_trace(hf_flow flow, const hf_scalars* field, hf_flow_lines* inout_lines);
 hf_result hf_transfer_create(hf_solver source, hf_solver target, const hf_transfer_desc* desc, hf_transfer* out_transfer);
 void hf_transfer_destroy(hf_transfer transfer);
 hf_result hf_transfer_add_pairs(hf_transfer transfer, const hf_pairs_desc* pairs, uint32_t* out_pairs);
@@ -501,6 +565,8 @@ local constants = { header_version = '0.1.0',
   HF_DEFORM_SMOOTH = 0,
   HF_DEFORM_PAPER = 1,
   HF_LAYER_COUNT = 8,
+  HF_QUADS_UNIFORM = 0,
+  HF_QUADS_PURE = 1,
   HF_TRANSFER_FIELDS = 0,
   HF_TRANSFER_PAPER = 1,
   HF_PAIR_ANCHOR = 1,

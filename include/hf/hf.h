@@ -9,6 +9,7 @@
 #include "hf/factor.h"
 #include "hf/field.h"
 #include "hf/mesh.h"
+#include "hf/quads.h"
 #include "hf/transfer.h"
 
 #endif

@@ -343,6 +343,80 @@ class Geodesics {
   uint32_t vertices_ = 0;
 };
 
+// hf/quads.h: a quad mesh of the solver's surface, read out whole.
+struct QuadMesh {
+  std::vector<double> positions, barycentrics;  // three numbers per vertex
+  std::vector<uint32_t> triangles;              // by vertex, of the mesh as given
+  std::vector<uint32_t> face_starts, face_corners;
+  std::vector<uint32_t> site_vertices;
+  std::vector<int32_t> site_lines;
+  hf_quads_info info;
+};
+inline QuadMesh make_quads(const Solver& solver, const hf_quads_desc* desc = nullptr) {
+  hf_quads raw = nullptr;
+  check(hf_quads_create(solver.get(), desc, &raw));
+  const Handle<hf_quads, hf_quads_destroy> handle(raw);
+  QuadMesh mesh;
+  mesh.info = make<hf_quads_info>();
+  check(hf_quads_get_info(raw, &mesh.info));
+  mesh.positions.resize(size_t{mesh.info.vertex_count} * 3), mesh.barycentrics.resize(mesh.positions.size());
+  mesh.triangles.resize(mesh.info.vertex_count), mesh.face_starts.resize(size_t{mesh.info.face_count} + 1);
+  mesh.face_corners.resize(mesh.info.corner_count);
+  mesh.site_vertices.resize(mesh.info.site_count), mesh.site_lines.resize(mesh.info.site_count);
+  auto out = make<hf_quads_mesh>();
+  out.vertex_capacity = mesh.info.vertex_count, out.face_capacity = mesh.info.face_count;
+  out.corner_capacity = mesh.info.corner_count, out.site_capacity = mesh.info.site_count;
+  out.positions = mesh.positions.data(), out.triangles = mesh.triangles.data();
+  out.barycentrics = mesh.barycentrics.data(), out.face_starts = mesh.face_starts.data();
+  out.face_corners = mesh.face_corners.data(), out.site_vertices = mesh.site_vertices.data();
+  out.site_lines = mesh.site_lines.data();
+  check(hf_quads_get_mesh(raw, &out));
+  return mesh;
+}
+
+// Flow lines of any field, traced again and again on one surface.
+struct FlowLines {
+  std::vector<double> positions, values;  // three numbers and one per point
+  std::vector<uint32_t> line_starts, line_ends;
+};
+class Flow {
+ public:
+  explicit Flow(const Solver& solver) {
+    hf_flow raw = nullptr;
+    check(hf_flow_create(solver.get(), &raw));
+    handle_ = Handle<hf_flow, hf_flow_destroy>(raw);
+  }
+  hf_flow get() const noexcept { return handle_.get(); }
+  // wanted lines, or one through every seed. A second trace only when the arrays of the last one are too small.
+  FlowLines trace(const Solver& solver, const std::vector<double>& field, uint32_t wanted,
+                  const std::vector<uint32_t>& seeds = {}) {
+    const hf_scalars values = scalars(solver, field);
+    auto out = make<hf_flow_lines>();
+    out.wanted_count = wanted, out.seed_count = static_cast<uint32_t>(seeds.size()), out.seeds = seeds.data();
+    FlowLines lines;
+    for (uint32_t points = points_, count = lines_;;) {
+      lines.positions.resize(size_t{points} * 3), lines.values.resize(points);
+      lines.line_starts.resize(size_t{count} + 1), lines.line_ends.resize(size_t{count} * 2);
+      out.point_capacity = points, out.line_capacity = count;
+      out.positions = lines.positions.data(), out.values = lines.values.data();
+      out.line_starts = lines.line_starts.data(), out.line_ends = lines.line_ends.data();
+      const hf_result result = hf_flow_trace(get(), &values, &out);
+      if (result != HF_ERROR_TOO_SMALL) {
+        check(result);
+        break;
+      }
+      points = points_ = out.point_count + out.point_count / 4, count = lines_ = out.line_count;
+    }
+    lines.positions.resize(size_t{out.point_count} * 3), lines.values.resize(out.point_count);
+    lines.line_starts.resize(size_t{out.line_count} + 1), lines.line_ends.resize(size_t{out.line_count} * 2);
+    return lines;
+  }
+
+ private:
+  Handle<hf_flow, hf_flow_destroy> handle_;
+  uint32_t points_ = 4096, lines_ = 64;
+};
+
 class Pose {
  public:
   explicit Pose(const Solver& solver, const hf_pose_desc* desc = nullptr)

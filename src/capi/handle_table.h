@@ -11,7 +11,7 @@
 
 namespace hf::capi {
 
-enum class Kind : std::uint32_t { solver = 1, pose = 2, transfer = 3, progress = 4, geodesics = 5, direction = 6 };
+enum class Kind : std::uint32_t { solver = 1, pose = 2, transfer = 3, progress = 4, geodesics = 5, direction = 6, quads = 7, flow = 8 };
 
 // What a handle stands for. Readers share, a writer is alone; nobody waits: a call that overlaps answers HF_ERROR_BUSY, or
 // HF_ERROR_REENTRANT when it comes from a callback of the very call it overlaps.

@@ -1,10 +1,10 @@
 // The Reeb graph of a flux field: its level loops, gathered into arcs.
 //
 // Between two critical vertices (sites and saddles) the loop of a level changes without splitting or joining; the loops
-// of one such family are an arc, an annulus on the surface. Arcs partition the regular vertices. Every piece between the
-// last loops of the arcs that end at a critical vertex and the first loops of those that start there holds that vertex
-// alone: a disc at a site, a star of sectors at a saddle, whatever the genus. Rings on arcs therefore cut a surface into
-// pieces whose topology is known.
+// of one such family are an arc, an annulus on the surface. Arcs partition the regular vertices. Every piece between
+// the last loops of the arcs that end at a critical vertex and the first loops of those that start there holds that
+// vertex alone: a disc at a site, a star of sectors at a saddle, whatever the genus. Rings on arcs therefore cut a
+// surface into pieces whose topology is known.
 //
 // A loop is a threshold on ranks, so it exists between any two vertices, equal values or not: an edge crosses it when
 // its tail's rank is below the threshold and its head's is not.
@@ -16,9 +16,9 @@
 namespace hf {
 
 struct Arc {
-  std::int32_t lower = -1, upper = -1;     // critical vertices
-  std::int32_t seed = -1;                  // a half-edge uphill that crosses its first loop
-  std::int32_t first = 0, last = 0;        // its regular vertices in ArcGraph::vertices, by rank
+  std::int32_t lower = -1, upper = -1;  // critical vertices
+  std::int32_t seed = -1;               // a half-edge uphill that crosses its first loop
+  std::int32_t first = 0, last = 0;     // its regular vertices in ArcGraph::vertices, by rank
   double flux = 0;
 };
 
@@ -30,9 +30,9 @@ struct Loop {
 struct ArcGraph {
   ArcGraph(const FluxField& field, Memory& memory);
 
-  Table<std::int32_t> critical;    // vertices, by rank
-  Table<Arc> arcs;                 // by rank of their lower ends
-  Table<std::int32_t> vertices;    // of arcs
+  Table<std::int32_t> critical;              // vertices, by rank
+  Table<Arc> arcs;                           // by rank of their lower ends
+  Table<std::int32_t> vertices;              // of arcs
   Table<std::int32_t> up_start, up_arc;      // arcs that start at critical[i]: up_arc[up_start[i] .. up_start[i + 1])
   Table<std::int32_t> down_start, down_arc;  // arcs that end there
 

@@ -112,7 +112,8 @@ void FluxField::match(std::int32_t v) {
     // what is used up goes; at least one segment, so that this ends
     std::size_t kept = 0;
     double least = 0;
-    for (std::size_t i = 0; i < size; ++i) least = i == 0 ? ring[i].high - ring[i].low : std::min(least, ring[i].high - ring[i].low);
+    for (std::size_t i = 0; i < size; ++i)
+      least = i == 0 ? ring[i].high - ring[i].low : std::min(least, ring[i].high - ring[i].low);
     const double floor = std::max(least, 1e-15 * in);
     for (std::size_t i = 0; i < size; ++i)
       if (ring[i].high - ring[i].low > floor) ring[kept++] = ring[i];

@@ -11,8 +11,8 @@
 // saddle equal amounts are taken from both sides of every boundary between incoming and outgoing intervals at once,
 // until nothing is left: the symmetric planar matching, made once and kept.
 //
-// Values are compared as pairs (u, vertex), so that equal ones are told apart. Cost: O(n log n) to rank, O(degree) for a
-// line to pass a vertex.
+// Values are compared as pairs (u, vertex), so that equal ones are told apart. Cost: O(n log n) to rank, O(degree) for
+// a line to pass a vertex.
 #pragma once
 #include "base/span.h"
 #include "remesh/flux_surface.h"
@@ -60,10 +60,10 @@ class FluxField {
   Memory* memory_;
   Table<double> u_;
   Table<std::int32_t> rank_, order_;
-  Vector<Match> matches_;               // by vertex
-  Table<std::int32_t> match_start_;     // by number of the saddle
-  Table<std::int32_t> saddle_of_;       // by vertex, -1 for regular ones; empty when there is none
-  Table<double> saddle_scale_;          // out per in
+  Vector<Match> matches_;            // by vertex
+  Table<std::int32_t> match_start_;  // by number of the saddle
+  Table<std::int32_t> saddle_of_;    // by vertex, -1 for regular ones; empty when there is none
+  Table<double> saddle_scale_;       // out per in
 };
 
 }  // namespace hf

@@ -11,6 +11,8 @@ namespace hf {
 namespace {
 
 constexpr double circle_radius = 0.1;
+constexpr double border_distance = 0.08;  // of automatic sites
+constexpr std::size_t most_sites = 400;   // of a component
 
 // Lengths of shortest paths over the edges from one vertex; -1 where there is none. The rim of a border is 0 from its
 // apex.
@@ -71,44 +73,48 @@ struct Group {
   Vector<double> distance;  // [i * count + j]
 };
 
-double division_cost(const Group& g, std::uint64_t sinks) {
+// sinks: one flag per site.
+double division_cost(const Group& g, const Vector<std::uint8_t>& sinks) {
   const std::size_t k = g.sites.size();
-  double up = 0, down = 0, mean = 0, pairs = 0, close = 0, like = 0;
-  for (std::size_t i = 0; i < k; ++i) ((sinks >> i & 1) ? up : down) += g.sites[i].lines;
+  double up = 0, down = 0, mean = 0, close = 0, like = 0;
+  for (std::size_t i = 0; i < k; ++i) (sinks[i] ? up : down) += g.sites[i].lines;
   if (up <= 0 || down <= 0) return 1e300;
   for (std::size_t i = 0; i < k; ++i)
-    for (std::size_t j = 0; j < i; ++j) mean += g.distance[i * k + j], pairs += 1;
-  mean = std::max(mean / pairs, 1e-12);
+    for (std::size_t j = 0; j < i; ++j) mean += g.distance[i * k + j];
+  mean = std::max(mean / (0.5 * static_cast<double>(k * (k - 1))), 1e-12);
   for (std::size_t i = 0; i < k; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if ((sinks >> i & 1) != (sinks >> j & 1)) continue;
+      if (sinks[i] != sinks[j]) continue;
       close += std::exp(-g.distance[i * k + j] / mean), like += 1;
     }
   }
   return std::fabs(up - down) / (up + down) + (like > 0 ? 0.5 * close / like : 0.0);
 }
 
-// Which sites are sinks.
-std::uint64_t divide(const Group& g) {
+// Which sites are sinks: all divisions of up to 12 sites, else single and, up to 40, double exchanges.
+Vector<std::uint8_t> divide(const Group& g) {
   const std::size_t k = g.sites.size();
-  std::uint64_t best = 1;
+  Vector<std::uint8_t> best(k, std::uint8_t{0}, g.sites.get_allocator().resource()), trial = best;
+  best[0] = 1;
   double least = division_cost(g, best);
   if (k <= 12) {
-    for (std::uint64_t d = 1; d < (std::uint64_t{1} << (k - 1)); ++d) {
-      const double cost = division_cost(g, d);
-      if (cost < least) least = cost, best = d;
+    for (std::uint32_t d = 1; d < (1u << (k - 1)); ++d) {
+      for (std::size_t i = 0; i < k; ++i) trial[i] = d >> i & 1;
+      const double cost = division_cost(g, trial);
+      if (cost < least) least = cost, best = trial;
     }
     return best;
   }
-  for (std::size_t i = 0; i < k; i += 2) best |= std::uint64_t{1} << i;
+  for (std::size_t i = 0; i < k; ++i) best[i] = i % 2 == 0;
   least = division_cost(g, best);
   for (bool better = true; better;) {
     better = false;
     for (std::size_t i = 0; i < k; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) {
-        const std::uint64_t d = best ^ (std::uint64_t{1} << i) ^ (i == j ? 0 : std::uint64_t{1} << j);
-        const double cost = division_cost(g, d);
-        if (cost < least - 1e-12) least = cost, best = d, better = true;
+      for (std::size_t j = k <= 40 ? 0 : i; j <= i; ++j) {
+        trial = best, trial[i] ^= 1;
+        if (i != j) trial[j] ^= 1;
+        const double cost = division_cost(g, trial);
+        if (cost < least - 1e-12) least = cost, best = trial, better = true;
       }
     }
   }
@@ -137,29 +143,34 @@ void share_out(Vector<FluxSite>& sites, bool sinks, double total) {
   }
 }
 
-void balance(Group& group) {
-  bool chosen = false;
-  for (const FluxSite& site : group.sites) chosen |= site.lines < 0;
-  if (!chosen) {
-    const std::uint64_t sinks = divide(group);
-    for (std::size_t i = 0; i < group.sites.size(); ++i)
-      if (!(sinks >> i & 1)) group.sites[i].lines = -group.sites[i].lines;
-  }
+// Both sides to one even total.
+void even_out(Vector<FluxSite>& sites) {
   double up = 0, down = 0;
   std::size_t up_count = 0, down_count = 0;
-  for (const FluxSite& site : group.sites) {
+  for (const FluxSite& site : sites) {
     (site.lines > 0 ? up : down) += std::fabs(site.lines);
     ++(site.lines > 0 ? up_count : down_count);
   }
   const double least = 4.0 * static_cast<double>(std::max(up_count, down_count));
   const double total = std::max(2 * std::round(std::max(up, down) / 2), least);
-  share_out(group.sites, true, total);
-  share_out(group.sites, false, total);
+  share_out(sites, true, total);
+  share_out(sites, false, total);
+}
+
+void balance(Group& group) {
+  bool chosen = false;
+  for (const FluxSite& site : group.sites) chosen |= site.lines < 0;
+  if (!chosen) {
+    const Vector<std::uint8_t> sinks = divide(group);
+    for (std::size_t i = 0; i < group.sites.size(); ++i)
+      if (!sinks[i]) group.sites[i].lines = -group.sites[i].lines;
+  }
+  even_out(group.sites);
 }
 
 }  // namespace
 
-Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> given, double edge_length,
+Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> given, bool automatic, double edge_length,
                                    Memory& memory, Progress* progress) {
   Vector<FluxSite> all(&memory);
   const Table<double> area = vertex_shares(s, memory);
@@ -177,14 +188,13 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
   for (std::int32_t c = 0; c < s.component_count; ++c) {
     Group group(memory);
     bool signs = false;
-    for (const FluxSite& site : given)
-      if (s.component[site.vertex] == c) group.sites.push_back(site), signs |= site.lines != 0;
     for (std::int32_t v = s.first_apex; v < s.vertex_count(); ++v)
       if (s.component[v] == c) group.sites.push_back({v, 0.0});
-    const std::size_t wanted = euler[c] < 2 && given.empty() ? 4 : 2;
-    if (group.sites.size() > 60)
-      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "a component has %zu sites and borders; at most 60 can be divided",
-           group.sites.size());
+    const std::size_t borders = group.sites.size();
+    const std::size_t wanted = euler[c] < 2 && automatic ? 4 : 2;
+    if (borders + given.size() > most_sites)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "a component has %zu borders; with the sites at most %zu can be divided",
+           borders, most_sites);
     Vector<Table<double>> from(&memory);
     nearest.assign(s.vertex_count(), 1e300);
     auto reach = [&](std::size_t i) {
@@ -205,7 +215,12 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
         if (distance[v] >= 0) nearest[v] = std::min(nearest[v], distance[v]);
       from.push_back(distance);
     };
-    for (std::size_t i = 0; i < group.sites.size(); ++i) reach(i);
+    for (std::size_t i = 0; i < borders; ++i) reach(i);
+    for (const FluxSite& site : given) {
+      if (s.component[site.vertex] != c || (automatic && nearest[site.vertex] < border_distance)) continue;
+      group.sites.push_back(site), signs |= site.lines != 0;
+      reach(group.sites.size() - 1);
+    }
     while (group.sites.size() < wanted) {
       if (group.sites.empty()) {  // the far end as seen from anywhere
         distances_from(s, first[c], distance, memory);
@@ -240,7 +255,8 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
   return all;
 }
 
-Vector<double> solve_flux(const FluxSurface& s, Span<const FluxSite> sites, Memory& memory, JobRunner& jobs) {
+FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs)
+    : surface_(&s), memory_(&memory), jobs_(&jobs) {
   const std::int32_t n = s.vertex_count();
   SymmetricMatrix k(memory);
   k.column_start.push_back(0);
@@ -256,8 +272,10 @@ Vector<double> solve_flux(const FluxSurface& s, Span<const FluxSite> sites, Memo
       g = s.turn_left(g);
       if (g == begin) break;
     }
-    if (!grounded[s.component[v]]) grounded[s.component[v]] = 1, column.push_back({v, 2 * diagonal});
-    else column.push_back({v, diagonal});
+    if (!grounded[s.component[v]])
+      grounded[s.component[v]] = 1, column.push_back({v, 2 * diagonal});
+    else
+      column.push_back({v, diagonal});
     std::sort(column.begin(), column.end());
     for (std::size_t i = 0; i < column.size(); ++i) {
       if (i > 0 && k.row.back() == column[i].first && static_cast<std::int32_t>(k.row.size()) > k.column_start.back()) {
@@ -271,17 +289,21 @@ Vector<double> solve_flux(const FluxSurface& s, Span<const FluxSite> sites, Memo
     coordinates.push_back(static_cast<float>(p.x)), coordinates.push_back(static_cast<float>(p.y));
     coordinates.push_back(static_cast<float>(p.z));
   }
-  const std::shared_ptr<const Factor> factor = Factor::make(k, coordinates, {}, memory, jobs);
-  const Span<const std::int32_t> position = factor->position();
-  Vector<double> b(static_cast<std::size_t>(n), 0.0, &memory), z(static_cast<std::size_t>(n), 0.0, &memory),
-      u(static_cast<std::size_t>(n), 0.0, &memory), r(&memory);
+  factor_ = Factor::make(k, coordinates, {}, memory, jobs);
+}
+
+Vector<double> FluxSolver::solve(Span<const FluxSite> sites) const {
+  const FluxSurface& s = *surface_;
+  const std::int32_t n = s.vertex_count();
+  const Span<const std::int32_t> position = factor_->position();
+  Vector<double> b(static_cast<std::size_t>(n), 0.0, memory_), z(static_cast<std::size_t>(n), 0.0, memory_),
+      u(static_cast<std::size_t>(n), 0.0, memory_), r(memory_);
   for (const FluxSite& site : sites) b[static_cast<std::size_t>(site.vertex)] += site.lines;
-  // two corrections: the balance of every vertex is what lines live on
   r = b;
   for (int round = 0; round < 3; ++round) {
     for (std::size_t v = 0; v < z.size(); ++v) z[static_cast<std::size_t>(position[v])] = r[v];
-    factor->forward(z.data(), 1, jobs);
-    factor->backward(z.data(), 1, jobs);
+    factor_->forward(z.data(), 1, *jobs_);
+    factor_->backward(z.data(), 1, *jobs_);
     for (std::size_t v = 0; v < z.size(); ++v) u[v] += z[static_cast<std::size_t>(position[v])];
     for (std::int32_t v = 0; v < n; ++v) {
       double sum = b[static_cast<std::size_t>(v)];
@@ -295,6 +317,41 @@ Vector<double> solve_flux(const FluxSurface& s, Span<const FluxSite> sites, Memo
     }
   }
   return u;
+}
+
+void scale_lines(const FluxSurface& surface, std::int32_t component, double factor, Vector<FluxSite>& sites) {
+  Vector<FluxSite> own(sites.get_allocator());
+  for (const FluxSite& site : sites)
+    if (surface.component[site.vertex] == component) own.push_back({site.vertex, site.lines * factor});
+  even_out(own);
+  std::size_t next = 0;
+  for (FluxSite& site : sites)
+    if (surface.component[site.vertex] == component) site = own[next++];
+}
+
+Vector<double> solve_with_borders(const FluxSurface& s, const FluxSolver& solver, Vector<FluxSite>& sites) {
+  constexpr int most_rounds = 12;
+  for (int round = 0;; ++round) {
+    Vector<double> u = solver.solve(sites);
+    const FluxSite* crossed = nullptr;
+    for (FluxSite& site : sites) {
+      if (!s.is_apex(site.vertex)) continue;
+      bool wrong = false;
+      const std::int32_t begin = s.out[site.vertex];
+      for (std::int32_t g = begin;;) {
+        const double rise = u[static_cast<std::size_t>(s.head(g))] - u[static_cast<std::size_t>(site.vertex)];
+        wrong |= site.lines > 0 ? rise >= 0 : rise <= 0;
+        g = s.turn_left(g);
+        if (g == begin) break;
+      }
+      if (wrong) site.lines *= 1.7, crossed = &site;
+    }
+    if (!crossed) return u;
+    if (round == most_rounds)
+      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+           "flux crosses a border of the surface whatever its lines; name other sites");
+    for (std::int32_t c = 0; c < s.component_count; ++c) scale_lines(s, c, 1.0, sites);
+  }
 }
 
 }  // namespace hf

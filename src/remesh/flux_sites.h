@@ -1,8 +1,8 @@
 // Where the flow of a quad mesh starts and ends, and how much of it: the sites of a Neumann problem.
 //
 // Every site carries an even number of lines, about the circumference of the geodesic circle of radius 0.1 (of the box
-// diagonal) around it over the edge length, at least 4; a border its length over the edge length. Sites are divided into
-// sources and sinks so that both sides carry about the same and neighbours differ:
+// diagonal) around it over the edge length, at least 4; a border its length over the edge length. Sites are divided
+// into sources and sinks so that both sides carry about the same and neighbours differ:
 //     |sum+ - sum-| / sum + 1/2 mean over pairs of one sign of exp(-d_ij / mean d)
 // is least, by trying all divisions up to 12 sites and by exchange beyond. Then both sides are scaled to one even total
 // (largest remainders, in steps of two). A component with too few sites gets points farthest from those it has.
@@ -12,6 +12,7 @@
 #pragma once
 #include "base/jobs.h"
 #include "base/progress.h"
+#include "factor/factor.h"
 #include "remesh/flux_surface.h"
 
 namespace hf {
@@ -21,12 +22,33 @@ struct FluxSite {
   double lines;         // > 0: a sink, < 0: a source
 };
 
-// fixed: sites named by the caller (lines 0: chosen here). complete: add points to components that have too few; apexes
-// are always sites. Throws HF_ERROR_INVALID_ARGUMENT when given lines cannot balance.
-Vector<FluxSite> choose_flux_sites(const FluxSurface& surface, Span<const FluxSite> given, double edge_length,
-                                   Memory& memory, Progress* progress);
+// given: sites with their lines (0: chosen here; otherwise of both signs in each component). automatic: they are
+// proposals, left out near borders, and components that are no spheres get at least four. Apexes are always sites.
+// Throws HF_ERROR_INVALID_ARGUMENT when given lines cannot balance, HF_ERROR_TOO_LARGE beyond 400 sites and borders.
+Vector<FluxSite> choose_flux_sites(const FluxSurface& surface, Span<const FluxSite> given, bool automatic,
+                                   double edge_length, Memory& memory, Progress* progress);
 
-// u by vertex of the surface, 0 in the mean of a component's sources and sinks only up to a constant.
-Vector<double> solve_flux(const FluxSurface& surface, Span<const FluxSite> sites, Memory& memory, JobRunner& jobs);
+// The factor of the flux problem, and fields from it.
+class FluxSolver {
+ public:
+  // Orders and factorises. Throws as Factor::make.
+  FluxSolver(const FluxSurface& surface, Memory& memory, JobRunner& jobs);
+  // u by vertex of the surface, up to a constant by component; two corrections, because lines live on the balance of
+  // every vertex.
+  Vector<double> solve(Span<const FluxSite> sites) const;
+
+ private:
+  const FluxSurface* surface_;
+  Memory* memory_;
+  JobRunner* jobs_;
+  std::shared_ptr<const Factor> factor_;
+};
+
+// Multiplies the lines of all sites of a component and balances them again (even numbers, at least 4 each).
+void scale_lines(const FluxSurface& surface, std::int32_t component, double factor, Vector<FluxSite>& sites);
+
+// Solves, and raises the lines of borders that the flow of the others would cross until every apex is an extremum.
+// Throws HF_ERROR_UNSUPPORTED when a border stays crossed.
+Vector<double> solve_with_borders(const FluxSurface& surface, const FluxSolver& solver, Vector<FluxSite>& sites);
 
 }  // namespace hf

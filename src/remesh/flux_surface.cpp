@@ -141,7 +141,8 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
       const std::int32_t a = s.tail[h], b = s.head(h), fresh = s.tail.size();
       s.tail.push_back(b), s.tail.push_back(a), s.tail.push_back(apex);
       s.twin.push_back(h), s.twin.push_back(none), s.twin.push_back(none);
-      s.weight.push_back(s.weight[h]), s.weight.push_back(apex_weight * median), s.weight.push_back(apex_weight * median);
+      s.weight.push_back(s.weight[h]), s.weight.push_back(apex_weight * median),
+          s.weight.push_back(apex_weight * median);
       s.twin[h] = fresh;
       // a -> apex of this triangle is apex -> b of the one before it on the border
       if (last != none) s.twin[last + 2] = fresh + 1, s.twin[fresh + 1] = last + 2;

@@ -37,12 +37,12 @@ struct FluxSurface {
   bool is_apex(std::int32_t v) const noexcept { return v >= first_apex; }
   bool is_real(std::int32_t h) const noexcept { return h < 3 * real_triangles; }  // not of a triangle at an apex
 
-  Table<std::int32_t> tail, twin;    // by half-edge
-  Table<double> weight;              // by half-edge; both of an edge carry the same
-  Table<std::int32_t> out;           // by vertex, a half-edge that leaves it; at the rim of a border any
-  Table<Vec3> position;              // by vertex, inner units; of an apex the middle of its border
-  Table<std::int32_t> mesh_vertex;   // by vertex, the inner vertex of the Mesh, none for an apex
-  Table<std::int32_t> component;     // by vertex; components of fans
+  Table<std::int32_t> tail, twin;   // by half-edge
+  Table<double> weight;             // by half-edge; both of an edge carry the same
+  Table<std::int32_t> out;          // by vertex, a half-edge that leaves it; at the rim of a border any
+  Table<Vec3> position;             // by vertex, inner units; of an apex the middle of its border
+  Table<std::int32_t> mesh_vertex;  // by vertex, the inner vertex of the Mesh, none for an apex
+  Table<std::int32_t> component;    // by vertex; components of fans
   std::int32_t real_triangles = 0, first_apex = 0, component_count = 0;
   std::int32_t euler_characteristic = 0;  // of the surface without the apexes
 };

@@ -29,7 +29,9 @@ class LoopLine {
     std::int32_t edge;
     double share;  // 0 at its left end, 1 at its right
   };
-  std::int32_t around(std::int32_t i) const noexcept { return i < 0 ? i + edges_.size() : i >= edges_.size() ? i - edges_.size() : i; }
+  std::int32_t around(std::int32_t i) const noexcept {
+    return i < 0 ? i + edges_.size() : i >= edges_.size() ? i - edges_.size() : i;
+  }
   Spot spot(double place) const noexcept;
   double segment(std::int32_t i) const noexcept;  // length of the one behind point i
   void add(std::int32_t i, double share, std::int32_t triangle, SurfacePoint& out) const noexcept;

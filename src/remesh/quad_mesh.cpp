@@ -58,7 +58,8 @@ class Splitter {
         if (best == none || cost < least) best = i, least = cost;
       }
       if (best == none) break;  // every chord is an edge elsewhere: the polygon stays
-      const std::int32_t a = rest_[best], b = rest_[(best + 1) % n], c = rest_[(best + 2) % n], d = rest_[(best + 3) % n];
+      const std::int32_t a = rest_[best], b = rest_[(best + 1) % n], c = rest_[(best + 2) % n],
+                         d = rest_[(best + 3) % n];
       edges_.insert(edge_key(a, d));
       face({a, b, c, d});
       Table<std::int32_t> kept(*static_cast<Memory*>(edges_.get_allocator().resource()));
@@ -118,8 +119,8 @@ Vec3 position_of(const FluxSurface& surface, const SurfacePoint& point) noexcept
   return p;
 }
 
-QuadMesh make_polygons(const FluxField& field, const ArcGraph& graph, const RingMesh& rings, Table<std::int32_t>& centre,
-                       Memory& memory) {
+QuadMesh make_polygons(const FluxField& field, const ArcGraph& graph, const RingMesh& rings,
+                       Table<std::int32_t>& centre, Memory& memory) {
   const FluxSurface& surface = field.surface();
   const Table<RingNode>& nodes = rings.nodes;
   QuadMesh out(memory);
@@ -158,7 +159,8 @@ QuadMesh make_polygons(const FluxField& field, const ArcGraph& graph, const Ring
     out.face_start.push_back(out.corner.size());
     // a quad beside a saddle is a quad, and so is one that only lost or got a pair of lines
     const std::int32_t size = out.size(out.face_count() - 1);
-    centre.push_back(critical != none && (one_ring ? size >= 6 : size >= 8) && !surface.is_apex(critical) ? critical : none);
+    centre.push_back(critical != none && (one_ring ? size >= 6 : size >= 8) && !surface.is_apex(critical) ? critical
+                                                                                                          : none);
   }
   return out;
 }
@@ -188,14 +190,16 @@ void check_quads(const QuadMesh& mesh, std::int32_t euler_characteristic, Memory
       for (std::int32_t j = 0; j < k; ++j)
         if (c[j] == a) fail(HF_ERROR_INTERNAL, static_cast<std::uint32_t>(a), "face %d has vertex %d twice", f, a);
       if (!directed.insert(static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b)).second)
-        fail(HF_ERROR_INTERNAL, static_cast<std::uint32_t>(a), "edge %d -> %d of face %d is in another face too", a, b, f);
+        fail(HF_ERROR_INTERNAL, static_cast<std::uint32_t>(a), "edge %d -> %d of face %d is in another face too", a, b,
+             f);
       edges.insert(edge_key(a, b));
     }
   }
-  const std::int64_t found = std::int64_t{mesh.position.size()} - static_cast<std::int64_t>(edges.size()) +
-                             mesh.face_count();
+  const std::int64_t found =
+      std::int64_t{mesh.position.size()} - static_cast<std::int64_t>(edges.size()) + mesh.face_count();
   if (found != euler_characteristic)
-    fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "the polygons have Euler characteristic %lld, the surface %d: a face is no disc",
+    fail(HF_ERROR_INTERNAL, HF_NO_INDEX,
+         "the polygons have Euler characteristic %lld, the surface %d: a face is no disc",
          static_cast<long long>(found), euler_characteristic);
 }
 

@@ -27,8 +27,8 @@ struct QuadMesh {
 Vec3 position_of(const FluxSurface& surface, const SurfacePoint& point) noexcept;
 
 // centre: by face, the critical vertex of the surface in it, -1 for faces between rings of one arc.
-QuadMesh make_polygons(const FluxField& field, const ArcGraph& graph, const RingMesh& rings, Table<std::int32_t>& centre,
-                       Memory& memory);
+QuadMesh make_polygons(const FluxField& field, const ArcGraph& graph, const RingMesh& rings,
+                       Table<std::int32_t>& centre, Memory& memory);
 QuadMesh split_polygons(const FluxSurface& surface, const QuadMesh& polygons, const Table<std::int32_t>& centre,
                         Memory& memory);
 

@@ -5,10 +5,39 @@
 
 #include "field/extremities.h"
 #include "remesh/relax.h"
+#include "remesh/ring_levels.h"
 
 namespace hf {
 
-QuadResult make_quads(const Core& core, const QuadOptions& options) {
+namespace {
+
+constexpr double tip_distance = 0.06;  // of two automatic sites, in box diagonals
+
+// Scales the lines of every component so that its faces have a little less than the area of squares of the edge length
+// in the mean: rings times lines, summed over arcs, are the faces.
+void fit_lines(const FluxSurface& surface, Span<const double> u, const RingOptions& options, Vector<FluxSite>& sites,
+               Memory& memory) {
+  const FluxField field(surface, u, memory);
+  const ArcGraph graph(field, memory);
+  RingMesh rings(memory);
+  place_rings(field, graph, options, memory, rings);
+  Table<double> faces(surface.component_count, 0.0, memory), area(surface.component_count, 0.0, memory);
+  for (const Ring& ring : rings.rings) faces[surface.component[surface.tail[ring.seed]]] += graph.arcs[ring.arc].flux;
+  for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
+    const Vec3 a = surface.position[surface.tail[3 * t]];
+    area[surface.component[surface.tail[3 * t]]] +=
+        0.5 * norm(cross(surface.position[surface.tail[3 * t + 1]] - a, surface.position[surface.tail[3 * t + 2]] - a));
+  }
+  for (std::int32_t c = 0; c < surface.component_count; ++c) {
+    const double wanted = 1.15 * area[c] / (options.edge_length * options.edge_length);
+    if (faces[c] > 0) scale_lines(surface, c, std::min(std::max(wanted / faces[c], 0.25), 8.0), sites);
+  }
+}
+
+}  // namespace
+
+QuadResult make_quads(const QuadOptions& options) {
+  const Core& core = *options.core;
   Memory& memory = *core.memory;
   QuadResult result(memory);
   report(options.progress, 0.0f);
@@ -20,16 +49,32 @@ QuadResult make_quads(const Core& core, const QuadOptions& options) {
   for (std::int32_t v = surface.first_apex; v-- > 0;) fan[surface.mesh_vertex[v]] = v;
   Vector<FluxSite> given(&memory);
   if (options.automatic) {
-    const Extremities found = poisson_extremities(core, 0.05, nullptr);
-    for (const Extremity& tip : found.points) {
-      if (given.size() >= 40) break;
-      given.push_back({fan[tip.vertex], 0.0});
-    }
+    // tips by both fields: the mean distance knows limbs that the Poisson field sees as shoulders of others
+    const auto take = [&](const Extremities& found, std::size_t most) {
+      for (const Extremity& tip : found.points) {
+        const Vec3 p = core.mesh.positions[static_cast<std::size_t>(tip.vertex)];
+        bool near = given.size() >= most;
+        for (const FluxSite& site : given) near |= norm(surface.position[site.vertex] - p) < tip_distance;
+        if (!near) given.push_back({fan[tip.vertex], 0.0});
+      }
+    };
+    const Geodesics geodesics(options.core, 1.0);
+    take(geodesic_extremities(geodesics, 40, 0.008, nullptr), 24);
+    take(poisson_extremities(core, 0.02, nullptr), 32);
   } else {
     for (const FluxSite& site : options.sites) given.push_back({fan[site.vertex], site.lines});
   }
-  result.sites = choose_flux_sites(surface, given, options.edge_length, memory, options.progress);
-  const Vector<double> u = solve_flux(surface, result.sites, memory, *core.jobs);
+  result.sites = choose_flux_sites(surface, given, options.automatic, options.edge_length, memory, options.progress);
+  const FluxSolver solver(surface, memory, *core.jobs);
+  Vector<double> u = solve_with_borders(surface, solver, result.sites);
+  RingOptions ring_options;
+  ring_options.edge_length = options.edge_length, ring_options.uniform = options.uniform;
+  if (!options.uniform && options.scale_lines) {
+    for (int round = 0; round < 2; ++round) {
+      fit_lines(surface, u, ring_options, result.sites, memory);
+      u = solve_with_borders(surface, solver, result.sites);
+    }
+  }
   report(options.progress, 0.3f);
 
   const FluxField field(surface, u, memory);
@@ -43,8 +88,6 @@ QuadResult make_quads(const Core& core, const QuadOptions& options) {
     result.imbalance = std::max(result.imbalance, std::fabs(field.imbalance(v)));
   }
   const ArcGraph graph(field, memory);
-  RingOptions ring_options;
-  ring_options.edge_length = options.edge_length, ring_options.uniform = options.uniform;
   const RingMesh rings = make_rings(field, graph, lines, ring_options, memory, options.progress);
   Table<std::int32_t> centre(memory);
   result.mesh = make_polygons(field, graph, rings, centre, memory);
@@ -56,7 +99,7 @@ QuadResult make_quads(const Core& core, const QuadOptions& options) {
   }
   report(options.progress, 0.7f);
   RelaxOptions relax;
-  relax.rounds = options.relax, relax.edge_length = options.uniform ? options.edge_length : 0;
+  relax.rounds = options.relax, relax.edge_length = options.edge_length;
   relax.progress = options.progress;
   relax_quads(surface, result.mesh, relax, memory);
 

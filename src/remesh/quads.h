@@ -7,12 +7,14 @@
 namespace hf {
 
 struct QuadOptions {
-  double edge_length = 0.022;    // inner units
+  std::shared_ptr<const Core> core;
+  double edge_length = 0.022;  // inner units
   bool uniform = false;
   bool split = true;
-  std::int32_t relax = 20;  // rounds
-  Span<const FluxSite> sites;    // FluxSite::vertex an inner vertex of the core; empty: automatic
+  std::int32_t relax = 60;     // rounds
+  Span<const FluxSite> sites;  // FluxSite::vertex an inner vertex of the core; borders are sites of their own
   bool automatic = true;
+  bool scale_lines = true;  // kind pure: fit the lines to the edge length; off: the caller's numbers stand
   Progress* progress = nullptr;
 };
 
@@ -20,12 +22,15 @@ struct QuadResult {
   explicit QuadResult(Memory& memory) : mesh(memory), sites(&memory), triangle(memory) {}
   QuadMesh mesh;
   Vector<FluxSite> sites;  // FluxSite::vertex inner, none for a border
-  Table<std::int32_t> triangle;  // by vertex of the mesh: the inner triangle its location is in, weights as the Mesh has them
+  Table<std::int32_t>
+      triangle;  // by vertex of the mesh: the inner triangle its location is in, weights as the Mesh has them
   std::int32_t raw_faces = 0, raw_quads = 0, saddles = 0, euler_characteristic = 0;
   std::int32_t extra_extrema = 0;
   double imbalance = 0;  // the largest at a vertex that is no site
 };
 
-QuadResult make_quads(const Core& core, const QuadOptions& options);
+// Throws HF_ERROR_UNSUPPORTED for surfaces that are not manifold or cannot be oriented and as require_laplacian,
+// HF_ERROR_CANCELLED, std::bad_alloc.
+QuadResult make_quads(const QuadOptions& options);
 
 }  // namespace hf

@@ -198,7 +198,8 @@ class Builder {
     }
     const std::int32_t count = static_cast<std::int32_t>(arrivals_.size());
     if (saddle) {
-      std::sort(arrivals_.begin(), arrivals_.end(), [](const Arrival& a, const Arrival& b) { return a.place < b.place; });
+      std::sort(arrivals_.begin(), arrivals_.end(),
+                [](const Arrival& a, const Arrival& b) { return a.place < b.place; });
     } else if (count > 1) {
       // the order is that of the ring below; only where it begins is to be found
       std::size_t begin = 0;
@@ -220,13 +221,14 @@ class Builder {
     }
     if (first != none) link(last, first), out_.rings[r].node = first;
     if (saddle) {
-      while (out_.rings[r].count < 2) join_down(r, rank);
+      if (out_.rings[r].count < 2) join_down(r, rank);
       mend_saddle_ring(r);
     }
     settle(r);
   }
 
-  // A line from ring r, half around from its only node, down to a ring below the saddle of that rank.
+  // Two lines side by side from ring r, half around from its only node, down to one gap of a ring below the saddle of
+  // that rank. The first is traced; the second, beside it, needs no trace: a strip between two lines is a strip.
   void join_down(std::int32_t r, std::int32_t rank) {
     const std::int32_t only = out_.rings[r].node;
     const double place = only == none ? 0.0 : out_.nodes[only].place + line_.length() / 2;
@@ -252,10 +254,18 @@ class Builder {
       if (out_.nodes[m].place >= out_.nodes[after].place) after = m;
     }
     if (best != none) after = best;
-    const std::int32_t low = add_node(below, low_place, p, none), before = out_.nodes[after].next;
-    link(after, low), link(low, before);
-    out_.location[low] = lower_line_.location(low_place);
-    out_.nodes[low].up = n, out_.nodes[n].down = low;
+    const std::int32_t m2 = insert(n, out_.nodes[n].place + 0.25 * gap(n));
+    const double from = out_.nodes[after].place, width = gap(after);
+    for (int k = 1; k <= 2; ++k) {
+      double at = from + width * k / 3;
+      at -= lower_line_.length() * std::floor(at / lower_line_.length());
+      const std::int32_t low = add_node(below, at, lower_line_.at(at), none), before = out_.nodes[after].next;
+      link(after, low), link(low, before);
+      out_.location[low] = lower_line_.location(at);
+      const std::int32_t high = k == 1 ? n : m2;
+      out_.nodes[low].up = high, out_.nodes[high].down = low;
+      after = low;
+    }
   }
 
   // Whether the strip below the gap behind n is bounded by neighbours on one ring: if not, the saddle looks into it.

@@ -10,8 +10,8 @@
 //   one gap, the odd one in the gap that faces the saddle;
 //   a ring above a saddle has at least two lines from below: missing ones are traced down from it.
 // Kind uniform adds pairs of nodes in gaps wider than `widest` and ends pairs of neighbouring lines where three gaps
-// together are narrower than `narrowest` edge lengths. Because nodes come and go in pairs, every face has an even number
-// of corners.
+// together are narrower than `narrowest` edge lengths. Because nodes come and go in pairs, every face has an even
+// number of corners.
 //
 // A node: next and previous on its ring (higher values on the left), up and down along its line, -1 where it has none.
 #pragma once
@@ -48,10 +48,10 @@ struct SurfacePoint {
 
 struct RingMesh {
   explicit RingMesh(Memory& memory) : rings(memory), nodes(memory), ring_start(memory), location(memory) {}
-  Table<Ring> rings;               // of arc a: ring_start[a] .. ring_start[a + 1], from below
+  Table<Ring> rings;  // of arc a: ring_start[a] .. ring_start[a + 1], from below
   Table<RingNode> nodes;
   Table<std::int32_t> ring_start;
-  Table<SurfacePoint> location;    // of nodes
+  Table<SurfacePoint> location;  // of nodes
 };
 
 // lines_at: by vertex of the surface, how many lines start at a source (0: as many as the ring's length takes).

@@ -1,5 +1,5 @@
-// A Vector indexed by the room's own signed numbers (half-edges, nodes, arcs), so that its code reads as the mathematics
-// does.
+// A Vector indexed by the room's own signed numbers (half-edges, nodes, arcs), so that its code reads as the
+// mathematics does.
 #pragma once
 #include <cstdint>
 

@@ -487,8 +487,73 @@ static void print_constants(void) {
   CONSTANT(HF_CRITICAL_SADDLE);
   CONSTANT(HF_EXTREMITIES_POISSON);
   CONSTANT(HF_EXTREMITIES_GEODESIC);
+  CONSTANT(HF_QUADS_UNIFORM);
+  CONSTANT(HF_QUADS_PURE);
   CONSTANT(HF_NO_INDEX);
   CONSTANT(HF_MESSAGE_SIZE);
+}
+
+static void print_quads_desc(void) {
+  STRUCT(hf_quads_desc);
+  FIELD(hf_quads_desc, struct_size);
+  FIELD(hf_quads_desc, kind);
+  FIELD(hf_quads_desc, edge_length);
+  FIELD(hf_quads_desc, site_count);
+  FIELD(hf_quads_desc, site_vertices);
+  FIELD(hf_quads_desc, site_lines);
+  FIELD(hf_quads_desc, keep_polygons);
+  FIELD(hf_quads_desc, relax_count);
+  FIELD(hf_quads_desc, progress);
+}
+
+static void print_quads_info(void) {
+  STRUCT(hf_quads_info);
+  FIELD(hf_quads_info, struct_size);
+  FIELD(hf_quads_info, vertex_count);
+  FIELD(hf_quads_info, face_count);
+  FIELD(hf_quads_info, corner_count);
+  FIELD(hf_quads_info, quad_count);
+  FIELD(hf_quads_info, polygon_count);
+  FIELD(hf_quads_info, polygon_quad_count);
+  FIELD(hf_quads_info, site_count);
+  FIELD(hf_quads_info, saddle_count);
+  FIELD(hf_quads_info, euler_characteristic);
+  FIELD(hf_quads_info, edge_length);
+  FIELD(hf_quads_info, reserved);
+}
+
+static void print_quads_mesh(void) {
+  STRUCT(hf_quads_mesh);
+  FIELD(hf_quads_mesh, struct_size);
+  FIELD(hf_quads_mesh, vertex_capacity);
+  FIELD(hf_quads_mesh, face_capacity);
+  FIELD(hf_quads_mesh, corner_capacity);
+  FIELD(hf_quads_mesh, site_capacity);
+  FIELD(hf_quads_mesh, reserved);
+  FIELD(hf_quads_mesh, positions);
+  FIELD(hf_quads_mesh, triangles);
+  FIELD(hf_quads_mesh, barycentrics);
+  FIELD(hf_quads_mesh, face_starts);
+  FIELD(hf_quads_mesh, face_corners);
+  FIELD(hf_quads_mesh, site_vertices);
+  FIELD(hf_quads_mesh, site_lines);
+}
+
+static void print_flow_lines(void) {
+  STRUCT(hf_flow_lines);
+  FIELD(hf_flow_lines, struct_size);
+  FIELD(hf_flow_lines, wanted_count);
+  FIELD(hf_flow_lines, seed_count);
+  FIELD(hf_flow_lines, point_capacity);
+  FIELD(hf_flow_lines, line_capacity);
+  FIELD(hf_flow_lines, point_count);
+  FIELD(hf_flow_lines, line_count);
+  FIELD(hf_flow_lines, reserved);
+  FIELD(hf_flow_lines, seeds);
+  FIELD(hf_flow_lines, positions);
+  FIELD(hf_flow_lines, values);
+  FIELD(hf_flow_lines, line_starts);
+  FIELD(hf_flow_lines, line_ends);
 }
 
 int main(void) {
@@ -525,6 +590,10 @@ int main(void) {
   print_direction_desc();
   print_singularity();
   print_direction_statistics();
+  print_quads_desc();
+  print_quads_info();
+  print_quads_mesh();
+  print_flow_lines();
   print_constants();
   return 0;
 }

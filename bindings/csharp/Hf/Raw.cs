@@ -67,6 +67,8 @@ namespace Hf.Native
         public const int HF_DEFORM_SMOOTH = 0;
         public const int HF_DEFORM_PAPER = 1;
         public const int HF_LAYER_COUNT = 8;
+        public const int HF_QUADS_UNIFORM = 0;
+        public const int HF_QUADS_PURE = 1;
         public const int HF_TRANSFER_FIELDS = 0;
         public const int HF_TRANSFER_PAPER = 1;
         public const int HF_PAIR_ANCHOR = 1;
@@ -462,6 +464,73 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_quads_desc
+    {
+        public uint struct_size;
+        public int kind;
+        public float edge_length;
+        public uint site_count;
+        public IntPtr site_vertices;
+        public IntPtr site_lines;
+        public int keep_polygons;
+        public uint relax_count;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_quads_info
+    {
+        public uint struct_size;
+        public uint vertex_count;
+        public uint face_count;
+        public uint corner_count;
+        public uint quad_count;
+        public uint polygon_count;
+        public uint polygon_quad_count;
+        public uint site_count;
+        public uint saddle_count;
+        public int euler_characteristic;
+        public float edge_length;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_quads_mesh
+    {
+        public uint struct_size;
+        public uint vertex_capacity;
+        public uint face_capacity;
+        public uint corner_capacity;
+        public uint site_capacity;
+        public uint reserved;
+        public IntPtr positions;
+        public IntPtr triangles;
+        public IntPtr barycentrics;
+        public IntPtr face_starts;
+        public IntPtr face_corners;
+        public IntPtr site_vertices;
+        public IntPtr site_lines;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_flow_lines
+    {
+        public uint struct_size;
+        public uint wanted_count;
+        public uint seed_count;
+        public uint point_capacity;
+        public uint line_capacity;
+        public uint point_count;
+        public uint line_count;
+        public uint reserved;
+        public IntPtr seeds;
+        public IntPtr positions;
+        public IntPtr values;
+        public IntPtr line_starts;
+        public IntPtr line_ends;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_transfer_desc
     {
         public uint struct_size;
@@ -607,6 +676,13 @@ namespace Hf.Native
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_preview(IntPtr solver, void* out_values, uint value_stride, uint correction_count, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_preview_f64(IntPtr solver, void* out_values, uint value_stride, uint correction_count, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_release_preview(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_create(IntPtr solver, void* desc, void* out_quads);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_quads_destroy(IntPtr quads);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_get_info(IntPtr quads, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_get_mesh(IntPtr quads, void* out_mesh);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_flow_create(IntPtr solver, void* out_flow);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_flow_destroy(IntPtr flow);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_flow_trace(IntPtr flow, void* field, void* inout_lines);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_create(IntPtr source, IntPtr target, void* desc, void* out_transfer);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_transfer_destroy(IntPtr transfer);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_add_pairs(IntPtr transfer, void* pairs, void* out_pairs);

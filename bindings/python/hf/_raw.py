@@ -64,6 +64,8 @@ HF_EXTREMITIES_GEODESIC = 1
 HF_DEFORM_SMOOTH = 0
 HF_DEFORM_PAPER = 1
 HF_LAYER_COUNT = 8
+HF_QUADS_UNIFORM = 0
+HF_QUADS_PURE = 1
 HF_TRANSFER_FIELDS = 0
 HF_TRANSFER_PAPER = 1
 HF_PAIR_ANCHOR = 1
@@ -752,6 +754,122 @@ class hf_preview_info(Structure):
     ]
 
 
+class hf_quads_desc(Structure):
+    struct_size: int
+    kind: int
+    edge_length: float
+    site_count: int
+    site_vertices: int
+    site_lines: int
+    keep_polygons: int
+    relax_count: int
+    progress: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("edge_length", c_float),
+        ("site_count", c_uint32),
+        ("site_vertices", c_void_p),
+        ("site_lines", c_void_p),
+        ("keep_polygons", c_int32),
+        ("relax_count", c_uint32),
+        ("progress", c_void_p),
+    ]
+
+
+class hf_quads_info(Structure):
+    """What came out."""
+    struct_size: int
+    vertex_count: int
+    face_count: int
+    corner_count: int
+    quad_count: int
+    polygon_count: int
+    polygon_quad_count: int
+    site_count: int
+    saddle_count: int
+    euler_characteristic: int
+    edge_length: float
+    reserved: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("vertex_count", c_uint32),
+        ("face_count", c_uint32),
+        ("corner_count", c_uint32),
+        ("quad_count", c_uint32),
+        ("polygon_count", c_uint32),
+        ("polygon_quad_count", c_uint32),
+        ("site_count", c_uint32),
+        ("saddle_count", c_uint32),
+        ("euler_characteristic", c_int32),
+        ("edge_length", c_float),
+        ("reserved", c_uint32),
+    ]
+
+
+class hf_quads_mesh(Structure):
+    """Arrays of the caller, each NULL or as large as hf_quads_get_info says."""
+    struct_size: int
+    vertex_capacity: int
+    face_capacity: int
+    corner_capacity: int
+    site_capacity: int
+    reserved: int
+    positions: int
+    triangles: int
+    barycentrics: int
+    face_starts: int
+    face_corners: int
+    site_vertices: int
+    site_lines: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("vertex_capacity", c_uint32),
+        ("face_capacity", c_uint32),
+        ("corner_capacity", c_uint32),
+        ("site_capacity", c_uint32),
+        ("reserved", c_uint32),
+        ("positions", c_void_p),
+        ("triangles", c_void_p),
+        ("barycentrics", c_void_p),
+        ("face_starts", c_void_p),
+        ("face_corners", c_void_p),
+        ("site_vertices", c_void_p),
+        ("site_lines", c_void_p),
+    ]
+
+
+class hf_flow_lines(Structure):
+    struct_size: int
+    wanted_count: int
+    seed_count: int
+    point_capacity: int
+    line_capacity: int
+    point_count: int
+    line_count: int
+    reserved: int
+    seeds: int
+    positions: int
+    values: int
+    line_starts: int
+    line_ends: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("wanted_count", c_uint32),
+        ("seed_count", c_uint32),
+        ("point_capacity", c_uint32),
+        ("line_capacity", c_uint32),
+        ("point_count", c_uint32),
+        ("line_count", c_uint32),
+        ("reserved", c_uint32),
+        ("seeds", c_void_p),
+        ("positions", c_void_p),
+        ("values", c_void_p),
+        ("line_starts", c_void_p),
+        ("line_ends", c_void_p),
+    ]
+
+
 class hf_transfer_desc(Structure):
     """What a pair is, beside two regions."""
     struct_size: int
@@ -867,7 +985,7 @@ class hf_transfer_frame(Structure):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_create_desc, hf_mesh_report, hf_sites_desc, hf_edit_desc, hf_site_info, hf_solve_info, hf_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_pose_desc, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_desc, hf_deform_info, hf_skin_info, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_preview_info, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame]
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_create_desc, hf_mesh_report, hf_sites_desc, hf_edit_desc, hf_site_info, hf_solve_info, hf_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_pose_desc, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_desc, hf_deform_info, hf_skin_info, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_preview_info, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -941,6 +1059,13 @@ PROTOTYPES = {
     "hf_solve_preview": (c_int32, [c_void_p, c_void_p, c_uint32, c_uint32, c_void_p]),
     "hf_solve_preview_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_uint32, c_void_p]),
     "hf_release_preview": (c_int32, [c_void_p]),
+    "hf_quads_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_quads_destroy": (None, [c_void_p]),
+    "hf_quads_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_quads_get_mesh": (c_int32, [c_void_p, c_void_p]),
+    "hf_flow_create": (c_int32, [c_void_p, c_void_p]),
+    "hf_flow_destroy": (None, [c_void_p]),
+    "hf_flow_trace": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_transfer_create": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
     "hf_transfer_destroy": (None, [c_void_p]),
     "hf_transfer_add_pairs": (c_int32, [c_void_p, c_void_p, c_void_p]),

@@ -1,0 +1,253 @@
+// hf/quads.h: quad meshes, flow lines.
+#include <algorithm>
+#include <cmath>
+
+#include "capi/boundary.h"
+#include "capi/objects.h"
+#include "capi/scalars.h"
+#include "capi/scatter.h"
+#include "hf/quads.h"
+#include "remesh/flow_lines.h"
+#include "remesh/quads.h"
+
+namespace hf::capi {
+namespace {
+
+struct QuadsObject final : Object {
+  QuadsObject(std::shared_ptr<const Core> shared, QuadResult&& made, double length)
+      : Object(Kind::quads), core(std::move(shared)), result(std::move(made)), edge_length(length) {}
+  std::shared_ptr<const Core> core;  // outlives the result, which lies in its memory
+  QuadResult result;
+  double edge_length;
+};
+
+struct FlowObject final : Object {
+  explicit FlowObject(std::shared_ptr<const Core> core)
+      : Object(Kind::flow), memory(core->memory), tracer(std::move(core)) {}
+  std::shared_ptr<Memory> memory;  // outlives what follows
+  FlowTracer tracer;
+};
+
+std::uint32_t given_of(const Mesh& mesh, std::int32_t inner) {
+  return inner == Mesh::none ? HF_NO_INDEX
+                             : static_cast<std::uint32_t>(mesh.given_of_inner[static_cast<std::size_t>(inner)]);
+}
+
+void read_sites(const Core& core, const hf_quads_desc& desc, Vector<FluxSite>& sites) {
+  if (desc.site_count == 0) {
+    if (desc.site_vertices || desc.site_lines)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "site_count is 0, but arrays of sites are given");
+    return;
+  }
+  require(desc.site_vertices, "desc->site_vertices");
+  if (desc.site_count > core.mesh.report.vertex_count)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u sites; the mesh has %u vertices", desc.site_count,
+         core.mesh.report.vertex_count);
+  Vector<std::int32_t> inner(core.memory.get());
+  append_inner(core.mesh, desc.site_count, desc.site_vertices, "site_vertices", inner);
+  Vector<std::uint8_t> taken(static_cast<std::size_t>(core.size()), std::uint8_t{0}, core.memory.get());
+  for (std::uint32_t i = 0; i < desc.site_count; ++i) {
+    if (inner[i] == Mesh::none)
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "entry %u of site_vertices: vertex %u is in no usable triangle", i,
+           desc.site_vertices[i]);
+    if (taken[static_cast<std::size_t>(inner[i])]++)
+      fail(HF_ERROR_DUPLICATE_SITE, i, "entry %u of site_vertices: vertex %u is named twice", i, desc.site_vertices[i]);
+    constexpr std::int32_t most = 100000;
+    if (desc.site_lines && (desc.site_lines[i] == 0 || desc.site_lines[i] > most || desc.site_lines[i] < -most))
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "site_lines[%u] is %d; it must be -%d to %d and not 0", i, desc.site_lines[i],
+           most, most);
+    sites.push_back({inner[i], desc.site_lines ? static_cast<double>(desc.site_lines[i]) : 0.0});
+  }
+}
+
+void create(hf_solver handle, const hf_quads_desc* given, hf_quads* out_quads) {
+  require(out_quads, "out_quads");
+  *out_quads = nullptr;
+  const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
+  hf_quads_desc desc{};
+  if (given) desc = read_struct(given, "desc");
+  check_choice(desc.kind, 2, "kind");
+  check_choice(desc.keep_polygons, 2, "keep_polygons");
+  const double length = static_cast<double>(desc.edge_length);
+  if (!std::isfinite(length)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "edge_length is not finite");
+  if (length < 0) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; it must be above 0, or 0", length);
+  constexpr std::uint32_t most_rounds = 1000;
+  if (desc.relax_count > most_rounds && desc.relax_count != HF_NO_INDEX)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "relax_count is %u; it must be up to %u, or HF_NO_INDEX",
+         desc.relax_count, most_rounds);
+  std::shared_ptr<ProgressObject> progress;
+  if (desc.progress) progress = get<ProgressObject>(desc.progress, Kind::progress, "progress");
+  const Reading reading(*solver);
+  QuadOptions options;
+  options.core = solver->field.shared_core();
+  const Core& core = *options.core;
+  options.edge_length = length > 0 ? length / core.mesh.scale : 0.022;
+  constexpr double least = 1e-4, largest = 1.0;
+  if (options.edge_length < least || options.edge_length > largest)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; on this mesh it must be %g to %g", length,
+         least * core.mesh.scale, largest * core.mesh.scale);
+  options.uniform = desc.kind == HF_QUADS_UNIFORM, options.split = desc.keep_polygons == 0;
+  if (desc.relax_count)
+    options.relax = desc.relax_count == HF_NO_INDEX ? 0 : static_cast<std::int32_t>(desc.relax_count);
+  Vector<FluxSite> sites(core.memory.get());
+  read_sites(core, desc, sites);
+  options.sites = sites, options.automatic = sites.empty(), options.scale_lines = !desc.site_lines;
+  options.progress = progress ? &progress->progress : nullptr;
+  try {
+    QuadResult result = make_quads(options);
+    *out_quads = reinterpret_cast<hf_quads>(insert(make_owner_in<QuadsObject>(
+        solver->memory, options.core, std::move(result), options.edge_length * core.mesh.scale)));
+  } catch (const Error& error) {
+    if (error.code() == HF_ERROR_CANCELLED && progress) progress->progress.reset();  // one cancel stops one call
+    throw;
+  }
+}
+
+hf_quads_info info_of(const QuadsObject& object) {
+  const QuadResult& result = object.result;
+  hf_quads_info info{};
+  info.vertex_count = static_cast<std::uint32_t>(result.mesh.position.size());
+  info.face_count = static_cast<std::uint32_t>(result.mesh.face_count());
+  info.corner_count = static_cast<std::uint32_t>(result.mesh.corner.size());
+  info.quad_count = static_cast<std::uint32_t>(result.mesh.quad_count());
+  info.polygon_count = static_cast<std::uint32_t>(result.raw_faces);
+  info.polygon_quad_count = static_cast<std::uint32_t>(result.raw_quads);
+  info.site_count = static_cast<std::uint32_t>(result.sites.size());
+  info.saddle_count = static_cast<std::uint32_t>(result.saddles);
+  info.euler_characteristic = result.euler_characteristic;
+  info.edge_length = static_cast<float>(object.edge_length);
+  return info;
+}
+
+void need(std::uint32_t capacity, std::uint32_t count, const char* name) {
+  if (capacity < count) fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "%s is %u; %u are needed", name, capacity, count);
+}
+
+void get_mesh(hf_quads handle, const hf_quads_mesh* given) {
+  const auto object = get<QuadsObject>(handle, Kind::quads, "quads");
+  const hf_quads_mesh out = read_struct(given, "out_mesh");
+  if (out.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "out_mesh: reserved must be 0");
+  const Reading reading(*object);
+  const hf_quads_info info = info_of(*object);
+  if (out.positions || out.triangles || out.barycentrics)
+    need(out.vertex_capacity, info.vertex_count, "vertex_capacity");
+  if (out.face_starts) need(out.face_capacity, info.face_count, "face_capacity");
+  if (out.face_corners) need(out.corner_capacity, info.corner_count, "corner_capacity");
+  if (out.site_vertices || out.site_lines) need(out.site_capacity, info.site_count, "site_capacity");
+  const Mesh& mesh = object->core->mesh;
+  const QuadResult& result = object->result;
+  Vector<std::uint32_t> given_triangle(out.triangles || out.barycentrics ? mesh.triangle_count() : 0, HF_NO_INDEX,
+                                       object->core->memory.get());
+  if (!given_triangle.empty()) {
+    for (std::size_t t = mesh.triangle_of_given.size(); t-- > 0;)
+      if (mesh.triangle_of_given[t] != Mesh::none)
+        given_triangle[static_cast<std::size_t>(mesh.triangle_of_given[t])] = static_cast<std::uint32_t>(t);
+  }
+  for (std::int32_t v = 0; v < result.mesh.position.size(); ++v) {
+    const SurfacePoint& point = result.mesh.location[v];
+    const std::size_t i = static_cast<std::size_t>(v);
+    if (out.positions) put(mesh.to_given(result.mesh.position[v]), out.positions + 3 * i);
+    if (out.triangles) out.triangles[i] = given_triangle[static_cast<std::size_t>(point.triangle)];
+    if (out.barycentrics) std::copy(point.weight, point.weight + 3, out.barycentrics + 3 * i);
+  }
+  if (out.face_starts) std::copy(result.mesh.face_start.begin(), result.mesh.face_start.end(), out.face_starts);
+  if (out.face_corners) std::copy(result.mesh.corner.begin(), result.mesh.corner.end(), out.face_corners);
+  for (std::size_t i = 0; i < result.sites.size(); ++i) {
+    if (out.site_vertices) out.site_vertices[i] = given_of(mesh, result.sites[i].vertex);
+    if (out.site_lines) out.site_lines[i] = static_cast<std::int32_t>(std::lround(result.sites[i].lines));
+  }
+}
+
+void trace(hf_flow handle, const hf_scalars* given, hf_flow_lines* inout_lines) {
+  const auto object = get<FlowObject>(handle, Kind::flow, "flow");
+  hf_flow_lines out = read_struct(inout_lines, "inout_lines");
+  if (out.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "inout_lines: reserved must be 0");
+  constexpr std::uint32_t most = 1000000;
+  if (out.seed_count > most)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "seed_count is %u; it must be up to %u", out.seed_count, most);
+  if (out.seed_count == 0 && (out.wanted_count < 1 || out.wanted_count > most))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "wanted_count is %u; it must be 1 to %u", out.wanted_count, most);
+  const Reading reading(*object);
+  const Core& core = object->tracer.core();
+  const Mesh& mesh = core.mesh;
+  Vector<std::int32_t> seeds(core.memory.get());
+  if (out.seed_count) {
+    require(out.seeds, "inout_lines->seeds");
+    append_inner(mesh, out.seed_count, out.seeds, "seeds", seeds);
+    for (std::uint32_t i = 0; i < out.seed_count; ++i)
+      if (seeds[i] == Mesh::none)
+        fail(HF_ERROR_INVALID_ARGUMENT, i, "entry %u of seeds: vertex %u is in no usable triangle", i, out.seeds[i]);
+  }
+  const Vector<double> field = read_scalars(core, given);
+  for (std::size_t v = 0; v < field.size(); ++v)
+    if (std::isnan(field[v]))
+      fail(HF_ERROR_NON_FINITE, given_of(mesh, static_cast<std::int32_t>(v)), "the value of vertex %u is NaN",
+           given_of(mesh, static_cast<std::int32_t>(v)));
+  const FlowLineSet lines = object->tracer.trace(field, out.wanted_count, seeds);
+  if (lines.point.size() >= HF_NO_INDEX) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the lines have 2^32 points or more");
+  out.point_count = static_cast<std::uint32_t>(lines.point.size());
+  out.line_count = static_cast<std::uint32_t>(lines.from.size());
+  write_struct(inout_lines, out);
+  if (out.positions || out.values) need(out.point_capacity, out.point_count, "point_capacity");
+  if (out.line_starts || out.line_ends) need(out.line_capacity, out.line_count, "line_capacity");
+  for (std::size_t i = 0; out.positions && i < lines.point.size(); ++i)
+    put(mesh.to_given(lines.point[i]), out.positions + 3 * i);
+  if (out.values) std::copy(lines.value.begin(), lines.value.end(), out.values);
+  if (out.line_starts) std::copy(lines.start.begin(), lines.start.end(), out.line_starts);
+  for (std::size_t l = 0; out.line_ends && l < lines.from.size(); ++l) {
+    out.line_ends[2 * l] = given_of(mesh, lines.from[l]);
+    out.line_ends[2 * l + 1] = given_of(mesh, lines.to[l]);
+  }
+}
+
+}  // namespace
+}  // namespace hf::capi
+
+using namespace hf;
+using namespace hf::capi;
+
+extern "C" {
+
+hf_result hf_quads_create(hf_solver solver, const hf_quads_desc* desc, hf_quads* out_quads) {
+  return guarded("hf_quads_create", [&] { create(solver, desc, out_quads); });
+}
+
+void hf_quads_destroy(hf_quads quads) {
+  const FloatEnvironment environment;
+  remove(reinterpret_cast<std::uintptr_t>(quads), Kind::quads);
+}
+
+hf_result hf_quads_get_info(hf_quads quads, hf_quads_info* out_info) {
+  return guarded("hf_quads_get_info", [&] {
+    const auto object = get<QuadsObject>(quads, Kind::quads, "quads");
+    check_struct(out_info, "out_info");
+    const Reading reading(*object);
+    write_struct(out_info, info_of(*object));
+  });
+}
+
+hf_result hf_quads_get_mesh(hf_quads quads, const hf_quads_mesh* out_mesh) {
+  return guarded("hf_quads_get_mesh", [&] { get_mesh(quads, out_mesh); });
+}
+
+hf_result hf_flow_create(hf_solver handle, hf_flow* out_flow) {
+  return guarded("hf_flow_create", [&] {
+    require(out_flow, "out_flow");
+    *out_flow = nullptr;
+    const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
+    const Reading reading(*solver);
+    *out_flow =
+        reinterpret_cast<hf_flow>(insert(make_owner_in<FlowObject>(solver->memory, solver->field.shared_core())));
+  });
+}
+
+void hf_flow_destroy(hf_flow flow) {
+  const FloatEnvironment environment;
+  remove(reinterpret_cast<std::uintptr_t>(flow), Kind::flow);
+}
+
+hf_result hf_flow_trace(hf_flow flow, const hf_scalars* field, hf_flow_lines* inout_lines) {
+  return guarded("hf_flow_trace", [&] { trace(flow, field, inout_lines); });
+}
+
+}  // extern "C"

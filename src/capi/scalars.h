@@ -1,0 +1,31 @@
+// A field of the caller's, as hf_scalars describes it.
+#pragma once
+#include <cmath>
+
+#include "capi/boundary.h"
+#include "engine/core.h"
+#include "hf/analysis.h"
+
+namespace hf::capi {
+
+// One value per inner vertex.
+inline Vector<double> read_scalars(const Core& core, const hf_scalars* given) {
+  const hf_scalars desc = read_struct(given, "field");
+  if (desc.values && desc.values_f64)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "values and values_f64 are both set; set one");
+  if (!desc.values && !desc.values_f64) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "values and values_f64 are both NULL");
+  const ConstRows rows = desc.values_f64
+                             ? ConstRows(desc.values_f64, stride_of(desc.value_stride, sizeof(double), "value_stride"))
+                             : ConstRows(desc.values, stride_of(desc.value_stride, sizeof(float), "value_stride"));
+  Vector<double> field(static_cast<std::size_t>(core.size()), core.memory.get());
+  for (std::size_t v = 0; v < field.size(); ++v) {
+    const std::uint32_t vertex = static_cast<std::uint32_t>(core.mesh.given_of_inner[v]);
+    field[v] = rows.get(vertex, 0);
+    if (std::isinf(field[v]))
+      fail(HF_ERROR_NON_FINITE, vertex, "the value of vertex %u is infinite; NaN marks a vertex without a value",
+           vertex);
+  }
+  return field;
+}
+
+}  // namespace hf::capi

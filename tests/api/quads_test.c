@@ -1,0 +1,227 @@
+/* hf/quads.h from the outside: a quad mesh of a tube in the caller's arrays, flow lines, cancelling, and what bad input
+ * is answered. */
+#include "api_support.h"
+
+enum { AROUND = 24, RINGS = 21, COUNT = AROUND * RINGS };
+
+static hf_solver tube_solver(Surface* surface) {
+  *surface = surface_tube(AROUND, RINGS);
+  return surface_solver(surface);
+}
+
+static hf_quads_desc quads_desc(void) {
+  hf_quads_desc desc;
+  HF_INIT(desc);
+  desc.edge_length = 1;
+  return desc;
+}
+
+static void a_tube_becomes_a_closed_net_of_quads(void** state) {
+  (void)state;
+  Surface surface;
+  const hf_solver solver = tube_solver(&surface);
+  for (int32_t kind = HF_QUADS_UNIFORM; kind <= HF_QUADS_PURE; ++kind) {
+    hf_quads_desc desc = quads_desc();
+    desc.kind = kind;
+    hf_quads quads = NULL;
+    assert_ok(hf_quads_create(solver, &desc, &quads));
+    hf_quads_info info;
+    HF_INIT(info);
+    assert_ok(hf_quads_get_info(quads, &info));
+    assert_int_equal(info.euler_characteristic, 0);
+    assert_int_equal(info.quad_count, info.face_count);
+    assert_int_equal(info.corner_count, 4 * info.face_count);
+    assert_int_equal(info.site_count, 2); /* the two borders */
+    assert_true(fabsf(info.edge_length - 1) < 1e-6f);
+    double* positions = calloc(info.vertex_count, 3 * sizeof *positions);
+    double* weights = calloc(info.vertex_count, 3 * sizeof *weights);
+    uint32_t* triangles = calloc(info.vertex_count, sizeof *triangles);
+    uint32_t* starts = calloc(info.face_count + 1u, sizeof *starts);
+    uint32_t* corners = calloc(info.corner_count, sizeof *corners);
+    uint32_t sites[2];
+    int32_t lines[2];
+    hf_quads_mesh mesh;
+    HF_INIT(mesh);
+    mesh.vertex_capacity = info.vertex_count, mesh.face_capacity = info.face_count;
+    mesh.corner_capacity = info.corner_count, mesh.site_capacity = 2;
+    mesh.positions = positions, mesh.triangles = triangles, mesh.barycentrics = weights;
+    mesh.face_starts = starts, mesh.face_corners = corners, mesh.site_vertices = sites, mesh.site_lines = lines;
+    assert_ok(hf_quads_get_mesh(quads, &mesh));
+    assert_int_equal(starts[0], 0);
+    assert_int_equal(starts[info.face_count], info.corner_count);
+    assert_true(sites[0] == HF_NO_INDEX && sites[1] == HF_NO_INDEX);
+    assert_int_equal(lines[0] + lines[1], 0);
+    for (uint32_t i = 0; i < info.corner_count; ++i) assert_true(corners[i] < info.vertex_count);
+    for (uint32_t v = 0; v < info.vertex_count; ++v) {
+      assert_true(triangles[v] < surface.triangle_count);
+      for (uint32_t k = 0; k < 3; ++k) { /* the vertex is where its weights say */
+        double p = 0;
+        for (uint32_t c = 0; c < 3; ++c)
+          p += weights[3 * v + c] * (double)surface.positions[3 * surface.triangles[3 * triangles[v] + c] + k];
+        assert_true(fabs(p - positions[3 * v + k]) < 1e-6);
+      }
+    }
+    /* too small: nothing is written */
+    mesh.face_capacity = info.face_count - 1, starts[0] = 77;
+    assert_code(HF_ERROR_TOO_SMALL, hf_quads_get_mesh(quads, &mesh));
+    assert_int_equal(starts[0], 77);
+    free(positions), free(weights), free(triangles), free(starts), free(corners);
+    hf_quads_destroy(quads);
+    assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_get_info(quads, &info));
+  }
+  hf_destroy(solver), surface_free(&surface);
+}
+
+static void flow_lines_rise_and_outlive_the_solver(void** state) {
+  (void)state;
+  Surface surface;
+  const hf_solver solver = tube_solver(&surface);
+  double height[COUNT];
+  for (uint32_t v = 0; v < COUNT; ++v) height[v] = (double)surface.positions[3 * v + 1] + 1e-3 * (v % AROUND);
+  hf_flow flow = NULL;
+  assert_ok(hf_flow_create(solver, &flow));
+  hf_destroy(solver);
+  hf_scalars field;
+  HF_INIT(field);
+  field.values_f64 = height;
+  const uint32_t seed = 10 * AROUND + 3;
+  for (int pass = 0; pass < 2; ++pass) {
+    hf_flow_lines lines;
+    HF_INIT(lines);
+    if (pass == 0) lines.wanted_count = 12;
+    if (pass == 1) lines.seed_count = 1, lines.seeds = &seed;
+    assert_ok(hf_flow_trace(flow, &field, &lines));
+    assert_int_equal(lines.line_count, pass == 0 ? 12 : 1);
+    double* positions = calloc(lines.point_count, 3 * sizeof *positions);
+    double* values = calloc(lines.point_count, sizeof *values);
+    uint32_t starts[13], ends[24];
+    lines.positions = positions, lines.values = values, lines.line_starts = starts, lines.line_ends = ends;
+    lines.point_capacity = lines.point_count - 1, lines.line_capacity = 12;
+    assert_code(HF_ERROR_TOO_SMALL, hf_flow_trace(flow, &field, &lines));
+    lines.point_capacity = lines.point_count;
+    assert_ok(hf_flow_trace(flow, &field, &lines));
+    for (uint32_t l = 0; l < lines.line_count; ++l) {
+      assert_true(starts[l] + 2 <= starts[l + 1]);
+      for (uint32_t i = starts[l] + 1; i < starts[l + 1]; ++i) assert_true(values[i] > values[i - 1]);
+      assert_true(fabs(values[starts[l]] - height[ends[2 * l]]) < 1e-12);
+      assert_true(fabs(values[starts[l + 1] - 1] - height[ends[2 * l + 1]]) < 1e-12);
+    }
+    free(positions), free(values);
+  }
+  height[5] = NAN;
+  hf_flow_lines lines;
+  HF_INIT(lines);
+  lines.wanted_count = 3;
+  assert_code(HF_ERROR_NON_FINITE, hf_flow_trace(flow, &field, &lines));
+  hf_flow_destroy(flow), hf_flow_destroy(flow);
+  surface_free(&surface);
+}
+
+static void cancelling_leaves_nothing_and_stops_one_call(void** state) {
+  (void)state;
+  Surface surface;
+  const hf_solver solver = tube_solver(&surface);
+  hf_progress progress = NULL;
+  assert_ok(hf_progress_create(&progress));
+  assert_ok(hf_progress_cancel(progress));
+  hf_quads_desc desc = quads_desc();
+  desc.progress = progress;
+  hf_quads quads = (hf_quads)(uintptr_t)1;
+  assert_code(HF_ERROR_CANCELLED, hf_quads_create(solver, &desc, &quads));
+  assert_null(quads);
+  assert_ok(hf_quads_create(solver, &desc, &quads));
+  float done = 0;
+  assert_ok(hf_progress_get(progress, &done));
+  assert_true(done == 1.0f);
+  hf_quads_destroy(quads), hf_progress_destroy(progress), hf_destroy(solver), surface_free(&surface);
+}
+
+static void bad_input_is_named(void** state) {
+  (void)state;
+  Surface surface;
+  const hf_solver solver = tube_solver(&surface);
+  hf_quads quads = NULL;
+  const uint32_t vertices[] = {5, 300, 5}, beyond[] = {COUNT};
+  const int32_t lines[] = {4, 0}, one_sign[] = {4, 4};
+  hf_quads_desc desc = quads_desc();
+  assert_code(HF_ERROR_NULL_POINTER, hf_quads_create(solver, &desc, NULL));
+  assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_create(NULL, &desc, &quads));
+  desc.struct_size = 4;
+  assert_code(HF_ERROR_INVALID_DESC, hf_quads_create(solver, &desc, &quads));
+  desc = quads_desc(), desc.kind = 2;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
+  desc = quads_desc(), desc.edge_length = -1;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
+  desc = quads_desc(), desc.edge_length = NAN;
+  assert_code(HF_ERROR_NON_FINITE, hf_quads_create(solver, &desc, &quads));
+  desc = quads_desc(), desc.edge_length = 1e9f;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
+  desc = quads_desc(), desc.relax_count = 1001;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
+  desc = quads_desc(), desc.site_count = 2;
+  assert_code(HF_ERROR_NULL_POINTER, hf_quads_create(solver, &desc, &quads));
+  desc = quads_desc(), desc.site_vertices = vertices;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
+  desc = quads_desc(), desc.site_count = 1, desc.site_vertices = beyond;
+  assert_code(HF_ERROR_OUT_OF_RANGE, hf_quads_create(solver, &desc, &quads));
+  desc = quads_desc(), desc.site_count = 3, desc.site_vertices = vertices;
+  assert_code(HF_ERROR_DUPLICATE_SITE, hf_quads_create(solver, &desc, &quads));
+  hf_error_detail detail;
+  assert_ok(hf_get_error_detail(&detail));
+  assert_int_equal(detail.index, 2);
+  desc = quads_desc(), desc.site_count = 2, desc.site_vertices = vertices, desc.site_lines = lines;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
+  desc.site_lines = one_sign;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
+  assert_null(quads);
+  hf_flow flow = NULL;
+  assert_code(HF_ERROR_NULL_POINTER, hf_flow_create(solver, NULL));
+  assert_code(HF_ERROR_INVALID_HANDLE, hf_flow_create(NULL, &flow));
+  assert_ok(hf_flow_create(solver, &flow));
+  assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_get_info((hf_quads)flow, NULL));
+  double values[COUNT] = {0};
+  hf_scalars field;
+  HF_INIT(field);
+  field.values_f64 = values;
+  hf_flow_lines out;
+  HF_INIT(out);
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_flow_trace(flow, &field, &out)); /* no line is wanted */
+  out.wanted_count = 1;
+  assert_code(HF_ERROR_NULL_POINTER, hf_flow_trace(flow, &field, NULL));
+  assert_code(HF_ERROR_NULL_POINTER, hf_flow_trace(flow, NULL, &out));
+  out.seed_count = 1, out.seeds = beyond;
+  assert_code(HF_ERROR_OUT_OF_RANGE, hf_flow_trace(flow, &field, &out));
+  out.reserved = 1;
+  assert_code(HF_ERROR_INVALID_DESC, hf_flow_trace(flow, &field, &out));
+  hf_flow_destroy(flow), hf_destroy(solver), surface_free(&surface);
+}
+
+static void a_non_manifold_edge_is_refused_with_its_vertex(void** state) {
+  (void)state;
+  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, -1};
+  const uint32_t triangles[] = {0, 1, 2, 1, 0, 3, 0, 1, 4};
+  hf_create_desc create;
+  HF_INIT(create);
+  create.vertex_count = 5, create.triangle_count = 3, create.positions = positions, create.triangles = triangles;
+  hf_solver solver = NULL;
+  assert_ok(hf_create(&create, &solver));
+  hf_quads quads = NULL;
+  hf_flow flow = NULL;
+  assert_code(HF_ERROR_UNSUPPORTED, hf_quads_create(solver, NULL, &quads));
+  assert_code(HF_ERROR_UNSUPPORTED, hf_flow_create(solver, &flow));
+  hf_error_detail detail;
+  assert_ok(hf_get_error_detail(&detail));
+  assert_true(detail.index == 0 || detail.index == 1);
+  hf_destroy(solver);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_tube_becomes_a_closed_net_of_quads),
+      cmocka_unit_test(flow_lines_rise_and_outlive_the_solver),
+      cmocka_unit_test(cancelling_leaves_nothing_and_stops_one_call),
+      cmocka_unit_test(bad_input_is_named),
+      cmocka_unit_test(a_non_manifold_edge_is_refused_with_its_vertex),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
