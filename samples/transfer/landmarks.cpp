@@ -13,8 +13,12 @@
 namespace samples {
 namespace {
 
-constexpr double foot_height = 0.12, ground_slack = 0.03;  // of the height
-constexpr double same_foot = 0.05;                         // of the diagonal
+// Up to where feet reach and how far off the ground they may be, of the height: legs are short under a large head, and
+// some rest in mid-stride.
+constexpr struct {
+  double reach, slack;
+} stances[] = {{0.12, 0.03}, {0.08, 0.03}, {0.05, 0.03}, {0.03, 0.02}, {0.2, 0.12}, {0.12, 0.1}};
+constexpr double same_foot = 0.05;  // of the diagonal
 constexpr double ball = 0.03, trunk_ball = 0.04;
 
 // Words of a joint's name: "b_LeftHand_011" -> b left hand.
@@ -64,7 +68,8 @@ class Finder {
   double asymmetry(int axis) const;
   void find_axes();
   double toes() const;
-  void find_feet();
+  void find_feet(double reach, double slack);
+  size_t split_feet(std::vector<Foot>& left, std::vector<Foot>& right) const;
   std::vector<uint32_t> named(const std::vector<std::string>& words) const;
   void find_extremities();
   template <class Value>
@@ -77,7 +82,7 @@ class Finder {
   bool top_of_back(double at_forward, glm::dvec3& place) const;
   bool back_at(double height, glm::dvec3& place) const;
   double neck_height(double crotch) const;
-  void add_head(), add_tail(), add_hands(), add_trunk();
+  void add_head(), add_ears(), add_tail(), add_hands(), add_trunk();
 
   const Model& model_;
   const FlatMesh& mesh_;
@@ -136,17 +141,23 @@ void Finder::find_axes() {
   // along the side a creature is symmetric; x unless z is clearly the one
   if (asymmetry(2) < 0.5 * asymmetry(0)) axes_.forward = {1, 0, 0}, axes_.right = glm::cross(axes_.up, axes_.forward);
   measure();
-  double evidence = toes();
+  double evidence = std::clamp(toes(), -0.1, 0.1);  // a rest in mid-stride says nothing
   const std::vector<uint32_t> head = named({"head", "jaw", "nose", "snout", "muzzle"});
   if (!head.empty()) {
-    double mean = 0;
+    // before the feet; the middle of the box would be led astray by a tail or a weapon
+    double mean = 0, under = 0, low = 0;
     for (const uint32_t v : head) mean += forward(v) / static_cast<double>(head.size());
-    evidence += 0.5 * (mean - 0.5 * (front_ + back_)) / height_;
+    for (const uint32_t v : first_)
+      if (up(v) < 0.1 * height_) under += forward(v), low += 1;
+    evidence += 0.5 * (mean - under / low) / height_;
+    const std::vector<uint32_t> eyes = named({"eye"});
+    for (const uint32_t v : eyes) evidence += (forward(v) - mean) / height_ / static_cast<double>(eyes.size());
   }
   if (evidence < -0.03) axes_.forward = -axes_.forward, axes_.right = -axes_.right, measure();
 }
 
-void Finder::find_feet() {
+void Finder::find_feet(double reach, double slack) {
+  feet_.clear();
   // pieces of the surface near the ground
   std::vector<uint32_t> parent(mesh_.welded_count);
   std::iota(parent.begin(), parent.end(), 0u);
@@ -154,7 +165,7 @@ void Finder::find_feet() {
     while (parent[w] != w) w = parent[w] = parent[parent[w]];
     return w;
   };
-  const auto is_low = [&](uint32_t v) { return up(v) < foot_height * height_; };
+  const auto is_low = [&](uint32_t v) { return up(v) < reach * height_; };
   for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
     const uint32_t a = mesh_.triangles[t], b = mesh_.triangles[t - t % 3 + (t + 1) % 3];
     if (is_low(a) && is_low(b)) parent[root(mesh_.welded[a])] = root(mesh_.welded[b]);
@@ -173,7 +184,7 @@ void Finder::find_feet() {
     piece.vertices.push_back(first_[w]);
   }
   for (Piece& piece : of_root) {
-    if (piece.count < 1 || piece.lowest > ground_slack * height_) continue;
+    if (piece.count < 1 || piece.lowest > slack * height_) continue;
     const auto near = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& other) {
       return glm::distance(other.mean(), piece.mean()) < same_foot * diagonal_;
     });
@@ -191,6 +202,15 @@ void Finder::find_feet() {
     feet_.push_back(
         {mesh_.positions[vertex], vertex, glm::dot(mean, axes_.forward), glm::dot(mean, axes_.right) - middle_});
   }
+}
+
+// Those on either side of the middle; the number of pairs.
+size_t Finder::split_feet(std::vector<Foot>& left, std::vector<Foot>& right) const {
+  left.clear(), right.clear();
+  for (const Foot& foot : feet_) {
+    if (std::abs(foot.side) > 0.01 * diagonal_) (foot.side > 0 ? left : right).push_back(foot);
+  }
+  return std::min(left.size(), right.size());
 }
 
 std::vector<uint32_t> Finder::named(const std::vector<std::string>& words) const {
@@ -340,6 +360,23 @@ void Finder::add_head() {
       by_name ? 0.9 : 0.5, by_name ? "front of the head joint" : "foremost place");
 }
 
+// Ears by their joints only: their shapes say nothing that horns do not.
+void Finder::add_ears() {
+  const std::vector<uint32_t> ears = named({"ear"});
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<uint32_t> own;
+    glm::dvec3 base(0);
+    for (const uint32_t v : ears)
+      if (sign * side(v) > 0) own.push_back(v);
+    if (own.empty()) continue;
+    // the end that is furthest from where the ear meets the head
+    const uint32_t low = best_of(own, [&](uint32_t v) { return -up(v) - sign * side(v); });
+    base = mesh_.positions[low];
+    const auto reach = [&](uint32_t v) { return glm::distance(mesh_.positions[v], base); };
+    add(sign > 0 ? "ear left" : "ear right", best_of(own, reach), {"away", "up"}, 0.8, "tip of the ear joints", 0.02);
+  }
+}
+
 void Finder::add_tail() {
   const std::vector<uint32_t> tail = named({"tail"});
   if (!tail.empty()) {
@@ -379,7 +416,7 @@ void Finder::add_hands() {
     for (const uint32_t v : hands)
       if (sign * side(v) > 0) own.push_back(v);
     const auto is_hand = [&](uint32_t v) {
-      return sign * side(v) > 0.1 * height_ && up(v) > foot_height * height_ && up(v) < 0.95 * height_;
+      return sign * side(v) > 0.1 * height_ && up(v) > 0.05 * height_ && up(v) < 0.85 * height_;
     };
     for (const uint32_t v : tips_)
       if (is_hand(v)) tips.push_back(v);
@@ -440,12 +477,15 @@ Landmarks Finder::find(const Axes* axes) {
   }
   const RegionFinder finder(model_, mesh_, axes_);
   regions_ = &finder;
-  find_feet();
   std::vector<Foot> left, right;
-  for (const Foot& foot : feet_) {
-    if (std::abs(foot.side) > 0.01 * diagonal_) (foot.side > 0 ? left : right).push_back(foot);
+  size_t pairs = 0;
+  bool first_try = true;
+  for (const auto& stance : stances) {
+    find_feet(stance.reach, stance.slack);
+    pairs = split_feet(left, right);
+    if (pairs > 0) break;
+    first_try = false;
   }
-  const size_t pairs = std::min(left.size(), right.size());
   if (pairs == 0) {
     throw std::runtime_error(
         model_.name + ": no feet left and right of its middle stand on the ground (" + std::to_string(feet_.size()) +
@@ -459,7 +499,7 @@ Landmarks Finder::find(const Axes* axes) {
   out_.axes = axes_, out_.leg_pairs = pairs;
   out_.upright = pairs == 1 && height_ > 1.1 * (front_ - back_);
   find_extremities();
-  add_head(), add_tail();
+  add_head(), add_ears(), add_tail();
   feet_.clear();
   for (std::vector<Foot>* feet : {&left, &right}) {
     std::sort(feet->begin(), feet->end(), [](const Foot& a, const Foot& b) { return a.forward > b.forward; });
@@ -472,8 +512,13 @@ Landmarks Finder::find(const Axes* axes) {
                                : i + 1 == pairs ? "hind foot"
                                                 : "middle foot " + std::to_string(i);
       const bool even = left.size() == right.size();
-      add(name + word, foot.vertex, {"down"}, even ? 0.9 : 0.5,
-          even ? "stands on the ground" : "one of an odd number on the ground");
+      add(name + word, foot.vertex, {"down"},
+          !even       ? 0.5
+          : first_try ? 0.9
+                      : 0.7,
+          !even       ? "one of an odd number on the ground"
+          : first_try ? "stands on the ground"
+                      : "reaches lowest on its side");
       feet_.push_back(foot);
     }
   }

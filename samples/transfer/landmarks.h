@@ -1,10 +1,11 @@
 // Places of a creature that a transfer needs, found from its shape and, where they say something, its joint names:
 // feet, head or nose, tail, hands, and two places on the trunk.
 //
-// Feet are the pieces of the surface below 12 % of the height that stand on the ground, so any number of legs is found
-// and a front leg named "hand" does no harm. The side axis is the one the shape is most symmetric along, forward is
-// where toes and head point (+z when in doubt, as glTF says). Head, tail and hands go by joint names first, else by the
-// extremities of the surface (hf_find_extremities). The trunk places lie where a line through the belly, or through
+// Feet are the pieces of the surface below 12 % of the height that stand on the ground (lower where legs are shorter,
+// further off it where a model rests in mid-stride), so any number of legs is found and a front leg named "hand" does
+// no harm. The side axis is the one the shape is most symmetric along, forward is where toes, head and eyes point (+z
+// when in doubt, as glTF says). Head, tail and hands go by joint names first, else by the extremities of the surface
+// (hf_find_extremities); ears by joint names only. The trunk places lie where a line through the belly, or through
 // the back of someone upright, leaves the body. Every landmark says how it was found and how far to trust it.
 #ifndef HF_SAMPLES_TRANSFER_LANDMARKS_H
 #define HF_SAMPLES_TRANSFER_LANDMARKS_H

@@ -37,6 +37,35 @@ TEST(TransferOutputs, ProposedPairsFindEveryPlaceAndCrossNone) {
   EXPECT_NE(said.find("proposed pairs"), std::string::npos);
 }
 
+// Short legs under a large head with ears, a rest in mid-stride, a weapon before the face.
+TEST(TransferOutputs, RobotsOfTheDataGetFeetAndFaceForward) {
+  struct Robot {
+    const char* file;
+    std::vector<const char*> places;
+  };
+  const Robot robots[] = {
+      {"q_PlatformerCharacter.glb",
+       {"head", "foot left", "foot right", "hand left", "hand right", "seat", "upper back", "ear left", "ear right"}},
+      {"q_PlatformerHumanoidRig.glb", {"head", "foot left", "foot right", "hand left", "hand right", "ear left"}},
+      {"q_CyberCharacter.glb", {"head", "foot left", "foot right", "hand left", "hand right", "seat"}},
+      {"q_Enemy_2Legs.glb", {"foot left", "foot right"}}};
+  int seen = 0;
+  for (const Robot& robot : robots) {
+    if (!fs::exists(data() / robot.file)) continue;
+    ++seen;
+    const fs::path list = folder() / "robot.json";
+    const std::string model = quoted(data() / robot.file);
+    std::string said;
+    ASSERT_EQ(transfer(model + " " + model + " --suggest-pairs " + quoted(list), said), 0) << said;
+    const json proposed = read_json(list);
+    EXPECT_EQ(proposed["target_axes"]["forward"], "+z") << robot.file;
+    std::set<std::string> names;
+    for (const json& pair : proposed["pairs"]) names.insert(pair["name"].get<std::string>());
+    for (const char* place : robot.places) EXPECT_TRUE(names.count(place)) << robot.file << ": " << place;
+  }
+  if (seen == 0) GTEST_SKIP() << "no robots under " << data();
+}
+
 TEST(TransferOutputs, ExchangedSidesAreSaid) {
   json list = read_json(horse_to_bull());
   json* sides[2] = {nullptr, nullptr};
