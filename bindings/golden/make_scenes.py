@@ -161,7 +161,7 @@ def scenes(meshes):
           sites([0, 144], [0.0, 1.0]), {"do": "solve", "on": "s", "keep": "made"}, {"do": "save_factor", "on": "s", "as": "f"},
           {**solver("torus", "t"), "factor": "f"}, {"do": "statistics", "on": "t", "expect": {"factor_loaded": 1}},
           {"do": "add_sites", "on": "t", "vertices": [0, 144], "values": [0.0, 1.0]}, {"do": "solve", "on": "t", "same_as": "made"},
-          {"do": "solver", "as": "u", "mesh": "bar", "factor": "f", "error": "HF_ERROR_INVALID_ARGUMENT"},
+          {**solver("bar", "u"), "factor": "f", "error": "HF_ERROR_INVALID_ARGUMENT"},
           {**solver("torus", "u"), "factor": "f", "damage": 300, "error": "HF_ERROR_INVALID_ARGUMENT"})
 
     t0, t1 = (mesh["triangles"][3 * t:3 * t + 3] for t in (10, 300))

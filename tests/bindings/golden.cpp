@@ -66,7 +66,8 @@ void set_options(const Json& step, Desc& desc, const std::map<std::string, void*
     if (found == places.end()) fail("no option " + key);
     const auto kind = is_float.find(key);
     if (kind == is_float.end()) {
-      const int32_t whole = value.template get<int32_t>();
+      if (value.is_string() && value != "HF_OPERATOR_COTANGENT") throw std::runtime_error("unknown constant " + value.dump());
+      const int32_t whole = value.is_string() ? HF_OPERATOR_COTANGENT : value.template get<int32_t>();
       std::memcpy(found->second, &whole, sizeof whole);
     } else if (kind->second) {
       const double real = value.template get<double>();

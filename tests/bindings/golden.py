@@ -198,7 +198,7 @@ def main(paths):
             for place, step in enumerate(scene["steps"]):
                 try:
                     runner.step(step)
-                except AssertionError as error:
+                except (AssertionError, KeyError) as error:  # KeyError: an array that a failed step did not keep
                     failed += 1
                     print(f"FAILED {scene['name']}, step {place} ({step['do']}): {error}")
             print(f"{scene['name']}: {len(scene['steps'])} steps")

@@ -81,7 +81,7 @@ def library() -> ctypes.CDLL:
             try:
                 _loaded = _raw.load(path)
                 break
-            except OSError as error:
+            except (OSError, AttributeError) as error:  # not there, or too old: a function is missing
                 tried.append(f"{path}: {error}")
         if _loaded is None:
             raise ImportError("the hf library was not found; set HF_LIBRARY to libhf.so, or put it beside the package. " + "; ".join(tried))

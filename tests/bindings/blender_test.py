@@ -1,0 +1,219 @@
+"""The Blender add-on, driven by its operators in Blender without a display: blender_test.py PICTURE.png."""
+
+import math
+import os
+import sys
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Quaternion, Vector
+
+bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
+bpy.ops.preferences.addon_enable(module="hf_blender")
+import hf  # noqa: E402  (the package inside the add-on)
+from hf_blender import session  # noqa: E402
+
+sys.path.insert(0, os.environ["HF_TESTS"])
+import golden  # noqa: E402
+
+PICTURE = sys.argv[sys.argv.index("--") + 1]
+SCENES = [os.environ.get("HF_SCENES") or golden.GOLDEN / "scenes.json", golden.GOLDEN / "bad_input.json"]
+assert "vendor" in hf.__file__, hf.__file__
+assert golden.main(SCENES) == 0, "golden scenes"
+
+
+def cylinder(name, length, radius, rings, around, at):
+    points = [(radius * math.cos(2 * math.pi * j / around), radius * math.sin(2 * math.pi * j / around), length * i / (rings - 1))
+              for i in range(rings) for j in range(around)]
+    faces = [(i * around + j, i * around + (j + 1) % around, (i + 1) * around + (j + 1) % around, (i + 1) * around + j)
+             for i in range(rings - 1) for j in range(around)]
+    faces += [tuple(reversed(range(around))), tuple(range((rings - 1) * around, rings * around))]
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(points, [], faces)
+    obj = bpy.data.objects.new(name, mesh)
+    obj.location = at
+    bpy.context.scene.collection.objects.link(obj)
+    z = np.array(points)[:, 2] / length
+    for group, where in (("hf low", z <= 0.1), ("hf high", z >= 0.9), ("middle", (abs(z - 0.5) < 0.04) & (np.array(points)[:, 0] > 0))):
+        obj.vertex_groups.new(name=group).add(np.flatnonzero(where).tolist(), 1.0, "REPLACE")
+    return obj, np.array(points)
+
+
+def active(obj):
+    bpy.ops.object.select_all(action="DESELECT")
+    obj.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+
+
+def fails(text, operator, **arguments):
+    try:
+        operator(**arguments)
+    except RuntimeError as error:
+        assert text in str(error), error
+        return
+    raise AssertionError(f"{operator.idname()} did not fail with: {text}")
+
+
+for leftover in list(bpy.data.objects):
+    bpy.data.objects.remove(leftover)
+bar, points = cylinder("bar", 4.0, 0.5, 81, 48, (0, 0, 0))
+
+# ---- bind, handles from groups
+active(bar)
+assert bpy.ops.hf.bind() == {"FINISHED"}
+assert bpy.ops.hf.add_groups(prefix="hf ") == {"FINISHED"}
+found = session.session_of(bar, bind=False)
+empties = {o.name: o for o in bpy.data.objects if o.type == "EMPTY"}
+assert sorted(empties) == ["bar high", "bar low"] and found.pose.handle_count == 2
+np.testing.assert_allclose(session.positions_of(bar.data), points, atol=1e-5)
+
+# ---- dragging: the change of an empty is followed through Blender's own event
+high = empties["bar high"]
+high.location += Vector((1.0, 0, -0.3))
+high.rotation_quaternion = Quaternion((0, 1, 0), math.radians(60))
+bpy.context.view_layer.update()
+posed = session.positions_of(bar.data)
+region = session.group_vertices(bar, "hf high")
+centre = points[region].mean(0)
+wanted = (points[region] - centre) @ np.array(high.rotation_quaternion.to_matrix()).T + centre + (1.0, 0, -0.3)
+np.testing.assert_allclose(posed[region], wanted, atol=2e-5)
+np.testing.assert_allclose(posed[session.group_vertices(bar, "hf low")], points[session.group_vertices(bar, "hf low")], atol=1e-5)
+
+# ---- a handle added while posing: no factorisation, and on a layer above nothing moves
+for _ in range(40):  # each update goes on from the last: let it come to rest
+    bpy.ops.hf.update()
+before = session.positions_of(bar.data)
+assert bpy.ops.hf.add_handle(group="middle", layer=1) == {"FINISHED"}
+np.testing.assert_allclose(session.positions_of(bar.data), before, atol=1e-4)
+middle = bpy.data.objects["bar middle"]
+middle.location += Vector((0.4, 0, 0))
+bpy.context.view_layer.update()
+lifted = session.positions_of(bar.data)
+assert np.abs(lifted - before)[session.group_vertices(bar, "middle")].max() > 0.3
+assert found.solver.statistics.factorisation_count == 1
+
+# ---- removed by deleting the empty, as users do
+bpy.data.objects.remove(middle)
+high.location += Vector((0, 0, 0))
+bpy.context.view_layer.update()
+assert bpy.ops.hf.update() == {"FINISHED"}
+np.testing.assert_allclose(session.positions_of(bar.data), before, atol=5e-4)
+assert found.pose.handle_count == 2 and found.solver.statistics.factorisation_count == 1
+assert bpy.ops.hf.add_handle(group="middle") == {"FINISHED"} and found.pose.handle_count == 3
+assert bpy.ops.hf.remove_handle(name="bar middle") == {"FINISHED"} and found.pose.handle_count == 2
+
+# ---- undo: Blender takes the empty back, the session follows
+bpy.ops.ed.undo_push(message="before")
+assert bpy.ops.hf.add_handle(group="middle") == {"FINISHED"}
+bpy.ops.ed.undo_push(message="added")
+try:
+    bpy.ops.ed.undo()
+    undone = True
+except RuntimeError as error:  # no undo stack without a window in some builds
+    print("undo not to be had here:", error)
+    undone = False
+bar, high = bpy.data.objects["bar"], bpy.data.objects["bar high"]
+active(bar)
+if undone:
+    assert "bar middle" not in bpy.data.objects
+else:
+    assert bpy.ops.hf.remove_handle(name="bar middle") == {"FINISHED"}
+assert bpy.ops.hf.update() == {"FINISHED"}
+found = session.session_of(bar)
+assert found.pose.handle_count == 2, found.pose.handle_count
+
+# ---- fields
+active(bar)
+assert bpy.ops.hf.field(high="hf high", low="hf low", output="GROUP", name="between") == {"FINISHED"}
+z = points[:, 2] / 4
+group = bar.vertex_groups["between"]
+weights = np.array([next((g.weight for g in v.groups if g.group == group.index), 0.0) for v in bar.data.vertices])
+inside = (z > 0.1) & (z < 0.9)
+np.testing.assert_allclose(weights[inside], ((z - 0.1) / 0.8)[inside], atol=2e-3)  # linear along the bar
+assert bpy.ops.hf.field(high="hf high", low="hf low", output="COLOUR", name="strips") == {"FINISHED"}
+assert len(bar.data.color_attributes["strips"].data) == len(points)
+active(high)
+assert bpy.ops.hf.field(output="GROUP", name="of handle") == {"FINISHED"}
+
+# ---- weights and armature replay the pose
+active(bar)
+target = found.posed.copy()
+bpy.ops.hf.update()
+target = session.positions_of(bar.data)
+assert bpy.ops.hf.weights(count="8") == {"FINISHED"}
+bpy.context.view_layer.update()
+skinned = session.positions_of(bar.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh())
+error = np.linalg.norm(skinned - target, axis=1).max() / np.linalg.norm(np.ptp(points, axis=0))
+print(f"armature against pose: {100 * error:.2f} % of the box")
+assert error < 0.03
+
+# ---- motion transfer: the armature's motion from rest, played on a longer bar
+armature = bpy.data.objects["bar weights"]
+for frame, share in ((1, 0.0), (10, 1.0)):
+    for bone in armature.pose.bones:
+        if frame == 1:
+            bone["place"], bone["turn"] = list(bone.location), list(bone.rotation_quaternion)
+        bone.location = Vector(bone["place"]) * share
+        bone.rotation_quaternion = Quaternion((1, 0, 0, 0)).slerp(Quaternion(bone["turn"]), share)
+        bone.keyframe_insert("location", frame=frame)
+        bone.keyframe_insert("rotation_quaternion", frame=frame)
+other, other_points = cylinder("long", 6.0, 0.8, 61, 36, (4, 0, 0))
+active(other)
+bar.select_set(True)
+assert bpy.ops.hf.transfer(start=1, end=10, prefix="hf ") == {"FINISHED"}
+for frame in (1, 10):
+    bpy.context.scene.frame_set(frame)
+    moved = session.positions_of(other.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh())
+    assert np.isfinite(moved).all()
+    travel = np.linalg.norm(moved - other_points, axis=1)
+    print(f"transfer, frame {frame}: the far end travels {travel[-1]:.2f}")
+    assert travel.max() < 0.05 if frame == 1 else travel[-1] > 1.0
+up = moved[-36:] - moved[-36:].mean(0)  # the end cap keeps its size and has turned by the source's 60 degrees
+np.testing.assert_allclose(np.linalg.norm(up, axis=1), 0.8, atol=0.05)
+
+# ---- what users get wrong is a sentence, and nothing has changed
+active(bar)
+fails("no vertex group 'none'", bpy.ops.hf.add_handle, group="none")
+fails("in both groups", bpy.ops.hf.field, high="hf high", low="hf high")
+fails("no vertex group starts", bpy.ops.hf.add_groups, prefix="zzz")
+fails("no handle", bpy.ops.hf.remove_handle, name="bar")
+fails("the last frame", bpy.ops.hf.transfer, source="long", start=5, end=1)
+fails("select the source", bpy.ops.hf.transfer, source="nobody")
+lamp = bpy.data.objects.new("lamp", bpy.data.lights.new("lamp", "SUN"))
+bpy.context.scene.collection.objects.link(lamp)
+active(lamp)
+fails("select a mesh", bpy.ops.hf.bind)
+empty_mesh = bpy.data.objects.new("nothing", bpy.data.meshes.new("nothing"))
+bpy.context.scene.collection.objects.link(empty_mesh)
+active(empty_mesh)
+fails("", bpy.ops.hf.bind)
+broken, _ = cylinder("broken", 1, 1, 4, 6, (0, 0, 0))
+broken.data.vertices[3].co.x = float("nan")
+active(broken)
+fails("vertex 3", bpy.ops.hf.bind)
+for junk in (empty_mesh, broken, lamp):
+    bpy.data.objects.remove(junk)
+
+# ---- the picture: strips on the bent bar, the transferred motion beside it
+scene = bpy.context.scene
+active(other)
+assert bpy.ops.hf.field(high="hf high", low="hf low", output="COLOUR", name="strips") == {"FINISHED"}
+camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+scene.collection.objects.link(camera)
+camera.matrix_world = Matrix.Translation((3.2, -15, 4.5)) @ Quaternion((1, 0, 0), math.radians(84)).to_matrix().to_4x4()
+scene.camera = camera
+scene.render.engine = "BLENDER_WORKBENCH"
+scene.display.shading.light, scene.display.shading.color_type = "STUDIO", "VERTEX"
+for obj in (bar, other):
+    for polygon in obj.data.polygons:
+        polygon.use_smooth = True
+scene.render.resolution_x, scene.render.resolution_y, scene.render.filepath = 900, 600, PICTURE
+bpy.ops.render.render(write_still=True)
+assert os.path.getsize(PICTURE) > 20000
+
+active(bar)
+bar.modifiers.clear()
+assert bpy.ops.hf.unbind() == {"FINISHED"}
+np.testing.assert_allclose(session.positions_of(bar.data), points, atol=1e-6)
+bpy.ops.preferences.addon_disable(module="hf_blender")
+print("blender: all right")
