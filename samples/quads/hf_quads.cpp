@@ -1,0 +1,230 @@
+// hf_quads: a quad mesh of any mesh file. See README.md beside this file, or --help.
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <stdexcept>
+
+#include "common/json_file.h"
+#include "common/picture.h"
+#include "hf/hf.hpp"
+#include "quads/quad_report.h"
+#include "quads/surface_distance.h"
+
+namespace samples {
+namespace {
+
+const char* const usage =
+    "usage: hf_quads MESH [--sites auto|FILE.json] [--edge LENGTH] [--pure|--uniform] [-o OUT] [--sheet FILE.png]\n"
+    "  Makes a quad mesh of a .obj, .off, .ply, .gltf or .glb surface from a harmonic field, and prints what it is "
+    "worth.\n"
+    "  --sites auto   sites at the tips of the surface (default); borders are always sites\n"
+    "  --sites FILE   {\"sites\": [{\"vertex\": 12}, {\"vertex\": 80, \"lines\": -8}]}: vertices as in the file, from "
+    "0;\n"
+    "                 lines that end (positive) or start (negative) there, at all sites or at none\n"
+    "  --edge LENGTH  edge length aimed at, in the unit of the mesh, or as a share of its box diagonal: 2% (2.2%)\n"
+    "  --uniform      edges of about one length: lines are added and ended in pairs (default)\n"
+    "  --pure         every line runs from site to site\n"
+    "  --polygons     leaves polygons at sites and saddles whole\n"
+    "  --relax N      rounds of tangential relaxation (60; 0 for none)\n"
+    "  -o OUT         .obj, .ply or .off with polygons\n"
+    "  --sheet FILE   a picture from two sides: quads light, other polygons red, sites as dots\n";
+
+struct Options {
+  std::string mesh, sites = "auto", out, sheet, edge;
+  bool pure = false, polygons = false;
+  int relax = 60;
+};
+
+double read_number(const std::string& text, const char* what) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value))
+    throw std::runtime_error(std::string(what) + ": \"" + text + "\" is not a finite number");
+  return value;
+}
+
+Options read_options(int count, char** arguments) {
+  Options options;
+  for (int i = 1; i < count; ++i) {
+    const std::string name = arguments[i];
+    auto value = [&]() -> std::string {
+      if (i + 1 >= count) throw std::runtime_error(name + " needs a value");
+      return arguments[++i];
+    };
+    if (name == "--sites") {
+      options.sites = value();
+    } else if (name == "--edge") {
+      options.edge = value();
+    } else if (name == "--pure" || name == "--uniform") {
+      options.pure = name == "--pure";
+    } else if (name == "--polygons") {
+      options.polygons = true;
+    } else if (name == "--relax") {
+      const double rounds = read_number(value(), "--relax");
+      if (rounds < 0 || rounds > 1000 || rounds != std::floor(rounds))
+        throw std::runtime_error("--relax must be a whole number from 0 to 1000");
+      options.relax = static_cast<int>(rounds);
+    } else if (name == "-o") {
+      options.out = value();
+    } else if (name == "--sheet") {
+      options.sheet = value();
+    } else if (!name.empty() && name[0] == '-') {
+      throw std::runtime_error("unknown option: " + name);
+    } else if (options.mesh.empty()) {
+      options.mesh = name;
+    } else {
+      throw std::runtime_error("more than one mesh: " + options.mesh + " and " + name);
+    }
+  }
+  if (options.mesh.empty()) throw std::runtime_error("no mesh is named; see --help");
+  return options;
+}
+
+void read_sites(const std::string& file, uint32_t vertices, std::vector<uint32_t>& sites, std::vector<int32_t>& lines) {
+  const JsonFile json(file);
+  const JsonReader list = json.root().at("sites");
+  for (size_t i = 0; i < list.size(); ++i) {
+    const JsonReader site = list.at(i);
+    site.expect_only({"vertex", "lines"});
+    sites.push_back(static_cast<uint32_t>(site.at("vertex").integer(0, int64_t{vertices} - 1)));
+    if (site.has("lines")) lines.push_back(static_cast<int32_t>(site.at("lines").integer(-100000, 100000)));
+  }
+  if (sites.empty()) list.fail("no site is named");
+  if (!lines.empty() && lines.size() != sites.size()) list.fail("\"lines\" must stand at every site or at none");
+}
+
+TriangleSoup soup_of(const SurfaceMesh& mesh) { return {mesh.positions, mesh.triangles}; }
+
+Picture draw(const SurfaceMesh& mesh, const std::vector<Point>& sites, const Point& direction) {
+  Surface surface;
+  Marks marks;
+  for (const glm::dvec3& p : mesh.positions) surface.positions.insert(surface.positions.end(), {p.x, p.y, p.z});
+  surface.triangles = mesh.triangles;
+  // colours are by vertex, so polygons that are no quads are a layer of their own
+  Surface odd;
+  odd.positions = surface.positions;
+  size_t first = 0;
+  for (const uint32_t size : mesh.face_sizes) {
+    const uint32_t* c = &mesh.face_vertices[first];
+    Polyline outline;
+    outline.width = 1.0;
+    for (uint32_t k = 0; k <= size; ++k) {
+      const glm::dvec3& p = mesh.positions[c[k % size]];
+      outline.points.push_back({p.x, p.y, p.z});
+    }
+    marks.lines.push_back(outline);
+    if (size != 4) triangulate(mesh.positions, c, size, odd.triangles);
+    first += size;
+  }
+  for (const Point& p : sites) marks.dots.push_back({p, 0.007, {0.86, 0.10, 0.10}});
+  View view;
+  view.width = view.height = 720, view.direction = direction;
+  SurfaceLook look;
+  look.flat = true;
+  std::vector<Layer> layers{{surface, look, marks}};
+  if (!odd.triangles.empty()) {
+    look.color = {0.88, 0.35, 0.30};
+    layers.push_back({odd, look, {}});
+  }
+  return render(layers, view);
+}
+
+int run(int count, char** arguments) {
+  const Options options = read_options(count, arguments);
+  const SurfaceMesh input = read_mesh_file(options.mesh);
+  const std::vector<double> positions = double_positions(input.positions);
+  auto create = hfpp::make<hf_create_desc>();
+  create.vertex_count = static_cast<uint32_t>(input.positions.size());
+  create.triangle_count = static_cast<uint32_t>(input.triangles.size() / 3);
+  create.positions_f64 = positions.data(), create.triangles = input.triangles.data();
+  const hfpp::Solver solver(create);
+  const double diagonal = solver.mesh_report().bounding_box_diagonal;
+
+  auto desc = hfpp::make<hf_quads_desc>();
+  desc.kind = options.pure ? HF_QUADS_PURE : HF_QUADS_UNIFORM;
+  desc.keep_polygons = options.polygons;
+  desc.relax_count = options.relax ? static_cast<uint32_t>(options.relax) : HF_NO_INDEX;
+  if (!options.edge.empty()) {
+    const bool share = options.edge.back() == '%';
+    const double length = read_number(share ? options.edge.substr(0, options.edge.size() - 1) : options.edge, "--edge");
+    if (length <= 0) throw std::runtime_error("--edge must be above 0");
+    desc.edge_length = static_cast<float>(share ? length / 100 * diagonal : length);
+  }
+  std::vector<uint32_t> sites;
+  std::vector<int32_t> lines;
+  if (options.sites != "auto") read_sites(options.sites, create.vertex_count, sites, lines);
+  desc.site_count = static_cast<uint32_t>(sites.size());
+  if (!sites.empty()) desc.site_vertices = sites.data();
+  if (!lines.empty()) desc.site_lines = lines.data();
+
+  const auto begin = std::chrono::steady_clock::now();
+  const hfpp::QuadMesh quads = hfpp::make_quads(solver, &desc);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+  SurfaceMesh mesh;
+  mesh.positions = to_points(quads.positions);
+  for (uint32_t f = 0; f < quads.info.face_count; ++f) {
+    const uint32_t first = quads.face_starts[f], size = quads.face_starts[f + 1] - first;
+    mesh.face_sizes.push_back(size);
+    triangulate(mesh.positions, &quads.face_corners[first], size, mesh.triangles);
+  }
+  mesh.face_vertices = quads.face_corners;
+
+  const QuadReport report = measure_quads(mesh, static_cast<double>(quads.info.edge_length));
+  const SurfaceDistance distance = surface_distance(soup_of(input), soup_of(mesh));
+  const bool valid = report.each_directed_edge_once && report.no_repeated_corner &&
+                     report.euler_characteristic == quads.info.euler_characteristic;
+  const auto percent = [](uint32_t part, uint32_t whole) { return whole ? 100.0 * part / whole : 0.0; };
+  std::printf("mesh        %u vertices, %u triangles, box diagonal %.6g\n", create.vertex_count, create.triangle_count,
+              diagonal);
+  std::printf("quads       %u vertices, %u faces in %.2f s; edge length %.6g (%.2f %% of the box); %s\n",
+              report.vertices, report.faces, seconds, static_cast<double>(quads.info.edge_length),
+              100 * static_cast<double>(quads.info.edge_length) / diagonal, options.pure ? "pure" : "uniform");
+  std::printf("validity    Euler characteristic %d (surface %d), directed edges once: %s, repeated corners: %s\n",
+              report.euler_characteristic, quads.info.euler_characteristic,
+              report.each_directed_edge_once ? "yes" : "NO", report.no_repeated_corner ? "none" : "SOME");
+  std::printf("sites       %u, saddles %u\n", quads.info.site_count, quads.info.saddle_count);
+  std::printf("share       %.2f %% quads before splitting, %.2f %% now\n",
+              percent(quads.info.polygon_quad_count, quads.info.polygon_count), percent(report.quads, report.faces));
+  std::printf("valence     %s\n", to_text(report.valences).c_str());
+  std::printf("edge/L      5 %%: %.2f, median %.2f, 95 %%: %.2f\n", report.edge[0], report.edge[1], report.edge[2]);
+  std::printf("aspect      median %.2f, 95 %%: %.2f\n", report.aspect[1], report.aspect[2]);
+  std::printf("angle off   median %.1f, 95 %%: %.1f degrees\n", report.angle[1], report.angle[2]);
+  std::printf("Hausdorff   %.3f %% of the box (mesh to quads %.3f %%, mean %.3f %%; quads to mesh %.3f %%)\n",
+              100 * distance.largest() / diagonal, 100 * distance.a_to_b / diagonal,
+              100 * distance.mean_a_to_b / diagonal, 100 * distance.b_to_a / diagonal);
+  if (!options.out.empty()) {
+    write_mesh_file(mesh, options.out);
+    std::printf("wrote       %s\n", options.out.c_str());
+  }
+  if (!options.sheet.empty()) {
+    std::vector<Point> dots;
+    for (const uint32_t v : quads.site_vertices)
+      if (v != HF_NO_INDEX) dots.push_back({input.positions[v].x, input.positions[v].y, input.positions[v].z});
+    const std::string name = std::filesystem::path(options.mesh).filename().string();
+    write_png(options.sheet, contact_sheet({draw(mesh, dots, {1, 0.4, 0.6}), draw(mesh, dots, {-0.6, 0.4, -1})}, 2,
+                                           {name + (options.pure ? ", pure" : ", uniform"), "from behind"}));
+    std::printf("wrote       %s\n", options.sheet.c_str());
+  }
+  return valid ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace samples
+
+int main(int count, char** arguments) {
+  if (count == 2 && (!std::strcmp(arguments[1], "--help") || !std::strcmp(arguments[1], "-h"))) {
+    std::printf("%s", samples::usage);
+    return 0;
+  }
+  try {
+    return samples::run(count, arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "hf_quads: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,62 @@
+#include "quads/quad_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace samples {
+namespace {
+
+void percentiles(std::vector<double>& values, double (&out)[3]) {
+  if (values.empty()) return;
+  std::sort(values.begin(), values.end());
+  const double share[3] = {0.05, 0.5, 0.95};
+  for (int k = 0; k < 3; ++k) out[k] = values[static_cast<size_t>(share[k] * static_cast<double>(values.size() - 1))];
+}
+
+}  // namespace
+
+QuadReport measure_quads(const SurfaceMesh& mesh, double edge_length) {
+  QuadReport report;
+  report.vertices = static_cast<uint32_t>(mesh.positions.size());
+  report.faces = static_cast<uint32_t>(mesh.face_sizes.size());
+  std::set<std::pair<uint32_t, uint32_t>> directed, edges;
+  std::vector<uint32_t> valence(mesh.positions.size(), 0);
+  std::vector<double> lengths, aspects, angles;
+  size_t first = 0;
+  for (const uint32_t size : mesh.face_sizes) {
+    const uint32_t* c = &mesh.face_vertices[first];
+    double low = INFINITY, high = 0;
+    for (uint32_t k = 0; k < size; ++k) {
+      const uint32_t a = c[k], b = c[(k + 1) % size], before = c[(k + size - 1) % size];
+      ++valence[a];
+      for (uint32_t j = 0; j < k; ++j) report.no_repeated_corner &= c[j] != a;
+      report.each_directed_edge_once &= directed.insert({a, b}).second;
+      const glm::dvec3 x = mesh.positions[b] - mesh.positions[a], y = mesh.positions[before] - mesh.positions[a];
+      const double length = glm::length(x), other = glm::length(y);
+      if (edges.insert({std::min(a, b), std::max(a, b)}).second) lengths.push_back(length / edge_length);
+      low = std::min(low, length), high = std::max(high, length);
+      if (size == 4 && length > 0 && other > 0) {
+        const double cosine = std::min(std::max(dot(x, y) / (length * other), -1.0), 1.0);
+        angles.push_back(std::fabs(std::acos(cosine) * 180 / std::acos(-1.0) - 90));
+      }
+    }
+    if (size == 4) ++report.quads, aspects.push_back(low > 0 ? high / low : INFINITY);
+    first += size;
+  }
+  report.edges = static_cast<uint32_t>(edges.size());
+  report.euler_characteristic =
+      static_cast<int>(report.vertices) - static_cast<int>(report.edges) + static_cast<int>(report.faces);
+  for (const uint32_t v : valence) ++report.valences[v];
+  percentiles(lengths, report.edge), percentiles(aspects, report.aspect), percentiles(angles, report.angle);
+  return report;
+}
+
+std::string to_text(const std::map<uint32_t, uint32_t>& histogram) {
+  std::string text;
+  for (const auto& [key, count] : histogram)
+    text += (text.empty() ? "" : ", ") + std::to_string(key) + ": " + std::to_string(count);
+  return text;
+}
+
+}  // namespace samples

@@ -1,0 +1,29 @@
+// Figures of a quad mesh, as hf_quads prints them.
+#ifndef HF_SAMPLES_QUADS_QUAD_REPORT_H
+#define HF_SAMPLES_QUADS_QUAD_REPORT_H
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/mesh_file.h"
+
+namespace samples {
+
+struct QuadReport {
+  uint32_t vertices = 0, edges = 0, faces = 0, quads = 0;
+  int euler_characteristic = 0;
+  bool each_directed_edge_once = true, no_repeated_corner = true;
+  std::map<uint32_t, uint32_t> valences;  // faces around a vertex: how many vertices have so many
+  // 5th, 50th and 95th percentile: edges over the length aimed at, longest over shortest edge of a quad, degrees that a
+  // corner of a quad is off 90
+  double edge[3] = {0, 0, 0}, aspect[3] = {0, 0, 0}, angle[3] = {0, 0, 0};
+};
+
+QuadReport measure_quads(const SurfaceMesh& mesh, double edge_length);
+std::string to_text(const std::map<uint32_t, uint32_t>& histogram);
+
+}  // namespace samples
+
+#endif

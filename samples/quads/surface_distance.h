@@ -1,0 +1,44 @@
+// Distance between two triangle surfaces, for the report of hf_quads.
+//
+// The one-sided Hausdorff distance max over points p of A of min over B |p - q| is sampled: vertices of A and points
+// spread over its triangles, about `samples` of them. The nearest point of B comes from a tree of boxes. Cost:
+// O((samples + triangles) log triangles).
+#ifndef HF_SAMPLES_QUADS_SURFACE_DISTANCE_H
+#define HF_SAMPLES_QUADS_SURFACE_DISTANCE_H
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace samples {
+
+struct TriangleSoup {
+  std::vector<glm::dvec3> positions;
+  std::vector<uint32_t> triangles;
+};
+
+class NearestPoint {
+ public:
+  explicit NearestPoint(const TriangleSoup& soup);
+  double distance(const glm::dvec3& p) const;
+
+ private:
+  struct Box {
+    glm::dvec3 low, high;
+    uint32_t first, count, right;  // a leaf's triangles, or its right child (the left one is the next box)
+  };
+  uint32_t build(uint32_t first, uint32_t count);
+  const TriangleSoup& soup_;
+  std::vector<uint32_t> order_;
+  std::vector<Box> boxes_;
+};
+
+struct SurfaceDistance {
+  double a_to_b = 0, b_to_a = 0, mean_a_to_b = 0;
+  double largest() const { return a_to_b > b_to_a ? a_to_b : b_to_a; }
+};
+SurfaceDistance surface_distance(const TriangleSoup& a, const TriangleSoup& b, uint32_t samples = 60000);
+
+}  // namespace samples
+
+#endif
