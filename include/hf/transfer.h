@@ -122,9 +122,10 @@ typedef struct hf_transfer_frame {
 } hf_transfer_frame;
 
 /* Transfers one posed frame. A foot follows its scaled path exactly while the source's stands on the ground of its rest
- * shape; the region of no pair sinks deeper under the target's ground than the source's does, scaled; a body that has
- * fallen over is lifted by what would sink instead (all this in HF_TRANSFER_FIELDS, and for no rigid motion of the
- * whole source, which stays one). The rest frame of
+ * shape, also while the body turns over it. With anchors, no part of the surface sinks deeper under the target's ground
+ * than the source does, scaled (parts bend up; regions that the caller holds are left where they are), and a body that
+ * lies rests on the parts its source rests on (all this in HF_TRANSFER_FIELDS, and for no rigid motion of the whole
+ * source, which stays one). The rest frame of
  * the source gives the rest of the target, except for limbs whose rest alignment is applied (hf_pair_info): those take
  * the direction of the source's. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC,
  * HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE (index = source vertex, or position in the holds),

@@ -8,9 +8,10 @@
 // Pairs come and go at any time on both sides; no factor is touched. What depends on them is made again at the next
 // question (pair_info, apply, skin). Anchors: the target's region goes where the source's went, y = c + s A (q - p), s
 // the scale; when the source turns or falls as a whole (or moves rigidly) the offsets between the two rest shapes turn
-// with it. Touching the ground: a foot follows its path exactly while its source stands, and no region sinks deeper
-// under the ground of the rest shape than its source does; a contact (a nose that grazes) comes as near to the ground
-// as its source while that is near. These are holds: constraints solved beside the energies, at no cost in factors.
+// with it, those of a standing foot only as far as the foot itself turns. Touching the ground (transfer_ground.cpp): a
+// foot follows its path exactly while its source stands; a contact (a nose that grazes) comes as near to the ground as
+// its source while that is near; no part of the surface sinks deeper than the source, and what lies, lies on the parts
+// its source lies on. These are holds: constraints solved beside the energies, at no cost in factors.
 // Everything is all or nothing. apply() allocates nothing once prepared. Results do not depend on the number of
 // threads.
 #pragma once
