@@ -12,5 +12,6 @@ python3 "$root/bindings/blender/make_zip.py" "$library" "$scratch/hf_blender.zip
 rm -rf "$scratch/scripts" "$scratch/config"
 mkdir -p "$scratch/scripts" "$scratch/config"
 export BLENDER_USER_SCRIPTS="$scratch/scripts" BLENDER_USER_CONFIG="$scratch/config" HF_ADDON_ZIP="$scratch/hf_blender.zip" HF_TESTS="$root/tests/bindings"
-unset PYTHONPATH HF_LIBRARY
+unset PYTHONPATH PYTHONHOME HF_LIBRARY
+export PATH=/usr/bin:$PATH  # an embedded Python looks for its home by the first python3 on the path
 exec "$blender" -b --factory-startup --python-exit-code 3 --python "$script" -- "$@"

@@ -3,6 +3,7 @@
 bl_info = {"name": "hf: dynamic harmonic fields", "author": "hf", "version": (0, 1, 0), "blender": (3, 0, 0), "location": "View3D > Sidebar > hf",
            "description": "Pose meshes with handles added at any time, harmonic fields, weights, motion transfer", "category": "Mesh"}
 
+import contextlib
 import pathlib
 import sys
 
@@ -68,7 +69,8 @@ class HF_OT_add_handle(bpy.types.Operator):
         mode = obj.mode
         if mode == "EDIT":
             bpy.ops.object.mode_set(mode="OBJECT")
-        session.add_handle(obj, vertices, self.group or "handle", self.layer)
+        with quiet():
+            session.add_handles(obj, [vertices], [self.group or "handle"], self.layer)
         refresh(obj)
         if mode == "EDIT":
             bpy.ops.object.mode_set(mode=mode)
@@ -86,8 +88,8 @@ class HF_OT_add_groups(bpy.types.Operator):
         names = [g.name for g in obj.vertex_groups if g.name.startswith(self.prefix)]
         if not names:
             raise hf.EmptyError(f"no vertex group starts with '{self.prefix}'")
-        for name in names:
-            session.add_handle(obj, session.group_vertices(obj, name), name[len(self.prefix):])
+        with quiet():
+            session.add_handles(obj, session.groups_vertices(obj, names), [name[len(self.prefix):] for name in names])
         refresh(obj)
 
 
@@ -202,19 +204,25 @@ class HF_PT_panel(bpy.types.Panel):
             layout.label(text=f"{found.pose.handle_count} handles, factor {session.figures['bind_ms']:.0f} ms, pose {session.figures['update_ms']:.1f} ms")
 
 
-_busy = False
+_busy = 0
+
+
+@contextlib.contextmanager
+def quiet():
+    """Our own changes do not come back as events."""
+    global _busy
+    _busy += 1
+    try:
+        yield
+    finally:
+        _busy -= 1
 
 
 def refresh(obj):
-    """Updates one mesh, once; the mesh's own change does not come back as an event."""
-    global _busy
     if obj is None or obj.type != "MESH":
         raise hf.InvalidArgumentError("select a mesh object")
-    _busy = True
-    try:
+    with quiet():
         session.session_of(obj).update(obj)
-    finally:
-        _busy = False
 
 
 def follow(scene, keys=None):

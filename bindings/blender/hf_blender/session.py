@@ -161,39 +161,53 @@ def forget(obj):
         session.solver.close()
 
 
-def add_handle(obj, vertices, name, layer=0):
-    """An empty at the centre of a region of the posed mesh."""
-    vertices = [int(v) for v in vertices]
-    if not vertices:
-        raise hf.EmptyError(f"no vertex in {name}")
+def add_handles(obj, regions, names, layer=0):
+    """An empty at the centre of each region of the mesh at rest; all of them or none."""
     session = session_of(obj)
     session.sync(obj)
-    centre = session.rest[vertices].mean(0)
-    empty = bpy.data.objects.new(f"{obj.name} {name}", None)
-    empty.empty_display_type, empty.empty_display_size = "SPHERE", 0.05 * float(np.linalg.norm(np.ptp(session.rest, axis=0)))
-    for collection in obj.users_collection or (bpy.context.scene.collection,):
-        collection.objects.link(empty)
-    rest = Matrix.Translation(centre.tolist())
-    empty["hf_key"], empty["hf_id"], empty["hf_layer"] = obj["hf_key"], uuid.uuid4().hex, int(layer)
-    empty["hf_vertices"], empty["hf_rest"] = vertices, [x for row in rest for x in row]
-    empty.rotation_mode = "QUATERNION"
-    place = obj.matrix_world @ rest
-    empty.location, empty.rotation_quaternion = place.to_translation(), place.to_quaternion()
+    size = 0.05 * float(np.linalg.norm(np.ptp(session.rest, axis=0)))
+    made = []
+    for vertices, name in zip(regions, names):
+        if not len(vertices):
+            raise hf.EmptyError(f"no vertex in {name}")
+        rest = Matrix.Translation(session.rest[np.asarray(vertices)].mean(0).tolist())
+        empty = bpy.data.objects.new(f"{obj.name} {name}", None)
+        empty.empty_display_type, empty.empty_display_size = "SPHERE", size
+        for collection in obj.users_collection or (bpy.context.scene.collection,):
+            collection.objects.link(empty)
+        empty["hf_key"], empty["hf_id"], empty["hf_layer"] = obj["hf_key"], uuid.uuid4().hex, int(layer)
+        empty["hf_vertices"], empty["hf_rest"] = [int(v) for v in vertices], [x for row in rest for x in row]
+        empty.rotation_mode = "QUATERNION"
+        place = obj.matrix_world @ rest
+        empty.location, empty.rotation_quaternion = place.to_translation(), place.to_quaternion()
+        made.append(empty)
     bpy.context.view_layer.update()
     try:
         session.sync(obj)
     except hf.HfError:
-        bpy.data.objects.remove(empty)
+        for empty in made:
+            bpy.data.objects.remove(empty)
         raise
-    return empty
+    return made
+
+
+def groups_vertices(obj, names, least=0.5):
+    """Vertices of each vertex group with at least that weight, in one pass over the mesh."""
+    found = {}
+    for name in names:
+        group = obj.vertex_groups.get(name)
+        if group is None:
+            raise hf.InvalidArgumentError(f"{obj.name} has no vertex group '{name}'")
+        found[group.index] = []
+    for vertex in obj.data.vertices:
+        for g in vertex.groups:
+            if g.group in found and g.weight >= least:
+                found[g.group].append(vertex.index)
+    return list(found.values())
 
 
 def group_vertices(obj, name, least=0.5):
-    """Vertices of a vertex group with at least that weight."""
-    group = obj.vertex_groups.get(name)
-    if group is None:
-        raise hf.InvalidArgumentError(f"{obj.name} has no vertex group '{name}'")
-    return [v.index for v in obj.data.vertices for g in v.groups if g.group == group.index and g.weight >= least]
+    return groups_vertices(obj, [name], least)[0]
 
 
 def selected_vertices(obj):
