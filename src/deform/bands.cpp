@@ -38,6 +38,7 @@ struct Partition {
     return x;
   }
   void join(std::int32_t a, std::int32_t b) noexcept {
+    if (parent[a] == parent[b]) return;  // most pairs
     a = find(a), b = find(b);
     if (a < b) parent[b] = a;
     if (b < a) parent[a] = b;

@@ -31,6 +31,19 @@ std::vector<std::vector<uint32_t>> regions_of(const Mesh& mesh, uint32_t count) 
   return regions;
 }
 
+// Bands right round the tube, at the same places: their rings are long, hundreds of sites each.
+std::vector<std::vector<uint32_t>> bands_of(const Mesh& mesh, uint32_t count) {
+  std::vector<std::vector<uint32_t>> regions(count);
+  for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    const double* p = &mesh.positions[3 * static_cast<size_t>(v)];
+    for (uint32_t i = 0; i < count; ++i) {
+      if (std::fabs(std::remainder(std::atan2(p[2], p[0]) - 2 * pi * i / count, 2 * pi)) < 0.06)
+        regions[i].push_back(v);
+    }
+  }
+  return regions;
+}
+
 class Rig {
  public:
   Rig(const Mesh& mesh, const Solver& solver, const std::vector<std::vector<uint32_t>>& regions, int mode = 0)
@@ -265,6 +278,16 @@ Rows run_deform(const Run& run, Report& report) {
       if (size != Size::k84) continue;
       report.measure("deform_arap", mesh->name, run.threads, arap / frame);
       report.measure("deform_add", mesh->name, run.threads, scratch / added.first_frame);
+      const auto bands = bands_of(*mesh, handles);
+      const double band_added = add_ms(*mesh, solver, bands, run).first_frame,
+                   band_scratch = scratch_ms(*mesh, bands, run);
+      std::printf(
+          "%-12s handles right round the tube: one more and the first frame %6.1f ms, all from scratch %6.1f ms = "
+          "%.1fx\n",
+          mesh->name.c_str(), band_added, band_scratch, band_scratch / band_added);
+      std::fflush(stdout);
+      report.measure("deform_add", mesh->name + ", bands", run.threads, band_scratch / band_added);
+      row["bands_add_ms"] = band_added, row["bands_scratch_ms"] = band_scratch;
       const Exactness exact = exactness(*mesh, regions, run.threads);
       std::printf(
           "%-12s handles off target %.1e, insertion jump %.1e, common rigid motion %.1e of the box; %llu "
