@@ -1,0 +1,245 @@
+-- The golden scenes (bindings/golden/README.md) through the LuaJIT binding: golden.lua FILE...
+local here = arg[0]:match('(.*/)') or './'
+local root = here .. '../../'
+package.path = root .. 'bindings/lua/?.lua;' .. package.path
+local ffi = require('ffi')
+local hf = require('hf')
+
+-- ---- a small reader of JSON; null inside lists does not occur in the scenes, null as a value becomes nil
+local function parse(text)
+  local at = 1
+  local value
+  local function space() at = text:find('%S', at) end
+  local function string_()
+    local stop = text:find('"', at + 1, true)
+    local found = text:sub(at + 1, stop - 1)
+    at = stop + 1
+    return found
+  end
+  function value()
+    space()
+    local c = text:sub(at, at)
+    if c == '{' or c == '[' then
+      local out, close = {}, c == '{' and '}' or ']'
+      at = at + 1
+      space()
+      while text:sub(at, at) ~= close do
+        if c == '{' then
+          local key = string_()
+          space()
+          at = at + 1
+          out[key] = value()
+        else out[#out + 1] = value() end
+        space()
+        if text:sub(at, at) == ',' then at = at + 1; space() end
+      end
+      at = at + 1
+      return out
+    elseif c == '"' then return string_()
+    elseif text:sub(at, at + 3) == 'null' then at = at + 4; return nil
+    elseif text:sub(at, at + 3) == 'true' then at = at + 4; return true
+    elseif text:sub(at, at + 4) == 'false' then at = at + 5; return false end
+    local stop = text:find('[^%-%+%.%deE]', at)
+    local number = tonumber(text:sub(at, stop - 1))
+    at = stop
+    return number
+  end
+  return value()
+end
+local function read(path)
+  local file = assert(io.open(path, 'r'))
+  local text = file:read('*a')
+  file:close()
+  return parse(text)
+end
+
+local Mismatch = {}
+local function expect(condition, message) if not condition then error(setmetatable({ message = message }, Mismatch), 0) end end
+local function number(v) return ({ nan = 0 / 0, inf = math.huge, ['-inf'] = -math.huge })[v] or v end
+
+local function compare(a, n, wanted)
+  local sum, weighted, least, most = 0, 0, math.huge, -math.huge
+  for i = 0, n - 1 do
+    local v = tonumber(a[i])
+    expect(v == v and v ~= math.huge and v ~= -math.huge, 'not finite')
+    sum, weighted, least, most = sum + v, weighted + v * (i % 7 + 1), math.min(least, v), math.max(most, v)
+  end
+  if n == 0 then least, most = 0, 0 end
+  local t = wanted.tolerance or 0
+  for key, row in pairs({ count = { n, 0 }, sum = { sum, t * n + 1e-9 }, weighted = { weighted, 7 * t * n + 1e-9 }, min = { least, t }, max = { most, t } }) do
+    if wanted[key] then expect(math.abs(row[1] - wanted[key]) <= row[2], key .. ' is ' .. row[1] .. ', not ' .. wanted[key]) end
+  end
+  for k, place in ipairs(wanted.at or {}) do expect(math.abs(tonumber(a[place]) - wanted.values[k]) <= t, 'value at ' .. place) end
+end
+
+local function new_scene(meshes)
+  local objects, kept = {}, {}
+  local function run(step)
+    local what, on = step['do'], objects[step.on]
+    local function get(key)
+      local v = step[key]
+      if type(v) == 'string' then return kept[v] and kept[v][1] end
+      if type(v) ~= 'table' then return v end
+      local out = {}
+      for i, x in ipairs(v) do out[i] = type(x) == 'table' and x or number(x) end
+      return out
+    end
+    local options = {}
+    for key, v in pairs(step.options or {}) do options[key] = type(v) == 'string' and hf.constants[v] or v end
+    local n = on and on.vertex_count
+    if what == 'solver' then
+      local mesh = step.mesh and meshes[step.mesh] or {}
+      local positions, triangles
+      if mesh.positions then positions, triangles = { unpack(mesh.positions) }, { unpack(mesh.triangles) } end
+      for key, v in pairs(step.positions or {}) do positions[tonumber(key) + 1] = number(v) end
+      for key, v in pairs(step.triangles or {}) do triangles[tonumber(key) + 1] = v end
+      if step.no_triangles then triangles = {} end
+      local factor = step.factor and kept[step.factor]
+      if factor and step.damage then
+        local place = step.damage + 1
+        factor = factor:sub(1, place - 1) .. string.char(bit.bxor(factor:byte(place), 1)) .. factor:sub(place + 1)
+      end
+      options.saved_factor = factor
+      objects[step.as] = hf.Solver(positions, triangles, options)
+    elseif what == 'clone' then objects[step.as] = on:clone()
+    elseif what == 'dispose' then on:close()
+    elseif what == 'add_sites' then return 'numbers', on:add_sites(get('vertices'), get('values'), { stiffness = get('stiffness'), radii = get('radii'), triangles = get('triangles'), barycentrics = get('barycentrics') })
+    elseif what == 'remove_sites' then on:remove_sites(get('sites'))
+    elseif what == 'move_sites' then on:move_sites(get('sites'), get('vertices'))
+    elseif what == 'set_values' then on:set_site_values(get('sites'), get('values'))
+    elseif what == 'edit' then return 'numbers', on:edit_sites(step)
+    elseif what == 'record' then on:record()
+    elseif what == 'undo' then on:undo()
+    elseif what == 'redo' then on:redo()
+    elseif what == 'solve' then return 'array', on:solve(), n
+    elseif what == 'solve_f32' then return 'array', on:solve(ffi.new('float[?]', n)), n
+    elseif what == 'preview' then return 'array', on:solve_preview(step.correction_count), n
+    elseif what == 'solve_at' then return 'array', on:solve_at(get('vertices'))
+    elseif what == 'report' then return 'struct', on:report()
+    elseif what == 'statistics' then return 'struct', on:statistics()
+    elseif what == 'save_factor' then kept[step.as] = on:save_factor()
+    elseif what == 'levels' then return 'array', on:space_levels(get('field'), step.count, hf.constants[step.spacing]), step.count
+    elseif what == 'isolines' then
+      local lines = on:trace_isolines(get('field'), get('levels'))
+      if step.lines then
+        local closed = 0
+        for i = 0, lines.line_count - 1 do closed = closed + lines.line_closed[i] end
+        expect(lines.line_count == step.lines and closed == step.closed, 'lines')
+      end
+      return 'array', lines.positions, 3 * lines.point_count
+    elseif what == 'critical' or what == 'extremities' or what == 'singularities' then
+      local found, count
+      if what == 'critical' then found, count = on:find_critical_points(get('field')) elseif what == 'extremities' then found, count = on:find_extremities() else found, count = on:singularities() end
+      local list = {}
+      for i = 0, count - 1 do list[i + 1] = tonumber(what == 'extremities' and found[i].vertex or found[i].index) end
+      if what == 'extremities' then table.sort(list) end
+      local out = ffi.new('double[?]', count + 1)
+      for i = 1, count do out[i - 1] = list[i] end
+      return 'array', out, count
+    elseif what == 'geodesics' then objects[step.as] = hf.Geodesics(on, options)
+    elseif what == 'distance' then return 'array', on:distance(get('sources')), n
+    elseif what == 'direction' then objects[step.as] = hf.Direction(on, options)
+    elseif what == 'add_vectors' then return 'numbers', on:add_sites(get('vertices'), get('vectors'))
+    elseif what == 'rotate' then on:rotate_sites(get('sites'), get('angles'))
+    elseif what == 'directions' then return 'array', on:solve(), 3 * n
+    elseif what == 'pose' then objects[step.as] = hf.Pose(on, options)
+    elseif what == 'add_handles' then return 'numbers', on:add_handles(step.regions, { points = get('points'), radii = get('radii'), layer = step.layer })
+    elseif what == 'remove_handles' then on:remove_handles(get('handles'))
+    elseif what == 'set_transforms' then on:set_transforms(get('handles'), get('rotations'), get('translations'))
+    elseif what == 'deform' then return 'array', on:deform(nil, options), 3 * n
+    elseif what == 'handle_field' then return 'array', on:handle_field(step.handle), n
+    elseif what == 'handle_info' then return 'struct', on:handle_info(step.handle)
+    elseif what == 'skin' then return 'array', on:skin(step.weight_count).weights, n * step.weight_count
+    elseif what == 'transfer' then objects[step.as] = hf.Transfer(objects[step.source], objects[step.target], options)
+    elseif what == 'add_pairs' then return 'numbers', on:add_pairs(step.source_regions, step.target_regions, get('flags'))
+    elseif what == 'remove_pairs' then on:remove_pairs(get('pairs'))
+    elseif what == 'transfer_info' then return 'struct', on:info()
+    elseif what == 'apply' then return 'array', on:apply(get('positions')), 3 * n
+    else error('unknown step ' .. what) end
+  end
+  return function(step)
+    local ok, kind, result, n = pcall(run, step)
+    if not ok then
+      if not hf.is_error(kind) then error(kind, 0) end
+      expect(kind.name == step.error, 'raised ' .. tostring(kind))
+      expect(step.index == nil or step.index == kind.index, 'index ' .. tostring(kind.index))
+      return
+    end
+    expect(step.error == nil, 'did not fail with ' .. tostring(step.error))
+    if kind == 'array' then
+      if step.expect then compare(result, n, step.expect) end
+      if step.same_as then expect(ffi.string(result, 8 * n) == ffi.string(kept[step.same_as][1], 8 * n), 'differs from ' .. step.same_as) end
+      if step.keep then kept[step.keep] = { result, n } end
+    elseif kind == 'numbers' and step.numbers then expect(table.concat(result, ' ') == table.concat(step.numbers, ' '), 'numbers')
+    elseif kind == 'struct' then
+      for key, v in pairs(step.expect or {}) do
+        if key ~= 'tolerance' then expect(math.abs(tonumber(result[key]) - v) <= (step.expect.tolerance or 0), key .. ' is ' .. tostring(result[key])) end
+      end
+    end
+  end
+end
+
+local meshes, failed = {}, 0
+for _, name in ipairs({ 'strip', 'torus', 'bar', 'long_bar', 'small', 'lonely' }) do meshes[name] = read(root .. 'bindings/golden/meshes/' .. name .. '.json') end
+for i = 1, #arg do
+  for _, scene in ipairs(read(arg[i]).scenes) do
+    local step_of = new_scene(meshes)
+    for place, step in ipairs(scene.steps) do
+      local ok, e = pcall(step_of, step)
+      if not ok then
+        failed = failed + 1
+        print(string.format('FAILED %s, step %d (%s): %s', scene.name, place - 1, step['do'], getmetatable(e) == Mismatch and e.message or tostring(e)))
+      end
+    end
+    print(scene.name .. ': ' .. #scene.steps .. ' steps')
+  end
+end
+
+-- ---- closing and collecting in any order; memory comes back
+math.randomseed(7)
+local calls = 0
+for _ = 1, 120 do
+  local solver = hf.Solver(meshes.bar.positions, meshes.bar.triangles)
+  local things = { solver, solver:clone(), hf.Pose(solver), hf.Transfer(solver, solver), hf.Geodesics(solver) }
+  things[3]:add_handles({ { 0, 1, 2 }, { 280, 281 } })
+  while #things > 0 do
+    local thing = table.remove(things, math.random(#things))
+    if math.random() < 0.6 then
+      thing:close()
+      thing:close()
+      local ok, e = pcall(thing.solve or thing.deform or thing.info or function() return thing:distance({ 0 }) end, thing)
+      assert(not ok and e.name == 'HF_ERROR_INVALID_HANDLE', tostring(e))
+      calls = calls + 1
+    elseif thing.class == 'Pose' then thing:deform() end
+    if math.random() < 0.1 then collectgarbage() end
+  end
+  solver = nil
+end
+assert(calls > 100)
+local function resident()
+  collectgarbage(); collectgarbage()
+  local file = io.open('/proc/self/statm')
+  if not file then return 0 end
+  local pages = tonumber(file:read('*a'):match('%d+ (%d+)'))
+  file:close()
+  return pages * 4096
+end
+local function work(count)
+  for _ = 1, count do
+    local solver = hf.Solver(meshes.torus.positions, meshes.torus.triangles)
+    local pose = hf.Pose(solver)
+    pose:add_handles({ { 0, 1 }, { 140, 141 } })
+    pose:deform()
+    if _ % 10 == 0 then collectgarbage() end
+  end
+end
+work(30)
+local before = resident()
+work(150)
+assert(resident() - before < 16e6, 'memory does not come back')
+for number, wrong in ipairs({ function() hf.Solver('text', {}) end, function() hf.Solver({ 0, 1 }, { 0, 1, 2 }) end, function() hf.Solver({ 'a', 1, 2 }, { 0, 1, 2 }) end, function() hf.Pose(nil) end,
+  function() hf.Pose(3) end, function() hf.Transfer({}, {}) end, function() hf.Solver(meshes.torus.positions, { 0.5, 1, 2 }) end, function() hf.Solver(meshes.torus.positions, { -1, 1, 2 }) end }) do
+  local ok, e = pcall(wrong)
+  assert(not ok and hf.is_error(e), 'case ' .. number .. ': ' .. tostring(e))
+end
+os.exit(failed == 0 and 0 or 1)
