@@ -42,8 +42,7 @@ void multiply_rows_fixed(double* panel, std::int64_t stride, std::int32_t v, std
     for (int j = 0; j < Width; ++j) b[j] = D::load(row + 8 * j);
     for (int j = 0; j < Width; ++j) {
       D::Type sum = D::multiply(b[j], D::all(triangle_entry(panel, stride, j, j)));
-      for (int i = j + 1; i < Width; ++i)
-        sum = D::multiply_add(b[i], D::all(triangle_entry(panel, stride, i, j)), sum);
+      for (int i = j + 1; i < Width; ++i) sum = D::multiply_add(b[i], D::all(triangle_entry(panel, stride, i, j)), sum);
       D::store(row + 8 * j, sum);
     }
   }
@@ -64,37 +63,48 @@ inline void backward_narrow_columns(const T* triangle, const std::int32_t* rows,
   using S = typename Narrow<T, N>::Set;
   constexpr int vectors = (N + S::width - 1) / S::width, chains = C > 1 ? 1 : N > 8 ? 2 : 4;
   typename S::Type part[chains][C][vectors];
+  HF_UNROLL
   for (int h = 0; h < chains; ++h) {
+    HF_UNROLL
     for (int c = 0; c < C; ++c) {
+      HF_UNROLL
       for (int v = 0; v < vectors; ++v) part[h][c][v] = S::zero();
     }
   }
   T* own = z + static_cast<std::int64_t>(first) * C;
   const T* row = triangle;
+  HF_UNROLL
   for (int j = 0; j < N; row += ++j) {
+    HF_UNROLL
     for (int v = 0; v < vectors; ++v) {
       const int left = j + 1 - v * S::width;
       if (left <= 0) continue;
-      const typename S::Type entry = left >= S::width ? S::load(row + v * S::width)
-                                                      : S::load_part(row + v * S::width, left);
+      const typename S::Type entry =
+          left >= S::width ? S::load(row + v * S::width) : S::load_part(row + v * S::width, left);
+      HF_UNROLL
       for (int c = 0; c < C; ++c)
         part[j % chains][c][v] = S::multiply_add(entry, S::all(own[j * C + c]), part[j % chains][c][v]);
     }
   }
   const auto add = [&](int h, const T* x, const T* b) {
+    HF_UNROLL
     for (int v = 0; v < vectors; ++v) {
       const typename S::Type entry = S::load(b + v * S::width);
+      HF_UNROLL
       for (int c = 0; c < C; ++c) part[h][c][v] = S::subtract_product(entry, S::all(x[c]), part[h][c][v]);
     }
   };
   std::int32_t r = 0;
   for (; r + chains <= row_count; r += chains, row += chains * N) {
+    HF_UNROLL
     for (int h = 0; h < chains; ++h) add(h, z + static_cast<std::int64_t>(rows[r + h]) * C, row + h * N);
   }
+  HF_UNROLL
   for (int h = 0; h < chains - 1; ++h, row += N) {
     if (r + h >= row_count) break;
     add(h, z + static_cast<std::int64_t>(rows[r + h]) * C, row);
   }
+  HF_UNROLL
   for (int v = 0; v < vectors; ++v) {
     const int count = N - v * S::width < S::width ? N - v * S::width : S::width;
     if (C == 1) {
@@ -104,8 +114,11 @@ inline void backward_narrow_columns(const T* triangle, const std::int32_t* rows,
       continue;
     }
     alignas(64) T lane[C][S::width];
+    HF_UNROLL
     for (int c = 0; c < C; ++c) S::store(lane[c], part[0][c][v]);
+    HF_UNROLL
     for (int j = 0; j < count; ++j) {
+      HF_UNROLL
       for (int c = 0; c < C; ++c) own[(v * S::width + j) * C + c] = lane[c][j];
     }
   }
@@ -119,22 +132,28 @@ inline void backward_narrow_lanes(const T* triangle, std::int32_t columns, std::
                                   int count) noexcept {
   using S = Simd<T>;
   typename S::Type sum[N];
+  HF_UNROLL
   for (int j = 0; j < N; ++j) sum[j] = S::zero();
   T* own = z + static_cast<std::int64_t>(first) * channels;
   const T* row = triangle + begin * (begin + 1) / 2 + begin;
+  HF_UNROLL
   for (int i = 0; i < N; row += begin + ++i) {
     const typename S::Type x = load_lanes<T>(own + static_cast<std::int64_t>(begin + i) * channels, count);
+    HF_UNROLL
     for (int j = 0; j <= i; ++j) sum[j] = S::multiply_add(S::all(row[j]), x, sum[j]);
   }
   for (std::int32_t i = begin + N; i < columns; row += ++i) {
     const typename S::Type x = load_lanes<T>(own + static_cast<std::int64_t>(i) * channels, count);
+    HF_UNROLL
     for (int j = 0; j < N; ++j) sum[j] = S::multiply_add(S::all(row[j]), x, sum[j]);
   }
   const T* below = triangle + columns * (columns + 1) / 2 + begin;
   for (std::int32_t r = 0; r < row_count; ++r, below += columns) {
     const typename S::Type x = load_lanes<T>(z + static_cast<std::int64_t>(rows[r]) * channels, count);
+    HF_UNROLL
     for (int j = 0; j < N; ++j) sum[j] = S::subtract_product(S::all(below[j]), x, sum[j]);
   }
+  HF_UNROLL
   for (int j = 0; j < N; ++j) store_lanes<T>(own + static_cast<std::int64_t>(begin + j) * channels, sum[j], count);
 }
 

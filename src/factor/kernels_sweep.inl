@@ -8,7 +8,16 @@
 
 namespace {
 
-constexpr std::int32_t chunk_columns = 256;   // columns summed at a time on the stack, several right-hand sides
+// Sums in registers stay there only if every loop over them is unrolled.
+#if defined(__clang__)
+#define HF_UNROLL _Pragma("unroll")
+#elif defined(__GNUC__)
+#define HF_UNROLL _Pragma("GCC unroll 16")
+#else
+#define HF_UNROLL
+#endif
+
+constexpr std::int32_t chunk_columns = 256;    // columns summed at a time on the stack, several right-hand sides
 constexpr std::int32_t single_columns = 1024;  // and one: as many as rows have, so that a block is one stream
 
 template <class T>
@@ -51,7 +60,7 @@ inline void sum_in_registers(const T* block, std::int64_t stride, const std::int
     for (int h = 0; h < Chains; ++h) {
       const T* x = z + static_cast<std::int64_t>(rows[r + h]) * channels;
       if (Ahead) {
-        for (int v = 0; v < NV; ++v) __builtin_prefetch(ahead + v * S::width);
+        for (int v = 0; v < NV; ++v) __builtin_prefetch(ahead + v * S::width, 0, 2);
         ahead += NV * S::width;
       }
       typename S::Type entry[NV];
@@ -81,8 +90,8 @@ inline void sum_in_registers(const T* block, std::int64_t stride, const std::int
   }
 }
 
-// One right-hand side, up to `register_vectors` vectors of columns: the sums stay in registers, and the block is read as
-// one stream, row after row, which is what the processor's own prefetch follows best.
+// One right-hand side, up to `register_vectors` vectors of columns: the sums stay in registers, and the block is read
+// as one stream, row after row, which is what the processor's own prefetch follows best.
 constexpr int register_vectors = gemm_columns == 8 ? 16 : 12;
 
 template <class T, int NV = register_vectors>
@@ -187,13 +196,16 @@ inline void subtract_lanes(const T* block, std::int64_t stride, const std::int32
                            const T* z, T* target, std::int32_t channels, int count, const T* ahead) noexcept {
   using S = Simd<T>;
   typename S::Type sum[N];
+  HF_UNROLL
   for (int j = 0; j < N; ++j) sum[j] = S::zero();
   for (std::int32_t r = 0; r < row_count; ++r, block += stride) {
     const typename S::Type x = load_lanes<T>(z + static_cast<std::int64_t>(rows[r]) * channels, count);
-    for (int k = 0; k < N; k += line<T>) __builtin_prefetch(ahead + k);
+    for (int k = 0; k < N; k += line<T>) __builtin_prefetch(ahead + k, 0, 2);
     ahead += N;
+    HF_UNROLL
     for (int j = 0; j < N; ++j) sum[j] = S::multiply_add(S::all(block[j]), x, sum[j]);
   }
+  HF_UNROLL
   for (int j = 0; j < N; ++j) {
     T* out = target + static_cast<std::int64_t>(j) * channels;
     store_lanes<T>(out, S::subtract_product(S::all(T{1}), sum[j], load_lanes<T>(out, count)), count);
@@ -255,8 +267,8 @@ void backward_rows_any(const T* below, const std::int32_t* rows, std::int32_t ro
 }
 
 // One right-hand side, the packed triangle from its last number to its first, one stream: x_j = x_j inv_j, then
-// x_i -= L[j][i] x_j for i < j, the nearest first, since the next row waits for them. The columns in work are in a copy:
-// a finished number stored among them would not be forwarded to the vector load after it.
+// x_i -= L[j][i] x_j for i < j, the nearest first, since the next row waits for them. The columns in work are in a
+// copy: a finished number stored among them would not be forwarded to the vector load after it.
 template <class T>
 void backward_triangle_single(const T* triangle, std::int32_t columns, T* z) noexcept {
   using S = Simd<T>;
@@ -286,6 +298,7 @@ inline void subtract_solved(const T* const* row, const typename S::Type* x, std:
   for (std::int32_t i = right - 1; i >= left; --i) {
     T* at = copy + (i - left) * S::width;
     typename S::Type target = S::load(at);
+    HF_UNROLL
     for (std::int32_t k = 7; k >= 0; --k) target = S::subtract_product(S::all(row[k][i]), x[k], target);
     S::store(at, target);
   }
@@ -303,6 +316,7 @@ inline void backward_triangle_lanes(const T* triangle, std::int32_t columns, T* 
   const T* row[block];
   typename S::Type x[block];
   const auto take_rows = [&](std::int32_t from, std::int32_t to) {
+    HF_UNROLL
     for (std::int64_t k = 0; k < block; ++k) row[k] = triangle + (from + k) * (from + k + 1) / 2;
     for (std::int32_t k = to - from; k < block; ++k) row[k] = row[0], x[k] = S::zero();
   };
@@ -323,6 +337,7 @@ inline void backward_triangle_lanes(const T* triangle, std::int32_t columns, T* 
       for (std::int32_t k = to - from - 1; k >= 0; --k) {
         x[k] = S::multiply(x[k], S::all(row[k][from + k]));
         S::store(own + k * S::width, x[k]);
+        HF_UNROLL
         for (std::int32_t l = 0; l < k; ++l) x[l] = S::subtract_product(S::all(row[k][from + l]), x[k], x[l]);
       }
       subtract_solved<T, S>(row, x, left, from, copy);
