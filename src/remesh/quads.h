@@ -19,11 +19,9 @@ struct QuadOptions {
 };
 
 struct QuadResult {
-  explicit QuadResult(Memory& memory) : mesh(memory), sites(&memory), triangle(memory) {}
+  explicit QuadResult(Memory& memory) : mesh(memory), sites(&memory) {}
   QuadMesh mesh;
   Vector<FluxSite> sites;  // FluxSite::vertex inner, none for a border
-  Table<std::int32_t>
-      triangle;  // by vertex of the mesh: the inner triangle its location is in, weights as the Mesh has them
   std::int32_t raw_faces = 0, raw_quads = 0, saddles = 0, euler_characteristic = 0;
   std::int32_t extra_extrema = 0;
   double imbalance = 0;  // the largest at a vertex that is no site

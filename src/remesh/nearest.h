@@ -1,0 +1,33 @@
+// The point of a triangle soup nearest to a given one, through a tree of boxes.
+#pragma once
+#include "mesh/mesh.h"
+#include "remesh/table.h"
+
+namespace hf {
+
+class NearestTriangle {
+ public:
+  // corners: three positions per triangle, which outlive this.
+  NearestTriangle(const Table<Vec3>& positions, const Table<std::int32_t>& corners, Memory& memory);
+  struct Found {
+    std::int32_t triangle = -1;
+    double squared = 0;
+  };
+  // Cost: O(log triangles) where the soup is a surface.
+  Found find(Vec3 p) const noexcept;
+
+ private:
+  struct Box {
+    Vec3 low, high;
+    std::int32_t first, count, right;  // a leaf's triangles; or the right child (the left one is the next box)
+  };
+  std::int32_t build(std::int32_t first, std::int32_t count);
+  Vec3 corner(std::int32_t t, std::int32_t k) const noexcept { return (*positions_)[(*corners_)[3 * t + k]]; }
+
+  const Table<Vec3>* positions_;
+  const Table<std::int32_t>* corners_;
+  Table<std::int32_t> order_;
+  Table<Box> boxes_;
+};
+
+}  // namespace hf
