@@ -1,0 +1,160 @@
+// hf for .NET, Mono and Unity: what all classes share. Handles are SafeHandles, failures HfExceptions, arrays are pinned for
+// the call and never copied.
+using System;
+using System.Collections.Generic;
+using System.Runtime.InteropServices;
+using System.Text;
+using Hf.Native;
+
+namespace Hf
+{
+    /// <summary>A failed call: the library's own sentence, its code, and what it is about.</summary>
+    public sealed class HfException : Exception
+    {
+        /// <summary>HF_ERROR_*.</summary>
+        public int Code { get; }
+        /// <summary>The name of the code.</summary>
+        public string Name { get; }
+        /// <summary>Vertex, triangle, site, handle or position in a list; null when there is none.</summary>
+        public uint? Index { get; }
+
+        public HfException(string message, int code = Constants.HF_ERROR_INVALID_ARGUMENT, uint? index = null, string function = "")
+            : base((function.Length > 0 ? function + ": " : "") + message + " (" + NameOf(code) + ")")
+        {
+            Code = code;
+            Name = NameOf(code);
+            Index = index;
+        }
+
+        static string NameOf(int code)
+        {
+            return Marshal.PtrToStringAnsi(Functions.hf_result_name(code)) ?? "unknown";
+        }
+
+        internal static unsafe void Check(int result)
+        {
+            if (result == Constants.HF_OK) return;
+            hf_error_detail detail;
+            Functions.hf_get_error_detail(&detail);
+            uint? index = null;
+            if (detail.index != Constants.HF_NO_INDEX) index = detail.index;
+            throw new HfException(Text(detail.message, 256), result, index, Text(detail.function, 48));
+        }
+
+        static unsafe string Text(byte* bytes, int size)
+        {
+            int length = 0;
+            while (length < size && bytes[length] != 0) ++length;
+            return Encoding.UTF8.GetString(bytes, length);
+        }
+    }
+
+    /// <summary>Owns one handle of the library.</summary>
+    public sealed class NativeHandle : SafeHandle
+    {
+        readonly Action<IntPtr> destroy;
+
+        internal NativeHandle(IntPtr raw, Action<IntPtr> destroy) : base(IntPtr.Zero, true)
+        {
+            this.destroy = destroy;
+            SetHandle(raw);
+        }
+
+        public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
+
+        protected override bool ReleaseHandle()
+        {
+            destroy(handle);
+            return true;
+        }
+    }
+
+    /// <summary>Something with a handle. Dispose may be called more than once and in any order; a call on a disposed object
+    /// throws an HfException of the code HF_ERROR_INVALID_HANDLE. What is not disposed is collected.</summary>
+    public abstract class HfObject : IDisposable
+    {
+        NativeHandle owned;
+
+        internal void Own(IntPtr raw, Action<IntPtr> destroy)
+        {
+            owned = new NativeHandle(raw, destroy);
+        }
+
+        /// <summary>The handle of the C ABI; stale after Dispose, which the library finds out.</summary>
+        public IntPtr Handle { get { return owned == null ? IntPtr.Zero : owned.DangerousGetHandle(); } }
+
+        public void Dispose()
+        {
+            if (owned != null) owned.Dispose();
+        }
+
+        internal static IntPtr HandleOf(HfObject thing, string name)
+        {
+            if (thing == null) throw new HfException(name + " is null", Constants.HF_ERROR_INVALID_HANDLE);
+            return thing.Handle;
+        }
+
+        /// <summary>Calls the library and keeps this object alive until the call has returned.</summary>
+        internal void Check(int result)
+        {
+            GC.KeepAlive(this);
+            HfException.Check(result);
+        }
+    }
+
+    /// <summary>Arrays pinned for one call. Empty and null arrays are NULL.</summary>
+    sealed class Pins : IDisposable
+    {
+        readonly List<GCHandle> pinned = new List<GCHandle>();
+
+        public IntPtr Add(Array array)
+        {
+            if (array == null || array.Length == 0) return IntPtr.Zero;
+            GCHandle pin = GCHandle.Alloc(array, GCHandleType.Pinned);
+            pinned.Add(pin);
+            return pin.AddrOfPinnedObject();
+        }
+
+        /// <summary>The same, with a check of the length; null stays NULL.</summary>
+        public IntPtr Add(Array array, int count, string name)
+        {
+            if (array != null) Need(array.Length, count, name);
+            return Add(array);
+        }
+
+        public static void Need(int given, int wanted, string name)
+        {
+            if (given != wanted) throw new HfException(name + " must hold " + wanted + " numbers, not " + given);
+        }
+
+        /// <summary>Elements of a list; a missing list counts one, so that the library says what is missing.</summary>
+        public static int Count(Array array) { return array == null ? 1 : array.Length; }
+
+        public void Dispose()
+        {
+            foreach (GCHandle pin in pinned) pin.Free();
+            pinned.Clear();
+        }
+    }
+
+    /// <summary>Lists of vertices one after the other.</summary>
+    struct Regions
+    {
+        public uint[] Counts, Vertices;
+
+        public Regions(uint[][] lists, string name)
+        {
+            Counts = Vertices = null;
+            if (lists == null) return;
+            Counts = new uint[lists.Length];
+            var all = new List<uint>();
+            for (int i = 0; i < lists.Length; ++i)
+            {
+                if (lists[i] == null) throw new HfException(name + "[" + i + "] is null", Constants.HF_ERROR_NULL_POINTER);
+                Counts[i] = (uint)lists[i].Length;
+                all.AddRange(lists[i]);
+            }
+            Vertices = all.ToArray();
+        }
+    }
+}

@@ -1,0 +1,160 @@
+// Deforms the mesh of a MeshFilter so that the regions of its HfHandle children follow them. The factor is made once, at
+// the first use; handles come and go on it.
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Hf.Unity
+{
+    [ExecuteAlways]
+    [RequireComponent(typeof(MeshFilter))]
+    [AddComponentMenu("hf/Deformer")]
+    public sealed class HfDeformer : MonoBehaviour
+    {
+        [Tooltip("Threads the library may use, this one included")]
+        [Range(1, 16)] public int threads = 1;
+        [Tooltip("Iterations of the pose per frame; 0: the library's default")]
+        [Range(0, 100)] public int iterations;
+        [Tooltip("A factor saved in the editor (HfDeformerEditor), so that nothing is factorised at run time")]
+        public TextAsset savedFactor;
+
+        Mesh rest, posed;
+        Solver solver;
+        Pose pose;
+        float[] positions, normals;
+        Vector3[] vertices, directions;
+        readonly List<HfHandle> bound = new List<HfHandle>();
+        bool changed = true;
+
+        public Solver Solver { get { Bind(); return solver; } }
+        public Pose Pose { get { Bind(); return pose; } }
+        public string LastError { get; private set; }
+        public int HandleCount { get { return bound.Count; } }
+
+        public void HandlesChanged() { changed = true; }
+
+        void OnDisable() { Release(); }
+
+        /// <summary>Gives the memory back and shows the rest mesh again.</summary>
+        public void Release()
+        {
+            if (pose != null) pose.Dispose();
+            if (solver != null) solver.Dispose();
+            pose = null;
+            solver = null;
+            foreach (HfHandle handle in bound) if (handle != null) handle.bound = false;
+            bound.Clear();
+            changed = true;
+            if (rest != null) GetComponent<MeshFilter>().sharedMesh = rest;
+            rest = null;
+        }
+
+        void Bind()
+        {
+            if (solver != null) return;
+            var filter = GetComponent<MeshFilter>();
+            rest = filter.sharedMesh;
+            if (rest == null) throw new HfException("the MeshFilter has no mesh");
+            vertices = rest.vertices;
+            directions = new Vector3[vertices.Length];
+            positions = new float[3 * vertices.Length];
+            normals = new float[3 * vertices.Length];
+            for (int v = 0; v < vertices.Length; ++v)
+            {
+                positions[3 * v] = vertices[v].x;
+                positions[3 * v + 1] = vertices[v].y;
+                positions[3 * v + 2] = vertices[v].z;
+            }
+            // Unity's triangles are clockwise, the library's counter-clockwise
+            int[] corners = rest.triangles;
+            var triangles = new uint[corners.Length];
+            for (int i = 0; i < corners.Length; i += 3)
+            {
+                triangles[i] = (uint)corners[i];
+                triangles[i + 1] = (uint)corners[i + 2];
+                triangles[i + 2] = (uint)corners[i + 1];
+            }
+            solver = new Solver(positions, triangles, new SolverOptions { ThreadCount = (uint)threads, SavedFactor = savedFactor != null ? savedFactor.bytes : null });
+            pose = new Pose(solver);
+            posed = Instantiate(rest);
+            posed.MarkDynamic();
+            filter.sharedMesh = posed;
+        }
+
+        void Sync()
+        {
+            changed = false;
+            var present = new HashSet<HfHandle>(GetComponentsInChildren<HfHandle>());
+            for (int i = bound.Count - 1; i >= 0; --i)
+            {
+                if (bound[i] != null && present.Contains(bound[i])) continue;
+                pose.RemoveHandles(new uint[] { numbers[i] });
+                if (bound[i] != null) bound[i].bound = false;
+                bound.RemoveAt(i);
+                numbers.RemoveAt(i);
+            }
+            foreach (HfHandle handle in present)
+            {
+                if (handle.bound) continue;
+                handle.restLocal = Rigid(transform.worldToLocalMatrix * handle.transform.localToWorldMatrix);
+                Vector4 at = handle.restLocal.GetColumn(3);
+                handle.number = pose.AddHandles(new double[] { at.x, at.y, at.z }, new double[] { handle.radius }, (uint)handle.layer)[0];
+                handle.bound = true;
+                bound.Add(handle);
+                numbers.Add(handle.number);
+            }
+        }
+
+        readonly List<uint> numbers = new List<uint>();
+
+        static Matrix4x4 Rigid(Matrix4x4 matrix) { return Matrix4x4.TRS(matrix.GetColumn(3), matrix.rotation, Vector3.one); }
+
+        void LateUpdate()
+        {
+            try
+            {
+                Bind();
+                if (changed) Sync();
+                if (bound.Count == 0) return;
+                var matrices = new double[16 * bound.Count];
+                for (int i = 0; i < bound.Count; ++i)
+                {
+                    Matrix4x4 motion = Rigid(transform.worldToLocalMatrix * bound[i].transform.localToWorldMatrix) * bound[i].restLocal.inverse;
+                    for (int k = 0; k < 16; ++k) matrices[16 * i + k] = motion[k]; // column by column in both
+                }
+                pose.SetMatrices(numbers.ToArray(), matrices);
+                pose.Deform(positions, normals, (uint)iterations);
+                for (int v = 0; v < vertices.Length; ++v)
+                {
+                    vertices[v] = new Vector3(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]);
+                    directions[v] = new Vector3(normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]);
+                }
+                posed.vertices = vertices;
+                posed.normals = directions;
+                posed.RecalculateBounds();
+                LastError = null;
+            }
+            catch (HfException failure)
+            {
+                if (LastError != failure.Message) Debug.LogWarning("hf: " + failure.Message, this);
+                LastError = failure.Message; // nothing has changed; said once
+            }
+        }
+
+        /// <summary>The harmonic field that is 1 at some vertices and 0 at others.</summary>
+        public float[] Field(uint[] ones, uint[] zeros)
+        {
+            Bind();
+            using (Solver clone = solver.Clone())
+            {
+                if (ones.Length > 0)
+                {
+                    var high = new double[ones.Length];
+                    for (int i = 0; i < high.Length; ++i) high[i] = 1;
+                    clone.AddSites(ones, high);
+                }
+                if (zeros.Length > 0) clone.AddSites(zeros, new double[zeros.Length]);
+                return clone.Solve();
+            }
+        }
+    }
+}
