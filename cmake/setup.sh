@@ -51,6 +51,16 @@ hf_build() {
   }
 }
 
+# What the JavaScript binding is tested with: koffi (native calls), three (the page), playwright-core (drives Chromium).
+hf_install_host_modules() {
+  command -v npm >/dev/null 2>&1 || return 1
+  local folder="$hf_root/build/npm"
+  [ -d "$folder/node_modules/koffi" ] && [ -d "$folder/node_modules/playwright-core" ] && [ -d "$folder/node_modules/three" ] && return 0
+  mkdir -p "$folder"
+  hf_say "installing koffi, three and playwright-core (npm)"
+  (cd "$folder" && npm install --no-audit --no-fund --no-save --prefix . koffi three playwright-core gltf-validator >npm-hosts.log 2>&1) || return 1
+}
+
 # The Khronos glTF validator, below the build folder. Returns 1 when there is no npm.
 hf_install_node_modules() {
   command -v npm >/dev/null 2>&1 || return 1
