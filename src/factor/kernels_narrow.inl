@@ -39,9 +39,12 @@ void multiply_rows_fixed(double* panel, std::int64_t stride, std::int32_t v, std
   for (; v < v_end; ++v) {
     double* row = vector_row(panel, v, stride);
     D::Type b[Width];
+    HF_UNROLL
     for (int j = 0; j < Width; ++j) b[j] = D::load(row + 8 * j);
+    HF_UNROLL
     for (int j = 0; j < Width; ++j) {
       D::Type sum = D::multiply(b[j], D::all(triangle_entry(panel, stride, j, j)));
+      HF_UNROLL
       for (int i = j + 1; i < Width; ++i) sum = D::multiply_add(b[i], D::all(triangle_entry(panel, stride, i, j)), sum);
       D::store(row + 8 * j, sum);
     }
