@@ -260,4 +260,76 @@ TEST(TransferPairs, APairSaysItsFlagsItsLeakAndHowSureItIs) {
   }
 }
 
+TEST(TransferPairs, PairsThatComeAndGoLeaveNoMemoryBehind) {
+  const Animals& a = animals();
+  const std::vector<hf::PairInput> inputs = a.pairs.inputs();
+  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  add(transfer, inputs);
+  uint64_t before = 0;
+  for (int i = 0; i < 60; ++i) {
+    const uint32_t last = static_cast<uint32_t>(inputs.size()) - 1;
+    transfer.remove_pairs({&last, 1});
+    uint32_t number = 0;
+    transfer.add_pairs({&inputs.back(), 1}, &number);
+    EXPECT_EQ(number, last);
+    if (i == 10) before = a.world.memory->live_bytes();
+  }
+  EXPECT_LE(a.world.memory->live_bytes(), before + before / 100);
+}
+
+// Kernels of the source: M = sum q g' with slopes that sum to zero and a trace of 1 at rest; the broad ones reach
+// further than the narrow ones and stay local.
+TEST(TransferPairs, KernelsOfTheSourceAreNormalisedAndLocal) {
+  const Animals& a = animals();
+  const size_t width = a.pairs.names.size();
+  hf::Memory memory;
+  std::vector<uint32_t> numbers(width);
+  std::vector<hf::Span<const int32_t>> source, target;
+  for (size_t i = 0; i < width; ++i) {
+    numbers[i] = static_cast<uint32_t>(i);
+    source.push_back({a.pairs.source[i].data(), a.pairs.source[i].size()});
+    target.push_back({a.pairs.target[i].data(), a.pairs.target[i].size()});
+  }
+  hf::PairFields from(a.horse.core), to(a.bull.core);
+  from.add({numbers.data(), width}, {source.data(), width}, "source");
+  to.add({numbers.data(), width}, {target.data(), width}, "target");
+  const auto n = static_cast<size_t>(a.horse.core->size()), m = static_cast<size_t>(a.bull.core->size());
+  std::vector<double> source_field(n * width), target_field(m * width), leaks(width);
+  from.solve({numbers.data(), width}, source_field.data(), leaks.data());
+  to.solve({numbers.data(), width}, target_field.data(), leaks.data());
+  const auto source_area = hf::area_shares(a.horse.core->mesh, memory),
+             target_area = hf::area_shares(a.bull.core->mesh, memory);
+  for (const bool paper : {false, true}) {
+    hf::ClusterOptions options;
+    options.paper_bands = paper;
+    const hf::Clusters clusters = hf::make_clusters(
+        options, static_cast<int32_t>(width), {source_field.data(), source_field.size()}, source_area, *a.horse.core,
+        {target_field.data(), target_field.size()}, target_area, a.bull.core->mesh, memory, *a.world.jobs);
+    ASSERT_GT(clusters.count, 20);
+    double narrow_radius = 0, broad_radius = 0;
+    for (const hf::SourceKernels* kernels : {&clusters.narrow, &clusters.broad}) {
+      for (size_t c = 0; c < static_cast<size_t>(clusters.count); ++c) {
+        Vec3 sum, centre;
+        double trace = 0, largest = 0, radius = 0;
+        const auto first = static_cast<size_t>(kernels->start[c]), last = static_cast<size_t>(kernels->start[c + 1]);
+        const auto point = [&](size_t i) {
+          return a.horse.core->mesh.positions[static_cast<size_t>(kernels->vertex[i])];
+        };
+        for (size_t i = first; i < last; ++i) {
+          sum = sum + kernels->slope[i], trace += hf::dot(point(i), kernels->slope[i]);
+          largest = std::max(largest, hf::norm(kernels->slope[i]));
+          centre = centre + (1.0 / static_cast<double>(last - first)) * point(i);
+        }
+        for (size_t i = first; i < last; ++i) radius += hf::norm(point(i) - centre) / static_cast<double>(last - first);
+        EXPECT_LT(hf::norm(sum), 1e-9 * std::max(largest, 1.0)) << c;
+        EXPECT_NEAR(trace, 1.0, 1e-9) << c;
+        (kernels == &clusters.narrow ? narrow_radius : broad_radius) += radius / clusters.count;
+      }
+    }
+    EXPECT_GT(broad_radius, 1.2 * narrow_radius) << paper;
+    EXPECT_LT(broad_radius, paper ? 0.2 : 0.12) << paper;  // of the box
+    std::printf("kernels: mean radius %.3f narrow, %.3f broad, of the box\n", narrow_radius, broad_radius);
+  }
+}
+
 }  // namespace

@@ -149,6 +149,65 @@ TEST(TransferShapes, LoosePartsFollowWhatTheyLieNextTo) {
   }
 }
 
+TEST(TransferShapes, AnIslandTakesTheRowsOfTheNearestVerticesAndIsRelaxedBetweenThem) {
+  // rows that are the places themselves say which host was taken
+  const Animals& a = animals();
+  Body bull = a.bull;
+  const size_t first = bull.mesh.positions.size();
+  add_loose_parts(bull, {0.3, 1.6, 0.9}, {0.4, 1.0, -0.7}, a.world);
+  const hf::Core& core = *bull.core;
+  std::vector<uint8_t> reached(static_cast<size_t>(core.mesh.component_count()), 0);
+  const auto inner = [&](size_t given) { return core.mesh.inner_of_given[given]; };
+  const auto place = [&](int32_t v) { return core.mesh.positions[static_cast<size_t>(v)]; };
+  const int32_t body = core.mesh.component[static_cast<size_t>(inner(0))];
+  reached[static_cast<size_t>(body)] = 1;
+  std::vector<double> field(3 * static_cast<size_t>(core.size()), 0.0);
+  const auto row = [&](int32_t v) {
+    const double* f = field.data() + 3 * static_cast<size_t>(v);
+    return Vec3{f[0], f[1], f[2]};
+  };
+  for (int32_t v = 0; v < core.size(); ++v) {
+    if (core.mesh.component[static_cast<size_t>(v)] != body) continue;
+    const Vec3 p = place(v);
+    field[3 * static_cast<size_t>(v)] = p.x, field[3 * static_cast<size_t>(v) + 1] = p.y,
+              field[3 * static_cast<size_t>(v) + 2] = p.z;
+  }
+  hf::attach_islands(core, {reached.data(), reached.size()}, 3, field.data());
+  const auto nearest = [&](int32_t island_vertex) {
+    double best = 1e300;
+    int32_t host = -1;
+    for (int32_t v = 0; v < core.size(); ++v) {
+      const double d = hf::norm(place(v) - place(island_vertex));
+      if (core.mesh.component[static_cast<size_t>(v)] == body && d < best) best = d, host = v;
+    }
+    return host;
+  };
+  // the strap: each row is that of the nearest host, or the weighted mean of its neighbours' rows
+  size_t hosted = 0, relaxed = 0;
+  for (size_t given = first + 6; given < bull.mesh.positions.size(); ++given) {
+    const int32_t v = inner(given);
+    if (hf::norm(row(v) - place(nearest(v))) < 1e-12) {
+      ++hosted;
+      continue;
+    }
+    Vec3 mean;
+    double sum = 0;
+    for (int32_t e = core.topology.neighbour_start[static_cast<size_t>(v)];
+         e < core.topology.neighbour_start[static_cast<size_t>(v) + 1]; ++e) {
+      const double w = core.weights[static_cast<size_t>(core.topology.neighbour_edge[static_cast<size_t>(e)])];
+      mean = mean + w * row(core.topology.neighbour[static_cast<size_t>(e)]), sum += w;
+    }
+    EXPECT_LT(hf::norm(row(v) - (1 / sum) * mean), 1e-3 * core.mesh.scale) << given;
+    ++relaxed;
+  }
+  EXPECT_EQ(hosted, 8u);  // a third of 26
+  EXPECT_EQ(relaxed, 18u);
+  // the eye: one row, the mean of its three nearest
+  for (size_t given = first; given < first + 6; ++given)
+    EXPECT_EQ(hf::norm(row(inner(given)) - row(inner(first))), 0.0);
+  EXPECT_LT(hf::norm(row(inner(first)) - place(nearest(inner(first)))), 0.1 * core.mesh.scale);
+}
+
 // Bottom of a foot region: its lowest point, and its centre.
 struct Foot {
   double low = 1e300;
