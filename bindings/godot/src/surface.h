@@ -1,0 +1,66 @@
+// What scripts see, free of any engine: one object with a solver, a pose and (when made with transfer_to) a transfer, and
+// a table of methods from plain arguments to plain values. gdnative.cpp and gdextension.cpp only convert.
+#pragma once
+#include <hf/hf.hpp>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hf_godot {
+
+using Doubles = std::vector<double>;
+using Numbers = std::vector<uint32_t>;
+struct Surface;
+
+// A script's argument: null, a number, a list of numbers, a list of lists, named numbers, bytes, or another surface.
+struct Argument {
+  bool null = true;
+  double number = 0;
+  Doubles list;
+  std::vector<Doubles> lists;
+  std::map<std::string, double> named;
+  std::vector<uint8_t> bytes;
+  std::shared_ptr<Surface> surface;
+};
+using Arguments = std::vector<Argument>;
+
+struct Value {
+  enum Kind { nothing, truth, number, integers, reals, vectors, bytes, named } kind = nothing;
+  double real = 0;
+  Numbers whole;
+  std::vector<float> floats;  // reals, or xyz of vectors
+  std::vector<uint8_t> octets;
+  std::map<std::string, double> fields;
+};
+
+[[noreturn]] inline void fail(const std::string& message, hf_result code = HF_ERROR_INVALID_ARGUMENT) {
+  hf_error_detail detail{};
+  detail.code = code, detail.index = HF_NO_INDEX;
+  message.copy(detail.message, sizeof detail.message - 1);
+  throw hfpp::Error(detail);
+}
+
+struct Surface {
+  hfpp::Handle<hf_solver, hf_destroy> solver;
+  hfpp::Handle<hf_pose, hf_pose_destroy> pose;
+  hfpp::Handle<hf_transfer, hf_transfer_destroy> transfer;
+  size_t vertex_count = 0, target_count = 0;
+  // the last failure, for scripts that have no exceptions
+  std::string error_name, error_message;
+  double error_index = -1;
+};
+
+using Method = Value (*)(Surface&, const Arguments&);
+struct Entry {
+  const char* name;
+  int least, most;  // arguments
+  Method method;
+};
+extern const std::vector<Entry> methods;
+
+// Calls a method; a failure is kept in the surface and gives Value::nothing.
+Value call(Surface& surface, const Entry& entry, const Arguments& arguments) noexcept;
+
+}  // namespace hf_godot

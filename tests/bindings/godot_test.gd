@@ -1,0 +1,291 @@
+# The golden scenes through the GDNative class, then a glb imported by Godot and posed: godot3-server --path PROJECT -s godot_test.gd
+# Positions and fields are single precision here, so figures agree to 3e-6 of the largest; steps of calls that the class does not offer
+# are counted and left out.
+extends SceneTree
+
+const HfSurface = preload("res://hf/hf_surface.gdns")
+const Deformer = preload("res://hf/hf_deformer.gd")
+var meshes = {}
+var failed = 0
+var left_out = 0
+var done = 0
+
+func read(path):
+	var file = File.new()
+	if file.open(path, File.READ) != OK:
+		printerr("cannot read ", path)
+		failed += 1
+		return {}
+	return JSON.parse(file.get_as_text()).result
+
+func number(v):
+	return {"nan": NAN, "inf": INF, "-inf": -INF}.get(v, v) if typeof(v) == TYPE_STRING else v
+
+func list(step, key, kept):
+	var v = step.get(key)
+	if typeof(v) == TYPE_STRING:
+		return kept.get(v)
+	if v == null or v.empty() or typeof(v[0]) == TYPE_ARRAY:
+		return v
+	var out = []
+	for x in v:
+		out.append(number(x))
+	return out
+
+func options_of(step):
+	var out = {}
+	for key in step.get("options", {}):
+		var v = step.options[key]
+		out[key] = 3 if typeof(v) == TYPE_STRING and v == "HF_OPERATOR_COTANGENT" else v
+	return out
+
+# [offered, result, surface asked]
+func run(step, objects, kept):
+	var on = objects.get(step.get("on"))
+	match step["do"]:
+		"solver":
+			var made = HfSurface.new()
+			var mesh = meshes[step.mesh] if step.mesh != null else {"positions": null, "triangles": null}
+			var positions = mesh.positions.duplicate() if mesh.positions != null else null
+			var triangles = mesh.triangles.duplicate() if mesh.triangles != null else null
+			for key in step.get("positions", {}):
+				positions[int(key)] = number(step.positions[key])
+			for key in step.get("triangles", {}):
+				triangles[int(key)] = step.triangles[key]
+			if step.has("no_triangles"):
+				triangles = []
+			var factor = kept.get(step.get("factor"))
+			if factor != null and step.has("damage"):
+				factor = PoolByteArray(factor)
+				factor[step.damage] = factor[step.damage] ^ 1
+			var result = made.create(positions, triangles, options_of(step), factor)
+			if result != null:
+				objects[step["as"]] = made
+			return [true, result, made]
+		"clone":
+			var made = HfSurface.new()
+			var result = made.clone_from(on)
+			if result != null:
+				objects[step["as"]] = made
+			return [true, result, made]
+		"dispose": return [true, on.dispose(), on]
+		"add_sites": return [true, on.add_sites(list(step, "vertices", kept), list(step, "values", kept), list(step, "stiffness", kept), list(step, "radii", kept), list(step, "triangles", kept), list(step, "barycentrics", kept)), on]
+		"remove_sites": return [true, on.remove_sites(list(step, "sites", kept)), on]
+		"move_sites": return [true, on.move_sites(list(step, "sites", kept), list(step, "vertices", kept)), on]
+		"set_values": return [true, on.set_site_values(list(step, "sites", kept), list(step, "values", kept)), on]
+		"edit":
+			if step.has("error"): # no batches here: one call after the other
+				return [false, null, null]
+			on.remove_sites(step.remove)
+			on.move_sites(step.move, step.move_to)
+			on.set_site_values(step.set, step.set_values)
+			return [true, on.add_sites(step.add, step.add_values), on]
+		"record": return [true, on.record(), on]
+		"undo": return [true, on.undo(), on]
+		"redo": return [true, on.redo(), on]
+		"solve", "solve_f32": return [true, on.solve(), on]
+		"solve_at": return [true, on.solve_at(list(step, "vertices", kept)), on]
+		"report": return [true, on.report(), on]
+		"statistics": return [true, on.statistics(), on]
+		"save_factor":
+			var bytes = on.save_factor()
+			if bytes != null:
+				kept[step["as"]] = bytes
+			return [true, bytes, on]
+		"pose":
+			if step.has("options") or step.has("error"): # a pose is made with the first handle here
+				return [false, null, null]
+			objects[step["as"]] = on
+			return [true, true, on]
+		"add_handles":
+			var layer = step.get("layer", 0)
+			if step.has("points"):
+				return [true, on.add_handles_at(list(step, "points", kept), list(step, "radii", kept), layer), on]
+			return [true, on.add_handles(step.regions, layer), on]
+		"remove_handles": return [true, on.remove_handles(list(step, "handles", kept)), on]
+		"set_transforms": return [true, on.set_transforms(list(step, "handles", kept), list(step, "rotations", kept), list(step, "translations", kept)), on]
+		"handle_field": return [true, on.handle_field(step.handle), on]
+		"handle_info": return [true, on.handle_info(step.handle), on]
+		"deform": return [true, on.deform(options_of(step)), on]
+	return [false, null, null]
+
+func flat(a):
+	if typeof(a) != TYPE_VECTOR3_ARRAY:
+		return a
+	var out = []
+	for v in a:
+		out += [v.x, v.y, v.z]
+	return out
+
+func compare(a, wanted):
+	var sum = 0.0
+	var weighted = 0.0
+	var most = 0.0
+	for i in a.size():
+		if is_nan(a[i]) or is_inf(a[i]):
+			return "not finite"
+		sum += a[i]
+		weighted += a[i] * (i % 7 + 1)
+		most = max(most, abs(a[i]))
+	var t = wanted.get("tolerance", 0.0) + 3e-6 * max(1.0, most)
+	if wanted.has("count") and a.size() != wanted["count"]:
+		return "count %d" % a.size()
+	if wanted.has("sum") and abs(sum - wanted["sum"]) > t * a.size():
+		return "sum is %f, not %f" % [sum, wanted["sum"]]
+	if wanted.has("weighted") and abs(weighted - wanted["weighted"]) > 7 * t * a.size():
+		return "weighted"
+	var values = wanted.get("values", [])
+	for k in values.size():
+		if abs(a[wanted["at"][k]] - values[k]) > t:
+			return "value at %d" % wanted["at"][k]
+	return ""
+
+func check(step, objects, kept):
+	if step.has("on") and objects.get(step.on) == null:
+		left_out += 1
+		return ""
+	var answer = run(step, objects, kept)
+	if not answer[0]:
+		left_out += 1
+		return ""
+	done += 1
+	var result = answer[1]
+	var error = answer[2].get_error()
+	if result == null:
+		if error.get("name") != step.get("error"):
+			return "raised " + str(error)
+		if step.has("index") and error["index"] != step["index"]:
+			return "index " + str(error)
+		return ""
+	if step.has("error"):
+		return "did not fail with " + step.error
+	var wanted = step.get("expect", {})
+	if typeof(result) == TYPE_DICTIONARY:
+		for key in wanted:
+			if key != "tolerance" and abs(result[key] - wanted[key]) > 1e-6:
+				return key + " is " + str(result[key])
+	elif typeof(result) == TYPE_INT_ARRAY:
+		if step.has("numbers") and step["do"] != "edit":
+			for i in result.size():
+				if result[i] != step.numbers[i]:
+					return "numbers " + str(result)
+	elif typeof(result) == TYPE_REAL_ARRAY or typeof(result) == TYPE_VECTOR3_ARRAY:
+		var values = flat(result)
+		if not wanted.empty():
+			var message = compare(values, wanted)
+			if message != "":
+				return message
+		if step.has("same_as") and str(Array(values)) != str(Array(kept[step.same_as])):
+			return "differs from " + step.same_as
+		if step.has("keep"):
+			kept[step.keep] = values
+	return ""
+
+func golden(path):
+	for scene in read(path).get("scenes", []):
+		var objects = {}
+		var kept = {}
+		var place = 0
+		for step in scene.steps:
+			var message = check(step, objects, kept)
+			if message != "":
+				failed += 1
+				print("FAILED ", scene.name, ", step ", place, " (", step["do"], "): ", message)
+			place += 1
+		print(scene.name, ": ", place, " steps")
+
+func expect(condition, message):
+	if not condition:
+		failed += 1
+		print("FAILED ", message)
+
+# Objects of every kind, freed in any order; a transfer keeps what it needs.
+func lifetime():
+	var draw = RandomNumberGenerator.new()
+	draw.seed = 7
+	var bar = meshes["bar"]
+	var calls = 0
+	for _round in 120:
+		var a = HfSurface.new()
+		a.create(bar.positions, bar.triangles)
+		var b = HfSurface.new()
+		b.clone_from(a)
+		a.add_handles([[0, 1, 2], [280, 281]])
+		expect(a.transfer_to(b, [[0, 1], [280]], [[0, 1], [280]]) == true, "transfer_to: " + str(a.get_error()))
+		var pair = [a, b]
+		if draw.randf() < 0.5:
+			pair.invert()
+		pair[0].dispose()
+		pair[0].dispose()
+		expect(pair[0].solve() == null and pair[0].get_error()["name"] == "HF_ERROR_INVALID_HANDLE", "stale solve")
+		expect(pair[0].deform() == null, "stale deform")
+		calls += 2
+		if pair[0] == b:
+			expect(a.transfer_apply(bar.positions).size() * 3 == bar.positions.size(), "transfer after its target has gone")
+		a = null
+		b = null
+	for wrong in [[null, null], ["text", "text"], [[1, 2], [0]], [{}, {}], [3, 4], [[Vector3(), "x", Vector3()], [0, 1, 2]], [[NAN, 0, 0], [0, 0, 0]]]:
+		var s = HfSurface.new()
+		expect(s.create(wrong[0], wrong[1]) == null and s.get_error().has("message"), "create(" + str(wrong) + ")")
+		expect(s.clone_from(wrong[0]) == null and s.transfer_to(wrong[0], [[0]], [[0]]) == null, "clone_from, transfer_to")
+		calls += 3
+	print("lifetime: ", calls, " wrong calls answered")
+
+func mesh_of(node):
+	if node is MeshInstance:
+		return node.mesh
+	for child in node.get_children():
+		var found = mesh_of(child)
+		if found:
+			return found
+	return null
+
+func imported():
+	var scene = load("res://model.glb")
+	if scene == null:
+		print("no model.glb in the project: the imported mesh is left out")
+		return
+	var root_node = scene.instance()
+	var deformer = Deformer.new()
+	deformer.mesh = mesh_of(root_node)
+	get_root().add_child(deformer)
+	expect(deformer.bind(), "bind")
+	var rest = deformer.arrays[Mesh.ARRAY_VERTEX]
+	var box = AABB(rest[0], Vector3())
+	var first = 0
+	var last = 0
+	for i in rest.size():
+		box = box.expand(rest[i])
+		if rest[i].z < rest[first].z:
+			first = i
+		if rest[i].z > rest[last].z:
+			last = i
+	var size = box.size.length()
+	var fixed = deformer.add_handle(rest[first], 0.12 * size)
+	var moved = deformer.add_handle(rest[last], 0.05 * size)
+	expect(fixed != null and moved != null, "handles")
+	moved.translation += Vector3(0, 0.2 * size, 0)
+	var posed = deformer.update()
+	expect(posed.size() == rest.size(), "positions")
+	expect(abs(posed[last].y - rest[last].y - 0.2 * size) < 1e-3 * size, "the moved handle lands")
+	expect(posed[first].distance_to(rest[first]) < 1e-4 * size, "the other stays")
+	var back = deformer.mesh.surface_get_arrays(0)[Mesh.ARRAY_VERTEX]
+	expect(back[last].distance_to(posed[last]) < 1e-4 * size, "read back from Godot's mesh")
+	var third = deformer.add_handle(box.position + 0.5 * box.size, 0.1 * size)
+	expect(third != null and deformer.surface.statistics()["factorisation_count"] == 1, "a handle in mid-pose, one factorisation")
+	deformer.remove_handle(third)
+	expect(deformer.update() != null, "after removing it")
+	print("imported glb: ", rest.size(), " vertices posed")
+	root_node.free()
+	deformer.free()
+
+func _init():
+	for name in ["strip", "torus", "bar", "long_bar", "small", "lonely"]:
+		meshes[name] = read(OS.get_environment("HF_GOLDEN") + "/meshes/" + name + ".json")
+	golden(OS.get_environment("HF_SCENES"))
+	golden(OS.get_environment("HF_GOLDEN") + "/bad_input.json")
+	print(done, " steps run, ", left_out, " left out")
+	expect(done > 180, "too few steps")
+	lifetime()
+	imported()
+	quit(1 if failed > 0 else 0)
