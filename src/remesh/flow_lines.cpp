@@ -7,6 +7,16 @@
 
 namespace hf {
 
+namespace {
+
+// Whether an edge carries flux: not along a plateau, and not to an apex.
+bool carries(const FluxField& field, std::int32_t h) {
+  const FluxSurface& s = field.surface();
+  return s.weight[h] > 0 && field.value(s.head(h)) > field.value(s.tail[h]);
+}
+
+}  // namespace
+
 FlowTracer::FlowTracer(std::shared_ptr<const Core> core)
     : core_(std::move(core)),
       surface_(FluxSurface::make(core_->mesh, core_->topology, 0.0, *core_->memory)),
@@ -35,6 +45,7 @@ Vec3 FlowTracer::place(const FluxField& field, FluxPoint p) const noexcept {
 void FlowTracer::follow(const FluxField& field, FluxPoint p, bool upward, FlowLineSet& out, std::int32_t& end) const {
   for (std::int32_t steps = 0; p.half >= 0 && steps < surface_.half_count(); ++steps) {
     const std::int32_t a = surface_.tail[p.half], b = surface_.head(p.half);
+    if (!carries(field, p.half)) return;
     out.point.push_back(place(field, p)), out.value.push_back(0.5 * (field.value(a) + field.value(b)));
     end = upward ? b : a;
     p = upward ? field.up(p) : field.down(p);
@@ -67,10 +78,9 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
     const std::int32_t v = fan_[seed], begin = s.out[v];
     std::int32_t best_up = -1, best_down = -1;
     for (std::int32_t g = begin;;) {
-      if (s.weight[g] > 0) {
-        if (field.rises(g) && (best_up < 0 || field.flux(g) > field.flux(best_up))) best_up = g;
-        if (!field.rises(g) && (best_down < 0 || field.flux(s.twin[g]) > field.flux(best_down))) best_down = s.twin[g];
-      }
+      if (carries(field, g) && (best_up < 0 || field.flux(g) > field.flux(best_up))) best_up = g;
+      if (carries(field, s.twin[g]) && (best_down < 0 || field.flux(s.twin[g]) > field.flux(best_down)))
+        best_down = s.twin[g];
       g = s.turn_left(g);
       if (g == begin) break;
     }
@@ -91,7 +101,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
   }
   if (!seeds.empty()) return out;
 
-  // minima and what flows out of each
+  // minima, those on plateaus too, and what flows out of each
   struct Source {
     std::int32_t vertex;
     double flux;
@@ -103,7 +113,8 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
     double flux = 0;
     bool minimum = true;
     for (std::int32_t g = begin; minimum;) {
-      if (s.weight[g] > 0) minimum = field.rises(g), flux += field.flux(g);
+      minimum = !carries(field, s.twin[g]);
+      if (carries(field, g)) flux += field.flux(g);
       g = s.turn_left(g);
       if (g == begin) break;
     }
@@ -119,7 +130,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
     double sum = 0;
     std::int64_t k = 0;
     for (std::int32_t g = begin; k < count;) {
-      const double f = s.weight[g] > 0 ? field.flux(g) : 0.0;
+      const double f = carries(field, g) ? field.flux(g) : 0.0;
       // offsets grow clockwise around a source, as on every outflow
       for (; k < count && source.flux * (static_cast<double>(k) + 0.5) / static_cast<double>(count) <= sum + f; ++k) {
         const double offset = source.flux * (static_cast<double>(k) + 0.5) / static_cast<double>(count) - sum;

@@ -274,7 +274,7 @@ class Builder {
     if (a == none || b == none) return true;
     if (a == b) return true;
     std::int32_t m = out_.nodes[a].next;
-    while (m != a && (ended_[m] || out_.nodes[m].up == none)) m = out_.nodes[m].next;
+    while (m != a && ended_[m]) m = out_.nodes[m].next;  // every other line goes up, if not to this ring
     return m != b;
   }
 

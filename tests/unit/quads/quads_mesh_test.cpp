@@ -1,0 +1,244 @@
+// Quad meshes: valid on every surface, few irregular places, even, and near to what they were made from.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "assets/creature.h"
+#include "assets/shapes.h"
+#include "common/mesh_file.h"
+#include "remesh/capture.h"
+#include "remesh/quads.h"
+#include "support/meshes.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace hf;
+
+hf_test::PlainMesh plain(const samples::ShapeMesh& shape) { return {shape.positions, shape.triangles}; }
+
+QuadResult make(const std::shared_ptr<const Core>& core, bool uniform, double edge_length = 0.022) {
+  QuadOptions options;
+  options.core = core, options.uniform = uniform, options.edge_length = edge_length;
+  return make_quads(options);
+}
+
+// The oracle, apart from the library's own check: counted from the faces alone.
+void expect_valid(const Core& core, const QuadResult& result, const std::string& what) {
+  const QuadMesh& mesh = result.mesh;
+  std::set<std::pair<std::int32_t, std::int32_t>> directed;
+  std::set<std::int32_t> used;
+  for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+    std::set<std::int32_t> corners;
+    ASSERT_GE(mesh.size(f), 3) << what;
+    for (std::int32_t k = 0; k < mesh.size(f); ++k) {
+      const std::int32_t a = mesh.corner[mesh.face_start[f] + k],
+                         b = mesh.corner[mesh.face_start[f] + (k + 1) % mesh.size(f)];
+      ASSERT_TRUE(corners.insert(a).second) << what << ": face " << f << " repeats corner " << a;
+      ASSERT_TRUE(directed.insert({a, b}).second) << what << ": edge " << a << " -> " << b << " twice";
+      used.insert(a);
+    }
+  }
+  std::int64_t edges = 0, borders = 0;
+  for (const auto& [a, b] : directed) {
+    const bool inner = directed.count({b, a}) > 0;
+    edges += inner ? 1 : 2, borders += inner ? 0 : 1;
+  }
+  ASSERT_EQ(static_cast<std::int32_t>(used.size()), mesh.position.size()) << what;
+  const std::int64_t surface =
+      std::int64_t{core.mesh.vertex_count()} - core.topology.edge_count() + core.mesh.triangle_count();
+  EXPECT_EQ(mesh.position.size() - edges / 2 + mesh.face_count(), surface) << what;
+  EXPECT_EQ(borders > 0, core.mesh.report.boundary_edge_count > 0) << what;
+  // every vertex is in its triangle, and where its weights say
+  for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
+    const SurfacePoint& point = mesh.location[v];
+    Vec3 p;
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_GE(point.weight[k], -1e-12) << what;
+      sum += point.weight[k];
+      p = p + point.weight[k] * core.mesh.positions[static_cast<std::size_t>(core.mesh.triangle(point.triangle)[k])];
+    }
+    ASSERT_NEAR(sum, 1, 1e-9) << what;
+    ASSERT_LT(norm(p - mesh.position[v]), 1e-6) << what;
+  }
+}
+
+double share(std::int32_t part, std::int32_t whole) { return static_cast<double>(part) / whole; }
+
+struct Edges {
+  double low, high;  // 5th and 95th percentile over the edge length
+};
+Edges edges_of(const QuadMesh& mesh, double edge_length) {
+  std::vector<double> lengths;
+  for (std::int32_t f = 0; f < mesh.face_count(); ++f)
+    for (std::int32_t k = 0; k < mesh.size(f); ++k)
+      lengths.push_back(norm(mesh.position[mesh.corner[mesh.face_start[f] + (k + 1) % mesh.size(f)]] -
+                             mesh.position[mesh.corner[mesh.face_start[f] + k]]) /
+                        edge_length);
+  std::sort(lengths.begin(), lengths.end());
+  return {lengths[lengths.size() / 20], lengths[lengths.size() - lengths.size() / 20 - 1]};
+}
+
+TEST(Quads, OfASphereAndATorusAreAllQuadsAfterSplitting) {
+  for (const bool uniform : {false, true}) {
+    const auto sphere = hf_test::make_core(plain(samples::sphere(24)));
+    const QuadResult on_sphere = make(sphere, uniform);
+    expect_valid(*sphere, on_sphere, "sphere");
+    EXPECT_EQ(on_sphere.mesh.quad_count(), on_sphere.mesh.face_count());
+    const auto torus = hf_test::make_core(plain(samples::jittered_torus(80, 60)));
+    const QuadResult on_torus = make(torus, uniform);
+    expect_valid(*torus, on_torus, "torus");
+    EXPECT_GE(share(on_torus.mesh.quad_count(), on_torus.mesh.face_count()), 0.997);
+  }
+}
+
+TEST(Quads, PureIrregularPlacesAreSitesAndSaddlesAndTheirNumbersAreTheory) {
+  const auto core = hf_test::make_core(plain(samples::cactus(6000)));
+  const QuadResult result = make(core, false);
+  expect_valid(*core, result, "cactus");
+  EXPECT_EQ(result.extra_extrema, 0);
+  EXPECT_EQ(result.saddles, static_cast<std::int32_t>(result.sites.size()) - 2);
+  EXPECT_LT(result.imbalance, 1e-9);
+  EXPECT_LE(result.raw_faces - result.raw_quads, static_cast<std::int32_t>(result.sites.size()) + 3 * result.saddles);
+  EXPECT_EQ(result.mesh.quad_count(), result.mesh.face_count());
+}
+
+// Nodes come and go in pairs, and the odd one of a ring above a saddle stands in the gap that faces the saddle.
+TEST(Quads, EveryPolygonHasAnEvenNumberOfCorners) {
+  for (const char* name : {"biped", "bull"}) {
+    const auto core = hf_test::make_core(plain(samples::welded_surface(samples::make_creature(name, 6000))));
+    for (const bool uniform : {false, true}) {
+      QuadOptions options;
+      options.core = core, options.uniform = uniform, options.split = false, options.relax = 0;
+      const QuadResult result = make_quads(options);
+      for (std::int32_t f = 0; f < result.mesh.face_count(); ++f) EXPECT_EQ(result.mesh.size(f) % 2, 0) << name;
+    }
+  }
+}
+
+TEST(Quads, OpenBordersAreFollowedAndComponentsStayApart) {
+  hf_test::PlainMesh mesh = plain(samples::bumpy_plane(40, 40));
+  const hf_test::PlainMesh other = plain(samples::sphere(12));
+  const std::uint32_t base = mesh.vertex_count();
+  for (std::size_t i = 0; i < other.positions.size(); ++i)
+    mesh.positions.push_back(other.positions[i] + (i % 3 == 1 ? 3.0 : 0.0));
+  for (const std::uint32_t v : other.triangles) mesh.triangles.push_back(base + v);
+  const auto core = hf_test::make_core(mesh);
+  for (const bool uniform : {false, true}) {
+    const QuadResult result = make(core, uniform, 0.03);
+    expect_valid(*core, result, "plane and sphere");
+    // border vertices lie on the border
+    std::map<std::int32_t, bool> rim;
+    for (std::int32_t e = 0; e < core->topology.edge_count(); ++e) {
+      const std::size_t i = static_cast<std::size_t>(e);
+      if (core->topology.edge_triangle_start[i + 1] - core->topology.edge_triangle_start[i] == 1)
+        rim[core->topology.first(e)] = rim[core->topology.second(e)] = true;
+    }
+    std::int32_t on_border = 0;
+    for (std::int32_t v = 0; v < result.mesh.position.size(); ++v) {
+      if (!result.mesh.border[v]) continue;
+      ++on_border;
+      for (int k = 0; k < 3; ++k) {
+        const std::int32_t corner = core->mesh.triangle(result.mesh.location[v].triangle)[k];
+        EXPECT_TRUE(result.mesh.location[v].weight[k] <= 1e-9 || rim.count(corner)) << corner;
+      }
+    }
+    EXPECT_GT(on_border, 20);
+  }
+}
+
+TEST(Quads, OfTheCreaturesAreValidEvenAndNear) {
+  for (const char* name : {"biped", "horse", "bull"}) {
+    const auto core = hf_test::make_core(plain(samples::welded_surface(samples::make_creature(name, 6000))));
+    for (const bool uniform : {false, true}) {
+      const QuadResult result = make(core, uniform);
+      const std::string what = std::string(name) + (uniform ? ", uniform" : ", pure");
+      expect_valid(*core, result, what);
+      const double after = share(result.mesh.quad_count(), result.mesh.face_count());
+      if (uniform) {
+        EXPECT_GE(after, 0.91) << what;
+        const Edges edges = edges_of(result.mesh, 0.022);
+        EXPECT_GE(edges.low, 0.5) << what;
+        EXPECT_LE(edges.high, 2.1) << what;
+      } else {
+        EXPECT_GE(share(result.raw_quads, result.raw_faces), 0.985) << what;
+        EXPECT_GE(after, 0.997) << what;
+      }
+    }
+  }
+}
+
+TEST(Quads, OfTheSharedMeshesAreValid) {
+  const char* data = std::getenv("HF_SHARED_DATA");
+  const fs::path folder = (data ? fs::path(data) : fs::path(HF_SOURCE_DIR) / ".." / "shared" / "data") / "meshes";
+  if (!fs::exists(folder)) GTEST_SKIP() << "the shared data is not there";
+  for (const char* name : {"spot.obj", "cat_low_resolution.obj", "hand_closed.obj", "cgal_knot1.off", "skull.obj",
+                           "cgal_elephant.off", "boot.obj", "cgal_blobby_3cc.off", "bunny_35k_holes_isolated.obj"}) {
+    const samples::SurfaceMesh file = samples::read_mesh_file(folder / name);
+    hf_test::PlainMesh mesh;
+    for (const glm::dvec3& p : file.positions) mesh.positions.insert(mesh.positions.end(), {p.x, p.y, p.z});
+    mesh.triangles = file.triangles;
+    const auto core = hf_test::make_core(mesh);
+    for (const bool uniform : {false, true}) {
+      const QuadResult result = make(core, uniform);
+      const std::string what = std::string(name) + (uniform ? ", uniform" : ", pure");
+      expect_valid(*core, result, what);
+      const double after = share(result.mesh.quad_count(), result.mesh.face_count());
+      EXPECT_GE(after, uniform ? 0.91 : 0.997) << what;
+      EXPECT_GE(share(result.raw_quads, result.raw_faces), uniform ? 0.85 : 0.985) << what;
+    }
+  }
+}
+
+TEST(Quads, TheSameFromAnyNumberOfThreads) {
+  const hf_test::PlainMesh mesh = plain(samples::cactus(3000));
+  const QuadResult one = make(hf_test::make_core(mesh, 1), true), four = make(hf_test::make_core(mesh, 4), true);
+  ASSERT_EQ(one.mesh.position.size(), four.mesh.position.size());
+  for (std::int32_t v = 0; v < one.mesh.position.size(); ++v)
+    EXPECT_EQ(norm(one.mesh.position[v] - four.mesh.position[v]), 0);
+}
+
+TEST(Relax, WalksStraightOverEdgesAndStopsAtABorder) {
+  const auto core = hf_test::make_core(hf_test::grid(10, 10, 1, 0.3));
+  const FluxSurface s = FluxSurface::make(core->mesh, core->topology, 1, *core->memory);
+  SurfacePoint start;
+  start.triangle = 101, start.weight[0] = 0.5, start.weight[1] = 0.3, start.weight[2] = 0.2;
+  const Vec3 p = position_of(s, start), way{0.21, -0.13, 0.7};  // what points out of the plane is left out
+  const Vec3 q = position_of(s, walk_surface(s, start, way));
+  EXPECT_NEAR(q.x - p.x, 0.21, 1e-12);
+  EXPECT_NEAR(q.y - p.y, -0.13, 1e-12);
+  const Vec3 end = position_of(s, walk_surface(s, start, {5, 0, 0}));
+  double border = -1;
+  for (const Vec3& v : core->mesh.positions) border = std::max(border, v.x);
+  EXPECT_NEAR(end.x, border, 1e-9);
+  EXPECT_NEAR(end.y, p.y, 1e-9);
+}
+
+TEST(NearestTriangle, AgreesWithTryingThemAll) {
+  const auto core = hf_test::make_core(plain(samples::cactus(800)));
+  Memory& memory = *core->memory;
+  Table<Vec3> positions(memory);
+  Table<std::int32_t> corners(memory), one(memory);
+  for (const Vec3& p : core->mesh.positions) positions.push_back(p);
+  for (const std::int32_t v : core->mesh.corners) corners.push_back(v);
+  const NearestTriangle tree(positions, corners, memory);
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const Vec3 p{samples::hash_to_unit(1, i) - 0.5, samples::hash_to_unit(2, i) - 0.5,
+                 samples::hash_to_unit(3, i) - 0.5};
+    double least = 1e300;
+    for (std::int32_t t = 0; 3 * t < corners.size(); ++t) {
+      one.clear();
+      for (std::int32_t k = 0; k < 3; ++k) one.push_back(corners[3 * t + k]);
+      least = std::min(least, NearestTriangle(positions, one, memory).find(p).squared);
+    }
+    EXPECT_NEAR(tree.find(p).squared, least, 1e-15);
+  }
+}
+
+}  // namespace
