@@ -6,7 +6,7 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 library=$(readlink -f "$1") scratch=$2
 builder=
 for python in /usr/bin/python3 python3; do
-  "$python" -c 'import pip, setuptools, sys; sys.exit(int(setuptools.__version__.split(".")[0]) < 61)' 2>/dev/null && builder=$python && break
+  "$python" -c 'import setuptools, pip, sys; sys.exit(int(setuptools.__version__.split(".")[0]) < 61)' 2>/dev/null && builder=$python && break
 done
 [ -n "$builder" ] || { echo "skipped: no Python with pip and setuptools >= 61 here"; exit 77; }
 user=
