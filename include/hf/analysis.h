@@ -36,7 +36,8 @@ enum {
 /* Writes level_count levels (1 to 1,000,000), ascending. With A(c) the area where the field is below c and L(c) the
  * length of the line of level c, both exact for the piecewise linear field: AREA takes equal steps of A, LENGTH equal
  * steps of the integral of A'(c) / L(c) dc (on a cylinder: of the height; on a sphere: of the distance from the pole),
- * so that rings around point sites are evenly spaced where equal values crowd. Results: HF_OK,
+ * so that rings around point sites are evenly spaced where equal values crowd; where the field is flat to 1e-9 of its
+ * range there are no lines, and LENGTH leaves that out. Results: HF_OK,
  * HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT (spacing,
  * level_count; the field is constant), HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_EMPTY (no triangle has three
  * values), HF_ERROR_TOO_SMALL (stride), HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread safety: reads `solver`. Since

@@ -38,7 +38,8 @@ typedef struct hf_pose_desc {
 
 /* Creates a pose without handles. desc: NULL for defaults. *out_pose is set to NULL first.
  * Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT,
- * HF_ERROR_UNSUPPORTED (the solver's engine is not HF_ENGINE_GREEN), HF_ERROR_OUT_OF_MEMORY. Thread safety: reads
+ * HF_ERROR_UNSUPPORTED (the solver's engine is not HF_ENGINE_GREEN, or its fields are bi-harmonic, which overshoot their
+ * sites), HF_ERROR_OUT_OF_MEMORY. Thread safety: reads
  * `solver`. Since 0.1. */
 HF_API hf_result hf_pose_create(hf_solver solver, const hf_pose_desc* desc, hf_pose* out_pose);
 
@@ -165,9 +166,8 @@ typedef struct hf_deform_info {
  * nothing but the surface below and their own transforms.
  * out_info: NULL, or a struct with struct_size set. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER
  * (desc, or no output at all), HF_ERROR_INVALID_DESC, HF_ERROR_TOO_SMALL, HF_ERROR_EMPTY (no handle),
- * HF_ERROR_OUT_OF_RANGE (the range), HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED (refine with a bi-harmonic
- * solver), HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. State after failure: unchanged. Thread safety:
- * changes `pose`. Since 0.1. */
+ * HF_ERROR_OUT_OF_RANGE (the range), HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. State after
+ * failure: unchanged. Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_deform(hf_pose pose, const hf_deform_desc* desc, hf_deform_info* out_info);
 
 /* A pose or a transfer (hf/transfer.h) as a skin for linear blend skinning: clusters as joints, with their motion in

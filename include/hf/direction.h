@@ -57,6 +57,12 @@ typedef struct hf_direction_desc {
  * After a failure nothing exists. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_direction_create(hf_solver solver, const hf_direction_desc* desc, hf_direction* out_direction);
 
+/* Makes a direction object that shares connection and factor with this one and has its own copy of the constraints,
+ * without the undo stack: many sets of constraints, many threads on one immutable factor. Costs the constraints only.
+ * *out_direction is set to NULL first. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER,
+ * HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread safety: reads `direction`. Since 0.1. */
+HF_API hf_result hf_direction_clone(hf_direction direction, hf_direction* out_direction);
+
 /* Destroys a direction object. NULL, stale and foreign handles are ignored. Thread safety: not while another thread uses
  * this handle (that call is finished first, safely). Since 0.1. */
 HF_API void hf_direction_destroy(hf_direction direction);
@@ -95,6 +101,17 @@ HF_API hf_result hf_direction_set_vectors(hf_direction direction, uint32_t site_
  * `direction`. Since 0.1. */
 HF_API hf_result hf_direction_rotate_sites(hf_direction direction, uint32_t site_count, const uint32_t* sites,
                                            const double* angles);
+
+/* Keeps the present constraints on the undo stack (at most 256 are kept; the oldest goes first). Costs the constraints,
+ * shared parts are not copied. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread
+ * safety: changes `direction`. Since 0.1. */
+HF_API hf_result hf_direction_record(hf_direction direction);
+/* Goes back to the last record, numbers of constraints included; hf_direction_redo comes back. The field afterwards is
+ * the same bits as it was at the record. Results: HF_OK, HF_ERROR_NO_RECORD, HF_ERROR_INVALID_HANDLE,
+ * HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. After a failure nothing has changed. Thread safety: changes `direction`. Since
+ * 0.1. */
+HF_API hf_result hf_direction_undo(hf_direction direction);
+HF_API hf_result hf_direction_redo(hf_direction direction);
 
 /* Number of constraints; 0 for an invalid handle. Thread safety: any thread. Since 0.1. */
 HF_API uint32_t hf_direction_get_site_count(hf_direction direction);

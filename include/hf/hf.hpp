@@ -216,6 +216,14 @@ class Direction {
     check(hf_direction_create(solver.get(), &desc, &raw));
     handle_ = Handle<hf_direction, hf_direction_destroy>(raw);
   }
+  // Shares the factor; with the same constraints.
+  Direction clone() const {
+    hf_direction raw = nullptr;
+    check(hf_direction_clone(get(), &raw));
+    Direction made;
+    made.handle_ = Handle<hf_direction, hf_direction_destroy>(raw), made.vertices_ = vertices_;
+    return made;
+  }
   hf_direction get() const noexcept { return handle_.get(); }
   std::vector<uint32_t> add_sites(const std::vector<uint32_t>& vertices, const std::vector<double>& vectors) {
     need(vectors.size(), vertices.size());
@@ -232,6 +240,9 @@ class Direction {
     need(vectors.size(), sites.size());
     check(hf_direction_set_vectors(get(), size(sites), sites.data(), vectors.data()));
   }
+  void record() { check(hf_direction_record(get())); }
+  void undo() { check(hf_direction_undo(get())); }
+  void redo() { check(hf_direction_redo(get())); }
   uint32_t site_count() const noexcept { return hf_direction_get_site_count(get()); }
   std::vector<float> solve(hf_solve_info* info = nullptr) const {
     std::vector<float> vectors(size_t{vertices_} * 3);
@@ -251,6 +262,7 @@ class Direction {
   static void need(size_t numbers, size_t sites) {
     if (numbers != 3 * sites) throw std::invalid_argument("vectors: three numbers for each site are needed");
   }
+  Direction() = default;
   Handle<hf_direction, hf_direction_destroy> handle_;
   uint32_t vertices_ = 0;
 };

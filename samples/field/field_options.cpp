@@ -19,7 +19,7 @@ const char* const field_usage =
     "  STIFFNESS makes a soft site (relative to the mean diagonal); without it the site is exact.\n"
     "  --kind NAME        harmonic (default), biharmonic, vector (tangent vectors by components), direction (by "
     "parallel\n"
-    "                     transport; sites at vertices, no undo; singularities are listed)\n"
+    "                     transport; sites at vertices; singularities are listed)\n"
     "  --script FILE      edits, one a line: add PLACE=VALUE ..., remove PLACE ..., move PLACE PLACE ..., set "
     "PLACE=VALUE ..., undo, redo\n"
     "  --extremities [poisson|geodesic]   lists the tips of the surface; without other sites they become the sites\n"

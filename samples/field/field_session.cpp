@@ -101,8 +101,6 @@ Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
 }
 
 void Session::change_directions(const Edit& edit) {
-  if (edit.kind == Edit::Kind::undo || edit.kind == Edit::Kind::redo)
-    throw std::runtime_error("direction fields have no " + edit.text);
   std::vector<uint32_t> vertices, numbers;
   std::vector<double> vectors;
   for (const SiteArgument& site : edit.sites) {
@@ -143,22 +141,24 @@ std::vector<hf_singularity> Session::singularities() const {
 }
 
 void Session::apply(const Edit& edit) {
-  if (direction_) return change_directions(edit);
   if (edit.kind == Edit::Kind::undo || edit.kind == Edit::Kind::redo) {
     const bool undo = edit.kind == Edit::Kind::undo;
-    check(undo ? hf_undo(solver_) : hf_redo(solver_));
+    if (direction_)
+      check(undo ? hf_direction_undo(direction_) : hf_direction_redo(direction_));
+    else
+      check(undo ? hf_undo(solver_) : hf_redo(solver_));
     auto &from = undo ? undone_from_ : redone_from_, &to = undo ? redone_from_ : undone_from_;
     to.push_back(sites_);
     sites_ = from.back();
     from.pop_back();
     return;
   }
-  check(hf_record(solver_));
+  check(direction_ ? hf_direction_record(direction_) : hf_record(solver_));
   const auto before = sites_;
   try {
-    change(edit);
+    direction_ ? change_directions(edit) : change(edit);
   } catch (...) {
-    hf_undo(solver_);  // forgets the record; the failed edit has changed nothing
+    direction_ ? hf_direction_undo(direction_) : hf_undo(solver_);  // forgets the record; the failed edit has changed nothing
     throw;
   }
   undone_from_.push_back(before);

@@ -19,6 +19,13 @@ struct DirectionObject final : Object {
         memory(solver.memory),
         field(solver.field.shared_core(), degree, limit),
         given_count(solver.given_count, memory.get()) {}
+  DirectionObject(const DirectionObject& other)
+      : Object(Kind::direction),
+        site_limit(other.site_limit),
+        memory(other.memory),
+        field(other.field),
+        given_count(other.given_count, memory.get()),
+        site_count(other.field.count()) {}
   const std::uint32_t site_limit;
   std::shared_ptr<Memory> memory;  // outlives everything below
   DirectionField field;
@@ -200,6 +207,32 @@ hf_result hf_direction_create(hf_solver handle, const hf_direction_desc* given, 
         solver->memory, *solver, static_cast<std::int32_t>(desc.degree ? desc.degree : 1),
         desc.site_limit ? desc.site_limit : 100000u)));
   });
+}
+
+hf_result hf_direction_clone(hf_direction handle, hf_direction* out_direction) {
+  return guarded("hf_direction_clone", [&] {
+    require(out_direction, "out_direction");
+    *out_direction = nullptr;
+    const auto direction = object_of(handle);
+    const Reading reading(*direction);
+    *out_direction =
+        reinterpret_cast<hf_direction>(insert(make_owner_in<DirectionObject>(direction->memory, *direction)));
+  });
+}
+
+hf_result hf_direction_record(hf_direction handle) {
+  return guarded("hf_direction_record",
+                 [&] { change(handle, [](DirectionObject& direction) { direction.field.record(); }); });
+}
+
+hf_result hf_direction_undo(hf_direction handle) {
+  return guarded("hf_direction_undo",
+                 [&] { change(handle, [](DirectionObject& direction) { direction.field.undo(); }); });
+}
+
+hf_result hf_direction_redo(hf_direction handle) {
+  return guarded("hf_direction_redo",
+                 [&] { change(handle, [](DirectionObject& direction) { direction.field.redo(); }); });
 }
 
 void hf_direction_destroy(hf_direction direction) {

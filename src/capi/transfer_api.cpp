@@ -51,6 +51,9 @@ TransferOptions read_options(const hf_transfer_desc* given) {
 
 void check_engine(const SolverObject& solver, std::uint32_t index) {
   if (solver.field.engine().kind() != EngineKind::green) fail(HF_ERROR_UNSUPPORTED, index, "transfers need solvers with HF_ENGINE_GREEN");
+  if (solver.field.core().refinements > 0)
+    fail(HF_ERROR_UNSUPPORTED, index,
+         "transfers need fields that keep to the range of their sites; make the solvers with HF_FIELD_HARMONIC");
 }
 
 }  // namespace

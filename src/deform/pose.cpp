@@ -70,6 +70,9 @@ Pose::Pose(std::shared_ptr<const Core> core, const PoseOptions& options, std::sh
 
 std::shared_ptr<Pose> Pose::make(std::shared_ptr<const Core> core, const PoseOptions& options) {
   if (!core->factor) fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "poses need a solver made with HF_ENGINE_GREEN");
+  if (core->refinements > 0)
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+         "poses need fields that keep to the range of their sites; make a solver with HF_FIELD_HARMONIC for them");
   const PoseOptions filled = checked(options);
   Memory& memory = *core->memory;
   return make_owner_in<Pose>(core->memory, core, filled, make_shared_in<Rest>(memory, *core, memory));

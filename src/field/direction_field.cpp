@@ -12,6 +12,7 @@ using Index = std::int32_t;
 using Complex = std::complex<double>;
 std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
+constexpr std::size_t most_records = 256;
 constexpr double two_pi = 6.283185307179586476925286766559;
 
 // |z| e^{i n phi}
@@ -34,7 +35,49 @@ double wrapped(double angle) noexcept { return angle - two_pi * std::nearbyint(a
 }  // namespace
 
 DirectionField::DirectionField(std::shared_ptr<const Core> core, std::int32_t degree, std::uint32_t site_limit)
-    : solver_(std::move(core), degree), site_limit_(site_limit), constraints_(solver_.core().memory.get()) {}
+    : solver_(std::move(core), degree),
+      site_limit_(site_limit),
+      constraints_(solver_.core().memory.get()),
+      undo_(solver_.core().memory.get()),
+      redo_(solver_.core().memory.get()) {}
+
+DirectionField::DirectionField(const DirectionField& other)
+    : solver_(other.solver_),
+      site_limit_(other.site_limit_),
+      constraints_(other.constraints_, &other.memory()),
+      count_(other.count_),
+      undo_(&other.memory()),
+      redo_(&other.memory()) {}
+
+void DirectionField::record() {
+  if (undo_.size() == most_records) undo_.erase(undo_.begin());
+  undo_.emplace_back(*this);
+  redo_.clear();
+}
+
+void DirectionField::step(Vector<Record>& from, Vector<Record>& to, const char* nothing) {
+  if (from.empty()) fail(HF_ERROR_NO_RECORD, HF_NO_INDEX, "%s", nothing);
+  to.emplace_back(*this);
+  try {
+    solver_.restore(*from.back().state);
+  } catch (...) {
+    to.pop_back();
+    throw;
+  }
+  constraints_.swap(from.back().constraints);
+  count_ = from.back().count;
+  from.pop_back();
+}
+
+void DirectionField::undo() {
+  step(undo_, redo_, "nothing is recorded; call hf_direction_record before the edits to be undone");
+}
+void DirectionField::redo() { step(redo_, undo_, "nothing was undone since the last edit"); }
+
+void DirectionField::accept(Vector<DirectionConstraint>& next) noexcept {
+  constraints_.swap(next);
+  redo_.clear();
+}
 
 void DirectionField::check_site(const Vector<DirectionConstraint>& list, std::uint32_t position,
                                 std::uint32_t site) const {
@@ -108,7 +151,7 @@ void DirectionField::add(std::uint32_t count, const std::uint32_t* vertices, con
   DirectionSolver::Edit edit;
   edit.add = slots, edit.vertices = inner;
   solver_.edit(edit);
-  constraints_.swap(next);
+  accept(next);
   count_ += count;
   for (std::uint32_t i = 0; out_sites && i < count; ++i) out_sites[i] = static_cast<std::uint32_t>(slots[i]);
 }
@@ -123,7 +166,7 @@ void DirectionField::remove(std::uint32_t count, const std::uint32_t* sites) {
   DirectionSolver::Edit edit;
   edit.remove = slots;
   solver_.edit(edit);
-  constraints_.swap(next);
+  accept(next);
   count_ -= count;
 }
 
@@ -156,7 +199,7 @@ void DirectionField::move(std::uint32_t count, const std::uint32_t* sites, const
   DirectionSolver::Edit edit;
   edit.remove = slots, edit.add = slots, edit.vertices = inner;
   solver_.edit(edit);
-  constraints_.swap(next);
+  accept(next);
 }
 
 void DirectionField::set_vectors(std::uint32_t count, const std::uint32_t* sites, const double* vectors) {
@@ -165,7 +208,7 @@ void DirectionField::set_vectors(std::uint32_t count, const std::uint32_t* sites
     check_site(next, i, sites[i]);
     next[sites[i]].vector = projected(i, next[sites[i]].vertex, vectors + std::size_t{3} * i);
   }
-  constraints_.swap(next);
+  accept(next);
 }
 
 void DirectionField::rotate(std::uint32_t count, const std::uint32_t* sites, const double* angles) {
@@ -176,7 +219,7 @@ void DirectionField::rotate(std::uint32_t count, const std::uint32_t* sites, con
       fail(HF_ERROR_NON_FINITE, i, "entry %u of the list: the angle is not a finite number", i);
     next[sites[i]].vector *= std::polar(1.0, wrapped(angles[i]));
   }
-  constraints_.swap(next);
+  accept(next);
 }
 
 Vector<Complex> DirectionField::solved() const {

@@ -39,6 +39,14 @@ class DirectionField {
   void set_vectors(std::uint32_t count, const std::uint32_t* sites, const double* vectors);
   void rotate(std::uint32_t count, const std::uint32_t* sites, const double* angles);
 
+  // Shares the system; with the constraints, without the undo stack.
+  DirectionField(const DirectionField& other);
+  DirectionField& operator=(const DirectionField&) = delete;
+  // As ScalarField: undo goes back to the last record, redo returns; the same bits. Throw HF_ERROR_NO_RECORD.
+  void record();
+  void undo();
+  void redo();
+
   std::uint32_t count() const noexcept { return count_; }
   Span<const DirectionConstraint> constraints() const noexcept { return constraints_; }
   const DirectionSolver& solver() const noexcept { return solver_; }
@@ -48,6 +56,15 @@ class DirectionField {
   Vector<Singularity> singularities() const;  // by triangle
 
  private:
+  struct Record {
+    Record(const DirectionField& field)
+        : constraints(field.constraints_, &field.memory()), count(field.count_), state(field.solver_.snapshot()) {}
+    Vector<DirectionConstraint> constraints;
+    std::uint32_t count;
+    std::shared_ptr<const DirectionSolver::State> state;
+  };
+  void step(Vector<Record>& from, Vector<Record>& to, const char* nothing);
+  void accept(Vector<DirectionConstraint>& next) noexcept;
   void check_site(const Vector<DirectionConstraint>& list, std::uint32_t position, std::uint32_t site) const;
   std::int32_t locate(std::uint32_t position, std::uint32_t vertex) const;
   std::complex<double> projected(std::uint32_t position, std::int32_t vertex, const double* vector) const;
@@ -59,6 +76,7 @@ class DirectionField {
   std::uint32_t site_limit_;
   Vector<DirectionConstraint> constraints_;  // by slot
   std::uint32_t count_ = 0;
+  Vector<Record> undo_, redo_;
 };
 
 }  // namespace hf

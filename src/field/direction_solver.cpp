@@ -4,25 +4,14 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/timer.h"
 #include "engine/site_cost.h"
+#include "field/direction_columns.h"
 
 namespace hf {
 namespace {
 
 using Index = std::int32_t;
 std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
-
-struct Columns {
-  explicit Columns(Memory& memory) : start(1, 0, &memory), row(&memory), value(&memory) {}
-  void append(Index unknown) {
-    row.push_back(unknown), value.push_back(1.0);
-    start.push_back(static_cast<Index>(row.size()));
-  }
-  SparseColumns view() const noexcept { return {start, row, value}; }
-  Vector<Index> start, row;
-  Vector<double> value;
-};
 
 }  // namespace
 
@@ -31,122 +20,23 @@ void DirectionSolver::State::swap(State& other) noexcept {
   std::swap(rows, other.rows), eliminated.swap(other.eliminated);
 }
 
-DirectionSolver::DirectionSolver(std::shared_ptr<const Core> core, std::int32_t degree)
-    : core_(std::move(core)),
-      degree_(degree),
-      connection_(Connection::make(core_->mesh, core_->topology, *core_->memory)),
-      matrix_(*core_->memory),
-      beta_(core_->memory.get()),
-      ground_groups_(core_->memory.get()),
-      ground_group_(core_->memory.get()),
-      ground_column_(core_->memory.get()),
-      ground_block_(core_->memory.get()),
-      state_(at(core_->mesh.component_count()), *core_->memory) {
-  Timer timer;
-  make_matrix();
-  operator_ms_ = timer.milliseconds();
-  make_grounds();
-}
-
-Index DirectionSolver::unknown(Index vertex, Index part) const noexcept {
-  return 2 * core_->factor->position()[at(vertex)] + part;
-}
-
-// Row and column pairs of the real 2 x 2 blocks: w I on the diagonal, -w R between neighbours, R the turn from column
-// to row.
-void DirectionSolver::make_matrix() {
-  const Topology& topology = core_->topology;
-  const std::size_t n = at(core_->size());
-  const Vector<double> weights =
-      edge_weights(core_->mesh, topology, OperatorKind::clamped, memory(), core_->jobs.get());
-  const Span<const Index> position = core_->factor->position(), order = core_->factor->order();
-  matrix_.column_start.resize(2 * n + 1);
-  matrix_.column_start[0] = 0;
-  for (std::size_t p = 0; p < n; ++p) {
-    const std::size_t v = at(order[p]);
-    const Index length = 2 * (topology.neighbour_start[v + 1] - topology.neighbour_start[v] + 1);
-    for (std::size_t part = 0; part < 2; ++part)
-      matrix_.column_start[2 * p + part + 1] = matrix_.column_start[2 * p + part] + length;
-  }
-  matrix_.row.resize(at(matrix_.column_start[2 * n])), matrix_.value.resize(matrix_.row.size());
-  constexpr std::size_t piece = 8192;
-  core_->jobs->for_each(static_cast<std::uint32_t>((n + piece - 1) / piece), [&](std::uint32_t strip) {
-    struct Neighbour {
-      Index position, vertex, edge;
-    };
-    Vector<Neighbour> ring(&memory());
-    for (std::size_t p = strip * piece; p < std::min(n, (strip + std::size_t{1}) * piece); ++p) {
-      const Index v = order[p];
-      ring.assign(1, Neighbour{static_cast<Index>(p), v, -1});
-      double sum = 0;
-      for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
-        const Index w = topology.neighbour[at(i)], e = topology.neighbour_edge[at(i)];
-        ring.push_back({position[at(w)], w, e}), sum += weights[at(e)];
-      }
-      std::sort(ring.begin(), ring.end(),
-                [](const Neighbour& a, const Neighbour& b) { return a.position < b.position; });
-      Index to[2] = {matrix_.column_start[2 * p], matrix_.column_start[2 * p + 1]};
-      for (const Neighbour& other : ring) {
-        double block[2][2] = {{sum, 0}, {0, sum}};  // [row part][column part]
-        if (other.edge >= 0) {
-          const double w = weights[at(other.edge)],
-                       turn = degree_ * connection_.turn(topology, other.edge, other.vertex);
-          block[0][0] = block[1][1] = -w * std::cos(turn);
-          block[1][0] = -w * std::sin(turn), block[0][1] = w * std::sin(turn);
-        }
-        for (std::size_t column = 0; column < 2; ++column) {
-          for (std::size_t row = 0; row < 2; ++row) {
-            matrix_.row[at(to[column])] = 2 * other.position + static_cast<Index>(row);
-            matrix_.value[at(to[column]++)] = block[row][column];
-          }
-        }
-      }
-    }
-  });
-}
-
-// Grounds, the factor of A, and the grounds' own paths with C.
-void DirectionSolver::make_grounds() {
-  const std::size_t components = core_->ground.size();
-  beta_.assign(components, 0.0);
-  Vector<double> count(components, 0.0, &memory());
-  const auto diagonal = [&](const SymmetricMatrix& a, Index u) {
-    const auto begin = a.row.begin() + a.column_start[at(u)], end = a.row.begin() + a.column_start[at(u) + 1];
-    return static_cast<std::size_t>(std::lower_bound(begin, end, u) - a.row.begin());
-  };
-  for (Index v = 0; v < core_->size(); ++v)
-    beta_[at(component(v))] += matrix_.value[diagonal(matrix_, unknown(v, 0))], count[at(component(v))] += 1;
-  SymmetricMatrix a(memory());
-  a.column_start.assign(matrix_.column_start.begin(), matrix_.column_start.end());
-  a.row.assign(matrix_.row.begin(), matrix_.row.end()), a.value.assign(matrix_.value.begin(), matrix_.value.end());
-  Columns columns(memory());
-  for (std::size_t c = 0; c < components; ++c) {
-    beta_[c] = beta_[c] > 0 ? beta_[c] / count[c] : 1.0;
-    for (Index part = 0; part < 2; ++part) {
-      a.value[diagonal(a, unknown(core_->ground[c], part))] += beta_[c];
-      columns.append(unknown(core_->ground[c], part));
-    }
-  }
-  FactorOptions options;
-  options.ordering = Ordering::natural;  // the unknowns stand in the order of the surface's factor
-  factor_ = Factor::make(a, {}, options, memory(), *core_->jobs);
+DirectionSolver::DirectionSolver(std::shared_ptr<const DirectionSystem> system)
+    : system_(std::move(system)), state_(system_->beta.size(), *system_->core->memory) {
   ++factorisations_;
-  ground_group_.resize(2 * components), ground_column_.resize(2 * components);
-  factor_->solve_paths(columns.view(), memory(), *core_->jobs, ground_groups_, ground_group_, ground_column_);
-  ground_block_.assign(4 * components, 0.0);
-  double tile[PathGroup::capacity * PathGroup::capacity];
-  for (std::size_t c = 0; c < components; ++c) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      for (std::size_t j = 0; j < 2; ++j) {
-        const PathGroup &p = *ground_groups_[at(ground_group_[2 * c + i])],
-                        &q = *ground_groups_[at(ground_group_[2 * c + j])];
-        factor_->gram(p, q, tile, PathGroup::capacity);
-        ground_block_[4 * c + 2 * i + j] =
-            tile[ground_column_[2 * c + i] * PathGroup::capacity + ground_column_[2 * c + j]] -
-            (i == j ? 1 / beta_[c] : 0.0);
-      }
-    }
-  }
+}
+
+DirectionSolver::DirectionSolver(const DirectionSolver& other)
+    : system_(other.system_), state_(other.state_, other.memory()) {
+  ++factorisations_;
+}
+
+std::shared_ptr<const DirectionSolver::State> DirectionSolver::snapshot() const {
+  return make_shared_in<State>(memory(), state_, memory());
+}
+
+void DirectionSolver::restore(const State& state) {
+  State next(state, memory());
+  state_.swap(next);
 }
 
 DirectionCounters DirectionSolver::counters() const noexcept {
@@ -174,7 +64,7 @@ void DirectionSolver::edit(const Edit& edit) {
   }
   double rows = 0;
   for (const Slot& slot : next.slots) rows += slot.vertex >= 0 ? 2 : 0;
-  const SiteCost cost(factor_->statistics());
+  const SiteCost cost(system_->factor->statistics());
   const double kept = was_eliminated ? 0.0 : static_cast<double>(next.rows);
   if (cost.dense_ns(kept, rows - kept) > 1.25 * cost.rebase_ns(0) ||
       (was_eliminated && cost.dense_ns(0, rows) > 0.5 * cost.rebase_ns(0))) {
@@ -214,7 +104,7 @@ void DirectionSolver::remove_rows(State& state, Span<const Index> slots) const {
     }
     const auto copy = make_shared_in<DenseBlock>(memory(), *block);
     copy->remove(rows);
-    if (copy->factorise(*core_->jobs) >= 0)
+    if (copy->factorise(*core().jobs) >= 0)
       fail(HF_ERROR_NOT_POSITIVE_DEFINITE, HF_NO_INDEX,
            "the constraints of component %d lost their factor; the weights are degenerate", c);
     block = copy;
@@ -262,13 +152,13 @@ void DirectionSolver::tidy_groups(State& state) const {
 }
 
 void DirectionSolver::add_paths(State& state, Span<const Index> slots) const {
-  Columns columns(memory());
+  UnitColumns columns(memory());
   for (const Index slot : slots) {
     for (Index part = 0; part < 2; ++part) columns.append(unknown(state.slots[at(slot)].vertex, part));
   }
   Vector<std::shared_ptr<const PathGroup>> groups(&memory());
   Vector<Index> group(2 * slots.size(), &memory()), column(2 * slots.size(), &memory());
-  factor_->solve_paths(columns.view(), memory(), *core_->jobs, groups, group, column);
+  system_->factor->solve_paths(columns.view(), memory(), *core().jobs, groups, group, column);
   const Index first = static_cast<Index>(state.groups.size());
   for (auto& paths : groups) {
     Group fresh;
@@ -308,19 +198,19 @@ void DirectionSolver::add_rows(State& state, Span<const Index> slots) const {
     start[i + 1] = start[i] + at(place) + 1;
   }
   Vector<double> values(start.back(), 0.0, &memory());
-  core_->jobs->for_each(static_cast<std::uint32_t>(state.groups.size() - first_fresh), [&](std::uint32_t piece) {
+  core().jobs->for_each(static_cast<std::uint32_t>(state.groups.size() - first_fresh), [&](std::uint32_t piece) {
     const std::size_t a = first_fresh + piece;
     const Group& mine = state.groups[a];
     double tile[PathGroup::capacity * PathGroup::capacity];
-    for (std::size_t b = 0; b < state.groups.size() + ground_groups_.size(); ++b) {
+    for (std::size_t b = 0; b < state.groups.size() + system_->ground_groups.size(); ++b) {
       const bool ground = b >= state.groups.size();
-      const PathGroup& other = ground ? *ground_groups_[b - state.groups.size()] : *state.groups[b].paths;
+      const PathGroup& other = ground ? *system_->ground_groups[b - state.groups.size()] : *state.groups[b].paths;
       // pairs of new groups from the later one's side for both, so that S is symmetric to the bit
       const bool transposed = !ground && b > a;
       if (transposed) {
-        factor_->gram(other, *mine.paths, tile, PathGroup::capacity);
+        system_->factor->gram(other, *mine.paths, tile, PathGroup::capacity);
       } else {
-        factor_->gram(*mine.paths, other, tile, PathGroup::capacity);
+        system_->factor->gram(*mine.paths, other, tile, PathGroup::capacity);
       }
       for (Index i = 0; i < mine.paths->count(); ++i) {
         if (mine.row[i] < 0) continue;
@@ -328,9 +218,9 @@ void DirectionSolver::add_rows(State& state, Span<const Index> slots) const {
         if (ground) {
           for (std::size_t part = 0; part < 2; ++part) {
             const std::size_t g = 2 * at(here.component) + part;
-            if (at(ground_group_[g]) == b - state.groups.size())
+            if (at(system_->ground_group[g]) == b - state.groups.size())
               state.slots[at(mine.row[i] / 2)].ground[mine.row[i] % 2][part] =
-                  tile[i * PathGroup::capacity + ground_column_[g]];
+                  tile[i * PathGroup::capacity + system_->ground_column[g]];
           }
           continue;
         }
@@ -355,7 +245,7 @@ void DirectionSolver::add_rows(State& state, Span<const Index> slots) const {
   }
   for (std::size_t c = 0; c < open.size(); ++c) {
     if (!open[c]) continue;
-    if (open[c]->factorise(*core_->jobs) >= 0)
+    if (open[c]->factorise(*core().jobs) >= 0)
       fail(HF_ERROR_NOT_POSITIVE_DEFINITE, HF_NO_INDEX,
            "the constraints of component %zu depend on each other; the weights are degenerate", c);
     state.blocks[c] = open[c];
@@ -366,7 +256,7 @@ void DirectionSolver::add_rows(State& state, Span<const Index> slots) const {
 void DirectionSolver::eliminate(State& state) const {
   state.groups.clear(), state.rows = 0;
   for (auto& block : state.blocks) block.reset();
-  Vector<std::uint8_t> gone(at(matrix_.size()), 0, &memory());
+  Vector<std::uint8_t> gone(at(system_->matrix.size()), 0, &memory());
   for (Slot& slot : state.slots) {
     if (slot.vertex < 0) continue;
     const Index vertex = slot.vertex;
@@ -375,17 +265,18 @@ void DirectionSolver::eliminate(State& state) const {
     for (Index part = 0; part < 2; ++part) gone[at(unknown(vertex, part))] = 1;
   }
   SymmetricMatrix a(memory());
-  a.column_start.assign(matrix_.column_start.begin(), matrix_.column_start.end());
-  a.row.assign(matrix_.row.begin(), matrix_.row.end()), a.value.assign(matrix_.value.begin(), matrix_.value.end());
+  a.column_start.assign(system_->matrix.column_start.begin(), system_->matrix.column_start.end());
+  a.row.assign(system_->matrix.row.begin(), system_->matrix.row.end()),
+      a.value.assign(system_->matrix.value.begin(), system_->matrix.value.end());
   for (std::size_t c = 0; c < state.count.size(); ++c) {
     if (state.count[c] > 0) continue;
     for (Index part = 0; part < 2; ++part) {
-      const Index u = unknown(core_->ground[c], part);
+      const Index u = unknown(core().ground[c], part);
       const auto begin = a.row.begin() + a.column_start[at(u)], end = a.row.begin() + a.column_start[at(u) + 1];
-      a.value[static_cast<std::size_t>(std::lower_bound(begin, end, u) - a.row.begin())] += beta_[c];
+      a.value[static_cast<std::size_t>(std::lower_bound(begin, end, u) - a.row.begin())] += system_->beta[c];
     }
   }
-  state.eliminated = factor_->refactor(a, gone, memory(), *core_->jobs);
+  state.eliminated = system_->factor->refactor(a, gone, memory(), *core().jobs);
   ++factorisations_;
 }
 
@@ -408,7 +299,7 @@ void DirectionSolver::solve_dense(Span<const std::complex<double>> values, doubl
     block->solve(x.data(), 3);
     double m[2][2], right[2] = {0, 0};
     for (std::size_t p = 0; p < 2; ++p) {
-      for (std::size_t q = 0; q < 2; ++q) m[p][q] = -ground_block_[4 * c + 2 * p + q];
+      for (std::size_t q = 0; q < 2; ++q) m[p][q] = -system_->ground_block[4 * c + 2 * p + q];
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
       for (std::size_t p = 0; p < 2; ++p) {
@@ -427,22 +318,22 @@ void DirectionSolver::solve_dense(Span<const std::complex<double>> values, doubl
   for (const Group& group : state_.groups) {
     if (group.live == 0) continue;
     for (Index i = 0; i < group.paths->count(); ++i) own[i] = group.row[i] < 0 ? 0.0 : lambda[at(group.row[i])];
-    factor_->combine(*group.paths, own, 1, z);
+    system_->factor->combine(*group.paths, own, 1, z);
   }
-  for (std::size_t g = 0; g < ground_groups_.size(); ++g) {
+  for (std::size_t g = 0; g < system_->ground_groups.size(); ++g) {
     std::fill(std::begin(own), std::end(own), 0.0);
     for (std::size_t i = 0; i < nu.size(); ++i) {
-      if (at(ground_group_[i]) == g) own[ground_column_[i]] = nu[i];
+      if (at(system_->ground_group[i]) == g) own[system_->ground_column[i]] = nu[i];
     }
-    factor_->combine(*ground_groups_[g], own, 1, z);
+    system_->factor->combine(*system_->ground_groups[g], own, 1, z);
   }
-  factor_->backward(z, 1, *core_->jobs);
+  system_->factor->backward(z, 1, *core().jobs);
   ++sweeps_;
 }
 
 void DirectionSolver::solve_eliminated(Span<const std::complex<double>> values, double* z) const {
-  const Span<const Index> row = factor_->position();
-  Vector<std::uint8_t> gone(at(matrix_.size()), 0, &memory());
+  const Span<const Index> row = system_->factor->position();
+  Vector<std::uint8_t> gone(at(system_->matrix.size()), 0, &memory());
   for (const Slot& slot : state_.slots) {
     if (slot.vertex >= 0) gone[at(unknown(slot.vertex, 0))] = gone[at(unknown(slot.vertex, 1))] = 1;
   }
@@ -450,26 +341,27 @@ void DirectionSolver::solve_eliminated(Span<const std::complex<double>> values, 
     for (Index part = 0; state_.slots[s].vertex >= 0 && part < 2; ++part) {
       const Index u = unknown(state_.slots[s].vertex, part);
       const double value = part ? values[s].imag() : values[s].real();
-      for (Index i = matrix_.column_start[at(u)]; i < matrix_.column_start[at(u) + 1]; ++i) {
-        if (!gone[at(matrix_.row[at(i)])]) z[at(row[at(matrix_.row[at(i)])])] -= matrix_.value[at(i)] * value;
+      for (Index i = system_->matrix.column_start[at(u)]; i < system_->matrix.column_start[at(u) + 1]; ++i) {
+        if (!gone[at(system_->matrix.row[at(i)])])
+          z[at(row[at(system_->matrix.row[at(i)])])] -= system_->matrix.value[at(i)] * value;
       }
     }
   }
-  state_.eliminated->forward(z, 1, *core_->jobs);
-  state_.eliminated->backward(z, 1, *core_->jobs);
+  state_.eliminated->forward(z, 1, *core().jobs);
+  state_.eliminated->backward(z, 1, *core().jobs);
   sweeps_ += 2;
 }
 
 void DirectionSolver::solve(Span<const std::complex<double>> values, std::complex<double>* field) const {
-  Workspace z(core_->workspaces, at(matrix_.size()));
-  std::fill_n(z.data(), at(matrix_.size()), 0.0);
+  Workspace z(core().workspaces, at(system_->matrix.size()));
+  std::fill_n(z.data(), at(system_->matrix.size()), 0.0);
   if (state_.eliminated) {
     solve_eliminated(values, z.data());
   } else {
     solve_dense(values, z.data());
   }
-  const Span<const Index> row = factor_->position();
-  for (Index v = 0; v < core_->size(); ++v) {
+  const Span<const Index> row = system_->factor->position();
+  for (Index v = 0; v < core().size(); ++v) {
     const bool reached = state_.count[at(component(v))] > 0;
     field[v] = reached ? std::complex<double>(z[at(row[at(unknown(v, 0))])], z[at(row[at(unknown(v, 1))])]) : 0.0;
   }

@@ -13,10 +13,11 @@
 //     [ N'  C ] [  nu  ] = [ 0 ],      u = P' G^-T (Y_w lambda + Y_g nu)
 //
 // S is definite and C - N' S^-1 N negative as soon as a component has a constraint. Unknowns are numbered in the order
-// of the surface's own factor, so that no ordering is computed. A constraint is two paths and two rows; a new value
-// only a dense solve and a backward sweep. Beyond some hundred constraints, when rows cost more than a factorisation,
-// the constrained vertices are eliminated instead and every change of places factorises again. Edits are all or
-// nothing.
+// of the surface's own factor where that is one of the same graph; where the surface's operator has many edges of its
+// own (intrinsic Delaunay on meshes that are not), the mesh's edges are ordered for themselves. A constraint is two
+// paths and two rows; a new value only a dense solve and a backward sweep. Beyond some hundred constraints, when rows
+// cost more than a factorisation, the constrained vertices are eliminated instead and every change of places factorises
+// again. Edits are all or nothing.
 #pragma once
 #include <atomic>
 
@@ -31,10 +32,43 @@ struct DirectionCounters {
   double bytes = 0;
 };
 
+// What all fields of one surface and degree share: connection, matrix, factor, and the paths of the grounds. Immutable.
+class DirectionSystem {
+ public:
+  // Throws what Factor::make does.
+  DirectionSystem(std::shared_ptr<const Core> core, std::int32_t degree);
+  std::int32_t unknown(std::int32_t vertex, std::int32_t part) const noexcept {
+    return 2 * position[static_cast<std::size_t>(vertex)] + part;
+  }
+
+  std::shared_ptr<const Core> core;  // first member: outlives what is allocated from its memory
+  std::int32_t degree;
+  Connection connection;
+  Vector<std::int32_t> position;         // of every vertex in the order of elimination
+  SymmetricMatrix matrix;                // K, unknowns 2 position + part
+  std::shared_ptr<const Factor> factor;  // of A
+  Vector<double> beta;                   // by component
+  Vector<std::shared_ptr<const PathGroup>> ground_groups;
+  Vector<std::int32_t> ground_group, ground_column;  // 2 component + part
+  Vector<double> ground_block;                       // C, 4 per component
+  double operator_ms = 0;
+
+ private:
+  void make_order();
+  void make_matrix();
+  void make_grounds();
+};
+
 class DirectionSolver {
  public:
   // degree >= 1: fields of vectors (1), lines (2), crosses (4). Throws what Factor::make does.
-  DirectionSolver(std::shared_ptr<const Core> core, std::int32_t degree);
+  DirectionSolver(std::shared_ptr<const Core> core, std::int32_t degree)
+      : DirectionSolver(make_shared_in<DirectionSystem>(*core->memory, core, degree)) {}
+  // Without constraints, on a system that others may share.
+  explicit DirectionSolver(std::shared_ptr<const DirectionSystem> system);
+  // Shares the system and, until they are edited, paths and dense blocks; with the same constraints.
+  DirectionSolver(const DirectionSolver& other);
+  DirectionSolver& operator=(const DirectionSolver&) = delete;
 
   // Frees slots and puts constraints at vertices into slots; a slot may stand in both.
   struct Edit {
@@ -45,16 +79,17 @@ class DirectionSolver {
   // without a constraint get 0.
   void solve(Span<const std::complex<double>> values, std::complex<double>* field) const;
 
-  const Core& core() const noexcept { return *core_; }
-  const Connection& connection() const noexcept { return connection_; }
-  const SymmetricMatrix& matrix() const noexcept { return matrix_; }  // K, unknowns 2 position + part
-  std::int32_t degree() const noexcept { return degree_; }
+  const Core& core() const noexcept { return *system_->core; }
+  const DirectionSystem& system() const noexcept { return *system_; }
+  const Connection& connection() const noexcept { return system_->connection; }
+  const SymmetricMatrix& matrix() const noexcept { return system_->matrix; }
+  std::int32_t degree() const noexcept { return system_->degree; }
   std::int32_t constraint_count(std::int32_t component) const noexcept {
     return state_.count[static_cast<std::size_t>(component)];
   }
   bool eliminates() const noexcept { return state_.eliminated != nullptr; }
-  const FactorStatistics& statistics() const noexcept { return factor_->statistics(); }
-  double operator_ms() const noexcept { return operator_ms_; }
+  const FactorStatistics& statistics() const noexcept { return system_->factor->statistics(); }
+  double operator_ms() const noexcept { return system_->operator_ms; }
   DirectionCounters counters() const noexcept;
 
  private:
@@ -69,6 +104,8 @@ class DirectionSolver {
     Index group[2] = {-1, -1}, column[2] = {-1, -1};
     double ground[2][2] = {{0, 0}, {0, 0}};  // rows of N
   };
+
+ public:
   struct State {
     State(std::size_t components, Memory& memory)
         : slots(&memory), groups(&memory), blocks(components, &memory), count(components, 0, &memory) {}
@@ -87,10 +124,14 @@ class DirectionSolver {
     Index rows = 0;
     std::shared_ptr<const Factor> eliminated;  // many constraints: a factor without their vertices
   };
-  void make_matrix();
-  void make_grounds();
-  Index unknown(Index vertex, Index part) const noexcept;
-  Index component(Index vertex) const noexcept { return core_->mesh.component[static_cast<std::size_t>(vertex)]; }
+
+  // The present constraints with their paths and dense blocks, all shared; going back to them gives the same bits.
+  std::shared_ptr<const State> snapshot() const;
+  void restore(const State& state);
+
+ private:
+  Index unknown(Index vertex, Index part) const noexcept { return system_->unknown(vertex, part); }
+  Index component(Index vertex) const noexcept { return core().mesh.component[static_cast<std::size_t>(vertex)]; }
   void remove_rows(State& state, Span<const Index> slots) const;
   void add_paths(State& state, Span<const Index> slots) const;
   void add_rows(State& state, Span<const Index> slots) const;
@@ -98,19 +139,10 @@ class DirectionSolver {
   void eliminate(State& state) const;
   void solve_dense(Span<const std::complex<double>> values, double* z) const;
   void solve_eliminated(Span<const std::complex<double>> values, double* z) const;
-  Memory& memory() const noexcept { return *core_->memory; }
+  Memory& memory() const noexcept { return *core().memory; }
 
-  std::shared_ptr<const Core> core_;
-  std::int32_t degree_;
-  Connection connection_;
-  SymmetricMatrix matrix_;
-  std::shared_ptr<const Factor> factor_;  // of A
-  Vector<double> beta_;                   // by component
-  Vector<std::shared_ptr<const PathGroup>> ground_groups_;
-  Vector<Index> ground_group_, ground_column_;  // 2 component + part
-  Vector<double> ground_block_;                 // C, 4 per component
+  std::shared_ptr<const DirectionSystem> system_;
   State state_;
-  double operator_ms_ = 0;
   mutable std::atomic<std::uint32_t> factorisations_{0}, path_solves_{0}, sweeps_{0};
 };
 

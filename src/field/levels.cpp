@@ -83,11 +83,22 @@ void equal_areas(const Vector<Part>& parts, Span<double> out, Memory& memory) {
   }
 }
 
+// A triangle that rises by less of the range has no lines and no width: whole components may be constant.
+constexpr double flat = 1e-9;
+
 void equal_widths(const Vector<Part>& parts, Span<double> out, Memory& memory) {
   // cells: equal values, and quantiles of the triangles' middle values where most of the surface is
   constexpr std::size_t most = 2048;
-  Vector<double> middle(parts.size(), &memory), edge(&memory);
-  for (std::size_t i = 0; i < parts.size(); ++i) middle[i] = parts[i].middle;
+  Vector<double> middle(&memory), edge(&memory);
+  middle.reserve(parts.size());
+  for (const Part& part : parts) {
+    if (part.high - part.low > flat) middle.push_back(part.middle);
+  }
+  if (middle.empty()) {  // no triangle rises by more than rounding: equal values
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = static_cast<double>(i + 1) / static_cast<double>(out.size() + 1);
+    return;
+  }
   std::sort(middle.begin(), middle.end());
   for (std::size_t k = 0; k <= most; ++k) {
     edge.push_back(static_cast<double>(k) / most);
@@ -104,16 +115,16 @@ void equal_widths(const Vector<Part>& parts, Span<double> out, Memory& memory) {
   const std::size_t cells = edge.size() - 1;
   Vector<double> area(cells, 0.0, &memory), rise(cells, 0.0, &memory), width(cells + 1, 0.0, &memory);
   for (const Part& part : parts) {
+    if (!(part.high - part.low > flat)) continue;
     std::size_t k = static_cast<std::size_t>(std::upper_bound(edge.begin(), edge.end(), part.low) - edge.begin());
     k = std::min(std::max<std::size_t>(k, 1), cells) - 1;
     double before = 0;
-    for (; k < cells && (edge[k] < part.high || part.high == part.low); ++k) {
+    for (; k < cells && edge[k] < part.high; ++k) {
       const double below = k + 1 == cells ? part.area : part.area_below(edge[k + 1]);
-      const double inside = part.high == part.low ? part.area : below - before;
+      const double inside = below - before;
       area[k] += inside;
       if (part.area > 0) rise[k] += part.rise * (inside / part.area);
       before = below;
-      if (part.high == part.low) break;
     }
   }
   for (std::size_t k = 0; k < cells; ++k) {

@@ -163,6 +163,13 @@ static hf_result direction_rotate_sites(void* h) {
   const double angle = 1;
   return hf_direction_rotate_sites(h, 1, scene.sites, &angle);
 }
+static hf_result direction_clone(void* h) {
+  hf_direction out;
+  return hf_direction_clone(h, &out);
+}
+static hf_result direction_record(void* h) { return hf_direction_record(h); }
+static hf_result direction_undo(void* h) { return hf_direction_undo(h); }
+static hf_result direction_redo(void* h) { return hf_direction_redo(h); }
 static hf_result direction_get_sites(void* h) { return hf_direction_get_sites(h, 2, numbers, NULL, NULL); }
 static hf_result direction_solve(void* h) { return hf_direction_solve(h, floats, 0, NULL); }
 static hf_result direction_solve_f64(void* h) { return hf_direction_solve_f64(h, doubles, 0, NULL); }
@@ -316,6 +323,10 @@ static const struct {
     {"hf_direction_move_sites", DIRECTION, direction_move_sites, NO_INDEX},
     {"hf_direction_set_vectors", DIRECTION, direction_set_vectors, NO_INDEX},
     {"hf_direction_rotate_sites", DIRECTION, direction_rotate_sites, NO_INDEX},
+    {"hf_direction_clone", DIRECTION, direction_clone, NO_INDEX},
+    {"hf_direction_record", DIRECTION, direction_record, NO_INDEX},
+    {"hf_direction_undo", DIRECTION, direction_undo, NO_INDEX},
+    {"hf_direction_redo", DIRECTION, direction_redo, NO_INDEX},
     {"hf_direction_get_sites", DIRECTION, direction_get_sites, NO_INDEX},
     {"hf_direction_solve", DIRECTION, direction_solve, NO_INDEX},
     {"hf_direction_solve_f64", DIRECTION, direction_solve_f64, NO_INDEX},

@@ -56,9 +56,9 @@ static int no_transfer(void) { return out_transfer == NULL && transfer_as_before
 #define CREATE_POSE(what, expected, change) \
   ROW(what, expected, NO_INDEX, change, hf_pose_create(scene.body, &pose_desc, &out_pose))
 
-static hf_solver solver_of_engine(int32_t engine) {
+static hf_solver solver_of(int32_t engine, int32_t field_kind) {
   hf_create_desc desc = surface_desc(&scene.tube);
-  desc.engine = engine;
+  desc.engine = engine, desc.field_kind = field_kind;
   hf_solver solver = NULL;
   assert_ok(hf_create(&desc, &solver));
   return solver;
@@ -67,7 +67,9 @@ static hf_solver solver_of_engine(int32_t engine) {
 static void bad_poses_are_not_made(void** state) {
   (void)state;
   scene_create(&scene);
-  hf_solver refactor = solver_of_engine(HF_ENGINE_REFACTOR);
+  hf_solver refactor = solver_of(HF_ENGINE_REFACTOR, HF_FIELD_HARMONIC);
+  hf_solver plates[2] = {solver_of(HF_ENGINE_GREEN, HF_FIELD_BIHARMONIC),
+                         solver_of(HF_ENGINE_GREEN, HF_FIELD_BIHARMONIC_GRAPH)};
   CREATE_POSE("mode -1", HF_ERROR_INVALID_ARGUMENT, pose_desc.mode = -1);
   CREATE_POSE("mode 2", HF_ERROR_INVALID_ARGUMENT, pose_desc.mode = 2);
   CREATE_POSE("1 band", HF_ERROR_INVALID_ARGUMENT, pose_desc.band_count = 1);
@@ -78,13 +80,15 @@ static void bad_poses_are_not_made(void** state) {
   CREATE_POSE("2001 groups", HF_ERROR_INVALID_ARGUMENT, pose_desc.group_count = 2001);
   CREATE_POSE("2^32 - 1 groups", HF_ERROR_INVALID_ARGUMENT, pose_desc.group_count = UINT32_MAX);
   ROW("another engine", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0, hf_pose_create(refactor, NULL, &out_pose));
+  ROW("bi-harmonic", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0, hf_pose_create(plates[0], NULL, &out_pose));
+  ROW("bi-harmonic graph", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0, hf_pose_create(plates[1], NULL, &out_pose));
   ROW("no solver", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_pose_create(NULL, NULL, &out_pose));
   ROW("no pose to clone", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_pose_clone(scene.stale_pose, &out_pose));
 #undef UNCHANGED
 #define UNCHANGED pose_as_before
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_create(scene.body, NULL, NULL));
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_clone(scene.pose, NULL));
-  hf_destroy(refactor);
+  hf_destroy(refactor), hf_destroy(plates[0]), hf_destroy(plates[1]);
   scene_destroy(&scene);
   finish_rows("making poses");
 }
@@ -271,7 +275,7 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
 static void bad_transfers_are_not_made(void** state) {
   (void)state;
   scene_create(&scene);
-  hf_solver refactor = solver_of_engine(HF_ENGINE_REFACTOR);
+  hf_solver refactor = solver_of(HF_ENGINE_REFACTOR, HF_FIELD_HARMONIC);
   CREATE_TRANSFER("mode -1", HF_ERROR_INVALID_ARGUMENT, transfer_desc.mode = -1);
   CREATE_TRANSFER("mode 2", HF_ERROR_INVALID_ARGUMENT, transfer_desc.mode = 2);
   CREATE_TRANSFER("513 clusters", HF_ERROR_INVALID_ARGUMENT, transfer_desc.cluster_count = 513);

@@ -252,6 +252,95 @@ static void a_direction_object_refuses_bad_input_and_stays_as_it_was(void** stat
   surface_free(&cut);
 }
 
+/* A walk of random edits with records, undos and redos; clones follow their own ways. */
+static void constraints_come_back_to_the_same_bits(void** state) {
+  (void)state;
+  enum { STEPS = 12, KEPT = 3 * VERTICES };
+  Surface tube;
+  const hf_solver solver = tube_solver(&tube, 1);
+  for (uint32_t degree = 1; degree <= 4; degree *= 2) {
+    hf_direction_desc desc;
+    HF_INIT(desc);
+    desc.degree = degree;
+    hf_direction direction, clone;
+    assert_ok(hf_direction_create(solver, &desc, &direction));
+    assert_code(HF_ERROR_NO_RECORD, hf_direction_undo(direction));
+    assert_code(HF_ERROR_NO_RECORD, hf_direction_redo(direction));
+    double* fields[STEPS + 1];
+    uint32_t counts[STEPS + 1];
+    srand(3 + degree);
+    for (int step = 0; step <= STEPS; ++step) {
+      const uint32_t vertex = (uint32_t)(7 * step + 5) % VERTICES;
+      const double vector[3] = {sin(step), cos(step), 0.4}, angle = 0.7;
+      if (step > 0) assert_ok(hf_direction_record(direction));
+      uint32_t numbers[STEPS + 2];
+      assert_ok(hf_direction_get_sites(direction, STEPS + 2, numbers, NULL, NULL));
+      const uint32_t there = hf_direction_get_site_count(direction);
+      const uint32_t some = there ? (uint32_t)rand() % there : 0;
+      if (there < 3 || step % 4 == 0) {
+        assert_ok(hf_direction_add_sites(direction, 1, &vertex, vector, NULL));
+      } else if (step % 4 == 1) {
+        assert_ok(hf_direction_rotate_sites(direction, 1, numbers + some, &angle));
+      } else if (step % 4 == 2) {
+        const uint32_t to = vertex + AROUND;
+        assert_ok(hf_direction_move_sites(direction, 1, numbers + some, &to));
+      } else {
+        assert_ok(hf_direction_remove_sites(direction, 1, numbers + some));
+      }
+      fields[step] = calloc(KEPT, sizeof(double));
+      assert_non_null(fields[step]);
+      assert_ok(hf_direction_solve_f64(direction, fields[step], 0, NULL));
+      counts[step] = hf_direction_get_site_count(direction);
+    }
+    hf_direction_statistics before, after;
+    HF_INIT(before), HF_INIT(after);
+    assert_ok(hf_direction_get_statistics(direction, &before));
+    static double field[KEPT];
+    int here = STEPS;
+    for (int turn = 0; turn < 60; ++turn) {
+      const int back = here == STEPS || (here > 0 && rand() % 2);
+      assert_ok(back ? hf_direction_undo(direction) : hf_direction_redo(direction));
+      here += back ? -1 : 1;
+      assert_int_equal(hf_direction_get_site_count(direction), counts[here]);
+      assert_ok(hf_direction_solve_f64(direction, field, 0, NULL));
+      assert_memory_equal(field, fields[here], sizeof field);
+    }
+    assert_ok(hf_direction_get_statistics(direction, &after));
+    assert_int_equal(after.path_solve_count, before.path_solve_count);
+    assert_int_equal(after.factorisation_count, before.factorisation_count);
+    while (here > 0) assert_ok(hf_direction_undo(direction)), --here;
+    assert_code(HF_ERROR_NO_RECORD, hf_direction_undo(direction));
+    /* a clone has the constraints, none of the records, and a life of its own */
+    assert_ok(hf_direction_clone(direction, &clone));
+    assert_code(HF_ERROR_NO_RECORD, hf_direction_redo(clone));
+    assert_ok(hf_direction_solve_f64(clone, field, 0, NULL));
+    assert_memory_equal(field, fields[0], sizeof field);
+    const uint32_t vertex = VERTICES - 3;
+    const double vector[3] = {0.3, 1, 0};
+    assert_ok(hf_direction_add_sites(clone, 1, &vertex, vector, NULL));
+    assert_int_equal(hf_direction_get_site_count(direction), counts[0]);
+    assert_ok(hf_direction_solve_f64(direction, field, 0, NULL));
+    assert_memory_equal(field, fields[0], sizeof field);
+    /* an edit forgets what was undone */
+    const double angle = 0.2;
+    uint32_t first;
+    uint32_t of_clone[STEPS];
+    assert_ok(hf_direction_get_sites(clone, STEPS, of_clone, NULL, NULL));
+    first = of_clone[0];
+    assert_ok(hf_direction_record(clone));
+    assert_ok(hf_direction_rotate_sites(clone, 1, &first, &angle));
+    assert_ok(hf_direction_undo(clone));
+    assert_ok(hf_direction_rotate_sites(clone, 1, &first, &angle));
+    assert_code(HF_ERROR_NO_RECORD, hf_direction_redo(clone));
+    hf_direction_destroy(direction);
+    assert_ok(hf_direction_solve_f64(clone, field, 0, NULL));
+    hf_direction_destroy(clone);
+    for (int step = 0; step <= STEPS; ++step) free(fields[step]);
+  }
+  hf_destroy(solver);
+  surface_free(&tube);
+}
+
 static void a_biharmonic_solver_takes_the_same_edits_and_overshoots(void** state) {
   (void)state;
   Surface sheet = surface_sheet(20, 20);
@@ -288,6 +377,7 @@ int main(void) {
       cmocka_unit_test(vectors_are_refused_with_their_place_in_the_list),
       cmocka_unit_test(a_direction_field_follows_its_constraints),
       cmocka_unit_test(a_direction_object_refuses_bad_input_and_stays_as_it_was),
+      cmocka_unit_test(constraints_come_back_to_the_same_bits),
       cmocka_unit_test(a_biharmonic_solver_takes_the_same_edits_and_overshoots),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -659,12 +659,16 @@ namespace Hf.Native
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_move_vector_sites(IntPtr solver, uint site_count, void* sites, void* vertices);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_rotate_vector_sites(IntPtr solver, uint site_count, void* sites, void* angles);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_create(IntPtr solver, void* desc, void* out_direction);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_clone(IntPtr direction, void* out_direction);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_direction_destroy(IntPtr direction);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_add_sites(IntPtr direction, uint site_count, void* vertices, void* vectors, void* out_sites);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_remove_sites(IntPtr direction, uint site_count, void* sites);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_move_sites(IntPtr direction, uint site_count, void* sites, void* vertices);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_set_vectors(IntPtr direction, uint site_count, void* sites, void* vectors);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_rotate_sites(IntPtr direction, uint site_count, void* sites, void* angles);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_record(IntPtr direction);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_undo(IntPtr direction);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_redo(IntPtr direction);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_direction_get_site_count(IntPtr direction);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_get_sites(IntPtr direction, uint capacity, void* out_sites, void* out_vertices, void* out_vectors);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_solve(IntPtr direction, void* out_vectors, uint vector_stride, void* out_info);

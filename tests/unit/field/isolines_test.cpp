@@ -279,6 +279,22 @@ TEST(Levels, of_equal_length_are_evenly_spaced_rings_whatever_the_values) {
   for (std::size_t k = 0; k < 7; ++k) EXPECT_NEAR(std::acos(-levels[k]), pi * static_cast<double>(k + 1) / 8, 0.01);
 }
 
+TEST(Levels, of_equal_length_pass_over_what_is_constant) {
+  // other components at the ends of the range, one of them with rounding errors on it: no lines there, no levels either
+  const Surface tube(hf_test::tube(24, 60, 5));
+  auto u = hf_test::field_of(tube.plain, [](double, double, double z) { return z; });
+  const auto alone = space(tube, u, hf::LevelSpacing::length, 9);
+  PlainMesh more = tube.plain;
+  for (const double value : {0.0, 5.0, 2.0}) {
+    const PlainMesh ball = hf_test::from_shape(samples::sphere(30));
+    append(more, ball, 40 + 4 * value);
+    for (std::uint32_t v = 0; v < ball.vertex_count(); ++v)
+      u.push_back(std::min(5.0, std::max(0.0, value + 1e-15 * (v % 7))));
+  }
+  const auto levels = space(Surface(more), u, hf::LevelSpacing::length, 9);
+  for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(levels[k], alone[k], 0.02);
+}
+
 TEST(Levels, of_a_constant_field_are_refused) {
   const Surface s(hf_test::grid(3, 3));
   EXPECT_THROW(space(s, std::vector<double>(16, 2.0), hf::LevelSpacing::area, 3), hf::Error);
