@@ -11,7 +11,9 @@ if [ -z "$source" ]; then
   mkdir -p "$out/source/lists/partial"
   cd "$out/source"
   . /etc/os-release
-  echo "deb-src http://deb.debian.org/debian ${VERSION_CODENAME:-bookworm} main" >source.list
+  # the source archive that belongs to the packages this machine is set up with
+  mirror=$(apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' 2>/dev/null | awk -v r="${VERSION_CODENAME:-}" '$2 == r && $3 == "main" { print $1; exit }')
+  echo "deb-src ${mirror:-none:} ${VERSION_CODENAME:-stable} main" >source.list
   apt="apt-get -qq -o Dir::Etc::sourcelist=$PWD/source.list -o Dir::Etc::sourceparts=- -o Dir::State::lists=$PWD/lists -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache="
   { $apt update && $apt source --download-only godot; } >apt.log 2>&1 || { echo "skipped: Godot's headers are not to be had here (see $PWD/apt.log)"; exit 77; }
   tar xf godot_*.orig.tar.* --wildcards '*/modules/gdnative/include/*' '*/modules/gdnative/*.py' '*/modules/gdnative/*.json'

@@ -14,7 +14,9 @@ if [ -z "$source" ]; then
     mkdir -p "$out/suitesparse/lists/partial"
     cd "$out/suitesparse"
     . /etc/os-release
-    echo "deb-src http://deb.debian.org/debian ${VERSION_CODENAME:-bookworm} main" >source.list
+    # the source archive that belongs to the packages this machine is set up with
+    mirror=$(apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' 2>/dev/null | awk -v r="${VERSION_CODENAME:-}" '$2 == r && $3 == "main" { print $1; exit }')
+    echo "deb-src ${mirror:-none:} ${VERSION_CODENAME:-stable} main" >source.list
     apt="apt-get -qq -o Dir::Etc::sourcelist=$PWD/source.list -o Dir::Etc::sourceparts=- -o Dir::State::lists=$PWD/lists -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache="
     { $apt update && $apt source --download-only suitesparse; } >apt.log 2>&1 || { echo "skipped: the source of suitesparse is not to be had here (see $PWD/apt.log)"; exit 77; }
     tar xf suitesparse_*.orig.tar.* --wildcards '*/AMD/*' '*/SuiteSparse_config/*'
