@@ -7,8 +7,8 @@
 // handle belong to it alone. Each connected piece of {B_k > 0}, 0 < k <= K, is a cluster of its own. With two handles
 // in a component one field says all; with more, each field i counts with beta_i = max(0, phi_i - 0.3 |phi|), a prune
 // without cracks (measured on a scan with three handles: 2 per cent more energy than with 0.03, half the weights; a
-// quarter of them with eight handles on a torus). A component with one handle moves with it, one without stays. Cost: O(n) per field. On failure
-// nothing is left behind.
+// quarter of them with eight handles on a torus). A component with one handle moves with it, one without stays. Cost:
+// O(n) per field. On failure nothing is left behind.
 #pragma once
 #include <cstdint>
 

@@ -14,8 +14,8 @@
 // smallest stretch of the bent cactus 0.786 -> 0.801, of the plane's longest edge 2.7 -> 2.5, energy + 0.1 per cent.
 //
 // What the subspace leaves out: a cross-section stays affine. Ten times the groups and twice the bands lower the energy
-// of the bent cylinder by 0.3 per cent and of the twisted bar by 0.3, the full-mesh step (refine.h) by 3 and 5; surfaces
-// of the same volume with half the energy exist, but they are folded (dihedral angles change by 25 to 35 degrees).
+// of the bent cylinder and of the twisted bar by 0.3 per cent, the full-mesh step (refine.h) by 3 and 5. Surfaces of
+// the same volume with half the energy exist, but they are folded: dihedral angles change by 25 to 35 degrees.
 //
 // On large meshes edges are sampled, with 1 / probability as weight, never those of clusters that have few.
 // Cost: edges times the square of the clusters at an edge, and one dense factorisation. On failure nothing is left
