@@ -72,6 +72,8 @@ func update():
 		return null
 	var shown = arrays.duplicate()
 	shown[Mesh.ARRAY_VERTEX] = positions
+	if shown[Mesh.ARRAY_NORMAL] != null:
+		shown[Mesh.ARRAY_NORMAL] = surface.normals()
 	var made = ArrayMesh.new()
 	made.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, shown)
 	made.surface_set_material(0, mesh.surface_get_material(0))

@@ -263,9 +263,18 @@ Value deform(Surface& s, const Arguments& a) {
   }
   Value value;
   value.kind = Value::vectors, value.floats.resize(3 * s.vertex_count + 1);
-  desc.positions = value.floats.data();
+  std::vector<float> normals(3 * s.vertex_count + 1);
+  desc.positions = value.floats.data(), desc.normals = normals.data();
   check(hf_deform(pose_of(s), &desc, nullptr));
-  value.floats.resize(3 * s.vertex_count);
+  value.floats.resize(3 * s.vertex_count), normals.resize(3 * s.vertex_count);
+  s.normals = std::move(normals);
+  return value;
+}
+
+Value normals_of(Surface& s, const Arguments&) {
+  if (s.normals.empty()) fail("deform first", HF_ERROR_EMPTY);
+  Value value;
+  value.kind = Value::vectors, value.floats = s.normals;
   return value;
 }
 
@@ -307,7 +316,7 @@ const std::vector<Entry> methods = {{"create", 2, 4, create}, {"clone_from", 1, 
                                     {"move_sites", 2, 2, move_sites}, {"set_site_values", 2, 2, set_site_values}, {"record", 0, 0, record}, {"undo", 0, 0, undo}, {"redo", 0, 0, redo},
                                     {"solve", 0, 0, solve}, {"solve_at", 1, 1, solve_at}, {"statistics", 0, 0, statistics}, {"report", 0, 0, report}, {"save_factor", 0, 0, save_factor},
                                     {"add_handles", 1, 2, add_handles}, {"add_handles_at", 2, 3, add_handles_at}, {"remove_handles", 1, 1, remove_handles}, {"set_transforms", 3, 3, set_transforms},
-                                    {"handle_info", 1, 1, handle_centroid}, {"handle_field", 1, 1, handle_field}, {"deform", 0, 1, deform}, {"transfer_to", 3, 5, transfer_to}, {"transfer_apply", 1, 1, transfer_apply}};
+                                    {"handle_info", 1, 1, handle_centroid}, {"handle_field", 1, 1, handle_field}, {"deform", 0, 1, deform}, {"normals", 0, 0, normals_of}, {"transfer_to", 3, 5, transfer_to}, {"transfer_apply", 1, 1, transfer_apply}};
 
 Value call(Surface& surface, const Entry& entry, const Arguments& arguments) noexcept {
   surface.error_name.clear(), surface.error_message.clear(), surface.error_index = -1;

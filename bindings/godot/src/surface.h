@@ -47,6 +47,7 @@ struct Surface {
   hfpp::Handle<hf_pose, hf_pose_destroy> pose;
   hfpp::Handle<hf_transfer, hf_transfer_destroy> transfer;
   size_t vertex_count = 0, target_count = 0;
+  std::vector<float> normals;  // of the last deform
   // the last failure, for scripts that have no exceptions
   std::string error_name, error_message;
   double error_index = -1;

@@ -1,0 +1,67 @@
+# A picture of a glb posed by hf_deformer.gd: godot3-runner --path PROJECT -s godot_picture.gd, under Xvfb; writes $HF_PICTURE.
+extends SceneTree
+
+const Deformer = preload("res://hf/hf_deformer.gd")
+
+func mesh_of(node):
+	if node is MeshInstance:
+		return node.mesh
+	for child in node.get_children():
+		var found = mesh_of(child)
+		if found:
+			return found
+	return null
+
+func shown(x):
+	var deformer = Deformer.new()
+	deformer.mesh = mesh_of(load("res://model.glb").instance())
+	deformer.translation.x = x
+	get_root().add_child(deformer)
+	return deformer
+
+func _init():
+	var light = DirectionalLight.new()
+	light.rotation_degrees = Vector3(-40, 30, 0)
+	light.light_energy = 0.6
+	get_root().add_child(light)
+	var rest = shown(-1.0)
+	var posed = shown(1.0)
+	if not posed.bind():
+		quit(1)
+		return
+	var points = posed.arrays[Mesh.ARRAY_VERTEX]
+	var box = AABB(points[0], Vector3())
+	var front = 0
+	for i in points.size():
+		box = box.expand(points[i])
+		if points[i].z > points[front].z:
+			front = i
+	var size = box.size.length()
+	rest.translation = Vector3(-0.3 * size, 0, 0)
+	posed.translation = Vector3(0.3 * size, 0, 0)
+	var environment = WorldEnvironment.new()
+	environment.environment = Environment.new()
+	environment.environment.background_mode = Environment.BG_COLOR
+	environment.environment.background_color = Color(0.25, 0.27, 0.3)
+	environment.environment.ambient_light_color = Color(0.3, 0.3, 0.3)
+	get_root().add_child(environment)
+	var camera = Camera.new()
+	get_root().add_child(camera)
+	camera.look_at_from_position(Vector3(0.75 * size, 0.45 * size, 0.95 * size), box.position + 0.5 * box.size, Vector3.UP)
+	camera.current = true
+	var trunk = posed.add_handle(box.position + box.size * Vector3(0.5, 0.6, 0.4), 0.3 * size)
+	var head = posed.add_handle(points[front], 0.1 * size)
+	if trunk == null or head == null:
+		quit(1)
+		return
+	head.translation += Vector3(0.08 * size, 0.1 * size, -0.02 * size)
+	head.rotate_x(-0.4)
+	for i in 10:
+		posed.update()
+	for i in 6:
+		yield(self, "idle_frame")
+	var image = get_root().get_texture().get_data()
+	image.flip_y()
+	image.save_png(OS.get_environment("HF_PICTURE"))
+	print("picture: ", image.get_width(), " x ", image.get_height())
+	quit(0)
