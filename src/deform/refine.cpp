@@ -54,20 +54,21 @@ void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) 
   });
 }
 
-// b in factor order, in the mesh's own unit.
-void Refinement::set_right_hand_side(const RefineInput& input, double* z) {
+// b - L x in factor order, in the mesh's own unit.
+void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* positions, double* z) {
   const Core& core = input.core;
   const Topology& topology = core.topology;
   const Span<const std::int32_t> position = core.factor->position();
+  const double own_unit = 2.0 / core.mesh.scale;  // and the half of the two rotations
   for_vertex_pieces(*core.jobs, core.size(), [&](std::int32_t first, std::int32_t last) {
     for (std::int32_t v = first; v < last; ++v) {
       Vec3 sum;
       if (elastic_[core.mesh.component[v]]) {
         for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
           const std::int32_t u = topology.neighbour[k];
-          const Vec3 edge =
-              0.5 * core.weights[topology.neighbour_edge[k]] * (core.mesh.positions[v] - core.mesh.positions[u]);
-          sum = sum + rotation_[v] * edge + rotation_[u] * edge;
+          const Vec3 edge = core.mesh.positions[v] - core.mesh.positions[u];
+          const Vec3 missing = rotation_[v] * edge + rotation_[u] * edge - own_unit * (positions[v] - positions[u]);
+          sum = sum + 0.5 * core.weights[topology.neighbour_edge[k]] * missing;
         }
       }
       double* row = z + 3 * static_cast<std::size_t>(position[v]);
@@ -85,20 +86,19 @@ void Refinement::apply(const RefineInput& input, Vec3* positions) {
   fit_rotations(input, positions);
   const std::size_t n = static_cast<std::size_t>(core.size());
   Workspace z(core.workspaces, 3 * n);
-  set_right_hand_side(input, z.data());
+  set_right_hand_side(input, positions, z.data());
   core.factor->forward(z.data(), 3, *core.jobs);
   core.factor->backward(z.data(), 3, *core.jobs);
 
-  // what is missing to the handles' places on the rings, carried over the surface by its harmonic field
+  // the rings are where they belong: what the step did to them is taken back by its harmonic field
   const Span<const std::int32_t> position = core.factor->position();
   std::fill(values_.begin(), values_.end(), 0.0);
   for (const Handle& handle : input.handles) {
     for (std::size_t k = 0; k < handle.region->sites.size(); ++k) {
       const std::int32_t v = handle.region->sites[k];
-      const Vec3 target = mesh.to_inner(positions[v]);
       const double* y = z.data() + 3 * static_cast<std::size_t>(position[v]);
       double* value = values_.data() + 3 * static_cast<std::size_t>(handle.region->slots[k]);
-      value[0] = target.x - y[0], value[1] = target.y - y[1], value[2] = target.z - y[2];
+      for (int c = 0; c < 3; ++c) value[c] = -y[c];
     }
   }
   input.sites.solve(values_.data(), 3, field_.data(), nullptr);
@@ -107,7 +107,7 @@ void Refinement::apply(const RefineInput& input, Vec3* positions) {
       if (input.reach.owner[v] >= 0 || !elastic_[mesh.component[v]]) continue;
       const double* y = z.data() + 3 * static_cast<std::size_t>(position[v]);
       const double* u = field_.data() + 3 * static_cast<std::size_t>(v);
-      positions[v] = mesh.to_given({y[0] + u[0], y[1] + u[1], y[2] + u[2]});
+      positions[v] = positions[v] + mesh.scale * Vec3{y[0] + u[0], y[1] + u[1], y[2] + u[2]};
     }
   });
 }

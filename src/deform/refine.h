@@ -4,8 +4,9 @@
 // 2007), from the blended positions x:
 //     R_v = argmax tr(R' sum_u w_vu (x_v - x_u)(p_v - p_u)'),
 //     sum_u w_vu (y_v - y_u) = sum_u w_vu / 2 (R_v + R_u)(p_v - p_u),   y = x on the handles.
-// The left side is the operator the fields are solved with, so the factor that is there does it: y = A^-1 b, two
-// sweeps, and the harmonic field that takes it to the handles' places on the rings, one more. One step only: further
+// With L the left side and b the right one, y = x + K^-1 (b - L x), K the operator the fields are solved with, so the
+// factor that is there does it: two sweeps, and the harmonic field that takes the rings back to their places, one more.
+// K is L with cotangents; with the intrinsic Delaunay operator it is near it, and x = p stays p. One step only: further
 // ones walk towards the collapsed minima of that energy. Cost: a rotation per vertex, three sweeps of three channels.
 //
 // GroupStart: the rotation of every rotation group of a given surface, from the edges at some of its vertices.
@@ -42,7 +43,7 @@ class Refinement {
 
  private:
   void fit_rotations(const RefineInput& input, const Vec3* positions);
-  void set_right_hand_side(const RefineInput& input, double* z);
+  void set_right_hand_side(const RefineInput& input, const Vec3* positions, double* z);
 
   Buffer<Mat3> rotation_;         // by vertex
   Buffer<double> field_;          // three channels

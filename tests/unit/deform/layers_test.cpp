@@ -258,6 +258,9 @@ TEST(Refine, RestAndCommonRigidMotionsAreLeftAlone) {
   DeformRequest request;
   request.refine = true;
   EXPECT_LT(largest_distance(positions(d.pose->deform(request)), rest(*d.core)), 1e-9 * d.core->mesh.scale);
+  // where the operator of the fields has other edges than the mesh
+  Dragged plane = set_up(plane_lift(51), {});
+  EXPECT_LT(largest_distance(positions(plane.pose->deform(request)), rest(*plane.core)), 1e-9 * plane.core->mesh.scale);
   const HandleTransform motion{about({1, 2, 3}, 0.8), {1, 2, 3}};
   for (const std::uint32_t n : d.handles) {
     const Vec3 centroid = d.pose->handle(n).centroid;
