@@ -51,6 +51,8 @@ Rows run_partial(const Run& run, Report& report);
 void plot_partial(const Runs& runs, const std::string& file);
 Rows run_analysis(const Run& run, Report& report);
 void plot_analysis(const Runs& runs, const std::string& file);
+Rows run_flow(const Run& run, Report& report);
+void plot_flow(const Runs& runs, const std::string& file);
 Rows run_directions(const Run& run, Report& report);
 void plot_directions(const Runs& runs, const std::string& file);
 Rows run_deform(const Run& run, Report& report);

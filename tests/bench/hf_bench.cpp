@@ -38,6 +38,8 @@ constexpr Command commands[] = {
      bench::plot_partial},
     {"analysis", "extremities from a Poisson field and from 40 geodesic distances, in sweeps of one field",
      bench::run_analysis, bench::plot_analysis},
+    {"flow", "flow lines that follow a dragged site, against tracing on a fresh factorisation", bench::run_flow,
+     bench::plot_flow},
     {"directions", "a constraint vector turned or rewritten, and the field, against factorising again, 120K vertices",
      bench::run_directions, bench::plot_directions},
     {"deform", "a drag frame, a new handle, a refined frame, against ARAP iterations and from scratch; exactness",
