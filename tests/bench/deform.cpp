@@ -113,7 +113,9 @@ std::shared_ptr<const hf::Core> core_of(const Mesh& mesh, uint32_t threads) {
 }
 
 double arap_iteration_ms(const Mesh& mesh, const std::vector<std::vector<uint32_t>>& regions, const Run& run) {
-  const auto core = core_of(mesh, run.threads);
+  hf::CoreOptions own_edges;  // the oracle's energy is that of the mesh's own edges
+  own_edges.operator_kind = hf::OperatorKind::cotangent;
+  const auto core = hf_test::make_core({mesh.positions, mesh.triangles}, run.threads, own_edges);
   std::vector<uint8_t> fixed(static_cast<size_t>(core->size()), 0);
   for (const auto& region : regions) {
     for (const uint32_t v : region) fixed[static_cast<size_t>(core->mesh.inner_of_given[v])] = 1;

@@ -125,7 +125,10 @@ Rows run_deform_quality(const Run& run, Report& report) {
     for (int i = 0; i < 2; ++i) paper.report = paper.pose->deform({false, 1000, false});
     const std::vector<Vec3> late = positions(paper.report);
 
-    // the oracle from two starts: our pose, and the paper's
+    // the oracle from two starts: our pose, and the paper's; its energy is that of the mesh's own edges
+    hf::CoreOptions own_edges;
+    own_edges.operator_kind = hf::OperatorKind::cotangent;
+    const auto cotangents = hf_test::make_core(c.mesh, run.threads, own_edges);
     std::vector<uint8_t> fixed(static_cast<size_t>(d.core->size()), 0);
     for (const auto& region : c.regions) {
       for (const int32_t v : select(*d.core, region)) fixed[static_cast<size_t>(v)] = 1;
@@ -141,7 +144,7 @@ Rows run_deform_quality(const Run& run, Report& report) {
     for (const std::vector<Vec3>* start : {&smooth, &late}) {
       std::vector<Vec3> x;
       for (const Vec3& q : *start) x.push_back(d.core->mesh.to_inner(q));
-      hf_test::ArapOracle oracle(*d.core, fixed);
+      hf_test::ArapOracle oracle(*cotangents, fixed);
       oracle.converge(x,
                       run.small                ? 60
                       : d.core->size() > 20000 ? 300

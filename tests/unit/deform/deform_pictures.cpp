@@ -140,7 +140,10 @@ int main(int argc, char** argv) {
         for (const Vec3& q : x) out.push_back(d.core->mesh.to_given(q));
         return out;
       };
-      hf_test::ArapOracle oracle(*d.core, fixed);
+      hf::CoreOptions own_edges;
+      own_edges.operator_kind = hf::OperatorKind::cotangent;
+      const auto cotangents = hf_test::make_core(c.mesh, 1, own_edges);
+      hf_test::ArapOracle oracle(*cotangents, fixed);
       oracle.converge(x, 300, [&](const std::vector<Vec3>&) { return arap_energy(*d.core, p, given()); });
       show("ARAP, converged", given());
     };
