@@ -63,10 +63,34 @@ void forward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::in
   }
 }
 
+#if defined(__AVX2__)
+// Rows of a narrow supernode times one right-hand side, four at a time; the last group writes up to three numbers too
+// many, for which `out` has room.
+inline void forward_rows_narrow(const double* below, std::int32_t row_count, std::int32_t columns, const double* z,
+                                double* out) noexcept {
+  alignas(64) double padded[16] = {};
+  for (std::int32_t j = 0; j < columns; ++j) padded[j] = z[j];
+  with_columns<most_narrow>(columns, [&](auto size) {
+    constexpr int n = decltype(size)::value;
+    const double* row = below;
+    for (std::int32_t r = 0; r < row_count; r += 4, row += 4 * n) {
+      Double4::store(out + r, sums_of_four(row_products<n>(row, padded), row_products<n>(row + n, padded),
+                                           row_products<n>(row + 2 * n, padded), row_products<n>(row + 3 * n, padded)));
+    }
+  });
+}
+inline void forward_rows_narrow(const float*, std::int32_t, std::int32_t, const float*, float*) noexcept {}
+#else
+template <class T>
+inline void forward_rows_narrow(const T*, std::int32_t, std::int32_t, const T*, T*) noexcept {}
+#endif
+
 template <class T>
 void forward_rows_any(const T* below, std::int32_t row_count, std::int32_t columns, const T* z, T* out,
                       std::int32_t channels) {
   using S = Simd<T>;
+  if (channels == 1 && columns <= most_narrow && has_row_products && sizeof(T) == sizeof(double))
+    return forward_rows_narrow(below, row_count, columns, z, out);
   if (channels == 1) {
     for (std::int32_t r = 0; r < row_count; ++r, below += columns) out[r] = dot<T>(below, z, columns);
     return;
@@ -84,8 +108,7 @@ void forward_rows_any(const T* below, std::int32_t row_count, std::int32_t colum
         for (int k = 0; k < 4; ++k)
           sum[k] = S::multiply_add(S::all(b[j + static_cast<std::int64_t>(k) * columns]), value, sum[k]);
       }
-      for (int k = 0; k < 4; ++k)
-        store_lanes<T>(out + static_cast<std::int64_t>(r + k) * channels + c, sum[k], count);
+      for (int k = 0; k < 4; ++k) store_lanes<T>(out + static_cast<std::int64_t>(r + k) * channels + c, sum[k], count);
     }
     for (; r < row_count; ++r) {
       const T* b = below + static_cast<std::int64_t>(r) * columns;

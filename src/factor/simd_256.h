@@ -56,4 +56,11 @@ struct Float8 {
   static Type subtract_product(Type a, Type b, Type c) noexcept { return _mm256_fnmadd_ps(a, b, c); }
 };
 
+// Sums of the four numbers of each of four vectors: (0 + 2) + (1 + 3).
+inline __m256d sums_of_four(__m256d a, __m256d b, __m256d c, __m256d d) noexcept {
+  const __m256d ab = _mm256_add_pd(_mm256_permute2f128_pd(a, b, 0x20), _mm256_permute2f128_pd(a, b, 0x31));
+  const __m256d cd = _mm256_add_pd(_mm256_permute2f128_pd(c, d, 0x20), _mm256_permute2f128_pd(c, d, 0x31));
+  return _mm256_permute4x64_pd(_mm256_hadd_pd(ab, cd), 0xd8);
+}
+
 }  // namespace

@@ -20,6 +20,19 @@ struct Narrow {
   using Set = Simd<T>;
 };
 
+// Products of a row of N <= 16 numbers with z, padded by zeros to 16, summed to four: lanes 8 apart by one fused
+// multiply-add, then lanes 4 apart. Reads up to 15 numbers behind the row.
+constexpr bool has_row_products = true;
+template <int N>
+inline __m256d row_products(const double* row, const double* z) noexcept {
+  __m256d low = _mm256_mul_pd(_mm256_loadu_pd(row), _mm256_load_pd(z));
+  if (N > 8) low = _mm256_fmadd_pd(_mm256_loadu_pd(row + 8), _mm256_load_pd(z + 8), low);
+  if (N <= 4) return low;
+  __m256d high = _mm256_mul_pd(_mm256_loadu_pd(row + 4), _mm256_load_pd(z + 4));
+  if (N > 8) high = _mm256_fmadd_pd(_mm256_loadu_pd(row + 12), _mm256_load_pd(z + 12), high);
+  return _mm256_add_pd(low, high);
+}
+
 constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of one accumulator block
 constexpr int lane_vectors = 2, lane_rows = 6;
 

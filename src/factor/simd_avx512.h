@@ -83,6 +83,17 @@ struct Narrow : NarrowDouble<Columns <= 4> {};
 template <int Columns>
 struct Narrow<float, Columns> : NarrowFloat<Columns <= 8> {};
 
+// Products of a row of N <= 16 numbers with z, padded by zeros to 16, summed to four: lanes 8 apart by one fused
+// multiply-add, then lanes 4 apart. Reads up to 15 numbers behind the row.
+constexpr bool has_row_products = true;
+template <int N>
+inline __m256d row_products(const double* row, const double* z) noexcept {
+  if (N <= 4) return _mm256_mul_pd(_mm256_loadu_pd(row), _mm256_load_pd(z));
+  __m512d all = _mm512_mul_pd(_mm512_loadu_pd(row), _mm512_load_pd(z));
+  if (N > 8) all = _mm512_fmadd_pd(_mm512_loadu_pd(row + 8), _mm512_load_pd(z + 8), all);
+  return _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xff, all, 0), _mm512_maskz_extractf64x4_pd(0xff, all, 1));
+}
+
 constexpr int gemm_rows = 3, gemm_columns = 8;  // vectors of rows x columns of one accumulator block
 constexpr int lane_vectors = 3, lane_rows = 8;
 

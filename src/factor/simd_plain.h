@@ -57,6 +57,8 @@ struct Narrow {
   using Set = Simd<T>;
 };
 
+constexpr bool has_row_products = false;  // no four lanes: one product after the other
+
 constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of one accumulator block
 constexpr int lane_vectors = 2, lane_rows = 4;
 
