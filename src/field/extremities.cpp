@@ -51,7 +51,7 @@ Vector<Index> farthest_vertices(const Core& core, const Vector<double>& areas) {
 // half way.
 void mark_middles(const Core& core, const Vector<double>& areas, Vector<std::uint8_t>& middle) {
   const Topology& topology = core.topology;
-  Vector<Index> level(areas.size(), Mesh::none, core.memory.get()), queue(areas.size(), core.memory.get());
+  Vector<Index> level(areas.size(), Mesh::none, core.memory.get()), queue(areas.size() + 1, core.memory.get());
   for (const Index from : farthest_vertices(core, areas)) {
     std::size_t head = 0, tail = 0;
     queue[tail++] = from, level[at(from)] = 0;
@@ -59,7 +59,9 @@ void mark_middles(const Core& core, const Vector<double>& areas, Vector<std::uin
       const Index v = queue[head++], next = level[at(v)] + 1;
       for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
         const Index w = topology.neighbour[at(i)];
-        if (level[at(w)] == Mesh::none) level[at(w)] = next, queue[tail++] = w;
+        const bool fresh = level[at(w)] == Mesh::none;  // no branch: it would be mispredicted every other time
+        level[at(w)] = fresh ? next : level[at(w)];
+        queue[tail] = w, tail += fresh;
       }
     }
     Index v = queue[tail - 1];

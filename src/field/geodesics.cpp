@@ -79,29 +79,12 @@ Vector<Geodesics::Frame> Geodesics::frames() const {
 void Geodesics::add_directions(const Vector<Frame>& frames, const double* heat, Index channels, const double* weights,
                                Vector<double>& sums) const {
   const Mesh& mesh = core_->mesh;
-  const Span<const Index> position = heat_->position();
-  for_triangles(*core_, [&](Index t) {
-    const Frame frame = frames[at(t)];
-    if (!(frame.py > 0)) return;
-    const Index* v = mesh.triangle(t);
-    const double* u[3];
-    for (int k = 0; k < 3; ++k) u[k] = heat + at(position[at(v[k])]) * at(channels);
-    const double* weight = weights + at(mesh.component[at(v[0])]) * at(channels);
-    double x = 0, y = 0;
-    // no branches, so that the compiler takes several channels at once
-    for (std::size_t c = 0; c < at(channels); ++c) {
-      // scaled first: far from the source the heat is 1e-200 and its square nothing
-      const double d1 = u[1][c] - u[0][c], d2 = u[2][c] - u[0][c];
-      const double a1 = std::fabs(d1), a2 = std::fabs(d2), larger = a1 > a2 ? a1 : a2;
-      const double scale = 1 / (larger > 1e-300 ? larger : 1e-300);
-      // grad v times twice the area: d1 n x (p0 - p2) + d2 n x (p1 - p0), and n x (x, y) = (-y, x)
-      const double gx = scale * d1 * frame.py;
-      const double gy = scale * d2 * frame.along - scale * d1 * frame.px;
-      const double squared = gx * gx + gy * gy;
-      const double factor = -weight[c] / std::sqrt(squared > 1e-100 ? squared : 1e-100);
-      x += factor * gx, y += factor * gy;
-    }
-    sums[2 * at(t)] += x, sums[2 * at(t) + 1] += y;
+  const DirectionSums job = {
+      frames.data(), mesh.triangle(0), heat_->position().data(), mesh.component.data(), heat, weights,
+      channels,      sums.data()};
+  const std::int64_t count = mesh.triangle_count(), step = static_cast<std::int64_t>(piece);
+  core_->jobs->for_each(static_cast<std::uint32_t>((count + step - 1) / step), [&](std::uint32_t p) {
+    hf::add_directions(job, p * step, std::min(count, (p + std::int64_t{1}) * step));
   });
 }
 

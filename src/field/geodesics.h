@@ -14,6 +14,7 @@
 
 #include "base/progress.h"
 #include "engine/core.h"
+#include "field/directions.h"
 
 namespace hf {
 
@@ -38,10 +39,7 @@ class Geodesics {
   double time_step() const noexcept { return step_; }
 
  private:
-  // A triangle in its plane, the first edge along x: corners (0, 0), (along, 0), (px, py).
-  struct Frame {
-    double along, px, py;  // py = 0: without area, left out
-  };
+  using Frame = TriangleFrame;
   Vector<Frame> frames() const;
   void add_directions(const Vector<Frame>& frames, const double* heat, std::int32_t channels, const double* weights,
                       Vector<double>& sums) const;

@@ -17,10 +17,13 @@ Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memo
   const std::size_t n = field.size();
   // the highest neighbour above each vertex, then the peak that leads to
   Vector<Index> up(n, Mesh::none, &memory);
-  for (Index e = 0; e < topology.edge_count(); ++e) {
-    Index low = topology.first(e), high = topology.second(e);
-    if (less(high, low)) std::swap(low, high);
-    if (up[at(low)] == Mesh::none || less(up[at(low)], high)) up[at(low)] = high;
+  for (std::size_t v = 0; v < n; ++v) {
+    Index best = static_cast<Index>(v);
+    for (Index i = topology.neighbour_start[v]; i < topology.neighbour_start[v + 1]; ++i) {
+      const Index w = topology.neighbour[at(i)];
+      if (less(best, w)) best = w;
+    }
+    if (best != static_cast<Index>(v)) up[v] = best;
   }
   Vector<Peak> peaks(&memory);
   Vector<Index> basin(n, Mesh::none, &memory);  // position in peaks

@@ -94,6 +94,15 @@ SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, const V
   Vector<Index> farthest(components, &memory);
   const auto find_farthest = [&] {
     std::fill(farthest.begin(), farthest.end(), Mesh::none);
+    if (components == 1) {
+      double most = -1;
+      Index best = Mesh::none;
+      for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        if (search.distance[at(v)] > most) most = search.distance[at(v)], best = v;
+      }
+      farthest[0] = best;
+      return;
+    }
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       Index& best = farthest[at(mesh.component[at(v)])];
       if (best == Mesh::none || search.distance[at(v)] > search.distance[at(best)]) best = v;

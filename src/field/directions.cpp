@@ -1,0 +1,18 @@
+#include "field/directions.h"
+
+#include "field/directions.inl"
+
+namespace hf {
+
+#ifdef HF_DIRECTIONS_AVX2
+void add_directions_avx2(const DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept;
+#endif
+
+void add_directions(const DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept {
+#ifdef HF_DIRECTIONS_AVX2
+  if (__builtin_cpu_supports("avx2")) return add_directions_avx2(job, begin, end);
+#endif
+  add_directions_range(job, begin, end);
+}
+
+}  // namespace hf

@@ -1,0 +1,12 @@
+// directions.inl on four lanes: built with -mavx2, chosen at run time.
+#include "field/directions.h"
+#include "field/directions.inl"
+
+namespace hf {
+
+void add_directions_avx2(const DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept;
+void add_directions_avx2(const DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept {
+  add_directions_range(job, begin, end);
+}
+
+}  // namespace hf
