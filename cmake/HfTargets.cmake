@@ -11,9 +11,7 @@ function(hf_target_defaults target)
     -Wall -Wextra -Wpedantic $<$<BOOL:${HF_WARNINGS_AS_ERRORS}>:-Werror>
     $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
   if(HF_SANITIZE)
-    # GCC warns about the comma expressions that its own check of pointer arithmetic puts in
-    target_compile_options(${target} PRIVATE -fsanitize=${HF_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
-      -Wno-unused-value)
+    target_compile_options(${target} PRIVATE -fsanitize=${HF_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     target_link_options(${target} PRIVATE -fsanitize=${HF_SANITIZE})
   endif()
 endfunction()
