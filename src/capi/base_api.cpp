@@ -79,7 +79,9 @@ const char* hf_result_name(hf_result result) {
   return "unknown";
 }
 
-uint32_t hf_get_version(void) { return HF_VERSION_NUMBER_MAJOR * 1000000u + HF_VERSION_NUMBER_MINOR * 1000u + HF_VERSION_NUMBER_PATCH; }
+uint32_t hf_get_version(void) {
+  return HF_VERSION_NUMBER_MAJOR * 1000000u + HF_VERSION_NUMBER_MINOR * 1000u + HF_VERSION_NUMBER_PATCH;
+}
 
 hf_result hf_progress_create(hf_progress* out_progress) {
   return guarded("hf_progress_create", [&] {
@@ -100,7 +102,8 @@ hf_result hf_progress_get(hf_progress progress, float* out_fraction) {
 }
 
 hf_result hf_progress_cancel(hf_progress progress) {
-  return guarded("hf_progress_cancel", [&] { get<ProgressObject>(progress, Kind::progress, "progress")->progress.cancel(); });
+  return guarded("hf_progress_cancel",
+                 [&] { get<ProgressObject>(progress, Kind::progress, "progress")->progress.cancel(); });
 }
 
 }  // extern "C"

@@ -1,5 +1,5 @@
-// The boundary of the library: every exported function runs inside guarded(), which owns the float environment, catches everything and
-// fills the thread's error detail. Descs are read and written here by struct_size.
+// The boundary of the library: every exported function runs inside guarded(), which owns the float environment, catches
+// everything and fills the thread's error detail. Descs are read and written here by struct_size.
 #pragma once
 #include <cstddef>
 #include <cstring>
@@ -24,7 +24,8 @@ hf_result guarded(const char* function, Work&& work) noexcept {
   } catch (const Error& error) {
     return record_failure(error.code(), error.index(), function, error.what());
   } catch (const std::bad_alloc&) {
-    return record_failure(HF_ERROR_OUT_OF_MEMORY, HF_NO_INDEX, function, "memory ran out; the object is as it was before the call");
+    return record_failure(HF_ERROR_OUT_OF_MEMORY, HF_NO_INDEX, function,
+                          "memory ran out; the object is as it was before the call");
   } catch (const std::exception& error) {
     return record_failure(HF_ERROR_INTERNAL, HF_NO_INDEX, function, error.what());
   } catch (...) {
@@ -42,11 +43,14 @@ void check_struct(const T* given, const char* name, std::size_t first_size = siz
   require(given, name);
   constexpr std::uint32_t most = 4096;
   if (given->struct_size < first_size || given->struct_size > most) {
-    fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "%s: struct_size is %u; set it to sizeof (%zu here), as HF_INIT does", name, given->struct_size, sizeof(T));
+    fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "%s: struct_size is %u; set it to sizeof (%zu here), as HF_INIT does",
+         name, given->struct_size, sizeof(T));
   }
   const unsigned char* bytes = reinterpret_cast<const unsigned char*>(given);
   for (std::size_t i = sizeof(T); i < given->struct_size; ++i) {
-    if (bytes[i]) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "%s: byte %zu is set, which this version does not know; the header is newer than the library", name, i);
+    if (bytes[i])
+      fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX,
+           "%s: byte %zu is set, which this version does not know; the header is newer than the library", name, i);
   }
 }
 
@@ -75,13 +79,17 @@ inline std::size_t stride_of(std::uint32_t stride, std::size_t row, const char* 
 }
 
 inline void check_choice(std::int32_t value, std::int32_t count, const char* name) {
-  if (value < 0 || value >= count) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s is %d; it must be 0 to %d", name, value, count - 1);
+  if (value < 0 || value >= count)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s is %d; it must be 0 to %d", name, value, count - 1);
 }
 
 // A count with a default for 0.
-inline std::uint32_t count_of(std::uint32_t value, std::uint32_t standard, std::uint32_t least, std::uint32_t most, const char* name) {
+inline std::uint32_t count_of(std::uint32_t value, std::uint32_t standard, std::uint32_t least, std::uint32_t most,
+                              const char* name) {
   if (value == 0) return standard;
-  if (value < least || value > most) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s is %u; it must be %u to %u, or 0 for %u", name, value, least, most, standard);
+  if (value < least || value > most)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s is %u; it must be %u to %u, or 0 for %u", name, value, least, most,
+         standard);
   return value;
 }
 

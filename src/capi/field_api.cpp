@@ -12,11 +12,15 @@ namespace {
 
 Places read_places(const hf_sites_desc& desc) {
   if (desc.site_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
-  if (desc.vertices && desc.triangles) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and triangles are both set; set one");
-  if (!desc.vertices && !desc.triangles) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "vertices and triangles are both NULL");
-  if (desc.triangles && !desc.barycentrics) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "barycentrics is NULL, but the sites are in triangles");
+  if (desc.vertices && desc.triangles)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and triangles are both set; set one");
+  if (!desc.vertices && !desc.triangles)
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "vertices and triangles are both NULL");
+  if (desc.triangles && !desc.barycentrics)
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "barycentrics is NULL, but the sites are in triangles");
   Places places;
-  places.count = desc.site_count, places.vertices = desc.vertices, places.triangles = desc.triangles, places.barycentrics = desc.barycentrics;
+  places.count = desc.site_count, places.vertices = desc.vertices, places.triangles = desc.triangles,
+  places.barycentrics = desc.barycentrics;
   places.radii = desc.radii;
   return places;
 }
@@ -31,19 +35,28 @@ void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_d
   if (count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
   require(sites, "sites");
   const hf_sites_desc desc = read_struct(to, "to");
-  if (desc.values || desc.stiffness || desc.radii) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "moving keeps values, stiffness and radius: set them to NULL in the desc");
+  if (desc.values || desc.stiffness || desc.radii)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "moving keeps values, stiffness and radius: set them to NULL in the desc");
   edit.move_count = count, edit.move_sites = sites, edit.move_to = read_places(desc);
-  if (edit.move_to.count != count) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
+  if (edit.move_to.count != count)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
 }
 
 // Counts no list can have, refused before the lists are read or anything is allocated by them.
 void check_counts(const SolverObject& solver, const FieldEdit& edit) {
   const std::uint32_t there = solver.field.sites().count();
-  if (edit.remove_count > there) fail(HF_ERROR_NO_SUCH_SITE, there, "%u sites to remove, but the solver has %u", edit.remove_count, there);
+  if (edit.remove_count > there)
+    fail(HF_ERROR_NO_SUCH_SITE, there, "%u sites to remove, but the solver has %u", edit.remove_count, there);
   const std::uint32_t left = there - edit.remove_count;
-  if (edit.move_count > left) fail(HF_ERROR_NO_SUCH_SITE, left, "%u sites to move, but the solver has %u%s", edit.move_count, left, edit.remove_count ? " after the removals" : "");
-  if (edit.set_count > left) fail(HF_ERROR_NO_SUCH_SITE, left, "%u values to set, but the solver has %u sites%s", edit.set_count, left, edit.remove_count ? " after the removals" : "");
-  if (edit.add.count > solver.site_limit) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u sites to add; the site_limit is %u", edit.add.count, solver.site_limit);
+  if (edit.move_count > left)
+    fail(HF_ERROR_NO_SUCH_SITE, left, "%u sites to move, but the solver has %u%s", edit.move_count, left,
+         edit.remove_count ? " after the removals" : "");
+  if (edit.set_count > left)
+    fail(HF_ERROR_NO_SUCH_SITE, left, "%u values to set, but the solver has %u sites%s", edit.set_count, left,
+         edit.remove_count ? " after the removals" : "");
+  if (edit.add.count > solver.site_limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u sites to add; the site_limit is %u", edit.add.count, solver.site_limit);
 }
 
 void apply(hf_solver handle, const FieldEdit& edit, std::uint32_t* out_sites) {
@@ -81,13 +94,16 @@ void solve(hf_solver handle, float* f32, double* f64, std::uint32_t value_stride
   if (out_info) write_struct(out_info, unreached(*solver));
 }
 
-void solve_vectors(hf_solver handle, float* f32, double* f64, std::uint32_t stride, double* out_normals, hf_solve_info* out_info) {
+void solve_vectors(hf_solver handle, float* f32, double* f64, std::uint32_t stride, double* out_normals,
+                   hf_solve_info* out_info) {
   const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
   if (!f32 && !f64) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_vectors is NULL");
   if (out_info) check_struct(out_info, "out_info");
   const Reading reading(*solver);
   const Core& core = solver->field.core();
-  if (solver->field.sites().channels() != 3) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the solver has %d channels; vector fields need channel_count 3", solver->field.sites().channels());
+  if (solver->field.sites().channels() != 3)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the solver has %d channels; vector fields need channel_count 3",
+         solver->field.sites().channels());
   const Rows out = rows_of(f32, f64, stride, "vector_stride");
   Workspace field(core.workspaces, static_cast<std::size_t>(core.size()) * 3);
   solver->field.solve(field.data());
@@ -95,7 +111,9 @@ void solve_vectors(hf_solver handle, float* f32, double* f64, std::uint32_t stri
   project_on_tangent_planes(normals, field.data());
   scatter(core, 3, out, nullptr, [&](std::size_t v, double* values) { std::copy_n(field.data() + v * 3, 3, values); });
   if (out_normals) {
-    scatter(core, 3, Rows(out_normals, 3 * sizeof(double)), nullptr, [&](std::size_t v, double* values) { values[0] = normals[v].x, values[1] = normals[v].y, values[2] = normals[v].z; });
+    scatter(core, 3, Rows(out_normals, 3 * sizeof(double)), nullptr, [&](std::size_t v, double* values) {
+      values[0] = normals[v].x, values[1] = normals[v].y, values[2] = normals[v].z;
+    });
   }
   if (out_info) write_struct(out_info, unreached(*solver));
 }
@@ -175,14 +193,16 @@ hf_result hf_get_sites(hf_solver handle, hf_site_info* out_info) {
     const hf_site_info info = read_struct(out_info, "out_info");
     const Reading reading(*solver);
     const SiteSet& sites = solver->field.sites();
-    if (info.capacity < sites.count()) fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "capacity is %u; the solver has %u sites", info.capacity, sites.count());
+    if (info.capacity < sites.count())
+      fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "capacity is %u; the solver has %u sites", info.capacity, sites.count());
     const std::size_t m = static_cast<std::size_t>(sites.channels());
     Vector<double> flux(solver->memory.get());
     if (info.flux) {
       solver->field.flux(flux);
       for (std::size_t s = 0; s < sites.slots().size(); ++s) {
         const std::int32_t owner = sites.slots()[s].owner;
-        for (std::size_t c = 0; owner >= 0 && c < m; ++c) flux[static_cast<std::size_t>(owner) * m + c] += flux[s * m + c];
+        for (std::size_t c = 0; owner >= 0 && c < m; ++c)
+          flux[static_cast<std::size_t>(owner) * m + c] += flux[s * m + c];
       }
     }
     std::size_t at = 0;
@@ -209,12 +229,16 @@ hf_result hf_solve_f64(hf_solver solver, double* out_values, uint32_t value_stri
   return guarded("hf_solve_f64", [&] { solve(solver, nullptr, out_values, value_stride, out_info); });
 }
 
-hf_result hf_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info) {
-  return guarded("hf_solve_vectors", [&] { solve_vectors(solver, out_vectors, nullptr, vector_stride, out_normals, out_info); });
+hf_result hf_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride, double* out_normals,
+                           hf_solve_info* out_info) {
+  return guarded("hf_solve_vectors",
+                 [&] { solve_vectors(solver, out_vectors, nullptr, vector_stride, out_normals, out_info); });
 }
 
-hf_result hf_solve_vectors_f64(hf_solver solver, double* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info) {
-  return guarded("hf_solve_vectors_f64", [&] { solve_vectors(solver, nullptr, out_vectors, vector_stride, out_normals, out_info); });
+hf_result hf_solve_vectors_f64(hf_solver solver, double* out_vectors, uint32_t vector_stride, double* out_normals,
+                               hf_solve_info* out_info) {
+  return guarded("hf_solve_vectors_f64",
+                 [&] { solve_vectors(solver, nullptr, out_vectors, vector_stride, out_normals, out_info); });
 }
 
 hf_result hf_solve_at(hf_solver handle, uint32_t vertex_count, const uint32_t* vertices, double* out_values) {
@@ -225,11 +249,15 @@ hf_result hf_solve_at(hf_solver handle, uint32_t vertex_count, const uint32_t* v
     const Reading reading(*solver);
     const Mesh& mesh = solver->field.core().mesh;
     const std::size_t m = static_cast<std::size_t>(solver->field.sites().channels());
-    if (vertex_count > mesh.report.vertex_count) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices asked for; the mesh has %u", vertex_count, mesh.report.vertex_count);
+    if (vertex_count > mesh.report.vertex_count)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices asked for; the mesh has %u", vertex_count,
+           mesh.report.vertex_count);
     Vector<std::int32_t> inner(solver->memory.get());
     Vector<std::uint32_t> place(solver->memory.get());  // in `inner`, of every vertex of the list
     for (std::uint32_t i = 0; i < vertex_count; ++i) {
-      if (vertices[i] >= mesh.report.vertex_count) fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of the list: vertex %u, but there are %u vertices", i, vertices[i], mesh.report.vertex_count);
+      if (vertices[i] >= mesh.report.vertex_count)
+        fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of the list: vertex %u, but there are %u vertices", i, vertices[i],
+             mesh.report.vertex_count);
       const std::int32_t v = mesh.inner_of_given[vertices[i]];
       place.push_back(v == Mesh::none ? HF_NO_INDEX : static_cast<std::uint32_t>(inner.size()));
       if (v != Mesh::none) inner.push_back(v);
@@ -238,7 +266,8 @@ hf_result hf_solve_at(hf_solver handle, uint32_t vertex_count, const uint32_t* v
     solver->field.solve_at(inner, values.data());
     // the list is not read again: the caller may have it overwritten by the output
     for (std::size_t i = 0; i < vertex_count; ++i) {
-      for (std::size_t c = 0; c < m; ++c) out_values[i * m + c] = place[i] == HF_NO_INDEX ? 0.0 : values[place[i] * m + c];
+      for (std::size_t c = 0; c < m; ++c)
+        out_values[i * m + c] = place[i] == HF_NO_INDEX ? 0.0 : values[place[i] * m + c];
     }
   });
 }

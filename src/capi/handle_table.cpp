@@ -27,13 +27,15 @@ Table table;  // trivially initialised; owns nothing while no handle lives
 thread_local const Reading* innermost_reading;  // on this thread's stack
 
 std::uintptr_t encode(std::size_t index, std::uintptr_t generation, Kind kind) noexcept {
-  return (static_cast<std::uintptr_t>(kind) << (index_bits + generation_bits)) | (generation << index_bits) | static_cast<std::uintptr_t>(index);
+  return (static_cast<std::uintptr_t>(kind) << (index_bits + generation_bits)) | (generation << index_bits) |
+         static_cast<std::uintptr_t>(index);
 }
 
 // The slot a handle names, or null. The mutex is held.
 Slot* slot_of(std::uintptr_t handle, Kind kind) noexcept {
   const std::size_t index = handle & index_mask;
-  if (handle >> (index_bits + generation_bits) != static_cast<std::uintptr_t>(kind) || index >= table.capacity) return nullptr;
+  if (handle >> (index_bits + generation_bits) != static_cast<std::uintptr_t>(kind) || index >= table.capacity)
+    return nullptr;
   Slot& slot = table.slots[index];
   return slot.object && slot.generation == ((handle >> index_bits) & generation_mask) ? &slot : nullptr;
 }
@@ -44,7 +46,9 @@ Reading::Reading(Object& object) : object_(object), outer_(innermost_reading) {
   std::int32_t users = object.users_.load(std::memory_order_relaxed);
   do {
     if (users < 0) {
-      if (object.owner_.load(std::memory_order_relaxed) == std::this_thread::get_id()) fail(HF_ERROR_REENTRANT, HF_NO_INDEX, "called from a callback of a call that is changing this object; return first");
+      if (object.owner_.load(std::memory_order_relaxed) == std::this_thread::get_id())
+        fail(HF_ERROR_REENTRANT, HF_NO_INDEX,
+             "called from a callback of a call that is changing this object; return first");
       fail(HF_ERROR_BUSY, HF_NO_INDEX, "another thread is changing this object; wait for it, or use a clone");
     }
   } while (!object.users_.compare_exchange_weak(users, users + 1, std::memory_order_acquire));
@@ -66,8 +70,12 @@ bool Reading::by_this_thread(const Object& object) noexcept {
 Changing::Changing(Object& object) : object_(object) {
   std::int32_t users = 0;
   if (!object.users_.compare_exchange_strong(users, Object::writer, std::memory_order_acquire)) {
-    if (object.owner_.load(std::memory_order_relaxed) == std::this_thread::get_id()) fail(HF_ERROR_REENTRANT, HF_NO_INDEX, "called from a callback of a call that is changing this object; return first");
-    if (Reading::by_this_thread(object)) fail(HF_ERROR_REENTRANT, HF_NO_INDEX, "called from a callback of a call that is reading this object; return first");
+    if (object.owner_.load(std::memory_order_relaxed) == std::this_thread::get_id())
+      fail(HF_ERROR_REENTRANT, HF_NO_INDEX,
+           "called from a callback of a call that is changing this object; return first");
+    if (Reading::by_this_thread(object))
+      fail(HF_ERROR_REENTRANT, HF_NO_INDEX,
+           "called from a callback of a call that is reading this object; return first");
     fail(HF_ERROR_BUSY, HF_NO_INDEX, "another thread is using this object; wait for it, or use a clone");
   }
   object.owner_.store(std::this_thread::get_id(), std::memory_order_relaxed);

@@ -1,6 +1,7 @@
-// The one global of the library: the table behind all handles. A handle is not a pointer but kind, generation and index; a stale, foreign or
-// doubly destroyed one is found out and answered with HF_ERROR_INVALID_HANDLE. Generations are never used twice (until 2^32 objects, or 2^15
-// on 32-bit hosts, were made). Empty, the table holds no memory, so unloading the library leaks nothing.
+// The one global of the library: the table behind all handles. A handle is not a pointer but kind, generation and
+// index; a stale, foreign or doubly destroyed one is found out and answered with HF_ERROR_INVALID_HANDLE. Generations
+// are never used twice (until 2^32 objects, or 2^15 on 32-bit hosts, were made). Empty, the table holds no memory, so
+// unloading the library leaks nothing.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -11,10 +12,19 @@
 
 namespace hf::capi {
 
-enum class Kind : std::uint32_t { solver = 1, pose = 2, transfer = 3, progress = 4, geodesics = 5, direction = 6, quads = 7, flow = 8 };
+enum class Kind : std::uint32_t {
+  solver = 1,
+  pose = 2,
+  transfer = 3,
+  progress = 4,
+  geodesics = 5,
+  direction = 6,
+  quads = 7,
+  flow = 8
+};
 
-// What a handle stands for. Readers share, a writer is alone; nobody waits: a call that overlaps answers HF_ERROR_BUSY, or
-// HF_ERROR_REENTRANT when it comes from a callback of the very call it overlaps.
+// What a handle stands for. Readers share, a writer is alone; nobody waits: a call that overlaps answers HF_ERROR_BUSY,
+// or HF_ERROR_REENTRANT when it comes from a callback of the very call it overlaps.
 class Object {
  public:
   explicit Object(Kind kind) noexcept : kind_(kind) {}
@@ -70,7 +80,9 @@ std::shared_ptr<Object> remove(std::uintptr_t handle, Kind kind) noexcept;
 template <class T, class Handle>
 std::shared_ptr<T> get(Handle handle, Kind kind, const char* name, std::uint32_t index = HF_NO_INDEX) {
   std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(handle), kind);
-  if (!object) fail(HF_ERROR_INVALID_HANDLE, index, "%s is %s; pass a live handle", name, handle ? "stale, destroyed or of another kind" : "NULL");
+  if (!object)
+    fail(HF_ERROR_INVALID_HANDLE, index, "%s is %s; pass a live handle", name,
+         handle ? "stale, destroyed or of another kind" : "NULL");
   return std::static_pointer_cast<T>(std::move(object));
 }
 

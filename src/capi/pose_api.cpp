@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/error.h"
 #include "capi/boundary.h"
 #include "capi/objects.h"
 #include "capi/scatter.h"
-#include "base/error.h"
 #include "deform/pose_stack.h"
 #include "deform/skin.h"
 #include "hf/deform.h"
@@ -16,10 +16,12 @@ namespace hf::capi {
 namespace {
 
 struct PoseObject final : Object {
-  PoseObject(std::shared_ptr<Memory> owner, std::shared_ptr<PoseStack> given) : Object(Kind::pose), memory(std::move(owner)), pose(std::move(given)), handle_count(pose->handle_count()) {}
+  PoseObject(std::shared_ptr<Memory> owner, std::shared_ptr<PoseStack> given)
+      : Object(Kind::pose), memory(std::move(owner)), pose(std::move(given)), handle_count(pose->handle_count()) {}
   std::shared_ptr<Memory> memory;  // outlives the pose
   std::shared_ptr<PoseStack> pose;
-  std::atomic<std::uint32_t> handle_count;  // of the last finished change: may be read while another thread changes the pose
+  std::atomic<std::uint32_t>
+      handle_count;  // of the last finished change: may be read while another thread changes the pose
 };
 
 hf_pose publish(std::shared_ptr<PoseStack> pose) {
@@ -41,14 +43,18 @@ PoseOptions read_options(const hf_pose_desc* given) {
 }
 
 // Regions of points and radii, as regions of inner vertices.
-void append_near(const Core& core, const hf_handles_desc& desc, Vector<std::uint32_t>& start, Vector<std::int32_t>& vertices) {
+void append_near(const Core& core, const hf_handles_desc& desc, Vector<std::uint32_t>& start,
+                 Vector<std::int32_t>& vertices) {
   start.push_back(0);
   for (std::uint32_t r = 0; r < desc.handle_count; ++r) {
     const double* p = desc.points + 3 * std::size_t{r};
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) fail(HF_ERROR_NON_FINITE, r, "point %u is not finite", r);
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+      fail(HF_ERROR_NON_FINITE, r, "point %u is not finite", r);
     if (!std::isfinite(desc.radii[r])) fail(HF_ERROR_NON_FINITE, r, "radius %u is not finite", r);
-    if (desc.radii[r] < 0) fail(HF_ERROR_INVALID_ARGUMENT, r, "radius %u is %g; it must not be negative", r, desc.radii[r]);
-    const Vector<std::int32_t> region = region_near(core, core.mesh.to_inner({p[0], p[1], p[2]}), desc.radii[r] / core.mesh.scale, *core.memory);
+    if (desc.radii[r] < 0)
+      fail(HF_ERROR_INVALID_ARGUMENT, r, "radius %u is %g; it must not be negative", r, desc.radii[r]);
+    const Vector<std::int32_t> region =
+        region_near(core, core.mesh.to_inner({p[0], p[1], p[2]}), desc.radii[r] / core.mesh.scale, *core.memory);
     vertices.insert(vertices.end(), region.begin(), region.end());
     start.push_back(static_cast<std::uint32_t>(vertices.size()));
   }
@@ -69,7 +75,8 @@ HandleTransform read_matrix(const double* m, std::uint32_t index, Vec3 centroid)
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) off = std::max(off, std::fabs(linear.m[i][j] - exact.m[i][j]));
   }
-  if (!(off <= 1e-4)) fail(HF_ERROR_INVALID_ARGUMENT, index, "matrix %u is no rigid motion; scale and shear are not taken", index);
+  if (!(off <= 1e-4))
+    fail(HF_ERROR_INVALID_ARGUMENT, index, "matrix %u is no rigid motion; scale and shear are not taken", index);
   return {rotation, rotate(rotation, centroid) + Vec3{m[12], m[13], m[14]} - centroid};
 }
 
@@ -81,7 +88,8 @@ struct Range {
 
 Range read_range(const hf_deform_desc& desc, std::uint32_t vertex_count) {
   if (desc.first_vertex > vertex_count || desc.vertex_count > vertex_count - desc.first_vertex)
-    fail(HF_ERROR_OUT_OF_RANGE, HF_NO_INDEX, "vertices %u to %llu are asked for; the mesh has %u", desc.first_vertex, static_cast<unsigned long long>(desc.first_vertex) + desc.vertex_count, vertex_count);
+    fail(HF_ERROR_OUT_OF_RANGE, HF_NO_INDEX, "vertices %u to %llu are asked for; the mesh has %u", desc.first_vertex,
+         static_cast<unsigned long long>(desc.first_vertex) + desc.vertex_count, vertex_count);
   const std::uint32_t count = desc.vertex_count ? desc.vertex_count : vertex_count - desc.first_vertex;
   return {desc.first_vertex, count, count == vertex_count};
 }
@@ -141,7 +149,8 @@ hf_result hf_pose_create(hf_solver handle, const hf_pose_desc* desc, hf_pose* ou
     *out_pose = nullptr;
     const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
     const PoseOptions options = read_options(desc);
-    if (solver->field.engine().kind() != EngineKind::green) fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "poses need a solver with HF_ENGINE_GREEN");
+    if (solver->field.engine().kind() != EngineKind::green)
+      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "poses need a solver with HF_ENGINE_GREEN");
     *out_pose = publish(PoseStack::make(solver->field.shared_core(), options));
   });
 }
@@ -169,13 +178,16 @@ hf_result hf_pose_add_handles(hf_pose handle, const hf_handles_desc* given, uint
     if (desc.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "reserved is %u; it must be 0", desc.reserved);
     const bool near = desc.points || desc.radii;
     if (near) {
-      if (desc.region_counts || desc.region_vertices) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "regions and points are both set; set one");
+      if (desc.region_counts || desc.region_vertices)
+        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "regions and points are both set; set one");
       require(desc.points, "points"), require(desc.radii, "radii");
     } else {
       require(desc.region_counts, "region_counts"), require(desc.region_vertices, "region_vertices");
     }
-    if (desc.layer >= HF_LAYER_COUNT) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "layer is %u; it must be 0 to %d", desc.layer, HF_LAYER_COUNT - 1);
-    if (desc.handle_count > 256) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles in one batch; a pose takes at most 256", desc.handle_count);
+    if (desc.layer >= HF_LAYER_COUNT)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "layer is %u; it must be 0 to %d", desc.layer, HF_LAYER_COUNT - 1);
+    if (desc.handle_count > 256)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles in one batch; a pose takes at most 256", desc.handle_count);
     const Changing changing(*pose);
     const Mesh& mesh = pose->pose->core().mesh;
     Vector<std::uint32_t> start(pose->memory.get());
@@ -191,7 +203,8 @@ hf_result hf_pose_add_handles(hf_pose handle, const hf_handles_desc* given, uint
       pose->pose->add_handles(start, vertices, desc.layer, numbers);
     } catch (const Error& error) {
       if (!near || error.code() != HF_ERROR_OVERLAP) throw;
-      const std::uint32_t r = static_cast<std::uint32_t>(std::upper_bound(start.begin(), start.end(), error.index()) - start.begin() - 1);
+      const std::uint32_t r =
+          static_cast<std::uint32_t>(std::upper_bound(start.begin(), start.end(), error.index()) - start.begin() - 1);
       fail(HF_ERROR_OVERLAP, r, "the region of point %u overlaps another handle; make its radius smaller", r);
     }
     pose->handle_count = pose->pose->handle_count();
@@ -210,7 +223,8 @@ hf_result hf_pose_remove_handles(hf_pose handle, uint32_t handle_count, const ui
   });
 }
 
-hf_result hf_pose_set_transforms(hf_pose handle, uint32_t handle_count, const uint32_t* handles, const hf_transform* transforms) {
+hf_result hf_pose_set_transforms(hf_pose handle, uint32_t handle_count, const uint32_t* handles,
+                                 const hf_transform* transforms) {
   return guarded("hf_pose_set_transforms", [&] {
     const auto pose = get<PoseObject>(handle, Kind::pose, "pose");
     if (handle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "handle_count is 0");
@@ -221,7 +235,8 @@ hf_result hf_pose_set_transforms(hf_pose handle, uint32_t handle_count, const ui
     for (std::uint32_t i = 0; i < handle_count; ++i) {
       const double* q = transforms[i].rotation;
       const double* t = transforms[i].translation;
-      placed[i].rotation.x = q[0], placed[i].rotation.y = q[1], placed[i].rotation.z = q[2], placed[i].rotation.w = q[3];
+      placed[i].rotation.x = q[0], placed[i].rotation.y = q[1], placed[i].rotation.z = q[2],
+      placed[i].rotation.w = q[3];
       placed[i].translation = {t[0], t[1], t[2]};
     }
     pose->pose->set_transforms({handles, handle_count}, {placed, handle_count});
@@ -236,7 +251,8 @@ hf_result hf_pose_set_matrices(hf_pose handle, uint32_t handle_count, const uint
     if (handle_count > 256) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles; a pose has at most 256", handle_count);
     const Changing changing(*pose);
     HandleTransform placed[256];
-    for (std::uint32_t i = 0; i < handle_count; ++i) placed[i] = read_matrix(matrices + 16 * std::size_t{i}, i, pose->pose->handle_at(handles[i], i).centroid);
+    for (std::uint32_t i = 0; i < handle_count; ++i)
+      placed[i] = read_matrix(matrices + 16 * std::size_t{i}, i, pose->pose->handle_at(handles[i], i).centroid);
     pose->pose->set_transforms({handles, handle_count}, {placed, handle_count});
   });
 }
@@ -282,8 +298,10 @@ hf_result hf_deform(hf_pose handle, const hf_deform_desc* given, hf_deform_info*
     const hf_deform_desc desc = read_struct(given, "desc");
     if (out_info) check_struct(out_info, "out_info");
     check_choice(desc.refine, 2, "refine");
-    if (desc.positions && desc.positions_f64) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "positions and positions_f64 are both set; set one");
-    if (!desc.positions && !desc.positions_f64 && !desc.normals) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "positions, positions_f64 and normals are all NULL; nothing to write");
+    if (desc.positions && desc.positions_f64)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "positions and positions_f64 are both set; set one");
+    if (!desc.positions && !desc.positions_f64 && !desc.normals)
+      fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "positions, positions_f64 and normals are all NULL; nothing to write");
     const Rows positions = rows_of(desc.positions, desc.positions_f64, desc.position_stride, "position_stride");
     const Rows normals = rows_of(desc.normals, static_cast<double*>(nullptr), desc.normal_stride, "normal_stride");
     DeformRequest request;
@@ -295,12 +313,20 @@ hf_result hf_deform(hf_pose handle, const hf_deform_desc* given, hf_deform_info*
     const Range range = read_range(desc, core.mesh.report.vertex_count);
     request.surface = range.whole || request.normals || request.refine || pose->pose->has_layers();
     const DeformReport report = pose->pose->deform(request);
-    const auto put_position = [&](std::size_t v, double* values) { put(request.surface ? report.positions[v] : pose->pose->base().blended(static_cast<std::int32_t>(v)), values); };
+    const auto put_position = [&](std::size_t v, double* values) {
+      put(request.surface ? report.positions[v] : pose->pose->base().blended(static_cast<std::int32_t>(v)), values);
+    };
     const auto put_normal = [&](std::size_t v, double* values) { put(report.normals[v], values); };
     if (range.whole) {
-      if (desc.positions) write_points(core, report.positions, desc.positions, stride_of(desc.position_stride, 3 * sizeof(float), "position_stride"), put_rest);
-      if (desc.positions_f64) write_points(core, report.positions, desc.positions_f64, stride_of(desc.position_stride, 3 * sizeof(double), "position_stride"), put_rest);
-      if (desc.normals) write_points(core, report.normals, desc.normals, stride_of(desc.normal_stride, 3 * sizeof(float), "normal_stride"), put_up);
+      if (desc.positions)
+        write_points(core, report.positions, desc.positions,
+                     stride_of(desc.position_stride, 3 * sizeof(float), "position_stride"), put_rest);
+      if (desc.positions_f64)
+        write_points(core, report.positions, desc.positions_f64,
+                     stride_of(desc.position_stride, 3 * sizeof(double), "position_stride"), put_rest);
+      if (desc.normals)
+        write_points(core, report.normals, desc.normals,
+                     stride_of(desc.normal_stride, 3 * sizeof(float), "normal_stride"), put_up);
     } else {
       if (positions) scatter_range(core, range, positions, put_rest, put_position);
       if (normals) scatter_range(core, range, normals, put_up, put_normal);
@@ -310,7 +336,8 @@ hf_result hf_deform(hf_pose handle, const hf_deform_desc* given, hf_deform_info*
     info.iteration_count = report.iteration_count, info.cluster_count = report.cluster_count;
     info.unreached_vertex_count = report.unreached_vertex_count + core.mesh.report.isolated_vertex_count;
     info.last_change = report.last_change;
-    info.solve_ms = report.solve_ms, info.blend_ms = report.blend_ms, info.normal_ms = report.normal_ms, info.refine_ms = report.refine_ms;
+    info.solve_ms = report.solve_ms, info.blend_ms = report.blend_ms, info.normal_ms = report.normal_ms,
+    info.refine_ms = report.refine_ms;
     write_struct(out_info, info);
   });
 }
@@ -320,10 +347,13 @@ hf_result hf_pose_get_skin(hf_pose handle, hf_skin_info* info) {
     const auto pose = get<PoseObject>(handle, Kind::pose, "pose");
     hf_skin_info out = read_struct(info, "info");
     const std::uint32_t weight_count = out.weight_count == 0 ? 4 : out.weight_count;
-    if (weight_count != 4 && weight_count != 8) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "weight_count is %u; it must be 4 or 8, or 0 for 4", weight_count);
+    if (weight_count != 4 && weight_count != 8)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "weight_count is %u; it must be 4 or 8, or 0 for 4", weight_count);
     if (out.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "reserved is %u; it must be 0", out.reserved);
     const Reading reading(*pose);
-    if (pose->pose->has_layers()) fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the pose has handles on higher layers; the surface they make is no blend of clusters");
+    if (pose->pose->has_layers())
+      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+           "the pose has handles on higher layers; the surface they make is no blend of clusters");
     const Pose& base = pose->pose->base();
     if (base.handle_count() == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
     const Skin skin = make_skin(base, weight_count, out.scales != nullptr, *pose->memory);
@@ -341,7 +371,8 @@ hf_result hf_pose_get_skin(hf_pose handle, hf_skin_info* info) {
     for (std::size_t v = 0; (out.vertex_joints || out.vertex_weights) && v < mesh.report.vertex_count; ++v) {
       std::uint32_t joint[8];
       float weight[8];
-      skin_weights(base, mesh.inner_of_given[v] == Mesh::none ? -1 : mesh.inner_of_given[v], weight_count, joint, weight);
+      skin_weights(base, mesh.inner_of_given[v] == Mesh::none ? -1 : mesh.inner_of_given[v], weight_count, joint,
+                   weight);
       if (out.vertex_joints) std::copy_n(joint, weight_count, out.vertex_joints + v * weight_count);
       if (out.vertex_weights) std::copy_n(weight, weight_count, out.vertex_weights + v * weight_count);
     }

@@ -8,7 +8,8 @@
 
 namespace hf::capi {
 
-// row(inner, values) fills `width` (at most 64) numbers. Isolated vertices get what isolated(entry, values) fills in, or zeros without it.
+// row(inner, values) fills `width` (at most 64) numbers. Isolated vertices get what isolated(entry, values) fills in,
+// or zeros without it.
 using IsolatedRow = void (*)(const Mesh::Isolated& entry, double* values);
 
 template <class Row>
@@ -99,24 +100,30 @@ inline void put(Vec3 p, double* values) noexcept { values[0] = p.x, values[1] = 
 inline void put_rest(const Mesh::Isolated& entry, double* values) { put(entry.position, values); }
 inline void put_up(const Mesh::Isolated&, double* values) { put({0, 0, 1}, values); }
 
-// Inner vertices of a list of vertices as given; isolated ones are Mesh::none. Throws HF_ERROR_OUT_OF_RANGE with the position in the list.
-inline void append_inner(const Mesh& mesh, std::size_t count, const std::uint32_t* vertices, const char* name, Vector<std::int32_t>& out) {
+// Inner vertices of a list of vertices as given; isolated ones are Mesh::none. Throws HF_ERROR_OUT_OF_RANGE with the
+// position in the list.
+inline void append_inner(const Mesh& mesh, std::size_t count, const std::uint32_t* vertices, const char* name,
+                         Vector<std::int32_t>& out) {
   for (std::size_t i = 0; i < count; ++i) {
     if (vertices[i] >= mesh.report.vertex_count) {
-      fail(HF_ERROR_OUT_OF_RANGE, static_cast<std::uint32_t>(i), "entry %zu of %s: vertex %u, but there are %u vertices", i, name, vertices[i], mesh.report.vertex_count);
+      fail(HF_ERROR_OUT_OF_RANGE, static_cast<std::uint32_t>(i),
+           "entry %zu of %s: vertex %u, but there are %u vertices", i, name, vertices[i], mesh.report.vertex_count);
     }
     out.push_back(mesh.inner_of_given[vertices[i]]);
   }
 }
 
 // Sum of the region sizes, each at least 1; start has count + 1 entries.
-inline void append_starts(std::uint32_t count, const std::uint32_t* sizes, std::uint32_t limit, const char* name, Vector<std::uint32_t>& start) {
+inline void append_starts(std::uint32_t count, const std::uint32_t* sizes, std::uint32_t limit, const char* name,
+                          Vector<std::uint32_t>& start) {
   std::uint64_t total = 0;
   start.push_back(0);
   for (std::uint32_t r = 0; r < count; ++r) {
     if (sizes[r] == 0) fail(HF_ERROR_EMPTY, r, "%s[%u] is 0; a region has at least one vertex", name, r);
     total += sizes[r];
-    if (total > std::uint64_t{4} * limit) fail(HF_ERROR_TOO_LARGE, r, "the regions name %llu vertices; the mesh has %u", static_cast<unsigned long long>(total), limit);
+    if (total > std::uint64_t{4} * limit)
+      fail(HF_ERROR_TOO_LARGE, r, "the regions name %llu vertices; the mesh has %u",
+           static_cast<unsigned long long>(total), limit);
     start.push_back(static_cast<std::uint32_t>(total));
   }
 }

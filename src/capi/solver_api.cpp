@@ -17,7 +17,8 @@ struct HookAllocator {
   template <class U>
   HookAllocator(const HookAllocator<U>& other) noexcept : hooks(other.hooks) {}
   T* allocate(std::size_t count) {
-    void* block = hooks.allocate ? hooks.allocate(hooks.user, count * sizeof(T), alignof(T)) : ::operator new(count * sizeof(T), std::nothrow);
+    void* block = hooks.allocate ? hooks.allocate(hooks.user, count * sizeof(T), alignof(T))
+                                 : ::operator new(count * sizeof(T), std::nothrow);
     if (!block) throw std::bad_alloc();
     return static_cast<T*>(block);
   }
@@ -29,9 +30,13 @@ struct HookAllocator {
     }
   }
   template <class U>
-  bool operator==(const HookAllocator<U>& other) const noexcept { return hooks.allocate == other.hooks.allocate && hooks.user == other.hooks.user; }
+  bool operator==(const HookAllocator<U>& other) const noexcept {
+    return hooks.allocate == other.hooks.allocate && hooks.user == other.hooks.user;
+  }
   template <class U>
-  bool operator!=(const HookAllocator<U>& other) const noexcept { return !(*this == other); }
+  bool operator!=(const HookAllocator<U>& other) const noexcept {
+    return !(*this == other);
+  }
   hf_allocator hooks;
 };
 
@@ -51,18 +56,26 @@ Options read_options(const hf_create_desc& desc) {
   check_choice(desc.engine, 3, "engine");
   check_choice(desc.ordering, 3, "ordering");
 #ifndef HF_WITH_GPL
-  if (desc.engine == HF_ENGINE_UPDOWN) fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
-  if (desc.ordering == HF_ORDERING_METIS) fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "HF_ORDERING_METIS needs a build with HF_WITH_GPL; use HF_ORDERING_NESTED_DISSECTION");
+  if (desc.engine == HF_ENGINE_UPDOWN)
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+         "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
+  if (desc.ordering == HF_ORDERING_METIS)
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+         "HF_ORDERING_METIS needs a build with HF_WITH_GPL; use HF_ORDERING_NESTED_DISSECTION");
 #endif
-  if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr)) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
+  if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
   options.core.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
   options.core.field_kind = static_cast<FieldKind>(desc.field_kind);
-  options.core.ordering = desc.ordering == HF_ORDERING_METIS ? Ordering::metis : desc.ordering == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree : Ordering::nested_dissection;
+  options.core.ordering = desc.ordering == HF_ORDERING_METIS            ? Ordering::metis
+                          : desc.ordering == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree
+                                                                        : Ordering::nested_dissection;
   options.engine = static_cast<EngineKind>(desc.engine);
   options.channels = count_of(desc.channel_count, 1, 1, 64, "channel_count");
   options.threads = count_of(desc.thread_count, 1, 1, 256, "thread_count");
   options.site_limit = desc.site_limit ? desc.site_limit : 100000;
-  if (desc.penalty != 0 && !(desc.penalty > 0)) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
+  if (desc.penalty != 0 && !(desc.penalty > 0))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
   options.penalty = desc.penalty > 0 ? std::min(desc.penalty, 1e10) : 1e8;
   return options;
 }
@@ -74,7 +87,10 @@ void read_saved_factor(const hf_create_desc& desc, CoreOptions& options) {
   options.saved_factor = {static_cast<const std::uint8_t*>(saved.bytes), saved.byte_count};
   options.borrow_factor = saved.borrow != 0;
   const Ordering ordering = check_saved_factor(options.saved_factor);
-  if (desc.ordering != 0 && options.ordering != ordering) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "ordering is %d, but the saved factor has ordering %d; set it to 0 to take the factor's", desc.ordering, static_cast<int>(ordering));
+  if (desc.ordering != 0 && options.ordering != ordering)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "ordering is %d, but the saved factor has ordering %d; set it to 0 to take the factor's", desc.ordering,
+         static_cast<int>(ordering));
 }
 
 void count_given(SolverObject& solver) {
@@ -101,12 +117,17 @@ hf_result hf_create(const hf_create_desc* given, hf_solver* out_solver) {
     Options options = read_options(desc);
     if (desc.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "vertex_count is 0");
     if (desc.triangle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "triangle_count is 0");
-    if (desc.positions && desc.positions_f64) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "positions and positions_f64 are both set; set one");
-    if (!desc.positions && !desc.positions_f64) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "positions and positions_f64 are both NULL");
+    if (desc.positions && desc.positions_f64)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "positions and positions_f64 are both set; set one");
+    if (!desc.positions && !desc.positions_f64)
+      fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "positions and positions_f64 are both NULL");
     require(desc.triangles, "triangles");
     const std::uint32_t limit = desc.vertex_limit ? desc.vertex_limit : 20000000;
-    if (desc.vertex_count > limit) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; the vertex_limit is %u", desc.vertex_count, limit);
-    if (desc.triangle_count / 8 > limit) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; at most eight per vertex of the vertex_limit %u are taken", desc.triangle_count, limit);
+    if (desc.vertex_count > limit)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; the vertex_limit is %u", desc.vertex_count, limit);
+    if (desc.triangle_count / 8 > limit)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; at most eight per vertex of the vertex_limit %u are taken",
+           desc.triangle_count, limit);
 
     MeshInput input;
     input.vertex_count = desc.vertex_count, input.triangle_count = desc.triangle_count;
@@ -120,7 +141,8 @@ hf_result hf_create(const hf_create_desc* given, hf_solver* out_solver) {
     if (desc.progress) progress = get<ProgressObject>(desc.progress, Kind::progress, "progress");
     options.core.progress = progress ? &progress->progress : nullptr;
 
-    auto memory = std::allocate_shared<Memory>(HookAllocator<Memory>(desc.allocator), desc.allocator, std::uint64_t{desc.memory_limit_mb} << 20);
+    auto memory = std::allocate_shared<Memory>(HookAllocator<Memory>(desc.allocator), desc.allocator,
+                                               std::uint64_t{desc.memory_limit_mb} << 20);
     Memory& pool = *memory;
     auto jobs = make_shared_in<JobRunner>(pool, options.threads, desc.job_runner);
     std::shared_ptr<const Core> core;
@@ -130,7 +152,8 @@ hf_result hf_create(const hf_create_desc* given, hf_solver* out_solver) {
       if (error.code() == HF_ERROR_CANCELLED && progress) progress->progress.reset();  // one cancel stops one call
       throw;
     }
-    const auto solver = make_owner_in<SolverObject>(memory, std::move(core), options.engine, options.penalty, static_cast<std::int32_t>(options.channels), options.site_limit);
+    const auto solver = make_owner_in<SolverObject>(memory, std::move(core), options.engine, options.penalty,
+                                                    static_cast<std::int32_t>(options.channels), options.site_limit);
     count_given(*solver);
     *out_solver = reinterpret_cast<hf_solver>(insert(solver));
   });
@@ -180,10 +203,14 @@ hf_result hf_get_components(hf_solver handle, uint32_t vertex_count, uint32_t* o
     const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
     require(out_components, "out_components");
     const Mesh& mesh = solver->field.core().mesh;
-    if (vertex_count != mesh.report.vertex_count) fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "vertex_count is %u; the mesh has %u vertices", vertex_count, mesh.report.vertex_count);
+    if (vertex_count != mesh.report.vertex_count)
+      fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "vertex_count is %u; the mesh has %u vertices", vertex_count,
+           mesh.report.vertex_count);
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
       const std::int32_t inner = mesh.inner_of_given[v];
-      out_components[v] = inner == Mesh::none ? HF_NO_INDEX : static_cast<std::uint32_t>(mesh.component[static_cast<std::size_t>(inner)]);
+      out_components[v] = inner == Mesh::none
+                              ? HF_NO_INDEX
+                              : static_cast<std::uint32_t>(mesh.component[static_cast<std::size_t>(inner)]);
     }
   });
 }
@@ -220,9 +247,11 @@ hf_result hf_get_statistics(hf_solver handle, hf_statistics* out_statistics) {
     statistics.dense_row_count = counters.dense_rows, statistics.eliminated_count = counters.eliminated;
     statistics.rebase_advised = counters.rebase_advised;
     statistics.predicted_dense_ms = counters.dense_ms, statistics.predicted_rebase_ms = counters.rebase_ms;
-    statistics.load_ms = factor.load_ms, statistics.factor_loaded = factor.loaded, statistics.factor_borrowed = factor.borrowed;
+    statistics.load_ms = factor.load_ms, statistics.factor_loaded = factor.loaded,
+    statistics.factor_borrowed = factor.borrowed;
     // the engines count the factor of hf_create as made
-    if (factor.loaded && statistics.factorisation_count > 0 && solver->field.engine().kind() == EngineKind::green) --statistics.factorisation_count;
+    if (factor.loaded && statistics.factorisation_count > 0 && solver->field.engine().kind() == EngineKind::green)
+      --statistics.factorisation_count;
     write_struct(out_statistics, statistics);
   });
 }

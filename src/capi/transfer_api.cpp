@@ -36,21 +36,26 @@ TransferOptions read_options(const hf_transfer_desc* given) {
   options.mode = desc.mode;
   options.cluster_count = count_of(desc.cluster_count, 0, 1, 512, "cluster_count");
   const double width = static_cast<double>(desc.kernel_width);
-  if (width != 0 && !(width >= 0.00499 && width <= 0.501)) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "kernel_width is %g; it must be 0.005 to 0.5, or 0 for 0.04", width);
+  if (width != 0 && !(width >= 0.00499 && width <= 0.501))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "kernel_width is %g; it must be 0.005 to 0.5, or 0 for 0.04", width);
   const double scale = static_cast<double>(desc.scale);
-  if (scale != 0 && !(scale > 0 && std::isfinite(scale))) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it must be above 0, or 0 to find it", scale);
+  if (scale != 0 && !(scale > 0 && std::isfinite(scale)))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it must be above 0, or 0 to find it", scale);
   const double angle = static_cast<double>(desc.alignment_angle);
   if (!std::isfinite(angle)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "alignment_angle is not a finite number");
   options.kernel_width = width, options.scale = scale, options.alignment_angle = angle;
   for (int k = 0; k < 9; ++k) {
-    if (!std::isfinite(desc.source_axes[k]) || !std::isfinite(desc.target_axes[k])) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "source_axes or target_axes: number %d is not finite", k);
-    options.source_axes[k] = static_cast<double>(desc.source_axes[k]), options.target_axes[k] = static_cast<double>(desc.target_axes[k]);
+    if (!std::isfinite(desc.source_axes[k]) || !std::isfinite(desc.target_axes[k]))
+      fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "source_axes or target_axes: number %d is not finite", k);
+    options.source_axes[k] = static_cast<double>(desc.source_axes[k]),
+    options.target_axes[k] = static_cast<double>(desc.target_axes[k]);
   }
   return options;
 }
 
 void check_engine(const SolverObject& solver, std::uint32_t index) {
-  if (solver.field.engine().kind() != EngineKind::green) fail(HF_ERROR_UNSUPPORTED, index, "transfers need solvers with HF_ENGINE_GREEN");
+  if (solver.field.engine().kind() != EngineKind::green)
+    fail(HF_ERROR_UNSUPPORTED, index, "transfers need solvers with HF_ENGINE_GREEN");
   if (solver.field.core().refinements > 0)
     fail(HF_ERROR_UNSUPPORTED, index,
          "transfers need fields that keep to the range of their sites; make the solvers with HF_FIELD_HARMONIC");
@@ -64,7 +69,8 @@ using namespace hf::capi;
 
 extern "C" {
 
-hf_result hf_transfer_create(hf_solver source, hf_solver target, const hf_transfer_desc* desc, hf_transfer* out_transfer) {
+hf_result hf_transfer_create(hf_solver source, hf_solver target, const hf_transfer_desc* desc,
+                             hf_transfer* out_transfer) {
   return guarded("hf_transfer_create", [&] {
     require(out_transfer, "out_transfer");
     *out_transfer = nullptr;
@@ -72,7 +78,8 @@ hf_result hf_transfer_create(hf_solver source, hf_solver target, const hf_transf
     const auto to = get<SolverObject>(target, Kind::solver, "target", 1);
     const TransferOptions options = read_options(desc);
     check_engine(*from, 0), check_engine(*to, 1);
-    *out_transfer = reinterpret_cast<hf_transfer>(insert(make_owner_in<TransferObject>(to->memory, from->field.shared_core(), to->field.shared_core(), options)));
+    *out_transfer = reinterpret_cast<hf_transfer>(
+        insert(make_owner_in<TransferObject>(to->memory, from->field.shared_core(), to->field.shared_core(), options)));
   });
 }
 
@@ -86,7 +93,8 @@ hf_result hf_transfer_add_pairs(hf_transfer handle, const hf_pairs_desc* given, 
     const auto object = get<TransferObject>(handle, Kind::transfer, "transfer");
     const hf_pairs_desc desc = read_struct(given, "pairs");
     if (desc.pair_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "pair_count is 0");
-    if (desc.pair_count > 256) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u pairs in one batch; a transfer takes at most 256", desc.pair_count);
+    if (desc.pair_count > 256)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u pairs in one batch; a transfer takes at most 256", desc.pair_count);
     require(desc.source_counts, "source_counts"), require(desc.source_vertices, "source_vertices");
     require(desc.target_counts, "target_counts"), require(desc.target_vertices, "target_vertices");
     const Changing changing(*object);
@@ -100,14 +108,18 @@ hf_result hf_transfer_add_pairs(hf_transfer handle, const hf_pairs_desc* given, 
     append_inner(target, target_start.back(), desc.target_vertices, "target_vertices", target_vertices);
     const auto check_isolated = [](const Vector<std::int32_t>& vertices, const char* name) {
       for (std::size_t i = 0; i < vertices.size(); ++i) {
-        if (vertices[i] == Mesh::none) fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i), "entry %zu of %s belongs to no usable triangle; leave it out", i, name);
+        if (vertices[i] == Mesh::none)
+          fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i),
+               "entry %zu of %s belongs to no usable triangle; leave it out", i, name);
       }
     };
     check_isolated(source_vertices, "source_vertices"), check_isolated(target_vertices, "target_vertices");
     Vector<PairInput> pairs(desc.pair_count, memory);
     for (std::uint32_t p = 0; p < desc.pair_count; ++p) {
-      pairs[p].source = Span<const std::int32_t>(source_vertices.data() + source_start[p], source_start[p + 1] - source_start[p]);
-      pairs[p].target = Span<const std::int32_t>(target_vertices.data() + target_start[p], target_start[p + 1] - target_start[p]);
+      pairs[p].source =
+          Span<const std::int32_t>(source_vertices.data() + source_start[p], source_start[p + 1] - source_start[p]);
+      pairs[p].target =
+          Span<const std::int32_t>(target_vertices.data() + target_start[p], target_start[p + 1] - target_start[p]);
       pairs[p].flags = desc.flags ? desc.flags[p] : 0;
     }
     object->transfer.add_pairs(pairs, out_pairs);
@@ -160,21 +172,29 @@ hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) 
   return guarded("hf_transfer_apply", [&] {
     const auto object = get<TransferObject>(handle, Kind::transfer, "transfer");
     const hf_transfer_frame frame = read_struct(given, "frame");
-    if (frame.source_positions && frame.source_positions_f64) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "source_positions and source_positions_f64 are both set; set one");
-    if (!frame.source_positions && !frame.source_positions_f64) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "source_positions and source_positions_f64 are both NULL");
-    if (frame.target_positions && frame.target_positions_f64) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "target_positions and target_positions_f64 are both set; set one");
-    const ConstRows posed = rows_of(frame.source_positions, frame.source_positions_f64, frame.source_stride, "source_stride");
-    const Rows positions = rows_of(frame.target_positions, frame.target_positions_f64, frame.target_stride, "target_stride");
-    const Rows normals = rows_of(frame.target_normals, static_cast<double*>(nullptr), frame.normal_stride, "normal_stride");
+    if (frame.source_positions && frame.source_positions_f64)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "source_positions and source_positions_f64 are both set; set one");
+    if (!frame.source_positions && !frame.source_positions_f64)
+      fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "source_positions and source_positions_f64 are both NULL");
+    if (frame.target_positions && frame.target_positions_f64)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "target_positions and target_positions_f64 are both set; set one");
+    const ConstRows posed =
+        rows_of(frame.source_positions, frame.source_positions_f64, frame.source_stride, "source_stride");
+    const Rows positions =
+        rows_of(frame.target_positions, frame.target_positions_f64, frame.target_stride, "target_stride");
+    const Rows normals =
+        rows_of(frame.target_normals, static_cast<double*>(nullptr), frame.normal_stride, "normal_stride");
     if (frame.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "reserved is %u; it must be 0", frame.reserved);
-    if (frame.hold_count > 256) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u holds in a frame; a transfer has at most 256 pairs", frame.hold_count);
+    if (frame.hold_count > 256)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u holds in a frame; a transfer has at most 256 pairs", frame.hold_count);
     if (frame.hold_count > 0) require(frame.hold_pairs, "hold_pairs"), require(frame.hold_positions, "hold_positions");
     const Changing changing(*object);
     const Mesh& source = object->transfer.source().mesh;
     for (std::size_t v = 0; v < source.given_of_inner.size(); ++v) {
       const std::size_t row = static_cast<std::size_t>(source.given_of_inner[v]);
       const Vec3 p{posed.get(row, 0), posed.get(row, 1), posed.get(row, 2)};
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(row), "source vertex %zu is not finite", row);
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(row), "source vertex %zu is not finite", row);
       object->source_posed[v] = p;
     }
     const Core& target = object->transfer.target();
@@ -185,11 +205,15 @@ hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) 
     }
     PairHold holds[256];
     for (std::uint32_t i = 0; i < frame.hold_count; ++i)
-      holds[i] = {frame.hold_pairs[i], {frame.hold_positions[3 * i], frame.hold_positions[3 * i + 1], frame.hold_positions[3 * i + 2]}};
+      holds[i] = {frame.hold_pairs[i],
+                  {frame.hold_positions[3 * i], frame.hold_positions[3 * i + 1], frame.hold_positions[3 * i + 2]}};
     object->transfer.apply(object->source_posed.data(), object->target_posed.data(), {holds, frame.hold_count});
-    if (positions) scatter(target, 3, positions, put_rest, [&](std::size_t v, double* values) { put(object->target_posed[v], values); });
+    if (positions)
+      scatter(target, 3, positions, put_rest,
+              [&](std::size_t v, double* values) { put(object->target_posed[v], values); });
     if (normals) {
-      vertex_normals(target.mesh, *object->rest, object->target_posed.data(), object->triangle_normals.data(), object->normals.data(), *target.jobs);
+      vertex_normals(target.mesh, *object->rest, object->target_posed.data(), object->triangle_normals.data(),
+                     object->normals.data(), *target.jobs);
       scatter(target, 3, normals, put_up, [&](std::size_t v, double* values) { put(object->normals[v], values); });
     }
   });
@@ -200,7 +224,8 @@ hf_result hf_transfer_get_skin(hf_transfer handle, hf_skin_info* info) {
     const auto object = get<TransferObject>(handle, Kind::transfer, "transfer");
     hf_skin_info skin = read_struct(info, "info");
     const std::uint32_t weight_count = skin.weight_count == 0 ? 4 : skin.weight_count;
-    if (weight_count != 4 && weight_count != 8) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "weight_count is %u; it must be 4 or 8, or 0 for 4", weight_count);
+    if (weight_count != 4 && weight_count != 8)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "weight_count is %u; it must be 4 or 8, or 0 for 4", weight_count);
     if (skin.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "reserved is %u; it must be 0", skin.reserved);
     const Changing changing(*object);
     Memory* memory = object->memory.get();
@@ -224,7 +249,8 @@ hf_result hf_transfer_get_skin(hf_transfer handle, hf_skin_info* info) {
       for (std::size_t v = 0; v < mesh.report.vertex_count; ++v) {
         std::uint32_t joint[8] = {0};
         float weight[8] = {1};  // isolated vertices hang on the first joint
-        if (mesh.inner_of_given[v] != Mesh::none) object->transfer.skin_weights(mesh.inner_of_given[v], weight_count, joint, weight);
+        if (mesh.inner_of_given[v] != Mesh::none)
+          object->transfer.skin_weights(mesh.inner_of_given[v], weight_count, joint, weight);
         if (skin.vertex_joints) std::copy_n(joint, weight_count, skin.vertex_joints + v * weight_count);
         if (skin.vertex_weights) std::copy_n(weight, weight_count, skin.vertex_weights + v * weight_count);
       }
