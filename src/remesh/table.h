@@ -12,6 +12,12 @@ class Table {
  public:
   explicit Table(Memory& memory) : data_(&memory) {}
   Table(std::int32_t size, const T& value, Memory& memory) : data_(static_cast<std::size_t>(size), value, &memory) {}
+  // A copy lies in the same memory; that of a std::pmr container would lie in the host's default resource.
+  Table(const Table& other) : data_(other.data_, other.data_.get_allocator()) {}
+  Table(Table&&) = default;
+  Table& operator=(const Table&) = default;
+  Table& operator=(Table&&) = default;
+  ~Table() = default;
   T& operator[](std::int32_t i) noexcept { return data_[static_cast<std::size_t>(i)]; }
   const T& operator[](std::int32_t i) const noexcept { return data_[static_cast<std::size_t>(i)]; }
   std::int32_t size() const noexcept { return static_cast<std::int32_t>(data_.size()); }
