@@ -82,8 +82,8 @@ class SiteSolver {
   virtual void edit(const SiteEdit& edit) = 0;
 
   // The field of every inner vertex: field[vertex * channels + c]. values[slot * channels + c] for every slot in use.
-  // Vertices of components without a site get 0. Hard vertex sites hold their values exactly. flux: null, or like
-  // values. Const functions may run at the same time on one engine.
+  // Vertices of components without a site get 0. Hard vertex sites hold their values exactly. flux: null, or
+  // slot_count() rows, written for free slots too. Const functions may run at the same time on one engine.
   virtual void solve(const double* values, std::int32_t channels, double* field, double* flux) const = 0;
 
   // The same field, handed on without a copy in between.
