@@ -6,32 +6,33 @@ namespace samples {
 namespace {
 
 void add_joints(Design& d) {
-  d.add_joint("root", "", {0, 0, 0});
-  d.add_joint("hips", "root", {0, 1.02, -0.62});
-  d.add_joint("spine_1", "hips", {0, 1.03, -0.32});
-  d.add_joint("spine_2", "spine_1", {0, 1.03, 0.02});
-  d.add_joint("chest", "spine_2", {0, 1.06, 0.34});
-  d.add_joint("neck_1", "chest", {0, 1.10, 0.62});
-  d.add_joint("neck_2", "neck_1", {0, 1.13, 0.78});
-  d.add_joint("neck_3", "neck_2", {0, 1.15, 0.92});
-  d.add_joint("head", "neck_3", {0, 1.18, 1.03});
-  d.add_joint("jaw", "head", {0, 1.06, 1.10});
-  d.add_pair("ear", "head", {0.13, 1.19, 1.05});
-  d.add_joint("tail_1", "hips", {0, 1.20, -0.95});
-  d.add_joint("tail_2", "tail_1", {0, 1.02, -1.08});
-  d.add_joint("tail_3", "tail_2", {0, 0.80, -1.09});
-  d.add_joint("tail_4", "tail_3", {0, 0.58, -1.09});
-  d.add_pair("shoulder", "chest", {0.15, 1.20, 0.44});
-  d.add_pair("front_upper_leg", "shoulder", {0.205, 0.86, 0.66});
-  d.add_pair("front_lower_leg", "front_upper_leg", {0.205, 0.70, 0.45});
-  d.add_pair("front_cannon", "front_lower_leg", {0.195, 0.38, 0.48});
-  d.add_pair("front_pastern", "front_cannon", {0.190, 0.150, 0.47});
-  d.add_pair("front_hoof", "front_pastern", {0.190, 0.065, 0.52});
-  d.add_pair("hind_upper_leg", "hips", {0.175, 0.98, -0.64});
-  d.add_pair("hind_lower_leg", "hind_upper_leg", {0.215, 0.72, -0.43});
-  d.add_pair("hind_cannon", "hind_lower_leg", {0.190, 0.46, -0.79});
-  d.add_pair("hind_pastern", "hind_cannon", {0.185, 0.155, -0.75});
-  d.add_pair("hind_hoof", "hind_pastern", {0.185, 0.065, -0.695});
+  QuadrupedJoints at;
+  at.hips = {0, 1.02, -0.62};
+  at.spine_1 = {0, 1.03, -0.32};
+  at.spine_2 = {0, 1.03, 0.02};
+  at.chest = {0, 1.06, 0.34};
+  at.neck_1 = {0, 1.10, 0.62};
+  at.neck_2 = {0, 1.13, 0.78};
+  at.neck_3 = {0, 1.15, 0.92};
+  at.head = {0, 1.18, 1.03};
+  at.jaw = {0, 1.06, 1.10};
+  at.ear = {0.13, 1.19, 1.05};
+  at.tail_1 = {0, 1.20, -0.95};
+  at.tail_2 = {0, 1.02, -1.08};
+  at.tail_3 = {0, 0.80, -1.09};
+  at.tail_4 = {0, 0.58, -1.09};
+  at.shoulder = {0.15, 1.20, 0.44};
+  at.front_upper_leg = {0.205, 0.86, 0.66};
+  at.front_lower_leg = {0.205, 0.70, 0.45};
+  at.front_cannon = {0.195, 0.38, 0.48};
+  at.front_pastern = {0.190, 0.150, 0.47};
+  at.front_hoof = {0.190, 0.065, 0.52};
+  at.hind_upper_leg = {0.175, 0.98, -0.64};
+  at.hind_lower_leg = {0.215, 0.72, -0.43};
+  at.hind_cannon = {0.190, 0.46, -0.79};
+  at.hind_pastern = {0.185, 0.155, -0.75};
+  at.hind_hoof = {0.185, 0.065, -0.695};
+  add_quadruped_joints(d, at);
 }
 
 void add_torso(Design& d) {
@@ -112,16 +113,6 @@ void add_tail(Design& d) {
   d.flesh("tail_4", capsule({0, 0.46, -1.095}, {0, 0.32, -1.085}, 0.052, 0.018, 0.05), 0.65);
 }
 
-void add_charts(Design& d) {
-  d.chart({"root", "hips", "spine_1", "spine_2", "chest", "shoulder_L", "shoulder_R"});
-  d.chart({"neck_1", "neck_2", "neck_3"});
-  d.chart({"head", "jaw"});
-  d.chart({"tail_1", "tail_2", "tail_3", "tail_4"});
-  d.chart_pair({"ear"}, {0, 0, 1});
-  d.chart_pair({"front_upper_leg", "front_lower_leg", "front_cannon", "front_pastern", "front_hoof"});
-  d.chart_pair({"hind_upper_leg", "hind_lower_leg", "hind_cannon", "hind_pastern", "hind_hoof"});
-}
-
 double step(double low, double high, double x) { return glm::smoothstep(low, high, x); }
 
 dvec3 hereford(const dvec3& p, const dvec3& n) {
@@ -161,7 +152,7 @@ Design design_bull() {
   add_head_and_neck(d);
   add_legs(d);
   add_tail(d);
-  add_charts(d);
+  add_quadruped_charts(d, {0, 0, 1});
   d.color = hereford;
   d.body.cut_at_ground = true;
   d.body.finish();

@@ -6,32 +6,33 @@ namespace samples {
 namespace {
 
 void add_joints(Design& d) {
-  d.add_joint("root", "", {0, 0, 0});
-  d.add_joint("hips", "root", {0, 1.30, -0.56});
-  d.add_joint("spine_1", "hips", {0, 1.30, -0.26});
-  d.add_joint("spine_2", "spine_1", {0, 1.28, 0.06});
-  d.add_joint("chest", "spine_2", {0, 1.28, 0.34});
-  d.add_joint("neck_1", "chest", {0, 1.32, 0.62});
-  d.add_joint("neck_2", "neck_1", {0, 1.55, 0.84});
-  d.add_joint("neck_3", "neck_2", {0, 1.75, 1.00});
-  d.add_joint("head", "neck_3", {0, 1.91, 1.12});
-  d.add_joint("jaw", "head", {0, 1.76, 1.17});
-  d.add_pair("ear", "head", {0.055, 1.97, 1.10});
-  d.add_joint("tail_1", "hips", {0, 1.40, -0.84});
-  d.add_joint("tail_2", "tail_1", {0, 1.27, -0.99});
-  d.add_joint("tail_3", "tail_2", {0, 1.03, -1.06});
-  d.add_joint("tail_4", "tail_3", {0, 0.78, -1.08});
-  d.add_pair("shoulder", "chest", {0.12, 1.42, 0.40});
-  d.add_pair("front_upper_leg", "shoulder", {0.165, 1.08, 0.66});
-  d.add_pair("front_lower_leg", "front_upper_leg", {0.165, 0.92, 0.44});
-  d.add_pair("front_cannon", "front_lower_leg", {0.155, 0.50, 0.47});
-  d.add_pair("front_pastern", "front_cannon", {0.150, 0.185, 0.46});
-  d.add_pair("front_hoof", "front_pastern", {0.150, 0.075, 0.525});
-  d.add_pair("hind_upper_leg", "hips", {0.145, 1.24, -0.56});
-  d.add_pair("hind_lower_leg", "hind_upper_leg", {0.175, 0.95, -0.34});
-  d.add_pair("hind_cannon", "hind_lower_leg", {0.150, 0.60, -0.74});
-  d.add_pair("hind_pastern", "hind_cannon", {0.150, 0.190, -0.70});
-  d.add_pair("hind_hoof", "hind_pastern", {0.150, 0.075, -0.635});
+  QuadrupedJoints at;
+  at.hips = {0, 1.30, -0.56};
+  at.spine_1 = {0, 1.30, -0.26};
+  at.spine_2 = {0, 1.28, 0.06};
+  at.chest = {0, 1.28, 0.34};
+  at.neck_1 = {0, 1.32, 0.62};
+  at.neck_2 = {0, 1.55, 0.84};
+  at.neck_3 = {0, 1.75, 1.00};
+  at.head = {0, 1.91, 1.12};
+  at.jaw = {0, 1.76, 1.17};
+  at.ear = {0.055, 1.97, 1.10};
+  at.tail_1 = {0, 1.40, -0.84};
+  at.tail_2 = {0, 1.27, -0.99};
+  at.tail_3 = {0, 1.03, -1.06};
+  at.tail_4 = {0, 0.78, -1.08};
+  at.shoulder = {0.12, 1.42, 0.40};
+  at.front_upper_leg = {0.165, 1.08, 0.66};
+  at.front_lower_leg = {0.165, 0.92, 0.44};
+  at.front_cannon = {0.155, 0.50, 0.47};
+  at.front_pastern = {0.150, 0.185, 0.46};
+  at.front_hoof = {0.150, 0.075, 0.525};
+  at.hind_upper_leg = {0.145, 1.24, -0.56};
+  at.hind_lower_leg = {0.175, 0.95, -0.34};
+  at.hind_cannon = {0.150, 0.60, -0.74};
+  at.hind_pastern = {0.150, 0.190, -0.70};
+  at.hind_hoof = {0.150, 0.075, -0.635};
+  add_quadruped_joints(d, at);
 }
 
 void add_torso(Design& d) {
@@ -114,16 +115,6 @@ void add_tail(Design& d) {
   d.flesh("tail_4", capsule({0, 0.60, -1.075}, {0, 0.45, -1.055}, 0.046, 0.016, 0.010), 0.8);
 }
 
-void add_charts(Design& d) {
-  d.chart({"root", "hips", "spine_1", "spine_2", "chest", "shoulder_L", "shoulder_R"});
-  d.chart({"neck_1", "neck_2", "neck_3"});
-  d.chart({"head", "jaw"});
-  d.chart({"tail_1", "tail_2", "tail_3", "tail_4"});
-  d.chart_pair({"ear"}, {0.2, 0.1, 1});
-  d.chart_pair({"front_upper_leg", "front_lower_leg", "front_cannon", "front_pastern", "front_hoof"});
-  d.chart_pair({"hind_upper_leg", "hind_lower_leg", "hind_cannon", "hind_pastern", "hind_hoof"});
-}
-
 double step(double low, double high, double x) { return glm::smoothstep(low, high, x); }
 
 // Bay: brown coat, black legs, mane, tail and muzzle.
@@ -157,7 +148,7 @@ Design design_horse() {
   add_head_and_neck(d);
   add_legs(d);
   add_tail(d);
-  add_charts(d);
+  add_quadruped_charts(d, {0.2, 0.1, 1});
   d.color = bay;
   d.body.cut_at_ground = true;
   d.body.finish();

@@ -123,6 +123,45 @@ Gait idle(const Design& d, const QuadrupedStyle& style) {
 
 }  // namespace
 
+void add_quadruped_joints(Design& d, const QuadrupedJoints& at) {
+  d.add_joint("root", "", {0, 0, 0});
+  d.add_joint("hips", "root", at.hips);
+  d.add_joint("spine_1", "hips", at.spine_1);
+  d.add_joint("spine_2", "spine_1", at.spine_2);
+  d.add_joint("chest", "spine_2", at.chest);
+  d.add_joint("neck_1", "chest", at.neck_1);
+  d.add_joint("neck_2", "neck_1", at.neck_2);
+  d.add_joint("neck_3", "neck_2", at.neck_3);
+  d.add_joint("head", "neck_3", at.head);
+  d.add_joint("jaw", "head", at.jaw);
+  d.add_pair("ear", "head", at.ear);
+  d.add_joint("tail_1", "hips", at.tail_1);
+  d.add_joint("tail_2", "tail_1", at.tail_2);
+  d.add_joint("tail_3", "tail_2", at.tail_3);
+  d.add_joint("tail_4", "tail_3", at.tail_4);
+  d.add_pair("shoulder", "chest", at.shoulder);
+  d.add_pair("front_upper_leg", "shoulder", at.front_upper_leg);
+  d.add_pair("front_lower_leg", "front_upper_leg", at.front_lower_leg);
+  d.add_pair("front_cannon", "front_lower_leg", at.front_cannon);
+  d.add_pair("front_pastern", "front_cannon", at.front_pastern);
+  d.add_pair("front_hoof", "front_pastern", at.front_hoof);
+  d.add_pair("hind_upper_leg", "hips", at.hind_upper_leg);
+  d.add_pair("hind_lower_leg", "hind_upper_leg", at.hind_lower_leg);
+  d.add_pair("hind_cannon", "hind_lower_leg", at.hind_cannon);
+  d.add_pair("hind_pastern", "hind_cannon", at.hind_pastern);
+  d.add_pair("hind_hoof", "hind_pastern", at.hind_hoof);
+}
+
+void add_quadruped_charts(Design& d, const dvec3& left_ear_axis) {
+  d.chart({"root", "hips", "spine_1", "spine_2", "chest", "shoulder_L", "shoulder_R"});
+  d.chart({"neck_1", "neck_2", "neck_3"});
+  d.chart({"head", "jaw"});
+  d.chart({"tail_1", "tail_2", "tail_3", "tail_4"});
+  d.chart_pair({"ear"}, left_ear_axis);
+  d.chart_pair({"front_upper_leg", "front_lower_leg", "front_cannon", "front_pastern", "front_hoof"});
+  d.chart_pair({"hind_upper_leg", "hind_lower_leg", "hind_cannon", "hind_pastern", "hind_hoof"});
+}
+
 void add_quadruped_clips(Design& design, const QuadrupedStyle& style) {
   design.clips.push_back(make_clip(design.joints, design.rest, walk(design, style)));
   design.clips.push_back(make_clip(design.joints, design.rest, idle(design, style)));

@@ -1,37 +1,7 @@
 // Kernels for one instruction set; see kernels.h. The vector types come before the kernels written on them.
 // clang-format off
 #include "factor/simd_plain.h"
-#include "factor/kernels_factor.inl"
-#include "factor/kernels_sweep.inl"
-#include "factor/kernels_narrow.inl"
-#include "factor/kernels_triangle.inl"
-#include "factor/kernels_path.inl"
+#define HF_KERNEL_SET kernels_plain_set
+#define HF_KERNEL_NAME "plain"
+#include "factor/kernels_set.inl"
 // clang-format on
-
-namespace hf {
-
-extern const Kernels kernels_plain_set = {
-    "plain",
-    factor_triangle,
-    solve_tiles,
-    form_update,
-    extend_add,
-    invert_triangle,
-    multiply_inverse,
-    store_tiles,
-    backward_rows,
-    backward_triangle,
-    backward_narrow,
-    backward_narrow_f32,
-    backward_rows_f32,
-    backward_triangle_f32,
-    forward_triangle,
-    forward_rows,
-    forward_triangle_f32,
-    forward_rows_f32,
-    path_triangle,
-    path_rows,
-    gram,
-};
-
-}  // namespace hf

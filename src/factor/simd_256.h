@@ -1,4 +1,5 @@
-// Vectors of 256 bits: those of the AVX2 build, and of the narrow supernodes in the AVX-512 build.
+// Vectors of 256 bits: those of the AVX2 build, and of the narrow supernodes in the AVX-512 build; and what both builds
+// share.
 #pragma once
 #include <immintrin.h>
 
@@ -55,6 +56,13 @@ struct Float8 {
   static Type multiply_add(Type a, Type b, Type c) noexcept { return _mm256_fmadd_ps(a, b, c); }
   static Type subtract_product(Type a, Type b, Type c) noexcept { return _mm256_fnmadd_ps(a, b, c); }
 };
+
+inline double multiply_add_scalar(double a, double b, double c) noexcept {
+  return _mm_cvtsd_f64(_mm_fmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)));
+}
+inline float multiply_add_scalar(float a, float b, float c) noexcept {
+  return _mm_cvtss_f32(_mm_fmadd_ss(_mm_set_ss(a), _mm_set_ss(b), _mm_set_ss(c)));
+}
 
 // Sums of the four numbers of each of four vectors: (0 + 2) + (1 + 3).
 inline __m256d sums_of_four(__m256d a, __m256d b, __m256d c, __m256d d) noexcept {

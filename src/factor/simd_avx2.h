@@ -36,13 +36,6 @@ inline __m256d row_products(const double* row, const double* z) noexcept {
 constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of one accumulator block
 constexpr int lane_vectors = 2, lane_rows = 6;
 
-inline double multiply_add_scalar(double a, double b, double c) noexcept {
-  return _mm_cvtsd_f64(_mm_fmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c)));
-}
-inline float multiply_add_scalar(float a, float b, float c) noexcept {
-  return _mm_cvtss_f32(_mm_fmadd_ss(_mm_set_ss(a), _mm_set_ss(b), _mm_set_ss(c)));
-}
-
 // out[r][at + c] = tile[8 c + r] for r < rows, c < columns: blocks of 4 x 4.
 inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows,
                              std::int32_t columns) noexcept {

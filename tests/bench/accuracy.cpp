@@ -191,20 +191,14 @@ void plot_accuracy(const Runs& runs, const std::string& file) {
   BarPlot plot;
   plot.text = {"How exact", "largest errors; 10,000 random edits on values offset by 1e4", "", "error (logarithmic)"};
   plot.log_y = true, plot.format = "%.0e";
-  const std::pair<const char*, const char*> series[] = {{"hard sites: error", "/site_error"},
-                                                        {"hard sites: residual / mean diagonal", "/residual"},
-                                                        {"bi-harmonic: second refinement", "/biharmonic_change"},
-                                                        {"10,000 edits: green", "/edits_error"},
-                                                        {"10,000 edits, 42K: green", "/edits_error_42K"},
-                                                        {"10,000 edits, 42K: updown", "/edits_error_42K_updown"}};
-  for (const auto& [name, key] : series) plot.bars.push_back({name, {}});
-  for (const json& run : runs) {
-    for (const json& row : run.at("rows")) {
-      plot.groups.push_back(row.at("name").get<std::string>() + ", " + threads_text(run.at("threads")));
-      for (size_t i = 0; i < plot.bars.size(); ++i) plot.bars[i].values.push_back(number_of(row, series[i].second));
-    }
-  }
-  write_svg(file, plot);
+  write_rows(plot,
+             {{"hard sites: error", "/site_error"},
+              {"hard sites: residual / mean diagonal", "/residual"},
+              {"bi-harmonic: second refinement", "/biharmonic_change"},
+              {"10,000 edits: green", "/edits_error"},
+              {"10,000 edits, 42K: green", "/edits_error_42K"},
+              {"10,000 edits, 42K: updown", "/edits_error_42K_updown"}},
+             runs, file);
 }
 
 }  // namespace bench

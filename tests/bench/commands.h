@@ -3,11 +3,14 @@
 #ifndef HF_BENCH_COMMANDS_H
 #define HF_BENCH_COMMANDS_H
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
+#include "bench/bench_mesh.h"
 #include "bench/bench_support.h"
 #include "bench/figures.h"
+#include "bench/svg_plot.h"
 
 namespace bench {
 
@@ -66,6 +69,15 @@ void plot_transfer(const Runs& runs, const std::string& file);
 std::string threads_text(uint32_t threads);
 // A number of a row by its path of keys, NaN where it is missing.
 double number_of(const nlohmann::json& row, const char* pointer);
+// A bar plot of numbers of rows: one group per row of every run, named with its threads; one bar per series, its number
+// at the JSON pointer `key`.
+struct Series {
+  const char *name, *key;
+};
+void write_rows(BarPlot plot, std::initializer_list<Series> series, const Runs& runs, const std::string& file);
+// Rows of the 304K meshes, entered in the report, and unless small those of the real meshes beside, which are not
+// judged.
+Rows run_meshes(const Run& run, Report& report, nlohmann::json (*run_mesh)(const Mesh&, const Run&, Report*));
 // The distinct row names of several runs, in order.
 std::vector<std::string> row_names(const Runs& runs);
 // The row of that name, or null.

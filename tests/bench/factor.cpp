@@ -184,18 +184,7 @@ json run_mesh(const Mesh& mesh, const Run& run, Report* report) {
 
 }  // namespace
 
-Rows run_factor(const Run& run, Report& report) {
-  Rows rows = Rows::array();
-  for (const Family family : families) {
-    const auto mesh = make_mesh(family, Size::k304, run.small);
-    if (run.wants(mesh->name)) rows.push_back(run_mesh(*mesh, run, &report));
-  }
-  if (run.small) return rows;
-  for (const auto& mesh : real_meshes()) {
-    if (run.wants(mesh->name)) rows.push_back(run_mesh(*mesh, run, nullptr));
-  }
-  return rows;
-}
+Rows run_factor(const Run& run, Report& report) { return run_meshes(run, report, run_mesh); }
 
 void plot_factor(const Runs& runs, const std::string& file) {
   BarPlot plot;
@@ -203,18 +192,14 @@ void plot_factor(const Runs& runs, const std::string& file) {
                "ms (logarithmic)"};
   plot.log_y = true;
   plot.format = "%.0f";
-  const std::pair<const char*, const char*> series[] = {
-      {"our ordering", "/ordering/ms"},          {"METIS", "/metis/ms"},
-      {"our symbolic analysis", "/symbolic_ms"}, {"cholmod_analyze_p", "/cholmod_analyze_p_ms"},
-      {"our numeric", "/numeric_metis/ms"},      {"CHOLMOD supernodal + BLAS", "/numeric_metis/cholmod_ms"}};
-  for (const auto& [name, key] : series) plot.bars.push_back({name, {}});
-  for (const json& run : runs) {
-    for (const json& row : run.at("rows")) {
-      plot.groups.push_back(row.at("name").get<std::string>() + ", " + threads_text(run.at("threads")));
-      for (size_t i = 0; i < plot.bars.size(); ++i) plot.bars[i].values.push_back(number_of(row, series[i].second));
-    }
-  }
-  write_svg(file, plot);
+  write_rows(plot,
+             {{"our ordering", "/ordering/ms"},
+              {"METIS", "/metis/ms"},
+              {"our symbolic analysis", "/symbolic_ms"},
+              {"cholmod_analyze_p", "/cholmod_analyze_p_ms"},
+              {"our numeric", "/numeric_metis/ms"},
+              {"CHOLMOD supernodal + BLAS", "/numeric_metis/cholmod_ms"}},
+             runs, file);
 }
 
 }  // namespace bench

@@ -90,24 +90,14 @@ void plot_first_field(const Runs& runs, const std::string& file) {
   BarPlot plot;
   plot.text = {"From a mesh to its first field", "create + 10 sites + one field; medians, milliseconds", "", "ms"};
   plot.format = "%.0f";
-  for (const nlohmann::json& run : runs) {
-    for (const nlohmann::json& row : run.at("rows"))
-      plot.groups.push_back(row.at("name").get<std::string>() + ", " + threads_text(run.at("threads")));
-  }
-  const std::pair<const char*, const char*> series[] = {{"this library, all", "/first_field_ms"},
-                                                        {"METIS + CHOLMOD, all", "/peer_ms"},
-                                                        {"our ordering", "/ordering_ms"},
-                                                        {"METIS and symbolic analysis", "/peer_analyse_ms"},
-                                                        {"our numeric factorisation", "/numeric_ms"},
-                                                        {"CHOLMOD numeric factorisation", "/peer_factorise_ms"}};
-  for (const auto& [name, key] : series) {
-    Bars bars{name, {}};
-    for (const nlohmann::json& run : runs) {
-      for (const nlohmann::json& row : run.at("rows")) bars.values.push_back(number_of(row, key));
-    }
-    plot.bars.push_back(bars);
-  }
-  write_svg(file, plot);
+  write_rows(plot,
+             {{"this library, all", "/first_field_ms"},
+              {"METIS + CHOLMOD, all", "/peer_ms"},
+              {"our ordering", "/ordering_ms"},
+              {"METIS and symbolic analysis", "/peer_analyse_ms"},
+              {"our numeric factorisation", "/numeric_ms"},
+              {"CHOLMOD numeric factorisation", "/peer_factorise_ms"}},
+             runs, file);
 }
 
 }  // namespace bench

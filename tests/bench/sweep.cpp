@@ -137,39 +137,22 @@ json run_mesh(const Mesh& mesh, const Run& run, Report* report) {
 
 }  // namespace
 
-Rows run_sweep(const Run& run, Report& report) {
-  Rows rows = Rows::array();
-  for (const Family family : families) {
-    const auto mesh = make_mesh(family, Size::k304, run.small);
-    if (run.wants(mesh->name)) rows.push_back(run_mesh(*mesh, run, &report));
-  }
-  if (run.small) return rows;
-  for (const auto& mesh : real_meshes()) {
-    if (run.wants(mesh->name)) rows.push_back(run_mesh(*mesh, run, nullptr));
-  }
-  return rows;
-}
+Rows run_sweep(const Run& run, Report& report) { return run_meshes(run, report, run_mesh); }
 
 void plot_sweep(const Runs& runs, const std::string& file) {
   BarPlot plot;
   plot.text = {"One field", "median milliseconds; the floor is one read of the stored factor", "", "ms (logarithmic)"};
   plot.log_y = true;
   plot.format = "%.1f";
-  const std::pair<const char*, const char*> series[] = {{"reading the factor once", "/read_once_ms"},
-                                                        {"bare float32 sweep", "/sweep_float32_ms"},
-                                                        {"bare double sweep", "/sweep_ms"},
-                                                        {"hf_solve, 1 channel", "/field_ms"},
-                                                        {"hf_solve, 3 channels", "/field_3_ms"},
-                                                        {"hf_solve, 8 channels", "/field_8_ms"},
-                                                        {"cholmod_solve, 1 column", "/cholmod_solve_ms"}};
-  for (const auto& [name, key] : series) plot.bars.push_back({name, {}});
-  for (const nlohmann::json& run : runs) {
-    for (const nlohmann::json& row : run.at("rows")) {
-      plot.groups.push_back(row.at("name").get<std::string>() + ", " + threads_text(run.at("threads")));
-      for (size_t i = 0; i < plot.bars.size(); ++i) plot.bars[i].values.push_back(number_of(row, series[i].second));
-    }
-  }
-  write_svg(file, plot);
+  write_rows(plot,
+             {{"reading the factor once", "/read_once_ms"},
+              {"bare float32 sweep", "/sweep_float32_ms"},
+              {"bare double sweep", "/sweep_ms"},
+              {"hf_solve, 1 channel", "/field_ms"},
+              {"hf_solve, 3 channels", "/field_3_ms"},
+              {"hf_solve, 8 channels", "/field_8_ms"},
+              {"cholmod_solve, 1 column", "/cholmod_solve_ms"}},
+             runs, file);
 }
 
 }  // namespace bench

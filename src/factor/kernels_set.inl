@@ -1,0 +1,37 @@
+// The kernels of one instruction set, gathered; see kernels.h. The file that includes this has included its vector
+// types and says by HF_KERNEL_SET and HF_KERNEL_NAME what the set is called.
+// clang-format off
+#include "factor/kernels_factor.inl"
+#include "factor/kernels_sweep.inl"
+#include "factor/kernels_narrow.inl"
+#include "factor/kernels_triangle.inl"
+#include "factor/kernels_path.inl"
+// clang-format on
+
+namespace hf {
+
+extern const Kernels HF_KERNEL_SET = {
+    HF_KERNEL_NAME,
+    factor_triangle,
+    solve_tiles,
+    form_update,
+    extend_add,
+    invert_triangle,
+    multiply_inverse,
+    store_tiles,
+    backward_rows,
+    backward_triangle,
+    backward_narrow,
+    backward_narrow_f32,
+    backward_rows_f32,
+    backward_triangle_f32,
+    forward_triangle,
+    forward_rows,
+    forward_triangle_f32,
+    forward_rows_f32,
+    path_triangle,
+    path_rows,
+    gram,
+};
+
+}  // namespace hf
