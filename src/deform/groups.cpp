@@ -10,51 +10,111 @@ namespace {
 struct Front {
   double distance;
   std::int32_t vertex;
-  bool operator<(const Front& other) const noexcept {  // std heaps keep the largest on top
-    return distance != other.distance ? distance > other.distance : vertex > other.vertex;
-  }
 };
 
-// Spreads group `group` from its seed over the vertices that are nearer to it than to their present group.
+// Spreads group `group` from its seed over the vertices that are nearer to it than to their present group. The
+// distances are the fixed point d[u] = min over neighbours v of d[v] + |uv|, which does not depend on the order in
+// which vertices are relaxed; so no heap is needed: a front of all vertices below a limit, which rises by a mean edge
+// (Meyer and Sanders 2003, delta-stepping on one thread).
 class Spreading {
  public:
   Spreading(const Core& core, Memory& memory)
-      : core_(core), distance_(core.size(), std::numeric_limits<double>::infinity(), &memory), heap_(&memory) {}
-
-  void add(std::int32_t group, std::int32_t seed, Vector<std::int32_t>& group_of) {
-    const Topology& topology = core_.topology;
-    distance_[seed] = 0, group_of[seed] = group;
-    heap_.assign(1, Front{0.0, seed});
-    while (!heap_.empty()) {
-      std::pop_heap(heap_.begin(), heap_.end());
-      const Front front = heap_.back();
-      heap_.pop_back();
-      if (front.distance > distance_[front.vertex]) continue;
-      for (std::int32_t k = topology.neighbour_start[front.vertex]; k < topology.neighbour_start[front.vertex + 1];
-           ++k) {
-        const std::int32_t u = topology.neighbour[k];
-        const double distance = front.distance + norm(core_.mesh.positions[u] - core_.mesh.positions[front.vertex]);
-        if (!(distance < distance_[u])) continue;
-        distance_[u] = distance, group_of[u] = group;
-        heap_.push_back({distance, u});
-        std::push_heap(heap_.begin(), heap_.end());
-      }
+      : topology_(core.topology),
+        length_(core.topology.neighbour.size(), &memory),
+        distance_(core.size(), std::numeric_limits<double>::infinity(), &memory),
+        place_(core.size(), 0, &memory),
+        near_(&memory),
+        far_(&memory),
+        best_(&memory),
+        stale_(&memory) {
+    for (std::int32_t v = 0; v < core.size(); ++v) {
+      for (std::int32_t k = topology_.neighbour_start[v]; k < topology_.neighbour_start[v + 1]; ++k)
+        length_[k] = norm(core.mesh.positions[topology_.neighbour[k]] - core.mesh.positions[v]);
     }
   }
 
-  std::int32_t farthest(Span<const std::int32_t> vertices) const noexcept {
-    std::int32_t best = vertices[0];
-    for (const std::int32_t v : vertices) {
-      if (distance_[v] > distance_[best]) best = v;
+  // The vertices of the component that groups are made in next.
+  void enter(Span<const std::int32_t> vertices) {
+    vertices_ = vertices;
+    double total = 0;
+    std::size_t ends = 0;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      place_[vertices[i]] = static_cast<std::int32_t>(i);
+      const std::int32_t first = topology_.neighbour_start[vertices[i]],
+                         last = topology_.neighbour_start[vertices[i] + 1];
+      for (std::int32_t k = first; k < last; ++k) total += length_[k];
+      ends += static_cast<std::size_t>(last - first);
     }
-    return best;
+    step_ = ends > 0 ? total / static_cast<double>(ends) : 0.0;
+    const std::size_t blocks = (vertices.size() + block - 1) / block;
+    best_.assign(blocks, 0), stale_.assign(blocks, 1);
+  }
+
+  void add(std::int32_t group, std::int32_t seed, Vector<std::int32_t>& group_of) {
+    const auto reach = [&](std::int32_t v, double distance) {
+      distance_[v] = distance, group_of[v] = group, stale_[place_[v] / block] = 1;
+    };
+    reach(seed, 0.0);
+    near_.assign(1, Front{0.0, seed});
+    for (double limit = step_;;) {
+      while (!near_.empty()) {
+        const Front front = near_.back();
+        near_.pop_back();
+        if (front.distance > distance_[front.vertex]) continue;  // came nearer since
+        for (std::int32_t k = topology_.neighbour_start[front.vertex]; k < topology_.neighbour_start[front.vertex + 1];
+             ++k) {
+          const std::int32_t u = topology_.neighbour[k];
+          const double distance = front.distance + length_[k];
+          if (!(distance < distance_[u])) continue;
+          reach(u, distance);
+          (distance < limit ? near_ : far_).push_back({distance, u});
+        }
+      }
+      if (far_.empty()) return;
+      double nearest = far_[0].distance;
+      for (const Front& front : far_) nearest = std::min(nearest, front.distance);
+      limit = nearest + step_;
+      std::size_t kept = 0;
+      for (const Front& front : far_) {
+        if (front.distance > distance_[front.vertex]) continue;
+        if (front.distance < limit || front.distance == nearest)
+          near_.push_back(front);
+        else
+          far_[kept++] = front;
+      }
+      far_.resize(kept);
+    }
+  }
+
+  // The first of the farthest vertices. Only blocks that have changed since are looked through.
+  std::int32_t farthest() noexcept {
+    std::int32_t found = vertices_[0];
+    for (std::size_t b = 0; b < best_.size(); ++b) {
+      if (stale_[b]) {
+        const std::size_t last = std::min((b + 1) * block, vertices_.size());
+        best_[b] = vertices_[b * block];
+        for (std::size_t i = b * block; i < last; ++i) {
+          if (distance_[vertices_[i]] > distance_[best_[b]]) best_[b] = vertices_[i];
+        }
+        stale_[b] = 0;
+      }
+      if (distance_[best_[b]] > distance_[found]) found = best_[b];
+    }
+    return found;
   }
   double distance(std::int32_t v) const noexcept { return distance_[v]; }
 
  private:
-  const Core& core_;
+  static constexpr std::size_t block = 256;
+  const Topology& topology_;
+  Vector<double> length_;  // of the edges, by neighbour
   Vector<double> distance_;
-  Vector<Front> heap_;
+  Vector<std::int32_t> place_;  // in vertices_
+  Vector<Front> near_, far_;
+  Span<const std::int32_t> vertices_;
+  Vector<std::int32_t> best_;   // per block of vertices_ the farthest
+  Vector<std::uint8_t> stale_;  // per block
+  double step_ = 0;
 };
 
 }  // namespace
@@ -83,8 +143,9 @@ std::shared_ptr<const Groups> Groups::with(std::shared_ptr<const Groups> groups,
     const double share = total_area > 0 ? rest.component_area[c] / total_area : 1.0;
     const std::int32_t quota = std::max((wished + 3) / 4, static_cast<std::int32_t>(std::lround(share * wished)));
     grown->component_start[c] = grown->count();
+    spreading.enter(vertices);
     for (std::int32_t k = 0; k < quota; ++k) {
-      const std::int32_t seed = spreading.farthest(vertices);
+      const std::int32_t seed = spreading.farthest();
       if (k > 0 && !(spreading.distance(seed) > 0)) break;  // every vertex is a seed or coincides with one
       spreading.add(grown->count(), seed, grown->group_of);
       grown->seed.push_back(seed), grown->component.push_back(c);
