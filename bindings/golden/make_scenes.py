@@ -184,6 +184,29 @@ def scenes(meshes):
           {"do": "add_vectors", "on": "d", "vertices": [0], "vectors": [0.0, 1.0, 0.0], "numbers": [0]},
           {"do": "singularities", "on": "d", "expect": {"sum": 0, "tolerance": 1e-9}}, {"do": "directions", "on": "d", "expect": agree()})
 
+    on_d, on_c = {"on": "d"}, {"on": "c"}
+    scene("directions", "Crosses on a torus: constraints come, move, turn and go; the undo stack and a clone give the bits back. Indices sum to "
+          "degree times the Euler characteristic, 0 (closed form).", solver("torus"), {"do": "direction", "on": "s", "as": "d", "options": {"degree": 4}},
+          {"do": "undo_vectors", "error": "HF_ERROR_NO_RECORD", **on_d},
+          {"do": "add_vectors", "vertices": [0, 150], "vectors": [0.0, 1.0, 0.0, 0.0, 0.0, 1.0], "numbers": [0, 1], **on_d},
+          {"do": "directions", "keep": "first", "expect": agree(), **on_d}, {"do": "vectors", "keep": "given", "expect": {"count": 6}, **on_d},
+          {"do": "clone_vectors", "as": "c", **on_d}, {"do": "record_vectors", **on_d}, {"do": "move_vectors", "sites": [1], "vertices": [160], **on_d},
+          {"do": "directions", "expect": agree(), **on_d}, {"do": "set_vectors", "sites": [0], "vectors": [0.0, 2.0, 0.0], **on_d},
+          {"do": "rotate", "sites": [1], "angles": [0.5], **on_d}, {"do": "directions", "keep": "second", "expect": agree(), **on_d},
+          {"do": "singularities", "expect": {"sum": 0, "tolerance": 1e-9}, **on_d}, {"do": "remove_vectors", "sites": [0], **on_d},
+          {"do": "vectors", "expect": {"count": 3}, **on_d}, {"do": "undo_vectors", **on_d}, {"do": "directions", "same_as": "first", **on_d},
+          {"do": "vectors", "same_as": "given", **on_d}, {"do": "dispose", **on_d}, {"do": "directions", "same_as": "first", **on_c})
+
+    scene("quads_and_flow", "A torus as quads: Euler characteristic 0 and no other faces (closed forms); flow lines of a field between two sites, eight "
+          "of equal flux and two through given vertices (agreement).", solver("torus"), sites([0, 150], [0.0, 1.0]), {"do": "solve", "on": "s", "keep": "u"},
+          {"do": "flow", "on": "s", "as": "w"}, {"do": "flow_lines", "on": "w", "field": "u", "count": 8, "lines": 8, "expect": agree(1e-6)},
+          {"do": "flow_lines", "on": "w", "field": "u", "seeds": [70, 200], "lines": 2, "expect": agree(1e-6)},
+          {"do": "quads", "on": "s", "as": "q", "edge_length": 0.8}, {"do": "quads_info", "on": "q", "expect": {"euler_characteristic": 0, "other_faces": 0}},
+          {"do": "quad_mesh", "on": "q", "expect": agree(1e-6)},
+          {"do": "quads", "on": "s", "as": "r", "edge_length": 0.8, "site_vertices": [0, 150], "site_lines": [8, -8], "options": {"kind": 1, "keep_polygons": 1}},
+          {"do": "quads_info", "on": "r", "expect": {"euler_characteristic": 0, "site_count": 2}},
+          {"do": "dispose", "on": "s"}, {"do": "flow_lines", "on": "w", "field": "u", "count": 8, "lines": 8, "expect": {"min": -4.0, "max": 4.0, "tolerance": 4.0}})
+
     mesh = meshes["bar"]
     p = np.array(mesh["positions"]).reshape(-1, 3)
     low = [int(v) for v in np.flatnonzero(p[:, 2] <= 0.8)]
@@ -363,18 +386,42 @@ def bad_scenes():
     bad("OUT_OF_RANGE", do="add_vectors", on="d", vertices=[302], vectors=[1.0, 0.0, 0.0])
     bad("INVALID_ARGUMENT", do="add_vectors", on="d", vertices=[0], vectors=[1.0, 0.0])
     bad("INVALID_ARGUMENT", **{"do": "direction", "on": "s", "as": "e", "options": {"degree": 3}})
+    made += [{"do": "flow", "on": "s", "as": "w"}, {"do": "quads", "on": "s", "as": "k", "edge_length": 1.0}]
+    bad("NON_FINITE", **{"do": "quads", "on": "s", "as": "m", "edge_length": "nan"})
+    bad("NON_FINITE", **{"do": "quads", "on": "s", "as": "m", "edge_length": "inf"})
+    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "edge_length": -1.0})
+    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "options": {"kind": 2}})
+    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "options": {"relax_count": 1001}})
+    bad("OUT_OF_RANGE", index=1, **{"do": "quads", "on": "s", "as": "m", "site_vertices": [0, 302]})
+    bad("DUPLICATE_SITE", **{"do": "quads", "on": "s", "as": "m", "site_vertices": [7, 7]})
+    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "site_vertices": [0, 287], "site_lines": [4, 4]})
+    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "site_vertices": [0, 287], "site_lines": [4]})
+    bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 302, count=0)
+    bad("NON_FINITE", index=301, do="flow_lines", on="w", field=[0.0] * 301 + ["nan"], count=4)
+    bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 9, count=4)
+    bad("OUT_OF_RANGE", index=1, do="flow_lines", on="w", field=[0.0] * 302, seeds=[0, 302])
+    bad("NO_RECORD", do="undo_vectors", on="d")
+    bad("NO_RECORD", do="redo_vectors", on="d")
+    bad("NO_SUCH_SITE", do="remove_vectors", on="d", sites=[0])
+    bad("NO_SUCH_SITE", do="move_vectors", on="d", sites=[0], vertices=[1])
+    bad("INVALID_ARGUMENT", do="move_vectors", on="d", sites=[0, 1], vertices=[1])
+    bad("NO_SUCH_SITE", do="set_vectors", on="d", sites=[0], vectors=[1.0, 0.0, 0.0])
+    bad("INVALID_ARGUMENT", do="set_vectors", on="d", sites=[0], vectors=[1.0])
     calls = {"s": [{"do": "add_sites", "vertices": [0], "values": [1.0]}, {"do": "remove_sites", "sites": [0]}, {"do": "move_sites", "sites": [0], "vertices": [1]},
                    {"do": "set_values", "sites": [0], "values": [1.0]}, {"do": "edit", "add": [0], "add_values": [1.0]}, {"do": "record"}, {"do": "undo"},
                    {"do": "redo"}, {"do": "solve"}, {"do": "solve_f32"}, {"do": "preview"}, {"do": "solve_at", "vertices": [0]}, {"do": "report"},
                    {"do": "statistics"}, {"do": "save_factor", "as": "f"}, {"do": "clone", "as": "c"}, {"do": "pose", "as": "q"}, {"do": "geodesics", "as": "h"},
-                   {"do": "direction", "as": "e"}, {"do": "extremities"}, {"do": "levels", "field": [0.0] * 302, "count": 2, "spacing": "HF_LEVELS_VALUE"},
+                   {"do": "direction", "as": "e"}, {"do": "quads", "as": "m"}, {"do": "flow", "as": "m"}, {"do": "extremities"}, {"do": "levels", "field": [0.0] * 302, "count": 2, "spacing": "HF_LEVELS_VALUE"},
                    {"do": "isolines", "field": [0.0] * 302, "levels": [0.5]}, {"do": "critical", "field": [0.0] * 302}],
              "p": [{"do": "add_handles", "regions": [[0]]}, {"do": "remove_handles", "handles": [0]}, {"do": "set_transforms", "handles": [0], "translations": [0.0, 0.0, 0.0]},
                    {"do": "deform"}, {"do": "handle_field", "handle": 0}, {"do": "handle_info", "handle": 0}, {"do": "skin", "weight_count": 4}],
              "x": [{"do": "add_pairs", "source_regions": [[0]], "target_regions": [[0]]}, {"do": "remove_pairs", "pairs": [0]}, {"do": "transfer_info"},
                    {"do": "apply", "positions": [0.0] * 906}],
              "g": [{"do": "distance", "sources": [0]}], "d": [{"do": "add_vectors", "vertices": [0], "vectors": [1.0, 0.0, 0.0]}, {"do": "rotate", "sites": [0], "angles": [1.0]},
-                                                             {"do": "directions"}, {"do": "singularities"}]}
+                                                             {"do": "directions"}, {"do": "singularities"}, {"do": "remove_vectors", "sites": [0]}, {"do": "move_vectors", "sites": [0], "vertices": [1]},
+                   {"do": "set_vectors", "sites": [0], "vectors": [1.0, 0.0, 0.0]}, {"do": "record_vectors"}, {"do": "undo_vectors"}, {"do": "redo_vectors"},
+                   {"do": "clone_vectors", "as": "e"}],
+             "w": [{"do": "flow_lines", "field": [0.0] * 302, "count": 4}], "k": [{"do": "quads_info"}, {"do": "quad_mesh"}]}
     for name, steps in calls.items():
         made += [{"do": "dispose", "on": name}, {"do": "dispose", "on": name}]
         for step in steps:

@@ -24,24 +24,49 @@ function checkArray(array, expect) {
   });
   const n = array.length;
   if (n === 0) min = max = 0;
-  const rows = { count: [n, 0], sum: [sum, tolerance * n], weighted: [weighted, 7 * tolerance * n], min: [min, tolerance], max: [max, tolerance] };
+  const rows = {
+    count: [n, 0],
+    sum: [sum, tolerance * n],
+    weighted: [weighted, 7 * tolerance * n],
+    min: [min, tolerance],
+    max: [max, tolerance],
+  };
   // sums of many terms round differently from language to language
   for (const [key, [found, room]] of Object.entries(rows)) {
-    if (key in expect) assert(Math.abs(found - expect[key]) <= room + (key === 'sum' || key === 'weighted' ? 1e-9 : 0), `${key} is ${found}, not ${expect[key]}`);
+    if (key in expect)
+      assert(
+        Math.abs(found - expect[key]) <= room + (key === 'sum' || key === 'weighted' ? 1e-9 : 0),
+        `${key} is ${found}, not ${expect[key]}`,
+      );
   }
-  (expect.at ?? []).forEach((place, k) => assert(Math.abs(array[place] - expect.values[k]) <= tolerance, `[${place}] is ${array[place]}, not ${expect.values[k]}`));
+  (expect.at ?? []).forEach((place, k) =>
+    assert(
+      Math.abs(array[place] - expect.values[k]) <= tolerance,
+      `[${place}] is ${array[place]}, not ${expect.values[k]}`,
+    ),
+  );
 }
 
 function checkStruct(info, expect) {
   for (const [key, value] of Object.entries(expect ?? {})) {
-    if (key !== 'tolerance') assert(Math.abs(info[camel(key)] - value) <= (expect.tolerance ?? 0), `${key} is ${info[camel(key)]}, not ${value}`);
+    if (key !== 'tolerance')
+      assert(
+        Math.abs(info[camel(key)] - value) <= (expect.tolerance ?? 0),
+        `${key} is ${info[camel(key)]}, not ${value}`,
+      );
   }
 }
 
 function runStep(hf, step, meshes, objects, kept) {
   const on = objects[step.on];
-  const get = (key, otherwise = null) => (typeof step[key] === 'string' ? kept[step[key]] : numbers(step[key] ?? otherwise));
-  const options = Object.fromEntries(Object.entries(step.options ?? {}).map(([key, value]) => [camel(key), typeof value === 'string' ? hf.constants[value] : value]));
+  const get = (key, otherwise = null) =>
+    typeof step[key] === 'string' ? kept[step[key]] : numbers(step[key] ?? otherwise);
+  const options = Object.fromEntries(
+    Object.entries(step.options ?? {}).map(([key, value]) => [
+      camel(key),
+      typeof value === 'string' ? hf.constants[value] : value,
+    ]),
+  );
   const array = (value) => ({ array: value });
   switch (step.do) {
     case 'solver': {
@@ -58,54 +83,171 @@ function runStep(hf, step, meshes, objects, kept) {
       objects[step.as] = new hf.Solver(positions, triangles, { ...options, savedFactor: factor });
       return {};
     }
-    case 'clone': objects[step.as] = on.clone(); return {};
-    case 'dispose': on.close(); return {};
-    case 'add_sites': return { numbers: on.addSites(get('vertices'), get('values'), { stiffness: get('stiffness'), radii: get('radii'), triangles: get('triangles'), barycentrics: get('barycentrics') }) };
-    case 'remove_sites': on.removeSites(get('sites')); return {};
-    case 'move_sites': on.moveSites(get('sites'), get('vertices')); return {};
-    case 'set_values': on.setSiteValues(get('sites'), get('values')); return {};
-    case 'edit': return { numbers: on.editSites({ remove: get('remove', []), move: get('move', []), moveTo: get('move_to'), set: get('set', []), setValues: get('set_values'), add: get('add'), addValues: get('add_values') }) };
-    case 'record': case 'undo': case 'redo': on[step.do](); return {};
-    case 'solve': return array(on.solve(null, Float64Array));
-    case 'solve_f32': return array(on.solve());
-    case 'preview': return array(on.solvePreview(null, { correctionCount: step.correction_count ?? 0, Type: Float64Array }));
-    case 'solve_at': return array(on.solveAt(get('vertices')));
-    case 'report': return { struct: on.report };
-    case 'statistics': return { struct: on.statistics };
-    case 'save_factor': kept[step.as] = on.saveFactor(); return {};
-    case 'levels': return array(on.spaceLevels(get('field'), step.count, hf.constants[step.spacing]));
+    case 'clone':
+      objects[step.as] = on.clone();
+      return {};
+    case 'dispose':
+      on.close();
+      return {};
+    case 'add_sites':
+      return {
+        numbers: on.addSites(get('vertices'), get('values'), {
+          stiffness: get('stiffness'),
+          radii: get('radii'),
+          triangles: get('triangles'),
+          barycentrics: get('barycentrics'),
+        }),
+      };
+    case 'remove_sites':
+      on.removeSites(get('sites'));
+      return {};
+    case 'move_sites':
+      on.moveSites(get('sites'), get('vertices'));
+      return {};
+    case 'set_values':
+      on.setSiteValues(get('sites'), get('values'));
+      return {};
+    case 'edit':
+      return {
+        numbers: on.editSites({
+          remove: get('remove', []),
+          move: get('move', []),
+          moveTo: get('move_to'),
+          set: get('set', []),
+          setValues: get('set_values'),
+          add: get('add'),
+          addValues: get('add_values'),
+        }),
+      };
+    case 'record':
+    case 'undo':
+    case 'redo':
+      on[step.do]();
+      return {};
+    case 'solve':
+      return array(on.solve(null, Float64Array));
+    case 'solve_f32':
+      return array(on.solve());
+    case 'preview':
+      return array(on.solvePreview(null, { correctionCount: step.correction_count ?? 0, Type: Float64Array }));
+    case 'solve_at':
+      return array(on.solveAt(get('vertices')));
+    case 'report':
+      return { struct: on.report };
+    case 'statistics':
+      return { struct: on.statistics };
+    case 'save_factor':
+      kept[step.as] = on.saveFactor();
+      return {};
+    case 'levels':
+      return array(on.spaceLevels(get('field'), step.count, hf.constants[step.spacing]));
     case 'isolines': {
       const lines = on.traceIsolines(get('field'), get('levels'));
-      if ('lines' in step) assert(lines.lineLevels.length === step.lines && lines.lineClosed.reduce((a, b) => a + b, 0) === step.closed, 'lines');
+      if ('lines' in step)
+        assert(
+          lines.lineLevels.length === step.lines && lines.lineClosed.reduce((a, b) => a + b, 0) === step.closed,
+          'lines',
+        );
       return array(lines.positions);
     }
-    case 'critical': return array(Float64Array.from(on.findCriticalPoints(get('field')), (point) => point.index));
-    case 'extremities': return array(Float64Array.from(on.findExtremities(options), (tip) => tip.vertex).sort());
-    case 'geodesics': objects[step.as] = new hf.Geodesics(on, options); return {};
-    case 'distance': return array(on.distance(get('sources'), null, Float64Array));
-    case 'direction': objects[step.as] = new hf.Direction(on, options); return {};
-    case 'add_vectors': return { numbers: on.addSites(get('vertices'), get('vectors')) };
-    case 'rotate': on.rotateSites(get('sites'), get('angles')); return {};
-    case 'directions': return array(on.solve(null, Float64Array));
-    case 'singularities': return array(Float64Array.from(on.singularities(), (s) => s.index));
-    case 'pose': objects[step.as] = new hf.Pose(on, options); return {};
-    case 'add_handles': return { numbers: on.addHandles(get('regions'), { points: get('points'), radii: get('radii'), layer: step.layer ?? 0 }) };
-    case 'remove_handles': on.removeHandles(get('handles')); return {};
-    case 'set_transforms': on.setTransforms(get('handles'), { rotations: get('rotations'), translations: get('translations') }); return {};
-    case 'deform': return array(on.deform(null, { Type: Float64Array, ...options }));
-    case 'handle_field': return array(on.handleField(step.handle));
-    case 'handle_info': return { struct: on.handleInfo(step.handle) };
+    case 'critical':
+      return array(Float64Array.from(on.findCriticalPoints(get('field')), (point) => point.index));
+    case 'extremities':
+      return array(Float64Array.from(on.findExtremities(options), (tip) => tip.vertex).sort());
+    case 'geodesics':
+      objects[step.as] = new hf.Geodesics(on, options);
+      return {};
+    case 'distance':
+      return array(on.distance(get('sources'), null, Float64Array));
+    case 'direction':
+      objects[step.as] = new hf.Direction(on, options);
+      return {};
+    case 'add_vectors':
+      return { numbers: on.addSites(get('vertices'), get('vectors')) };
+    case 'rotate':
+      on.rotateSites(get('sites'), get('angles'));
+      return {};
+    case 'remove_vectors':
+      on.removeSites(get('sites'));
+      return {};
+    case 'move_vectors':
+      on.moveSites(get('sites'), get('vertices'));
+      return {};
+    case 'set_vectors':
+      on.setVectors(get('sites'), get('vectors'));
+      return {};
+    case 'record_vectors':
+    case 'undo_vectors':
+    case 'redo_vectors':
+      on[step.do.split('_')[0]]();
+      return {};
+    case 'clone_vectors':
+      objects[step.as] = on.clone();
+      return {};
+    case 'vectors':
+      return array(on.sites().vectors);
+    case 'quads': {
+      const more = 'edge_length' in step ? { edgeLength: numbers(step.edge_length) } : {};
+      objects[step.as] = new hf.Quads(on, { ...options, ...more, siteVertices: get('site_vertices'), siteLines: get('site_lines') });
+      return {};
+    }
+    case 'quads_info': {
+      const info = on.info;
+      return { struct: { ...info, otherFaces: info.faceCount - info.quadCount } };
+    }
+    case 'quad_mesh':
+      return array(on.mesh().positions);
+    case 'flow':
+      objects[step.as] = new hf.Flow(on);
+      return {};
+    case 'flow_lines': {
+      const lines = on.trace(get('field'), { wantedCount: step.count ?? 0, seeds: get('seeds') });
+      const count = lines.lineStarts.length - 1;
+      assert(count === (step.lines ?? count), `${count} lines`);
+      return array(lines.positions);
+    }
+    case 'directions':
+      return array(on.solve(null, Float64Array));
+    case 'singularities':
+      return array(Float64Array.from(on.singularities(), (s) => s.index));
+    case 'pose':
+      objects[step.as] = new hf.Pose(on, options);
+      return {};
+    case 'add_handles':
+      return {
+        numbers: on.addHandles(get('regions'), { points: get('points'), radii: get('radii'), layer: step.layer ?? 0 }),
+      };
+    case 'remove_handles':
+      on.removeHandles(get('handles'));
+      return {};
+    case 'set_transforms':
+      on.setTransforms(get('handles'), { rotations: get('rotations'), translations: get('translations') });
+      return {};
+    case 'deform':
+      return array(on.deform(null, { Type: Float64Array, ...options }));
+    case 'handle_field':
+      return array(on.handleField(step.handle));
+    case 'handle_info':
+      return { struct: on.handleInfo(step.handle) };
     case 'skin': {
       const skin = on.skin(step.weight_count);
       assert(skin.jointCount >= 2, `${skin.jointCount} joints`);
       return array(skin.weights);
     }
-    case 'transfer': objects[step.as] = new hf.Transfer(objects[step.source], objects[step.target], options); return {};
-    case 'add_pairs': return { numbers: on.addPairs(get('source_regions'), get('target_regions'), get('flags')) };
-    case 'remove_pairs': on.removePairs(get('pairs')); return {};
-    case 'transfer_info': return { struct: on.info };
-    case 'apply': return array(on.apply(get('positions'), null, { Type: Float64Array }));
-    default: throw new Error(`unknown step ${step.do}`);
+    case 'transfer':
+      objects[step.as] = new hf.Transfer(objects[step.source], objects[step.target], options);
+      return {};
+    case 'add_pairs':
+      return { numbers: on.addPairs(get('source_regions'), get('target_regions'), get('flags')) };
+    case 'remove_pairs':
+      on.removePairs(get('pairs'));
+      return {};
+    case 'transfer_info':
+      return { struct: on.info };
+    case 'apply':
+      return array(on.apply(get('positions'), null, { Type: Float64Array }));
+    default:
+      throw new Error(`unknown step ${step.do}`);
   }
 }
 
@@ -122,7 +264,11 @@ function checkStep(hf, step, meshes, objects, kept) {
   assert(!step.error, `did not fail with ${step.error}`);
   if (result.array) {
     if (step.expect) checkArray(result.array, step.expect);
-    if (step.same_as) assert(result.array.every((value, i) => Object.is(value, kept[step.same_as][i])), `differs from ${step.same_as}`);
+    if (step.same_as)
+      assert(
+        result.array.every((value, i) => Object.is(value, kept[step.same_as][i])),
+        `differs from ${step.same_as}`,
+      );
     if (step.keep) kept[step.keep] = result.array;
   } else if (result.numbers && step.numbers) {
     assert(JSON.stringify([...result.numbers]) === JSON.stringify(step.numbers), `numbers ${[...result.numbers]}`);
@@ -139,7 +285,9 @@ export function run(hf, meshes, scenes) {
       try {
         checkStep(hf, step, meshes, objects, kept);
       } catch (error) {
-        failures.push(`${scene.name}, step ${place} (${step.do}): ${error instanceof Failure ? error.message : error.stack}`);
+        failures.push(
+          `${scene.name}, step ${place} (${step.do}): ${error instanceof Failure ? error.message : error.stack}`,
+        );
       }
     });
   }

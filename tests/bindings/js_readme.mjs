@@ -16,7 +16,8 @@ rmSync(folder, { recursive: true, force: true });
 mkdirSync(join(folder, 'node_modules'), { recursive: true });
 // the package is copied, not linked: node looks for koffi beside where a module really is
 spawnSync('cp', ['-r', join(here, '../../bindings/js'), join(folder, 'node_modules/hf-fields')]);
-for (const name of ['koffi', '@koromix']) symlinkSync(join(process.env.HF_NODE_MODULES, name), join(folder, 'node_modules', name));
+for (const name of ['koffi', '@koromix'])
+  symlinkSync(join(process.env.HF_NODE_MODULES, name), join(folder, 'node_modules', name));
 writeFileSync(join(folder, 'program.mjs'), readFileSync(program));
 const run = spawnSync(process.execPath, [join(folder, 'program.mjs')], { stdio: 'inherit' });
 process.exit(run.status ?? 1);

@@ -43,13 +43,20 @@ export async function loadBackend(kind) {
 
 const kind = process.argv[2];
 const hf = await loadBackend(kind);
-const meshes = Object.fromEntries(readdirSync(join(golden, 'meshes')).map((name) => [name.replace('.json', ''), json(join(golden, 'meshes', name))]));
+const meshes = Object.fromEntries(
+  readdirSync(join(golden, 'meshes')).map((name) => [name.replace('.json', ''), json(join(golden, 'meshes', name))]),
+);
 
 // ---- scenes
-const scenes = [...json(process.env.HF_SCENES ?? join(golden, 'scenes.json')).scenes, ...json(join(golden, 'bad_input.json')).scenes];
+const scenes = [
+  ...json(process.env.HF_SCENES ?? join(golden, 'scenes.json')).scenes,
+  ...json(join(golden, 'bad_input.json')).scenes,
+];
 const failures = run(hf, meshes, scenes);
 assert.deepEqual(failures, []);
-console.log(`${hf.backend}: ${scenes.length} scenes agree`);
+const wrongCalls = scenes.flatMap((scene) => scene.steps).filter((step) => step.error).length;
+console.log(`${hf.backend}: ${scenes.length} scenes agree, ${wrongCalls} wrong calls answered`);
+assert.ok(wrongCalls >= 100);
 
 // ---- layout (native): the offsets the package computes are those the C compiler pinned
 if (kind === 'native') {
@@ -78,12 +85,33 @@ const n = positions.length / 3;
 const solver = new hf.Solver(Float32Array.from(positions), triangles);
 solver.addSites([0], [1]);
 const wrong = [
-  () => new hf.Solver('text', triangles), () => new hf.Solver([1, 2], triangles), () => new hf.Solver(positions, 'text'), () => new hf.Solver(positions, [0.5, 1, 2]),
-  () => new hf.Solver(positions, [-1, 1, 2]), () => new hf.Solver(positions, [0, 1]), () => new hf.Solver(undefined, triangles), () => new hf.Solver(positions, triangles, { threads: 2 }),
-  () => new hf.Solver(positions, triangles, { threadCount: 'many' }), () => new hf.Solver(positions, triangles, { savedFactor: 'x' }), () => new hf.Solver(positions, triangles, { savedFactor: new Uint8Array(7) }),
-  () => solver.solve(new Float32Array(3)), () => solver.solve([]), () => solver.solve(new Int32Array(n)), () => solver.addSites([1], ['x']), () => solver.addSites(1, [1]), () => solver.addSites([1], [1, 2]),
-  () => solver.addSites([Number.MAX_VALUE], [1]), () => solver.addSites(['a'], [1]), () => new hf.Pose(null), () => new hf.Pose(3), () => new hf.Pose(new hf.Progress()), () => new hf.Transfer(solver, {}),
-  () => new hf.Geodesics(undefined), () => new hf.Direction(solver, { degree: 3 }), () => new hf.Pose(solver, { mode: 8 }), () => new hf.Pose(solver).deform(),
+  () => new hf.Solver('text', triangles),
+  () => new hf.Solver([1, 2], triangles),
+  () => new hf.Solver(positions, 'text'),
+  () => new hf.Solver(positions, [0.5, 1, 2]),
+  () => new hf.Solver(positions, [-1, 1, 2]),
+  () => new hf.Solver(positions, [0, 1]),
+  () => new hf.Solver(undefined, triangles),
+  () => new hf.Solver(positions, triangles, { threads: 2 }),
+  () => new hf.Solver(positions, triangles, { threadCount: 'many' }),
+  () => new hf.Solver(positions, triangles, { savedFactor: 'x' }),
+  () => new hf.Solver(positions, triangles, { savedFactor: new Uint8Array(7) }),
+  () => solver.solve(new Float32Array(3)),
+  () => solver.solve([]),
+  () => solver.solve(new Int32Array(n)),
+  () => solver.addSites([1], ['x']),
+  () => solver.addSites(1, [1]),
+  () => solver.addSites([1], [1, 2]),
+  () => solver.addSites([Number.MAX_VALUE], [1]),
+  () => solver.addSites(['a'], [1]),
+  () => new hf.Pose(null),
+  () => new hf.Pose(3),
+  () => new hf.Pose(new hf.Progress()),
+  () => new hf.Transfer(solver, {}),
+  () => new hf.Geodesics(undefined),
+  () => new hf.Direction(solver, { degree: 3 }),
+  () => new hf.Pose(solver, { mode: 8 }),
+  () => new hf.Pose(solver).deform(),
 ];
 for (const [i, call] of wrong.entries()) assert.throws(call, hf.HfError, `case ${i}`);
 assert.ok(Math.abs(solver.solve()[5] - 1) < 1e-6);
@@ -100,16 +128,37 @@ const draw = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
 let calls = 0;
 for (let round = 0; round < 120; ++round) {
   const own = new hf.Solver(Float64Array.from(meshes.bar.positions), meshes.bar.triangles);
-  const things = [own, own.clone(), new hf.Pose(own), new hf.Transfer(own, own), new hf.Geodesics(own), new hf.Progress()];
-  things[2].addHandles([[0, 1, 2], [280, 281]]);
+  const things = [
+    own,
+    own.clone(),
+    new hf.Pose(own),
+    new hf.Transfer(own, own),
+    new hf.Geodesics(own),
+    new hf.Progress(),
+  ];
+  things[2].addHandles([
+    [0, 1, 2],
+    [280, 281],
+  ]);
   things.push(things[2].clone());
   things.sort(() => draw() - 0.5);
   for (const thing of things) {
     if (draw() < 0.6) {
       thing.close();
       thing.close();
-      assert.throws(() => (thing.solve ? thing.solve() : thing.deform ? thing.deform() : thing.distance ? thing.distance([0]) : thing.apply ? thing.info : thing.fraction),
-        (error) => error.codeName === 'HF_ERROR_INVALID_HANDLE');
+      assert.throws(
+        () =>
+          thing.solve
+            ? thing.solve()
+            : thing.deform
+              ? thing.deform()
+              : thing.distance
+                ? thing.distance([0])
+                : thing.apply
+                  ? thing.info
+                  : thing.fraction,
+        (error) => error.codeName === 'HF_ERROR_INVALID_HANDLE',
+      );
       ++calls;
     } else if (thing.deform) {
       assert.equal(thing.deform().length, meshes.bar.positions.length);
@@ -127,7 +176,10 @@ const work = async (count) => {
   for (let i = 0; i < count; ++i) {
     const own = new hf.Solver(Float32Array.from(positions), triangles);
     const pose = new hf.Pose(own);
-    pose.addHandles([[0, 1], [140, 141]]);
+    pose.addHandles([
+      [0, 1],
+      [140, 141],
+    ]);
     pose.deform();
     if (i % 2) own.close(); // the rest by the garbage collector
     if (i % 10 === 0 && global.gc) {

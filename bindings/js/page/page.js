@@ -7,7 +7,17 @@ import { load } from '../src/web.js';
 
 const status = document.getElementById('status');
 const params = new URLSearchParams(location.search);
-const figures = { vertices: 0, sites: 0, handles: 0, createMs: 0, editMs: 0, solveMs: 0, deformMs: 0, frames: 0, message: '' };
+const figures = {
+  vertices: 0,
+  sites: 0,
+  handles: 0,
+  createMs: 0,
+  editMs: 0,
+  solveMs: 0,
+  deformMs: 0,
+  frames: 0,
+  message: '',
+};
 
 /** All meshes of a glb in one list of positions and triangles, centred, two units high at most. */
 async function readModel(url) {
@@ -32,7 +42,10 @@ async function readModel(url) {
   const box = new THREE.Box3().setFromArray(positions);
   const centre = box.getCenter(new THREE.Vector3());
   const scale = 2 / box.getSize(new THREE.Vector3()).length();
-  return { positions: Float32Array.from(positions, (x, i) => (x - centre.getComponent(i % 3)) * scale), triangles: Uint32Array.from(triangles) };
+  return {
+    positions: Float32Array.from(positions, (x, i) => (x - centre.getComponent(i % 3)) * scale),
+    triangles: Uint32Array.from(triangles),
+  };
 }
 
 const strips = new THREE.ShaderMaterial({
@@ -50,7 +63,10 @@ const strips = new THREE.ShaderMaterial({
   uniforms: { shown: { value: 0 } },
 });
 
-const hf = await load({ factory: (await import(params.get('glue') ?? '../dist/hf.mjs')).default, wasmBinary: await (await fetch(params.get('wasm') ?? '../dist/hf.wasm')).arrayBuffer() });
+const hf = await load({
+  factory: (await import(params.get('glue') ?? '../dist/hf.mjs')).default,
+  wasmBinary: await (await fetch(params.get('wasm') ?? '../dist/hf.wasm')).arrayBuffer(),
+});
 const rest = await readModel(params.get('model') ?? 'model.glb');
 let begin = performance.now();
 const solver = new hf.Solver(rest.positions, rest.triangles);
@@ -84,13 +100,18 @@ scene.add(mesh);
 
 const sites = []; // { number, vertex, ball }
 const handles = []; // { number, centroid, move, ball }
-const ball = (colour, size) => new THREE.Mesh(new THREE.SphereGeometry(size, 20, 12), new THREE.MeshBasicMaterial({ color: colour, depthTest: false }));
+const ball = (colour, size) =>
+  new THREE.Mesh(
+    new THREE.SphereGeometry(size, 20, 12),
+    new THREE.MeshBasicMaterial({ color: colour, depthTest: false }),
+  );
 
 function show(error) {
   figures.sites = sites.length;
   figures.handles = handles.length;
   figures.message = error ? error.message : '';
-  status.textContent = `${figures.vertices} vertices, factor ${figures.createMs.toFixed(0)} ms (once)\n${sites.length} sites: edit ${figures.editMs.toFixed(1)} ms, field ${figures.solveMs.toFixed(1)} ms\n` +
+  status.textContent =
+    `${figures.vertices} vertices, factor ${figures.createMs.toFixed(0)} ms (once)\n${sites.length} sites: edit ${figures.editMs.toFixed(1)} ms, field ${figures.solveMs.toFixed(1)} ms\n` +
     `${handles.length} handles: pose ${figures.deformMs.toFixed(1)} ms${error ? '\n' + error.message : ''}`;
 }
 
@@ -144,7 +165,12 @@ function addSite(vertex, value) {
 function addHandle(vertex) {
   const at = Array.from(rest.positions.subarray(3 * vertex, 3 * vertex + 3));
   const [number] = pose.addHandles(null, { points: at, radii: [Number(document.getElementById('radius').value)] });
-  const handle = { number, centroid: new THREE.Vector3().fromArray(pose.handleInfo(number).centroid), move: new THREE.Vector3(), ball: ball(0xff4040, 0.03) };
+  const handle = {
+    number,
+    centroid: new THREE.Vector3().fromArray(pose.handleInfo(number).centroid),
+    move: new THREE.Vector3(),
+    ball: ball(0xff4040, 0.03),
+  };
   handles.push(handle);
   scene.add(handle.ball);
   handle.ball.position.copy(handle.centroid);
@@ -171,16 +197,24 @@ function vertexUnder(event) {
   if (!hit) return null;
   const place = new THREE.Vector3();
   const corners = [hit.face.a, hit.face.b, hit.face.c];
-  return corners.reduce((best, v) => (place.fromArray(positions, 3 * v).distanceTo(hit.point) < best[1] ? [v, place.distanceTo(hit.point)] : best), [null, Infinity])[0];
+  return corners.reduce(
+    (best, v) =>
+      place.fromArray(positions, 3 * v).distanceTo(hit.point) < best[1] ? [v, place.distanceTo(hit.point)] : best,
+    [null, Infinity],
+  )[0];
 }
 
 let mode = 'high';
 function setMode(next) {
   mode = next;
   controls.enabled = mode === 'orbit';
-  document.querySelectorAll('[data-mode]').forEach((button) => button.classList.toggle('on', button.dataset.mode === mode));
+  document
+    .querySelectorAll('[data-mode]')
+    .forEach((button) => button.classList.toggle('on', button.dataset.mode === mode));
 }
-document.querySelectorAll('[data-mode]').forEach((button) => button.addEventListener('click', () => setMode(button.dataset.mode)));
+document
+  .querySelectorAll('[data-mode]')
+  .forEach((button) => button.addEventListener('click', () => setMode(button.dataset.mode)));
 setMode('high');
 
 let dragged = null;
@@ -190,10 +224,12 @@ renderer.domElement.addEventListener('pointerdown', (event) => {
     cast(event);
     const [hit] = caster.intersectObjects(handles.map((handle) => handle.ball));
     dragged = hit ? handles.find((handle) => handle.ball === hit.object) : null;
-    if (dragged) plane.setFromNormalAndCoplanarPoint(camera.getWorldDirection(new THREE.Vector3()), dragged.ball.position);
+    if (dragged)
+      plane.setFromNormalAndCoplanarPoint(camera.getWorldDirection(new THREE.Vector3()), dragged.ball.position);
   } else if (mode !== 'orbit') {
     const vertex = vertexUnder(event);
-    if (vertex !== null) guarded(() => (mode === 'handle' ? addHandle(vertex) : addSite(vertex, mode === 'high' ? 1 : 0)));
+    if (vertex !== null)
+      guarded(() => (mode === 'handle' ? addHandle(vertex) : addSite(vertex, mode === 'high' ? 1 : 0)));
   }
 });
 let wanted = null; // the last place asked for; one pose per picture, however fast the pointer moves
@@ -206,21 +242,27 @@ addEventListener('pointerup', () => {
   if (dragged && wanted) guarded(() => moveHandle(dragged, wanted));
   dragged = wanted = null;
 });
-document.getElementById('undo').addEventListener('click', () => guarded(() => {
-  const site = sites.pop();
-  if (!site) return;
-  solver.removeSites([site.number]);
-  scene.remove(site.ball);
-  refreshField();
-}));
-document.getElementById('remove').addEventListener('click', () => guarded(() => {
-  const handle = handles.pop();
-  if (!handle) return;
-  pose.removeHandles([handle.number]);
-  scene.remove(handle.ball);
-  refreshPose();
-}));
-document.getElementById('reset').addEventListener('click', () => guarded(() => handles.forEach((handle) => moveHandle(handle, handle.centroid))));
+document.getElementById('undo').addEventListener('click', () =>
+  guarded(() => {
+    const site = sites.pop();
+    if (!site) return;
+    solver.removeSites([site.number]);
+    scene.remove(site.ball);
+    refreshField();
+  }),
+);
+document.getElementById('remove').addEventListener('click', () =>
+  guarded(() => {
+    const handle = handles.pop();
+    if (!handle) return;
+    pose.removeHandles([handle.number]);
+    scene.remove(handle.ball);
+    refreshPose();
+  }),
+);
+document
+  .getElementById('reset')
+  .addEventListener('click', () => guarded(() => handles.forEach((handle) => moveHandle(handle, handle.centroid))));
 addEventListener('resize', () => {
   camera.aspect = innerWidth / innerHeight;
   camera.updateProjectionMatrix();
@@ -242,5 +284,17 @@ const onScreen = (place) => {
   const p = place.clone().project(camera);
   return { x: ((p.x + 1) / 2) * innerWidth, y: ((1 - p.y) / 2) * innerHeight };
 };
-window.hfPage = { hf, figures, solver, pose, field, positions, rest, sites, handles, vertexOnScreen: (v) => onScreen(new THREE.Vector3().fromArray(positions, 3 * v)),
-  vertexAt: (x, y) => vertexUnder({ clientX: x, clientY: y }), handleOnScreen: (i) => onScreen(handles[i].ball.position) };
+window.hfPage = {
+  hf,
+  figures,
+  solver,
+  pose,
+  field,
+  positions,
+  rest,
+  sites,
+  handles,
+  vertexOnScreen: (v) => onScreen(new THREE.Vector3().fromArray(positions, 3 * v)),
+  vertexAt: (x, y) => vertexUnder({ clientX: x, clientY: y }),
+  handleOnScreen: (i) => onScreen(handles[i].ball.position),
+};

@@ -19,16 +19,54 @@ export interface Handle {
 }
 
 export interface SolverOptions {
-  weld?: number; weldTolerance?: number; operatorKind?: number; fieldKind?: number; engine?: number; ordering?: number; channelCount?: number;
-  threadCount?: number; siteLimit?: number; vertexLimit?: number; memoryLimitMb?: number; penalty?: number; positionStride?: number;
-  savedFactor?: Uint8Array | null; progress?: Progress | null;
+  weld?: number;
+  weldTolerance?: number;
+  operatorKind?: number;
+  fieldKind?: number;
+  engine?: number;
+  ordering?: number;
+  channelCount?: number;
+  threadCount?: number;
+  siteLimit?: number;
+  vertexLimit?: number;
+  triangleLimit?: number;
+  memoryLimitMb?: number;
+  penalty?: number;
+  positionStride?: number;
+  savedFactor?: Uint8Array | null;
+  progress?: Progress | null;
 }
-export interface SiteOptions { stiffness?: Numbers | null; radii?: Numbers | null; triangles?: Numbers | null; barycentrics?: Rows | null }
-export interface Edit { remove?: Numbers; move?: Numbers; moveTo?: Numbers | null; set?: Numbers; setValues?: Numbers | null; add?: Numbers | null; addValues?: Numbers | null }
+export interface SiteOptions {
+  stiffness?: Numbers | null;
+  radii?: Numbers | null;
+  triangles?: Numbers | null;
+  barycentrics?: Rows | null;
+}
+export interface Edit {
+  remove?: Numbers;
+  move?: Numbers;
+  moveTo?: Numbers | null;
+  set?: Numbers;
+  setValues?: Numbers | null;
+  add?: Numbers | null;
+  addValues?: Numbers | null;
+}
 export interface Isolines {
-  positions: Float64Array; pointEdges: Uint32Array; parameters: Float64Array; lineStarts: Uint32Array; lineLevels: Uint32Array; lineClosed: Int32Array;
+  positions: Float64Array;
+  pointEdges: Uint32Array;
+  parameters: Float64Array;
+  lineStarts: Uint32Array;
+  lineLevels: Uint32Array;
+  lineClosed: Int32Array;
 }
-export interface Skin { jointCount: number; pivots: Float64Array; rotations: Float64Array; translations: Float64Array; joints: Uint32Array; weights: Float32Array }
+export interface Skin {
+  jointCount: number;
+  pivots: Float64Array;
+  rotations: Float64Array;
+  translations: Float64Array;
+  joints: Uint32Array;
+  weights: Float32Array;
+}
 
 export interface Progress extends Handle {
   readonly fraction: number;
@@ -48,22 +86,41 @@ export interface Solver extends Handle {
   moveSites(sites: Numbers, vertices: Numbers | null, options?: SiteOptions): void;
   setSiteValues(sites: Numbers, values: Rows): void;
   editSites(edit: Edit): Uint32Array;
-  sites(): { sites: Uint32Array; vertices: Uint32Array; components: Uint32Array; values: Float64Array; stiffness: Float64Array; flux: Float64Array; radii: Float64Array };
+  sites(): {
+    sites: Uint32Array;
+    vertices: Uint32Array;
+    components: Uint32Array;
+    values: Float64Array;
+    stiffness: Float64Array;
+    flux: Float64Array;
+    radii: Float64Array;
+  };
   record(): void;
   undo(): void;
   redo(): void;
   prepareRebase(): void;
   /** vertexCount * channelCount numbers, into `out` when given. */
   solve<T extends Floats = Float32Array>(out?: T | null, Type?: FloatsType): T;
-  solvePreview<T extends Floats = Float32Array>(out?: T | null, options?: { correctionCount?: number; Type?: FloatsType }): T;
+  solvePreview<T extends Floats = Float32Array>(
+    out?: T | null,
+    options?: { correctionCount?: number; Type?: FloatsType },
+  ): T;
   solveAt(vertices: Numbers): Float64Array;
   solveVectors<T extends Floats = Float32Array>(out?: T | null, Type?: FloatsType): T;
+  releasePreview(): void;
   saveFactor(): Uint8Array;
   spaceLevels(field: Numbers, levelCount: number, spacing?: number): Float64Array;
   traceIsolines(field: Numbers, levels: Numbers): Isolines;
-  findCriticalPoints(field: Numbers): { vertex: number; kind: number; index: number; component: number; value: number }[];
-  findExtremities(options?: { kind?: number; leastLength?: number; sourceCount?: number; geodesics?: Geodesics | null; progress?: Progress | null }):
-    { vertex: number; component: number; length: number; position: number[] }[];
+  findCriticalPoints(
+    field: Numbers,
+  ): { vertex: number; kind: number; index: number; component: number; value: number }[];
+  findExtremities(options?: {
+    kind?: number;
+    leastLength?: number;
+    sourceCount?: number;
+    geodesics?: Geodesics | null;
+    progress?: Progress | null;
+  }): { vertex: number; component: number; length: number; position: number[] }[];
   moveVectorSites(sites: Numbers, vertices: Numbers): void;
   rotateVectorSites(sites: Numbers, angles: Numbers): void;
 }
@@ -72,8 +129,40 @@ export interface Geodesics extends Handle {
   distance<T extends Floats = Float32Array>(sources: Numbers, out?: T | null, Type?: FloatsType): T;
 }
 
+export interface QuadMesh {
+  positions: Float64Array;
+  triangles: Uint32Array;
+  barycentrics: Float64Array;
+  faceStarts: Uint32Array;
+  faceCorners: Uint32Array;
+  siteVertices: Uint32Array;
+  siteLines: Int32Array;
+}
+export interface FlowLines {
+  positions: Float64Array;
+  values: Float64Array;
+  lineStarts: Uint32Array;
+  lineEnds: Uint32Array;
+}
+
+export interface Quads extends Handle {
+  readonly info: Record<string, number>;
+  /** Face i has the corners faceCorners[faceStarts[i]] to faceCorners[faceStarts[i + 1] - 1], counter-clockwise. */
+  mesh(): QuadMesh;
+}
+
+export interface Flow extends Handle {
+  /** wantedCount lines of equal flux from the minima of a field, or one through every seed vertex; values rise along each. */
+  trace(field: Numbers, options?: { wantedCount?: number; seeds?: Numbers | null }): FlowLines;
+}
+
 export interface Direction extends Handle {
   readonly siteCount: number;
+  clone(): Direction;
+  record(): void;
+  undo(): void;
+  redo(): void;
+  sites(): { sites: Uint32Array; vertices: Uint32Array; vectors: Float64Array };
   readonly statistics: Record<string, number>;
   addSites(vertices: Numbers, vectors: Rows): Uint32Array;
   removeSites(sites: Numbers): void;
@@ -87,7 +176,10 @@ export interface Direction extends Handle {
 export interface Pose extends Handle {
   readonly handleCount: number;
   clone(): Pose;
-  addHandles(regions: ReadonlyArray<Numbers> | null, options?: { points?: Rows | null; radii?: Numbers | null; layer?: number }): Uint32Array;
+  addHandles(
+    regions: ReadonlyArray<Numbers> | null,
+    options?: { points?: Rows | null; radii?: Numbers | null; layer?: number },
+  ): Uint32Array;
   removeHandles(handles: Numbers): void;
   /** Quaternions x, y, z, w and translations, flat; about the handles' centroids. */
   setTransforms(handles: Numbers, motion: { rotations?: Rows | null; translations?: Rows | null }): void;
@@ -95,26 +187,76 @@ export interface Pose extends Handle {
   setMatrices(handles: Numbers, matrices: Rows): void;
   handleInfo(handle: number): Record<string, any>;
   handleField(handle: number, out?: Float32Array | null): Float32Array;
-  deform<T extends Floats = Float32Array>(out?: T | null, options?: { normals?: Float32Array | null; Type?: FloatsType; iterationCount?: number; restart?: number; refine?: number }): T;
+  deform<T extends Floats = Float32Array>(
+    out?: T | null,
+    options?: {
+      normals?: Float32Array | null;
+      Type?: FloatsType;
+      iterationCount?: number;
+      restart?: number;
+      refine?: number;
+    },
+  ): T;
   skin(weightCount?: number): Skin;
 }
 
 export interface Transfer extends Handle {
   readonly info: Record<string, number>;
-  addPairs(sourceRegions: ReadonlyArray<Numbers>, targetRegions: ReadonlyArray<Numbers>, flags?: Numbers | null): Uint32Array;
+  addPairs(
+    sourceRegions: ReadonlyArray<Numbers>,
+    targetRegions: ReadonlyArray<Numbers>,
+    flags?: Numbers | null,
+  ): Uint32Array;
   removePairs(pairs: Numbers): void;
   pairInfo(pair: number): Record<string, number>;
-  apply<T extends Floats = Float32Array>(sourcePositions: Floats, out?: T | null,
-    options?: { normals?: Float32Array | null; Type?: FloatsType; holds?: Numbers | null; holdPositions?: Rows | null }): T;
+  apply<T extends Floats = Float32Array>(
+    sourcePositions: Floats,
+    out?: T | null,
+    options?: { normals?: Float32Array | null; Type?: FloatsType; holds?: Numbers | null; holdPositions?: Rows | null },
+  ): T;
   skin(weightCount?: number): Skin;
 }
 
 export interface Hf {
   readonly Solver: new (positions: Floats | Numbers, triangles: Numbers, options?: SolverOptions) => Solver;
-  readonly Pose: new (solver: Solver, options?: { mode?: number; bandCount?: number; iterationCount?: number; samplesPerRing?: number; groupCount?: number }) => Pose;
-  readonly Transfer: new (source: Solver, target: Solver, options?: { mode?: number; clusterCount?: number; kernelWidth?: number; scale?: number; alignmentAngle?: number; sourceAxes?: Numbers; targetAxes?: Numbers }) => Transfer;
+  readonly Pose: new (
+    solver: Solver,
+    options?: {
+      mode?: number;
+      bandCount?: number;
+      iterationCount?: number;
+      samplesPerRing?: number;
+      groupCount?: number;
+    },
+  ) => Pose;
+  readonly Transfer: new (
+    source: Solver,
+    target: Solver,
+    options?: {
+      mode?: number;
+      clusterCount?: number;
+      kernelWidth?: number;
+      scale?: number;
+      alignmentAngle?: number;
+      sourceAxes?: Numbers;
+      targetAxes?: Numbers;
+    },
+  ) => Transfer;
   readonly Geodesics: new (solver: Solver, options?: { smoothing?: number }) => Geodesics;
   readonly Direction: new (solver: Solver, options?: { degree?: number; siteLimit?: number }) => Direction;
+  readonly Quads: new (
+    solver: Solver,
+    options?: {
+      kind?: number;
+      edgeLength?: number;
+      siteVertices?: Numbers | null;
+      siteLines?: Numbers | null;
+      keepPolygons?: number;
+      relaxCount?: number;
+      progress?: Progress | null;
+    },
+  ) => Quads;
+  readonly Flow: new (solver: Solver) => Flow;
   readonly Progress: new () => Progress;
   readonly HfError: typeof HfError;
   readonly constants: Readonly<Record<string, number>>;
@@ -123,4 +265,8 @@ export interface Hf {
 }
 
 /** Loads the library. Native: `library` is a path. WebAssembly: `factory` and `wasmBinary` instead of the files in dist/. */
-export function load(options?: { library?: string; factory?: unknown; wasmBinary?: ArrayBuffer | Uint8Array }): Promise<Hf>;
+export function load(options?: {
+  library?: string;
+  factory?: unknown;
+  wasmBinary?: ArrayBuffer | Uint8Array;
+}): Promise<Hf>;

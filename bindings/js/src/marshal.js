@@ -3,7 +3,11 @@
 // structs, and arrays marked as read or written.
 import { constants, layouts } from './raw.js';
 
-const names = new Map(Object.entries(constants).filter(([name]) => name === 'HF_OK' || name.startsWith('HF_ERROR_')).map(([name, code]) => [code, name]));
+const names = new Map(
+  Object.entries(constants)
+    .filter(([name]) => name === 'HF_OK' || name.startsWith('HF_ERROR_'))
+    .map(([name, code]) => [code, name]),
+);
 
 /** A failed call: code, codeName (HF_ERROR_*), index (or null), functionName. */
 export class HfError extends Error {
@@ -53,7 +57,8 @@ export function doubles(values, name, count) {
   let array = values;
   if (!(values instanceof Float64Array)) {
     const flat = Array.isArray(values) && isArray(values[0]) ? values.map((row) => Array.from(row)).flat() : values;
-    for (let i = 0; i < flat.length; ++i) if (typeof flat[i] !== 'number') fail(`${name}[${i}] must be a number, not ${String(flat[i])}`);
+    for (let i = 0; i < flat.length; ++i)
+      if (typeof flat[i] !== 'number') fail(`${name}[${i}] must be a number, not ${String(flat[i])}`);
     array = Float64Array.from(flat);
   }
   if (count !== undefined && array.length !== count) fail(`${name} must hold ${count} numbers, not ${array.length}`);
@@ -64,14 +69,16 @@ export function doubles(values, name, count) {
 export function points(values, name, count) {
   if (values === null || values === undefined) fail(`${name} is ${values}`, 'HF_ERROR_NULL_POINTER');
   const array = values instanceof Float32Array ? values : doubles(values, name);
-  if (count === undefined ? array.length % 3 : array.length !== count) fail(`${name} must hold ${count ?? 'three numbers a vertex'}, not ${array.length}`);
+  if (count === undefined ? array.length % 3 : array.length !== count)
+    fail(`${name} must hold ${count ?? 'three numbers a vertex'}, not ${array.length}`);
   return array;
 }
 
 /** The caller's array of that many numbers, or a new one of `Type`. */
 export function output(out, count, Type) {
   if (out === undefined || out === null) return new Type(count);
-  if (!(out instanceof Float32Array) && !(out instanceof Float64Array)) fail('out must be a Float32Array or Float64Array');
+  if (!(out instanceof Float32Array) && !(out instanceof Float64Array))
+    fail('out must be a Float32Array or Float64Array');
   if (out.length !== count) fail(`out must hold ${count} numbers, not ${out.length}`, 'HF_ERROR_TOO_SMALL');
   return out;
 }
@@ -80,7 +87,9 @@ export function output(out, count, Type) {
 export function regions(lists, name) {
   if (lists === null || lists === undefined) return { counts: null, vertices: null };
   if (!Array.isArray(lists)) fail(`${name} must be a list of lists`);
-  const arrays = lists.map((list, i) => integers(list, `${name}[${i}]`) ?? fail(`${name}[${i}] is null`, 'HF_ERROR_NULL_POINTER'));
+  const arrays = lists.map(
+    (list, i) => integers(list, `${name}[${i}]`) ?? fail(`${name}[${i}] is null`, 'HF_ERROR_NULL_POINTER'),
+  );
   const vertices = new Uint32Array(arrays.reduce((sum, array) => sum + array.length, 0));
   let at = 0;
   for (const array of arrays) {
@@ -94,7 +103,8 @@ const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpp
 const fieldNames = new Map(); // struct -> camelCase -> C name
 function fieldsOf(struct) {
   let map = fieldNames.get(struct);
-  if (!map) fieldNames.set(struct, (map = new Map(Object.keys(layouts[struct].fields).map((name) => [camel(name), name]))));
+  if (!map)
+    fieldNames.set(struct, (map = new Map(Object.keys(layouts[struct].fields).map((name) => [camel(name), name]))));
   return map;
 }
 
@@ -130,7 +140,8 @@ export class Struct {
     const at = offsets[this.width];
     if (value === null || value === undefined) return this;
     if (kind === 'ptr') this.pointers.push([at, value]);
-    else if (kind === 'size') this.width ? this.view.setBigUint64(at, BigInt(value), true) : this.view.setUint32(at, value, true);
+    else if (kind === 'size')
+      this.width ? this.view.setBigUint64(at, BigInt(value), true) : this.view.setUint32(at, value, true);
     else if (count) for (let i = 0; i < count; ++i) setters[kind](this.view, at + i * strides[kind], value[i]);
     else setters[kind](this.view, at, value);
     return this;
@@ -155,7 +166,9 @@ export class Struct {
       const name = map.get(key);
       const kind = name && this.layout.fields[name][0];
       if (!setters[kind] || name === 'struct_size' || name === 'reserved') {
-        const allowed = [...map].filter(([, field]) => setters[this.layout.fields[field][0]] && !['struct_size', 'reserved'].includes(field));
+        const allowed = [...map].filter(
+          ([, field]) => setters[this.layout.fields[field][0]] && !['struct_size', 'reserved'].includes(field),
+        );
         fail(`no option '${key}'; there are: ${allowed.map(([shown]) => shown).join(', ')}`);
       }
       const count = this.layout.fields[name][2];
@@ -172,7 +185,8 @@ export class Struct {
     const result = {};
     for (const [shown, name] of fieldsOf(this.type)) {
       const kind = this.layout.fields[name][0];
-      if ((getters[kind] || kind === 'char') && name !== 'struct_size' && name !== 'reserved') result[shown] = this.get(name);
+      if ((getters[kind] || kind === 'char') && name !== 'struct_size' && name !== 'reserved')
+        result[shown] = this.get(name);
     }
     return result;
   }

@@ -3,7 +3,15 @@
 import { functions } from './raw.js';
 import { Memory, Struct } from './marshal.js';
 
-const kinds = { i32: 'int32_t', u32: 'uint32_t', size: 'size_t', string: 'str', void: 'void', handle: 'uintptr_t', ptr: 'uintptr_t' };
+const kinds = {
+  i32: 'int32_t',
+  u32: 'uint32_t',
+  size: 'size_t',
+  string: 'str',
+  void: 'void',
+  handle: 'uintptr_t',
+  ptr: 'uintptr_t',
+};
 
 export function nativeBackend(koffi, path) {
   const library = koffi.load(path);
@@ -12,7 +20,14 @@ export function nativeBackend(koffi, path) {
     let entry = bound.get(name);
     if (!entry) {
       const [result, parameters] = functions[name];
-      bound.set(name, (entry = library.func(name, kinds[result], parameters.map((kind) => kinds[kind]))));
+      bound.set(
+        name,
+        (entry = library.func(
+          name,
+          kinds[result],
+          parameters.map((kind) => kinds[kind]),
+        )),
+      );
     }
     return entry;
   };

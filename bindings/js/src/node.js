@@ -18,7 +18,9 @@ export async function load({ library } = {}) {
   try {
     koffi = (await import('koffi')).default;
   } catch (error) {
-    throw new Error(`the native backend needs the package koffi (npm install koffi), or use hf-fields/wasm: ${error.message}`);
+    throw new Error(
+      `the native backend needs the package koffi (npm install koffi), or use hf-fields/wasm: ${error.message}`,
+    );
   }
   const failures = [];
   for (const path of library ? [library] : candidates()) {

@@ -2,7 +2,9 @@
 import { constants, headerVersion } from './raw.js';
 import { HfError, Struct, doubles, fail, integers, output, points, read, regions, rows, written } from './marshal.js';
 import { solverClasses } from './solver.js';
+import { fieldClasses } from './fields.js';
 import { poseClasses } from './pose.js';
+import { quadClasses } from './quads.js';
 
 export function makeApi(backend) {
   const make = (type, fields) => new Struct(backend.width, type, fields);
@@ -12,7 +14,12 @@ export function makeApi(backend) {
     const detail = make('hf_error_detail');
     backend.call('hf_get_error_detail', [detail]);
     const index = detail.get('index');
-    throw new HfError(detail.get('message'), code, index === constants.HF_NO_INDEX ? null : index, detail.get('function'));
+    throw new HfError(
+      detail.get('message'),
+      code,
+      index === constants.HF_NO_INDEX ? null : index,
+      detail.get('function'),
+    );
   };
 
   const registry = new FinalizationRegistry(({ destroy, handle }) => backend.call(destroy, [handle]));
@@ -60,16 +67,59 @@ export function makeApi(backend) {
   const rowSize = (type) => make(type).bytes.length;
   const direct = (name, ...args) => backend.call(name, args);
 
-  const tools = { backend, make, call, create, direct, handleOf, query, table, rowSize, Handle, doubles, fail, integers, output, points, read, regions, written };
+  /** Elements of a list; a missing list counts one, so that the library says what is missing. */
+  const counted = (array) => (array === null ? 1 : array.length);
+  const solveName = (base, out) => (out instanceof Float32Array ? base : base + '_f64');
+  const pairOf = (sites, vertices) => {
+    const [numbers, at] = [integers(sites, 'sites') ?? [], integers(vertices, 'vertices') ?? []];
+    if (numbers.length !== at.length) fail('sites and vertices must be of one length');
+    return [numbers, at];
+  };
+  /** A field as hf_scalars, or null. */
+  const scalarsOf = (field, vertexCount) => {
+    if (field === null || field === undefined) return null;
+    const array = field instanceof Float32Array ? field : doubles(field, 'field');
+    if (array.length !== vertexCount) fail(`field must hold ${vertexCount} numbers, not ${array.length}`);
+    return make('hf_scalars').set(array instanceof Float32Array ? 'values' : 'values_f64', read(array));
+  };
+  const bare = Symbol('an object whose handle is made elsewhere');
+  const classes = {}; // all of them, for those that name each other
+
+  const tools = {
+    backend,
+    make,
+    call,
+    create,
+    direct,
+    handleOf,
+    query,
+    table,
+    rowSize,
+    Handle,
+    doubles,
+    fail,
+    integers,
+    output,
+    points,
+    read,
+    regions,
+    written,
+    bare,
+    classes,
+    counted,
+    pairOf,
+    scalarsOf,
+    solveName,
+  };
   const number = direct('hf_get_version');
   const [major, minor] = headerVersion.split('.').map(Number);
   if (Math.floor(number / 1000000) !== major || number < major * 1000000 + minor * 1000) {
     throw new Error(`the hf library is of version ${number}, this package of ${headerVersion}; use matching ones`);
   }
-  const solverApi = solverClasses(tools);
+  Object.assign(classes, solverClasses(tools));
+  for (const more of [fieldClasses, quadClasses, poseClasses]) Object.assign(classes, more(tools, classes.Solver));
   return Object.freeze({
-    ...solverApi,
-    ...poseClasses(tools, solverApi.Solver),
+    ...classes,
     HfError,
     constants,
     backend: backend.name,

@@ -1,18 +1,48 @@
 // Pose and Transfer.
 export function poseClasses(tools, Solver) {
-  const { make, call, create, direct, handleOf, query, Handle, doubles, fail, integers, output, points, read, regions, written } = tools;
-  const counted = (array) => (array === null ? 1 : array.length);
-
-  const bare = Symbol('an object whose handle is made elsewhere');
+  const {
+    make,
+    call,
+    create,
+    direct,
+    handleOf,
+    query,
+    Handle,
+    doubles,
+    fail,
+    integers,
+    output,
+    points,
+    read,
+    regions,
+    written,
+    bare,
+    counted,
+  } = tools;
 
   const skinOf = (name, handle, vertexCount, weightCount) => {
     const ask = make('hf_skin_info', { weight_count: weightCount });
     call(name, handle, ask);
     const n = ask.get('joint_count');
-    const skin = { pivots: new Float64Array(3 * n), rotations: new Float64Array(4 * n), translations: new Float64Array(3 * n),
-      joints: new Uint32Array(vertexCount * weightCount), weights: new Float32Array(vertexCount * weightCount) };
-    call(name, handle, make('hf_skin_info', { weight_count: weightCount, pivots: written(skin.pivots), rotations: written(skin.rotations),
-      translations: written(skin.translations), vertex_joints: written(skin.joints), vertex_weights: written(skin.weights) }));
+    const skin = {
+      pivots: new Float64Array(3 * n),
+      rotations: new Float64Array(4 * n),
+      translations: new Float64Array(3 * n),
+      joints: new Uint32Array(vertexCount * weightCount),
+      weights: new Float32Array(vertexCount * weightCount),
+    };
+    call(
+      name,
+      handle,
+      make('hf_skin_info', {
+        weight_count: weightCount,
+        pivots: written(skin.pivots),
+        rotations: written(skin.rotations),
+        translations: written(skin.translations),
+        vertex_joints: written(skin.joints),
+        vertex_weights: written(skin.weights),
+      }),
+    );
     return { jointCount: n, ...skin };
   };
 
@@ -20,7 +50,13 @@ export function poseClasses(tools, Solver) {
     constructor(solver, options = {}) {
       super();
       if (solver === bare) return;
-      create(this, 'hf_pose_destroy', 'hf_pose_create', handleOf(solver, Solver, 'solver'), make('hf_pose_desc').options(options));
+      create(
+        this,
+        'hf_pose_destroy',
+        'hf_pose_create',
+        handleOf(solver, Solver, 'solver'),
+        make('hf_pose_desc').options(options),
+      );
       this.vertexCount = solver.vertexCount;
     }
     clone() {
@@ -33,10 +69,16 @@ export function poseClasses(tools, Solver) {
         const at = doubles(centres, 'points');
         if (at.length % 3) fail('points must hold three numbers each');
         const reach = doubles(radii, 'radii', at.length / 3);
-        desc.set('handle_count', at.length / 3).set('points', read(at)).set('radii', reach && read(reach));
+        desc
+          .set('handle_count', at.length / 3)
+          .set('points', read(at))
+          .set('radii', reach && read(reach));
       } else {
         const { counts, vertices } = regions(lists, 'regions');
-        desc.set('handle_count', counted(counts)).set('region_counts', counts && read(counts)).set('region_vertices', vertices && read(vertices));
+        desc
+          .set('handle_count', counted(counts))
+          .set('region_counts', counts && read(counts))
+          .set('region_vertices', vertices && read(vertices));
       }
       desc.options({ layer });
       const out = new Uint32Array(desc.get('handle_count'));
@@ -83,7 +125,8 @@ export function poseClasses(tools, Solver) {
       const desc = make('hf_deform_desc').options(options);
       desc.set(out instanceof Float32Array ? 'positions' : 'positions_f64', written(out));
       if (normals) {
-        if (!(normals instanceof Float32Array) || normals.length !== 3 * this.vertexCount) fail(`normals must be a Float32Array of ${3 * this.vertexCount} numbers`);
+        if (!(normals instanceof Float32Array) || normals.length !== 3 * this.vertexCount)
+          fail(`normals must be a Float32Array of ${3 * this.vertexCount} numbers`);
         desc.set('normals', written(normals));
       }
       call('hf_deform', this._handle, desc, null);
@@ -97,19 +140,38 @@ export function poseClasses(tools, Solver) {
   class Transfer extends Handle {
     constructor(source, target, options = {}) {
       super();
-      create(this, 'hf_transfer_destroy', 'hf_transfer_create', handleOf(source, Solver, 'source'), handleOf(target, Solver, 'target'), make('hf_transfer_desc').options(options));
+      create(
+        this,
+        'hf_transfer_destroy',
+        'hf_transfer_create',
+        handleOf(source, Solver, 'source'),
+        handleOf(target, Solver, 'target'),
+        make('hf_transfer_desc').options(options),
+      );
       this.sourceVertexCount = source.vertexCount;
       this.vertexCount = target.vertexCount;
     }
     addPairs(sourceRegions, targetRegions, flags = null) {
       const [source, target] = [regions(sourceRegions, 'sourceRegions'), regions(targetRegions, 'targetRegions')];
-      if (!source.counts || !target.counts || source.counts.length !== target.counts.length) fail('sourceRegions and targetRegions must be of one length');
+      if (!source.counts || !target.counts || source.counts.length !== target.counts.length)
+        fail('sourceRegions and targetRegions must be of one length');
       const count = source.counts.length;
       const marks = integers(flags, 'flags');
       if (marks && marks.length !== count) fail(`flags must hold ${count} numbers, not ${marks.length}`);
       const out = new Uint32Array(count);
-      call('hf_transfer_add_pairs', this._handle, make('hf_pairs_desc', { pair_count: count, source_counts: read(source.counts), source_vertices: read(source.vertices),
-        target_counts: read(target.counts), target_vertices: read(target.vertices), flags: marks && read(marks) }), written(out));
+      call(
+        'hf_transfer_add_pairs',
+        this._handle,
+        make('hf_pairs_desc', {
+          pair_count: count,
+          source_counts: read(source.counts),
+          source_vertices: read(source.vertices),
+          target_counts: read(target.counts),
+          target_vertices: read(target.vertices),
+          flags: marks && read(marks),
+        }),
+        written(out),
+      );
       return out;
     }
     removePairs(pairs) {
@@ -129,12 +191,16 @@ export function poseClasses(tools, Solver) {
       frame.set(posed instanceof Float32Array ? 'source_positions' : 'source_positions_f64', read(posed));
       frame.set(out instanceof Float32Array ? 'target_positions' : 'target_positions_f64', written(out));
       if (normals) {
-        if (!(normals instanceof Float32Array) || normals.length !== 3 * this.vertexCount) fail(`normals must be a Float32Array of ${3 * this.vertexCount} numbers`);
+        if (!(normals instanceof Float32Array) || normals.length !== 3 * this.vertexCount)
+          fail(`normals must be a Float32Array of ${3 * this.vertexCount} numbers`);
         frame.set('target_normals', written(normals));
       }
       if (holds) {
         const numbers = integers(holds, 'holds');
-        frame.set('hold_count', numbers.length).set('hold_pairs', read(numbers)).set('hold_positions', read(doubles(holdPositions ?? [], 'holdPositions', 3 * numbers.length)));
+        frame
+          .set('hold_count', numbers.length)
+          .set('hold_pairs', read(numbers))
+          .set('hold_positions', read(doubles(holdPositions ?? [], 'holdPositions', 3 * numbers.length)));
       }
       call('hf_transfer_apply', this._handle, frame);
       return out;

@@ -1,10 +1,29 @@
-// Solver, Geodesics, Direction, Progress.
+// Solver and Progress.
 export function solverClasses(tools) {
-  const { make, call, create, direct, handleOf, query, table, rowSize, Handle, doubles, fail, integers, output, points, read, written, backend } = tools;
-  const counted = (array) => (array === null ? 1 : array.length);
-  const solveName = (base, out) => (out instanceof Float32Array ? base : base + '_f64');
-
-  const bare = Symbol('an object whose handle is made elsewhere');
+  const {
+    make,
+    call,
+    create,
+    direct,
+    handleOf,
+    query,
+    table,
+    rowSize,
+    Handle,
+    doubles,
+    fail,
+    integers,
+    output,
+    points,
+    read,
+    written,
+    backend,
+    bare,
+    counted,
+    pairOf,
+    scalarsOf,
+    solveName,
+  } = tools;
 
   class Progress extends Handle {
     constructor() {
@@ -28,7 +47,10 @@ export function solverClasses(tools) {
       const xyz = points(positions, 'positions');
       const corners = integers(triangles, 'triangles');
       if (corners && corners.length % 3) fail(`triangles must hold three numbers each, not ${corners.length}`);
-      const desc = make('hf_create_desc', { vertex_count: xyz.length / 3, triangle_count: corners ? corners.length / 3 : 0 });
+      const desc = make('hf_create_desc', {
+        vertex_count: xyz.length / 3,
+        triangle_count: corners ? corners.length / 3 : 0,
+      });
       desc.options(options);
       desc.set(xyz instanceof Float32Array ? 'positions' : 'positions_f64', read(xyz));
       desc.set('triangles', corners && read(corners));
@@ -65,7 +87,12 @@ export function solverClasses(tools) {
       if (at && inside && at.length !== inside.length) fail('vertices and triangles are given both');
       const desc = make('hf_sites_desc', { site_count: count });
       desc.set('vertices', at && read(at)).set('triangles', inside && read(inside));
-      const numbers = { barycentrics: [barycentrics, 3 * count], values: [values, count * this.channelCount], stiffness: [stiffness, count], radii: [radii, count] };
+      const numbers = {
+        barycentrics: [barycentrics, 3 * count],
+        values: [values, count * this.channelCount],
+        stiffness: [stiffness, count],
+        radii: [radii, count],
+      };
       for (const [name, [given, size]] of Object.entries(numbers)) {
         const array = doubles(given, name, size);
         desc.set(name, array && read(array));
@@ -84,18 +111,44 @@ export function solverClasses(tools) {
     }
     moveSites(sites, vertices, options) {
       const numbers = integers(sites, 'sites');
-      call('hf_move_sites', this._handle, counted(numbers), numbers && read(numbers), this.#places(vertices, null, options).desc);
+      call(
+        'hf_move_sites',
+        this._handle,
+        counted(numbers),
+        numbers && read(numbers),
+        this.#places(vertices, null, options).desc,
+      );
     }
     setSiteValues(sites, values) {
       const numbers = integers(sites, 'sites');
       const given = doubles(values, 'values', counted(numbers) * this.channelCount);
       call('hf_set_site_values', this._handle, counted(numbers), numbers && read(numbers), given && read(given));
     }
-    editSites({ remove = [], move = [], moveTo = null, set = [], setValues = null, add = null, addValues = null } = {}) {
-      const [removed, moved, changed] = [integers(remove ?? [], 'remove'), integers(move ?? [], 'move'), integers(set ?? [], 'set')];
+    editSites({
+      remove = [],
+      move = [],
+      moveTo = null,
+      set = [],
+      setValues = null,
+      add = null,
+      addValues = null,
+    } = {}) {
+      const [removed, moved, changed] = [
+        integers(remove ?? [], 'remove'),
+        integers(move ?? [], 'move'),
+        integers(set ?? [], 'set'),
+      ];
       const values = doubles(setValues, 'setValues', changed.length * this.channelCount);
-      const edit = make('hf_edit_desc', { remove_count: removed.length, move_count: moved.length, set_count: changed.length });
-      edit.set('remove_sites', read(removed)).set('move_sites', read(moved)).set('set_sites', read(changed)).set('set_values', values && read(values));
+      const edit = make('hf_edit_desc', {
+        remove_count: removed.length,
+        move_count: moved.length,
+        set_count: changed.length,
+      });
+      edit
+        .set('remove_sites', read(removed))
+        .set('move_sites', read(moved))
+        .set('set_sites', read(changed))
+        .set('set_values', values && read(values));
       if (moveTo) edit.set('move_to', this.#places(moveTo, null).desc);
       const added = add && this.#places(add, addValues);
       if (added) edit.set('add', added.desc);
@@ -108,8 +161,15 @@ export function solverClasses(tools) {
     }
     sites() {
       const n = this.siteCount;
-      const arrays = { sites: new Uint32Array(n), vertices: new Uint32Array(n), components: new Uint32Array(n), values: new Float64Array(n * this.channelCount),
-        stiffness: new Float64Array(n), flux: new Float64Array(n * this.channelCount), radii: new Float64Array(n) };
+      const arrays = {
+        sites: new Uint32Array(n),
+        vertices: new Uint32Array(n),
+        components: new Uint32Array(n),
+        values: new Float64Array(n * this.channelCount),
+        stiffness: new Float64Array(n),
+        flux: new Float64Array(n * this.channelCount),
+        radii: new Float64Array(n),
+      };
       const info = make('hf_site_info', { capacity: n });
       for (const [name, array] of Object.entries(arrays)) info.set(name, written(array));
       call('hf_get_sites', this._handle, info);
@@ -149,6 +209,9 @@ export function solverClasses(tools) {
       call(solveName('hf_solve_vectors', out), this._handle, written(out), 0, null, null);
       return out;
     }
+    releasePreview() {
+      call('hf_release_preview', this._handle);
+    }
     saveFactor() {
       const size = backend.newHandle();
       call('hf_get_factor_size', this._handle, written(size));
@@ -157,35 +220,50 @@ export function solverClasses(tools) {
       return bytes;
     }
 
-    #scalars(field) {
-      if (field === null || field === undefined) return null;
-      const array = field instanceof Float32Array ? field : doubles(field, 'field');
-      if (array.length !== this.vertexCount) fail(`field must hold ${this.vertexCount} numbers, not ${array.length}`);
-      return make('hf_scalars').set(array instanceof Float32Array ? 'values' : 'values_f64', read(array));
-    }
     spaceLevels(field, levelCount, spacing = 0) {
       const out = new Float64Array(Math.max(0, Math.min(levelCount, 1000000)));
-      call('hf_space_levels', this._handle, this.#scalars(field), spacing, Math.max(0, levelCount), written(out));
+      call(
+        'hf_space_levels',
+        this._handle,
+        scalarsOf(field, this.vertexCount),
+        spacing,
+        Math.max(0, levelCount),
+        written(out),
+      );
       return out;
     }
     traceIsolines(field, levels) {
-      const scalars = this.#scalars(field);
+      const scalars = scalarsOf(field, this.vertexCount);
       const wanted = doubles(levels, 'levels');
       const count = counted(wanted);
       const ask = make('hf_isolines');
       call('hf_trace_isolines', this._handle, scalars, count, wanted && read(wanted), ask);
       const [p, k] = [ask.get('point_count'), ask.get('line_count')];
-      const result = { positions: new Float64Array(3 * p), pointEdges: new Uint32Array(2 * p), parameters: new Float64Array(p), lineStarts: new Uint32Array(k + 1),
-        lineLevels: new Uint32Array(k), lineClosed: new Int32Array(k) };
+      const result = {
+        positions: new Float64Array(3 * p),
+        pointEdges: new Uint32Array(2 * p),
+        parameters: new Float64Array(p),
+        lineStarts: new Uint32Array(k + 1),
+        lineLevels: new Uint32Array(k),
+        lineClosed: new Int32Array(k),
+      };
       if (k) {
-        const lines = make('hf_isolines', { point_capacity: p, line_capacity: k, positions: written(result.positions), point_edges: written(result.pointEdges),
-          parameters: written(result.parameters), line_starts: written(result.lineStarts), line_levels: written(result.lineLevels), line_closed: written(result.lineClosed) });
+        const lines = make('hf_isolines', {
+          point_capacity: p,
+          line_capacity: k,
+          positions: written(result.positions),
+          point_edges: written(result.pointEdges),
+          parameters: written(result.parameters),
+          line_starts: written(result.lineStarts),
+          line_levels: written(result.lineLevels),
+          line_closed: written(result.lineClosed),
+        });
         call('hf_trace_isolines', this._handle, scalars, count, read(wanted), lines);
       }
       return result;
     }
     findCriticalPoints(field) {
-      const scalars = this.#scalars(field);
+      const scalars = scalarsOf(field, this.vertexCount);
       const info = make('hf_critical_info');
       call('hf_find_critical_points', this._handle, scalars, 0, null, info);
       const count = info.get('point_count');
@@ -195,7 +273,7 @@ export function solverClasses(tools) {
     }
     findExtremities({ geodesics = null, progress = null, ...options } = {}) {
       const desc = make('hf_extremities_desc').options(options);
-      if (geodesics) desc.set('geodesics', handleOf(geodesics, Geodesics, 'geodesics'));
+      if (geodesics) desc.set('geodesics', handleOf(geodesics, tools.classes.Geodesics, 'geodesics'));
       if (progress) desc.set('progress', handleOf(progress, Progress, 'progress'));
       const count = new Uint32Array(1);
       call('hf_find_extremities', this._handle, desc, 0, null, written(count));
@@ -204,81 +282,15 @@ export function solverClasses(tools) {
       return table('hf_extremity', bytes, count[0]);
     }
     moveVectorSites(sites, vertices) {
-      const [numbers, at] = [integers(sites, 'sites') ?? [], integers(vertices, 'vertices') ?? []];
-      if (numbers.length !== at.length) fail('sites and vertices must be of one length');
+      const [numbers, at] = pairOf(sites, vertices);
       call('hf_move_vector_sites', this._handle, numbers.length, read(numbers), read(at));
     }
     rotateVectorSites(sites, angles) {
-      const numbers = integers(sites, 'sites') ?? new Uint32Array(0);
-      call('hf_rotate_vector_sites', this._handle, numbers.length, read(numbers), read(doubles(angles ?? [], 'angles', numbers.length)));
-    }
-  }
-
-  class Geodesics extends Handle {
-    constructor(solver, { smoothing = 0 } = {}) {
-      super();
-      create(this, 'hf_geodesics_destroy', 'hf_geodesics_create', handleOf(solver, Solver, 'solver'), make('hf_geodesics_desc').options({ smoothing }));
-      this.vertexCount = solver.vertexCount;
-    }
-    distance(sources, out, Type = Float32Array) {
-      const at = integers(sources, 'sources');
-      out = output(out, this.vertexCount, Type);
-      call(solveName('hf_geodesics_distance', out), this._handle, counted(at), at && read(at), written(out), 0);
-      return out;
-    }
-  }
-
-  class Direction extends Handle {
-    constructor(solver, options = {}) {
-      super();
-      create(this, 'hf_direction_destroy', 'hf_direction_create', handleOf(solver, Solver, 'solver'), make('hf_direction_desc').options(options));
-      this.vertexCount = solver.vertexCount;
-    }
-    addSites(vertices, vectors) {
-      const at = integers(vertices, 'vertices');
-      const given = doubles(vectors, 'vectors', 3 * counted(at));
-      const out = new Uint32Array(counted(at));
-      call('hf_direction_add_sites', this._handle, counted(at), at && read(at), given && read(given), written(out));
-      return out;
-    }
-    removeSites(sites) {
-      const numbers = integers(sites, 'sites');
-      call('hf_direction_remove_sites', this._handle, counted(numbers), numbers && read(numbers));
-    }
-    moveSites(sites, vertices) {
-      const [numbers, at] = [integers(sites, 'sites') ?? [], integers(vertices, 'vertices') ?? []];
-      if (numbers.length !== at.length) fail('sites and vertices must be of one length');
-      call('hf_direction_move_sites', this._handle, numbers.length, read(numbers), read(at));
-    }
-    setVectors(sites, vectors) {
-      const numbers = integers(sites, 'sites');
-      const given = doubles(vectors, 'vectors', 3 * counted(numbers));
-      call('hf_direction_set_vectors', this._handle, counted(numbers), numbers && read(numbers), given && read(given));
-    }
-    rotateSites(sites, angles) {
       const numbers = integers(sites, 'sites');
       const turns = doubles(angles, 'angles', counted(numbers));
-      call('hf_direction_rotate_sites', this._handle, counted(numbers), numbers && read(numbers), turns && read(turns));
-    }
-    get siteCount() {
-      return direct('hf_direction_get_site_count', this._handle);
-    }
-    get statistics() {
-      return query('hf_direction_statistics', 'hf_direction_get_statistics', this._handle);
-    }
-    solve(out, Type = Float32Array) {
-      out = output(out, 3 * this.vertexCount, Type);
-      call(solveName('hf_direction_solve', out), this._handle, written(out), 0, null);
-      return out;
-    }
-    singularities() {
-      const count = new Uint32Array(1);
-      call('hf_direction_get_singularities', this._handle, 0, null, written(count));
-      const bytes = new Uint8Array(count[0] * rowSize('hf_singularity'));
-      if (count[0]) call('hf_direction_get_singularities', this._handle, count[0], written(bytes), written(count));
-      return table('hf_singularity', bytes, count[0]);
+      call('hf_rotate_vector_sites', this._handle, counted(numbers), numbers && read(numbers), turns && read(turns));
     }
   }
 
-  return { Solver, Geodesics, Direction, Progress };
+  return { Solver, Progress };
 }

@@ -10,7 +10,8 @@ export function wasmBackend(module) {
   // first pass: how many bytes; second: copy in; third: copy out
   const measure = (argument) => {
     if (argument instanceof Memory) return align(argument.array.byteLength);
-    if (argument instanceof Struct) return align(argument.bytes.length) + argument.pointers.reduce((sum, [, target]) => sum + measure(target), 0);
+    if (argument instanceof Struct)
+      return align(argument.bytes.length) + argument.pointers.reduce((sum, [, target]) => sum + measure(target), 0);
     return 0;
   };
   const bytesOf = (array) => new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
@@ -21,7 +22,13 @@ export function wasmBackend(module) {
     call(name, args) {
       const total = args.reduce((sum, argument) => sum + measure(argument), 0);
       const block = total ? module._malloc(total) >>> 0 : 0;
-      if (total && !block) throw new HfError(`${total} bytes of WebAssembly memory are not to be had`, constants.HF_ERROR_OUT_OF_MEMORY, null, name);
+      if (total && !block)
+        throw new HfError(
+          `${total} bytes of WebAssembly memory are not to be had`,
+          constants.HF_ERROR_OUT_OF_MEMORY,
+          null,
+          name,
+        );
       let next = block;
       const back = [];
       const place = (argument) => {

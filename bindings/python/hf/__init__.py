@@ -17,10 +17,12 @@ from ._library import (BusyError, CancelledError, ConflictError, DuplicateSiteEr
                        UnsupportedError)
 from ._library import EXCEPTIONS, NO_INDEX, HfError, library
 from ._raw import (hf_deform_info as DeformInfo, hf_direction_statistics as DirectionStatistics, hf_handle_info as HandleInfo,
-                   hf_mesh_report as MeshReport, hf_pair_info as PairInfo, hf_solve_info as SolveInfo, hf_statistics as Statistics,
+                   hf_mesh_report as MeshReport, hf_pair_info as PairInfo, hf_quads_info as QuadsInfo, hf_solve_info as SolveInfo, hf_statistics as Statistics,
                    hf_transfer_info as TransferInfo)
+from .direction import Direction
 from .pose import DeformMode, Pair, Pose, Skin, Transfer, TransferMode
-from .solver import (Direction, Engine, Extremities, FieldKind, Geodesics, Isolines, Levels, Operator, Progress, Solver, Weld)
+from .quads import Flow, FlowLines, QuadKind, QuadMesh, Quads
+from .solver import (Engine, Extremities, FieldKind, Geodesics, Isolines, Levels, Operator, Progress, Solver, Weld)
 
 __version__ = constants.HEADER_VERSION
 

@@ -150,6 +150,32 @@ def integers(values: Optional[ArrayLike], name: str) -> Optional[np.ndarray]:
     return np.ascontiguousarray(array)
 
 
+def count_of(array: Optional[np.ndarray]) -> int:
+    """Elements of a list; a missing list counts one, so that the library says what is missing."""
+    return 1 if array is None else array.size
+
+
+def paired(sites: ArrayLike, vertices: ArrayLike) -> tuple:
+    """Numbers of sites and as many vertices."""
+    numbers, at = integers(sites, "sites"), integers(vertices, "vertices")
+    if numbers is None or at is None or numbers.size != at.size:
+        raise InvalidArgumentError("sites and vertices must be of one length")
+    return numbers, at
+
+
+def scalars(field: Optional[ArrayLike], vertex_count: int) -> tuple:
+    """A field as the library reads it, in place where it can be. Returns (desc or None, what to keep alive)."""
+    if field is None:
+        return None, None
+    array = np.asarray(field)
+    fits = array.dtype in (np.float32, np.float64) and array.ndim == 1 and array.size == vertex_count
+    if not fits or array.strides[0] <= 0:
+        array = doubles(field, "field", vertex_count).ravel()
+    desc = make(_raw.hf_scalars, value_stride=array.strides[0])
+    setattr(desc, "values" if array.dtype == np.float32 else "values_f64", address(array))
+    return desc, array
+
+
 def doubles(values: Optional[ArrayLike], name: str, count: Optional[int] = None) -> Optional[np.ndarray]:
     """float64, as given when it is that already; count: how many numbers there must be."""
     if values is None:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Optional, Sequence
 import numpy as np
 
 from . import _raw
-from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, doubles, handle_of, integers, library, make, options_into, output,
+from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, count_of, doubles, handle_of, integers, library, make, options_into, output,
                        points, regions)
 from .solver import Solver
 
@@ -89,12 +89,12 @@ class Pose(Object):
 
     def remove_handles(self, handles: ArrayLike) -> None:
         numbers = integers(handles, "handles")
-        call("hf_pose_remove_handles", self._raw_handle, 1 if numbers is None else numbers.size, address(numbers))
+        call("hf_pose_remove_handles", self._raw_handle, count_of(numbers), address(numbers))
 
     def set_transforms(self, handles: ArrayLike, rotations: Optional[ArrayLike] = None, translations: Optional[ArrayLike] = None) -> None:
         """Rigid motions from rest about the handles' centroids: (k, 4) quaternions x, y, z, w and (k, 3); None = none."""
         numbers = integers(handles, "handles")
-        count = 1 if numbers is None else numbers.size
+        count = count_of(numbers)
         packed = np.zeros((count, 7))
         for columns, values, name in ((slice(0, 4), rotations, "rotations"), (slice(4, 7), translations, "translations")):
             if values is not None:
@@ -105,7 +105,7 @@ class Pose(Object):
     def set_matrices(self, handles: ArrayLike, matrices: ArrayLike) -> None:
         """Rigid 4 x 4 matrices rest -> posed, (k, 4, 4) in the usual row-by-row reading."""
         numbers = integers(handles, "handles")
-        count = 1 if numbers is None else numbers.size
+        count = count_of(numbers)
         given = doubles(matrices, "matrices", 16 * count)
         columns = None if given is None else np.ascontiguousarray(given.reshape(count, 4, 4).transpose(0, 2, 1))
         call("hf_pose_set_matrices", self._raw_handle, count, address(numbers), address(columns))
@@ -178,7 +178,7 @@ class Transfer(Object):
 
     def remove_pairs(self, pairs: ArrayLike) -> None:
         numbers = integers(pairs, "pairs")
-        call("hf_transfer_remove_pairs", self._raw_handle, 1 if numbers is None else numbers.size, address(numbers))
+        call("hf_transfer_remove_pairs", self._raw_handle, count_of(numbers), address(numbers))
 
     def pair_info(self, pair: int) -> _raw.hf_pair_info:
         info = make(_raw.hf_pair_info)

@@ -9,8 +9,8 @@ from typing import Any, List, NamedTuple, Optional, Sequence
 import numpy as np
 
 from . import _raw
-from ._library import (NO_INDEX, ArrayLike, InvalidArgumentError, Object, address, call, doubles, handle_of, integers, library, make,
-                       options_into, output, points)
+from ._library import (NO_INDEX, ArrayLike, InvalidArgumentError, Object, address, call, count_of, doubles, handle_of, integers, library, make,
+                       options_into, output, paired, points, scalars)
 
 
 class Weld(IntEnum):
@@ -145,7 +145,7 @@ class Solver(Object):
     def _sites(self, vertices: Any = None, values: Any = None, stiffness: Any = None, radii: Any = None,
                triangles: Any = None, barycentrics: Any = None) -> tuple:
         at, inside = integers(vertices, "vertices"), integers(triangles, "triangles")
-        count = inside.size if at is None and inside is not None else 1 if at is None else at.size  # of none, the library says so
+        count = inside.size if at is None and inside is not None else count_of(at)  # of none, the library says so
         if inside is not None and inside.size != count:
             raise InvalidArgumentError("vertices and triangles are given both")
         held = [at, inside, doubles(barycentrics, "barycentrics", 3 * count), doubles(values, "values", count * self.channel_count),
@@ -165,18 +165,18 @@ class Solver(Object):
 
     def remove_sites(self, sites: ArrayLike) -> None:
         numbers = integers(sites, "sites")
-        call("hf_remove_sites", self._raw_handle, 1 if numbers is None else numbers.size, address(numbers))
+        call("hf_remove_sites", self._raw_handle, count_of(numbers), address(numbers))
 
     def move_sites(self, sites: ArrayLike, vertices: Optional[ArrayLike] = None, *, triangles: Optional[ArrayLike] = None,
                    barycentrics: Optional[ArrayLike] = None) -> None:
         """Moves sites, keeping their numbers and values."""
         numbers = integers(sites, "sites")
         desc, _, _held = self._sites(vertices, None, None, None, triangles, barycentrics)
-        call("hf_move_sites", self._raw_handle, 1 if numbers is None else numbers.size, address(numbers), ctypes.byref(desc))
+        call("hf_move_sites", self._raw_handle, count_of(numbers), address(numbers), ctypes.byref(desc))
 
     def set_site_values(self, sites: ArrayLike, values: ArrayLike) -> None:
         numbers = integers(sites, "sites")
-        count = 1 if numbers is None else numbers.size
+        count = count_of(numbers)
         given = doubles(values, "values", count * self.channel_count)
         call("hf_set_site_values", self._raw_handle, count, address(numbers), address(given))
 
@@ -242,7 +242,7 @@ class Solver(Object):
     def solve_at(self, vertices: ArrayLike) -> np.ndarray:
         """The field at chosen vertices, float64."""
         at = integers(vertices, "vertices")
-        count = 1 if at is None else at.size
+        count = count_of(at)
         out = np.empty((count,) if self.channel_count == 1 else (count, self.channel_count))
         call("hf_solve_at", self._raw_handle, count, address(at), address(out))
         return out
@@ -260,6 +260,10 @@ class Solver(Object):
              correction_count, None)
         return out
 
+    def release_preview(self) -> None:
+        """Gives the memory of the single-precision factor back."""
+        call("hf_release_preview", self._raw_handle)
+
     def save_factor(self) -> bytes:
         """The factor as bytes, for Solver(..., saved_factor=...)."""
         size = ctypes.c_size_t()
@@ -270,29 +274,19 @@ class Solver(Object):
 
     # ---- looking into a field ----
 
-    def _scalars(self, field: ArrayLike) -> tuple:
-        if field is None:
-            return None, None
-        array = np.asarray(field)
-        if array.dtype not in (np.float32, np.float64) or array.ndim != 1 or array.size != self.vertex_count or array.strides[0] <= 0:
-            array = doubles(field, "field", self.vertex_count).ravel()
-        desc = make(_raw.hf_scalars, value_stride=array.strides[0])
-        setattr(desc, "values" if array.dtype == np.float32 else "values_f64", address(array))
-        return desc, array
-
     def space_levels(self, field: ArrayLike, level_count: int, spacing: int = Levels.VALUE) -> np.ndarray:
         """Levels that divide a field into level_count + 1 strips of equal value steps, areas or widths."""
-        desc, _held = self._scalars(field)
+        desc, _held = scalars(field, self.vertex_count)
         out = np.empty(max(0, min(level_count, 1000000)))
         call("hf_space_levels", self._raw_handle, None if desc is None else ctypes.byref(desc), int(spacing), max(0, level_count), address(out))
         return out
 
     def trace_isolines(self, field: ArrayLike, levels: ArrayLike) -> Isolines:
         """The lines of the levels as polylines."""
-        desc, _held = self._scalars(field)
+        desc, _held = scalars(field, self.vertex_count)
         desc = None if desc is None else ctypes.byref(desc)
         wanted = doubles(levels, "levels")
-        count = 1 if wanted is None else wanted.size
+        count = count_of(wanted)
         lines = make(_raw.hf_isolines)
         call("hf_trace_isolines", self._raw_handle, desc, count, address(wanted), ctypes.byref(lines))
         p, k = lines.point_count, lines.line_count
@@ -307,7 +301,7 @@ class Solver(Object):
 
     def find_critical_points(self, field: ArrayLike) -> np.ndarray:
         """Minima, maxima and saddles: an array of records vertex, kind, index, component, value."""
-        desc, _held = self._scalars(field)
+        desc, _held = scalars(field, self.vertex_count)
         info = make(_raw.hf_critical_info)
         desc = None if desc is None else ctypes.byref(desc)
         call("hf_find_critical_points", self._raw_handle, desc, 0, None, ctypes.byref(info))
@@ -330,21 +324,14 @@ class Solver(Object):
 
     def move_vector_sites(self, sites: ArrayLike, vertices: ArrayLike) -> None:
         """Moves sites of a three-channel solver, carrying their vectors along the surface."""
-        numbers, at = _paired(sites, vertices)
+        numbers, at = paired(sites, vertices)
         call("hf_move_vector_sites", self._raw_handle, numbers.size, address(numbers), address(at))
 
     def rotate_vector_sites(self, sites: ArrayLike, angles: ArrayLike) -> None:
         """Turns the vectors of sites about the normals, radians."""
         numbers = integers(sites, "sites")
-        turns = doubles(angles, "angles", numbers.size)
-        call("hf_rotate_vector_sites", self._raw_handle, numbers.size, address(numbers), address(turns))
-
-
-def _paired(sites: ArrayLike, vertices: ArrayLike) -> tuple:
-    numbers, at = integers(sites, "sites"), integers(vertices, "vertices")
-    if numbers is None or at is None or numbers.size != at.size:
-        raise InvalidArgumentError("sites and vertices must be of one length")
-    return numbers, at
+        turns = doubles(angles, "angles", count_of(numbers))
+        call("hf_rotate_vector_sites", self._raw_handle, count_of(numbers), address(numbers), address(turns))
 
 
 class Geodesics(Object):
@@ -362,68 +349,6 @@ class Geodesics(Object):
         """From every vertex to the nearest source; -1 where none can be reached."""
         at = integers(sources, "sources")
         out, stride = output(out, (self.vertex_count,), dtype if out is None else (np.float32, np.float64))
-        call("hf_geodesics_distance" if out.dtype == np.float32 else "hf_geodesics_distance_f64", self._raw_handle, 1 if at is None else at.size,
+        call("hf_geodesics_distance" if out.dtype == np.float32 else "hf_geodesics_distance_f64", self._raw_handle, count_of(at),
              address(at), address(out), stride)
-        return out
-
-
-class Direction(Object):
-    """A direction field (vectors, lines or crosses: degree 1, 2, 4) with constraints and singularities (hf/direction.h)."""
-
-    _destroy = "hf_direction_destroy"
-
-    def __init__(self, solver: Solver, *, degree: int = 1, site_limit: int = 0) -> None:
-        desc, handle = make(_raw.hf_direction_desc, degree=degree, site_limit=site_limit), ctypes.c_void_p()
-        call("hf_direction_create", handle_of(solver, Solver, "solver"), ctypes.byref(desc), ctypes.byref(handle))
-        self._own(handle)
-        self.vertex_count = solver.vertex_count
-
-    def add_sites(self, vertices: ArrayLike, vectors: ArrayLike) -> np.ndarray:
-        at = integers(vertices, "vertices")
-        count = 1 if at is None else at.size
-        given, out = doubles(vectors, "vectors", 3 * count), np.empty(count, np.uint32)
-        call("hf_direction_add_sites", self._raw_handle, count, address(at), address(given), address(out))
-        return out
-
-    def remove_sites(self, sites: ArrayLike) -> None:
-        numbers = integers(sites, "sites")
-        call("hf_direction_remove_sites", self._raw_handle, 1 if numbers is None else numbers.size, address(numbers))
-
-    def move_sites(self, sites: ArrayLike, vertices: ArrayLike) -> None:
-        numbers, at = _paired(sites, vertices)
-        call("hf_direction_move_sites", self._raw_handle, numbers.size, address(numbers), address(at))
-
-    def set_vectors(self, sites: ArrayLike, vectors: ArrayLike) -> None:
-        numbers = integers(sites, "sites")
-        given = doubles(vectors, "vectors", 3 * numbers.size)
-        call("hf_direction_set_vectors", self._raw_handle, numbers.size, address(numbers), address(given))
-
-    def rotate_sites(self, sites: ArrayLike, angles: ArrayLike) -> None:
-        numbers = integers(sites, "sites")
-        turns = doubles(angles, "angles", numbers.size)
-        call("hf_direction_rotate_sites", self._raw_handle, numbers.size, address(numbers), address(turns))
-
-    @property
-    def site_count(self) -> int:
-        return library().hf_direction_get_site_count(self._raw_handle)
-
-    @property
-    def statistics(self) -> _raw.hf_direction_statistics:
-        statistics = make(_raw.hf_direction_statistics)
-        call("hf_direction_get_statistics", self._raw_handle, ctypes.byref(statistics))
-        return statistics
-
-    def solve(self, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32) -> np.ndarray:
-        """The field as vectors, (n, 3)."""
-        out, stride = output(out, (self.vertex_count, 3), dtype if out is None else (np.float32, np.float64))
-        call("hf_direction_solve" if out.dtype == np.float32 else "hf_direction_solve_f64", self._raw_handle, address(out), stride, None)
-        return out
-
-    def singularities(self) -> np.ndarray:
-        """Records triangle, vertex, index."""
-        count = ctypes.c_uint32()
-        call("hf_direction_get_singularities", self._raw_handle, 0, None, ctypes.byref(count))
-        out = np.empty(count.value, np.dtype(_raw.hf_singularity))
-        if out.size:
-            call("hf_direction_get_singularities", self._raw_handle, out.size, address(out), ctypes.byref(count))
         return out

@@ -1,0 +1,123 @@
+// What stands on a solver: geodesic distances and direction fields.
+export function fieldClasses(tools, Solver) {
+  const {
+    make,
+    call,
+    create,
+    direct,
+    handleOf,
+    query,
+    table,
+    rowSize,
+    Handle,
+    doubles,
+    integers,
+    output,
+    read,
+    written,
+    bare,
+    counted,
+    pairOf,
+    solveName,
+  } = tools;
+
+  class Geodesics extends Handle {
+    constructor(solver, { smoothing = 0 } = {}) {
+      super();
+      create(
+        this,
+        'hf_geodesics_destroy',
+        'hf_geodesics_create',
+        handleOf(solver, Solver, 'solver'),
+        make('hf_geodesics_desc').options({ smoothing }),
+      );
+      this.vertexCount = solver.vertexCount;
+    }
+    distance(sources, out, Type = Float32Array) {
+      const at = integers(sources, 'sources');
+      out = output(out, this.vertexCount, Type);
+      call(solveName('hf_geodesics_distance', out), this._handle, counted(at), at && read(at), written(out), 0);
+      return out;
+    }
+  }
+
+  class Direction extends Handle {
+    constructor(solver, options = {}) {
+      super();
+      if (solver === bare) return;
+      create(
+        this,
+        'hf_direction_destroy',
+        'hf_direction_create',
+        handleOf(solver, Solver, 'solver'),
+        make('hf_direction_desc').options(options),
+      );
+      this.vertexCount = solver.vertexCount;
+    }
+    /** One that shares connection and factor and has a copy of the constraints. */
+    clone() {
+      const made = create(new Direction(bare), 'hf_direction_destroy', 'hf_direction_clone', this._handle);
+      return Object.assign(made, { vertexCount: this.vertexCount });
+    }
+    addSites(vertices, vectors) {
+      const at = integers(vertices, 'vertices');
+      const given = doubles(vectors, 'vectors', 3 * counted(at));
+      const out = new Uint32Array(counted(at));
+      call('hf_direction_add_sites', this._handle, counted(at), at && read(at), given && read(given), written(out));
+      return out;
+    }
+    removeSites(sites) {
+      const numbers = integers(sites, 'sites');
+      call('hf_direction_remove_sites', this._handle, counted(numbers), numbers && read(numbers));
+    }
+    moveSites(sites, vertices) {
+      const [numbers, at] = pairOf(sites, vertices);
+      call('hf_direction_move_sites', this._handle, numbers.length, read(numbers), read(at));
+    }
+    setVectors(sites, vectors) {
+      const numbers = integers(sites, 'sites');
+      const given = doubles(vectors, 'vectors', 3 * counted(numbers));
+      call('hf_direction_set_vectors', this._handle, counted(numbers), numbers && read(numbers), given && read(given));
+    }
+    rotateSites(sites, angles) {
+      const numbers = integers(sites, 'sites');
+      const turns = doubles(angles, 'angles', counted(numbers));
+      call('hf_direction_rotate_sites', this._handle, counted(numbers), numbers && read(numbers), turns && read(turns));
+    }
+    record() {
+      call('hf_direction_record', this._handle);
+    }
+    undo() {
+      call('hf_direction_undo', this._handle);
+    }
+    redo() {
+      call('hf_direction_redo', this._handle);
+    }
+    sites() {
+      const n = this.siteCount;
+      const found = { sites: new Uint32Array(n), vertices: new Uint32Array(n), vectors: new Float64Array(3 * n) };
+      call('hf_direction_get_sites', this._handle, n, ...Object.values(found).map(written));
+      return found;
+    }
+    get siteCount() {
+      return direct('hf_direction_get_site_count', this._handle);
+    }
+    get statistics() {
+      return query('hf_direction_statistics', 'hf_direction_get_statistics', this._handle);
+    }
+    solve(out, Type = Float32Array) {
+      out = output(out, 3 * this.vertexCount, Type);
+      call(solveName('hf_direction_solve', out), this._handle, written(out), 0, null);
+      return out;
+    }
+    singularities() {
+      const count = new Uint32Array(1);
+      call('hf_direction_get_singularities', this._handle, 0, null, written(count));
+      const bytes = new Uint8Array(count[0] * rowSize('hf_singularity'));
+      if (count[0]) call('hf_direction_get_singularities', this._handle, count[0], written(bytes), written(count));
+      return table('hf_singularity', bytes, count[0]);
+    }
+  }
+
+  return { Geodesics, Direction };
+}

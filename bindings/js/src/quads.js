@@ -1,0 +1,112 @@
+// Quad meshes and flow lines from harmonic fields (hf/quads.h).
+export function quadClasses(tools, Solver) {
+  const { make, call, create, handleOf, query, Handle, fail, integers, read, written, classes, scalarsOf } = tools;
+  const tooSmall = 'HF_ERROR_TOO_SMALL';
+
+  class Quads extends Handle {
+    constructor(solver, { siteVertices = null, siteLines = null, progress = null, ...options } = {}) {
+      super();
+      const desc = make('hf_quads_desc').options(options);
+      const places = integers(siteVertices, 'siteVertices');
+      if (places) desc.set('site_count', places.length).set('site_vertices', read(places));
+      if (siteLines) {
+        const lines = Array.from(siteLines);
+        if (lines.length !== (places ? places.length : 0) || !lines.every(Number.isInteger)) {
+          fail(`siteLines must be ${places ? places.length : 0} whole numbers`);
+        }
+        desc.set('site_lines', read(Int32Array.from(lines)));
+      }
+      if (progress) desc.set('progress', handleOf(progress, classes.Progress, 'progress'));
+      create(this, 'hf_quads_destroy', 'hf_quads_create', handleOf(solver, Solver, 'solver'), desc);
+    }
+    get info() {
+      return query('hf_quads_info', 'hf_quads_get_info', this._handle);
+    }
+    /** Face i has the corners faceCorners[faceStarts[i]] to faceCorners[faceStarts[i + 1] - 1], counter-clockwise. */
+    mesh() {
+      const { vertexCount: v, faceCount: f, cornerCount: c, siteCount: s } = this.info;
+      const mesh = {
+        positions: new Float64Array(3 * v),
+        triangles: new Uint32Array(v),
+        barycentrics: new Float64Array(3 * v),
+        faceStarts: new Uint32Array(f + 1),
+        faceCorners: new Uint32Array(c),
+        siteVertices: new Uint32Array(s),
+        siteLines: new Int32Array(s),
+      };
+      call(
+        'hf_quads_get_mesh',
+        this._handle,
+        make('hf_quads_mesh', {
+          vertex_capacity: v,
+          face_capacity: f,
+          corner_capacity: c,
+          site_capacity: s,
+          positions: written(mesh.positions),
+          triangles: written(mesh.triangles),
+          barycentrics: written(mesh.barycentrics),
+          face_starts: written(mesh.faceStarts),
+          face_corners: written(mesh.faceCorners),
+          site_vertices: written(mesh.siteVertices),
+          site_lines: written(mesh.siteLines),
+        }),
+      );
+      return mesh;
+    }
+  }
+
+  /** A surface prepared for tracing flow lines, again and again. */
+  class Flow extends Handle {
+    #points = 4096;
+    #lines = 64;
+    constructor(solver) {
+      super();
+      create(this, 'hf_flow_destroy', 'hf_flow_create', handleOf(solver, Solver, 'solver'));
+      this.vertexCount = solver.vertexCount;
+    }
+    /** wantedCount lines of equal flux from the minima of a field, or one through every seed vertex. */
+    trace(field, { wantedCount = 0, seeds = null } = {}) {
+      const scalars = scalarsOf(field, this.vertexCount);
+      const at = integers(seeds, 'seeds');
+      if (!Number.isInteger(wantedCount) || wantedCount < 0 || wantedCount > 1000000)
+        fail(`wantedCount is ${wantedCount}; it must be at most 1,000,000`);
+      for (;;) {
+        const [p, k] = [this.#points, this.#lines];
+        const found = {
+          positions: new Float64Array(3 * p),
+          values: new Float64Array(p),
+          lineStarts: new Uint32Array(k + 1),
+          lineEnds: new Uint32Array(2 * k),
+        };
+        const out = make('hf_flow_lines', {
+          wanted_count: wantedCount,
+          seed_count: at ? at.length : 0,
+          seeds: at && read(at),
+          point_capacity: p,
+          line_capacity: k,
+          positions: written(found.positions),
+          values: written(found.values),
+          line_starts: written(found.lineStarts),
+          line_ends: written(found.lineEnds),
+        });
+        try {
+          call('hf_flow_trace', this._handle, scalars, out);
+        } catch (error) {
+          if (error.codeName !== tooSmall) throw error;
+          this.#points = out.get('point_count') + (out.get('point_count') >> 2);
+          this.#lines = out.get('line_count');
+          continue;
+        }
+        const [points, lines] = [out.get('point_count'), out.get('line_count')];
+        return {
+          positions: found.positions.subarray(0, 3 * points),
+          values: found.values.subarray(0, points),
+          lineStarts: found.lineStarts.subarray(0, lines + 1),
+          lineEnds: found.lineEnds.subarray(0, 2 * lines),
+        };
+      }
+    }
+  }
+
+  return { Quads, Flow };
+}

@@ -1,0 +1,174 @@
+-- What all classes of hf for LuaJIT share: the library, errors, arrays, objects that close themselves.
+local ffi = require('ffi')
+local constants = require('hf_raw')
+
+local function open()
+  local failures = {}
+  for _, name in ipairs({ os.getenv('HF_LIBRARY') or 'libhf.so.0', 'hf' }) do
+    local ok, library = pcall(ffi.load, name)
+    if ok then return library end
+    failures[#failures + 1] = library
+  end
+  error('the hf library was not found; set HF_LIBRARY to libhf.so. ' .. table.concat(failures, '; '))
+end
+local C = open()
+
+local core = { constants = constants, C = C }
+
+-- ---- errors
+local Error = {
+  __tostring = function(e) return (e.where ~= '' and e.where .. ': ' or '') .. e.message .. ' (' .. e.name .. ')' end,
+}
+local function fail(message, name, index)
+  error(setmetatable({ code = constants[name or 'HF_ERROR_INVALID_ARGUMENT'],
+    name = name or 'HF_ERROR_INVALID_ARGUMENT', message = message, index = index, where = '' }, Error), 0)
+end
+function core.is_error(e) return getmetatable(e) == Error end
+
+local function check(result)
+  if result == 0 then return end
+  local detail = ffi.new('hf_error_detail')
+  C.hf_get_error_detail(detail)
+  local index = detail.index ~= constants.HF_NO_INDEX and tonumber(detail.index) or nil
+  error(setmetatable({ code = tonumber(result), name = ffi.string(C.hf_result_name(result)),
+    message = ffi.string(detail.message), index = index,
+    where = ffi.string(detail['function']) }, Error), 0)
+end
+
+local function make(type, fields)
+  local desc = ffi.new(type)
+  C.hf_init_desc(desc, ffi.sizeof(type))
+  for key, value in pairs(fields or {}) do desc[key] = value end
+  return desc
+end
+
+-- ---- arrays: a list of numbers becomes cdata; cdata with the right element type is used as it is
+local function array(values, kind, name, count)
+  if values == nil then return nil, 1 end
+  if type(values) == 'cdata' then
+    local ok, bytes = pcall(ffi.sizeof, values)
+    local size = ffi.sizeof(kind)
+    if not ok or not ffi.istype(kind .. '[?]', values) then
+      fail(name .. ' must be a list or cdata of ' .. kind .. '[?]') end
+    if count and bytes / size ~= count then
+      fail(string.format('%s must hold %d numbers, not %d', name, count, bytes / size)) end
+    return values, bytes / size
+  end
+  if type(values) ~= 'table' then fail(name .. ' must be a list of numbers') end
+  if count and #values ~= count then fail(string.format('%s must hold %d numbers, not %d', name, count, #values)) end
+  local out = ffi.new(kind .. '[?]', math.max(1, #values))
+  for i = 1, #values do
+    local v = values[i]
+    if type(v) ~= 'number' then fail(string.format('%s[%d] must be a number, not %s', name, i, tostring(v))) end
+    if kind == 'uint32_t' then
+      if v ~= math.floor(v) then fail(string.format('%s[%d] must be a whole number', name, i)) end
+      if v < 0 or v > 4294967295 then fail(string.format('%s[%d] is %g', name, i, v), 'HF_ERROR_OUT_OF_RANGE',
+        i - 1) end
+    end
+    out[i - 1] = v
+  end
+  return out, #values
+end
+local function integers(values, name, count) return array(values, 'uint32_t', name, count) end
+local function doubles(values, name, count) return array(values, 'double', name, count) end
+local function list(cdata, count)
+  local out = {}
+  for i = 1, count do out[i] = tonumber(cdata[i - 1]) end
+  return out
+end
+local function regions(lists, name)
+  if lists == nil then return nil, nil, 1, 0 end
+  local counts, all = {}, {}
+  for i, region in ipairs(lists) do
+    local vertices, n = integers(region, name .. '[' .. i .. ']')
+    counts[i] = n
+    for k = 0, n - 1 do all[#all + 1] = tonumber(vertices[k]) end
+  end
+  local c, v = integers(counts, name), integers(all, name)
+  return #counts > 0 and c or nil, #counts > 0 and v or nil, #counts
+end
+local function options_into(desc, options, allowed)
+  for key, value in pairs(options or {}) do
+    if not allowed[key] then fail("no option '" .. tostring(key) .. "'") end
+    if type(value) ~= 'number' then fail("option '" .. key .. "' must be a number") end
+    desc[key] = value
+  end
+  return desc
+end
+local function set(names)
+  local out = {}
+  for name in names:gmatch('%S+') do out[name] = true end
+  return out
+end
+
+-- ---- objects: `handle` is a cdata with a finaliser; close() may be called more than once, in any order
+local function class(name, destroy)
+  local methods = {}
+  methods.__index = methods
+  methods.class = name
+  function methods.close(self)
+    if self.state.closed then return end
+    self.state.closed = true
+    destroy(self.raw)
+  end
+  function methods.adopt(raw, fields)
+    local self = setmetatable(fields or {}, methods)
+    self.raw = raw[0]
+    local state = { closed = false }
+    local kept = raw[0]
+    self.state = state
+    self.guard = ffi.gc(ffi.new('char[1]'), function() if not state.closed then destroy(kept) end end)
+    return self
+  end
+  return methods
+end
+local function raw_of(thing, kind, name)
+  if type(thing) ~= 'table' or thing.class ~= kind then fail(name .. ' must be a ' .. kind) end
+  return thing.raw
+end
+
+-- Makes an object: create(solver..., desc, out) with the options of a desc.
+local function create(methods, kind, fields, call, ...)
+  local out = ffi.new(kind .. '[1]')
+  local arguments = { ... }
+  arguments[#arguments + 1] = out
+  check(call(unpack(arguments)))
+  return methods.adopt(out, fields)
+end
+
+-- A call on numbered things: call(handle, count, numbers, ...)
+local function on_numbers(call, raw, list_of_numbers, name, ...)
+  local numbers, count = integers(list_of_numbers, name)
+  check(call(raw, count, numbers, ...))
+end
+
+-- A table that is asked for its size first: call(capacity, out, count)
+local function rows(kind, call)
+  local count = ffi.new('uint32_t[1]')
+  check(call(0, nil, count))
+  local out = ffi.new(kind .. '[?]', count[0] + 1)
+  if count[0] > 0 then check(call(count[0], out, count)) end
+  return out, count[0]
+end
+
+-- A struct that the library fills.
+local function query(kind, call, ...)
+  local info = make(kind)
+  local arguments = { ... }
+  arguments[#arguments + 1] = info
+  check(call(unpack(arguments)))
+  return info
+end
+
+-- A field as the library reads it, and what to keep alive.
+local function scalars(field, vertex_count)
+  local values = doubles(field, 'field', vertex_count)
+  return make('hf_scalars', { values_f64 = values }), values
+end
+
+for name, tool in pairs({ fail = fail, check = check, make = make, array = array, integers = integers,
+  doubles = doubles,
+  list = list, regions = regions, options_into = options_into, set = set, class = class, raw_of = raw_of,
+    create = create,
+  on_numbers = on_numbers, rows = rows, query = query, scalars = scalars }) do core[name] = tool end
+return core

@@ -1,0 +1,154 @@
+-- What stands on a solver: geodesic distances, direction fields, quad meshes, flow lines.
+local ffi = require('ffi')
+local core = require('hf_core')
+local C, check, fail, make, array, integers, doubles, list, options_into = core.C, core.check, core.fail, core.make,
+  core.array, core.integers, core.doubles, core.list, core.options_into
+local set, class, raw_of, create, on_numbers, rows, query, scalars = core.set, core.class, core.raw_of, core.create,
+  core.on_numbers, core.rows, core.query, core.scalars
+
+local hf = {}
+-- Numbers of sites and as many vertices.
+local function paired(sites, vertices)
+  local numbers, count = integers(sites, 'sites')
+  local at, places = integers(vertices, 'vertices')
+  if count ~= places then fail('sites and vertices must be of one length') end
+  return count, numbers, at
+end
+
+local Geodesics = class('Geodesics', function(raw) C.hf_geodesics_destroy(raw) end)
+function hf.Geodesics(solver, options)
+  local desc = options_into(make('hf_geodesics_desc'), options, set('smoothing'))
+  return create(Geodesics, 'hf_geodesics',
+    { vertex_count = raw_of(solver, 'Solver', 'solver') and solver.vertex_count },
+    C.hf_geodesics_create, solver.raw, desc)
+end
+function Geodesics:distance(sources)
+  local out = ffi.new('double[?]', self.vertex_count)
+  on_numbers(C.hf_geodesics_distance_f64, self.raw, sources, 'sources', out, 0)
+  return out
+end
+
+local Direction = class('Direction', function(raw) C.hf_direction_destroy(raw) end)
+function hf.Direction(solver, options)
+  local desc = options_into(make('hf_direction_desc'), options, set('degree site_limit'))
+  return create(Direction, 'hf_direction',
+    { vertex_count = raw_of(solver, 'Solver', 'solver') and solver.vertex_count },
+    C.hf_direction_create, solver.raw, desc)
+end
+function Direction:clone()
+  return create(Direction, 'hf_direction', { vertex_count = self.vertex_count }, C.hf_direction_clone, self.raw)
+end
+function Direction:add_sites(vertices, vectors)
+  local at, count = integers(vertices, 'vertices')
+  local out = ffi.new('uint32_t[?]', math.max(1, count))
+  check(C.hf_direction_add_sites(self.raw, count, at, (doubles(vectors, 'vectors', 3 * count)), out))
+  return list(out, count)
+end
+function Direction:remove_sites(sites) on_numbers(C.hf_direction_remove_sites, self.raw, sites, 'sites') end
+function Direction:move_sites(sites, vertices) check(C.hf_direction_move_sites(self.raw, paired(sites, vertices))) end
+function Direction:set_vectors(sites, vectors)
+  local numbers, count = integers(sites, 'sites')
+  check(C.hf_direction_set_vectors(self.raw, count, numbers, (doubles(vectors, 'vectors', 3 * count))))
+end
+function Direction:rotate_sites(sites, angles)
+  local numbers, count = integers(sites, 'sites')
+  check(C.hf_direction_rotate_sites(self.raw, count, numbers, (doubles(angles, 'angles', count))))
+end
+function Direction:record() check(C.hf_direction_record(self.raw)) end
+function Direction:undo() check(C.hf_direction_undo(self.raw)) end
+function Direction:redo() check(C.hf_direction_redo(self.raw)) end
+function Direction:site_count() return tonumber(C.hf_direction_get_site_count(self.raw)) end
+-- { count, sites, vertices, vectors }: cdata from 0
+function Direction:sites()
+  local n = self:site_count()
+  local found = { count = n, sites = ffi.new('uint32_t[?]', n + 1), vertices = ffi.new('uint32_t[?]', n + 1),
+    vectors = ffi.new('double[?]', 3 * n + 1) }
+  check(C.hf_direction_get_sites(self.raw, n, found.sites, found.vertices, found.vectors))
+  return found
+end
+function Direction:statistics() return query('hf_direction_statistics', C.hf_direction_get_statistics, self.raw) end
+function Direction:solve()
+  local out = ffi.new('double[?]', 3 * self.vertex_count)
+  check(C.hf_direction_solve_f64(self.raw, out, 0, nil))
+  return out
+end
+function Direction:singularities()
+  return rows('hf_singularity', function(capacity, out, count)
+    return C.hf_direction_get_singularities(self.raw, capacity, out, count)
+  end)
+end
+
+local Quads = class('Quads', function(raw) C.hf_quads_destroy(raw) end)
+-- options: kind, edge_length, keep_polygons, relax_count; site_vertices and site_lines: lists
+function hf.Quads(solver, options)
+  local plain = {}
+  for key, value in pairs(options or {}) do plain[key] = value end
+  local places, count = plain.site_vertices, 0
+  local lines = plain.site_lines
+  plain.site_vertices, plain.site_lines = nil, nil
+  local desc = options_into(make('hf_quads_desc'), plain, set('kind edge_length keep_polygons relax_count'))
+  if places then
+    places, count = integers(places, 'site_vertices')
+    desc.site_count, desc.site_vertices = count, places
+  end
+  if lines then
+    lines = array(lines, 'int32_t', 'site_lines', count)
+    desc.site_lines = lines
+  end
+  return create(Quads, 'hf_quads', {}, C.hf_quads_create, raw_of(solver, 'Solver', 'solver'), desc)
+end
+function Quads:info() return query('hf_quads_info', C.hf_quads_get_info, self.raw) end
+-- Face i has the corners face_corners[face_starts[i]] to face_corners[face_starts[i + 1] - 1]; cdata from 0.
+function Quads:mesh()
+  local info = self:info()
+  local v, f, c, s = info.vertex_count, info.face_count, info.corner_count, info.site_count
+  local mesh = { vertex_count = v, face_count = f, positions = ffi.new('double[?]', 3 * v),
+    triangles = ffi.new('uint32_t[?]', v),
+    barycentrics = ffi.new('double[?]', 3 * v), face_starts = ffi.new('uint32_t[?]', f + 1),
+    face_corners = ffi.new('uint32_t[?]', c), site_vertices = ffi.new('uint32_t[?]', s + 1),
+      site_lines = ffi.new('int32_t[?]', s + 1) }
+  local out = make('hf_quads_mesh', { vertex_capacity = v, face_capacity = f, corner_capacity = c, site_capacity = s })
+  for _, name in ipairs({ 'positions', 'triangles', 'barycentrics', 'face_starts', 'face_corners', 'site_vertices',
+    'site_lines' }) do
+    out[name] = mesh[name]
+  end
+  check(C.hf_quads_get_mesh(self.raw, out))
+  return mesh
+end
+
+local Flow = class('Flow', function(raw) C.hf_flow_destroy(raw) end)
+function hf.Flow(solver)
+  return create(Flow, 'hf_flow', { vertex_count = raw_of(solver, 'Solver', 'solver') and solver.vertex_count,
+    room = { 4096, 64 } },
+    C.hf_flow_create, solver.raw)
+end
+-- options: wanted_count lines of equal flux from the minima, or one through each of seeds. Line i holds the points
+-- line_starts[i] to line_starts[i + 1] - 1; values rise along it; cdata from 0.
+function Flow:trace(field, options)
+  options = options or {}
+  local desc, held = scalars(field, self.vertex_count)
+  local seeds, seed_count = nil, 0
+  if options.seeds then seeds, seed_count = integers(options.seeds, 'seeds') end
+  local wanted = options.wanted_count or 0
+  if type(wanted) ~= 'number' or not (wanted >= 0 and wanted <= 1000000) then
+    fail('wanted_count must be at most 1,000,000') end
+  while true do
+    local p, k = self.room[1], self.room[2]
+    local found = { positions = ffi.new('double[?]', 3 * p), values = ffi.new('double[?]', p),
+      line_starts = ffi.new('uint32_t[?]', k + 1),
+      line_ends = ffi.new('uint32_t[?]', 2 * k + 1) }
+    local out = make('hf_flow_lines', { wanted_count = wanted, seed_count = seed_count, seeds = seeds,
+      point_capacity = p, line_capacity = k,
+      positions = found.positions, values = found.values, line_starts = found.line_starts,
+        line_ends = found.line_ends })
+    local result = C.hf_flow_trace(self.raw, desc, out)
+    if result ~= core.constants.HF_ERROR_TOO_SMALL then
+      check(result)
+      found.point_count, found.line_count = out.point_count, out.line_count
+      return found, held
+    end
+    self.room = { out.point_count + math.floor(out.point_count / 4), out.line_count }
+  end
+end
+
+return hf

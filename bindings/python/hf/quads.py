@@ -1,0 +1,118 @@
+"""Quad meshes and flow lines from harmonic fields (hf/quads.h)."""
+
+from __future__ import annotations
+
+import ctypes
+from enum import IntEnum
+from typing import Any, List, NamedTuple, Optional
+
+import numpy as np
+
+from . import _raw
+from ._library import (ArrayLike, InvalidArgumentError, Object, TooSmallError, address, call, handle_of, integers, make,
+                       options_into, scalars)
+from .solver import Progress, Solver
+
+
+class QuadKind(IntEnum):
+    UNIFORM, PURE = _raw.HF_QUADS_UNIFORM, _raw.HF_QUADS_PURE
+
+
+class QuadMesh(NamedTuple):
+    """Face i has the corners face_corners[face_starts[i]] to face_corners[face_starts[i + 1] - 1], counter-clockwise."""
+
+    positions: np.ndarray  # (vertices, 3) float64
+    triangles: np.ndarray  # (vertices,) uint32: of the mesh as given, that the vertex lies in
+    barycentrics: np.ndarray  # (vertices, 3) float64
+    face_starts: np.ndarray  # (faces + 1,) uint32
+    face_corners: np.ndarray  # (corners,) uint32
+    site_vertices: np.ndarray  # (sites,) uint32, NO_INDEX for a border
+    site_lines: np.ndarray  # (sites,) int32
+
+    def faces(self) -> List[np.ndarray]:
+        """Each face's corners."""
+        return [self.face_corners[a:b] for a, b in zip(self.face_starts[:-1], self.face_starts[1:])]
+
+
+class Quads(Object):
+    """A quad mesh of a solver's surface. Options: kind, edge_length, keep_polygons, relax_count."""
+
+    _destroy = "hf_quads_destroy"
+
+    def __init__(self, solver: Solver, *, site_vertices: Optional[ArrayLike] = None, site_lines: Optional[ArrayLike] = None,
+                 progress: Optional[Progress] = None, **options: Any) -> None:
+        desc, handle = make(_raw.hf_quads_desc), ctypes.c_void_p()
+        options_into(desc, options)
+        places = integers(site_vertices, "site_vertices")
+        desc.site_count, desc.site_vertices = 0 if places is None else places.size, address(places)
+        lines = None if site_lines is None else np.ascontiguousarray(site_lines)
+        if lines is not None and (lines.dtype.kind not in "iu" or lines.size != desc.site_count):
+            raise InvalidArgumentError(f"site_lines must be {desc.site_count} whole numbers")
+        lines = None if lines is None else lines.astype(np.int32)
+        desc.site_lines = address(lines)
+        desc.progress = handle_of(progress, Progress, "progress")
+        call("hf_quads_create", handle_of(solver, Solver, "solver"), ctypes.byref(desc), ctypes.byref(handle))
+        self._own(handle)
+
+    @property
+    def info(self) -> _raw.hf_quads_info:
+        """Sizes and counts."""
+        info = make(_raw.hf_quads_info)
+        call("hf_quads_get_info", self._raw_handle, ctypes.byref(info))
+        return info
+
+    def mesh(self) -> QuadMesh:
+        info = self.info
+        v, f, c, s = info.vertex_count, info.face_count, info.corner_count, info.site_count
+        mesh = QuadMesh(np.empty((v, 3)), np.empty(v, np.uint32), np.empty((v, 3)), np.empty(f + 1, np.uint32),
+                        np.empty(c, np.uint32), np.empty(s, np.uint32), np.empty(s, np.int32))
+        out = make(_raw.hf_quads_mesh, vertex_capacity=v, face_capacity=f, corner_capacity=c, site_capacity=s,
+                   **{name: address(getattr(mesh, name)) for name in QuadMesh._fields})
+        call("hf_quads_get_mesh", self._raw_handle, ctypes.byref(out))
+        return mesh
+
+
+class FlowLines(NamedTuple):
+    """Line i holds the points line_starts[i] to line_starts[i + 1] - 1; values rise along it."""
+
+    positions: np.ndarray  # (points, 3) float64
+    values: np.ndarray  # (points,) float64
+    line_starts: np.ndarray  # (lines + 1,) uint32
+    line_ends: np.ndarray  # (lines, 2) uint32: vertices where it starts and ends
+
+    def lines(self) -> List[np.ndarray]:
+        """Each line's points, (k, 3)."""
+        return [self.positions[a:b] for a, b in zip(self.line_starts[:-1], self.line_starts[1:])]
+
+
+class Flow(Object):
+    """A surface prepared for tracing flow lines, again and again."""
+
+    _destroy = "hf_flow_destroy"
+
+    def __init__(self, solver: Solver) -> None:
+        handle = ctypes.c_void_p()
+        call("hf_flow_create", handle_of(solver, Solver, "solver"), ctypes.byref(handle))
+        self._own(handle)
+        self.vertex_count = solver.vertex_count
+        self._room = (4096, 64)  # points and lines that the last trace needed
+
+    def trace(self, field: ArrayLike, wanted_count: int = 0, *, seeds: Optional[ArrayLike] = None) -> FlowLines:
+        """Lines of equal flux from the minima of a field, wanted_count of them, or one through every seed vertex."""
+        desc, _held = scalars(field, self.vertex_count)
+        at = integers(seeds, "seeds")
+        if not 0 <= int(wanted_count) <= 1000000:
+            raise InvalidArgumentError(f"wanted_count is {wanted_count}; it must be at most 1,000,000")
+        while True:
+            p, k = self._room
+            found = FlowLines(np.empty((p, 3)), np.empty(p), np.zeros(k + 1, np.uint32), np.empty((k, 2), np.uint32))
+            out = make(_raw.hf_flow_lines, wanted_count=int(wanted_count), seed_count=0 if at is None else at.size,
+                       seeds=address(at), point_capacity=p, line_capacity=k,
+                       **{name: address(getattr(found, name)) for name in FlowLines._fields})
+            try:
+                call("hf_flow_trace", self._raw_handle, None if desc is None else ctypes.byref(desc), ctypes.byref(out))
+            except TooSmallError:
+                self._room = (out.point_count + out.point_count // 4, out.line_count)
+                continue
+            p, k = out.point_count, out.line_count
+            return FlowLines(found.positions[:p], found.values[:p], found.line_starts[:k + 1], found.line_ends[:k])

@@ -1,0 +1,137 @@
+// Steps of what is made from a solver: direction fields, quad meshes, flow lines.
+#include "golden_scene.h"
+
+namespace golden {
+
+using hfpp::check;
+using hfpp::make;
+
+void Scene::make_object(const Json& step, const std::string& what) {
+  hf_solver solver = objects_[step["on"]].solver.get();
+  const size_t n = objects_[step["on"]].vertex_count;
+  Object object;
+  object.vertex_count = n;
+  if (what == "pose") {
+    auto desc = make<hf_pose_desc>();
+    set_options(step, desc, {{"mode", &desc.mode}, {"band_count", &desc.band_count}}, {});
+    hf_pose raw = nullptr;
+    check(hf_pose_create(solver, &desc, &raw));
+    object.pose = hfpp::Handle<hf_pose, hf_pose_destroy>(raw);
+  } else if (what == "geodesics") {
+    hf_geodesics raw = nullptr;
+    check(hf_geodesics_create(solver, nullptr, &raw));
+    object.geodesics = hfpp::Handle<hf_geodesics, hf_geodesics_destroy>(raw);
+  } else if (what == "direction") {
+    auto desc = make<hf_direction_desc>();
+    set_options(step, desc, {{"degree", &desc.degree}}, {});
+    hf_direction raw = nullptr;
+    check(hf_direction_create(solver, &desc, &raw));
+    object.direction = hfpp::Handle<hf_direction, hf_direction_destroy>(raw);
+  } else if (what == "quads") {
+    auto desc = make<hf_quads_desc>();
+    set_options(step, desc,
+                {{"kind", &desc.kind}, {"keep_polygons", &desc.keep_polygons}, {"relax_count", &desc.relax_count}}, {});
+    if (step.contains("edge_length")) desc.edge_length = static_cast<float>(number(step["edge_length"]));
+    const auto places = numbers(step, "site_vertices");
+    const std::vector<int32_t> lines = step.value("site_lines", std::vector<int32_t>());
+    if (!lines.empty() && lines.size() != (places ? places->size() : 0))
+      fail("site_lines are not as many as site_vertices");
+    if (places) desc.site_count = count(places), desc.site_vertices = data(places);
+    if (!lines.empty()) desc.site_lines = lines.data();
+    hf_quads raw = nullptr;
+    check(hf_quads_create(solver, &desc, &raw));
+    object.quads = hfpp::Handle<hf_quads, hf_quads_destroy>(raw);
+  } else {
+    hf_flow raw = nullptr;
+    check(hf_flow_create(solver, &raw));
+    object.flow = hfpp::Handle<hf_flow, hf_flow_destroy>(raw);
+  }
+  objects_[step["as"]] = std::move(object);
+}
+
+Result Scene::run_direction(const Json& step, const std::string& what) {
+  Result result;
+  const Object& on = objects_[step["on"]];
+  hf_direction direction = on.direction.get();
+  const auto sites = numbers(step, "sites"), vertices = numbers(step, "vertices");
+  if (what == "add_vectors") {
+    const auto vectors = doubles(step, "vectors", 3 * count(vertices));
+    result.numbers.emplace(count(vertices));
+    check(hf_direction_add_sites(direction, count(vertices), data(vertices), data(vectors), result.numbers->data()));
+  } else if (what == "remove_vectors") {
+    check(hf_direction_remove_sites(direction, count(sites), data(sites)));
+  } else if (what == "move_vectors") {
+    if (count(sites) != count(vertices)) fail("sites and vertices must be of one length");
+    check(hf_direction_move_sites(direction, count(sites), data(sites), data(vertices)));
+  } else if (what == "set_vectors") {
+    const auto vectors = doubles(step, "vectors", 3 * count(sites));
+    check(hf_direction_set_vectors(direction, count(sites), data(sites), data(vectors)));
+  } else if (what == "rotate") {
+    const auto angles = doubles(step, "angles", count(sites));
+    check(hf_direction_rotate_sites(direction, count(sites), data(sites), data(angles)));
+  } else if (what == "record_vectors") {
+    check(hf_direction_record(direction));
+  } else if (what == "undo_vectors") {
+    check(hf_direction_undo(direction));
+  } else if (what == "redo_vectors") {
+    check(hf_direction_redo(direction));
+  } else if (what == "clone_vectors") {
+    const size_t n = on.vertex_count;
+    hf_direction raw = nullptr;
+    check(hf_direction_clone(direction, &raw));
+    Object& made = objects_[step["as"]];
+    made.direction = hfpp::Handle<hf_direction, hf_direction_destroy>(raw), made.vertex_count = n;
+  } else if (what == "vectors") {
+    const uint32_t k = hf_direction_get_site_count(direction);
+    result.array.emplace(3 * size_t{k});
+    check(hf_direction_get_sites(direction, k, nullptr, nullptr, result.array->data()));
+  } else if (what == "directions") {
+    result.array.emplace(3 * on.vertex_count);
+    check(hf_direction_solve_f64(direction, result.array->data(), 0, nullptr));
+  } else {
+    std::vector<hf_singularity> found(1000);
+    uint32_t size = 0;
+    check(hf_direction_get_singularities(direction, 1000, found.data(), &size));
+    result.array.emplace();
+    for (uint32_t i = 0; i < size; ++i) result.array->push_back(found[i].index);
+  }
+  return result;
+}
+
+Result Scene::run_quads(const Json& step, const std::string& what) {
+  Result result;
+  const Object& on = objects_[step["on"]];
+  if (what == "flow_lines") {
+    const auto field = doubles(step, "field", on.vertex_count);
+    const auto seeds = numbers(step, "seeds");
+    auto scalars = make<hf_scalars>();
+    scalars.values_f64 = data(field);
+    auto lines = make<hf_flow_lines>();
+    lines.wanted_count = step.value("count", 0u);
+    if (seeds) lines.seed_count = count(seeds), lines.seeds = data(seeds);
+    lines.point_capacity = lines.line_capacity = 100000;
+    result.array.emplace(300000);
+    lines.positions = result.array->data();
+    check(hf_flow_trace(on.flow.get(), &scalars, &lines));
+    result.array->resize(3 * size_t{lines.point_count});
+    if (step.contains("lines")) expect(step["lines"] == lines.line_count, "lines: " + std::to_string(lines.line_count));
+    return result;
+  }
+  auto info = make<hf_quads_info>();
+  check(hf_quads_get_info(on.quads.get(), &info));
+  if (what == "quads_info") {
+    result.fields = {{"euler_characteristic", info.euler_characteristic},
+                     {"other_faces", double(info.face_count) - info.quad_count},
+                     {"site_count", info.site_count},
+                     {"vertex_count", info.vertex_count},
+                     {"face_count", info.face_count}};
+    return result;
+  }
+  result.array.emplace(3 * size_t{info.vertex_count});
+  auto mesh = make<hf_quads_mesh>();
+  mesh.vertex_capacity = info.vertex_count, mesh.positions = result.array->data();
+  check(hf_quads_get_mesh(on.quads.get(), &mesh));
+  return result;
+}
+
+}  // namespace golden

@@ -1,0 +1,95 @@
+// Steps of poses and transfers.
+#include "golden_scene.h"
+
+namespace golden {
+
+using hfpp::check;
+using hfpp::make;
+
+Result Scene::run_posing(const Json& step, const std::string& what) {
+  Result result;
+  Object& on = objects_[step["on"]];
+  hf_pose pose = on.pose.get();
+  const auto handles = numbers(step, "handles");
+  if (what == "add_handles") {
+    auto desc = make<hf_handles_desc>();
+    const auto lists = regions(step, "regions");
+    const auto points = doubles(step, "points");
+    const auto radii = points ? doubles(step, "radii", points->size() / 3) : std::nullopt;
+    desc.layer = step.value("layer", 0u);
+    if (points)
+      desc.handle_count = static_cast<uint32_t>(points->size() / 3), desc.points = data(points),
+      desc.radii = data(radii);
+    else {
+      desc.handle_count = lists ? static_cast<uint32_t>(lists->first.size()) : 1u;
+      if (lists && !lists->first.empty())
+        desc.region_counts = lists->first.data(), desc.region_vertices = lists->second.data();
+    }
+    result.numbers.emplace(desc.handle_count);
+    check(hf_pose_add_handles(pose, &desc, result.numbers->data()));
+  } else if (what == "remove_handles") {
+    check(hf_pose_remove_handles(pose, count(handles), data(handles)));
+  } else if (what == "set_transforms") {
+    const size_t k = count(handles);
+    const auto turns = doubles(step, "rotations", 4 * k), shifts = doubles(step, "translations", 3 * k);
+    std::vector<hf_transform> transforms(k ? k : 1);
+    for (size_t i = 0; i < k; ++i) {
+      for (size_t c = 0; turns && c < 4; ++c) transforms[i].rotation[c] = (*turns)[4 * i + c];
+      for (size_t c = 0; shifts && c < 3; ++c) transforms[i].translation[c] = (*shifts)[3 * i + c];
+    }
+    check(hf_pose_set_transforms(pose, count(handles), data(handles), transforms.data()));
+  } else if (what == "deform") {
+    auto desc = make<hf_deform_desc>();
+    set_options(step, desc,
+                {{"restart", &desc.restart}, {"iteration_count", &desc.iteration_count}, {"refine", &desc.refine}}, {});
+    result.array.emplace(3 * on.vertex_count);
+    desc.positions_f64 = result.array->data();
+    check(hf_deform(pose, &desc, nullptr));
+  } else if (what == "handle_field") {
+    std::vector<float> field(on.vertex_count);
+    check(hf_pose_get_field(pose, step["handle"], field.data(), 0));
+    result.array.emplace(field.begin(), field.end());
+  } else if (what == "handle_info") {
+    auto info = make<hf_handle_info>();
+    check(hf_pose_get_handle(pose, step["handle"], &info));
+    result.fields["layer"] = info.layer;
+  } else if (what == "skin") {
+    auto info = make<hf_skin_info>();
+    info.weight_count = step["weight_count"];
+    std::vector<float> weights(on.vertex_count * info.weight_count);
+    info.vertex_weights = weights.data();
+    check(hf_pose_get_skin(pose, &info));
+    result.array.emplace(weights.begin(), weights.end());
+  } else if (what == "add_pairs") {
+    const auto source = regions(step, "source_regions"), target = regions(step, "target_regions");
+    const auto flags = numbers(step, "flags");
+    if (source->first.size() != target->first.size()) fail("regions of one length");
+    auto desc = make<hf_pairs_desc>();
+    desc.pair_count = static_cast<uint32_t>(source->first.size());
+    if (desc.pair_count) {
+      desc.source_counts = source->first.data(), desc.source_vertices = source->second.data();
+      desc.target_counts = target->first.data(), desc.target_vertices = target->second.data();
+    }
+    desc.flags = data(flags);
+    result.numbers.emplace(desc.pair_count);
+    check(hf_transfer_add_pairs(on.transfer.get(), &desc, result.numbers->data()));
+  } else if (what == "remove_pairs") {
+    const auto pairs = numbers(step, "pairs");
+    check(hf_transfer_remove_pairs(on.transfer.get(), count(pairs), data(pairs)));
+  } else if (what == "transfer_info") {
+    auto info = make<hf_transfer_info>();
+    check(hf_transfer_get_info(on.transfer.get(), &info));
+    result.fields = {{"pair_count", info.pair_count}, {"scale", info.scale}};
+  } else if (what == "apply") {
+    const auto posed = doubles(step, "positions", 3 * on.source_vertex_count);
+    result.array.emplace(3 * on.vertex_count);
+    auto frame = make<hf_transfer_frame>();
+    frame.source_positions_f64 = data(posed), frame.target_positions_f64 = result.array->data();
+    check(hf_transfer_apply(on.transfer.get(), &frame));
+  } else {
+    throw std::runtime_error("unknown step " + what);
+  }
+  return result;
+}
+
+}  // namespace golden
