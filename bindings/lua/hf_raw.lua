@@ -7,6 +7,8 @@ typedef struct hf_progress_object* hf_progress;
 typedef struct hf_solver_object* hf_solver;
 typedef struct hf_geodesics_object* hf_geodesics;
 typedef struct hf_pose_object* hf_pose;
+typedef struct hf_region_object* hf_region;
+typedef struct hf_detail_object* hf_detail;
 typedef struct hf_direction_object* hf_direction;
 typedef struct hf_quads_object* hf_quads;
 typedef struct hf_flow_object* hf_flow;
@@ -273,6 +275,65 @@ typedef struct hf_skin_info {
   double* axes;
   double* scales;
 } hf_skin_info;
+typedef struct hf_region_desc {
+  uint32_t struct_size;
+  uint32_t position_stride;
+  const float* positions;
+  const double* positions_f64;
+} hf_region_desc;
+typedef struct hf_curve_desc {
+  uint32_t struct_size;
+  uint32_t point_count;
+  const uint32_t* vertices;
+  const uint32_t* triangles;
+  const double* barycentrics;
+  int32_t side;
+  uint32_t seed_vertex;
+} hf_curve_desc;
+typedef struct hf_region_edit_desc {
+  uint32_t struct_size;
+  int32_t ring_count;
+  const hf_curve_desc* curve;
+  uint32_t remove_count;
+  uint32_t add_count;
+  const uint32_t* remove_vertices;
+  const uint32_t* add_vertices;
+  hf_progress progress;
+} hf_region_edit_desc;
+typedef struct hf_region_info {
+  uint32_t struct_size;
+  int32_t thin_plate;
+  uint32_t vertex_count;
+  uint32_t rim_count;
+  uint32_t site_count;
+  uint32_t inserted_count;
+  uint32_t removed_count;
+  uint32_t kept_count;
+  uint32_t factorisation_count;
+  uint32_t path_solve_count;
+  uint32_t last_route;
+  uint32_t whole_sweep;
+  double area;
+  double base_area;
+} hf_region_info;
+typedef struct hf_morph_desc {
+  uint32_t struct_size;
+  uint32_t position_stride;
+  double weight;
+  float* positions;
+  double* positions_f64;
+  float* normals;
+  uint32_t normal_stride;
+  uint32_t reserved;
+} hf_morph_desc;
+typedef struct hf_detail_desc {
+  uint32_t struct_size;
+  uint32_t pair_count;
+  const uint32_t* source_vertices;
+  const uint32_t* target_vertices;
+  double scale;
+  hf_progress progress;
+} hf_detail_desc;
 typedef struct hf_direction_desc {
   uint32_t struct_size;
   uint32_t degree;
@@ -467,6 +528,19 @@ uint32_t hf_pose_get_handle_count(hf_pose pose);
 hf_result hf_pose_get_field(hf_pose pose, uint32_t handle, float* out_values, uint32_t value_stride);
 hf_result hf_deform(hf_pose pose, const hf_deform_desc* desc, hf_deform_info* out_info);
 hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* info);
+hf_result hf_region_create(hf_solver solver, const hf_region_desc* desc, hf_region* out_region);
+hf_result hf_region_clone(hf_region region, hf_region* out_region);
+void hf_region_destroy(hf_region region);
+hf_result hf_region_edit(hf_region region, const hf_region_edit_desc* edit);
+hf_result hf_region_record(hf_region region);
+hf_result hf_region_undo(hf_region region);
+hf_result hf_region_redo(hf_region region);
+hf_result hf_region_get_info(hf_region region, hf_region_info* out_info);
+hf_result hf_region_get_vertices(hf_region region, int32_t list, uint32_t capacity, uint32_t* out_vertices);
+hf_result hf_region_morph(hf_region region, const hf_morph_desc* desc);
+hf_result hf_detail_create(hf_region source, hf_region target, const hf_detail_desc* desc, hf_detail* out_detail);
+void hf_detail_destroy(hf_detail detail);
+hf_result hf_detail_morph(hf_detail detail, const hf_morph_desc* desc);
 hf_result hf_move_vector_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const uint32_t* vertices);
 hf_result hf_rotate_vector_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* angles);
 hf_result hf_direction_create(hf_solver solver, const hf_direction_desc* desc, hf_direction* out_direction);
@@ -569,6 +643,12 @@ local constants = { header_version = '0.1.0',
   HF_DEFORM_SMOOTH = 0,
   HF_DEFORM_PAPER = 1,
   HF_LAYER_COUNT = 8,
+  HF_SIDE_SMALLER = 0,
+  HF_SIDE_LARGER = 1,
+  HF_SIDE_SEED = 2,
+  HF_REGION_INSIDE = 0,
+  HF_REGION_RIM = 1,
+  HF_REGION_SITES = 2,
   HF_QUADS_UNIFORM = 0,
   HF_QUADS_PURE = 1,
   HF_TRANSFER_FIELDS = 0,

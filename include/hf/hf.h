@@ -5,6 +5,7 @@
 #include "hf/analysis.h"
 #include "hf/base.h"
 #include "hf/deform.h"
+#include "hf/detail.h"
 #include "hf/direction.h"
 #include "hf/factor.h"
 #include "hf/field.h"

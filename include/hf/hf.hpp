@@ -429,6 +429,113 @@ class Flow {
   uint32_t points_ = 4096, lines_ = 64;
 };
 
+// hf/detail.h: a region of a surface, its smooth base, and the morph between the two.
+class Region {
+ public:
+  // positions: what weight 0 gives back; empty: the solver's own.
+  explicit Region(const Solver& solver, const std::vector<float>& positions = {})
+      : vertices_(solver.mesh_report().vertex_count) {
+    if (!positions.empty() && positions.size() != size_t{vertices_} * 3)
+      throw std::invalid_argument("positions: three numbers per vertex are needed");
+    auto desc = make<hf_region_desc>();
+    if (!positions.empty()) desc.positions = positions.data();
+    hf_region raw = nullptr;
+    check(hf_region_create(solver.get(), &desc, &raw));
+    handle_ = Handle<hf_region, hf_region_destroy>(raw);
+  }
+  hf_region get() const noexcept { return handle_.get(); }
+  Region clone() const {
+    hf_region raw = nullptr;
+    check(hf_region_clone(get(), &raw));
+    return Region(raw, vertices_);
+  }
+  void edit(const hf_region_edit_desc& desc) { check(hf_region_edit(get(), &desc)); }
+  // What a closed curve through these vertices encloses.
+  void enclose(const std::vector<uint32_t>& points, int32_t side = HF_SIDE_SMALLER, uint32_t seed_vertex = 0) {
+    auto curve = make<hf_curve_desc>();
+    curve.point_count = static_cast<uint32_t>(points.size()), curve.vertices = points.data();
+    curve.side = side, curve.seed_vertex = seed_vertex;
+    auto desc = make<hf_region_edit_desc>();
+    desc.curve = &curve;
+    edit(desc);
+  }
+  // Rings of vertices more, or less when below 0.
+  void grow(int32_t rings) {
+    auto desc = make<hf_region_edit_desc>();
+    desc.ring_count = rings;
+    edit(desc);
+  }
+  void add_vertices(const std::vector<uint32_t>& vertices) {
+    auto desc = make<hf_region_edit_desc>();
+    desc.add_count = static_cast<uint32_t>(vertices.size()), desc.add_vertices = vertices.data();
+    edit(desc);
+  }
+  void remove_vertices(const std::vector<uint32_t>& vertices) {
+    auto desc = make<hf_region_edit_desc>();
+    desc.remove_count = static_cast<uint32_t>(vertices.size()), desc.remove_vertices = vertices.data();
+    edit(desc);
+  }
+  void record() { check(hf_region_record(get())); }
+  void undo() { check(hf_region_undo(get())); }
+  void redo() { check(hf_region_redo(get())); }
+  hf_region_info info() const {
+    auto info = make<hf_region_info>();
+    check(hf_region_get_info(get(), &info));
+    return info;
+  }
+  // list: HF_REGION_*.
+  std::vector<uint32_t> vertices(int32_t list = HF_REGION_INSIDE) const {
+    const hf_region_info counts = info();
+    std::vector<uint32_t> found(list == HF_REGION_INSIDE ? counts.vertex_count
+                                : list == HF_REGION_RIM  ? counts.rim_count
+                                                         : counts.site_count);
+    uint32_t none = 0;
+    check(hf_region_get_vertices(get(), list, static_cast<uint32_t>(found.size()),
+                                 found.empty() ? &none : found.data()));
+    return found;
+  }
+  // out_normals: null, or what it points to gets the normals.
+  std::vector<float> morph(double weight, std::vector<float>* out_normals = nullptr) const {
+    return morphed(vertices_, weight, out_normals,
+                   [&](const hf_morph_desc* desc) { return hf_region_morph(get(), desc); });
+  }
+
+ private:
+  friend class Detail;
+  Region(hf_region raw, uint32_t vertices) : handle_(raw), vertices_(vertices) {}
+  template <class Write>
+  static std::vector<float> morphed(uint32_t vertices, double weight, std::vector<float>* out_normals, Write&& write) {
+    std::vector<float> positions(size_t{vertices} * 3);
+    auto desc = make<hf_morph_desc>();
+    desc.weight = weight, desc.positions = positions.data();
+    if (out_normals) out_normals->resize(positions.size()), desc.normals = out_normals->data();
+    check(write(&desc));
+    return positions;
+  }
+  Handle<hf_region, hf_region_destroy> handle_;
+  uint32_t vertices_ = 0;
+};
+
+// The detail of one region on another.
+class Detail {
+ public:
+  Detail(const Region& source, const Region& target, const hf_detail_desc* desc = nullptr)
+      : vertices_(target.vertices_) {
+    hf_detail raw = nullptr;
+    check(hf_detail_create(source.get(), target.get(), desc, &raw));
+    handle_ = Handle<hf_detail, hf_detail_destroy>(raw);
+  }
+  hf_detail get() const noexcept { return handle_.get(); }
+  std::vector<float> morph(double weight, std::vector<float>* out_normals = nullptr) const {
+    return Region::morphed(vertices_, weight, out_normals,
+                           [&](const hf_morph_desc* desc) { return hf_detail_morph(get(), desc); });
+  }
+
+ private:
+  Handle<hf_detail, hf_detail_destroy> handle_;
+  uint32_t vertices_ = 0;
+};
+
 class Pose {
  public:
   explicit Pose(const Solver& solver, const hf_pose_desc* desc = nullptr)

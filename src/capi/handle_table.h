@@ -20,7 +20,9 @@ enum class Kind : std::uint32_t {
   geodesics = 5,
   direction = 6,
   quads = 7,
-  flow = 8
+  flow = 8,
+  region = 9,
+  detail = 10
 };
 
 // What a handle stands for. Readers share, a writer is alone; nobody waits: a call that overlaps answers HF_ERROR_BUSY,

@@ -13,6 +13,8 @@ typedef struct World {
   hf_pose pose, made_pose;
   hf_transfer transfer, made_transfer;
   hf_direction direction, made_direction;
+  hf_region region, made_region;
+  hf_detail detail, made_detail;
   uint32_t *ends, sites[2], handles[2], pairs[2], constraints[2];
   float posed[3 * VERTICES], result[3 * VERTICES];
   double field[VERTICES];
@@ -149,6 +151,37 @@ static hf_result call_singularities(World* w) {
   return hf_direction_get_singularities(w->direction, 0, NULL, &count);
 }
 
+static hf_result call_region_create(World* w) { return hf_region_create(w->solver, NULL, &w->made_region); }
+static hf_result call_region_clone(World* w) { return hf_region_clone(w->region, &w->made_region); }
+static hf_result call_region_edit(World* w) {
+  const uint32_t points[3] = {2 * AROUND, 2 * AROUND + 3, 2 * AROUND + 6};
+  hf_curve_desc curve;
+  HF_INIT(curve);
+  curve.point_count = 3, curve.vertices = points;
+  hf_region_edit_desc edit;
+  HF_INIT(edit);
+  edit.curve = &curve, edit.ring_count = 1, edit.remove_count = 1, edit.remove_vertices = points;
+  return hf_region_edit(w->region, &edit);
+}
+static hf_result call_region_record(World* w) { return hf_region_record(w->region); }
+static hf_result call_region_undo(World* w) { return hf_region_undo(w->region); }
+static hf_result morph_into(World* w, float* positions) {
+  float normals[3 * VERTICES];
+  hf_morph_desc desc;
+  HF_INIT(desc);
+  desc.weight = 1, desc.positions = positions, desc.normals = normals;
+  return hf_region_morph(w->region, &desc);
+}
+static hf_result call_region_morph(World* w) { return morph_into(w, w->result); }
+static hf_result call_detail_create(World* w) { return hf_detail_create(w->region, w->region, NULL, &w->made_detail); }
+static hf_result call_detail_morph(World* w) {
+  float normals[3 * VERTICES];
+  hf_morph_desc desc;
+  HF_INIT(desc);
+  desc.weight = 2, desc.positions = w->result, desc.normals = normals;
+  return hf_detail_morph(w->detail, &desc);
+}
+
 static const struct {
   const char* name;
   hf_result (*call)(World*);
@@ -186,6 +219,14 @@ static const struct {
     {"hf_direction_rotate_sites", call_direction_rotate, 1},
     {"hf_direction_solve", call_direction_solve, 1},
     {"hf_direction_get_singularities", call_singularities, 1},
+    {"hf_region_create", call_region_create, 1},
+    {"hf_region_clone", call_region_clone, 1},
+    {"hf_region_edit", call_region_edit, 1},
+    {"hf_region_record", call_region_record, 1},
+    {"hf_region_undo", call_region_undo, 1},
+    {"hf_region_morph", call_region_morph, 1},
+    {"hf_detail_create", call_detail_create, 1},
+    {"hf_detail_morph", call_detail_morph, 1},
 };
 
 static void create_world(World* w, int32_t engine) {
@@ -202,6 +243,14 @@ static void create_world(World* w, int32_t engine) {
   const double vectors[6] = {0, 1, 0, 0, 2, 0};
   assert_ok(hf_direction_create(w->solver, NULL, &w->direction));
   assert_ok(hf_direction_add_sites(w->direction, 2, constrained, vectors, w->constraints));
+  const uint32_t inside[6] = {4 * AROUND, 4 * AROUND + 1, 4 * AROUND + 2, 5 * AROUND, 5 * AROUND + 1, 5 * AROUND + 2};
+  hf_region_edit_desc edit;
+  HF_INIT(edit);
+  edit.add_count = 6, edit.add_vertices = inside;
+  assert_ok(hf_region_create(w->solver, NULL, &w->region));
+  assert_ok(hf_region_record(w->region));
+  assert_ok(hf_region_edit(w->region, &edit));
+  assert_ok(hf_detail_create(w->region, w->region, NULL, &w->detail));
   w->pose = tube_pose(w->solver, AROUND, RINGS, w->handles);
   const hf_transform turned = {{0.5, 0, 0, 0.8660254}, {0, 1, 2}};
   assert_ok(hf_pose_set_transforms(w->pose, 1, &w->handles[1], &turned));
@@ -220,6 +269,8 @@ static void destroy_world(World* w) {
   w->memory.refuse_at = 0;
   hf_destroy(w->solver), hf_pose_destroy(w->pose), hf_transfer_destroy(w->transfer);
   hf_direction_destroy(w->direction), hf_direction_destroy(w->made_direction);
+  hf_region_destroy(w->region), hf_region_destroy(w->made_region);
+  hf_detail_destroy(w->detail), hf_detail_destroy(w->made_detail);
   hf_destroy(w->made_solver), hf_pose_destroy(w->made_pose), hf_transfer_destroy(w->made_transfer);
   assert_int_equal(w->memory.live_blocks, 0);
   assert_int_equal(w->memory.live_bytes, 0);
@@ -231,7 +282,7 @@ static void destroy_world(World* w) {
 typedef struct Picture {
   uint32_t site_count, handle_count;
   double field[VERTICES];
-  float posed[3 * VERTICES], transferred[3 * VERTICES], directed[3 * VERTICES];
+  float posed[3 * VERTICES], transferred[3 * VERTICES], directed[3 * VERTICES], morphed[3 * VERTICES];
 } Picture;
 
 static void take_picture(World* w, Picture* p) {
@@ -242,6 +293,7 @@ static void take_picture(World* w, Picture* p) {
   assert_ok(deform_to(w, p->posed));
   assert_ok(apply_to(w, p->transferred, NULL));
   assert_ok(hf_direction_solve(w->direction, p->directed, 0, NULL));
+  assert_ok(morph_into(w, p->morphed));
 }
 
 static int same_picture(const Picture* a, const Picture* b) {
@@ -250,7 +302,8 @@ static int same_picture(const Picture* a, const Picture* b) {
   return a->site_count == b->site_count && a->handle_count == b->handle_count && worst < 1e-7 &&
          same_bits(a->posed, b->posed, sizeof a->posed) &&
          same_bits(a->transferred, b->transferred, sizeof a->transferred) &&
-         same_bits(a->directed, b->directed, sizeof a->directed);
+         same_bits(a->directed, b->directed, sizeof a->directed) &&
+         same_bits(a->morphed, b->morphed, sizeof a->morphed);
 }
 
 /* Runs one scenario with allocation n = 1, 2, ... refused until the call succeeds. on: all later ones are refused too.
@@ -274,7 +327,8 @@ static unsigned refuse_each(size_t s, int32_t engine, int on) {
       if (result != HF_ERROR_OUT_OF_MEMORY)
         fail_msg("%s, engine %d, allocation %u: %s", scenarios[s].name, (int)engine, (unsigned)n,
                  hf_result_name(result));
-      if (world.made_solver || world.made_pose || world.made_transfer || world.made_direction)
+      if (world.made_solver || world.made_pose || world.made_transfer || world.made_direction || world.made_region ||
+          world.made_detail)
         fail_msg("%s, allocation %u: a handle came back", scenarios[s].name, (unsigned)n);
       hf_error_detail detail;
       assert_ok(hf_get_error_detail(&detail));

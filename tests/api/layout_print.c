@@ -489,6 +489,12 @@ static void print_constants(void) {
   CONSTANT(HF_EXTREMITIES_GEODESIC);
   CONSTANT(HF_QUADS_UNIFORM);
   CONSTANT(HF_QUADS_PURE);
+  CONSTANT(HF_SIDE_SMALLER);
+  CONSTANT(HF_SIDE_LARGER);
+  CONSTANT(HF_SIDE_SEED);
+  CONSTANT(HF_REGION_INSIDE);
+  CONSTANT(HF_REGION_RIM);
+  CONSTANT(HF_REGION_SITES);
   CONSTANT(HF_NO_INDEX);
   CONSTANT(HF_MESSAGE_SIZE);
 }
@@ -556,6 +562,77 @@ static void print_flow_lines(void) {
   FIELD(hf_flow_lines, line_ends);
 }
 
+static void print_region_desc(void) {
+  STRUCT(hf_region_desc);
+  FIELD(hf_region_desc, struct_size);
+  FIELD(hf_region_desc, position_stride);
+  FIELD(hf_region_desc, positions);
+  FIELD(hf_region_desc, positions_f64);
+}
+
+static void print_curve_desc(void) {
+  STRUCT(hf_curve_desc);
+  FIELD(hf_curve_desc, struct_size);
+  FIELD(hf_curve_desc, point_count);
+  FIELD(hf_curve_desc, vertices);
+  FIELD(hf_curve_desc, triangles);
+  FIELD(hf_curve_desc, barycentrics);
+  FIELD(hf_curve_desc, side);
+  FIELD(hf_curve_desc, seed_vertex);
+}
+
+static void print_region_edit_desc(void) {
+  STRUCT(hf_region_edit_desc);
+  FIELD(hf_region_edit_desc, struct_size);
+  FIELD(hf_region_edit_desc, ring_count);
+  FIELD(hf_region_edit_desc, curve);
+  FIELD(hf_region_edit_desc, remove_count);
+  FIELD(hf_region_edit_desc, add_count);
+  FIELD(hf_region_edit_desc, remove_vertices);
+  FIELD(hf_region_edit_desc, add_vertices);
+  FIELD(hf_region_edit_desc, progress);
+}
+
+static void print_region_info(void) {
+  STRUCT(hf_region_info);
+  FIELD(hf_region_info, struct_size);
+  FIELD(hf_region_info, thin_plate);
+  FIELD(hf_region_info, vertex_count);
+  FIELD(hf_region_info, rim_count);
+  FIELD(hf_region_info, site_count);
+  FIELD(hf_region_info, inserted_count);
+  FIELD(hf_region_info, removed_count);
+  FIELD(hf_region_info, kept_count);
+  FIELD(hf_region_info, factorisation_count);
+  FIELD(hf_region_info, path_solve_count);
+  FIELD(hf_region_info, last_route);
+  FIELD(hf_region_info, whole_sweep);
+  FIELD(hf_region_info, area);
+  FIELD(hf_region_info, base_area);
+}
+
+static void print_morph_desc(void) {
+  STRUCT(hf_morph_desc);
+  FIELD(hf_morph_desc, struct_size);
+  FIELD(hf_morph_desc, position_stride);
+  FIELD(hf_morph_desc, weight);
+  FIELD(hf_morph_desc, positions);
+  FIELD(hf_morph_desc, positions_f64);
+  FIELD(hf_morph_desc, normals);
+  FIELD(hf_morph_desc, normal_stride);
+  FIELD(hf_morph_desc, reserved);
+}
+
+static void print_detail_desc(void) {
+  STRUCT(hf_detail_desc);
+  FIELD(hf_detail_desc, struct_size);
+  FIELD(hf_detail_desc, pair_count);
+  FIELD(hf_detail_desc, source_vertices);
+  FIELD(hf_detail_desc, target_vertices);
+  FIELD(hf_detail_desc, scale);
+  FIELD(hf_detail_desc, progress);
+}
+
 int main(void) {
   print_error_detail();
   print_allocator();
@@ -594,6 +671,12 @@ int main(void) {
   print_quads_info();
   print_quads_mesh();
   print_flow_lines();
+  print_region_desc();
+  print_curve_desc();
+  print_region_edit_desc();
+  print_region_info();
+  print_morph_desc();
+  print_detail_desc();
   print_constants();
   return 0;
 }

@@ -135,4 +135,43 @@ TEST(Wrapper, reads_lines_points_distances_and_tips_of_a_strip) {
   EXPECT_NEAR(std::fabs(tips[0].position[0] - tips[1].position[0]), 8, 0.01);
 }
 
+TEST(Wrapper, regions_morph_and_hand_their_detail_on) {
+  // a sheet of 12 x 12 quads with a bump
+  std::vector<float> positions;
+  std::vector<uint32_t> triangles;
+  for (uint32_t j = 0; j < 13; ++j)
+    for (uint32_t i = 0; i < 13; ++i)
+      positions.insert(positions.end(), {float(i), float(j), i > 4 && i < 8 && j > 4 && j < 8 ? 1.0f : 0.0f});
+  for (uint32_t j = 0; j < 12; ++j)
+    for (uint32_t i = 0; i < 12; ++i) {
+      const uint32_t v = 13 * j + i;
+      triangles.insert(triangles.end(), {v, v + 1, v + 14, v, v + 14, v + 13});
+    }
+  const hfpp::Solver solver(positions, triangles);
+  hfpp::Region region(solver, positions);
+  region.enclose({13 * 3 + 3, 13 * 3 + 9, 13 * 9 + 9, 13 * 9 + 3});
+  EXPECT_EQ(region.info().vertex_count, 25u);
+  EXPECT_EQ(region.vertices(HF_REGION_RIM).size(), region.info().rim_count);
+  EXPECT_EQ(region.morph(0), positions);
+  std::vector<float> normals;
+  const std::vector<float> flat = region.morph(1, &normals);
+  const size_t middle = 3 * (13 * 6 + 6);
+  EXPECT_NEAR(flat[middle + 2], 0, 1e-6f);
+  EXPECT_NEAR(normals[middle + 2], 1, 1e-6f);
+  const hfpp::Detail detail(region, region);
+  const std::vector<float> back = detail.morph(1);
+  for (size_t i = 0; i < back.size(); ++i) EXPECT_NEAR(back[i], positions[i], 1e-5f);
+  region.record();
+  region.grow(1);
+  EXPECT_EQ(region.info().factorisation_count, 0u);
+  const hfpp::Region grown = region.clone();
+  region.undo();
+  EXPECT_LT(region.info().vertex_count, grown.info().vertex_count);
+  region.redo();
+  region.remove_vertices({13 * 6 + 6});
+  region.add_vertices({13 * 6 + 6});
+  EXPECT_EQ(region.info().vertex_count, grown.info().vertex_count);
+  EXPECT_THROW(region.enclose({0, 1}), hfpp::Error);
+}
+
 }  // namespace

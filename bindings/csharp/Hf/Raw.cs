@@ -67,6 +67,12 @@ namespace Hf.Native
         public const int HF_DEFORM_SMOOTH = 0;
         public const int HF_DEFORM_PAPER = 1;
         public const int HF_LAYER_COUNT = 8;
+        public const int HF_SIDE_SMALLER = 0;
+        public const int HF_SIDE_LARGER = 1;
+        public const int HF_SIDE_SEED = 2;
+        public const int HF_REGION_INSIDE = 0;
+        public const int HF_REGION_RIM = 1;
+        public const int HF_REGION_SITES = 2;
         public const int HF_QUADS_UNIFORM = 0;
         public const int HF_QUADS_PURE = 1;
         public const int HF_TRANSFER_FIELDS = 0;
@@ -416,6 +422,83 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_region_desc
+    {
+        public uint struct_size;
+        public uint position_stride;
+        public IntPtr positions;
+        public IntPtr positions_f64;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_curve_desc
+    {
+        public uint struct_size;
+        public uint point_count;
+        public IntPtr vertices;
+        public IntPtr triangles;
+        public IntPtr barycentrics;
+        public int side;
+        public uint seed_vertex;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_region_edit_desc
+    {
+        public uint struct_size;
+        public int ring_count;
+        public IntPtr curve;
+        public uint remove_count;
+        public uint add_count;
+        public IntPtr remove_vertices;
+        public IntPtr add_vertices;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_region_info
+    {
+        public uint struct_size;
+        public int thin_plate;
+        public uint vertex_count;
+        public uint rim_count;
+        public uint site_count;
+        public uint inserted_count;
+        public uint removed_count;
+        public uint kept_count;
+        public uint factorisation_count;
+        public uint path_solve_count;
+        public uint last_route;
+        public uint whole_sweep;
+        public double area;
+        public double base_area;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_morph_desc
+    {
+        public uint struct_size;
+        public uint position_stride;
+        public double weight;
+        public IntPtr positions;
+        public IntPtr positions_f64;
+        public IntPtr normals;
+        public uint normal_stride;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_detail_desc
+    {
+        public uint struct_size;
+        public uint pair_count;
+        public IntPtr source_vertices;
+        public IntPtr target_vertices;
+        public double scale;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_direction_desc
     {
         public uint struct_size;
@@ -656,6 +739,19 @@ namespace Hf.Native
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_field(IntPtr pose, uint handle, void* out_values, uint value_stride);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_deform(IntPtr pose, void* desc, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_skin(IntPtr pose, void* info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_create(IntPtr solver, void* desc, void* out_region);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_clone(IntPtr region, void* out_region);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_region_destroy(IntPtr region);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_edit(IntPtr region, void* edit);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_record(IntPtr region);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_undo(IntPtr region);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_redo(IntPtr region);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_info(IntPtr region, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_vertices(IntPtr region, int list, uint capacity, void* out_vertices);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_morph(IntPtr region, void* desc);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_detail_create(IntPtr source, IntPtr target, void* desc, void* out_detail);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_detail_destroy(IntPtr detail);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_detail_morph(IntPtr detail, void* desc);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_move_vector_sites(IntPtr solver, uint site_count, void* sites, void* vertices);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_rotate_vector_sites(IntPtr solver, uint site_count, void* sites, void* angles);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_create(IntPtr solver, void* desc, void* out_direction);

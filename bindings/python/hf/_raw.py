@@ -64,6 +64,12 @@ HF_EXTREMITIES_GEODESIC = 1
 HF_DEFORM_SMOOTH = 0
 HF_DEFORM_PAPER = 1
 HF_LAYER_COUNT = 8
+HF_SIDE_SMALLER = 0
+HF_SIDE_LARGER = 1
+HF_SIDE_SEED = 2
+HF_REGION_INSIDE = 0
+HF_REGION_RIM = 1
+HF_REGION_SITES = 2
 HF_QUADS_UNIFORM = 0
 HF_QUADS_PURE = 1
 HF_TRANSFER_FIELDS = 0
@@ -674,6 +680,135 @@ class hf_skin_info(Structure):
     ]
 
 
+class hf_region_desc(Structure):
+    """Zero every field that is not needed (HF_INIT)."""
+    struct_size: int
+    position_stride: int
+    positions: int
+    positions_f64: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("position_stride", c_uint32),
+        ("positions", c_void_p),
+        ("positions_f64", c_void_p),
+    ]
+
+
+class hf_curve_desc(Structure):
+    """A closed curve on the surface"""
+    struct_size: int
+    point_count: int
+    vertices: int
+    triangles: int
+    barycentrics: int
+    side: int
+    seed_vertex: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("point_count", c_uint32),
+        ("vertices", c_void_p),
+        ("triangles", c_void_p),
+        ("barycentrics", c_void_p),
+        ("side", c_int32),
+        ("seed_vertex", c_uint32),
+    ]
+
+
+class hf_region_edit_desc(Structure):
+    """A change of a region, in the order curve, rings, remove, add; parts that are 0 or NULL are left out."""
+    struct_size: int
+    ring_count: int
+    curve: int
+    remove_count: int
+    add_count: int
+    remove_vertices: int
+    add_vertices: int
+    progress: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("ring_count", c_int32),
+        ("curve", c_void_p),
+        ("remove_count", c_uint32),
+        ("add_count", c_uint32),
+        ("remove_vertices", c_void_p),
+        ("add_vertices", c_void_p),
+        ("progress", c_void_p),
+    ]
+
+
+class hf_region_info(Structure):
+    """What a region is, and what its last edit did."""
+    struct_size: int
+    thin_plate: int
+    vertex_count: int
+    rim_count: int
+    site_count: int
+    inserted_count: int
+    removed_count: int
+    kept_count: int
+    factorisation_count: int
+    path_solve_count: int
+    last_route: int
+    whole_sweep: int
+    area: float
+    base_area: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("thin_plate", c_int32),
+        ("vertex_count", c_uint32),
+        ("rim_count", c_uint32),
+        ("site_count", c_uint32),
+        ("inserted_count", c_uint32),
+        ("removed_count", c_uint32),
+        ("kept_count", c_uint32),
+        ("factorisation_count", c_uint32),
+        ("path_solve_count", c_uint32),
+        ("last_route", c_uint32),
+        ("whole_sweep", c_uint32),
+        ("area", c_double),
+        ("base_area", c_double),
+    ]
+
+
+class hf_morph_desc(Structure):
+    """Where hf_region_morph and hf_detail_morph write."""
+    struct_size: int
+    position_stride: int
+    weight: float
+    positions: int
+    positions_f64: int
+    normals: int
+    normal_stride: int
+    reserved: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("position_stride", c_uint32),
+        ("weight", c_double),
+        ("positions", c_void_p),
+        ("positions_f64", c_void_p),
+        ("normals", c_void_p),
+        ("normal_stride", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class hf_detail_desc(Structure):
+    struct_size: int
+    pair_count: int
+    source_vertices: int
+    target_vertices: int
+    scale: float
+    progress: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("pair_count", c_uint32),
+        ("source_vertices", c_void_p),
+        ("target_vertices", c_void_p),
+        ("scale", c_double),
+        ("progress", c_void_p),
+    ]
+
+
 class hf_direction_desc(Structure):
     """Zero every field that is not needed (HF_INIT)."""
     struct_size: int
@@ -985,7 +1120,7 @@ class hf_transfer_frame(Structure):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_create_desc, hf_mesh_report, hf_sites_desc, hf_edit_desc, hf_site_info, hf_solve_info, hf_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_pose_desc, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_desc, hf_deform_info, hf_skin_info, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_preview_info, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame]
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_create_desc, hf_mesh_report, hf_sites_desc, hf_edit_desc, hf_site_info, hf_solve_info, hf_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_pose_desc, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_desc, hf_deform_info, hf_skin_info, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_preview_info, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -1039,6 +1174,19 @@ PROTOTYPES = {
     "hf_pose_get_field": (c_int32, [c_void_p, c_uint32, c_void_p, c_uint32]),
     "hf_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_pose_get_skin": (c_int32, [c_void_p, c_void_p]),
+    "hf_region_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_region_clone": (c_int32, [c_void_p, c_void_p]),
+    "hf_region_destroy": (None, [c_void_p]),
+    "hf_region_edit": (c_int32, [c_void_p, c_void_p]),
+    "hf_region_record": (c_int32, [c_void_p]),
+    "hf_region_undo": (c_int32, [c_void_p]),
+    "hf_region_redo": (c_int32, [c_void_p]),
+    "hf_region_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_region_get_vertices": (c_int32, [c_void_p, c_int32, c_uint32, c_void_p]),
+    "hf_region_morph": (c_int32, [c_void_p, c_void_p]),
+    "hf_detail_create": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
+    "hf_detail_destroy": (None, [c_void_p]),
+    "hf_detail_morph": (c_int32, [c_void_p, c_void_p]),
     "hf_move_vector_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_rotate_vector_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_direction_create": (c_int32, [c_void_p, c_void_p, c_void_p]),

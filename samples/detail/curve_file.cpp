@@ -1,0 +1,62 @@
+#include "detail/curve_file.h"
+
+#include "common/json_file.h"
+
+namespace samples {
+namespace {
+
+uint32_t nearest_vertex(const SurfaceMesh& mesh, const std::vector<double>& place) {
+  const glm::dvec3 p(place[0], place[1], place[2]);
+  size_t best = 0;
+  for (size_t v = 0; v < mesh.positions.size(); ++v)
+    if (glm::distance(mesh.positions[v], p) < glm::distance(mesh.positions[best], p)) best = v;
+  return static_cast<uint32_t>(best);
+}
+
+}  // namespace
+
+CurveFile read_curve_file(const std::string& file, const SurfaceMesh& mesh) {
+  const JsonFile json(file);
+  json.root().expect_only({"points", "side", "seed", "grow"});
+  const JsonReader list = json.root().at("points");
+  CurveFile curve;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const JsonReader point = list.at(i);
+    point.expect_only({"near", "vertex", "triangle", "barycentrics"});
+    if (point.has("triangle")) {
+      const int64_t count = static_cast<int64_t>(mesh.triangles.size() / 3);
+      curve.triangles.push_back(static_cast<uint32_t>(point.at("triangle").integer(0, count - 1)));
+      for (const double w : point.at("barycentrics").numbers(3)) curve.barycentrics.push_back(w);
+    } else if (point.has("near")) {
+      curve.vertices.push_back(nearest_vertex(mesh, point.at("near").numbers(3)));
+    } else {
+      const int64_t count = static_cast<int64_t>(mesh.positions.size());
+      curve.vertices.push_back(static_cast<uint32_t>(point.at("vertex").integer(0, count - 1)));
+    }
+  }
+  if (!curve.vertices.empty() && !curve.triangles.empty())
+    list.fail("points must be triangles with barycentrics everywhere or nowhere");
+  const std::string side = json.root().string_or("side", "smaller");
+  if (side != "smaller" && side != "larger") json.root().at("side").fail("expected \"smaller\" or \"larger\"");
+  curve.side = side == "larger" ? HF_SIDE_LARGER : HF_SIDE_SMALLER;
+  if (json.root().has("seed")) {
+    curve.side = HF_SIDE_SEED;
+    curve.seed =
+        static_cast<uint32_t>(json.root().at("seed").integer(0, static_cast<int64_t>(mesh.positions.size()) - 1));
+  }
+  curve.grow = static_cast<int32_t>(json.root().integer_or("grow", -10000, 10000, 0));
+  return curve;
+}
+
+void enclose(hfpp::Region& region, const CurveFile& curve, int32_t grow) {
+  auto desc = hfpp::make<hf_curve_desc>();
+  desc.point_count = static_cast<uint32_t>(curve.vertices.size() + curve.triangles.size());
+  if (!curve.vertices.empty()) desc.vertices = curve.vertices.data();
+  if (!curve.triangles.empty()) desc.triangles = curve.triangles.data(), desc.barycentrics = curve.barycentrics.data();
+  desc.side = curve.side, desc.seed_vertex = curve.seed;
+  auto edit = hfpp::make<hf_region_edit_desc>();
+  edit.curve = &desc, edit.ring_count = curve.grow + grow;
+  region.edit(edit);
+}
+
+}  // namespace samples

@@ -1,0 +1,31 @@
+// A closed curve from a JSON file:
+//   {"points": [{"near": [0.1, 1.2, 0.3]}, {"vertex": 80}, ...], "side": "smaller" | "larger", "seed": 7, "grow": 2}
+// or all points as {"triangle": 5, "barycentrics": [0.2, 0.3, 0.5]}. near: the vertex nearest to that point.
+#ifndef HF_SAMPLES_DETAIL_CURVE_FILE_H
+#define HF_SAMPLES_DETAIL_CURVE_FILE_H
+
+#include <string>
+#include <vector>
+
+#include "common/mesh_file.h"
+#include "hf/hf.hpp"
+
+namespace samples {
+
+struct CurveFile {
+  std::vector<uint32_t> vertices, triangles;  // one of the two
+  std::vector<double> barycentrics;
+  int32_t side = HF_SIDE_SMALLER;
+  uint32_t seed = 0;
+  int32_t grow = 0;
+};
+
+// Throws std::runtime_error naming file and place.
+CurveFile read_curve_file(const std::string& file, const SurfaceMesh& mesh);
+
+// The region that the curve encloses, and `grow` rings more.
+void enclose(hfpp::Region& region, const CurveFile& curve, int32_t grow);
+
+}  // namespace samples
+
+#endif

@@ -1,0 +1,224 @@
+// hf_detail: takes the detail of a region away, exaggerates it, or carries it to another surface. See README.md beside
+// this file, or --help.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+
+#include "detail/curve_file.h"
+#include "detail/detail_sheet.h"
+
+namespace samples {
+namespace {
+
+const char* const usage =
+    "usage: hf_detail MESH --curve C.json --weight W [--thin-plate] [--grow N] [--onto MESH2 --onto-curve C2.json]\n"
+    "                 [-o OUT] [--sheet FILE.png]\n"
+    "  Morphs a region of a .obj, .off, .ply, .gltf or .glb surface towards its smooth base surface.\n"
+    "  --curve FILE       closed curve round the region: {\"points\": [{\"near\": [x, y, z]}, {\"vertex\": 12}, ...],\n"
+    "                     \"side\": \"smaller\" or \"larger\", or \"seed\": vertex inside, \"grow\": rings}\n"
+    "  --weight W         0 the surface, 1 its base; between, beyond and below 0 as well (1)\n"
+    "  --thin-plate       the base leaves its rim smoothly (bi-harmonic); else it is a membrane\n"
+    "  --grow N           then grows the region by N rings of vertices, below 0 shrinks it\n"
+    "  --onto MESH2       carries the detail to the region of this surface that --onto-curve encloses: its weight W\n"
+    "                     is 1 as it was, 0 none, 2 twice as high; points of both curves correspond\n"
+    "  -o OUT             .glb, .gltf, .obj, .ply or .off\n"
+    "  --sheet FILE       a picture: surface, both bases, morphs\n";
+
+struct Options {
+  std::string mesh, curve, onto, onto_curve, out, sheet;
+  double weight = 1;
+  int32_t grow = 0;
+  bool thin_plate = false;
+};
+
+double read_number(const std::string& text, const std::string& name, double low, double high) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !(value >= low && value <= high))
+    throw std::runtime_error(name + " takes a number from " + std::to_string(static_cast<long>(low)) + " to " +
+                             std::to_string(static_cast<long>(high)) + ", not \"" + text + "\"");
+  return value;
+}
+
+Options read_options(int count, char** arguments) {
+  Options options;
+  for (int i = 1; i < count; ++i) {
+    const std::string name = arguments[i];
+    auto value = [&]() -> std::string {
+      if (i + 1 >= count) throw std::runtime_error(name + " needs a value");
+      return arguments[++i];
+    };
+    if (name == "--curve") {
+      options.curve = value();
+    } else if (name == "--weight") {
+      options.weight = read_number(value(), name, -1000, 1000);
+    } else if (name == "--thin-plate") {
+      options.thin_plate = true;
+    } else if (name == "--grow") {
+      const double rings = read_number(value(), name, -10000, 10000);
+      if (rings != std::floor(rings)) throw std::runtime_error("--grow takes a whole number");
+      options.grow = static_cast<int32_t>(rings);
+    } else if (name == "--onto") {
+      options.onto = value();
+    } else if (name == "--onto-curve") {
+      options.onto_curve = value();
+    } else if (name == "-o") {
+      options.out = value();
+    } else if (name == "--sheet") {
+      options.sheet = value();
+    } else if (!name.empty() && name[0] == '-') {
+      throw std::runtime_error("unknown option: " + name);
+    } else if (options.mesh.empty()) {
+      options.mesh = name;
+    } else {
+      throw std::runtime_error("more than one mesh: " + options.mesh + " and " + name);
+    }
+  }
+  if (options.mesh.empty()) throw std::runtime_error("no mesh is named; see --help");
+  if (options.curve.empty()) throw std::runtime_error("no curve is named; see --help");
+  if (options.onto.empty() != options.onto_curve.empty())
+    throw std::runtime_error("--onto and --onto-curve go together");
+  return options;
+}
+
+std::string text_of(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", number);
+  return text;
+}
+
+double seconds_of(const std::chrono::steady_clock::time_point& begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// A mesh, its solver, and the region that a curve encloses.
+struct Subject {
+  Subject(const std::string& file, const std::string& curve_name, bool thin_plate, int32_t grow)
+      : mesh(read_mesh_file(file)),
+        positions(float_positions(mesh.positions)),
+        curve(read_curve_file(curve_name, mesh)),
+        solver(make_solver(thin_plate)),
+        region(*solver, positions) {
+    const auto begin = std::chrono::steady_clock::now();
+    enclose(region, curve, 0);
+    edit_seconds = seconds_of(begin);
+    if (grow == 0) return;
+    const auto again = std::chrono::steady_clock::now();
+    region.grow(grow);
+    grow_seconds = seconds_of(again);
+  }
+  std::optional<hfpp::Solver> make_solver(bool thin_plate) {
+    const auto begin = std::chrono::steady_clock::now();
+    auto create = hfpp::make<hf_create_desc>();
+    create.vertex_count = static_cast<uint32_t>(mesh.positions.size());
+    create.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
+    create.positions = positions.data(), create.triangles = mesh.triangles.data();
+    create.field_kind = thin_plate ? HF_FIELD_BIHARMONIC : HF_FIELD_HARMONIC;
+    std::optional<hfpp::Solver> made(create);
+    create_seconds = seconds_of(begin);
+    return made;
+  }
+  void print(const char* what) const {
+    const hf_region_info info = region.info();
+    std::printf("%-10s  %zu vertices, %zu triangles; factored in %.3f s\n", what, mesh.positions.size(),
+                mesh.triangles.size() / 3, create_seconds);
+    std::printf("region      %u vertices, rim %u, sites %u; %s of area %.6g over %.6g, made in %.3f s\n",
+                info.vertex_count, info.rim_count, info.site_count, info.thin_plate ? "thin plate" : "membrane",
+                info.base_area, info.area, edit_seconds);
+    if (grow_seconds >= 0)
+      std::printf("grown       %u sites inserted, %u removed, %u kept in %.3f s; %u factorisations\n",
+                  info.inserted_count, info.removed_count, info.kept_count, grow_seconds, info.factorisation_count);
+  }
+  double create_seconds = 0, edit_seconds = 0, grow_seconds = -1;  // first: set while the solver is made
+  SurfaceMesh mesh;
+  std::vector<float> positions;
+  CurveFile curve;
+  std::optional<hfpp::Solver> solver;
+  hfpp::Region region;
+};
+
+// The detail of `from` on `onto`: the points of the two curves correspond where both have as many on their rims.
+hfpp::Detail carry(const Subject& from, const Subject& onto) {
+  auto desc = hfpp::make<hf_detail_desc>();
+  const std::vector<uint32_t>&a = from.curve.vertices, &b = onto.curve.vertices;
+  const auto on_rim = [](const Subject& s) {
+    const std::vector<uint32_t> rim = s.region.vertices(HF_REGION_RIM);
+    for (const uint32_t v : s.curve.vertices)
+      if (!std::binary_search(rim.begin(), rim.end(), v)) return false;
+    return true;
+  };
+  if (!a.empty() && a.size() == b.size() && on_rim(from) && on_rim(onto))
+    desc.pair_count = static_cast<uint32_t>(a.size()), desc.source_vertices = a.data(), desc.target_vertices = b.data();
+  return hfpp::Detail(from.region, onto.region, &desc);
+}
+
+int run(int count, char** arguments) {
+  const Options options = read_options(count, arguments);
+  const Subject subject(options.mesh, options.curve, options.thin_plate, options.grow);
+  subject.print("mesh");
+  std::optional<Subject> onto;
+  std::optional<hfpp::Detail> detail;
+  if (!options.onto.empty()) {
+    onto.emplace(options.onto, options.onto_curve, options.thin_plate, 0);
+    onto->print("onto");
+    detail.emplace(carry(subject, *onto));
+  }
+  const Subject& shown = onto ? *onto : subject;
+  const std::vector<float> result = detail ? detail->morph(options.weight) : subject.region.morph(options.weight);
+  if (!options.out.empty()) {
+    SurfaceMesh written;
+    written.positions = to_points(result), written.triangles = shown.mesh.triangles;
+    write_mesh_file(written, options.out);
+    std::printf("wrote       %s\n", options.out.c_str());
+  }
+  if (!options.sheet.empty()) {
+    SheetScene scene;
+    scene.triangles = shown.mesh.triangles, scene.surface = shown.positions;
+    scene.inside = shown.region.vertices(), scene.points = shown.curve.vertices;
+    const std::string name =
+        std::filesystem::path(shown.mesh.positions.empty() ? "" : options.mesh).filename().string();
+    std::vector<SheetTile> tiles;
+    if (detail) {
+      tiles = {{"surface and curve", shown.positions},
+               {"its base", shown.region.morph(1)},
+               {"detail of " + name + ", weight " + text_of(options.weight), result}};
+    } else {
+      const Subject other(options.mesh, options.curve, !options.thin_plate, options.grow);
+      const Subject& plate = options.thin_plate ? subject : other;
+      const Subject& membrane = options.thin_plate ? other : subject;
+      const char* base = options.thin_plate ? "thin plate" : "membrane";
+      tiles = {{"surface and curve", subject.positions},
+               {"membrane (weight 1)", membrane.region.morph(1)},
+               {"thin plate (weight 1)", plate.region.morph(1)},
+               {std::string(base) + ", weight 0.5", subject.region.morph(0.5)},
+               {std::string(base) + ", weight -0.5", subject.region.morph(-0.5)},
+               {std::string(base) + ", weight " + text_of(options.weight), result}};
+    }
+    write_sheet(options.sheet, scene, tiles, {});
+    std::printf("wrote       %s\n", options.sheet.c_str());
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace samples
+
+int main(int count, char** arguments) {
+  if (count == 2 && (!std::strcmp(arguments[1], "--help") || !std::strcmp(arguments[1], "-h"))) {
+    std::printf("%s", samples::usage);
+    return 0;
+  }
+  try {
+    return samples::run(count, arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "hf_detail: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,16 @@
+// What stands behind a region handle.
+#pragma once
+#include "capi/objects.h"
+#include "detail/region.h"
+
+namespace hf::capi {
+
+struct RegionObject final : Object {
+  explicit RegionObject(std::shared_ptr<const RegionSurface> surface)
+      : Object(Kind::region), memory(surface->core->memory), region(std::move(surface)) {}
+  RegionObject(const RegionObject& other) : Object(Kind::region), memory(other.memory), region(other.region) {}
+  std::shared_ptr<Memory> memory;  // outlives what follows
+  Region region;
+};
+
+}  // namespace hf::capi

@@ -1,0 +1,23 @@
+// Closed curves on a surface, and the pieces they cut it into.
+//
+// A curve is a ring of vertices: its points, joined by shortest paths along edges. The vertices off the curve fall into
+// pieces that hang together along edges; a curve separates when there are two at least, or when it runs along borders
+// only. Cost: O(d log d) per path for the d vertices nearer than its end, O(n) for the pieces.
+#pragma once
+#include <cstdint>
+
+#include "engine/core.h"
+
+namespace hf {
+
+enum class CurveSide : std::int32_t { smaller = 0, larger = 1, seed = 2 };
+
+// The vertices of the curve, in order, each once in a row. points: inner vertices of one component.
+Vector<std::int32_t> closed_curve(const Core& core, Span<const std::int32_t> points, Memory& memory);
+
+// The vertices of one side, ascending. seed: with CurveSide::seed, an inner vertex. Throws HF_ERROR_INVALID_ARGUMENT
+// when the curve does not separate, or the seed is on it or in another component (index = the seed as given).
+Vector<std::int32_t> curve_side(const Core& core, Span<const std::int32_t> curve, CurveSide side, std::int32_t seed,
+                                Memory& memory);
+
+}  // namespace hf

@@ -1,0 +1,161 @@
+#include "detail/region.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "detail/morph.h"
+
+namespace hf {
+namespace {
+
+using Index = std::int32_t;
+std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+constexpr std::size_t most_records = 256;
+
+Vector<Index> edited(const Core& core, Vector<Index>&& inside, const RegionEdit& edit, Memory& memory) {
+  if (!edit.curve.empty()) {
+    const Vector<Index> curve = closed_curve(core, edit.curve, memory);
+    inside = curve_side(core, curve, edit.side, edit.seed, memory);
+  }
+  if (edit.rings != 0) inside = grown(core, inside, edit.rings, memory);
+  if (edit.remove.empty() && edit.add.empty()) return std::move(inside);
+  Vector<std::uint8_t> in(at(core.size()), 0, &memory);
+  for (const Index v : inside) in[at(v)] = 1;
+  for (const Index v : edit.remove) in[at(v)] = 0;
+  for (const Index v : edit.add) in[at(v)] = 1;
+  inside.clear();
+  for (Index v = 0; v < core.size(); ++v)
+    if (in[at(v)]) inside.push_back(v);
+  return std::move(inside);
+}
+
+// Takes the engine of `from` to the sites of `to`.
+void place_sites(const RegionState& from, RegionState& to, const Core& core, Memory& memory) {
+  const std::shared_ptr<SiteSolver> engine = from.engine->clone();
+  Vector<Index> leaving(&memory), coming(&memory), slots(&memory);
+  Vector<Site> places(&memory);
+  Vector<std::uint8_t> used(at(engine->slot_count()), 0, &memory);
+  const Vector<Index>&old = from.shape->sites, &now = to.shape->sites;
+  to.slot.assign(now.size(), -1);
+  std::size_t i = 0, k = 0;
+  while (i < old.size() || k < now.size()) {
+    if (k == now.size() || (i < old.size() && old[i] < now[k])) {
+      leaving.push_back(from.slot[i++]);
+    } else if (i == old.size() || now[k] < old[i]) {
+      coming.push_back(static_cast<Index>(k++));
+    } else {
+      used[at(from.slot[i])] = 1, to.slot[k++] = from.slot[i++];
+    }
+  }
+  Index next = 0;
+  for (const Index c : coming) {
+    while (at(next) < used.size() && used[at(next)]) ++next;
+    to.slot[at(c)] = next;
+    slots.push_back(next++), places.push_back(Site::at_vertex(core.mesh, now[at(c)]));
+  }
+  if (!leaving.empty() || !coming.empty()) {
+    SiteEdit edit;
+    edit.remove = leaving, edit.add = slots, edit.sites = places;
+    engine->edit(edit);
+  }
+  to.inserted = static_cast<std::uint32_t>(coming.size()), to.removed = static_cast<std::uint32_t>(leaving.size());
+  to.kept = static_cast<std::uint32_t>(now.size() - coming.size());
+  to.engine = engine;
+}
+
+void solve_base(const RegionSurface& surface, RegionState& state, Memory& memory) {
+  const Core& core = *surface.core;
+  const RegionShape& shape = *state.shape;
+  Vector<double> values(at(state.engine->slot_count()) * 3, 0.0, &memory);
+  for (std::size_t i = 0; i < shape.sites.size(); ++i) {
+    const Vec3 p = core.mesh.to_inner(surface.position(shape.sites[i]));
+    double* value = &values[at(state.slot[i]) * 3];
+    value[0] = p.x, value[1] = p.y, value[2] = p.z;
+  }
+  const auto take = [&](std::size_t i, const double* u) { state.base[i] = core.mesh.to_given({u[0], u[1], u[2]}); };
+  state.base.resize(shape.inside.size());
+  // a bi-harmonic field is refined, which takes the whole factor
+  state.whole_sweep = core.refinements > 0 || 8 * shape.inside.size() > at(core.size());
+  if (state.whole_sweep) {
+    Workspace field(core.workspaces, at(core.size()) * 3);
+    state.engine->solve(values.data(), 3, field.data(), nullptr);
+    for (std::size_t i = 0; i < shape.inside.size(); ++i) take(i, field.data() + at(shape.inside[i]) * 3);
+  } else {
+    Vector<double> field(shape.inside.size() * 3, &memory);
+    state.engine->solve_at(values.data(), 3, shape.inside, field.data());
+    for (std::size_t i = 0; i < shape.inside.size(); ++i) take(i, &field[3 * i]);
+  }
+}
+
+}  // namespace
+
+RegionSurface::RegionSurface(std::shared_ptr<const Core> shared, Vector<Vec3>&& given)
+    : core(std::move(shared)),
+      positions(std::move(given), core->memory.get()),
+      normal_sum(at(core->size()), core->memory.get()) {
+  for (Index t = 0; t < core->mesh.triangle_count(); ++t) {
+    const Index* v = core->mesh.triangle(t);
+    const Vec3 a = position(v[0]), n = cross(position(v[1]) - a, position(v[2]) - a);
+    for (int k = 0; k < 3; ++k) normal_sum[at(v[k])] = normal_sum[at(v[k])] + n;
+  }
+}
+
+RegionState::RegionState(const RegionSurface& surface, std::shared_ptr<const RegionShape> given, Memory& memory)
+    : shape(std::move(given)), slot(&memory), base(&memory), outer_normal(shape->rim.size(), &memory) {
+  const std::size_t inside = shape->inside.size();
+  for (std::size_t r = 0; r < shape->rim.size(); ++r) outer_normal[r] = surface.normal_sum[at(shape->rim[r])];
+  for (std::size_t i = 0; i < shape->triangles.size(); ++i) {
+    const Index* v = surface.core->mesh.triangle(shape->triangles[i]);
+    const Vec3 a = surface.position(v[0]), n = cross(surface.position(v[1]) - a, surface.position(v[2]) - a);
+    area += 0.5 * norm(n);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t l = at(shape->corners[3 * i + k]);
+      if (l >= inside) outer_normal[l - inside] = outer_normal[l - inside] - n;
+    }
+  }
+}
+
+Region::Region(std::shared_ptr<const RegionSurface> surface)
+    : surface_(std::move(surface)), undo_(&memory()), redo_(&memory()) {
+  const auto shape = make_shared_in<RegionShape>(memory(), core(), Span<const Index>(), memory());
+  const auto state = make_shared_in<RegionState>(memory(), *surface_, shape, memory());
+  state->engine = SiteSolver::make(EngineKind::green, surface_->core, 0);
+  state_ = state;
+}
+
+Region::Region(const Region& other)
+    : surface_(other.surface_), state_(other.state_), undo_(&memory()), redo_(&memory()) {}
+
+void Region::edit(const RegionEdit& edit) {
+  report(edit.progress, 0.0f);
+  const RegionShape& before = *state_->shape;
+  const Vector<Index> inside = edited(core(), Vector<Index>(before.inside, &memory()), edit, memory());
+  if (inside.empty())
+    fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the region would have no vertex; take a wider curve or fewer rings away");
+  const auto shape = make_shared_in<RegionShape>(memory(), core(), inside, memory());
+  report(edit.progress, 0.2f);
+  const auto next = make_shared_in<RegionState>(memory(), *surface_, shape, memory());
+  place_sites(*state_, *next, core(), memory());
+  report(edit.progress, 0.7f);
+  solve_base(*surface_, *next, memory());
+  next->base_area = morphed_area(*surface_, *next, 1.0, memory());
+  next->first = edit.curve.empty() ? state_->first : edit.curve[0];
+  report(edit.progress, 1.0f);
+  redo_.clear();
+  state_ = next;
+}
+
+void Region::record() {
+  if (undo_.size() == most_records) undo_.erase(undo_.begin());
+  undo_.push_back(state_);
+  redo_.clear();
+}
+
+void Region::step(Stack& from, Stack& to, const char* nothing) {
+  if (from.empty()) fail(HF_ERROR_NO_RECORD, HF_NO_INDEX, "%s", nothing);
+  to.push_back(state_);
+  state_ = std::move(from.back());
+  from.pop_back();
+}
+
+}  // namespace hf

@@ -1,0 +1,81 @@
+// A region of a surface under edit, and its base surface: the field of the three coordinates with the surface as
+// boundary values,
+//
+//     K_II u_I = -K_IS p_S      I inside, S sites (region_shape.h); membrane for K = L, thin plate for K = L M^-1 L
+//
+// on the factor that the core has: S stands in an engine as hard sites (K u = W lambda, W'u = p_S), all other vertices
+// of the mesh are unknowns that S parts from I. An edit compares the sites there are with those there will be; what
+// stays costs nothing. A state is immutable, so records, clones and carried detail share it.
+//
+// Cost of an edit: paths and dense rows of the sites that come, then a backward sweep of three channels: over the
+// elimination paths of I when it is an eighth of the mesh or less, else over the whole factor. All or nothing.
+#pragma once
+#include <cstdint>
+#include <memory>
+
+#include "base/progress.h"
+#include "detail/curve.h"
+#include "detail/region_shape.h"
+#include "engine/site_solver.h"
+
+namespace hf {
+
+// The surface that regions lie on: positions of the vertices as given, in the caller's unit.
+struct RegionSurface {
+  RegionSurface(std::shared_ptr<const Core> shared, Vector<Vec3>&& given);
+  Vec3 position(std::int32_t inner) const noexcept {
+    return positions[static_cast<std::size_t>(core->mesh.given_of_inner[static_cast<std::size_t>(inner)])];
+  }
+  std::shared_ptr<const Core> core;
+  Vector<Vec3> positions;   // by vertex as given
+  Vector<Vec3> normal_sum;  // by inner vertex: sum of the cross products of its triangles
+};
+
+struct RegionEdit {
+  Span<const std::int32_t> curve;  // points, inner vertices; empty: none
+  CurveSide side = CurveSide::smaller;
+  std::int32_t seed = -1;
+  std::int32_t rings = 0;
+  Span<const std::int32_t> remove, add;  // inner vertices
+  Progress* progress = nullptr;
+};
+
+struct RegionState {
+  RegionState(const RegionSurface& surface, std::shared_ptr<const RegionShape> shape, Memory& memory);
+  std::shared_ptr<const RegionShape> shape;
+  std::shared_ptr<const SiteSolver> engine;
+  Vector<std::int32_t> slot;  // of shape->sites
+  Vector<Vec3> base;          // of shape->inside, in the caller's unit
+  Vector<Vec3> outer_normal;  // of shape->rim: sum of the cross products of its triangles that do not move
+  std::int32_t first = -1;    // inner vertex that rims are matched at: the first point of the curve, or none
+  std::uint32_t inserted = 0, removed = 0, kept = 0;  // sites of the edit that led here
+  bool whole_sweep = false;
+  double area = 0, base_area = 0;
+};
+
+class Region {
+ public:
+  explicit Region(std::shared_ptr<const RegionSurface> surface);
+  Region(const Region& other);  // without the undo stack
+
+  // Throws as hf_region_edit documents what concerns the region itself.
+  void edit(const RegionEdit& edit);
+  void record();
+  void undo() { step(undo_, redo_, "nothing is recorded; call hf_region_record before the edits to be undone"); }
+  void redo() { step(redo_, undo_, "nothing was undone since the last edit"); }
+
+  const std::shared_ptr<const RegionSurface>& surface() const noexcept { return surface_; }
+  const std::shared_ptr<const RegionState>& state() const noexcept { return state_; }
+  const Core& core() const noexcept { return *surface_->core; }
+
+ private:
+  using Stack = Vector<std::shared_ptr<const RegionState>>;
+  void step(Stack& from, Stack& to, const char* nothing);
+  Memory& memory() const noexcept { return *surface_->core->memory; }
+
+  std::shared_ptr<const RegionSurface> surface_;
+  std::shared_ptr<const RegionState> state_;
+  Stack undo_, redo_;
+};
+
+}  // namespace hf

@@ -1,0 +1,39 @@
+// What a region is made of: the vertices inside, those next to them, those that hold its base surface, and the
+// triangles that move with it. Immutable once made.
+//
+//     inside   I, the vertices that the base moves
+//     rim      vertices off I with a neighbour in I
+//     sites    the rim; for fourth-order operators every vertex off I that K couples with I as well (two rings), so
+//     that
+//              K_II u_I = -K_IS p_S is the clamped plate: position and slope come from the surface around
+//
+// Cost: O(n) for the masks, the rest by the size of the region.
+#pragma once
+#include <cstdint>
+
+#include "engine/core.h"
+
+namespace hf {
+
+struct RegionShape {
+  // inside: inner vertices, ascending, each once. Throws HF_ERROR_INVALID_ARGUMENT (index = a vertex as given) when a
+  // component lies inside as a whole.
+  RegionShape(const Core& core, Span<const std::int32_t> inside, Memory& memory);
+
+  std::int32_t local_count() const noexcept { return static_cast<std::int32_t>(inside.size() + rim.size()); }
+  // Inner vertex of a local number.
+  std::int32_t vertex(std::int32_t number) const noexcept {
+    const std::size_t i = static_cast<std::size_t>(number);
+    return i < inside.size() ? inside[i] : rim[i - inside.size()];
+  }
+
+  Vector<std::int32_t> inside, rim, sites;  // inner vertices, ascending
+  Vector<std::int32_t> local;               // by inner vertex: its number, inside first, then rim; -1 elsewhere
+  Vector<std::int32_t> triangles;           // with a corner inside
+  Vector<std::int32_t> corners;             // local numbers, 3 per triangle
+};
+
+// `rings` rings of vertices more, or less when it is below 0.
+Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, std::int32_t rings, Memory& memory);
+
+}  // namespace hf

@@ -1,0 +1,460 @@
+/* Regions and carried detail through the C ABI: bits at weight 0, edits without a factorisation, undo, lifetimes, and
+ * every bad argument named. */
+#include "api_support.h"
+
+enum { SIDE = 16, ROW = SIDE + 1, COUNT = ROW * ROW };
+
+static uint32_t at(uint32_t i, uint32_t j) { return j * ROW + i; }
+
+static const uint32_t square[4] = {3 * ROW + 3, 3 * ROW + 12, 12 * ROW + 12, 12 * ROW + 3};
+
+static hf_curve_desc curve_of(uint32_t count, const uint32_t* vertices) {
+  hf_curve_desc curve;
+  HF_INIT(curve);
+  curve.point_count = count, curve.vertices = vertices;
+  return curve;
+}
+
+static hf_region_edit_desc edit_of(const hf_curve_desc* curve, int32_t rings) {
+  hf_region_edit_desc edit;
+  HF_INIT(edit);
+  edit.curve = curve, edit.ring_count = rings;
+  return edit;
+}
+
+static hf_region_info info_of(hf_region region) {
+  hf_region_info info;
+  HF_INIT(info);
+  assert_ok(hf_region_get_info(region, &info));
+  return info;
+}
+
+/* A region of 8 x 8 vertices on a bumpy sheet. */
+static hf_region sheet_region(hf_solver solver, const Surface* sheet) {
+  hf_region_desc desc;
+  HF_INIT(desc);
+  desc.positions = sheet->positions;
+  hf_region region = NULL;
+  assert_ok(hf_region_create(solver, &desc, &region));
+  const hf_curve_desc curve = curve_of(4, square);
+  const hf_region_edit_desc edit = edit_of(&curve, 0);
+  assert_ok(hf_region_edit(region, &edit));
+  return region;
+}
+
+static void morph_to(hf_region region, double weight, float* positions, double* positions_f64, float* normals) {
+  hf_morph_desc desc;
+  HF_INIT(desc);
+  desc.weight = weight, desc.positions = positions, desc.positions_f64 = positions_f64, desc.normals = normals;
+  assert_ok(hf_region_morph(region, &desc));
+}
+
+static void weight_0_gives_the_bits_and_1_the_base(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(SIDE, SIDE);
+  sheet.positions[3 * at(6, 6)] += 1e-6f; /* a place that doubles in units of the box do not hit */
+  sheet.positions[3 * at(7, 7) + 2] = -0.0f;
+  sheet.positions[3 * at(0, 0)] = 1e-30f;
+  const hf_solver solver = surface_solver(&sheet);
+  const hf_region region = sheet_region(solver, &sheet);
+  float p[3 * COUNT], q[3 * COUNT], normals[3 * COUNT];
+  double base[3 * COUNT], half[3 * COUNT], other[3 * COUNT];
+  morph_to(region, 0, p, NULL, NULL);
+  assert_true(same_bits(p, sheet.positions, sizeof p));
+  morph_to(region, 1, NULL, base, NULL), morph_to(region, 0.5, NULL, half, normals),
+      morph_to(region, -2, NULL, other, NULL);
+  morph_to(region, 1, q, NULL, NULL);
+  double moved = 0;
+  for (int i = 0; i < 3 * COUNT; ++i) {
+    const double original = (double)sheet.positions[i];
+    assert_true(fabs(half[i] - (original + 0.5 * (base[i] - original))) < 1e-12);
+    assert_true(fabs(other[i] - (original - 2 * (base[i] - original))) < 1e-12);
+    assert_true(q[i] == (float)base[i]);
+    moved = fmax(moved, fabs(base[i] - original));
+  }
+  assert_true(moved > 0.01);
+  uint32_t inside[64];
+  assert_int_equal(info_of(region).vertex_count, 64);
+  assert_ok(hf_region_get_vertices(region, HF_REGION_INSIDE, 64, inside));
+  assert_int_equal(inside[0], at(4, 4));
+  assert_int_equal(inside[63], at(11, 11));
+  for (uint32_t v = 0; v < COUNT; ++v) {
+    const uint32_t i = v % ROW, j = v / ROW;
+    const int in = i > 3 && i < 12 && j > 3 && j < 12;
+    if (!in) assert_true(same_bits(p + 3 * v, sheet.positions + 3 * v, 3 * sizeof(float)));
+    const double length = sqrt((double)(normals[3 * v] * normals[3 * v] + normals[3 * v + 1] * normals[3 * v + 1] +
+                                        normals[3 * v + 2] * normals[3 * v + 2]));
+    assert_true(fabs(length - 1) < 1e-5);
+  }
+  /* strides: other bytes stay */
+  struct {
+    float p[3], guard;
+  } rows_of_four[COUNT];
+  memset(rows_of_four, 0x5a, sizeof rows_of_four);
+  hf_morph_desc desc;
+  HF_INIT(desc);
+  desc.weight = 1, desc.positions = rows_of_four[0].p, desc.position_stride = sizeof rows_of_four[0];
+  assert_ok(hf_region_morph(region, &desc));
+  for (uint32_t v = 0; v < COUNT; ++v) {
+    assert_true(same_bits(rows_of_four[v].p, q + 3 * v, 3 * sizeof(float)));
+    assert_true(same_bits(&rows_of_four[v].guard, &rows_of_four[0].guard, sizeof(float)));
+  }
+  hf_region_destroy(region), hf_destroy(solver), surface_free(&sheet);
+}
+
+static void edits_keep_the_factor_and_undo_brings_back_the_bits(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(SIDE, SIDE);
+  const hf_solver solver = surface_solver(&sheet);
+  const hf_region region = sheet_region(solver, &sheet);
+  hf_region copy = NULL;
+  double first[3 * COUNT], now[3 * COUNT];
+  morph_to(region, 1, NULL, first, NULL);
+  assert_code(HF_ERROR_NO_RECORD, hf_region_undo(region));
+  assert_ok(hf_region_record(region));
+  assert_ok(hf_region_clone(region, &copy));
+  hf_region_edit_desc edit = edit_of(NULL, 1);
+  assert_ok(hf_region_edit(region, &edit));
+  hf_region_info info = info_of(region);
+  assert_int_equal(info.factorisation_count, 0);
+  assert_int_equal(info.kept_count + info.inserted_count, info.site_count);
+  assert_true(info.vertex_count > 64 && info.inserted_count > 0 && info.removed_count > 0);
+  assert_true(info.base_area > 0 && info.area > info.base_area);
+  assert_int_equal(info.thin_plate, 0);
+  const uint32_t out = at(7, 7);
+  HF_INIT(edit);
+  edit.remove_count = 1, edit.remove_vertices = &out;
+  assert_ok(hf_region_edit(region, &edit));
+  assert_int_equal(info_of(region).vertex_count, info.vertex_count - 1);
+  assert_int_equal(info_of(region).inserted_count, 1);
+  assert_int_equal(info_of(region).removed_count, 0);
+  morph_to(region, 1, NULL, now, NULL);
+  assert_true(fabs(now[3 * out + 2] - (double)sheet.positions[3 * out + 2]) == 0);
+  assert_ok(hf_region_undo(region));
+  morph_to(region, 1, NULL, now, NULL);
+  assert_true(same_bits(now, first, sizeof now));
+  morph_to(copy, 1, NULL, now, NULL);
+  assert_true(same_bits(now, first, sizeof now));
+  assert_code(HF_ERROR_NO_RECORD, hf_region_undo(copy));
+  assert_ok(hf_region_redo(region));
+  assert_int_equal(info_of(region).vertex_count, info.vertex_count - 1);
+  /* the solver knows nothing of it */
+  assert_int_equal(hf_get_site_count(solver), 0);
+  hf_region_destroy(copy), hf_region_destroy(region), hf_destroy(solver), surface_free(&sheet);
+}
+
+static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(SIDE, SIDE);
+  const hf_solver solver = surface_solver(&sheet);
+  const hf_region region = sheet_region(solver, &sheet);
+  uint32_t triangles[4];
+  double weights[12];
+  for (uint32_t k = 0; k < 4; ++k) {
+    for (uint32_t t = 0; t < sheet.triangle_count; ++t) {
+      for (uint32_t c = 0; c < 3; ++c) {
+        if (sheet.triangles[3 * t + c] != square[k]) continue;
+        triangles[k] = t;
+        for (uint32_t d = 0; d < 3; ++d) weights[3 * k + d] = d == c ? 0.5 : 0.25;
+      }
+    }
+  }
+  hf_region other = NULL;
+  hf_region_desc desc;
+  HF_INIT(desc);
+  desc.positions = sheet.positions;
+  assert_ok(hf_region_create(solver, &desc, &other));
+  hf_curve_desc curve;
+  HF_INIT(curve);
+  curve.point_count = 4, curve.triangles = triangles, curve.barycentrics = weights;
+  const hf_region_edit_desc edit = edit_of(&curve, 0);
+  assert_ok(hf_region_edit(other, &edit));
+  double a[3 * COUNT], b[3 * COUNT];
+  morph_to(region, 1, NULL, a, NULL), morph_to(other, 1, NULL, b, NULL);
+  assert_true(same_bits(a, b, sizeof a));
+  hf_region_destroy(region), hf_region_destroy(other), hf_destroy(solver), surface_free(&sheet);
+}
+
+static void a_thin_plate_comes_from_a_biharmonic_solver(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(SIDE, SIDE);
+  hf_create_desc create = surface_desc(&sheet);
+  create.field_kind = HF_FIELD_BIHARMONIC;
+  hf_solver solver = NULL;
+  assert_ok(hf_create(&create, &solver));
+  const hf_region region = sheet_region(solver, &sheet);
+  const hf_region_info info = info_of(region);
+  assert_int_equal(info.thin_plate, 1);
+  assert_true(info.site_count > info.rim_count);
+  uint32_t sites[COUNT], rim[COUNT];
+  assert_ok(hf_region_get_vertices(region, HF_REGION_SITES, COUNT, sites));
+  assert_ok(hf_region_get_vertices(region, HF_REGION_RIM, COUNT, rim));
+  for (uint32_t i = 0, k = 0; i < info.rim_count; ++i) {
+    while (k < info.site_count && sites[k] < rim[i]) ++k;
+    assert_true(k < info.site_count && sites[k] == rim[i]);
+  }
+  hf_region_destroy(region), hf_destroy(solver), surface_free(&sheet);
+}
+
+static void detail_onto_itself_is_the_surface_and_outlives_all_else(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(SIDE, SIDE);
+  const hf_solver solver = surface_solver(&sheet);
+  const hf_region region = sheet_region(solver, &sheet);
+  double base[3 * COUNT], carried[3 * COUNT];
+  morph_to(region, 1, NULL, base, NULL);
+  hf_detail detail = NULL;
+  assert_ok(hf_detail_create(region, region, NULL, &detail));
+  const hf_region_edit_desc edit = edit_of(NULL, 1);
+  assert_ok(hf_region_edit(region, &edit)); /* a later edit changes nothing */
+  hf_region_destroy(region), hf_destroy(solver);
+  hf_morph_desc desc;
+  HF_INIT(desc);
+  desc.positions_f64 = carried;
+  assert_ok(hf_detail_morph(detail, &desc));
+  assert_true(same_bits(carried, base, sizeof base));
+  desc.weight = 1;
+  assert_ok(hf_detail_morph(detail, &desc));
+  for (int i = 0; i < 3 * COUNT; ++i) assert_true(fabs(carried[i] - (double)sheet.positions[i]) < 1e-6);
+  desc.weight = 3;
+  assert_ok(hf_detail_morph(detail, &desc));
+  for (int i = 0; i < 3 * COUNT; ++i)
+    assert_true(fabs(carried[i] - (base[i] + 3 * ((double)sheet.positions[i] - base[i]))) < 1e-5);
+  hf_detail_destroy(detail), hf_detail_destroy(detail);
+  assert_code(HF_ERROR_INVALID_HANDLE, hf_detail_morph(detail, &desc));
+  surface_free(&sheet);
+}
+
+static void an_empty_region_gives_the_surface(void** state) {
+  (void)state;
+  Surface sheet = surface_cut(); /* with an isolated vertex and welded copies */
+  const hf_solver solver = surface_solver(&sheet);
+  hf_region region = NULL;
+  assert_ok(hf_region_create(solver, NULL, &region));
+  float p[3 * CUT_VERTICES];
+  morph_to(region, 0.7, p, NULL, NULL);
+  for (int i = 0; i < 3 * CUT_VERTICES; ++i) assert_true(fabsf(p[i] - sheet.positions[i]) < 1e-6f);
+  assert_int_equal(info_of(region).vertex_count, 0);
+  uint32_t none;
+  assert_ok(hf_region_get_vertices(region, HF_REGION_INSIDE, 0, &none));
+  /* both copies of a seam vertex go to one base */
+  const uint32_t seam = CUT_SEAM_RIGHT;
+  hf_region_edit_desc edit;
+  HF_INIT(edit);
+  edit.add_count = 1, edit.add_vertices = &seam;
+  assert_ok(hf_region_edit(region, &edit));
+  morph_to(region, 1, p, NULL, NULL);
+  assert_true(same_bits(p + 3 * CUT_SEAM_LEFT, p + 3 * CUT_SEAM_RIGHT, 3 * sizeof(float)));
+  assert_true(fabsf(p[3 * CUT_SEAM_LEFT + 2] - sheet.positions[3 * CUT_SEAM_LEFT + 2]) > 1e-4f ||
+              fabsf(p[3 * CUT_SEAM_LEFT] - sheet.positions[3 * CUT_SEAM_LEFT]) > 1e-4f);
+  const uint32_t isolated = CUT_ISOLATED;
+  edit.add_vertices = &isolated;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_region_edit(region, &edit));
+  hf_region_destroy(region), hf_destroy(solver), surface_free(&sheet);
+}
+
+static void cancelling_leaves_all_as_it_was_and_stops_one_call(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(SIDE, SIDE);
+  const hf_solver solver = surface_solver(&sheet);
+  const hf_region region = sheet_region(solver, &sheet);
+  hf_progress progress = NULL;
+  assert_ok(hf_progress_create(&progress));
+  assert_ok(hf_progress_cancel(progress));
+  hf_region_edit_desc edit = edit_of(NULL, 1);
+  edit.progress = progress;
+  assert_code(HF_ERROR_CANCELLED, hf_region_edit(region, &edit));
+  assert_int_equal(info_of(region).vertex_count, 64);
+  assert_ok(hf_region_edit(region, &edit));
+  float done = 0;
+  assert_ok(hf_progress_get(progress, &done));
+  assert_true(done == 1.0f);
+  assert_ok(hf_progress_cancel(progress));
+  hf_detail_desc desc;
+  HF_INIT(desc);
+  desc.progress = progress;
+  hf_detail detail = (hf_detail)(uintptr_t)1;
+  assert_code(HF_ERROR_CANCELLED, hf_detail_create(region, region, &desc, &detail));
+  assert_null(detail);
+  assert_ok(hf_detail_create(region, region, &desc, &detail));
+  hf_detail_destroy(detail), hf_progress_destroy(progress), hf_region_destroy(region), hf_destroy(solver);
+  surface_free(&sheet);
+}
+
+/* One row of bad input: code and index. */
+static void bad(int line, hf_result got, const char* call, hf_result expected, uint32_t index) {
+  check_row(line, "detail", call, got, expected, index);
+}
+#define BAD(expected, index, call) bad(__LINE__, call, #call, expected, index)
+
+static void bad_regions_are_named(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(SIDE, SIDE);
+  const hf_solver solver = surface_solver(&sheet);
+  const hf_region region = sheet_region(solver, &sheet);
+  double before[3 * COUNT], after[3 * COUNT];
+  morph_to(region, 1, NULL, before, NULL);
+  hf_region made = NULL;
+  hf_region_desc desc;
+  HF_INIT(desc);
+  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_create(solver, NULL, NULL));
+  BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_region_create(NULL, NULL, &made));
+  desc.struct_size = 4;
+  BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_create(solver, &desc, &made));
+  HF_INIT(desc);
+  desc.positions = sheet.positions, desc.positions_f64 = before;
+  BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_create(solver, &desc, &made));
+  desc.positions = NULL, desc.position_stride = 8;
+  BAD(HF_ERROR_TOO_SMALL, NO_INDEX, hf_region_create(solver, &desc, &made));
+  desc.position_stride = 0, before[3 * 40 + 1] = NAN;
+  BAD(HF_ERROR_NON_FINITE, 40, hf_region_create(solver, &desc, &made));
+  hf_create_desc create = surface_desc(&sheet);
+  create.engine = HF_ENGINE_REFACTOR;
+  hf_solver slow = NULL;
+  assert_ok(hf_create(&create, &slow));
+  BAD(HF_ERROR_UNSUPPORTED, NO_INDEX, hf_region_create(slow, NULL, &made));
+  hf_destroy(slow);
+  assert_null(made);
+  morph_to(region, 1, NULL, before, NULL);
+
+  hf_region_edit_desc edit;
+  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_edit(region, NULL));
+  edit = edit_of(NULL, 1);
+  BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_region_edit((hf_region)solver, &edit));
+  edit.struct_size = 8;
+  BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_edit(region, &edit));
+  edit = edit_of(NULL, 1), edit.progress = (hf_progress)region;
+  BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_region_edit(region, &edit));
+  edit = edit_of(NULL, -99);
+  BAD(HF_ERROR_EMPTY, NO_INDEX, hf_region_edit(region, &edit));
+  edit = edit_of(NULL, 99);
+  BAD(HF_ERROR_INVALID_ARGUMENT, COUNT - 1, hf_region_edit(region, &edit));
+  hf_curve_desc curve = curve_of(2, square);
+  edit = edit_of(&curve, 0);
+  BAD(HF_ERROR_EMPTY, 2, hf_region_edit(region, &edit));
+  curve = curve_of(4, NULL);
+  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_edit(region, &edit));
+  curve = curve_of(COUNT + 1, square);
+  BAD(HF_ERROR_TOO_LARGE, NO_INDEX, hf_region_edit(region, &edit));
+  curve = curve_of(4, square), curve.side = 3;
+  BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_edit(region, &edit));
+  curve = curve_of(4, square), curve.struct_size = 12;
+  BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_edit(region, &edit));
+  const uint32_t beyond[4] = {square[0], square[1], COUNT, square[3]}, line[3] = {at(2, 2), at(9, 2), at(5, 2)};
+  curve = curve_of(4, beyond);
+  BAD(HF_ERROR_OUT_OF_RANGE, 2, hf_region_edit(region, &edit));
+  curve = curve_of(3, line);
+  BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_edit(region, &edit));
+  curve = curve_of(4, square), curve.side = HF_SIDE_SEED, curve.seed_vertex = COUNT;
+  BAD(HF_ERROR_OUT_OF_RANGE, COUNT, hf_region_edit(region, &edit));
+  curve.seed_vertex = at(3, 7);
+  BAD(HF_ERROR_INVALID_ARGUMENT, at(3, 7), hf_region_edit(region, &edit));
+  uint32_t triangles[3] = {0, 100, 300};
+  double weights[9] = {1, 0, 0, 1, 0, 0, 1, 0, 0};
+  HF_INIT(curve);
+  curve.point_count = 3, curve.triangles = triangles;
+  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_edit(region, &edit));
+  curve.barycentrics = weights, triangles[1] = sheet.triangle_count;
+  BAD(HF_ERROR_OUT_OF_RANGE, 1, hf_region_edit(region, &edit));
+  triangles[1] = 100, weights[7] = 0.5;
+  BAD(HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
+  weights[7] = INFINITY;
+  BAD(HF_ERROR_NON_FINITE, 2, hf_region_edit(region, &edit));
+  weights[6] = 2, weights[7] = -1;
+  BAD(HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
+  curve.vertices = square;
+  BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_edit(region, &edit));
+  HF_INIT(edit);
+  edit.add_count = 3;
+  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_edit(region, &edit));
+  edit.add_vertices = beyond;
+  BAD(HF_ERROR_OUT_OF_RANGE, 2, hf_region_edit(region, &edit));
+  HF_INIT(edit);
+  edit.remove_count = COUNT + 1, edit.remove_vertices = beyond;
+  BAD(HF_ERROR_TOO_LARGE, NO_INDEX, hf_region_edit(region, &edit));
+
+  uint32_t found[64] = {7};
+  BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_get_vertices(region, 3, 64, found));
+  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_get_vertices(region, 0, 64, NULL));
+  BAD(HF_ERROR_TOO_SMALL, NO_INDEX, hf_region_get_vertices(region, 0, 63, found));
+  assert_int_equal(found[0], 7);
+  hf_morph_desc morph;
+  HF_INIT(morph);
+  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_morph(region, &morph));
+  morph.positions_f64 = after, morph.weight = INFINITY;
+  BAD(HF_ERROR_NON_FINITE, NO_INDEX, hf_region_morph(region, &morph));
+  morph.weight = 1, morph.position_stride = 12;
+  BAD(HF_ERROR_TOO_SMALL, NO_INDEX, hf_region_morph(region, &morph));
+  morph.position_stride = 0, morph.reserved = 1;
+  BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_morph(region, &morph));
+  morph.reserved = 0, morph.positions = (float*)found;
+  BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_morph(region, &morph));
+  hf_region_info info;
+  memset(&info, 0, sizeof info);
+  BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_get_info(region, &info));
+  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_get_info(region, NULL));
+  BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_region_record(NULL));
+  BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_region_clone(NULL, &made));
+  morph_to(region, 1, NULL, after, NULL);
+  assert_true(same_bits(before, after, sizeof before)); /* whatever failed, the region is as it was */
+  finish_rows("regions");
+  hf_region_destroy(region), hf_destroy(solver), surface_free(&sheet);
+}
+
+static void bad_details_are_named(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(SIDE, SIDE);
+  const hf_solver solver = surface_solver(&sheet);
+  const hf_region region = sheet_region(solver, &sheet);
+  hf_region empty = NULL;
+  assert_ok(hf_region_create(solver, NULL, &empty));
+  hf_detail detail = NULL;
+  hf_detail_desc desc;
+  HF_INIT(desc);
+  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_detail_create(region, region, NULL, NULL));
+  BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_detail_create(NULL, region, NULL, &detail));
+  BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_detail_create(region, (hf_region)solver, NULL, &detail));
+  BAD(HF_ERROR_EMPTY, NO_INDEX, hf_detail_create(empty, region, NULL, &detail));
+  BAD(HF_ERROR_EMPTY, NO_INDEX, hf_detail_create(region, empty, NULL, &detail));
+  desc.scale = -1;
+  BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
+  desc.scale = NAN;
+  BAD(HF_ERROR_NON_FINITE, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
+  HF_INIT(desc);
+  desc.pair_count = 2, desc.source_vertices = square;
+  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
+  const uint32_t off[2] = {square[0], at(8, 8)}, beyond[2] = {square[0], COUNT}, twice[2] = {square[0], square[0]};
+  desc.target_vertices = off;
+  BAD(HF_ERROR_INVALID_ARGUMENT, 1, hf_detail_create(region, region, &desc, &detail));
+  desc.target_vertices = beyond;
+  BAD(HF_ERROR_OUT_OF_RANGE, 1, hf_detail_create(region, region, &desc, &detail));
+  desc.target_vertices = twice;
+  BAD(HF_ERROR_INVALID_ARGUMENT, 1, hf_detail_create(region, region, &desc, &detail));
+  desc.pair_count = COUNT + 1;
+  BAD(HF_ERROR_TOO_LARGE, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
+  /* with a square in its middle taken out it is no disc any more */
+  const uint32_t hole[4] = {at(7, 7), at(8, 7), at(7, 8), at(8, 8)};
+  hf_region_edit_desc edit;
+  HF_INIT(edit);
+  edit.remove_count = 4, edit.remove_vertices = hole;
+  assert_ok(hf_region_edit(region, &edit));
+  assert_code(HF_ERROR_UNSUPPORTED, hf_detail_create(region, region, NULL, &detail));
+  assert_null(detail);
+  finish_rows("details");
+  hf_region_destroy(empty), hf_region_destroy(region), hf_destroy(solver), surface_free(&sheet);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(weight_0_gives_the_bits_and_1_the_base),
+      cmocka_unit_test(edits_keep_the_factor_and_undo_brings_back_the_bits),
+      cmocka_unit_test(a_point_in_a_triangle_stands_for_its_nearest_corner),
+      cmocka_unit_test(a_thin_plate_comes_from_a_biharmonic_solver),
+      cmocka_unit_test(detail_onto_itself_is_the_surface_and_outlives_all_else),
+      cmocka_unit_test(an_empty_region_gives_the_surface),
+      cmocka_unit_test(cancelling_leaves_all_as_it_was_and_stops_one_call),
+      cmocka_unit_test(bad_regions_are_named),
+      cmocka_unit_test(bad_details_are_named),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
