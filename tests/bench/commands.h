@@ -62,6 +62,8 @@ Rows run_deform(const Run& run, Report& report);
 void plot_deform(const Runs& runs, const std::string& file);
 Rows run_deform_quality(const Run& run, Report& report);
 void plot_deform_quality(const Runs& runs, const std::string& file);
+Rows run_detail(const Run& run, Report& report);
+void plot_detail(const Runs& runs, const std::string& file);
 Rows run_transfer(const Run& run, Report& report);
 void plot_transfer(const Runs& runs, const std::string& file);
 

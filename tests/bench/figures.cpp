@@ -119,6 +119,8 @@ const std::vector<Figure>& all_figures() {
       {"extremities_poisson", "extremities of a Poisson field, in fields", false, both(5), both(3), "%.1f"},
       {"extremities_geodesic", "extremities of 40 geodesic distances, in fields", false, both(60), both(30), "%.1f"},
       {"flow_live", "site moved, flow lines re-traced, times fresh", true, both(3), both(10), "%.1f"},
+      {"region_grown", "region grown by 284 sites, with its membrane: CHOLMOD numeric refactorisation + solve over ours",
+       true, both(5), both(15), "%.1fx"},
       {"turn_channels", "vector by three channels, one turned or rewritten: CHOLMOD again + solve over ours", true,
        both(15), both(30), "%.1fx"},
       {"turn_connection", "vector by the connection, one turned or rewritten: CHOLMOD again + solve over ours", true,

@@ -46,6 +46,8 @@ constexpr Command commands[] = {
      bench::run_deform, bench::plot_deform},
     {"deform-quality", "classic poses and a scan beside the paper's scheme and converged ARAP",
      bench::run_deform_quality, bench::plot_deform_quality},
+    {"detail", "a region grown by 284 boundary sites and its membrane, 115K vertices, against solving afresh",
+     bench::run_detail, bench::plot_detail},
     {"transfer", "frames a second from one source to one target and to a crowd of eight clones", bench::run_transfer,
      bench::plot_transfer},
 };
