@@ -79,6 +79,9 @@ void find_grounds(Core& core) {
 // Weights of a bi-harmonic operator's L stay below these multiples of their median: the first with which K factors.
 constexpr double weight_caps[] = {1e3, 1e2, 1e1};
 constexpr int cap_count = 3;
+// When the weights of a second-order operator spread over more than the digits there are (a needle of 1e-9 ties two
+// vertices 1e18 times as strongly as the third), every weight gets this share of the diagonals at its ends.
+constexpr double tie_shares[] = {0, 1e-12, 1e-9};
 
 // K of the options, on the mesh's own edges or on the intrinsic Delaunay ones. cap: of weight_caps.
 void make_operator(Core& core, const CoreOptions& options, int cap) {
@@ -92,6 +95,7 @@ void make_operator(Core& core, const CoreOptions& options, int cap) {
     core.laplacian = hf::laplacian(core.topology, core.weights, pool, core.jobs.get());
     if (options.field_kind == FieldKind::biharmonic) areas = vertex_areas(core.mesh, pool);
   }
+  if (options.field_kind == FieldKind::harmonic && tie_shares[cap] > 0) tie_weakly(core.laplacian, tie_shares[cap], pool);
   if (options.field_kind != FieldKind::harmonic) {
     if (options.field_kind == FieldKind::biharmonic) areas = inverse_masses(core.mesh, std::move(areas));
     cap_weights(core.laplacian, weight_caps[cap], pool);
@@ -170,7 +174,7 @@ std::shared_ptr<const Core> Core::make(const MeshInput& input, const CoreOptions
       break;
     } catch (const Error& error) {
       // a lost pivot, or saved bytes of a factor that was made with the next cap
-      const bool again = options.field_kind != FieldKind::harmonic && cap + 1 < cap_count &&
+      const bool again = cap + 1 < cap_count &&
                          (error.code() == HF_ERROR_NOT_POSITIVE_DEFINITE || !options.saved_factor.empty());
       if (!again) throw;
     }

@@ -12,8 +12,8 @@ namespace {
 constexpr std::int32_t tile = 4;
 
 // A pivot this far below its diagonal means linear dependence: independent sites stay above 1e-9 even on bi-harmonic
-// patches.
-constexpr double pivot_floor = 1e-13;
+// patches, and a point that depends on three crowded ones in its triangle is left with up to 1e-12 of rounding.
+constexpr double pivot_floor = 1e-11;
 
 // dots[i * tile + j] = a_i . b_j over `count` entries, four running sums each, in one fixed order for every instruction
 // set. clones need the dynamic linker's help (glibc), and sanitizers cannot run before it
@@ -248,6 +248,15 @@ std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
   });
   valid_ = k;
   return -1;
+}
+
+double DenseBlock::least_pivot() const noexcept {
+  double least = 1;
+  for (std::int32_t i = 0; i < count(); ++i) {
+    const std::size_t diagonal = row(i) + static_cast<std::size_t>(i);
+    least = std::min(least, 1 / (l_[diagonal] * l_[diagonal] * std::fabs(m_[diagonal])));
+  }
+  return least;
 }
 
 std::int32_t DenseBlock::factorise(JobRunner& jobs) {

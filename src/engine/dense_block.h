@@ -38,6 +38,9 @@ class DenseBlock {
   // M^-1 1, and its sum; all signs positive.
   Span<const double> ones() const noexcept { return ones_; }
   double ones_sum() const noexcept { return ones_sum_; }
+  // The smallest pivot over its diagonal entry, of a factorised block: crowded points, whose solution loses as many
+  // digits, have a small one. O(k).
+  double least_pivot() const noexcept;
   double bytes() const noexcept { return 8.0 * static_cast<double>(m_.size() + l_.size()); }
 
  private:

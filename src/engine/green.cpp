@@ -211,9 +211,19 @@ void GreenSolver::sweep(const double* values, Index channels, Index first, Index
   ++sweeps_;
 }
 
+// Points so crowded that the dense solve leaves fewer than ten digits get one step too.
+GreenSolver::Index GreenSolver::refinements() const noexcept {
+  constexpr double crowded = 1e-6;
+  if (core_->refinements > 0) return core_->refinements;
+  for (const auto& block : state_.blocks) {
+    if (block && block->least_pivot() < crowded) return 1;
+  }
+  return 0;
+}
+
 void GreenSolver::solve_into(const double* values, Index channels, FieldSink& sink) const {
   const std::size_t n = at(core_->size()), stride = at(channels);
-  if (state_.base || core_->refinements > 0) return solve_copied(*this, *core_, values, channels, sink);
+  if (state_.base || refinements() > 0) return solve_copied(*this, *core_, values, channels, sink);
   const Span<const Index> position = core_->factor->position(), order = core_->factor->order();
   const bool one_component = state_.sites_of.size() == 1;
   Right right(memory());
@@ -256,7 +266,7 @@ void GreenSolver::solve(const double* values, Index channels, double* field, dou
   const std::size_t n = at(core_->size()), stride = at(channels);
   Right right(memory());
   // the flux of an eliminated site is read off the field, and a refinement starts from it
-  const bool needs_field = flux && !field && (state_.base || core_->refinements > 0);
+  const bool needs_field = flux && !field && (state_.base || refinements() > 0);
   Workspace own(core_->workspaces, needs_field ? n * stride : 0);
   if (needs_field) field = own.data();
   for (Index first = 0; first < channels; first += channel_block) {
@@ -297,7 +307,7 @@ void GreenSolver::solve(const double* values, Index channels, double* field, dou
       if (!entry.used() || !entry.site.is_vertex() || entry.site.compliance != 0) continue;
       std::copy_n(values + slot * stride + at(first), m, field + at(entry.site.vertex[0]) * stride + at(first));
     }
-    for (Index step = 0; step < core_->refinements; ++step) {
+    for (Index step = 0; step < refinements(); ++step) {
       refine(values, channels, first, count, z.data(), right, field);
       write_flux();
     }
@@ -336,7 +346,7 @@ void GreenSolver::base_flux(const double*, Index channels, const double* field, 
 
 void GreenSolver::solve_at(const double* values, Index channels, Span<const Index> vertices, double* out) const {
   const std::size_t n = at(core_->size()), stride = at(channels);
-  if (state_.base || core_->refinements > 0) {
+  if (state_.base || refinements() > 0) {
     // the eliminated sites reach everything, and so does a residual: their part needs a sweep over the mesh
     Workspace field(core_->workspaces, n * stride);
     solve(values, channels, field.data(), nullptr);

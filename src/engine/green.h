@@ -53,6 +53,7 @@ class GreenSolver final : public SiteSolver {
 
  private:
   using Index = std::int32_t;
+  Index refinements() const noexcept;  // steps with the true operator that a field takes
   // A row of the dense system is named by the slot of its site, or, for the free value of base index b, by -2 - b.
   static constexpr Index nobody = -1;
   // Channels solved in one sweep: wider rows would push the right-hand sides out of the cache.

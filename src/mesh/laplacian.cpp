@@ -152,4 +152,20 @@ SymmetricMatrix laplacian(const Topology& topology, const Vector<double>& weight
   return matrix;
 }
 
+void tie_weakly(SymmetricMatrix& matrix, double share, Memory& memory) {
+  const std::size_t n = at(matrix.size());
+  Vector<double> diagonal(n, &memory);
+  for (std::size_t v = 0; v < n; ++v) diagonal[v] = matrix.value[matrix.diagonal(static_cast<Index>(v))];
+  for (std::size_t v = 0; v < n; ++v) {
+    double rest = 0;
+    for (std::size_t i = at(matrix.column_start[v]); i < at(matrix.column_start[v + 1]); ++i) {
+      const std::size_t w = at(matrix.row[i]);
+      if (w == v) continue;
+      matrix.value[i] -= share * std::max(diagonal[v], diagonal[w]);
+      rest += matrix.value[i];
+    }
+    matrix.value[matrix.diagonal(static_cast<Index>(v))] = -rest;
+  }
+}
+
 }  // namespace hf

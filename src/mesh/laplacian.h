@@ -35,6 +35,10 @@ std::uint32_t count_negative(const Vector<double>& weights) noexcept;
 // Lumped (barycentric) vertex areas: one third of the triangles around.
 Vector<double> vertex_areas(const Mesh& mesh, Memory& memory);
 
+// Adds to every stored weight of K a share of the larger diagonal at its ends, keeping K 1 = 0: no vertex hangs on the
+// others by less than rounding. Weights stay non-negative.
+void tie_weakly(SymmetricMatrix& matrix, double share, Memory& memory);
+
 // K_ij = -w_ij, K_ii = sum_j w_ij: symmetric, K 1 = 0 exactly in each row up to the rounding of one sum.
 SymmetricMatrix laplacian(const Topology& topology, const Vector<double>& weights, Memory& memory,
                           JobRunner* jobs = nullptr);
