@@ -94,7 +94,8 @@ double division_cost(const Group& g, const Vector<std::uint8_t>& sinks) {
 // Which sites are sinks: all divisions of up to 12 sites, else single and, up to 40, double exchanges.
 Vector<std::uint8_t> divide(const Group& g) {
   const std::size_t k = g.sites.size();
-  Vector<std::uint8_t> best(k, std::uint8_t{0}, g.sites.get_allocator().resource()), trial = best;
+  Vector<std::uint8_t> best(k, std::uint8_t{0}, g.sites.get_allocator().resource()),
+      trial(best, best.get_allocator());
   best[0] = 1;
   double least = division_cost(g, best);
   if (k <= 12) {

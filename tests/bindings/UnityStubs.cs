@@ -12,13 +12,18 @@ namespace UnityEngine
         public T[] GetComponentsInChildren<T>() { return new T[0]; }
     }
     public class MonoBehaviour : Component { }
-    public class GameObject : Object { public Transform transform; public GameObject(string name) { } public T AddComponent<T>() { return default(T); } }
-    public class Transform : Component { public Matrix4x4 worldToLocalMatrix, localToWorldMatrix; public Vector3 position; public Quaternion rotation; public void SetParent(Transform parent, bool keep) { } }
+    public class GameObject : Object { public Transform transform;
+        public GameObject(string name) { } public T AddComponent<T>() { return default(T); } }
+    public class Transform : Component { public Matrix4x4 worldToLocalMatrix, localToWorldMatrix;
+        public Vector3 position; public Quaternion rotation; public void SetParent(Transform parent, bool keep) { } }
     public class MeshFilter : Component { public Mesh sharedMesh; }
-    public class Mesh : Object { public Vector3[] vertices, normals; public int[] triangles; public void MarkDynamic() { } public void RecalculateBounds() { } }
+    public class Mesh : Object { public Vector3[] vertices, normals; public int[] triangles;
+        public void MarkDynamic() { } public void RecalculateBounds() { } }
     public class TextAsset : Object { public byte[] bytes; }
-    public struct Vector3 { public float x, y, z; public Vector3(float x, float y, float z) { this.x = x; this.y = y; this.z = z; } public static Vector3 one; }
-    public struct Vector4 { public float x, y, z, w; public static implicit operator Vector3(Vector4 v) { return new Vector3(v.x, v.y, v.z); } }
+    public struct Vector3 { public float x, y, z; public Vector3(float x, float y, float z) { this.x = x; this.y = y;
+        this.z = z; } public static Vector3 one; }
+    public struct Vector4 { public float x, y, z, w;
+        public static implicit operator Vector3(Vector4 v) { return new Vector3(v.x, v.y, v.z); } }
     public struct Quaternion { }
     public struct Matrix4x4
     {
@@ -41,14 +46,20 @@ namespace UnityEngine
 namespace UnityEditor
 {
     using UnityEngine;
-    public class Editor : Object { public Object target; public virtual void OnInspectorGUI() { } public void DrawDefaultInspector() { } }
+    public class Editor : Object { public Object target;
+        public virtual void OnInspectorGUI() { } public void DrawDefaultInspector() { } }
     public sealed class CustomEditor : Attribute { public CustomEditor(Type type) { } }
     public enum MessageType { Warning }
-    public static class EditorGUILayout { public static void HelpBox(string text, MessageType type) { } public static void LabelField(string label, string text) { } }
-    public static class EditorGUI { public static void BeginChangeCheck() { } public static bool EndChangeCheck() { return false; } }
+    public static class EditorGUILayout { public static void HelpBox(string text, MessageType type) {
+        } public static void LabelField(string label, string text) { } }
+    public static class EditorGUI { public static void BeginChangeCheck() { } public static bool EndChangeCheck() {
+        return false; } }
     public static class Handles { public static Vector3 PositionHandle(Vector3 at, Quaternion turn) { return at; } }
-    public static class Undo { public static void RegisterCreatedObjectUndo(Object o, string name) { } public static void RecordObject(Object o, string name) { } }
+    public static class Undo { public static void RegisterCreatedObjectUndo(Object o, string name) {
+        } public static void RecordObject(Object o, string name) { } }
     public static class Selection { public static GameObject activeGameObject; }
-    public static class AssetDatabase { public static void ImportAsset(string path) { } public static T LoadAssetAtPath<T>(string path) { return default(T); } }
-    public static class EditorUtility { public static string SaveFilePanelInProject(string title, string name, string extension, string message) { return null; } }
+    public static class AssetDatabase { public static void ImportAsset(string path) {
+        } public static T LoadAssetAtPath<T>(string path) { return default(T); } }
+    public static class EditorUtility { public static string SaveFilePanelInProject(string title, string name,
+        string extension, string message) { return null; } }
 }

@@ -11,7 +11,7 @@ from mathutils import Matrix, Quaternion, Vector
 bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
 bpy.ops.preferences.addon_enable(module="hf_blender")
 import hf  # noqa: E402  (the package inside the add-on)
-from hf_blender import session  # noqa: E402
+from hf_blender import carriers, mesh_data, session  # noqa: E402
 
 sys.path.insert(0, os.environ["HF_TESTS"])
 import golden  # noqa: E402
@@ -23,7 +23,8 @@ assert golden.main(SCENES) == 0, "golden scenes"
 
 
 def cylinder(name, length, radius, rings, around, at):
-    points = [(radius * math.cos(2 * math.pi * j / around), radius * math.sin(2 * math.pi * j / around), length * i / (rings - 1))
+    points = [(radius * math.cos(2 * math.pi * j / around), radius * math.sin(2 * math.pi * j / around),
+        length * i / (rings - 1))
               for i in range(rings) for j in range(around)]
     faces = [(i * around + j, i * around + (j + 1) % around, (i + 1) * around + (j + 1) % around, (i + 1) * around + j)
              for i in range(rings - 1) for j in range(around)]
@@ -34,7 +35,8 @@ def cylinder(name, length, radius, rings, around, at):
     obj.location = at
     bpy.context.scene.collection.objects.link(obj)
     z = np.array(points)[:, 2] / length
-    for group, where in (("hf low", z <= 0.1), ("hf high", z >= 0.9), ("middle", (abs(z - 0.5) < 0.04) & (np.array(points)[:, 0] > 0))):
+    for group, where in (("hf low", z <= 0.1), ("hf high", z >= 0.9),
+        ("middle", (abs(z - 0.5) < 0.04) & (np.array(points)[:, 0] > 0))):
         obj.vertex_groups.new(name=group).add(np.flatnonzero(where).tolist(), 1.0, "REPLACE")
     return obj, np.array(points)
 
@@ -65,31 +67,32 @@ assert bpy.ops.hf.add_groups(prefix="hf ") == {"FINISHED"}
 found = session.session_of(bar, bind=False)
 empties = {o.name: o for o in bpy.data.objects if o.type == "EMPTY"}
 assert sorted(empties) == ["bar high", "bar low"] and found.pose.handle_count == 2
-np.testing.assert_allclose(session.positions_of(bar.data), points, atol=1e-5)
+np.testing.assert_allclose(mesh_data.positions_of(bar.data), points, atol=1e-5)
 
 # ---- dragging: the change of an empty is followed through Blender's own event
 high = empties["bar high"]
 high.location += Vector((1.0, 0, -0.3))
 high.rotation_quaternion = Quaternion((0, 1, 0), math.radians(60))
 bpy.context.view_layer.update()
-posed = session.positions_of(bar.data)
-region = session.group_vertices(bar, "hf high")
+posed = mesh_data.positions_of(bar.data)
+region = mesh_data.group_vertices(bar, "hf high")
 centre = points[region].mean(0)
 wanted = (points[region] - centre) @ np.array(high.rotation_quaternion.to_matrix()).T + centre + (1.0, 0, -0.3)
 np.testing.assert_allclose(posed[region], wanted, atol=2e-5)
-np.testing.assert_allclose(posed[session.group_vertices(bar, "hf low")], points[session.group_vertices(bar, "hf low")], atol=1e-5)
+np.testing.assert_allclose(posed[mesh_data.group_vertices(bar, "hf low")],
+    points[mesh_data.group_vertices(bar, "hf low")], atol=1e-5)
 
 # ---- a handle added while posing: no factorisation, and on a layer above nothing moves
 for _ in range(40):  # each update goes on from the last: let it come to rest
     bpy.ops.hf.update()
-before = session.positions_of(bar.data)
+before = mesh_data.positions_of(bar.data)
 assert bpy.ops.hf.add_handle(group="middle", layer=1) == {"FINISHED"}
-np.testing.assert_allclose(session.positions_of(bar.data), before, atol=1e-4)
+np.testing.assert_allclose(mesh_data.positions_of(bar.data), before, atol=1e-4)
 middle = bpy.data.objects["bar middle"]
 middle.location += Vector((0.4, 0, 0))
 bpy.context.view_layer.update()
-lifted = session.positions_of(bar.data)
-assert np.abs(lifted - before)[session.group_vertices(bar, "middle")].max() > 0.3
+lifted = mesh_data.positions_of(bar.data)
+assert np.abs(lifted - before)[mesh_data.group_vertices(bar, "middle")].max() > 0.3
 assert found.solver.statistics.factorisation_count == 1
 
 # ---- removed by deleting the empty, as users do
@@ -97,7 +100,7 @@ bpy.data.objects.remove(middle)
 high.location += Vector((0, 0, 0))
 bpy.context.view_layer.update()
 assert bpy.ops.hf.update() == {"FINISHED"}
-np.testing.assert_allclose(session.positions_of(bar.data), before, atol=5e-4)
+np.testing.assert_allclose(mesh_data.positions_of(bar.data), before, atol=5e-4)
 assert found.pose.handle_count == 2 and found.solver.statistics.factorisation_count == 1
 assert bpy.ops.hf.add_handle(group="middle") == {"FINISHED"} and found.pose.handle_count == 3
 assert bpy.ops.hf.remove_handle(name="bar middle") == {"FINISHED"} and found.pose.handle_count == 2
@@ -139,10 +142,10 @@ assert bpy.ops.hf.field(output="GROUP", name="of handle") == {"FINISHED"}
 active(bar)
 target = found.posed.copy()
 bpy.ops.hf.update()
-target = session.positions_of(bar.data)
+target = mesh_data.positions_of(bar.data)
 assert bpy.ops.hf.weights(count="8") == {"FINISHED"}
 bpy.context.view_layer.update()
-skinned = session.positions_of(bar.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh())
+skinned = mesh_data.positions_of(bar.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh())
 error = np.linalg.norm(skinned - target, axis=1).max() / np.linalg.norm(np.ptp(points, axis=0))
 print(f"armature against pose: {100 * error:.2f} % of the box")
 assert error < 0.03
@@ -163,13 +166,79 @@ bar.select_set(True)
 assert bpy.ops.hf.transfer(start=1, end=10, prefix="hf ") == {"FINISHED"}
 for frame in (1, 10):
     bpy.context.scene.frame_set(frame)
-    moved = session.positions_of(other.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh())
+    moved = mesh_data.positions_of(other.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh())
     assert np.isfinite(moved).all()
     travel = np.linalg.norm(moved - other_points, axis=1)
     print(f"transfer, frame {frame}: the far end travels {travel[-1]:.2f}")
     assert travel.max() < 0.05 if frame == 1 else travel[-1] > 1.0
 up = moved[-36:] - moved[-36:].mean(0)  # the end cap keeps its size and has turned by the source's 60 degrees
 np.testing.assert_allclose(np.linalg.norm(up, axis=1), 0.8, atol=0.05)
+
+# ---- bones as handles: an armature of three bones in a third tube, posed, animated, taken away
+arm, arm_points = cylinder("arm", 4.0, 0.4, 81, 48, (-4, 0, 0))
+rig = bpy.data.objects.new("rig", bpy.data.armatures.new("rig"))
+rig.location = (-4, 0, 0)
+bpy.context.scene.collection.objects.link(rig)
+active(rig)
+bpy.ops.object.mode_set(mode="EDIT")
+for name, low, high in (("upper", 0.0, 1.4), ("lower", 1.4, 2.8), ("hand", 2.8, 4.0)):
+    bone = rig.data.edit_bones.new(name)
+    bone.head, bone.tail = (0, 0, low), (0, 0, high)
+    if name != "upper":
+        bone.parent, bone.use_connect = rig.data.edit_bones[{"lower": "upper", "hand": "lower"}[name]], True
+bpy.ops.object.mode_set(mode="OBJECT")
+arm.vertex_groups.new(name="hand").add(np.flatnonzero(arm_points[:, 2] > 3.6).tolist(), 1.0, "REPLACE")
+bpy.context.scene.hf_live = True
+active(arm)
+fails("select an armature", bpy.ops.hf.add_bones)
+arm.modifiers.new("rig", "ARMATURE").object = rig
+fails("moves arm by a modifier", bpy.ops.hf.add_bones, armature="rig")
+arm.modifiers.clear()
+rig.select_set(True)
+assert bpy.ops.hf.add_bones(share=0.4) == {"FINISHED"}
+np.testing.assert_allclose(mesh_data.positions_of(arm.data), arm_points, atol=1e-5)
+held = session.session_of(arm)
+assert held.pose.handle_count == 3 and held.solver.statistics.factorisation_count == 1
+regions = {bone.name: list(bone["hf_vertices"]) for bone in rig.pose.bones}
+assert regions["hand"] == np.flatnonzero(arm_points[:, 2] > 3.6).tolist()  # a vertex group of the bone's name
+z_of = arm_points[regions["lower"], 2]
+assert 1.8 < z_of.min() and z_of.max() < 2.4  # the middle 40 per cent of 1.4 .. 2.8
+
+
+def follows(name):
+    """The region of a bone stands where the bone's own motion puts it (to_local is a shift here: mesh and armature agree)."""
+    bone = rig.pose.bones[name]
+    motion = np.array(bone.matrix @ bone.bone.matrix_local.inverted())
+    rest = arm_points[regions[name]]
+    np.testing.assert_allclose(mesh_data.positions_of(arm.data)[regions[name]], rest @ motion[:3, :3].T + motion[:3,
+        3], atol=2e-5)
+    return np.abs(motion - np.eye(4)).max()
+
+
+rig.pose.bones["lower"].rotation_mode = "QUATERNION"
+rig.pose.bones["lower"].rotation_quaternion = Quaternion((0, 0, 1), math.radians(50))
+bpy.context.view_layer.update()  # Blender's own event, as when a bone is dragged
+assert follows("lower") > 0.3 and follows("hand") > 0.3 and follows("upper") < 1e-6
+for frame, degrees in ((1, 0), (10, 80)):
+    rig.pose.bones["lower"].rotation_quaternion = Quaternion((0, 0, 1), math.radians(degrees))
+    rig.pose.bones["lower"].keyframe_insert("rotation_quaternion", frame=frame)
+bpy.context.scene.frame_set(1)
+assert follows("lower") < 1e-5
+bpy.context.scene.frame_set(10)
+assert follows("lower") > 0.6 and follows("hand") > 0.6
+assert held.solver.statistics.factorisation_count == 1 and held.pose.handle_count == 3
+assert bpy.ops.hf.remove_handle(name="upper") == {"FINISHED"}
+assert held.pose.handle_count == 2 and "hf_id" not in rig.pose.bones["upper"] and len(rig.pose.bones) == 3
+active(rig)
+rig.data.bones.active = rig.data.bones["hand"]
+assert bpy.ops.hf.field(output="GROUP", name="of the hand") == {"FINISHED"}  # the active bone's field, on its mesh
+assert "of the hand" in arm.vertex_groups
+active(arm)
+rig.select_set(True)
+assert bpy.ops.hf.add_bones(share=0.4) == {"FINISHED"} and held.pose.handle_count == 3  # the missing one again
+for _ in range(20):
+    bpy.ops.hf.update()
+assert follows("lower") > 0.6
 
 # ---- what users get wrong is a sentence, and nothing has changed
 active(bar)
@@ -198,22 +267,28 @@ for junk in (empty_mesh, broken, lamp):
 scene = bpy.context.scene
 active(other)
 assert bpy.ops.hf.field(high="hf high", low="hf low", output="COLOUR", name="strips") == {"FINISHED"}
+active(arm)
+assert bpy.ops.hf.field(high="hf high", low="hf low", output="COLOUR", name="strips") == {"FINISHED"}
 camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
 scene.collection.objects.link(camera)
-camera.matrix_world = Matrix.Translation((3.2, -15, 4.5)) @ Quaternion((1, 0, 0), math.radians(84)).to_matrix().to_4x4()
+camera.matrix_world = Matrix.Translation((1.2, -19, 4.5)) @ Quaternion((1, 0, 0), math.radians(84)).to_matrix().to_4x4()
 scene.camera = camera
 scene.render.engine = "BLENDER_WORKBENCH"
 scene.display.shading.light, scene.display.shading.color_type = "STUDIO", "VERTEX"
-for obj in (bar, other):
+for obj in (bar, other, arm):
     for polygon in obj.data.polygons:
         polygon.use_smooth = True
 scene.render.resolution_x, scene.render.resolution_y, scene.render.filepath = 900, 600, PICTURE
 bpy.ops.render.render(write_still=True)
 assert os.path.getsize(PICTURE) > 20000
 
+active(arm)
+assert bpy.ops.hf.unbind() == {"FINISHED"}
+np.testing.assert_allclose(mesh_data.positions_of(arm.data), arm_points, atol=1e-6)
+assert not carriers.bones_of(rig)
 active(bar)
 bar.modifiers.clear()
 assert bpy.ops.hf.unbind() == {"FINISHED"}
-np.testing.assert_allclose(session.positions_of(bar.data), points, atol=1e-6)
+np.testing.assert_allclose(mesh_data.positions_of(bar.data), points, atol=1e-6)
 bpy.ops.preferences.addon_disable(module="hf_blender")
 print("blender: all right")

@@ -255,8 +255,9 @@ for _ = 1, 120 do
     if math.random() < 0.6 then
       thing:close()
       thing:close()
-      local ok, e = pcall(thing.solve or thing.deform or thing.info or function() return thing:distance({ 0 }) end,
-        thing)
+      local ok, e = pcall(thing.solve or thing.deform or thing.info or function()
+        return thing.distance and thing:distance({ 0 }) or thing:trace(zeros, { wanted_count = 4 })
+      end, thing)
       assert(not ok and e.name == 'HF_ERROR_INVALID_HANDLE', tostring(e))
       calls = calls + 1
     elseif thing.class == 'Pose' then thing:deform() end

@@ -1,4 +1,5 @@
-// hf for .NET, Mono and Unity: what all classes share. Handles are SafeHandles, failures HfExceptions, arrays are pinned for
+// hf for .NET, Mono and Unity: what all classes share. Handles are SafeHandles, failures HfExceptions, arrays are
+// pinned for
 // the call and never copied.
 using System;
 using System.Collections.Generic;
@@ -18,7 +19,8 @@ namespace Hf
         /// <summary>Vertex, triangle, site, handle or position in a list; null when there is none.</summary>
         public uint? Index { get; }
 
-        public HfException(string message, int code = Constants.HF_ERROR_INVALID_ARGUMENT, uint? index = null, string function = "")
+        public HfException(string message, int code = Constants.HF_ERROR_INVALID_ARGUMENT, uint? index = null,
+            string function = "")
             : base((function.Length > 0 ? function + ": " : "") + message + " (" + NameOf(code) + ")")
         {
             Code = code;
@@ -69,7 +71,8 @@ namespace Hf
         }
     }
 
-    /// <summary>Something with a handle. Dispose may be called more than once and in any order; a call on a disposed object
+    /// <summary>Something with a handle. Dispose may be called more than once and in any order; a call on a disposed
+    /// object
     /// throws an HfException of the code HF_ERROR_INVALID_HANDLE. What is not disposed is collected.</summary>
     public abstract class HfObject : IDisposable
     {
@@ -86,6 +89,63 @@ namespace Hf
         public void Dispose()
         {
             if (owned != null) owned.Dispose();
+        }
+
+        internal unsafe delegate int Maker(IntPtr parent, void* desc, void* raw);
+        internal unsafe delegate int Copier(IntPtr original, void* raw);
+        internal unsafe delegate int Listed(IntPtr handle, uint count, void* numbers);
+        internal unsafe delegate int ListedWith(IntPtr handle, uint count, void* numbers, void* values);
+        internal unsafe delegate int Table(IntPtr handle, uint capacity, void* rows, void* count);
+        internal unsafe delegate int Query(IntPtr handle, void* info);
+
+        /// <summary>Makes the object from a solver with the library's function and desc.</summary>
+        internal unsafe void Make(Maker create, HfObject parent, string name, void* desc, Action<IntPtr> destroy)
+        {
+            IntPtr raw;
+            HfException.Check(create(HandleOf(parent, name), desc, &raw));
+            GC.KeepAlive(parent);
+            Own(raw, destroy);
+        }
+
+        /// <summary>Makes the object as a clone of another.</summary>
+        internal unsafe void Copy(Copier clone, HfObject original, Action<IntPtr> destroy)
+        {
+            IntPtr raw;
+            original.Check(clone(original.Handle, &raw));
+            Own(raw, destroy);
+        }
+
+        /// <summary>A call on numbered things.</summary>
+        internal unsafe void OnList(Listed call, uint[] numbers)
+        {
+            using (var pins = new Pins()) Check(call(Handle, (uint)Pins.Count(numbers), (void*)pins.Add(numbers)));
+        }
+
+        /// <summary>The same with `each` numbers for every one.</summary>
+        internal unsafe void OnList(ListedWith call, uint[] numbers, double[] values, int each, string name)
+        {
+            int count = Pins.Count(numbers);
+            using (var pins = new Pins())
+                Check(call(Handle, (uint)count, (void*)pins.Add(numbers), (void*)pins.Add(values, each * count, name)));
+        }
+
+        /// <summary>The same with as many vertices.</summary>
+        internal unsafe void OnList(ListedWith call, uint[] numbers, uint[] vertices)
+        {
+            if (Pins.Count(numbers) != Pins.Count(vertices))
+                throw new HfException("as many vertices as numbers are needed");
+            using (var pins = new Pins())
+                Check(call(Handle, (uint)Pins.Count(numbers), (void*)pins.Add(numbers), (void*)pins.Add(vertices)));
+        }
+
+        /// <summary>A table that is asked for its size first.</summary>
+        internal unsafe T[] Rows<T>(Table call) where T : struct
+        {
+            uint count;
+            Check(call(Handle, 0, null, &count));
+            var rows = new T[count];
+            if (count > 0) using (var pins = new Pins()) Check(call(Handle, count, (void*)pins.Add(rows), &count));
+            return rows;
         }
 
         internal static IntPtr HandleOf(HfObject thing, string name)
@@ -150,7 +210,8 @@ namespace Hf
             var all = new List<uint>();
             for (int i = 0; i < lists.Length; ++i)
             {
-                if (lists[i] == null) throw new HfException(name + "[" + i + "] is null", Constants.HF_ERROR_NULL_POINTER);
+                if (lists[i] == null) throw new HfException(name + "[" + i + "] is null",
+                    Constants.HF_ERROR_NULL_POINTER);
                 Counts[i] = (uint)lists[i].Length;
                 all.AddRange(lists[i]);
             }

@@ -1,4 +1,5 @@
-// The inspector: handles added with a click, figures of the solver, the factor saved as an asset; handles moved in the scene view.
+// The inspector: handles added with a click, figures of the solver, the factor saved as an asset; handles moved in the
+// scene view.
 using System.IO;
 using UnityEditor;
 using UnityEngine;
@@ -12,7 +13,8 @@ namespace Hf.Unity.Editor
         {
             DrawDefaultInspector();
             var deformer = (HfDeformer)target;
-            if (!string.IsNullOrEmpty(deformer.LastError)) EditorGUILayout.HelpBox(deformer.LastError, MessageType.Warning);
+            if (!string.IsNullOrEmpty(deformer.LastError))
+                EditorGUILayout.HelpBox(deformer.LastError, MessageType.Warning);
             EditorGUILayout.LabelField("Handles", deformer.HandleCount.ToString());
             if (GUILayout.Button("Add handle"))
             {
@@ -25,7 +27,8 @@ namespace Hf.Unity.Editor
             if (GUILayout.Button("Bind again")) deformer.Release();
             if (GUILayout.Button("Save factor"))
             {
-                string path = EditorUtility.SaveFilePanelInProject("Save factor", deformer.name + " factor", "bytes", "The factor for the saved-factor slot");
+                string path = EditorUtility.SaveFilePanelInProject("Save factor", deformer.name + " factor", "bytes",
+                    "The factor for the saved-factor slot");
                 if (!string.IsNullOrEmpty(path))
                 {
                     File.WriteAllBytes(path, deformer.Solver.SaveFactor());

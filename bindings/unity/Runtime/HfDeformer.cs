@@ -1,4 +1,5 @@
-// Deforms the mesh of a MeshFilter so that the regions of its HfHandle children follow them. The factor is made once, at
+// Deforms the mesh of a MeshFilter so that the regions of its HfHandle children follow them. The factor is made once,
+// at
 // the first use; handles come and go on it.
 using System.Collections.Generic;
 using UnityEngine;
@@ -73,7 +74,8 @@ namespace Hf.Unity
                 triangles[i + 1] = (uint)corners[i + 2];
                 triangles[i + 2] = (uint)corners[i + 1];
             }
-            solver = new Solver(positions, triangles, new SolverOptions { ThreadCount = (uint)threads, SavedFactor = savedFactor != null ? savedFactor.bytes : null });
+            solver = new Solver(positions, triangles, new SolverOptions { ThreadCount = (uint)threads,
+                SavedFactor = savedFactor != null ? savedFactor.bytes : null });
             pose = new Pose(solver);
             posed = Instantiate(rest);
             posed.MarkDynamic();
@@ -97,7 +99,8 @@ namespace Hf.Unity
                 if (handle.bound) continue;
                 handle.restLocal = Rigid(transform.worldToLocalMatrix * handle.transform.localToWorldMatrix);
                 Vector4 at = handle.restLocal.GetColumn(3);
-                handle.number = pose.AddHandles(new double[] { at.x, at.y, at.z }, new double[] { handle.radius }, (uint)handle.layer)[0];
+                handle.number = pose.AddHandles(new double[] { at.x, at.y, at.z }, new double[] { handle.radius },
+                    (uint)handle.layer)[0];
                 handle.bound = true;
                 bound.Add(handle);
                 numbers.Add(handle.number);
@@ -106,7 +109,8 @@ namespace Hf.Unity
 
         readonly List<uint> numbers = new List<uint>();
 
-        static Matrix4x4 Rigid(Matrix4x4 matrix) { return Matrix4x4.TRS(matrix.GetColumn(3), matrix.rotation, Vector3.one); }
+        static Matrix4x4 Rigid(Matrix4x4 matrix) { return Matrix4x4.TRS(matrix.GetColumn(3), matrix.rotation,
+            Vector3.one); }
 
         void LateUpdate()
         {
@@ -118,7 +122,8 @@ namespace Hf.Unity
                 var matrices = new double[16 * bound.Count];
                 for (int i = 0; i < bound.Count; ++i)
                 {
-                    Matrix4x4 motion = Rigid(transform.worldToLocalMatrix * bound[i].transform.localToWorldMatrix) * bound[i].restLocal.inverse;
+                    Matrix4x4 motion = Rigid(transform.worldToLocalMatrix * bound[i].transform.localToWorldMatrix)
+                        * bound[i].restLocal.inverse;
                     for (int k = 0; k < 16; ++k) matrices[16 * i + k] = motion[k]; // column by column in both
                 }
                 pose.SetMatrices(numbers.ToArray(), matrices);

@@ -1,4 +1,5 @@
-// A handle of an HfDeformer: a child transform that carries a region of the mesh. Add, enable, disable or destroy it at any time.
+// A handle of an HfDeformer: a child transform that carries a region of the mesh. Add, enable, disable or destroy it
+// at any time.
 using UnityEngine;
 
 namespace Hf.Unity

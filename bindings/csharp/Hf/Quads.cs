@@ -1,0 +1,154 @@
+// Quads and Flow over the C ABI (include/hf/quads.h).
+using System;
+using System.Runtime.InteropServices;
+using Hf.Native;
+
+namespace Hf
+{
+    /// <summary>Fields of hf_quads_desc; 0 and null are the defaults.</summary>
+    public sealed class QuadOptions
+    {
+        public int Kind, KeepPolygons;
+        public float EdgeLength;
+        public uint RelaxCount;
+        public uint[] SiteVertices;
+        public int[] SiteLines;
+        public Progress Progress;
+    }
+
+    /// <summary>Face i has the corners FaceCorners[FaceStarts[i]] to FaceCorners[FaceStarts[i + 1] - 1],
+    /// counter-clockwise.</summary>
+    public sealed class QuadMesh
+    {
+        public double[] Positions, Barycentrics;
+        public uint[] Triangles, FaceStarts, FaceCorners, SiteVertices;
+        public int[] SiteLines;
+    }
+
+    /// <summary>A quad mesh of a solver's surface.</summary>
+    public sealed unsafe class Quads : HfObject
+    {
+        public Quads(Solver solver, QuadOptions options = null)
+        {
+            options = options ?? new QuadOptions();
+            using (var pins = new Pins())
+            {
+                hf_quads_desc desc;
+                Functions.hf_init_desc(&desc, (uint)sizeof(hf_quads_desc));
+                desc.kind = options.Kind;
+                desc.edge_length = options.EdgeLength;
+                desc.keep_polygons = options.KeepPolygons;
+                desc.relax_count = options.RelaxCount;
+                desc.site_count = options.SiteVertices == null ? 0 : (uint)options.SiteVertices.Length;
+                desc.site_vertices = pins.Add(options.SiteVertices);
+                desc.site_lines = pins.Add(options.SiteLines, (int)desc.site_count, "SiteLines");
+                if (options.Progress != null) desc.progress = options.Progress.Handle;
+                Make(Functions.hf_quads_create, solver, "solver", &desc, Functions.hf_quads_destroy);
+                GC.KeepAlive(options.Progress);
+            }
+        }
+
+        public hf_quads_info Info
+        {
+            get
+            {
+                hf_quads_info info;
+                Functions.hf_init_desc(&info, (uint)sizeof(hf_quads_info));
+                Check(Functions.hf_quads_get_info(Handle, &info));
+                return info;
+            }
+        }
+
+        public QuadMesh Mesh()
+        {
+            hf_quads_info info = Info;
+            uint v = info.vertex_count, s = info.site_count;
+            var mesh = new QuadMesh
+            {
+                Positions = new double[3 * v], Barycentrics = new double[3 * v], Triangles = new uint[v],
+                FaceStarts = new uint[info.face_count + 1], FaceCorners = new uint[info.corner_count],
+                SiteVertices = new uint[s], SiteLines = new int[s],
+            };
+            using (var pins = new Pins())
+            {
+                hf_quads_mesh place;
+                Functions.hf_init_desc(&place, (uint)sizeof(hf_quads_mesh));
+                place.vertex_capacity = v;
+                place.face_capacity = info.face_count;
+                place.corner_capacity = info.corner_count;
+                place.site_capacity = s;
+                place.positions = pins.Add(mesh.Positions);
+                place.triangles = pins.Add(mesh.Triangles);
+                place.barycentrics = pins.Add(mesh.Barycentrics);
+                place.face_starts = pins.Add(mesh.FaceStarts);
+                place.face_corners = pins.Add(mesh.FaceCorners);
+                place.site_vertices = pins.Add(mesh.SiteVertices);
+                place.site_lines = pins.Add(mesh.SiteLines);
+                Check(Functions.hf_quads_get_mesh(Handle, &place));
+            }
+            return mesh;
+        }
+    }
+
+    /// <summary>Line i holds the points LineStarts[i] to LineStarts[i + 1] - 1; Values rise along it.</summary>
+    public sealed class FlowLines
+    {
+        public double[] Positions, Values;
+        public uint[] LineStarts, LineEnds;
+    }
+
+    /// <summary>A surface prepared for tracing flow lines, again and again.</summary>
+    public sealed unsafe class Flow : HfObject
+    {
+        readonly int vertexCount;
+        uint points = 4096, lines = 64; // room for what the last trace needed
+
+        public Flow(Solver solver)
+        {
+            Make((parent, none, raw) => Functions.hf_flow_create(parent, raw), solver, "solver", null,
+                Functions.hf_flow_destroy);
+            vertexCount = solver.VertexCount;
+        }
+
+        /// <summary>Lines of equal flux from the minima of a field, wantedCount of them, or one through every seed
+        /// vertex.</summary>
+        public FlowLines Trace(double[] field, uint wantedCount = 0, uint[] seeds = null)
+        {
+            for (;;)
+            {
+                var found = new FlowLines { Positions = new double[3 * points], Values = new double[points],
+                    LineStarts = new uint[lines + 1], LineEnds = new uint[2 * lines] };
+                using (var pins = new Pins())
+                {
+                    hf_scalars scalars;
+                    Functions.hf_init_desc(&scalars, (uint)sizeof(hf_scalars));
+                    scalars.values_f64 = pins.Add(field, vertexCount, "field");
+                    hf_flow_lines place;
+                    Functions.hf_init_desc(&place, (uint)sizeof(hf_flow_lines));
+                    place.wanted_count = wantedCount;
+                    place.seed_count = seeds == null ? 0 : (uint)seeds.Length;
+                    place.seeds = pins.Add(seeds);
+                    place.point_capacity = points;
+                    place.line_capacity = lines;
+                    place.positions = pins.Add(found.Positions);
+                    place.values = pins.Add(found.Values);
+                    place.line_starts = pins.Add(found.LineStarts);
+                    place.line_ends = pins.Add(found.LineEnds);
+                    int result = Functions.hf_flow_trace(Handle, &scalars, &place);
+                    if (result == Constants.HF_ERROR_TOO_SMALL)
+                    {
+                        points = place.point_count + place.point_count / 4;
+                        lines = place.line_count;
+                        continue;
+                    }
+                    Check(result);
+                    Array.Resize(ref found.Positions, (int)(3 * place.point_count));
+                    Array.Resize(ref found.Values, (int)place.point_count);
+                    Array.Resize(ref found.LineStarts, (int)place.line_count + 1);
+                    Array.Resize(ref found.LineEnds, (int)(2 * place.line_count));
+                    return found;
+                }
+            }
+        }
+    }
+}
