@@ -17,11 +17,23 @@ namespace {
 
 struct PoseObject final : Object {
   PoseObject(std::shared_ptr<Memory> owner, std::shared_ptr<PoseStack> given)
-      : Object(Kind::pose), memory(std::move(owner)), pose(std::move(given)), handle_count(pose->handle_count()) {}
+      : Object(Kind::pose),
+        memory(std::move(owner)),
+        pose(std::move(given)),
+        keeps_order(is_identity(pose->core().mesh)),
+        handle_count(pose->handle_count()) {}
+  static bool is_identity(const Mesh& mesh) {
+    if (mesh.report.vertex_count != static_cast<std::uint32_t>(mesh.vertex_count())) return false;
+    for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
+      if (mesh.inner_of_given[v] != static_cast<std::int32_t>(v)) return false;
+    }
+    return true;
+  }
   std::shared_ptr<Memory> memory;  // outlives the pose
   std::shared_ptr<PoseStack> pose;
-  std::atomic<std::uint32_t>
-      handle_count;  // of the last finished change: may be read while another thread changes the pose
+  bool keeps_order;  // inner vertices are those given, in their order: nothing welded, none isolated
+  // of the last finished change: may be read while another thread changes the pose
+  std::atomic<std::uint32_t> handle_count;
 };
 
 hf_pose publish(std::shared_ptr<PoseStack> pose) {
@@ -94,18 +106,25 @@ Range read_range(const hf_deform_desc& desc, std::uint32_t vertex_count) {
   return {desc.first_vertex, count, count == vertex_count};
 }
 
-// All vertices, three numbers each: scatter() without a call per number.
-template <class Real>
-void write_points(const Core& core, Span<const Vec3> points, Real* out, std::size_t stride, IsolatedRow isolated) {
+// All vertices, three numbers each: scatter() without a call per number, and a plain loop when nothing moves its place.
+template <class Point, class Real>
+void write_points(const Core& core, bool keeps_order, Span<const Point> points, Real* out, std::size_t stride,
+                  IsolatedRow isolated) {
   const std::size_t count = core.mesh.report.vertex_count;
   constexpr std::size_t piece = 32768;
   char* bytes = reinterpret_cast<char*>(out);
+  const bool plain = keeps_order && stride == 3 * sizeof(Real);
   core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
-    const std::size_t end = std::min(count, (p + std::size_t{1}) * piece);
-    for (std::size_t v = p * piece; v < end; ++v) {
+    const std::size_t begin = p * piece, end = std::min(count, begin + piece);
+    if (plain) {
+      const auto* from = &points.data()->x;
+      for (std::size_t i = 3 * begin; i < 3 * end; ++i) out[i] = static_cast<Real>(from[i]);
+      return;
+    }
+    for (std::size_t v = begin; v < end; ++v) {
       const std::int32_t inner = core.mesh.inner_of_given[v];
       if (inner == Mesh::none) continue;
-      const Vec3 x = points[static_cast<std::size_t>(inner)];
+      const Point x = points[static_cast<std::size_t>(inner)];
       const Real row[3] = {static_cast<Real>(x.x), static_cast<Real>(x.y), static_cast<Real>(x.z)};
       std::memcpy(bytes + v * stride, row, sizeof row);
     }
@@ -312,20 +331,25 @@ hf_result hf_deform(hf_pose handle, const hf_deform_desc* given, hf_deform_info*
     const Core& core = pose->pose->core();
     const Range range = read_range(desc, core.mesh.report.vertex_count);
     request.surface = range.whole || request.normals || request.refine || pose->pose->has_layers();
+    const bool straight = range.whole && pose->keeps_order;  // no vertex moves its place between here and there
+    const auto packed = [](std::uint32_t stride) { return stride == 0 || stride == 3 * sizeof(float); };
+    if (straight && packed(desc.position_stride)) request.packed_positions = desc.positions;
+    const bool straight_normals = straight && desc.normals && packed(desc.normal_stride);
+    if (straight_normals) request.packed_normals = reinterpret_cast<Normal*>(desc.normals);
     const DeformReport report = pose->pose->deform(request);
     const auto put_position = [&](std::size_t v, double* values) {
       put(request.surface ? report.positions[v] : pose->pose->base().blended(static_cast<std::int32_t>(v)), values);
     };
-    const auto put_normal = [&](std::size_t v, double* values) { put(report.normals[v], values); };
+    const auto put_normal = [&](std::size_t v, double* values) { put(to_vec3(report.normals[v]), values); };
     if (range.whole) {
-      if (desc.positions)
-        write_points(core, report.positions, desc.positions,
+      if (desc.positions && !report.packed_positions)
+        write_points(core, pose->keeps_order, report.positions, desc.positions,
                      stride_of(desc.position_stride, 3 * sizeof(float), "position_stride"), put_rest);
       if (desc.positions_f64)
-        write_points(core, report.positions, desc.positions_f64,
+        write_points(core, pose->keeps_order, report.positions, desc.positions_f64,
                      stride_of(desc.position_stride, 3 * sizeof(double), "position_stride"), put_rest);
-      if (desc.normals)
-        write_points(core, report.normals, desc.normals,
+      if (desc.normals && !straight_normals)
+        write_points(core, pose->keeps_order, report.normals, desc.normals,
                      stride_of(desc.normal_stride, 3 * sizeof(float), "normal_stride"), put_up);
     } else {
       if (positions) scatter_range(core, range, positions, put_rest, put_position);

@@ -25,7 +25,8 @@ struct TransferObject final : Object {
   Buffer<Vec3> source_posed, target_posed;
   // made at the first frame that asks for normals
   std::shared_ptr<const Rest> rest;
-  Buffer<Vec3> triangle_normals, normals;
+  Buffer<NormalSum> normal_sums;
+  Buffer<Normal> normals;
 };
 
 TransferOptions read_options(const hf_transfer_desc* given) {
@@ -199,7 +200,7 @@ hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) 
     }
     const Core& target = object->transfer.target();
     if (normals && !object->rest) {
-      object->triangle_normals.allocate(*object->memory, static_cast<std::size_t>(target.mesh.triangle_count()));
+      object->normal_sums.allocate(*object->memory, static_cast<std::size_t>(target.size()));
       object->normals.allocate(*object->memory, static_cast<std::size_t>(target.size()));
       object->rest = make_shared_in<Rest>(*object->memory, target, *object->memory);
     }
@@ -212,9 +213,10 @@ hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) 
       scatter(target, 3, positions, put_rest,
               [&](std::size_t v, double* values) { put(object->target_posed[v], values); });
     if (normals) {
-      vertex_normals(target.mesh, *object->rest, object->target_posed.data(), object->triangle_normals.data(),
+      vertex_normals(target.mesh, *object->rest, object->target_posed.data(), object->normal_sums.data(),
                      object->normals.data(), *target.jobs);
-      scatter(target, 3, normals, put_up, [&](std::size_t v, double* values) { put(object->normals[v], values); });
+      scatter(target, 3, normals, put_up,
+              [&](std::size_t v, double* values) { put(to_vec3(object->normals[v]), values); });
     }
   });
 }

@@ -257,10 +257,28 @@ class WeightTable {
   Vector<Item> items_;
 };
 
+// Appends a row of weights that sum to 1, rounded to whole steps; the largest takes up what is left.
+void append_row(Span<const WeightTable::Item> row, ClusterWeights& out) {
+  constexpr double steps = 16777216;  // 2^24: whole numbers up to it are floats
+  double left = steps;
+  std::size_t largest = 0;
+  for (std::size_t k = 1; k < row.size(); ++k) largest = row[k].weight > row[largest].weight ? k : largest;
+  const std::size_t first = out.weight.size();
+  for (const WeightTable::Item& item : row) {
+    const double whole = std::max(1.0, std::floor(steps * item.weight + 0.5));
+    left -= whole;
+    out.cluster.push_back(static_cast<std::uint16_t>(item.cluster));
+    out.weight.push_back(static_cast<float>(whole / steps));
+  }
+  float& largest_weight = out.weight[first + largest];
+  largest_weight = static_cast<float>(largest_weight + left / steps);
+}
+
 // Rows of all vertices. A vertex whose pieces were all dropped takes the fields themselves as weights of the handles.
 void write_rows(WeightTable& table, const Mesh& mesh, const Reach& reach, const HandleFields& fields,
-                ClusterWeights& out) {
+                ClusterWeights& out, Memory& memory) {
   const std::int32_t n = mesh.vertex_count();
+  Vector<WeightTable::Item> own(out.handle_count, WeightTable::Item{0, 0.0}, &memory);
   out.start.resize(n + 1);
   out.start[0] = 0;
   for (std::int32_t v = 0; v < n; ++v) {
@@ -268,16 +286,16 @@ void write_rows(WeightTable& table, const Mesh& mesh, const Reach& reach, const 
     if (present.empty()) {
       ++out.unreached_vertex_count;
     } else if (reach.owner[v] >= 0 || present.size() == 1) {
-      out.cluster.push_back(reach.owner[v] >= 0 ? reach.owner[v] : present[0]);
-      out.weight.push_back(1.0);
+      own[0] = {reach.owner[v] >= 0 ? reach.owner[v] : present[0], 1.0};
+      append_row({own.data(), 1}, out);
+    } else if (const Span<const WeightTable::Item> row = table.finish(v); !row.empty()) {
+      append_row(row, out);
     } else {
-      const Span<const WeightTable::Item> row = table.finish(v);
-      for (const WeightTable::Item& item : row) out.cluster.push_back(item.cluster), out.weight.push_back(item.weight);
-      if (row.empty()) {
-        for (const std::int32_t j : present) {
-          if (fields.of(j)[v] > 0) out.cluster.push_back(j), out.weight.push_back(fields.of(j)[v]);
-        }
+      std::size_t count = 0;
+      for (const std::int32_t j : present) {
+        if (fields.of(j)[v] > 0) own[count++] = {j, fields.of(j)[v]};
       }
+      append_row({own.data(), count}, out);
     }
     out.start[v + 1] = static_cast<std::int32_t>(out.cluster.size());
   }
@@ -325,7 +343,7 @@ ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Re
   weights.cluster.reserve(cutter.entries().size() + static_cast<std::size_t>(core.size()));
   weights.weight.reserve(cutter.entries().size() + static_cast<std::size_t>(core.size()));
   WeightTable table(cutter.entries(), core.size(), memory);
-  write_rows(table, core.mesh, reach, fields, weights);
+  write_rows(table, core.mesh, reach, fields, weights, memory);
   find_elastic(core.mesh, weights, memory);
   return weights;
 }

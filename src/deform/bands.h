@@ -30,14 +30,15 @@ constexpr std::int32_t free_cluster_limit = 768;
 // free_cluster_target.
 std::int32_t bands_for(std::int32_t wished, std::int32_t field_count) noexcept;
 
-// Weights of vertices in clusters, by vertex, clusters ascending; they sum to 1. Vertices of components without a
-// handle have none. Clusters 0 .. handle_count - 1 are the handles.
+// Weights of vertices in clusters, by vertex, clusters ascending. They are multiples of 2^-24 and sum to 1 exactly: six
+// bytes an entry hold them, and a motion that all clusters share comes back to rounding. Vertices of components without
+// a handle have none. Clusters 0 .. handle_count - 1 are the handles.
 struct ClusterWeights {
   explicit ClusterWeights(Memory& memory)
       : start(&memory), cluster(&memory), weight(&memory), elastic_components(&memory) {}
   Vector<std::int32_t> start;
-  Vector<std::int32_t> cluster;
-  Vector<double> weight;
+  Vector<std::uint16_t> cluster;
+  Vector<float> weight;
   Vector<std::int32_t> elastic_components;  // those with free clusters, ascending
   std::int32_t handle_count = 0;
   std::int32_t cluster_count = 0;

@@ -1,27 +1,19 @@
 #include "deform/blend.h"
 
-#include "deform/blend_avx2.h"
+#include <algorithm>
+
+#include "deform/blend_rows.h"
 
 namespace hf {
-namespace {
-
-Vec3 apply(const Affine& affine, Vec3 p) noexcept {
-  const auto& a = affine.a;
-  return {a[0][0] * p.x + a[0][1] * p.y + a[0][2] * p.z + a[0][3],
-          a[1][0] * p.x + a[1][1] * p.y + a[1][2] * p.z + a[1][3],
-          a[2][0] * p.x + a[2][1] * p.y + a[2][2] * p.z + a[2][3]};
-}
-
-}  // namespace
 
 Vec3 blend_vertex(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, std::int32_t v) noexcept {
   const Vec3 p = mesh.positions[v];
   const std::int32_t first = weights.start[v], last = weights.start[v + 1];
   if (first == last) return p;
-  if (last - first == 1) return apply(transforms[weights.cluster[first]], p);  // its weight is 1
-  // the blended transform first: twelve independent sums, in the order of blend_avx2.cpp
+  // the blended transform first: twelve independent sums, in the order of the loops for wider lanes
   double sum[12];
-  for (int i = 0; i < 12; ++i) sum[i] = weights.weight[first] * (&transforms[weights.cluster[first]].a[0][0])[i];
+  const double own = weights.weight[first];
+  for (int i = 0; i < 12; ++i) sum[i] = own * (&transforms[weights.cluster[first]].a[0][0])[i];
   for (std::int32_t k = first + 1; k < last; ++k) {
     const double* a = &transforms[weights.cluster[k]].a[0][0];
     const double w = weights.weight[k];
@@ -31,27 +23,53 @@ Vec3 blend_vertex(const Mesh& mesh, const ClusterWeights& weights, const Affine*
           sum[8] * p.x + sum[9] * p.y + sum[10] * p.z + sum[11]};
 }
 
-void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, Vec3 offset, double scale,
-           Vec3* positions, JobRunner& jobs) {
-#ifdef HF_BLEND_AVX2
-  if (__builtin_cpu_supports("avx2")) {
-    static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Affine) == 12 * sizeof(double));
-    const BlendRows rows{weights.start.data(),
-                         weights.cluster.data(),
-                         weights.weight.data(),
-                         &transforms[0].a[0][0],
-                         &mesh.positions.data()->x,
-                         {offset.x, offset.y, offset.z},
-                         scale,
-                         &positions->x};
-    for_vertex_pieces(jobs, mesh.vertex_count(),
-                      [&](std::int32_t first, std::int32_t last) { blend_rows_avx2(rows, first, last); });
-    return;
+namespace {
+
+void set_columns(const Affine* transforms, std::size_t count, double* columns) noexcept {
+  for (std::size_t c = 0; c < count; ++c) {
+    for (int j = 0; j < 4; ++j) {
+      for (int i = 0; i < 3; ++i) columns[16 * c + 4 * j + i] = transforms[c].a[i][j];
+      columns[16 * c + 4 * j + 3] = 0;
+    }
   }
+}
+
+}  // namespace
+
+void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, double* columns, Vec3 offset,
+           double scale, Vec3* positions, float* packed, JobRunner& jobs) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  set_columns(transforms, static_cast<std::size_t>(weights.cluster_count), columns);
+  const BlendRows rows{weights.start.data(),
+                       weights.cluster.data(),
+                       weights.weight.data(),
+                       columns,
+                       &mesh.positions.data()->x,
+                       {offset.x, offset.y, offset.z},
+                       scale,
+                       &positions->x};
+  void (*loop)(const BlendRows&, std::int32_t, std::int32_t) noexcept = nullptr;
+#ifdef HF_DEFORM_AVX2
+  if (__builtin_cpu_supports("avx2")) loop = &blend_rows_avx2;
+#ifdef HF_DEFORM_AVX512
+  if (__builtin_cpu_supports("avx512f")) loop = &blend_rows_avx512;
+#endif
 #endif
   for_vertex_pieces(jobs, mesh.vertex_count(), [&](std::int32_t first, std::int32_t last) {
-    for (std::int32_t v = first; v < last; ++v)
-      positions[v] = offset + scale * blend_vertex(mesh, weights, transforms, v);
+    constexpr std::int32_t close = 256;  // vertices that are in the nearest cache when they are packed
+    for (std::int32_t begin = first; begin < last; begin += close) {
+      const std::int32_t end = std::min(last, begin + close);
+      if (loop) {
+        loop(rows, begin, end);
+      } else {
+        for (std::int32_t v = begin; v < end; ++v)
+          positions[v] = offset + scale * blend_vertex(mesh, weights, transforms, v);
+      }
+      if (!packed) continue;
+      const double* from = &positions->x;
+      for (std::size_t i = 3 * static_cast<std::size_t>(begin); i < 3 * static_cast<std::size_t>(end); ++i)
+        packed[i] = static_cast<float>(from[i]);
+    }
   });
 }
 

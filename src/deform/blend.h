@@ -10,9 +10,13 @@ struct Affine {
   double a[3][4];
 };
 
-// Blended positions in the mesh's own unit, moved to offset + scale x.
-void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, Vec3 offset, double scale,
-           Vec3* positions, JobRunner& jobs);
+// Blended positions in the mesh's own unit, moved to offset + scale x. columns: scratch, column_count() numbers at a
+// multiple of 64 bytes. packed: null, or three floats per vertex that get the same positions while they are at hand.
+inline std::size_t column_count(const ClusterWeights& weights) noexcept {
+  return 16 * static_cast<std::size_t>(weights.cluster_count);
+}
+void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, double* columns, Vec3 offset,
+           double scale, Vec3* positions, float* packed, JobRunner& jobs);
 
 // One vertex, in the mesh's own unit.
 Vec3 blend_vertex(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, std::int32_t v) noexcept;

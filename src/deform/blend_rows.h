@@ -1,4 +1,4 @@
-// The arrays of a blend, for the loops of blend.cpp and blend_avx2.cpp.
+// The arrays of a blend, for the loops of blend.cpp, blend_avx2.cpp and blend_avx512.cpp.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -7,15 +7,16 @@ namespace hf {
 
 struct BlendRows {
   const std::int32_t* start;  // by vertex
-  const std::int32_t* cluster;
-  const double* weight;
-  const double* transforms;  // 12 per cluster, row-major
-  const double* rest;        // 3 per vertex
+  const std::uint16_t* cluster;
+  const float* weight;
+  const double* columns;  // 16 per cluster: the four columns of its transform, padded
+  const double* rest;     // 3 per vertex
   double offset[3];
   double scale;
   double* positions;  // 3 per vertex
 };
 
 void blend_rows_avx2(const BlendRows& rows, std::int32_t first, std::int32_t last) noexcept;
+void blend_rows_avx512(const BlendRows& rows, std::int32_t first, std::int32_t last) noexcept;
 
 }  // namespace hf

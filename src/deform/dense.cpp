@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deform/lanes.h"
+
 namespace hf {
 namespace {
 
@@ -21,6 +23,55 @@ void dot_four(const double* a, const double* b0, const double* b1, const double*
   }
   if (k < count) s[0][0] += a[k] * b0[k], s[1][0] += a[k] * b1[k], s[2][0] += a[k] * b2[k], s[3][0] += a[k] * b3[k];
   for (int r = 0; r < 4; ++r) out[r] = s[r][0] + s[r][1];
+}
+
+// x <- L^-1 x, four columns side by side.
+HF_FOUR_LANES
+void solve_lower(const double* lower, const double* inverse_pivot, std::int32_t size, double* x) noexcept {
+  for (std::int32_t i = 0; i < size; ++i) {
+    const double* row = lower + static_cast<std::size_t>(size) * static_cast<std::size_t>(i);
+    double sum[4][4] = {};
+    std::int32_t j = 0;
+    for (; j + 4 <= i; j += 4) {
+      for (int u = 0; u < 4; ++u) {
+        for (int k = 0; k < 4; ++k) sum[u][k] += row[j + u] * x[4 * (j + u) + k];
+      }
+    }
+    for (; j < i; ++j) {
+      for (int k = 0; k < 4; ++k) sum[0][k] += row[j] * x[4 * j + k];
+    }
+    double* xi = x + 4 * i;
+    for (int k = 0; k < 4; ++k)
+      xi[k] = (xi[k] - ((sum[0][k] + sum[1][k]) + (sum[2][k] + sum[3][k]))) * inverse_pivot[i];
+  }
+}
+
+// x <- L^-T x: the rows of L from the last, two at a time.
+HF_FOUR_LANES
+void solve_upper(const double* lower, const double* inverse_pivot, std::int32_t size, double* x) noexcept {
+  std::int32_t i = size;
+  if (i % 2 == 1) {
+    --i;
+    const double* row = lower + static_cast<std::size_t>(size) * static_cast<std::size_t>(i);
+    double y[4];
+    for (int k = 0; k < 4; ++k) y[k] = x[4 * i + k] *= inverse_pivot[i];
+    for (std::int32_t j = 0; j < i; ++j) {
+      for (int k = 0; k < 4; ++k) x[4 * j + k] -= row[j] * y[k];
+    }
+  }
+  while (i > 0) {
+    i -= 2;
+    const double* first = lower + static_cast<std::size_t>(size) * static_cast<std::size_t>(i);
+    const double* second = first + size;
+    double y[4], z[4];
+    for (int k = 0; k < 4; ++k) {
+      z[k] = x[4 * i + 4 + k] *= inverse_pivot[i + 1];
+      y[k] = x[4 * i + k] = (x[4 * i + k] - second[i] * z[k]) * inverse_pivot[i];
+    }
+    for (std::int32_t j = 0; j < i; ++j) {
+      for (int k = 0; k < 4; ++k) x[4 * j + k] -= first[j] * y[k] + second[j] * z[k];
+    }
+  }
 }
 
 }  // namespace
@@ -62,33 +113,8 @@ void DenseFactor::factorise(Buffer<double>&& lower, std::int32_t size, Memory& m
 }
 
 void DenseFactor::solve(double* x) const noexcept {
-  const std::size_t stride = static_cast<std::size_t>(size_);
-  for (std::int32_t i = 0; i < size_; ++i) {
-    const double* row = lower_.data() + stride * static_cast<std::size_t>(i);
-    double even[4] = {0, 0, 0, 0}, odd[4] = {0, 0, 0, 0};
-    std::int32_t j = 0;
-    for (; j + 2 <= i; j += 2) {
-      const double a = row[j], b = row[j + 1];
-      const double *xa = x + 4 * j, *xb = xa + 4;
-      for (int k = 0; k < 4; ++k) even[k] += a * xa[k], odd[k] += b * xb[k];
-    }
-    if (j < i) {
-      for (int k = 0; k < 4; ++k) even[k] += row[j] * x[4 * j + k];
-    }
-    double* xi = x + 4 * i;
-    for (int k = 0; k < 4; ++k) xi[k] = (xi[k] - (even[k] + odd[k])) * inverse_pivot_[i];
-  }
-  for (std::int32_t i = size_ - 1; i >= 0; --i) {
-    const double* row = lower_.data() + stride * static_cast<std::size_t>(i);
-    double* xi = x + 4 * i;
-    double y[4];
-    for (int k = 0; k < 4; ++k) xi[k] *= inverse_pivot_[i], y[k] = xi[k];
-    for (std::int32_t j = 0; j < i; ++j) {
-      const double a = row[j];
-      double* xj = x + 4 * j;
-      for (int k = 0; k < 4; ++k) xj[k] -= a * y[k];
-    }
-  }
+  solve_lower(lower_.data(), inverse_pivot_.data(), size_, x);
+  solve_upper(lower_.data(), inverse_pivot_.data(), size_, x);
 }
 
 }  // namespace hf

@@ -1,26 +1,78 @@
 #include "deform/normals.h"
 
 #include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "deform/normals_avx2.h"
 
 namespace hf {
+namespace {
 
-void vertex_normals(const Mesh& mesh, const Rest& rest, const Vec3* positions, Vec3* triangle_normals, Vec3* normals,
+// Below, in squares of the box: rounding of the positions, not a direction.
+constexpr double smallest_length = 1e-36;
+
+void add_border_normals(const NormalRows& rows, const std::int32_t* corners, std::int32_t count, std::int32_t first,
+                        std::int32_t last) noexcept {
+  for (std::int32_t i = 0; i < count; ++i) {
+    const std::int32_t* corner = corners + 3 * static_cast<std::size_t>(i);
+    const double* p[3];
+    for (int k = 0; k < 3; ++k) p[k] = rows.positions + 3 * static_cast<std::size_t>(corner[k]);
+    double a[3], b[3];
+    for (int c = 0; c < 3; ++c) a[c] = rows.unit * (p[1][c] - p[0][c]), b[c] = rows.unit * (p[2][c] - p[0][c]);
+    const float n[3] = {static_cast<float>(a[1] * b[2] - a[2] * b[1]), static_cast<float>(a[2] * b[0] - a[0] * b[2]),
+                        static_cast<float>(a[0] * b[1] - a[1] * b[0])};
+    for (int k = 0; k < 3; ++k) {
+      if (corner[k] < first || corner[k] >= last) continue;
+      float* sum = rows.sums + 4 * static_cast<std::size_t>(corner[k]);
+      for (int c = 0; c < 3; ++c) sum[c] += n[c];
+    }
+  }
+}
+
+void add_inner_normals(const NormalRows& rows, const std::int32_t* corners, std::int32_t count) noexcept {
+  add_border_normals(rows, corners, count, 0, std::numeric_limits<std::int32_t>::max());
+}
+
+void normalise(const NormalRows& rows, std::int32_t first, std::int32_t last) noexcept {
+  for (std::int32_t v = first; v < last; ++v) {
+    const float* sum = rows.sums + 4 * static_cast<std::size_t>(v);
+    float* normal = rows.normals + 3 * static_cast<std::size_t>(v);
+    const float x = sum[0], y = sum[1], z = sum[2], square = x * x + y * y + z * z;
+    if (square > shortest_sum * shortest_sum && square < longest_sum * longest_sum) {
+      const float s = 1.0f / std::sqrt(square);
+      normal[0] = s * x, normal[1] = s * y, normal[2] = s * z;
+      continue;
+    }
+    const double dx = x, dy = y, dz = z, length = std::sqrt(dx * dx + dy * dy + dz * dz);
+    const bool directed = length > smallest_length && std::isfinite(length);
+    const double s = directed ? 1.0 / length : 0.0;
+    normal[0] = static_cast<float>(s * dx), normal[1] = static_cast<float>(s * dy);
+    normal[2] = directed ? static_cast<float>(s * dz) : 1.0f;
+    if (!directed) normal[0] = normal[1] = 0;
+  }
+}
+
+}  // namespace
+
+void vertex_normals(const Mesh& mesh, const Rest& rest, const Vec3* positions, NormalSum* sums, Normal* normals,
                     JobRunner& jobs) {
-  for_vertex_pieces(jobs, mesh.triangle_count(), [&](std::int32_t first, std::int32_t last) {
-    for (std::int32_t t = first; t < last; ++t) {
-      const std::int32_t* corner = mesh.triangle(t);
-      const Vec3 p = positions[corner[0]];
-      triangle_normals[t] = cross(positions[corner[1]] - p, positions[corner[2]] - p);
-    }
-  });
+  static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(NormalSum) == 4 * sizeof(float));
+  static_assert(sizeof(Normal) == 3 * sizeof(float));
+  const NormalRows rows{&positions->x, 1.0 / mesh.scale, sums->component, &normals->x};
+  auto* add_inner = &add_inner_normals;
+  auto* add_border = &add_border_normals;
+#ifdef HF_DEFORM_AVX2
+  if (__builtin_cpu_supports("avx2")) add_inner = &add_inner_normals_avx2, add_border = &add_border_normals_avx2;
+#endif
   for_vertex_pieces(jobs, mesh.vertex_count(), [&](std::int32_t first, std::int32_t last) {
-    for (std::int32_t v = first; v < last; ++v) {
-      Vec3 sum;
-      for (std::int32_t k = rest.incident_start[v]; k < rest.incident_start[v + 1]; ++k)
-        sum = sum + triangle_normals[rest.incident[k]];
-      const double length = std::sqrt(dot(sum, sum));
-      normals[v] = length > 1e-150 && length < 1e150 ? (1.0 / length) * sum : Vec3{0, 0, 1};
-    }
+    const std::int32_t piece = first / vertex_piece, begin = rest.piece_start[piece],
+                       border = rest.piece_border[piece], end = rest.piece_start[piece + 1];
+    const std::int32_t* corners = rest.piece_corner.data();
+    std::memset(static_cast<void*>(sums + first), 0, static_cast<std::size_t>(last - first) * sizeof(NormalSum));
+    add_inner(rows, corners + 3 * static_cast<std::size_t>(begin), border - begin);
+    add_border(rows, corners + 3 * static_cast<std::size_t>(border), end - border, first, last);
+    normalise(rows, first, last);
   });
 }
 

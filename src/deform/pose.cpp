@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "base/timer.h"
-#include "deform/normals.h"
 
 namespace hf {
 namespace {
@@ -272,6 +271,7 @@ void Pose::carry_handle(const Handle& handle, HandleState& state) const {
 std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
   auto state = make_shared_in<State>(memory(), memory());
   state->transforms.assign(static_cast<std::size_t>(layout.weights.cluster_count), Affine());
+  state->columns.allocate(memory(), column_count(layout.weights));
   for (const Handle& handle : layout.handles) {
     const std::int32_t old = find(handle.number);
     HandleState carried;
@@ -410,10 +410,10 @@ void Pose::prepare(const DeformRequest& request) {
   if (!layout_) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
   require_range(request.iteration_count, 1, 1000, "iteration_count");
   const Mesh& mesh = core_->mesh;
-  if (request.normals && normals_.empty()) {
-    Buffer<Vec3> normals(memory(), static_cast<std::size_t>(mesh.vertex_count()));
-    triangle_normals_.reserve_at_least(memory(), static_cast<std::size_t>(mesh.triangle_count()));
-    normals_ = std::move(normals);
+  if (request.normals) {
+    const std::size_t n = static_cast<std::size_t>(mesh.vertex_count());
+    normal_sums_.reserve_at_least(memory(), n);
+    if (!request.packed_normals) normals_.reserve_at_least(memory(), n);
   }
   if (request.refine && !refinement_) {
     if (core_->refinements > 0)
@@ -425,8 +425,8 @@ void Pose::prepare(const DeformRequest& request) {
 
 void Pose::ensure_surface() const {
   if (!stale_) return;
-  blend(core_->mesh, layout_->weights, state_->transforms.data(), core_->mesh.centre, core_->mesh.scale,
-        positions_.data(), *core_->jobs);
+  blend(core_->mesh, layout_->weights, state_->transforms.data(), state_->columns.data(), core_->mesh.centre,
+        core_->mesh.scale, positions_.data(), nullptr, *core_->jobs);
   stale_ = false;
 }
 
@@ -444,7 +444,10 @@ void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
   report.last_change = state_->last_change;
   if (!request.surface) return;
   const Timer blend_timer;
-  blend(mesh, layout_->weights, state_->transforms.data(), mesh.centre, mesh.scale, positions_.data(), *core_->jobs);
+  float* packed = request.refine ? nullptr : request.packed_positions;
+  blend(mesh, layout_->weights, state_->transforms.data(), state_->columns.data(), mesh.centre, mesh.scale,
+        positions_.data(), packed, *core_->jobs);
+  report.packed_positions = packed != nullptr;
   report.blend_ms = blend_timer.milliseconds();
   if (request.refine) {
     const Timer refine_timer;
@@ -463,8 +466,9 @@ void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
   report.positions = {positions_.data(), positions_.size()};
   if (request.normals) {
     const Timer normal_timer;
-    vertex_normals(mesh, *rest_, positions_.data(), triangle_normals_.data(), normals_.data(), *core_->jobs);
-    report.normals = {normals_.data(), normals_.size()};
+    Normal* normals = request.packed_normals ? request.packed_normals : normals_.data();
+    vertex_normals(mesh, *rest_, positions_.data(), normal_sums_.data(), normals, *core_->jobs);
+    report.normals = {normals, positions_.size()};
     report.normal_ms = normal_timer.milliseconds();
   }
 }

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "deform/normals.h"
 #include "deform/paper_scheme.h"
 #include "deform/pose_solver.h"
 #include "deform/refine.h"
@@ -47,11 +48,14 @@ struct DeformRequest {
   bool restart = false;               // forget the last pose, turns beyond 180 degrees included
   bool refine = false;                // one full-mesh step on top (refine.h); needs a second-order operator
   bool surface = true;                // false: transforms only; ask blended() for the vertices wanted
+  float* packed_positions = nullptr;  // three per inner vertex: written on the way where that is possible
+  Normal* packed_normals = nullptr;   // per inner vertex: normals go there instead of the pose's own memory
 };
 
 struct DeformReport {
   Span<const Vec3> positions;  // per inner vertex, in the unit and frame of the mesh as given
-  Span<const Vec3> normals;    // unit; empty when not asked for
+  Span<const Normal> normals;  // unit; empty when not asked for
+  bool packed_positions = false;  // those of the request were written
   std::uint32_t iteration_count = 0, cluster_count = 0, unreached_vertex_count = 0;
   double last_change = 0, solve_ms = 0, blend_ms = 0, normal_ms = 0, refine_ms = 0;
 };
@@ -127,6 +131,7 @@ class Pose {
     State(const State& other, Memory& memory)
         : handles(other.handles, &memory),
           transforms(other.transforms, &memory),
+          columns(memory, other.columns.size()),
           smooth(other.smooth, memory),
           paper(other.paper, memory),
           started(other.started),
@@ -135,6 +140,7 @@ class Pose {
           idle_iterations(other.idle_iterations) {}
     Vector<HandleState> handles;  // like Layout::handles
     Vector<Affine> transforms;    // per cluster
+    Buffer<double> columns;       // scratch of the blend
     SmoothState smooth;
     PaperState paper;
     bool started = false;  // a pose to go on from
@@ -169,7 +175,8 @@ class Pose {
   std::shared_ptr<const Layout> previous_layout_;  // before the last handles were added
   std::shared_ptr<const State> previous_state_;
   mutable Buffer<Vec3> positions_;
-  Buffer<Vec3> normals_, triangle_normals_;
+  Buffer<Normal> normals_;
+  Buffer<NormalSum> normal_sums_;
   Buffer<Vec3> turns_;                      // scratch, handle_limit
   bool posed_ = false;                      // there is a last pose
   mutable bool stale_ = false;              // positions_ do not hold it: only transforms were asked for

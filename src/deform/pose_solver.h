@@ -29,12 +29,13 @@ struct SmoothSystem {
 // What a solve leaves for the next.
 struct SmoothState {
   explicit SmoothState(Memory& memory)
-      : rotation(&memory), anchor(&memory), matrix(&memory), unknown(&memory), known(&memory) {}
+      : rotation(&memory), anchor(&memory), matrix(&memory), columns(&memory), rows(&memory), known(&memory) {}
   SmoothState(const SmoothState& other, Memory& memory)
       : rotation(other.rotation, &memory),
         anchor(other.anchor, &memory),
         matrix(other.matrix, &memory),
-        unknown(other.unknown, &memory),
+        columns(other.columns, &memory),
+        rows(other.rows, &memory),
         known(other.known, &memory),
         leash(other.leash) {}
   // Makes room for a system; rotations of groups that were there stay.
@@ -42,7 +43,8 @@ struct SmoothState {
   Vector<Quaternion> rotation;  // per group of Groups
   Vector<Quaternion> anchor;    // per active group: where the leash ends, set while it is shorter than pi
   Vector<Mat3> matrix;          // per active group
-  Vector<double> unknown;       // 4 x 4 doubles per free cluster: rows of X, padded
+  Vector<double> columns;       // the same, three columns of four numbers each
+  Vector<double> rows;          // 4 x 4 doubles per cluster, handles first: rows of X, padded
   Vector<double> known;         // the handles' part of the right-hand side
   double leash = 10;            // radians
 };

@@ -250,7 +250,7 @@ bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_chang
   layer.report = DeformReport();
   if (!layer.edited_stale) return false;
   DeformRequest own = request;
-  own.normals = false, own.restart = false, own.surface = true;
+  own.normals = false, own.restart = false, own.surface = true, own.packed_positions = nullptr;
   if (own.iteration_count == 0) own.iteration_count = base_->options().iteration_count;
   own.iteration_count = std::max(own.iteration_count, least_iterations);
 
@@ -321,10 +321,9 @@ DeformReport PoseStack::deform(const DeformRequest& request) {
     return base_->deform(request);
   }
   const std::size_t n = static_cast<std::size_t>(core_->size());
-  if (request.normals && normals_.empty()) {
-    Buffer<Vec3> normals(memory(), n);
-    triangle_normals_.reserve_at_least(memory(), static_cast<std::size_t>(core_->mesh.triangle_count()));
-    normals_ = std::move(normals);
+  if (request.normals) {
+    normal_sums_.reserve_at_least(memory(), n);
+    if (!request.packed_normals) normals_.reserve_at_least(memory(), n);
   }
   if (request.restart) {
     for (Entry& entry : entries_) entry.turn = logarithm(entry.edit.rotation);
@@ -334,7 +333,7 @@ DeformReport PoseStack::deform(const DeformRequest& request) {
   bool changed = base_stale_ || request.restart || request.refine != refined_;
   if (base_->handle_count() > 0) {
     DeformRequest own = request;
-    own.normals = false, own.surface = true;
+    own.normals = false, own.surface = true, own.packed_positions = nullptr;
     report = base_->deform(own);
     surface = report.positions;
     changed = changed || report.iteration_count > 0;
@@ -361,8 +360,9 @@ DeformReport PoseStack::deform(const DeformRequest& request) {
   report.normals = {};
   if (request.normals) {
     const Timer normal_timer;
-    vertex_normals(core_->mesh, base_->rest(), surface.data(), triangle_normals_.data(), normals_.data(), *core_->jobs);
-    report.normals = {normals_.data(), n};
+    Normal* normals = request.packed_normals ? request.packed_normals : normals_.data();
+    vertex_normals(core_->mesh, base_->rest(), surface.data(), normal_sums_.data(), normals, *core_->jobs);
+    report.normals = {normals, n};
     report.normal_ms = normal_timer.milliseconds();
   }
   return report;

@@ -90,7 +90,9 @@ class PoseStack {
   std::shared_ptr<Pose> base_;
   Vector<Entry> entries_;
   std::array<std::shared_ptr<Layer>, layer_limit> layers_;  // [0] unused
-  Buffer<Vec3> rest_, normals_, triangle_normals_;
+  Buffer<Vec3> rest_;
+  Buffer<Normal> normals_;
+  Buffer<NormalSum> normal_sums_;
   bool base_stale_ = true, refined_ = false;
 };
 

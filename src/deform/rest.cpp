@@ -20,15 +20,29 @@ void sort_components(const Mesh& mesh, Rest& rest) {
     ++rest.component_triangles[mesh.component[mesh.triangle(t)[0]]];
 }
 
-void find_incident_triangles(const Mesh& mesh, Rest& rest) {
-  const std::int32_t n = mesh.vertex_count(), triangles = mesh.triangle_count();
-  rest.incident_start.assign(n + 1, 0);
-  rest.incident.resize(mesh.corners.size());
-  for (const std::int32_t v : mesh.corners) ++rest.incident_start[v + 1];
-  for (std::int32_t v = 0; v < n; ++v) rest.incident_start[v + 1] += rest.incident_start[v];
-  Vector<std::int32_t> next(rest.incident_start, rest.incident_start.get_allocator());
-  for (std::int32_t t = 0; t < triangles; ++t) {
-    for (int k = 0; k < 3; ++k) rest.incident[next[mesh.triangle(t)[k]]++] = t;
+void list_triangles_by_piece(const Mesh& mesh, Rest& rest) {
+  const std::int32_t pieces = (mesh.vertex_count() + vertex_piece - 1) / vertex_piece;
+  const auto for_entries = [&](bool border, auto&& use) {
+    for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
+      const std::int32_t* k = mesh.triangle(t);
+      const std::int32_t a = k[0] / vertex_piece, b = k[1] / vertex_piece, c = k[2] / vertex_piece;
+      if ((b != a || c != a) != border) continue;
+      use(a, k);
+      if (b != a) use(b, k);
+      if (c != a && c != b) use(c, k);
+    }
+  };
+  rest.piece_start.assign(pieces + 1, 0);
+  for (const bool border : {false, true})
+    for_entries(border, [&](std::int32_t piece, const std::int32_t*) { ++rest.piece_start[piece + 1]; });
+  for (std::int32_t p = 0; p < pieces; ++p) rest.piece_start[p + 1] += rest.piece_start[p];
+  rest.piece_corner.resize(3 * static_cast<std::size_t>(rest.piece_start[pieces]));
+  Vector<std::int32_t> next(rest.piece_start, rest.piece_start.get_allocator());
+  for (const bool border : {false, true}) {
+    for_entries(border, [&](std::int32_t piece, const std::int32_t* corner) {
+      std::copy_n(corner, 3, rest.piece_corner.data() + 3 * static_cast<std::size_t>(next[piece]++));
+    });
+    if (!border) rest.piece_border.assign(next.begin(), next.end() - 1);
   }
 }
 
@@ -40,11 +54,12 @@ Rest::Rest(const Core& core, Memory& memory)
       component_triangles(&memory),
       component_area(&memory),
       area(vertex_areas(core.mesh, memory)),
-      incident_start(&memory),
-      incident(&memory),
+      piece_start(&memory),
+      piece_border(&memory),
+      piece_corner(&memory),
       stiffness(core.weights.begin(), core.weights.end(), &memory) {
   sort_components(core.mesh, *this);
-  find_incident_triangles(core.mesh, *this);
+  list_triangles_by_piece(core.mesh, *this);
   for (double& w : stiffness) w = std::clamp(w, 0.01, 25.0);
 }
 

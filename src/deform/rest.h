@@ -1,5 +1,5 @@
-// The surface at rest as deformation needs it: vertex areas, vertices by component, triangles round a vertex, edge
-// stiffness. Made once per pose, shared by its clones. Cost O(n). On failure nothing is left behind.
+// The surface at rest as deformation needs it: vertex areas, vertices by component, triangles at a piece of vertices,
+// edge stiffness. Made once per pose, shared by its clones. Cost O(n). On failure nothing is left behind.
 #pragma once
 #include <cstdint>
 
@@ -16,9 +16,11 @@ struct Rest {
   Vector<std::int32_t> component_triangles;  // number of triangles per component
   Vector<double> component_area;
   Vector<double> area;  // lumped, per vertex
-  // Triangles round vertex v: incident[incident_start[v] .. incident_start[v + 1]), ascending.
-  Vector<std::int32_t> incident_start;
-  Vector<std::int32_t> incident;
+  // Corners of the triangles at piece k of the vertices (for_vertex_pieces), three each: piece_corner[3 * i], i from
+  // piece_start[k] to piece_start[k + 1]. Those with all corners in the piece come first, up to piece_border[k]; those
+  // at a border are in the lists of all its pieces.
+  Vector<std::int32_t> piece_start, piece_border;
+  Vector<std::int32_t> piece_corner;
   // Edge weights of the elastic energy: the operator's, kept in [0.01, 25]. Negative ones would reward collapse, huge
   // ones come from triangles without area.
   Vector<double> stiffness;

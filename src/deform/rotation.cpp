@@ -143,28 +143,13 @@ double trace_of_product(const Mat3& a, const Mat3& b) noexcept {
   return sum;
 }
 
-Quaternion operator*(const Quaternion& a, const Quaternion& b) noexcept {
-  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
-}
-
-Quaternion normalised(const Quaternion& q) noexcept {
+Quaternion normalised_far(const Quaternion& q) noexcept {
   const double largest =
       std::fmax(std::fmax(std::fabs(q.x), std::fabs(q.y)), std::fmax(std::fabs(q.z), std::fabs(q.w)));
   if (!(largest > 0) || !std::isfinite(q.x + q.y + q.z + q.w)) return {};
   const double x = q.x / largest, y = q.y / largest, z = q.z / largest, w = q.w / largest;
   const double s = 1.0 / std::sqrt(x * x + y * y + z * z + w * w);
   return {s * x, s * y, s * z, s * w};
-}
-
-Mat3 to_matrix(const Quaternion& q) noexcept {
-  Mat3 r;
-  const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, ww = q.w * q.w;
-  const double xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z, xw = q.x * q.w, yw = q.y * q.w, zw = q.z * q.w;
-  r.m[0][0] = ww + xx - yy - zz, r.m[0][1] = 2 * (xy - zw), r.m[0][2] = 2 * (xz + yw);
-  r.m[1][0] = 2 * (xy + zw), r.m[1][1] = ww - xx + yy - zz, r.m[1][2] = 2 * (yz - xw);
-  r.m[2][0] = 2 * (xz - yw), r.m[2][1] = 2 * (yz + xw), r.m[2][2] = ww - xx - yy + zz;
-  return r;
 }
 
 Quaternion to_quaternion(const Mat3& r) noexcept {

@@ -9,6 +9,7 @@
 // Cost: about 0.3 us warm (Newton on the rotation vector), 1.2 us cold (Jacobi sweeps). Nothing here allocates or
 // fails; non-finite input gives the rotation it was to be near to.
 #pragma once
+#include <cmath>
 #include <cstdint>
 
 #include "base/span.h"
@@ -43,14 +44,32 @@ inline void add_outer(Mat3& a, double w, Vec3 x, Vec3 p) noexcept {
 struct Quaternion {
   double x = 0, y = 0, z = 0, w = 1;
 };
-Quaternion operator*(const Quaternion& a, const Quaternion& b) noexcept;  // first b, then a
+// First b, then a.
+inline Quaternion operator*(const Quaternion& a, const Quaternion& b) noexcept {
+  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
 inline Quaternion conjugate(const Quaternion& q) noexcept { return {-q.x, -q.y, -q.z, q.w}; }
 inline double dot(const Quaternion& a, const Quaternion& b) noexcept {
   return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
 }
 // Unit length whatever the length was; the identity for zero or non-finite input.
-Quaternion normalised(const Quaternion& q) noexcept;
-Mat3 to_matrix(const Quaternion& q) noexcept;
+Quaternion normalised_far(const Quaternion& q) noexcept;  // where squares leave the range of a double
+inline Quaternion normalised(const Quaternion& q) noexcept {
+  const double square = dot(q, q);
+  if (!(square > 1e-200 && square < 1e200)) return normalised_far(q);
+  const double s = 1.0 / std::sqrt(square);
+  return {s * q.x, s * q.y, s * q.z, s * q.w};
+}
+inline Mat3 to_matrix(const Quaternion& q) noexcept {
+  Mat3 r;
+  const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, ww = q.w * q.w;
+  const double xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z, xw = q.x * q.w, yw = q.y * q.w, zw = q.z * q.w;
+  r.m[0][0] = ww + xx - yy - zz, r.m[0][1] = 2 * (xy - zw), r.m[0][2] = 2 * (xz + yw);
+  r.m[1][0] = 2 * (xy + zw), r.m[1][1] = ww - xx + yy - zz, r.m[1][2] = 2 * (yz - xw);
+  r.m[2][0] = 2 * (xz - yw), r.m[2][1] = 2 * (yz + xw), r.m[2][2] = ww - xx - yy + zz;
+  return r;
+}
 Quaternion to_quaternion(const Mat3& rotation) noexcept;
 Vec3 rotate(const Quaternion& q, Vec3 v) noexcept;
 // Angle of a b^-1, 0 to pi, accurate for small angles.

@@ -49,6 +49,7 @@ class Assembly {
     std::fill(lower_.begin(), lower_.end(), 0.0);
     out_.coupling.allocate(memory_, size * 4 * static_cast<std::size_t>(weights_.handle_count));
     std::fill(out_.coupling.begin(), out_.coupling.end(), 0.0);
+    list_uses();
     for (std::int32_t e = 0; e < core_.topology.edge_count(); ++e) add_edge(e);
     add_areas();
     add_rigidity();
@@ -137,6 +138,23 @@ class Assembly {
     }
   }
 
+  void list_uses() {
+    out_.use_start.assign(weights_.free_count() + 1, 0);
+    const auto for_entries = [&](auto&& use) {
+      for (std::size_t g = 0; g < out_.group.size(); ++g) {
+        for (std::int32_t k = out_.entry_start[g]; k < out_.entry_start[g + 1]; ++k) {
+          const std::int32_t f = out_.entry[k].cluster - weights_.handle_count;
+          if (f >= 0) use(f, Subspace::Use{k, static_cast<std::int32_t>(g)});
+        }
+      }
+    };
+    for_entries([&](std::int32_t f, Subspace::Use) { ++out_.use_start[f + 1]; });
+    for (std::int32_t f = 0; f < weights_.free_count(); ++f) out_.use_start[f + 1] += out_.use_start[f];
+    out_.use.resize(out_.use_start.back());
+    Vector<std::int32_t> next(out_.use_start, &memory_);
+    for_entries([&](std::int32_t f, Subspace::Use use) { out_.use[next[f]++] = use; });
+  }
+
   Subspace::Entry& entry(std::int32_t group, std::int32_t cluster) noexcept {
     return out_.entry[entry_of_[static_cast<std::size_t>(slot_of_group_[group]) *
                                     static_cast<std::size_t>(weights_.cluster_count) +
@@ -164,7 +182,7 @@ class Assembly {
   double handle_share(std::int32_t v) const noexcept {
     double largest = 0;
     for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k) {
-      if (weights_.cluster[k] < weights_.handle_count) largest = std::max(largest, weights_.weight[k]);
+      if (weights_.cluster[k] < weights_.handle_count) largest = std::max<double>(largest, weights_.weight[k]);
     }
     return largest;
   }

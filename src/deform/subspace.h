@@ -35,6 +35,8 @@ struct Subspace {
       : group(&memory),
         entry_start(&memory),
         entry(&memory),
+        use_start(&memory),
+        use(&memory),
         mean_start(&memory),
         mean(&memory),
         stiffness(&memory),
@@ -54,6 +56,13 @@ struct Subspace {
   Vector<std::int32_t> group;        // groups of the elastic components, ascending
   Vector<std::int32_t> entry_start;  // entries of group[k]: entry[entry_start[k] .. entry_start[k + 1])
   Vector<Entry> entry;
+  // The entries of free cluster f and their groups (positions in Subspace::group), by group: use[use_start[f] ..
+  // use_start[f + 1]).
+  struct Use {
+    std::int32_t entry, group;
+  };
+  Vector<std::int32_t> use_start;
+  Vector<Use> use;
   Vector<std::int32_t> mean_start;  // groups under free cluster f: mean[mean_start[f] .. mean_start[f + 1])
   Vector<Share> mean;
   Vector<double> stiffness;  // eps_c per free cluster

@@ -100,19 +100,21 @@ TEST(Drag, AThousandFramesAllocateNothing) {
 
 TEST(Drag, BitsDoNotDependOnTheNumberOfThreads) {
   for (const int mode : {0, 1}) {
-    std::vector<Vec3> first, first_normals;
+    std::vector<Vec3> first;
+    std::vector<Normal> first_normals;
     for (const std::uint32_t threads : {1u, 2u, 4u}) {
       const Case c = cactus_bend(70, 9000);
       PoseOptions options;
       options.mode = static_cast<DeformMode>(mode);
       Dragged d = drag(c, options, 10, 5, threads);
       d.report = d.pose->deform({true, 5, false});
-      const std::vector<Vec3> x = positions(d.report), n(d.report.normals.begin(), d.report.normals.end());
+      const std::vector<Vec3> x = positions(d.report);
+      const std::vector<Normal> n(d.report.normals.begin(), d.report.normals.end());
       if (threads == 1) {
         first = x, first_normals = n;
       } else {
         EXPECT_EQ(std::memcmp(x.data(), first.data(), x.size() * sizeof(Vec3)), 0);
-        EXPECT_EQ(std::memcmp(n.data(), first_normals.data(), n.size() * sizeof(Vec3)), 0);
+        EXPECT_EQ(std::memcmp(n.data(), first_normals.data(), n.size() * sizeof(Normal)), 0);
       }
     }
   }

@@ -1,0 +1,23 @@
+// The arrays of normals.cpp and normals_avx2.cpp.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace hf {
+
+struct NormalRows {
+  const double* positions;  // 3 per vertex
+  double unit;              // 1 / the mesh's scale
+  float* sums;              // 4 per vertex
+  float* normals;           // 3 per vertex
+};
+
+// Sums of such a length can be squared in single precision.
+constexpr float shortest_sum = 1e-15f, longest_sum = 1e15f;
+
+// Adds the normals of triangles, three corners each, to the sums of their corners, or of those in first .. last only.
+void add_inner_normals_avx2(const NormalRows& rows, const std::int32_t* corners, std::int32_t count) noexcept;
+void add_border_normals_avx2(const NormalRows& rows, const std::int32_t* corners, std::int32_t count,
+                             std::int32_t first, std::int32_t last) noexcept;
+
+}  // namespace hf
