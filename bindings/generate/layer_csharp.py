@@ -2,7 +2,8 @@
 
 from layout import is_pointer
 
-TYPES = {"int32_t": "int", "uint32_t": "uint", "hf_result": "int", "float": "float", "double": "double", "size_t": "UIntPtr", "char": "byte",
+TYPES = {"int32_t": "int", "uint32_t": "uint", "hf_result": "int", "float": "float", "double": "double",
+    "size_t": "UIntPtr", "char": "byte",
          "uint8_t": "byte", "void": "void"}
 RESERVED = {"operator", "params", "ref", "out", "in", "object", "base", "fixed", "lock", "event"}
 

@@ -4,7 +4,8 @@ import json
 
 from layout import is_pointer, lay_out
 
-TYPES = {"int32_t": "i32", "uint32_t": "u32", "hf_result": "i32", "float": "f32", "double": "f64", "size_t": "size", "char": "char",
+TYPES = {"int32_t": "i32", "uint32_t": "u32", "hf_result": "i32", "float": "f32", "double": "f64", "size_t": "size",
+    "char": "char",
          "uint8_t": "u8"}
 
 
@@ -15,7 +16,8 @@ def kind(api, item):
 def write(api):
     out = ["// Generated from include/hf/*.h by bindings/generate; do not edit. The C ABI: constants, layouts, signatures.", "",
            f"export const headerVersion = {json.dumps(api['version'])};", "",
-           "export const constants = Object.freeze({", *[f"  {c['name']}: {c['value']}," for c in api["constants"]], "});", "",
+           "export const constants = Object.freeze({", *[f"  {c['name']}: {c['value']},"
+               for c in api["constants"]], "});", "",
            "// struct: size and fields, [type, offset, count]; first for pointers of 4 bytes (WebAssembly), then of 8.",
            "export const layouts = {"]
     for struct in api["structs"]:
@@ -31,7 +33,8 @@ def write(api):
     for function in api["functions"]:
         returns = function["returns"]
         result = "string" if returns["type"] == "char" else "void" if returns["type"] == "void" else kind(api, returns)
-        parameters = ", ".join("'handle'" if p["pointer"] == 0 and kind(api, p) == "ptr" else f"'{kind(api, p)}'" for p in function["parameters"])
+        parameters = ", ".join("'handle'" if p["pointer"] == 0 and kind(api, p) == "ptr" else f"'{kind(api, p)}'"
+            for p in function["parameters"])
         out.append(f"  {function['name']}: ['{result}', [{parameters}]],")
     out += ["};"]
     exports = ",".join(["_malloc", "_free"] + ["_" + f["name"] for f in api["functions"]])

@@ -29,14 +29,16 @@ def write(api):
            f'HEADER_VERSION = "{api["version"]}"', ""]
     out += [f"{c['name']} = {c['value']}" for c in api["constants"]]
     out += ["", "RESULT_NAMES = {",
-            *[f"    {c['value']}: \"{c['name']}\"," for c in api["constants"] if c["name"] == "HF_OK" or c["name"].startswith("HF_ERROR_")],
+            *[f"    {c['value']}: \"{c['name']}\"," for c in api["constants"] if c["name"] == "HF_OK"
+                or c["name"].startswith("HF_ERROR_")],
             "}", ""]
     for struct in api["structs"]:
         out += ["", f"class {struct['name']}(Structure):"]
         if struct["doc"]:
             out.append(f'    """{struct["doc"]}"""')
         out += [f"    {f['name']}: {hint(api, f)}" for f in struct["fields"]]
-        out += ["    _fields_ = [", *[f"        (\"{f['name']}\", {ctype(api, f)})," for f in struct["fields"]], "    ]", ""]
+        out += ["    _fields_ = [", *[f"        (\"{f['name']}\", {ctype(api, f)})," for f in struct["fields"]],
+            "    ]", ""]
     out += ["", "STRUCTS = [" + ", ".join(s["name"] for s in api["structs"]) + "]", "",
             "# name: (result type, argument types); every pointer and handle is a c_void_p", "PROTOTYPES = {"]
     for function in api["functions"]:

@@ -12,7 +12,8 @@ import pathlib
 import re
 import sys
 
-SCALARS = {"int32_t", "uint32_t", "int64_t", "uint64_t", "size_t", "float", "double", "char", "void", "uint8_t", "hf_result"}
+SCALARS = {"int32_t", "uint32_t", "int64_t", "uint64_t", "size_t", "float", "double", "char", "void", "uint8_t",
+    "hf_result"}
 
 
 class HeaderError(Exception):
@@ -39,7 +40,8 @@ def parse_type(text, where):
 def parse_declarators(text, where, constants):
     """'double a, b[3]' -> fields."""
     if "(*" in text:
-        return [{"name": re.search(r"\(\*(\w+)\)", text).group(1), "type": "function", "pointer": 0, "const": False, "count": 0}]
+        return [{"name": re.search(r"\(\*(\w+)\)", text).group(1), "type": "function", "pointer": 0, "const": False,
+            "count": 0}]
     parts = [part.strip() for part in text.split(",")]
     first = re.match(r"(.*?[\s*])(\w+)(?:\[(\w+)\])?$", parts[0], re.S)
     if not first:
@@ -47,7 +49,8 @@ def parse_declarators(text, where, constants):
     base = parse_type(first.group(1), where)
     fields = []
     for index, part in enumerate(parts):
-        name, count = (first.group(2), first.group(3)) if index == 0 else re.match(r"(\w+)(?:\[(\w+)\])?$", part).groups()
+        name, count = (first.group(2), first.group(3)) if index == 0 else re.match(r"(\w+)(?:\[(\w+)\])?$",
+            part).groups()
         size = 0 if count is None else int(count) if count.isdigit() else constants[count]
         fields.append({"name": name, **base, "count": size})
     return fields

@@ -258,7 +258,8 @@ class Scene
             var array = (double[])result;
             if (step.ContainsKey("expect")) Compare(array, (Map)step["expect"]);
             if (step.ContainsKey("same_as"))
-                Expect(Bits(array).SequenceEqual(Bits((double[])kept[(string)step["same_as"]])), "differs from " + step["same_as"]);
+                Expect(Bits(array).SequenceEqual(Bits((double[])kept[(string)step["same_as"]])),
+                    "differs from " + step["same_as"]);
             if (step.ContainsKey("keep")) kept[(string)step["keep"]] = array;
         }
         else if (result is uint[] && step.ContainsKey("numbers"))

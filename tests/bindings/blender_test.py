@@ -271,7 +271,7 @@ active(arm)
 assert bpy.ops.hf.field(high="hf high", low="hf low", output="COLOUR", name="strips") == {"FINISHED"}
 camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
 scene.collection.objects.link(camera)
-camera.matrix_world = Matrix.Translation((1.2, -19, 4.5)) @ Quaternion((1, 0, 0), math.radians(84)).to_matrix().to_4x4()
+camera.matrix_world = Matrix.Translation((0.2, -21, 4.8)) @ Quaternion((1, 0, 0), math.radians(84)).to_matrix().to_4x4()
 scene.camera = camera
 scene.render.engine = "BLENDER_WORKBENCH"
 scene.display.shading.light, scene.display.shading.color_type = "STUDIO", "VERTEX"

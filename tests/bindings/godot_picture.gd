@@ -1,20 +1,12 @@
-# A picture of a glb posed by hf_deformer.gd: godot3-runner --path PROJECT -s godot_picture.gd, under Xvfb; writes $HF_PICTURE.
+# A picture of a glb posed by hf_deformer.gd: godot3-runner --path PROJECT -s godot_picture.gd, under Xvfb; writes
+# $HF_PICTURE.
 extends SceneTree
 
 const Deformer = preload("res://hf/hf_deformer.gd")
 
-func mesh_of(node):
-	if node is MeshInstance:
-		return node.mesh
-	for child in node.get_children():
-		var found = mesh_of(child)
-		if found:
-			return found
-	return null
-
 func shown(x):
 	var deformer = Deformer.new()
-	deformer.mesh = mesh_of(load("res://model.glb").instance())
+	deformer.mesh = Deformer.mesh_in(load("res://model.glb").instance())
 	deformer.translation.x = x
 	get_root().add_child(deformer)
 	return deformer

@@ -27,7 +27,8 @@ def digest(array):
     """The figures of an array that every language compares."""
     a = np.asarray(array, np.float64).ravel()
     weights = np.arange(a.size) % 7 + 1
-    return {"count": int(a.size), "sum": math.fsum(a), "weighted": math.fsum(a * weights), "min": float(a.min()) if a.size else 0.0,
+    return {"count": int(a.size), "sum": math.fsum(a), "weighted": math.fsum(a * weights), "min": float(a.min())
+        if a.size else 0.0,
             "max": float(a.max()) if a.size else 0.0}
 
 
@@ -38,7 +39,8 @@ def check_array(array, expect):
     assert np.isfinite(flat).all(), "not finite"
     for key in ("count", "sum", "weighted", "min", "max"):
         if key in expect:
-            room = {"count": 0, "sum": tolerance * flat.size + 1e-9, "weighted": 7 * tolerance * flat.size + 1e-9}.get(key, tolerance)
+            room = {"count": 0, "sum": tolerance * flat.size + 1e-9, "weighted": 7 * tolerance * flat.size
+                + 1e-9}.get(key, tolerance)
             assert abs(found[key] - expect[key]) <= room, f"{key} is {found[key]!r}, not {expect[key]!r}"
     for place, value in zip(expect.get("at", ()), expect.get("values", ())):
         assert abs(flat[place] - value) <= tolerance, f"[{place}] is {flat[place]!r}, not {value!r}"
@@ -75,13 +77,15 @@ class Scene:
             factor = self.kept[step["factor"]] if "factor" in step else None
             if factor is not None and "damage" in step:
                 factor = bytes(b ^ (1 if i == step["damage"] else 0) for i, b in enumerate(factor))
-            self.objects[step["as"]] = hf.Solver(None if positions is None else np.array(positions, np.float64), triangles, saved_factor=factor, **options)
+            self.objects[step["as"]] = hf.Solver(None if positions is None else np.array(positions, np.float64),
+                triangles, saved_factor=factor, **options)
         elif do == "clone":
             self.objects[step["as"]] = on.clone()
         elif do == "dispose":
             on.close()
         elif do == "add_sites":
-            return "numbers", on.add_sites(get("vertices"), get("values"), stiffness=get("stiffness"), radii=get("radii"),
+            return "numbers", on.add_sites(get("vertices"), get("values"), stiffness=get("stiffness"),
+                radii=get("radii"),
                                            triangles=get("triangles"), barycentrics=get("barycentrics"))
         elif do == "remove_sites":
             on.remove_sites(get("sites"))
@@ -90,7 +94,8 @@ class Scene:
         elif do == "set_values":
             on.set_site_values(get("sites"), get("values"))
         elif do == "edit":
-            return "numbers", on.edit_sites(remove=get("remove", []), move=get("move", []), move_to=get("move_to"), set=get("set", []),
+            return "numbers", on.edit_sites(remove=get("remove", []), move=get("move", []), move_to=get("move_to"),
+                set=get("set", []),
                                             set_values=get("set_values"), add=get("add"), add_values=get("add_values"))
         elif do in ("record", "undo", "redo"):
             getattr(on, do)()
@@ -149,7 +154,8 @@ class Scene:
         elif do == "quads":
             if "edge_length" in step:
                 options["edge_length"] = numbers(step["edge_length"])
-            self.objects[step["as"]] = hf.Quads(on, site_vertices=get("site_vertices"), site_lines=get("site_lines"), **options)
+            self.objects[step["as"]] = hf.Quads(on, site_vertices=get("site_vertices"), site_lines=get("site_lines"),
+                **options)
         elif do == "quads_info":
             info = on.info
             fields = {name: getattr(info, name) for name, _ in info._fields_}
@@ -165,7 +171,8 @@ class Scene:
         elif do == "pose":
             self.objects[step["as"]] = hf.Pose(on, **options)
         elif do == "add_handles":
-            return "numbers", on.add_handles(get("regions"), points=get("points"), radii=get("radii"), layer=step.get("layer", 0))
+            return "numbers", on.add_handles(get("regions"), points=get("points"), radii=get("radii"),
+                layer=step.get("layer", 0))
         elif do == "remove_handles":
             on.remove_handles(get("handles"))
         elif do == "set_transforms":
@@ -181,7 +188,8 @@ class Scene:
             assert len(skin.pivots) >= 2, f"{len(skin.pivots)} joints"
             return "array", skin.weights
         elif do == "transfer":
-            self.objects[step["as"]] = hf.Transfer(self.objects[step["source"]], self.objects[step["target"]], **options)
+            self.objects[step["as"]] = hf.Transfer(self.objects[step["source"]], self.objects[step["target"]],
+                **options)
         elif do == "add_pairs":
             return "numbers", on.add_pairs(get("source_regions"), get("target_regions"), get("flags"))
         elif do == "remove_pairs":
@@ -206,7 +214,8 @@ class Scene:
             if "expect" in step:
                 check_array(result, step["expect"])
             if "same_as" in step:
-                assert np.array_equal(result.ravel(), self.kept[step["same_as"]].ravel()), f"differs from {step['same_as']}"
+                assert np.array_equal(result.ravel(),
+                    self.kept[step["same_as"]].ravel()), f"differs from {step['same_as']}"
             if "keep" in step:
                 self.kept[step["keep"]] = result
         elif kind == "numbers" and "numbers" in step:

@@ -194,4 +194,7 @@ class Scene {
   std::map<std::string, std::vector<uint8_t>> bytes_;
 };
 
+// Throws a Mismatch when something destroyed takes something else along, or memory does not come back.
+void check_lifetime(const Json& mesh, int rounds);
+
 }  // namespace golden

@@ -18,7 +18,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def mesh(name, dtype=np.float32):
-    return np.array(MESHES[name]["positions"], dtype).reshape(-1, 3), np.array(MESHES[name]["triangles"], np.uint32).reshape(-1, 3)
+    return np.array(MESHES[name]["positions"], dtype).reshape(-1, 3), np.array(MESHES[name]["triangles"],
+        np.uint32).reshape(-1, 3)
 
 
 class Layout(unittest.TestCase):
@@ -72,15 +73,24 @@ class Arrays(unittest.TestCase):
         solver.add_sites([0], [1.0])
         frozen = np.zeros(len(points), np.float32)
         frozen.flags.writeable = False
-        cases = [lambda: hf.Solver(points[:, :2], triangles), lambda: hf.Solver("text", triangles), lambda: hf.Solver(points, "text"),
-                 lambda: hf.Solver(points, triangles + 0.5), lambda: hf.Solver(points, triangles[:, :2]), lambda: hf.Solver(points, [-1, 0, 1]),
-                 lambda: hf.Solver(points, triangles, thread_count="many"), lambda: hf.Solver(points, triangles, threads=2),
-                 lambda: solver.solve(np.zeros(3, np.float32)), lambda: solver.solve(np.zeros(len(points), np.int32)), lambda: solver.solve(frozen),
-                 lambda: solver.solve([0.0] * len(points)), lambda: solver.solve(np.zeros(len(points), np.float32)[::-1]),
-                 lambda: solver.add_sites([1.5], [0.0]), lambda: solver.add_sites([-1], [0.0]), lambda: solver.add_sites([1], ["x"]),
-                 lambda: solver.add_sites([1], [object()]), lambda: hf.Pose(None), lambda: hf.Pose(3), lambda: hf.Pose(hf.Progress()),
-                 lambda: hf.Transfer(solver, None), lambda: hf.Geodesics("s"), lambda: hf.Direction(None), lambda: solver.save_factor()[:0] or hf.Solver(points, triangles, saved_factor=b""),
-                 lambda: hf.Solver(points, triangles, saved_factor=b"short"), lambda: hf.Solver(points * np.nan, triangles)]
+        cases = [lambda: hf.Solver(points[:, :2], triangles), lambda: hf.Solver("text", triangles),
+            lambda: hf.Solver(points, "text"),
+                 lambda: hf.Solver(points, triangles + 0.5), lambda: hf.Solver(points,
+                     triangles[:, :2]), lambda: hf.Solver(points, [-1, 0, 1]),
+                 lambda: hf.Solver(points, triangles, thread_count="many"), lambda: hf.Solver(points, triangles,
+                     threads=2),
+                 lambda: solver.solve(np.zeros(3, np.float32)), lambda: solver.solve(np.zeros(len(points),
+                     np.int32)), lambda: solver.solve(frozen),
+                 lambda: solver.solve([0.0] * len(points)), lambda: solver.solve(np.zeros(len(points),
+                     np.float32)[::-1]),
+                 lambda: solver.add_sites([1.5], [0.0]), lambda: solver.add_sites([-1],
+                     [0.0]), lambda: solver.add_sites([1], ["x"]),
+                 lambda: solver.add_sites([1],
+                     [object()]), lambda: hf.Pose(None), lambda: hf.Pose(3), lambda: hf.Pose(hf.Progress()),
+                 lambda: hf.Transfer(solver,
+                     None), lambda: hf.Geodesics("s"), lambda: hf.Direction(None), lambda: solver.save_factor()[:0] or hf.Solver(points, triangles, saved_factor=b""),
+                 lambda: hf.Solver(points, triangles, saved_factor=b"short"), lambda: hf.Solver(points * np.nan,
+                     triangles)]
         for number, case in enumerate(cases):
             with self.assertRaises(hf.HfError, msg=f"case {number}") as caught:
                 case()
@@ -96,7 +106,8 @@ class Lifetime(unittest.TestCase):
             draw = random.Random(seed)
             solver = hf.Solver(points, triangles)
             solver.add_sites([0, 287], [0.0, 1.0])
-            things = [solver, solver.clone(), hf.Pose(solver), hf.Transfer(solver, solver), hf.Geodesics(solver), hf.Progress()]
+            things = [solver, solver.clone(), hf.Pose(solver), hf.Transfer(solver, solver), hf.Geodesics(solver),
+                hf.Progress()]
             things[2].add_handles([range(12), range(276, 288)])
             things.append(things[2].clone())
             del solver
@@ -107,7 +118,8 @@ class Lifetime(unittest.TestCase):
                     thing.close()
                     thing.close()
                     with self.assertRaises(hf.InvalidHandleError):
-                        {hf.Solver: lambda: thing.solve(), hf.Pose: lambda: thing.deform(), hf.Transfer: lambda: thing.info,
+                        {hf.Solver: lambda: thing.solve(), hf.Pose: lambda: thing.deform(),
+                            hf.Transfer: lambda: thing.info,
                          hf.Geodesics: lambda: thing.distance([0]), hf.Progress: lambda: thing.fraction}[type(thing)]()
                     calls += 1
                 elif isinstance(thing, hf.Pose):

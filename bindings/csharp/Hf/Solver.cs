@@ -1,4 +1,4 @@
-// Solver, Geodesics, Direction, Progress over the C ABI (include/hf/mesh.h, field.h, factor.h, analysis.h, direction.h).
+// Solver and Progress over the C ABI (include/hf/mesh.h, field.h, factor.h, analysis.h).
 using System;
 using System.Runtime.InteropServices;
 using Hf.Native;
@@ -47,16 +47,20 @@ namespace Hf
         Solver() { }
 
         /// <summary>positions: xyz per vertex; triangles: three vertices each. Borrowed for the call.</summary>
-        public Solver(float[] positions, uint[] triangles, SolverOptions options = null) { Create(positions, false, triangles, options); }
+        public Solver(float[] positions, uint[] triangles, SolverOptions options = null) { Create(positions, false,
+            triangles, options); }
 
         /// <summary>The same from doubles.</summary>
-        public Solver(double[] positions, uint[] triangles, SolverOptions options = null) { Create(positions, true, triangles, options); }
+        public Solver(double[] positions, uint[] triangles, SolverOptions options = null) { Create(positions, true,
+            triangles, options); }
 
         void Create(Array positions, bool wide, uint[] triangles, SolverOptions options)
         {
             if (positions == null) throw new HfException("positions is null", Constants.HF_ERROR_NULL_POINTER);
-            if (positions.Length % 3 != 0) throw new HfException("positions must hold three numbers a vertex, not " + positions.Length);
-            if (triangles != null && triangles.Length % 3 != 0) throw new HfException("triangles must hold three numbers each, not " + triangles.Length);
+            if (positions.Length % 3 != 0) throw new HfException("positions must hold three numbers a vertex, not "
+                + positions.Length);
+            if (triangles != null && triangles.Length % 3 != 0)
+                throw new HfException("triangles must hold three numbers each, not " + triangles.Length);
             options = options ?? new SolverOptions();
             using (var pins = new Pins())
             {
@@ -100,10 +104,8 @@ namespace Hf
         /// <summary>A solver that shares mesh and factor and has a copy of the sites.</summary>
         public Solver Clone()
         {
-            IntPtr raw;
-            Check(Functions.hf_clone(Handle, &raw));
             var copy = new Solver { VertexCount = VertexCount, ChannelCount = ChannelCount };
-            copy.Own(raw, Functions.hf_destroy);
+            copy.Copy(Functions.hf_clone, this, Functions.hf_destroy);
             return copy;
         }
 
@@ -129,7 +131,8 @@ namespace Hf
             }
         }
 
-        hf_sites_desc Places(Pins pins, uint[] vertices, double[] values, double[] stiffness = null, double[] radii = null, uint[] triangles = null, double[] barycentrics = null)
+        hf_sites_desc Places(Pins pins, uint[] vertices, double[] values, double[] stiffness = null,
+            double[] radii = null, uint[] triangles = null, double[] barycentrics = null)
         {
             int count = Pins.Count(vertices ?? triangles);
             hf_sites_desc desc;
@@ -145,7 +148,8 @@ namespace Hf
         }
 
         /// <summary>Adds sites at vertices or inside triangles; all or nothing. Returns their numbers.</summary>
-        public uint[] AddSites(uint[] vertices, double[] values, double[] stiffness = null, double[] radii = null, uint[] triangles = null, double[] barycentrics = null)
+        public uint[] AddSites(uint[] vertices, double[] values, double[] stiffness = null, double[] radii = null,
+            uint[] triangles = null, double[] barycentrics = null)
         {
             using (var pins = new Pins())
             {
@@ -158,7 +162,7 @@ namespace Hf
 
         public void RemoveSites(uint[] sites)
         {
-            using (var pins = new Pins()) Check(Functions.hf_remove_sites(Handle, (uint)Pins.Count(sites), (void*)pins.Add(sites)));
+            OnList(Functions.hf_remove_sites, sites);
         }
 
         public void MoveSites(uint[] sites, uint[] vertices)
@@ -172,13 +176,13 @@ namespace Hf
 
         public void SetSiteValues(uint[] sites, double[] values)
         {
-            int count = Pins.Count(sites);
-            using (var pins = new Pins())
-                Check(Functions.hf_set_site_values(Handle, (uint)count, (void*)pins.Add(sites), (void*)pins.Add(values, count * ChannelCount, "values")));
+            OnList(Functions.hf_set_site_values, sites, values, ChannelCount, "values");
         }
 
-        /// <summary>One batch: remove, move, set, add; all or nothing. Returns the numbers of the added sites.</summary>
-        public uint[] EditSites(uint[] remove = null, uint[] move = null, uint[] moveTo = null, uint[] set = null, double[] setValues = null, uint[] add = null, double[] addValues = null)
+        /// <summary>One batch: remove, move, set, add; all or nothing. Returns the numbers of the added
+        /// sites.</summary>
+        public uint[] EditSites(uint[] remove = null, uint[] move = null, uint[] moveTo = null, uint[] set = null,
+            double[] setValues = null, uint[] add = null, double[] addValues = null)
         {
             using (var pins = new Pins())
             {
@@ -200,12 +204,14 @@ namespace Hf
             }
         }
 
-        public int SiteCount { get { int count = (int)Functions.hf_get_site_count(Handle); GC.KeepAlive(this); return count; } }
+        public int SiteCount { get { int count = (int)Functions.hf_get_site_count(Handle); GC.KeepAlive(this);
+            return count; } }
         public void Record() { Check(Functions.hf_record(Handle)); }
         public void Undo() { Check(Functions.hf_undo(Handle)); }
         public void Redo() { Check(Functions.hf_redo(Handle)); }
 
-        /// <summary>The field at every vertex into the caller's memory: VertexCount times ChannelCount numbers.</summary>
+        /// <summary>The field at every vertex into the caller's memory: VertexCount times ChannelCount
+        /// numbers.</summary>
         public void Solve(Span<float> field)
         {
             Pins.Need(field.Length, VertexCount * ChannelCount, "field");
@@ -215,24 +221,57 @@ namespace Hf
         public void Solve(Span<double> field)
         {
             Pins.Need(field.Length, VertexCount * ChannelCount, "field");
-            fixed (double* place = &MemoryMarshal.GetReference(field)) Check(Functions.hf_solve_f64(Handle, place, 0, null));
+            fixed (double* place = &MemoryMarshal.GetReference(field))
+                Check(Functions.hf_solve_f64(Handle, place, 0, null));
         }
 
-        public float[] Solve() { var field = new float[VertexCount * ChannelCount]; Solve(field.AsSpan()); return field; }
-        public double[] SolveDouble() { var field = new double[VertexCount * ChannelCount]; Solve(field.AsSpan()); return field; }
+        public float[] Solve() { var field = new float[VertexCount * ChannelCount]; Solve(field.AsSpan());
+            return field; }
+        public double[] SolveDouble() { var field = new double[VertexCount * ChannelCount]; Solve(field.AsSpan());
+            return field; }
 
         public double[] SolvePreview(uint correctionCount = 0)
         {
             var field = new double[VertexCount * ChannelCount];
-            fixed (double* place = field) Check(Functions.hf_solve_preview_f64(Handle, place, 0, correctionCount, null));
+            fixed (double* place = field)
+                Check(Functions.hf_solve_preview_f64(Handle, place, 0, correctionCount, null));
             return field;
         }
 
         public double[] SolveAt(uint[] vertices)
         {
             var values = new double[Pins.Count(vertices) * ChannelCount];
-            using (var pins = new Pins()) Check(Functions.hf_solve_at(Handle, (uint)Pins.Count(vertices), (void*)pins.Add(vertices), (void*)pins.Add(values)));
+            using (var pins = new Pins())
+                Check(Functions.hf_solve_at(Handle, (uint)Pins.Count(vertices), (void*)pins.Add(vertices),
+                (void*)pins.Add(values)));
             return values;
+        }
+
+        /// <summary>A tangent vector field from three channels: xyz per vertex.</summary>
+        public double[] SolveVectors()
+        {
+            var vectors = new double[3 * VertexCount];
+            fixed (double* place = vectors) Check(Functions.hf_solve_vectors_f64(Handle, place, 0, null, null));
+            return vectors;
+        }
+
+        /// <summary>Moves sites of a three-channel solver, carrying their vectors along the surface.</summary>
+        public void MoveVectorSites(uint[] sites, uint[] vertices) { OnList(Functions.hf_move_vector_sites, sites,
+            vertices); }
+
+        /// <summary>Turns the vectors of sites about the normals, radians.</summary>
+        public void RotateVectorSites(uint[] sites, double[] angles) { OnList(Functions.hf_rotate_vector_sites, sites,
+            angles, 1, "angles"); }
+
+        public void PrepareRebase() { Check(Functions.hf_prepare_rebase(Handle)); }
+        public void ReleasePreview() { Check(Functions.hf_release_preview(Handle)); }
+
+        /// <summary>The component of every vertex; HF_NO_INDEX for isolated ones.</summary>
+        public uint[] Components()
+        {
+            var components = new uint[VertexCount];
+            fixed (uint* place = components) Check(Functions.hf_get_components(Handle, (uint)VertexCount, place));
+            return components;
         }
 
         /// <summary>The factor as bytes, for SolverOptions.SavedFactor.</summary>
@@ -259,7 +298,8 @@ namespace Hf
             {
                 hf_scalars scalars = Scalars(pins, field);
                 var levels = new double[Math.Max(0, Math.Min(levelCount, 1000000))];
-                Check(Functions.hf_space_levels(Handle, &scalars, spacing, (uint)Math.Max(0, levelCount), (void*)pins.Add(levels)));
+                Check(Functions.hf_space_levels(Handle, &scalars, spacing, (uint)Math.Max(0, levelCount),
+                    (void*)pins.Add(levels)));
                 return levels;
             }
         }
@@ -275,7 +315,9 @@ namespace Hf
                 Functions.hf_init_desc(&lines, (uint)sizeof(hf_isolines));
                 Check(Functions.hf_trace_isolines(Handle, &scalars, count, wanted, &lines));
                 uint p = lines.point_count, k = lines.line_count;
-                var result = new Isolines { Positions = new double[3 * p], Parameters = new double[p], PointEdges = new uint[2 * p], LineStarts = new uint[k + 1], LineLevels = new uint[k], LineClosed = new int[k] };
+                var result = new Isolines { Positions = new double[3 * p], Parameters = new double[p],
+                    PointEdges = new uint[2 * p], LineStarts = new uint[k + 1], LineLevels = new uint[k],
+                    LineClosed = new int[k] };
                 if (k == 0) return result;
                 lines.point_capacity = p;
                 lines.line_capacity = k;
@@ -299,7 +341,8 @@ namespace Hf
                 Functions.hf_init_desc(&info, (uint)sizeof(hf_critical_info));
                 Check(Functions.hf_find_critical_points(Handle, &scalars, 0, null, &info));
                 var points = new hf_critical_point[info.point_count];
-                if (points.Length > 0) fixed (hf_critical_point* place = points) Check(Functions.hf_find_critical_points(Handle, &scalars, info.point_count, place, &info));
+                if (points.Length > 0) fixed (hf_critical_point* place = points)
+                    Check(Functions.hf_find_critical_points(Handle, &scalars, info.point_count, place, &info));
                 return points;
             }
         }
@@ -309,85 +352,9 @@ namespace Hf
             hf_extremities_desc desc;
             Functions.hf_init_desc(&desc, (uint)sizeof(hf_extremities_desc));
             desc.kind = kind;
-            uint count;
-            Check(Functions.hf_find_extremities(Handle, &desc, 0, null, &count));
-            var found = new hf_extremity[count];
-            if (count > 0) fixed (hf_extremity* place = found) Check(Functions.hf_find_extremities(Handle, &desc, count, place, &count));
-            return found;
-        }
-    }
-
-    /// <summary>Distances along a solver's surface.</summary>
-    public sealed unsafe class Geodesics : HfObject
-    {
-        readonly int vertexCount;
-
-        public Geodesics(Solver solver, float smoothing = 0)
-        {
-            hf_geodesics_desc desc;
-            Functions.hf_init_desc(&desc, (uint)sizeof(hf_geodesics_desc));
-            desc.smoothing = smoothing;
-            IntPtr raw;
-            HfException.Check(Functions.hf_geodesics_create(HandleOf(solver, "solver"), &desc, &raw));
-            GC.KeepAlive(solver);
-            Own(raw, Functions.hf_geodesics_destroy);
-            vertexCount = solver.VertexCount;
-        }
-
-        public double[] Distance(uint[] sources)
-        {
-            var distances = new double[vertexCount];
-            using (var pins = new Pins()) Check(Functions.hf_geodesics_distance_f64(Handle, (uint)Pins.Count(sources), (void*)pins.Add(sources), (void*)pins.Add(distances), 0));
-            return distances;
-        }
-    }
-
-    /// <summary>A direction field with constraints and singularities.</summary>
-    public sealed unsafe class Direction : HfObject
-    {
-        readonly int vertexCount;
-
-        public Direction(Solver solver, uint degree = 1)
-        {
-            hf_direction_desc desc;
-            Functions.hf_init_desc(&desc, (uint)sizeof(hf_direction_desc));
-            desc.degree = degree;
-            IntPtr raw;
-            HfException.Check(Functions.hf_direction_create(HandleOf(solver, "solver"), &desc, &raw));
-            GC.KeepAlive(solver);
-            Own(raw, Functions.hf_direction_destroy);
-            vertexCount = solver.VertexCount;
-        }
-
-        public uint[] AddSites(uint[] vertices, double[] vectors)
-        {
-            int count = Pins.Count(vertices);
-            var numbers = new uint[count];
-            using (var pins = new Pins())
-                Check(Functions.hf_direction_add_sites(Handle, (uint)count, (void*)pins.Add(vertices), (void*)pins.Add(vectors, 3 * count, "vectors"), (void*)pins.Add(numbers)));
-            return numbers;
-        }
-
-        public void RotateSites(uint[] sites, double[] angles)
-        {
-            int count = Pins.Count(sites);
-            using (var pins = new Pins()) Check(Functions.hf_direction_rotate_sites(Handle, (uint)count, (void*)pins.Add(sites), (void*)pins.Add(angles, count, "angles")));
-        }
-
-        public double[] Solve()
-        {
-            var vectors = new double[3 * vertexCount];
-            fixed (double* place = vectors) Check(Functions.hf_direction_solve_f64(Handle, place, 0, null));
-            return vectors;
-        }
-
-        public hf_singularity[] Singularities()
-        {
-            uint count;
-            Check(Functions.hf_direction_get_singularities(Handle, 0, null, &count));
-            var found = new hf_singularity[count];
-            if (count > 0) fixed (hf_singularity* place = found) Check(Functions.hf_direction_get_singularities(Handle, count, place, &count));
-            return found;
+            hf_extremities_desc* place = &desc;
+            return Rows<hf_extremity>((handle, capacity, rows, count) => Functions.hf_find_extremities(handle, place,
+                capacity, rows, count));
         }
     }
 }

@@ -14,6 +14,16 @@ var handles = {} # Spatial -> { number, rest }
 var arrays = []
 var last = []
 
+# The first mesh in a scene, an imported glb for one; null when there is none.
+static func mesh_in(node):
+	if node is MeshInstance:
+		return node.mesh
+	for child in node.get_children():
+		var found = mesh_in(child)
+		if found:
+			return found
+	return null
+
 # Factorises once. Returns true, or false with a warning that says why not.
 func bind(options = {}):
 	surface = HfSurface.new()
@@ -35,7 +45,8 @@ func said(result):
 		return false
 	return true
 
-# A handle from what hangs together with the vertex nearest to a point of the rest mesh, within a radius. Null when refused.
+# A handle from what hangs together with the vertex nearest to a point of the rest mesh, within a radius. Null when
+# refused.
 func add_handle(point, radius, layer = 0):
 	var numbers = surface.add_handles_at([point], [radius], layer)
 	if not said(numbers):

@@ -1,10 +1,9 @@
-// Godot 4: HfSurface as a GDExtension class by godot-cpp, over the same surface.cpp. UNTESTED: no Godot 4 was to be had, this has
-// never been compiled. Entry symbol: hf_godot_init.
+// Godot 4: HfSurface as a GDExtension class by godot-cpp, over the same surface.cpp. No Godot 4 was to be had: compiled
+// against stand-ins for godot-cpp (tests/bindings/godot_cpp_stubs.h), never run. Entry symbol: hf_godot_init.
 #include <godot_cpp/classes/ref_counted.hpp>
 #include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/godot.hpp>
 #include <godot_cpp/variant/variant.hpp>
-
 #include <limits>
 #include <string>
 
@@ -27,7 +26,7 @@ class HfSurface : public RefCounted {
   // call(name, [arguments...]): every method of surface.cpp by its name, as HfSurface of Godot 3 has them.
   Variant invoke(const String& name, const Array& values) {
     const std::string wanted = name.utf8().get_data();
-    for (const hf_godot::Entry& entry : hf_godot::methods) {
+    for (const hf_godot::Entry& entry : hf_godot::methods()) {
       if (wanted != entry.name) continue;
       hf_godot::Arguments arguments;
       for (int i = 0; i < values.size(); ++i) arguments.push_back(argument_of(values[i]));
@@ -75,13 +74,17 @@ class HfSurface : public RefCounted {
     } else if (value.get_type() == Variant::DICTIONARY) {
       const Dictionary named = value;
       const Array keys = named.keys();
-      for (int i = 0; i < keys.size(); ++i) argument.named[String(keys[i]).utf8().get_data()] = named[keys[i]];
+      for (int i = 0; i < keys.size(); ++i) {
+        const String key = keys[i];
+        argument.named[key.utf8().get_data()] = named[keys[i]];
+      }
     } else if (value.get_type() == Variant::PACKED_BYTE_ARRAY) {
       const PackedByteArray bytes = value;
       argument.bytes.assign(bytes.ptr(), bytes.ptr() + bytes.size());
     } else {
       const Array list = value;
-      if (list.size() > 0 && (list[0].get_type() == Variant::ARRAY || list[0].get_type() == Variant::PACKED_INT32_ARRAY)) {
+      if (list.size() > 0 &&
+          (list[0].get_type() == Variant::ARRAY || list[0].get_type() == Variant::PACKED_INT32_ARRAY)) {
         for (int i = 0; i < list.size(); ++i) numbers_of(list[i], argument.lists.emplace_back());
       } else {
         numbers_of(value, argument.list);
@@ -90,34 +93,58 @@ class HfSurface : public RefCounted {
     return argument;
   }
 
+  template <class Packed, class Number>
+  static Packed packed(const std::vector<Number>& numbers) {
+    Packed out;
+    out.resize(static_cast<int64_t>(numbers.size()));
+    for (size_t i = 0; i < numbers.size(); ++i) out.set(static_cast<int64_t>(i), numbers[i]);
+    return out;
+  }
+  static PackedVector3Array vectors_of(const std::vector<float>& floats) {
+    PackedVector3Array out;
+    out.resize(static_cast<int64_t>(floats.size() / 3));
+    for (size_t i = 0; i + 2 < floats.size(); i += 3)
+      out.set(static_cast<int64_t>(i / 3), Vector3(floats[i], floats[i + 1], floats[i + 2]));
+    return out;
+  }
+  static PackedInt32Array integers_of(const hf_godot::Numbers& numbers) { return packed<PackedInt32Array>(numbers); }
+  static Dictionary named_of(const std::map<std::string, double>& fields) {
+    Dictionary out;
+    for (const auto& [name, number] : fields) out[String(name.c_str())] = number;
+    return out;
+  }
+  template <class Item, class Made>
+  static Array list_of(const std::vector<Item>& items, Made (*each)(const Item&)) {
+    Array out;
+    for (const Item& item : items) out.push_back(each(item));
+    return out;
+  }
+
   static Variant variant_of(const hf_godot::Value& value) {
-    using Kind = hf_godot::Value::Kind;
-    if (value.kind == Kind::truth) return true;
-    if (value.kind == Kind::number) return value.real;
-    if (value.kind == Kind::integers) {
-      PackedInt32Array out;
-      for (uint32_t number : value.whole) out.push_back(static_cast<int32_t>(number));
-      return out;
-    }
-    if (value.kind == Kind::reals) {
-      PackedFloat32Array out;
-      for (float number : value.floats) out.push_back(number);
-      return out;
-    }
-    if (value.kind == Kind::vectors) {
-      PackedVector3Array out;
-      for (size_t i = 0; i + 2 < value.floats.size(); i += 3) out.push_back(Vector3(value.floats[i], value.floats[i + 1], value.floats[i + 2]));
-      return out;
-    }
-    if (value.kind == Kind::bytes) {
-      PackedByteArray out;
-      for (uint8_t byte : value.octets) out.push_back(byte);
-      return out;
-    }
-    if (value.kind == Kind::named) {
-      Dictionary out;
-      for (const auto& [name, number] : value.fields) out[String(name.c_str())] = number;
-      return out;
+    using Value = hf_godot::Value;
+    switch (value.kind) {
+      case Value::truth:
+        return true;
+      case Value::number:
+        return value.real;
+      case Value::integers:
+        return integers_of(value.whole);
+      case Value::reals:
+        return packed<PackedFloat32Array>(value.floats);
+      case Value::vectors:
+        return vectors_of(value.floats);
+      case Value::bytes:
+        return packed<PackedByteArray>(value.octets);
+      case Value::named:
+        return named_of(value.fields);
+      case Value::rows:
+        return list_of(value.table, named_of);
+      case Value::lists:
+        return list_of(value.sets, integers_of);
+      case Value::lines:
+        return list_of(value.polylines, vectors_of);
+      case Value::nothing:
+        break;
     }
     return Variant();
   }
@@ -125,7 +152,8 @@ class HfSurface : public RefCounted {
   std::shared_ptr<hf_godot::Surface> surface_ = std::make_shared<hf_godot::Surface>();
 };
 
-extern "C" GDExtensionBool GDE_EXPORT hf_godot_init(GDExtensionInterfaceGetProcAddress address, GDExtensionClassLibraryPtr library,
+extern "C" GDExtensionBool GDE_EXPORT hf_godot_init(GDExtensionInterfaceGetProcAddress address,
+                                                    GDExtensionClassLibraryPtr library,
                                                     GDExtensionInitialization* initialization) {
   GDExtensionBinding::InitObject init(address, library, initialization);
   init.register_initializer([](ModuleInitializationLevel level) {

@@ -1,4 +1,5 @@
-// Godot 3: HfSurface as a NativeScript class over GDNative's C interface. Godot's values become hf_godot::Argument and back.
+// Godot 3: HfSurface as a NativeScript class over GDNative's C interface. Godot's values become hf_godot::Argument and
+// back.
 #include <gdnative_api_struct.gen.h>
 
 #include <cstring>
@@ -76,7 +77,8 @@ Argument argument_of(const godot_variant* value) {
     godot_array keys = api->godot_dictionary_keys(&dictionary);
     for (godot_int i = 0; i < api->godot_array_size(&keys); ++i) {
       const godot_variant* key = api->godot_array_operator_index_const(&keys, i);
-      argument.named[text_of(key)] = api->godot_variant_as_real(api->godot_dictionary_operator_index_const(&dictionary, key));
+      argument.named[text_of(key)] =
+          api->godot_variant_as_real(api->godot_dictionary_operator_index_const(&dictionary, key));
     }
     api->godot_array_destroy(&keys);
     api->godot_dictionary_destroy(&dictionary);
@@ -91,8 +93,10 @@ Argument argument_of(const godot_variant* value) {
     godot_array array = api->godot_variant_as_array(value);
     const godot_int size = api->godot_array_size(&array);
     const godot_variant* first = size > 0 ? api->godot_array_operator_index_const(&array, 0) : nullptr;
-    const bool nested = first && (api->godot_variant_get_type(first) == GODOT_VARIANT_TYPE_ARRAY || api->godot_variant_get_type(first) == GODOT_VARIANT_TYPE_POOL_INT_ARRAY);
-    for (godot_int i = 0; nested && i < size; ++i) numbers_of(api->godot_array_operator_index_const(&array, i), argument.lists.emplace_back());
+    const bool nested = first && (api->godot_variant_get_type(first) == GODOT_VARIANT_TYPE_ARRAY ||
+                                  api->godot_variant_get_type(first) == GODOT_VARIANT_TYPE_POOL_INT_ARRAY);
+    for (godot_int i = 0; nested && i < size; ++i)
+      numbers_of(api->godot_array_operator_index_const(&array, i), argument.lists.emplace_back());
     api->godot_array_destroy(&array);
     if (!nested) numbers_of(value, argument.list);
   } else {
@@ -124,53 +128,103 @@ godot_variant real_variant(double number) {
   return value;
 }
 
+// One kind of Godot's typed arrays: its functions, and how many floats an element has.
+struct Pool {
+  template <class Array, class Access, class Element, class Number>
+  static godot_variant variant(void (*make)(Array*), void (*resize)(Array*, godot_int), Access* (*write)(Array*),
+                               Element* (*place)(const Access*), void (*release)(Access*),
+                               void (*wrap)(godot_variant*, const Array*), void (*destroy)(Array*),
+                               const std::vector<Number>& numbers) {
+    Array pool;
+    make(&pool);
+    resize(&pool, static_cast<godot_int>(numbers.size() * sizeof(Number) / sizeof(Element)));
+    Access* access = write(&pool);
+    if (!numbers.empty())
+      std::memcpy(static_cast<void*>(place(access)), numbers.data(), numbers.size() * sizeof(Number));
+    release(access);
+    godot_variant value;
+    wrap(&value, &pool);
+    destroy(&pool);
+    return value;
+  }
+};
+
+godot_variant integers_variant(const Numbers& numbers) {
+  return Pool::variant(api->godot_pool_int_array_new, api->godot_pool_int_array_resize, api->godot_pool_int_array_write,
+                       api->godot_pool_int_array_write_access_ptr, api->godot_pool_int_array_write_access_destroy,
+                       api->godot_variant_new_pool_int_array, api->godot_pool_int_array_destroy, numbers);
+}
+godot_variant reals_variant(const std::vector<float>& numbers) {
+  return Pool::variant(api->godot_pool_real_array_new, api->godot_pool_real_array_resize,
+                       api->godot_pool_real_array_write, api->godot_pool_real_array_write_access_ptr,
+                       api->godot_pool_real_array_write_access_destroy, api->godot_variant_new_pool_real_array,
+                       api->godot_pool_real_array_destroy, numbers);
+}
+godot_variant vectors_variant(const std::vector<float>& numbers) {
+  return Pool::variant(api->godot_pool_vector3_array_new, api->godot_pool_vector3_array_resize,
+                       api->godot_pool_vector3_array_write, api->godot_pool_vector3_array_write_access_ptr,
+                       api->godot_pool_vector3_array_write_access_destroy, api->godot_variant_new_pool_vector3_array,
+                       api->godot_pool_vector3_array_destroy, numbers);
+}
+godot_variant bytes_variant(const std::vector<uint8_t>& bytes) {
+  return Pool::variant(api->godot_pool_byte_array_new, api->godot_pool_byte_array_resize,
+                       api->godot_pool_byte_array_write, api->godot_pool_byte_array_write_access_ptr,
+                       api->godot_pool_byte_array_write_access_destroy, api->godot_variant_new_pool_byte_array,
+                       api->godot_pool_byte_array_destroy, bytes);
+}
+godot_variant named_variant(const std::map<std::string, double>& fields) {
+  godot_dictionary dictionary;
+  api->godot_dictionary_new(&dictionary);
+  for (const auto& [name, number] : fields) set_field(dictionary, name, real_variant(number));
+  godot_variant value;
+  api->godot_variant_new_dictionary(&value, &dictionary);
+  api->godot_dictionary_destroy(&dictionary);
+  return value;
+}
+
+// A list of what `each` makes of the items.
+template <class Item>
+godot_variant list_variant(const std::vector<Item>& items, godot_variant (*each)(const Item&)) {
+  godot_array array;
+  api->godot_array_new(&array);
+  for (const Item& item : items) {
+    godot_variant element = each(item);
+    api->godot_array_append(&array, &element);
+    api->godot_variant_destroy(&element);
+  }
+  godot_variant value;
+  api->godot_variant_new_array(&value, &array);
+  api->godot_array_destroy(&array);
+  return value;
+}
+
 godot_variant variant_of(const Value& result) {
   godot_variant value;
-  api->godot_variant_new_nil(&value);
-  if (result.kind == Value::truth) {
-    api->godot_variant_new_bool(&value, true);
-  } else if (result.kind == Value::number) {
-    api->godot_variant_new_real(&value, result.real);
-  } else if (result.kind == Value::integers) {
-    godot_pool_int_array pool;
-    api->godot_pool_int_array_new(&pool);
-    for (uint32_t number : result.whole) api->godot_pool_int_array_append(&pool, static_cast<godot_int>(number));
-    api->godot_variant_new_pool_int_array(&value, &pool);
-    api->godot_pool_int_array_destroy(&pool);
-  } else if (result.kind == Value::reals) {
-    godot_pool_real_array pool;
-    api->godot_pool_real_array_new(&pool);
-    api->godot_pool_real_array_resize(&pool, static_cast<godot_int>(result.floats.size()));
-    godot_pool_real_array_write_access* access = api->godot_pool_real_array_write(&pool);
-    if (!result.floats.empty()) std::memcpy(api->godot_pool_real_array_write_access_ptr(access), result.floats.data(), result.floats.size() * sizeof(float));
-    api->godot_pool_real_array_write_access_destroy(access);
-    api->godot_variant_new_pool_real_array(&value, &pool);
-    api->godot_pool_real_array_destroy(&pool);
-  } else if (result.kind == Value::vectors) {
-    godot_pool_vector3_array pool;
-    api->godot_pool_vector3_array_new(&pool);
-    api->godot_pool_vector3_array_resize(&pool, static_cast<godot_int>(result.floats.size() / 3));
-    godot_pool_vector3_array_write_access* access = api->godot_pool_vector3_array_write(&pool);
-    if (!result.floats.empty()) std::memcpy(static_cast<void*>(api->godot_pool_vector3_array_write_access_ptr(access)), result.floats.data(), result.floats.size() * sizeof(float));
-    api->godot_pool_vector3_array_write_access_destroy(access);
-    api->godot_variant_new_pool_vector3_array(&value, &pool);
-    api->godot_pool_vector3_array_destroy(&pool);
-  } else if (result.kind == Value::bytes) {
-    godot_pool_byte_array pool;
-    api->godot_pool_byte_array_new(&pool);
-    api->godot_pool_byte_array_resize(&pool, static_cast<godot_int>(result.octets.size()));
-    godot_pool_byte_array_write_access* access = api->godot_pool_byte_array_write(&pool);
-    if (!result.octets.empty()) std::memcpy(api->godot_pool_byte_array_write_access_ptr(access), result.octets.data(), result.octets.size());
-    api->godot_pool_byte_array_write_access_destroy(access);
-    api->godot_variant_new_pool_byte_array(&value, &pool);
-    api->godot_pool_byte_array_destroy(&pool);
-  } else if (result.kind == Value::named) {
-    godot_dictionary dictionary;
-    api->godot_dictionary_new(&dictionary);
-    for (const auto& [name, number] : result.fields) set_field(dictionary, name, real_variant(number));
-    api->godot_variant_new_dictionary(&value, &dictionary);
-    api->godot_dictionary_destroy(&dictionary);
+  switch (result.kind) {
+    case Value::truth:
+      return api->godot_variant_new_bool(&value, true), value;
+    case Value::number:
+      return real_variant(result.real);
+    case Value::integers:
+      return integers_variant(result.whole);
+    case Value::reals:
+      return reals_variant(result.floats);
+    case Value::vectors:
+      return vectors_variant(result.floats);
+    case Value::bytes:
+      return bytes_variant(result.octets);
+    case Value::named:
+      return named_variant(result.fields);
+    case Value::rows:
+      return list_variant(result.table, named_variant);
+    case Value::lists:
+      return list_variant(result.sets, integers_variant);
+    case Value::lines:
+      return list_variant(result.polylines, vectors_variant);
+    case Value::nothing:
+      break;
   }
+  api->godot_variant_new_nil(&value);
   return value;
 }
 
@@ -210,18 +264,22 @@ extern "C" {
 void GDN_EXPORT godot_gdnative_init(godot_gdnative_init_options* options) {
   api = options->api_struct;
   for (unsigned i = 0; i < api->num_extensions; ++i) {
-    if (api->extensions[i]->type == GDNATIVE_EXT_NATIVESCRIPT) script = reinterpret_cast<const godot_gdnative_ext_nativescript_api_struct*>(api->extensions[i]);
+    if (api->extensions[i]->type == GDNATIVE_EXT_NATIVESCRIPT)
+      script = reinterpret_cast<const godot_gdnative_ext_nativescript_api_struct*>(api->extensions[i]);
   }
 }
 
 void GDN_EXPORT godot_gdnative_terminate(godot_gdnative_terminate_options*) { api = nullptr, script = nullptr; }
 
 void GDN_EXPORT godot_nativescript_init(void* handle) {
-  script->godot_nativescript_register_class(handle, "HfSurface", "Reference", {make_instance, nullptr, nullptr}, {free_instance, nullptr, nullptr});
-  for (const Entry& entry : methods) {
-    script->godot_nativescript_register_method(handle, "HfSurface", entry.name, {GODOT_METHOD_RPC_MODE_DISABLED}, {call_method, const_cast<Entry*>(&entry), nullptr});
+  script->godot_nativescript_register_class(handle, "HfSurface", "Reference", {make_instance, nullptr, nullptr},
+                                            {free_instance, nullptr, nullptr});
+  for (const Entry& entry : methods()) {
+    script->godot_nativescript_register_method(handle, "HfSurface", entry.name, {GODOT_METHOD_RPC_MODE_DISABLED},
+                                               {call_method, const_cast<Entry*>(&entry), nullptr});
   }
-  script->godot_nativescript_register_method(handle, "HfSurface", "get_error", {GODOT_METHOD_RPC_MODE_DISABLED}, {get_error, nullptr, nullptr});
+  script->godot_nativescript_register_method(handle, "HfSurface", "get_error", {GODOT_METHOD_RPC_MODE_DISABLED},
+                                             {get_error, nullptr, nullptr});
 }
 }
 #if defined(__GNUC__)

@@ -1,75 +1,28 @@
-#include "surface.h"
+#include "arguments.h"
 
 namespace hf_godot {
 namespace {
 
-using hfpp::check;
-using hfpp::make;
-
-const Argument missing;
-const Argument& at(const Arguments& arguments, size_t i) { return i < arguments.size() ? arguments[i] : missing; }
-
-struct List {  // uint32 numbers; a missing list counts one, so that the library says what is missing
-  Numbers values;
-  bool null = true;
-  uint32_t count() const { return null ? 1u : static_cast<uint32_t>(values.size()); }
-  const uint32_t* data() const { return values.empty() ? nullptr : values.data(); }
-};
-
-uint32_t whole(double value, const char* name) {
-  if (!(value >= 0 && value <= 4294967295.0)) fail(std::string(name) + " must be whole numbers from 0", HF_ERROR_OUT_OF_RANGE);
-  if (value != static_cast<uint32_t>(value)) fail(std::string(name) + " must be whole numbers");
-  return static_cast<uint32_t>(value);
-}
-
-List integers(const Argument& argument, const char* name) {
-  List list;
-  list.null = argument.null;
-  for (double value : argument.list) list.values.push_back(whole(value, name));
-  return list;
-}
-
-const double* doubles(const Argument& argument, size_t count, const char* name) {
-  if (argument.null) return nullptr;
-  if (argument.list.size() != count)
-    fail(std::string(name) + " must hold " + std::to_string(count) + " numbers, not " + std::to_string(argument.list.size()));
-  return argument.list.empty() ? nullptr : argument.list.data();
-}
-
-// Lists of vertices one after the other.
-struct Regions {
-  Numbers counts, vertices;
-  bool null;
-  Regions(const Argument& argument, const char* name) : null(argument.null) {
-    for (const Doubles& region : argument.lists) {
-      counts.push_back(static_cast<uint32_t>(region.size()));
-      for (double vertex : region) vertices.push_back(whole(vertex, name));
-    }
-  }
-  uint32_t count() const { return null ? 1u : static_cast<uint32_t>(counts.size()); }
-};
-
-Value numbers(Numbers list) {
-  Value value;
-  value.kind = Value::integers, value.whole = std::move(list);
-  return value;
-}
-Value done() {
-  Value value;
-  value.kind = Value::truth, value.real = 1;
-  return value;
-}
-
 Value create(Surface& s, const Arguments& a) {
   auto desc = make<hf_create_desc>();
-  const std::map<std::string, int32_t*> whole_options = {{"weld", &desc.weld}, {"operator_kind", &desc.operator_kind}, {"engine", &desc.engine}, {"ordering", &desc.ordering},
+  const std::map<std::string, int32_t*> whole_options = {{"weld", &desc.weld},
+                                                         {"operator_kind", &desc.operator_kind},
+                                                         {"engine", &desc.engine},
+                                                         {"ordering", &desc.ordering},
                                                          {"field_kind", &desc.field_kind}};
-  const std::map<std::string, uint32_t*> counts = {{"channel_count", &desc.channel_count}, {"thread_count", &desc.thread_count}, {"vertex_limit", &desc.vertex_limit}, {"site_limit", &desc.site_limit}};
+  const std::map<std::string, uint32_t*> counts = {{"channel_count", &desc.channel_count},
+                                                   {"thread_count", &desc.thread_count},
+                                                   {"vertex_limit", &desc.vertex_limit},
+                                                   {"site_limit", &desc.site_limit}};
   for (const auto& [name, value] : at(a, 2).named) {
-    if (auto i = whole_options.find(name); i != whole_options.end()) *i->second = static_cast<int32_t>(value);
-    else if (auto c = counts.find(name); c != counts.end()) *c->second = whole(value, name.c_str());
-    else if (name == "penalty") desc.penalty = value;
-    else fail("no option '" + name + "'");
+    if (auto i = whole_options.find(name); i != whole_options.end())
+      *i->second = static_cast<int32_t>(value);
+    else if (auto c = counts.find(name); c != counts.end())
+      *c->second = whole(value, name.c_str());
+    else if (name == "penalty")
+      desc.penalty = value;
+    else
+      fail("no option '" + name + "'");
   }
   if (at(a, 0).null) fail("positions are null", HF_ERROR_NULL_POINTER);
   const Doubles& positions = at(a, 0).list;
@@ -84,7 +37,7 @@ Value create(Surface& s, const Arguments& a) {
   }
   hf_solver raw = nullptr;
   check(hf_create(&desc, &raw));
-  s.pose = {}, s.transfer = {};
+  s.forget();
   s.solver = hfpp::Handle<hf_solver, hf_destroy>(raw), s.vertex_count = desc.vertex_count;
   return done();
 }
@@ -93,13 +46,14 @@ Value clone_from(Surface& s, const Arguments& a) {
   if (!at(a, 0).surface) fail("clone_from needs a surface");
   hf_solver raw = nullptr;
   check(hf_clone(a[0].surface->solver.get(), &raw));
-  s.pose = {}, s.transfer = {};
+  s.forget();
   s.solver = hfpp::Handle<hf_solver, hf_destroy>(raw), s.vertex_count = a[0].surface->vertex_count;
   return done();
 }
 
 Value dispose(Surface& s, const Arguments&) {
-  s.solver = {}, s.pose = {}, s.transfer = {};
+  s.forget();
+  s.solver = {};
   return done();
 }
 
@@ -108,7 +62,8 @@ Value add_sites(Surface& s, const Arguments& a) {
   const size_t count = (vertices.null ? triangles : vertices).count();
   auto desc = make<hf_sites_desc>();
   desc.site_count = static_cast<uint32_t>(count), desc.vertices = vertices.data(), desc.triangles = triangles.data();
-  desc.values = doubles(at(a, 1), count, "values"), desc.stiffness = doubles(at(a, 2), count, "stiffness"), desc.radii = doubles(at(a, 3), count, "radii");
+  desc.values = doubles(at(a, 1), count, "values"), desc.stiffness = doubles(at(a, 2), count, "stiffness"),
+  desc.radii = doubles(at(a, 3), count, "radii");
   desc.barycentrics = doubles(at(a, 5), 3 * count, "barycentrics");
   Numbers made(count + 1);
   check(hf_add_sites(s.solver.get(), &desc, made.data()));
@@ -162,7 +117,10 @@ Value statistics(Surface& s, const Arguments&) {
   check(hf_get_statistics(s.solver.get(), &figures));
   Value value;
   value.kind = Value::named;
-  value.fields = {{"factorisation_count", figures.factorisation_count}, {"site_count", figures.site_count}, {"factor_loaded", figures.factor_loaded}, {"memory_bytes", figures.memory_bytes}};
+  value.fields = {{"factorisation_count", figures.factorisation_count},
+                  {"site_count", figures.site_count},
+                  {"factor_loaded", figures.factor_loaded},
+                  {"memory_bytes", figures.memory_bytes}};
   return value;
 }
 
@@ -171,8 +129,11 @@ Value report(Surface& s, const Arguments&) {
   check(hf_get_mesh_report(s.solver.get(), &found));
   Value value;
   value.kind = Value::named;
-  value.fields = {{"vertex_count", found.vertex_count}, {"component_count", found.component_count}, {"boundary_edge_count", found.boundary_edge_count},
-                  {"isolated_vertex_count", found.isolated_vertex_count}, {"non_manifold_edge_count", found.non_manifold_edge_count}};
+  value.fields = {{"vertex_count", found.vertex_count},
+                  {"component_count", found.component_count},
+                  {"boundary_edge_count", found.boundary_edge_count},
+                  {"isolated_vertex_count", found.isolated_vertex_count},
+                  {"non_manifold_edge_count", found.non_manifold_edge_count}};
   return value;
 }
 
@@ -198,7 +159,8 @@ Value add_handles(Surface& s, const Arguments& a) {
   const Regions regions(at(a, 0), "regions");
   auto desc = make<hf_handles_desc>();
   desc.handle_count = regions.count(), desc.layer = whole(at(a, 1).number, "layer");
-  if (!regions.counts.empty()) desc.region_counts = regions.counts.data(), desc.region_vertices = regions.vertices.data();
+  if (!regions.counts.empty())
+    desc.region_counts = regions.counts.data(), desc.region_vertices = regions.vertices.data();
   Numbers made(desc.handle_count + 1);
   check(hf_pose_add_handles(pose_of(s), &desc, made.data()));
   made.resize(desc.handle_count);
@@ -208,7 +170,8 @@ Value add_handles(Surface& s, const Arguments& a) {
 Value add_handles_at(Surface& s, const Arguments& a) {
   const size_t count = at(a, 0).list.size() / 3;
   auto desc = make<hf_handles_desc>();
-  desc.handle_count = static_cast<uint32_t>(count), desc.points = doubles(at(a, 0), 3 * count, "points"), desc.radii = doubles(at(a, 1), count, "radii");
+  desc.handle_count = static_cast<uint32_t>(count), desc.points = doubles(at(a, 0), 3 * count, "points"),
+  desc.radii = doubles(at(a, 1), count, "radii");
   desc.layer = whole(at(a, 2).number, "layer");
   Numbers made(count + 1);
   check(hf_pose_add_handles(pose_of(s), &desc, made.data()));
@@ -226,7 +189,8 @@ Value remove_handles(Surface& s, const Arguments& a) {
 Value set_transforms(Surface& s, const Arguments& a) {
   const List handles = integers(at(a, 0), "handles");
   const size_t count = handles.count();
-  const double *turns = doubles(at(a, 1), 4 * count, "rotations"), *shifts = doubles(at(a, 2), 3 * count, "translations");
+  const double *turns = doubles(at(a, 1), 4 * count, "rotations"),
+               *shifts = doubles(at(a, 2), 3 * count, "translations");
   std::vector<hf_transform> transforms(count + 1);
   for (size_t i = 0; i < count; ++i) {
     for (size_t c = 0; turns && c < 4; ++c) transforms[i].rotation[c] = turns[4 * i + c];
@@ -256,10 +220,14 @@ Value handle_field(Surface& s, const Arguments& a) {
 Value deform(Surface& s, const Arguments& a) {
   auto desc = make<hf_deform_desc>();
   for (const auto& [name, number] : at(a, 0).named) {
-    if (name == "iteration_count") desc.iteration_count = whole(number, "iteration_count");
-    else if (name == "restart") desc.restart = number != 0;
-    else if (name == "refine") desc.refine = number != 0;
-    else fail("no option '" + name + "'");
+    if (name == "iteration_count")
+      desc.iteration_count = whole(number, "iteration_count");
+    else if (name == "restart")
+      desc.restart = number != 0;
+    else if (name == "refine")
+      desc.refine = number != 0;
+    else
+      fail("no option '" + name + "'");
   }
   Value value;
   value.kind = Value::vectors, value.floats.resize(3 * s.vertex_count + 1);
@@ -278,7 +246,8 @@ Value normals_of(Surface& s, const Arguments&) {
   return value;
 }
 
-// The motion of this surface played on another: transfer_to(target, source regions, target regions, flags or null, scale).
+// The motion of this surface played on another: transfer_to(target, source regions, target regions, flags or null,
+// scale).
 Value transfer_to(Surface& s, const Arguments& a) {
   if (!at(a, 0).surface) fail("transfer_to needs a target surface");
   auto desc = make<hf_transfer_desc>();
@@ -312,17 +281,52 @@ Value transfer_apply(Surface& s, const Arguments& a) {
 
 }  // namespace
 
-const std::vector<Entry> methods = {{"create", 2, 4, create}, {"clone_from", 1, 1, clone_from}, {"dispose", 0, 0, dispose}, {"add_sites", 2, 6, add_sites}, {"remove_sites", 1, 1, remove_sites},
-                                    {"move_sites", 2, 2, move_sites}, {"set_site_values", 2, 2, set_site_values}, {"record", 0, 0, record}, {"undo", 0, 0, undo}, {"redo", 0, 0, redo},
-                                    {"solve", 0, 0, solve}, {"solve_at", 1, 1, solve_at}, {"statistics", 0, 0, statistics}, {"report", 0, 0, report}, {"save_factor", 0, 0, save_factor},
-                                    {"add_handles", 1, 2, add_handles}, {"add_handles_at", 2, 3, add_handles_at}, {"remove_handles", 1, 1, remove_handles}, {"set_transforms", 3, 3, set_transforms},
-                                    {"handle_info", 1, 1, handle_centroid}, {"handle_field", 1, 1, handle_field}, {"deform", 0, 1, deform}, {"normals", 0, 0, normals_of}, {"transfer_to", 3, 5, transfer_to}, {"transfer_apply", 1, 1, transfer_apply}};
+namespace {
+
+std::vector<Entry> all_methods() {
+  std::vector<Entry> all = {{"create", 2, 4, create},
+                            {"clone_from", 1, 1, clone_from},
+                            {"dispose", 0, 0, dispose},
+                            {"add_sites", 2, 6, add_sites},
+                            {"remove_sites", 1, 1, remove_sites},
+                            {"move_sites", 2, 2, move_sites},
+                            {"set_site_values", 2, 2, set_site_values},
+                            {"record", 0, 0, record},
+                            {"undo", 0, 0, undo},
+                            {"redo", 0, 0, redo},
+                            {"solve", 0, 0, solve},
+                            {"solve_at", 1, 1, solve_at},
+                            {"statistics", 0, 0, statistics},
+                            {"report", 0, 0, report},
+                            {"save_factor", 0, 0, save_factor},
+                            {"add_handles", 1, 2, add_handles},
+                            {"add_handles_at", 2, 3, add_handles_at},
+                            {"remove_handles", 1, 1, remove_handles},
+                            {"set_transforms", 3, 3, set_transforms},
+                            {"handle_info", 1, 1, handle_centroid},
+                            {"handle_field", 1, 1, handle_field},
+                            {"deform", 0, 1, deform},
+                            {"normals", 0, 0, normals_of},
+                            {"transfer_to", 3, 5, transfer_to},
+                            {"transfer_apply", 1, 1, transfer_apply}};
+  all.insert(all.end(), field_methods().begin(), field_methods().end());
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Entry>& methods() {
+  static const std::vector<Entry> all = all_methods();
+  return all;
+}
 
 Value call(Surface& surface, const Entry& entry, const Arguments& arguments) noexcept {
   surface.error_name.clear(), surface.error_message.clear(), surface.error_index = -1;
   try {
     const int count = static_cast<int>(arguments.size());
-    if (count < entry.least || count > entry.most) fail(std::string(entry.name) + " takes " + std::to_string(entry.least) + " to " + std::to_string(entry.most) + " arguments");
+    if (count < entry.least || count > entry.most)
+      fail(std::string(entry.name) + " takes " + std::to_string(entry.least) + " to " + std::to_string(entry.most) +
+           " arguments");
     return entry.method(surface, arguments);
   } catch (const hfpp::Error& error) {
     surface.error_name = hf_result_name(error.code()), surface.error_message = error.what();

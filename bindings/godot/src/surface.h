@@ -1,8 +1,7 @@
-// What scripts see, free of any engine: one object with a solver, a pose and (when made with transfer_to) a transfer, and
-// a table of methods from plain arguments to plain values. gdnative.cpp and gdextension.cpp only convert.
+// What scripts see, free of any engine: one object with a solver, a pose and (when made with transfer_to) a transfer,
+// and a table of methods from plain arguments to plain values. gdnative.cpp and gdextension.cpp only convert.
 #pragma once
 #include <hf/hf.hpp>
-
 #include <map>
 #include <memory>
 #include <string>
@@ -27,12 +26,15 @@ struct Argument {
 using Arguments = std::vector<Argument>;
 
 struct Value {
-  enum Kind { nothing, truth, number, integers, reals, vectors, bytes, named } kind = nothing;
+  enum Kind { nothing, truth, number, integers, reals, vectors, bytes, named, rows, lists, lines } kind = nothing;
   double real = 0;
   Numbers whole;
   std::vector<float> floats;  // reals, or xyz of vectors
   std::vector<uint8_t> octets;
   std::map<std::string, double> fields;
+  std::vector<std::map<std::string, double>> table;  // rows
+  std::vector<Numbers> sets;                         // lists of whole numbers
+  std::vector<std::vector<float>> polylines;         // xyz of each line's points
 };
 
 [[noreturn]] inline void fail(const std::string& message, hf_result code = HF_ERROR_INVALID_ARGUMENT) {
@@ -46,6 +48,12 @@ struct Surface {
   hfpp::Handle<hf_solver, hf_destroy> solver;
   hfpp::Handle<hf_pose, hf_pose_destroy> pose;
   hfpp::Handle<hf_transfer, hf_transfer_destroy> transfer;
+  hfpp::Handle<hf_geodesics, hf_geodesics_destroy> geodesics;
+  hfpp::Handle<hf_direction, hf_direction_destroy> direction;
+  hfpp::Handle<hf_quads, hf_quads_destroy> quads;
+  hfpp::Handle<hf_flow, hf_flow_destroy> flow;
+  // Everything made from the solver.
+  void forget() { pose = {}, transfer = {}, geodesics = {}, direction = {}, quads = {}, flow = {}; }
   size_t vertex_count = 0, target_count = 0;
   std::vector<float> normals;  // of the last deform
   // the last failure, for scripts that have no exceptions
@@ -59,7 +67,8 @@ struct Entry {
   int least, most;  // arguments
   Method method;
 };
-extern const std::vector<Entry> methods;
+const std::vector<Entry>& methods();        // all of them
+const std::vector<Entry>& field_methods();  // those of surface_fields.cpp
 
 // Calls a method; a failure is kept in the surface and gives Value::nothing.
 Value call(Surface& surface, const Entry& entry, const Arguments& arguments) noexcept;

@@ -10,13 +10,15 @@ library's own message, HfError and its subclasses.
 """
 
 from . import _raw as constants
-from ._library import (BusyError, CancelledError, ConflictError, DuplicateSiteError, EmptyError, InaccurateError, InternalError,
+from ._library import (BusyError, CancelledError, ConflictError, DuplicateSiteError, EmptyError, InaccurateError,
+    InternalError,
                        InvalidArgumentError, InvalidDescError, InvalidHandleError, NoRecordError, NoSitesError, NoSuchHandleError,
                        NoSuchPairError, NoSuchSiteError, NonFiniteError, NotPositiveDefiniteError, NullPointerError,
                        OutOfMemoryError, OutOfRangeError, OverlapError, ReentrantError, TooLargeError, TooSmallError,
                        UnsupportedError)
 from ._library import EXCEPTIONS, NO_INDEX, HfError, library
-from ._raw import (hf_deform_info as DeformInfo, hf_direction_statistics as DirectionStatistics, hf_handle_info as HandleInfo,
+from ._raw import (hf_deform_info as DeformInfo, hf_direction_statistics as DirectionStatistics,
+    hf_handle_info as HandleInfo,
                    hf_mesh_report as MeshReport, hf_pair_info as PairInfo, hf_quads_info as QuadsInfo, hf_solve_info as SolveInfo, hf_statistics as Statistics,
                    hf_transfer_info as TransferInfo)
 from .direction import Direction

@@ -21,7 +21,8 @@ class HfError(Exception):
 
     code: int = 0
 
-    def __init__(self, message: str, code: Optional[int] = None, index: Optional[int] = None, function: str = "") -> None:
+    def __init__(self, message: str, code: Optional[int] = None, index: Optional[int] = None,
+        function: str = "") -> None:
         self.code = type(self).code if code is None else code
         self.name = _raw.RESULT_NAMES.get(self.code, str(self.code))
         self.index, self.function, self.message = index, function, message
@@ -104,7 +105,8 @@ def call(name: str, *arguments: Any) -> None:
         detail = _raw.hf_error_detail()
         lib.hf_get_error_detail(ctypes.byref(detail))
         index = None if detail.index == NO_INDEX else detail.index
-        raise EXCEPTIONS.get(code, HfError)(detail.message.decode("utf-8", "replace"), code, index, detail.function.decode())
+        raise EXCEPTIONS.get(code, HfError)(detail.message.decode("utf-8", "replace"), code, index,
+            detail.function.decode())
 
 
 def make(struct: type, **fields: Any) -> Any:

@@ -77,7 +77,8 @@ class Direction(Object):
     def sites(self) -> dict:
         """All constraints: arrays sites, vertices, vectors (k, 3)."""
         count = self.site_count
-        found = {"sites": np.empty(count, np.uint32), "vertices": np.empty(count, np.uint32), "vectors": np.empty((count, 3))}
+        found = {"sites": np.empty(count, np.uint32), "vertices": np.empty(count, np.uint32),
+            "vectors": np.empty((count, 3))}
         call("hf_direction_get_sites", self._raw_handle, count, *(address(array) for array in found.values()))
         return found
 

@@ -9,7 +9,8 @@ from typing import Any, NamedTuple, Optional, Sequence
 import numpy as np
 
 from . import _raw
-from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, count_of, doubles, handle_of, integers, library, make, options_into, output,
+from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, count_of, doubles, handle_of, integers,
+    library, make, options_into, output,
                        points, regions)
 from .solver import Solver
 
@@ -42,7 +43,8 @@ def _skin(function: str, handle: Optional[int], vertex_count: int, weight_count:
     info = make(_raw.hf_skin_info, weight_count=weight_count)
     call(function, handle, ctypes.byref(info))
     joints = info.joint_count
-    skin = Skin(np.empty((joints, 3)), np.empty((joints, 4)), np.empty((joints, 3)), np.empty((vertex_count, weight_count), np.uint32),
+    skin = Skin(np.empty((joints, 3)), np.empty((joints, 4)), np.empty((joints, 3)),
+        np.empty((vertex_count, weight_count), np.uint32),
                 np.empty((vertex_count, weight_count), np.float32))
     info.pivots, info.rotations, info.translations = address(skin.pivots), address(skin.rotations), address(skin.translations)
     info.vertex_joints, info.vertex_weights = address(skin.joints), address(skin.weights)
@@ -78,10 +80,12 @@ class Pose(Object):
             if centres.size % 3:
                 raise InvalidArgumentError(f"points must have the shape (k, 3), not {centres.shape}")
             reach = doubles(radii, "radii", centres.size // 3)
-            desc = make(_raw.hf_handles_desc, handle_count=centres.size // 3, points=address(centres), radii=address(reach), layer=layer)
+            desc = make(_raw.hf_handles_desc, handle_count=centres.size // 3, points=address(centres),
+                radii=address(reach), layer=layer)
         else:
             counts, vertices = regions(region_lists, "region_lists")
-            desc = make(_raw.hf_handles_desc, handle_count=1 if counts is None else counts.size, region_counts=address(counts),
+            desc = make(_raw.hf_handles_desc, handle_count=1 if counts is None else counts.size,
+                region_counts=address(counts),
                         region_vertices=address(vertices), layer=layer)
         out = np.empty(desc.handle_count, np.uint32)
         call("hf_pose_add_handles", self._raw_handle, ctypes.byref(desc), address(out))
@@ -91,12 +95,14 @@ class Pose(Object):
         numbers = integers(handles, "handles")
         call("hf_pose_remove_handles", self._raw_handle, count_of(numbers), address(numbers))
 
-    def set_transforms(self, handles: ArrayLike, rotations: Optional[ArrayLike] = None, translations: Optional[ArrayLike] = None) -> None:
+    def set_transforms(self, handles: ArrayLike, rotations: Optional[ArrayLike] = None,
+        translations: Optional[ArrayLike] = None) -> None:
         """Rigid motions from rest about the handles' centroids: (k, 4) quaternions x, y, z, w and (k, 3); None = none."""
         numbers = integers(handles, "handles")
         count = count_of(numbers)
         packed = np.zeros((count, 7))
-        for columns, values, name in ((slice(0, 4), rotations, "rotations"), (slice(4, 7), translations, "translations")):
+        for columns, values, name in ((slice(0, 4), rotations, "rotations"),
+            (slice(4, 7), translations, "translations")):
             if values is not None:
                 width = columns.stop - columns.start
                 packed[:, columns] = doubles(values, name, count * width).reshape(count, width)
@@ -151,26 +157,31 @@ class Transfer(Object):
 
     _destroy = "hf_transfer_destroy"
 
-    def __init__(self, source: Solver, target: Solver, *, source_axes: Optional[ArrayLike] = None, target_axes: Optional[ArrayLike] = None,
+    def __init__(self, source: Solver, target: Solver, *, source_axes: Optional[ArrayLike] = None,
+        target_axes: Optional[ArrayLike] = None,
                  **options: Any) -> None:
         desc, handle = make(_raw.hf_transfer_desc), ctypes.c_void_p()
         options_into(desc, options)
         for name, axes in (("source_axes", source_axes), ("target_axes", target_axes)):
             if axes is not None:
                 setattr(desc, name, (ctypes.c_float * 9)(*doubles(axes, name, 9).ravel()))
-        call("hf_transfer_create", handle_of(source, Solver, "source"), handle_of(target, Solver, "target"), ctypes.byref(desc), ctypes.byref(handle))
+        call("hf_transfer_create", handle_of(source, Solver, "source"), handle_of(target, Solver, "target"),
+            ctypes.byref(desc), ctypes.byref(handle))
         self._own(handle)
         self.source_vertex_count, self.vertex_count = source.vertex_count, target.vertex_count
 
-    def add_pairs(self, source_regions: Sequence[ArrayLike], target_regions: Sequence[ArrayLike], flags: Optional[ArrayLike] = None) -> np.ndarray:
+    def add_pairs(self, source_regions: Sequence[ArrayLike], target_regions: Sequence[ArrayLike],
+        flags: Optional[ArrayLike] = None) -> np.ndarray:
         """Adds pairs of regions; no factorisation. Returns their numbers."""
-        (source_counts, source), (target_counts, target) = regions(source_regions, "source_regions"), regions(target_regions, "target_regions")
+        (source_counts, source), (target_counts, target) = regions(source_regions,
+            "source_regions"), regions(target_regions, "target_regions")
         if source_counts is None or target_counts is None or source_counts.size != target_counts.size:
             raise InvalidArgumentError("source_regions and target_regions must be of one length")
         marks = integers(flags, "flags")
         if marks is not None and marks.size != source_counts.size:
             raise InvalidArgumentError(f"flags must hold {source_counts.size} numbers, not {marks.size}")
-        desc = make(_raw.hf_pairs_desc, pair_count=source_counts.size, source_counts=address(source_counts), source_vertices=address(source),
+        desc = make(_raw.hf_pairs_desc, pair_count=source_counts.size, source_counts=address(source_counts),
+            source_vertices=address(source),
                     target_counts=address(target_counts), target_vertices=address(target), flags=address(marks))
         out = np.empty(source_counts.size, np.uint32)
         call("hf_transfer_add_pairs", self._raw_handle, ctypes.byref(desc), address(out))
@@ -191,7 +202,8 @@ class Transfer(Object):
         call("hf_transfer_get_info", self._raw_handle, ctypes.byref(info))
         return info
 
-    def apply(self, source_positions: ArrayLike, out: Optional[np.ndarray] = None, *, normals: Optional[np.ndarray] = None, dtype: Any = np.float32,
+    def apply(self, source_positions: ArrayLike, out: Optional[np.ndarray] = None, *,
+        normals: Optional[np.ndarray] = None, dtype: Any = np.float32,
               holds: Optional[ArrayLike] = None, hold_positions: Optional[ArrayLike] = None) -> np.ndarray:
         """One posed frame of the source -> (n, 3) positions of the target. holds: pairs whose place hold_positions decides."""
         posed, stride = points(source_positions, "source_positions")

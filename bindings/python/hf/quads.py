@@ -39,7 +39,8 @@ class Quads(Object):
 
     _destroy = "hf_quads_destroy"
 
-    def __init__(self, solver: Solver, *, site_vertices: Optional[ArrayLike] = None, site_lines: Optional[ArrayLike] = None,
+    def __init__(self, solver: Solver, *, site_vertices: Optional[ArrayLike] = None,
+        site_lines: Optional[ArrayLike] = None,
                  progress: Optional[Progress] = None, **options: Any) -> None:
         desc, handle = make(_raw.hf_quads_desc), ctypes.c_void_p()
         options_into(desc, options)

@@ -9,7 +9,8 @@ from typing import Any, List, NamedTuple, Optional, Sequence
 import numpy as np
 
 from . import _raw
-from ._library import (NO_INDEX, ArrayLike, InvalidArgumentError, Object, address, call, count_of, doubles, handle_of, integers, library, make,
+from ._library import (NO_INDEX, ArrayLike, InvalidArgumentError, Object, address, call, count_of, doubles, handle_of,
+    integers, library, make,
                        options_into, output, paired, points, scalars)
 
 
@@ -148,14 +149,16 @@ class Solver(Object):
         count = inside.size if at is None and inside is not None else count_of(at)  # of none, the library says so
         if inside is not None and inside.size != count:
             raise InvalidArgumentError("vertices and triangles are given both")
-        held = [at, inside, doubles(barycentrics, "barycentrics", 3 * count), doubles(values, "values", count * self.channel_count),
+        held = [at, inside, doubles(barycentrics, "barycentrics", 3 * count),
+            doubles(values, "values", count * self.channel_count),
                 doubles(stiffness, "stiffness", count), doubles(radii, "radii", count)]
         desc = make(_raw.hf_sites_desc, site_count=count)
         for name, array in zip(("vertices", "triangles", "barycentrics", "values", "stiffness", "radii"), held):
             setattr(desc, name, address(array))
         return desc, count, held
 
-    def add_sites(self, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None, *, stiffness: Optional[ArrayLike] = None,
+    def add_sites(self, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None, *,
+        stiffness: Optional[ArrayLike] = None,
                   radii: Optional[ArrayLike] = None, triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None) -> np.ndarray:
         """Adds sites at vertices, or inside triangles; all or nothing. Returns their numbers, (k,) uint32."""
         desc, count, _held = self._sites(vertices, values, stiffness, radii, triangles, barycentrics)
@@ -167,7 +170,8 @@ class Solver(Object):
         numbers = integers(sites, "sites")
         call("hf_remove_sites", self._raw_handle, count_of(numbers), address(numbers))
 
-    def move_sites(self, sites: ArrayLike, vertices: Optional[ArrayLike] = None, *, triangles: Optional[ArrayLike] = None,
+    def move_sites(self, sites: ArrayLike, vertices: Optional[ArrayLike] = None, *,
+        triangles: Optional[ArrayLike] = None,
                    barycentrics: Optional[ArrayLike] = None) -> None:
         """Moves sites, keeping their numbers and values."""
         numbers = integers(sites, "sites")
@@ -180,10 +184,12 @@ class Solver(Object):
         given = doubles(values, "values", count * self.channel_count)
         call("hf_set_site_values", self._raw_handle, count, address(numbers), address(given))
 
-    def edit_sites(self, *, remove: ArrayLike = (), move: ArrayLike = (), move_to: Optional[ArrayLike] = None, set: ArrayLike = (),
+    def edit_sites(self, *, remove: ArrayLike = (), move: ArrayLike = (), move_to: Optional[ArrayLike] = None,
+        set: ArrayLike = (),
                    set_values: Optional[ArrayLike] = None, add: Optional[ArrayLike] = None, add_values: Optional[ArrayLike] = None) -> np.ndarray:
         """One batch: remove, move, set, add; all or nothing. Returns the numbers of the added sites."""
-        removed, moved, changed = (integers(() if a is None else a, n) for a, n in ((remove, "remove"), (move, "move"), (set, "set")))
+        removed, moved, changed = (integers(() if a is None else a, n) for a, n in ((remove, "remove"), (move, "move"),
+            (set, "set")))
         values = doubles(set_values, "set_values", changed.size * self.channel_count)
         edit = make(_raw.hf_edit_desc, remove_count=removed.size, remove_sites=address(removed), move_count=moved.size,
                     move_sites=address(moved), set_count=changed.size, set_sites=address(changed), set_values=address(values))
@@ -206,8 +212,10 @@ class Solver(Object):
     def sites(self) -> dict:
         """All sites: arrays sites, vertices, components, values, stiffness, flux, radii."""
         count, channels = self.site_count, self.channel_count
-        arrays = {"sites": np.empty(count, np.uint32), "vertices": np.empty(count, np.uint32), "components": np.empty(count, np.uint32),
-                  "values": np.empty((count, channels)), "stiffness": np.empty(count), "flux": np.empty((count, channels)), "radii": np.empty(count)}
+        arrays = {"sites": np.empty(count, np.uint32), "vertices": np.empty(count, np.uint32),
+            "components": np.empty(count, np.uint32),
+                  "values": np.empty((count, channels)), "stiffness": np.empty(count), "flux": np.empty((count,
+                      channels)), "radii": np.empty(count)}
         info = make(_raw.hf_site_info, capacity=count, **{name: address(array) for name, array in arrays.items()})
         call("hf_get_sites", self._raw_handle, ctypes.byref(info))
         return arrays
@@ -230,7 +238,8 @@ class Solver(Object):
     def _shape(self) -> tuple:
         return (self.vertex_count,) if self.channel_count == 1 else (self.vertex_count, self.channel_count)
 
-    def solve(self, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32, info: Optional[_raw.hf_solve_info] = None) -> np.ndarray:
+    def solve(self, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
+        info: Optional[_raw.hf_solve_info] = None) -> np.ndarray:
         """The field at every vertex, (n,) or (n, channels). out: float32 or float64 to write into, strided rows allowed."""
         out, stride = output(out, self._shape(), dtype if out is None else (np.float32, np.float64))
         if info is not None:
@@ -250,13 +259,16 @@ class Solver(Object):
     def solve_vectors(self, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32) -> np.ndarray:
         """A tangent vector field from three channels, (n, 3)."""
         out, stride = output(out, (self.vertex_count, 3), dtype if out is None else (np.float32, np.float64))
-        call("hf_solve_vectors" if out.dtype == np.float32 else "hf_solve_vectors_f64", self._raw_handle, address(out), stride, None, None)
+        call("hf_solve_vectors" if out.dtype == np.float32 else "hf_solve_vectors_f64", self._raw_handle, address(out),
+            stride, None, None)
         return out
 
-    def solve_preview(self, out: Optional[np.ndarray] = None, *, correction_count: int = 0, dtype: Any = np.float32) -> np.ndarray:
+    def solve_preview(self, out: Optional[np.ndarray] = None, *, correction_count: int = 0,
+        dtype: Any = np.float32) -> np.ndarray:
         """As solve, through the factor in single precision."""
         out, stride = output(out, self._shape(), dtype if out is None else (np.float32, np.float64))
-        call("hf_solve_preview" if out.dtype == np.float32 else "hf_solve_preview_f64", self._raw_handle, address(out), stride,
+        call("hf_solve_preview" if out.dtype == np.float32 else "hf_solve_preview_f64", self._raw_handle, address(out),
+            stride,
              correction_count, None)
         return out
 
@@ -278,7 +290,8 @@ class Solver(Object):
         """Levels that divide a field into level_count + 1 strips of equal value steps, areas or widths."""
         desc, _held = scalars(field, self.vertex_count)
         out = np.empty(max(0, min(level_count, 1000000)))
-        call("hf_space_levels", self._raw_handle, None if desc is None else ctypes.byref(desc), int(spacing), max(0, level_count), address(out))
+        call("hf_space_levels", self._raw_handle, None if desc is None else ctypes.byref(desc), int(spacing),
+            max(0, level_count), address(out))
         return out
 
     def trace_isolines(self, field: ArrayLike, levels: ArrayLike) -> Isolines:
@@ -290,7 +303,8 @@ class Solver(Object):
         lines = make(_raw.hf_isolines)
         call("hf_trace_isolines", self._raw_handle, desc, count, address(wanted), ctypes.byref(lines))
         p, k = lines.point_count, lines.line_count
-        result = Isolines(np.empty((p, 3)), np.empty((p, 2), np.uint32), np.empty(p), np.zeros(k + 1, np.uint32), np.empty(k, np.uint32),
+        result = Isolines(np.empty((p, 3)), np.empty((p, 2), np.uint32), np.empty(p), np.zeros(k + 1, np.uint32),
+            np.empty(k, np.uint32),
                           np.empty(k, np.int32))
         if k:
             lines.point_capacity, lines.line_capacity = p, k
@@ -310,16 +324,19 @@ class Solver(Object):
             call("hf_find_critical_points", self._raw_handle, desc, out.size, address(out), ctypes.byref(info))
         return out
 
-    def find_extremities(self, *, progress: Optional[Progress] = None, geodesics: Optional["Geodesics"] = None, **options: Any) -> np.ndarray:
+    def find_extremities(self, *, progress: Optional[Progress] = None, geodesics: Optional["Geodesics"] = None,
+        **options: Any) -> np.ndarray:
         """Tips of the surface, farthest first: records vertex, component, length, position. Options: kind, least_length, source_count."""
         desc = make(_raw.hf_extremities_desc)
         options_into(desc, options)
-        desc.progress, desc.geodesics = handle_of(progress, Progress, "progress"), handle_of(geodesics, Geodesics, "geodesics")
+        desc.progress, desc.geodesics = handle_of(progress, Progress, "progress"), handle_of(geodesics, Geodesics,
+            "geodesics")
         count = ctypes.c_uint32()
         call("hf_find_extremities", self._raw_handle, ctypes.byref(desc), 0, None, ctypes.byref(count))
         out = np.empty(count.value, np.dtype(_raw.hf_extremity))
         if out.size:
-            call("hf_find_extremities", self._raw_handle, ctypes.byref(desc), out.size, address(out), ctypes.byref(count))
+            call("hf_find_extremities", self._raw_handle, ctypes.byref(desc), out.size, address(out),
+                ctypes.byref(count))
         return out
 
     def move_vector_sites(self, sites: ArrayLike, vertices: ArrayLike) -> None:
@@ -349,6 +366,7 @@ class Geodesics(Object):
         """From every vertex to the nearest source; -1 where none can be reached."""
         at = integers(sources, "sources")
         out, stride = output(out, (self.vertex_count,), dtype if out is None else (np.float32, np.float64))
-        call("hf_geodesics_distance" if out.dtype == np.float32 else "hf_geodesics_distance_f64", self._raw_handle, count_of(at),
+        call("hf_geodesics_distance" if out.dtype == np.float32 else "hf_geodesics_distance_f64", self._raw_handle,
+            count_of(at),
              address(at), address(out), stride)
         return out

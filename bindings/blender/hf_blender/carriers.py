@@ -1,0 +1,119 @@
+"""What carries a handle in the scene: an empty, or a bone of an armature.
+
+Both hold the same properties: hf_key (the mesh), hf_id, hf_layer, hf_vertices, and hf_rest, the carrier's place at rest
+in the mesh's frame. So Blender's own undo, delete and duplicate work on them, and the motion of a handle is always place
+now times place at rest inverted, scale left out.
+"""
+
+import uuid
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+import hf
+
+PROPERTIES = ("hf_key", "hf_id", "hf_layer", "hf_vertices", "hf_rest")
+
+
+def is_bone(carrier):
+    return isinstance(carrier, bpy.types.PoseBone)
+
+
+def bones_of(armature):
+    """Bones of an armature that carry handles."""
+    return [bone for bone in armature.pose.bones if "hf_id" in bone] if armature.get("hf_bones") else []
+
+
+def carriers_in(objects):
+    """key -> {id: carrier}, for all meshes."""
+    found = {}
+    for obj in objects:
+        if obj.type == "EMPTY" and "hf_id" in obj:
+            found.setdefault(obj["hf_key"], {})[obj["hf_id"]] = obj
+        elif obj.type == "ARMATURE":
+            for bone in bones_of(obj):
+                found.setdefault(bone["hf_key"], {})[bone["hf_id"]] = bone
+    return found
+
+
+def carriers_of(key):
+    return carriers_in(bpy.data.objects).get(key, {})
+
+
+def mark(carrier, obj, vertices, rest, layer):
+    carrier["hf_key"], carrier["hf_id"], carrier["hf_layer"] = obj["hf_key"], uuid.uuid4().hex, int(layer)
+    carrier["hf_vertices"], carrier["hf_rest"] = [int(v) for v in vertices], [x for row in rest for x in row]
+
+
+def unmark(carrier):
+    """The handle goes; a bone stays, an empty goes with it."""
+    if not is_bone(carrier):
+        bpy.data.objects.remove(carrier)
+        return
+    for name in PROPERTIES:
+        if name in carrier:
+            del carrier[name]
+
+
+def motion_of(to_local, carrier):
+    """The rigid motion of a carrier since rest, in the mesh's frame."""
+    place = carrier.id_data.matrix_world @ carrier.matrix if is_bone(carrier) else carrier.matrix_world
+    rest = Matrix([carrier["hf_rest"][4 * r:4 * r + 4] for r in range(4)])
+    shift, turn, _ = (to_local @ place @ rest.inverted()).decompose()
+    return np.array(Matrix.Translation(shift) @ turn.to_matrix().to_4x4())
+
+
+def make_empty(obj, name, vertices, rest_positions, layer):
+    """An empty at the centre of a region of the mesh at rest."""
+    rest = Matrix.Translation(rest_positions[np.asarray(vertices)].mean(0).tolist())
+    empty = bpy.data.objects.new(f"{obj.name} {name}", None)
+    empty.empty_display_type = "SPHERE"
+    empty.empty_display_size = 0.05 * float(np.linalg.norm(np.ptp(rest_positions, axis=0)))
+    for collection in obj.users_collection or (bpy.context.scene.collection,):
+        collection.objects.link(empty)
+    mark(empty, obj, vertices, rest, layer)
+    empty.rotation_mode = "QUATERNION"
+    place, turn, _ = (obj.matrix_world @ rest).decompose()
+    empty.matrix_world = Matrix.Translation(place) @ turn.to_matrix().to_4x4()  # there at once, without an evaluation
+    return empty
+
+
+def bone_regions(positions, heads, tails, share):
+    """For each bone the vertices that are nearest to it among all bones, at a place in its middle `share`: limbs are
+    held, joints stay free."""
+    along = tails - heads
+    squared = np.maximum(np.einsum("ij,ij->i", along, along), 1e-30)
+    nearest, inside = np.empty(len(positions), np.int64), np.empty(len(positions), bool)
+    for first in range(0, len(positions), 4096):  # in pieces: memory stays small
+        part = slice(first, first + 4096)
+        at = (positions[part] @ along.T - np.einsum("ij,ij->i", heads, along)) / squared  # along the bone, 0 to 1
+        away = positions[part, None, :] - (heads + np.clip(at, 0, 1)[:, :, None] * along)
+        nearest[part] = np.einsum("ijk,ijk->ij", away, away).argmin(1)
+        inside[part] = np.abs(np.take_along_axis(at, nearest[part, None], 1)[:, 0] - 0.5) <= 0.5 * share
+    return [np.flatnonzero((nearest == j) & inside) for j in range(len(heads))]
+
+
+def mark_bones(obj, armature, rest_positions, groups, layer, share):
+    """Marks the deforming bones of an armature as carriers: regions by vertex groups of the bones' names (`groups`:
+    name -> vertices) or by place. Returns the bones marked."""
+    if any(m.type == "ARMATURE" and m.object == armature and m.show_viewport for m in obj.modifiers):
+        raise hf.ConflictError(f"{armature.name} moves {obj.name} by a modifier already; switch that off first")
+    bones = [bone for bone in armature.pose.bones if bone.bone.use_deform and "hf_id" not in bone]
+    if not bones:
+        raise hf.EmptyError(f"{armature.name} has no deforming bone without a handle")
+    to_local = obj.matrix_world.inverted() @ armature.matrix_world
+    ends = [[(to_local @ point)[:] for point in (bone.bone.head_local, bone.bone.tail_local)] for bone in bones]
+    ends = np.array(ends, np.float64)
+    near = bone_regions(rest_positions.astype(np.float64), ends[:, 0], ends[:, 1], share)
+    marked = []
+    for bone, region in zip(bones, near):
+        region = groups.get(bone.name, region)
+        if len(region):
+            place, turn, _ = (to_local @ bone.bone.matrix_local).decompose()
+            mark(bone, obj, region, Matrix.Translation(place) @ turn.to_matrix().to_4x4(), layer)
+            marked.append(bone)
+    if not marked:
+        raise hf.EmptyError(f"no vertex of {obj.name} is near the middle of a bone of {armature.name}")
+    armature["hf_bones"] = True
+    return marked

@@ -1,0 +1,106 @@
+"""Between a Blender mesh and arrays: positions, triangles, vertex groups, colours."""
+
+import bpy
+import numpy as np
+
+import hf
+
+REST = "hf_rest"
+
+
+def positions_of(mesh):
+    out = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", out)
+    return out.reshape(-1, 3)
+
+
+def rest_of(mesh):
+    """The rest positions: the attribute of an earlier bind, or the mesh as it is."""
+    if REST in mesh.attributes and len(mesh.attributes[REST].data) == len(mesh.vertices):
+        out = np.empty(3 * len(mesh.vertices), np.float32)
+        mesh.attributes[REST].data.foreach_get("vector", out)
+        return out.reshape(-1, 3)
+    return positions_of(mesh)
+
+
+def keep_rest(mesh, rest):
+    if REST not in mesh.attributes:
+        mesh.attributes.new(REST, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", rest.ravel())
+
+
+def column(collection, name, count=1):
+    out = np.empty(count * len(collection), np.int32)
+    collection.foreach_get(name, out)
+    return out
+
+
+def cross(u, v):
+    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+
+
+def triangles_of(mesh, positions):
+    """(m, 3) int32. Quads are split where Blender splits them: along the first diagonal unless the halves fold over."""
+    sizes, starts = column(mesh.polygons, "loop_total"), column(mesh.polygons, "loop_start")
+    if len(sizes) and (sizes.min() < 3 or sizes.max() > 4):  # Blender's own triangles: slower to read
+        mesh.calc_loop_triangles()
+        return column(mesh.loop_triangles, "vertices", 3).reshape(-1, 3)
+    corners = column(mesh.loops, "vertex_index")
+    three, four = starts[sizes == 3], starts[sizes == 4]
+    quads = corners[four[:, None] + np.arange(4)]
+    by_axis = np.ascontiguousarray(positions.T)
+    a, b, c, d = (by_axis[:, quads[:, k]] for k in range(4))
+    one, other = cross(c - a, b - a), cross(d - a, c - a)
+    folded = sum(x * y for x, y in zip(one, other)) < 0
+    quads[folded] = np.roll(quads[folded], -1, axis=1)
+    return np.vstack([corners[three[:, None] + np.arange(3)], quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+
+
+def groups_vertices(obj, names, least=0.5):
+    """Vertices of each vertex group with at least that weight, in one pass over the mesh."""
+    found = {}
+    for name in names:
+        group = obj.vertex_groups.get(name)
+        if group is None:
+            raise hf.InvalidArgumentError(f"{obj.name} has no vertex group '{name}'")
+        found[group.index] = []
+    lists = {index: vertices.append for index, vertices in found.items()}
+    for number, vertex in enumerate(obj.data.vertices):
+        for g in vertex.groups:
+            add = lists.get(g.group)
+            if add and g.weight >= least:
+                add(number)
+    return list(found.values())
+
+
+def group_vertices(obj, name, least=0.5):
+    return groups_vertices(obj, [name], least)[0]
+
+
+def selected_vertices(obj):
+    if obj.mode == "EDIT":
+        obj.update_from_editmode()
+    picked = np.empty(len(obj.data.vertices), bool)
+    obj.data.vertices.foreach_get("select", picked)
+    return np.flatnonzero(picked).tolist()
+
+
+def write_group(obj, name, values):
+    """A field as a vertex group, weights clamped to 0..1."""
+    group = obj.vertex_groups.get(name) or obj.vertex_groups.new(name=name)
+    levels = np.clip(np.round(np.asarray(values) * 1024).astype(int), 0, 1024)  # one call per level, not per vertex
+    order = np.argsort(levels, kind="stable")
+    for part in np.split(order, np.flatnonzero(np.diff(levels[order])) + 1):
+        group.add(part.tolist(), float(levels[part[0]]) / 1024, "REPLACE")
+    return group
+
+
+def write_colour(obj, name, values, strips=12):
+    """A field as a colour attribute in strips, orange at 1 and blue at 0."""
+    mesh = obj.data
+    attribute = mesh.color_attributes.get(name) or mesh.color_attributes.new(name, "FLOAT_COLOR", "POINT")
+    t = np.clip(np.asarray(values, np.float32), 0, 1)[:, None]
+    colour = (1 - t) * np.array([0.05, 0.16, 0.6]) + t * np.array([0.9, 0.35, 0.04])
+    colour = np.where(np.floor(t * strips) % 2 == 1, 0.45 * colour + 0.55, colour)
+    attribute.data.foreach_set("color", np.hstack([colour, np.ones_like(t)]).astype(np.float32).ravel())
+    mesh.color_attributes.active_color = attribute
+    return attribute

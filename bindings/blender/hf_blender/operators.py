@@ -1,0 +1,250 @@
+"""The operators: each has undo, and says in one sentence what is wrong."""
+
+import contextlib
+
+import bpy
+
+import hf
+
+from . import carriers, mesh_data, rig, session
+
+_busy = 0
+
+
+def busy():
+    return _busy > 0
+
+
+@contextlib.contextmanager
+def quiet():
+    """Our own changes do not come back as events."""
+    global _busy
+    _busy += 1
+    try:
+        yield
+    finally:
+        _busy -= 1
+
+
+def refresh(obj):
+    if obj is None or obj.type != "MESH":
+        raise hf.InvalidArgumentError("select a mesh object")
+    with quiet():
+        session.session_of(obj).update(obj)
+
+
+def guarded(execute):
+    """An operator's failure is a sentence in the status bar, with nothing changed."""
+    def run(self, context):
+        try:
+            return execute(self, context) or {"FINISHED"}
+        except hf.HfError as error:
+            self.report({"ERROR"}, error.message)
+            return {"CANCELLED"}
+    return run
+
+
+def mesh_of(context):
+    """The active mesh, or the mesh of the active handle or armature."""
+    active = context.active_object
+    if active is None:
+        return None
+    key = active.get("hf_key") if active.type == "EMPTY" else None
+    if active.type == "ARMATURE":
+        key = next((bone["hf_key"] for bone in carriers.bones_of(active)), None)
+    return mesh_with(key) if key else active
+
+
+def mesh_with(key):
+    return next((o for o in bpy.data.objects if o.type == "MESH" and o.get("hf_key") == key), None)
+
+
+def active_carrier(context):
+    """The active empty or bone, when it carries a handle."""
+    active = context.active_object
+    if active is not None and active.type == "ARMATURE":
+        bone = context.active_pose_bone or (active.data.bones.active
+            and active.pose.bones[active.data.bones.active.name])
+        return bone if bone and "hf_id" in bone else None
+    return active if active is not None and active.type == "EMPTY" and "hf_id" in active else None
+
+
+class HF_OT_bind(bpy.types.Operator):
+    """Factorise the mesh once; handles, fields and poses then take milliseconds"""
+    bl_idname, bl_label, bl_options = "hf.bind", "Bind", {"REGISTER", "UNDO"}
+
+    @guarded
+    def execute(self, context):
+        session.session_of(mesh_of(context), context.window_manager)
+
+
+class HF_OT_unbind(bpy.types.Operator):
+    """Back to the rest shape, without handles"""
+    bl_idname, bl_label, bl_options = "hf.unbind", "Unbind", {"REGISTER", "UNDO"}
+
+    @guarded
+    def execute(self, context):
+        session.forget(mesh_of(context))
+
+
+class HF_OT_add_handle(bpy.types.Operator):
+    """A handle from the selected vertices or from a vertex group; the pose stays"""
+    bl_idname, bl_label, bl_options = "hf.add_handle", "Add handle", {"REGISTER", "UNDO"}
+    group: bpy.props.StringProperty(name="Vertex group", description="Empty: the selected vertices")
+    layer: bpy.props.IntProperty(name="Layer", min=0, max=7)
+
+    @guarded
+    def execute(self, context):
+        obj = mesh_of(context)
+        session.session_of(obj, context.window_manager)
+        vertices = mesh_data.group_vertices(obj, self.group) if self.group else mesh_data.selected_vertices(obj)
+        mode = obj.mode
+        if mode == "EDIT":
+            bpy.ops.object.mode_set(mode="OBJECT")
+        with quiet():
+            session.add_handles(obj, [vertices], [self.group or "handle"], self.layer)
+        refresh(obj)
+        if mode == "EDIT":
+            bpy.ops.object.mode_set(mode=mode)
+
+
+class HF_OT_add_groups(bpy.types.Operator):
+    """A handle for every vertex group whose name starts with the prefix"""
+    bl_idname, bl_label, bl_options = "hf.add_groups", "Handles from groups", {"REGISTER", "UNDO"}
+    prefix: bpy.props.StringProperty(name="Prefix", default="hf ")
+
+    @guarded
+    def execute(self, context):
+        obj = mesh_of(context)
+        if obj is None or obj.type != "MESH":
+            raise hf.InvalidArgumentError("select a mesh object")
+        names = [g.name for g in obj.vertex_groups if g.name.startswith(self.prefix)]
+        if not names:
+            raise hf.EmptyError(f"no vertex group starts with '{self.prefix}'")
+        regions = []  # read while the mesh is factorised, when it is not yet
+        session.session_of(obj, context.window_manager, meanwhile=lambda: regions.extend(mesh_data.groups_vertices(obj,
+            names)))
+        with quiet():
+            session.add_handles(obj, regions, [name[len(self.prefix):] for name in names])
+        refresh(obj)
+
+
+class HF_OT_add_bones(bpy.types.Operator):
+    """The deforming bones of an armature as handles: pose or animate it and the mesh follows. Regions are vertex groups
+    of the bones' names, or the middle of each limb"""
+    bl_idname, bl_label, bl_options = "hf.add_bones", "Handles from bones", {"REGISTER", "UNDO"}
+    armature: bpy.props.StringProperty(name="Armature", description="Empty: the other selected object")
+    layer: bpy.props.IntProperty(name="Layer", min=0, max=7)
+    share: bpy.props.FloatProperty(name="Middle", description="Share of a bone's length that holds the mesh",
+        default=0.5, min=0.05, max=1)
+
+    @guarded
+    def execute(self, context):
+        armature = bpy.data.objects.get(self.armature) if self.armature else next(
+            (o for o in context.selected_objects if o.type == "ARMATURE"), None)
+        obj = context.active_object
+        if obj is armature:
+            obj = next((o for o in context.selected_objects if o.type == "MESH"), None)
+        session.session_of(obj, context.window_manager)
+        with quiet():
+            session.add_bones(obj, armature, self.layer, self.share)
+        refresh(obj)
+
+
+class HF_OT_remove_handle(bpy.types.Operator):
+    """Remove the active handle, an empty or a bone's; the others keep their places"""
+    bl_idname, bl_label, bl_options = "hf.remove_handle", "Remove handle", {"REGISTER", "UNDO"}
+    name: bpy.props.StringProperty(name="Handle", description="An empty, or a bone; empty: the active one")
+
+    @guarded
+    def execute(self, context):
+        if self.name:
+            found = [c for held in carriers.carriers_in(bpy.data.objects).values() for c in held.values()
+                if c.name == self.name]
+            carrier = found[0] if found else None
+        else:
+            carrier = active_carrier(context)
+        if carrier is None:
+            raise hf.NoSuchHandleError("the active object is no handle")
+        obj = mesh_with(carrier["hf_key"])
+        with quiet():
+            carriers.unmark(carrier)
+        if obj:
+            context.view_layer.objects.active = obj
+            refresh(obj)
+
+
+class HF_OT_update(bpy.types.Operator):
+    """Solve the pose now (with Live off)"""
+    bl_idname, bl_label, bl_options = "hf.update", "Update", {"REGISTER", "UNDO"}
+
+    @guarded
+    def execute(self, context):
+        refresh(mesh_of(context))
+
+
+class HF_OT_field(bpy.types.Operator):
+    """A harmonic field as a vertex group or as coloured strips"""
+    bl_idname, bl_label, bl_options = "hf.field", "Field", {"REGISTER", "UNDO"}
+    high: bpy.props.StringProperty(name="1 on",
+        description="Vertex group where the field is 1; empty: the active handle's field")
+    low: bpy.props.StringProperty(name="0 on", description="Vertex group where the field is 0")
+    output: bpy.props.EnumProperty(name="As", items=[("GROUP", "Vertex group", ""), ("COLOUR", "Colour attribute", "")])
+    name: bpy.props.StringProperty(name="Name", default="hf field")
+
+    @guarded
+    def execute(self, context):
+        obj = mesh_of(context)
+        if self.high or self.low:
+            values = session.field_between(obj, self.high, self.low)
+        else:
+            carrier, found = active_carrier(context), session.session_of(obj)
+            found.sync(obj)
+            if carrier is None or carrier["hf_id"] not in found.numbers:
+                raise hf.NoSuchHandleError("make a handle the active object, or name two vertex groups")
+            values = found.pose.handle_field(found.numbers[carrier["hf_id"]])
+        (mesh_data.write_group if self.output == "GROUP" else mesh_data.write_colour)(obj, self.name, values)
+
+
+class HF_OT_weights(bpy.types.Operator):
+    """Write the pose as vertex groups and an armature with one bone per cluster, standing as the pose stands"""
+    bl_idname, bl_label, bl_options = "hf.weights", "Weights and armature", {"REGISTER", "UNDO"}
+    count: bpy.props.EnumProperty(name="Bones per vertex", items=[("4", "4", ""), ("8", "8", "")])
+
+    @guarded
+    def execute(self, context):
+        obj = mesh_of(context)
+        found = session.session_of(obj)
+        found.update(obj)
+        skin = found.pose.skin(int(self.count))
+        armature = rig.write_skin(obj, skin, f"{obj.name} weights")
+        rig.pose_bones(armature, skin)
+        context.scene.hf_live = False  # the armature moves the mesh from here on
+
+
+class HF_OT_transfer(bpy.types.Operator):
+    """Play the motion of another selected mesh on the active one, through equally named vertex groups"""
+    bl_idname, bl_label, bl_options = "hf.transfer", "Transfer animation", {"REGISTER", "UNDO"}
+    source: bpy.props.StringProperty(name="Source", description="Empty: the other selected mesh")
+    prefix: bpy.props.StringProperty(name="Prefix", default="hf ")
+    start: bpy.props.IntProperty(name="Start", default=1)
+    end: bpy.props.IntProperty(name="End", default=24)
+    scale: bpy.props.FloatProperty(name="Scale", min=0,
+        description="Lengths of the target over those of the source; 0: found")
+
+    @guarded
+    def execute(self, context):
+        target = mesh_of(context)
+        source = bpy.data.objects.get(self.source) if self.source else next((o for o in context.selected_objects
+            if o != target and o.type == "MESH"), None)
+        if source is None or source.type != "MESH" or target is None or target.type != "MESH":
+            raise hf.InvalidArgumentError("select the source mesh, then the target mesh")
+        if self.end < self.start:
+            raise hf.InvalidArgumentError("the last frame is before the first")
+        rig.transfer_animation(source, target, range(self.start, self.end + 1), self.prefix, context.window_manager,
+            self.scale)
+        context.scene.hf_live = False
+
+
+OPERATORS = (HF_OT_bind, HF_OT_unbind, HF_OT_add_handle, HF_OT_add_groups, HF_OT_add_bones, HF_OT_remove_handle,
+    HF_OT_update, HF_OT_field, HF_OT_weights, HF_OT_transfer)

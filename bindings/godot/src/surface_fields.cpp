@@ -1,0 +1,307 @@
+// Methods of what is made from a field or a surface: distances, levels and iso-lines, critical points, tips, direction
+// fields, quad meshes, flow lines.
+#include <algorithm>
+
+#include "arguments.h"
+
+namespace hf_godot {
+namespace {
+
+hf_scalars scalars_of(const Surface& s, const Argument& argument) {
+  auto desc = make<hf_scalars>();
+  desc.values_f64 = doubles(argument, s.vertex_count, "field");
+  return desc;
+}
+
+// points and starts of polylines as lists of vectors
+Value lines_of(const Doubles& positions, const Numbers& starts) {
+  Value value;
+  value.kind = Value::lines;
+  for (size_t i = 0; i + 1 < starts.size(); ++i) {
+    value.polylines.emplace_back(positions.begin() + 3 * std::ptrdiff_t{starts[i]},
+                                 positions.begin() + 3 * std::ptrdiff_t{starts[i + 1]});
+  }
+  return value;
+}
+
+// Creates into a slot of the surface; what was there before stays when it fails.
+template <class Raw, void (*destroy)(Raw), class Create>
+Raw make_once(hfpp::Handle<Raw, destroy>& slot, Create&& create) {
+  if (!slot) {
+    Raw raw = nullptr;
+    check(create(&raw));
+    slot = hfpp::Handle<Raw, destroy>(raw);
+  }
+  return slot.get();
+}
+
+// distance(sources): along the surface, -1 where none can be reached
+Value distance(Surface& s, const Arguments& a) {
+  const List sources = integers(at(a, 0), "sources");
+  hf_geodesics geodesics =
+      make_once(s.geodesics, [&](hf_geodesics* out) { return hf_geodesics_create(s.solver.get(), nullptr, out); });
+  Value value;
+  value.kind = Value::reals, value.floats.resize(s.vertex_count + 1);
+  check(hf_geodesics_distance(geodesics, sources.count(), sources.data(), value.floats.data(), 0));
+  value.floats.resize(s.vertex_count);
+  return value;
+}
+
+// space_levels(field, count, spacing = 0)
+Value space_levels(Surface& s, const Arguments& a) {
+  const hf_scalars field = scalars_of(s, at(a, 0));
+  const uint32_t count = whole(at(a, 1).number, "count");
+  Doubles levels(std::min(count, 1000000u) + 1);
+  check(hf_space_levels(s.solver.get(), &field, static_cast<int32_t>(at(a, 2).number), count, levels.data()));
+  Value value;
+  value.kind = Value::reals, value.floats.assign(levels.begin(), levels.end() - 1);
+  return value;
+}
+
+// trace_isolines(field, levels): a list of points for every line
+Value trace_isolines(Surface& s, const Arguments& a) {
+  const hf_scalars field = scalars_of(s, at(a, 0));
+  const Doubles& levels = at(a, 1).list;
+  const uint32_t count = at(a, 1).null ? 1u : static_cast<uint32_t>(levels.size());
+  const double* given = levels.empty() ? nullptr : levels.data();
+  auto lines = make<hf_isolines>();
+  check(hf_trace_isolines(s.solver.get(), &field, count, given, &lines));
+  Doubles positions(3 * size_t{lines.point_count});
+  Numbers starts(size_t{lines.line_count} + 1);
+  lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
+  lines.positions = positions.data(), lines.line_starts = starts.data();
+  if (lines.line_count) check(hf_trace_isolines(s.solver.get(), &field, count, given, &lines));
+  return lines_of(positions, starts);
+}
+
+// find_critical_points(field): { vertex, kind, index, value } each
+Value find_critical_points(Surface& s, const Arguments& a) {
+  const hf_scalars field = scalars_of(s, at(a, 0));
+  auto info = make<hf_critical_info>();
+  check(hf_find_critical_points(s.solver.get(), &field, 0, nullptr, &info));
+  std::vector<hf_critical_point> points(info.point_count);
+  if (!points.empty()) check(hf_find_critical_points(s.solver.get(), &field, info.point_count, points.data(), &info));
+  Value value;
+  value.kind = Value::rows;
+  for (const hf_critical_point& p : points)
+    value.table.push_back({{"vertex", p.vertex}, {"kind", p.kind}, {"index", p.index}, {"value", p.value}});
+  return value;
+}
+
+// find_extremities(): { vertex, length } each, the longest first
+Value find_extremities(Surface& s, const Arguments&) {
+  uint32_t count = 0;
+  check(hf_find_extremities(s.solver.get(), nullptr, 0, nullptr, &count));
+  std::vector<hf_extremity> found(count);
+  if (count) check(hf_find_extremities(s.solver.get(), nullptr, count, found.data(), &count));
+  Value value;
+  value.kind = Value::rows;
+  for (const hf_extremity& tip : found) value.table.push_back({{"vertex", tip.vertex}, {"length", tip.length}});
+  return value;
+}
+
+// ---- the direction field of a surface: direction_create(degree = 1) makes it anew
+
+Value direction_create(Surface& s, const Arguments& a) {
+  auto desc = make<hf_direction_desc>();
+  desc.degree = whole(at(a, 0).number, "degree");
+  hf_direction raw = nullptr;
+  check(hf_direction_create(s.solver.get(), &desc, &raw));
+  s.direction = hfpp::Handle<hf_direction, hf_direction_destroy>(raw);
+  return done();
+}
+
+// direction_add_sites(vertices, vectors)
+Value direction_add_sites(Surface& s, const Arguments& a) {
+  const List vertices = integers(at(a, 0), "vertices");
+  const double* given = doubles(at(a, 1), 3 * size_t{vertices.count()}, "vectors");
+  Numbers made(vertices.count() + 1);
+  check(hf_direction_add_sites(s.direction.get(), vertices.count(), vertices.data(), given, made.data()));
+  made.resize(vertices.count());
+  return numbers(made);
+}
+
+Value direction_remove_sites(Surface& s, const Arguments& a) {
+  const List sites = integers(at(a, 0), "sites");
+  check(hf_direction_remove_sites(s.direction.get(), sites.count(), sites.data()));
+  return done();
+}
+
+// direction_move_sites(sites, vertices)
+Value direction_move_sites(Surface& s, const Arguments& a) {
+  const List sites = integers(at(a, 0), "sites"), vertices = integers(at(a, 1), "vertices");
+  if (sites.count() != vertices.count()) fail("sites and vertices must be of one length");
+  check(hf_direction_move_sites(s.direction.get(), sites.count(), sites.data(), vertices.data()));
+  return done();
+}
+
+// direction_set_vectors(sites, vectors)
+Value direction_set_vectors(Surface& s, const Arguments& a) {
+  const List sites = integers(at(a, 0), "sites");
+  const double* given = doubles(at(a, 1), 3 * size_t{sites.count()}, "vectors");
+  check(hf_direction_set_vectors(s.direction.get(), sites.count(), sites.data(), given));
+  return done();
+}
+
+// direction_rotate_sites(sites, angles)
+Value direction_rotate_sites(Surface& s, const Arguments& a) {
+  const List sites = integers(at(a, 0), "sites");
+  const double* angles = doubles(at(a, 1), sites.count(), "angles");
+  check(hf_direction_rotate_sites(s.direction.get(), sites.count(), sites.data(), angles));
+  return done();
+}
+
+Value direction_record(Surface& s, const Arguments&) { return check(hf_direction_record(s.direction.get())), done(); }
+Value direction_undo(Surface& s, const Arguments&) { return check(hf_direction_undo(s.direction.get())), done(); }
+Value direction_redo(Surface& s, const Arguments&) { return check(hf_direction_redo(s.direction.get())), done(); }
+
+// the vectors of the constraints
+Value direction_vectors(Surface& s, const Arguments&) {
+  const uint32_t count = hf_direction_get_site_count(s.direction.get());
+  Doubles found(3 * size_t{count});
+  check(hf_direction_get_sites(s.direction.get(), count, nullptr, nullptr, found.data()));
+  return vectors(found);
+}
+
+Value direction_solve(Surface& s, const Arguments&) {
+  Value value;
+  value.kind = Value::vectors, value.floats.resize(3 * s.vertex_count + 1);
+  check(hf_direction_solve(s.direction.get(), value.floats.data(), 0, nullptr));
+  value.floats.resize(3 * s.vertex_count);
+  return value;
+}
+
+// { triangle, vertex, index } each
+Value direction_singularities(Surface& s, const Arguments&) {
+  uint32_t count = 0;
+  check(hf_direction_get_singularities(s.direction.get(), 0, nullptr, &count));
+  std::vector<hf_singularity> found(count);
+  if (count) check(hf_direction_get_singularities(s.direction.get(), count, found.data(), &count));
+  Value value;
+  value.kind = Value::rows;
+  for (const hf_singularity& one : found)
+    value.table.push_back({{"triangle", one.triangle}, {"vertex", one.vertex}, {"index", one.index}});
+  return value;
+}
+
+// ---- quads_create(options = {}, site vertices = null, site lines = null): kind, edge_length, keep_polygons,
+// relax_count
+
+Value quads_create(Surface& s, const Arguments& a) {
+  auto desc = make<hf_quads_desc>();
+  for (const auto& [name, number] : at(a, 0).named) {
+    if (name == "kind")
+      desc.kind = static_cast<int32_t>(number);
+    else if (name == "edge_length")
+      desc.edge_length = static_cast<float>(number);
+    else if (name == "keep_polygons")
+      desc.keep_polygons = number != 0;
+    else if (name == "relax_count")
+      desc.relax_count = whole(number, "relax_count");
+    else
+      fail("no option '" + name + "'");
+  }
+  const List places = integers(at(a, 1), "site vertices");
+  desc.site_count = static_cast<uint32_t>(places.values.size()), desc.site_vertices = places.data();
+  const Doubles& lines = at(a, 2).list;
+  const std::vector<int32_t> line_counts(lines.begin(), lines.end());
+  if (!at(a, 2).null) {
+    if (lines.size() != places.values.size()) fail("site lines must be as many as site vertices");
+    for (size_t i = 0; i < lines.size(); ++i)
+      if (lines[i] != line_counts[i]) fail("site lines must be whole numbers");
+    desc.site_lines = line_counts.data();
+  }
+  hf_quads raw = nullptr;
+  check(hf_quads_create(s.solver.get(), &desc, &raw));
+  s.quads = hfpp::Handle<hf_quads, hf_quads_destroy>(raw);
+  return done();
+}
+
+hf_quads_info info_of(const Surface& s) {
+  auto info = make<hf_quads_info>();
+  check(hf_quads_get_info(s.quads.get(), &info));
+  return info;
+}
+
+Value quads_info(Surface& s, const Arguments&) {
+  const hf_quads_info info = info_of(s);
+  return named({{"vertex_count", info.vertex_count},
+                {"face_count", info.face_count},
+                {"quad_count", info.quad_count},
+                {"site_count", info.site_count},
+                {"saddle_count", info.saddle_count},
+                {"euler_characteristic", info.euler_characteristic}});
+}
+
+Value quads_positions(Surface& s, const Arguments&) {
+  auto mesh = make<hf_quads_mesh>();
+  mesh.vertex_capacity = info_of(s).vertex_count;
+  Doubles positions(3 * size_t{mesh.vertex_capacity});
+  mesh.positions = positions.data();
+  check(hf_quads_get_mesh(s.quads.get(), &mesh));
+  return vectors(positions);
+}
+
+// the vertices of every face, counter-clockwise
+Value quads_faces(Surface& s, const Arguments&) {
+  const hf_quads_info info = info_of(s);
+  auto mesh = make<hf_quads_mesh>();
+  Numbers starts(size_t{info.face_count} + 1), corners(info.corner_count);
+  mesh.face_capacity = info.face_count, mesh.corner_capacity = info.corner_count;
+  mesh.face_starts = starts.data(), mesh.face_corners = corners.data();
+  check(hf_quads_get_mesh(s.quads.get(), &mesh));
+  Value value;
+  value.kind = Value::lists;
+  for (uint32_t i = 0; i < info.face_count; ++i)
+    value.sets.emplace_back(corners.begin() + starts[i], corners.begin() + starts[i + 1]);
+  return value;
+}
+
+// flow_lines(field, count, seeds = null): lines of equal flux from the minima, or one through every seed
+Value flow_lines(Surface& s, const Arguments& a) {
+  const hf_scalars field = scalars_of(s, at(a, 0));
+  const List seeds = integers(at(a, 2), "seeds");
+  hf_flow flow = make_once(s.flow, [&](hf_flow* out) { return hf_flow_create(s.solver.get(), out); });
+  auto lines = make<hf_flow_lines>();
+  lines.wanted_count = at(a, 1).null ? 0u : whole(at(a, 1).number, "count");
+  lines.seed_count = seeds.null ? 0u : seeds.count(), lines.seeds = seeds.data();
+  check(hf_flow_trace(flow, &field, &lines));
+  Doubles positions(3 * size_t{lines.point_count});
+  Numbers starts(size_t{lines.line_count} + 1);
+  lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
+  lines.positions = positions.data(), lines.line_starts = starts.data();
+  check(hf_flow_trace(flow, &field, &lines));
+  return lines_of(positions, starts);
+}
+
+}  // namespace
+
+const std::vector<Entry>& field_methods() {
+  static const std::vector<Entry> all = {
+      {"distance", 1, 1, distance},
+      {"space_levels", 2, 3, space_levels},
+      {"trace_isolines", 2, 2, trace_isolines},
+      {"find_critical_points", 1, 1, find_critical_points},
+      {"find_extremities", 0, 0, find_extremities},
+      {"direction_create", 0, 1, direction_create},
+      {"direction_add_sites", 2, 2, direction_add_sites},
+      {"direction_remove_sites", 1, 1, direction_remove_sites},
+      {"direction_move_sites", 2, 2, direction_move_sites},
+      {"direction_set_vectors", 2, 2, direction_set_vectors},
+      {"direction_rotate_sites", 2, 2, direction_rotate_sites},
+      {"direction_record", 0, 0, direction_record},
+      {"direction_undo", 0, 0, direction_undo},
+      {"direction_redo", 0, 0, direction_redo},
+      {"direction_vectors", 0, 0, direction_vectors},
+      {"direction_solve", 0, 0, direction_solve},
+      {"direction_singularities", 0, 0, direction_singularities},
+      {"quads_create", 0, 3, quads_create},
+      {"quads_info", 0, 0, quads_info},
+      {"quads_positions", 0, 0, quads_positions},
+      {"quads_faces", 0, 0, quads_faces},
+      {"flow_lines", 2, 3, flow_lines},
+  };
+  return all;
+}
+
+}  // namespace hf_godot
