@@ -58,7 +58,7 @@ typedef struct hf_create_desc {
   hf_progress progress;
   const hf_factor_desc* saved_factor;
   int32_t field_kind;
-  int32_t reserved;
+  uint32_t triangle_limit;
 } hf_create_desc;
 typedef struct hf_mesh_report {
   uint32_t struct_size;
@@ -116,6 +116,17 @@ typedef struct hf_solve_info {
   uint32_t first_unreached_component;
   uint32_t unreached_vertex_count;
 } hf_solve_info;
+typedef struct hf_certificate {
+  uint32_t struct_size;
+  uint32_t overshoot_checked;
+  double tolerance;
+  double value_range;
+  double residual;
+  double site_error;
+  double overshoot;
+  uint32_t worst_vertex;
+  uint32_t reserved;
+} hf_certificate;
 typedef struct hf_statistics {
   uint32_t struct_size;
   uint32_t unknown_count;
@@ -503,6 +514,7 @@ hf_result hf_solve_f64(hf_solver solver, double* out_values, uint32_t value_stri
 hf_result hf_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info);
 hf_result hf_solve_vectors_f64(hf_solver solver, double* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info);
 hf_result hf_solve_at(hf_solver solver, uint32_t vertex_count, const uint32_t* vertices, double* out_values);
+hf_result hf_certify(hf_solver solver, hf_certificate* inout_certificate);
 hf_result hf_record(hf_solver solver);
 hf_result hf_undo(hf_solver solver);
 hf_result hf_redo(hf_solver solver);

@@ -9,6 +9,9 @@
  * may run at the same time on it; a call that overlaps a change of the same handle answers HF_ERROR_BUSY.
  * - The library prints nothing, keeps no global state but its handle table, starts no thread that was not granted, and
  *   leaves the floating-point environment, locale, signals and rand() of the host as they were.
+ * - fork: a child may use handles it inherited and make its own, if no call was under way on another thread when it was
+ *   forked; threads of an inherited object stay behind, the child's calls work without them.
+ * - Unloading: with all handles destroyed the library holds no memory, no thread and no hook, and may be unloaded.
  */
 #ifndef HF_BASE_H
 #define HF_BASE_H
@@ -99,8 +102,9 @@ HF_API uint32_t hf_get_version(void);
 
 /* Memory of a solver and all that is made from it. Both functions, or neither (then malloc).
  * allocate: returns `size` bytes aligned to `alignment` (a power of two), or NULL to refuse.
- * release: takes back a block with the size and alignment it was asked with.
- * Called from the thread of the call, and from worker threads when the desc grants any. */
+ * release: takes back a block with the size and alignment it was asked with; must not throw.
+ * Called from the thread of the call, and from worker threads when the desc grants any. An exception of a C++ host that
+ * leaves allocate ends the call with HF_ERROR_INTERNAL (std::bad_alloc: HF_ERROR_OUT_OF_MEMORY), the object as before. */
 typedef struct hf_allocator {
   void* (*allocate)(void* user, size_t size, size_t alignment);
   void (*release)(void* user, void* block, size_t size, size_t alignment);
@@ -109,7 +113,8 @@ typedef struct hf_allocator {
 
 /* The host's own job system. run must call job(job_data, i) for i = 0 .. count - 1, on any threads, in any order, and
  * return when all of them have returned. NULL run: the library makes thread_count - 1 threads of its own for the
- * object. */
+ * object. An exception that leaves run, after all jobs it has started have returned, ends the call with
+ * HF_ERROR_INTERNAL. Jobs that run leaves out are done by the library, those it repeats are done once. */
 typedef struct hf_job_runner {
   void (*run)(void* user, uint32_t count, void (*job)(void* job_data, uint32_t index), void* job_data);
   void* user;

@@ -27,7 +27,7 @@ typedef struct hf_sites_desc {
   const uint32_t* triangles; /* [site_count] triangles of the mesh as given, or NULL */
   const double*
       barycentrics; /* [site_count][3] with triangles: weights of the three corners, >= 0, summing to 1 within 1e-6 */
-  const double* values;    /* [site_count][channel_count]; NULL = 0 */
+  const double* values;    /* [site_count][channel_count], up to 1e200 in size; NULL = 0 */
   const double* stiffness; /* [site_count] relative to the mean diagonal of K; 0 = hard (exact); NULL = all hard;
                               clamped to [1e-12, 1e12] */
   const double* radii; /* [site_count] geodesic radius in the unit of the positions; 0 = a point; NULL = all points */
@@ -38,7 +38,7 @@ typedef struct hf_sites_desc {
  * HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_EMPTY (site_count 0); HF_ERROR_OUT_OF_RANGE (index = position
  * in the batch); HF_ERROR_NON_FINITE; HF_ERROR_INVALID_ARGUMENT (weights, stiffness; isolated vertex);
  * HF_ERROR_DUPLICATE_SITE (the vertex, or a welded copy of it, carries a site with the same values); HF_ERROR_CONFLICT
- * (... with other values; or the point depends linearly on hard sites that are there); HF_ERROR_TOO_LARGE (site_limit);
+ * (... with other values; or the point depends linearly on hard sites that are there); HF_ERROR_TOO_LARGE (site_limit, value);
  * HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. State after failure: unchanged. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint32_t* out_sites);
 
@@ -55,7 +55,7 @@ HF_API hf_result hf_move_sites(hf_solver solver, uint32_t site_count, const uint
 
 /* Gives sites new values: double[site_count][channel_count]. Costs nothing until the next solve. Results: HF_OK,
  * HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_EMPTY, HF_ERROR_NO_SUCH_SITE, HF_ERROR_NON_FINITE,
- * HF_ERROR_BUSY. State after failure: unchanged. Thread safety: changes `solver`. Since 0.1. */
+ * HF_ERROR_TOO_LARGE (a value), HF_ERROR_BUSY. State after failure: unchanged. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_set_site_values(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* values);
 
 /* One batch of all of these, in the order remove, move, set, add; all or nothing. Counts of 0 leave a part out. */
@@ -138,6 +138,32 @@ HF_API hf_result hf_solve_vectors_f64(hf_solver solver, double* out_vectors, uin
  * Results: as hf_solve; HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE (more vertices than the mesh has), HF_ERROR_OUT_OF_RANGE
  * (index = position in the list). Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve_at(hf_solver solver, uint32_t vertex_count, const uint32_t* vertices, double* out_values);
+
+/* How right a field is; struct_size must be set. Errors are relative to the range of the site values of the component and
+ * channel (where all are equal, to their size); what is not finite counts as infinitely wrong. */
+typedef struct hf_certificate {
+  uint32_t struct_size;
+  uint32_t overshoot_checked; /* out: 1 when the maximum principle holds here: no positive weight off the diagonal of K
+                                 (the intrinsic and clamped operators), harmonic, all sites at vertices */
+  double tolerance;   /* in: largest error to accept, > 0; 0 = 1e-8, for HF_ENGINE_UPDOWN, whose sites are penalties, 1e-5;
+                         out: the one used */
+  double value_range; /* out: largest less smallest site value, the widest over components and channels */
+  double residual;    /* out: largest |(K u - W lambda)_v| / K_vv, how far a value is from the mean of its neighbours */
+  double site_error;  /* out: largest |w_i' u + lambda_i / alpha_i - s_i|, what a site misses its value by */
+  double overshoot;   /* out: how far the field leaves the range of its sites' values; 0 when not checked */
+  uint32_t worst_vertex; /* out: of the mesh as given, where the largest of the three is */
+  uint32_t reserved;     /* 0 */
+} hf_certificate;
+
+/* Solves the field and measures what is left of its equations when it is put in. The factor, the sites' paths and the
+ * dense system are not trusted: K and the site values alone are looked at, so that a damaged factor (borrowed bytes that
+ * changed, forged ones) or a fault of the library or the machine shows. Cost: a solve and a product with K.
+ * inout_certificate: written also with HF_ERROR_INACCURATE, which says that an error exceeds the tolerance (index =
+ * worst vertex); then the solver's fields are not to be used, and it is to be made anew. Results: HF_OK,
+ * HF_ERROR_INACCURATE, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT
+ * (tolerance), HF_ERROR_NO_SITES, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Nothing is changed. Thread safety: reads
+ * `solver`. Since 0.1. */
+HF_API hf_result hf_certify(hf_solver solver, hf_certificate* inout_certificate);
 
 /* Keeps the present site set on the undo stack (at most 256 are kept; the oldest goes first). Costs the site set,
  * shared parts are not copied. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread

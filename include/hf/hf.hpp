@@ -177,6 +177,13 @@ class Solver {
     check(hf_get_mesh_report(get(), &report));
     return report;
   }
+  // Throws when the field is wrong by more than the tolerance (0 = the engine's own).
+  hf_certificate certify(double tolerance = 0) const {
+    auto certificate = make<hf_certificate>();
+    certificate.tolerance = tolerance;
+    check(hf_certify(get(), &certificate));
+    return certificate;
+  }
   hf_statistics statistics() const {
     auto statistics = make<hf_statistics>();
     check(hf_get_statistics(get(), &statistics));

@@ -96,8 +96,8 @@ typedef struct hf_create_desc {
   hf_progress progress;     /* NULL, or an object to poll and cancel through */
   const hf_factor_desc* saved_factor; /* NULL, or the factor of this mesh; ordering must then be 0 or that of the
                                          factor */
-  int32_t field_kind; /* HF_FIELD_* */
-  int32_t reserved;   /* 0 */
+  int32_t field_kind;      /* HF_FIELD_* */
+  uint32_t triangle_limit; /* refuse more triangles before allocating; 0 = eight per vertex of the vertex limit */
 } hf_create_desc;
 
 /* Creates a solver: welds, builds the operator, orders and factorises it. The mesh is copied; nothing of the desc is
@@ -106,8 +106,8 @@ typedef struct hf_create_desc {
  *
  * desc: see above. out_solver: set to NULL first, to the new handle on success.
  * Results: HF_OK; HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT; HF_ERROR_EMPTY (no vertex or
- * no triangle); HF_ERROR_OUT_OF_RANGE (index = triangle); HF_ERROR_NON_FINITE (index = vertex); HF_ERROR_TOO_LARGE;
- * HF_ERROR_UNSUPPORTED (engine or ordering not in this build); HF_ERROR_OUT_OF_MEMORY; HF_ERROR_CANCELLED;
+ * no triangle); HF_ERROR_OUT_OF_RANGE (index = triangle); HF_ERROR_NON_FINITE (index = vertex); HF_ERROR_TOO_LARGE
+ * (a limit); HF_ERROR_UNSUPPORTED (engine or ordering not in this build); HF_ERROR_OUT_OF_MEMORY; HF_ERROR_CANCELLED;
  * HF_ERROR_NOT_POSITIVE_DEFINITE. With saved_factor also: HF_ERROR_INVALID_ARGUMENT (bytes that are no saved factor, are
  * cut short or damaged, belong to another mesh, to other positions or to another operator; borrowed bytes that are not
  * aligned), HF_ERROR_UNSUPPORTED (another format version or byte order). Damage is found by a checksum; forged bytes can

@@ -9,8 +9,20 @@
 
 #include "base/float_environment.h"
 
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
+
 namespace hf {
 namespace {
+
+long this_process() noexcept {
+#if defined(__unix__) || defined(__APPLE__)
+  return static_cast<long>(getpid());
+#else
+  return 0;
+#endif
+}
 
 // One batch of jobs: an atomic counter deals the indices, the first exception is kept.
 struct Batch {
@@ -58,7 +70,8 @@ bool spin(Done&& done) noexcept {
 
 // Between batches workers spin for a moment, then sleep on a condition variable. One batch has the workers at a time: a
 // caller that comes meanwhile (another clone, or a job that has work to split itself) does its batch alone, so nobody
-// waits and nothing can lock up.
+// waits and nothing can lock up. A forked child inherits the pool but not its threads: it works alone, and leaves the
+// pool where it is when the runner goes (joining, or a condition variable with waiters, would never return).
 struct JobRunner::Pool {
   std::atomic<bool> taken{false};
   std::mutex mutex;
@@ -68,6 +81,7 @@ struct JobRunner::Pool {
   std::atomic<std::uint32_t> busy{0};
   std::atomic<bool> stop{false};
   std::vector<std::thread> workers;
+  const long process = this_process();
 
   explicit Pool(std::uint32_t count) {
     workers.reserve(count);
@@ -105,7 +119,7 @@ struct JobRunner::Pool {
     }
   }
   void run(Batch& work) {
-    if (taken.exchange(true, std::memory_order_acquire)) return work.work();
+    if (process != this_process() || taken.exchange(true, std::memory_order_acquire)) return work.work();
     {
       std::lock_guard<std::mutex> lock(mutex);
       batch = &work;
@@ -130,7 +144,9 @@ JobRunner::JobRunner(std::uint32_t thread_count, const hf_job_runner& host)
   if (!host_.run && thread_count_ > 1) pool_ = std::make_unique<Pool>(thread_count_ - 1);
 }
 
-JobRunner::~JobRunner() = default;
+JobRunner::~JobRunner() {
+  if (pool_ && pool_->process != this_process()) static_cast<void>(pool_.release());
+}
 
 void JobRunner::run(std::uint32_t count, Call call, void* context) {
   Batch batch;

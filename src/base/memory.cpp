@@ -28,15 +28,19 @@ void* default_allocate(std::size_t bytes, std::size_t alignment) noexcept {
 }  // namespace
 
 void* Memory::do_allocate(std::size_t bytes, std::size_t alignment) {
+  // counted until the block is there, or the host's hook refuses or throws
+  struct Claim {
+    std::atomic<std::uint64_t>& live;
+    std::uint64_t bytes;
+    ~Claim() { live.fetch_sub(bytes, std::memory_order_relaxed); }
+  } claim{live_, bytes};
   const std::uint64_t live = live_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
   void* pointer = nullptr;
   if (byte_limit_ == 0 || live <= byte_limit_) {
     pointer = hooks_.allocate ? hooks_.allocate(hooks_.user, bytes, alignment) : default_allocate(bytes, alignment);
   }
-  if (!pointer) {
-    live_.fetch_sub(bytes, std::memory_order_relaxed);
-    throw std::bad_alloc();
-  }
+  if (!pointer) throw std::bad_alloc();
+  claim.bytes = 0;
   count_.fetch_add(1, std::memory_order_relaxed);
   std::uint64_t peak = peak_.load(std::memory_order_relaxed);
   while (peak < live && !peak_.compare_exchange_weak(peak, live, std::memory_order_relaxed)) {

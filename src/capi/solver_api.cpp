@@ -52,7 +52,6 @@ Options read_options(const hf_create_desc& desc) {
   check_choice(desc.weld, 3, "weld");
   check_choice(desc.operator_kind, 4, "operator_kind");
   check_choice(desc.field_kind, 3, "field_kind");
-  check_choice(desc.reserved, 1, "reserved");
   check_choice(desc.engine, 3, "engine");
   check_choice(desc.ordering, 3, "ordering");
 #ifndef HF_WITH_GPL
@@ -78,6 +77,16 @@ Options read_options(const hf_create_desc& desc) {
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
   options.penalty = desc.penalty > 0 ? std::min(desc.penalty, 1e10) : 1e8;
   return options;
+}
+
+// 0 is eight triangles per vertex of the vertex limit: dirty meshes have more than a surface needs, none has that many.
+void check_triangle_count(std::uint32_t count, std::uint32_t limit, std::uint32_t vertex_limit) {
+  if (limit != 0 && count > limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; the triangle_limit is %u", count, limit);
+  if (limit == 0 && count / 8 > vertex_limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+         "%u triangles; without a triangle_limit at most eight per vertex of the vertex_limit %u are taken", count,
+         vertex_limit);
 }
 
 void read_saved_factor(const hf_create_desc& desc, CoreOptions& options) {
@@ -125,9 +134,7 @@ hf_result hf_create(const hf_create_desc* given, hf_solver* out_solver) {
     const std::uint32_t limit = desc.vertex_limit ? desc.vertex_limit : 20000000;
     if (desc.vertex_count > limit)
       fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; the vertex_limit is %u", desc.vertex_count, limit);
-    if (desc.triangle_count / 8 > limit)
-      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; at most eight per vertex of the vertex_limit %u are taken",
-           desc.triangle_count, limit);
+    check_triangle_count(desc.triangle_count, desc.triangle_limit, limit);
 
     MeshInput input;
     input.vertex_count = desc.vertex_count, input.triangle_count = desc.triangle_count;

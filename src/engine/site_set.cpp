@@ -218,6 +218,21 @@ void SiteSet::move(const Core& core, std::uint32_t count, const std::uint32_t* s
   }
 }
 
+namespace {
+
+// Beyond the limit the fluxes, values times weights of up to 1e12, would not be finite, nor the field.
+void check_value(double value, std::uint32_t position, std::int32_t channel) {
+  constexpr double most = 1e200;
+  if (!std::isfinite(value))
+    fail(HF_ERROR_NON_FINITE, position, "entry %u of the list: value of channel %d is not a finite number", position,
+         channel);
+  if (std::fabs(value) > most)
+    fail(HF_ERROR_TOO_LARGE, position, "entry %u of the list: value of channel %d is %g; scale it below 1e200", position,
+         channel, value);
+}
+
+}  // namespace
+
 void SiteSet::set_values(std::uint32_t count, const std::uint32_t* sites, const double* values) {
   bool discs = false;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -225,8 +240,7 @@ void SiteSet::set_values(std::uint32_t count, const std::uint32_t* sites, const 
     discs = discs || slots_[sites[i]].radius > 0;
     for (std::int32_t c = 0; c < channels_; ++c) {
       const double value = values[std::size_t{i} * at(channels_) + at(c)];
-      if (!std::isfinite(value))
-        fail(HF_ERROR_NON_FINITE, i, "entry %u of the list: value of channel %d is not a finite number", i, c);
+      check_value(value, i, c);
       values_[std::size_t{sites[i]} * at(channels_) + at(c)] = value;
     }
   }
@@ -260,10 +274,7 @@ void SiteSet::add(const Core& core, const Places& places, const double* values, 
       fail(HF_ERROR_INVALID_ARGUMENT, i, "site %u of the batch: radius is %g; use 0 for a point or a number above 0", i,
            arrival.radius);
     arrival.values = values ? values + std::size_t{i} * at(channels_) : nullptr;
-    for (std::int32_t c = 0; arrival.values && c < channels_; ++c) {
-      if (!std::isfinite(arrival.values[c]))
-        fail(HF_ERROR_NON_FINITE, i, "site %u of the batch: value of channel %d is not a finite number", i, c);
-    }
+    for (std::int32_t c = 0; arrival.values && c < channels_; ++c) check_value(arrival.values[c], i, c);
     const std::int32_t slot = free_slot();
     ++count_;
     settle(core, arrival, slot, limit);

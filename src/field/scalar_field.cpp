@@ -167,12 +167,12 @@ void ScalarField::solve_at(Span<const std::int32_t> vertices, double* out) const
   engine_->solve_at(sites_.values(), sites_.channels(), vertices, out);
 }
 
-void ScalarField::flux(Vector<double>& out) const {
+void ScalarField::flux(Vector<double>& out, double* field) const {
   // after an undo an engine may know more slots than the set has
   const std::size_t channels = static_cast<std::size_t>(sites_.channels()), slots = sites_.slots().size();
   out.assign(std::max(slots, static_cast<std::size_t>(engine_->slot_count())) * channels, 0.0);
   // engines other than green need the field for it; green needs no sweep
-  if (sites_.count() > 0) engine_->solve(sites_.values(), sites_.channels(), nullptr, out.data());
+  if (sites_.count() > 0) engine_->solve(sites_.values(), sites_.channels(), field, out.data());
   out.resize(slots * channels);
 }
 

@@ -54,7 +54,8 @@ class ScalarField {
   void solve_into(FieldSink& sink) const;
   PreviewInfo solve_preview(std::int32_t corrections, double* field) const;
   void solve_at(Span<const std::int32_t> vertices, double* out) const;
-  void flux(Vector<double>& out) const;  // slot * channels + c
+  // out: slot * channels + c; without sites all 0. field: null, or that of solve too, not written without sites.
+  void flux(Vector<double>& out, double* field = nullptr) const;
 
  private:
   struct Record {

@@ -72,6 +72,8 @@ static void hf_create_refuses_bad_meshes(void** state) {
   CREATE("2^32 - 1 triangles", HF_ERROR_TOO_LARGE, NO_INDEX, desc.triangle_count = UINT32_MAX);
   CREATE("2^31 triangles, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX,
          (desc.triangle_count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
+  CREATE("2^31 triangles, both limits lifted", HF_ERROR_TOO_LARGE, NO_INDEX,
+         (desc.triangle_count = 0x80000000u, desc.vertex_limit = desc.triangle_limit = UINT32_MAX));
   CREATE("above the vertex_limit", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_limit = CUT_VERTICES - 1);
 
   scene_destroy(&scene);
@@ -93,7 +95,8 @@ static void hf_create_refuses_bad_options(void** state) {
   CREATE("operator 4", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.operator_kind = 4);
   CREATE("field kind -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.field_kind = -1);
   CREATE("field kind 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.field_kind = 3);
-  CREATE("reserved 1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.reserved = 1);
+  CREATE("a triangle more than the limit", HF_ERROR_TOO_LARGE, NO_INDEX, desc.triangle_limit = desc.triangle_count - 1);
+  CREATE("triangles of a limit of 1", HF_ERROR_TOO_LARGE, NO_INDEX, desc.triangle_limit = 1);
   CREATE("engine -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.engine = -1);
   CREATE("engine 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.engine = 3);
   CREATE("engine INT32_MIN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.engine = INT32_MIN);

@@ -72,6 +72,8 @@ static void adding_bad_sites_is_refused(void** state) {
       (in_triangles(&sites), weights[0] = weights[1] = weights[2] = 0));
   ADD("value NaN", HF_ERROR_NON_FINITE, 1, values[1] = (double)NAN);
   ADD("value infinite", HF_ERROR_NON_FINITE, 0, values[0] = -HUGE_VAL);
+  ADD("value beyond 1e200", HF_ERROR_TOO_LARGE, 1, values[1] = 1.01e200);
+  ADD("the largest value there is", HF_ERROR_TOO_LARGE, 2, values[2] = -1.7e308);
   ADD("stiffness NaN", HF_ERROR_NON_FINITE, 2, stiffness[2] = (double)NAN);
   ADD("stiffness infinite", HF_ERROR_NON_FINITE, 1, stiffness[1] = HUGE_VAL);
   ADD("stiffness negative", HF_ERROR_INVALID_ARGUMENT, 0, stiffness[0] = -1e-9);
@@ -174,6 +176,7 @@ static void removing_moving_and_setting_bad_sites_is_refused(void** state) {
   SET("no such number", HF_ERROR_NO_SUCH_SITE, 1, numbers[1] = 3);
   SET("number UINT32_MAX", HF_ERROR_NO_SUCH_SITE, 0, numbers[0] = UINT32_MAX);
   SET("value NaN", HF_ERROR_NON_FINITE, 2, values[2] = (double)NAN);
+  SET("value beyond 1e200", HF_ERROR_TOO_LARGE, 1, values[1] = -1.7e308);
   SET("value infinite", HF_ERROR_NON_FINITE, 0, values[0] = HUGE_VAL);
   scene_destroy(&scene);
   finish_rows("removing, moving, setting");

@@ -56,7 +56,7 @@ static void print_create_desc(void) {
   FIELD(hf_create_desc, progress);
   FIELD(hf_create_desc, saved_factor);
   FIELD(hf_create_desc, field_kind);
-  FIELD(hf_create_desc, reserved);
+  FIELD(hf_create_desc, triangle_limit);
 }
 
 static void print_preview_info(void) {
@@ -143,6 +143,19 @@ static void print_solve_info(void) {
   FIELD(hf_solve_info, unreached_component_count);
   FIELD(hf_solve_info, first_unreached_component);
   FIELD(hf_solve_info, unreached_vertex_count);
+}
+
+static void print_certificate(void) {
+  STRUCT(hf_certificate);
+  FIELD(hf_certificate, struct_size);
+  FIELD(hf_certificate, overshoot_checked);
+  FIELD(hf_certificate, tolerance);
+  FIELD(hf_certificate, value_range);
+  FIELD(hf_certificate, residual);
+  FIELD(hf_certificate, site_error);
+  FIELD(hf_certificate, overshoot);
+  FIELD(hf_certificate, worst_vertex);
+  FIELD(hf_certificate, reserved);
 }
 
 static void print_statistics(void) {
@@ -645,6 +658,7 @@ int main(void) {
   print_edit_desc();
   print_site_info();
   print_solve_info();
+  print_certificate();
   print_statistics();
   print_pose_desc();
   print_handles_desc();

@@ -233,6 +233,22 @@ static void the_mesh_is_copied(void** state) {
   free(before), free(after), hf_destroy(solver);
 }
 
+static void limits_that_are_just_met_are_no_obstacle(void** state) {
+  (void)state;
+  Surface cut = surface_cut();
+  hf_create_desc desc = surface_desc(&cut);
+  desc.vertex_limit = CUT_VERTICES, desc.triangle_limit = CUT_TRIANGLES, desc.site_limit = 2, desc.memory_limit_mb = 64;
+  hf_solver solver = NULL;
+  assert_ok(hf_create(&desc, &solver));
+  add_site(solver, CUT_LEFT, 0), add_site(solver, CUT_RIGHT, 1);
+  const uint32_t vertex = CUT_ISLAND;
+  const double value = 2;
+  const hf_sites_desc third = sites_at(1, &vertex, &value);
+  assert_code(HF_ERROR_TOO_LARGE, hf_add_sites(solver, &third, NULL));
+  assert_int_equal(hf_get_site_count(solver), 2);
+  hf_destroy(solver), surface_free(&cut);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(welded_copies_get_the_same_value),
@@ -245,6 +261,7 @@ int main(void) {
       cmocka_unit_test(unit_and_offset_do_not_matter),
       cmocka_unit_test(interleaved_vertices_are_read_by_their_stride),
       cmocka_unit_test(the_mesh_is_copied),
+      cmocka_unit_test(limits_that_are_just_met_are_no_obstacle),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -143,7 +143,7 @@ namespace Hf.Native
         public IntPtr progress;
         public IntPtr saved_factor;
         public int field_kind;
-        public int reserved;
+        public uint triangle_limit;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -215,6 +215,20 @@ namespace Hf.Native
         public uint unreached_component_count;
         public uint first_unreached_component;
         public uint unreached_vertex_count;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_certificate
+    {
+        public uint struct_size;
+        public uint overshoot_checked;
+        public double tolerance;
+        public double value_range;
+        public double residual;
+        public double site_error;
+        public double overshoot;
+        public uint worst_vertex;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -714,6 +728,7 @@ namespace Hf.Native
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_vectors(IntPtr solver, void* out_vectors, uint vector_stride, void* out_normals, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_vectors_f64(IntPtr solver, void* out_vectors, uint vector_stride, void* out_normals, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_at(IntPtr solver, uint vertex_count, void* vertices, void* out_values);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_certify(IntPtr solver, void* inout_certificate);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_record(IntPtr solver);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_undo(IntPtr solver);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_redo(IntPtr solver);

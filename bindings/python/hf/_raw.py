@@ -185,7 +185,7 @@ class hf_create_desc(Structure):
     progress: int
     saved_factor: int
     field_kind: int
-    reserved: int
+    triangle_limit: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -210,7 +210,7 @@ class hf_create_desc(Structure):
         ("progress", c_void_p),
         ("saved_factor", c_void_p),
         ("field_kind", c_int32),
-        ("reserved", c_int32),
+        ("triangle_limit", c_uint32),
     ]
 
 
@@ -333,6 +333,30 @@ class hf_solve_info(Structure):
         ("unreached_component_count", c_uint32),
         ("first_unreached_component", c_uint32),
         ("unreached_vertex_count", c_uint32),
+    ]
+
+
+class hf_certificate(Structure):
+    """How right a field is; struct_size must be set."""
+    struct_size: int
+    overshoot_checked: int
+    tolerance: float
+    value_range: float
+    residual: float
+    site_error: float
+    overshoot: float
+    worst_vertex: int
+    reserved: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("overshoot_checked", c_uint32),
+        ("tolerance", c_double),
+        ("value_range", c_double),
+        ("residual", c_double),
+        ("site_error", c_double),
+        ("overshoot", c_double),
+        ("worst_vertex", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 
@@ -1120,7 +1144,7 @@ class hf_transfer_frame(Structure):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_create_desc, hf_mesh_report, hf_sites_desc, hf_edit_desc, hf_site_info, hf_solve_info, hf_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_pose_desc, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_desc, hf_deform_info, hf_skin_info, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_preview_info, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame]
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_create_desc, hf_mesh_report, hf_sites_desc, hf_edit_desc, hf_site_info, hf_solve_info, hf_certificate, hf_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_pose_desc, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_desc, hf_deform_info, hf_skin_info, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_preview_info, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -1149,6 +1173,7 @@ PROTOTYPES = {
     "hf_solve_vectors": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_solve_vectors_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_solve_at": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_certify": (c_int32, [c_void_p, c_void_p]),
     "hf_record": (c_int32, [c_void_p]),
     "hf_undo": (c_int32, [c_void_p]),
     "hf_redo": (c_int32, [c_void_p]),

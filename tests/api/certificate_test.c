@@ -1,0 +1,241 @@
+/* The certificate of a field: small where the field is right, on every engine and operator, and HF_ERROR_INACCURATE
+ * where it is not: a factor whose numbers were changed behind the library's back. */
+#include "api_support.h"
+
+enum { AROUND = 12, RINGS = 30, VERTICES = AROUND * RINGS };
+
+static Surface tube;
+static int create_tube(void** state) {
+  (void)state;
+  tube = surface_tube(AROUND, RINGS);
+  /* no two triangles alike */
+  for (uint32_t i = 0; i < 3 * VERTICES; ++i) tube.positions[i] += 0.05f * sinf(7.3f * (float)i);
+  return 0;
+}
+static int free_tube(void** state) {
+  (void)state;
+  surface_free(&tube);
+  return 0;
+}
+
+static void add_sites(hf_solver solver, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i) add_site(solver, (i * 97 + 5) % VERTICES, sin(2.0 * i) * 40 + 1000);
+}
+
+static void every_engine_and_operator_passes_with_its_own_tolerance(void** state) {
+  (void)state;
+  for (int32_t engine = 0; engine < 3; ++engine) {
+    for (int32_t operator_kind = 0; operator_kind < 4; ++operator_kind) {
+      for (int32_t field_kind = 0; field_kind < 3; ++field_kind) {
+        hf_create_desc desc = surface_desc(&tube);
+        desc.engine = engine, desc.operator_kind = operator_kind, desc.field_kind = field_kind;
+        hf_solver solver = NULL;
+        if (hf_create(&desc, &solver) == HF_ERROR_UNSUPPORTED) continue; /* updown without HF_WITH_GPL */
+        add_sites(solver, 9);
+        hf_certificate found;
+        HF_INIT(found);
+        assert_ok(hf_certify(solver, &found));
+        const int updown = engine == HF_ENGINE_UPDOWN;
+        assert_true(found.tolerance == (updown ? 1e-5 : 1e-8));
+        assert_true(found.value_range > 1 && found.value_range <= 80);
+        assert_true(found.residual >= 0 && found.residual <= found.tolerance);
+        assert_true(found.site_error <= found.tolerance && found.overshoot <= found.tolerance);
+        if (!updown && field_kind == HF_FIELD_HARMONIC) assert_true(found.residual < 1e-12 && found.site_error == 0);
+        if (operator_kind != HF_OPERATOR_COTANGENT)
+          assert_int_equal(found.overshoot_checked, field_kind == HF_FIELD_HARMONIC);
+        assert_true(found.worst_vertex < VERTICES);
+        hf_destroy(solver);
+      }
+    }
+  }
+}
+
+static void points_soft_sites_discs_and_a_single_site_pass(void** state) {
+  (void)state;
+  hf_solver solver = surface_solver(&tube);
+  add_site(solver, 7, 12345.0);
+  hf_certificate found;
+  HF_INIT(found);
+  assert_ok(hf_certify(solver, &found));
+  assert_true(found.value_range == 0 && found.residual < 1e-12 && found.overshoot_checked == 1);
+  const uint32_t triangle = 400, vertices[2] = {100, 200};
+  const double weights[3] = {0.2, 0.3, 0.5}, values[2] = {12346, 12350}, stiffness[2] = {1e3, 1e-3},
+               radii[2] = {1.5, 0};
+  hf_sites_desc sites = sites_at(2, vertices, values);
+  sites.stiffness = stiffness;
+  assert_ok(hf_add_sites(solver, &sites, NULL));
+  assert_ok(hf_certify(solver, &found));
+  assert_int_equal(found.overshoot_checked, 1);
+  const uint32_t more[2] = {300, 330};
+  sites = sites_at(2, more, values), sites.radii = radii;
+  assert_ok(hf_add_sites(solver, &sites, NULL));
+  assert_ok(hf_certify(solver, &found));
+  HF_INIT(sites);
+  sites.site_count = 1, sites.triangles = &triangle, sites.barycentrics = weights, sites.values = values;
+  assert_ok(hf_add_sites(solver, &sites, NULL));
+  assert_ok(hf_certify(solver, &found));
+  assert_int_equal(found.overshoot_checked, 0); /* the corners of a point may lie beyond it */
+  assert_true(found.residual < 1e-12 && found.site_error < 1e-12);
+  hf_destroy(solver);
+}
+
+static void sites_in_the_factor_and_several_channels_pass(void** state) {
+  (void)state;
+  hf_create_desc desc = surface_desc(&tube);
+  desc.channel_count = 3;
+  hf_solver solver = NULL;
+  assert_ok(hf_create(&desc, &solver));
+  uint32_t vertices[60], sites[60];
+  double values[180];
+  for (uint32_t i = 0; i < 60; ++i) vertices[i] = i * 6;
+  for (uint32_t i = 0; i < 180; ++i) values[i] = cos(3.0 * i) + (i % 3 == 1 ? 1e4 : 0);
+  const hf_sites_desc batch = sites_at(60, vertices, values);
+  assert_ok(hf_add_sites(solver, &batch, sites));
+  assert_ok(hf_prepare_rebase(solver));
+  assert_ok(hf_remove_sites(solver, 5, sites + 10));
+  hf_certificate found;
+  HF_INIT(found);
+  assert_ok(hf_certify(solver, &found));
+  assert_true(found.residual < 1e-11 && found.overshoot_checked == 1);
+  hf_destroy(solver);
+}
+
+/* The numbers of a borrowed factor lie in the host's memory. Changed there, every field is wrong, and only the
+ * certificate can tell. */
+static void a_factor_that_changed_behind_the_library_is_found_out(void** state) {
+  (void)state;
+  hf_solver solver = surface_solver(&tube), loaded = NULL;
+  size_t size = 0;
+  assert_ok(hf_get_factor_size(solver, &size));
+  unsigned char* block = malloc(size + HF_FACTOR_ALIGNMENT);
+  assert_non_null(block);
+  unsigned char* bytes = block + HF_FACTOR_ALIGNMENT - (uintptr_t)block % HF_FACTOR_ALIGNMENT;
+  assert_ok(hf_save_factor(solver, bytes, size));
+  hf_factor_desc factor;
+  HF_INIT(factor);
+  factor.borrow = 1, factor.bytes = bytes, factor.byte_count = size;
+  hf_create_desc desc = surface_desc(&tube);
+  desc.saved_factor = &factor;
+  assert_ok(hf_create(&desc, &loaded));
+  add_sites(solver, 6), add_sites(loaded, 6);
+  double* right = field_of(solver, VERTICES);
+  hf_certificate found;
+  HF_INIT(found);
+  assert_ok(hf_certify(loaded, &found));
+
+  /* the largest part of the file are numbers: scale one per 64 in its last quarter, by a little and by much */
+  const double scales[3] = {1 + 1e-4, 3, 1e200};
+  for (size_t s = 0; s < COUNT_OF(scales); ++s) {
+    unsigned char* kept = malloc(size);
+    assert_non_null(kept);
+    memcpy(kept, bytes, size);
+    unsigned changed = 0;
+    for (size_t i = (size / 4 * 3 + 7) / 8 * 8; i + 8 <= size; i += 512) {
+      double number;
+      memcpy(&number, bytes + i, sizeof number);
+      if (number == 0 || !isfinite(number)) continue;
+      number *= scales[s], ++changed;
+      memcpy(bytes + i, &number, sizeof number);
+    }
+    assert_true(changed > 0);
+    double* wrong = field_of(loaded, VERTICES);
+    double largest = 0;
+    for (int v = 0; v < VERTICES; ++v) largest = fmax(largest, isfinite(wrong[v]) ? fabs(wrong[v] - right[v]) : 1e300);
+    assert_true(largest > 1e-5); /* the fault matters */
+    HF_INIT(found);
+    assert_code(HF_ERROR_INACCURATE, hf_certify(loaded, &found));
+    assert_true(found.residual > 1e-8 && found.tolerance == 1e-8 && found.worst_vertex < VERTICES);
+    hf_error_detail detail;
+    assert_ok(hf_get_error_detail(&detail));
+    assert_int_equal(detail.index, found.worst_vertex);
+    /* the solver stands: its bytes restored, it is right again */
+    memcpy(bytes, kept, size);
+    HF_INIT(found);
+    assert_ok(hf_certify(loaded, &found));
+    free(wrong), free(kept);
+  }
+  hf_destroy(solver), hf_destroy(loaded);
+  free(right), free(block);
+}
+
+/* Values as large as they may be, on a mesh of needles, whose weights are large too. */
+static void the_largest_values_stay_finite_on_needles(void** state) {
+  (void)state;
+  Surface needles = surface_tube(AROUND, RINGS);
+  for (uint32_t v = 0; v < VERTICES; ++v)
+    if (v % 5 == 0 && v + 1 < VERTICES)
+      for (int c = 0; c < 3; ++c)
+        needles.positions[3 * v + c] = needles.positions[3 * v + 3 + c] + (c == 1 ? 1e-6f : 0);
+  for (int32_t operator_kind = 0; operator_kind < 4; ++operator_kind) {
+    hf_create_desc desc = surface_desc(&needles);
+    desc.operator_kind = operator_kind;
+    hf_solver solver = NULL;
+    assert_ok(hf_create(&desc, &solver));
+    add_site(solver, 0, 1e200), add_site(solver, 9, -1e200), add_site(solver, VERTICES - 1, 1e200);
+    double* field = field_of(solver, VERTICES);
+    for (int v = 0; v < VERTICES; ++v) assert_true(isfinite(field[v]));
+    hf_certificate found;
+    HF_INIT(found);
+    assert_ok(hf_certify(solver, &found));
+    free(field), hf_destroy(solver);
+  }
+  surface_free(&needles);
+}
+
+static void nothing_is_changed(void** state) {
+  (void)state;
+  hf_solver solver = surface_solver(&tube);
+  add_sites(solver, 5);
+  double* before = field_of(solver, VERTICES);
+  hf_certificate found;
+  HF_INIT(found);
+  assert_ok(hf_certify(solver, &found));
+  double* after = field_of(solver, VERTICES);
+  assert_true(same_bits(before, after, sizeof(double) * VERTICES));
+  free(before), free(after), hf_destroy(solver);
+}
+
+#define CERTIFY(what, expected, ...)                                                         \
+  do {                                                                                       \
+    hf_certificate found;                                                                    \
+    HF_INIT(found);                                                                          \
+    __VA_ARGS__;                                                                             \
+    check_row(__LINE__, what, "hf_certify", hf_certify(solver, &found), expected, NO_INDEX); \
+  } while (0)
+
+static void bad_arguments_are_answered(void** state) {
+  (void)state;
+  hf_solver solver = NULL;
+  CERTIFY("no solver", HF_ERROR_INVALID_HANDLE, (void)0);
+  solver = surface_solver(&tube);
+  CERTIFY("no sites", HF_ERROR_NO_SITES, (void)0);
+  add_sites(solver, 4);
+  CERTIFY("tolerance below 0", HF_ERROR_INVALID_ARGUMENT, found.tolerance = -1e-9);
+  CERTIFY("tolerance infinite", HF_ERROR_INVALID_ARGUMENT, found.tolerance = HUGE_VAL);
+  CERTIFY("tolerance no number", HF_ERROR_INVALID_ARGUMENT, found.tolerance = NAN);
+  CERTIFY("reserved set", HF_ERROR_INVALID_DESC, found.reserved = 1);
+  CERTIFY("struct_size 0", HF_ERROR_INVALID_DESC, found.struct_size = 0);
+  CERTIFY("struct_size one short", HF_ERROR_INVALID_DESC, --found.struct_size);
+  check_row(__LINE__, "no certificate", "hf_certify", hf_certify(solver, NULL), HF_ERROR_NULL_POINTER, NO_INDEX);
+  hf_certificate found;
+  HF_INIT(found);
+  found.tolerance = 1e-300;
+  assert_code(HF_ERROR_INACCURATE, hf_certify(solver, &found));
+  assert_true(found.tolerance == 1e-300);
+  hf_destroy(solver);
+  CERTIFY("a destroyed solver", HF_ERROR_INVALID_HANDLE, (void)0);
+  finish_rows("certificate");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_engine_and_operator_passes_with_its_own_tolerance),
+      cmocka_unit_test(points_soft_sites_discs_and_a_single_site_pass),
+      cmocka_unit_test(sites_in_the_factor_and_several_channels_pass),
+      cmocka_unit_test(a_factor_that_changed_behind_the_library_is_found_out),
+      cmocka_unit_test(the_largest_values_stay_finite_on_needles),
+      cmocka_unit_test(nothing_is_changed),
+      cmocka_unit_test(bad_arguments_are_answered),
+  };
+  return cmocka_run_group_tests(tests, create_tube, free_tube);
+}
