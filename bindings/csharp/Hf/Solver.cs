@@ -10,7 +10,7 @@ namespace Hf
     {
         public int Weld, OperatorKind, Engine, Ordering, FieldKind;
         public float WeldTolerance;
-        public uint ChannelCount, ThreadCount, SiteLimit, VertexLimit, MemoryLimitMb;
+        public uint ChannelCount, ThreadCount, SiteLimit, VertexLimit, TriangleLimit, MemoryLimitMb;
         public double Penalty;
         public byte[] SavedFactor;
         public Progress Progress;
@@ -81,6 +81,7 @@ namespace Hf
                 desc.thread_count = options.ThreadCount;
                 desc.site_limit = options.SiteLimit;
                 desc.vertex_limit = options.VertexLimit;
+                desc.triangle_limit = options.TriangleLimit;
                 desc.memory_limit_mb = options.MemoryLimitMb;
                 desc.penalty = options.Penalty;
                 if (options.Progress != null) desc.progress = options.Progress.Handle;
