@@ -1,0 +1,141 @@
+#include "gltf_player.h"
+
+#include <sys/resource.h>
+#include <time.h>
+
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "common/animate.h"
+#include "common/gltf_read.h"
+#include "common/gltf_write.h"
+#include "common/mesh_file.h"
+#include "common/skin_write.h"
+#include "hf/hf.h"
+
+namespace hostile {
+namespace {
+
+using namespace samples;
+
+struct Wrong : std::logic_error {
+  using std::logic_error::logic_error;
+};
+
+void hold(bool condition, const char* what) {
+  if (!condition) throw Wrong(what);
+}
+
+// The surface in the library: created or refused with a documented code; a site at the first vertex of every component,
+// other values; a finite field between them.
+bool solve(const FlatMesh& mesh) {
+  const std::vector<double> positions = double_positions(mesh.positions);
+  hf_create_desc desc;
+  HF_INIT(desc);
+  desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
+  desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
+  desc.vertex_limit = 200000, desc.memory_limit_mb = 256;
+  hf_solver solver = nullptr;
+  const hf_result made = hf_create(&desc, &solver);
+  if (made != HF_OK) {
+    hold(solver == nullptr, "a refused hf_create gave a handle");
+    // a file may be empty, far too large, or hold numbers that overflow a double when squared
+    hold(made == HF_ERROR_EMPTY || made == HF_ERROR_TOO_LARGE || made == HF_ERROR_OUT_OF_MEMORY || made == HF_ERROR_NON_FINITE,
+         hf_result_name(made));
+    return false;
+  }
+  struct Owner {
+    hf_solver solver;
+    ~Owner() { hf_destroy(solver); }
+  } owner{solver};
+  std::vector<std::uint32_t> component(mesh.vertex_count());
+  hold(hf_get_components(solver, mesh.vertex_count(), component.data()) == HF_OK, "hf_get_components failed");
+  std::vector<std::uint32_t> places;
+  std::vector<bool> seen(mesh.vertex_count(), false);
+  for (std::uint32_t v = 0; v < mesh.vertex_count() && places.size() < 64; ++v) {
+    if (component[v] == HF_NO_INDEX || seen[component[v]]) continue;
+    seen[component[v]] = true;
+    places.push_back(v);
+  }
+  if (places.empty()) return false;
+  std::vector<double> values(places.size()), field(mesh.vertex_count());
+  for (std::size_t i = 0; i < places.size(); ++i) values[i] = static_cast<double>(i % 7);
+  hf_sites_desc sites;
+  HF_INIT(sites);
+  sites.site_count = static_cast<std::uint32_t>(places.size()), sites.vertices = places.data(), sites.values = values.data();
+  hold(hf_add_sites(solver, &sites, nullptr) == HF_OK, "hf_add_sites refused first vertices of components");
+  // one more at the far end of the first component, so that there is a field
+  for (std::uint32_t v = mesh.vertex_count(); v-- > 0;) {
+    if (component[v] != component[places[0]] || mesh.positions[v] == mesh.positions[places[0]]) continue;
+    const double value = 10;
+    sites.site_count = 1, sites.vertices = &v, sites.values = &value;
+    const hf_result added = hf_add_sites(solver, &sites, nullptr);
+    hold(added == HF_OK, hf_result_name(added));
+    break;
+  }
+  hold(hf_solve_f64(solver, field.data(), 0, nullptr) == HF_OK, "hf_solve_f64 failed");
+  for (const double u : field) hold(u >= -1e-6 && u <= 10 + 1e-6, "a field value lies outside the values of its sites");
+  return true;
+}
+
+bool use(Model model) {
+  const FlatMesh mesh = flatten(model);
+  for (const Animation& animation : model.animations) {
+    for (const double t : {0.0, 0.3 * clip_duration(animation), 1e9}) posed_positions(model, mesh, animation, t);
+  }
+  welded_normals(mesh, mesh.positions, true);
+  const bool solved = solve(mesh);
+  const std::string bytes = gltf_bytes(model, true);
+  read_gltf_bytes({bytes.begin(), bytes.end()}, "again.glb");
+  scatter(model, mesh, mesh.positions);
+  return solved;
+}
+
+Outcome outcome_of(const std::function<bool()>& work) {
+  Outcome outcome;
+  try {
+    outcome.solved = work();
+  } catch (const Wrong& wrong) {
+    outcome.ending = Ending::wrong, outcome.what = wrong.what();
+  } catch (const std::runtime_error& error) {
+    const std::string sentence = error.what();
+    outcome.ending = sentence.size() > 10 && sentence.find('\n') == std::string::npos ? Ending::refused : Ending::wrong;
+    outcome.what = sentence;
+  } catch (const std::exception& error) {
+    outcome.ending = Ending::wrong, outcome.what = std::string("another exception: ") + error.what();
+  }
+  return outcome;
+}
+
+}  // namespace
+
+Outcome play_gltf(const std::vector<std::uint8_t>& bytes) {
+  return outcome_of([&] { return use(read_gltf_bytes(bytes, "hostile.glb")); });
+}
+
+Outcome play_file(const std::filesystem::path& file) {
+  return outcome_of([&] {
+    std::string extension = file.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (extension == ".gltf" || extension == ".glb") return use(read_gltf(file));
+    const FlatMesh mesh = to_flat_mesh(read_mesh_file(file));
+    welded_normals(mesh, mesh.positions);
+    return solve(mesh);
+  });
+}
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+}  // namespace hostile

@@ -1,0 +1,35 @@
+// The small surfaces of the sequence fuzzer and their operators, made here from the definitions and nothing of the
+// library: weld by position, components, cotangents from corner angles, K = L, L M^-1 L or L^2.
+#pragma once
+#include <Eigen/Dense>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sequences {
+
+struct Surface {
+  std::string name;
+  std::vector<float> positions;  // xyz as given
+  std::vector<std::uint32_t> triangles;
+  std::vector<int> inner;      // of a given vertex: its number after welding; -1 in no usable triangle
+  std::vector<int> component;  // of an inner vertex, numbered by the smallest given vertex
+  int inner_count = 0, component_count = 0;
+  bool acute = false;  // no angle above 90 degrees: intrinsic Delaunay already, whatever is glued to what
+
+  std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size() / 3); }
+  std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(triangles.size() / 3); }
+  bool usable(std::uint32_t triangle) const;
+};
+
+// All of them; the first four are acute.
+const std::vector<Surface>& surfaces();
+
+// Of HF_OPERATOR_* and HF_FIELD_*, with the mean of |K_vv| per component, which stiffness is relative to.
+struct Operator {
+  Eigen::MatrixXd matrix;
+  std::vector<double> mean_diagonal;
+};
+Operator make_operator(const Surface& surface, int operator_kind, int field_kind);
+
+}  // namespace sequences

@@ -1,0 +1,91 @@
+// What a solver must be, by the headers alone: its sites, its undo stack, the code every edit gets, and the field by a
+// dense solve of the saddle-point system
+//     [ K  -W ] [   u    ]   [ 0 ]      W the places of the sites, D = 1 / (stiffness mean diagonal), 0 for hard ones
+//     [ W'  D ] [ lambda ] = [ s ]
+// with pivoting and one step of refinement, values centred first (constants are in the kernel of K).
+#pragma once
+#include <map>
+
+#include "hf/field.h"
+#include "sequence_mesh.h"
+
+namespace sequences {
+
+// Where a site is put: a vertex as given, or a point of a triangle as given.
+struct Place {
+  std::uint32_t vertex = HF_NO_INDEX;
+  std::uint32_t triangle = HF_NO_INDEX;
+  double weight[3] = {0, 0, 0};
+};
+
+struct Site {
+  std::uint32_t given_vertex = HF_NO_INDEX;  // as hf_get_sites says it
+  int at_vertex = -1;                        // inner vertex, or -1 for a point inside a triangle
+  std::vector<std::pair<int, double>> row;   // of W'
+  int component = 0;
+  double stiffness = 0;
+  std::vector<double> values;
+};
+
+// One batch, as hf_edit_desc.
+struct Edit {
+  std::vector<std::uint32_t> remove, move, set;
+  std::vector<Place> move_to, add;
+  std::vector<double> set_values, add_values, add_stiffness;  // add_*: empty stands for NULL
+};
+
+struct Setting {
+  const Surface* surface = nullptr;
+  const Operator* operation = nullptr;
+  int engine = HF_ENGINE_GREEN;
+  std::size_t channels = 1;
+  std::size_t site_limit = 24;
+};
+
+class Model {
+ public:
+  explicit Model(const Setting& setting) : setting_(setting) {}
+
+  using Sites = std::map<std::uint32_t, Site>;
+  const Sites& sites() const { return sites_; }
+
+  // The code the edit must get. On HF_OK the edit is done once the numbers of the new sites are known: see accept().
+  hf_result judge(const Edit& edit);
+  // Takes the judged edit over. False: a number of `added` is in use or comes twice.
+  bool accept(const std::vector<std::uint32_t>& added);
+
+  void record();
+  bool undo() { return step(undo_, redo_); }
+  bool redo() { return step(redo_, undo_); }
+  void forget_records() { undo_.clear(), redo_.clear(); }
+
+  // u by inner vertex and channel, scale by component and channel: the range of the values, or of the field where that
+  // overshoots them; lambda by site in the order of the numbers.
+  struct Answer {
+    Eigen::MatrixXd field, scale, lambda;
+    std::vector<int> sites_of_component;
+  };
+  const Answer& answer();
+  // Bits of the field at the record that undo or redo went back to, by vertex as given; empty when unknown.
+  std::vector<double> recorded_field;
+
+ private:
+  struct State {
+    Sites sites;
+    std::vector<double> field;
+  };
+  hf_result locate(const Place& place, Site& site) const;
+  hf_result claim(const Sites& sites, const std::vector<Site>& more, const Site& site) const;
+  bool dependent(const Sites& sites, const std::vector<Site>& more) const;
+  bool step(std::vector<State>& from, std::vector<State>& to);
+  void solve_component(int component);
+
+  Setting setting_;
+  Sites sites_, next_;
+  std::vector<Site> added_;
+  std::vector<State> undo_, redo_;
+  Answer answer_;
+  bool known_ = false;
+};
+
+}  // namespace sequences
