@@ -1,4 +1,4 @@
-"""make_zip.py LIBRARY OUT.zip: the add-on with the Python package and the shared library inside, ready for Blender's installer."""
+"""make_zip.py LIBRARY OUT.zip: the add-on with the Python package and the shared library inside, to be installed."""
 
 import pathlib
 import sys

@@ -1,8 +1,9 @@
-"""Beside Blender's LaplacianDeform on the same mesh and the same handles: blender_bench.py [N]... (6 N^2 + 2 vertices; 91 and 182)
+"""Beside Blender's LaplacianDeform on the same mesh and handles: blender_bench.py [N]... (6 N^2 + 2 vertices; 91, 182)
 
 A quad sphere, two handles of about 500 vertices each (LaplacianDeform: the same vertices as anchors, moved by a hook).
-Printed: bind, one update while a handle moves (everything Blender does until the evaluated mesh is there), and a handle added
-while posing (LaplacianDeform has to be bound anew). Medians; the peer's times from the same run.
+Printed: bind with the first update; one update while a handle moves, everything Blender does until the evaluated mesh is
+there; how long Blender takes for that with nothing to deform, so the most that any deformer could reach; both without
+that share; a handle added while posing (LaplacianDeform has to be bound anew). Medians; the peer's times from the same run.
 """
 
 import math
@@ -122,9 +123,11 @@ def bench(size, frames=21):
     assert moved > 0.1, "the peer does not follow its hook"
     peer_bind += first
     print(f"RESULT {n} vertices: bind {bind:.0f} ms, peer {peer_bind:.0f} ms: {peer_bind / bind:.0f}x; "
-          f"update until the evaluated mesh is there {update:.1f} ms, peer {peer_update:.0f} ms: {peer_update / update:.0f}x; "
+          f"update until the evaluated mesh is there {update:.1f} ms, peer {peer_update:.0f} ms: "
+          f"{peer_update / update:.0f}x; "
           f"Blender alone, with any deformer of no cost, {floor:.1f} ms: {peer_update / floor:.0f}x; "
-          f"without that share {inner:.2f} ms, peer {peer_update - floor:.0f} ms: {(peer_update - floor) / inner:.0f}x; "
+          f"without that share {inner:.2f} ms, peer {peer_update - floor:.0f} ms: "
+          f"{(peer_update - floor) / inner:.0f}x; "
           f"handle added while posing {add:.1f} ms without a factorisation")
 
 

@@ -206,7 +206,7 @@ assert 1.8 < z_of.min() and z_of.max() < 2.4  # the middle 40 per cent of 1.4 ..
 
 
 def follows(name):
-    """The region of a bone stands where the bone's own motion puts it (to_local is a shift here: mesh and armature agree)."""
+    """The region of a bone stands where the bone's own motion puts it (mesh and armature share their frame here)."""
     bone = rig.pose.bones[name]
     motion = np.array(bone.matrix @ bone.bone.matrix_local.inverted())
     rest = arm_points[regions[name]]

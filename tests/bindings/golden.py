@@ -118,7 +118,8 @@ class Scene:
         elif do == "isolines":
             lines = on.trace_isolines(get("field"), get("levels"))
             if "lines" in step:
-                assert len(lines.line_levels) == step["lines"] and int(lines.line_closed.sum()) == step["closed"], "lines"
+                closed = int(lines.line_closed.sum())
+                assert len(lines.line_levels) == step["lines"] and closed == step["closed"], "lines"
             return "array", lines.positions
         elif do == "critical":
             points = on.find_critical_points(get("field"))

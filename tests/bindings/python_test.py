@@ -98,6 +98,43 @@ class Arrays(unittest.TestCase):
         np.testing.assert_allclose(solver.solve(), 1, atol=1e-6)
 
 
+class Regions(unittest.TestCase):
+    def test_a_region_is_edited_morphed_and_undone(self):
+        points, triangles = mesh("torus", np.float64)
+        solver = hf.Solver(points, triangles)
+        with hf.Region(solver, points) as region:
+            region.edit(add=[0, 1, 2, 12, 13, 14])
+            np.testing.assert_array_equal(region.vertices(), [0, 1, 2, 12, 13, 14])
+            region.record()
+            region.edit(rings=2)
+            grown = set(region.vertices())
+            self.assertTrue({0, 1, 2, 12, 13, 14} < grown)
+            self.assertFalse(grown & set(region.vertices(hf.RegionList.RIM)))
+            np.testing.assert_array_equal(region.morph(0.0, dtype=np.float64), points)  # bit for bit
+            base, half = region.morph(1.0, dtype=np.float64), region.morph(0.5, dtype=np.float64)
+            np.testing.assert_allclose(half, 0.5 * (points + base), atol=1e-12)
+            outside = np.setdiff1d(np.arange(len(points)), sorted(grown))
+            np.testing.assert_array_equal(base[outside], points[outside])
+            # the base is harmonic: its area is the smaller, and onto itself the detail gives the surface back
+            self.assertLess(region.info.base_area, region.info.area)
+            with hf.Detail(region, region.clone()) as detail:
+                np.testing.assert_allclose(detail.morph(1.0, dtype=np.float64), points, atol=1e-6)
+            region.undo()
+            np.testing.assert_array_equal(region.vertices(), [0, 1, 2, 12, 13, 14])
+            region.redo()
+            self.assertEqual(set(region.vertices()), grown)
+            self.assertEqual(region.info.factorisation_count, 0)
+            region.edit(curve=[int(v) for v in (0, 1, 2, 3, 15, 27, 39, 38, 37, 36, 24, 12)])
+            self.assertTrue({13, 14, 25, 26} <= set(region.vertices()))
+            for wrong in (lambda: region.edit(add=[288]), lambda: region.edit(curve=[0]), lambda: region.morph(np.nan),
+                          lambda: hf.Region(None), lambda: hf.Region(solver, points[:5]), lambda: hf.Detail(region, None),
+                          lambda: region.vertices(9), lambda: region.morph(1.0, np.zeros(3, np.float32))):
+                with self.assertRaises(hf.HfError):
+                    wrong()
+        with self.assertRaises(hf.InvalidHandleError):
+            region.edit(rings=1)
+
+
 class Lifetime(unittest.TestCase):
     def test_any_order_of_closing_and_collecting(self):
         points, triangles = mesh("bar")

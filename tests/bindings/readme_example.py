@@ -1,6 +1,6 @@
 """Runs the first program of a README: readme_example.py README.md LANGUAGE FILE COMMAND...
 
-Writes the first ```LANGUAGE block to FILE, runs COMMAND and compares what it prints with the ```text block that follows.
+Writes the first ```LANGUAGE block to FILE, runs COMMAND and compares what it prints with the ```text block after it.
 A program without such a block only has to succeed.
 """
 

@@ -1,4 +1,4 @@
-"""hf: dynamic harmonic fields. Sites come and go on a factored surface; handles pose it; motion plays on another surface.
+"""hf: dynamic harmonic fields. Sites come and go on a factored surface; handles pose it; motion plays on another.
 
     import numpy as np, hf
     with hf.Solver(positions, triangles) as solver:
@@ -11,16 +11,16 @@ library's own message, HfError and its subclasses.
 
 from . import _raw as constants
 from ._library import (BusyError, CancelledError, ConflictError, DuplicateSiteError, EmptyError, InaccurateError,
-    InternalError,
-                       InvalidArgumentError, InvalidDescError, InvalidHandleError, NoRecordError, NoSitesError, NoSuchHandleError,
-                       NoSuchPairError, NoSuchSiteError, NonFiniteError, NotPositiveDefiniteError, NullPointerError,
-                       OutOfMemoryError, OutOfRangeError, OverlapError, ReentrantError, TooLargeError, TooSmallError,
-                       UnsupportedError)
+                       InternalError, InvalidArgumentError, InvalidDescError, InvalidHandleError, NoRecordError,
+                       NoSitesError, NoSuchHandleError, NoSuchPairError, NoSuchSiteError, NonFiniteError,
+                       NotPositiveDefiniteError, NullPointerError, OutOfMemoryError, OutOfRangeError, OverlapError,
+                       ReentrantError, TooLargeError, TooSmallError, UnsupportedError)
 from ._library import EXCEPTIONS, NO_INDEX, HfError, library
 from ._raw import (hf_deform_info as DeformInfo, hf_direction_statistics as DirectionStatistics,
-    hf_handle_info as HandleInfo,
-                   hf_mesh_report as MeshReport, hf_pair_info as PairInfo, hf_quads_info as QuadsInfo, hf_solve_info as SolveInfo, hf_statistics as Statistics,
-                   hf_transfer_info as TransferInfo)
+                   hf_handle_info as HandleInfo, hf_mesh_report as MeshReport, hf_pair_info as PairInfo,
+                   hf_quads_info as QuadsInfo, hf_region_info as RegionInfo, hf_solve_info as SolveInfo,
+                   hf_statistics as Statistics, hf_transfer_info as TransferInfo)
+from .detail import Detail, Region, RegionList, Side
 from .direction import Direction
 from .pose import DeformMode, Pair, Pose, Skin, Transfer, TransferMode
 from .quads import Flow, FlowLines, QuadKind, QuadMesh, Quads

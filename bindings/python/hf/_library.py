@@ -85,7 +85,8 @@ def library() -> ctypes.CDLL:
             except (OSError, AttributeError) as error:  # not there, or too old: a function is missing
                 tried.append(f"{path}: {error}")
         if _loaded is None:
-            raise ImportError("the hf library was not found; set HF_LIBRARY to libhf.so, or put it beside the package. " + "; ".join(tried))
+            raise ImportError("the hf library was not found; set HF_LIBRARY to libhf.so, or put it beside the package. "
+                              + "; ".join(tried))
         _check_version(_loaded.hf_get_version())
     return _loaded
 

@@ -1,4 +1,4 @@
-"""Posing with handles that come and go, and the motion of one surface played on another (hf/deform.h, hf/transfer.h)."""
+"""Posing with handles that come and go; the motion of one surface played on another (hf/deform.h, hf/transfer.h)."""
 
 from __future__ import annotations
 
@@ -46,14 +46,18 @@ def _skin(function: str, handle: Optional[int], vertex_count: int, weight_count:
     skin = Skin(np.empty((joints, 3)), np.empty((joints, 4)), np.empty((joints, 3)),
         np.empty((vertex_count, weight_count), np.uint32),
                 np.empty((vertex_count, weight_count), np.float32))
-    info.pivots, info.rotations, info.translations = address(skin.pivots), address(skin.rotations), address(skin.translations)
+    info.pivots, info.rotations = address(skin.pivots), address(skin.rotations)
+    info.translations = address(skin.translations)
     info.vertex_joints, info.vertex_weights = address(skin.joints), address(skin.weights)
     call(function, handle, ctypes.byref(info))
     return skin
 
 
 class Pose(Object):
-    """Handles on a solver's surface; every vertex follows. Options: mode, band_count, iteration_count, samples_per_ring, group_count."""
+    """Handles on a solver's surface; every vertex follows.
+
+    Options: mode, band_count, iteration_count, samples_per_ring, group_count.
+    """
 
     _destroy = "hf_pose_destroy"
 
@@ -133,8 +137,10 @@ class Pose(Object):
 
     def deform(self, out: Optional[np.ndarray] = None, *, normals: Optional[np.ndarray] = None, dtype: Any = np.float32,
                info: Optional[_raw.hf_deform_info] = None, **options: Any) -> np.ndarray:
-        """Solves the pose: (n, 3) positions, into out when given (float32 or float64, strided rows). normals: (n, 3) float32 to
-        fill. Options: iteration_count, restart, refine."""
+        """Solves the pose: (n, 3) positions, into out when given (float32 or float64, strided rows).
+
+        normals: (n, 3) float32 to fill. Options: iteration_count, restart, refine.
+        """
         out, stride = output(out, (self.vertex_count, 3), dtype if out is None else (np.float32, np.float64))
         desc = make(_raw.hf_deform_desc, position_stride=stride)
         options_into(desc, options)
@@ -205,10 +211,14 @@ class Transfer(Object):
     def apply(self, source_positions: ArrayLike, out: Optional[np.ndarray] = None, *,
         normals: Optional[np.ndarray] = None, dtype: Any = np.float32,
               holds: Optional[ArrayLike] = None, hold_positions: Optional[ArrayLike] = None) -> np.ndarray:
-        """One posed frame of the source -> (n, 3) positions of the target. holds: pairs whose place hold_positions decides."""
+        """One posed frame of the source -> (n, 3) positions of the target.
+
+        holds: pairs whose place hold_positions decides.
+        """
         posed, stride = points(source_positions, "source_positions")
         if len(posed) != self.source_vertex_count:
-            raise InvalidArgumentError(f"source_positions must have the shape ({self.source_vertex_count}, 3), not {posed.shape}")
+            raise InvalidArgumentError(f"source_positions must have the shape ({self.source_vertex_count}, 3), "
+                                       f"not {posed.shape}")
         out, out_stride = output(out, (self.vertex_count, 3), dtype if out is None else (np.float32, np.float64))
         frame = make(_raw.hf_transfer_frame, source_stride=stride, target_stride=out_stride)
         setattr(frame, "source_positions" if posed.dtype == np.float32 else "source_positions_f64", address(posed))

@@ -24,7 +24,8 @@ class Operator(IntEnum):
 
 
 class FieldKind(IntEnum):
-    HARMONIC, BIHARMONIC, BIHARMONIC_GRAPH = _raw.HF_FIELD_HARMONIC, _raw.HF_FIELD_BIHARMONIC, _raw.HF_FIELD_BIHARMONIC_GRAPH
+    HARMONIC, BIHARMONIC = _raw.HF_FIELD_HARMONIC, _raw.HF_FIELD_BIHARMONIC
+    BIHARMONIC_GRAPH = _raw.HF_FIELD_BIHARMONIC_GRAPH
 
 
 class Engine(IntEnum):
@@ -159,7 +160,8 @@ class Solver(Object):
 
     def add_sites(self, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None, *,
         stiffness: Optional[ArrayLike] = None,
-                  radii: Optional[ArrayLike] = None, triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None) -> np.ndarray:
+                  radii: Optional[ArrayLike] = None, triangles: Optional[ArrayLike] = None,
+                  barycentrics: Optional[ArrayLike] = None) -> np.ndarray:
         """Adds sites at vertices, or inside triangles; all or nothing. Returns their numbers, (k,) uint32."""
         desc, count, _held = self._sites(vertices, values, stiffness, radii, triangles, barycentrics)
         out = np.empty(count, np.uint32)
@@ -186,13 +188,15 @@ class Solver(Object):
 
     def edit_sites(self, *, remove: ArrayLike = (), move: ArrayLike = (), move_to: Optional[ArrayLike] = None,
         set: ArrayLike = (),
-                   set_values: Optional[ArrayLike] = None, add: Optional[ArrayLike] = None, add_values: Optional[ArrayLike] = None) -> np.ndarray:
+                   set_values: Optional[ArrayLike] = None, add: Optional[ArrayLike] = None,
+                   add_values: Optional[ArrayLike] = None) -> np.ndarray:
         """One batch: remove, move, set, add; all or nothing. Returns the numbers of the added sites."""
         removed, moved, changed = (integers(() if a is None else a, n) for a, n in ((remove, "remove"), (move, "move"),
             (set, "set")))
         values = doubles(set_values, "set_values", changed.size * self.channel_count)
         edit = make(_raw.hf_edit_desc, remove_count=removed.size, remove_sites=address(removed), move_count=moved.size,
-                    move_sites=address(moved), set_count=changed.size, set_sites=address(changed), set_values=address(values))
+                    move_sites=address(moved), set_count=changed.size, set_sites=address(changed),
+                    set_values=address(values))
         held = []
         if move_to is not None:
             held.append(self._sites(move_to))
@@ -326,7 +330,10 @@ class Solver(Object):
 
     def find_extremities(self, *, progress: Optional[Progress] = None, geodesics: Optional["Geodesics"] = None,
         **options: Any) -> np.ndarray:
-        """Tips of the surface, farthest first: records vertex, component, length, position. Options: kind, least_length, source_count."""
+        """Tips of the surface, farthest first: records vertex, component, length, position.
+
+        Options: kind, least_length, source_count.
+        """
         desc = make(_raw.hf_extremities_desc)
         options_into(desc, options)
         desc.progress, desc.geodesics = handle_of(progress, Progress, "progress"), handle_of(geodesics, Geodesics,

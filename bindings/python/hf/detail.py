@@ -1,0 +1,134 @@
+"""Regions of a surface, their smooth base, the detail on it, and detail carried to another region (hf/detail.h)."""
+
+from __future__ import annotations
+
+import ctypes
+from enum import IntEnum
+from typing import Any, Optional
+
+import numpy as np
+
+from . import _raw
+from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, handle_of, integers, make, output,
+                       points)
+from .solver import Progress, Solver
+
+
+class Side(IntEnum):
+    SMALLER, LARGER, SEED = _raw.HF_SIDE_SMALLER, _raw.HF_SIDE_LARGER, _raw.HF_SIDE_SEED
+
+
+class RegionList(IntEnum):
+    INSIDE, RIM, SITES = _raw.HF_REGION_INSIDE, _raw.HF_REGION_RIM, _raw.HF_REGION_SITES
+
+
+def _morph(function: str, thing: Any, weight: float, out: Optional[np.ndarray], normals: Optional[np.ndarray],
+           dtype: Any) -> np.ndarray:
+    out, stride = output(out, (thing.vertex_count, 3), dtype if out is None else (np.float32, np.float64))
+    desc = make(_raw.hf_morph_desc, position_stride=stride, weight=float(weight))
+    setattr(desc, "positions" if out.dtype == np.float32 else "positions_f64", address(out))
+    if normals is not None:
+        normals, desc.normal_stride = output(normals, (thing.vertex_count, 3), np.float32, "normals")
+        desc.normals = address(normals)
+    call(function, thing._raw_handle, ctypes.byref(desc))
+    return out
+
+
+class Region(Object):
+    """A region of a solver's surface that grows, shrinks and is drawn by closed curves; its base is a membrane, or a thin
+    plate with a bi-harmonic solver. positions: a pose of the surface to work on; None: the solver's own."""
+
+    _destroy = "hf_region_destroy"
+
+    def __init__(self, solver: Solver, positions: Optional[ArrayLike] = None) -> None:
+        desc, handle = make(_raw.hf_region_desc), ctypes.c_void_p()
+        parent = handle_of(solver, Solver, "solver")
+        if positions is not None:
+            xyz, desc.position_stride = points(positions, "positions")
+            if len(xyz) != solver.vertex_count:
+                raise InvalidArgumentError(f"positions must have the shape ({solver.vertex_count}, 3), not {xyz.shape}")
+            setattr(desc, "positions" if xyz.dtype == np.float32 else "positions_f64", address(xyz))
+        call("hf_region_create", parent, ctypes.byref(desc), ctypes.byref(handle))
+        self._own(handle)
+        self.vertex_count = solver.vertex_count
+
+    def clone(self) -> "Region":
+        handle = ctypes.c_void_p()
+        call("hf_region_clone", self._raw_handle, ctypes.byref(handle))
+        copy = Region.__new__(Region)
+        copy._own(handle)
+        copy.vertex_count = self.vertex_count
+        return copy
+
+    def edit(self, *, curve: Optional[ArrayLike] = None, side: int = Side.SMALLER, seed_vertex: int = 0, rings: int = 0,
+             add: Optional[ArrayLike] = None, remove: Optional[ArrayLike] = None,
+             progress: Optional[Progress] = None) -> None:
+        """One edit, all or nothing: what a closed curve through these vertices encloses; rings of vertices more, or less
+        when below 0; vertices added and removed. Sites are edited, nothing is factorised."""
+        added, removed, along = integers(add, "add"), integers(remove, "remove"), integers(curve, "curve")
+        desc = make(_raw.hf_region_edit_desc, ring_count=int(rings), progress=handle_of(progress, Progress, "progress"))
+        if along is not None:
+            line = make(_raw.hf_curve_desc, point_count=along.size, vertices=address(along), side=int(side),
+                        seed_vertex=int(seed_vertex))
+            desc.curve = ctypes.addressof(line)
+        if added is not None:
+            desc.add_count, desc.add_vertices = added.size, address(added)
+        if removed is not None:
+            desc.remove_count, desc.remove_vertices = removed.size, address(removed)
+        call("hf_region_edit", self._raw_handle, ctypes.byref(desc))
+
+    def record(self) -> None:
+        """Keeps the present region for undo()."""
+        call("hf_region_record", self._raw_handle)
+
+    def undo(self) -> None:
+        call("hf_region_undo", self._raw_handle)
+
+    def redo(self) -> None:
+        call("hf_region_redo", self._raw_handle)
+
+    @property
+    def info(self) -> _raw.hf_region_info:
+        info = make(_raw.hf_region_info)
+        call("hf_region_get_info", self._raw_handle, ctypes.byref(info))
+        return info
+
+    def vertices(self, which: int = RegionList.INSIDE) -> np.ndarray:
+        """Vertices inside, on the rim, or the sites that hold the base, (k,) uint32."""
+        counts = self.info
+        size = {RegionList.INSIDE: counts.vertex_count, RegionList.RIM: counts.rim_count}.get(int(which), counts.site_count)
+        out = np.empty(max(1, size), np.uint32)
+        call("hf_region_get_vertices", self._raw_handle, int(which), size, address(out))
+        return out[:size]
+
+    def morph(self, weight: float, out: Optional[np.ndarray] = None, *, normals: Optional[np.ndarray] = None,
+              dtype: Any = np.float32) -> np.ndarray:
+        """(n, 3) positions: 0 the surface, 1 its base without detail, between and beyond in proportion."""
+        return _morph("hf_region_morph", self, weight, out, normals, dtype)
+
+
+class Detail(Object):
+    """The detail of one region on the base of another. Points of the rims that correspond: source_vertices and
+    target_vertices, in order along both; scale 0: by the areas of the bases."""
+
+    _destroy = "hf_detail_destroy"
+
+    def __init__(self, source: Region, target: Region, *, source_vertices: Optional[ArrayLike] = None,
+                 target_vertices: Optional[ArrayLike] = None, scale: float = 0.0,
+                 progress: Optional[Progress] = None) -> None:
+        starts, ends = integers(source_vertices, "source_vertices"), integers(target_vertices, "target_vertices")
+        if (starts is None) != (ends is None) or (starts is not None and starts.size != ends.size):
+            raise InvalidArgumentError("source_vertices and target_vertices must be of one length")
+        desc = make(_raw.hf_detail_desc, pair_count=0 if starts is None else starts.size, scale=float(scale),
+                    source_vertices=address(starts), target_vertices=address(ends),
+                    progress=handle_of(progress, Progress, "progress"))
+        handle = ctypes.c_void_p()
+        call("hf_detail_create", handle_of(source, Region, "source"), handle_of(target, Region, "target"),
+             ctypes.byref(desc), ctypes.byref(handle))
+        self._own(handle)
+        self.vertex_count = target.vertex_count
+
+    def morph(self, weight: float, out: Optional[np.ndarray] = None, *, normals: Optional[np.ndarray] = None,
+              dtype: Any = np.float32) -> np.ndarray:
+        """(n, 3) positions of the target's surface: 0 as it is, 1 its region with the source's detail."""
+        return _morph("hf_detail_morph", self, weight, out, normals, dtype)
