@@ -21,8 +21,8 @@ typedef struct hf_quads_object* hf_quads;
 
 enum {
   HF_QUADS_UNIFORM = 0, /* lines are added and ended, in pairs, so that edges keep about one length */
-  HF_QUADS_PURE = 1     /* every line runs from a source to a sink: irregular places are sites and saddles only, edges
-                           are as long as the field makes them */
+  HF_QUADS_PURE = 1     /* every line runs from a source to a sink: irregular places are sites, saddles, and where quads
+                           were made smaller to keep to the surface; edges are as long as the field makes them */
 };
 
 typedef struct hf_quads_desc {
@@ -34,7 +34,8 @@ typedef struct hf_quads_desc {
   const int32_t* site_lines;     /* NULL = chosen, or [site_count]: how many lines end (> 0) or start (< 0) there; both
                                     signs in every component, evened out to even numbers, at least 4, of one sum */
   int32_t keep_polygons;         /* 1: polygons at sites and saddles stay whole; 0: all faces are split into quads */
-  uint32_t relax_count;          /* rounds of tangential relaxation, up to 1,000; 0 = 60; HF_NO_INDEX = none */
+  uint32_t relax_count;          /* rounds of tangential relaxation, up to 1,000; 0 = 60; HF_NO_INDEX = none, and the
+                                    mesh stays as the lines make it */
   hf_progress progress;          /* NULL, or an object to poll and cancel through */
 } hf_quads_desc;
 
@@ -45,7 +46,7 @@ typedef struct hf_quads_info {
   uint32_t face_count;
   uint32_t corner_count; /* of all faces */
   uint32_t quad_count;
-  uint32_t polygon_count;       /* faces before splitting */
+  uint32_t polygon_count;       /* faces before splitting and fitting */
   uint32_t polygon_quad_count;  /* quads among them */
   uint32_t site_count;          /* borders included */
   uint32_t saddle_count;        /* a saddle of several valleys counts so many times, less one */
@@ -57,20 +58,27 @@ typedef struct hf_quads_info {
 /* Makes a quad mesh of the solver's surface. The sites and values of the solver are not looked at; its factor is, for
  * proposing sites. Sources and sinks are chosen so that they carry the same number of lines and neighbours differ; a
  * Neumann problem with these numbers as fluxes gives the field; rings of nodes stand on its level loops edge_length
- * apart, arc by arc of its Reeb graph; the lines between them make the faces. Vertices lie on the surface. Every result
- * is checked before it is handed out: each directed edge once, no corner repeated in a face, the Euler characteristic
- * of the surface (a vertex where the surface touches itself counts once per sheet).
+ * apart, arc by arc of its Reeb graph; the lines between them make the faces. Vertices lie on the surface. Where the
+ * relaxed mesh and the surface are farther from each other than 0.39 edge lengths, quads are made smaller there, in both
+ * kinds; HF_QUADS_UNIFORM also takes quads with short edges out. A quad starts at the corner whose diagonal keeps
+ * nearer to the surface (at its reflex corner, if it has one): fans of triangles from first corners are meant. Every
+ * result is checked before it is handed out: each directed edge once, no corner repeated in a face, the Euler
+ * characteristic of the surface (a vertex where the surface touches itself counts once per sheet).
  *
  * Works on manifold surfaces with or without borders, of any genus, in several components; triangles that disagree in
  * orientation are turned. Every component gets at least 4 nodes around and 2 sites, so a mesh finer than its features
  * is no result of a large edge_length.
- * out_quads: set to NULL first. Cost: a factorisation of the mesh, and O(n log n + faces). Progress: sites, field,
- * lines and relaxation, in steps of at most some hundred milliseconds at a million triangles but for the factorisation.
+ * A border that the flux of the other sites would cross whatever its own holds all sites of its component at one of two
+ * levels instead; site_lines are then the even numbers nearest to the fluxes.
+ * out_quads: set to NULL first. Cost: a factorisation of the mesh, O(n log n + faces), and for sites that are proposed
+ * up to four meshes of which the best is kept. Progress: rises through factorisations, sites, critical points of the
+ * field, and rounds of relaxation and fitting, and a cancel is heeded at each of them; ranking the vertices, and
+ * measuring 100,000 points against a mesh, are one step each.
  * Results: HF_OK; HF_ERROR_INVALID_HANDLE (solver, progress), HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC,
  * HF_ERROR_INVALID_ARGUMENT (kind, edge_length, relax_count, lines of one sign or 0, an isolated vertex as site;
  * index = position in the list), HF_ERROR_NON_FINITE (edge_length), HF_ERROR_OUT_OF_RANGE (site vertex; index =
  * position in the list), HF_ERROR_DUPLICATE_SITE, HF_ERROR_UNSUPPORTED (non-manifold edge or surface that cannot be
- * oriented, index = a vertex; bi-harmonic solver; a border that the flux of the other sites crosses),
+ * oriented, index = a vertex; bi-harmonic solver; sites that no flux can part),
  * HF_ERROR_TOO_LARGE (more than 400 sites and borders in a component, a million rings), HF_ERROR_CANCELLED,
  * HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY; HF_ERROR_INTERNAL when the check fails. Thread safety: reads `solver`. Since
  * 0.1. */

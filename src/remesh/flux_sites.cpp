@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "factor/factor.h"
+#include "remesh/border_flux.h"
 
 namespace hf {
 namespace {
@@ -94,8 +95,7 @@ double division_cost(const Group& g, const Vector<std::uint8_t>& sinks) {
 // Which sites are sinks: all divisions of up to 12 sites, else single and, up to 40, double exchanges.
 Vector<std::uint8_t> divide(const Group& g) {
   const std::size_t k = g.sites.size();
-  Vector<std::uint8_t> best(k, std::uint8_t{0}, g.sites.get_allocator().resource()),
-      trial(best, best.get_allocator());
+  Vector<std::uint8_t> best(k, std::uint8_t{0}, g.sites.get_allocator().resource()), trial(best, best.get_allocator());
   best[0] = 1;
   double least = division_cost(g, best);
   if (k <= 12) {
@@ -199,6 +199,8 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
     Vector<Table<double>> from(&memory);
     nearest.assign(s.vertex_count(), 1e300);
     auto reach = [&](std::size_t i) {
+      const float part = static_cast<float>(i) / static_cast<float>(i + 4);  // how many there will be is not known
+      report(progress, (static_cast<float>(c) + part) / static_cast<float>(s.component_count));
       distances_from(s, group.sites[i].vertex, distance, memory);
       // the lines a site should carry: the derivative of the area of discs is the length of the circle
       if (group.sites[i].lines == 0) {
@@ -251,12 +253,12 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
     }
     balance(group);
     all.insert(all.end(), group.sites.begin(), group.sites.end());
-    report(progress, 0.2f * static_cast<float>(c + 1) / static_cast<float>(s.component_count));
+    report(progress, static_cast<float>(c + 1) / static_cast<float>(s.component_count));
   }
   return all;
 }
 
-FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs)
+FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs, Progress* progress)
     : surface_(&s), memory_(&memory), jobs_(&jobs) {
   const std::int32_t n = s.vertex_count();
   SymmetricMatrix k(memory);
@@ -290,7 +292,9 @@ FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs)
     coordinates.push_back(static_cast<float>(p.x)), coordinates.push_back(static_cast<float>(p.y));
     coordinates.push_back(static_cast<float>(p.z));
   }
-  factor_ = Factor::make(k, coordinates, {}, memory, jobs);
+  FactorOptions options;
+  options.progress = progress;
+  factor_ = Factor::make(k, coordinates, options, memory, jobs);
 }
 
 Vector<double> FluxSolver::solve(Span<const FluxSite> sites) const {
@@ -331,7 +335,7 @@ void scale_lines(const FluxSurface& surface, std::int32_t component, double fact
 }
 
 Vector<double> solve_with_borders(const FluxSurface& s, const FluxSolver& solver, Vector<FluxSite>& sites) {
-  constexpr int most_rounds = 12;
+  constexpr int most_rounds = 6;
   for (int round = 0;; ++round) {
     Vector<double> u = solver.solve(sites);
     const FluxSite* crossed = nullptr;
@@ -348,9 +352,7 @@ Vector<double> solve_with_borders(const FluxSurface& s, const FluxSolver& solver
       if (wrong) site.lines *= 1.7, crossed = &site;
     }
     if (!crossed) return u;
-    if (round == most_rounds)
-      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-           "flux crosses a border of the surface whatever its lines; name other sites");
+    if (round == most_rounds) return solve_between_levels(s, solver, sites);
     for (std::int32_t c = 0; c < s.component_count; ++c) scale_lines(s, c, 1.0, sites);
   }
 }

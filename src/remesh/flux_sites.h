@@ -32,7 +32,7 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& surface, Span<const FluxSi
 class FluxSolver {
  public:
   // Orders and factorises. Throws as Factor::make.
-  FluxSolver(const FluxSurface& surface, Memory& memory, JobRunner& jobs);
+  FluxSolver(const FluxSurface& surface, Memory& memory, JobRunner& jobs, Progress* progress = nullptr);
   // u by vertex of the surface, up to a constant by component; two corrections, because lines live on the balance of
   // every vertex.
   Vector<double> solve(Span<const FluxSite> sites) const;
@@ -48,7 +48,7 @@ class FluxSolver {
 void scale_lines(const FluxSurface& surface, std::int32_t component, double factor, Vector<FluxSite>& sites);
 
 // Solves, and raises the lines of borders that the flow of the others would cross until every apex is an extremum.
-// Throws HF_ERROR_UNSUPPORTED when a border stays crossed.
+// Where that does not help, sources and sinks are held at two levels (border_flux.h).
 Vector<double> solve_with_borders(const FluxSurface& surface, const FluxSolver& solver, Vector<FluxSite>& sites);
 
 }  // namespace hf

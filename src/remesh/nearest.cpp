@@ -68,8 +68,9 @@ std::int32_t NearestTriangle::build(std::int32_t first, std::int32_t count) {
   return number;
 }
 
-NearestTriangle::Found NearestTriangle::find(Vec3 p) const noexcept {
+NearestTriangle::Found NearestTriangle::find(Vec3 p, std::int32_t hint) const noexcept {
   Found found;
+  if (hint >= 0) found = {hint, to_triangle(p, corner(hint, 0), corner(hint, 1), corner(hint, 2))};
   std::int32_t stack[128], top = 0;
   if (!boxes_.empty()) stack[top++] = 0;
   while (top > 0) {

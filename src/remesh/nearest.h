@@ -13,8 +13,8 @@ class NearestTriangle {
     std::int32_t triangle = -1;
     double squared = 0;
   };
-  // Cost: O(log triangles) where the soup is a surface.
-  Found find(Vec3 p) const noexcept;
+  // hint: a triangle that may be near, or -1. Cost: O(log triangles) where the soup is a surface.
+  Found find(Vec3 p, std::int32_t hint = -1) const noexcept;
 
  private:
   struct Box {

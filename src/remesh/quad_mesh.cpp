@@ -85,9 +85,7 @@ class Splitter {
     while (!surface_.is_real(h)) h = surface_.turn_left(h);
     SurfacePoint point;
     point.triangle = h / 3, point.weight[h % 3] = 1;
-    const std::int32_t c = out_.location.push_back(point);
-    out_.position.push_back(surface_.position[critical]);
-    out_.pinned.push_back(1), out_.border.push_back(0);
+    const std::int32_t c = out_.add_vertex(point, surface_.position[critical], QuadMesh::site, false, 1);
     const std::int32_t size = in_.size(f);
     double cost[2] = {0, 0};
     for (std::int32_t first = 0; first < 2; ++first)
@@ -113,6 +111,16 @@ std::int32_t QuadMesh::quad_count() const noexcept {
   return count;
 }
 
+VertexFans::VertexFans(const QuadMesh& mesh, Memory& memory) : start(memory), face(memory) {
+  start.assign(mesh.position.size() + 1, 0);
+  for (const std::int32_t v : mesh.corner) ++start[v + 1];
+  for (std::int32_t v = 0; v < mesh.position.size(); ++v) start[v + 1] += start[v];
+  face.assign(mesh.corner.size(), 0);
+  Table<std::int32_t> fill = start;
+  for (std::int32_t f = 0; f < mesh.face_count(); ++f)
+    for (std::int32_t k = mesh.face_start[f]; k < mesh.face_start[f + 1]; ++k) face[fill[mesh.corner[k]]++] = f;
+}
+
 Vec3 position_of(const FluxSurface& surface, const SurfacePoint& point) noexcept {
   Vec3 p;
   for (int k = 0; k < 3; ++k) p = p + point.weight[k] * surface.position[surface.tail[3 * point.triangle + k]];
@@ -125,9 +133,8 @@ QuadMesh make_polygons(const FluxField& field, const ArcGraph& graph, const Ring
   const Table<RingNode>& nodes = rings.nodes;
   QuadMesh out(memory);
   for (std::int32_t n = 0; n < nodes.size(); ++n) {
-    out.location.push_back(rings.location[n]);
-    out.position.push_back(position_of(surface, rings.location[n]));
-    out.pinned.push_back(0), out.border.push_back(rings.rings[nodes[n].ring].border);
+    const SurfacePoint& at = rings.location[n];
+    out.add_vertex(at, position_of(surface, at), QuadMesh::free, rings.rings[nodes[n].ring].border, 1);
   }
   out.face_start.push_back(0);
   auto target = [&](std::int32_t n, std::int32_t way) {
@@ -169,6 +176,7 @@ QuadMesh split_polygons(const FluxSurface& surface, const QuadMesh& in, const Ta
                         Memory& memory) {
   QuadMesh out(memory);
   out.location = in.location, out.position = in.position, out.pinned = in.pinned, out.border = in.border;
+  out.scale = in.scale;
   out.face_start.push_back(0);
   Splitter splitter(surface, in, out, memory);
   Table<std::uint8_t> taken(surface.vertex_count(), 0, memory);

@@ -13,15 +13,34 @@ namespace hf {
 
 struct QuadMesh {
   explicit QuadMesh(Memory& memory)
-      : location(memory), position(memory), pinned(memory), border(memory), face_start(memory), corner(memory) {}
+      : location(memory),
+        position(memory),
+        pinned(memory),
+        border(memory),
+        scale(memory),
+        face_start(memory),
+        corner(memory) {}
   Table<SurfacePoint> location;  // by vertex
   Table<Vec3> position;          // inner units
-  Table<std::uint8_t> pinned;    // by vertex: a site
-  Table<std::uint8_t> border;    // by vertex
+  static constexpr std::uint8_t free = 0, site = 1, drawn_out = 2;
+  Table<std::uint8_t> pinned;  // by vertex: whether it stays where it is, and why
+  Table<std::uint8_t> border;  // by vertex
+  Table<float> scale;          // by vertex, of the edge length wanted there: below 1 where the mesh was refined
   Table<std::int32_t> face_start, corner;
   std::int32_t face_count() const noexcept { return face_start.size() - 1; }
   std::int32_t size(std::int32_t f) const noexcept { return face_start[f + 1] - face_start[f]; }
   std::int32_t quad_count() const noexcept;
+  std::int32_t add_vertex(const SurfacePoint& at, const Vec3& p, std::uint8_t pin, bool is_border, float size) {
+    location.push_back(at), pinned.push_back(pin), border.push_back(is_border), scale.push_back(size);
+    return position.push_back(p);
+  }
+};
+
+// The faces around every vertex v: face[start[v] .. start[v + 1]), in no order.
+struct VertexFans {
+  VertexFans(const QuadMesh& mesh, Memory& memory);
+  std::int32_t valence(std::int32_t v) const noexcept { return start[v + 1] - start[v]; }
+  Table<std::int32_t> start, face;
 };
 
 Vec3 position_of(const FluxSurface& surface, const SurfacePoint& point) noexcept;

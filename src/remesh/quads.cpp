@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "field/extremities.h"
 #include "remesh/capture.h"
+#include "remesh/coarsen.h"
+#include "remesh/refine.h"
 #include "remesh/relax.h"
 #include "remesh/ring_levels.h"
 
@@ -16,6 +19,7 @@ constexpr double apex_weight = 30;
 constexpr double tip_distance = 0.06;  // of two automatic sites, in box diagonals
 constexpr std::size_t most_tips = 32;
 constexpr double least_deviation = 0.003;  // below it nothing is drawn out
+constexpr double tolerance = 0.39;         // in edge lengths: what is farther from the surface is refined
 
 // Which tips become sites decides whether limbs get rings of their own, and how much flow runs where. No threshold is
 // right for all shapes: several lists are tried, and the mesh that comes nearest to the surface is kept.
@@ -24,6 +28,7 @@ struct TipLengths {
 };
 constexpr TipLengths tip_lengths[] = {{0.008, 0.02}, {0.015, 0.05}, {0.03, 0.1}, {0.1, 0.3}};
 constexpr int tip_trials = 4;
+constexpr std::size_t most_fitted = 2;
 
 // Scales the lines of every component so that its faces have a little less than the area of squares of the edge length
 // in the mean: rings times lines, summed over arcs, are the faces.
@@ -46,6 +51,27 @@ void fit_lines(const FluxSurface& surface, Span<const double> u, const RingOptio
   }
 }
 
+// 0 for a mesh whose edges are `shortest` edge lengths or more and whose quads are at most `longest` times as long as
+// wide, but for 5 in 100.
+double shape_cost(const QuadMesh& mesh, double edge_length, double shortest, double longest, Memory& memory) {
+  Vector<double> lengths(&memory), aspects(&memory);
+  for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+    double least = 1e300, most = 0;
+    for (std::int32_t k = 0; k < mesh.size(f); ++k) {
+      const std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
+      const double length = norm(mesh.position[c[(k + 1) % mesh.size(f)]] - mesh.position[c[k]]) / edge_length;
+      lengths.push_back(length), least = std::min(least, length), most = std::max(most, length);
+    }
+    aspects.push_back(least > 0 ? std::min(most / least, 1e3) : 1e3);
+  }
+  auto at = [](Vector<double>& values, double share) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  return std::max(0.0, shortest - at(lengths, 0.05)) + std::max(0.0, std::log(at(aspects, 0.95) / longest));
+}
+
 // One surface, its factor and the trees to measure against, for one or more sets of sites.
 class Maker {
  public:
@@ -54,25 +80,19 @@ class Maker {
         core_(*options.core),
         memory_(*core_.memory),
         surface_(FluxSurface::make(core_.mesh, core_.topology, apex_weight, memory_)),
-        solver_(surface_, memory_, *core_.jobs),
-        distance_(surface_, memory_) {}
+        solver_(surface_, memory_, *core_.jobs, options.progress),
+        distance_(surface_, 0.33 * options.edge_length, memory_) {}
 
   const FluxSurface& surface() const noexcept { return surface_; }
 
-  // progress: null when several sets are tried.
-  QuadResult make(Span<const FluxSite> given, Progress* progress, double* out_deviation) const {
+  // out_deviation: how far the mesh and the surface are from each other.
+  QuadResult make(Span<const FluxSite> given, double* out_deviation) const {
+    Progress* const progress = options_.progress;
     QuadResult result(memory_);
     result.euler_characteristic = surface_.euler_characteristic;
-    result.sites = choose_flux_sites(surface_, given, options_.automatic, options_.edge_length, memory_, progress);
-    Vector<double> u = solve_with_borders(surface_, solver_, result.sites);
     RingOptions ring_options;
     ring_options.edge_length = options_.edge_length, ring_options.uniform = options_.uniform;
-    if (!options_.uniform && options_.scale_lines) {
-      for (int round = 0; round < 2; ++round) {
-        fit_lines(surface_, u, ring_options, result.sites, memory_);
-        u = solve_with_borders(surface_, solver_, result.sites);
-      }
-    }
+    Vector<double> u = flow(given, ring_options, result);
     report(progress, 0.3f);
 
     const FluxField field(surface_, u, memory_);
@@ -85,32 +105,55 @@ class Maker {
       if (changes > 2) result.saddles += changes / 2 - 1;
       result.imbalance = std::max(result.imbalance, std::fabs(field.imbalance(v)));
     }
+    report(progress, 0.35f);
     const ArcGraph graph(field, memory_);
-    const RingMesh rings = make_rings(field, graph, lines, ring_options, memory_, progress);
+    report(progress, 0.4f);
+    const RingMesh rings = [&] {
+      const ProgressRange range(progress, 0.4f, 0.6f);
+      return make_rings(field, graph, lines, ring_options, memory_, progress);
+    }();
     Table<std::int32_t> centre(memory_);
     result.mesh = make_polygons(field, graph, rings, centre, memory_);
     check_quads(result.mesh, surface_.euler_characteristic, memory_);
     result.raw_faces = result.mesh.face_count(), result.raw_quads = result.mesh.quad_count();
+    report(progress, 0.65f);
     if (options_.split) {
       result.mesh = split_polygons(surface_, result.mesh, centre, memory_);
       check_quads(result.mesh, surface_.euler_characteristic, memory_);
     }
     report(progress, 0.7f);
-    RelaxOptions relax;
-    relax.rounds = options_.relax, relax.edge_length = options_.edge_length, relax.progress = progress;
-    relax_quads(surface_, result.mesh, relax, memory_);
-    double deviation = distance_.largest(result.mesh);
-    if (options_.relax > 0 && deviation > least_deviation) {
-      // features are drawn out where that brings the meshes nearer to each other, not only one to the other
-      QuadMesh drawn = result.mesh;
-      CaptureOptions capture;
-      capture.edge_length = options_.edge_length;
-      capture_features(surface_, drawn, capture, memory_);
-      const double after = distance_.largest(drawn);
-      if (after < deviation) deviation = after, result.mesh = std::move(drawn);
-    }
-    *out_deviation = deviation;
+    const ProgressRange range(progress, 0.7f, 1.0f);
+    *out_deviation = even_out(result.mesh);
     return result;
+  }
+
+  // Refines what is farther from the surface than it may be, takes short edges out (in kind pure those that refining
+  // made), and returns what the mesh is worth: less is better.
+  double fit(QuadMesh& mesh, double deviation) const {
+    const double allowed = tolerance * options_.edge_length;
+    if (options_.relax > 0) {
+      constexpr int turns = 2;
+      for (int turn = 0; turn < turns; ++turn) {
+        constexpr float share = 1.0f / turns;
+        const float from = share * static_cast<float>(turn);
+        {
+          const ProgressRange range(options_.progress, from, from + 0.6f * share);
+          RefineOptions refine;
+          refine.edge_length = options_.edge_length, refine.tolerance = allowed, refine.progress = options_.progress;
+          deviation = refine_misses(surface_, distance_, mesh, deviation, refine, memory_);
+        }
+        const ProgressRange range(options_.progress, from + 0.6f * share, from + share);
+        CoarsenOptions coarsen;
+        if (!options_.uniform) coarsen.only_refined = true, coarsen.shortest = 0.3;
+        coarsen.edge_length = options_.edge_length, coarsen.tolerance = allowed, coarsen.progress = options_.progress;
+        deviation = coarsen_quads(surface_, distance_, mesh, deviation, coarsen, memory_);
+      }
+      check_quads(mesh, surface_.euler_characteristic, memory_);
+    }
+    report(options_.progress, 1.0f);
+    const double shape = options_.uniform ? shape_cost(mesh, options_.edge_length, 0.5, 4, memory_)
+                                          : shape_cost(mesh, options_.edge_length, 0, 12, memory_);
+    return std::max(deviation / allowed, 1.0) + shape;
   }
 
   // Sites as vertices of the Mesh, weights in the order of its own triangles, which may have been turned here.
@@ -129,6 +172,50 @@ class Maker {
   }
 
  private:
+  // Sites with their lines into `result`, and the field.
+  Vector<double> flow(Span<const FluxSite> given, const RingOptions& rings, QuadResult& result) const {
+    const ProgressRange range(options_.progress, 0.0f, 0.2f);
+    result.sites =
+        choose_flux_sites(surface_, given, options_.automatic, options_.edge_length, memory_, options_.progress);
+    Vector<double> u = solve_with_borders(surface_, solver_, result.sites);
+    for (int round = 0; round < 2 && !options_.uniform && options_.scale_lines; ++round) {
+      report(options_.progress, 1.0f);
+      fit_lines(surface_, u, rings, result.sites, memory_);
+      u = solve_with_borders(surface_, solver_, result.sites);
+    }
+    return u;
+  }
+
+  // Relaxes, and draws features out where that brings the meshes nearer to each other, not only one to the other.
+  double even_out(QuadMesh& mesh) const {
+    Progress* const progress = options_.progress;
+    {
+      const ProgressRange range(progress, 0.0f, 0.5f);
+      RelaxOptions relax;
+      relax.rounds = options_.relax, relax.edge_length = options_.edge_length, relax.progress = progress;
+      relax_quads(surface_, mesh, relax, memory_);
+    }
+    auto measure = [&](QuadMesh& at, float from) {
+      const ProgressRange range(progress, from, from + 0.1f);
+      distance_.turn_quads(at);
+      return distance_.measure(at, 0, nullptr, progress);
+    };
+    double deviation = measure(mesh, 0.5f);
+    if (options_.relax > 0 && deviation > least_deviation) {
+      QuadMesh drawn = mesh;
+      {
+        const ProgressRange range(progress, 0.6f, 0.9f);
+        CaptureOptions capture;
+        capture.edge_length = options_.edge_length, capture.progress = progress;
+        capture_features(surface_, distance_, drawn, capture, memory_);
+      }
+      const double after = measure(drawn, 0.9f);
+      if (after < deviation) deviation = after, mesh = std::move(drawn);
+    }
+    report(progress, 1.0f);
+    return deviation;
+  }
+
   const QuadOptions& options_;
   const Core& core_;
   Memory& memory_;
@@ -142,8 +229,13 @@ class Maker {
 QuadResult make_quads(const QuadOptions& options) {
   const Core& core = *options.core;
   Memory& memory = *core.memory;
-  report(options.progress, 0.0f);
-  const Maker maker(options);
+  Progress* const progress = options.progress;
+  report(progress, 0.0f);
+  const std::optional<Maker> made = [&]() -> std::optional<Maker> {
+    const ProgressRange range(progress, 0.0f, 0.15f);
+    return std::optional<Maker>(std::in_place, options);
+  }();
+  const Maker& maker = *made;
   const FluxSurface& surface = maker.surface();
   // a vertex of several fans counts in its first
   Table<std::int32_t> fan(core.size(), -1, memory);
@@ -152,21 +244,35 @@ QuadResult make_quads(const QuadOptions& options) {
   double deviation = 0;
   if (!options.automatic) {
     for (const FluxSite& site : options.sites) given.push_back({fan[site.vertex], site.lines});
-    QuadResult result = maker.make(given, options.progress, &deviation);
+    QuadResult result = [&] {
+      const ProgressRange sub(progress, 0.15f, 0.7f);
+      return maker.make(given, &deviation);
+    }();
+    const ProgressRange range(progress, 0.7f, 1.0f);
+    maker.fit(result.mesh, deviation);
     maker.to_mesh(result);
-    report(options.progress, 1.0f);
+    report(progress, 1.0f);
     return result;
   }
 
   // tips by both fields: the mean distance knows limbs that the Poisson field sees as shoulders of others
   const Geodesics geodesics(options.core, 1.0);
-  const Extremities far = geodesic_extremities(geodesics, 40, tip_lengths[0].geodesic, nullptr),
-                    high = poisson_extremities(core, tip_lengths[0].poisson, nullptr);
-  QuadResult best(memory);
-  double least = -1;
+  const Extremities far = [&] {
+    const ProgressRange range(progress, 0.15f, 0.25f);
+    return geodesic_extremities(geodesics, 40, tip_lengths[0].geodesic, progress);
+  }();
+  const Extremities high = [&] {
+    const ProgressRange range(progress, 0.25f, 0.3f);
+    return poisson_extremities(core, tip_lengths[0].poisson, progress);
+  }();
+  struct Trial {
+    double deviation;
+    QuadResult result;
+  };
+  Vector<Trial> trials(&memory);
+  trials.reserve(tip_trials);
   std::size_t before = 0;
   for (int trial = 0; trial < tip_trials; ++trial) {
-    report(options.progress, static_cast<float>(trial + 1) / static_cast<float>(tip_trials + 1));
     given.clear();
     const auto take = [&](const Extremities& found, double length) {
       for (const Extremity& tip : found.points) {
@@ -179,15 +285,30 @@ QuadResult make_quads(const QuadOptions& options) {
     take(far, tip_lengths[trial].geodesic), take(high, tip_lengths[trial].poisson);
     if (trial > 0 && given.size() == before) continue;  // the same list, cut at the same place
     before = given.size();
+    const float share = 0.3f / tip_trials, from = 0.3f + share * static_cast<float>(trial);
+    const ProgressRange range(progress, from, from + share);
     try {
-      QuadResult result = maker.make(given, nullptr, &deviation);
-      if (least < 0 || deviation < least) least = deviation, best = std::move(result);
-    } catch (const Error&) {
-      if (trial + 1 == tip_trials && least < 0) throw;
+      QuadResult result = maker.make(given, &deviation);
+      trials.push_back({deviation, std::move(result)});
+    } catch (const Error& error) {
+      if (error.code() == HF_ERROR_CANCELLED || (trial + 1 == tip_trials && trials.empty())) throw;
     }
   }
+  if (trials.empty()) trials.push_back({0, maker.make(given, &deviation)});  // says why there is none
+  // the nearest first; the first that is as it should be is taken, or the best
+  std::stable_sort(trials.begin(), trials.end(),
+                   [](const Trial& a, const Trial& b) { return a.deviation < b.deviation; });
+  double least = -1;
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < std::min(trials.size(), most_fitted) && (i == 0 || least > 1); ++i) {
+    const float share = 0.4f / most_fitted, from = 0.6f + share * static_cast<float>(i);
+    const ProgressRange range(progress, from, from + share);
+    const double cost = maker.fit(trials[i].result.mesh, trials[i].deviation);
+    if (least < 0 || cost < least) least = cost, taken = i;
+  }
+  QuadResult best = std::move(trials[taken].result);
   maker.to_mesh(best);
-  report(options.progress, 1.0f);
+  report(progress, 1.0f);
   return best;
 }
 

@@ -17,11 +17,13 @@ Vec3 triangle_normal(const FluxSurface& s, std::int32_t t) {
                     s.position[s.tail[3 * t + 2]] - s.position[s.tail[3 * t]]));
 }
 
-// Proposals of one quad.
-void propose(const QuadMesh& mesh, const std::int32_t* c, double edge_length, Vec3* out) {
+// Proposals of one quad. outward: the surface's normal there, summed over its corners: a quad that lies on its face is
+// turned back.
+void propose(const QuadMesh& mesh, const std::int32_t* c, double edge_length, Vec3 outward, Vec3* out) {
   const Vec3 p[4] = {mesh.position[c[0]], mesh.position[c[1]], mesh.position[c[2]], mesh.position[c[3]]};
   const Vec3 middle = 0.25 * (p[0] + p[1] + p[2] + p[3]);
-  const Vec3 normal = unit(cross(p[2] - p[0], p[3] - p[1]));
+  Vec3 normal = unit(cross(p[2] - p[0], p[3] - p[1]));
+  if (dot(normal, outward) < 0) normal = -1.0 * normal;
   Vec3 x = p[0] - middle;
   x = unit(x - dot(x, normal) * normal);
   const Vec3 y = cross(normal, x);
@@ -94,10 +96,10 @@ SurfacePoint walk_surface(const FluxSurface& s, SurfacePoint at, Vec3 way) noexc
 
 void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& options, Memory& memory) {
   const std::int32_t n = mesh.position.size();
-  Table<Vec3> sum(n, Vec3{}, memory), old_position(memory);
+  Table<Vec3> sum(n, Vec3{}, memory), centres(n, Vec3{}, memory), old_position(memory);
   Table<SurfacePoint> old_location(memory);
   Table<double> count(n, 0.0, memory);
-  Table<std::uint8_t> was_over(mesh.corner.size(), 0, memory), back(n, 0, memory);
+  Table<std::uint8_t> was_over(mesh.corner.size(), 0, memory), back(n, 0, memory), tangled(n, 0, memory);
   // whether corner k of face f is turned over, as seen from the surface at it
   auto over = [&](std::int32_t f, std::int32_t k) {
     const std::int32_t size = mesh.size(f), *c = mesh.corner.data() + mesh.face_start[f];
@@ -106,19 +108,30 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
     return dot(cross(x, y), triangle_normal(s, mesh.location[c[k]].triangle)) <= 0;
   };
   for (std::int32_t round = 0; round < options.rounds; ++round) {
-    for (std::int32_t v = 0; v < n; ++v) sum[v] = Vec3{}, count[v] = 0;
+    for (std::int32_t v = 0; v < n; ++v) sum[v] = centres[v] = Vec3{}, count[v] = 0, tangled[v] = 0;
     for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
       const std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
       for (std::int32_t k = 0; k < mesh.size(f); ++k) was_over[mesh.face_start[f] + k] = over(f, k);
       Vec3 proposal[4];
       if (mesh.size(f) != 4) continue;
-      propose(mesh, c, options.edge_length, proposal);
-      for (int k = 0; k < 4; ++k) sum[c[k]] = sum[c[k]] + proposal[k], count[c[k]] += 1;
+      double scale = 0;
+      Vec3 outward;
+      for (int k = 0; k < 4; ++k) {
+        scale += 0.25 * static_cast<double>(mesh.scale[c[k]]);
+        outward = outward + triangle_normal(s, mesh.location[c[k]].triangle);
+      }
+      propose(mesh, c, options.edge_length * scale, outward, proposal);
+      const Vec3 centre = 0.25 * (proposal[0] + proposal[1] + proposal[2] + proposal[3]);
+      for (int k = 0; k < 4; ++k) {
+        sum[c[k]] = sum[c[k]] + proposal[k], centres[c[k]] = centres[c[k]] + centre, count[c[k]] += 1;
+        if (was_over[mesh.face_start[f] + k])
+          for (int j = 0; j < 4; ++j) tangled[c[j]] = 1;
+      }
     }
     old_position = mesh.position, old_location = mesh.location;
     for (std::int32_t v = 0; v < n; ++v) {
       if (mesh.pinned[v] || mesh.border[v] || count[v] == 0) continue;
-      const Vec3 way = 0.5 * ((1 / count[v]) * sum[v] - mesh.position[v]);
+      const Vec3 way = 0.5 * ((1 / count[v]) * (tangled[v] ? centres[v] : sum[v]) - mesh.position[v]);
       mesh.location[v] = walk_surface(s, mesh.location[v], way);
       mesh.position[v] = position_of(s, mesh.location[v]);
     }
@@ -137,7 +150,7 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
       for (std::int32_t v = 0; v < n; ++v)
         if (back[v]) mesh.position[v] = old_position[v], mesh.location[v] = old_location[v];
     }
-    report(options.progress, 0.7f + 0.3f * static_cast<float>(round + 1) / static_cast<float>(options.rounds));
+    report(options.progress, static_cast<float>(round + 1) / static_cast<float>(options.rounds));
   }
 }
 

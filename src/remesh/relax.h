@@ -1,11 +1,13 @@
 // Evens out a quad mesh by moving its vertices along the surface it lies on.
 //
 // Every quad proposes for its corners those of the square that fits it best: with the corners as complex numbers z_k
-// about their centre in the plane of the mean normal, the square's first corner is r = 1/4 sum z_k i^-k; its size is
-// kept, or drawn half way to edge_length. A vertex goes half way to the mean of its proposals (a local-global scheme as
-// in Bouaziz, Deuss, Schwartzburg, Weise and Pauly 2012). It goes there by walking: straight in its triangle, unfolded
-// over every edge it crosses. So it never leaves the surface, cannot jump between sheets, and stops at a border.
-// Vertices that would turn a corner over stay where they were; sites stay; border vertices stay on their border.
+// about their centre in the plane of the mean normal (turned to the surface's), the square's first corner is
+// r = 1/4 sum z_k i^-k; its size is kept, or drawn half way to edge_length times the mean scale of its corners. A
+// vertex goes half way to the mean of its proposals (a local-global scheme as in Bouaziz, Deuss, Schwartzburg, Weise
+// and Pauly 2012); those of quads that are turned over at a corner go to the mean of the centres around them, which
+// untangles. They go by walking: straight in their triangle, unfolded over every edge they cross. So they never leave
+// the surface, cannot jump between sheets, and stop at a border. Vertices that would turn a corner over stay where they
+// were; sites, what was drawn out, and border vertices stay.
 //
 // Cost: O(vertices) a round.
 #pragma once

@@ -39,7 +39,7 @@ class Builder {
         pass_saddle(i);
       }
       for (std::int32_t j = graph_.up_start[i]; j < graph_.up_start[i + 1]; ++j) climb(graph_.up_arc[j]);
-      report(progress, 0.3f + 0.3f * static_cast<float>(i + 1) / static_cast<float>(graph_.critical.size()));
+      report(progress, static_cast<float>(i + 1) / static_cast<float>(graph_.critical.size()));
     }
   }
 

@@ -1,0 +1,173 @@
+#include "remesh/coarsen.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "remesh/relax.h"
+
+namespace hf {
+namespace {
+
+constexpr std::int32_t none = -1;
+
+struct Closing {
+  double length;  // of its shortest edge
+  std::int32_t face, corner;
+};
+
+double side(const QuadMesh& mesh, std::int32_t f, std::int32_t k) {
+  const std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
+  return norm(mesh.position[c[(k + 1) % 4]] - mesh.position[c[k]]);
+}
+
+// Quads that may close and have a short edge, the shortest first; along the shorter diagonal that may.
+void list_closings(const QuadMesh& mesh, const VertexFans& fans, double shortest, bool only_refined,
+                   Vector<Closing>& out) {
+  out.clear();
+  for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+    if (mesh.size(f) != 4) continue;
+    const double length =
+        std::min(std::min(side(mesh, f, 0), side(mesh, f, 1)), std::min(side(mesh, f, 2), side(mesh, f, 3)));
+    const std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
+    const bool refined = std::any_of(c, c + 4, [&](std::int32_t v) { return mesh.scale[v] < 1; });
+    if (!(length < shortest) || (only_refined && !refined)) continue;
+    const bool turned =
+        norm(mesh.position[c[3]] - mesh.position[c[1]]) < norm(mesh.position[c[2]] - mesh.position[c[0]]);
+    const std::int32_t k = turned ? 1 : 0;
+    if (can_close(mesh, fans, f, k)) {
+      out.push_back({length, f, k});
+    } else if (can_close(mesh, fans, f, 1 - k)) {
+      out.push_back({length, f, 1 - k});
+    }
+  }
+  std::sort(out.begin(), out.end(), [](const Closing& a, const Closing& b) {
+    return a.length != b.length ? a.length < b.length : a.face < b.face;
+  });
+}
+
+// Closes them; no two share a vertex or a neighbour.
+void close_quads(const FluxSurface& surface, QuadMesh& mesh, const Vector<Closing>& closings, Memory& memory) {
+  Table<std::int32_t> becomes(mesh.position.size(), 0, memory);
+  for (std::int32_t v = 0; v < becomes.size(); ++v) becomes[v] = v;
+  Table<std::uint8_t> gone(mesh.face_count(), 0, memory);
+  for (const Closing& closing : closings) {
+    const std::int32_t* c = mesh.corner.data() + mesh.face_start[closing.face];
+    std::int32_t a = c[closing.corner], b = c[closing.corner + 2];
+    if (mesh.pinned[b]) std::swap(a, b);  // not both are
+    if (!mesh.pinned[a]) {
+      mesh.location[a] = walk_surface(surface, mesh.location[a], 0.5 * (mesh.position[b] - mesh.position[a]));
+      mesh.position[a] = position_of(surface, mesh.location[a]);
+    }
+    mesh.scale[a] = std::max(mesh.scale[a], mesh.scale[b]);
+    becomes[b] = a, gone[closing.face] = 1;
+  }
+  Table<std::int32_t> number(becomes.size(), none, memory);
+  QuadMesh out(memory);
+  for (std::int32_t v = 0; v < becomes.size(); ++v)
+    if (becomes[v] == v)
+      number[v] = out.add_vertex(mesh.location[v], mesh.position[v], mesh.pinned[v], mesh.border[v], mesh.scale[v]);
+  out.face_start.push_back(0);
+  for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+    if (gone[f]) continue;
+    for (std::int32_t k = mesh.face_start[f]; k < mesh.face_start[f + 1]; ++k)
+      out.corner.push_back(number[becomes[mesh.corner[k]]]);
+    out.face_start.push_back(out.corner.size());
+  }
+  mesh = std::move(out);
+}
+
+}  // namespace
+
+bool can_close(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, std::int32_t k) {
+  const std::int32_t* q = mesh.corner.data() + mesh.face_start[f];
+  const std::int32_t a = q[k], b = q[(k + 1) % 4], c = q[(k + 2) % 4], d = q[(k + 3) % 4];
+  for (const std::int32_t v : {a, b, c, d})
+    if (mesh.border[v]) return false;
+  if (mesh.pinned[a] && mesh.pinned[c]) return false;
+  if (fans.valence(b) < 4 || fans.valence(d) < 4 || fans.valence(a) < 3 || fans.valence(c) < 3 ||
+      fans.valence(a) + fans.valence(c) > 8)
+    return false;
+  for (std::int32_t i = fans.start[a]; i < fans.start[a + 1]; ++i) {
+    const std::int32_t g = fans.face[i], size = mesh.size(g);
+    if (size != 4) return false;
+    const std::int32_t* corner = mesh.corner.data() + mesh.face_start[g];
+    for (std::int32_t j = 0; j < size; ++j) {
+      if (g != f && corner[j] == c) return false;
+      if (corner[j] != a) continue;
+      for (const std::int32_t x : {corner[(j + 1) % size], corner[(j + size - 1) % size]}) {
+        if (x == b || x == d) continue;
+        for (std::int32_t l = fans.start[c]; l < fans.start[c + 1]; ++l) {  // an edge from x to c
+          const std::int32_t h = fans.face[l], n = mesh.size(h), *other = mesh.corner.data() + mesh.face_start[h];
+          for (std::int32_t m = 0; m < n; ++m)
+            if (other[m] == c && (other[(m + 1) % n] == x || other[(m + n - 1) % n] == x)) return false;
+        }
+      }
+    }
+  }
+  for (std::int32_t l = fans.start[c]; l < fans.start[c + 1]; ++l)
+    if (mesh.size(fans.face[l]) != 4) return false;
+  return true;
+}
+
+double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, double deviation,
+                     const CoarsenOptions& options, Memory& memory) {
+  Vector<Closing> list(&memory), taken(&memory);
+  Vector<QuadMiss> misses(&memory);
+  Vector<Vec3> kept(&memory), centres(&memory);  // where nothing is closed; where something was
+  const double limit = std::max(deviation, options.tolerance), length = options.edge_length;
+  for (std::int32_t round = 0; round < options.rounds; ++round) {
+    report(options.progress, static_cast<float>(round) / static_cast<float>(options.rounds));
+    const VertexFans fans(mesh, memory);
+    list_closings(mesh, fans, options.shortest * length, options.only_refined, list);
+    if (static_cast<double>(list.size()) <= options.enough * mesh.face_count()) break;
+    Table<std::uint8_t> blocked(mesh.position.size(), 0, memory);
+    taken.clear(), centres.clear();
+    for (const Closing& closing : list) {
+      const std::int32_t* c = mesh.corner.data() + mesh.face_start[closing.face];
+      bool free = true;
+      for (std::int32_t k = 0; k < 4; ++k) free = free && !blocked[c[k]];
+      const Vec3 centre = 0.5 * (mesh.position[c[closing.corner]] + mesh.position[c[closing.corner + 2]]);
+      for (const Vec3& p : kept) free = free && norm(p - centre) > 0.5 * length;
+      if (!free) continue;
+      taken.push_back(closing), centres.push_back(centre);
+      for (std::int32_t k = 0; k < 4; ++k)
+        for (std::int32_t i = fans.start[c[k]]; i < fans.start[c[k] + 1]; ++i)
+          for (std::int32_t j = mesh.face_start[fans.face[i]]; j < mesh.face_start[fans.face[i] + 1]; ++j)
+            blocked[mesh.corner[j]] = 1;
+    }
+    if (taken.empty()) break;
+    // what brings a miss about is left out, until none does
+    constexpr int most_tries = 4;
+    for (int tries = 0; tries < most_tries && !taken.empty(); ++tries) {
+      QuadMesh trial = mesh;
+      close_quads(surface, trial, taken, memory);
+      RelaxOptions relax;
+      relax.rounds = options.relax_rounds, relax.edge_length = length;
+      relax_quads(surface, trial, relax, memory);
+      distance.turn_quads(trial);
+      misses.clear();
+      const double now = distance.measure(trial, limit, &misses, nullptr);
+      if (now <= limit) {
+        mesh = std::move(trial), deviation = now;
+        break;
+      }
+      auto is_near = [&](const Vec3& centre) {
+        return std::any_of(misses.begin(), misses.end(),
+                           [&](const QuadMiss& miss) { return norm(centre - miss.point) < 3 * length; });
+      };
+      const bool any = std::any_of(centres.begin(), centres.end(), is_near);
+      std::size_t left = 0;
+      for (std::size_t i = 0; i < taken.size(); ++i) {
+        if (!any || is_near(centres[i])) {
+          kept.push_back(centres[i]);
+        } else {
+          taken[left] = taken[i], centres[left++] = centres[i];
+        }
+      }
+      taken.resize(left), centres.resize(left);
+    }
+  }
+  return deviation;
+}
+
+}  // namespace hf

@@ -1,0 +1,30 @@
+// Takes quads out of a mesh where its edges are short.
+//
+// A quad (a, b, c, d) closes along its diagonal: a and c become one vertex, its sides fall together in pairs (diagonal
+// collapse: Tarini, Pietroni, Cignoni, Panozzo and Puppo 2010). That keeps a mesh of quads with its Euler
+// characteristic when a and c have no neighbours in common but b and d, and no face but this one; b and d need four
+// faces or more, a and c three, and together no more than eight. Borders and their faces stay.
+//
+// coarsen_quads closes quads with an edge shorter than `shortest`, the shortest first, many at a time; the rest is
+// relaxed and measured. Where the mesh then misses the surface by more than it may, those quads stay.
+#pragma once
+#include "remesh/quad_distance.h"
+
+namespace hf {
+
+// Whether quad f may close along the diagonal of its corners k and k + 2.
+bool can_close(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, std::int32_t k);
+
+struct CoarsenOptions {
+  double edge_length = 0.02, shortest = 0.55, tolerance = 0.008;  // shortest in edge lengths, the others in inner units
+  bool only_refined = false;                                      // quads with a corner whose scale is below 1
+  double enough = 0.01;                                           // share of quads with a short edge that may stay
+  std::int32_t rounds = 16, relax_rounds = 12;
+  Progress* progress = nullptr;
+};
+
+// Returns how far the mesh and the surface are from each other then: at most tolerance, or what it was (`deviation`).
+double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, double deviation,
+                     const CoarsenOptions& options, Memory& memory);
+
+}  // namespace hf
