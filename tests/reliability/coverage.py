@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+"""Lines of the library that the tests reach: coverage.py BUILD_FOLDER SOURCE_FOLDER
+
+Reads what a build with --coverage (tests/run --full makes one) has counted, by gcov's JSON output. A line counts as reached
+when any object file that holds it was there. Prints the share by room and COVERAGE_LINES of core (base, mesh, factor,
+engine, field) and capi; the files with the most missed lines come first.
+"""
+
+import collections
+import gzip
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+CORE = ("base", "mesh", "factor", "engine", "field", "capi")
+TARGET = 95.0
+
+
+def counted_lines(build, source):
+    """{file below src: {line: times}}"""
+    lines = collections.defaultdict(lambda: collections.defaultdict(int))
+    data = sorted((build / "src").rglob("*.gcda"))
+    if not data:
+        sys.exit(f"error: nothing was counted below {build}/src; build with --coverage and run the tests")
+    with tempfile.TemporaryDirectory() as folder:
+        for start in range(0, len(data), 40):
+            subprocess.run(["gcov", "--json-format", *map(str, data[start:start + 40])], cwd=folder, check=True, stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL)
+            for file in pathlib.Path(folder).glob("*.gcov.json.gz"):
+                with gzip.open(file, "rt") as text:
+                    report = json.load(text)
+                file.unlink()
+                for entry in report["files"]:
+                    path = pathlib.Path(report["current_working_directory"], entry["file"]).resolve()
+                    if source / "src" not in path.parents:
+                        continue
+                    for line in entry["lines"]:
+                        lines[str(path.relative_to(source / "src"))][line["line_number"]] += line["count"]
+    return lines
+
+
+def main():
+    build, source = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+    lines = counted_lines(build, source)
+    rooms = collections.defaultdict(lambda: [0, 0])
+    missed = []
+    for name, counts in lines.items():
+        reached = sum(1 for times in counts.values() if times)
+        room = rooms[name.split("/")[0]]
+        room[0] += reached
+        room[1] += len(counts)
+        gaps = [number for number, times in sorted(counts.items()) if not times]
+        if gaps:
+            missed.append((len(gaps), name, gaps))
+    for room, (reached, total) in sorted(rooms.items()):
+        print(f"{room:10} {reached:6} of {total:6} lines, {100 * reached / total:.1f} %")
+    for count, name, gaps in sorted(missed, reverse=True)[:15]:
+        print(f"{count:4} missed in {name}: {', '.join(map(str, gaps[:30]))}{' ...' if count > 30 else ''}")
+    reached, total = (sum(rooms[room][i] for room in CORE if room in rooms) for i in (0, 1))
+    share = 100 * reached / total
+    print(f"COVERAGE_LINES {share:.2f} >={TARGET:g}")
+    return 0 if share >= TARGET else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,12 @@
+// A host's plug-in that brings the library along: loaded, used and unloaded again by unload.cpp.
+#include "whole_api.h"
+
+extern "C" __attribute__((visibility("default"))) int hf_plugin_run(const void* scene, std::uint64_t* hash) {
+  reliability::Options options;
+  options.threads = 3;
+  options.paper_engine = false;
+  const reliability::Outcome outcome =
+      reliability::run_whole_api(*static_cast<const reliability::Scene*>(scene), options);
+  *hash = outcome.hash;
+  return static_cast<int>(outcome.unexpected);
+}

@@ -1,0 +1,177 @@
+// Surfaces for the long tests, and solvers on them.
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <vector>
+
+#include "hf/hf.h"
+
+namespace reliability {
+
+struct Surface {
+  std::vector<float> positions;
+  std::vector<std::uint32_t> triangles;
+  std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size() / 3); }
+};
+
+// Appends a bumpy torus of nu x nv vertices, moved by dx.
+inline void add_torus(Surface& surface, std::uint32_t nu, std::uint32_t nv, double dx = 0, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> jitter(-0.2, 0.2);
+  const std::uint32_t base = surface.vertex_count();
+  const double turn = 6.283185307179586;
+  for (std::uint32_t i = 0; i < nu; ++i) {
+    for (std::uint32_t j = 0; j < nv; ++j) {
+      const double u = turn * (i + jitter(random)) / nu, v = turn * (j + jitter(random)) / nv;
+      const double r = 1 + 0.2 * std::sin(5 * u);
+      for (const double p :
+           {dx + (3 + r * std::cos(v)) * std::cos(u), (3 + r * std::cos(v)) * std::sin(u), r * std::sin(v)})
+        surface.positions.push_back(static_cast<float>(p));
+    }
+  }
+  for (std::uint32_t i = 0; i < nu; ++i) {
+    for (std::uint32_t j = 0; j < nv; ++j) {
+      const std::uint32_t a = base + i * nv + j, b = base + (i + 1) % nu * nv + j,
+                          c = base + (i + 1) % nu * nv + (j + 1) % nv, d = base + i * nv + (j + 1) % nv;
+      surface.triangles.insert(surface.triangles.end(), {a, b, c, a, c, d});
+    }
+  }
+}
+
+template <class T>
+T desc() {
+  T made;
+  hf_init_desc(&made, static_cast<std::uint32_t>(sizeof(T)));
+  return made;
+}
+
+// A call that must succeed; ends the program with what the library says otherwise.
+inline void must(hf_result result, const char* what) {
+  if (result == HF_OK) return;
+  hf_error_detail detail;
+  hf_get_error_detail(&detail);
+  std::fprintf(stderr, "%s: %s: %s\n", what, hf_result_name(result), detail.message);
+  std::exit(1);
+}
+
+inline hf_create_desc create_desc(const Surface& surface) {
+  hf_create_desc d = desc<hf_create_desc>();
+  d.vertex_count = surface.vertex_count(), d.triangle_count = static_cast<std::uint32_t>(surface.triangles.size() / 3);
+  d.positions = surface.positions.data(), d.triangles = surface.triangles.data();
+  return d;
+}
+
+inline hf_solver make_solver(const hf_create_desc& d) {
+  hf_solver solver = nullptr;
+  must(hf_create(&d, &solver), "hf_create");
+  return solver;
+}
+
+// A solver under random edits that remembers what it holds.
+class EditedSolver {
+ public:
+  EditedSolver(const Surface& surface, std::uint32_t channels, unsigned seed)
+      : surface_(surface), m_(channels), random_(seed) {
+    hf_create_desc d = create_desc(surface);
+    d.channel_count = channels;
+    solver_ = make_solver(d);
+  }
+  ~EditedSolver() { hf_destroy(solver_); }
+  EditedSolver(const EditedSolver&) = delete;
+  EditedSolver& operator=(const EditedSolver&) = delete;
+
+  struct Held {
+    std::uint32_t site, vertex;
+    std::vector<double> values;
+    double stiffness;  // 0 = hard
+  };
+
+  void add(std::size_t count, const std::vector<double>& offsets) {
+    for (std::size_t i = 0; i < count; ++i) {
+      Held h{0, free_vertex(), fresh_values(offsets), random_() % 10 == 0 ? 100.0 : 0.0};
+      hf_sites_desc d = desc<hf_sites_desc>();
+      d.site_count = 1, d.vertices = &h.vertex, d.values = h.values.data(), d.stiffness = &h.stiffness;
+      must(hf_add_sites(solver_, &d, &h.site), "hf_add_sites");
+      taken_[h.vertex] = 1, held.push_back(h);
+    }
+  }
+  void remove_one() {
+    const std::size_t at = random_() % held.size();
+    must(hf_remove_sites(solver_, 1, &held[at].site), "hf_remove_sites");
+    taken_[held[at].vertex] = 0, held[at] = held.back(), held.pop_back();
+  }
+  // One random edit: most move or set, some add and remove; `wanted` sites on average.
+  void edit(std::size_t wanted, const std::vector<double>& offsets) {
+    const unsigned kind = random_() % 10;
+    Held& h = held[random_() % held.size()];
+    if (kind < 4) {  // move
+      const std::uint32_t to = free_vertex();
+      hf_sites_desc d = desc<hf_sites_desc>();
+      d.site_count = 1, d.vertices = &to;
+      must(hf_move_sites(solver_, 1, &h.site, &d), "hf_move_sites");
+      taken_[h.vertex] = 0, taken_[to] = 1, h.vertex = to;
+    } else if (kind < 7) {
+      h.values = fresh_values(offsets);
+      must(hf_set_site_values(solver_, 1, &h.site, h.values.data()), "hf_set_site_values");
+    } else if (held.size() > wanted + random_() % 10 || (held.size() + 5 > wanted && kind == 9)) {
+      remove_one();
+    } else {
+      add(1, offsets);
+    }
+  }
+
+  hf_solver get() const { return solver_; }
+  std::vector<double> field() const {
+    std::vector<double> values(std::size_t{surface_.vertex_count()} * m_);
+    must(hf_solve_f64(solver_, values.data(), 0, nullptr), "hf_solve_f64");
+    return values;
+  }
+  // The same sites on a solver of their own.
+  std::vector<double> fresh_field(std::int32_t engine) const {
+    hf_create_desc d = create_desc(surface_);
+    d.channel_count = m_, d.engine = engine;
+    const hf_solver solver = make_solver(d);
+    std::vector<std::uint32_t> vertices;
+    std::vector<double> values, stiffness, out(std::size_t{surface_.vertex_count()} * m_);
+    for (const Held& h : held) {
+      vertices.push_back(h.vertex), stiffness.push_back(h.stiffness);
+      values.insert(values.end(), h.values.begin(), h.values.end());
+    }
+    hf_sites_desc sites = desc<hf_sites_desc>();
+    sites.site_count = static_cast<std::uint32_t>(held.size());
+    sites.vertices = vertices.data(), sites.values = values.data(), sites.stiffness = stiffness.data();
+    must(hf_add_sites(solver, &sites, nullptr), "hf_add_sites, fresh");
+    must(hf_solve_f64(solver, out.data(), 0, nullptr), "hf_solve_f64, fresh");
+    hf_destroy(solver);
+    return out;
+  }
+
+  std::vector<Held> held;
+
+ private:
+  std::uint32_t free_vertex() {
+    if (taken_.empty()) taken_.resize(surface_.vertex_count(), 0);
+    for (;;) {
+      const std::uint32_t v = static_cast<std::uint32_t>(random_() % surface_.vertex_count());
+      if (!taken_[v]) return v;
+    }
+  }
+  // In [offset, offset + 1], one for each channel.
+  std::vector<double> fresh_values(const std::vector<double>& offsets) {
+    std::vector<double> values;
+    for (std::uint32_t c = 0; c < m_; ++c)
+      values.push_back(offsets[c] + std::uniform_real_distribution<double>(0, 1)(random_));
+    return values;
+  }
+
+  const Surface& surface_;
+  std::uint32_t m_;
+  std::mt19937 random_;
+  std::vector<char> taken_;
+  hf_solver solver_ = nullptr;
+};
+
+}  // namespace reliability

@@ -1,0 +1,55 @@
+// Loaded, used and unloaded, over and over, as an editor does with its plug-ins: unload PLUGIN LIBRARY. After each
+// round the library is really gone, with its threads and descriptors; the hash of what it computed is the same each
+// time; and the heap does not grow.
+#include <dirent.h>
+#include <dlfcn.h>
+#include <malloc.h>
+
+#include "report.h"
+#include "whole_api.h"
+
+namespace {
+
+unsigned entries(const char* folder) {
+  unsigned count = 0;
+  if (DIR* d = opendir(folder)) {
+    while (readdir(d)) ++count;
+    closedir(d);
+  }
+  return count;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) return fprintf(stderr, "usage: unload PLUGIN LIBRARY [--full]\n"), 2;
+  const int rounds = report_full(argc, argv) ? 200 : 100;
+  const reliability::Scene scene = reliability::make_scene();
+  std::uint64_t first = 0;
+  unsigned wrong = 0, still_there = 0;
+  double heap = 0;
+  const unsigned threads = entries("/proc/self/task");
+  unsigned descriptors = 0;
+  for (int round = 0; round < rounds; ++round) {
+    void* plugin = dlopen(argv[1], RTLD_NOW | RTLD_LOCAL);
+    if (!plugin) return fprintf(stderr, "%s\n", dlerror()), 1;
+    int (*run)(const void*, std::uint64_t*) = nullptr;
+    *reinterpret_cast<void**>(&run) = dlsym(plugin, "hf_plugin_run");
+    if (!run) return fprintf(stderr, "%s\n", dlerror()), 1;
+    std::uint64_t hash = 0;
+    wrong += static_cast<unsigned>(run(&scene, &hash));
+    if (round == 0) first = hash;
+    wrong += hash != first;
+    dlclose(plugin);
+    if (void* left = dlopen(argv[2], RTLD_NOW | RTLD_NOLOAD)) ++still_there, dlclose(left);
+    // what the loader and the heap keep for themselves is there after some rounds
+    if (round == 9) heap = static_cast<double>(mallinfo2().uordblks), descriptors = entries("/proc/self/fd");
+  }
+  report_at_least("UNLOAD_ROUNDS", rounds, 100);
+  report_at_most("UNLOAD_LIBRARY_STILL_THERE", still_there, 0);
+  report_at_most("UNLOAD_WRONG_ANSWERS", wrong, 0);
+  report_at_most("UNLOAD_THREADS_LEFT", entries("/proc/self/task") - static_cast<double>(threads), 0);
+  report_at_most("UNLOAD_DESCRIPTORS_LEFT", entries("/proc/self/fd") - static_cast<double>(descriptors), 0);
+  report_at_most("UNLOAD_HEAP_GROWTH_BYTES", static_cast<double>(mallinfo2().uordblks) - heap, 65536);
+  return report_status();
+}

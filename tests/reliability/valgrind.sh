@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# The tests of the public ABI under valgrind: valgrind.sh BIN_FOLDER [NAME...]
+#   Every api_*_test there (or those named), each block given back, nothing read that was not written. Skipped (77) without
+#   valgrind. Prints VALGRIND_ERRORS.
+set -u
+bin=$1
+shift
+command -v valgrind >/dev/null || {
+  echo "skipped: no valgrind here"
+  exit 77
+}
+log=$(mktemp) || exit 1
+trap 'rm -f "$log"' EXIT
+programs=("$@")
+[ ${#programs[@]} -gt 0 ] || programs=("$bin"/api_*_test)
+errors=0
+for program in "${programs[@]}"; do
+  [ -x "$program" ] || program=$bin/$program
+  # exceptions of the float environment are not what valgrind models; see host.cpp for those
+  if ! valgrind -q --error-exitcode=99 --leak-check=full --errors-for-leak-kinds=definite,indirect,possible \
+    "$program" >"$log" 2>&1; then
+    found=$(grep -cE '^==[0-9]+== [A-Z]' "$log")
+    errors=$((errors + (found > 0 ? found : 1)))
+    printf '%s:\n' "$(basename "$program")"
+    grep -E '^==|FAILED|Error' "$log" | head -40
+  fi
+done
+printf 'VALGRIND_PROGRAMS %s >=1\nVALGRIND_ERRORS %s <=0\n' "${#programs[@]}" "$errors"
+[ "$errors" -eq 0 ]

@@ -1,0 +1,230 @@
+#include "whole_api_run.h"
+
+namespace reliability {
+
+void Run::solver_and_sites() {
+  hf_progress progress = nullptr;
+  call(hf_progress_create(&progress), "hf_progress_create");
+  hf_create_desc d = create_desc();
+  d.progress = progress;
+  const hf_solver solver = make(d);
+  float fraction = 0;
+  call(hf_progress_get(progress, &fraction), "hf_progress_get"), take(&fraction, 1);
+  hf_solver none = nullptr;
+  call(hf_progress_cancel(progress), "hf_progress_cancel");
+  call(hf_create(&d, &none), "hf_create, cancelled", HF_ERROR_CANCELLED);
+  hf_progress_destroy(progress);
+
+  hf_mesh_report report = desc<hf_mesh_report>();
+  call(hf_get_mesh_report(solver, &report), "hf_get_mesh_report"), take(&report, 1);
+  std::vector<std::uint32_t> components(n), numbers(8);
+  call(hf_get_components(solver, n, components.data()), "hf_get_components"), take(components.data(), n);
+
+  hf_sites_desc sites = sites_at(6, 50);
+  sites.stiffness = s.stiffness.data();
+  call(hf_add_sites(solver, &sites, numbers.data()), "hf_add_sites"), take(numbers.data(), 6);
+  sites = sites_at(2, 30, 10, 7), sites.radii = s.radii.data();
+  call(hf_add_sites(solver, &sites, nullptr), "hf_add_sites, discs");
+  const std::uint32_t triangles[2] = {33, 400};
+  sites = sites_at(2, 1, 20), sites.vertices = nullptr;
+  sites.triangles = triangles, sites.barycentrics = s.barycentrics.data();
+  call(hf_add_sites(solver, &sites, numbers.data() + 6), "hf_add_sites, points");
+  take_field(solver);
+  call(hf_solve(solver, floats.data(), 12, nullptr), "hf_solve"), take_floats();
+
+  call(hf_record(solver), "hf_record");
+  sites = sites_at(1, 1, 0, 111), sites.values = nullptr;
+  call(hf_move_sites(solver, 1, &numbers[1], &sites), "hf_move_sites");
+  call(hf_set_site_values(solver, 2, &numbers[2], s.values.data() + 40), "hf_set_site_values");
+  call(hf_remove_sites(solver, 1, &numbers[6]), "hf_remove_sites");
+  hf_sites_desc add = sites_at(2, 9, 60, 222);
+  hf_edit_desc edit = desc<hf_edit_desc>();
+  edit.remove_count = 1, edit.remove_sites = &numbers[4], edit.add = &add;
+  call(hf_edit_sites(solver, &edit, nullptr), "hf_edit_sites");
+  take_field(solver);
+  const std::uint32_t asked[3] = {5, 100, 222};
+  double at[3];
+  call(hf_solve_at(solver, 3, asked, at), "hf_solve_at"), take(at, 3);
+  call(hf_undo(solver), "hf_undo"), take_field(solver);
+  call(hf_redo(solver), "hf_redo"), take_field(solver);
+
+  sites = sites_at(40, 8, 80, 3);
+  sites.stiffness = nullptr;
+  call(hf_add_sites(solver, &sites, nullptr), "hf_add_sites, many");
+  call(hf_prepare_rebase(solver), "hf_prepare_rebase");
+  call(hf_set_site_values(solver, 1, &numbers[2], s.values.data() + 45), "hf_set_site_values, after the rebase");
+  call(hf_remove_sites(solver, 2, &numbers[2]), "hf_remove_sites, in the factor");
+  take_field(solver);
+  hf_certificate certificate = desc<hf_certificate>();
+  call(hf_certify(solver, &certificate), "hf_certify");
+  const std::uint32_t count = hf_get_site_count(solver);
+  std::vector<std::uint32_t> site(count), vertex(count), component(count);
+  Numbers value(count), stiffness(count), flux(count), radius(count);
+  hf_site_info info = desc<hf_site_info>();
+  info.capacity = count, info.sites = site.data(), info.vertices = vertex.data(), info.components = component.data();
+  info.values = value.data(), info.stiffness = stiffness.data(), info.flux = flux.data(), info.radii = radius.data();
+  call(hf_get_sites(solver, &info), "hf_get_sites");
+  take(site.data(), count), take(vertex.data(), count), take(value.data(), count), take(flux.data(), count);
+  hf_statistics statistics = desc<hf_statistics>();
+  call(hf_get_statistics(solver, &statistics), "hf_get_statistics");
+  take(&statistics.unknown_count, 1), take(&statistics.factor_entries, 1), take(&statistics.eliminated_count, 1);
+  hf_destroy(solver);
+}
+
+void Run::other_engines() {
+  for (int engine = 0; engine < 3; ++engine) {
+    for (int field = 0; field < 3; ++field) {
+      hf_create_desc d = create_desc(2);
+      d.engine = engine, d.field_kind = field, d.operator_kind = (engine + field) % 4;
+      d.ordering = engine == HF_ENGINE_REFACTOR ? HF_ORDERING_MINIMUM_DEGREE : HF_ORDERING_NESTED_DISSECTION;
+      if (engine == HF_ENGINE_UPDOWN) {
+        if (!options_.paper_engine) continue;
+        d.ordering = HF_ORDERING_METIS;
+      }
+      hf_solver solver = nullptr, copy = nullptr;
+      const hf_result made = hf_create(&d, &solver);
+      if (made == HF_ERROR_UNSUPPORTED) continue;
+      call(made, "hf_create, engines");
+      const hf_sites_desc sites = sites_at(5, 60);
+      std::uint32_t numbers[5];
+      call(hf_add_sites(solver, &sites, numbers), "hf_add_sites, engines");
+      call(hf_clone(solver, &copy), "hf_clone");
+      call(hf_remove_sites(copy, 2, numbers), "hf_remove_sites, engines");
+      take_field(solver), take_field(copy);
+      hf_destroy(solver), hf_destroy(copy);
+    }
+  }
+}
+
+void Run::vectors() {
+  const hf_solver solver = make(create_desc(3));
+  hf_sites_desc sites = sites_at(4, 70);
+  std::uint32_t numbers[4];
+  call(hf_add_sites(solver, &sites, numbers), "hf_add_sites, vectors");
+  const std::uint32_t to[1] = {133};
+  call(hf_move_vector_sites(solver, 1, &numbers[1], to), "hf_move_vector_sites");
+  call(hf_rotate_vector_sites(solver, 2, numbers, s.angles.data()), "hf_rotate_vector_sites");
+  Numbers normals(3 * std::size_t{n});
+  call(hf_solve_vectors_f64(solver, doubles.data(), 0, normals.data(), nullptr), "hf_solve_vectors_f64");
+  take_doubles(), take(normals.data(), normals.size());
+  call(hf_solve_vectors(solver, floats.data(), 0, nullptr, nullptr), "hf_solve_vectors"), take_floats();
+  hf_destroy(solver);
+}
+
+void Run::factor_and_preview() {
+  const hf_solver solver = make(create_desc());
+  std::size_t size = 0;
+  call(hf_get_factor_size(solver, &size), "hf_get_factor_size");
+  std::vector<unsigned char> bytes(size);
+  call(hf_save_factor(solver, bytes.data(), size), "hf_save_factor"), take(bytes.data(), size);
+  hf_factor_desc saved = desc<hf_factor_desc>();
+  saved.bytes = bytes.data(), saved.byte_count = size;
+  hf_create_desc d = create_desc();
+  d.saved_factor = &saved;
+  const hf_solver loaded = make(d);
+  hf_destroy(solver);
+  const hf_sites_desc sites = sites_at(5, 55);
+  call(hf_add_sites(loaded, &sites, nullptr), "hf_add_sites, loaded"), take_field(loaded);
+  hf_preview_info info = desc<hf_preview_info>();
+  call(hf_solve_preview(loaded, floats.data(), 0, 0, &info), "hf_solve_preview"), take_floats();
+  call(hf_solve_preview_f64(loaded, doubles.data(), 0, 2, &info), "hf_solve_preview_f64"), take_doubles();
+  call(hf_release_preview(loaded), "hf_release_preview");
+  hf_destroy(loaded);
+}
+
+void Run::analysis() {
+  hf_create_desc d = create_desc();
+  d.positions = nullptr, d.positions_f64 = s.positions_f64.data();
+  const hf_solver solver = make(d);
+  hf_scalars field = desc<hf_scalars>();
+  field.values_f64 = s.height.data();
+  Numbers levels(6);
+  for (int spacing = 0; spacing < 3; ++spacing)
+    call(hf_space_levels(solver, &field, spacing, 6, levels.data()), "hf_space_levels"), take(levels.data(), 6);
+  hf_isolines lines = desc<hf_isolines>();
+  call(hf_trace_isolines(solver, &field, 7, s.levels.data(), &lines), "hf_trace_isolines");
+  std::vector<std::uint32_t> edges(2 * std::size_t{lines.point_count}), starts(lines.line_count + 1u);
+  Numbers parameters(lines.point_count), positions(3 * std::size_t{lines.point_count});
+  lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
+  lines.point_edges = edges.data(), lines.parameters = parameters.data(), lines.positions = positions.data();
+  lines.line_starts = starts.data();
+  call(hf_trace_isolines(solver, &field, 7, s.levels.data(), &lines), "hf_trace_isolines, written");
+  take(edges.data(), edges.size()), take(positions.data(), positions.size()), take(starts.data(), starts.size());
+  std::vector<hf_critical_point> points(n);
+  hf_critical_info info = desc<hf_critical_info>();
+  call(hf_find_critical_points(solver, &field, n, points.data(), &info), "hf_find_critical_points");
+  take(points.data(), info.point_count), take(&info, 1);
+  hf_geodesics geodesics = nullptr;
+  call(hf_geodesics_create(solver, nullptr, &geodesics), "hf_geodesics_create");
+  const std::uint32_t sources[2] = {3, 200};
+  Numbers distance(n);
+  call(hf_geodesics_distance_f64(geodesics, 2, sources, distance.data(), 0), "hf_geodesics_distance_f64");
+  call(hf_geodesics_distance(geodesics, 1, sources, floats.data(), 12), "hf_geodesics_distance");
+  take(distance.data(), n), take_floats();
+  for (int kind = 0; kind < 2; ++kind) {
+    hf_extremities_desc wanted = desc<hf_extremities_desc>();
+    wanted.kind = kind, wanted.geodesics = kind == HF_EXTREMITIES_GEODESIC ? geodesics : nullptr;
+    wanted.out_field = distance.data();
+    std::vector<hf_extremity> found(n);
+    std::uint32_t count = 0;
+    call(hf_find_extremities(solver, &wanted, n, found.data(), &count), "hf_find_extremities");
+    take(distance.data(), n), take(found.data(), count);
+  }
+  hf_geodesics_destroy(geodesics), hf_destroy(solver);
+}
+
+void Run::directions() {
+  const hf_solver solver = make(create_desc());
+  hf_direction_desc wanted = desc<hf_direction_desc>();
+  wanted.degree = 4;
+  hf_direction direction = nullptr, copy = nullptr;
+  call(hf_direction_create(solver, &wanted, &direction), "hf_direction_create");
+  hf_destroy(solver);
+  const std::uint32_t vertices[4] = {20, 90, 150, 250}, to[1] = {40};
+  std::uint32_t sites[4], count = 0;
+  call(hf_direction_add_sites(direction, 4, vertices, s.vectors.data(), sites), "hf_direction_add_sites");
+  call(hf_direction_record(direction), "hf_direction_record");
+  call(hf_direction_move_sites(direction, 1, sites, to), "hf_direction_move_sites");
+  call(hf_direction_set_vectors(direction, 1, sites + 1, s.vectors.data() + 9), "hf_direction_set_vectors");
+  call(hf_direction_rotate_sites(direction, 2, sites, s.angles.data()), "hf_direction_rotate_sites");
+  call(hf_direction_remove_sites(direction, 1, sites + 3), "hf_direction_remove_sites");
+  call(hf_direction_clone(direction, &copy), "hf_direction_clone");
+  call(hf_direction_undo(direction), "hf_direction_undo"), call(hf_direction_redo(direction), "hf_direction_redo");
+  call(hf_direction_solve(copy, floats.data(), 0, nullptr), "hf_direction_solve"), take_floats();
+  call(hf_direction_solve_f64(direction, doubles.data(), 0, nullptr), "hf_direction_solve_f64"), take_doubles();
+  std::vector<hf_singularity> found(s.triangle_count);
+  call(hf_direction_get_singularities(direction, s.triangle_count, found.data(), &count),
+       "hf_direction_get_singularities");
+  take(found.data(), count);
+  count = hf_direction_get_site_count(direction);
+  Numbers held(3 * std::size_t{count});
+  call(hf_direction_get_sites(direction, count, sites, places.data(), held.data()), "hf_direction_get_sites");
+  take(held.data(), held.size());
+  hf_direction_statistics statistics = desc<hf_direction_statistics>();
+  call(hf_direction_get_statistics(direction, &statistics), "hf_direction_get_statistics");
+  take(&statistics.unknown_count, 1);
+  hf_direction_destroy(direction), hf_direction_destroy(copy);
+}
+
+void Run::errors() {
+  const std::uint32_t version = hf_get_version();
+  take(&version, 1);
+  for (hf_result code = -400; code <= 0; ++code) {
+    const char* name = hf_result_name(code);
+    take(name, std::strlen(name));
+  }
+  call(hf_create(nullptr, nullptr), "hf_create, nothing", HF_ERROR_NULL_POINTER);
+  call(hf_solve(nullptr, nullptr, 0, nullptr), "hf_solve, nothing", HF_ERROR_INVALID_HANDLE);
+  hf_error_detail detail;
+  call(hf_get_error_detail(&detail), "hf_get_error_detail"), take(&detail.code, 1), take(&detail.index, 1);
+}
+
+Outcome run_whole_api(const Scene& scene, const Options& options) {
+  Run run(scene, options);
+  run.outcome.hash = 14695981039346656037u;
+  run.solver_and_sites(), run.other_engines(), run.vectors(), run.factor_and_preview(), run.analysis();
+  run.directions(), run.pose_and_transfer(), run.quads_and_flow(), run.regions(), run.errors();
+  return run.outcome;
+}
+
+}  // namespace reliability

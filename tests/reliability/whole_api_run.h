@@ -1,0 +1,83 @@
+// The run behind run_whole_api, part by part (whole_api.cpp, whole_api_shapes.cpp).
+#pragma once
+#include <cstring>
+
+#include "whole_api.h"
+
+namespace reliability {
+
+using Numbers = std::vector<double>;
+
+class Run {
+ public:
+  Run(const Scene& scene, const Options& options) : s(scene), options_(options), n(scene.vertex_count) {
+    floats.resize(3 * std::size_t{n}), doubles.resize(3 * std::size_t{n});
+  }
+  Outcome outcome;
+
+  void solver_and_sites();
+  void other_engines();
+  void vectors();
+  void factor_and_preview();
+  void analysis();
+  void directions();
+  void pose_and_transfer();
+  void quads_and_flow();
+  void regions();
+  void errors();
+
+ private:
+  void call(hf_result got, const char* what, hf_result expected = HF_OK) {
+    ++outcome.calls;
+    if (got == expected || outcome.unexpected++ > 0) return;
+    outcome.first = what, outcome.got = got;
+  }
+  template <class T>
+  void take(const T* values, std::size_t count) {  // FNV-1a
+    const unsigned char* bytes = reinterpret_cast<const unsigned char*>(values);
+    for (std::size_t i = 0; i < count * sizeof(T); ++i) outcome.hash = (outcome.hash ^ bytes[i]) * 1099511628211u;
+  }
+  void take_floats() { take(floats.data(), floats.size()); }
+  void take_doubles() { take(doubles.data(), doubles.size()); }
+  template <class T>
+  static T desc() {
+    T made;
+    HF_INIT(made);
+    return made;
+  }
+  hf_create_desc create_desc(std::uint32_t channels = 1) const {
+    hf_create_desc d = desc<hf_create_desc>();
+    d.vertex_count = n, d.triangle_count = s.triangle_count;
+    d.positions = s.positions.data(), d.triangles = s.triangles.data();
+    d.channel_count = channels, d.thread_count = options_.threads;
+    if (options_.runner) d.job_runner = *options_.runner;
+    if (options_.allocator) d.allocator = *options_.allocator;
+    return d;
+  }
+  hf_solver make(const hf_create_desc& d) {
+    hf_solver solver = nullptr;
+    call(hf_create(&d, &solver), "hf_create");
+    return solver;
+  }
+  // Sites 0, step, 2 step ... with values from `first` on.
+  hf_sites_desc sites_at(std::uint32_t count, std::uint32_t step, std::size_t first = 0, std::uint32_t start = 0) {
+    places.clear();
+    for (std::uint32_t i = 0; i < count; ++i) places.push_back(start + i * step);
+    hf_sites_desc d = desc<hf_sites_desc>();
+    d.site_count = count, d.vertices = places.data(), d.values = s.values.data() + first;
+    return d;
+  }
+  void take_field(hf_solver solver) {
+    hf_solve_info info = desc<hf_solve_info>();
+    call(hf_solve_f64(solver, doubles.data(), 0, &info), "hf_solve_f64"), take_doubles(), take(&info, 1);
+  }
+
+  const Scene& s;
+  const Options options_;
+  const std::uint32_t n;
+  std::vector<float> floats;
+  Numbers doubles;
+  std::vector<std::uint32_t> places;
+};
+
+}  // namespace reliability

@@ -1,0 +1,144 @@
+// Poses, transfers, quads, flow lines, regions and their detail.
+#include "whole_api_run.h"
+
+namespace reliability {
+
+void Run::pose_and_transfer() {
+  const hf_solver solver = make(create_desc());
+  for (int mode = 0; mode < 2; ++mode) {
+    hf_pose_desc wanted = desc<hf_pose_desc>();
+    wanted.mode = mode;
+    hf_pose pose = nullptr, copy = nullptr;
+    call(hf_pose_create(solver, &wanted, &pose), "hf_pose_create");
+    const std::uint32_t counts[2] = {2 * s.around, 2 * s.around};
+    hf_handles_desc regions = desc<hf_handles_desc>();
+    regions.handle_count = 2, regions.region_counts = counts, regions.region_vertices = s.ends.data();
+    std::uint32_t handles[2], layered = 0;
+    call(hf_pose_add_handles(pose, &regions, handles), "hf_pose_add_handles");
+    const hf_transform turned = {{0, 0.5, 0, 0.8660254037844386}, {1, 2, 0.5}};
+    call(hf_pose_set_transforms(pose, 1, &handles[1], &turned), "hf_pose_set_transforms");
+    call(hf_pose_set_matrices(pose, 1, &handles[0], s.matrices.data()), "hf_pose_set_matrices");
+    std::vector<float> normals(3 * std::size_t{n});
+    hf_deform_desc deform = desc<hf_deform_desc>();
+    deform.positions = floats.data(), deform.normals = normals.data(), deform.refine = mode == HF_DEFORM_SMOOTH;
+    call(hf_deform(pose, &deform, nullptr), "hf_deform"), take_floats(), take(normals.data(), normals.size());
+    call(hf_pose_get_field(pose, handles[0], floats.data(), 12), "hf_pose_get_field"), take_floats();
+    hf_handle_info info = desc<hf_handle_info>();
+    call(hf_pose_get_handle(pose, handles[1], &info), "hf_pose_get_handle"), take(&info, 1);
+    hf_skin_info skin = desc<hf_skin_info>();
+    call(hf_pose_get_skin(pose, &skin), "hf_pose_get_skin");
+    std::vector<float> weights(4 * std::size_t{n});
+    Numbers rotations(4 * std::size_t{skin.joint_count});
+    skin.vertex_weights = weights.data(), skin.rotations = rotations.data();
+    call(hf_pose_get_skin(pose, &skin), "hf_pose_get_skin, written");
+    take(weights.data(), weights.size()), take(rotations.data(), rotations.size());
+    call(hf_pose_clone(pose, &copy), "hf_pose_clone");
+    regions = desc<hf_handles_desc>();
+    const double radius = 0.5;
+    regions.handle_count = 1, regions.points = doubles.data(), regions.radii = &radius, regions.layer = 1;
+    std::memcpy(doubles.data(), s.positions_f64.data() + 3 * std::size_t{n / 2}, 3 * sizeof(double));
+    call(hf_pose_add_handles(copy, &regions, &layered), "hf_pose_add_handles, layer");
+    call(hf_deform(copy, &deform, nullptr), "hf_deform, layers"), take_floats();
+    call(hf_pose_remove_handles(copy, 1, &layered), "hf_pose_remove_handles");
+    const std::uint32_t count = hf_pose_get_handle_count(copy);
+    take(&count, 1);
+    hf_pose_destroy(pose), hf_pose_destroy(copy);
+  }
+  for (int mode = 0; mode < 2; ++mode) {
+    hf_transfer_desc wanted = desc<hf_transfer_desc>();
+    wanted.mode = mode;
+    hf_transfer transfer = nullptr;
+    call(hf_transfer_create(solver, solver, &wanted, &transfer), "hf_transfer_create");
+    const std::uint32_t counts[2] = {2 * s.around, 2 * s.around};
+    hf_pairs_desc pairs = desc<hf_pairs_desc>();
+    pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts;
+    pairs.source_vertices = pairs.target_vertices = s.ends.data();
+    std::uint32_t numbers[2];
+    call(hf_transfer_add_pairs(transfer, &pairs, numbers), "hf_transfer_add_pairs");
+    hf_transfer_frame frame = desc<hf_transfer_frame>();
+    frame.source_positions = s.posed.data(), frame.target_positions = floats.data();
+    call(hf_transfer_apply(transfer, &frame), "hf_transfer_apply"), take_floats();
+    hf_pair_info pair = desc<hf_pair_info>();
+    call(hf_transfer_get_pair(transfer, numbers[0], &pair), "hf_transfer_get_pair"), take(&pair, 1);
+    hf_transfer_info info = desc<hf_transfer_info>();
+    call(hf_transfer_get_info(transfer, &info), "hf_transfer_get_info"), take(&info, 1);
+    hf_skin_info skin = desc<hf_skin_info>();
+    call(hf_transfer_get_skin(transfer, &skin), "hf_transfer_get_skin"), take(&skin.joint_count, 1);
+    call(hf_transfer_remove_pairs(transfer, 1, numbers), "hf_transfer_remove_pairs");
+    hf_transfer_destroy(transfer);
+  }
+  hf_destroy(solver);
+}
+
+void Run::quads_and_flow() {
+  const hf_solver solver = make(create_desc());
+  hf_quads_desc wanted = desc<hf_quads_desc>();
+  wanted.edge_length = 0.5f;
+  hf_quads quads = nullptr;
+  call(hf_quads_create(solver, &wanted, &quads), "hf_quads_create");
+  hf_quads_info info = desc<hf_quads_info>();
+  call(hf_quads_get_info(quads, &info), "hf_quads_get_info"), take(&info, 1);
+  Numbers positions(3 * std::size_t{info.vertex_count});
+  std::vector<std::uint32_t> corners(info.corner_count);
+  hf_quads_mesh mesh = desc<hf_quads_mesh>();
+  mesh.vertex_capacity = info.vertex_count, mesh.corner_capacity = info.corner_count;
+  mesh.positions = positions.data(), mesh.face_corners = corners.data();
+  call(hf_quads_get_mesh(quads, &mesh), "hf_quads_get_mesh");
+  take(positions.data(), positions.size()), take(corners.data(), corners.size());
+  hf_quads_destroy(quads);
+  hf_flow flow = nullptr;
+  call(hf_flow_create(solver, &flow), "hf_flow_create");
+  hf_destroy(solver);
+  hf_scalars field = desc<hf_scalars>();
+  field.values_f64 = s.height.data();
+  hf_flow_lines lines = desc<hf_flow_lines>();
+  lines.wanted_count = 12;
+  call(hf_flow_trace(flow, &field, &lines), "hf_flow_trace");
+  positions.resize(3 * std::size_t{lines.point_count});
+  lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count, lines.positions = positions.data();
+  call(hf_flow_trace(flow, &field, &lines), "hf_flow_trace, written"), take(positions.data(), positions.size());
+  hf_flow_destroy(flow);
+}
+
+void Run::regions() {
+  const hf_solver solver = make(create_desc());
+  hf_region_desc wanted = desc<hf_region_desc>();
+  wanted.positions = s.positions.data();
+  hf_region source = nullptr, target = nullptr;
+  call(hf_region_create(solver, &wanted, &source), "hf_region_create");
+  // a patch of four by five vertices, and one further up
+  std::vector<std::uint32_t> patch, list(n);
+  for (std::uint32_t ring = 5; ring < 9; ++ring)
+    for (std::uint32_t i = 3; i < 8; ++i) patch.push_back(ring * s.around + i);
+  hf_region_edit_desc edit = desc<hf_region_edit_desc>();
+  edit.add_count = static_cast<std::uint32_t>(patch.size()), edit.add_vertices = patch.data();
+  call(hf_region_edit(source, &edit), "hf_region_edit");
+  hf_destroy(solver);
+  call(hf_region_record(source), "hf_region_record");
+  call(hf_region_clone(source, &target), "hf_region_clone");
+  hf_region_edit_desc grow = desc<hf_region_edit_desc>();
+  grow.ring_count = 1;
+  call(hf_region_edit(source, &grow), "hf_region_edit, grown");
+  call(hf_region_undo(source), "hf_region_undo"), call(hf_region_redo(source), "hf_region_redo");
+  for (std::uint32_t& v : patch) v += 7 * s.around;
+  hf_region_edit_desc there = desc<hf_region_edit_desc>();
+  std::vector<std::uint32_t> old;
+  for (const std::uint32_t v : patch) old.push_back(v - 7 * s.around);
+  there.remove_count = there.add_count = static_cast<std::uint32_t>(patch.size());
+  there.remove_vertices = old.data(), there.add_vertices = patch.data();
+  call(hf_region_edit(target, &there), "hf_region_edit, moved");
+  hf_region_info info = desc<hf_region_info>();
+  call(hf_region_get_info(target, &info), "hf_region_get_info"), take(&info, 1);
+  call(hf_region_get_vertices(target, HF_REGION_RIM, n, list.data()), "hf_region_get_vertices");
+  take(list.data(), info.rim_count);
+  hf_morph_desc morph = desc<hf_morph_desc>();
+  morph.weight = 0.5, morph.positions_f64 = doubles.data(), morph.normals = floats.data();
+  call(hf_region_morph(source, &morph), "hf_region_morph"), take_doubles(), take_floats();
+  hf_detail detail = nullptr;
+  call(hf_detail_create(source, target, nullptr, &detail), "hf_detail_create");
+  hf_region_destroy(source), hf_region_destroy(target);
+  call(hf_detail_morph(detail, &morph), "hf_detail_morph"), take_doubles();
+  hf_detail_destroy(detail);
+}
+
+}  // namespace reliability
