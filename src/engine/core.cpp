@@ -48,6 +48,7 @@ Core::Core(std::shared_ptr<Memory> owner, std::shared_ptr<JobRunner> runner)
       jobs(std::move(runner)),
       mesh(*memory),
       topology(*memory),
+      areas(memory.get()),
       weights(memory.get()),
       laplacian(*memory),
       ground(memory.get()),
@@ -93,7 +94,7 @@ void make_operator(Core& core, const CoreOptions& options, int cap) {
     core.laplacian = std::move(made.laplacian), areas = std::move(made.areas);
   } else {
     core.laplacian = hf::laplacian(core.topology, core.weights, pool, core.jobs.get());
-    if (options.field_kind == FieldKind::biharmonic) areas = vertex_areas(core.mesh, pool);
+    if (options.field_kind == FieldKind::biharmonic) areas.assign(core.areas.begin(), core.areas.end());
   }
   if (options.field_kind == FieldKind::harmonic && tie_shares[cap] > 0) tie_weakly(core.laplacian, tie_shares[cap], pool);
   if (options.field_kind != FieldKind::harmonic) {
@@ -158,6 +159,7 @@ std::shared_ptr<const Core> Core::make(const MeshInput& input, const CoreOptions
 
   Timer operator_timer;
   core->topology = Topology::make(core->mesh, pool, core->jobs.get());
+  core->areas = vertex_areas(core->mesh, pool, core->jobs.get());
   core->weights = edge_weights(core->mesh, core->topology, OperatorKind::cotangent, pool, core->jobs.get());
   MeshReport& found = core->mesh.report;
   found.negative_edge_count = count_negative(core->weights);

@@ -80,6 +80,7 @@ struct Core {
   std::shared_ptr<JobRunner> jobs;
   Mesh mesh;
   Topology topology;
+  Vector<double> areas;          // per vertex, a third of the triangles around it
   Vector<double> weights;        // per edge of the mesh, of the Laplacian L
   SymmetricMatrix laplacian;     // K: L, or bi-harmonic
   Vector<std::int32_t> ground;   // per component

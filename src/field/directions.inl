@@ -1,42 +1,82 @@
 // The loop of directions.h; includes no header whose inline functions could leak from one instruction set into another.
 namespace {
 
-// With Channels known the loops over channels become vector code.
-template <int Channels>
-inline void add_one(const hf::DirectionSums& job, std::int64_t t, std::int32_t channels) noexcept {
-  const int count = Channels > 0 ? Channels : channels;
-  const hf::TriangleFrame frame = job.frame[t];
-  const std::int32_t* v = job.triangle + 3 * t;
-  const double* u0 = job.heat + static_cast<std::int64_t>(job.position[v[0]]) * count;
-  const double* u1 = job.heat + static_cast<std::int64_t>(job.position[v[1]]) * count;
-  const double* u2 = job.heat + static_cast<std::int64_t>(job.position[v[2]]) * count;
-  const double* weight = job.weight + static_cast<std::int64_t>(job.component[v[0]]) * count;
-  double x[8], y[8];
-  for (int c = 0; c < count; ++c) {
-    // scaled first: far from the source the heat is 1e-200 and its square nothing
-    const double d1 = u1[c] - u0[c], d2 = u2[c] - u0[c];
-    const double a1 = __builtin_fabs(d1), a2 = __builtin_fabs(d2), larger = a1 > a2 ? a1 : a2;
-    const double scale = 1 / (larger > 1e-300 ? larger : 1e-300);
-    // grad v times twice the area: d1 n x (p0 - p2) + d2 n x (p1 - p0), and n x (x, y) = (-y, x)
-    const double gx = scale * d1 * frame.py;
-    const double gy = scale * d2 * frame.along - scale * d1 * frame.px;
-    const double squared = gx * gx + gy * gy;
-    const double factor = -weight[c] / __builtin_sqrt(squared > 1e-100 ? squared : 1e-100);
-    x[c] = factor * gx, y[c] = factor * gy;
-  }
-  double sum_x = 0, sum_y = 0;
-  for (int c = 0; c < count; ++c) sum_x += x[c], sum_y += y[c];
-  job.sums[2 * t] += sum_x, job.sums[2 * t + 1] += sum_y;
+// Eight numbers, in one register or several.
+typedef double Eight __attribute__((vector_size(64), aligned(8), may_alias));
+typedef std::int64_t EightBits __attribute__((vector_size(64), aligned(8), may_alias));
+typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double Two __attribute__((vector_size(16), aligned(8), may_alias));
+
+inline void get(const double* from, Eight& x) noexcept { __builtin_memcpy(&x, from, sizeof(x)); }
+inline void get(const double* from, double& x) noexcept { x = *from; }
+
+// By halves.
+inline double sum_of(const Eight& x) noexcept {
+  Four low, high;
+  __builtin_memcpy(&low, &x, sizeof(low));
+  __builtin_memcpy(&high, reinterpret_cast<const char*>(&x) + sizeof(low), sizeof(high));
+  low += high;
+  Two first, second;
+  __builtin_memcpy(&first, &low, sizeof(first));
+  __builtin_memcpy(&second, reinterpret_cast<const char*>(&low) + sizeof(first), sizeof(second));
+  first += second;
+  return first[0] + first[1];
+}
+inline double sum_of(double x) noexcept { return x; }
+
+// Number: double or Eight; Bits: integers of its size.
+template <class Number, class Bits>
+inline void add_lanes(const hf::TriangleFrame& frame, const double* u0, const double* u1, const double* u2,
+                      const double* weights, double* sums) noexcept {
+  constexpr std::int64_t magnitude = 0x7fffffffffffffff, exponent = 0x7ff0000000000000, largest = 0x7fe0000000000000;
+  Number a, d1, d2, weight;
+  get(u0, a), get(u1, d1), get(u2, d2), get(weights, weight);
+  d1 -= a, d2 -= a;
+  // times the power of two that brings |d1| + |d2| to [1, 2): far from the source the heat is 1e-200 and its square
+  // nothing; no heat at all stays none
+  Bits bits, other;
+  Number scale, second;
+  __builtin_memcpy(&bits, &d1, sizeof(bits));
+  __builtin_memcpy(&other, &d2, sizeof(bits));
+  bits &= magnitude, other &= magnitude;
+  __builtin_memcpy(&scale, &bits, sizeof(bits));
+  __builtin_memcpy(&second, &other, sizeof(bits));
+  scale += second;
+  __builtin_memcpy(&bits, &scale, sizeof(bits));
+  bits = largest - (bits & exponent);
+  __builtin_memcpy(&scale, &bits, sizeof(bits));
+  d1 *= scale, d2 *= scale;
+  // grad v times twice the area: d1 n x (p0 - p2) + d2 n x (p1 - p0), and n x (x, y) = (-y, x)
+  Number x = d1 * frame.py, y = d2 * frame.along - d1 * frame.px;
+  // 1 / sqrt to 1e-10, without a division or a root: half the exponent and a straight line for the mantissa, 3 % off,
+  // then three steps of Newton's method, e -> 3/2 e^2; of zero a number below 1e155
+  const Number squared = x * x + y * y, half = 0.5 * squared;
+  __builtin_memcpy(&bits, &squared, sizeof(bits));
+  bits = 0x5fe6eb50c7b537a9 - (bits >> 1);
+  Number root;
+  __builtin_memcpy(&root, &bits, sizeof(bits));
+  root = root * (1.5 - half * (root * root));
+  root = root * (1.5 - half * (root * root));
+  root = root * (1.5 - half * (root * root));
+  root *= weight;
+  x *= root, y *= root;
+  sums[0] -= sum_of(x), sums[1] -= sum_of(y);
 }
 
 void add_directions_range(const hf::DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept {
+  const std::int64_t channels = job.channels;
   for (std::int64_t t = begin; t < end; ++t) {
-    if (!(job.frame[t].py > 0)) continue;
-    if (job.channels == 8) {
-      add_one<8>(job, t, 8);
-    } else {
-      add_one<0>(job, t, job.channels);
+    const hf::TriangleFrame& frame = job.frame[t];
+    const double* u0 = job.heat + frame.row[0] * channels;
+    const double* u1 = job.heat + frame.row[1] * channels;
+    const double* u2 = job.heat + frame.row[2] * channels;
+    const double* weight = job.weight + frame.component * channels;
+    if (channels == 8) {
+      add_lanes<Eight, EightBits>(frame, u0, u1, u2, weight, job.sums + 2 * t);
+      continue;
     }
+    for (std::int64_t c = 0; c < channels; ++c)
+      add_lanes<double, std::int64_t>(frame, u0 + c, u1 + c, u2 + c, weight + c, job.sums + 2 * t);
   }
 }
 

@@ -12,16 +12,7 @@ namespace {
 using Index = std::int32_t;
 std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 constexpr Index group_size = 8;
-constexpr std::size_t piece = 8192;  // triangles of one job
-
-template <class Job>
-void for_triangles(const Core& core, Job&& job) {
-  const std::size_t count = at(core.mesh.triangle_count());
-  core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
-    const std::size_t end = std::min(count, (p + std::size_t{1}) * piece);
-    for (std::size_t t = p * piece; t < end; ++t) job(static_cast<Index>(t));
-  });
-}
+constexpr std::int64_t piece = 8192;  // triangles of one job
 
 double mean_edge(const Core& core) noexcept {
   double sum = 0;
@@ -40,7 +31,7 @@ void require_laplacian(const Core& core) {
 }
 
 Geodesics::Geodesics(std::shared_ptr<const Core> core, double smoothing)
-    : core_(std::move(core)), areas_(vertex_areas(core_->mesh, *core_->memory), core_->memory.get()) {
+    : core_(std::move(core)), frames_(core_->memory.get()) {
   const Core& c = *core_;
   require_laplacian(c);
   const double h = mean_edge(c), least = 1.0 / 250;
@@ -51,59 +42,64 @@ Geodesics::Geodesics(std::shared_ptr<const Core> core, double smoothing)
   for (std::size_t v = 0; v < at(c.size()); ++v) {
     for (Index i = c.laplacian.column_start[v]; i < c.laplacian.column_start[v + 1]; ++i) {
       matrix.value[at(i)] = step_ * c.laplacian.value[at(i)];
-      if (at(c.laplacian.row[at(i)]) == v) matrix.value[at(i)] += std::max(areas_[v], floor);
+      if (at(c.laplacian.row[at(i)]) == v) matrix.value[at(i)] += std::max(c.areas[v], floor);
     }
   }
   heat_ = c.factor->refactor(matrix, {}, *c.memory, *c.jobs);
+  make_frames();
 }
 
-Vector<Geodesics::Frame> Geodesics::frames() const {
+// By the largest row of a triangle: the heat of its corners is read not far from that of the triangle before.
+void Geodesics::make_frames() {
   const Mesh& mesh = core_->mesh;
-  Vector<Frame> frames(at(mesh.triangle_count()), core_->memory.get());
-  for_triangles(*core_, [&](Index t) {
+  const Span<const Index> position = heat_->position();
+  const auto largest_row = [&](Index t) {
+    const Index* v = mesh.triangle(t);
+    return std::max({position[at(v[0])], position[at(v[1])], position[at(v[2])]});
+  };
+  Vector<Index> start(at(core_->size()) + 1, 0, core_->memory.get()),
+      order(at(mesh.triangle_count()), core_->memory.get());
+  for (Index t = 0; t < mesh.triangle_count(); ++t) ++start[at(largest_row(t)) + 1];
+  for (std::size_t row = 0; row + 1 < start.size(); ++row) start[row + 1] += start[row];
+  for (Index t = 0; t < mesh.triangle_count(); ++t) order[at(start[at(largest_row(t))]++)] = t;
+  frames_.reserve(order.size());
+  for (const Index t : order) {
     const Index* v = mesh.triangle(t);
     const Vec3 a = mesh.positions[at(v[0])], e1 = mesh.positions[at(v[1])] - a, e2 = mesh.positions[at(v[2])] - a;
     const Vec3 n = cross(e1, e2);
     const double along = std::sqrt(dot(e1, e1)), area2 = std::sqrt(dot(n, n));
-    if (area2 > 1e-9 * along * along) {
-      frames[at(t)] = {along, dot(e1, e2) / along, area2 / along};
-    } else {
-      frames[at(t)] = {0, 0, 0};
-    }
-  });
-  return frames;
+    if (!(area2 > 1e-9 * along * along)) continue;
+    frames_.push_back({along,
+                       dot(e1, e2) / along,
+                       area2 / along,
+                       {position[at(v[0])], position[at(v[1])], position[at(v[2])]},
+                       mesh.component[at(v[0])]});
+  }
 }
 
-// sums[2 t], [2 t + 1] += sum over the channels of weight times X, in the frame of triangle t.
+// sums[2 t], [2 t + 1] += sum over the channels of weight times X, in frame t.
 // heat[row * channels + c], rows in factor order; weights[component * channels + c].
-void Geodesics::add_directions(const Vector<Frame>& frames, const double* heat, Index channels, const double* weights,
-                               Vector<double>& sums) const {
-  const Mesh& mesh = core_->mesh;
-  const DirectionSums job = {
-      frames.data(), mesh.triangle(0), heat_->position().data(), mesh.component.data(), heat, weights,
-      channels,      sums.data()};
-  const std::int64_t count = mesh.triangle_count(), step = static_cast<std::int64_t>(piece);
-  core_->jobs->for_each(static_cast<std::uint32_t>((count + step - 1) / step), [&](std::uint32_t p) {
-    hf::add_directions(job, p * step, std::min(count, (p + std::int64_t{1}) * step));
+void Geodesics::add_directions(const double* heat, Index channels, const double* weights, Vector<double>& sums) const {
+  const DirectionSums job = {frames_.data(), heat, weights, channels, sums.data()};
+  const std::int64_t count = static_cast<std::int64_t>(frames_.size());
+  core_->jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
+    hf::add_directions(job, p * piece, std::min(count, (p + std::int64_t{1}) * piece));
   });
 }
 
 // Solves K d = b, b_i = sum over the triangles of area grad(hat_i) . X = n x e_i . X / 2.
-void Geodesics::integrate(const Vector<Frame>& frames, const Vector<double>& sums, double* out) const {
-  const Mesh& mesh = core_->mesh;
-  const Factor& factor = *core_->factor;
+void Geodesics::integrate(const Vector<double>& sums, double* out) const {
+  const Factor& factor = *core_->factor;  // its rows are those of the heat: one ordering
   const Span<const Index> position = factor.position();
   Workspace z(core_->workspaces, at(core_->size()));
   std::fill_n(z.data(), at(core_->size()), 0.0);
-  for (Index t = 0; t < mesh.triangle_count(); ++t) {
-    const Frame& f = frames[at(t)];
-    if (!(f.py > 0)) continue;
-    const Index* v = mesh.triangle(t);
-    const double x = 0.5 * sums[2 * at(t)], y = 0.5 * sums[2 * at(t) + 1];
+  for (std::size_t t = 0; t < frames_.size(); ++t) {
+    const TriangleFrame& f = frames_[t];
+    const double x = 0.5 * sums[2 * t], y = 0.5 * sums[2 * t + 1];
     // n x (edge opposite to the corner)
-    z[at(position[at(v[0])])] += -f.py * x + (f.px - f.along) * y;
-    z[at(position[at(v[1])])] += f.py * x - f.px * y;
-    z[at(position[at(v[2])])] += f.along * y;
+    z[at(f.row[0])] += -f.py * x + (f.px - f.along) * y;
+    z[at(f.row[1])] += f.py * x - f.px * y;
+    z[at(f.row[2])] += f.along * y;
   }
   factor.forward(z.data(), 1, *core_->jobs);
   factor.backward(z.data(), 1, *core_->jobs);
@@ -114,8 +110,7 @@ void Geodesics::distance(Span<const Index> sources, double* out) const {
   const Core& core = *core_;
   const std::size_t n = at(core.size()), components = at(core.mesh.component_count());
   const Span<const Index> position = heat_->position();
-  const Vector<Frame> frames = this->frames();
-  Vector<double> sums(2 * at(core.mesh.triangle_count()), 0.0, core.memory.get());
+  Vector<double> sums(2 * frames_.size(), 0.0, core.memory.get());
   const Vector<double> ones(components, 1.0, core.memory.get());
   {
     Workspace heat(core.workspaces, n);
@@ -123,9 +118,9 @@ void Geodesics::distance(Span<const Index> sources, double* out) const {
     for (const Index s : sources) heat[at(position[at(s)])] = 1;
     heat_->forward(heat.data(), 1, *core.jobs);
     heat_->backward(heat.data(), 1, *core.jobs);
-    add_directions(frames, heat.data(), 1, ones.data(), sums);
+    add_directions(heat.data(), 1, ones.data(), sums);
   }
-  integrate(frames, sums, out);
+  integrate(sums, out);
   // zero at the sources, in the mean over them
   Vector<double> offset(components, 0.0, core.memory.get()), count(components, 0.0, core.memory.get());
   for (const Index s : sources) {
@@ -142,10 +137,9 @@ void Geodesics::average(Index count, double* out, Progress* progress, float from
   const Core& core = *core_;
   Memory& memory = *core.memory;
   const std::size_t n = at(core.size()), components = at(core.mesh.component_count());
-  const SpreadSamples samples = spread_samples(core.mesh, core.topology, areas_, count, memory);
+  const SpreadSamples samples = spread_samples(core.mesh, core.topology, core.areas, count, memory);
   report(progress, from + 0.2f * (to - from));
-  const Vector<Frame> frames = this->frames();
-  Vector<double> sums(2 * at(core.mesh.triangle_count()), 0.0, &memory);
+  Vector<double> sums(2 * frames_.size(), 0.0, &memory);
   Workspace heat(core.workspaces, n * at(group_size));
   for (Index first = 0; first < count; first += group_size) {
     const Index channels = std::min(group_size, count - first);
@@ -172,11 +166,11 @@ void Geodesics::average(Index count, double* out, Progress* progress, float from
       heat_->combine(*groups[g], identity.data(), channels, heat.data());
     }
     heat_->backward(heat.data(), channels, *core.jobs);
-    add_directions(frames, heat.data(), channels, weights.data(), sums);
+    add_directions(heat.data(), channels, weights.data(), sums);
     report(progress,
            from + (0.2f + 0.7f * static_cast<float>(first + channels) / static_cast<float>(count)) * (to - from));
   }
-  integrate(frames, sums, out);
+  integrate(sums, out);
   report(progress, to);
 }
 

@@ -39,14 +39,12 @@ class Geodesics {
   double time_step() const noexcept { return step_; }
 
  private:
-  using Frame = TriangleFrame;
-  Vector<Frame> frames() const;
-  void add_directions(const Vector<Frame>& frames, const double* heat, std::int32_t channels, const double* weights,
-                      Vector<double>& sums) const;
-  void integrate(const Vector<Frame>& frames, const Vector<double>& sums, double* out) const;
+  void make_frames();
+  void add_directions(const double* heat, std::int32_t channels, const double* weights, Vector<double>& sums) const;
+  void integrate(const Vector<double>& sums, double* out) const;
 
   std::shared_ptr<const Core> core_;
-  Vector<double> areas_;
+  Vector<TriangleFrame> frames_;  // of the triangles with area, neighbours in the factor near one another
   double step_ = 0;
   std::shared_ptr<const Factor> heat_;
 };

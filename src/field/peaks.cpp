@@ -15,39 +15,50 @@ Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memo
     return field[at(a)] != field[at(b)] ? field[at(a)] < field[at(b)] : a < b;
   };
   const std::size_t n = field.size();
-  // the highest neighbour above each vertex, then the peak that leads to
-  Vector<Index> up(n, Mesh::none, &memory);
-  for (std::size_t v = 0; v < n; ++v) {
-    Index best = static_cast<Index>(v);
-    for (Index i = topology.neighbour_start[v]; i < topology.neighbour_start[v + 1]; ++i) {
-      const Index w = topology.neighbour[at(i)];
-      if (less(best, w)) best = w;
-    }
-    if (best != static_cast<Index>(v)) up[v] = best;
+  const Index* edge = topology.edges.data();
+  const std::size_t edge_ends = topology.edges.size();
+  // one higher neighbour of each vertex, itself where there is none; no branch: it would go either way
+  Vector<Index> basin(n, &memory);
+  for (std::size_t v = 0; v < n; ++v) basin[v] = static_cast<Index>(v);
+  for (std::size_t i = 0; i < edge_ends; i += 2) {
+    const Index v = edge[i], w = edge[i + 1];  // v < w
+    const Index swap = (v ^ w) & -static_cast<Index>(field[at(w)] >= field[at(v)]);
+    basin[at(w ^ swap)] = v ^ swap;
   }
   Vector<Peak> peaks(&memory);
-  Vector<Index> basin(n, Mesh::none, &memory);  // position in peaks
   for (std::size_t v = 0; v < n; ++v) {
-    if (up[v] != Mesh::none) continue;
-    basin[v] = static_cast<Index>(peaks.size());
-    peaks.push_back({static_cast<Index>(v), Mesh::none});
+    if (basin[v] == static_cast<Index>(v)) peaks.push_back({static_cast<Index>(v), Mesh::none});
   }
-  for (std::size_t v = 0; v < n; ++v) {
-    Index top = static_cast<Index>(v);
-    while (basin[at(top)] == Mesh::none) top = up[at(top)];
-    for (Index w = static_cast<Index>(v); basin[at(w)] == Mesh::none; w = up[at(w)]) basin[at(w)] = basin[at(top)];
+  // the peak above each vertex: every round at least halves the way
+  for (Index changed = 1; changed != 0;) {
+    changed = 0;
+    for (std::size_t v = 0; v < n; ++v) {
+      const Index next = basin[v], beyond = basin[at(next)];
+      basin[v] = beyond, changed |= next ^ beyond;
+    }
   }
 
-  struct Pass {
-    Index vertex, a, b;  // the lower end of an edge between two basins
-  };
-  Vector<Pass> passes(&memory);
-  for (Index e = 0; e < topology.edge_count(); ++e) {
-    const Index v = topology.first(e), w = topology.second(e);
-    if (basin[at(v)] != basin[at(w)]) passes.push_back({less(v, w) ? v : w, basin[at(v)], basin[at(w)]});
+  // edges between two basins, with the lower end
+  Vector<Index> between(edge_ends / 2 + 1, &memory);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < edge_ends; i += 2) {
+    between[count] = static_cast<Index>(i / 2);
+    count += basin[at(edge[i])] != basin[at(edge[i + 1])];
   }
-  std::sort(passes.begin(), passes.end(), [&](const Pass& p, const Pass& q) {
-    if (p.vertex != q.vertex) return less(q.vertex, p.vertex);
+  struct Pass {
+    double height;
+    Index vertex, a, b;  // positions in peaks
+  };
+  Vector<Index> number(n, &memory);
+  for (std::size_t i = 0; i < peaks.size(); ++i) number[at(peaks[i].vertex)] = static_cast<Index>(i);
+  Vector<Pass> passes(&memory);
+  passes.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Index v = topology.first(between[i]), w = topology.second(between[i]), lower = less(v, w) ? v : w;
+    passes.push_back({field[at(lower)], lower, number[at(basin[at(v)])], number[at(basin[at(w)])]});
+  }
+  std::sort(passes.begin(), passes.end(), [](const Pass& p, const Pass& q) {
+    if (p.vertex != q.vertex) return p.height != q.height ? p.height > q.height : p.vertex > q.vertex;
     return p.a != q.a ? p.a < q.a : p.b < q.b;
   });
   Vector<Index> parent(peaks.size(), &memory);  // the root of a set is its highest peak

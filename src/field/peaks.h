@@ -1,9 +1,10 @@
 // Local maxima of a field with their persistence: how deep one must go down to get to a higher one.
 //
-// Every vertex belongs to the peak that steepest ascent over the edges leads to; edges between the basins of two peaks,
-// taken from the highest down, join them, and the lower peak dies there (the merge tree of the superlevel sets;
-// Edelsbrunner, Letscher and Zomorodian 2002). Ties are broken by vertex number.
-// Cost: O(E) and a sort of the edges between basins.
+// Every vertex belongs to a peak that some ascent over the edges leads to; edges between the basins of two peaks, taken
+// from the highest down, join them, and the lower peak dies there (the merge tree of the superlevel sets; Edelsbrunner,
+// Letscher and Zomorodian 2002). Which ascent does not matter: a vertex and its peak hang together above the vertex.
+// Ties are broken by vertex number.
+// Cost: O(E), a pass over the vertices for each doubling of the longest way up, and a sort of the edges between basins.
 #pragma once
 #include "base/span.h"
 #include "mesh/topology.h"

@@ -10,29 +10,93 @@ using Index = std::int32_t;
 std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 constexpr double far = std::numeric_limits<double>::infinity();
 
-// Shortest edge paths by corrections in steps of the distance: vertices nearer than the limit are worked off first come
+// The graph that is searched: patches of vertices, or the vertices themselves.
+struct Patches {
+  explicit Patches(Memory& memory)
+      : middle(&memory), component(&memory), area(&memory), start(&memory), neighbour(&memory), length(&memory) {}
+  Vector<Index> middle, component;
+  Vector<double> area;
+  Vector<Index> start, neighbour;  // of patch p: neighbour[start[p] .. start[p + 1])
+  Vector<double> length;           // to each neighbour
+};
+
+constexpr Index patch_size = 24, patches_per_sample = 16;
+
+// Grows the patch of the vertex `list[begin]`, two edges far, over vertices that have none; they are appended.
+void grow_patch(const Topology& topology, Index patch, std::size_t begin, Vector<Index>& patch_of,
+                Vector<Index>& list) {
+  std::size_t ring = begin;
+  for (int round = 0; round < 2; ++round) {
+    const std::size_t ring_end = list.size();
+    for (; ring < ring_end; ++ring) {
+      for (Index i = topology.neighbour_start[at(list[ring])]; i < topology.neighbour_start[at(list[ring]) + 1]; ++i) {
+        const Index w = topology.neighbour[at(i)];
+        if (patch_of[at(w)] != Mesh::none) continue;
+        patch_of[at(w)] = patch, list.push_back(w);
+        if (list.size() - begin == at(patch_size)) return;
+      }
+    }
+  }
+}
+
+Patches make_patches(const Mesh& mesh, const Topology& topology, const Vector<double>& areas, Index count,
+                     Memory& memory) {
+  const std::size_t n = mesh.positions.size();
+  Patches patches(memory);
+  Vector<std::int64_t> vertices(at(mesh.component_count()), 0, &memory);
+  for (std::size_t v = 0; v < n; ++v) ++vertices[at(mesh.component[v])];
+  Vector<Index> patch_of(n, Mesh::none, &memory), list(&memory), list_start(&memory);
+  list.reserve(n);
+  for (std::size_t v = 0; v < n; ++v) {
+    if (patch_of[v] != Mesh::none) continue;
+    const Index patch = static_cast<Index>(patches.middle.size());
+    const std::size_t begin = list.size();
+    patches.middle.push_back(static_cast<Index>(v)), patches.component.push_back(mesh.component[v]);
+    patch_of[v] = patch, list_start.push_back(static_cast<Index>(begin)), list.push_back(static_cast<Index>(v));
+    const bool coarse = vertices[at(mesh.component[v])] > std::int64_t{patch_size} * patches_per_sample * count;
+    if (coarse) grow_patch(topology, patch, begin, patch_of, list);
+    double area = 0;
+    for (std::size_t i = begin; i < list.size(); ++i) area += areas[at(list[i])];
+    patches.area.push_back(area);
+  }
+  list_start.push_back(static_cast<Index>(n));
+  // patches that an edge joins
+  Vector<Index> seen_by(patches.middle.size(), Mesh::none, &memory);
+  patches.start.push_back(0);
+  for (Index p = 0; at(p) < patches.middle.size(); ++p) {
+    const Vec3 middle = mesh.positions[at(patches.middle[at(p)])];
+    for (Index k = list_start[at(p)]; k < list_start[at(p) + 1]; ++k) {
+      const std::size_t v = at(list[at(k)]);
+      for (Index i = topology.neighbour_start[v]; i < topology.neighbour_start[v + 1]; ++i) {
+        const Index other = patch_of[at(topology.neighbour[at(i)])];
+        if (other == p || seen_by[at(other)] == p) continue;
+        seen_by[at(other)] = p;
+        patches.neighbour.push_back(other);
+        patches.length.push_back(norm(middle - mesh.positions[at(patches.middle[at(other)])]));
+      }
+    }
+    patches.start.push_back(static_cast<Index>(patches.neighbour.size()));
+  }
+  return patches;
+}
+
+// Shortest edge paths by corrections in steps of the distance: patches nearer than the limit are worked off first come
 // first served, those beyond it wait for the limit to rise (delta-stepping; Meyer and Sanders 2003, on one thread). The
 // distances are the same as by a heap, at a third of the time.
 class Search {
  public:
-  Search(const Mesh& mesh, const Topology& topology, Memory& memory)
-      : distance(mesh.positions.size(), far, &memory),
-        owner(mesh.positions.size(), Mesh::none, &memory),
-        topology_(topology),
-        length_(topology.neighbour.size(), &memory),
+  Search(const Patches& patches, Memory& memory)
+      : distance(patches.middle.size(), far, &memory),
+        owner(patches.middle.size(), Mesh::none, &memory),
+        patches_(patches),
         near_(&memory),
         waiting_(&memory) {
     double sum = 0;
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-      for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
-        length_[at(i)] = norm(mesh.positions[at(v)] - mesh.positions[at(topology.neighbour[at(i)])]);
-        sum += length_[at(i)];
-      }
-    }
-    step_ = 2 * sum / static_cast<double>(std::max<std::size_t>(1, length_.size()));
+    for (const double length : patches.length) sum += length;
+    step_ = 2 * sum / static_cast<double>(std::max<std::size_t>(1, patches.length.size()));
   }
 
-  // Vertices nearer to `source` than to all before become its own.
+  // Patches nearer to `source` than to all before become its own.
   void grow(Index source, Index name) {
     distance[at(source)] = 0, owner[at(source)] = name;
     near_.assign(1, source), waiting_.clear();
@@ -44,14 +108,14 @@ class Search {
   Vector<Index> owner;
 
  private:
-  // Empties the near list; returns the next limit with the vertices below it in the list.
+  // Empties the near list; returns the next limit with the patches below it in the list.
   double work_off(double limit, Index name) {
     for (std::size_t head = 0; head < near_.size(); ++head) {
       const Index v = near_[head];
       const double here = distance[at(v)];
-      for (Index i = topology_.neighbour_start[at(v)]; i < topology_.neighbour_start[at(v) + 1]; ++i) {
-        const Index w = topology_.neighbour[at(i)];
-        const double through = here + length_[at(i)];
+      for (Index i = patches_.start[at(v)]; i < patches_.start[at(v) + 1]; ++i) {
+        const Index w = patches_.neighbour[at(i)];
+        const double through = here + patches_.length[at(i)];
         if (!(through < distance[at(w)])) continue;
         distance[at(w)] = through, owner[at(w)] = name;
         (through < limit ? near_ : waiting_).push_back(w);
@@ -75,8 +139,7 @@ class Search {
     return next;
   }
 
-  const Topology& topology_;
-  Vector<double> length_;  // of the edge to each neighbour
+  const Patches& patches_;
   Vector<Index> near_, waiting_;
   double step_ = 1;
 };
@@ -90,42 +153,34 @@ SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, const V
   samples.count = count;
   samples.vertex.assign(components * at(count), Mesh::none);
   samples.share.assign(components * at(count), 0.0);
-  Search search(mesh, topology, memory);
+  const Patches patches = make_patches(mesh, topology, areas, count, memory);
+  Search search(patches, memory);
   Vector<Index> farthest(components, &memory);
   const auto find_farthest = [&] {
     std::fill(farthest.begin(), farthest.end(), Mesh::none);
-    if (components == 1) {
-      double most = -1;
-      Index best = Mesh::none;
-      for (Index v = 0; v < mesh.vertex_count(); ++v) {
-        if (search.distance[at(v)] > most) most = search.distance[at(v)], best = v;
-      }
-      farthest[0] = best;
-      return;
-    }
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-      Index& best = farthest[at(mesh.component[at(v)])];
-      if (best == Mesh::none || search.distance[at(v)] > search.distance[at(best)]) best = v;
+    for (std::size_t p = 0; p < patches.middle.size(); ++p) {
+      Index& best = farthest[at(patches.component[p])];
+      if (best == Mesh::none || search.distance[p] > search.distance[at(best)]) best = static_cast<Index>(p);
     }
   };
-  find_farthest();  // everything is far: the first vertex of each component
-  for (const Index v : farthest) search.grow(v, 0);
+  find_farthest();  // everything is far: the first of each component
+  for (const Index p : farthest) search.grow(p, 0);
   find_farthest();
   std::fill(search.distance.begin(), search.distance.end(), far);
   for (Index round = 0; round < count; ++round) {
     for (std::size_t c = 0; c < components; ++c) {
-      const Index v = farthest[c];
-      if (!(search.distance[at(v)] > 0)) continue;
-      samples.vertex[c * at(count) + at(round)] = v;
-      search.grow(v, round);
+      const Index p = farthest[c];
+      if (!(search.distance[at(p)] > 0)) continue;
+      samples.vertex[c * at(count) + at(round)] = patches.middle[at(p)];
+      search.grow(p, round);
     }
     find_farthest();
   }
   Vector<double> total(components, 0.0, &memory);
-  for (std::size_t v = 0; v < areas.size(); ++v) {
-    const std::size_t c = at(mesh.component[v]);
-    samples.share[c * at(count) + at(search.owner[v])] += areas[v];
-    total[c] += areas[v];
+  for (std::size_t p = 0; p < patches.area.size(); ++p) {
+    const std::size_t c = at(patches.component[p]);
+    samples.share[c * at(count) + at(search.owner[p])] += patches.area[p];
+    total[c] += patches.area[p];
   }
   for (std::size_t i = 0; i < samples.share.size(); ++i) {
     if (total[i / at(count)] > 0) samples.share[i] /= total[i / at(count)];

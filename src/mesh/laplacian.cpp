@@ -113,13 +113,20 @@ std::uint32_t count_negative(const Vector<double>& weights) noexcept {
   return static_cast<std::uint32_t>(std::count_if(weights.begin(), weights.end(), [](double w) { return w < 0; }));
 }
 
-Vector<double> vertex_areas(const Mesh& mesh, Memory& memory) {
+Vector<double> vertex_areas(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
+  Buffer<double> third(memory, at(mesh.triangle_count()));
+  in_pieces(jobs, third.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const Index* v = mesh.triangle(static_cast<Index>(t));
+      const Vec3 a = mesh.positions[at(v[0])];
+      const Vec3 normal = cross(mesh.positions[at(v[1])] - a, mesh.positions[at(v[2])] - a);
+      third[t] = std::sqrt(dot(normal, normal)) / 6.0;
+    }
+  });
   Vector<double> areas(mesh.positions.size(), 0.0, &memory);
-  for (Index t = 0; t < mesh.triangle_count(); ++t) {
-    const Index* v = mesh.triangle(t);
-    const Vec3 a = mesh.positions[at(v[0])];
-    const double third = norm(cross(mesh.positions[at(v[1])] - a, mesh.positions[at(v[2])] - a)) / 6.0;
-    for (int k = 0; k < 3; ++k) areas[at(v[k])] += third;
+  for (std::size_t t = 0; t < third.size(); ++t) {
+    const Index* v = mesh.triangle(static_cast<Index>(t));
+    for (int k = 0; k < 3; ++k) areas[at(v[k])] += third[t];
   }
   return areas;
 }

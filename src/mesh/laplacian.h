@@ -33,7 +33,7 @@ Vector<double> edge_weights(const Mesh& mesh, const Topology& topology, Operator
 std::uint32_t count_negative(const Vector<double>& weights) noexcept;
 
 // Lumped (barycentric) vertex areas: one third of the triangles around.
-Vector<double> vertex_areas(const Mesh& mesh, Memory& memory);
+Vector<double> vertex_areas(const Mesh& mesh, Memory& memory, JobRunner* jobs = nullptr);
 
 // Adds to every stored weight of K a share of the larger diagonal at its ends, keeping K 1 = 0: no vertex hangs on the
 // others by less than rounding. Weights stay non-negative.

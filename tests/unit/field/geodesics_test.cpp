@@ -121,4 +121,65 @@ TEST(SpreadSamples, are_far_apart_cover_every_component_and_share_its_area) {
   EXPECT_GT(nearest * core->mesh.scale, 1.0);  // the torus has an area of 79: discs of radius 1.4
 }
 
+// Distance from the nearest of the sources by Bellman and Ford, over the edges.
+std::vector<double> edge_distance(const hf::Core& core, const std::vector<std::int32_t>& sources) {
+  std::vector<double> d(static_cast<std::size_t>(core.size()), 1e9);
+  for (const std::int32_t s : sources) d[static_cast<std::size_t>(s)] = 0;
+  for (bool again = true; again;) {
+    again = false;
+    for (std::int32_t e = 0; e < core.topology.edge_count(); ++e) {
+      const std::size_t a = static_cast<std::size_t>(core.topology.first(e));
+      const std::size_t b = static_cast<std::size_t>(core.topology.second(e));
+      const double length = norm(core.mesh.positions[a] - core.mesh.positions[b]);
+      if (d[a] + length < d[b]) d[b] = d[a] + length, again = true;
+      if (d[b] + length < d[a]) d[a] = d[b] + length, again = true;
+    }
+  }
+  return d;
+}
+
+// What Gonzalez's choice gives: no vertex is much farther from the samples than they are from one another, and the
+// shares are about those of the vertices nearest to each. By patches (10,000 vertices, 12 samples) and without (30).
+TEST(SpreadSamples, lie_as_far_apart_as_the_surface_is_from_them_by_patches_too) {
+  const PlainMesh mesh = hf_test::torus(125, 80);
+  const auto core = hf_test::make_core(mesh);
+  for (const std::int32_t count : {12, 30}) {
+    const auto samples = hf::spread_samples(core->mesh, core->topology, core->areas, count, *core->memory);
+    const std::vector<std::int32_t> chosen(samples.vertex.begin(), samples.vertex.end());
+    const std::vector<double> nearest = edge_distance(*core, chosen);
+    const double radius = *std::max_element(nearest.begin(), nearest.end());
+    double apart = 1e9, worst_share = 0;
+    std::vector<std::vector<double>> from;
+    for (const std::int32_t s : chosen) from.push_back(edge_distance(*core, {s}));
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) apart = std::min(apart, from[i][static_cast<std::size_t>(chosen[j])]);
+      double share = 0, total = 0;
+      for (std::size_t v = 0; v < core->areas.size(); ++v) {
+        total += core->areas[v];
+        if (from[i][v] == nearest[v]) share += core->areas[v];
+      }
+      worst_share = std::max(worst_share, std::fabs(share / total - samples.share[i]) * count);
+    }
+    EXPECT_LT(radius, 1.25 * apart) << count;
+    EXPECT_LT(worst_share, count == 12 ? 0.35 : 1e-9) << count;
+  }
+}
+
+TEST(SpreadSamples, are_as_many_as_asked_for_around_a_vertex_of_ten_thousand_edges) {
+  const std::uint32_t around = 10000;
+  PlainMesh fan;
+  fan.positions = {0, 0, 0};
+  for (std::uint32_t i = 0; i < around; ++i) {
+    const double angle = 8 * std::atan(1.0) * i / around;
+    fan.positions.insert(fan.positions.end(), {std::cos(angle), std::sin(angle), 0.0});
+    fan.triangles.insert(fan.triangles.end(), {0, i + 1, (i + 1) % around + 1});
+  }
+  const auto core = hf_test::make_core(fan);
+  const auto samples = hf::spread_samples(core->mesh, core->topology, core->areas, 8, *core->memory);
+  double sum = 0;
+  for (const double share : samples.share) sum += share;
+  EXPECT_NEAR(sum, 1, 1e-12);
+  EXPECT_EQ(std::count(samples.vertex.begin(), samples.vertex.end(), hf::Mesh::none), 0);
+}
+
 }  // namespace

@@ -1,0 +1,12 @@
+// directions.inl on eight lanes: built with -mavx512f, chosen at run time.
+#include "field/directions.h"
+#include "field/directions.inl"
+
+namespace hf {
+
+void add_directions_avx512(const DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept;
+void add_directions_avx512(const DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept {
+  add_directions_range(job, begin, end);
+}
+
+}  // namespace hf
