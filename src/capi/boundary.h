@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/float_environment.h"
 #include "base/span.h"
+#include "capi/first_sizes.h"
 
 namespace hf::capi {
 
@@ -37,12 +38,14 @@ inline void require(const void* pointer, const char* name) {
   if (!pointer) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s is NULL", name);
 }
 
-// Checks struct_size: at least the first version of the struct, and zero in every byte this version does not know.
+// Checks struct_size: the size of the first version of the struct, or that of this one or more, and zero in every byte
+// this version does not know.
 template <class T>
-void check_struct(const T* given, const char* name, std::size_t first_size = sizeof(T)) {
+void check_struct(const T* given, const char* name) {
   require(given, name);
   constexpr std::uint32_t most = 4096;
-  if (given->struct_size < first_size || given->struct_size > most) {
+  const bool known = given->struct_size == first_size<T> || given->struct_size >= sizeof(T);
+  if (!known || given->struct_size > most) {
     fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "%s: struct_size is %u; set it to sizeof (%zu here), as HF_INIT does",
          name, given->struct_size, sizeof(T));
   }
@@ -56,8 +59,8 @@ void check_struct(const T* given, const char* name, std::size_t first_size = siz
 
 // A copy of a desc with what the caller's version lacks at zero.
 template <class T>
-T read_struct(const T* given, const char* name, std::size_t first_size = sizeof(T)) {
-  check_struct(given, name, first_size);
+T read_struct(const T* given, const char* name) {
+  check_struct(given, name);
   T copy;
   std::memset(static_cast<void*>(&copy), 0, sizeof copy);
   std::memcpy(static_cast<void*>(&copy), given, given->struct_size < sizeof(T) ? given->struct_size : sizeof(T));

@@ -203,46 +203,53 @@ static const struct {
   void (*fill)(void*);
   hf_result (*call)(void*);
   int optional; /* NULL is allowed */
+  size_t first; /* size in the first version that had the struct; 0: it has not grown */
 } structs[] = {
-    {"hf_create: desc", sizeof(hf_create_desc), fill_create, create, 0},
-    {"hf_create: desc->saved_factor", sizeof(hf_factor_desc), fill_factor, create_loaded, 1},
-    {"hf_get_mesh_report: out_report", sizeof(hf_mesh_report), fill_report, get_mesh_report, 0},
-    {"hf_get_statistics: out_statistics", sizeof(hf_statistics), fill_statistics, get_statistics, 0},
-    {"hf_add_sites: sites", sizeof(hf_sites_desc), fill_sites, add_sites, 0},
-    {"hf_move_sites: to", sizeof(hf_sites_desc), fill_places, move_sites, 0},
-    {"hf_edit_sites: edit", sizeof(hf_edit_desc), fill_edit, edit_sites, 0},
-    {"hf_edit_sites: edit->add", sizeof(hf_sites_desc), fill_sites, edit_add, 1},
-    {"hf_edit_sites: edit->move_to", sizeof(hf_sites_desc), fill_places, edit_move, 0},
-    {"hf_get_sites: out_info", sizeof(hf_site_info), fill_site_info, get_sites, 0},
-    {"hf_solve: out_info", sizeof(hf_solve_info), fill_solve_info, solve, 1},
-    {"hf_solve_f64: out_info", sizeof(hf_solve_info), fill_solve_info, solve_f64, 1},
-    {"hf_solve_preview: out_info", sizeof(hf_preview_info), fill_preview_info, solve_preview, 1},
-    {"hf_solve_preview_f64: out_info", sizeof(hf_preview_info), fill_preview_info, solve_preview_f64, 1},
-    {"hf_solve_vectors: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors, 1},
-    {"hf_solve_vectors_f64: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors_f64, 1},
-    {"hf_pose_create: desc", sizeof(hf_pose_desc), fill_pose, pose_create, 1},
-    {"hf_pose_add_handles: handles", sizeof(hf_handles_desc), fill_handles, pose_add_handles, 0},
-    {"hf_pose_get_skin: info", sizeof(hf_skin_info), fill_pose_skin, pose_get_skin, 0},
-    {"hf_pose_get_handle: out_info", sizeof(hf_handle_info), fill_handle_info, pose_get_handle, 0},
-    {"hf_deform: desc", sizeof(hf_deform_desc), fill_deform, deform, 0},
-    {"hf_deform: out_info", sizeof(hf_deform_info), fill_deform_info, deform_info, 1},
-    {"hf_transfer_create: desc", sizeof(hf_transfer_desc), fill_transfer, transfer_create, 1},
-    {"hf_transfer_add_pairs: pairs", sizeof(hf_pairs_desc), fill_pairs, transfer_add_pairs, 0},
-    {"hf_transfer_get_pair: out_info", sizeof(hf_pair_info), fill_pair_info, transfer_get_pair, 0},
-    {"hf_transfer_get_info: out_info", sizeof(hf_transfer_info), fill_transfer_info, transfer_get_info, 0},
-    {"hf_transfer_apply: frame", sizeof(hf_transfer_frame), fill_frame, transfer_apply, 0},
-    {"hf_space_levels: field", sizeof(hf_scalars), fill_scalars, space_levels, 0},
-    {"hf_trace_isolines: field", sizeof(hf_scalars), fill_scalars, trace_field, 0},
-    {"hf_trace_isolines: out_lines", sizeof(hf_isolines), fill_isolines, trace_isolines, 0},
-    {"hf_find_critical_points: field", sizeof(hf_scalars), fill_scalars, critical_field, 0},
-    {"hf_find_critical_points: out_info", sizeof(hf_critical_info), fill_critical_info, critical_info, 1},
-    {"hf_geodesics_create: desc", sizeof(hf_geodesics_desc), fill_geodesics, geodesics_create, 1},
-    {"hf_find_extremities: desc", sizeof(hf_extremities_desc), fill_extremities, find_extremities, 1},
-    {"hf_direction_create: desc", sizeof(hf_direction_desc), fill_direction, direction_create, 1},
-    {"hf_direction_solve: out_info", sizeof(hf_solve_info), fill_solve_info, direction_solve, 1},
-    {"hf_direction_solve_f64: out_info", sizeof(hf_solve_info), fill_solve_info, direction_solve_f64, 1},
-    {"hf_direction_get_statistics: out_statistics", sizeof(hf_direction_statistics), fill_direction_statistics, direction_statistics, 0},
-    {"hf_transfer_get_skin: info", sizeof(hf_skin_info), fill_skin, transfer_get_skin, 0},
+    {"hf_create: desc", sizeof(hf_create_desc), fill_create, create, 0, offsetof(hf_create_desc, saved_factor)},
+    {"hf_create: desc->saved_factor", sizeof(hf_factor_desc), fill_factor, create_loaded, 1, 0},
+    {"hf_get_mesh_report: out_report", sizeof(hf_mesh_report), fill_report, get_mesh_report, 0, 0},
+    {"hf_get_statistics: out_statistics", sizeof(hf_statistics), fill_statistics, get_statistics, 0,
+     offsetof(hf_statistics, load_ms)},
+    {"hf_add_sites: sites", sizeof(hf_sites_desc), fill_sites, add_sites, 0, offsetof(hf_sites_desc, radii)},
+    {"hf_move_sites: to", sizeof(hf_sites_desc), fill_places, move_sites, 0, offsetof(hf_sites_desc, radii)},
+    {"hf_edit_sites: edit", sizeof(hf_edit_desc), fill_edit, edit_sites, 0, 0},
+    {"hf_edit_sites: edit->add", sizeof(hf_sites_desc), fill_sites, edit_add, 1, offsetof(hf_sites_desc, radii)},
+    {"hf_edit_sites: edit->move_to", sizeof(hf_sites_desc), fill_places, edit_move, 0, offsetof(hf_sites_desc, radii)},
+    {"hf_get_sites: out_info", sizeof(hf_site_info), fill_site_info, get_sites, 0, offsetof(hf_site_info, radii)},
+    {"hf_solve: out_info", sizeof(hf_solve_info), fill_solve_info, solve, 1, 0},
+    {"hf_solve_f64: out_info", sizeof(hf_solve_info), fill_solve_info, solve_f64, 1, 0},
+    {"hf_solve_preview: out_info", sizeof(hf_preview_info), fill_preview_info, solve_preview, 1, 0},
+    {"hf_solve_preview_f64: out_info", sizeof(hf_preview_info), fill_preview_info, solve_preview_f64, 1, 0},
+    {"hf_solve_vectors: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors, 1, 0},
+    {"hf_solve_vectors_f64: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors_f64, 1, 0},
+    {"hf_pose_create: desc", sizeof(hf_pose_desc), fill_pose, pose_create, 1, 0},
+    {"hf_pose_add_handles: handles", sizeof(hf_handles_desc), fill_handles, pose_add_handles, 0,
+     offsetof(hf_handles_desc, points)},
+    {"hf_pose_get_skin: info", sizeof(hf_skin_info), fill_pose_skin, pose_get_skin, 0, offsetof(hf_skin_info, axes)},
+    {"hf_pose_get_handle: out_info", sizeof(hf_handle_info), fill_handle_info, pose_get_handle, 0,
+     offsetof(hf_handle_info, rotation)},
+    {"hf_deform: desc", sizeof(hf_deform_desc), fill_deform, deform, 0, offsetof(hf_deform_desc, first_vertex)},
+    {"hf_deform: out_info", sizeof(hf_deform_info), fill_deform_info, deform_info, 1,
+     offsetof(hf_deform_info, refine_ms)},
+    {"hf_transfer_create: desc", sizeof(hf_transfer_desc), fill_transfer, transfer_create, 1, 0},
+    {"hf_transfer_add_pairs: pairs", sizeof(hf_pairs_desc), fill_pairs, transfer_add_pairs, 0, 0},
+    {"hf_transfer_get_pair: out_info", sizeof(hf_pair_info), fill_pair_info, transfer_get_pair, 0, 0},
+    {"hf_transfer_get_info: out_info", sizeof(hf_transfer_info), fill_transfer_info, transfer_get_info, 0, 0},
+    {"hf_transfer_apply: frame", sizeof(hf_transfer_frame), fill_frame, transfer_apply, 0,
+     offsetof(hf_transfer_frame, hold_count)},
+    {"hf_space_levels: field", sizeof(hf_scalars), fill_scalars, space_levels, 0, 0},
+    {"hf_trace_isolines: field", sizeof(hf_scalars), fill_scalars, trace_field, 0, 0},
+    {"hf_trace_isolines: out_lines", sizeof(hf_isolines), fill_isolines, trace_isolines, 0, 0},
+    {"hf_find_critical_points: field", sizeof(hf_scalars), fill_scalars, critical_field, 0, 0},
+    {"hf_find_critical_points: out_info", sizeof(hf_critical_info), fill_critical_info, critical_info, 1, 0},
+    {"hf_geodesics_create: desc", sizeof(hf_geodesics_desc), fill_geodesics, geodesics_create, 1, 0},
+    {"hf_find_extremities: desc", sizeof(hf_extremities_desc), fill_extremities, find_extremities, 1, 0},
+    {"hf_direction_create: desc", sizeof(hf_direction_desc), fill_direction, direction_create, 1, 0},
+    {"hf_direction_solve: out_info", sizeof(hf_solve_info), fill_solve_info, direction_solve, 1, 0},
+    {"hf_direction_solve_f64: out_info", sizeof(hf_solve_info), fill_solve_info, direction_solve_f64, 1, 0},
+    {"hf_direction_get_statistics: out_statistics", sizeof(hf_direction_statistics), fill_direction_statistics,
+     direction_statistics, 0, 0},
+    {"hf_transfer_get_skin: info", sizeof(hf_skin_info), fill_skin, transfer_get_skin, 0, offsetof(hf_skin_info, axes)},
 };
 
 enum { SPACE = 5000 };
@@ -265,7 +272,9 @@ static void every_struct_is_checked_before_anything_is_done(void** state) {
   for (size_t s = 0; s < COUNT_OF(structs); ++s) {
     const char* what = structs[s].what;
     const uint32_t size = (uint32_t)structs[s].size;
-    const uint32_t refused[] = {0, 1, 4, size / 2, size - 1, SPACE - 1, 0x80000000u, UINT32_MAX};
+    const uint32_t first = structs[s].first ? (uint32_t)structs[s].first : size;
+    const uint32_t refused[] = {0, 1, 4, first / 2, first - 1, size - 1, first + (size - first) / 2 - (first == size),
+                                SPACE - 1, 0x80000000u, UINT32_MAX};
     if (!structs[s].optional) check_row(__LINE__, "NULL", what, structs[s].call(NULL), HF_ERROR_NULL_POINTER, NO_INDEX);
     for (size_t r = 0; r < COUNT_OF(refused); ++r) {
       check_row(__LINE__, "struct_size wrong", what, structs[s].call(good(s, refused[r])), HF_ERROR_INVALID_DESC,
@@ -301,6 +310,30 @@ static void a_longer_struct_with_zero_bytes_is_accepted_and_only_its_known_part_
   finish_rows("longer structs");
 }
 
+static void a_struct_of_its_first_version_is_accepted_and_nothing_beyond_it_is_read_or_written(void** state) {
+  (void)state;
+  int grown = 0;
+  for (size_t s = 0; s < COUNT_OF(structs); ++s) {
+    if (structs[s].first == 0) continue;
+    assert_true(structs[s].first < structs[s].size);
+    const uint32_t first = (uint32_t)structs[s].first;
+    scene_create(&scene);
+    void* older = good(s, first);
+    memset(given.bytes + first, 0xAB, sizeof given.bytes - first); /* the caller's own, whatever it is */
+    check_row(__LINE__, "a struct of the first version", structs[s].what, structs[s].call(older), HF_OK, NO_INDEX);
+    uint32_t stored;
+    memcpy(&stored, given.bytes, sizeof stored);
+    row_holds(__LINE__, structs[s].what, "struct_size is left as it was", stored == first);
+    int written = 0;
+    for (size_t i = first; i < SPACE; ++i) written |= given.bytes[i] != 0xAB;
+    row_holds(__LINE__, structs[s].what, "bytes behind the struct are not written", !written);
+    scene_destroy(&scene);
+    ++grown;
+  }
+  assert_true(grown >= 10);
+  finish_rows("older structs");
+}
+
 static void hf_init_desc_zeroes_exactly_the_size_it_is_given(void** state) {
   (void)state;
   unsigned char bytes[64];
@@ -319,6 +352,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_struct_is_checked_before_anything_is_done),
       cmocka_unit_test(a_longer_struct_with_zero_bytes_is_accepted_and_only_its_known_part_is_written),
+      cmocka_unit_test(a_struct_of_its_first_version_is_accepted_and_nothing_beyond_it_is_read_or_written),
       cmocka_unit_test(hf_init_desc_zeroes_exactly_the_size_it_is_given),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,122 @@
+// What a frame writes: the blend on every kind of lanes, normals by pieces, weights in whole steps.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <numeric>
+#include <random>
+
+#include "cases.h"
+#include "deform/blend_rows.h"
+
+namespace {
+
+using namespace hf;
+using namespace deform_test;
+
+// The plane with its vertices in any order: every piece of vertices has triangles that lie across to all others.
+Case scattered_plane() {
+  Case c = plane_lift();
+  const std::size_t n = c.mesh.vertex_count();
+  std::vector<std::uint32_t> to(n);
+  std::iota(to.begin(), to.end(), 0u);
+  std::mt19937 random(5);
+  std::shuffle(to.begin(), to.end(), random);
+  const hf_test::PlainMesh before = c.mesh;
+  for (std::size_t v = 0; v < n; ++v) std::copy_n(&before.positions[3 * v], 3, &c.mesh.positions[3 * to[v]]);
+  for (auto& corner : c.mesh.triangles) corner = to[corner];
+  return c;
+}
+
+std::vector<Vec3> normals_one_by_one(const Mesh& mesh, const std::vector<Vec3>& x) {
+  std::vector<Vec3> sum(x.size());
+  for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
+    const std::int32_t* k = mesh.triangle(t);
+    const Vec3 n = cross(x[k[1]] - x[k[0]], x[k[2]] - x[k[0]]);
+    for (int c = 0; c < 3; ++c) sum[k[c]] = sum[k[c]] + n;
+  }
+  for (Vec3& n : sum) n = (1 / norm(n)) * n;
+  return sum;
+}
+
+TEST(Frame, NormalsAreThoseOfTheTrianglesRoundAVertexWhateverThePieces) {
+  for (const Case& c : {plane_lift(), scattered_plane(), cactus_bend(70, 9000)}) {
+    const Dragged d = drag(c, {}, 3);
+    ASSERT_GT(d.core->size(), 2 * vertex_piece);
+    const DeformReport report = d.pose->deform({true, 1, false});
+    const std::vector<Vec3> wanted = normals_one_by_one(d.core->mesh, positions(report));
+    ASSERT_EQ(report.normals.size(), wanted.size());
+    double off = 0;
+    for (std::size_t v = 0; v < wanted.size(); ++v) off = std::max(off, norm(to_vec3(report.normals[v]) - wanted[v]));
+    EXPECT_LT(off, 1e-6) << c.name;
+  }
+}
+
+// Sizes where a normal of a triangle, or its square, leaves single precision.
+TEST(Frame, NormalsHoldForTinyAndHugeSurfaces) {
+  const Case c = cactus_bend(70, 1500);
+  const auto core = hf_test::make_core(c.mesh, 1);
+  const Rest rest(*core, *core->memory);
+  const std::vector<Vec3> p = deform_test::rest(*core);
+  const std::vector<Vec3> wanted = normals_one_by_one(core->mesh, p);
+  std::vector<NormalSum> sums(p.size());
+  std::vector<Normal> normals(p.size());
+  for (const double size : {1e-15, 1e-9, 1e-4, 1.0, 1e4, 1e9, 1e14}) {
+    std::vector<Vec3> x;
+    for (const Vec3& q : p) x.push_back(size * q);
+    vertex_normals(core->mesh, rest, x.data(), sums.data(), normals.data(), *core->jobs);
+    double off = 0;
+    for (std::size_t v = 0; v < p.size(); ++v) off = std::max(off, norm(to_vec3(normals[v]) - wanted[v]));
+    EXPECT_LT(off, 1e-6) << size;
+  }
+  const std::vector<Vec3> point(p.size(), p[0]);
+  vertex_normals(core->mesh, rest, point.data(), sums.data(), normals.data(), *core->jobs);
+  for (const Normal& n : normals) EXPECT_TRUE(n.x == 0 && n.y == 0 && n.z == 1);
+}
+
+TEST(Frame, WeightsAreWholeStepsAndSumToOneExactly) {
+  const Case c = cactus_bend();
+  Dragged d = set_up(c, {});
+  add(*d.pose, {select(*d.core, [](Vec3 p) { return p.x > 0.55; }), select(*d.core, [](Vec3 p) { return p.x < -0.5; })});
+  const ClusterWeights& w = *d.pose->weights();
+  std::size_t shared = 0;
+  for (std::int32_t v = 0; v < d.core->size(); ++v) {
+    double sum = 0;
+    for (std::int32_t k = w.start[v]; k < w.start[v + 1]; ++k) {
+      const double steps = 16777216.0 * w.weight[k];
+      EXPECT_EQ(steps, std::floor(steps));
+      EXPECT_GE(steps, 1);
+      sum += w.weight[k];
+    }
+    EXPECT_EQ(sum, 1) << v;
+    shared += w.start[v + 1] - w.start[v] > 3;
+  }
+  EXPECT_GT(shared, 1000u);
+}
+
+TEST(Frame, TheBlendHasTheSameBitsOnAllLanes) {
+  const Case c = cactus_bend();
+  const Dragged d = drag(c, {}, 4);
+  const Mesh& mesh = d.core->mesh;
+  const ClusterWeights& w = *d.pose->weights();
+  const Span<const Affine> transforms = d.pose->cluster_transforms();
+  std::vector<Vec3> plain;
+  for (std::int32_t v = 0; v < d.core->size(); ++v)
+    plain.push_back(mesh.centre + mesh.scale * blend_vertex(mesh, w, transforms.data(), v));
+  Buffer<double> columns(*d.core->memory, column_count(w));
+  std::vector<Vec3> x(plain.size());
+  std::vector<float> packed(3 * plain.size(), -1);
+  blend(mesh, w, transforms.data(), columns.data(), mesh.centre, mesh.scale, x.data(), packed.data(), *d.core->jobs);
+  EXPECT_EQ(std::memcmp(x.data(), plain.data(), x.size() * sizeof(Vec3)), 0);
+  for (std::size_t i = 0; i < packed.size(); ++i) ASSERT_EQ(packed[i], static_cast<float>((&x[0].x)[i]));
+#if defined(__x86_64__) && defined(__GNUC__)
+  const BlendRows rows{w.start.data(), w.cluster.data(), w.weight.data(), columns.data(), &mesh.positions.data()->x,
+                       {mesh.centre.x, mesh.centre.y, mesh.centre.z}, mesh.scale, &x[0].x};
+  if (__builtin_cpu_supports("avx2")) {
+    std::fill(x.begin(), x.end(), Vec3());
+    blend_rows_avx2(rows, 0, d.core->size());
+    EXPECT_EQ(std::memcmp(x.data(), plain.data(), x.size() * sizeof(Vec3)), 0);
+  }
+#endif
+}
+
+}  // namespace
