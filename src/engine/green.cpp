@@ -211,9 +211,9 @@ void GreenSolver::sweep(const double* values, Index channels, Index first, Index
   ++sweeps_;
 }
 
-// Points so crowded that the dense solve leaves fewer than ten digits get one step too.
+// Points so crowded that the dense solve may leave fewer than ten digits get one step too.
 GreenSolver::Index GreenSolver::refinements() const noexcept {
-  constexpr double crowded = 1e-6;
+  constexpr double crowded = 1e-4;
   if (core_->refinements > 0) return core_->refinements;
   for (const auto& block : state_.blocks) {
     if (block && block->least_pivot() < crowded) return 1;
