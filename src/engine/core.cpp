@@ -96,7 +96,8 @@ void make_operator(Core& core, const CoreOptions& options, int cap) {
     core.laplacian = hf::laplacian(core.topology, core.weights, pool, core.jobs.get());
     if (options.field_kind == FieldKind::biharmonic) areas.assign(core.areas.begin(), core.areas.end());
   }
-  if (options.field_kind == FieldKind::harmonic && tie_shares[cap] > 0) tie_weakly(core.laplacian, tie_shares[cap], pool);
+  if (options.field_kind == FieldKind::harmonic && tie_shares[cap] > 0)
+    tie_weakly(core.laplacian, tie_shares[cap], pool);
   if (options.field_kind != FieldKind::harmonic) {
     if (options.field_kind == FieldKind::biharmonic) areas = inverse_masses(core.mesh, std::move(areas));
     cap_weights(core.laplacian, weight_caps[cap], pool);
