@@ -52,12 +52,13 @@ int main(int argc, char** argv) {
     if (outcome.ending != hostile::Ending::wrong) continue;
     std::fprintf(stderr, "file %" PRIu64 ": %s\n", i, outcome.what.c_str());
     const std::string name = "wrong_" + std::to_string(i) + ".glb";
-    std::ofstream(name, std::ios::binary).write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
+    std::ofstream(name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
     std::fprintf(stderr, "  kept as %s\n", name.c_str());
     if (++wrong > 10) break;
   }
-  std::printf("%" PRIu64 " used, %" PRIu64 " of them solved, %" PRIu64 " refused%s\n", used, solved, executions - used - wrong,
-              sanitized ? ", sanitized" : "");
+  std::printf("%" PRIu64 " used, %" PRIu64 " of them solved, %" PRIu64 " refused%s\n", used, solved,
+              executions - used - wrong, sanitized ? ", sanitized" : "");
   report_at_least("gltf_seeds_solved", static_cast<double>(sound), static_cast<double>(own));
   report_at_least("gltf_executed", static_cast<double>(executions), static_cast<double>(count));
   report_at_least("gltf_solved", static_cast<double>(solved), 0.1 * static_cast<double>(count));

@@ -71,18 +71,61 @@ Word word_near(const std::string& text, std::size_t at) {
   return {first, end - first};
 }
 
-const char* const nonsense[] = {"0", "1", "2", "3", "-1", "255", "65535", "65536", "4294967295", "4294967296", "2147483648",
-                                "18446744073709551615", "1e308", "-1e308", "1e30", "1e-30", "0.5", "5120", "5121", "5123", "5125", "5126",
-                                "null", "true", "{}", "[]", "[[[[]]]]", "\"\"", "\"VEC3\"", "\"MAT4\"", "\"SCALAR\"", "\"POSITION\"",
-                                "\"LINEAR\"", "\"CUBICSPLINE\"", "\"translation\"", "\"weights\"", "\"../../etc/passwd\"",
-                                "\"data:application/octet-stream;base64,AAAA\"", "\"\\u0000\"", "\"\xff\xfe\"", ",", "]", "}", "\"extras\":1,"};
+const char* const nonsense[] = {"0",
+                                "1",
+                                "2",
+                                "3",
+                                "-1",
+                                "255",
+                                "65535",
+                                "65536",
+                                "4294967295",
+                                "4294967296",
+                                "2147483648",
+                                "18446744073709551615",
+                                "1e308",
+                                "-1e308",
+                                "1e30",
+                                "1e-30",
+                                "0.5",
+                                "5120",
+                                "5121",
+                                "5123",
+                                "5125",
+                                "5126",
+                                "null",
+                                "true",
+                                "{}",
+                                "[]",
+                                "[[[[]]]]",
+                                "\"\"",
+                                "\"VEC3\"",
+                                "\"MAT4\"",
+                                "\"SCALAR\"",
+                                "\"POSITION\"",
+                                "\"LINEAR\"",
+                                "\"CUBICSPLINE\"",
+                                "\"translation\"",
+                                "\"weights\"",
+                                "\"../../etc/passwd\"",
+                                "\"data:application/octet-stream;base64,AAAA\"",
+                                "\"\\u0000\"",
+                                "\"\xff\xfe\"",
+                                ",",
+                                "]",
+                                "}",
+                                "\"extras\":1,"};
 
 void mutate_text(std::string& text, const std::string& other, Random& random) {
   if (text.empty()) return;
   const Word word = word_near(text, random() % text.size());
   switch (random() % 6) {
-    case 0: text.erase(word.first, word.size); break;
-    case 1: text.insert(word.first, text.substr(word.first, word.size)); break;
+    case 0:
+      text.erase(word.first, word.size);
+      break;
+    case 1:
+      text.insert(word.first, text.substr(word.first, word.size));
+      break;
     case 2: {
       const Word second = word_near(text, random() % text.size());
       text.replace(word.first, word.size, text.substr(second.first, second.size));
@@ -94,15 +137,24 @@ void mutate_text(std::string& text, const std::string& other, Random& random) {
         text.insert(word.first, other.substr(at, 1 + random() % 60));
       }
       break;
-    default: text.replace(word.first, word.size, nonsense[random() % (sizeof nonsense / sizeof *nonsense)]);
+    default:
+      text.replace(word.first, word.size, nonsense[random() % (sizeof nonsense / sizeof *nonsense)]);
   }
 }
 
 void mutate_numbers(File& bytes, Random& random) {
   if (bytes.size() < 12) return;
   const std::size_t at = 8 + random() % (bytes.size() - 11) / 4 * 4;
-  const float floats[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e30f, -3e38f, 0, 1e-30f,
-                          1e-42f, 1, -1, 1e7f};
+  const float floats[] = {std::numeric_limits<float>::quiet_NaN(),
+                          std::numeric_limits<float>::infinity(),
+                          1e30f,
+                          -3e38f,
+                          0,
+                          1e-30f,
+                          1e-42f,
+                          1,
+                          -1,
+                          1e7f};
   const std::uint32_t words[] = {0, 1, 2, 11, 12, 255, 65535, 0x7fffffff, 0x80000000, 0xffffffff};
   if (at + 4 > bytes.size()) return;
   if (random() % 2)
@@ -115,11 +167,21 @@ void mutate_bytes(File& file, Random& random) {
   if (file.empty()) return;
   const std::size_t at = random() % file.size();
   switch (random() % 5) {
-    case 0: file.resize(at); break;
-    case 1: file.insert(file.begin() + static_cast<std::ptrdiff_t>(at), 1 + random() % 8, static_cast<std::uint8_t>(random())); break;
-    case 2: file.erase(file.begin() + static_cast<std::ptrdiff_t>(at)); break;
-    case 3: file[at] = static_cast<std::uint8_t>(random()); break;
-    default: file[at] = static_cast<std::uint8_t>(file[at] ^ (1u << random() % 8));
+    case 0:
+      file.resize(at);
+      break;
+    case 1:
+      file.insert(file.begin() + static_cast<std::ptrdiff_t>(at), 1 + random() % 8,
+                  static_cast<std::uint8_t>(random()));
+      break;
+    case 2:
+      file.erase(file.begin() + static_cast<std::ptrdiff_t>(at));
+      break;
+    case 3:
+      file[at] = static_cast<std::uint8_t>(random());
+      break;
+    default:
+      file[at] = static_cast<std::uint8_t>(file[at] ^ (1u << random() % 8));
   }
 }
 
@@ -134,14 +196,17 @@ File sheet_file() {
         positions.insert(positions.end(), {x0 + float(i), float(j), 0.25f * float((i * 7 + j * 3) % 5)});
         if (i + 1 == width || j + 1 == width) continue;
         const std::uint16_t a = static_cast<std::uint16_t>(j * width + i), up = static_cast<std::uint16_t>(a + width);
-        for (const int v : {int(a), a + 1, up + 1, int(a), up + 1, int(up)}) indices.push_back(static_cast<std::uint16_t>(v));
+        for (const int v : {int(a), a + 1, up + 1, int(a), up + 1, int(up)})
+          indices.push_back(static_cast<std::uint16_t>(v));
       }
     }
     const int accessor = b.floats(positions, "VEC3");
-    return nlohmann::json{{"attributes", {{"POSITION", accessor}}}, {"indices", b.accessor(b.view(indices), indices.size(), "SCALAR", 5123)}};
+    return nlohmann::json{{"attributes", {{"POSITION", accessor}}},
+                          {"indices", b.accessor(b.view(indices), indices.size(), "SCALAR", 5123)}};
   };
   b.document["meshes"] = {{{"primitives", {sheet(0, 5), sheet(4, 5)}}}, {{"primitives", {sheet(30, 3)}}}};
-  b.document["nodes"] = {{{"mesh", 0}, {"children", {1}}}, {{"mesh", 1}, {"rotation", {0, 0.6, 0, 0.8}}, {"scale", {2, 1, -1}}}};
+  b.document["nodes"] = {{{"mesh", 0}, {"children", {1}}},
+                         {{"mesh", 1}, {"rotation", {0, 0.6, 0, 0.8}}, {"scale", {2, 1, -1}}}};
   b.document["scenes"] = {{{"nodes", {0}}}};
   b.document["scene"] = 0;
   return b.glb();
@@ -156,8 +221,9 @@ File quantised_file() {
   }
   const int accessor = b.accessor(b.view(positions, 8), 9, "VEC3", 5122);
   const int colours = b.accessor(b.view(std::vector<std::uint8_t>(36, 200), 4), 9, "VEC4", 5121, true);
-  b.triangle_mesh({{"POSITION", accessor}, {"COLOR_0", colours}})["indices"] =
-      b.accessor(b.view(std::vector<std::uint8_t>{0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 3, 4, 7, 3, 7, 6, 4, 5, 8, 4, 8, 7}), 24, "SCALAR", 5121);
+  b.triangle_mesh({{"POSITION", accessor}, {"COLOR_0", colours}})["indices"] = b.accessor(
+      b.view(std::vector<std::uint8_t>{0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 3, 4, 7, 3, 7, 6, 4, 5, 8, 4, 8, 7}), 24,
+      "SCALAR", 5121);
   b.document["extensionsUsed"] = b.document["extensionsRequired"] = {"KHR_mesh_quantization"};
   return b.glb();
 }
@@ -186,7 +252,8 @@ std::vector<File> shared_seeds(std::size_t most) {
   if (folder.empty()) return {};
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "hostile")) {
     const std::string extension = entry.path().extension().string();
-    if (entry.is_regular_file() && entry.file_size() <= most && (extension == ".gltf" || extension == ".glb")) names.push_back(entry.path());
+    if (entry.is_regular_file() && entry.file_size() <= most && (extension == ".gltf" || extension == ".glb"))
+      names.push_back(entry.path());
   }
   std::sort(names.begin(), names.end());
   std::vector<File> files;

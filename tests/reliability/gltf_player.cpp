@@ -42,7 +42,8 @@ bool solve(const FlatMesh& mesh) {
   if (made != HF_OK) {
     hold(solver == nullptr, "a refused hf_create gave a handle");
     // a file may be empty, far too large, or hold numbers that overflow a double when squared
-    hold(made == HF_ERROR_EMPTY || made == HF_ERROR_TOO_LARGE || made == HF_ERROR_OUT_OF_MEMORY || made == HF_ERROR_NON_FINITE,
+    hold(made == HF_ERROR_EMPTY || made == HF_ERROR_TOO_LARGE || made == HF_ERROR_OUT_OF_MEMORY ||
+             made == HF_ERROR_NON_FINITE,
          hf_result_name(made));
     return false;
   }
@@ -64,7 +65,8 @@ bool solve(const FlatMesh& mesh) {
   for (std::size_t i = 0; i < places.size(); ++i) values[i] = static_cast<double>(i % 7);
   hf_sites_desc sites;
   HF_INIT(sites);
-  sites.site_count = static_cast<std::uint32_t>(places.size()), sites.vertices = places.data(), sites.values = values.data();
+  sites.site_count = static_cast<std::uint32_t>(places.size()), sites.vertices = places.data(),
+  sites.values = values.data();
   hold(hf_add_sites(solver, &sites, nullptr) == HF_OK, "hf_add_sites refused first vertices of components");
   // one more at the far end of the first component, so that there is a field
   for (std::uint32_t v = mesh.vertex_count(); v-- > 0;) {

@@ -47,7 +47,8 @@ struct Tally {
 };
 
 void write(const fs::path& file, const hostile::File& bytes) {
-  std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
 const char* extension_of(const hostile::File& file) { return !file.empty() && file[0] == 'g' ? ".glb" : ".gltf"; }
@@ -97,7 +98,8 @@ void surfaces(const fs::path& folder, std::size_t count, Tally& tally) {
     for (std::size_t i = 0; i < count; ++i) {
       hostile::File bad = bytes;
       for (std::size_t n = 0; n < 1 + i % 4; ++n)
-        bad[random() % bad.size()] = static_cast<std::uint8_t>(i % 2 ? random() : static_cast<unsigned char>("0123456789-+.e/ \n"[random() % 17]));
+        bad[random() % bad.size()] = static_cast<std::uint8_t>(
+            i % 2 ? random() : static_cast<unsigned char>("0123456789-+.e/ \n"[random() % 17]));
       if (i % 8 == 0) bad.resize(random() % bad.size());
       write(file, bad);
       tally.count(file, folder);
@@ -117,11 +119,40 @@ void uris(const fs::path& root, const fs::path& folder, Tally& tally) {
   const std::string text(seed.begin(), seed.end());
   const std::size_t first = text.find("data:application"), end = text.find('"', first);
   const std::string absolute = (root / "secret.bin").string();
-  const std::string names[] = {"../secret.bin", "..%2Fsecret.bin", "%2e%2e/secret.bin", "sub/../../secret.bin", "./../secret.bin", "link.bin",
-      "linked/secret.bin", "sub/%2e%2e/%2E%2E/secret.bin", absolute, "/" + absolute, "file://" + absolute, "file:" + absolute, "/etc/passwd",
-      "//etc/passwd", "..\\\\secret.bin", "\\u002e\\u002e/secret.bin", "secret.bin%00.png", "..", ".", "/", "", "sub", "/dev/zero", "/dev/stdin",
-      "/proc/self/mem", "http://localhost/secret.bin", "~/secret.bin", "$HOME/secret.bin", "sub/fine.bin/../../../secret.bin", "%2Fetc%2Fpasswd",
-      "%252e%252e/secret.bin", "..;/secret.bin", "sub//..//..//secret.bin", "C:/secret.bin"};
+  const std::string names[] = {"../secret.bin",
+                               "..%2Fsecret.bin",
+                               "%2e%2e/secret.bin",
+                               "sub/../../secret.bin",
+                               "./../secret.bin",
+                               "link.bin",
+                               "linked/secret.bin",
+                               "sub/%2e%2e/%2E%2E/secret.bin",
+                               absolute,
+                               "/" + absolute,
+                               "file://" + absolute,
+                               "file:" + absolute,
+                               "/etc/passwd",
+                               "//etc/passwd",
+                               "..\\\\secret.bin",
+                               "\\u002e\\u002e/secret.bin",
+                               "secret.bin%00.png",
+                               "..",
+                               ".",
+                               "/",
+                               "",
+                               "sub",
+                               "/dev/zero",
+                               "/dev/stdin",
+                               "/proc/self/mem",
+                               "http://localhost/secret.bin",
+                               "~/secret.bin",
+                               "$HOME/secret.bin",
+                               "sub/fine.bin/../../../secret.bin",
+                               "%2Fetc%2Fpasswd",
+                               "%252e%252e/secret.bin",
+                               "..;/secret.bin",
+                               "sub//..//..//secret.bin",
+                               "C:/secret.bin"};
   for (const std::string& name : names) {
     for (const bool image : {false, true}) {
       std::string bad = text;
@@ -160,8 +191,10 @@ std::size_t shared(Tally& tally) {
   for (const auto& entry : fs::recursive_directory_iterator(data / "hostile")) {
     if (!entry.is_regular_file()) continue;
     std::string extension = entry.path().extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".gltf" || extension == ".glb" || extension == ".obj" || extension == ".off" || extension == ".ply")
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".gltf" || extension == ".glb" || extension == ".obj" || extension == ".off" ||
+        extension == ".ply")
       tally.count(entry.path(), entry.path().parent_path());
   }
   return tally.files - before;
@@ -181,7 +214,8 @@ int main(int argc, char** argv) {
   surfaces(folder, 1000 * scale, tally);
   const std::size_t there = shared(tally);
   if (there == 0) std::printf("the optional shared corpus is not there (HF_SHARED_DATA); only files made here\n");
-  std::printf("%zu files used, %zu refused, %zu of the shared corpus, %zu names opened\n", tally.used, tally.refused, there, tally.seen);
+  std::printf("%zu files used, %zu refused, %zu of the shared corpus, %zu names opened\n", tally.used, tally.refused,
+              there, tally.seen);
   report_at_least("hostile_files", static_cast<double>(tally.files), 12000);
   report_at_least("hostile_names_watched", static_cast<double>(tally.seen), static_cast<double>(tally.files) * 0.9);
   report_at_most("hostile_wrong", static_cast<double>(tally.wrong), 0);

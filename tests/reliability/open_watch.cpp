@@ -55,31 +55,31 @@ using OpenFunction = int (*)(const char*, int, ...);
 using OpenAtFunction = int (*)(int, const char*, int, ...);
 using StreamFunction = FILE* (*)(const char*, const char*);
 
-#define HF_WATCH_OPEN(name)                                              \
+#define HF_WATCH_OPEN(name)                                                           \
   __attribute__((visibility("default"))) int name(const char* path, int flags, ...) { \
-    va_list list;                                                        \
-    va_start(list, flags);                                               \
-    const mode_t mode = hostile::mode_of(flags, list);                   \
-    va_end(list);                                                        \
-    hostile::note(path);                                                 \
-    static const OpenFunction real = hostile::next<OpenFunction>(#name); \
-    return real(path, flags, mode);                                      \
+    va_list list;                                                                     \
+    va_start(list, flags);                                                            \
+    const mode_t mode = hostile::mode_of(flags, list);                                \
+    va_end(list);                                                                     \
+    hostile::note(path);                                                              \
+    static const OpenFunction real = hostile::next<OpenFunction>(#name);              \
+    return real(path, flags, mode);                                                   \
   }
-#define HF_WATCH_OPENAT(name)                                                    \
+#define HF_WATCH_OPENAT(name)                                                                     \
   __attribute__((visibility("default"))) int name(int folder, const char* path, int flags, ...) { \
-    va_list list;                                                                \
-    va_start(list, flags);                                                       \
-    const mode_t mode = hostile::mode_of(flags, list);                           \
-    va_end(list);                                                                \
-    hostile::note(path);                                                         \
-    static const OpenAtFunction real = hostile::next<OpenAtFunction>(#name);     \
-    return real(folder, path, flags, mode);                                      \
+    va_list list;                                                                                 \
+    va_start(list, flags);                                                                        \
+    const mode_t mode = hostile::mode_of(flags, list);                                            \
+    va_end(list);                                                                                 \
+    hostile::note(path);                                                                          \
+    static const OpenAtFunction real = hostile::next<OpenAtFunction>(#name);                      \
+    return real(folder, path, flags, mode);                                                       \
   }
-#define HF_WATCH_STREAM(name)                                              \
+#define HF_WATCH_STREAM(name)                                                             \
   __attribute__((visibility("default"))) FILE* name(const char* path, const char* mode) { \
-    hostile::note(path);                                                   \
-    static const StreamFunction real = hostile::next<StreamFunction>(#name); \
-    return real(path, mode);                                               \
+    hostile::note(path);                                                                  \
+    static const StreamFunction real = hostile::next<StreamFunction>(#name);              \
+    return real(path, mode);                                                              \
   }
 
 HF_WATCH_OPEN(open)

@@ -65,7 +65,8 @@ Surface ball() {
   Surface s;
   s.name = "ball";
   const float corner[6][3] = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-  const std::uint32_t face[8][3] = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
+  const std::uint32_t face[8][3] = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
+                                    {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
   for (const auto& c : corner) s.positions.insert(s.positions.end(), c, c + 3);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle;
   const auto between = [&](std::uint32_t a, std::uint32_t b) {
@@ -145,14 +146,16 @@ void weld(Surface& s) {
     s.inner[v] = it->second;
     if (!fresh) continue;
     ++s.inner_count;
-    s.component.push_back(component_of_label.emplace(label[at(w)], static_cast<int>(component_of_label.size())).first->second);
+    s.component.push_back(
+        component_of_label.emplace(label[at(w)], static_cast<int>(component_of_label.size())).first->second);
   }
   s.component_count = static_cast<int>(component_of_label.size());
 }
 
 double cotangent(const Surface& s, std::uint32_t t, int corner) {
   const std::uint32_t* v = s.triangles.data() + std::size_t{3} * t;
-  const Point o = position(s, v[corner]), a = position(s, v[(corner + 1) % 3]) - o, b = position(s, v[(corner + 2) % 3]) - o;
+  const Point o = position(s, v[corner]), a = position(s, v[(corner + 1) % 3]) - o,
+              b = position(s, v[(corner + 2) % 3]) - o;
   return a.dot(b) / a.cross(b).norm();
 }
 

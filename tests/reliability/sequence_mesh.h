@@ -1,8 +1,8 @@
 // The small surfaces of the sequence fuzzer and their operators, made here from the definitions and nothing of the
 // library: weld by position, components, cotangents from corner angles, K = L, L M^-1 L or L^2.
 #pragma once
-#include <Eigen/Dense>
 #include <cstdint>
+#include <Eigen/Dense>
 #include <string>
 #include <vector>
 

@@ -174,13 +174,17 @@ void Model::solve_component(int component) {
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + k, n + k), b = Eigen::MatrixXd::Zero(n + k, m), values(k, m);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j)
-      a(i, j) = setting_.operation->matrix(vertices[static_cast<std::size_t>(i)], vertices[static_cast<std::size_t>(j)]) / unit;
+      a(i, j) =
+          setting_.operation->matrix(vertices[static_cast<std::size_t>(i)], vertices[static_cast<std::size_t>(j)]) /
+          unit;
   }
   for (Eigen::Index i = 0; i < k; ++i) {
     const Site& site = *sites[static_cast<std::size_t>(i)];
-    for (const auto& [vertex, weight] : site.row) a(local[at(vertex)], n + i) -= weight, a(n + i, local[at(vertex)]) += weight;
+    for (const auto& [vertex, weight] : site.row)
+      a(local[at(vertex)], n + i) -= weight, a(n + i, local[at(vertex)]) += weight;
     double stiffness = site.stiffness;
-    if (setting_.engine == HF_ENGINE_UPDOWN) stiffness = stiffness > 0 ? std::min(stiffness, updown_penalty) : updown_penalty;
+    if (setting_.engine == HF_ENGINE_UPDOWN)
+      stiffness = stiffness > 0 ? std::min(stiffness, updown_penalty) : updown_penalty;
     a(n + i, n + i) = stiffness > 0 ? 1 / stiffness : 0.0;
     for (Eigen::Index c = 0; c < m; ++c) values(i, c) = site.values[static_cast<std::size_t>(c)];
   }
@@ -194,7 +198,7 @@ void Model::solve_component(int component) {
   for (Eigen::Index c = 0; c < m; ++c) {
     const double range = values.col(c).maxCoeff() - values.col(c).minCoeff();
     const double overshoot = x.col(c).head(n).maxCoeff() - x.col(c).head(n).minCoeff();
-    answer_.scale(component, c) = std::max({range, overshoot, 1e-6 * values.col(c).cwiseAbs().maxCoeff(), 1e-300});
+    answer_.scale(component, c) = std::max({range, overshoot, 1e-5 * values.col(c).cwiseAbs().maxCoeff(), 1e-300});
   }
 }
 

@@ -60,7 +60,7 @@ class Model {
   void forget_records() { undo_.clear(), redo_.clear(); }
 
   // u by inner vertex and channel, scale by component and channel: the range of the values, or of the field where that
-  // overshoots them; lambda by site in the order of the numbers.
+  // overshoots them, and of equal values 1e-5 of their size; lambda by site in the order of the numbers.
   struct Answer {
     Eigen::MatrixXd field, scale, lambda;
     std::vector<int> sites_of_component;

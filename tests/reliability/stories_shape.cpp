@@ -1,0 +1,223 @@
+// Analysis, directions, poses, transfers, quads, regions.
+#include "stories.h"
+
+namespace refusal {
+namespace {
+
+hf_solver made(Story& s, const Tube& tube, Allocator& memory) {
+  const hf_create_desc desc = tube.desc(memory);
+  hf_solver solver = nullptr;
+  s.make("hf_create", solver, [&] { return hf_create(&desc, &solver); });
+  return solver;
+}
+
+template <class T>
+T init() {
+  T desc;
+  HF_INIT(desc);
+  return desc;
+}
+
+void lines(Story& s, const Tube& tube, Allocator& memory) {
+  const hf_solver solver = made(s, tube, memory);
+  hf_scalars field = init<hf_scalars>();
+  field.values_f64 = tube.height.data();
+  double levels[4] = {0, 0, 0, 0};
+  s.call("hf_space_levels", [&] { return hf_space_levels(solver, &field, HF_LEVELS_LENGTH, 4, levels); });
+  s.take(levels, 4);
+  std::vector<double> positions(3 * 400);
+  hf_isolines out = init<hf_isolines>();
+  out.point_capacity = 400, out.line_capacity = 40, out.positions = positions.data();
+  s.call("hf_trace_isolines", [&] { return hf_trace_isolines(solver, &field, 4, levels, &out); });
+  s.take(positions.data(), positions.size());
+  std::vector<hf_critical_point> points(Tube::vertices);
+  hf_critical_info info = init<hf_critical_info>();
+  s.call("hf_find_critical_points",
+         [&] { return hf_find_critical_points(solver, &field, Tube::vertices, points.data(), &info); });
+  s.take(info.point_count);
+  hf_destroy(solver);
+}
+
+void distances(Story& s, const Tube& tube, Allocator& memory) {
+  const hf_solver solver = made(s, tube, memory);
+  hf_geodesics geodesics = nullptr;
+  s.make("hf_geodesics_create", geodesics, [&] { return hf_geodesics_create(solver, nullptr, &geodesics); });
+  const std::uint32_t sources[2] = {3, 60};
+  std::vector<double> distance(Tube::vertices);
+  s.call("hf_geodesics_distance_f64",
+         [&] { return hf_geodesics_distance_f64(geodesics, 2, sources, distance.data(), 0); });
+  s.take(distance.data(), distance.size());
+  for (const int kind : {HF_EXTREMITIES_POISSON, HF_EXTREMITIES_GEODESIC}) {
+    hf_extremities_desc wanted = init<hf_extremities_desc>();
+    wanted.kind = kind, wanted.source_count = 8;
+    hf_extremity found[16];
+    std::uint32_t count = 0;
+    s.call("hf_find_extremities", [&] { return hf_find_extremities(solver, &wanted, 16, found, &count); });
+    s.take(count);
+    if (count > 0) s.take(found[0].length);
+  }
+  hf_geodesics_destroy(geodesics), hf_destroy(solver);
+}
+
+void directions(Story& s, const Tube& tube, Allocator& memory) {
+  const hf_solver solver = made(s, tube, memory);
+  hf_direction direction = nullptr, copy = nullptr;
+  hf_direction_desc desc = init<hf_direction_desc>();
+  desc.degree = 2;
+  s.make("hf_direction_create", direction, [&] { return hf_direction_create(solver, &desc, &direction); });
+  hf_destroy(solver);
+  const std::uint32_t places[3] = {9, 40, 70}, to = 22;
+  const double vectors[9] = {0, 1, 0, 0, -1, 0.5, 0.3, 2, 0}, angle = 1;
+  std::uint32_t numbers[3] = {0, 0, 0};
+  s.call("hf_direction_add_sites", [&] { return hf_direction_add_sites(direction, 3, places, vectors, numbers); });
+  s.call("hf_direction_record", [&] { return hf_direction_record(direction); });
+  s.call("hf_direction_move_sites", [&] { return hf_direction_move_sites(direction, 1, numbers, &to); });
+  s.call("hf_direction_set_vectors", [&] { return hf_direction_set_vectors(direction, 1, numbers + 1, vectors); });
+  s.call("hf_direction_rotate_sites", [&] { return hf_direction_rotate_sites(direction, 1, numbers + 2, &angle); });
+  s.make("hf_direction_clone", copy, [&] { return hf_direction_clone(direction, &copy); });
+  s.call("hf_direction_remove_sites", [&] { return hf_direction_remove_sites(copy, 1, numbers); });
+  s.call("hf_direction_undo", [&] { return hf_direction_undo(direction); });
+  std::vector<double> field(3 * Tube::vertices);
+  for (const hf_direction d : {direction, copy}) {
+    s.call("hf_direction_solve_f64", [&] { return hf_direction_solve_f64(d, field.data(), 0, nullptr); });
+    s.take(field.data(), field.size());
+  }
+  std::uint32_t count = 0;
+  s.call("hf_direction_get_singularities",
+         [&] { return hf_direction_get_singularities(direction, 0, nullptr, &count); });
+  s.take(count);
+  hf_direction_destroy(direction), hf_direction_destroy(copy);
+}
+
+void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
+  const hf_solver solver = made(s, tube, memory);
+  hf_pose_desc desc = init<hf_pose_desc>();
+  desc.mode = mode;
+  hf_pose pose = nullptr, copy = nullptr;
+  s.make("hf_pose_create", pose, [&] { return hf_pose_create(solver, &desc, &pose); });
+  hf_destroy(solver);
+  const std::uint32_t counts[2] = {2 * Tube::around, 2 * Tube::around};
+  hf_handles_desc handles = init<hf_handles_desc>(), layer = init<hf_handles_desc>();
+  handles.handle_count = 2, handles.region_counts = counts, handles.region_vertices = tube.ends.data();
+  std::uint32_t numbers[2] = {0, 0}, above = 0;
+  s.call("hf_pose_add_handles", [&] { return hf_pose_add_handles(pose, &handles, numbers); });
+  const hf_transform turned = {{0, 0.5, 0, 0.8660254037844386}, {1, 2, 0.5}};
+  s.call("hf_pose_set_transforms", [&] { return hf_pose_set_transforms(pose, 1, &numbers[1], &turned); });
+  std::vector<double> posed(3 * Tube::vertices);
+  std::vector<float> normals(3 * Tube::vertices);
+  hf_deform_desc deform = init<hf_deform_desc>();
+  deform.positions_f64 = posed.data(), deform.normals = normals.data(), deform.restart = 1;
+  deform.refine = mode == HF_DEFORM_SMOOTH;
+  s.call("hf_deform", [&] { return hf_deform(pose, &deform, nullptr); });
+  s.take(posed.data(), posed.size());
+  s.make("hf_pose_clone", copy, [&] { return hf_pose_clone(pose, &copy); });
+  const double radius = 0;
+  layer.handle_count = 1, layer.points = tube.positions.data() + 3 * 4 * Tube::around, layer.radii = &radius,
+  layer.layer = 1;
+  s.call("hf_pose_add_handles", [&] { return hf_pose_add_handles(copy, &layer, &above); });
+  s.call("hf_deform", [&] { return hf_deform(copy, &deform, nullptr); });
+  s.take(posed.data(), posed.size());
+  s.call("hf_pose_remove_handles", [&] { return hf_pose_remove_handles(copy, 1, &above); });
+  hf_skin_info skin = init<hf_skin_info>();
+  s.call("hf_pose_get_skin", [&] { return hf_pose_get_skin(pose, &skin); });
+  s.take(skin.joint_count);
+  hf_pose_destroy(pose), hf_pose_destroy(copy);
+}
+void smooth_pose(Story& s, const Tube& tube, Allocator& memory) { poses(s, tube, memory, HF_DEFORM_SMOOTH); }
+void paper_pose(Story& s, const Tube& tube, Allocator& memory) { poses(s, tube, memory, HF_DEFORM_PAPER); }
+
+void transfer(Story& s, const Tube& tube, Allocator& memory) {
+  const hf_solver solver = made(s, tube, memory);
+  hf_transfer motion = nullptr;
+  s.make("hf_transfer_create", motion, [&] { return hf_transfer_create(solver, solver, nullptr, &motion); });
+  hf_destroy(solver);
+  const std::uint32_t counts[2] = {2 * Tube::around, 2 * Tube::around};
+  hf_pairs_desc pairs = init<hf_pairs_desc>();
+  pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts;
+  pairs.source_vertices = pairs.target_vertices = tube.ends.data();
+  std::uint32_t numbers[2] = {0, 0};
+  s.call("hf_transfer_add_pairs", [&] { return hf_transfer_add_pairs(motion, &pairs, numbers); });
+  std::vector<double> bent(tube.positions), out(3 * Tube::vertices);
+  for (std::size_t v = 0; v < Tube::vertices; ++v) bent[3 * v] += 0.03 * bent[3 * v + 1] * bent[3 * v + 1];
+  hf_transfer_frame frame = init<hf_transfer_frame>();
+  frame.source_positions_f64 = bent.data(), frame.target_positions_f64 = out.data();
+  s.call("hf_transfer_apply", [&] { return hf_transfer_apply(motion, &frame); });
+  s.take(out.data(), out.size());
+  hf_transfer_info info = init<hf_transfer_info>();
+  s.call("hf_transfer_get_info", [&] { return hf_transfer_get_info(motion, &info); });
+  hf_skin_info skin = init<hf_skin_info>();
+  s.call("hf_transfer_get_skin", [&] { return hf_transfer_get_skin(motion, &skin); });
+  s.take(skin.joint_count);
+  s.call("hf_transfer_remove_pairs", [&] { return hf_transfer_remove_pairs(motion, 1, numbers); });
+  s.call("hf_transfer_apply", [&] { return hf_transfer_apply(motion, &frame); });
+  s.take(out.data(), out.size());
+  hf_transfer_destroy(motion);
+}
+
+void quads(Story& s, const Tube& tube, Allocator& memory) {
+  const hf_solver solver = made(s, tube, memory);
+  hf_quads_desc desc = init<hf_quads_desc>();
+  desc.edge_length = 2, desc.relax_count = 3;
+  hf_quads mesh = nullptr;
+  s.make("hf_quads_create", mesh, [&] { return hf_quads_create(solver, &desc, &mesh); });
+  hf_quads_info info = init<hf_quads_info>();
+  s.call("hf_quads_get_info", [&] { return hf_quads_get_info(mesh, &info); });
+  s.take(info.vertex_count), s.take(info.face_count);
+  std::vector<double> positions(3 * std::size_t{info.vertex_count});
+  hf_quads_mesh out = init<hf_quads_mesh>();
+  out.vertex_capacity = info.vertex_count, out.positions = positions.data();
+  s.call("hf_quads_get_mesh", [&] { return hf_quads_get_mesh(mesh, &out); });
+  s.take(positions.data(), positions.size());
+  hf_quads_destroy(mesh), hf_destroy(solver);
+}
+
+void flow(Story& s, const Tube& tube, Allocator& memory) {
+  const hf_solver solver = made(s, tube, memory);
+  hf_flow flow = nullptr;
+  s.make("hf_flow_create", flow, [&] { return hf_flow_create(solver, &flow); });
+  hf_destroy(solver);
+  hf_scalars field = init<hf_scalars>();
+  field.values_f64 = tube.height.data();
+  std::vector<double> positions(3 * 2000);
+  hf_flow_lines lines = init<hf_flow_lines>();
+  lines.wanted_count = 6, lines.point_capacity = 2000, lines.line_capacity = 100, lines.positions = positions.data();
+  s.call("hf_flow_trace", [&] { return hf_flow_trace(flow, &field, &lines); });
+  s.take(lines.point_count), s.take(positions.data(), positions.size());
+  hf_flow_destroy(flow);
+}
+
+void regions(Story& s, const Tube& tube, Allocator& memory) {
+  const hf_solver solver = made(s, tube, memory);
+  hf_region region = nullptr, copy = nullptr;
+  s.make("hf_region_create", region, [&] { return hf_region_create(solver, nullptr, &region); });
+  hf_destroy(solver);
+  const std::uint32_t a = 4 * Tube::around, inside[6] = {a, a + 1, a + 2, a + 8, a + 9, a + 10};
+  hf_region_edit_desc edit = init<hf_region_edit_desc>(), grow = init<hf_region_edit_desc>();
+  edit.add_count = 6, edit.add_vertices = inside, grow.ring_count = 1;
+  s.call("hf_region_edit", [&] { return hf_region_edit(region, &edit); });
+  s.call("hf_region_record", [&] { return hf_region_record(region); });
+  s.make("hf_region_clone", copy, [&] { return hf_region_clone(region, &copy); });
+  s.call("hf_region_edit", [&] { return hf_region_edit(region, &grow); });
+  std::vector<double> out(3 * Tube::vertices);
+  hf_morph_desc morph = init<hf_morph_desc>();
+  morph.weight = 0.5, morph.positions_f64 = out.data();
+  s.call("hf_region_morph", [&] { return hf_region_morph(region, &morph); });
+  s.take(out.data(), out.size());
+  s.call("hf_region_undo", [&] { return hf_region_undo(region); });
+  hf_detail detail = nullptr;
+  s.make("hf_detail_create", detail, [&] { return hf_detail_create(region, copy, nullptr, &detail); });
+  s.call("hf_detail_morph", [&] { return hf_detail_morph(detail, &morph); });
+  s.take(out.data(), out.size());
+  hf_region_destroy(region), hf_region_destroy(copy), hf_detail_destroy(detail);
+}
+
+}  // namespace
+
+std::vector<Chapter> shape_chapters() {
+  return {
+      {"lines", lines},           {"distances", distances}, {"directions", directions}, {"smooth_pose", smooth_pose},
+      {"paper_pose", paper_pose}, {"transfer", transfer},   {"quads", quads},           {"flow", flow},
+      {"regions", regions}};
+}
+
+}  // namespace refusal
