@@ -297,6 +297,21 @@ static void bad_transfers_are_not_made(void** state) {
                   (transfer_desc.target_axes[0] = transfer_desc.target_axes[3] = transfer_desc.target_axes[8] = 1.0f));
   ROW("source engine", HF_ERROR_UNSUPPORTED, 0, (void)0, hf_transfer_create(refactor, scene.body, NULL, &out_transfer));
   ROW("target engine", HF_ERROR_UNSUPPORTED, 1, (void)0, hf_transfer_create(scene.body, refactor, NULL, &out_transfer));
+  for (int32_t kind = HF_FIELD_BIHARMONIC; kind <= HF_FIELD_BIHARMONIC_GRAPH; ++kind) {
+    hf_solver plate = solver_of(HF_ENGINE_GREEN, kind);
+    ROW("bi-harmonic source", HF_ERROR_UNSUPPORTED, 0, (void)0,
+        hf_transfer_create(plate, scene.body, NULL, &out_transfer));
+    ROW("bi-harmonic target", HF_ERROR_UNSUPPORTED, 1, (void)0,
+        hf_transfer_create(scene.body, plate, NULL, &out_transfer));
+    hf_direction direction = NULL;
+    assert_ok(hf_direction_create(scene.body, NULL, &direction));
+    ROW("direction source", HF_ERROR_INVALID_HANDLE, 0, (void)0,
+        hf_transfer_create((hf_solver)direction, scene.body, NULL, &out_transfer));
+    ROW("direction target", HF_ERROR_INVALID_HANDLE, 1, (void)0,
+        hf_transfer_create(scene.body, (hf_solver)direction, NULL, &out_transfer));
+    hf_direction_destroy(direction);
+    hf_destroy(plate);
+  }
 #undef UNCHANGED
 #define UNCHANGED transfer_as_before
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_transfer_create(scene.body, scene.body, NULL, NULL));

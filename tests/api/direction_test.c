@@ -341,6 +341,40 @@ static void constraints_come_back_to_the_same_bits(void** state) {
   surface_free(&tube);
 }
 
+static void the_oldest_of_257_records_of_a_direction_is_dropped(void** state) {
+  (void)state;
+  enum { RECORDS = 257, AT = 17 };
+  Surface tube;
+  const hf_solver solver = tube_solver(&tube, 1);
+  hf_direction direction;
+  assert_ok(hf_direction_create(solver, NULL, &direction));
+  const uint32_t vertex = AT;
+  uint32_t site;
+  static double field[3 * VERTICES], expected[RECORDS][3];
+  for (int i = 0; i < RECORDS; ++i) {
+    const double vector[3] = {sin(i), cos(i), 1.0 + i};
+    if (i == 0)
+      assert_ok(hf_direction_add_sites(direction, 1, &vertex, vector, &site));
+    else
+      assert_ok(hf_direction_set_vectors(direction, 1, &site, vector));
+    assert_ok(hf_direction_solve_f64(direction, field, 0, NULL));
+    memcpy(expected[i], field + 3 * AT, sizeof expected[i]);
+    assert_ok(hf_direction_record(direction));
+  }
+  for (int i = RECORDS - 1; i >= 1; --i) {
+    assert_ok(hf_direction_undo(direction));
+    assert_ok(hf_direction_solve_f64(direction, field, 0, NULL));
+    assert_memory_equal(field + 3 * AT, expected[i], sizeof expected[i]);
+  }
+  assert_code(HF_ERROR_NO_RECORD, hf_direction_undo(direction));
+  /* a record forgets what was undone */
+  assert_ok(hf_direction_record(direction));
+  assert_code(HF_ERROR_NO_RECORD, hf_direction_redo(direction));
+  hf_direction_destroy(direction);
+  hf_destroy(solver);
+  surface_free(&tube);
+}
+
 static void a_biharmonic_solver_takes_the_same_edits_and_overshoots(void** state) {
   (void)state;
   Surface sheet = surface_sheet(20, 20);
@@ -378,6 +412,7 @@ int main(void) {
       cmocka_unit_test(a_direction_field_follows_its_constraints),
       cmocka_unit_test(a_direction_object_refuses_bad_input_and_stays_as_it_was),
       cmocka_unit_test(constraints_come_back_to_the_same_bits),
+      cmocka_unit_test(the_oldest_of_257_records_of_a_direction_is_dropped),
       cmocka_unit_test(a_biharmonic_solver_takes_the_same_edits_and_overshoots),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
