@@ -94,12 +94,15 @@ inline Case bar_twist(double degrees, std::uint32_t n = 16) {
   return c;
 }
 
-inline Case cactus_bend(double degrees = 70, std::uint32_t vertices = 7400) {
+// height: 1.35 makes the trunk as slender as that of the design study, whose bars are for it.
+inline Case cactus_bend(double degrees = 70, std::uint32_t vertices = 7400, double height = 1) {
   Case c;
-  c.name = "cactus " + std::to_string(static_cast<int>(degrees));
+  c.name = (height > 1 ? "slender cactus " : "cactus ") + std::to_string(static_cast<int>(degrees));
   c.mesh = plain(samples::cactus(vertices));
-  c.regions = {[](Vec3 p) { return p.y < 0.15; }, [](Vec3 p) { return p.y > 1.6 && std::fabs(p.x) < 0.35; }};
-  c.motion = [=](std::size_t, double t, Vec3 centroid) { return bend(t * degrees * pi / 180, 0.15, 1.6, centroid); };
+  for (std::size_t k = 1; k < c.mesh.positions.size(); k += 3) c.mesh.positions[k] *= height;
+  const double low = 0.15 * height, high = 1.6 * height;
+  c.regions = {[=](Vec3 p) { return p.y < low; }, [=](Vec3 p) { return p.y > high && std::fabs(p.x) < 0.35; }};
+  c.motion = [=](std::size_t, double t, Vec3 centroid) { return bend(t * degrees * pi / 180, low, high, centroid); };
   return c;
 }
 
@@ -134,6 +137,31 @@ inline Case scan_reach(const hf_test::PlainMesh& mesh) {
     return handle == 2 ? hf::HandleTransform{about({0, 1, 1}, t * 0.7),
                                              {-0.12 * t * height, 0.03 * t * height, -0.1 * t * height}}
                        : hf::HandleTransform{};
+  };
+  return c;
+}
+
+// The scan as the design study poses it, read off its picture: both feet held by one handle, the hand at the smallest x
+// raised and carried out, the other one lowered by a third of the height.
+inline Case scan_hands(const hf_test::PlainMesh& mesh) {
+  double low = 1e300, high = -1e300;
+  Vec3 raised{1e300, 0, 0}, lowered{-1e300, 0, 0};
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3 p{mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]};
+    low = std::min(low, p.y), high = std::max(high, p.y);
+    if (p.x < raised.x) raised = p;
+    if (p.x > lowered.x) lowered = p;
+  }
+  const double height = high - low, floor = low + 0.1 * height;
+  Case c;
+  c.name = "scan hands";
+  c.mesh = mesh;
+  c.regions = {[=](Vec3 p) { return p.y < floor; }, [=](Vec3 p) { return norm(p - raised) < 0.13 * height; },
+               [=](Vec3 p) { return norm(p - lowered) < 0.13 * height; }};
+  c.motion = [=](std::size_t handle, double t, Vec3) {
+    return handle == 1 ? hf::HandleTransform{about({0, 0, -1}, t * 0.4), {-0.08 * t * height, 0.05 * t * height, 0}}
+                       : hf::HandleTransform{about({0, 0, -1}, t * 0.9),
+                                             {-0.1 * t * height, -0.3 * t * height, 0.05 * t * height}};
   };
   return c;
 }

@@ -108,7 +108,7 @@ int main(int argc, char** argv) {
   if (what == "time") return time_all();
   std::vector<Case> cases{plane_lift(), cylinder_bend(), bar_twist(135), bar_twist(180), cactus_bend()};
   if (large) cases = {plane_lift(201), cylinder_bend(120, 26, 270), cactus_bend(70, 43000)};
-  if (!large && !what.empty()) cases = {scan_reach(read(what))};
+  if (!large && !what.empty()) cases = {scan_hands(read(what)), scan_reach(read(what))};
   for (const Case& c : cases) {
     std::vector<samples::Picture> tiles, lower;
     const auto run = [&](const char* mode, hf::PoseOptions options, std::uint32_t iterations, int settle) {
