@@ -45,6 +45,16 @@ void list_closings(const QuadMesh& mesh, const VertexFans& fans, double shortest
   });
 }
 
+// The neighbours of a quad that closes stay as they are in that turn.
+void block_around(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, Table<std::uint8_t>& blocked) {
+  for (std::int32_t k = mesh.face_start[f]; k < mesh.face_start[f + 1]; ++k) {
+    const std::int32_t v = mesh.corner[k];
+    for (std::int32_t i = fans.start[v]; i < fans.start[v + 1]; ++i)
+      for (std::int32_t j = mesh.face_start[fans.face[i]]; j < mesh.face_start[fans.face[i] + 1]; ++j)
+        blocked[mesh.corner[j]] = 1;
+  }
+}
+
 // Closes them; no two share a vertex or a neighbour.
 void close_quads(const FluxSurface& surface, QuadMesh& mesh, const Vector<Closing>& closings, Memory& memory) {
   Table<std::int32_t> becomes(mesh.position.size(), 0, memory);
@@ -109,6 +119,27 @@ bool can_close(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, std
   return true;
 }
 
+std::int32_t close_misses(const FluxSurface& surface, QuadMesh& mesh, const Vector<QuadMiss>& misses, Memory& memory) {
+  const VertexFans fans(mesh, memory);
+  Table<std::uint8_t> blocked(mesh.position.size(), 0, memory);
+  Vector<Closing> taken(&memory);
+  for (const QuadMiss& miss : misses) {
+    const std::int32_t f = miss.face;
+    if (miss.vertex != QuadMiss::of_quads || mesh.size(f) != 4) continue;
+    const std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
+    if (std::any_of(c, c + 4, [&](std::int32_t v) { return blocked[v] != 0; })) continue;
+    const bool turned =
+        norm(mesh.position[c[3]] - mesh.position[c[1]]) < norm(mesh.position[c[2]] - mesh.position[c[0]]);
+    std::int32_t k = turned ? 1 : 0;
+    if (!can_close(mesh, fans, f, k)) k = 1 - k;
+    if (!can_close(mesh, fans, f, k)) continue;
+    taken.push_back({0, f, k});
+    block_around(mesh, fans, f, blocked);
+  }
+  if (!taken.empty()) close_quads(surface, mesh, taken, memory);
+  return static_cast<std::int32_t>(taken.size());
+}
+
 double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, double deviation,
                      const CoarsenOptions& options, Memory& memory) {
   Vector<Closing> list(&memory), taken(&memory);
@@ -130,10 +161,7 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
       for (const Vec3& p : kept) free = free && norm(p - centre) > 0.5 * length;
       if (!free) continue;
       taken.push_back(closing), centres.push_back(centre);
-      for (std::int32_t k = 0; k < 4; ++k)
-        for (std::int32_t i = fans.start[c[k]]; i < fans.start[c[k] + 1]; ++i)
-          for (std::int32_t j = mesh.face_start[fans.face[i]]; j < mesh.face_start[fans.face[i] + 1]; ++j)
-            blocked[mesh.corner[j]] = 1;
+      block_around(mesh, fans, closing.face, blocked);
     }
     if (taken.empty()) break;
     // what brings a miss about is left out, until none does
@@ -153,7 +181,7 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
       }
       auto is_near = [&](const Vec3& centre) {
         return std::any_of(misses.begin(), misses.end(),
-                           [&](const QuadMiss& miss) { return norm(centre - miss.point) < 3 * length; });
+                           [&](const QuadMiss& miss) { return norm(centre - miss.point) < 1.5 * length; });
       };
       const bool any = std::any_of(centres.begin(), centres.end(), is_near);
       std::size_t left = 0;

@@ -15,11 +15,15 @@ namespace hf {
 // Whether quad f may close along the diagonal of its corners k and k + 2.
 bool can_close(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, std::int32_t k);
 
+// Closes quads that are farther from the surface than they may be, no two of them neighbours: what lies across a fold,
+// or in a tangle, is not mended by making it finer. Returns how many.
+std::int32_t close_misses(const FluxSurface& surface, QuadMesh& mesh, const Vector<QuadMiss>& misses, Memory& memory);
+
 struct CoarsenOptions {
   double edge_length = 0.02, shortest = 0.55, tolerance = 0.008;  // shortest in edge lengths, the others in inner units
   bool only_refined = false;                                      // quads with a corner whose scale is below 1
   double enough = 0.01;                                           // share of quads with a short edge that may stay
-  std::int32_t rounds = 16, relax_rounds = 12;
+  std::int32_t rounds = 24, relax_rounds = 12;
   Progress* progress = nullptr;
 };
 

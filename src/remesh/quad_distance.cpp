@@ -6,7 +6,7 @@
 namespace hf {
 namespace {
 
-constexpr std::int32_t most_samples = 25000, most_spread = 30000;
+constexpr std::int32_t most_samples = 60000, most_spread = 30000;
 constexpr std::int32_t report_step = 20000;  // samples between two reports
 
 // How many corners of a quad are no convex ones in the plane of its mean normal, and the last of them.

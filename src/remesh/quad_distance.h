@@ -2,7 +2,7 @@
 //
 // Both ways, sampled: vertices of the surface to the quads (fans of triangles from their first corners), and points of
 // these triangles, `spacing` apart, to the surface. Cost: O((n + points) log) through trees of boxes. Of large surfaces
-// some 25,000 vertices are looked at; of those of up to 30,000 triangles points on the larger triangles, too.
+// some 60,000 vertices are looked at; of those of up to 30,000 triangles points on the larger triangles, too.
 #pragma once
 #include "base/progress.h"
 #include "remesh/nearest.h"

@@ -28,7 +28,7 @@ struct TipLengths {
 };
 constexpr TipLengths tip_lengths[] = {{0.008, 0.02}, {0.015, 0.05}, {0.03, 0.1}, {0.1, 0.3}};
 constexpr int tip_trials = 4;
-constexpr std::size_t most_fitted = 2;
+constexpr std::size_t most_fitted = 3;
 
 // Scales the lines of every component so that its faces have a little less than the area of squares of the edge length
 // in the mean: rings times lines, summed over arcs, are the faces.
@@ -69,7 +69,7 @@ double shape_cost(const QuadMesh& mesh, double edge_length, double shortest, dou
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
   };
-  return std::max(0.0, shortest - at(lengths, 0.05)) + std::max(0.0, std::log(at(aspects, 0.95) / longest));
+  return 2 * std::max(0.0, shortest - at(lengths, 0.05)) + std::max(0.0, std::log(at(aspects, 0.95) / longest));
 }
 
 // One surface, its factor and the trees to measure against, for one or more sets of sites.
@@ -145,7 +145,8 @@ class Maker {
         const ProgressRange range(options_.progress, from + 0.6f * share, from + share);
         CoarsenOptions coarsen;
         if (!options_.uniform) coarsen.only_refined = true, coarsen.shortest = 0.3;
-        coarsen.edge_length = options_.edge_length, coarsen.tolerance = allowed, coarsen.progress = options_.progress;
+        coarsen.edge_length = options_.edge_length, coarsen.tolerance = 1.1 * allowed,
+        coarsen.progress = options_.progress;
         deviation = coarsen_quads(surface_, distance_, mesh, deviation, coarsen, memory_);
       }
       check_quads(mesh, surface_.euler_characteristic, memory_);
@@ -153,7 +154,7 @@ class Maker {
     report(options_.progress, 1.0f);
     const double shape = options_.uniform ? shape_cost(mesh, options_.edge_length, 0.5, 4, memory_)
                                           : shape_cost(mesh, options_.edge_length, 0, 12, memory_);
-    return std::max(deviation / allowed, 1.0) + shape;
+    return std::max(deviation / (1.1 * allowed), 1.0) + shape;
   }
 
   // Sites as vertices of the Mesh, weights in the order of its own triangles, which may have been turned here.

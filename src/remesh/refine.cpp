@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "remesh/capture.h"
+#include "remesh/coarsen.h"
 #include "remesh/relax.h"
 
 namespace hf {
@@ -111,6 +112,8 @@ double refine_misses(const FluxSurface& surface, const QuadDistance& distance, Q
     if (found < deviation) deviation = found, mesh = at;
   };
   look(work, misses);
+  double least = excess(misses);
+  int worse = 0;  // rounds since it was least
   for (std::int32_t round = 0; round < options.rounds && deviation > options.tolerance; ++round) {
     report(options.progress, static_cast<float>(round) / static_cast<float>(options.rounds));
     // what was drawn out too far, or wrongly, may go back
@@ -120,8 +123,13 @@ double refine_misses(const FluxSurface& surface, const QuadDistance& distance, Q
           work.pinned[work.corner[k]] = QuadMesh::free;
     marked.assign(work.position.size(), 0);
     const std::int32_t room = (most_faces - work.face_count()) / 8;
-    if (mark_misses(work, misses, room, memory, marked) == 0) break;
-    refine_quads(surface, work, marked, memory);
+    constexpr int most_worse = 2;
+    if (worse < most_worse && mark_misses(work, misses, room, memory, marked) > 0) {
+      refine_quads(surface, work, marked, memory);
+    } else {
+      worse = 0, least = excess(misses);
+      if (close_misses(surface, work, misses, memory) == 0) break;
+    }
     RelaxOptions relax;
     relax.rounds = options.relax_rounds, relax.edge_length = options.edge_length;
     relax_quads(surface, work, relax, memory);
@@ -130,9 +138,12 @@ double refine_misses(const FluxSurface& surface, const QuadDistance& distance, Q
     QuadMesh drawn = work;
     CaptureOptions capture;
     capture.edge_length = options.edge_length, capture.tolerance = options.tolerance, capture.rounds = 2;
-    if (capture_features(surface, distance, drawn, capture, memory) == 0) continue;
-    look(drawn, drawn_misses);
-    if (excess(drawn_misses) < excess(misses)) work = std::move(drawn), misses.swap(drawn_misses);
+    if (capture_features(surface, distance, drawn, capture, memory) > 0) {
+      look(drawn, drawn_misses);
+      if (excess(drawn_misses) < excess(misses)) work = std::move(drawn), misses.swap(drawn_misses);
+    }
+    worse = excess(misses) < least ? 0 : worse + 1;
+    least = std::min(least, excess(misses));
   }
   return deviation;
 }

@@ -8,8 +8,9 @@
 // quad has two marked corners. Points are reached by walking along the surface from v, so none jumps to another sheet.
 //
 // refine_misses marks, where the surface and the quads are farther from each other than `tolerance`, the nearest corner
-// of the quad, the farthest places first, refines, relaxes, draws out what is still missed, and begins again. Vertices
-// of borders and of polygons that are no quads are not marked, nor is one three times.
+// of the quad, the farthest places first, refines, relaxes, draws out what is still missed, and begins again; where
+// that makes it worse twice, it closes the quads that are off instead (coarsen.h). Vertices of borders and of polygons
+// that are no quads are not marked, nor is one four times.
 #pragma once
 #include "remesh/quad_distance.h"
 
@@ -20,7 +21,7 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
 
 struct RefineOptions {
   double edge_length = 0.02, tolerance = 0.008;  // inner units
-  std::int32_t rounds = 10, relax_rounds = 12;
+  std::int32_t rounds = 16, relax_rounds = 12;
   double most_faces = 1.5;  // of those the mesh came with
   Progress* progress = nullptr;
 };

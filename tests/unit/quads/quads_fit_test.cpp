@@ -1,0 +1,236 @@
+// Fitting a quad mesh to its surface: refined, coarsened, drawn out and measured, it stays a mesh of quads.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "assets/shapes.h"
+#include "remesh/capture.h"
+#include "remesh/coarsen.h"
+#include "remesh/quads.h"
+#include "remesh/refine.h"
+#include "support/meshes.h"
+
+namespace {
+
+using namespace hf;
+
+hf_test::PlainMesh plain(const samples::ShapeMesh& shape) { return {shape.positions, shape.triangles}; }
+
+// Quads as they come from the lines, with the surface they lie on; scale and pins as in a mesh that was not refined.
+struct Made {
+  explicit Made(const hf_test::PlainMesh& mesh, double edge_length = 0.05, std::int32_t relax = 0)
+      : core(hf_test::make_core(mesh)),
+        surface(FluxSurface::make(core->mesh, core->topology, 30, *core->memory)),
+        result([&] {
+          QuadOptions options;
+          options.core = core, options.uniform = true, options.edge_length = edge_length, options.relax = relax;
+          return make_quads(options);
+        }()) {}
+  std::shared_ptr<const Core> core;
+  FluxSurface surface;
+  QuadResult result;
+};
+
+// From the faces alone.
+void expect_closed_quads(const QuadMesh& mesh, std::int32_t euler_characteristic) {
+  std::set<std::pair<std::int32_t, std::int32_t>> directed;
+  std::set<std::int32_t> used;
+  for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+    std::set<std::int32_t> corners;
+    ASSERT_EQ(mesh.size(f), 4);
+    for (std::int32_t k = 0; k < 4; ++k) {
+      const std::int32_t a = mesh.corner[mesh.face_start[f] + k], b = mesh.corner[mesh.face_start[f] + (k + 1) % 4];
+      ASSERT_TRUE(corners.insert(a).second) << "face " << f;
+      ASSERT_TRUE(directed.insert({a, b}).second) << a << " -> " << b;
+      used.insert(a);
+    }
+  }
+  for (const auto& [a, b] : directed) ASSERT_TRUE(directed.count({b, a})) << a << " -> " << b;
+  ASSERT_EQ(static_cast<std::int32_t>(used.size()), mesh.position.size());
+  EXPECT_EQ(mesh.position.size() - static_cast<std::int32_t>(directed.size()) / 2 + mesh.face_count(),
+            euler_characteristic);
+}
+
+void expect_on_surface(const FluxSurface& surface, const QuadMesh& mesh) {
+  ASSERT_EQ(mesh.location.size(), mesh.position.size());
+  ASSERT_EQ(mesh.scale.size(), mesh.position.size());
+  for (std::int32_t v = 0; v < mesh.position.size(); ++v)
+    ASSERT_LT(norm(position_of(surface, mesh.location[v]) - mesh.position[v]), 1e-9) << v;
+}
+
+TEST(RefineQuads, WhateverIsMarkedTheMeshStaysClosedAndOfQuads) {
+  const Made made(plain(samples::jittered_torus(60, 40)));
+  Memory& memory = *made.core->memory;
+  QuadMesh mesh = made.result.mesh;
+  for (std::uint64_t round = 0; round < 3; ++round) {
+    const VertexFans fans(mesh, memory);
+    Table<std::uint8_t> marked(mesh.position.size(), 0, memory), blocked = marked;
+    std::int32_t faces = mesh.face_count(), count = 0;
+    for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
+      if (blocked[v] || samples::hash_to_unit(round, static_cast<std::uint64_t>(v)) < 0.7) continue;
+      marked[v] = 1, faces += 2 * fans.valence(v), ++count;
+      for (std::int32_t i = fans.start[v]; i < fans.start[v + 1]; ++i)
+        for (std::int32_t k = 0; k < 4; ++k) blocked[mesh.corner[mesh.face_start[fans.face[i]] + k]] = 1;
+    }
+    ASSERT_GT(count, 10);
+    refine_quads(made.surface, mesh, marked, memory);
+    EXPECT_EQ(mesh.face_count(), faces);  // every quad at a marked vertex became three
+    expect_closed_quads(mesh, 0);
+    expect_on_surface(made.surface, mesh);
+  }
+}
+
+TEST(CoarsenQuads, TakesOutAllItMayAndTheMeshStaysClosedAndOfQuads) {
+  for (const bool sphere : {true, false}) {
+    const Made made(plain(sphere ? samples::sphere(24) : samples::jittered_torus(60, 40, 0.15)));
+    Memory& memory = *made.core->memory;
+    QuadMesh mesh = made.result.mesh;
+    const std::int32_t before = mesh.face_count();
+    const QuadDistance distance(made.surface, 0.05, memory);
+    CoarsenOptions options;
+    options.edge_length = 0.05, options.shortest = 100, options.tolerance = 10, options.rounds = 60;
+    coarsen_quads(made.surface, distance, mesh, 0, options, memory);
+    EXPECT_LT(mesh.face_count(), before / 2);
+    expect_closed_quads(mesh, sphere ? 2 : 0);
+    expect_on_surface(made.surface, mesh);
+    const VertexFans fans(mesh, memory);
+    for (std::int32_t v = 0; v < mesh.position.size(); ++v) EXPECT_GE(fans.valence(v), 3) << v;
+  }
+}
+
+// Three faces at every corner: closing one would leave a corner of two.
+TEST(CoarsenQuads, OfACubeNoQuadMayClose) {
+  const auto core = hf_test::make_core(plain(samples::sphere(6)));
+  Memory& memory = *core->memory;
+  // numbered around the bottom, then around the top
+  QuadMesh mesh(memory);
+  for (std::int32_t v = 0; v < 8; ++v) mesh.add_vertex({}, {}, QuadMesh::free, false, 1);
+  mesh.face_start.push_back(0);
+  for (const auto& face : {std::array<std::int32_t, 4>{0, 3, 2, 1},
+                           {4, 5, 6, 7},
+                           {0, 1, 5, 4},
+                           {1, 2, 6, 5},
+                           {2, 3, 7, 6},
+                           {3, 0, 4, 7}}) {
+    for (const std::int32_t v : face) mesh.corner.push_back(v);
+    mesh.face_start.push_back(mesh.corner.size());
+  }
+  const VertexFans fans(mesh, memory);
+  for (std::int32_t f = 0; f < 6; ++f)
+    for (std::int32_t k = 0; k < 2; ++k) EXPECT_FALSE(can_close(mesh, fans, f, k)) << f;  // three faces at each corner
+}
+
+TEST(CoarsenQuads, WhatIsNeededStays) {
+  const Made made(plain(samples::cactus(4000)), 0.03, 60);
+  Memory& memory = *made.core->memory;
+  QuadMesh mesh = made.result.mesh;
+  const QuadDistance distance(made.surface, 0.015, memory);
+  const double deviation = distance.measure(mesh, 0, nullptr, nullptr);
+  CoarsenOptions options;
+  options.edge_length = 0.03, options.shortest = 2, options.tolerance = 0.41 * 0.03;
+  const double after = coarsen_quads(made.surface, distance, mesh, deviation, options, memory);
+  EXPECT_LE(after, std::max(deviation, options.tolerance));
+  EXPECT_LT(mesh.face_count(), made.result.mesh.face_count());
+  EXPECT_NEAR(distance.measure(mesh, 0, nullptr, nullptr), after, 1e-12);
+}
+
+// A sheet of quads over a sheet with one peak of known height: that far are they apart, both ways, and there.
+TEST(QuadDistance, OfAPeakIsItsHeightAndIsFoundAtTheQuadBelow) {
+  hf_test::PlainMesh sheet = hf_test::grid(10, 10, 1, 0);
+  const std::uint32_t peak = sheet.vertex_count() / 2;
+  const auto flat = hf_test::make_core(sheet);
+  double lowest[3], highest[3];
+  for (int k = 0; k < 3; ++k) {
+    lowest[k] = 1e300, highest[k] = -1e300;
+    for (std::uint32_t v = 0; v < sheet.vertex_count(); ++v) {
+      lowest[k] = std::min(lowest[k], sheet.positions[3 * v + static_cast<std::uint32_t>(k)]);
+      highest[k] = std::max(highest[k], sheet.positions[3 * v + static_cast<std::uint32_t>(k)]);
+    }
+  }
+  int across = 0;
+  for (int k = 1; k < 3; ++k)
+    if (highest[k] - lowest[k] < highest[across] - lowest[across]) across = k;
+  sheet.positions[3 * peak + static_cast<std::uint32_t>(across)] += 0.2 * (highest[across == 0] - lowest[across == 0]);
+  const auto core = hf_test::make_core(sheet);
+  Memory& memory = *core->memory;
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, 30, memory);
+  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300}, top;
+  auto component = [](Vec3& p, int k) -> double& { return k == 0 ? p.x : k == 1 ? p.y : p.z; };
+  for (Vec3 p : core->mesh.positions)
+    for (int k = 0; k < 3; ++k) {
+      component(low, k) = std::min(component(low, k), component(p, k));
+      if (component(p, k) > component(high, k) && k == across) top = p;
+      component(high, k) = std::max(component(high, k), component(p, k));
+    }
+  const double height = component(high, across) - component(low, across);
+  QuadMesh mesh(memory);
+  const int u = (across + 1) % 3, w = (across + 2) % 3;
+  for (int corner = 0; corner < 4; ++corner) {
+    Vec3 p = low;
+    if (corner == 1 || corner == 2) component(p, u) = component(high, u);
+    if (corner >= 2) component(p, w) = component(high, w);
+    mesh.add_vertex({}, p, QuadMesh::free, true, 1);
+    mesh.corner.push_back(corner);
+  }
+  mesh.face_start.push_back(0), mesh.face_start.push_back(4);
+  const QuadDistance distance(surface, 0.05, memory);
+  Vector<QuadMiss> misses(&memory);
+  EXPECT_NEAR(distance.measure(mesh, 0.5 * height, &misses, nullptr), height, 1e-12);
+  ASSERT_FALSE(misses.empty());
+  EXPECT_EQ(misses[0].face, 0);
+  EXPECT_LT(norm(surface.position[misses[0].vertex] - top), 1e-12);
+}
+
+TEST(TurnQuads, AQuadBeginsAtItsReflexCornerOrAtTheDiagonalOnTheSurface) {
+  const auto core = hf_test::make_core(hf_test::grid(10, 10, 1, 0));
+  Memory& memory = *core->memory;
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, 30, memory);
+  const QuadDistance distance(surface, 0.05, memory);
+  const std::int32_t t[3] = {surface.tail[0], surface.tail[1], surface.tail[2]};
+  const Vec3 a = surface.position[t[0]], b = surface.position[t[1]], c = surface.position[t[2]];
+  const Vec3 up = cross(b - a, c - a);
+  for (int turn = 0; turn < 4; ++turn) {
+    // an arrow in the plane, whose notch is corner 3; a tent, whose corners 0 and 2 are in the plane, 1 and 3 above it
+    const Vec3 notch[4] = {b, c, a, (1.0 / 3) * (a + b + c)};
+    const Vec3 tent[4] = {a, b + 10.0 * up, c, a + c - b + 10.0 * up};
+    for (const bool arrowed : {true, false}) {
+      QuadMesh mesh(memory);
+      for (int k = 0; k < 4; ++k) mesh.add_vertex({}, arrowed ? notch[k] : tent[k], QuadMesh::free, false, 1);
+      mesh.face_start.push_back(0);
+      for (int k = 0; k < 4; ++k) mesh.corner.push_back((k + turn) % 4);
+      mesh.face_start.push_back(4);
+      distance.turn_quads(mesh);
+      const std::int32_t first = mesh.corner[0];
+      if (arrowed) {
+        EXPECT_EQ(first, 3);
+      } else {
+        EXPECT_EQ(first % 2, 0);
+      }
+      for (int k = 0; k < 4; ++k) EXPECT_EQ(mesh.corner[k], (first + k) % 4);
+    }
+  }
+}
+
+TEST(ProgressRange, NestsAndEndsWithItsScope) {
+  Progress progress;
+  {
+    const ProgressRange outer(&progress, 0.2f, 0.6f);
+    progress.report(0.5f);
+    EXPECT_FLOAT_EQ(progress.fraction(), 0.4f);
+    {
+      const ProgressRange inner(&progress, 0.5f, 1.0f);
+      progress.report(0.5f);
+      EXPECT_FLOAT_EQ(progress.fraction(), 0.5f);
+    }
+    progress.report(1.0f);
+    EXPECT_FLOAT_EQ(progress.fraction(), 0.6f);
+  }
+  progress.report(1.0f);
+  EXPECT_FLOAT_EQ(progress.fraction(), 1.0f);
+  const ProgressRange none(nullptr, 0, 1);
+}
+
+}  // namespace
