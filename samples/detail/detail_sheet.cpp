@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/flat_mesh.h"
+
 namespace samples {
 namespace {
 
@@ -34,8 +36,11 @@ Point direction_of(const SheetScene& scene, const std::vector<uint8_t>& in) {
 
 void write_sheet(const std::string& file, const SheetScene& scene, const std::vector<SheetTile>& tiles,
                  const std::string& title) {
-  std::vector<uint8_t> in(scene.surface.size() / 3, 0);
-  for (const uint32_t v : scene.inside) in[v] = 1;
+  // copies of a vertex at a seam are coloured alike
+  std::vector<uint32_t> welded;
+  std::vector<uint8_t> chosen(weld_positions(to_points(scene.surface), welded), 0), in(welded.size());
+  for (const uint32_t v : scene.inside) chosen[welded[v]] = 1;
+  for (size_t v = 0; v < in.size(); ++v) in[v] = chosen[welded[v]];
   View view;
   view.width = 520, view.height = 460, view.direction = direction_of(scene, in);
   view.fixed_box = true;
@@ -56,8 +61,8 @@ void write_sheet(const std::string& file, const SheetScene& scene, const std::ve
   for (const SheetTile& tile : tiles) {
     Surface surface = make_surface(tile.positions, scene.triangles);
     for (const uint8_t i : in) {
-      const float plain[3] = {0.80f, 0.78f, 0.74f}, chosen[3] = {0.52f, 0.66f, 0.80f};
-      surface.colors.insert(surface.colors.end(), i ? chosen : plain, (i ? chosen : plain) + 3);
+      const float plain[3] = {0.80f, 0.78f, 0.74f}, blue[3] = {0.52f, 0.66f, 0.80f};
+      surface.colors.insert(surface.colors.end(), i ? blue : plain, (i ? blue : plain) + 3);
     }
     SurfaceLook look;
     look.fill = Fill::colors;

@@ -20,7 +20,7 @@ struct SheetScene {
   std::vector<float> surface;    // positions before any morph
   std::vector<uint32_t> inside;  // drawn in colour
   std::vector<uint32_t> points;  // of the curve, as dots on the first tile; may be empty
-  double zoom = 1.8;             // size of the page over the size of the region
+  double zoom = 1.45;            // size of the page over the size of the region
 };
 
 void write_sheet(const std::string& file, const SheetScene& scene, const std::vector<SheetTile>& tiles,

@@ -38,7 +38,8 @@ void write_morph(const RegionSurface& surface, const RegionState& state, const M
     for (std::size_t i = 0; i < shape.inside.size(); ++i)
       local.push_back(
           moved(static_cast<std::size_t>(core.mesh.given_of_inner[static_cast<std::size_t>(shape.inside[i])]), i));
-    for (const std::int32_t v : shape.rim) local.push_back(surface.position(v));
+    for (Vec3& p : local) p = core.mesh.to_inner(p);
+    for (const std::int32_t v : shape.rim) local.push_back(surface.scaled_position(v));
     normal_sums = local_normal_sums(state, local, *core.memory);
   }
   const std::size_t count = surface.positions.size();

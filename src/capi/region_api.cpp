@@ -145,7 +145,8 @@ hf_region_info info_of(const Region& region) {
   info.path_solve_count = counters.path_solves;
   info.last_route = static_cast<std::uint32_t>(counters.last_route);
   info.whole_sweep = state.whole_sweep;
-  info.area = state.area, info.base_area = state.base_area;
+  const double scale = region.core().mesh.scale;
+  info.area = state.area * scale * scale, info.base_area = state.base_area * scale * scale;
   return info;
 }
 

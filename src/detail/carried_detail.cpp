@@ -115,7 +115,8 @@ CarriedDetail carry_detail(const Region& source, const Region& target, const Car
 
   CarriedDetail carried{target.surface(), target.state(), Vector<Vec3>(&memory)};
   const double scale = options.scale > 0           ? options.scale
-                       : from_state->base_area > 0 ? std::sqrt(carried.state->base_area / from_state->base_area)
+                       : from_state->base_area > 0 ? std::sqrt(carried.state->base_area / from_state->base_area) *
+                                                         (to.core->mesh.scale / from.core->mesh.scale)
                                                    : 1.0;
   const RegionShape& from_shape = *from_state->shape;
   const Vector<Frame> from_frames = base_frames(from, *from_state, from_disc, memory);

@@ -104,7 +104,7 @@ DiscBoundary::DiscBoundary(const RegionSurface& surface, const RegionState& stat
     arc.push_back(length);
     if (i == loop.size()) break;
     const Index a = loop[i], b = loop[(i + 1) % loop.size()];
-    length += norm(surface.position(shape.vertex(b)) - surface.position(shape.vertex(a)));
+    length += norm(surface.scaled_position(shape.vertex(b)) - surface.scaled_position(shape.vertex(a)));
   }
   if (!(length > 0)) no_disc(surface, state, start, "a rim without length");
 }

@@ -10,8 +10,8 @@ Vector<Vec3> morphed_positions(const RegionSurface& surface, const RegionState& 
   Vector<Vec3> positions(&memory);
   positions.reserve(at(shape.local_count()));
   for (std::size_t i = 0; i < shape.inside.size(); ++i)
-    positions.push_back(morphed(surface.position(shape.inside[i]), state.base[i], weight));
-  for (const std::int32_t v : shape.rim) positions.push_back(surface.position(v));
+    positions.push_back(surface.core->mesh.to_inner(morphed(surface.position(shape.inside[i]), state.base[i], weight)));
+  for (const std::int32_t v : shape.rim) positions.push_back(surface.scaled_position(v));
   return positions;
 }
 

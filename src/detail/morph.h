@@ -12,13 +12,13 @@ inline Vec3 morphed(Vec3 p, Vec3 base, double weight) noexcept {
   return p + weight * (base - p);
 }
 
-// Positions by local number: inside morphed, the rim as it is.
+// Positions by local number, scaled: inside morphed, the rim as it is.
 Vector<Vec3> morphed_positions(const RegionSurface& surface, const RegionState& state, double weight, Memory& memory);
 
-// Area of the triangles with a corner inside.
+// Area of the triangles with a corner inside, of the scaled mesh.
 double morphed_area(const RegionSurface& surface, const RegionState& state, double weight, Memory& memory);
 
-// Sums of cross products by local number, of all triangles around, for any positions by local number.
+// Sums of cross products by local number, of all triangles around, for any scaled positions by local number.
 Vector<Vec3> local_normal_sums(const RegionState& state, Span<const Vec3> positions, Memory& memory);
 
 // Unit vector; (0, 0, 1) where triangles cancel out or have no area.

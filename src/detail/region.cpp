@@ -68,7 +68,7 @@ void solve_base(const RegionSurface& surface, RegionState& state, Memory& memory
   const RegionShape& shape = *state.shape;
   Vector<double> values(at(state.engine->slot_count()) * 3, 0.0, &memory);
   for (std::size_t i = 0; i < shape.sites.size(); ++i) {
-    const Vec3 p = core.mesh.to_inner(surface.position(shape.sites[i]));
+    const Vec3 p = surface.scaled_position(shape.sites[i]);
     double* value = &values[at(state.slot[i]) * 3];
     value[0] = p.x, value[1] = p.y, value[2] = p.z;
   }
@@ -95,7 +95,7 @@ RegionSurface::RegionSurface(std::shared_ptr<const Core> shared, Vector<Vec3>&& 
       normal_sum(at(core->size()), core->memory.get()) {
   for (Index t = 0; t < core->mesh.triangle_count(); ++t) {
     const Index* v = core->mesh.triangle(t);
-    const Vec3 a = position(v[0]), n = cross(position(v[1]) - a, position(v[2]) - a);
+    const Vec3 a = scaled_position(v[0]), n = cross(scaled_position(v[1]) - a, scaled_position(v[2]) - a);
     for (int k = 0; k < 3; ++k) normal_sum[at(v[k])] = normal_sum[at(v[k])] + n;
   }
 }
@@ -106,7 +106,8 @@ RegionState::RegionState(const RegionSurface& surface, std::shared_ptr<const Reg
   for (std::size_t r = 0; r < shape->rim.size(); ++r) outer_normal[r] = surface.normal_sum[at(shape->rim[r])];
   for (std::size_t i = 0; i < shape->triangles.size(); ++i) {
     const Index* v = surface.core->mesh.triangle(shape->triangles[i]);
-    const Vec3 a = surface.position(v[0]), n = cross(surface.position(v[1]) - a, surface.position(v[2]) - a);
+    const Vec3 a = surface.scaled_position(v[0]);
+    const Vec3 n = cross(surface.scaled_position(v[1]) - a, surface.scaled_position(v[2]) - a);
     area += 0.5 * norm(n);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = at(shape->corners[3 * i + k]);

@@ -26,9 +26,11 @@ struct RegionSurface {
   Vec3 position(std::int32_t inner) const noexcept {
     return positions[static_cast<std::size_t>(core->mesh.given_of_inner[static_cast<std::size_t>(inner)])];
   }
+  // The same centred and scaled, as lengths, areas and normals are taken: squares of the caller's unit may overflow.
+  Vec3 scaled_position(std::int32_t inner) const noexcept { return core->mesh.to_inner(position(inner)); }
   std::shared_ptr<const Core> core;
   Vector<Vec3> positions;   // by vertex as given
-  Vector<Vec3> normal_sum;  // by inner vertex: sum of the cross products of its triangles
+  Vector<Vec3> normal_sum;  // by inner vertex: sum of the cross products of its triangles, scaled
 };
 
 struct RegionEdit {
@@ -46,11 +48,11 @@ struct RegionState {
   std::shared_ptr<const SiteSolver> engine;
   Vector<std::int32_t> slot;  // of shape->sites
   Vector<Vec3> base;          // of shape->inside, in the caller's unit
-  Vector<Vec3> outer_normal;  // of shape->rim: sum of the cross products of its triangles that do not move
+  Vector<Vec3> outer_normal;  // of shape->rim: sum of the cross products of its triangles that do not move, scaled
   std::int32_t first = -1;    // inner vertex that rims are matched at: the first point of the curve, or none
   std::uint32_t inserted = 0, removed = 0, kept = 0;  // sites of the edit that led here
   bool whole_sweep = false;
-  double area = 0, base_area = 0;
+  double area = 0, base_area = 0;  // of the scaled mesh
 };
 
 class Region {

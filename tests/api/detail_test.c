@@ -53,7 +53,7 @@ static void weight_0_gives_the_bits_and_1_the_base(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
   sheet.positions[3 * at(6, 6)] += 1e-6f; /* a place that doubles in units of the box do not hit */
-  sheet.positions[3 * at(7, 7) + 2] = -0.0f;
+  sheet.positions[3 * at(7, 7)] = -0.0f; /* p + 0 (base - p) would be +0 */
   sheet.positions[3 * at(0, 0)] = 1e-30f;
   const hf_solver solver = surface_solver(&sheet);
   const hf_region region = sheet_region(solver, &sheet);

@@ -113,6 +113,27 @@ TEST(CarriedDetail, OntoAnotherMeshComesNearerWithFinerMeshes) {
   EXPECT_LT(before, 0.02);
 }
 
+// Heights over a flat sheet become heights over a curved one: along the normals of its base, vertex by vertex.
+TEST(CarriedDetail, StandsUprightOnACurvedBase) {
+  const Region source = region_where(surface_of(make_core(bumps(40, low))), in_disc);
+  const Region target = region_where(surface_of(make_core(plain(samples::sphere(24)), 1, thin_plate())),
+                                     [](Vec3 p) { return p.y > 0.6; });
+  const CarriedDetail carried = carry(source, target);
+  double highest = 0;
+  for (const Vec3 d : carried.offset) highest = std::max(highest, norm(d));
+  double most = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < carried.offset.size(); ++i) {
+    const double length = norm(carried.offset[i]);
+    if (length < 0.2 * highest) continue;
+    // the thin plate of a cap is nearly the cap: its normals are the places on the sphere
+    const Vec3 normal = (1 / norm(carried.state->base[i])) * carried.state->base[i];
+    most = std::max(most, 1 - dot(carried.offset[i], normal) / length), ++count;
+  }
+  EXPECT_GT(count, 100);
+  EXPECT_LT(most, 0.02);  // 11 degrees; the direction of the whole cap is up to 30 off
+}
+
 TEST(CarriedDetail, PairsTurnItOnTheRim) {
   const Region source = region_where(surface_of(make_core(bumps(40, low))), in_disc);
   const Region target = region_where(surface_of(make_core(bumps(40, 0))), in_disc);

@@ -176,6 +176,7 @@ TEST(Region, AreasAreThoseOfItsTriangles) {
     const Vec3 a = surface->position(v[0]);
     if (touches) area += 0.5 * norm(cross(surface->position(v[1]) - a, surface->position(v[2]) - a));
   }
+  area /= mesh.scale * mesh.scale;
   EXPECT_NEAR(region.state()->area, area, 1e-12 * area);
   EXPECT_LT(region.state()->base_area, 0.9 * area);  // a membrane is smaller than what bulges over it
   EXPECT_GT(region.state()->base_area, 0.1 * area);
@@ -191,7 +192,7 @@ TEST(Region, NormalsAreThoseOfTheMorphedSurface) {
     std::vector<Vec3> position, expected(static_cast<std::size_t>(surface->core->size()));
     for (std::int32_t v = 0; v < surface->core->size(); ++v) {
       const std::int32_t l = state.shape->local[static_cast<std::size_t>(v)];
-      position.push_back(l >= 0 ? local[static_cast<std::size_t>(l)] : surface->position(v));
+      position.push_back(l >= 0 ? local[static_cast<std::size_t>(l)] : surface->scaled_position(v));
     }
     for (std::int32_t t = 0; t < surface->core->mesh.triangle_count(); ++t) {
       const std::int32_t* v = surface->core->mesh.triangle(t);
@@ -203,6 +204,28 @@ TEST(Region, NormalsAreThoseOfTheMorphedSurface) {
     for (std::int32_t l = 0; l < state.shape->local_count(); ++l)
       EXPECT_LT(norm(sums[static_cast<std::size_t>(l)] - expected[static_cast<std::size_t>(state.shape->vertex(l))]),
                 1e-13);
+  }
+}
+
+// Squares of a unit of 1e-170 or 1e170 leave the range of double.
+TEST(Region, NothingDependsOnTheUnit) {
+  const PlainMesh mesh = torus(28, 18);
+  const Region region = region_where(surface_of(make_core(mesh)), right_end);
+  const Vector<Vec3> local = morphed_positions(*region.surface(), *region.state(), 0.5, *region.core().memory);
+  const Vector<Vec3> normals = local_normal_sums(*region.state(), local, *region.core().memory);
+  for (const double unit : {1e-170, 1e170}) {
+    PlainMesh other = mesh;
+    for (double& x : other.positions) x *= unit;
+    Region scaled(surface_of(make_core(other)));
+    add(scaled, numbers(region.state()->shape->inside));
+    EXPECT_NEAR(scaled.state()->area, region.state()->area, 1e-9);
+    EXPECT_NEAR(scaled.state()->base_area, region.state()->base_area, 1e-9);
+    const Vector<Vec3> there = morphed_positions(*scaled.surface(), *scaled.state(), 0.5, *scaled.core().memory);
+    const Vector<Vec3> sums = local_normal_sums(*scaled.state(), there, *scaled.core().memory);
+    EXPECT_LT(largest_difference(there, local), 1e-9);
+    for (std::size_t i = 0; i < sums.size(); ++i) EXPECT_LT(norm(unit_normal(sums[i]) - unit_normal(normals[i])), 1e-6);
+    for (std::size_t i = 0; i < scaled.state()->base.size(); ++i)
+      EXPECT_LT(norm((1 / unit) * scaled.state()->base[i] - region.state()->base[i]), 1e-9);
   }
 }
 

@@ -54,7 +54,7 @@ double crease(const RegionSurface& surface, const RegionState& state) {
   const Vector<Vec3> local = morphed_positions(surface, state, 1.0, *surface.core->memory);
   const auto place = [&](std::int32_t v) {
     const std::int32_t l = state.shape->local[static_cast<std::size_t>(v)];
-    return l >= 0 ? local[static_cast<std::size_t>(l)] : surface.position(v);
+    return l >= 0 ? local[static_cast<std::size_t>(l)] : surface.scaled_position(v);
   };
   const auto moves = [&](std::int32_t t) {
     return std::binary_search(state.shape->triangles.begin(), state.shape->triangles.end(), t);
