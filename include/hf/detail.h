@@ -53,7 +53,8 @@ enum {
 };
 
 /* A closed curve on the surface: at least 3 points in order, each joined to the next, and the last to the first, by a
- * shortest path along edges. The vertices on the curve are its rim, not part of the region. */
+ * shortest path along edges. The vertices on the curve are its rim, not part of the region. A
+ * whole border is a curve too; it has one side. */
 typedef struct hf_curve_desc {
   uint32_t struct_size;
   uint32_t point_count;

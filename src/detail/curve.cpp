@@ -100,14 +100,18 @@ Pieces cut(const Core& core, Span<const Index> curve, Memory& memory) {
   return pieces;
 }
 
-bool along_borders(const Core& core, Span<const Index> curve) {
+// Whether the curve is a whole border, or several.
+bool along_borders(const Core& core, Span<const Index> curve, const Pieces& pieces) {
   const Topology& topology = core.topology;
   return std::all_of(curve.begin(), curve.end(), [&](Index v) {
+    bool at_border = false;
     for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
       const std::size_t e = at(topology.neighbour_edge[at(i)]);
-      if (topology.edge_triangle_start[e + 1] - topology.edge_triangle_start[e] == 1) return true;
+      if (topology.edge_triangle_start[e + 1] - topology.edge_triangle_start[e] != 1) continue;
+      if (pieces.piece[at(topology.neighbour[at(i)])] != on_curve) return false;
+      at_border = true;
     }
-    return false;
+    return at_border;
   });
 }
 
@@ -124,7 +128,7 @@ Vector<std::int32_t> closed_curve(const Core& core, Span<const std::int32_t> poi
 Vector<std::int32_t> curve_side(const Core& core, Span<const std::int32_t> curve, CurveSide side, std::int32_t seed,
                                 Memory& memory) {
   const Pieces pieces = cut(core, curve, memory);
-  if (pieces.area.size() < (along_borders(core, curve) ? 1u : 2u))
+  if (pieces.area.size() < (along_borders(core, curve, pieces) ? 1u : 2u))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
          "the curve does not separate the surface: its %zu vertices leave %zu piece%s; add points so that the paths "
          "between them run where the curve is to be",

@@ -1,8 +1,8 @@
 // Closed curves on a surface, and the pieces they cut it into.
 //
 // A curve is a ring of vertices: its points, joined by shortest paths along edges. The vertices off the curve fall into
-// pieces that hang together along edges; a curve separates when there are two at least, or when it runs along borders
-// only. Cost: O(d log d) per path for the d vertices nearer than its end, O(n) for the pieces.
+// pieces that hang together along edges; a curve separates when there are two at least, or when it is a
+// whole border. Cost: O(d log d) per path for the d vertices nearer than its end, O(n) for the pieces.
 #pragma once
 #include <cstdint>
 

@@ -73,7 +73,7 @@ TEST(Curve, EnclosesTheSideThatIsAskedFor) {
   EXPECT_EQ(sheet.side(square, CurveSide::seed, place(0, 0)), sheet.side(square, CurveSide::larger));
 }
 
-// A curve through a border cuts as well, and one along the border has one side only.
+// A curve through a border cuts as well, and one that is a border has one side only.
 TEST(Curve, MayUseBorders) {
   const Sheet sheet;
   const Numbers half{place(0, 0), place(10, 0), place(10, 20), place(0, 20)};
@@ -81,6 +81,8 @@ TEST(Curve, MayUseBorders) {
   const Numbers border{place(0, 0), place(20, 0), place(20, 20), place(0, 20)};
   for (const CurveSide which : {CurveSide::smaller, CurveSide::larger})
     EXPECT_EQ(sheet.side(border, which).size(), 19u * 19u);
+  const Numbers part{place(1, 0), place(3, 0), place(2, 0)};
+  index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] { sheet.side(part, CurveSide::smaller); });
 }
 
 TEST(Curve, ThatDoesNotSeparateIsRefused) {
