@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# build.sh LIBRARY OUTDIR: the add-on folder OUTDIR/hf for Godot 3 (libhf_godot.so, libhf.so, scripts). Godot's headers come from
-# GODOT_SOURCE (a folder that holds modules/gdnative) or from Debian's source package.
+# build.sh LIBRARY OUTDIR: the add-on folder OUTDIR/hf for Godot 3 (libhf_godot.so, libhf.so, scripts). Godot's headers
+# come from GODOT_SOURCE (a folder that holds modules/gdnative) or from Debian's source package.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 library=$1

@@ -13,9 +13,10 @@ import sys
 import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parents[1] / "tests" / "bindings"), str(HERE.parent / "python")]
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "tests" / "bindings"), str(HERE.parent / "python")]
 import golden  # noqa: E402
 import hf  # noqa: E402
+from bad_scenes import bad_scenes  # noqa: E402
 
 
 # ---- meshes ----
@@ -24,9 +25,11 @@ def strip(nx=12, ny=4):
     points = [(x * 0.5, y * 0.5, 0.0) for y in range(ny + 1) for x in range(nx + 1)]
     inside = lambda x, y: 0 < x < nx and 0 < y < ny
     jitter = np.random.default_rng(3)
-    points = [(px + 0.1 * jitter.uniform(-1, 1), py + 0.1 * jitter.uniform(-1, 1), 0.0) if inside(i % (nx + 1), i // (nx + 1)) else (px, py, 0.0)
+    points = [(px + 0.1 * jitter.uniform(-1, 1), py + 0.1 * jitter.uniform(-1, 1), 0.0) if inside(i % (nx + 1),
+        i // (nx + 1)) else (px, py, 0.0)
               for i, (px, py, _) in enumerate(points)]
-    quads = [(y * (nx + 1) + x, y * (nx + 1) + x + 1, (y + 1) * (nx + 1) + x + 1, (y + 1) * (nx + 1) + x) for y in range(ny) for x in range(nx)]
+    quads = [(y * (nx + 1) + x, y * (nx + 1) + x + 1, (y + 1) * (nx + 1) + x + 1, (y + 1) * (nx + 1) + x)
+        for y in range(ny) for x in range(nx)]
     return points, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
 
 
@@ -46,24 +49,29 @@ def bar(length, radius, rings, around):
     """A round bar along z with closed ends, uneven so that nothing is decided by ties that platforms break differently."""
     draw = np.random.default_rng(rings)
     turn = lambda j: 2 * math.pi * (j + draw.uniform(-0.2, 0.2)) / around
-    uneven = lambda angle: (radius * draw.uniform(0.9, 1.1) * math.cos(angle), radius * draw.uniform(0.9, 1.1) * math.sin(angle))
+    uneven = lambda angle: (radius * draw.uniform(0.9, 1.1) * math.cos(angle), radius * draw.uniform(0.9, 1.1)
+        * math.sin(angle))
     points = [(*uneven(turn(j)), length * i / (rings - 1)) for i in range(rings) for j in range(around)]
     at = lambda i, j: i * around + j % around
     triangles = [t for i in range(rings - 1) for j in range(around) for t in
                  ((at(i, j), at(i, j + 1), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i + 1, j)))]
     first, last = len(points), len(points) + 1
     points += [(0, 0, 0), (0, 0, length)]
-    triangles += [t for j in range(around) for t in ((first, at(0, j + 1), at(0, j)), (last, at(rings - 1, j), at(rings - 1, j + 1)))]
+    triangles += [t for j in range(around) for t in ((first, at(0, j + 1), at(0, j)),
+        (last, at(rings - 1, j), at(rings - 1, j + 1)))]
     return points, triangles
 
 
 def write_meshes():
-    small = ([(0, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0), (2, 0, 0), (2, 1, 0)], [(0, 2, 1), (1, 2, 3), (2, 4, 3), (3, 4, 5)])
+    small = ([(0, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0), (2, 0, 0), (2, 1, 0)], [(0, 2, 1), (1, 2, 3), (2, 4, 3),
+        (3, 4, 5)])
     lonely = (small[0] + [(9, 9, 9)], small[1])
-    meshes = {"strip": strip(), "torus": torus(), "bar": bar(6, 0.5, 25, 12), "long_bar": bar(9, 0.9, 31, 14), "small": small, "lonely": lonely}
+    meshes = {"strip": strip(), "torus": torus(), "bar": bar(6, 0.5, 25, 12), "long_bar": bar(9, 0.9, 31, 14),
+        "small": small, "lonely": lonely}
     (HERE / "meshes").mkdir(exist_ok=True)
     for name, (points, triangles) in meshes.items():
-        text = {"positions": [round(float(x), 4) + 0.0 for p in points for x in p], "triangles": [int(i) for t in triangles for i in t]}
+        text = {"positions": [round(float(x), 4) + 0.0 for p in points for x in p],
+            "triangles": [int(i) for t in triangles for i in t]}
         (HERE / "meshes" / f"{name}.json").write_text(json.dumps(text, separators=(",", ":")) + "\n")
 
 
@@ -118,16 +126,20 @@ def scenes(meshes):
 
     # the oracle has plain cotangents; the bars only have to agree, on the default operator
     plain = lambda mesh: {"operator_kind": hf.constants.HF_OPERATOR_COTANGENT} if mesh in ("strip", "torus") else {}
-    solver = lambda mesh, name="s", **options: {"do": "solver", "as": name, "mesh": mesh, "options": {**plain(mesh), **options}}
-    sites = lambda vertices, values, **more: {"do": "add_sites", "on": "s", "vertices": vertices, "values": values, **more}
+    solver = lambda mesh, name="s", **options: {"do": "solver", "as": name, "mesh": mesh,
+        "options": {**plain(mesh), **options}}
+    sites = lambda vertices, values, **more: {"do": "add_sites", "on": "s", "vertices": vertices, "values": values,
+        **more}
     solve = lambda array, **more: {"do": "solve", "on": "s", "expect": expect(array), **more}
 
     mesh = meshes["strip"]
     x = np.array(mesh["positions"]).reshape(-1, 3)[:, 0]
     ends = [int(v) for v in np.flatnonzero((x == 0) | (x == 6))]
-    scene("linear", "Hard sites on two opposite sides of a flat strip: the field is x, exactly (closed form).", solver("strip"),
+    scene("linear", "Hard sites on two opposite sides of a flat strip: the field is x, exactly (closed form).",
+        solver("strip"),
           {"do": "report", "on": "s", "expect": {"component_count": 1, "boundary_edge_count": 32, "vertex_count": 65}},
-          sites(ends, [float(x[v]) for v in ends]), solve(x), {"do": "solve_at", "on": "s", "vertices": [20, 33], "expect": expect(x[[20, 33]])},
+          sites(ends, [float(x[v]) for v in ends]), solve(x), {"do": "solve_at", "on": "s", "vertices": [20, 33],
+              "expect": expect(x[[20, 33]])},
           {"do": "solve_f32", "on": "s", "expect": {**expect(x), "tolerance": 1e-6}})
 
     mesh = meshes["torus"]
@@ -135,32 +147,50 @@ def scenes(meshes):
     scene("torus_field", "Five sites on a torus (oracle); a preview with two corrections agrees.", solver("torus"),
           sites(vertices, values, numbers=[0, 1, 2, 3, 4]), solve(field(mesh, vertices, values)),
           {"do": "preview", "on": "s", "correction_count": 2, "expect": expect(field(mesh, vertices, values))},
-          {"do": "statistics", "on": "s", "expect": {"factorisation_count": 1, "site_count": 5}})
+          {"do": "statistics", "on": "s", "expect": {"factorisation_count": 1, "site_count": 5}},
+          {"do": "certify", "on": "s", "expect": {"residual": 0, "site_error": 0, "overshoot_checked": 0,
+              "tolerance": 1e-9}},
+          {"do": "certify", "on": "s", "tolerance": 1e-300, "error": "HF_ERROR_INACCURATE"},
+          {"do": "certify", "on": "s", "tolerance": "nan", "error": "HF_ERROR_INVALID_ARGUMENT"})
 
-    scene("edits", "Insert, remove, move, set and a batch of all; each field against the oracle, one factorisation throughout.", solver("torus"),
+    scene("edits",
+        "Insert, remove, move, set and a batch of all; each field against the oracle, one factorisation throughout.", solver("torus"),
           sites([0, 50, 100], [1.0, -1.0, 0.5]), {"do": "remove_sites", "on": "s", "sites": [1]},
           solve(field(mesh, [0, 100], [1, 0.5])),
           {"do": "move_sites", "on": "s", "sites": [2], "vertices": [150]}, solve(field(mesh, [0, 150], [1, 0.5])),
-          {"do": "set_values", "on": "s", "sites": [0, 2], "values": [3.0, -2.0]}, solve(field(mesh, [0, 150], [3, -2])),
-          {"do": "edit", "on": "s", "remove": [0], "move": [2], "move_to": [151], "set": [2], "set_values": [7.0], "add": [10, 20, 30], "add_values": [1.0, 2.0, 3.0]},
-          solve(field(mesh, [151, 10, 20, 30], [7, 1, 2, 3])), {"do": "statistics", "on": "s", "expect": {"factorisation_count": 1, "site_count": 4}})
+          {"do": "set_values", "on": "s", "sites": [0, 2], "values": [3.0, -2.0]}, solve(field(mesh, [0, 150],
+              [3, -2])),
+          {"do": "edit", "on": "s", "remove": [0], "move": [2], "move_to": [151], "set": [2], "set_values": [7.0],
+              "add": [10, 20, 30], "add_values": [1.0, 2.0, 3.0]},
+          solve(field(mesh, [151, 10, 20, 30], [7, 1, 2, 3])), {"do": "statistics", "on": "s",
+              "expect": {"factorisation_count": 1, "site_count": 4}})
 
-    scene("undo_redo", "Record, edit, undo, redo: the same bits come back.", solver("torus"), sites([0, 144], [0.0, 1.0]),
-          solve(field(mesh, [0, 144], [0, 1]), keep="before"), {"do": "record", "on": "s"}, sites([70, 80, 90], [5.0, 5.0, 5.0]),
+    scene("undo_redo", "Record, edit, undo, redo: the same bits come back.", solver("torus"),
+        sites([0, 144], [0.0, 1.0]),
+          solve(field(mesh, [0, 144], [0, 1]), keep="before"), {"do": "record", "on": "s"}, sites([70, 80, 90],
+              [5.0, 5.0, 5.0]),
           solve(field(mesh, [0, 144, 70, 80, 90], [0, 1, 5, 5, 5]), keep="after"), {"do": "undo", "on": "s"},
-          {"do": "solve", "on": "s", "same_as": "before"}, {"do": "redo", "on": "s"}, {"do": "solve", "on": "s", "same_as": "after"},
-          {"do": "undo", "on": "s"}, {"do": "solve", "on": "s", "same_as": "before"}, {"do": "undo", "on": "s", "error": "HF_ERROR_NO_RECORD"})
+          {"do": "solve", "on": "s", "same_as": "before"}, {"do": "redo", "on": "s"}, {"do": "solve", "on": "s",
+              "same_as": "after"},
+          {"do": "undo", "on": "s"}, {"do": "solve", "on": "s", "same_as": "before"}, {"do": "undo", "on": "s",
+              "error": "HF_ERROR_NO_RECORD"})
 
-    scene("clone", "A clone edits on its own; the original keeps its bits and may go first.", solver("torus"), sites([0, 144], [0.0, 1.0]),
+    scene("clone", "A clone edits on its own; the original keeps its bits and may go first.", solver("torus"),
+        sites([0, 144], [0.0, 1.0]),
           {"do": "solve", "on": "s", "keep": "original"}, {"do": "clone", "on": "s", "as": "c"},
-          {"do": "add_sites", "on": "c", "vertices": [30], "values": [4.0]}, {"do": "solve", "on": "s", "same_as": "original"},
+          {"do": "add_sites", "on": "c", "vertices": [30], "values": [4.0]}, {"do": "solve", "on": "s",
+              "same_as": "original"},
           {"do": "dispose", "on": "s"}, {"do": "dispose", "on": "s"},
-          {"do": "solve", "on": "c", "expect": expect(field(mesh, [0, 144, 30], [0, 1, 4]))}, {"do": "solve", "on": "s", "error": "HF_ERROR_INVALID_HANDLE"})
+          {"do": "solve", "on": "c", "expect": expect(field(mesh, [0, 144, 30], [0, 1, 4]))}, {"do": "solve",
+              "on": "s", "error": "HF_ERROR_INVALID_HANDLE"})
 
-    scene("saved_factor", "A factor saved and loaded gives the same bits; damage and a foreign mesh are refused.", solver("torus"),
-          sites([0, 144], [0.0, 1.0]), {"do": "solve", "on": "s", "keep": "made"}, {"do": "save_factor", "on": "s", "as": "f"},
+    scene("saved_factor", "A factor saved and loaded gives the same bits; damage and a foreign mesh are refused.",
+        solver("torus"),
+          sites([0, 144], [0.0, 1.0]), {"do": "solve", "on": "s", "keep": "made"}, {"do": "save_factor", "on": "s",
+              "as": "f"},
           {**solver("torus", "t"), "factor": "f"}, {"do": "statistics", "on": "t", "expect": {"factor_loaded": 1}},
-          {"do": "add_sites", "on": "t", "vertices": [0, 144], "values": [0.0, 1.0]}, {"do": "solve", "on": "t", "same_as": "made"},
+          {"do": "add_sites", "on": "t", "vertices": [0, 144], "values": [0.0, 1.0]}, {"do": "solve", "on": "t",
+              "same_as": "made"},
           {**solver("bar", "u"), "factor": "f", "error": "HF_ERROR_INVALID_ARGUMENT"},
           {**solver("torus", "u"), "factor": "f", "damage": 300, "error": "HF_ERROR_INVALID_ARGUMENT"})
 
@@ -168,44 +198,88 @@ def scenes(meshes):
     weights = [[0.2, 0.3, 0.5], [0.5, 0.25, 0.25]]
     rows = [dict(zip(t0, weights[0])), dict(zip(t1, weights[1])), 60, 230]
     scene("soft_inside", "Sites inside triangles and soft sites on vertices (oracle).", solver("torus"),
-          {"do": "add_sites", "on": "s", "triangles": [10, 300], "barycentrics": weights[0] + weights[1], "values": [1.0, -1.0]},
-          sites([60, 230], [0.5, 2.0], stiffness=[2.0, 100.0]), solve(field(mesh, rows, [1, -1, 0.5, 2], [0, 0, 2, 100])))
+          {"do": "add_sites", "on": "s", "triangles": [10, 300], "barycentrics": weights[0] + weights[1],
+              "values": [1.0, -1.0]},
+          sites([60, 230], [0.5, 2.0], stiffness=[2.0, 100.0]), solve(field(mesh, rows, [1, -1, 0.5, 2],
+              [0, 0, 2, 100])))
 
     p = np.array(mesh["positions"]).reshape(-1, 3)
     height = [float(v) for v in p[:, 0]]
-    scene("analysis", "Looking into a field: x on a torus has a minimum, a maximum and two saddles; its iso-lines lie at their levels (closed forms); distances and tips (agreement).",
-          solver("torus"), {"do": "critical", "on": "s", "field": height, "expect": {"count": 4, "sum": 0, "min": -1, "max": 1}},
-          {"do": "levels", "on": "s", "field": height, "count": 3, "spacing": "HF_LEVELS_VALUE", "expect": expect(np.array([-2.0, 0.0, 2.0]))},
+    scene("analysis",
+        "Looking into a field: x on a torus has a minimum, a maximum and two saddles; its iso-lines lie at their levels (closed forms); distances and tips (agreement).",
+          solver("torus"), {"do": "critical", "on": "s", "field": height, "expect": {"count": 4, "sum": 0, "min": -1,
+              "max": 1}},
+          {"do": "levels", "on": "s", "field": height, "count": 3, "spacing": "HF_LEVELS_VALUE",
+              "expect": expect(np.array([-2.0, 0.0, 2.0]))},
           {"do": "levels", "on": "s", "field": height, "count": 3, "spacing": "HF_LEVELS_AREA", "expect": agree()},
-          {"do": "isolines", "on": "s", "field": height, "levels": [0.1, 3.0], "lines": 3, "closed": 3, "expect": agree()},
-          {"do": "geodesics", "on": "s", "as": "g"}, {"do": "distance", "on": "g", "sources": [0, 100], "expect": agree()},
+          {"do": "isolines", "on": "s", "field": height, "levels": [0.1, 3.0], "lines": 3, "closed": 3,
+              "expect": agree()},
+          {"do": "geodesics", "on": "s", "as": "g"}, {"do": "distance", "on": "g", "sources": [0, 100],
+              "expect": agree()},
           solver("bar", "b"), {"do": "extremities", "on": "b", "expect": agree(0)},
           {"do": "direction", "on": "s", "as": "d", "options": {"degree": 4}},
           {"do": "add_vectors", "on": "d", "vertices": [0], "vectors": [0.0, 1.0, 0.0], "numbers": [0]},
-          {"do": "singularities", "on": "d", "expect": {"sum": 0, "tolerance": 1e-9}}, {"do": "directions", "on": "d", "expect": agree()})
+          {"do": "singularities", "on": "d", "expect": {"sum": 0, "tolerance": 1e-9}}, {"do": "directions", "on": "d",
+              "expect": agree()})
 
     on_d, on_c = {"on": "d"}, {"on": "c"}
-    scene("directions", "Crosses on a torus: constraints come, move, turn and go; the undo stack and a clone give the bits back. Indices sum to "
-          "degree times the Euler characteristic, 0 (closed form).", solver("torus"), {"do": "direction", "on": "s", "as": "d", "options": {"degree": 4}},
+    scene("directions",
+        "Crosses on a torus: constraints come, move, turn and go; the undo stack and a clone give the bits back. Indices sum to "
+          "degree times the Euler characteristic, 0 (closed form).", solver("torus"), {"do": "direction", "on": "s",
+              "as": "d", "options": {"degree": 4}},
           {"do": "undo_vectors", "error": "HF_ERROR_NO_RECORD", **on_d},
-          {"do": "add_vectors", "vertices": [0, 150], "vectors": [0.0, 1.0, 0.0, 0.0, 0.0, 1.0], "numbers": [0, 1], **on_d},
-          {"do": "directions", "keep": "first", "expect": agree(), **on_d}, {"do": "vectors", "keep": "given", "expect": {"count": 6}, **on_d},
-          {"do": "clone_vectors", "as": "c", **on_d}, {"do": "record_vectors", **on_d}, {"do": "move_vectors", "sites": [1], "vertices": [160], **on_d},
-          {"do": "directions", "expect": agree(), **on_d}, {"do": "set_vectors", "sites": [0], "vectors": [0.0, 2.0, 0.0], **on_d},
-          {"do": "rotate", "sites": [1], "angles": [0.5], **on_d}, {"do": "directions", "keep": "second", "expect": agree(), **on_d},
-          {"do": "singularities", "expect": {"sum": 0, "tolerance": 1e-9}, **on_d}, {"do": "remove_vectors", "sites": [0], **on_d},
-          {"do": "vectors", "expect": {"count": 3}, **on_d}, {"do": "undo_vectors", **on_d}, {"do": "directions", "same_as": "first", **on_d},
-          {"do": "vectors", "same_as": "given", **on_d}, {"do": "dispose", **on_d}, {"do": "directions", "same_as": "first", **on_c})
+          {"do": "add_vectors", "vertices": [0, 150], "vectors": [0.0, 1.0, 0.0, 0.0, 0.0, 1.0], "numbers": [0, 1],
+              **on_d},
+          {"do": "directions", "keep": "first", "expect": agree(), **on_d}, {"do": "vectors", "keep": "given",
+              "expect": {"count": 6}, **on_d},
+          {"do": "clone_vectors", "as": "c", **on_d}, {"do": "record_vectors", **on_d}, {"do": "move_vectors",
+              "sites": [1], "vertices": [160], **on_d},
+          {"do": "directions", "expect": agree(), **on_d}, {"do": "set_vectors", "sites": [0],
+              "vectors": [0.0, 2.0, 0.0], **on_d},
+          {"do": "rotate", "sites": [1], "angles": [0.5], **on_d}, {"do": "directions", "keep": "second",
+              "expect": agree(), **on_d},
+          {"do": "singularities", "expect": {"sum": 0, "tolerance": 1e-9}, **on_d}, {"do": "remove_vectors",
+              "sites": [0], **on_d},
+          {"do": "vectors", "expect": {"count": 3}, **on_d}, {"do": "undo_vectors", **on_d}, {"do": "directions",
+              "same_as": "first", **on_d},
+          {"do": "vectors", "same_as": "given", **on_d}, {"do": "dispose", **on_d}, {"do": "directions",
+              "same_as": "first", **on_c})
 
-    scene("quads_and_flow", "A torus as quads: Euler characteristic 0 and no other faces (closed forms); flow lines of a field between two sites, eight "
-          "of equal flux and two through given vertices (agreement).", solver("torus"), sites([0, 150], [0.0, 1.0]), {"do": "solve", "on": "s", "keep": "u"},
-          {"do": "flow", "on": "s", "as": "w"}, {"do": "flow_lines", "on": "w", "field": "u", "count": 8, "lines": 8, "expect": agree(1e-6)},
+    scene("quads_and_flow",
+        "A torus as quads: Euler characteristic 0 and no other faces (closed forms); flow lines of a field between two sites, eight "
+          "of equal flux and two through given vertices (agreement).", solver("torus"), sites([0, 150],
+              [0.0, 1.0]), {"do": "solve", "on": "s", "keep": "u"},
+          {"do": "flow", "on": "s", "as": "w"}, {"do": "flow_lines", "on": "w", "field": "u", "count": 8, "lines": 8,
+              "expect": agree(1e-6)},
           {"do": "flow_lines", "on": "w", "field": "u", "seeds": [70, 200], "lines": 2, "expect": agree(1e-6)},
-          {"do": "quads", "on": "s", "as": "q", "edge_length": 0.8}, {"do": "quads_info", "on": "q", "expect": {"euler_characteristic": 0, "other_faces": 0}},
+          {"do": "quads", "on": "s", "as": "q", "edge_length": 0.8}, {"do": "quads_info", "on": "q",
+              "expect": {"euler_characteristic": 0, "other_faces": 0}},
           {"do": "quad_mesh", "on": "q", "expect": agree(1e-6)},
-          {"do": "quads", "on": "s", "as": "r", "edge_length": 0.8, "site_vertices": [0, 150], "site_lines": [8, -8], "options": {"kind": 1, "keep_polygons": 1}},
+          {"do": "quads", "on": "s", "as": "r", "edge_length": 0.8, "site_vertices": [0, 150], "site_lines": [8, -8],
+              "options": {"kind": 1, "keep_polygons": 1}},
           {"do": "quads_info", "on": "r", "expect": {"euler_characteristic": 0, "site_count": 2}},
-          {"do": "dispose", "on": "s"}, {"do": "flow_lines", "on": "w", "field": "u", "count": 8, "lines": 8, "expect": {"min": -4.0, "max": 4.0, "tolerance": 4.0}})
+          {"do": "dispose", "on": "s"}, {"do": "flow_lines", "on": "w", "field": "u", "count": 8, "lines": 8,
+              "expect": {"min": -4.0, "max": 4.0, "tolerance": 4.0}})
+
+    on_r, patch = {"on": "r"}, [0, 1, 2, 12, 13, 14]
+    scene("regions",
+        "A patch of a torus: edited, morphed (0 gives the given positions back, bit for bit), undone; onto itself its detail gives the "
+          "surface back (closed forms), doubled it goes beyond (agreement).", solver("torus"),
+          {"do": "region", "on": "s", "as": "r", "positions": mesh["positions"]}, {"do": "region_edit", "add": patch,
+              **on_r},
+          {"do": "region_vertices", "expect": expect(np.array(patch), 0), **on_r}, {"do": "record_region", **on_r},
+          {"do": "region_edit", "rings": 2, "remove": [0], **on_r}, {"do": "region_vertices", "keep": "grown",
+              "expect": agree(0), **on_r},
+          {"do": "morph", "weight": 0.0, "expect": expect(np.array(mesh["positions"]), 0), **on_r}, {"do": "morph",
+              "weight": 1.0, "expect": agree(), **on_r},
+          {"do": "region_info", "expect": {"factorisation_count": 0}, **on_r}, {"do": "undo_region", **on_r},
+          {"do": "region_vertices", "expect": expect(np.array(patch), 0), **on_r}, {"do": "redo_region", **on_r},
+          {"do": "region_vertices", "same_as": "grown", **on_r},
+          {"do": "region_edit", "curve": [0, 1, 2, 3, 15, 27, 39, 38, 37, 36, 24, 12],
+              **on_r}, {"do": "region_vertices", "expect": agree(0), **on_r},
+          {"do": "detail", "as": "x", "source": "r", "target": "r"}, {"do": "morph", "on": "x", "weight": 1.0,
+              "expect": expect(np.array(mesh["positions"]), 1e-6)},
+          {"do": "morph", "on": "x", "weight": 2.0, "expect": agree(1e-6)})
 
     mesh = meshes["bar"]
     p = np.array(mesh["positions"]).reshape(-1, 3)
@@ -217,219 +291,56 @@ def scenes(meshes):
     both = p @ rotation(turn).T + [1, 2, 3]
     shift = lambda region: (rotation(turn) @ p[region].mean(0) + [1, 2, 3] - p[region].mean(0)).tolist()
     pose = lambda **more: {"on": "p", **more}
-    scene("pose", "Two handles on a bar: rest, a rigid motion of the whole (closed forms), a bend, a third handle in mid-pose that comes and goes (agreement; bits return).",
+    scene("pose",
+        "Two handles on a bar: rest, a rigid motion of the whole (closed forms), a bend, a third handle in mid-pose that comes and goes (agreement; bits return).",
           solver("bar"), {"do": "pose", "on": "s", "as": "p"}, pose(do="deform", error="HF_ERROR_EMPTY"),
           pose(do="add_handles", regions=[low, high], numbers=[0, 1]), pose(do="deform", expect=expect(p)),
-          pose(do="set_transforms", handles=[0, 1], rotations=turn + turn, translations=shift(low) + shift(high)), pose(do="deform", expect=expect(both, 1e-8)),
+          pose(do="set_transforms", handles=[0, 1], rotations=turn + turn,
+              translations=shift(low) + shift(high)), pose(do="deform", expect=expect(both, 1e-8)),
           pose(do="set_transforms", handles=[0, 1], rotations=[0, 0, 0, 1] + turn, translations=[0, 0, 0, 1, 0, 0]),
-          pose(do="deform", options={"restart": 1, "iteration_count": 20}, keep="bent", expect={**expect_rows(about(turn, p[high].mean(0), p[high]) + [1, 0, 0], high)}),
+          pose(do="deform", options={"restart": 1, "iteration_count": 20}, keep="bent",
+              expect={**expect_rows(about(turn, p[high].mean(0), p[high]) + [1, 0, 0], high)}),
           pose(do="deform", options={"restart": 1, "iteration_count": 20}, same_as="bent", expect=agree()),
           pose(do="handle_field", handle=1, expect=agree(2e-6)), pose(do="skin", weight_count=4, expect=agree(2e-6)),
-          pose(do="add_handles", regions=[middle], layer=1, numbers=[2]), pose(do="handle_info", handle=2, expect={"layer": 1}),
+          pose(do="add_handles", regions=[middle], layer=1, numbers=[2]), pose(do="handle_info", handle=2,
+              expect={"layer": 1}),
           pose(do="set_transforms", handles=[2], translations=[0.0, 0.7, 0.0]), pose(do="deform", expect=agree()),
-          pose(do="remove_handles", handles=[2]), pose(do="deform", options={"restart": 1, "iteration_count": 20}, same_as="bent"),
+          pose(do="remove_handles", handles=[2]), pose(do="deform", options={"restart": 1, "iteration_count": 20},
+              same_as="bent"),
           {"do": "statistics", "on": "s", "expect": {"factorisation_count": 1}})
 
     q = np.array(meshes["long_bar"]["positions"]).reshape(-1, 3)
-    ends = lambda points, length: [[int(v) for v in np.flatnonzero(points[:, 2] <= 0.13 * length)], [int(v) for v in np.flatnonzero(points[:, 2] >= 0.87 * length)]]
-    patch = lambda points, length: [int(v) for v in np.flatnonzero((np.abs(points[:, 2] / length - 0.5) < 0.06) & (points[:, 0] > 0.05 * length))]
-    scene("transfer", "A bend of one bar played on a longer, thicker one (agreement); rest stays rest.", solver("bar"), solver("long_bar", "t"),
+    ends = lambda points, length: [[int(v) for v in np.flatnonzero(points[:, 2] <= 0.13 * length)],
+        [int(v) for v in np.flatnonzero(points[:, 2] >= 0.87 * length)]]
+    patch = lambda points, length: [int(v)
+        for v in np.flatnonzero((np.abs(points[:, 2] / length - 0.5) < 0.06) & (points[:, 0] > 0.05 * length))]
+    scene("transfer", "A bend of one bar played on a longer, thicker one (agreement); rest stays rest.", solver("bar"),
+        solver("long_bar", "t"),
           {"do": "pose", "on": "s", "as": "p"}, pose(do="add_handles", regions=ends(p, 6)),
           pose(do="set_transforms", handles=[0, 1], rotations=[0, 0, 0, 1] + turn, translations=[0, 0, 0, 1, 0, 0]),
           pose(do="deform", options={"restart": 1, "iteration_count": 20}, keep="bent"),
           {"do": "transfer", "as": "x", "source": "s", "target": "t", "options": {"scale": 1.5}},
-          {"do": "add_pairs", "on": "x", "source_regions": [*ends(p, 6), patch(p, 6)], "target_regions": [*ends(q, 9), patch(q, 9)], "flags": [1, 0, 0], "numbers": [0, 1, 2]},
+          {"do": "add_pairs", "on": "x", "source_regions": [*ends(p, 6), patch(p, 6)], "target_regions": [*ends(q, 9),
+              patch(q, 9)], "flags": [1, 0, 0], "numbers": [0, 1, 2]},
           {"do": "transfer_info", "on": "x", "expect": {"pair_count": 3, "scale": 1.5, "tolerance": 1e-6}},
           {"do": "apply", "on": "x", "positions": mesh["positions"], "expect": expect(q, 1e-8)},
           {"do": "apply", "on": "x", "positions": "bent", "expect": agree()},
-          {"do": "remove_pairs", "on": "x", "pairs": [1]}, {"do": "transfer_info", "on": "x", "expect": {"pair_count": 2}})
+          {"do": "remove_pairs", "on": "x", "pairs": [1]}, {"do": "transfer_info", "on": "x",
+              "expect": {"pair_count": 2}})
     return found
 
 
 def rotation(q):
     x, y, z, w = q
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                      [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
 
 
 def expect_rows(points, rows):
     picked = list(range(0, len(rows), 5))
-    return {"at": [3 * rows[k] + c for k in picked for c in range(3)], "values": [float(points[k][c]) for k in picked for c in range(3)], "tolerance": 1e-9}
-
-
-def bad_scenes():
-    solver = lambda name="s", mesh="small", **more: {"do": "solver", "as": name, "mesh": mesh, **more}
-    made = []
-    bad = lambda error, **step: made.append({**step, "error": "HF_ERROR_" + error})
-    for place in range(18):
-        bad("NON_FINITE", **solver(positions={str(place): ["nan", "inf", "-inf"][place % 3]}), index=place // 3)
-    for place in range(12):
-        bad("OUT_OF_RANGE", **solver(triangles={str(place): [6, 4294967295][place % 2]}), index=place // 3)
-    bad("NULL_POINTER", **solver(mesh=None))
-    bad("EMPTY", **solver(no_triangles=True))
-    for option, value, error in (("weld", 9, "INVALID_ARGUMENT"), ("weld", -1, "INVALID_ARGUMENT"), ("operator_kind", 9, "INVALID_ARGUMENT"),
-                                 ("engine", 7, "INVALID_ARGUMENT"), ("ordering", 7, "INVALID_ARGUMENT"), ("channel_count", 65, "INVALID_ARGUMENT"),
-                                 ("vertex_limit", 5, "TOO_LARGE"), ("field_kind", 9, "INVALID_ARGUMENT"), ("weld", 2, "INVALID_ARGUMENT"), ("penalty", -1.0, "INVALID_ARGUMENT")):
-        bad(error, **solver(options={option: value}))
-    for option in ("no_such_option", "positions_", "Weld"):
-        bad("INVALID_ARGUMENT", **solver(options={option: 1}))
-    creation = [*made, solver(mesh="small"), {"do": "report", "on": "s", "expect": {"vertex_count": 6}}]
-
-    made = []
-    on = {"on": "s"}
-    start = [solver(mesh="lonely")]
-    bad("NO_SITES", do="solve", **on)
-    bad("NO_SITES", do="solve_f32", **on)
-    bad("NO_SITES", do="solve_at", vertices=[0], **on)
-    bad("NO_SITES", do="preview", **on)
-    bad("NO_RECORD", do="undo", **on)
-    bad("NO_RECORD", do="redo", **on)
-    bad("NULL_POINTER", do="add_sites", vertices=None, values=[1.0], **on)
-    bad("EMPTY", do="add_sites", vertices=[], values=[], **on)
-    for vertex in (7, 100, 4294967295):
-        bad("OUT_OF_RANGE", do="add_sites", vertices=[0, vertex], values=[0.0, 1.0], index=1, **on)
-    bad("INVALID_ARGUMENT", do="add_sites", vertices=[6], values=[1.0], **on)  # isolated
-    for value in ("nan", "inf", "-inf"):
-        bad("NON_FINITE", do="add_sites", vertices=[0, 1], values=[0.0, value], index=1, **on)
-        bad("NON_FINITE", do="add_sites", vertices=[0], values=[0.0], stiffness=[value], **on)
-        bad("NON_FINITE", do="add_sites", vertices=[0], values=[0.0], radii=[value], **on)
-    bad("INVALID_ARGUMENT", do="add_sites", vertices=[0], values=[0.0], stiffness=[-1.0], **on)
-    bad("INVALID_ARGUMENT", do="add_sites", vertices=[0], values=[0.0], radii=[-1.0], **on)
-    for wrong in ({"values": [1.0, 2.0]}, {"values": []}, {"values": [1.0], "stiffness": [1.0, 1.0]}, {"values": [1.0], "radii": [1.0, 2.0]}):
-        bad("INVALID_ARGUMENT", do="add_sites", vertices=[0], **wrong, **on)  # lengths that do not match
-    bad("OUT_OF_RANGE", do="add_sites", triangles=[4], barycentrics=[0.2, 0.3, 0.5], values=[1.0], **on)
-    bad("INVALID_ARGUMENT", do="add_sites", triangles=[0], barycentrics=[0.2, 0.3, 0.9], values=[1.0], **on)
-    bad("INVALID_ARGUMENT", do="add_sites", triangles=[0], barycentrics=[0.2, -0.2, 1.0], values=[1.0], **on)
-    bad("NON_FINITE", do="add_sites", triangles=[0], barycentrics=["nan", 0.5, 0.5], values=[1.0], **on)
-    bad("DUPLICATE_SITE", do="add_sites", vertices=[1, 1], values=[1.0, 1.0], **on)
-    bad("CONFLICT", do="add_sites", vertices=[1, 1], values=[1.0, 2.0], **on)
-    made.append({"do": "add_sites", "vertices": [0, 1], "values": [0.0, 1.0], "numbers": [0, 1], **on})
-    bad("DUPLICATE_SITE", do="add_sites", vertices=[1], values=[1.0], **on)
-    bad("CONFLICT", do="add_sites", vertices=[1], values=[2.0], **on)
-    for site in (2, 9, 4294967295):
-        bad("NO_SUCH_SITE", do="remove_sites", sites=[0, site], index=1, **on)
-        bad("NO_SUCH_SITE", do="move_sites", sites=[site], vertices=[3], **on)
-        bad("NO_SUCH_SITE", do="set_values", sites=[site], values=[1.0], **on)
-    bad("NO_SUCH_SITE", do="remove_sites", sites=[0, 0], **on)
-    bad("EMPTY", do="remove_sites", sites=[], **on)
-    bad("NULL_POINTER", do="remove_sites", sites=None, **on)
-    bad("OUT_OF_RANGE", do="move_sites", sites=[0], vertices=[7], **on)
-    bad("INVALID_ARGUMENT", do="set_values", sites=[0], values=[1.0, 2.0], **on)
-    bad("NON_FINITE", do="set_values", sites=[0], values=["nan"], **on)
-    bad("EMPTY", do="solve_at", vertices=[], **on)
-    bad("OUT_OF_RANGE", do="solve_at", vertices=[7], **on)
-    bad("INVALID_ARGUMENT", do="preview", correction_count=9, **on)
-    line = [0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 0.0]
-    bad("INVALID_ARGUMENT", do="levels", field=line, count=0, spacing="HF_LEVELS_VALUE", **on)
-    bad("INVALID_ARGUMENT", do="levels", field=line[:3], count=2, spacing="HF_LEVELS_VALUE", **on)
-    bad("INVALID_ARGUMENT", do="levels", field=[1.0] * 7, count=2, spacing="HF_LEVELS_VALUE", **on)
-    bad("NON_FINITE", do="levels", field=["inf"] + line[1:], count=2, spacing="HF_LEVELS_VALUE", **on)
-    bad("EMPTY", do="isolines", field=line, levels=[], **on)
-    bad("NON_FINITE", do="isolines", field=line, levels=["nan"], **on)
-    bad("INVALID_ARGUMENT", do="isolines", field=line[:2], levels=[0.5], **on)
-    bad("INVALID_ARGUMENT", do="critical", field=line[:5], **on)
-    made.append({"do": "solve", "expect": {"count": 7, "max": 1.0, "min": 0.0, "tolerance": 1e-12}, **on})
-    sites = start + made
-
-    made = []
-    start = [solver(mesh="bar"), {"do": "pose", "on": "s", "as": "p"}]
-    on = {"on": "p"}
-    bad("EMPTY", do="deform", **on)
-    bad("NULL_POINTER", do="add_handles", regions=None, **on)
-    bad("EMPTY", do="add_handles", regions=[], **on)
-    bad("EMPTY", do="add_handles", regions=[[0], []], **on)
-    for vertex in (302, 4294967295):
-        bad("OUT_OF_RANGE", do="add_handles", regions=[[0, 1, vertex]], index=2, **on)
-    bad("OVERLAP", do="add_handles", regions=[[0, 1, 2], [2, 3]], **on)
-    bad("INVALID_ARGUMENT", do="add_handles", regions=[[0]], layer=8, **on)
-    bad("NON_FINITE", do="add_handles", points=["nan", 0.0, 0.0], radii=[1.0], **on)
-    bad("NON_FINITE", do="add_handles", points=[0.0, 0.0, 0.0], radii=["inf"], **on)
-    bad("INVALID_ARGUMENT", do="add_handles", points=[0.0, 0.0, 0.0], radii=[-1.0], **on)
-    bad("INVALID_ARGUMENT", do="add_handles", points=[0.0, 0.0, 0.0], radii=[1.0, 1.0], **on)
-    made.append({"do": "add_handles", "regions": [list(range(12)), list(range(276, 288))], "numbers": [0, 1], **on})
-    bad("OVERLAP", do="add_handles", regions=[[5]], **on)
-    for handle in (2, 4294967295):
-        bad("NO_SUCH_HANDLE", do="remove_handles", handles=[handle], **on)
-        bad("NO_SUCH_HANDLE", do="set_transforms", handles=[handle], translations=[0.0, 0.0, 0.0], **on)
-        bad("NO_SUCH_HANDLE", do="handle_field", handle=handle, **on)
-        bad("NO_SUCH_HANDLE", do="handle_info", handle=handle, **on)
-    bad("EMPTY", do="remove_handles", handles=[], **on)
-    bad("EMPTY", do="set_transforms", handles=[], translations=[], **on)
-    for value in ("nan", "inf"):
-        bad("NON_FINITE", do="set_transforms", handles=[0], translations=[0.0, value, 0.0], **on)
-        bad("NON_FINITE", do="set_transforms", handles=[0], rotations=[0.0, value, 0.0, 1.0], **on)
-    bad("INVALID_ARGUMENT", do="set_transforms", handles=[0], translations=[0.0, 0.0], **on)
-    bad("INVALID_ARGUMENT", do="set_transforms", handles=[0], rotations=[0.0, 0.0], **on)
-    bad("INVALID_ARGUMENT", do="skin", weight_count=5, **on)
-    bad("INVALID_ARGUMENT", do="pose", **{"on": "s", "as": "q"}, options={"mode": 9})
-    bad("INVALID_ARGUMENT", do="pose", **{"on": "s", "as": "q"}, options={"band_count": 1})
-    bad("INVALID_ARGUMENT", do="transfer", **{"as": "x"}, source="s", target="s", options={"mode": 9})
-    made.append({"do": "transfer", "as": "x", "source": "s", "target": "s"})
-    bad("EMPTY", do="apply", on="x", positions=[0.0] * 906)
-    bad("NO_SUCH_PAIR", do="remove_pairs", on="x", pairs=[0])
-    bad("EMPTY", do="add_pairs", on="x", source_regions=[], target_regions=[])
-    bad("INVALID_ARGUMENT", do="add_pairs", on="x", source_regions=[[0]], target_regions=[[0], [1]])
-    bad("OUT_OF_RANGE", do="add_pairs", on="x", source_regions=[[999]], target_regions=[[0]])
-    made.append({"do": "add_pairs", "on": "x", "source_regions": [[0, 1]], "target_regions": [[0, 1]]})
-    bad("NON_FINITE", do="apply", on="x", positions=[0.0] * 905 + ["nan"])
-    bad("INVALID_ARGUMENT", do="apply", on="x", positions=[0.0] * 9)
-    made.append({"do": "deform", "expect": {"count": 906}, **on})
-    poses = start + made
-
-    made = []
-    start = [solver(mesh="bar"), solver("r", "strip"), {"do": "pose", "on": "s", "as": "p"}, {"do": "transfer", "as": "x", "source": "s", "target": "s"},
-             {"do": "geodesics", "on": "s", "as": "g"}, {"do": "direction", "on": "s", "as": "d"}]
-    bad("EMPTY", do="distance", on="g", sources=[])
-    bad("OUT_OF_RANGE", do="distance", on="g", sources=[302])
-    bad("NO_SITES", do="directions", on="d")
-    bad("NON_FINITE", do="add_vectors", on="d", vertices=[0], vectors=["nan", 0.0, 0.0])
-    bad("OUT_OF_RANGE", do="add_vectors", on="d", vertices=[302], vectors=[1.0, 0.0, 0.0])
-    bad("INVALID_ARGUMENT", do="add_vectors", on="d", vertices=[0], vectors=[1.0, 0.0])
-    bad("INVALID_ARGUMENT", **{"do": "direction", "on": "s", "as": "e", "options": {"degree": 3}})
-    made += [{"do": "flow", "on": "s", "as": "w"}, {"do": "quads", "on": "s", "as": "k", "edge_length": 1.0}]
-    bad("NON_FINITE", **{"do": "quads", "on": "s", "as": "m", "edge_length": "nan"})
-    bad("NON_FINITE", **{"do": "quads", "on": "s", "as": "m", "edge_length": "inf"})
-    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "edge_length": -1.0})
-    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "options": {"kind": 2}})
-    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "options": {"relax_count": 1001}})
-    bad("OUT_OF_RANGE", index=1, **{"do": "quads", "on": "s", "as": "m", "site_vertices": [0, 302]})
-    bad("DUPLICATE_SITE", **{"do": "quads", "on": "s", "as": "m", "site_vertices": [7, 7]})
-    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "site_vertices": [0, 287], "site_lines": [4, 4]})
-    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "site_vertices": [0, 287], "site_lines": [4]})
-    bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 302, count=0)
-    bad("NON_FINITE", index=301, do="flow_lines", on="w", field=[0.0] * 301 + ["nan"], count=4)
-    bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 9, count=4)
-    bad("OUT_OF_RANGE", index=1, do="flow_lines", on="w", field=[0.0] * 302, seeds=[0, 302])
-    bad("NO_RECORD", do="undo_vectors", on="d")
-    bad("NO_RECORD", do="redo_vectors", on="d")
-    bad("NO_SUCH_SITE", do="remove_vectors", on="d", sites=[0])
-    bad("NO_SUCH_SITE", do="move_vectors", on="d", sites=[0], vertices=[1])
-    bad("INVALID_ARGUMENT", do="move_vectors", on="d", sites=[0, 1], vertices=[1])
-    bad("NO_SUCH_SITE", do="set_vectors", on="d", sites=[0], vectors=[1.0, 0.0, 0.0])
-    bad("INVALID_ARGUMENT", do="set_vectors", on="d", sites=[0], vectors=[1.0])
-    calls = {"s": [{"do": "add_sites", "vertices": [0], "values": [1.0]}, {"do": "remove_sites", "sites": [0]}, {"do": "move_sites", "sites": [0], "vertices": [1]},
-                   {"do": "set_values", "sites": [0], "values": [1.0]}, {"do": "edit", "add": [0], "add_values": [1.0]}, {"do": "record"}, {"do": "undo"},
-                   {"do": "redo"}, {"do": "solve"}, {"do": "solve_f32"}, {"do": "preview"}, {"do": "solve_at", "vertices": [0]}, {"do": "report"},
-                   {"do": "statistics"}, {"do": "save_factor", "as": "f"}, {"do": "clone", "as": "c"}, {"do": "pose", "as": "q"}, {"do": "geodesics", "as": "h"},
-                   {"do": "direction", "as": "e"}, {"do": "quads", "as": "m"}, {"do": "flow", "as": "m"}, {"do": "extremities"}, {"do": "levels", "field": [0.0] * 302, "count": 2, "spacing": "HF_LEVELS_VALUE"},
-                   {"do": "isolines", "field": [0.0] * 302, "levels": [0.5]}, {"do": "critical", "field": [0.0] * 302}],
-             "p": [{"do": "add_handles", "regions": [[0]]}, {"do": "remove_handles", "handles": [0]}, {"do": "set_transforms", "handles": [0], "translations": [0.0, 0.0, 0.0]},
-                   {"do": "deform"}, {"do": "handle_field", "handle": 0}, {"do": "handle_info", "handle": 0}, {"do": "skin", "weight_count": 4}],
-             "x": [{"do": "add_pairs", "source_regions": [[0]], "target_regions": [[0]]}, {"do": "remove_pairs", "pairs": [0]}, {"do": "transfer_info"},
-                   {"do": "apply", "positions": [0.0] * 906}],
-             "g": [{"do": "distance", "sources": [0]}], "d": [{"do": "add_vectors", "vertices": [0], "vectors": [1.0, 0.0, 0.0]}, {"do": "rotate", "sites": [0], "angles": [1.0]},
-                                                             {"do": "directions"}, {"do": "singularities"}, {"do": "remove_vectors", "sites": [0]}, {"do": "move_vectors", "sites": [0], "vertices": [1]},
-                   {"do": "set_vectors", "sites": [0], "vectors": [1.0, 0.0, 0.0]}, {"do": "record_vectors"}, {"do": "undo_vectors"}, {"do": "redo_vectors"},
-                   {"do": "clone_vectors", "as": "e"}],
-             "w": [{"do": "flow_lines", "field": [0.0] * 302, "count": 4}], "k": [{"do": "quads_info"}, {"do": "quad_mesh"}]}
-    for name, steps in calls.items():
-        made += [{"do": "dispose", "on": name}, {"do": "dispose", "on": name}]
-        for step in steps:
-            bad("INVALID_HANDLE", **{**step, "on": name})
-    bad("INVALID_HANDLE", **{"do": "transfer", "as": "y", "source": "s", "target": "r"})
-    bad("INVALID_HANDLE", **{"do": "transfer", "as": "y", "source": "r", "target": "s"})
-    return [{"name": "bad_meshes", "about": "What hf_create must refuse.", "steps": creation}, {"name": "bad_sites", "about": "Sites and fields.", "steps": sites},
-            {"name": "bad_poses", "about": "Handles and pairs.", "steps": poses}, {"name": "stale_objects", "about": "Calls on closed objects; closing twice.", "steps": start + made}]
+    return {"at": [3 * rows[k] + c for k in picked for c in range(3)], "values": [float(points[k][c]) for k in picked
+        for c in range(3)], "tolerance": 1e-9}
 
 
 def dump(name, scene_list):

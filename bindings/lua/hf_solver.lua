@@ -149,6 +149,12 @@ function Solver:find_extremities()
   return rows('hf_extremity', function(capacity, out, count) return C.hf_find_extremities(self.raw, nil, capacity, out,
     count) end)
 end
+-- Measures the field on its own equations; fails when an error exceeds the tolerance (nil: the default).
+function Solver:certify(tolerance)
+  local certificate = make('hf_certificate', { tolerance = tolerance or 0 })
+  check(C.hf_certify(self.raw, certificate))
+  return certificate
+end
 function Solver:prepare_rebase() check(C.hf_prepare_rebase(self.raw)) end
 function Solver:release_preview() check(C.hf_release_preview(self.raw)) end
 function Solver:components()

@@ -155,6 +155,12 @@ class Scene
             case "statistics": { var s = solver.Statistics;
                 return new Map { { "factorisation_count", (double)s.factorisation_count },
                 { "site_count", (double)s.site_count }, { "factor_loaded", (double)s.factor_loaded } }; }
+            case "certify":
+                {
+                    var c = solver.Certify(step.ContainsKey("tolerance") ? Number(step["tolerance"]) : 0);
+                    return new Map { { "residual", c.residual }, { "site_error", c.site_error },
+                        { "overshoot_checked", (double)c.overshoot_checked } };
+                }
             case "save_factor": kept[name] = solver.SaveFactor(); return null;
             case "levels": return solver.SpaceLevels(Doubles(step, "field"), (int)Whole(step, "count"),
                 (string)step["spacing"] == "HF_LEVELS_AREA" ? Constants.HF_LEVELS_AREA : Constants.HF_LEVELS_VALUE);
@@ -182,8 +188,7 @@ class Scene
             case "move_vectors": ((Direction)on).MoveSites(sites, vertices); return null;
             case "set_vectors": ((Direction)on).SetVectors(sites, Doubles(step, "vectors")); return null;
             case "record_vectors": ((Direction)on).Record(); return null;
-            case "undo_vectors": ((Direction)on).Undo(); return null;
-            case "redo_vectors": ((Direction)on).Redo(); return null;
+            case "undo_vectors": ((Direction)on).Undo(); return null; case "redo_vectors": ((Direction)on).Redo(); return null;
             case "clone_vectors": objects[name] = ((Direction)on).Clone(); return null;
             case "vectors": return ((Direction)on).Sites().Vectors;
             case "quads":
@@ -214,6 +219,31 @@ class Scene
                         (lines.LineStarts.Length - 1) + " lines");
                     return lines.Positions;
                 }
+            case "region": objects[name] = new Region(solver, Doubles(step, "positions")); return null;
+            case "region_edit":
+                ((Region)on).Edit(new RegionEdit { Curve = Numbers(Get(step, "curve")), Add = Numbers(Get(step, "add")),
+                    Remove = Numbers(Get(step, "remove")), Rings = Get(step, "rings") == null ? 0
+                        : (int)(double)step["rings"] });
+                return null;
+            case "region_info":
+                {
+                    var info = ((Region)on).Info;
+                    return new Map { { "vertex_count", (double)info.vertex_count },
+                        { "rim_count", (double)info.rim_count },
+                        { "factorisation_count", (double)info.factorisation_count } };
+                }
+            case "region_vertices":
+                return ((Region)on).Vertices((int)Whole(step, "list")).Select(x => (double)x).ToArray();
+            case "record_region": ((Region)on).Record(); return null;
+            case "undo_region": ((Region)on).Undo(); return null; case "redo_region": ((Region)on).Redo(); return null;
+            case "morph":
+                double weight = Number(step["weight"]);
+                return on is Region ? ((Region)on).Morph(weight) : ((Detail)on).Morph(weight);
+            case "detail":
+                double scale = Options(step, "scale")["scale"];
+                HfObject from = objects[(string)step["source"]], to = objects[(string)step["target"]];
+                objects[name] = new Detail((Region)from, (Region)to, null, null, scale);
+                return null;
             case "directions": return ((Direction)on).Solve();
             case "singularities": return ((Direction)on).Singularities().Select(p => (double)p.index).ToArray();
             case "pose": { var o = Options(step, "mode", "band_count");

@@ -123,6 +123,7 @@ local function new_scene(meshes)
     elseif what == 'solve_at' then return 'array', on:solve_at(get('vertices'))
     elseif what == 'report' then return 'struct', on:report()
     elseif what == 'statistics' then return 'struct', on:statistics()
+    elseif what == 'certify' then return 'struct', on:certify(step.tolerance and number(step.tolerance))
     elseif what == 'save_factor' then kept[step.as] = on:save_factor()
     elseif what == 'levels' then return 'array', on:space_levels(get('field'), step.count, hf.constants[step.spacing]),
       step.count
@@ -175,6 +176,20 @@ local function new_scene(meshes)
       local lines = on:trace(get('field'), { wanted_count = step.count, seeds = get('seeds') })
       expect(step.lines == nil or step.lines == lines.line_count, lines.line_count .. ' lines')
       return 'array', lines.positions, 3 * lines.point_count
+    elseif what == 'region' then objects[step.as] = hf.Region(on, get('positions'))
+    elseif what == 'region_edit' then
+      on:edit({ curve = step.curve, rings = step.rings, add = step.add, remove = step.remove })
+    elseif what == 'region_info' then return 'struct', on:info()
+    elseif what == 'region_vertices' then
+      local found, count = on:vertices(step.list)
+      local out = ffi.new('double[?]', count + 1)
+      for i = 0, count - 1 do out[i] = found[i] end
+      return 'array', out, count
+    elseif what == 'record_region' then on:record()
+    elseif what == 'undo_region' then on:undo()
+    elseif what == 'redo_region' then on:redo()
+    elseif what == 'morph' then return 'array', on:morph(number(step.weight)), 3 * n
+    elseif what == 'detail' then objects[step.as] = hf.Detail(objects[step.source], objects[step.target], options)
     elseif what == 'directions' then return 'array', on:solve(), 3 * n
     elseif what == 'pose' then objects[step.as] = hf.Pose(on, options)
     elseif what == 'add_handles' then return 'numbers',

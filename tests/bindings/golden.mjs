@@ -1,4 +1,5 @@
-// The golden scenes (bindings/golden/README.md) through the JavaScript package. run(hf, meshes, scenes) works in node and
+// The golden scenes (bindings/golden/README.md) through the JavaScript package. run(hf, meshes, scenes) works in node
+// and
 // in the browser and returns a list of failures.
 const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
 
@@ -136,6 +137,8 @@ function runStep(hf, step, meshes, objects, kept) {
       return { struct: on.report };
     case 'statistics':
       return { struct: on.statistics };
+    case 'certify':
+      return { struct: on.certify({ tolerance: numbers(step.tolerance ?? 0) }) };
     case 'save_factor':
       kept[step.as] = on.saveFactor();
       return {};
@@ -188,7 +191,12 @@ function runStep(hf, step, meshes, objects, kept) {
       return array(on.sites().vectors);
     case 'quads': {
       const more = 'edge_length' in step ? { edgeLength: numbers(step.edge_length) } : {};
-      objects[step.as] = new hf.Quads(on, { ...options, ...more, siteVertices: get('site_vertices'), siteLines: get('site_lines') });
+      objects[step.as] = new hf.Quads(on, {
+        ...options,
+        ...more,
+        siteVertices: get('site_vertices'),
+        siteLines: get('site_lines'),
+      });
       return {};
     }
     case 'quads_info': {
@@ -206,6 +214,26 @@ function runStep(hf, step, meshes, objects, kept) {
       assert(count === (step.lines ?? count), `${count} lines`);
       return array(lines.positions);
     }
+    case 'region':
+      objects[step.as] = new hf.Region(on, get('positions'));
+      return {};
+    case 'region_edit':
+      on.edit({ curve: get('curve'), rings: step.rings ?? 0, add: get('add'), remove: get('remove') });
+      return {};
+    case 'region_info':
+      return { struct: on.info };
+    case 'region_vertices':
+      return array(Float64Array.from(on.vertices(step.list ?? 0)));
+    case 'record_region':
+    case 'undo_region':
+    case 'redo_region':
+      on[step.do.split('_')[0]]();
+      return {};
+    case 'morph':
+      return array(on.morph(numbers(step.weight), null, { Type: Float64Array }));
+    case 'detail':
+      objects[step.as] = new hf.Detail(objects[step.source], objects[step.target], options);
+      return {};
     case 'directions':
       return array(on.solve(null, Float64Array));
     case 'singularities':

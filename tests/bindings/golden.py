@@ -111,6 +111,8 @@ class Scene:
             return "struct", on.report
         elif do == "statistics":
             return "struct", on.statistics
+        elif do == "certify":
+            return "struct", on.certify(numbers(step.get("tolerance", 0)))
         elif do == "save_factor":
             self.kept[step["as"]] = on.save_factor()
         elif do == "levels":
@@ -169,6 +171,20 @@ class Scene:
             lines = on.trace(get("field"), step.get("count", 0), seeds=get("seeds"))
             assert len(lines.line_ends) == step.get("lines", len(lines.line_ends)), f"{len(lines.line_ends)} lines"
             return "array", lines.positions
+        elif do == "region":
+            self.objects[step["as"]] = hf.Region(on, get("positions"))
+        elif do == "region_edit":
+            on.edit(curve=get("curve"), rings=step.get("rings", 0), add=get("add"), remove=get("remove"))
+        elif do == "region_info":
+            return "struct", on.info
+        elif do == "region_vertices":
+            return "array", on.vertices(step.get("list", 0)).astype(np.float64)
+        elif do in ("record_region", "undo_region", "redo_region"):
+            getattr(on, do.split("_")[0])()
+        elif do == "morph":
+            return "array", on.morph(numbers(step["weight"]), dtype=np.float64)
+        elif do == "detail":
+            self.objects[step["as"]] = hf.Detail(self.objects[step["source"]], self.objects[step["target"]], **options)
         elif do == "pose":
             self.objects[step["as"]] = hf.Pose(on, **options)
         elif do == "add_handles":

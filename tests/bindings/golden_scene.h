@@ -49,6 +49,8 @@ struct Object {
   hfpp::Handle<hf_direction, hf_direction_destroy> direction;
   hfpp::Handle<hf_quads, hf_quads_destroy> quads;
   hfpp::Handle<hf_flow, hf_flow_destroy> flow;
+  hfpp::Handle<hf_region, hf_region_destroy> region;
+  hfpp::Handle<hf_detail, hf_detail_destroy> detail;
   size_t vertex_count = 0, source_vertex_count = 0;
 };
 
@@ -185,6 +187,7 @@ class Scene {
   Result run_looking(const Json& step, const std::string& what, hf_solver solver, size_t n);
   Result run_posing(const Json& step, const std::string& what);
   Result run_direction(const Json& step, const std::string& what);
+  Result run_region(const Json& step, const std::string& what);
   Result run_quads(const Json& step, const std::string& what);
   void make_object(const Json& step, const std::string& what);
 

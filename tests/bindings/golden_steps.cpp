@@ -10,7 +10,9 @@ namespace {
 const std::set<std::string> direction_steps = {"add_vectors",   "remove_vectors", "move_vectors", "set_vectors",
                                                "rotate",        "record_vectors", "undo_vectors", "redo_vectors",
                                                "clone_vectors", "vectors",        "directions",   "singularities"};
-}
+const std::set<std::string> region_steps = {"region",        "region_edit", "region_info", "region_vertices",
+                                            "record_region", "undo_region", "redo_region", "morph"};
+}  // namespace
 
 Result Scene::run_solver(const Json& step) {
   auto desc = make<hf_create_desc>();
@@ -98,6 +100,7 @@ Result Scene::run(const Json& step) {
   const std::string what = step["do"];
   if (what == "solver") return run_solver(step);
   Result result;
+  if (what == "detail") return run_region(step, what);
   if (what == "transfer") {
     const Object &source = objects_[step["source"]], &target = objects_[step["target"]];
     auto desc = make<hf_transfer_desc>();
@@ -122,7 +125,7 @@ Result Scene::run(const Json& step) {
   };
   if (what == "dispose") {
     on.solver = {}, on.pose = {}, on.transfer = {}, on.geodesics = {}, on.direction = {};
-    on.quads = {}, on.flow = {};
+    on.quads = {}, on.flow = {}, on.region = {}, on.detail = {};
   } else if (what == "clone") {
     hf_solver raw = nullptr;
     check(hf_clone(solver, &raw));
@@ -190,6 +193,13 @@ Result Scene::run(const Json& step) {
     result.fields = {{"factorisation_count", figures.factorisation_count},
                      {"site_count", figures.site_count},
                      {"factor_loaded", figures.factor_loaded}};
+  } else if (what == "certify") {
+    auto certificate = make<hf_certificate>();
+    certificate.tolerance = step.contains("tolerance") ? number(step["tolerance"]) : 0.0;
+    check(hf_certify(solver, &certificate));
+    result.fields = {{"residual", certificate.residual},
+                     {"site_error", certificate.site_error},
+                     {"overshoot_checked", certificate.overshoot_checked}};
   } else if (what == "save_factor") {
     size_t size = 0;
     check(hf_get_factor_size(solver, &size));
@@ -206,6 +216,8 @@ Result Scene::run(const Json& step) {
     make_object(step, what);
   } else if (direction_steps.count(what)) {
     return run_direction(step, what);
+  } else if (region_steps.count(what)) {
+    return run_region(step, what);
   } else if (what == "quads_info" || what == "quad_mesh" || what == "flow_lines") {
     return run_quads(step, what);
   } else {

@@ -1,5 +1,6 @@
 // The JavaScript package in node: js_test.mjs native | wasm. Golden scenes, bad input, lifetime, memory.
-// HF_LIBRARY: the shared library (native); HF_WASM: folder of hf.mjs and hf.wasm (wasm); HF_NODE_MODULES: where koffi is.
+// HF_LIBRARY: the shared library (native); HF_WASM: folder of hf.mjs and hf.wasm (wasm); HF_NODE_MODULES: where koffi
+// is.
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync, statSync } from 'node:fs';
 import { createRequire } from 'node:module';

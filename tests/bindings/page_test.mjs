@@ -1,4 +1,5 @@
-// The three.js page in Chromium, by real clicks: page_test.mjs MODEL.glb SCREENSHOT.png. Sites change the field, a handle is
+// The three.js page in Chromium, by real clicks: page_test.mjs MODEL.glb SCREENSHOT.png. Sites change the field, a
+// handle is
 // added and dragged, the surface follows; a screenshot is written. HF_WASM: folder of hf.mjs and hf.wasm.
 import assert from 'node:assert/strict';
 import { createReadStream, existsSync, readFileSync, statSync } from 'node:fs';

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# run_python.sh LIBRARY SCRIPT ARGS...: a test of the Python package with a Python that has numpy; 77 (skipped) without one.
+# run_python.sh LIBRARY SCRIPT ARGS...: a test of the Python package with a Python that has numpy; 77 (skipped) without
+# one.
 set -u
 root=$(cd "$(dirname "$0")/../.." && pwd)
 export HF_LIBRARY=$1 PYTHONPATH="$root/bindings/python:$root/tests/bindings" PYTHONDONTWRITEBYTECODE=1

@@ -101,6 +101,7 @@ HANDLERS = (("depsgraph_update_post", on_depsgraph), ("frame_change_post", on_fr
 
 
 def register():
+    hf.version()  # the library is loaded here, and what is wrong with it is said here
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     bpy.types.Scene.hf_live = bpy.props.BoolProperty(name="Live", default=True,

@@ -29,7 +29,7 @@ def keep_rest(mesh, rest):
 
 
 def column(collection, name, count=1):
-    out = np.empty(count * len(collection), np.int32)
+    out = np.empty(count * len(collection), np.uint32)  # Blender's own type: others go through Python objects
     collection.foreach_get(name, out)
     return out
 
@@ -39,7 +39,7 @@ def cross(u, v):
 
 
 def triangles_of(mesh, positions):
-    """(m, 3) int32. Quads are split where Blender splits them: along the first diagonal unless the halves fold over."""
+    """(m, 3) uint32. Quads are split where Blender splits them: along the first diagonal unless the halves fold over."""
     sizes, starts = column(mesh.polygons, "loop_total"), column(mesh.polygons, "loop_start")
     if len(sizes) and (sizes.min() < 3 or sizes.max() > 4):  # Blender's own triangles: slower to read
         mesh.calc_loop_triangles()

@@ -264,6 +264,17 @@ namespace Hf
         public void RotateVectorSites(uint[] sites, double[] angles) { OnList(Functions.hf_rotate_vector_sites, sites,
             angles, 1, "angles"); }
 
+        /// <summary>Measures the field on its own equations; throws when an error exceeds the tolerance (0: the
+        /// default).</summary>
+        public hf_certificate Certify(double tolerance = 0)
+        {
+            hf_certificate certificate;
+            Functions.hf_init_desc(&certificate, (uint)sizeof(hf_certificate));
+            certificate.tolerance = tolerance;
+            Check(Functions.hf_certify(Handle, &certificate));
+            return certificate;
+        }
+
         public void PrepareRebase() { Check(Functions.hf_prepare_rebase(Handle)); }
         public void ReleasePreview() { Check(Functions.hf_release_preview(Handle)); }
 

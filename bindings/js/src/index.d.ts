@@ -1,4 +1,5 @@
-// Types of hf-fields: the same for the native and the WebAssembly backend. The C headers (include/hf) are the reference.
+// Types of hf-fields: the same for the native and the WebAssembly backend. The C headers (include/hf) are the
+// reference.
 type Numbers = ArrayLike<number>;
 type Rows = Numbers | ReadonlyArray<Numbers>;
 type Floats = Float32Array | Float64Array;
@@ -14,7 +15,10 @@ export class HfError extends Error {
 
 export interface Handle {
   readonly closed: boolean;
-  /** Gives the memory back; later calls do nothing. Objects may be closed in any order, or left to the garbage collector. */
+  /**
+   * Gives the memory back; later calls do nothing. Objects may be closed in any order, or left to the garbage
+   * collector.
+   */
   close(): void;
 }
 
@@ -107,6 +111,7 @@ export interface Solver extends Handle {
   ): T;
   solveAt(vertices: Numbers): Float64Array;
   solveVectors<T extends Floats = Float32Array>(out?: T | null, Type?: FloatsType): T;
+  certify(options?: { tolerance?: number }): Record<string, number>;
   releasePreview(): void;
   saveFactor(): Uint8Array;
   spaceLevels(field: Numbers, levelCount: number, spacing?: number): Float64Array;
@@ -151,8 +156,46 @@ export interface Quads extends Handle {
   mesh(): QuadMesh;
 }
 
+export interface Region extends Handle {
+  readonly info: Record<string, number>;
+  clone(): Region;
+  /** One edit: what a closed curve encloses; rings more or less; vertices added and removed. */
+  edit(edit: {
+    curve?: Numbers | null;
+    side?: number;
+    seedVertex?: number;
+    rings?: number;
+    add?: Numbers | null;
+    remove?: Numbers | null;
+    progress?: Progress | null;
+  }): void;
+  record(): void;
+  undo(): void;
+  redo(): void;
+  /** HF_REGION_INSIDE, HF_REGION_RIM or HF_REGION_SITES. */
+  vertices(list?: number): Uint32Array;
+  /** 0: the surface, 1: its base without detail. */
+  morph<T extends Floats = Float32Array>(
+    weight: number,
+    out?: T | null,
+    options?: { normals?: Float32Array | null; Type?: FloatsType },
+  ): T;
+}
+
+export interface Detail extends Handle {
+  /** 0: the target's smooth base, 1: with the source's detail. */
+  morph<T extends Floats = Float32Array>(
+    weight: number,
+    out?: T | null,
+    options?: { normals?: Float32Array | null; Type?: FloatsType },
+  ): T;
+}
+
 export interface Flow extends Handle {
-  /** wantedCount lines of equal flux from the minima of a field, or one through every seed vertex; values rise along each. */
+  /**
+   * wantedCount lines of equal flux from the minima of a field, or one through every seed vertex; values rise along
+   * each.
+   */
   trace(field: Numbers, options?: { wantedCount?: number; seeds?: Numbers | null }): FlowLines;
 }
 
@@ -257,6 +300,17 @@ export interface Hf {
     },
   ) => Quads;
   readonly Flow: new (solver: Solver) => Flow;
+  readonly Region: new (solver: Solver, positions?: Floats | Numbers | null) => Region;
+  readonly Detail: new (
+    source: Region,
+    target: Region,
+    options?: {
+      sourceVertices?: Numbers | null;
+      targetVertices?: Numbers | null;
+      scale?: number;
+      progress?: Progress | null;
+    },
+  ) => Detail;
   readonly Progress: new () => Progress;
   readonly HfError: typeof HfError;
   readonly constants: Readonly<Record<string, number>>;
@@ -264,7 +318,10 @@ export interface Hf {
   readonly version: [number, number, number];
 }
 
-/** Loads the library. Native: `library` is a path. WebAssembly: `factory` and `wasmBinary` instead of the files in dist/. */
+/**
+ * Loads the library. Native: `library` is a path. WebAssembly: `factory` and `wasmBinary` instead of the files in
+ * dist/.
+ */
 export function load(options?: {
   library?: string;
   factory?: unknown;

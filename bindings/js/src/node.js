@@ -1,4 +1,5 @@
-// In node: the native library through koffi. `import { load } from 'hf-fields/wasm'` gives the WebAssembly build instead.
+// In node: the native library through koffi. `import { load } from 'hf-fields/wasm'` gives the WebAssembly build
+// instead.
 import { existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { nativeBackend } from './native.js';

@@ -2,6 +2,7 @@
 import { constants, headerVersion } from './raw.js';
 import { HfError, Struct, doubles, fail, integers, output, points, read, regions, rows, written } from './marshal.js';
 import { solverClasses } from './solver.js';
+import { detailClasses } from './detail.js';
 import { fieldClasses } from './fields.js';
 import { poseClasses } from './pose.js';
 import { quadClasses } from './quads.js';
@@ -117,7 +118,8 @@ export function makeApi(backend) {
     throw new Error(`the hf library is of version ${number}, this package of ${headerVersion}; use matching ones`);
   }
   Object.assign(classes, solverClasses(tools));
-  for (const more of [fieldClasses, quadClasses, poseClasses]) Object.assign(classes, more(tools, classes.Solver));
+  for (const more of [fieldClasses, quadClasses, detailClasses, poseClasses])
+    Object.assign(classes, more(tools, classes.Solver));
   return Object.freeze({
     ...classes,
     HfError,

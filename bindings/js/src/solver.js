@@ -209,6 +209,12 @@ export function solverClasses(tools) {
       call(solveName('hf_solve_vectors', out), this._handle, written(out), 0, null, null);
       return out;
     }
+    /** Measures the field on its own equations; fails when an error exceeds the tolerance (0: the default). */
+    certify({ tolerance = 0 } = {}) {
+      const certificate = make('hf_certificate').options({ tolerance });
+      call('hf_certify', this._handle, certificate);
+      return certificate.toObject();
+    }
     releasePreview() {
       call('hf_release_preview', this._handle);
     }

@@ -276,6 +276,12 @@ class Solver(Object):
              correction_count, None)
         return out
 
+    def certify(self, tolerance: float = 0.0) -> _raw.hf_certificate:
+        """Measures the field on its own equations; InaccurateError when an error exceeds the tolerance (0: the default)."""
+        certificate = make(_raw.hf_certificate, tolerance=float(tolerance))
+        call("hf_certify", self._raw_handle, ctypes.byref(certificate))
+        return certificate
+
     def release_preview(self) -> None:
         """Gives the memory of the single-precision factor back."""
         call("hf_release_preview", self._raw_handle)

@@ -1,0 +1,152 @@
+// Region and Detail over the C ABI (include/hf/detail.h).
+using System;
+using System.Runtime.InteropServices;
+using Hf.Native;
+
+namespace Hf
+{
+    /// <summary>One edit of a region; what is null or 0 is left out.</summary>
+    public sealed class RegionEdit
+    {
+        /// <summary>Vertices of a closed curve: the region becomes what it encloses.</summary>
+        public uint[] Curve;
+        public int Side;
+        public uint SeedVertex;
+        /// <summary>Rings of vertices more, or less when below 0.</summary>
+        public int Rings;
+        public uint[] Add, Remove;
+    }
+
+    /// <summary>A region of a solver's surface; its base is a membrane, or a thin plate with a bi-harmonic
+    /// solver.</summary>
+    public sealed unsafe class Region : HfObject
+    {
+        public int VertexCount { get; private set; }
+
+        Region() { }
+
+        /// <summary>positions: a pose of the surface to work on, xyz per vertex; null: the solver's own.</summary>
+        public Region(Solver solver, double[] positions = null)
+        {
+            HandleOf(solver, "solver");
+            using (var pins = new Pins())
+            {
+                hf_region_desc desc;
+                Functions.hf_init_desc(&desc, (uint)sizeof(hf_region_desc));
+                desc.positions_f64 = pins.Add(positions, 3 * solver.VertexCount, "positions");
+                Make(Functions.hf_region_create, solver, "solver", &desc, Functions.hf_region_destroy);
+            }
+            VertexCount = solver.VertexCount;
+        }
+
+        public Region Clone()
+        {
+            var copy = new Region { VertexCount = VertexCount };
+            copy.Copy(Functions.hf_region_clone, this, Functions.hf_region_destroy);
+            return copy;
+        }
+
+        /// <summary>All or nothing; edits sites, factorises nothing.</summary>
+        public void Edit(RegionEdit edit)
+        {
+            if (edit == null) throw new HfException("edit is null", Constants.HF_ERROR_NULL_POINTER);
+            using (var pins = new Pins())
+            {
+                hf_region_edit_desc desc;
+                Functions.hf_init_desc(&desc, (uint)sizeof(hf_region_edit_desc));
+                hf_curve_desc curve;
+                Functions.hf_init_desc(&curve, (uint)sizeof(hf_curve_desc));
+                desc.ring_count = edit.Rings;
+                if (edit.Curve != null)
+                {
+                    curve.point_count = (uint)edit.Curve.Length;
+                    curve.vertices = pins.Add(edit.Curve);
+                    curve.side = edit.Side;
+                    curve.seed_vertex = edit.SeedVertex;
+                    desc.curve = (IntPtr)(&curve);
+                }
+                desc.add_count = edit.Add == null ? 0 : (uint)edit.Add.Length;
+                desc.add_vertices = pins.Add(edit.Add);
+                desc.remove_count = edit.Remove == null ? 0 : (uint)edit.Remove.Length;
+                desc.remove_vertices = pins.Add(edit.Remove);
+                Check(Functions.hf_region_edit(Handle, &desc));
+            }
+        }
+
+        public void Record() { Check(Functions.hf_region_record(Handle)); }
+        public void Undo() { Check(Functions.hf_region_undo(Handle)); }
+        public void Redo() { Check(Functions.hf_region_redo(Handle)); }
+
+        public hf_region_info Info
+        {
+            get
+            {
+                hf_region_info info;
+                Functions.hf_init_desc(&info, (uint)sizeof(hf_region_info));
+                Check(Functions.hf_region_get_info(Handle, &info));
+                return info;
+            }
+        }
+
+        /// <summary>list: HF_REGION_INSIDE, HF_REGION_RIM, HF_REGION_SITES.</summary>
+        public uint[] Vertices(int list = Constants.HF_REGION_INSIDE)
+        {
+            hf_region_info info = Info;
+            uint size = list == Constants.HF_REGION_INSIDE ? info.vertex_count
+                : list == Constants.HF_REGION_RIM ? info.rim_count : info.site_count;
+            var found = new uint[Math.Max(1, size)];
+            fixed (uint* place = found) Check(Functions.hf_region_get_vertices(Handle, list, size, place));
+            Array.Resize(ref found, (int)size);
+            return found;
+        }
+
+        /// <summary>0: the surface, 1: its base without detail, between and beyond in proportion.</summary>
+        public double[] Morph(double weight) { return Morphed(Functions.hf_region_morph, this, VertexCount, weight); }
+
+        internal static double[] Morphed(Query call, HfObject thing, int vertexCount, double weight)
+        {
+            var positions = new double[3 * vertexCount];
+            fixed (double* place = positions)
+            {
+                hf_morph_desc desc;
+                Functions.hf_init_desc(&desc, (uint)sizeof(hf_morph_desc));
+                desc.weight = weight;
+                desc.positions_f64 = (IntPtr)place;
+                thing.Check(call(thing.Handle, &desc));
+            }
+            return positions;
+        }
+    }
+
+    /// <summary>The detail of one region on the base of another.</summary>
+    public sealed unsafe class Detail : HfObject
+    {
+        readonly int vertexCount;
+
+        /// <summary>sourceVertices, targetVertices: points of the rims that correspond; scale 0: by the
+        /// areas.</summary>
+        public Detail(Region source, Region target, uint[] sourceVertices = null, uint[] targetVertices = null,
+            double scale = 0)
+        {
+            int count = sourceVertices == null ? 0 : sourceVertices.Length;
+            using (var pins = new Pins())
+            {
+                hf_detail_desc desc;
+                Functions.hf_init_desc(&desc, (uint)sizeof(hf_detail_desc));
+                desc.pair_count = (uint)count;
+                desc.source_vertices = pins.Add(sourceVertices);
+                desc.target_vertices = pins.Add(targetVertices, count, "targetVertices");
+                desc.scale = scale;
+                IntPtr other = HandleOf(target, "target");
+                Make((from, given, raw) => Functions.hf_detail_create(from, other, given, raw), source, "source", &desc,
+                    Functions.hf_detail_destroy);
+                GC.KeepAlive(target);
+            }
+            vertexCount = target.VertexCount;
+        }
+
+        /// <summary>0: the target's smooth base, 1: with the source's detail, more exaggerates.</summary>
+        public double[] Morph(double weight) { return Region.Morphed(Functions.hf_detail_morph, this, vertexCount,
+            weight); }
+    }
+}

@@ -1,0 +1,102 @@
+// Regions of a surface, their smooth base, the detail on it, and detail carried to another region (hf/detail.h).
+export function detailClasses(tools, Solver) {
+  const { make, call, create, handleOf, query, Handle, fail, integers, output, points, read, written, bare, classes } =
+    tools;
+
+  const morph = (name, thing, weight, out, { normals = null, Type = Float32Array } = {}) => {
+    if (typeof weight !== 'number') fail('weight must be a number');
+    out = output(out, 3 * thing.vertexCount, Type);
+    const desc = make('hf_morph_desc', { weight });
+    desc.set(out instanceof Float32Array ? 'positions' : 'positions_f64', written(out));
+    if (normals) {
+      if (!(normals instanceof Float32Array) || normals.length !== 3 * thing.vertexCount) {
+        fail(`normals must be a Float32Array of ${3 * thing.vertexCount} numbers`);
+      }
+      desc.set('normals', written(normals));
+    }
+    call(name, thing._handle, desc);
+    return out;
+  };
+
+  /** A region of a solver's surface; `positions`: a pose of the surface to work on, null: the solver's own. */
+  class Region extends Handle {
+    constructor(solver, positions = null) {
+      super();
+      if (solver === bare) return;
+      const parent = handleOf(solver, Solver, 'solver');
+      const desc = make('hf_region_desc');
+      if (positions) {
+        const given = points(positions, 'positions', 3 * solver.vertexCount);
+        desc.set(given instanceof Float32Array ? 'positions' : 'positions_f64', read(given));
+      }
+      create(this, 'hf_region_destroy', 'hf_region_create', parent, desc);
+      this.vertexCount = solver.vertexCount;
+    }
+    clone() {
+      const made = create(new Region(bare), 'hf_region_destroy', 'hf_region_clone', this._handle);
+      return Object.assign(made, { vertexCount: this.vertexCount });
+    }
+    /** One edit: what a closed curve encloses; rings more or less; vertices added and removed. */
+    edit({ curve = null, side = 0, seedVertex = 0, rings = 0, add = null, remove = null, progress = null } = {}) {
+      const desc = make('hf_region_edit_desc').options({ ringCount: rings });
+      const along = integers(curve, 'curve');
+      if (along) {
+        const line = make('hf_curve_desc').options({ side, seedVertex });
+        desc.set('curve', line.set('point_count', along.length).set('vertices', read(along)));
+      }
+      const [added, removed] = [integers(add, 'add'), integers(remove, 'remove')];
+      if (added) desc.set('add_count', added.length).set('add_vertices', read(added));
+      if (removed) desc.set('remove_count', removed.length).set('remove_vertices', read(removed));
+      if (progress) desc.set('progress', handleOf(progress, classes.Progress, 'progress'));
+      call('hf_region_edit', this._handle, desc);
+    }
+    record() {
+      call('hf_region_record', this._handle);
+    }
+    undo() {
+      call('hf_region_undo', this._handle);
+    }
+    redo() {
+      call('hf_region_redo', this._handle);
+    }
+    get info() {
+      return query('hf_region_info', 'hf_region_get_info', this._handle);
+    }
+    /** Vertices inside (0), on the rim (1), or the sites that hold the base (2). */
+    vertices(list = 0) {
+      const { vertexCount, rimCount, siteCount } = this.info;
+      const size = [vertexCount, rimCount, siteCount][list] ?? 0;
+      const out = new Uint32Array(Math.max(1, size));
+      call('hf_region_get_vertices', this._handle, list, size, written(out));
+      return out.subarray(0, size);
+    }
+    /** 0: the surface, 1: its base without detail, between and beyond in proportion. */
+    morph(weight, out, options) {
+      return morph('hf_region_morph', this, weight, out, options);
+    }
+  }
+
+  /** The detail of one region on the base of another. */
+  class Detail extends Handle {
+    constructor(source, target, { sourceVertices = null, targetVertices = null, scale = 0, progress = null } = {}) {
+      super();
+      const [starts, ends] = [integers(sourceVertices, 'sourceVertices'), integers(targetVertices, 'targetVertices')];
+      if ((starts ?? []).length !== (ends ?? []).length)
+        fail('sourceVertices and targetVertices must be of one length');
+      const desc = make('hf_detail_desc').options({ scale });
+      if (starts) {
+        desc.set('pair_count', starts.length).set('source_vertices', read(starts)).set('target_vertices', read(ends));
+      }
+      if (progress) desc.set('progress', handleOf(progress, classes.Progress, 'progress'));
+      const [from, to] = [handleOf(source, Region, 'source'), handleOf(target, Region, 'target')];
+      create(this, 'hf_detail_destroy', 'hf_detail_create', from, to, desc);
+      this.vertexCount = target.vertexCount;
+    }
+    /** 0: the target's smooth base, 1: with the source's detail, more exaggerates. */
+    morph(weight, out, options) {
+      return morph('hf_detail_morph', this, weight, out, options);
+    }
+  }
+
+  return { Region, Detail };
+}

@@ -1,0 +1,73 @@
+// Steps of regions and the detail on them.
+#include "golden_scene.h"
+
+namespace golden {
+
+using hfpp::check;
+using hfpp::make;
+
+Result Scene::run_region(const Json& step, const std::string& what) {
+  Result result;
+  if (what == "detail") {
+    const Object &source = objects_[step["source"]], &target = objects_[step["target"]];
+    auto desc = make<hf_detail_desc>();
+    set_options(step, desc, {{"scale", &desc.scale}}, {{"scale", true}});
+    hf_detail raw = nullptr;
+    check(hf_detail_create(source.region.get(), target.region.get(), &desc, &raw));
+    const size_t n = target.vertex_count;
+    Object& made = objects_[step["as"]];
+    made.detail = hfpp::Handle<hf_detail, hf_detail_destroy>(raw), made.vertex_count = n;
+    return result;
+  }
+  Object& on = objects_[step["on"]];
+  hf_region region = on.region.get();
+  if (what == "region") {
+    auto desc = make<hf_region_desc>();
+    const auto positions = doubles(step, "positions", 3 * on.vertex_count);
+    desc.positions_f64 = data(positions);
+    hf_region raw = nullptr;
+    check(hf_region_create(on.solver.get(), &desc, &raw));
+    const size_t n = on.vertex_count;
+    Object& made = objects_[step["as"]];
+    made.region = hfpp::Handle<hf_region, hf_region_destroy>(raw), made.vertex_count = n;
+  } else if (what == "region_edit") {
+    const auto curve = numbers(step, "curve"), add = numbers(step, "add"), removed = numbers(step, "remove");
+    auto desc = make<hf_region_edit_desc>();
+    auto line = make<hf_curve_desc>();
+    desc.ring_count = step.value("rings", 0);
+    if (curve) line.point_count = count(curve), line.vertices = data(curve), desc.curve = &line;
+    if (add) desc.add_count = count(add), desc.add_vertices = data(add);
+    if (removed) desc.remove_count = count(removed), desc.remove_vertices = data(removed);
+    check(hf_region_edit(region, &desc));
+  } else if (what == "region_info") {
+    auto info = make<hf_region_info>();
+    check(hf_region_get_info(region, &info));
+    result.fields = {{"vertex_count", info.vertex_count},
+                     {"rim_count", info.rim_count},
+                     {"factorisation_count", info.factorisation_count}};
+  } else if (what == "region_vertices") {
+    auto info = make<hf_region_info>();
+    check(hf_region_get_info(region, &info));
+    const int32_t list = step.value("list", 0);
+    const uint32_t size = list == HF_REGION_INSIDE ? info.vertex_count
+                          : list == HF_REGION_RIM  ? info.rim_count
+                                                   : info.site_count;
+    Numbers found(size + 1);
+    check(hf_region_get_vertices(region, list, size, found.data()));
+    result.array.emplace(found.begin(), found.end() - 1);
+  } else if (what == "record_region") {
+    check(hf_region_record(region));
+  } else if (what == "undo_region") {
+    check(hf_region_undo(region));
+  } else if (what == "redo_region") {
+    check(hf_region_redo(region));
+  } else {
+    auto desc = make<hf_morph_desc>();
+    result.array.emplace(3 * on.vertex_count);
+    desc.weight = number(step["weight"]), desc.positions_f64 = result.array->data();
+    check(on.detail ? hf_detail_morph(on.detail.get(), &desc) : hf_region_morph(region, &desc));
+  }
+  return result;
+}
+
+}  // namespace golden
