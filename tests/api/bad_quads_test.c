@@ -1,0 +1,273 @@
+/* Bad input to quads and flow lines, foreign handles to them and to regions, and what is no handle to every destroy and
+ * every count. */
+#include "bad_scene.h"
+
+static Surface tube;
+static hf_solver solver;
+static hf_quads quads;
+static hf_flow flow;
+static hf_region region;
+static double height[TUBE_VERTICES], positions[3 * TUBE_VERTICES];
+static uint32_t numbers[TUBE_VERTICES];
+
+static void setup_surface(void) {
+  tube = surface_tube(TUBE_AROUND, TUBE_RINGS);
+  solver = surface_solver(&tube);
+  for (int v = 0; v < TUBE_VERTICES; ++v) height[v] = (double)tube.positions[3 * v + 1] + 0.01 * sin(2.3 * v);
+  hf_quads_desc desc;
+  HF_INIT(desc);
+  desc.edge_length = 2, desc.relax_count = 2;
+  assert_ok(hf_quads_create(solver, &desc, &quads));
+  assert_ok(hf_flow_create(solver, &flow));
+  assert_ok(hf_region_create(solver, NULL, &region));
+}
+
+static void teardown_surface(void) {
+  hf_quads_destroy(quads), hf_flow_destroy(flow), hf_region_destroy(region), hf_destroy(solver);
+  surface_free(&tube);
+}
+
+/* One call per function, everything but the handle in order. */
+static hf_result quads_create(void* h) {
+  hf_quads out;
+  return hf_quads_create(h, NULL, &out);
+}
+static hf_result quads_get_info(void* h) {
+  hf_quads_info info;
+  HF_INIT(info);
+  return hf_quads_get_info(h, &info);
+}
+static hf_result quads_get_mesh(void* h) {
+  hf_quads_mesh mesh;
+  HF_INIT(mesh);
+  return hf_quads_get_mesh(h, &mesh);
+}
+static hf_result flow_create(void* h) {
+  hf_flow out;
+  return hf_flow_create(h, &out);
+}
+static hf_result flow_trace(void* h) {
+  hf_scalars field;
+  hf_flow_lines lines;
+  HF_INIT(field);
+  HF_INIT(lines);
+  field.values_f64 = height, lines.wanted_count = 4;
+  return hf_flow_trace(h, &field, &lines);
+}
+static hf_result region_get_info(void* h) {
+  hf_region_info info;
+  HF_INIT(info);
+  return hf_region_get_info(h, &info);
+}
+static hf_result region_get_vertices(void* h) {
+  return hf_region_get_vertices(h, HF_REGION_INSIDE, TUBE_VERTICES, numbers);
+}
+static hf_result region_undo(void* h) { return hf_region_undo(h); }
+static hf_result region_redo(void* h) { return hf_region_redo(h); }
+static hf_result detail_morph(void* h) {
+  hf_morph_desc desc;
+  HF_INIT(desc);
+  desc.positions_f64 = positions;
+  return hf_detail_morph(h, &desc);
+}
+
+static void quads_flow_and_regions_refuse_every_handle_that_is_not_their_own(void** state) {
+  (void)state;
+  setup_surface();
+  hf_quads stale = NULL;
+  assert_ok(hf_quads_create(solver, NULL, &stale));
+  hf_quads_destroy(stale);
+  int on_the_stack = 0;
+  const struct {
+    const char* function;
+    hf_result (*call)(void*);
+    void* own;
+  } functions[] = {{"hf_quads_create", quads_create, solver},
+                   {"hf_quads_get_info", quads_get_info, quads},
+                   {"hf_quads_get_mesh", quads_get_mesh, quads},
+                   {"hf_flow_create", flow_create, solver},
+                   {"hf_flow_trace", flow_trace, flow},
+                   {"hf_region_get_info", region_get_info, region},
+                   {"hf_region_get_vertices", region_get_vertices, region},
+                   {"hf_region_undo", region_undo, region},
+                   {"hf_region_redo", region_redo, region},
+                   {"hf_detail_morph", detail_morph, &stale}};
+  void* const bad[] = {NULL,  (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &on_the_stack, stale, solver, quads, flow,
+                       region};
+  for (size_t f = 0; f < COUNT_OF(functions); ++f) {
+    for (size_t b = 0; b < COUNT_OF(bad); ++b) {
+      if (bad[b] == functions[f].own) continue;
+      check_row(__LINE__, "a handle of another kind", functions[f].function, functions[f].call(bad[b]),
+                HF_ERROR_INVALID_HANDLE, NO_INDEX);
+    }
+  }
+  finish_rows("handles of quads, flow and regions");
+  teardown_surface();
+}
+
+static hf_quads_desc good_quads;
+static hf_quads made;
+static const uint32_t two_sites[2] = {0, TUBE_VERTICES - 1};
+static void refresh_quads(void) {
+  HF_INIT(good_quads);
+  good_quads.edge_length = 2, good_quads.relax_count = 2;
+  good_quads.site_count = 2, good_quads.site_vertices = two_sites;
+  made = (hf_quads)(uintptr_t)5;
+}
+#define GOOD() refresh_quads()
+#define UNCHANGED() (made == NULL)
+
+static void quads_refuse_bad_descs(void** state) {
+  (void)state;
+  setup_surface();
+  const uint32_t outside[2] = {3, TUBE_VERTICES}, twice[2] = {9, 9};
+  const int32_t one_sign[2] = {4, 4}, none[2] = {4, 0};
+  ROW("kind", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.kind = 7, hf_quads_create(solver, &good_quads, &made));
+  ROW("kind below 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.kind = -1,
+      hf_quads_create(solver, &good_quads, &made));
+  ROW("edge length below 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.edge_length = -1,
+      hf_quads_create(solver, &good_quads, &made));
+  ROW("edge length NaN", HF_ERROR_NON_FINITE, NO_INDEX, good_quads.edge_length = NAN,
+      hf_quads_create(solver, &good_quads, &made));
+  ROW("edge length infinite", HF_ERROR_NON_FINITE, NO_INDEX, good_quads.edge_length = INFINITY,
+      hf_quads_create(solver, &good_quads, &made));
+  ROW("rounds of relaxation", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.relax_count = 1001,
+      hf_quads_create(solver, &good_quads, &made));
+  ROW("sites without a list", HF_ERROR_NULL_POINTER, NO_INDEX, good_quads.site_vertices = NULL,
+      hf_quads_create(solver, &good_quads, &made));
+  ROW("a site outside", HF_ERROR_OUT_OF_RANGE, 1, good_quads.site_vertices = outside,
+      hf_quads_create(solver, &good_quads, &made));
+  ROW("a site twice", HF_ERROR_DUPLICATE_SITE, 1, good_quads.site_vertices = twice,
+      hf_quads_create(solver, &good_quads, &made));
+  ROW("struct_size 0", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.struct_size = 0,
+      hf_quads_create(solver, &good_quads, &made));
+  ROW("struct_size 3", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.struct_size = 3,
+      hf_quads_create(solver, &good_quads, &made));
+  ROW("a progress object that is none", HF_ERROR_INVALID_HANDLE, NO_INDEX,
+      good_quads.progress = (hf_progress)(void*)solver, hf_quads_create(solver, &good_quads, &made));
+  ROW("lines of one sign", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+      (good_quads.kind = HF_QUADS_PURE, good_quads.site_lines = one_sign), hf_quads_create(solver, &good_quads, &made));
+  ROW("no lines at a site", HF_ERROR_INVALID_ARGUMENT, 1,
+      (good_quads.kind = HF_QUADS_PURE, good_quads.site_lines = none), hf_quads_create(solver, &good_quads, &made));
+#undef UNCHANGED
+#define UNCHANGED() 1
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_create(solver, &good_quads, NULL));
+  hf_quads_info info;
+  HF_INIT(info);
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_get_info(quads, NULL));
+  ROW("struct_size 0", HF_ERROR_INVALID_DESC, NO_INDEX, info.struct_size = 0, hf_quads_get_info(quads, &info));
+  hf_quads_mesh mesh;
+  HF_INIT(mesh);
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_get_mesh(quads, NULL));
+  ROW("no room", HF_ERROR_TOO_SMALL, NO_INDEX, (mesh.positions = positions, mesh.vertex_capacity = 1),
+      hf_quads_get_mesh(quads, &mesh));
+  ROW("struct_size 0", HF_ERROR_INVALID_DESC, NO_INDEX, mesh.struct_size = 0, hf_quads_get_mesh(quads, &mesh));
+  finish_rows("quads");
+  teardown_surface();
+}
+
+static hf_scalars good_field;
+static hf_flow_lines good_lines;
+static void refresh_flow(void) {
+  HF_INIT(good_field);
+  HF_INIT(good_lines);
+  good_field.values_f64 = height, good_lines.wanted_count = 4;
+}
+#undef GOOD
+#define GOOD() refresh_flow()
+
+static void flow_lines_refuse_bad_input(void** state) {
+  (void)state;
+  setup_surface();
+  double broken[TUBE_VERTICES];
+  float floats[TUBE_VERTICES];
+  memcpy(broken, height, sizeof broken);
+  broken[33] = NAN;
+  const uint32_t outside[2] = {3, TUBE_VERTICES};
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_flow_create(solver, NULL));
+  ROW("no lines wanted", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_lines.wanted_count = 0,
+      hf_flow_trace(flow, &good_field, &good_lines));
+  ROW("too many lines wanted", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_lines.wanted_count = 1000001,
+      hf_flow_trace(flow, &good_field, &good_lines));
+  ROW("no field", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_flow_trace(flow, NULL, &good_lines));
+  ROW("no values", HF_ERROR_NULL_POINTER, NO_INDEX, good_field.values_f64 = NULL,
+      hf_flow_trace(flow, &good_field, &good_lines));
+  ROW("both values", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_field.values = floats,
+      hf_flow_trace(flow, &good_field, &good_lines));
+  ROW("a value that is none", HF_ERROR_NON_FINITE, 33, good_field.values_f64 = broken,
+      hf_flow_trace(flow, &good_field, &good_lines));
+  ROW("stride", HF_ERROR_TOO_SMALL, NO_INDEX, good_field.value_stride = 4,
+      hf_flow_trace(flow, &good_field, &good_lines));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_flow_trace(flow, &good_field, NULL));
+  ROW("struct_size of the field", HF_ERROR_INVALID_DESC, NO_INDEX, good_field.struct_size = 1,
+      hf_flow_trace(flow, &good_field, &good_lines));
+  ROW("struct_size of the lines", HF_ERROR_INVALID_DESC, NO_INDEX, good_lines.struct_size = 1,
+      hf_flow_trace(flow, &good_field, &good_lines));
+  ROW("seeds without a list", HF_ERROR_NULL_POINTER, NO_INDEX, good_lines.seed_count = 2,
+      hf_flow_trace(flow, &good_field, &good_lines));
+  ROW("a seed outside", HF_ERROR_OUT_OF_RANGE, 1, (good_lines.seed_count = 2, good_lines.seeds = outside),
+      hf_flow_trace(flow, &good_field, &good_lines));
+  ROW("no room", HF_ERROR_TOO_SMALL, NO_INDEX, (good_lines.positions = positions, good_lines.point_capacity = 1),
+      hf_flow_trace(flow, &good_field, &good_lines));
+  finish_rows("flow lines");
+  teardown_surface();
+}
+
+/* Functions that answer nothing, or a number: a row each for what is no handle. */
+static void what_is_no_handle_is_ignored_by_every_destroy_and_counts_as_nothing(void** state) {
+  (void)state;
+  setup_surface();
+  int on_the_stack = 0;
+  hf_solver gone = surface_solver(&tube);
+  hf_destroy(gone);
+  void* const bad[] = {NULL, (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &on_the_stack, gone};
+#define NOTHING_HAPPENS(function)                                              \
+  do {                                                                         \
+    for (size_t b = 0; b < COUNT_OF(bad); ++b) {                               \
+      function(bad[b]);                                                        \
+      count_row(#function);                                                    \
+      row_holds(__LINE__, #function, "the live objects go on",                 \
+                hf_get_site_count(solver) == 0 && hf_record(solver) == HF_OK); \
+    }                                                                          \
+  } while (0)
+  NOTHING_HAPPENS(hf_destroy);
+  NOTHING_HAPPENS(hf_pose_destroy);
+  NOTHING_HAPPENS(hf_transfer_destroy);
+  NOTHING_HAPPENS(hf_progress_destroy);
+  NOTHING_HAPPENS(hf_geodesics_destroy);
+  NOTHING_HAPPENS(hf_direction_destroy);
+  NOTHING_HAPPENS(hf_quads_destroy);
+  NOTHING_HAPPENS(hf_flow_destroy);
+  NOTHING_HAPPENS(hf_region_destroy);
+  NOTHING_HAPPENS(hf_detail_destroy);
+#define COUNTS_NOTHING(function)                                               \
+  do {                                                                         \
+    for (size_t b = 0; b < COUNT_OF(bad); ++b) {                               \
+      count_row(#function);                                                    \
+      row_holds(__LINE__, #function, "the count is 0", function(bad[b]) == 0); \
+    }                                                                          \
+  } while (0)
+  COUNTS_NOTHING(hf_get_site_count);
+  COUNTS_NOTHING(hf_pose_get_handle_count);
+  COUNTS_NOTHING(hf_direction_get_site_count);
+  check_row(__LINE__, "no output", "hf_progress_create", hf_progress_create(NULL), HF_ERROR_NULL_POINTER, NO_INDEX);
+  count_row("hf_get_error_detail");
+  row_holds(__LINE__, "hf_get_error_detail", "no output is named", hf_get_error_detail(NULL) == HF_ERROR_NULL_POINTER);
+  count_row("hf_result_name");
+  row_holds(__LINE__, "hf_result_name", "no such code is unknown", strcmp(hf_result_name(12345), "unknown") == 0);
+  count_row("hf_init_desc");
+  hf_init_desc(NULL, 16);
+  row_holds(__LINE__, "hf_init_desc", "nothing is written to nowhere", 1);
+  finish_rows("destroys and counts");
+  teardown_surface();
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(quads_flow_and_regions_refuse_every_handle_that_is_not_their_own),
+      cmocka_unit_test(quads_refuse_bad_descs),
+      cmocka_unit_test(flow_lines_refuse_bad_input),
+      cmocka_unit_test(what_is_no_handle_is_ignored_by_every_destroy_and_counts_as_nothing),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
