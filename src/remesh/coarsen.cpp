@@ -166,6 +166,7 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
     if (taken.empty()) break;
     // what brings a miss about is left out, until none does
     constexpr int most_tries = 4;
+    bool closed = false;
     for (int tries = 0; tries < most_tries && !taken.empty(); ++tries) {
       QuadMesh trial = mesh;
       close_quads(surface, trial, taken, memory);
@@ -176,7 +177,7 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
       misses.clear();
       const double now = distance.measure(trial, limit, &misses, nullptr);
       if (now <= limit) {
-        mesh = std::move(trial), deviation = now;
+        mesh = std::move(trial), deviation = now, closed = true;
         break;
       }
       auto is_near = [&](const Vec3& centre) {
@@ -194,6 +195,7 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
       }
       taken.resize(left), centres.resize(left);
     }
+    if (!closed) break;
   }
   return deviation;
 }

@@ -22,7 +22,7 @@ std::int32_t close_misses(const FluxSurface& surface, QuadMesh& mesh, const Vect
 struct CoarsenOptions {
   double edge_length = 0.02, shortest = 0.55, tolerance = 0.008;  // shortest in edge lengths, the others in inner units
   bool only_refined = false;                                      // quads with a corner whose scale is below 1
-  double enough = 0.01;                                           // share of quads with a short edge that may stay
+  double enough = 0.02;                                           // share of quads with a short edge that may stay
   std::int32_t rounds = 24, relax_rounds = 12;
   Progress* progress = nullptr;
 };

@@ -145,7 +145,7 @@ class Maker {
         const ProgressRange range(options_.progress, from + 0.6f * share, from + share);
         CoarsenOptions coarsen;
         if (!options_.uniform) coarsen.only_refined = true, coarsen.shortest = 0.3;
-        coarsen.edge_length = options_.edge_length, coarsen.tolerance = 1.1 * allowed,
+        coarsen.edge_length = options_.edge_length, coarsen.tolerance = 1.03 * allowed,
         coarsen.progress = options_.progress;
         deviation = coarsen_quads(surface_, distance_, mesh, deviation, coarsen, memory_);
       }
@@ -154,7 +154,7 @@ class Maker {
     report(options_.progress, 1.0f);
     const double shape = options_.uniform ? shape_cost(mesh, options_.edge_length, 0.5, 4, memory_)
                                           : shape_cost(mesh, options_.edge_length, 0, 12, memory_);
-    return std::max(deviation / (1.1 * allowed), 1.0) + shape;
+    return std::max(deviation / (1.03 * allowed), 1.0) + shape;
   }
 
   // Sites as vertices of the Mesh, weights in the order of its own triangles, which may have been turned here.
@@ -190,18 +190,25 @@ class Maker {
   // Relaxes, and draws features out where that brings the meshes nearer to each other, not only one to the other.
   double even_out(QuadMesh& mesh) const {
     Progress* const progress = options_.progress;
-    {
-      const ProgressRange range(progress, 0.0f, 0.5f);
-      RelaxOptions relax;
-      relax.rounds = options_.relax, relax.edge_length = options_.edge_length, relax.progress = progress;
-      relax_quads(surface_, mesh, relax, memory_);
-    }
+    auto relax = [&](std::int32_t rounds, float from, float to) {
+      const ProgressRange range(progress, from, to);
+      RelaxOptions options;
+      options.rounds = rounds, options.edge_length = options_.edge_length, options.progress = progress;
+      relax_quads(surface_, mesh, options, memory_);
+    };
     auto measure = [&](QuadMesh& at, float from) {
       const ProgressRange range(progress, from, from + 0.1f);
       distance_.turn_quads(at);
       return distance_.measure(at, 0, nullptr, progress);
     };
+    // vertices may slide off what is thin: in kind pure, where edges are long, a little relaxed is kept if it is nearer
+    const std::int32_t little = options_.uniform ? 0 : options_.relax / 6;
+    relax(little, 0.0f, 0.1f);
+    QuadMesh early = mesh;
+    const double before = little > 0 ? measure(early, 0.1f) : -1;
+    relax(options_.relax - little, 0.2f, 0.5f);
     double deviation = measure(mesh, 0.5f);
+    if (little > 0 && before < 0.9 * deviation) deviation = before, mesh = std::move(early);
     if (options_.relax > 0 && deviation > least_deviation) {
       QuadMesh drawn = mesh;
       {

@@ -136,6 +136,72 @@ static void cancelling_leaves_nothing_and_stops_one_call(void** state) {
   hf_quads_destroy(quads), hf_progress_destroy(progress), hf_destroy(solver), surface_free(&surface);
 }
 
+/* A host's allocator that looks at the progress whenever the library asks for memory. */
+typedef struct Watcher {
+  hf_progress progress;
+  float last, largest_step, cancel_at;
+  unsigned values, falls;
+} Watcher;
+
+static void* watch(void* user, size_t size, size_t alignment) {
+  Watcher* watcher = user;
+  float now = 0;
+  if (watcher->progress && hf_progress_get(watcher->progress, &now) == HF_OK) {
+    if (now < watcher->last) ++watcher->falls;
+    if (now > watcher->last) {
+      if (now - watcher->last > watcher->largest_step) watcher->largest_step = now - watcher->last;
+      ++watcher->values, watcher->last = now;
+    }
+    if (now >= watcher->cancel_at) hf_progress_cancel(watcher->progress);
+  }
+  /* the block that malloc gave stands in front of the aligned one */
+  char* base = malloc(size + alignment + sizeof(void*));
+  if (!base) return NULL;
+  char* block = base + sizeof(void*);
+  block += alignment - (uintptr_t)block % alignment;
+  memcpy(block - sizeof(void*), &base, sizeof(void*));
+  return block;
+}
+static void let_go(void* user, void* block, size_t size, size_t alignment) {
+  (void)user, (void)size, (void)alignment;
+  char* base = NULL;
+  memcpy(&base, (char*)block - sizeof(void*), sizeof(void*));
+  free(base);
+}
+
+static void progress_rises_in_small_steps_and_stops_where_it_is_cancelled(void** state) {
+  (void)state;
+  Watcher watcher = {NULL, 0, 0, 2, 0, 0};
+  Surface surface = surface_tube(AROUND, RINGS);
+  hf_create_desc create = surface_desc(&surface);
+  const hf_allocator hooks = {watch, let_go, &watcher};
+  create.allocator = hooks;
+  hf_solver solver = NULL;
+  assert_ok(hf_create(&create, &solver));
+  assert_ok(hf_progress_create(&watcher.progress));
+  const uint32_t sites[2] = {5, 300};
+  for (int automatic = 0; automatic < 2; ++automatic) {
+    hf_quads_desc desc = quads_desc();
+    desc.progress = watcher.progress;
+    if (!automatic) desc.site_count = 2, desc.site_vertices = sites;
+    watcher.last = watcher.largest_step = 0, watcher.values = watcher.falls = 0, watcher.cancel_at = 2;
+    hf_quads quads = NULL;
+    assert_ok(hf_quads_create(solver, &desc, &quads));
+    assert_int_equal(watcher.falls, 0);
+    assert_true(watcher.values >= 10);
+    assert_true(watcher.largest_step <= 0.4f); /* trials that are not needed are passed over */
+    hf_quads_destroy(quads), quads = NULL;
+    for (float at = 0.05f; at < 0.9f; at += 0.2f) {
+      watcher.last = 0, watcher.cancel_at = at;
+      assert_code(HF_ERROR_CANCELLED, hf_quads_create(solver, &desc, &quads));
+      assert_null(quads);
+      assert_true(watcher.last >= at);
+    }
+  }
+  hf_progress_destroy(watcher.progress), watcher.progress = NULL;
+  hf_destroy(solver), surface_free(&surface);
+}
+
 static void bad_input_is_named(void** state) {
   (void)state;
   Surface surface;
@@ -220,6 +286,7 @@ int main(void) {
       cmocka_unit_test(a_tube_becomes_a_closed_net_of_quads),
       cmocka_unit_test(flow_lines_rise_and_outlive_the_solver),
       cmocka_unit_test(cancelling_leaves_nothing_and_stops_one_call),
+      cmocka_unit_test(progress_rises_in_small_steps_and_stops_where_it_is_cancelled),
       cmocka_unit_test(bad_input_is_named),
       cmocka_unit_test(a_non_manifold_edge_is_refused_with_its_vertex),
   };
