@@ -149,6 +149,8 @@ def bad_scenes():
     bad("NON_FINITE", index=301, do="flow_lines", on="w", field=[0.0] * 301 + ["nan"], count=4)
     bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 9, count=4)
     bad("OUT_OF_RANGE", index=1, do="flow_lines", on="w", field=[0.0] * 302, seeds=[0, 302])
+    made.append(solver("z"))  # no inner vertex, no room for two sites
+    bad("UNSUPPORTED", **{"do": "quads", "on": "z", "as": "m"})
     made += [{"do": "region", "on": "s", "as": "o"}]
     bad("INVALID_ARGUMENT", do="region", on="s", **{"as": "m"}, positions=[0.0] * 9)
     bad("OUT_OF_RANGE", do="region_edit", on="o", add=[302])
