@@ -1,0 +1,93 @@
+// What plays a sequence (sequence_player.h): the calls are in sequence_calls.cpp, the comparisons in
+// sequence_compare.cpp.
+#pragma once
+#include <memory>
+#include <stdexcept>
+
+#include "hf/hf.h"
+#include "sequence_model.h"
+#include "sequence_player.h"
+
+namespace sequences {
+
+struct Failure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+[[noreturn]] inline void fail(const std::string& what) {
+  hf_error_detail detail;
+  hf_get_error_detail(&detail);
+  throw Failure(what + " (last detail: " + detail.function + ": " + detail.message + ")");
+}
+
+inline void expect(hf_result expected, hf_result got, const char* call) {
+  if (got != expected)
+    fail(std::string(call) + ": expected " + hf_result_name(expected) + ", got " + hf_result_name(got));
+}
+inline void hold(bool condition, const std::string& what) {
+  if (!condition) fail(what);
+}
+
+class Bytes {
+ public:
+  Bytes(const std::uint8_t* bytes, std::size_t size) : next_(bytes), end_(bytes + size) {}
+  bool done() const { return next_ == end_; }
+  unsigned take() { return done() ? 0u : *next_++; }
+
+ private:
+  const std::uint8_t *next_, *end_;
+};
+
+// A handle and what it must be.
+struct Branch {
+  hf_solver solver = nullptr;
+  Model model;
+  explicit Branch(const Setting& setting) : model(setting) {}
+  Branch(const Branch&) = delete;
+  Branch& operator=(const Branch&) = delete;
+  ~Branch() { hf_destroy(solver); }
+};
+
+class Player {
+ public:
+  Player(Bytes bytes, Outcome& outcome) : bytes_(bytes), outcome_(outcome) {}
+  void run();
+
+ private:
+  void begin();
+  hf_create_desc desc() const;
+  Branch& here() { return *branches_[active_]; }
+  // what bytes stand for
+  Place take_place(bool points);
+  double take_value();
+  double take_stiffness();
+  std::uint32_t take_site();
+  void take_addition(Edit& edit, bool points);
+  // calls
+  void call(unsigned kind);
+  void edit_sites(const Edit& edit, unsigned how);
+  void record();
+  void step(bool back);
+  void branch_off();
+  void reload();
+  void solve_some();
+  void solve_single();
+  void preview();
+  void rebase();
+  // comparisons
+  void compare(Branch& branch);
+  void compare_sites(Branch& branch);
+  std::vector<double> field_of(Branch& branch);
+  double error_of(Branch& branch, const std::vector<double>& field);
+
+  Bytes bytes_;
+  Outcome& outcome_;
+  const Surface* surface_ = nullptr;
+  Setting setting_;
+  std::size_t surface_number_ = 0;
+  int operator_kind_ = 0, field_kind_ = 0, ordering_ = 0;
+  std::vector<std::unique_ptr<Branch>> branches_;
+  std::size_t active_ = 0;
+};
+
+}  // namespace sequences
