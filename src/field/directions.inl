@@ -49,8 +49,8 @@ inline void add_lanes(const hf::TriangleFrame& frame, const double* u0, const do
   // grad v times twice the area: d1 n x (p0 - p2) + d2 n x (p1 - p0), and n x (x, y) = (-y, x)
   Number x = d1 * frame.py, y = d2 * frame.along - d1 * frame.px;
   // 1 / sqrt to 1e-10, without a division or a root: half the exponent and a straight line for the mantissa, 3 % off,
-  // then three steps of Newton's method, e -> 3/2 e^2; of zero a number below 1e155
-  const Number squared = x * x + y * y, half = 0.5 * squared;
+  // then three steps of Newton's method, e -> 3/2 e^2; the 1e-200 keeps them finite where the heat does not fall at all
+  const Number squared = x * x + y * y + 1e-200, half = 0.5 * squared;
   __builtin_memcpy(&bits, &squared, sizeof(bits));
   bits = 0x5fe6eb50c7b537a9 - (bits >> 1);
   Number root;

@@ -61,28 +61,37 @@ Vector<Index> farthest_vertices(const Core& core, const Vector<double>& total) {
   return farthest;
 }
 
+constexpr Index unseen = std::numeric_limits<Index>::max();
+
+// Breadth-first search: numbers of edges from a vertex, of what is unseen; the vertices reached, in order. Returns how
+// many they are. queue has room for one more.
+std::size_t search_levels(const Topology& topology, Index from, Index* level, Index* queue) {
+  const Index *const start = topology.neighbour_start.data(), *const neighbour = topology.neighbour.data();
+  std::size_t head = 0, tail = 0;
+  queue[tail++] = from, level[at(from)] = 0;
+  while (head < tail) {
+    const Index v = queue[head++], next = level[at(v)] + 1, end = start[at(v) + 1];
+    for (Index i = start[at(v)]; i < end; ++i) {
+      // no branch: it would be mispredicted every other time
+      const Index w = neighbour[at(i)], old = level[at(w)];
+      queue[tail] = w, tail += old > next;
+      level[at(w)] = std::min(old, next);
+    }
+  }
+  return tail;
+}
+
 // A ring of vertices around the middle of each component: those at one number of edges from the farthest vertex, half
 // as many as to the end that a breadth-first search from there comes to, as far as they hang together with the vertex
 // half way.
 void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uint8_t>& middle) {
   const Topology& topology = core.topology;
   const std::size_t n = middle.size();
-  constexpr Index far = std::numeric_limits<Index>::max();
-  Vector<Index> levels(n, far, core.memory.get()), waiting(n + 1, core.memory.get());
+  Vector<Index> levels(n, unseen, core.memory.get()), waiting(n + 1, core.memory.get());
   Index *const level = levels.data(), *const queue = waiting.data();
   const Index *const start = topology.neighbour_start.data(), *const neighbour = topology.neighbour.data();
   for (const Index from : farthest_vertices(core, total)) {
-    std::size_t head = 0, tail = 0;
-    queue[tail++] = from, level[at(from)] = 0;
-    while (head < tail) {
-      const Index v = queue[head++], next = level[at(v)] + 1, end = start[at(v) + 1];
-      for (Index i = start[at(v)]; i < end; ++i) {
-        // no branch: it would be mispredicted every other time
-        const Index w = neighbour[at(i)], old = level[at(w)];
-        queue[tail] = w, tail += old > next;
-        level[at(w)] = std::min(old, next);
-      }
-    }
+    std::size_t head = 0, tail = search_levels(topology, from, level, queue);
     Index v = queue[tail - 1];
     const Index half = level[at(v)] / 2;
     while (level[at(v)] > half) {
