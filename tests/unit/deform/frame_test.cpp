@@ -73,10 +73,28 @@ TEST(Frame, NormalsHoldForTinyAndHugeSurfaces) {
   for (const Normal& n : normals) EXPECT_TRUE(n.x == 0 && n.y == 0 && n.z == 1);
 }
 
+// The unit of the mesh: areas of 1e50 and 1e-50 are no floats.
+TEST(Frame, NormalsDoNotDependOnTheUnitOfTheMesh) {
+  for (const double unit : {1e-25, 1e25}) {
+    Case c = cactus_bend(70, 1500);
+    for (double& x : c.mesh.positions) x *= unit;
+    const auto core = hf_test::make_core(c.mesh, 1);
+    const Rest rest(*core, *core->memory);
+    const std::vector<Vec3> p = deform_test::rest(*core), wanted = normals_one_by_one(core->mesh, p);
+    std::vector<NormalSum> sums(p.size());
+    std::vector<Normal> normals(p.size());
+    vertex_normals(core->mesh, rest, p.data(), sums.data(), normals.data(), *core->jobs);
+    double off = 0;
+    for (std::size_t v = 0; v < p.size(); ++v) off = std::max(off, norm(to_vec3(normals[v]) - wanted[v]));
+    EXPECT_LT(off, 1e-6) << unit;
+  }
+}
+
 TEST(Frame, WeightsAreWholeStepsAndSumToOneExactly) {
   const Case c = cactus_bend();
   Dragged d = set_up(c, {});
-  add(*d.pose, {select(*d.core, [](Vec3 p) { return p.x > 0.55; }), select(*d.core, [](Vec3 p) { return p.x < -0.5; })});
+  add(*d.pose, {select(*d.core, [](Vec3 p) { return p.x > 0.55; }),
+                select(*d.core, [](Vec3 p) { return p.x < -0.5; })});
   const ClusterWeights& w = *d.pose->weights();
   std::size_t shared = 0;
   for (std::int32_t v = 0; v < d.core->size(); ++v) {
