@@ -7,6 +7,7 @@
 
 #include "analysis_support.h"
 #include "base/error.h"
+#include "field/directions.h"
 #include "field/spread.h"
 
 namespace {
@@ -121,6 +122,66 @@ TEST(SpreadSamples, are_far_apart_cover_every_component_and_share_its_area) {
   EXPECT_GT(nearest * core->mesh.scale, 1.0);  // the torus has an area of 79: discs of radius 1.4
 }
 
+// -grad / |grad| of a linear function by the textbook formula, times the weight, summed.
+TEST(Directions, are_unit_vectors_to_1e_9_however_faint_the_heat_and_many_the_channels) {
+  std::mt19937_64 random(5);
+  const auto number = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  for (const double faint : {1.0, 1e-200, 1e-290}) {
+    for (std::int32_t channels = 1; channels <= 8; ++channels) {
+      const std::size_t k = static_cast<std::size_t>(channels);
+      std::vector<hf::TriangleFrame> frames;
+      std::vector<double> heat(20 * k), weight(2 * k), sums(100, 0.0);
+      for (double& u : heat) u = faint * number();
+      for (double& w : weight) w = number();
+      for (std::int32_t t = 0; t < 50; ++t) {
+        const std::int32_t row = t % 18;
+        frames.push_back({0.1 + number(), number() - 0.5, 0.01 + number(), {row, row + 2, row + 1}, t % 2});
+      }
+      for (std::size_t c = 0; c < k; ++c) heat[3 * k + c] = heat[4 * k + c] = heat[5 * k + c] = 0.5 * faint;  // flat
+      hf::add_directions({frames.data(), heat.data(), weight.data(), channels, sums.data()}, 0, 50);
+      for (std::size_t t = 0; t < frames.size(); ++t) {
+        const hf::TriangleFrame& f = frames[t];
+        double x = 0, y = 0;
+        for (std::size_t c = 0; c < k; ++c) {
+          const auto u = [&](std::size_t corner) {
+            return heat[static_cast<std::size_t>(f.row[corner]) * k + c] / faint;
+          };
+          const double gx = (u(1) - u(0)) / f.along, gy = (u(2) - u(0) - gx * f.px) / f.py, length = std::hypot(gx, gy);
+          if (!(length > 0)) continue;
+          const double w = weight[static_cast<std::size_t>(f.component) * k + c];
+          x -= w * gx / length, y -= w * gy / length;
+        }
+        EXPECT_NEAR(sums[2 * t], x, 1e-9) << faint << ", " << channels << " channels";
+        EXPECT_NEAR(sums[2 * t + 1], y, 1e-9) << faint << ", " << channels << " channels";
+      }
+    }
+  }
+}
+
+TEST(MeanDistance, of_a_component_is_the_one_it_has_alone) {
+  const PlainMesh torus = hf_test::torus(40, 24);
+  PlainMesh backwards = torus;  // numbered backwards: other samples with other shares
+  const std::uint32_t n = torus.vertex_count();
+  for (std::uint32_t v = 0; v < n; ++v) {
+    for (std::uint32_t k = 0; k < 3; ++k) backwards.positions[3 * (n - 1 - v) + k] = torus.positions[3 * v + k];
+  }
+  for (std::uint32_t& v : backwards.triangles) v = n - 1 - v;
+  PlainMesh both = torus;
+  append(both, backwards, 10);
+  const auto mean = [](const PlainMesh& mesh) {
+    const auto core = hf_test::make_core(mesh);
+    std::vector<double> d(mesh.vertex_count());
+    hf::Geodesics(core, 1).average(12, d.data(), nullptr, 0, 1);
+    for (double& x : d) x *= core->mesh.scale;
+    return d;
+  };
+  const auto a = mean(torus), b = mean(backwards), together = mean(both);
+  for (std::size_t v = 0; v < n; ++v) {
+    EXPECT_NEAR(together[v] - together[0], a[v] - a[0], 1e-8);
+    EXPECT_NEAR(together[n + v] - together[n], b[v] - b[0], 1e-8);
+  }
+}
+
 // Distance from the nearest of the sources by Bellman and Ford, over the edges.
 std::vector<double> edge_distance(const hf::Core& core, const std::vector<std::int32_t>& sources) {
   std::vector<double> d(static_cast<std::size_t>(core.size()), 1e9);
@@ -163,6 +224,15 @@ TEST(SpreadSamples, lie_as_far_apart_as_the_surface_is_from_them_by_patches_too)
     EXPECT_LT(radius, 1.25 * apart) << count;
     EXPECT_LT(worst_share, count == 12 ? 0.35 : 1e-9) << count;
   }
+}
+
+TEST(SpreadSamples, share_out_the_area_of_every_vertex_of_a_patch) {
+  const auto core = hf_test::make_core(hf_test::torus(100, 60));
+  hf::Vector<double> areas(core->areas.size(), 0.0, core->memory.get());
+  areas[1] = 2;  // beside the middle of the first patch
+  double sum = 0;
+  for (const double share : hf::spread_samples(core->mesh, core->topology, areas, 6, *core->memory).share) sum += share;
+  EXPECT_EQ(sum, 1);
 }
 
 TEST(SpreadSamples, are_as_many_as_asked_for_around_a_vertex_of_ten_thousand_edges) {
