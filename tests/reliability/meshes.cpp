@@ -1,0 +1,335 @@
+// The bad-mesh table: surfaces with one thing wrong, every operator and field kind on each. A documented refusal, or a
+// finite field that holds its sites, takes a constant to itself, and, where weights are not negative, stays between the
+// values of its sites.
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hf/hf.h"
+#include "report.h"
+
+namespace {
+
+struct Mesh {
+  std::string name;
+  std::vector<double> positions;
+  std::vector<std::uint32_t> triangles;
+  hf_result expected = HF_OK;
+  std::uint32_t count() const { return static_cast<std::uint32_t>(positions.size() / 3); }
+  double* at(std::size_t v) { return positions.data() + 3 * v; }
+};
+
+Mesh sheet(std::uint32_t n) {
+  Mesh m;
+  for (std::uint32_t j = 0; j <= n; ++j) {
+    for (std::uint32_t i = 0; i <= n; ++i)
+      m.positions.insert(m.positions.end(), {double(i), double(j), 0.2 * std::sin(i + 2.0 * j)});
+  }
+  for (std::uint32_t j = 0; j < n; ++j) {
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = j * (n + 1) + i, c = a + n + 1;
+      m.triangles.insert(m.triangles.end(), {a, a + 1, c + 1, a, c + 1, c});
+    }
+  }
+  return m;
+}
+
+Mesh tube(std::uint32_t around, std::uint32_t rings) {
+  Mesh m;
+  for (std::uint32_t v = 0; v < around * rings; ++v) {
+    const double turn = 6.283185307179586 * (v % around) / around;
+    m.positions.insert(m.positions.end(), {std::cos(turn), double(v / around), std::sin(turn)});
+  }
+  for (std::uint32_t a = 0; a + around < around * rings; ++a) {
+    const std::uint32_t b = a / around * around + (a + 1) % around;
+    m.triangles.insert(m.triangles.end(), {a, a + around, b, b, a + around, b + around});
+  }
+  return m;
+}
+
+Mesh strip(double width) {  // two triangles
+  Mesh m;
+  m.positions = {0, 0, 0, 1, 0, 0, 0, width, 0, 1, width, 0};
+  m.triangles = {0, 1, 2, 1, 3, 2};
+  return m;
+}
+Mesh needle(double width) {
+  Mesh m = strip(width);
+  m.positions.resize(9), m.triangles.resize(3);
+  return m;
+}
+
+void scale(Mesh& m, double x, double y, double z) {
+  for (std::size_t v = 0; v < m.count(); ++v) m.at(v)[0] *= x, m.at(v)[1] *= y, m.at(v)[2] *= z;
+}
+void shift(Mesh& m, double by) {
+  for (double& x : m.positions) x += by;
+}
+void append(Mesh& m, Mesh other, double dx) {
+  const std::uint32_t first = m.count();
+  for (std::size_t i = 0; i < other.positions.size(); ++i) m.positions.push_back(other.positions[i] + (i % 3 ? 0 : dx));
+  for (const std::uint32_t v : other.triangles) m.triangles.push_back(first + v);
+}
+
+std::vector<Mesh> meshes() {
+  std::vector<Mesh> all;
+  const auto put = [&](const std::string& name, Mesh m, hf_result expected = HF_OK) {
+    m.name = name, m.expected = expected;
+    all.push_back(std::move(m));
+  };
+  // found by damaged glTF: the default operator was lost on them
+  for (const double width : {1e-3, 1e-6, 1e-8, 1e-9, 1e-10, 1e-12, 1e-15, 1e-30, 1e-300}) {
+    char text[32];
+    std::snprintf(text, sizeof text, " of width %g", width);
+    put("one needle" + std::string(text), needle(width));
+    put("two needles" + std::string(text), strip(width));
+  }
+  struct Change {
+    const char* name;
+    std::function<void(Mesh&)> make;
+  };
+  const Change changes[] = {
+      {"as it is", [](Mesh&) {}},
+      {"of size 1e-42", [](Mesh& m) { scale(m, 1e-42, 1e-42, 1e-42); }},
+      {"of size 1e-150", [](Mesh& m) { scale(m, 1e-150, 1e-150, 1e-150); }},
+      {"of size 1e30", [](Mesh& m) { scale(m, 1e30, 1e30, 1e30); }},
+      {"of size 1e150", [](Mesh& m) { scale(m, 1e150, 1e150, 1e150); }},
+      {"at 1e6", [](Mesh& m) { shift(m, 1e6); }},
+      {"at 1e12", [](Mesh& m) { shift(m, 1e12); }},
+      {"pressed to 1e-6", [](Mesh& m) { scale(m, 1, 1e-6, 1); }},
+      {"pressed to 1e-12", [](Mesh& m) { scale(m, 1, 1e-12, 1); }},
+      {"pressed to a line", [](Mesh& m) { scale(m, 0, 1, 0); }},
+      {"drawn out 1e8 times", [](Mesh& m) { scale(m, 1e8, 1, 1); }},
+      {"sheared",
+       [](Mesh& m) {
+         for (std::size_t v = 0; v < m.count(); ++v) m.at(v)[0] += 30 * m.at(v)[1];
+       }},
+      {"one vertex at 1e30", [](Mesh& m) { m.at(7)[1] = 1e30; }},
+      {"one vertex at 1e-30 of a neighbour",
+       [](Mesh& m) {
+         for (int k = 0; k < 3; ++k) m.at(7)[k] = m.at(8)[k] + (k == 1 ? 1e-30 : 0);
+       }},
+      {"coincident vertices",
+       [](Mesh& m) {
+         for (int k = 0; k < 3; ++k) m.at(7)[k] = m.at(8)[k];
+       }},
+      {"every second vertex on its neighbour",
+       [](Mesh& m) {
+         for (std::size_t v = 1; v < m.count(); v += 2)
+           for (int k = 0; k < 3; ++k) m.at(v)[k] = m.at(v - 1)[k];
+       }},
+      {"a vertex on an edge",
+       [](Mesh& m) {
+         for (int k = 0; k < 3; ++k) m.at(7)[k] = 0.5 * (m.at(6)[k] + m.at(8)[k]);
+       }},
+      {"every third triangle turned over",
+       [](Mesh& m) {
+         for (std::size_t t = 0; t < m.triangles.size(); t += 9) std::swap(m.triangles[t], m.triangles[t + 1]);
+       }},
+      {"all triangles twice",
+       [](Mesh& m) {
+         const std::vector<std::uint32_t> once = m.triangles;
+         m.triangles.insert(m.triangles.end(), once.begin(), once.end());
+       }},
+      {"a triangle a hundred times",
+       [](Mesh& m) {
+         for (int i = 0; i < 100; ++i)
+           m.triangles.insert(m.triangles.end(), {m.triangles[0], m.triangles[1], m.triangles[2]});
+       }},
+      {"a fin on every row",
+       [](Mesh& m) {
+         const std::uint32_t n = m.count();
+         m.positions.insert(m.positions.end(), {3, 3, 9});
+         for (std::uint32_t v = 0; v + 1 < n; v += 3) m.triangles.insert(m.triangles.end(), {v, v + 1, n});
+       }},
+      {"triangles of equal corners",
+       [](Mesh& m) {
+         for (std::uint32_t v = 0; v < 20; ++v) m.triangles.insert(m.triangles.end(), {v, v, v + 1});
+       }},
+      {"isolated vertices",
+       [](Mesh& m) {
+         for (int i = 0; i < 50; ++i) m.positions.insert(m.positions.end(), {double(i), 50, 50});
+       }},
+      {"an island of one triangle", [](Mesh& m) { append(m, needle(1), 100); }},
+      {"an island of one needle", [](Mesh& m) { append(m, needle(1e-9), 100); }},
+      {"an island 1e20 times smaller",
+       [](Mesh& m) {
+         Mesh tiny = sheet(2);
+         scale(tiny, 1e-20, 1e-20, 1e-20);
+         append(m, tiny, 0);
+       }},
+      {"every triangle alone",
+       [](Mesh& m) {
+         Mesh apart;
+         for (std::size_t i = 0; i < m.triangles.size(); ++i) {
+           const double* p = m.at(m.triangles[i]);
+           for (int k = 0; k < 3; ++k) apart.positions.push_back(p[k] + 0.1 * double(i / 3));
+           apart.triangles.push_back(static_cast<std::uint32_t>(i));
+         }
+         m = apart;
+       }},
+      {"joined at one vertex",
+       [](Mesh& m) {
+         const std::uint32_t n = m.count();
+         append(m, m, 40);
+         for (int k = 0; k < 3; ++k) m.at(n)[k] = m.at(0)[k];
+       }},
+  };
+  for (const Change& change : changes) {
+    for (const bool closed : {false, true}) {
+      Mesh m = closed ? tube(6, 6) : sheet(5);
+      change.make(m);
+      // on a line of a few places every triangle has two corners at one of them
+      const bool gone = std::string(change.name) == "pressed to a line";
+      put(std::string(closed ? "tube " : "sheet ") + change.name, m, gone ? HF_ERROR_EMPTY : HF_OK);
+    }
+  }
+  put(
+      "no triangle",
+      [] {
+        Mesh m = sheet(2);
+        m.triangles.clear();
+        return m;
+      }(),
+      HF_ERROR_EMPTY);
+  put(
+      "one place",
+      [] {
+        Mesh m = sheet(2);
+        scale(m, 0, 0, 0);
+        return m;
+      }(),
+      HF_ERROR_EMPTY);
+  put(
+      "a corner outside",
+      [] {
+        Mesh m = sheet(2);
+        m.triangles[5] = 9;
+        return m;
+      }(),
+      HF_ERROR_OUT_OF_RANGE);
+  put(
+      "not a number",
+      [] {
+        Mesh m = sheet(2);
+        m.positions[4] = std::nan("");
+        return m;
+      }(),
+      HF_ERROR_NON_FINITE);
+  put(
+      "infinite",
+      [] {
+        Mesh m = sheet(2);
+        m.positions[4] = HUGE_VAL;
+        return m;
+      }(),
+      HF_ERROR_NON_FINITE);
+  put(
+      "wider than a double",
+      [] {
+        Mesh m = sheet(2);
+        m.positions[0] = -1.7e308, m.positions[3] = 1.7e308;
+        return m;
+      }(),
+      HF_ERROR_TOO_LARGE);
+  return all;
+}
+
+// Empty, or what is wrong with the field of two sites, far apart in number, with values 0 and 1, or both c.
+std::string check_field(hf_solver solver, const Mesh& m, bool bounded, double far_value, double near_value) {
+  std::vector<std::uint32_t> component(m.count());
+  if (hf_get_components(solver, m.count(), component.data()) != HF_OK) return "hf_get_components failed";
+  std::uint32_t first = HF_NO_INDEX, last = HF_NO_INDEX;
+  for (std::uint32_t v = 0; v < m.count(); ++v) {
+    if (component[v] == HF_NO_INDEX) continue;
+    if (first == HF_NO_INDEX) first = v;
+    bool apart = false;
+    for (int k = 0; k < 3; ++k)
+      apart = apart ||
+              m.positions[3 * v + static_cast<std::size_t>(k)] != m.positions[3 * first + static_cast<std::size_t>(k)];
+    if (component[v] == component[first] && apart) last = v;
+  }
+  const std::uint32_t places[2] = {first, last};
+  const double values[2] = {near_value, far_value};
+  hf_sites_desc sites;
+  HF_INIT(sites);
+  sites.site_count = last == HF_NO_INDEX ? 1 : 2, sites.vertices = places, sites.values = values;
+  std::uint32_t numbers[2];
+  hf_result got = hf_add_sites(solver, &sites, numbers);
+  if (got != HF_OK) return std::string("hf_add_sites: ") + hf_result_name(got);
+  std::vector<double> field(m.count());
+  got = hf_solve_f64(solver, field.data(), 0, nullptr);
+  if (got != HF_OK) return std::string("hf_solve_f64: ") + hf_result_name(got);
+  const double low = std::fmin(near_value, far_value), high = std::fmax(near_value, far_value);
+  for (std::uint32_t v = 0; v < m.count(); ++v) {
+    if (!std::isfinite(field[v])) return "a value is not finite";
+    if (component[v] != component[first]) continue;
+    if (bounded && !(field[v] >= low - 1e-9 && field[v] <= high + 1e-9))
+      return "a value of " + std::to_string(field[v]);
+  }
+  if (field[first] != near_value) return "a site does not hold its value";
+  if (hf_remove_sites(solver, sites.site_count, numbers) != HF_OK) return "hf_remove_sites failed";
+  return "";
+}
+
+std::string check(const Mesh& m, int operator_kind, int field_kind, bool& lost) {
+  hf_create_desc desc;
+  HF_INIT(desc);
+  desc.vertex_count = m.count(), desc.triangle_count = static_cast<std::uint32_t>(m.triangles.size() / 3);
+  desc.positions_f64 = m.positions.data(), desc.triangles = m.triangles.data();
+  static const std::uint32_t no_triangle[3] = {0, 0, 0};
+  if (m.triangles.empty()) desc.triangles = no_triangle;
+  desc.operator_kind = operator_kind, desc.field_kind = field_kind;
+  hf_solver solver = nullptr;
+  const hf_result got = hf_create(&desc, &solver);
+  // a fourth-order operator squares the spread of the weights: past the digits of a double it may say so
+  lost = got == HF_ERROR_NOT_POSITIVE_DEFINITE && field_kind != HF_FIELD_HARMONIC;
+  if (lost) return "";
+  if (got != m.expected) {
+    hf_destroy(solver);
+    return hf_result_name(got);
+  }
+  if (got != HF_OK) return solver == nullptr ? "" : "a refused hf_create gave a handle";
+  const bool bounded = field_kind == HF_FIELD_HARMONIC && operator_kind != HF_OPERATOR_COTANGENT;
+  std::string wrong = check_field(solver, m, bounded, 1, 0);
+  if (wrong.empty()) wrong = check_field(solver, m, field_kind == HF_FIELD_HARMONIC, 3, 3);
+  hf_destroy(solver);
+  return wrong;
+}
+
+}  // namespace
+
+int main() {
+  unsigned count = 0, cases = 0, wrong = 0, lost_cases = 0;
+  double slowest = 0;
+  for (const Mesh& m : meshes()) {
+    ++count;
+    for (int operator_kind = 0; operator_kind < 4; ++operator_kind) {
+      for (int field_kind = 0; field_kind < 3; ++field_kind) {
+        bool lost = false;
+        const std::clock_t start = std::clock();
+        const std::string what = check(m, operator_kind, field_kind, lost);
+        const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+        if (seconds > 1)
+          std::fprintf(stderr, "%s, operator %d, field %d: %.1f s\n", m.name.c_str(), operator_kind, field_kind,
+                       seconds);
+        slowest = std::fmax(slowest, seconds);
+        ++cases, lost_cases += lost;
+        if (what.empty()) continue;
+        if (++wrong <= 40)
+          std::fprintf(stderr, "%s, operator %d, field %d: %s\n", m.name.c_str(), operator_kind, field_kind,
+                       what.c_str());
+      }
+    }
+  }
+  std::printf("%u cases, %u bi-harmonic ones refused as not positive definite\n", cases, lost_cases);
+  report_at_least("meshes_tried", count, 60);
+  report_at_most("meshes_wrong", wrong, 0);
+  report_at_most("meshes_slowest_s", slowest, 1);
+  return report_status();
+}
