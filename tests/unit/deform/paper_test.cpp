@@ -80,4 +80,25 @@ TEST(PaperScheme, ArrivesAtTheRigidMotionItsHandlesShare) {
   EXPECT_LT(settled, 0.05 * after_one);  // Jacobi: the motion travels one band an iteration
 }
 
+// A bar pulled along its axis: clusters move without turning, so only their translations tell that they are under way.
+TEST(PaperScheme, AMotionWithoutTurnsIsNotTakenForRest) {
+  const Case c = bar_twist(0, 8);
+  const auto core = hf_test::make_core(c.mesh);
+  PoseOptions options;
+  options.mode = DeformMode::paper;
+  const auto pose = Pose::make(core, options);
+  add(*pose, {select(*core, c.regions[0]), select(*core, c.regions[1])});
+  const ClusterWeights& weights = *pose->weights();
+  const PaperSystem system(*core, weights, *core->memory);
+  PaperState state(*core->memory);
+  state.fit(system);
+  const Affine rest{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}, pulled{{{1, 0, 0, 0}, {0, 1, 0, 5}, {0, 0, 1, 0}}};
+  std::vector<Affine> transforms(static_cast<std::size_t>(weights.cluster_count), rest);
+  transforms[1] = pulled;  // the upper handle
+  constexpr double tolerance = 0.5;  // a turn of 20 degrees, half a box
+  const SolveReport report = solve_paper_pose(system, core->mesh, weights, 2, tolerance, state, transforms.data());
+  EXPECT_EQ(report.iterations, 2u);
+  EXPECT_LT(report.last_change, tolerance);
+}
+
 }  // namespace
