@@ -250,12 +250,14 @@ std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
   return -1;
 }
 
+double DenseBlock::pivot_share(std::int32_t i) const noexcept {
+  const std::size_t diagonal = row(i) + static_cast<std::size_t>(i);
+  return 1 / (l_[diagonal] * l_[diagonal] * std::fabs(m_[diagonal]));
+}
+
 double DenseBlock::least_pivot() const noexcept {
   double least = 1;
-  for (std::int32_t i = 0; i < count(); ++i) {
-    const std::size_t diagonal = row(i) + static_cast<std::size_t>(i);
-    least = std::min(least, 1 / (l_[diagonal] * l_[diagonal] * std::fabs(m_[diagonal])));
-  }
+  for (std::int32_t i = 0; i < count(); ++i) least = std::min(least, pivot_share(i));
   return least;
 }
 

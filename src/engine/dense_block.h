@@ -41,6 +41,8 @@ class DenseBlock {
   // The smallest pivot over its diagonal entry, of a factorised block: crowded points, whose solution loses as many
   // digits, have a small one. O(k).
   double least_pivot() const noexcept;
+  // The same of one row.
+  double pivot_share(std::int32_t i) const noexcept;
   double bytes() const noexcept { return 8.0 * static_cast<double>(m_.size() + l_.size()); }
 
  private:

@@ -124,6 +124,7 @@ class GreenSolver final : public SiteSolver {
   void remove_rows(State& state, Span<const Index> rows, Span<const Index> components) const;
   void add_rows(State& state, Span<const Addition> additions, const SiteEdit& edit) const;
   void add_paths(State& state, Span<const Index> rows) const;
+  Index crowded_out(const State& state, const SiteEdit& edit, const DenseBlock& block, Index component) const;
   void drop_empty_groups(State& state) const;
   void repack(State& state) const;
   void place_all(State& state, const SiteEdit& edit, bool eliminate) const;

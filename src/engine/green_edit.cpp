@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "engine/dependence.h"
 #include "engine/green.h"
 #include "engine/site_cost.h"
 #include "engine/sparse_sites.h"
@@ -254,6 +255,37 @@ void GreenSolver::add_paths(State& state, Span<const Index> rows) const {
   path_solves_ += static_cast<std::uint32_t>(rows.size());
 }
 
+// The slot of a hard site of the component that depends on others though its pivot was left with some rounding, or -1.
+// Who came in this edit is named before who was there. Among eliminated sites the diagonal itself may be rounding (a
+// point whose corners are eliminated has none), so pivots say nothing and every site that came is looked at.
+GreenSolver::Index GreenSolver::crowded_out(const State& state, const SiteEdit& edit, const DenseBlock& block,
+                                            Index component) const {
+  constexpr double small = 1e-6;
+  if (!state.base && block.least_pivot() >= small) return -1;
+  Vector<HardSite> sites(&memory());
+  Vector<Index> place(state.entries.size(), -1, &memory());
+  const auto take = [&](Index slot) {
+    const Site& site = state.entries[at(slot)].site;
+    if (site.component != component || site.compliance != 0 || place[at(slot)] >= 0) return;
+    place[at(slot)] = static_cast<Index>(sites.size());
+    sites.push_back({&site, slot, false});
+  };
+  Vector<std::uint8_t> is_new(state.entries.size(), 0, &memory());
+  for (const Index slot : edit.add) is_new[at(slot)] = 1;
+  for (Index slot = 0; at(slot) < state.entries.size(); ++slot) {
+    if (!is_new[at(slot)]) take(slot);
+  }
+  for (const Index slot : edit.add) take(slot);
+  const auto suspect = [&](Index slot) {
+    if (slot >= 0 && place[at(slot)] >= 0) sites[at(place[at(slot)])].suspect = true;
+  };
+  for (Index i = 0; i < block.count() && !state.base; ++i) {
+    if (block.pivot_share(i) < small) suspect(block.ids()[at(i)]);
+  }
+  for (std::size_t i = 0; i < edit.add.size() && state.base; ++i) suspect(edit.add[i]);
+  return dependent_site({sites.data(), sites.size()}, memory());
+}
+
 // Paths of rows that are gone still stand in their groups. When they outweigh the living, the sparse groups are solved
 // anew.
 void GreenSolver::repack(State& state) const {
@@ -373,10 +405,10 @@ void GreenSolver::add_rows(State& state, Span<const Addition> additions, const S
   for (std::size_t c = 0; c < open.size(); ++c) {
     if (!open[c]) continue;
     const Index lost = open[c]->factorise(jobs());
-    if (lost >= 0) {
-      // with eliminated sites about, the order of the rows may be at fault: a plain layout decides
-      if (state.base) throw NeedsNewLayout{};
-      const Index slot = open[c]->ids()[at(lost)];
+    // with eliminated sites about, the order of the rows may be at fault: a plain layout decides
+    if (lost >= 0 && state.base) throw NeedsNewLayout{};
+    const Index slot = lost >= 0 ? open[c]->ids()[at(lost)] : crowded_out(state, edit, *open[c], static_cast<Index>(c));
+    if (slot >= 0) {
       const auto found = std::find(edit.add.begin(), edit.add.end(), slot);
       const std::uint32_t position =
           found == edit.add.end() ? HF_NO_INDEX : static_cast<std::uint32_t>(found - edit.add.begin());

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "engine/dependence.h"
 
 namespace hf {
 namespace {
@@ -54,6 +55,23 @@ void RefactorSolver::edit(const SiteEdit& edit) {
   std::swap(state_.dense, next.dense);
   std::swap(state_.factor, next.factor);
   std::swap(state_.path, next.path);
+}
+
+// Whether a hard site depends on others though its pivot was left with some rounding.
+bool RefactorSolver::crowded_out(const State& state, const DenseBlock& block) const {
+  constexpr double small = 1e-6;
+  if (block.least_pivot() >= small) return false;
+  Vector<HardSite> sites(core_->memory.get());
+  Vector<std::uint8_t> suspect(state.sites.size(), 0, core_->memory.get());
+  for (Index i = 0; i < block.count(); ++i) {
+    if (block.pivot_share(i) < small) suspect[at(state.points[at(block.ids()[at(i)])])] = 1;
+  }
+  for (std::size_t slot = 0; slot < state.sites.size(); ++slot) {
+    const Site& site = state.sites[slot];
+    if (site.component >= 0 && site.compliance == 0)
+      sites.push_back({&site, static_cast<Index>(slot), suspect[slot] != 0});
+  }
+  return dependent_site({sites.data(), sites.size()}, *core_->memory) >= 0;
 }
 
 void RefactorSolver::factorise(State& state) const {
@@ -118,7 +136,7 @@ void RefactorSolver::factorise(State& state) const {
     block->append(static_cast<Index>(i), row.data());
   }
   for (std::size_t c = 0; c < open.size(); ++c) {
-    if (open[c] && open[c]->factorise(*core_->jobs) >= 0)
+    if (open[c] && (open[c]->factorise(*core_->jobs) >= 0 || crowded_out(state, *open[c])))
       fail(HF_ERROR_CONFLICT, HF_NO_INDEX,
            "points in one triangle depend linearly on each other or on its corners; leave one out or make it soft");
     state.dense[c] = open[c];

@@ -56,6 +56,7 @@ class RefactorSolver final : public SiteSolver {
     std::shared_ptr<const Vector<double>> path;  // A^-1 W_p, column after column
   };
   void factorise(State& state) const;
+  bool crowded_out(const State& state, const DenseBlock& block) const;
   void solve_linear(const State& state, const Vector<double>& right, std::int32_t channels, double* u) const;
 
   std::shared_ptr<const Core> core_;

@@ -1,0 +1,91 @@
+#include "engine/dependence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hf {
+namespace {
+
+using Index = std::int32_t;
+std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+constexpr double dependence = 1e-9;  // what is left of a row that others make up, over its length
+
+struct Corner {
+  Index vertex, row;
+};
+
+Index root_of(Vector<Index>& parent, Index i) noexcept {
+  while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
+  return i;
+}
+
+// The first of `rows` that depends on those before it, or -1. Gram and Schmidt, twice for every row.
+Index first_dependent(Span<const HardSite> sites, Span<const Index> rows, const Vector<Index>& columns,
+                      Memory& memory) {
+  const std::size_t width = columns.size();
+  Vector<double> basis(rows.size() * width, 0.0, &memory);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Site& site = *sites[at(rows[i])].site;
+    double* row = basis.data() + i * width;
+    for (int k = 0; k < 3; ++k) {
+      const auto it = std::lower_bound(columns.begin(), columns.end(), site.vertex[k]);
+      if (site.vertex[k] >= 0) row[it - columns.begin()] = site.weight[k];
+    }
+    for (int turn = 0; turn < 2; ++turn) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const double* other = basis.data() + j * width;
+        const double share = std::inner_product(row, row + width, other, 0.0);
+        for (std::size_t c = 0; c < width; ++c) row[c] -= share * other[c];
+      }
+    }
+    const double length = std::sqrt(std::inner_product(row, row + width, row, 0.0));
+    // weights sum to 1, so a row is at least 1 / sqrt(3) long before
+    if (!(length > dependence)) return rows[i];
+    for (std::size_t c = 0; c < width; ++c) row[c] /= length;
+  }
+  return -1;
+}
+
+}  // namespace
+
+Index dependent_site(Span<const HardSite> sites, Memory& memory) {
+  Vector<Corner> corners(&memory);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    for (const Index v : sites[i].site->vertex)
+      if (v >= 0) corners.push_back({v, static_cast<Index>(i)});
+  }
+  std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+    return a.vertex != b.vertex ? a.vertex < b.vertex : a.row < b.row;
+  });
+  Vector<Index> parent(sites.size(), 0, &memory);
+  std::iota(parent.begin(), parent.end(), 0);
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    if (corners[i].vertex == corners[i - 1].vertex)
+      parent[at(root_of(parent, corners[i].row))] = root_of(parent, corners[i - 1].row);
+  }
+  Vector<std::uint8_t> suspect(sites.size(), 0, &memory);  // by root
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (sites[i].suspect) suspect[at(root_of(parent, static_cast<Index>(i)))] = 1;
+  }
+  Vector<Index> rows(&memory), columns(&memory);
+  for (std::size_t group = 0; group < sites.size(); ++group) {
+    if (!suspect[group]) continue;
+    rows.clear(), columns.clear();
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      if (root_of(parent, static_cast<Index>(i)) == static_cast<Index>(group)) rows.push_back(static_cast<Index>(i));
+    }
+    for (const Index i : rows) {
+      for (const Index v : sites[at(i)].site->vertex)
+        if (v >= 0) columns.push_back(v);
+    }
+    std::sort(columns.begin(), columns.end());
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    const Index lost = first_dependent(sites, {rows.data(), rows.size()}, columns, memory);
+    if (lost >= 0) return sites[at(lost)].slot;
+  }
+  return -1;
+}
+
+}  // namespace hf

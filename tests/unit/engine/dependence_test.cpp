@@ -1,0 +1,68 @@
+// dependent_site against what geometry says: how many independent values a triangle, a line and an edge take.
+#include "engine/dependence.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "base/memory.h"
+
+namespace {
+
+using hf::HardSite;
+using hf::Site;
+
+Site corner(std::int32_t vertex) {
+  Site site;
+  site.vertex[0] = vertex, site.weight[0] = 1, site.component = 0;
+  return site;
+}
+
+// A point of triangle (a, a + 1, a + 2).
+Site point(std::int32_t a, double u, double v) {
+  Site site;
+  for (int k = 0; k < 3; ++k) site.vertex[k] = a + k;
+  site.weight[0] = u, site.weight[1] = v, site.weight[2] = 1 - u - v, site.component = 0;
+  return site;
+}
+
+std::int32_t lost_of(const std::vector<Site>& sites, bool suspect = true) {
+  hf::Memory memory;
+  std::vector<HardSite> hard;
+  for (const Site& site : sites) hard.push_back({&site, static_cast<std::int32_t>(hard.size()), suspect});
+  return hf::dependent_site({hard.data(), hard.size()}, memory);
+}
+
+TEST(Dependence, a_triangle_takes_three_points_and_names_the_fourth) {
+  const std::vector<Site> three = {point(0, 0.2, 0.3), point(0, 0.6, 0.1), point(0, 0.1, 0.8)};
+  EXPECT_EQ(lost_of(three), -1);
+  std::vector<Site> four = three;
+  four.push_back(point(0, 0.3, 0.3));
+  EXPECT_EQ(lost_of(four), 3);
+  EXPECT_EQ(lost_of(four, false), -1) << "only groups with a suspect are looked at";
+}
+
+TEST(Dependence, points_on_a_line_and_an_edge_between_its_ends) {
+  EXPECT_EQ(lost_of({point(0, 0.25, 0.25), point(0, 0.5, 0.25), point(0, 0.625, 0.25)}), 2);
+  EXPECT_EQ(lost_of({corner(0), point(0, 0.5, 0.5), corner(1)}), 2);
+  EXPECT_EQ(lost_of({corner(0), corner(1), corner(2), point(0, 0.5, 0.25)}), 3);
+}
+
+TEST(Dependence, triangles_share_what_their_common_edge_takes) {
+  // triangles 0 1 2 and 1 2 3: four vertices, so four independent points, not five
+  const std::vector<Site> four = {point(0, 0.5, 0.25), point(0, 0.25, 0.5), point(1, 0.25, 0.25), point(1, 0.1, 0.2)};
+  EXPECT_EQ(lost_of(four), -1);
+  std::vector<Site> five = four;
+  five.push_back(point(1, 0.5, 0.2));
+  EXPECT_EQ(lost_of(five), 4);
+}
+
+TEST(Dependence, crowded_points_are_independent_and_far_ones_have_nothing_to_do_with_them) {
+  const double d = 1e-6;
+  EXPECT_EQ(lost_of({point(0, 0.3, 0.3), point(0, 0.3 + d, 0.3), point(0, 0.3, 0.3 + d)}), -1);
+  EXPECT_EQ(lost_of({point(0, 0.3, 0.3), point(0, 0.3 + d, 0.3), point(0, 0.3, 0.3 + d), point(0, 0.3 + d, 0.3 + d)}), 3);
+  EXPECT_EQ(lost_of({point(0, 0.3, 0.3), point(10, 0.3, 0.3), corner(20), corner(0)}), -1);
+  EXPECT_EQ(lost_of({}), -1);
+}
+
+}  // namespace
