@@ -222,7 +222,8 @@ TEST(Quads, OfTheCreaturesAreValidEvenAndNear) {
 }
 
 // At the default edge length. Distances over the box diagonal; the shortest edges of kind uniform over the edge length,
-// 5th percentile. Where these are not 0.01 and 0.5 the mesh has features too thin for both (docs/quads.md).
+// 5th percentile. Where these are not 0.01 and 0.5 the mesh has features too thin for both (docs/quads.md). The quick
+// form takes the meshes that take seconds, HF_FULL_TESTS all of them.
 TEST(Quads, OfTheSharedMeshesAreValidAndNear) {
   const char* data = std::getenv("HF_SHARED_DATA");
   const fs::path folder = (data ? fs::path(data) : fs::path(HF_SOURCE_DIR) / ".." / "shared" / "data") / "meshes";
@@ -230,17 +231,20 @@ TEST(Quads, OfTheSharedMeshesAreValidAndNear) {
   struct Row {
     const char* name;
     double pure, uniform, shortest;
+    bool quick;
   };
-  const Row rows[] = {{"spot.obj", 0.01, 0.01, 0.5},
-                      {"cat_low_resolution.obj", 0.01, 0.0105, 0.5},
-                      {"hand_closed.obj", 0.01, 0.01, 0.5},
-                      {"cgal_knot1.off", 0.01, 0.01, 0.5},
-                      {"skull.obj", 0.0105, 0.0105, 0.25},
-                      {"cgal_elephant.off", 0.017, 0.01, 0.5},
-                      {"boot.obj", 0.014, 0.0105, 0.18},
-                      {"cgal_blobby_3cc.off", 0.02, 0.02, 0},
-                      {"bunny_35k_holes_isolated.obj", 0.02, 0.02, 0}};
+  const Row rows[] = {{"spot.obj", 0.01, 0.01, 0.5, true},
+                      {"cat_low_resolution.obj", 0.01, 0.0105, 0.5, false},
+                      {"hand_closed.obj", 0.01, 0.01, 0.5, true},
+                      {"cgal_knot1.off", 0.01, 0.01, 0.5, true},
+                      {"skull.obj", 0.0105, 0.0125, 0.2, false},
+                      {"cgal_elephant.off", 0.017, 0.01, 0.5, false},
+                      {"boot.obj", 0.014, 0.0105, 0.18, false},
+                      {"cgal_blobby_3cc.off", 0.034, 0.02, 0, false},  // a corner of its sawtooth border is cut off
+                      {"bunny_35k_holes_isolated.obj", 0.02, 0.02, 0, false}};
+  const bool full = std::getenv("HF_FULL_TESTS") != nullptr;
   for (const Row& row : rows) {
+    if (!full && !row.quick) continue;
     const samples::SurfaceMesh file = samples::read_mesh_file(folder / row.name);
     hf_test::PlainMesh mesh;
     for (const glm::dvec3& p : file.positions) mesh.positions.insert(mesh.positions.end(), {p.x, p.y, p.z});
