@@ -68,7 +68,7 @@ struct Small {
 };
 
 // On a thread with this much stack.
-std::uint64_t hash_on_stack(const Scene& scene, std::size_t bytes) {
+[[maybe_unused]] std::uint64_t hash_on_stack(const Scene& scene, std::size_t bytes) {
   Small small{&scene, 0};
   pthread_attr_t attributes;
   pthread_t thread;
@@ -149,7 +149,7 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
 }
 
 // A child process: what it inherited still answers, what it makes is its own, and it ends in good order.
-unsigned wrong_in_a_child(const Scene& scene, std::uint64_t expected) {
+[[maybe_unused]] unsigned wrong_in_a_child(const Scene& scene, std::uint64_t expected) {
   Surface surface;
   add_torus(surface, 150, 120);
   hf_solver inherited[2];
