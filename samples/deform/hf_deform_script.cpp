@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "common/gltf_write.h"
+#include "common/program.h"
 #include "common/progress_bar.h"
 #include "deform/pose_sheet.h"
-#include "deform/program.h"
 
 namespace {
 

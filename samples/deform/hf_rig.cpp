@@ -9,10 +9,10 @@
 #include "common/gltf_read.h"
 #include "common/gltf_write.h"
 #include "common/json_file.h"
+#include "common/program.h"
 #include "common/progress_bar.h"
 #include "common/skin_write.h"
 #include "deform/posable.h"
-#include "deform/program.h"
 
 namespace {
 

@@ -2,15 +2,12 @@
 // this file, or --help.
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <exception>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
 
+#include "common/program.h"
 #include "detail/curve_file.h"
 #include "detail/detail_sheet.h"
 
@@ -28,64 +25,46 @@ const char* const usage =
     "  --grow N           then grows the region by N rings of vertices, below 0 shrinks it\n"
     "  --onto MESH2       carries the detail to the region of this surface that --onto-curve encloses: its weight W\n"
     "                     is 1 as it was, 0 none, 2 twice as high; points of both curves correspond\n"
-    "  -o OUT             .glb, .gltf, .obj, .ply or .off\n"
+    "  -o, --output OUT   .glb, .gltf, .obj, .ply or .off\n"
     "  --sheet FILE       a picture: surface, both bases, morphs\n";
 
-struct Options {
-  std::string mesh, curve, onto, onto_curve, out, sheet;
+struct Command {
+  std::filesystem::path mesh, curve, onto, onto_curve, out, sheet;
   double weight = 1;
   int32_t grow = 0;
-  bool thin_plate = false;
+  bool thin_plate = false, help = false;
 };
 
-double read_number(const std::string& text, const std::string& name, double low, double high) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(value >= low && value <= high))
-    throw std::runtime_error(name + " takes a number from " + std::to_string(static_cast<long>(low)) + " to " +
-                             std::to_string(static_cast<long>(high)) + ", not \"" + text + "\"");
-  return value;
-}
-
-Options read_options(int count, char** arguments) {
-  Options options;
-  for (int i = 1; i < count; ++i) {
-    const std::string name = arguments[i];
-    auto value = [&]() -> std::string {
-      if (i + 1 >= count) throw std::runtime_error(name + " needs a value");
-      return arguments[++i];
-    };
-    if (name == "--curve") {
-      options.curve = value();
-    } else if (name == "--weight") {
-      options.weight = read_number(value(), name, -1000, 1000);
-    } else if (name == "--thin-plate") {
-      options.thin_plate = true;
-    } else if (name == "--grow") {
-      const double rings = read_number(value(), name, -10000, 10000);
-      if (rings != std::floor(rings)) throw std::runtime_error("--grow takes a whole number");
-      options.grow = static_cast<int32_t>(rings);
-    } else if (name == "--onto") {
-      options.onto = value();
-    } else if (name == "--onto-curve") {
-      options.onto_curve = value();
-    } else if (name == "-o") {
-      options.out = value();
-    } else if (name == "--sheet") {
-      options.sheet = value();
-    } else if (!name.empty() && name[0] == '-') {
-      throw std::runtime_error("unknown option: " + name);
-    } else if (options.mesh.empty()) {
-      options.mesh = name;
+Command parse(Words words) {
+  Command out;
+  while (words.next()) {
+    if (words.is("--help", "-h")) {
+      out.help = true;
+    } else if (words.is("--curve")) {
+      out.curve = words.value();
+    } else if (words.is("--weight")) {
+      out.weight = words.number(-1000, 1000);
+    } else if (words.is("--thin-plate")) {
+      out.thin_plate = true;
+    } else if (words.is("--grow")) {
+      out.grow = words.integer(-10000, 10000);
+    } else if (words.is("--onto")) {
+      out.onto = words.value();
+    } else if (words.is("--onto-curve")) {
+      out.onto_curve = words.value();
+    } else if (words.is("-o", "--output")) {
+      out.out = words.value();
+    } else if (words.is("--sheet")) {
+      out.sheet = words.value();
     } else {
-      throw std::runtime_error("more than one mesh: " + options.mesh + " and " + name);
+      words.take_mesh(out.mesh);
     }
   }
-  if (options.mesh.empty()) throw std::runtime_error("no mesh is named; see --help");
-  if (options.curve.empty()) throw std::runtime_error("no curve is named; see --help");
-  if (options.onto.empty() != options.onto_curve.empty())
-    throw std::runtime_error("--onto and --onto-curve go together");
-  return options;
+  if (out.help) return out;
+  if (out.mesh.empty()) throw std::runtime_error("no mesh is named; see --help");
+  if (out.curve.empty()) throw std::runtime_error("no curve is named; see --help");
+  if (out.onto.empty() != out.onto_curve.empty()) throw std::runtime_error("--onto and --onto-curve go together");
+  return out;
 }
 
 std::string text_of(double number) {
@@ -100,7 +79,7 @@ double seconds_of(const std::chrono::steady_clock::time_point& begin) {
 
 // A mesh, its solver, and the region that a curve encloses.
 struct Subject {
-  Subject(const std::string& file, const std::string& curve_name, bool thin_plate, int32_t grow)
+  Subject(const std::filesystem::path& file, const std::filesystem::path& curve_name, bool thin_plate, int32_t grow)
       : mesh(read_mesh_file(file)),
         positions(float_positions(mesh.positions)),
         curve(read_curve_file(curve_name, mesh)),
@@ -159,8 +138,7 @@ hfpp::Detail carry(const Subject& from, const Subject& onto) {
   return hfpp::Detail(from.region, onto.region, &desc);
 }
 
-int run(int count, char** arguments) {
-  const Options options = read_options(count, arguments);
+void run(const Command& options) {
   const Subject subject(options.mesh, options.curve, options.thin_plate, options.grow);
   subject.print("mesh");
   std::optional<Subject> onto;
@@ -182,8 +160,7 @@ int run(int count, char** arguments) {
     SheetScene scene;
     scene.triangles = shown.mesh.triangles, scene.surface = shown.positions;
     scene.inside = shown.region.vertices(), scene.points = shown.curve.vertices;
-    const std::string name =
-        std::filesystem::path(shown.mesh.positions.empty() ? "" : options.mesh).filename().string();
+    const std::string name = options.mesh.filename().string();
     std::vector<SheetTile> tiles;
     if (detail) {
       tiles = {{"surface and curve", shown.positions},
@@ -204,21 +181,11 @@ int run(int count, char** arguments) {
     write_sheet(options.sheet, scene, tiles, {});
     std::printf("wrote       %s\n", options.sheet.c_str());
   }
-  return 0;
 }
 
 }  // namespace
 }  // namespace samples
 
 int main(int count, char** arguments) {
-  if (count == 2 && (!std::strcmp(arguments[1], "--help") || !std::strcmp(arguments[1], "-h"))) {
-    std::printf("%s", samples::usage);
-    return 0;
-  }
-  try {
-    return samples::run(count, arguments);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "hf_detail: %s\n", error.what());
-    return 1;
-  }
+  return samples::run_program("hf_detail", samples::usage, count, arguments, samples::parse, samples::run);
 }

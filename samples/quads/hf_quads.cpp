@@ -3,13 +3,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <exception>
 #include <filesystem>
 #include <stdexcept>
 
 #include "common/json_file.h"
 #include "common/picture.h"
+#include "common/program.h"
 #include "hf/hf.hpp"
 #include "quads/quad_report.h"
 #include "quads/surface_distance.h"
@@ -33,58 +32,55 @@ const char* const usage =
     "  -o OUT         .obj, .ply or .off with polygons\n"
     "  --sheet FILE   a picture from two sides: quads light, other polygons red, sites as dots\n";
 
-struct Options {
-  std::string mesh, sites = "auto", out, sheet, edge;
-  bool pure = false, polygons = false;
-  int relax = 60;
+struct Command {
+  std::filesystem::path mesh, sites, out, sheet;  // sites empty: auto
+  double edge = 0;                                // 0: the default; below 0: a share of the box diagonal
+  uint32_t relax = 60;
+  bool pure = false, polygons = false, help = false;
 };
 
-double read_number(const std::string& text, const char* what) {
+// A length, or with a percent sign a share of the box diagonal, which comes back below 0.
+double read_edge(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value))
-    throw std::runtime_error(std::string(what) + ": \"" + text + "\" is not a finite number");
-  return value;
+  const bool share = *end == '%' && end[1] == 0;
+  if (text.empty() || (*end != 0 && !share) || !(value > 0) || !std::isfinite(value))
+    throw std::runtime_error("--edge takes a length above 0, or a share of the box as in 2.2%, not \"" + text + "\"");
+  return share ? -value / 100 : value;
 }
 
-Options read_options(int count, char** arguments) {
-  Options options;
-  for (int i = 1; i < count; ++i) {
-    const std::string name = arguments[i];
-    auto value = [&]() -> std::string {
-      if (i + 1 >= count) throw std::runtime_error(name + " needs a value");
-      return arguments[++i];
-    };
-    if (name == "--sites") {
-      options.sites = value();
-    } else if (name == "--edge") {
-      options.edge = value();
-    } else if (name == "--pure" || name == "--uniform") {
-      options.pure = name == "--pure";
-    } else if (name == "--polygons") {
-      options.polygons = true;
-    } else if (name == "--relax") {
-      const double rounds = read_number(value(), "--relax");
-      if (rounds < 0 || rounds > 1000 || rounds != std::floor(rounds))
-        throw std::runtime_error("--relax must be a whole number from 0 to 1000");
-      options.relax = static_cast<int>(rounds);
-    } else if (name == "-o") {
-      options.out = value();
-    } else if (name == "--sheet") {
-      options.sheet = value();
-    } else if (!name.empty() && name[0] == '-') {
-      throw std::runtime_error("unknown option: " + name);
-    } else if (options.mesh.empty()) {
-      options.mesh = name;
+Command parse(Words words) {
+  Command out;
+  while (words.next()) {
+    if (words.is("--help", "-h")) {
+      out.help = true;
+    } else if (words.is("--sites")) {
+      const std::string sites = words.value();
+      out.sites = sites == "auto" ? "" : sites;
+    } else if (words.is("--edge")) {
+      out.edge = read_edge(words.value());
+    } else if (words.is("--pure")) {
+      out.pure = true;
+    } else if (words.is("--uniform")) {
+      out.pure = false;
+    } else if (words.is("--polygons")) {
+      out.polygons = true;
+    } else if (words.is("--relax")) {
+      out.relax = words.whole(0, 1000);
+    } else if (words.is("-o", "--output")) {
+      out.out = words.value();
+    } else if (words.is("--sheet")) {
+      out.sheet = words.value();
     } else {
-      throw std::runtime_error("more than one mesh: " + options.mesh + " and " + name);
+      words.take_mesh(out.mesh);
     }
   }
-  if (options.mesh.empty()) throw std::runtime_error("no mesh is named; see --help");
-  return options;
+  if (!out.help && out.mesh.empty()) throw std::runtime_error("no mesh is named; see --help");
+  return out;
 }
 
-void read_sites(const std::string& file, uint32_t vertices, std::vector<uint32_t>& sites, std::vector<int32_t>& lines) {
+void read_sites(const std::filesystem::path& file, uint32_t vertices, std::vector<uint32_t>& sites,
+                std::vector<int32_t>& lines) {
   const JsonFile json(file);
   const JsonReader list = json.root().at("sites");
   for (size_t i = 0; i < list.size(); ++i) {
@@ -133,8 +129,7 @@ Picture draw(const SurfaceMesh& mesh, const std::vector<Point>& sites, const Poi
   return render(layers, view);
 }
 
-int run(int count, char** arguments) {
-  const Options options = read_options(count, arguments);
+void run(const Command& options) {
   const SurfaceMesh input = read_mesh_file(options.mesh);
   const std::vector<double> positions = double_positions(input.positions);
   auto create = hfpp::make<hf_create_desc>();
@@ -147,16 +142,11 @@ int run(int count, char** arguments) {
   auto desc = hfpp::make<hf_quads_desc>();
   desc.kind = options.pure ? HF_QUADS_PURE : HF_QUADS_UNIFORM;
   desc.keep_polygons = options.polygons;
-  desc.relax_count = options.relax ? static_cast<uint32_t>(options.relax) : HF_NO_INDEX;
-  if (!options.edge.empty()) {
-    const bool share = options.edge.back() == '%';
-    const double length = read_number(share ? options.edge.substr(0, options.edge.size() - 1) : options.edge, "--edge");
-    if (length <= 0) throw std::runtime_error("--edge must be above 0");
-    desc.edge_length = static_cast<float>(share ? length / 100 * diagonal : length);
-  }
+  desc.relax_count = options.relax ? options.relax : HF_NO_INDEX;
+  desc.edge_length = static_cast<float>(options.edge < 0 ? -options.edge * diagonal : options.edge);
   std::vector<uint32_t> sites;
   std::vector<int32_t> lines;
-  if (options.sites != "auto") read_sites(options.sites, create.vertex_count, sites, lines);
+  if (!options.sites.empty()) read_sites(options.sites, create.vertex_count, sites, lines);
   desc.site_count = static_cast<uint32_t>(sites.size());
   if (!sites.empty()) desc.site_vertices = sites.data();
   if (!lines.empty()) desc.site_lines = lines.data();
@@ -205,26 +195,19 @@ int run(int count, char** arguments) {
     std::vector<Point> dots;
     for (const uint32_t v : quads.site_vertices)
       if (v != HF_NO_INDEX) dots.push_back({input.positions[v].x, input.positions[v].y, input.positions[v].z});
-    const std::string name = std::filesystem::path(options.mesh).filename().string();
+    const std::string name = options.mesh.filename().string();
     write_png(options.sheet, contact_sheet({draw(mesh, dots, {1, 0.4, 0.6}), draw(mesh, dots, {-0.6, 0.4, -1})}, 2,
                                            {name + (options.pure ? ", pure" : ", uniform"), "from behind"}));
     std::printf("wrote       %s\n", options.sheet.c_str());
   }
-  return valid ? 0 : 1;
+  if (!valid)
+    throw std::runtime_error(
+        "the result is no valid mesh, see validity above: a fault of the library, please report it");
 }
 
 }  // namespace
 }  // namespace samples
 
 int main(int count, char** arguments) {
-  if (count == 2 && (!std::strcmp(arguments[1], "--help") || !std::strcmp(arguments[1], "-h"))) {
-    std::printf("%s", samples::usage);
-    return 0;
-  }
-  try {
-    return samples::run(count, arguments);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "hf_quads: %s\n", error.what());
-    return 1;
-  }
+  return samples::run_program("hf_quads", samples::usage, count, arguments, samples::parse, samples::run);
 }

@@ -4,7 +4,6 @@
 //
 // HF_ENGINE_UPDOWN and METIS, in builds that have them, run too, except where threads are counted: Debian's CHOLMOD
 // keeps OpenMP threads of its own once it has worked.
-#include <dirent.h>
 #include <fcntl.h>
 #include <sched.h>
 #include <signal.h>
@@ -19,6 +18,7 @@
 #include <memory_resource>
 #include <string>
 
+#include "process.h"
 #include "report.h"
 #include "whole_api.h"
 
@@ -31,15 +31,6 @@ using namespace reliability;
 extern "C" char** environ;
 
 namespace {
-
-unsigned entries(const char* folder) {
-  unsigned count = 0;
-  if (DIR* d = opendir(folder)) {
-    while (readdir(d)) ++count;
-    closedir(d);
-  }
-  return count;
-}
 
 template <class T>
 void put(std::string& out, const T& value) {

@@ -1,24 +1,17 @@
 // Loaded, used and unloaded, over and over, as an editor does with its plug-ins: unload PLUGIN LIBRARY. After each
 // round the library is really gone, with its threads and descriptors; the hash of what it computed is the same each
 // time; and the heap does not grow.
-#include <dirent.h>
 #include <dlfcn.h>
 #include <malloc.h>
 #include <unistd.h>
 
+#include "process.h"
 #include "report.h"
 #include "whole_api.h"
 
 namespace {
 
-unsigned entries(const char* folder) {
-  unsigned count = 0;
-  if (DIR* d = opendir(folder)) {
-    while (readdir(d)) ++count;
-    closedir(d);
-  }
-  return count;
-}
+using reliability::entries;
 
 // Threads of the process, once the kernel no longer lists those that were joined.
 unsigned settled_threads(unsigned expected) {

@@ -1,17 +1,15 @@
 // hf_detail run as a user runs it: weights on a bumpy plane, detail onto another, its picture, and what bad input is
 // answered.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
 #include "assets/shapes.h"
 #include "common/mesh_file.h"
 #include "gltf_support.h"
+#include "support/program_support.h"
 
 namespace {
 
@@ -20,13 +18,7 @@ using namespace samples;
 using samples_test::TemporaryFolder;
 
 int run(const std::string& arguments, std::string& output) {
-  output.clear();
-  FILE* pipe = popen(("\"" HF_DETAIL_PROGRAM "\" " + arguments + " 2>&1").c_str(), "r");
-  if (!pipe) return -1;
-  std::array<char, 4096> buffer;
-  while (const size_t got = fread(buffer.data(), 1, buffer.size(), pipe)) output.append(buffer.data(), got);
-  const int status = pclose(pipe);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  return hf_test::run(hf_test::quoted(HF_DETAIL_PROGRAM) + " " + arguments, output);
 }
 
 SurfaceMesh mesh_of(const ShapeMesh& shape) {

@@ -1,7 +1,6 @@
 // hf_field run as a user runs it: every kind of field on generated surfaces, its text, glb and picture read back, the
 // glb under the Khronos validator where that is there; and on every mesh of the shared data in the long form.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <array>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "common/gltf_read.h"
 #include "common/mesh_file.h"
 #include "gltf_support.h"
+#include "support/program_support.h"
 
 namespace {
 
@@ -27,18 +27,10 @@ struct Result {
 };
 
 Result run(const std::string& arguments) {
-  const std::string command = "\"" HF_FIELD_PROGRAM "\" " + arguments + " 2>&1";
   Result result;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (!pipe) return result;
-  std::array<char, 4096> buffer;
-  while (const size_t got = fread(buffer.data(), 1, buffer.size(), pipe)) result.output.append(buffer.data(), got);
-  const int status = pclose(pipe);
-  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  result.status = hf_test::run(hf_test::quoted(HF_FIELD_PROGRAM) + " " + arguments, result.output);
   return result;
 }
-
-std::string in_quotes(const fs::path& path) { return "\"" + path.string() + "\""; }
 
 SurfaceMesh surface(const ShapeMesh& shape) {
   SurfaceMesh mesh;
@@ -95,9 +87,9 @@ TEST(FieldProgram, writes_every_kind_of_field_as_text_glb_and_picture) {
                {"direction", "", 3}};
   for (const auto& kind : kinds) {
     const fs::path base = folder.path / kind.kind, glb = glbs / (std::string(kind.kind) + ".glb");
-    const Result result = run(in_quotes(mesh_file) + " --kind " + kind.kind + " --extremities " + kind.more +
-                              " --out " + in_quotes(base.string() + ".txt") + " --glb " + in_quotes(glb) + " --png " +
-                              in_quotes(base.string() + ".png"));
+    const Result result = run(hf_test::quoted(mesh_file) + " --kind " + kind.kind + " --extremities " + kind.more +
+                              " --out " + hf_test::quoted(base.string() + ".txt") + " --glb " + hf_test::quoted(glb) +
+                              " --png " + hf_test::quoted(base.string() + ".png"));
     ASSERT_EQ(result.status, 0) << result.output;
     EXPECT_NE(result.output.find("extremities 4"), std::string::npos) << result.output;
     const auto rows = rows_of(base.string() + ".txt");
@@ -122,7 +114,7 @@ TEST(FieldProgram, writes_every_kind_of_field_as_text_glb_and_picture) {
     return;
   }
   const std::string command = "node \"" HF_SOURCE_DIR "/tests/unit/samples/validate.mjs\" \"" + validator + "\" " +
-                              in_quotes(glbs) + " > " + in_quotes(folder.path / "report.txt") + " 2>&1";
+                              hf_test::quoted(glbs) + " > " + hf_test::quoted(folder.path / "report.txt") + " 2>&1";
   std::ifstream report(folder.path / "report.txt");
   EXPECT_EQ(std::system(command.c_str()), 0) << std::string(std::istreambuf_iterator<char>(report), {});
 }
@@ -137,8 +129,8 @@ TEST(FieldProgram, draws_iso_lines_that_lie_on_their_levels) {
     if (mesh.positions[v].y > mesh.positions[top].y) top = v;
     if (mesh.positions[v].y < mesh.positions[bottom].y) bottom = v;
   }
-  const Result result = run(in_quotes(mesh_file) + " --site " + std::to_string(top) + "=1 --site " +
-                            std::to_string(bottom) + "=0 --isolines 7 --levels length --glb " + in_quotes(glb));
+  const Result result = run(hf_test::quoted(mesh_file) + " --site " + std::to_string(top) + "=1 --site " +
+                            std::to_string(bottom) + "=0 --isolines 7 --levels length --glb " + hf_test::quoted(glb));
   ASSERT_EQ(result.status, 0) << result.output;
   const std::vector<glm::dvec3> ends = segments_of(glb);
   ASSERT_FALSE(ends.empty());
@@ -167,7 +159,7 @@ TEST(FieldProgram, refuses_what_does_not_fit_together_with_a_sentence) {
                {"--kind direction --site 5:1,0,0=1,0,0", "lie at vertices"},
                {"--sheet", "--sheet needs"}};
   for (const auto& row : cases) {
-    const Result result = run(in_quotes(mesh_file) + " " + row.arguments);
+    const Result result = run(hf_test::quoted(mesh_file) + " " + row.arguments);
     EXPECT_EQ(result.status, 1) << row.arguments;
     EXPECT_NE(result.output.find(row.says), std::string::npos) << row.arguments << ": " << result.output;
   }
@@ -184,9 +176,9 @@ TEST(FieldProgram, is_finite_with_every_kind_of_field_on_every_mesh) {
     const std::string extension = entry.path().extension().string();
     if (extension != ".obj" && extension != ".off" && extension != ".ply") continue;
     // the short form leaves the large scans out
-    if (full || entry.file_size() < 110000) list += " " + in_quotes(entry.path());
+    if (full || entry.file_size() < 110000) list += " " + hf_test::quoted(entry.path());
   }
-  const Result result = run("--png " + in_quotes(folder.path / "sheet") + " --sheet" + list);
+  const Result result = run("--png " + hf_test::quoted(folder.path / "sheet") + " --sheet" + list);
   EXPECT_EQ(result.status, 0) << result.output;
   for (const char* kind : {"harmonic", "biharmonic", "vector", "direction", "isolines", "critical"})
     EXPECT_TRUE(fs::exists(folder.path / (std::string("sheet_") + kind + ".png"))) << kind;

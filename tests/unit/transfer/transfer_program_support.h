@@ -2,8 +2,6 @@
 #ifndef HF_TESTS_TRANSFER_PROGRAM_SUPPORT_H
 #define HF_TESTS_TRANSFER_PROGRAM_SUPPORT_H
 
-#include <sys/wait.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -16,6 +14,7 @@
 #include "assets/creature_gltf.h"
 #include "common/gltf_read.h"
 #include "common/gltf_write.h"
+#include "support/program_support.h"
 
 namespace transfer_program {
 
@@ -35,18 +34,8 @@ inline fs::path data() {
   return (given ? fs::path(given) : fs::path(HF_SOURCE_DIR) / "../shared/data") / "gltf";
 }
 
-inline std::string quoted(const fs::path& path) { return "\"" + path.string() + "\""; }
-
-// Runs a command; everything it says, and how it ended.
-inline int run(const std::string& command, std::string& output) {
-  output.clear();
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (!pipe) return -1;
-  char buffer[4096];
-  while (const size_t got = fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, got);
-  const int status = pclose(pipe);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
+using hf_test::quoted;
+using hf_test::run;
 
 inline bool works(const std::string& command) {
   std::string said;

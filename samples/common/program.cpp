@@ -1,5 +1,5 @@
 // See program.h.
-#include "deform/program.h"
+#include "common/program.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -40,11 +40,15 @@ double Words::number(double low, double high) {
   return n;
 }
 
-uint32_t Words::whole(uint32_t low, uint32_t high) {
+double Words::whole_number(double low, double high) {
   const double n = number(low, high);
   if (n != std::floor(n)) throw std::runtime_error(word_ + " takes a whole number, not \"" + text_of(n) + "\"");
-  return static_cast<uint32_t>(n);
+  return n;
 }
+
+uint32_t Words::whole(uint32_t low, uint32_t high) { return static_cast<uint32_t>(whole_number(low, high)); }
+
+int32_t Words::integer(int32_t low, int32_t high) { return static_cast<int32_t>(whole_number(low, high)); }
 
 void Words::take_mesh(std::filesystem::path& mesh) const {
   if (!word_.empty() && word_[0] == '-') throw std::runtime_error("unknown option " + word_ + "; see --help");

@@ -1,7 +1,7 @@
-// What hf_deform_script and hf_rig have in common: reading the words of a command line, and a main() that reports what
+// What the programs have in common: reading the words of a command line, and a main() that reports what
 // went wrong in one line.
-#ifndef HF_SAMPLES_DEFORM_PROGRAM_H
-#define HF_SAMPLES_DEFORM_PROGRAM_H
+#ifndef HF_SAMPLES_COMMON_PROGRAM_H
+#define HF_SAMPLES_COMMON_PROGRAM_H
 
 #include <cstdint>
 #include <cstdio>
@@ -21,10 +21,13 @@ class Words {
   std::string value();
   double number(double low, double high);
   uint32_t whole(uint32_t low, uint32_t high);
+  int32_t integer(int32_t low, int32_t high);
   // The word at hand is no option of the program: the mesh, once.
   void take_mesh(std::filesystem::path& mesh) const;
 
  private:
+  double whole_number(double low, double high);
+
   int count_, at_ = 0;
   char** arguments_;
   std::string word_;
