@@ -11,9 +11,9 @@ function(hf_target_defaults target)
     -Wall -Wextra -Wpedantic $<$<BOOL:${HF_WARNINGS_AS_ERRORS}>:-Werror>
     $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
   if(HF_SANITIZE)
-    # -O1: with more, the kernels' templates take minutes each to compile
-    target_compile_options(${target} PRIVATE -O1 -fsanitize=${HF_SANITIZE} -fno-omit-frame-pointer
-      -fno-sanitize-recover=all)
+    # -O1 -g1: reports name functions and lines; with more, unrolled kernels and Eigen's templates take minutes each to compile
+    target_compile_options(${target} PRIVATE -O1 $<$<CXX_COMPILER_ID:GNU,Clang>:-g1> -fsanitize=${HF_SANITIZE}
+      -fno-omit-frame-pointer -fno-sanitize-recover=all)
     target_link_options(${target} PRIVATE -fsanitize=${HF_SANITIZE})
   endif()
 endfunction()
