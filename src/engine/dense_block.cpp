@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/hypotenuse.h"
 #include "factor/kernels.h"
 
 namespace hf {
@@ -83,7 +84,7 @@ void DenseBlock::update_without(std::int32_t r) {
         l[t][j] = (l[t][j] + q.s * left[t]) * q.inverse_c;
         left[t] = q.c * left[t] - q.s * l[t][j];
       }
-      const double pivot = 1 / l[t][i], radius = std::hypot(pivot, left[t]);
+      const double pivot = 1 / l[t][i], radius = hypotenuse(pivot, left[t]);
       rotation[static_cast<std::size_t>(i)] = {radius / pivot, left[t] / pivot, pivot / radius};
       l[t][i] = 1 / radius;
     }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <unordered_map>
 
+#include "base/hypotenuse.h"
+
 namespace hf {
 namespace {
 
@@ -24,7 +26,7 @@ double across(double a, double b, double ab, double ac, double bc) noexcept {
   const double cy = std::sqrt(cy2), sy = std::sqrt(sy2);
   const double crossing = sx + (cx - sx) * sy / (sy + cy);
   if (crossing < 0 || crossing > ab) return along_edges;
-  return std::min(along_edges, std::hypot(cx - sx, cy + sy));
+  return std::min(along_edges, hypotenuse(cx - sx, cy + sy));
 }
 
 // Distances that only fall: a vertex is spread again when a better way to it is found, since behind an obtuse corner the

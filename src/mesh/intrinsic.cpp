@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/hypotenuse.h"
 #include "mesh/laplacian.h"
 #include "mesh/mollify.h"
 
@@ -196,7 +197,7 @@ void IntrinsicTriangulation::flip(Index half) noexcept {
   double xk, yk, xm, ym;
   apex(h0, length_[at(h2)], length_[at(h1)], xk, yk);
   apex(g0, length_[at(g1)], length_[at(g2)], xm, ym);
-  const double diagonal = std::hypot(xk - xm, yk + ym);
+  const double diagonal = hypotenuse(xk - xm, yk + ym);
 
   const Index from[4] = {h1, h2, g1, g2}, to[4] = {g2, h1, h2, g1};
   Index tails[4], twins[4];

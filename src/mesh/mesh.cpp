@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/hypotenuse.h"
 #include "mesh/weld.h"
 
 namespace hf {
@@ -56,7 +57,7 @@ void find_frame(const MeshInput& input, Mesh& mesh) {
   double centre[3];
   for (std::size_t k = 0; k < 3; ++k) {
     centre[k] = 0.5 * low[k] + 0.5 * high[k];
-    size = std::hypot(size, 0.5 * high[k] - 0.5 * low[k]);
+    size = hypotenuse(size, 0.5 * high[k] - 0.5 * low[k]);
   }
   mesh.centre = {centre[0], centre[1], centre[2]};
   mesh.scale = size > 0 ? 2 * size : 1;  // the box diagonal; may be infinite for coordinates near the limit of double

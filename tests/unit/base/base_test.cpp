@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cfenv>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -10,10 +11,25 @@
 
 #include "base/error.h"
 #include "base/float_environment.h"
+#include "base/hypotenuse.h"
 #include "base/jobs.h"
 #include "base/memory.h"
 
 namespace {
+
+TEST(Hypotenuse, is_that_of_the_c_library_to_two_units_wherever_it_lies) {
+  const double parts[] = {0, 1, 3, 4, 0.1, 1e-3, 1e-154, 1e-160, 5e-324, 1e-308, 1e150, 1e154, 1e160, 1.2e308};
+  for (const double a : parts) {
+    for (const double b : parts) {
+      const double right = std::hypot(a, b), unit = std::nextafter(right, HUGE_VAL) - right;
+      EXPECT_LE(std::fabs(hf::hypotenuse(a, b) - right), 2 * unit) << a << " " << b;
+      EXPECT_EQ(hf::hypotenuse(-a, b), hf::hypotenuse(b, a)) << a << " " << b;
+    }
+  }
+  EXPECT_EQ(hf::hypotenuse(3, 4), 5);
+  EXPECT_EQ(hf::hypotenuse(HUGE_VAL, 1), HUGE_VAL);
+  EXPECT_EQ(hf::hypotenuse(1.7e308, 1.7e308), HUGE_VAL);
+}
 
 TEST(Memory, counts_live_and_peak_bytes_and_gives_everything_back) {
   hf::Memory memory;
