@@ -1,0 +1,267 @@
+// The bits of fields as they were: every stage that uses nothing but IEEE arithmetic, on 1 to 8 threads, as each kind
+// of processor computes it, against golden.txt. Debug and Release builds, GCC and Clang share the hashes; see there.
+//   reliability_golden [--full] | --print (the lines of golden.txt)
+// A kind of processor is chosen in one process by hiding from the library's dispatch (__builtin_cpu_supports reads
+// __cpu_model of libgcc or compiler-rt, part of the compilers' ABI) what a lesser one has not; therefore this program
+// holds the static library. What uses the C library's sin and atan2 has no golden hash: there AVX2 and AVX-512 are
+// compared with one another.
+#include <cinttypes>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "report.h"
+#include "surfaces.h"
+#include "whole_api.h"
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+extern "C" {
+extern struct { unsigned int vendor, type, subtype, features[1]; } __cpu_model __attribute__((visibility("hidden")));
+}
+
+using namespace reliability;
+
+namespace {
+
+constexpr unsigned avx2 = 1u << 10, fma = 1u << 14, avx512f = 1u << 15;
+
+// What the library sees of a processor: one that has `needs`, without what is hidden.
+struct Processor {
+  const char* name;
+  unsigned needs, hidden;
+  const char* kind;  // those of one kind give the same bits
+};
+constexpr Processor processors[] = {{"avx512", avx512f | avx2 | fma, 0, "fma"},
+                                    {"avx2", avx2 | fma, avx512f, "fma"},
+                                    {"avx2 without fma", avx2, avx512f | fma, "plain"},
+                                    {"plain", 0, avx512f | avx2 | fma, "plain"}};
+
+struct Hash {
+  std::uint64_t value = 14695981039346656037u;
+  template <class T>
+  void take(const T* values, std::size_t count) {  // FNV-1a
+    const unsigned char* bytes = reinterpret_cast<const unsigned char*>(values);
+    for (std::size_t i = 0; i < count * sizeof(T); ++i) value = (value ^ bytes[i]) * 1099511628211u;
+  }
+};
+
+// The bumpy walls of a square tower of coordinates that are multiples of 1/64: the same on every machine.
+Surface make_sheet(std::uint32_t nu, std::uint32_t nv) {
+  Surface sheet;
+  std::uint32_t state = 12345;
+  const auto random = [&] { return state = state * 1664525u + 1013904223u, state >> 24; };  // 0 to 255
+  for (std::uint32_t i = 0; i < nu; ++i) {
+    for (std::uint32_t j = 0; j < nv; ++j) {
+      // around the tower's four walls
+      const std::uint32_t side = 4 * i / nu, along = i - side * nu / 4;
+      const float s = static_cast<float>(along), w = static_cast<float>(nu / 4);
+      const float x = side == 0   ? s
+                      : side == 1 ? w
+                      : side == 2 ? w - s
+                                  : 0,
+                  y = side == 0   ? 0
+                      : side == 1 ? s
+                      : side == 2 ? w
+                                  : w - s;
+      const auto jitter = [&] { return static_cast<float>(random() % 40) / 64; };
+      const float dx = jitter(), dy = jitter(), dz = jitter();
+      sheet.positions.insert(sheet.positions.end(), {x + dx, y + dy, static_cast<float>(j) + dz});
+    }
+  }
+  for (std::uint32_t i = 0; i < nu; ++i) {
+    for (std::uint32_t j = 0; j + 1 < nv; ++j) {
+      const std::uint32_t a = i * nv + j, b = (i + 1) % nu * nv + j, c = b + 1, d = a + 1;
+      if ((i + j) % 2)
+        sheet.triangles.insert(sheet.triangles.end(), {a, b, c, a, c, d});
+      else
+        sheet.triangles.insert(sheet.triangles.end(), {a, b, d, b, c, d});
+    }
+  }
+  return sheet;
+}
+
+class Stages {
+ public:
+  Stages(const Surface& surface, std::uint32_t threads) : surface_(surface), n_(surface.vertex_count()) {
+    doubles_.resize(2 * std::size_t{n_}), floats_.resize(doubles_.size());
+    base_ = create_desc(surface);
+    base_.thread_count = threads;
+  }
+
+  // Sites of every kind, edits, a rebase, values alone.
+  void field(Hash& hash) {
+    hf_create_desc d = base_;
+    d.channel_count = 2;
+    const hf_solver solver = make_solver(d);
+    std::uint32_t sites[40];
+    add(solver, 12, 977, 5, sites);
+    take(solver, hash);
+    const double stiffness[3] = {0.5, 10, 0}, radii[2] = {1.5, 2.25};
+    hf_sites_desc more = places(3, 1511, 99);
+    more.stiffness = stiffness;
+    must(hf_add_sites(solver, &more, sites + 12), "hf_add_sites, soft");
+    more = places(2, 4003, 1264), more.radii = radii;
+    must(hf_add_sites(solver, &more, sites + 15), "hf_add_sites, discs");
+    take(solver, hash);
+    must(hf_remove_sites(solver, 4, sites + 3), "hf_remove_sites");
+    more = places(2, 613, 17), more.values = nullptr;
+    must(hf_move_sites(solver, 2, sites, &more), "hf_move_sites");
+    take(solver, hash);
+    add(solver, 120, 83, 41, nullptr);
+    must(hf_prepare_rebase(solver), "hf_prepare_rebase");
+    must(hf_set_site_values(solver, 1, sites + 8, values_.data() + 7), "hf_set_site_values");
+    take(solver, hash);
+    must(hf_solve(solver, floats_.data(), 0, nullptr), "hf_solve"), hash.take(floats_.data(), floats_.size());
+    must(hf_solve_preview(solver, floats_.data(), 0, 0, nullptr), "hf_solve_preview");
+    hash.take(floats_.data(), floats_.size());
+    hf_destroy(solver);
+  }
+
+  // Every operator, every kind of field, minimum degree and the engine that factors anew.
+  void operators(Hash& hash) {
+    for (const int kind : {HF_FIELD_HARMONIC, HF_FIELD_BIHARMONIC, HF_FIELD_BIHARMONIC_GRAPH}) {
+      for (const int op :
+           {HF_OPERATOR_INTRINSIC_DELAUNAY, HF_OPERATOR_CLAMPED, HF_OPERATOR_UNIFORM, HF_OPERATOR_COTANGENT}) {
+        hf_create_desc d = base_;
+        d.field_kind = kind, d.operator_kind = op;
+        d.engine = op == HF_OPERATOR_UNIFORM ? HF_ENGINE_REFACTOR : HF_ENGINE_GREEN;
+        if (op == HF_OPERATOR_CLAMPED) d.ordering = HF_ORDERING_MINIMUM_DEGREE;
+        const hf_solver solver = make_solver(d);
+        add(solver, 9, 701, 3, nullptr);
+        must(hf_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solve_f64"), hash.take(doubles_.data(), n_);
+        hf_destroy(solver);
+      }
+    }
+  }
+
+  // What is read from a field, and distances.
+  void analysis(Hash& hash) {
+    const hf_solver solver = make_solver(base_);
+    add(solver, 7, 811, 29, nullptr);
+    must(hf_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solve_f64");
+    hf_scalars scalars = desc<hf_scalars>();
+    scalars.values_f64 = doubles_.data();
+    std::vector<hf_critical_point> points(n_);
+    hf_critical_info info = desc<hf_critical_info>();
+    must(hf_find_critical_points(solver, &scalars, n_, points.data(), &info), "hf_find_critical_points");
+    for (std::uint32_t i = 0; i < info.point_count; ++i) hash.take(&points[i].vertex, 1), hash.take(&points[i].kind, 1);
+    hf_geodesics geodesics = nullptr;
+    must(hf_geodesics_create(solver, nullptr, &geodesics), "hf_geodesics_create");
+    const std::uint32_t sources[2] = {3, 2000};
+    must(hf_geodesics_distance_f64(geodesics, 2, sources, doubles_.data(), 0), "hf_geodesics_distance_f64");
+    hash.take(doubles_.data(), n_);
+    hf_geodesics_destroy(geodesics), hf_destroy(solver);
+  }
+
+ private:
+  hf_sites_desc places(std::uint32_t count, std::uint32_t step, std::uint32_t first) {
+    vertices_.clear(), values_.clear();
+    for (std::uint32_t i = 0; i < count; ++i) {
+      vertices_.push_back((first + i * step) % n_);
+      values_.push_back(0.125 * (i * 37 % 101)), values_.push_back(0.25 * (i * 53 % 89));
+    }
+    hf_sites_desc d = desc<hf_sites_desc>();
+    d.site_count = count, d.vertices = vertices_.data(), d.values = values_.data();
+    return d;
+  }
+  void add(hf_solver solver, std::uint32_t count, std::uint32_t step, std::uint32_t first, std::uint32_t* sites) {
+    const hf_sites_desc d = places(count, step, first);
+    must(hf_add_sites(solver, &d, sites), "hf_add_sites");
+  }
+  void take(hf_solver solver, Hash& hash) {
+    must(hf_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solve_f64"),
+        hash.take(doubles_.data(), doubles_.size());
+  }
+
+  const Surface& surface_;
+  std::uint32_t n_;
+  hf_create_desc base_;
+  std::vector<double> doubles_, values_;
+  std::vector<float> floats_;
+  std::vector<std::uint32_t> vertices_;
+};
+
+// Hashes by "stage kind", and how many did not agree.
+struct Hashes {
+  std::map<std::string, std::uint64_t> right;
+  unsigned compared = 0, different = 0;
+  void compare(const std::string& name, const std::string& run, std::uint64_t hash) {
+    const std::uint64_t expected = right.emplace(name, hash).first->second;
+    ++compared, different += hash != expected;
+    if (hash != expected)
+      fprintf(stderr, "%s, %s: %016" PRIx64 ", not %016" PRIx64 "\n", name.c_str(), run.c_str(), hash, expected);
+  }
+};
+
+Hashes read_golden() {
+  Hashes golden;
+  std::ifstream text(HF_SOURCE_DIR "/tests/reliability/golden.txt");
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream words(line);
+    std::string stage, kind;
+    std::uint64_t hash = 0;
+    if (line.empty() || line[0] == '#' || !(words >> stage >> kind >> std::hex >> hash)) continue;
+    golden.right[stage + " " + kind] = hash;
+  }
+  return golden;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool print = argc > 1 && std::strcmp(argv[1], "--print") == 0, full = report_full(argc, argv);
+  const Surface sheet = make_sheet(120, 100), small = make_sheet(60, 50);
+  const Scene scene = make_scene();
+  Hashes golden = print ? Hashes() : read_golden(), library;
+  const std::size_t listed = golden.right.size();
+  unsigned seen = 0, unexpected = 0;
+  __builtin_cpu_init();
+  const unsigned features = __cpu_model.features[0];
+  for (const Processor& processor : processors) {
+    if ((features & processor.needs) != processor.needs) {
+      fprintf(stderr, "%s: not on this machine\n", processor.name);
+      continue;
+    }
+    __cpu_model.features[0] = features & ~processor.hidden;
+    ++seen;
+    for (std::uint32_t threads = 1; threads <= 8; ++threads) {
+      if (seen > 1 && !full && threads != 1 && threads != 3) continue;
+      const std::string kind = std::string(" ") + processor.kind,
+                        run = std::string(processor.name) + ", " + std::to_string(threads) + " threads";
+      Hash field, operators, analysis;
+      Stages stages(sheet, threads), small_stages(small, threads);
+      stages.field(field), golden.compare("field" + kind, run, field.value);
+      small_stages.operators(operators), golden.compare("operators" + kind, run, operators.value);
+      stages.analysis(analysis), golden.compare("analysis" + kind, run, analysis.value);
+      Options options;
+      options.threads = threads, options.paper_engine = false;
+      const Outcome outcome = run_whole_api(scene, options);
+      unexpected += outcome.unexpected;
+      library.compare("whole api" + kind, run, outcome.hash);
+    }
+  }
+  __cpu_model.features[0] = features;
+  if (print) {
+    for (const auto& stage : golden.right) printf("%s %016" PRIx64 "\n", stage.first.c_str(), stage.second);
+    return golden.different > 0;
+  }
+  if (golden.right.size() != listed) fprintf(stderr, "stages that golden.txt does not name\n");
+  report_at_least("GOLDEN_STAGES_LISTED", static_cast<double>(listed), 6);
+  report_at_least("GOLDEN_HASHES_COMPARED", golden.compared, 24);
+  report_at_most("GOLDEN_HASHES_THAT_DIFFER", golden.different + golden.right.size() - listed, 0);
+  report_at_most("GOLDEN_PROCESSORS_OF_A_KIND_THAT_DIFFER", library.different, 0);
+  report_at_most("GOLDEN_UNEXPECTED_ANSWERS", unexpected, 0);
+  return report_status();
+}
+
+#else
+
+int main() {
+  printf("skipped: golden hashes are kept for x86-64 and GCC or Clang\n");
+  return 77;
+}
+
+#endif
