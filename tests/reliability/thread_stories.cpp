@@ -1,0 +1,321 @@
+#include "thread_stories.h"
+
+namespace reliability {
+namespace {
+
+hf_sites_desc sites_desc(const std::vector<std::uint32_t>& vertices, const double* values) {
+  hf_sites_desc d = desc<hf_sites_desc>();
+  d.site_count = static_cast<std::uint32_t>(vertices.size()), d.vertices = vertices.data(), d.values = values;
+  return d;
+}
+
+// A patch of four by five vertices from this ring on.
+std::vector<std::uint32_t> patch_at(const Scene& s, std::uint32_t ring, std::uint32_t column) {
+  std::vector<std::uint32_t> patch;
+  for (std::uint32_t r = ring; r < ring + 4; ++r)
+    for (std::uint32_t i = column; i < column + 5; ++i) patch.push_back(r * s.around + i);
+  return patch;
+}
+
+hf_result edit_to(hf_region region, const std::vector<std::uint32_t>& patch) {
+  hf_region_edit_desc edit = desc<hf_region_edit_desc>();
+  edit.add_count = static_cast<std::uint32_t>(patch.size()), edit.add_vertices = patch.data();
+  return hf_region_edit(region, &edit);
+}
+
+hf_result add_ends(const Scene& s, hf_pose pose, std::uint32_t* handles) {
+  const std::uint32_t counts[2] = {2 * s.around, 2 * s.around};
+  hf_handles_desc regions = desc<hf_handles_desc>();
+  regions.handle_count = 2, regions.region_counts = counts, regions.region_vertices = s.ends.data();
+  return hf_pose_add_handles(pose, &regions, handles);
+}
+
+hf_result turn(hf_pose pose, std::uint32_t handle, double angle) {
+  const hf_transform to = {{0, std::sin(angle / 2), 0, std::cos(angle / 2)}, {angle, 0.5, -0.25}};
+  return hf_pose_set_transforms(pose, 1, &handle, &to);
+}
+
+void take_pose(const Scene& s, hf_pose pose, Seen& seen) {
+  std::vector<double> positions(3 * std::size_t{s.vertex_count});
+  hf_deform_desc d = desc<hf_deform_desc>();
+  d.positions_f64 = positions.data(), d.refine = 1;
+  seen.call(hf_deform(pose, &d, nullptr)), seen.take(positions);
+}
+
+void take_field(const Scene& s, hf_solver solver, Seen& seen) {
+  std::vector<double> field(s.vertex_count);
+  seen.call(hf_solve_f64(solver, field.data(), 0, nullptr)), seen.take(field);
+}
+
+void take_region(const Scene& s, hf_region region, Seen& seen) {
+  hf_region_info info = desc<hf_region_info>();
+  seen.call(hf_region_get_info(region, &info)), seen.take(&info, 1);
+  std::vector<std::uint32_t> rim(info.rim_count);
+  seen.call(hf_region_get_vertices(region, HF_REGION_RIM, info.rim_count, rim.data())), seen.take(rim);
+  std::vector<double> positions(3 * std::size_t{s.vertex_count});
+  hf_morph_desc morph = desc<hf_morph_desc>();
+  morph.weight = 0.5, morph.positions_f64 = positions.data();
+  seen.call(hf_region_morph(region, &morph)), seen.take(positions);
+}
+
+void take_direction(const Scene& s, hf_direction direction, Seen& seen) {
+  std::vector<double> vectors(3 * std::size_t{s.vertex_count});
+  seen.call(hf_direction_solve_f64(direction, vectors.data(), 0, nullptr)), seen.take(vectors);
+}
+
+}  // namespace
+
+Objects make_objects(const Scene& s) {
+  Objects o;
+  hf_create_desc d = desc<hf_create_desc>();
+  d.vertex_count = s.vertex_count, d.triangle_count = s.triangle_count;
+  d.positions = s.positions.data(), d.triangles = s.triangles.data();
+  d.thread_count = 3;  // the solver's own threads, asked for by eight callers at once
+  o.solver = make_solver(d);
+  const std::vector<std::uint32_t> vertices = {3, 100, 400, 801, 1200};
+  const hf_sites_desc sites = sites_desc(vertices, s.values.data());
+  must(hf_add_sites(o.solver, &sites, nullptr), "hf_add_sites");
+  must(hf_geodesics_create(o.solver, nullptr, &o.geodesics), "hf_geodesics_create");
+  must(hf_flow_create(o.solver, &o.flow), "hf_flow_create");
+  hf_quads_desc quads = desc<hf_quads_desc>();
+  quads.edge_length = 0.5f;
+  must(hf_quads_create(o.solver, &quads, &o.quads), "hf_quads_create");
+  must(hf_direction_create(o.solver, nullptr, &o.direction), "hf_direction_create");
+  must(hf_direction_add_sites(o.direction, 4, vertices.data(), s.vectors.data(), nullptr), "hf_direction_add_sites");
+  must(hf_pose_create(o.solver, nullptr, &o.pose), "hf_pose_create");
+  std::uint32_t handles[2];
+  must(add_ends(s, o.pose, handles), "hf_pose_add_handles"), must(turn(o.pose, handles[1], 0.7), "transforms");
+  must(hf_region_create(o.solver, nullptr, &o.region), "hf_region_create");
+  must(hf_region_clone(o.region, &o.target), "hf_region_clone");
+  must(edit_to(o.region, patch_at(s, 5, 3)), "hf_region_edit");
+  must(edit_to(o.target, patch_at(s, 14, 6)), "hf_region_edit, target");
+  must(hf_detail_create(o.region, o.target, nullptr, &o.detail), "hf_detail_create");
+  Seen posed;
+  take_pose(s, o.pose, posed);
+  return o;
+}
+
+Objects clones_of(const Objects& o) {
+  Objects made;
+  must(hf_clone(o.solver, &made.solver), "hf_clone"), must(hf_pose_clone(o.pose, &made.pose), "hf_pose_clone");
+  must(hf_direction_clone(o.direction, &made.direction), "hf_direction_clone");
+  must(hf_region_clone(o.region, &made.region), "hf_region_clone");
+  return made;
+}
+
+void destroy(const Objects& o) {
+  hf_destroy(o.solver), hf_region_destroy(o.region), hf_region_destroy(o.target), hf_pose_destroy(o.pose);
+  hf_direction_destroy(o.direction), hf_detail_destroy(o.detail), hf_quads_destroy(o.quads), hf_flow_destroy(o.flow);
+  hf_geodesics_destroy(o.geodesics);
+}
+
+namespace {
+
+// ---- readers: the same on every thread ----
+
+void read_solver(const Scene& s, const Objects& o, unsigned, Seen& seen) {
+  take_field(s, o.solver, seen);
+  std::vector<double> preview(s.vertex_count);
+  hf_preview_info reached = desc<hf_preview_info>();
+  seen.call(hf_solve_preview_f64(o.solver, preview.data(), 0, 1, &reached)), seen.take(preview);
+  const std::uint32_t asked[2] = {5, 700};
+  double at[2];
+  seen.call(hf_solve_at(o.solver, 2, asked, at)), seen.take(at, 2);
+  hf_certificate certificate = desc<hf_certificate>();
+  seen.call(hf_certify(o.solver, &certificate));
+  std::size_t size = 0;
+  seen.call(hf_get_factor_size(o.solver, &size));
+  std::vector<unsigned char> bytes(size);
+  seen.call(hf_save_factor(o.solver, bytes.data(), size)), seen.take(bytes);
+  std::vector<std::uint32_t> components(s.vertex_count);
+  seen.call(hf_get_components(o.solver, s.vertex_count, components.data())), seen.take(components);
+  double values[5];
+  hf_site_info sites = desc<hf_site_info>();
+  sites.capacity = 5, sites.values = values;
+  seen.call(hf_get_sites(o.solver, &sites)), seen.take(values, 5);
+  hf_statistics statistics = desc<hf_statistics>();
+  seen.call(hf_get_statistics(o.solver, &statistics)), seen.take(&statistics.unknown_count, 1);
+}
+
+void read_analysis(const Scene& s, const Objects& o, unsigned, Seen& seen) {
+  hf_scalars field = desc<hf_scalars>();
+  field.values_f64 = s.height.data();
+  double levels[6];
+  seen.call(hf_space_levels(o.solver, &field, HF_LEVELS_AREA, 6, levels)), seen.take(levels, 6);
+  hf_isolines lines = desc<hf_isolines>();
+  seen.call(hf_trace_isolines(o.solver, &field, 6, levels, &lines)), seen.take(&lines.point_count, 1);
+  std::vector<hf_critical_point> points(s.vertex_count);
+  hf_critical_info critical = desc<hf_critical_info>();
+  seen.call(hf_find_critical_points(o.solver, &field, s.vertex_count, points.data(), &critical));
+  seen.take(points.data(), critical.point_count);
+  std::vector<double> distance(s.vertex_count);
+  const std::uint32_t sources[2] = {3, 900};
+  seen.call(hf_geodesics_distance_f64(o.geodesics, 2, sources, distance.data(), 0)), seen.take(distance);
+  hf_extremities_desc wanted = desc<hf_extremities_desc>();
+  wanted.kind = HF_EXTREMITIES_GEODESIC, wanted.geodesics = o.geodesics, wanted.source_count = 8;
+  wanted.out_field = distance.data();
+  std::uint32_t count = 0;
+  seen.call(hf_find_extremities(o.solver, &wanted, 0, nullptr, &count)), seen.take(distance), seen.take(&count, 1);
+  hf_flow_lines flow = desc<hf_flow_lines>();
+  flow.wanted_count = 12;
+  seen.call(hf_flow_trace(o.flow, &field, &flow)), seen.take(&flow.point_count, 1);
+}
+
+void read_shapes(const Scene& s, const Objects& o, unsigned, Seen& seen) {
+  std::vector<float> field(s.vertex_count);
+  seen.call(hf_pose_get_field(o.pose, 1, field.data(), 0)), seen.take(field);
+  hf_handle_info handle = desc<hf_handle_info>();
+  seen.call(hf_pose_get_handle(o.pose, 1, &handle)), seen.take(&handle, 1);
+  hf_skin_info skin = desc<hf_skin_info>();
+  seen.call(hf_pose_get_skin(o.pose, &skin));
+  std::vector<float> weights(4 * std::size_t{s.vertex_count});
+  std::vector<double> rotations(4 * std::size_t{skin.joint_count});
+  skin.vertex_weights = weights.data(), skin.rotations = rotations.data();
+  seen.call(hf_pose_get_skin(o.pose, &skin)), seen.take(weights), seen.take(rotations);
+  take_region(s, o.region, seen);
+  std::vector<double> positions(3 * std::size_t{s.vertex_count});
+  hf_morph_desc morph = desc<hf_morph_desc>();
+  morph.weight = 1, morph.positions_f64 = positions.data();
+  seen.call(hf_detail_morph(o.detail, &morph)), seen.take(positions);
+  hf_quads_info info = desc<hf_quads_info>();
+  seen.call(hf_quads_get_info(o.quads, &info)), seen.take(&info.corner_count, 1);
+  std::vector<std::uint32_t> corners(info.corner_count);
+  hf_quads_mesh mesh = desc<hf_quads_mesh>();
+  mesh.corner_capacity = info.corner_count, mesh.face_corners = corners.data();
+  seen.call(hf_quads_get_mesh(o.quads, &mesh)), seen.take(corners);
+}
+
+void read_directions(const Scene& s, const Objects& o, unsigned, Seen& seen) {
+  take_direction(s, o.direction, seen);
+  std::vector<hf_singularity> found(s.triangle_count);
+  std::uint32_t count = 0;
+  seen.call(hf_direction_get_singularities(o.direction, s.triangle_count, found.data(), &count));
+  seen.take(found.data(), count);
+  std::uint32_t sites[4];
+  seen.call(hf_direction_get_sites(o.direction, 4, sites, nullptr, nullptr)), seen.take(sites, 4);
+  hf_direction_statistics statistics = desc<hf_direction_statistics>();
+  seen.call(hf_direction_get_statistics(o.direction, &statistics)), seen.take(&statistics.unknown_count, 1);
+}
+
+// New objects of what is shared.
+void make_more(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
+  hf_pose_desc paper = desc<hf_pose_desc>();
+  paper.mode = t % 2 == 0 ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH, paper.iteration_count = 6;
+  hf_pose pose = nullptr;
+  std::uint32_t handles[2];
+  seen.call(hf_pose_create(o.solver, &paper, &pose)), seen.call(add_ends(s, pose, handles));
+  seen.call(turn(pose, handles[0], 0.2 + 0.1 * t)), take_pose(s, pose, seen);
+  hf_region region = nullptr;
+  seen.call(hf_region_create(o.solver, nullptr, &region)), seen.call(edit_to(region, patch_at(s, 6 + t, 4)));
+  take_region(s, region, seen);
+  hf_detail detail = nullptr;
+  seen.call(hf_detail_create(o.region, region, nullptr, &detail));
+  hf_transfer transfer = nullptr;
+  seen.call(hf_transfer_create(o.solver, o.solver, nullptr, &transfer));
+  const std::uint32_t counts[2] = {2 * s.around, 2 * s.around};
+  hf_pairs_desc pairs = desc<hf_pairs_desc>();
+  pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts;
+  pairs.source_vertices = pairs.target_vertices = s.ends.data();
+  seen.call(hf_transfer_add_pairs(transfer, &pairs, nullptr));
+  std::vector<double> positions(3 * std::size_t{s.vertex_count});
+  hf_transfer_frame frame = desc<hf_transfer_frame>();
+  frame.source_positions = s.posed.data(), frame.target_positions_f64 = positions.data();
+  seen.call(hf_transfer_apply(transfer, &frame)), seen.take(positions);
+  hf_direction direction = nullptr;
+  seen.call(hf_direction_create(o.solver, nullptr, &direction));
+  const std::uint32_t vertex = 50 + t;
+  seen.call(hf_direction_add_sites(direction, 1, &vertex, s.vectors.data(), nullptr));
+  take_direction(s, direction, seen);
+  hf_pose_destroy(pose), hf_region_destroy(region), hf_detail_destroy(detail), hf_transfer_destroy(transfer);
+  hf_direction_destroy(direction);
+}
+
+// ---- edits, of clones ----
+
+void edit_solver(const Scene& s, hf_solver solver, unsigned t, Seen& seen) {
+  std::vector<std::uint32_t> vertices = {40 + 17 * t, 300 + t, 640 + 3 * t};
+  std::uint32_t sites[3];
+  const hf_sites_desc more = sites_desc(vertices, s.values.data() + t);
+  seen.call(hf_add_sites(solver, &more, sites)), take_field(s, solver, seen);
+  seen.call(hf_record(solver));
+  const std::vector<std::uint32_t> elsewhere = {1000 + t};
+  const hf_sites_desc to = sites_desc(elsewhere, nullptr);
+  seen.call(hf_move_sites(solver, 1, sites, &to)), seen.call(hf_remove_sites(solver, 1, sites + 1));
+  take_field(s, solver, seen);
+  std::vector<float> preview(s.vertex_count);
+  seen.call(hf_solve_preview(solver, preview.data(), 0, 0, nullptr)), seen.take(preview);
+  if (t % 4 == 1) seen.call(hf_release_preview(solver));  // of all that share the factor
+  if (t % 4 == 3) seen.call(hf_prepare_rebase(solver)), take_field(s, solver, seen);
+  seen.call(hf_undo(solver)), take_field(s, solver, seen);
+}
+
+void edit_pose(const Scene& s, hf_pose pose, unsigned t, Seen& seen) {
+  seen.call(turn(pose, 0, -0.1 * t)), take_pose(s, pose, seen);
+  hf_handles_desc layer = desc<hf_handles_desc>();
+  const double radius = 0.5;
+  layer.handle_count = 1, layer.radii = &radius, layer.layer = 1;
+  layer.points = s.positions_f64.data() + 3 * (std::size_t{s.vertex_count / 2} + t);
+  std::uint32_t handle = 0;
+  seen.call(hf_pose_add_handles(pose, &layer, &handle)), seen.call(turn(pose, handle, 0.3)), take_pose(s, pose, seen);
+  seen.call(hf_pose_remove_handles(pose, 1, &handle)), take_pose(s, pose, seen);
+}
+
+void edit_direction(const Scene& s, hf_direction direction, unsigned t, Seen& seen) {
+  const std::uint32_t vertex = 500 + 11 * t, to = 60 + t;
+  std::uint32_t site = 0;
+  seen.call(hf_direction_add_sites(direction, 1, &vertex, s.vectors.data() + 3 * t, &site));
+  seen.call(hf_direction_record(direction)), seen.call(hf_direction_move_sites(direction, 1, &site, &to));
+  take_direction(s, direction, seen);
+  const double angle = 0.25;
+  seen.call(hf_direction_undo(direction)), seen.call(hf_direction_rotate_sites(direction, 1, &site, &angle));
+  take_direction(s, direction, seen);
+}
+
+void edit_region(const Scene& s, hf_region region, unsigned t, Seen& seen) {
+  seen.call(hf_region_record(region));
+  hf_region_edit_desc grow = desc<hf_region_edit_desc>();
+  grow.ring_count = 1 + static_cast<int>(t % 3);
+  seen.call(hf_region_edit(region, &grow)), take_region(s, region, seen);
+  seen.call(hf_region_undo(region)), seen.call(edit_to(region, patch_at(s, 20 + t, 8))), take_region(s, region, seen);
+}
+
+void clone_and_edit(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
+  Objects mine;
+  seen.call(hf_clone(o.solver, &mine.solver)), edit_solver(s, mine.solver, t, seen);
+  seen.call(hf_pose_create(mine.solver, nullptr, &mine.pose));  // a pose and a region through a clone
+  std::uint32_t handles[2];
+  seen.call(add_ends(s, mine.pose, handles)), seen.call(turn(mine.pose, handles[1], 0.1 * t));
+  take_pose(s, mine.pose, seen);
+  seen.call(hf_region_create(mine.solver, nullptr, &mine.region));
+  seen.call(edit_to(mine.region, patch_at(s, 9, 3 + t))), take_region(s, mine.region, seen);
+  destroy(mine);
+}
+
+void clone_and_edit_shapes(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
+  Objects mine;
+  seen.call(hf_pose_clone(o.pose, &mine.pose)), edit_pose(s, mine.pose, t, seen);
+  seen.call(hf_direction_clone(o.direction, &mine.direction)), edit_direction(s, mine.direction, t, seen);
+  seen.call(hf_region_clone(o.region, &mine.region)), edit_region(s, mine.region, t, seen);
+  destroy(mine);
+}
+
+}  // namespace
+
+std::uint64_t edit_all(const Scene& s, const Objects& o, unsigned t) {
+  Seen seen;
+  edit_solver(s, o.solver, t, seen), edit_pose(s, o.pose, t, seen), edit_direction(s, o.direction, t, seen);
+  edit_region(s, o.region, t, seen);
+  return seen.hash();
+}
+
+const std::vector<Story> thread_stories = {
+    {"THREADS_SOLVER_READ", read_solver},
+    {"THREADS_ANALYSIS_READ", read_analysis},
+    {"THREADS_SHAPES_READ", read_shapes},
+    {"THREADS_DIRECTION_READ", read_directions},
+    {"THREADS_OBJECTS_OF_ONE", make_more},
+    {"THREADS_CLONES_OF_A_SOLVER", clone_and_edit},
+    {"THREADS_CLONES_OF_SHAPES", clone_and_edit_shapes},
+};
+
+}  // namespace reliability
