@@ -75,6 +75,9 @@ Objects make_objects(const Scene& s) {
   const std::vector<std::uint32_t> vertices = {3, 100, 400, 801, 1200};
   const hf_sites_desc sites = sites_desc(vertices, s.values.data());
   must(hf_add_sites(o.solver, &sites, nullptr), "hf_add_sites");
+  d.engine = HF_ENGINE_REFACTOR;
+  o.refactor = make_solver(d);
+  must(hf_add_sites(o.refactor, &sites, nullptr), "hf_add_sites, refactor");
   must(hf_geodesics_create(o.solver, nullptr, &o.geodesics), "hf_geodesics_create");
   must(hf_flow_create(o.solver, &o.flow), "hf_flow_create");
   hf_quads_desc quads = desc<hf_quads_desc>();
@@ -97,14 +100,16 @@ Objects make_objects(const Scene& s) {
 
 Objects clones_of(const Objects& o) {
   Objects made;
-  must(hf_clone(o.solver, &made.solver), "hf_clone"), must(hf_pose_clone(o.pose, &made.pose), "hf_pose_clone");
+  must(hf_clone(o.solver, &made.solver), "hf_clone"), must(hf_clone(o.refactor, &made.refactor), "hf_clone");
+  must(hf_pose_clone(o.pose, &made.pose), "hf_pose_clone");
   must(hf_direction_clone(o.direction, &made.direction), "hf_direction_clone");
   must(hf_region_clone(o.region, &made.region), "hf_region_clone");
   return made;
 }
 
 void destroy(const Objects& o) {
-  hf_destroy(o.solver), hf_region_destroy(o.region), hf_region_destroy(o.target), hf_pose_destroy(o.pose);
+  hf_destroy(o.solver), hf_destroy(o.refactor), hf_region_destroy(o.region), hf_region_destroy(o.target),
+      hf_pose_destroy(o.pose);
   hf_direction_destroy(o.direction), hf_detail_destroy(o.detail), hf_quads_destroy(o.quads), hf_flow_destroy(o.flow);
   hf_geodesics_destroy(o.geodesics);
 }
@@ -114,7 +119,7 @@ namespace {
 // ---- readers: the same on every thread ----
 
 void read_solver(const Scene& s, const Objects& o, unsigned, Seen& seen) {
-  take_field(s, o.solver, seen);
+  take_field(s, o.solver, seen), take_field(s, o.refactor, seen);
   std::vector<double> preview(s.vertex_count);
   hf_preview_info reached = desc<hf_preview_info>();
   seen.call(hf_solve_preview_f64(o.solver, preview.data(), 0, 1, &reached)), seen.take(preview);
@@ -245,7 +250,10 @@ void edit_solver(const Scene& s, hf_solver solver, unsigned t, Seen& seen) {
   std::vector<float> preview(s.vertex_count);
   seen.call(hf_solve_preview(solver, preview.data(), 0, 0, nullptr)), seen.take(preview);
   if (t % 4 == 1) seen.call(hf_release_preview(solver));  // of all that share the factor
-  if (t % 4 == 3) seen.call(hf_prepare_rebase(solver)), take_field(s, solver, seen);
+  hf_statistics statistics = desc<hf_statistics>();
+  seen.call(hf_get_statistics(solver, &statistics));
+  if (t % 4 == 3 && statistics.engine == HF_ENGINE_GREEN)
+    seen.call(hf_prepare_rebase(solver)), take_field(s, solver, seen);
   seen.call(hf_undo(solver)), take_field(s, solver, seen);
 }
 
@@ -288,6 +296,7 @@ void clone_and_edit(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
   take_pose(s, mine.pose, seen);
   seen.call(hf_region_create(mine.solver, nullptr, &mine.region));
   seen.call(edit_to(mine.region, patch_at(s, 9, 3 + t))), take_region(s, mine.region, seen);
+  seen.call(hf_clone(o.refactor, &mine.refactor)), edit_solver(s, mine.refactor, t, seen);
   destroy(mine);
 }
 
@@ -303,7 +312,8 @@ void clone_and_edit_shapes(const Scene& s, const Objects& o, unsigned t, Seen& s
 
 std::uint64_t edit_all(const Scene& s, const Objects& o, unsigned t) {
   Seen seen;
-  edit_solver(s, o.solver, t, seen), edit_pose(s, o.pose, t, seen), edit_direction(s, o.direction, t, seen);
+  edit_solver(s, o.solver, t, seen), edit_solver(s, o.refactor, t, seen);
+  edit_pose(s, o.pose, t, seen), edit_direction(s, o.direction, t, seen);
   edit_region(s, o.region, t, seen);
   return seen.hash();
 }

@@ -7,7 +7,7 @@
 namespace reliability {
 
 struct Objects {
-  hf_solver solver = nullptr;
+  hf_solver solver = nullptr, refactor = nullptr;  // of HF_ENGINE_GREEN and HF_ENGINE_REFACTOR
   hf_geodesics geodesics = nullptr;
   hf_flow flow = nullptr;
   hf_quads quads = nullptr;
@@ -42,7 +42,7 @@ class Seen {
 };
 
 Objects make_objects(const Scene& scene);
-Objects clones_of(const Objects& objects);  // of the solver, the pose, the directions and the region
+Objects clones_of(const Objects& objects);  // of the solvers, the pose, the directions and the region
 void destroy(const Objects& objects);
 
 // Edits of everything that clones_of makes, and the hash of what is seen.
