@@ -1,7 +1,9 @@
-// A long session on one solver: 100,000 edits on 41,000 vertices, a field every twentieth. The memory of the solver and
-// of the process after the first tenth and at the end; and how long an edit takes at the end and at the beginning (the
-// fastest of twenty stretches each, because other programs run beside this one). Undo records are made all along: the
-// stack is bounded. The quick form makes 10,000 edits on 9,800 vertices.
+// A long session on one solver: 100,000 edits on 41,000 vertices, a field every twentieth, an undo record 500 times in
+// every tenth (the stack is bounded). The memory of the solver after the first tenth and at the end, that of the
+// process from the fourth tenth on: clones that come and go as undo records leave gaps in the C library's heap, which
+// are filled after some 15,000 edits, and then no more come (40 tenths long, it stays to the page). And how long an
+// edit takes at the end and at the beginning (the fastest of twenty stretches each, because other programs run beside
+// this one). The quick form makes 40,000 edits on 9,800 vertices.
 #include <algorithm>
 #include <chrono>
 #include <cstring>
@@ -34,7 +36,10 @@ Stretch edit_on(EditedSolver& solver, int count) {
   std::vector<double> field;
   for (int part = 0; part < 20; ++part) {
     const auto begin = std::chrono::steady_clock::now();
-    for (int i = 0; i < count / 20; ++i) solver.edit(50, offsets);
+    for (int i = 0; i < count / 20; ++i) {
+      if (i % (count / 500) == 0) must(hf_record(solver.get()), "hf_record");
+      solver.edit(50, offsets);
+    }
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     stretch.fastest_ms = std::min(stretch.fastest_ms, took.count() / (count / 20));
     for (int i = 0; i < count / 400; ++i) field = solver.field();
@@ -49,17 +54,21 @@ Stretch edit_on(EditedSolver& solver, int count) {
 
 int main(int argc, char** argv) {
   const bool full = report_full(argc, argv);
-  const int edits = full ? 100000 : 10000;
+  const int edits = full ? 100000 : 40000;
   Surface surface;
   full ? add_torus(surface, 205, 200) : add_torus(surface, 100, 98);
   EditedSolver solver(surface, 1, 5);
   solver.add(50, {0});
-  Stretch first = edit_on(solver, edits / 10), last = first;
-  for (int tenth = 1; tenth < 10; ++tenth) last = edit_on(solver, edits / 10);
-  report_at_least("SESSION_EDITS", edits, 10000);
+  const Stretch first = edit_on(solver, edits / 10);
+  Stretch fourth = first, last = first;
+  for (int tenth = 2; tenth <= 10; ++tenth) {
+    last = edit_on(solver, edits / 10);
+    if (tenth == 4) fourth = last;
+  }
+  report_at_least("SESSION_EDITS", edits, 40000);
   report_at_most("SESSION_LIBRARY_GROWTH_BYTES", last.library_bytes - first.library_bytes, 1 << 20);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they keep what was given back
-  report_at_most("SESSION_PROCESS_GROWTH_BYTES", last.process_bytes - first.process_bytes, 1 << 20);
+  report_at_most("SESSION_PROCESS_GROWTH_BYTES", last.process_bytes - fourth.process_bytes, 1 << 20);
 #endif
   report_at_most("SESSION_LAST_EDITS_TO_FIRST", last.fastest_ms / first.fastest_ms, 3);
   return report_status();
