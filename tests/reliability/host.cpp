@@ -12,11 +12,13 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cfenv>
 #include <clocale>
 #include <cstring>
 #include <memory_resource>
 #include <string>
+#include <thread>
 
 #include "process.h"
 #include "report.h"
@@ -70,7 +72,10 @@ void read_signals(std::string& out) {
   put(out, stack.ss_sp), put(out, stack.ss_size);
   struct itimerval timer;
   for (int which = 0; which < 3; ++which) {
-    std::memset(&timer, 0, sizeof timer), getitimer(which == 0 ? ITIMER_REAL : which == 1 ? ITIMER_VIRTUAL : ITIMER_PROF, &timer);
+    std::memset(&timer, 0, sizeof timer), getitimer(which == 0   ? ITIMER_REAL
+                                                    : which == 1 ? ITIMER_VIRTUAL
+                                                                 : ITIMER_PROF,
+                                                    &timer);
     put(out, timer.it_interval);
   }
 }
@@ -221,6 +226,38 @@ unsigned answers_from_the_default_resource(const Scene& scene, std::uint64_t exp
   return outcome.unexpected + (outcome.hash != expected);
 }
 
+// The host's job system on threads with settings of their own: jobs with other settings afterwards, and answers with
+// other bits. `jobs` counts them.
+struct HostJobs {
+  std::atomic<unsigned> jobs{0}, changed{0};
+};
+void run_under_other_settings(void* user, std::uint32_t count, void (*job)(void*, std::uint32_t), void* data) {
+  std::thread([=] {
+    HostJobs& seen = *static_cast<HostJobs*>(user);
+    fesetround(FE_UPWARD);
+#if defined(__SSE2__)
+    _mm_setcsr(_mm_getcsr() | 0x8040u);
+#endif
+    feenableexcept(FE_INVALID | FE_DIVBYZERO);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      std::string before, after;
+      read_float_control(before), job(data, i), read_float_control(after);
+      ++seen.jobs, seen.changed += before != after;
+    }
+    fedisableexcept(FE_ALL_EXCEPT);
+  }).join();
+}
+unsigned different_jobs(const Scene& scene, std::uint64_t expected, unsigned& jobs) {
+  HostJobs seen;
+  const hf_job_runner runner = {run_under_other_settings, &seen};
+  Options options;
+  options.threads = 4, options.runner = &runner;
+  const Outcome outcome = run_whole_api(scene, options);
+  if (outcome.unexpected > 0) fprintf(stderr, "%s answered %s\n", outcome.first, hf_result_name(outcome.got));
+  jobs = seen.jobs;
+  return seen.changed + outcome.unexpected + (outcome.hash != expected);
+}
+
 }  // namespace
 
 int main() {
@@ -242,6 +279,9 @@ int main() {
   report_at_most("HOST_BYTES_PRINTED", printed_bytes(scene), 0);
   report_at_most("HOST_ANSWERS_FROM_ITS_DEFAULT_RESOURCE", answers_from_the_default_resource(scene, plain.hash), 0);
   report_at_most("HOST_FLOAT_SETTINGS_WITH_OTHER_RESULTS", different_runs(scene, plain.hash), 0);
+  unsigned jobs = 0;
+  report_at_most("HOST_JOBS_UNDER_ITS_FLOAT_SETTINGS_THAT_DIFFER", different_jobs(scene, plain.hash, jobs), 0);
+  report_at_least("HOST_JOBS", jobs, 100);
   report_at_most("HOST_UNEXPECTED_ANSWERS", unexpected, 0);
   return report_status();
 }
