@@ -66,6 +66,15 @@ bool spin(Done&& done) noexcept {
   }
 }
 
+// Whether this thread is in a job of a host's runner: hosts need not take batches from within a job, so it works alone.
+thread_local bool in_host_job = false;
+
+struct HostJob {
+  const bool outer = in_host_job;
+  HostJob() noexcept { in_host_job = true; }
+  ~HostJob() { in_host_job = outer; }
+};
+
 }  // namespace
 
 // Between batches workers spin for a moment, then sleep on a condition variable. One batch has the workers at a time: a
@@ -151,16 +160,20 @@ JobRunner::~JobRunner() {
 void JobRunner::run(std::uint32_t count, Call call, void* context) {
   Batch batch;
   batch.count = count, batch.call = call, batch.context = context;
-  if (host_.run) {
+  if (host_.run && in_host_job) {
+    batch.work();
+  } else if (host_.run) {
     // the host calls us back once per index; anything it leaves out is done here, so a careless runner costs time, not
     // truth
     host_.run(
         host_.user, count,
         [](void* data, std::uint32_t) {
-          FloatEnvironment environment;
+          const FloatEnvironment environment;
+          const HostJob here;
           static_cast<Batch*>(data)->work();
         },
         &batch);
+    const HostJob here;
     batch.work();
   } else {
     pool_->run(batch);

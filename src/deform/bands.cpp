@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deform/cluster_rows.h"
+
 namespace hf {
 namespace {
 
 constexpr double field_prune = 0.3;     // of |phi|: fields that count at a vertex
-constexpr double weight_prune = 1e-3;   // of |W|: clusters that count at a vertex
 constexpr double piece_share = 0.02;    // of its band: smaller pieces of a band are dropped, never the largest
 constexpr double smallest_area = 2e-4;  // of its component: smaller clusters are dropped
-
-struct Entry {
-  std::int32_t vertex, cluster;
-  double weight;
-};
 
 // Fields that carry bands: of two handles in a component the second's, of more all, of one none.
 Vector<FieldPart> find_parts(const Mesh& mesh, const Reach& reach, Memory& memory) {
@@ -45,7 +41,8 @@ struct Partition {
   }
 };
 
-// Cuts one field after the other into clusters and collects entries (vertex, cluster, weight).
+// Cuts one field after the other into clusters and collects entries (vertex, cluster, weight) by piece of the vertices
+// (vertex_piece); pieces are worked on at once, what crosses them on one thread.
 class BandCutter {
  public:
   BandCutter(const Core& core, const Rest& rest, const Reach& reach, const HandleFields& fields,
@@ -56,31 +53,43 @@ class BandCutter {
         fields_(fields),
         options_(options),
         memory_(memory),
-        entries_(&memory),
+        entries_((core.size() + vertex_piece - 1) / vertex_piece, &memory),
         partition_(3 * static_cast<std::size_t>(core.size()), memory),
         values_(memory, core.size()),
         share_(memory, core.size()),
         floor_(memory, core.size()),
         piece_area_(memory, 3 * static_cast<std::size_t>(core.size())),
         piece_cluster_(memory, 3 * static_cast<std::size_t>(core.size())),
-        others_(core.size(), 0.0, &memory) {
-    entries_.reserve(8 * static_cast<std::size_t>(core.size()));
-  }
+        roots_(&memory),
+        others_(core.size(), 0.0, &memory) {}
 
   // Forgets all entries; the first cluster gets this number.
-  void begin(std::int32_t first_cluster) noexcept { entries_.clear(), next_cluster_ = first_cluster; }
+  void begin(std::int32_t first_cluster) noexcept {
+    for (auto& list : entries_) list.clear();
+    next_cluster_ = first_cluster;
+  }
   // One field on one component. Pieces below `smallest` of the component's area are dropped.
   void cut(const FieldPart& part, const Levels& levels, double smallest);
   // Hands out the share of B_0 of all fields of a component to the other handles.
   void finish_component(std::int32_t component);
 
-  const Vector<Entry>& entries() const noexcept { return entries_; }
+  // By piece of the vertices; those of a vertex in the order they came.
+  const Vector<Vector<ClusterEntry>>& entries() const noexcept { return entries_; }
   std::int32_t cluster_count() const noexcept { return next_cluster_; }
 
  private:
-  void evaluate(const FieldPart& part, const Levels& levels) noexcept;
-  void join_neighbours(Span<const std::int32_t> vertices) noexcept;
+  struct Root {
+    std::int32_t index, band;
+  };
+  template <class Loop>
+  void in_pieces(Span<const std::int32_t> vertices, Loop&& loop);
+  void find_floor(const FieldPart& part) noexcept;
+  void evaluate(const FieldPart& part, const Levels& levels, Span<const std::int32_t> vertices) noexcept;
+  void join_edge(std::int32_t v, std::int32_t u) noexcept;
+  void join_inside(Span<const std::int32_t> vertices) noexcept;
+  void join_across(Span<const std::int32_t> vertices) noexcept;
   void number_pieces(Span<const std::int32_t> vertices, double smallest);
+  void emit(const FieldPart& part, Span<const std::int32_t> vertices, Vector<ClusterEntry>& entries);
   bool interior(std::int32_t band) const noexcept { return band > 0 && band <= options_.band_count; }
 
   const Core& core_;
@@ -89,7 +98,7 @@ class BandCutter {
   const HandleFields& fields_;
   const BandOptions& options_;
   Memory& memory_;
-  Vector<Entry> entries_;
+  Vector<Vector<ClusterEntry>> entries_;
   std::int32_t next_cluster_ = 0;
   // of the field at hand, per vertex or per vertex and band
   Partition partition_;
@@ -97,91 +106,130 @@ class BandCutter {
   Buffer<double> share_;        // beta
   Buffer<double> floor_;        // below, a field does not count at a vertex
   std::int32_t floor_of_ = -1;  // the component floor_ was made for
-  Buffer<double> piece_area_;
+  Buffer<double> piece_area_;   // of roots, like the next
   Buffer<std::int32_t> piece_cluster_;
+  Vector<Root> roots_;     // ascending
   Vector<double> others_;  // sum over the fields of beta_i B_0 / (1 - phi_i)
 };
 
-void BandCutter::evaluate(const FieldPart& part, const Levels& levels) noexcept {
-  const double* phi = fields_.of(part.handle);
-  const Span<const std::int32_t> present = reach_.handles_of(part.component);
-  if (present.size() > 2 && floor_of_ != part.component) {  // once per component
-    const Span<const std::int32_t> vertices = rest_.vertices_of(part.component);
-    for (const std::int32_t v : vertices) floor_[v] = 0;
-    for (const std::int32_t j : present) {
-      const double* field = fields_.of(j);
-      for (const std::int32_t v : vertices) floor_[v] += field[v] * field[v];
-    }
-    for (const std::int32_t v : vertices) floor_[v] = field_prune * std::sqrt(floor_[v]);
-    floor_of_ = part.component;
+// Calls loop(piece, vertices of it) for the pieces of an ascending list; long lists at once.
+template <class Loop>
+void BandCutter::in_pieces(Span<const std::int32_t> vertices, Loop&& loop) {
+  const std::int32_t *const begin = vertices.begin(), *const end = vertices.end();
+  const auto part_from = [&](const std::int32_t* first, std::int32_t piece) {
+    const std::int32_t* last = std::lower_bound(first, end, (piece + 1) * vertex_piece);
+    loop(piece, Span<const std::int32_t>(first, static_cast<std::size_t>(last - first)));
+    return last;
+  };
+  if (vertices.size() < 2 * static_cast<std::size_t>(vertex_piece)) {
+    for (const std::int32_t* first = begin; first != end;) first = part_from(first, *first / vertex_piece);
+    return;
   }
-  for (const std::int32_t v : rest_.vertices_of(part.component)) {
-    share_[v] = present.size() > 2 ? std::max(0.0, phi[v] - floor_[v]) : 1.0;
+  const std::int32_t first_piece = *begin / vertex_piece, last_piece = *(end - 1) / vertex_piece;
+  core_.jobs->for_each(static_cast<std::uint32_t>(last_piece - first_piece + 1), [&](std::uint32_t k) {
+    const std::int32_t piece = first_piece + static_cast<std::int32_t>(k);
+    part_from(std::lower_bound(begin, end, piece * vertex_piece), piece);
+  });
+}
+
+// Once per component of more than two handles.
+void BandCutter::find_floor(const FieldPart& part) noexcept {
+  const Span<const std::int32_t> present = reach_.handles_of(part.component);
+  if (present.size() <= 2 || floor_of_ == part.component) return;
+  const Span<const std::int32_t> vertices = rest_.vertices_of(part.component);
+  for (const std::int32_t v : vertices) floor_[v] = 0;
+  for (const std::int32_t j : present) {
+    const double* field = fields_.of(j);
+    for (const std::int32_t v : vertices) floor_[v] += field[v] * field[v];
+  }
+  for (const std::int32_t v : vertices) floor_[v] = field_prune * std::sqrt(floor_[v]);
+  floor_of_ = part.component;
+}
+
+void BandCutter::evaluate(const FieldPart& part, const Levels& levels, Span<const std::int32_t> vertices) noexcept {
+  const double* phi = fields_.of(part.handle);
+  const bool several = reach_.handles_of(part.component).size() > 2;
+  for (const std::int32_t v : vertices) {
+    share_[v] = several ? std::max(0.0, phi[v] - floor_[v]) : 1.0;
     if (share_[v] <= 0) continue;  // nothing of this field counts here
     values_[v] = band_values(levels(phi[v]), options_.band_count, options_.degree);
   }
 }
 
-void BandCutter::join_neighbours(Span<const std::int32_t> vertices) noexcept {
-  const Topology& topology = core_.topology;
+// The bands that both ends of an edge are in.
+inline void BandCutter::join_edge(std::int32_t v, std::int32_t u) noexcept {
+  if (share_[u] <= 0) return;
   const int width = options_.degree + 1;
-  for (const std::int32_t v : vertices) {
-    for (int k = 0; k < 3; ++k) {
-      partition_.parent[3 * v + k] = 3 * v + k;
-      piece_area_[3 * v + k] = 0, piece_cluster_[3 * v + k] = -1;
-    }
+  for (int a = 0; a < width; ++a) {
+    const std::int32_t b = values_[v].first + a - values_[u].first;
+    if (b < 0 || b >= width || values_[v].value[a] <= 0 || values_[u].value[b] <= 0) continue;
+    if (interior(values_[v].first + a)) partition_.join(3 * v + a, 3 * u + b);
   }
+}
+
+// Neighbours ascend: each edge is seen once, from its larger end.
+void BandCutter::join_inside(Span<const std::int32_t> vertices) noexcept {
+  const Topology& topology = core_.topology;
+  const std::int32_t first = vertices[0] / vertex_piece * vertex_piece;
   for (const std::int32_t v : vertices) {
+    for (int k = 0; k < 3; ++k) partition_.parent[3 * v + k] = 3 * v + k;
     if (share_[v] <= 0) continue;
     for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
       const std::int32_t u = topology.neighbour[k];
-      if (u > v) break;  // ascending: each edge once
-      if (share_[u] <= 0) continue;
-      for (int a = 0; a < width; ++a) {
-        const std::int32_t b = values_[v].first + a - values_[u].first;
-        if (b < 0 || b >= width || values_[v].value[a] <= 0 || values_[u].value[b] <= 0) continue;
-        if (interior(values_[v].first + a)) partition_.join(3 * v + a, 3 * u + b);
-      }
+      if (u > v) break;
+      if (u >= first) join_edge(v, u);
     }
+  }
+}
+
+void BandCutter::join_across(Span<const std::int32_t> vertices) noexcept {
+  const Topology& topology = core_.topology;
+  for (const std::int32_t v : vertices) {
+    const std::int32_t first = v / vertex_piece * vertex_piece;
+    std::int32_t k = topology.neighbour_start[v];
+    const std::int32_t end = topology.neighbour_start[v + 1];
+    if (k == end || topology.neighbour[k] >= first || share_[v] <= 0) continue;
+    for (; k < end && topology.neighbour[k] < first; ++k) join_edge(v, topology.neighbour[k]);
   }
 }
 
 void BandCutter::number_pieces(Span<const std::int32_t> vertices, double smallest) {
   Vector<double> band_area(options_.band_count + 2, 0.0, &memory_), largest(options_.band_count + 2, 0.0, &memory_);
   const int width = options_.degree + 1;
-  const auto for_members = [&](auto&& use) {
-    for (const std::int32_t v : vertices) {
-      if (share_[v] <= 0) continue;
-      for (int a = 0; a < width; ++a) {
-        const std::int32_t band = values_[v].first + a;
-        if (interior(band) && values_[v].value[a] > 0) use(v, a, band, partition_.find(3 * v + a));
-      }
+  roots_.clear();
+  for (const std::int32_t v : vertices) {
+    if (share_[v] <= 0) continue;
+    for (int a = 0; a < width; ++a) {
+      const std::int32_t band = values_[v].first + a, own = 3 * v + a;
+      if (!interior(band) || !(values_[v].value[a] > 0)) continue;
+      // a root is the smallest of its piece: it was here before
+      const std::int32_t root = partition_.parent[own] = partition_.parent[partition_.parent[own]];
+      if (root == own) roots_.push_back({own, band}), piece_area_[own] = 0;
+      const double area = share_[v] * values_[v].value[a] * rest_.area[v];
+      piece_area_[root] += area, band_area[band] += area;
     }
-  };
-  for_members([&](std::int32_t v, int a, std::int32_t band, std::int32_t root) {
-    const double area = share_[v] * values_[v].value[a] * rest_.area[v];
-    piece_area_[root] += area, band_area[band] += area;
-    largest[band] = std::max(largest[band], piece_area_[root]);
-  });
-  for_members([&](std::int32_t v, int a, std::int32_t band, std::int32_t root) {
-    const double area = piece_area_[root];
-    if (area < smallest || (area < largest[band] && area < piece_share * band_area[band])) return;
-    if (piece_cluster_[root] < 0) piece_cluster_[root] = next_cluster_++;
-    entries_.push_back({v, piece_cluster_[root], share_[v] * values_[v].value[a]});
-  });
+  }
+  for (const Root& root : roots_) largest[root.band] = std::max(largest[root.band], piece_area_[root.index]);
+  for (const Root& root : roots_) {
+    const double area = piece_area_[root.index];
+    const bool dropped = area < smallest || (area < largest[root.band] && area < piece_share * band_area[root.band]);
+    piece_cluster_[root.index] = dropped ? -1 : next_cluster_++;
+  }
 }
 
-void BandCutter::cut(const FieldPart& part, const Levels& levels, double smallest) {
-  const Span<const std::int32_t> vertices = rest_.vertices_of(part.component);
-  evaluate(part, levels);
-  join_neighbours(vertices);
-  number_pieces(vertices, smallest * rest_.component_area[part.component]);
-  // the handle itself, and the others: the whole share is handed out in finish_component, without the handle's own part
+// Entries of the clusters; of the handle itself; and the others' share, which is handed out in finish_component,
+// without the handle's own part.
+void BandCutter::emit(const FieldPart& part, Span<const std::int32_t> vertices, Vector<ClusterEntry>& entries) {
   const double* phi = fields_.of(part.handle);
   const std::int32_t last = options_.band_count + 1;
   for (const std::int32_t v : vertices) {
     if (share_[v] <= 0) continue;
     const BandValues& b = values_[v];
+    for (int a = 0; a <= options_.degree; ++a) {
+      if (!interior(b.first + a) || !(b.value[a] > 0)) continue;
+      const std::int32_t cluster = piece_cluster_[partition_.parent[3 * v + a]];
+      if (cluster >= 0) entries.push_back({v, cluster, share_[v] * b.value[a]});
+    }
     const int top = last - b.first;
     double own = top <= options_.degree ? share_[v] * b.value[top] : 0.0;
     if (b.first == 0 && phi[v] < 1) {
@@ -189,116 +237,33 @@ void BandCutter::cut(const FieldPart& part, const Levels& levels, double smalles
       others_[v] += others;
       own -= others * phi[v];
     }
-    if (own != 0) entries_.push_back({v, part.handle, own});
+    if (own != 0) entries.push_back({v, part.handle, own});
   }
+}
+
+void BandCutter::cut(const FieldPart& part, const Levels& levels, double smallest) {
+  const Span<const std::int32_t> vertices = rest_.vertices_of(part.component);
+  find_floor(part);
+  in_pieces(vertices, [&](std::int32_t, Span<const std::int32_t> own) {
+    evaluate(part, levels, own);
+    join_inside(own);
+  });
+  join_across(vertices);
+  number_pieces(vertices, smallest * rest_.component_area[part.component]);
+  in_pieces(vertices, [&](std::int32_t piece, Span<const std::int32_t> own) { emit(part, own, entries_[piece]); });
 }
 
 void BandCutter::finish_component(std::int32_t component) {
-  for (const std::int32_t v : rest_.vertices_of(component)) {
-    if (others_[v] <= 0) continue;
-    for (const std::int32_t j : reach_.handles_of(component)) {
-      const double weight = others_[v] * fields_.of(j)[v];
-      if (weight > 0) entries_.push_back({v, j, weight});
-    }
-    others_[v] = 0;
-  }
-}
-
-// The entries sorted by vertex.
-class WeightTable {
- public:
-  struct Item {
-    std::int32_t cluster;
-    double weight;
-  };
-  WeightTable(const Vector<Entry>& entries, std::int32_t vertex_count, Memory& memory)
-      : start_(vertex_count + 1, 0, &memory), items_(entries.size(), Item{0, 0.0}, &memory) {
-    for (const Entry& entry : entries) ++start_[entry.vertex + 1];
-    for (std::int32_t v = 0; v < vertex_count; ++v) start_[v + 1] += start_[v];
-    Vector<std::int32_t> next(start_, &memory);
-    for (const Entry& entry : entries) items_[next[entry.vertex]++] = {entry.cluster, entry.weight};
-  }
-
-  // The row of a vertex, clusters ascending, small weights pruned, sum 1. Empty when nothing is left.
-  Span<const Item> finish(std::int32_t v) noexcept {
-    Item* items = items_.data() + start_[v];
-    std::int32_t count = join_equal(items, start_[v + 1] - start_[v]);
-    double square = 0, sum = 0;
-    for (std::int32_t k = 0; k < count; ++k) square += items[k].weight * items[k].weight;
-    const double floor = weight_prune * std::sqrt(square);
-    std::int32_t kept = 0;
-    for (std::int32_t k = 0; k < count; ++k) {
-      const double weight = items[k].weight - floor;
-      if (!(weight > 0)) continue;
-      sum += weight;
-      items[kept++] = {items[k].cluster, weight};
-    }
-    for (std::int32_t k = 0; k < kept; ++k) items[k].weight /= sum;
-    return {items, static_cast<std::size_t>(kept)};
-  }
-
- private:
-  static std::int32_t join_equal(Item* items, std::int32_t count) noexcept {
-    for (std::int32_t k = 1; k < count; ++k) {  // rows are short
-      for (std::int32_t j = k; j > 0 && items[j].cluster < items[j - 1].cluster; --j) std::swap(items[j], items[j - 1]);
-    }
-    std::int32_t kept = 0;
-    for (std::int32_t k = 0; k < count; ++k) {
-      if (kept > 0 && items[kept - 1].cluster == items[k].cluster) {
-        items[kept - 1].weight += items[k].weight;
-      } else {
-        items[kept++] = items[k];
+  in_pieces(rest_.vertices_of(component), [&](std::int32_t piece, Span<const std::int32_t> own) {
+    for (const std::int32_t v : own) {
+      if (others_[v] <= 0) continue;
+      for (const std::int32_t j : reach_.handles_of(component)) {
+        const double weight = others_[v] * fields_.of(j)[v];
+        if (weight > 0) entries_[piece].push_back({v, j, weight});
       }
+      others_[v] = 0;
     }
-    return kept;
-  }
-
-  Vector<std::int32_t> start_;
-  Vector<Item> items_;
-};
-
-// Appends a row of weights that sum to 1, rounded to whole steps; the largest takes up what is left.
-void append_row(Span<const WeightTable::Item> row, ClusterWeights& out) {
-  constexpr double steps = 16777216;  // 2^24: whole numbers up to it are floats
-  double left = steps;
-  std::size_t largest = 0;
-  for (std::size_t k = 1; k < row.size(); ++k) largest = row[k].weight > row[largest].weight ? k : largest;
-  const std::size_t first = out.weight.size();
-  for (const WeightTable::Item& item : row) {
-    const double whole = std::max(1.0, std::floor(steps * item.weight + 0.5));
-    left -= whole;
-    out.cluster.push_back(static_cast<std::uint16_t>(item.cluster));
-    out.weight.push_back(static_cast<float>(whole / steps));
-  }
-  float& largest_weight = out.weight[first + largest];
-  largest_weight = static_cast<float>(largest_weight + left / steps);
-}
-
-// Rows of all vertices. A vertex whose pieces were all dropped takes the fields themselves as weights of the handles.
-void write_rows(WeightTable& table, const Mesh& mesh, const Reach& reach, const HandleFields& fields,
-                ClusterWeights& out, Memory& memory) {
-  const std::int32_t n = mesh.vertex_count();
-  Vector<WeightTable::Item> own(out.handle_count, WeightTable::Item{0, 0.0}, &memory);
-  out.start.resize(n + 1);
-  out.start[0] = 0;
-  for (std::int32_t v = 0; v < n; ++v) {
-    const Span<const std::int32_t> present = reach.handles_of(mesh.component[v]);
-    if (present.empty()) {
-      ++out.unreached_vertex_count;
-    } else if (reach.owner[v] >= 0 || present.size() == 1) {
-      own[0] = {reach.owner[v] >= 0 ? reach.owner[v] : present[0], 1.0};
-      append_row({own.data(), 1}, out);
-    } else if (const Span<const WeightTable::Item> row = table.finish(v); !row.empty()) {
-      append_row(row, out);
-    } else {
-      std::size_t count = 0;
-      for (const std::int32_t j : present) {
-        if (fields.of(j)[v] > 0) own[count++] = {j, fields.of(j)[v]};
-      }
-      append_row({own.data(), count}, out);
-    }
-    out.start[v + 1] = static_cast<std::int32_t>(out.cluster.size());
-  }
+  });
 }
 
 void find_elastic(const Mesh& mesh, ClusterWeights& weights, Memory& memory) {
@@ -340,10 +305,7 @@ ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Re
   ClusterWeights weights(memory);
   weights.handle_count = handle_count, weights.cluster_count = cutter.cluster_count(),
   weights.band_count = used.band_count;
-  weights.cluster.reserve(cutter.entries().size() + static_cast<std::size_t>(core.size()));
-  weights.weight.reserve(cutter.entries().size() + static_cast<std::size_t>(core.size()));
-  WeightTable table(cutter.entries(), core.size(), memory);
-  write_rows(table, core.mesh, reach, fields, weights, memory);
+  write_rows(core, reach, fields, cutter.entries(), weights, memory);
   find_elastic(core.mesh, weights, memory);
   return weights;
 }

@@ -27,10 +27,10 @@ class Spreading {
         far_(&memory),
         best_(&memory),
         stale_(&memory) {
-    for (std::int32_t v = 0; v < core.size(); ++v) {
-      for (std::int32_t k = topology_.neighbour_start[v]; k < topology_.neighbour_start[v + 1]; ++k)
-        length_[k] = norm(core.mesh.positions[topology_.neighbour[k]] - core.mesh.positions[v]);
-    }
+    Vector<double> of_edge(topology_.edge_count(), &memory);
+    for (std::int32_t e = 0; e < topology_.edge_count(); ++e)
+      of_edge[e] = norm(core.mesh.positions[topology_.second(e)] - core.mesh.positions[topology_.first(e)]);
+    for (std::size_t k = 0; k < length_.size(); ++k) length_[k] = of_edge[topology_.neighbour_edge[k]];
   }
 
   // The vertices of the component that groups are made in next.

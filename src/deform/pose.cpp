@@ -47,7 +47,7 @@ struct Pose::Layout {
       : handles(list, &memory),
         sites(std::move(solver)),
         reach(core.mesh, handles, memory),
-        fields(solve_handle_fields(core, *sites, handles, reach, memory)),
+        fields(0, 0, memory),
         weights(memory) {}
   Handles handles;
   std::shared_ptr<SiteSolver> sites;
@@ -169,8 +169,7 @@ void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t>
     while (std::any_of(handles.begin(), handles.end(), taken)) ++number;
     handles.push_back({number, std::move(region)});
   }
-  if (!slots.empty()) sites->edit({{}, slots, added});
-  std::shared_ptr<const Layout> layout = make_layout(handles, std::move(sites));
+  std::shared_ptr<const Layout> layout = make_layout(handles, std::move(sites), {{}, slots, added});
   std::shared_ptr<State> state = carry_over(*layout);
   previous_layout_ = layout_, previous_state_ = state_;
   install(std::move(layout), std::move(state));
@@ -202,8 +201,7 @@ void Pose::remove_handles(Span<const std::uint32_t> numbers) {
   }
   if (restore_previous(remaining)) return;
   std::shared_ptr<SiteSolver> sites = layout_->sites->clone();
-  if (!slots.empty()) sites->edit({slots, {}, {}});
-  std::shared_ptr<const Layout> layout = make_layout(remaining, std::move(sites));
+  std::shared_ptr<const Layout> layout = make_layout(remaining, std::move(sites), {slots, {}, {}});
   std::shared_ptr<State> state = carry_over(*layout);
   previous_layout_.reset(), previous_state_.reset();
   install(std::move(layout), std::move(state));
@@ -239,15 +237,41 @@ void Pose::install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> 
   if (!layout_) posed_ = false, stale_ = false;
 }
 
-std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites) const {
+// Groups for the components in which handles meet. They need no field: the first time, both are made at once.
+std::shared_ptr<const Groups> Pose::meet(const Layout& layout) const {
+  Vector<std::int32_t> shared(&memory());
+  for (std::int32_t c = 0; c < core_->mesh.component_count(); ++c) {
+    if (layout.reach.handles_of(c).size() > 1) shared.push_back(c);
+  }
+  return Groups::with(groups_, *core_, *rest_, shared, static_cast<std::int32_t>(options_.group_count), memory());
+}
+
+std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites,
+                                                      const SiteEdit& edit) const {
   auto layout = make_shared_in<Layout>(memory(), handles, std::move(sites), *core_, memory());
+  const auto solve = [&] {
+    if (!edit.remove.empty() || !edit.add.empty()) layout->sites->edit(edit);
+    layout->fields = solve_handle_fields(*core_, *layout->sites, layout->handles, layout->reach, memory());
+  };
+  if (options_.mode != DeformMode::smooth) {
+    solve();
+  } else if (groups_) {
+    solve();
+    layout->groups = meet(*layout);
+  } else {
+    core_->jobs->for_each(2, [&](std::uint32_t half) {
+      if (half == 0) {
+        layout->groups = meet(*layout);
+      } else {
+        solve();
+      }
+    });
+  }
   BandOptions bands;
   bands.band_count = static_cast<std::int32_t>(options_.band_count);
   if (options_.mode == DeformMode::paper) bands.degree = 1, bands.spacing = LevelSpacing::equal_value;
   layout->weights = make_cluster_weights(*core_, *rest_, layout->reach, layout->fields, bands, memory());
   if (options_.mode == DeformMode::smooth) {
-    layout->groups = Groups::with(groups_, *core_, *rest_, layout->weights.elastic_components,
-                                  static_cast<std::int32_t>(options_.group_count), memory());
     layout->smooth = make_shared_in<SmoothSystem>(memory(), *core_, *rest_, layout->weights, *layout->groups,
                                                   layout->fields, memory());
   } else {

@@ -153,7 +153,9 @@ class Pose {
   std::int32_t find(std::uint32_t number) const noexcept;
   std::int32_t require(std::uint32_t number, std::uint32_t position) const;
   void check_regions(Span<const std::uint32_t> start, Span<const std::int32_t> vertices) const;
-  std::shared_ptr<const Layout> make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites) const;
+  std::shared_ptr<const Groups> meet(const Layout& layout) const;
+  std::shared_ptr<const Layout> make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites,
+                                            const SiteEdit& edit) const;
   // The state for `layout`, going on from the present one.
   std::shared_ptr<State> carry_over(const Layout& layout) const;
   void carry_handle(const Handle& handle, HandleState& state) const;

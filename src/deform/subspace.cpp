@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+
+#include "deform/lanes.h"
 
 namespace hf {
 namespace {
@@ -10,18 +13,130 @@ constexpr double rigidity = 1e-3;         // eps, relative to the mean diagonal 
 constexpr double edge_samples = 60000;    // about this many edges are used
 constexpr std::int32_t few_edges = 1500;  // clusters with fewer are never sampled
 constexpr double border_stiffness = 0.25;  // what edges at a handle's border gain
+constexpr std::int32_t edge_piece = 16384;
 
-// z_c(e) of one edge, clusters ascending.
+// Blended positions of vertices before any transform: x_v = sum_k weight[k] A_cluster[k] (p_v, 1).
+struct BlendRows {
+  const std::int32_t* start;
+  const std::uint16_t* cluster;
+  const float* weight;
+  const Vec3* positions;
+};
+
+using Four = double __attribute__((vector_size(32)));  // two halves where there is no AVX
+
+// z_c(e) of one edge, clusters ascending; room for two rows of weights.
 struct EdgeRow {
-  explicit EdgeRow(Memory& memory) : cluster(&memory), z(&memory) {}
-  void resize(std::size_t size) { cluster.resize(size), z.resize(size); }
-  std::int32_t count = 0;
-  Vector<std::int32_t> cluster;
   struct Z {
     double x[4];
   };
-  Vector<Z> z;
+  std::int32_t count = 0;
+  std::int32_t* cluster;
+  Z* z;
 };
+
+inline void fill_row(const BlendRows& rows, std::int32_t i, std::int32_t j, EdgeRow& row) noexcept {
+  const Vec3 p = rows.positions[i], q = rows.positions[j];
+  const double pi[4] = {p.x, p.y, p.z, 1}, pj[4] = {q.x, q.y, q.z, 1};
+  std::int32_t a = rows.start[i], b = rows.start[j];
+  const std::int32_t a_end = rows.start[i + 1], b_end = rows.start[j + 1], length = a_end - a;
+  row.count = 0;
+  if (b_end - b == length && std::equal(rows.cluster + a, rows.cluster + a_end, rows.cluster + b)) {  // most edges
+    for (; row.count < length; ++row.count) {
+      const double wa = rows.weight[a + row.count], wb = rows.weight[b + row.count];
+      row.cluster[row.count] = rows.cluster[a + row.count];
+      for (int k = 0; k < 4; ++k) row.z[row.count].x[k] = wa * pi[k] - wb * pj[k];
+    }
+    return;
+  }
+  while (a < a_end || b < b_end) {
+    const std::int32_t ca = a < a_end ? rows.cluster[a] : 0x7fffffff, cb = b < b_end ? rows.cluster[b] : 0x7fffffff;
+    const double wa = ca <= cb ? rows.weight[a] : 0.0, wb = cb <= ca ? rows.weight[b] : 0.0;
+    row.cluster[row.count] = std::min(ca, cb);
+    for (int k = 0; k < 4; ++k) row.z[row.count].x[k] = wa * pi[k] - wb * pj[k];
+    ++row.count;
+    a += ca <= cb, b += cb <= ca;
+  }
+}
+
+// An edge i - j that is in the sum, with its whole weight w_e.
+struct Sample {
+  std::int32_t i, j;
+  double weight;
+};
+
+// Where the blocks of L go: rows are the free clusters.
+struct Blocks {
+  double *lower, *coupling;
+  std::size_t handles, free;
+};
+
+// L of the free clusters of every edge with those before them and themselves.
+HF_FOUR_LANES
+void add_blocks(const BlendRows& rows, const Sample* samples, std::size_t count, EdgeRow row,
+                const Blocks& out) noexcept {
+  const std::size_t handle_stride = 4 * out.handles, free_stride = 4 * out.free;
+  for (std::size_t e = 0; e < count; ++e) {
+    fill_row(rows, samples[e].i, samples[e].j, row);
+    for (std::int32_t r = 0; r < row.count; ++r) {
+      const std::size_t own = static_cast<std::size_t>(row.cluster[r]);
+      if (own < out.handles) continue;
+      double wz[4];
+      for (int a = 0; a < 4; ++a) wz[a] = samples[e].weight * row.z[r].x[a];
+      for (std::int32_t s = 0; s <= r; ++s) {
+        const std::size_t c = static_cast<std::size_t>(row.cluster[s]);
+        const bool handle = c < out.handles;
+        const std::size_t stride = handle ? handle_stride : free_stride;
+        double* block = (handle ? out.coupling + 4 * c : out.lower + 4 * (c - out.handles)) +
+                        4 * (own - out.handles) * stride;
+        Four z, line;
+        std::memcpy(&z, row.z[s].x, sizeof z);
+        for (std::size_t a = 0; a < 4; ++a) {
+          std::memcpy(&line, block + a * stride, sizeof line);
+          line += wz[a] * z;
+          std::memcpy(block + a * stride, &line, sizeof line);
+        }
+      }
+    }
+  }
+}
+
+// Where Q_gc goes: wide[16 entry + 4 a + b], b = 3 stays 0; entry = entry_of[row_of_group[g] + c].
+struct Moments {
+  double* wide;
+  const std::int32_t* entry_of;
+  const std::size_t* row_of_group;  // where the group's row begins
+  const std::int32_t* group_of;
+};
+
+HF_FOUR_LANES
+void add_moments(const BlendRows& rows, const Sample* samples, std::size_t count, EdgeRow row,
+                 const Moments& out) noexcept {
+  for (std::size_t e = 0; e < count; ++e) {
+    const std::int32_t i = samples[e].i, j = samples[e].j;
+    fill_row(rows, i, j, row);
+    const Vec3 d = rows.positions[i] - rows.positions[j];
+    const Four step = {d.x, d.y, d.z, 0};
+    const std::int32_t gi = out.group_of[i], gj = out.group_of[j];
+    const double w = (gi == gj ? 1.0 : 0.5) * samples[e].weight;
+    const std::int32_t *entry_i = out.entry_of + out.row_of_group[gi], *entry_j = out.entry_of + out.row_of_group[gj];
+    for (std::int32_t r = 0; r < row.count; ++r) {
+      double* const q = out.wide + 16 * static_cast<std::size_t>(entry_i[row.cluster[r]]);
+      double* const other = out.wide + 16 * static_cast<std::size_t>(entry_j[row.cluster[r]]);
+      for (std::size_t a = 0; a < 4; ++a) {
+        const Four term = (w * row.z[r].x[a]) * step;
+        Four line;
+        std::memcpy(&line, q + 4 * a, sizeof line);
+        line += term;
+        std::memcpy(q + 4 * a, &line, sizeof line);
+        if (gi == gj) continue;
+        std::memcpy(&line, other + 4 * a, sizeof line);
+        line += term;
+        std::memcpy(other + 4 * a, &line, sizeof line);
+      }
+    }
+  }
+}
 
 class Assembly {
  public:
@@ -34,11 +149,12 @@ class Assembly {
         out_(out),
         memory_(memory),
         elastic_(&memory),
-        slot_of_group_(&memory),
         edge_count_(&memory),
         needs_all_(&memory),
         entry_of_(&memory),
-        row_(memory) {}
+        row_of_group_(&memory),
+        handle_share_(&memory),
+        samples_(&memory) {}
 
   void run() {
     find_elastic_components();
@@ -50,8 +166,16 @@ class Assembly {
     out_.coupling.allocate(memory_, size * 4 * static_cast<std::size_t>(weights_.handle_count));
     std::fill(out_.coupling.begin(), out_.coupling.end(), 0.0);
     list_uses();
-    for (std::int32_t e = 0; e < core_.topology.edge_count(); ++e) add_edge(e);
-    add_areas();
+    list_samples();
+    // two sums over the same edges, each in their order: on two threads as on one
+    core_.jobs->for_each(2, [&](std::uint32_t half) {
+      if (half == 0) {
+        sum_blocks();
+      } else {
+        sum_moments();
+        add_areas();
+      }
+    });
     add_rigidity();
     collect_means();
     out_.factor.factorise(std::move(lower_), static_cast<std::int32_t>(size), memory_);
@@ -61,11 +185,8 @@ class Assembly {
   void find_elastic_components() {
     elastic_.assign(core_.mesh.component_count(), 0);
     for (const std::int32_t c : weights_.elastic_components) elastic_[c] = 1;
-    slot_of_group_.assign(groups_.count(), -1);
     for (std::int32_t g = 0; g < groups_.count(); ++g) {
-      if (!elastic_[groups_.component[g]]) continue;
-      slot_of_group_[g] = static_cast<std::int32_t>(out_.group.size());
-      out_.group.push_back(g);
+      if (elastic_[groups_.component[g]]) out_.group.push_back(g);
     }
   }
 
@@ -73,11 +194,9 @@ class Assembly {
 
   void count_edges() {
     edge_count_.assign(weights_.cluster_count, 0);
-    std::int32_t widest = 0;
+    widest_ = 0;
     for (std::int32_t v = 0; v < core_.size(); ++v)
-      widest = std::max(widest, weights_.start[v + 1] - weights_.start[v]);
-    row_.resize(2 * static_cast<std::size_t>(widest));
-    elastic_edges_ = 0;
+      widest_ = std::max(widest_, weights_.start[v + 1] - weights_.start[v]);
     // by vertex: each is an end of as many edges as it has neighbours
     const Topology& topology = core_.topology;
     double ends = 0;
@@ -88,7 +207,7 @@ class Assembly {
       for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k)
         edge_count_[weights_.cluster[k]] += degree;
     }
-    elastic_edges_ = 0.5 * ends;
+    if (ends > 0) probability_ = edge_samples / (0.5 * ends), sampled_weight_ = 1 / probability_;
     needs_all_.assign(core_.size(), 0);
     for (std::int32_t v = 0; v < core_.size(); ++v) {
       for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k) {
@@ -102,18 +221,19 @@ class Assembly {
   double sample_weight(std::int32_t e) const noexcept {
     const std::int32_t i = core_.topology.first(e), j = core_.topology.second(e);
     if (!is_elastic(i)) return 0;
-    const double probability = edge_samples / elastic_edges_;
-    if (probability >= 1) return 1;
+    if (probability_ >= 1) return 1;
     if (needs_all_[i] || needs_all_[j]) return 1;
-    return scattered(static_cast<std::uint32_t>(e)) < probability ? 1 / probability : 0;
+    return scattered(static_cast<std::uint32_t>(e)) < probability_ ? sampled_weight_ : 0;
   }
 
   // Entries (group, cluster) that occur: a table of marks, then numbers group by group.
   void number_entries() {
     const std::size_t clusters = static_cast<std::size_t>(weights_.cluster_count);
     entry_of_.assign(out_.group.size() * clusters, -1);
+    row_of_group_.assign(groups_.count(), 0);
+    for (std::size_t k = 0; k < out_.group.size(); ++k) row_of_group_[out_.group[k]] = k * clusters;
     const auto mark = [&](std::int32_t group, std::int32_t v) {
-      std::int32_t* row = entry_of_.data() + static_cast<std::size_t>(slot_of_group_[group]) * clusters;
+      std::int32_t* row = entry_of_.data() + row_of_group_[group];
       for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k) row[weights_.cluster[k]] = 0;
     };
     const Topology& topology = core_.topology;
@@ -156,73 +276,64 @@ class Assembly {
   }
 
   Subspace::Entry& entry(std::int32_t group, std::int32_t cluster) noexcept {
-    return out_.entry[entry_of_[static_cast<std::size_t>(slot_of_group_[group]) *
-                                    static_cast<std::size_t>(weights_.cluster_count) +
-                                static_cast<std::size_t>(cluster)]];
+    return out_.entry[entry_of_[row_of_group_[group] + static_cast<std::size_t>(cluster)]];
   }
 
-  void fill_row(std::int32_t i, std::int32_t j, EdgeRow& row) const noexcept {
-    const Vec3 p = core_.mesh.positions[i], q = core_.mesh.positions[j];
-    const double pi[4] = {p.x, p.y, p.z, 1}, pj[4] = {q.x, q.y, q.z, 1};
-    std::int32_t a = weights_.start[i], b = weights_.start[j];
-    const std::int32_t a_end = weights_.start[i + 1], b_end = weights_.start[j + 1];
-    row.count = 0;
-    while (a < a_end || b < b_end) {
-      const std::int32_t ca = a < a_end ? weights_.cluster[a] : 0x7fffffff,
-                         cb = b < b_end ? weights_.cluster[b] : 0x7fffffff;
-      const double wa = ca <= cb ? weights_.weight[a] : 0.0, wb = cb <= ca ? weights_.weight[b] : 0.0;
-      row.cluster[row.count] = std::min(ca, cb);
-      for (int k = 0; k < 4; ++k) row.z[row.count].x[k] = wa * pi[k] - wb * pj[k];
-      ++row.count;
-      a += ca <= cb, b += cb <= ca;
-    }
-  }
-
-  // The largest weight of a handle at a vertex: 1 on it, 0 beyond its last band.
-  double handle_share(std::int32_t v) const noexcept {
-    double largest = 0;
-    for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k) {
-      if (weights_.cluster[k] < weights_.handle_count) largest = std::max<double>(largest, weights_.weight[k]);
-    }
-    return largest;
-  }
-
-  void add_edge(std::int32_t e) {
-    const double sampled = sample_weight(e);
-    if (sampled == 0) return;
-    const std::int32_t i = core_.topology.first(e), j = core_.topology.second(e);
-    fill_row(i, j, row_);
-    const double close = std::max(handle_share(i), handle_share(j)), square = close * close;
-    const double w = sampled * rest_.stiffness[e] * (1 + border_stiffness * square * square);
-    const Vec3 d = core_.mesh.positions[i] - core_.mesh.positions[j];
-    const double dp[3] = {d.x, d.y, d.z};
-    for (std::int32_t r = 0; r < row_.count; ++r) {
-      if (row_.cluster[r] >= weights_.handle_count) add_blocks(r, w);
-      for (const std::int32_t v : {i, j}) {
-        auto& q = entry(groups_.group_of[v], row_.cluster[r]).q;
-        for (int a = 0; a < 4; ++a) {
-          const double s = 0.5 * w * row_.z[r].x[a];
-          for (int b = 0; b < 3; ++b) q[a][b] += s * dp[b];
+  // The edges of the sum, in their order, in pieces of fixed size.
+  void list_samples() {
+    const Topology& topology = core_.topology;
+    handle_share_.assign(core_.size(), 0.0f);
+    for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
+      for (std::int32_t v = first; v < last; ++v) {
+        for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k) {
+          if (weights_.cluster[k] >= weights_.handle_count) break;  // handles come first
+          handle_share_[v] = std::max(handle_share_[v], weights_.weight[k]);
         }
       }
-    }
+    });
+    const std::int32_t edges = topology.edge_count();
+    const std::uint32_t pieces = static_cast<std::uint32_t>((edges + edge_piece - 1) / edge_piece);
+    for (std::uint32_t p = 0; p < pieces; ++p) samples_.emplace_back();
+    core_.jobs->for_each(pieces, [&](std::uint32_t p) {
+      const std::int32_t first = static_cast<std::int32_t>(p) * edge_piece;
+      for (std::int32_t e = first; e < std::min(edges, first + edge_piece); ++e) {
+        const double sampled = sample_weight(e);
+        if (sampled == 0) continue;
+        const std::int32_t i = topology.first(e), j = topology.second(e);
+        const double close = std::max(handle_share_[i], handle_share_[j]), square = close * close;
+        samples_[p].push_back({i, j, sampled * rest_.stiffness[e] * (1 + border_stiffness * square * square)});
+      }
+    });
   }
 
-  // L of the edge's r-th cluster, a free one, with those before it and itself.
-  void add_blocks(std::int32_t r, double w) noexcept {
-    const std::size_t handles = static_cast<std::size_t>(weights_.handle_count),
-                      size = 4 * static_cast<std::size_t>(weights_.free_count());
-    const std::size_t row_first = 4 * (static_cast<std::size_t>(row_.cluster[r]) - handles);
-    double wz[4];
-    for (int a = 0; a < 4; ++a) wz[a] = w * row_.z[r].x[a];
-    for (std::int32_t s = 0; s <= r; ++s) {
-      const std::size_t c = static_cast<std::size_t>(row_.cluster[s]);
-      const std::size_t stride = c < handles ? 4 * handles : size;
-      double* block =
-          (c < handles ? out_.coupling.data() + 4 * c : lower_.data() + 4 * (c - handles)) + row_first * stride;
-      for (std::size_t a = 0; a < 4; ++a) {
-        for (std::size_t b = 0; b < 4; ++b) block[a * stride + b] += wz[a] * row_.z[s].x[b];
-      }
+  // Calls use(samples, count, row) piece by piece, with room for the row of an edge.
+  template <class Use>
+  void for_samples(Use&& use) const {
+    Buffer<std::int32_t> cluster(memory_, 2 * static_cast<std::size_t>(widest_));
+    Buffer<EdgeRow::Z> z(memory_, 2 * static_cast<std::size_t>(widest_));
+    for (const auto& piece : samples_) use(piece.data(), piece.size(), EdgeRow{0, cluster.data(), z.data()});
+  }
+  BlendRows blend_rows() const noexcept {
+    return {weights_.start.data(), weights_.cluster.data(), weights_.weight.data(), core_.mesh.positions.data()};
+  }
+
+  void sum_blocks() {
+    const Blocks out{lower_.data(), out_.coupling.data(), static_cast<std::size_t>(weights_.handle_count),
+                     static_cast<std::size_t>(weights_.free_count())};
+    for_samples([&](const Sample* samples, std::size_t count, EdgeRow row) {
+      add_blocks(blend_rows(), samples, count, row, out);
+    });
+  }
+
+  void sum_moments() {
+    Buffer<double> wide(memory_, 16 * out_.entry.size());
+    std::fill(wide.begin(), wide.end(), 0.0);
+    const Moments out{wide.data(), entry_of_.data(), row_of_group_.data(), groups_.group_of.data()};
+    for_samples([&](const Sample* samples, std::size_t count, EdgeRow row) {
+      add_moments(blend_rows(), samples, count, row, out);
+    });
+    for (std::size_t k = 0; k < out_.entry.size(); ++k) {
+      for (std::size_t a = 0; a < 4; ++a) std::copy_n(wide.data() + 16 * k + 4 * a, 3, out_.entry[k].q[a]);
     }
   }
 
@@ -271,13 +382,15 @@ class Assembly {
   Subspace& out_;
   Memory& memory_;
   Vector<std::uint8_t> elastic_;        // per component
-  Vector<std::int32_t> slot_of_group_;  // position in out_.group, or -1
   Vector<std::int32_t> edge_count_;     // per cluster, ends counted
   Vector<std::uint8_t> needs_all_;      // per vertex: in a cluster with few edges
   Vector<std::int32_t> entry_of_;       // per active group and cluster
-  double elastic_edges_ = 0;
+  Vector<std::size_t> row_of_group_;    // where the group's row of entry_of_ begins; of elastic ones
+  Vector<float> handle_share_;          // per vertex the largest weight of a handle: 1 on it, 0 beyond its last band
+  Vector<Vector<Sample>> samples_;      // by piece of the edges
+  double probability_ = 1, sampled_weight_ = 1;
+  std::int32_t widest_ = 0;  // weights of a vertex
   Buffer<double> lower_;
-  EdgeRow row_;
 };
 
 }  // namespace

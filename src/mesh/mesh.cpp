@@ -12,8 +12,6 @@
 
 namespace hf {
 
-double norm(Vec3 a) noexcept { return std::sqrt(dot(a, a)); }
-
 namespace {
 
 using Index = std::int32_t;

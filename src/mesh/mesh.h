@@ -5,6 +5,7 @@
 // Positions are p' = (p - centre) / scale, with the box diagonal as scale, so that nothing inside depends on unit or
 // offset. Cost: O(n log n) for the weld, O(n) for the rest. On failure nothing is left behind.
 #pragma once
+#include <cmath>
 #include <cstdint>
 
 #include "base/jobs.h"
@@ -23,7 +24,7 @@ inline double dot(Vec3 a, Vec3 b) noexcept { return a.x * b.x + a.y * b.y + a.z 
 inline Vec3 cross(Vec3 a, Vec3 b) noexcept {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-double norm(Vec3 a) noexcept;
+inline double norm(Vec3 a) noexcept { return std::sqrt(dot(a, a)); }
 
 using Triangle = std::int32_t[3];
 

@@ -117,6 +117,27 @@ TEST(JobRunner, works_with_a_host_that_runs_jobs_backwards_or_leaves_some_out) {
   }
 }
 
+TEST(JobRunner, does_batches_of_a_job_alone_when_the_host_takes_one_at_a_time) {
+  hf_job_runner host{};
+  struct Taken {
+    bool now = false, twice = false;
+  } taken;
+  host.user = &taken;
+  host.run = [](void* user, std::uint32_t count, void (*job)(void*, std::uint32_t), void* data) {
+    Taken& own = *static_cast<Taken*>(user);
+    own.twice = own.twice || own.now, own.now = true;
+    for (std::uint32_t i = 0; i < count; ++i) job(data, i);
+    own.now = false;
+  };
+  hf::JobRunner jobs(4, host);
+  std::vector<int> calls(30, 0);
+  jobs.for_each(3, [&](std::uint32_t i) { jobs.for_each(10, [&](std::uint32_t k) { ++calls[10 * i + k]; }); });
+  EXPECT_EQ(calls, std::vector<int>(30, 1));
+  EXPECT_FALSE(taken.twice);
+  jobs.for_each(30, [&](std::uint32_t i) { ++calls[i]; });
+  EXPECT_EQ(calls, std::vector<int>(30, 2));
+}
+
 TEST(FloatEnvironment, restores_rounding_traps_and_flags) {
   std::fesetround(FE_UPWARD);
   std::feclearexcept(FE_ALL_EXCEPT);
