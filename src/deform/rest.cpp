@@ -53,14 +53,19 @@ Rest::Rest(const Core& core, Memory& memory)
       component_vertex(&memory),
       component_triangles(&memory),
       component_area(&memory),
-      area(vertex_areas(core.mesh, memory)),
+      area(core.areas.begin(), core.areas.end(), &memory),
       piece_start(&memory),
       piece_border(&memory),
       piece_corner(&memory),
       stiffness(core.weights.begin(), core.weights.end(), &memory) {
-  sort_components(core.mesh, *this);
-  list_triangles_by_piece(core.mesh, *this);
-  for (double& w : stiffness) w = std::clamp(w, 0.01, 25.0);
+  core.jobs->for_each(2, [&](std::uint32_t half) {
+    if (half == 0) {
+      list_triangles_by_piece(core.mesh, *this);
+    } else {
+      sort_components(core.mesh, *this);
+      for (double& w : stiffness) w = std::clamp(w, 0.01, 25.0);
+    }
+  });
 }
 
 }  // namespace hf
