@@ -30,7 +30,7 @@ class Story {
     if (result == HF_ERROR_OUT_OF_MEMORY && memory_.refused > refused) {
       ++reported;
       check_detail(function);
-      if (!holds()) wrong(std::string(function) + ": an output was written by the refused call");
+      if (!holds()) wrong(std::string(function) + ": the refused call wrote an output or changed something");
       memory_.refuse_at = 0, memory_.refuse_on = false;
       result = make();
     }
@@ -44,6 +44,13 @@ class Story {
   template <class Handle, class Call>
   void make(const char* function, Handle& handle, Call&& create) {
     call(function, create, [&] { return handle == nullptr; });
+  }
+
+  // A call that must be refused for another reason, which takes no memory to find.
+  template <class Call>
+  void refused(const char* function, hf_result expected, Call&& make) {
+    const hf_result result = make();
+    if (result != expected) wrong(std::string(function) + ": " + hf_result_name(result));
   }
 
   void take(const double* values, std::size_t count) { answer.insert(answer.end(), values, values + count); }

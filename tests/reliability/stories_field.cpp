@@ -72,7 +72,9 @@ void edits(Story& s, hf_create_desc desc) {
   s.call("hf_edit_sites", [&] { return hf_edit_sites(solver, &edit, nullptr); });
   s.make("hf_clone", copy, [&] { return hf_clone(solver, &copy); });
   take_field(s, solver);
-  s.call("hf_undo", [&] { return hf_undo(solver); });
+  // a refused undo leaves nothing to redo
+  s.call(
+      "hf_undo", [&] { return hf_undo(solver); }, [&] { return hf_redo(solver) == HF_ERROR_NO_RECORD; });
   take_field(s, solver);
   s.call("hf_redo", [&] { return hf_redo(solver); });
   s.call("hf_remove_sites", [&] { return hf_remove_sites(copy, 1, &numbers[3]); });
@@ -89,6 +91,8 @@ void edits(Story& s, hf_create_desc desc) {
   hf_certificate certificate;
   HF_INIT(certificate);
   s.call("hf_certify", [&] { return hf_certify(solver, &certificate); });
+  s.call("hf_undo", [&] { return hf_undo(solver); });
+  s.refused("hf_undo", HF_ERROR_NO_RECORD, [&] { return hf_undo(solver); });
   hf_destroy(solver), hf_destroy(copy);
 }
 

@@ -76,7 +76,9 @@ void directions(Story& s, const Tube& tube, Allocator& memory) {
   s.call("hf_direction_rotate_sites", [&] { return hf_direction_rotate_sites(direction, 1, numbers + 2, &angle); });
   s.make("hf_direction_clone", copy, [&] { return hf_direction_clone(direction, &copy); });
   s.call("hf_direction_remove_sites", [&] { return hf_direction_remove_sites(copy, 1, numbers); });
-  s.call("hf_direction_undo", [&] { return hf_direction_undo(direction); });
+  s.call(
+      "hf_direction_undo", [&] { return hf_direction_undo(direction); },
+      [&] { return hf_direction_redo(direction) == HF_ERROR_NO_RECORD; });
   std::vector<double> field(3 * Tube::vertices);
   for (const hf_direction d : {direction, copy}) {
     s.call("hf_direction_solve_f64", [&] { return hf_direction_solve_f64(d, field.data(), 0, nullptr); });
@@ -203,7 +205,9 @@ void regions(Story& s, const Tube& tube, Allocator& memory) {
   morph.weight = 0.5, morph.positions_f64 = out.data();
   s.call("hf_region_morph", [&] { return hf_region_morph(region, &morph); });
   s.take(out.data(), out.size());
-  s.call("hf_region_undo", [&] { return hf_region_undo(region); });
+  s.call(
+      "hf_region_undo", [&] { return hf_region_undo(region); },
+      [&] { return hf_region_redo(region) == HF_ERROR_NO_RECORD; });
   hf_detail detail = nullptr;
   s.make("hf_detail_create", detail, [&] { return hf_detail_create(region, copy, nullptr, &detail); });
   s.call("hf_detail_morph", [&] { return hf_detail_morph(detail, &morph); });
