@@ -21,9 +21,4 @@ void PreviewCache::release() noexcept {
   }
 }
 
-double PreviewCache::bytes() const noexcept {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return made_ ? made_->bytes() : 0.0;
-}
-
 }  // namespace hf

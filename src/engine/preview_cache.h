@@ -15,7 +15,6 @@ class PreviewCache {
   std::shared_ptr<const PreviewFactor> get(const Factor& factor, Memory& memory, JobRunner& jobs);
   // Calls that use it keep it until they are done.
   void release() noexcept;
-  double bytes() const noexcept;  // 0: there is none
 
  private:
   mutable std::mutex mutex_;

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <random>
 #include <vector>
 
 #include "base/error.h"
@@ -61,6 +63,39 @@ TEST(Mesh, keeps_vertices_as_stored_when_told_so) {
   const hf::Mesh mesh = given.make(memory);
   EXPECT_EQ(mesh.vertex_count(), 6);
   EXPECT_EQ(mesh.report.component_count, 2u);
+}
+
+// Places made to share one slot of the table that finds equal ones (weld.cpp): it gives up, and sorting finds the same.
+TEST(Mesh, welds_places_that_were_made_to_collide) {
+  const auto hash = [](const double* p) {
+    std::uint64_t b[3];
+    std::memcpy(b, p, sizeof b);
+    std::uint64_t h = b[0] * 0x9e3779b97f4a7c15u;
+    h = ((h ^ (h >> 29)) + b[1]) * 0xbf58476d1ce4e5b9u;
+    h = ((h ^ (h >> 32)) + b[2]) * 0x94d049bb133111ebu;
+    return h ^ (h >> 31);
+  };
+  constexpr std::uint32_t places = 600;
+  Given given;
+  std::mt19937 random(5);
+  for (std::uint32_t v = 0; v < places; ++v) {
+    double p[3] = {double(v % 7), double(v / 7), 0};
+    do p[2] = double(random()) / 4294967296.0;
+    while (hash(p) % 4096 > 3);
+    given.positions.insert(given.positions.end(), p, p + 3);
+  }
+  // every place twice, the copies in the other order; one triangle on each pair of neighbours and their copies
+  for (std::uint32_t v = 0; v < places; ++v) {
+    for (std::size_t k = 0; k < 3; ++k) given.positions.push_back(given.positions[3 * (places - 1 - v) + k]);
+  }
+  for (std::uint32_t v = 0; v + 2 < places; ++v)
+    given.triangles.insert(given.triangles.end(), {v, 2 * places - 2 - v, v + 2});
+  hf::Memory memory;
+  const hf::Mesh mesh = given.make(memory);
+  EXPECT_EQ(mesh.vertex_count(), static_cast<std::int32_t>(places));
+  EXPECT_EQ(mesh.report.component_count, 1u);
+  for (std::uint32_t v = 0; v < places; ++v)
+    EXPECT_EQ(mesh.inner_of_given[v], mesh.inner_of_given[2 * places - 1 - v]) << v;
 }
 
 TEST(Mesh, welds_within_a_tolerance_across_cell_borders) {
