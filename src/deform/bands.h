@@ -35,10 +35,22 @@ std::int32_t bands_for(std::int32_t wished, std::int32_t field_count) noexcept;
 // a handle have none. Clusters 0 .. handle_count - 1 are the handles.
 struct ClusterWeights {
   explicit ClusterWeights(Memory& memory)
-      : start(&memory), cluster(&memory), weight(&memory), elastic_components(&memory) {}
+      : start(&memory),
+        cluster(&memory),
+        weight(&memory),
+        block_start(&memory),
+        block_cluster(&memory),
+        block_weight(&memory),
+        elastic_components(&memory) {}
   Vector<std::int32_t> start;
   Vector<std::uint16_t> cluster;
   Vector<float> weight;
+  // The same by blocks of eight vertices in a row (list_blocks in blend.h): entries block_start[b] .. block_start[b + 1] are the
+  // clusters of any of them, ascending, with eight weights each, zeros filled in. A block without entries is to be read
+  // vertex by vertex; the vertices after the last whole block have none.
+  Vector<std::int32_t> block_start;
+  Vector<std::uint16_t> block_cluster;
+  Vector<float> block_weight;
   Vector<std::int32_t> elastic_components;  // those with free clusters, ascending
   std::int32_t handle_count = 0;
   std::int32_t cluster_count = 0;

@@ -47,7 +47,10 @@ void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transf
                        &mesh.positions.data()->x,
                        {offset.x, offset.y, offset.z},
                        scale,
-                       &positions->x};
+                       &positions->x,
+                       weights.block_start.empty() ? nullptr : weights.block_start.data(),
+                       weights.block_cluster.data(),
+                       weights.block_weight.data()};
   void (*loop)(const BlendRows&, std::int32_t, std::int32_t) noexcept = nullptr;
 #ifdef HF_DEFORM_AVX2
   if (__builtin_cpu_supports("avx2")) loop = &blend_rows_avx2;

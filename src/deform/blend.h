@@ -10,6 +10,11 @@ struct Affine {
   double a[3][4];
 };
 
+// Fills the blocks of `weights` in: those whose vertices share most of their clusters, as eight in a row do in any mesh
+// but a shuffled one. The work of a block grows with the clusters of any of its vertices, that of eight vertices with
+// the clusters of each. Cost: two passes over the weights. When it throws there are no blocks.
+void list_blocks(ClusterWeights& weights, JobRunner& jobs);
+
 // Blended positions in the mesh's own unit, moved to offset + scale x. columns: scratch, column_count() numbers at a
 // multiple of 64 bytes. packed: null, or three floats per vertex that get the same positions while they are at hand.
 inline std::size_t column_count(const ClusterWeights& weights) noexcept {

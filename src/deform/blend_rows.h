@@ -14,8 +14,13 @@ struct BlendRows {
   double offset[3];
   double scale;
   double* positions;  // 3 per vertex
+  // by block of eight vertices (ClusterWeights); null: there are none
+  const std::int32_t* block_start;
+  const std::uint16_t* block_cluster;
+  const float* block_weight;
 };
 
+// first is a multiple of eight.
 void blend_rows_avx2(const BlendRows& rows, std::int32_t first, std::int32_t last) noexcept;
 void blend_rows_avx512(const BlendRows& rows, std::int32_t first, std::int32_t last) noexcept;
 

@@ -35,7 +35,7 @@ PoseOptions checked(const PoseOptions& options) {
   PoseOptions filled = options;
   const bool smooth = options.mode == DeformMode::smooth;
   if (filled.band_count == 0) filled.band_count = smooth ? 10 : 12;
-  if (filled.iteration_count == 0) filled.iteration_count = smooth ? 8 : 200;
+  if (filled.iteration_count == 0) filled.iteration_count = smooth ? 5 : 200;
   if (filled.group_count == 0) filled.group_count = 250;
   return filled;
 }
@@ -271,6 +271,7 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, st
   bands.band_count = static_cast<std::int32_t>(options_.band_count);
   if (options_.mode == DeformMode::paper) bands.degree = 1, bands.spacing = LevelSpacing::equal_value;
   layout->weights = make_cluster_weights(*core_, *rest_, layout->reach, layout->fields, bands, memory());
+  list_blocks(layout->weights, *core_->jobs);
   if (options_.mode == DeformMode::smooth) {
     layout->smooth = make_shared_in<SmoothSystem>(memory(), *core_, *rest_, layout->weights, *layout->groups,
                                                   layout->fields, memory());

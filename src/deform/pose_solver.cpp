@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "deform/lanes.h"
+#include "deform/rotation_batch.h"
 
 namespace hf {
 namespace {
@@ -77,12 +78,41 @@ void match_group(const Subspace& s, std::size_t g, const double* rows, double (&
     const double* x = rows + 16 * static_cast<std::size_t>(entry.cluster);
     for (int j = 0; j < 3; ++j) {
       for (int i = 0; i < 4; ++i)
-        total[j][i] += x[i] * entry.q[0][j] + x[4 + i] * entry.q[1][j] + x[8 + i] * entry.q[2][j] +
-                       x[12 + i] * entry.q[3][j];
+        total[j][i] +=
+            x[i] * entry.q[0][j] + x[4 + i] * entry.q[1][j] + x[8 + i] * entry.q[2][j] + x[12 + i] * entry.q[3][j];
     }
   }
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 4; ++i) sum[j][i] = total[j][i];
+  }
+}
+
+// sum[j][i] = sum over the groups under a cluster of area times R_g(i, j)
+HF_FOUR_LANES
+void mean_of_groups(const Subspace& s, std::int32_t first, std::int32_t last, const double* columns,
+                    double (&sum)[3][4]) noexcept {
+  double total[12] = {};
+  for (std::int32_t k = first; k < last; ++k) {
+    const double area = s.mean[k].area;
+    const double* r = columns + 12 * static_cast<std::size_t>(s.mean[k].group);
+    for (int i = 0; i < 12; ++i) total[i] += area * r[i];
+  }
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 4; ++i) sum[j][i] = total[4 * j + i];
+  }
+}
+
+// Adds eps_c Rbar_c' to the rows of clusters: the means of their groups' rotations, found in the lanes of the batch.
+void add_means(const SmoothSystem& system, RotationBatch& batch, const std::int32_t* cluster, int count,
+               double* rows) noexcept {
+  best_rotations_from(batch, count);
+  for (int l = 0; l < count; ++l) {
+    const Mat3 mean = to_matrix(batch.rotation(l));
+    const double stiffness = system.subspace.stiffness[cluster[l]];
+    double* x = rows + 16 * static_cast<std::size_t>(cluster[l]);
+    for (int a = 0; a < 3; ++a) {
+      for (int b = 0; b < 3; ++b) x[4 * a + b] += stiffness * mean.m[b][a];
+    }
   }
 }
 
@@ -91,25 +121,24 @@ void set_right_hand_side(const SmoothSystem& system, SmoothState& state) noexcep
   const Subspace& s = system.subspace;
   double* free_rows = state.rows.data() + 16 * static_cast<std::size_t>(system.handle_count);
   add_groups(system, state.columns.data(), state.known.data(), free_rows);
+  RotationBatch batch;
+  std::int32_t cluster[RotationBatch::lanes];
+  int count = 0;
   for (std::int32_t f = 0; f < system.free_count; ++f) {
-    Mat3 sum;
-    double heaviest = -1;
-    std::int32_t nearest = -1;
-    for (std::int32_t k = s.mean_start[f]; k < s.mean_start[f + 1]; ++k) {
-      const Subspace::Share& share = s.mean[k];
-      const auto& r = state.matrix[share.group].m;
-      for (int a = 0; a < 3; ++a) {
-        for (int b = 0; b < 3; ++b) sum.m[a][b] += share.area * r[a][b];
-      }
-      if (share.area > heaviest) heaviest = share.area, nearest = share.group;
+    const std::int32_t first = s.mean_start[f], last = s.mean_start[f + 1];
+    if (first == last) continue;
+    double heaviest = -1, sum[3][4];
+    std::int32_t nearest = 0;
+    mean_of_groups(s, first, last, state.columns.data(), sum);
+    for (std::int32_t k = first; k < last; ++k) {
+      if (s.mean[k].area > heaviest) heaviest = s.mean[k].area, nearest = s.mean[k].group;
     }
-    if (nearest < 0) continue;
-    const Mat3 mean = to_matrix(best_rotation_from(sum, state.rotation[s.group[nearest]]));
-    double* x = free_rows + 16 * static_cast<std::size_t>(f);
-    for (int a = 0; a < 3; ++a) {
-      for (int b = 0; b < 3; ++b) x[4 * a + b] += s.stiffness[f] * mean.m[b][a];
-    }
+    batch.set_columns(count, sum);
+    batch.set_rotation(count, state.rotation[s.group[nearest]]);
+    cluster[count++] = f;
+    if (count == RotationBatch::lanes) add_means(system, batch, cluster, count, free_rows), count = 0;
   }
+  if (count > 0) add_means(system, batch, cluster, count, free_rows);
 }
 
 void read_transforms(const SmoothSystem& system, const SmoothState& state, Affine* transforms) noexcept {
@@ -120,17 +149,6 @@ void read_transforms(const SmoothSystem& system, const SmoothState& state, Affin
       for (int k = 0; k < 3; ++k) a[k][i] = x[4 * i + k];
     }
   }
-}
-
-// The rotation of one group that fits the transforms best.
-Quaternion fit_group(const Subspace& s, std::size_t g, const double* rows, const Quaternion& near) noexcept {
-  double sum[3][4];
-  match_group(s, g, rows, sum);
-  Mat3 matrix;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) matrix.m[i][j] = sum[j][i];
-  }
-  return best_rotation_from(matrix, near);
 }
 
 // sum_i phi_i(seed) turn_i of active group g
@@ -146,23 +164,40 @@ Quaternion on_leash(const Quaternion& q, const Quaternion& anchor, double leash)
   return normalised(exponential((leash / angle) * logarithm(q * conjugate(anchor))) * anchor);
 }
 
+// Takes the rotation of active group g to `fit`, or beyond; returns the change.
+double turn_group(const SmoothSystem& system, std::size_t g, Quaternion fit, bool relax, SmoothState& state) noexcept {
+  Quaternion& q = state.rotation[system.subspace.group[g]];
+  double cosine = dot(fit, q);
+  if (cosine < 0) fit = {-fit.x, -fit.y, -fit.z, -fit.w}, cosine = -cosine;
+  // |R - R'|_F = 2 sqrt(2) sin(angle / 2)
+  const Quaternion d{fit.x - q.x, fit.y - q.y, fit.z - q.z, fit.w - q.w};
+  const double change = 2.0 * std::sqrt(2.0 * dot(d, d) * (1.0 - 0.25 * dot(d, d)));
+  const double on = relax && cosine > 0.7 ? over_relaxation : 1.0, back = 1.0 - on;
+  q = normalised({on * fit.x + back * q.x, on * fit.y + back * q.y, on * fit.z + back * q.z, on * fit.w + back * q.w});
+  if (state.leash < pi) q = on_leash(q, state.anchor[g], state.leash);
+  set_matrix(state, g, q);
+  return change;
+}
+
 // Local step of all groups; returns the largest change.
 double fit_rotations(const SmoothSystem& system, bool relax, SmoothState& state) noexcept {
   const Subspace& s = system.subspace;
+  constexpr std::size_t lanes = RotationBatch::lanes;
+  RotationBatch batch;
   double largest = 0;
-  for (std::size_t g = 0; g < s.group.size(); ++g) {
-    Quaternion& q = state.rotation[s.group[g]];
-    Quaternion fit = fit_group(s, g, state.rows.data(), q);
-    double cosine = dot(fit, q);
-    if (cosine < 0) fit = {-fit.x, -fit.y, -fit.z, -fit.w}, cosine = -cosine;
-    // |R - R'|_F = 2 sqrt(2) sin(angle / 2)
-    const Quaternion d{fit.x - q.x, fit.y - q.y, fit.z - q.z, fit.w - q.w};
-    largest = std::max(largest, 2.0 * std::sqrt(2.0 * dot(d, d) * (1.0 - 0.25 * dot(d, d))));
-    const double on = relax && cosine > 0.7 ? over_relaxation : 1.0, back = 1.0 - on;
-    q = normalised(
-        {on * fit.x + back * q.x, on * fit.y + back * q.y, on * fit.z + back * q.z, on * fit.w + back * q.w});
-    if (state.leash < pi) q = on_leash(q, state.anchor[g], state.leash);
-    set_matrix(state, g, q);
+  for (std::size_t first = 0; first < s.group.size(); first += lanes) {
+    const int count = static_cast<int>(std::min(lanes, s.group.size() - first));
+    for (int l = 0; l < count; ++l) {
+      double sum[3][4];
+      const std::size_t g = first + static_cast<std::size_t>(l);
+      match_group(s, g, state.rows.data(), sum);
+      batch.set_columns(l, sum);
+      batch.set_rotation(l, state.rotation[s.group[g]]);
+    }
+    best_rotations_from(batch, count);
+    for (int l = 0; l < count; ++l)
+      largest =
+          std::max(largest, turn_group(system, first + static_cast<std::size_t>(l), batch.rotation(l), relax, state));
   }
   return largest;
 }

@@ -2,7 +2,7 @@
 // full mesh with a prefactored system and beside making fields and bands anew; allocations while dragging; exactness.
 //
 // The surface is the jittered torus with handles round it; a drag turns and lifts one of them. Times are user visible:
-// hf_deform with positions in single precision and normals, 8 iterations a frame.
+// hf_deform with positions in single precision and normals, the default 5 iterations a frame.
 #include <cmath>
 #include <cstdio>
 

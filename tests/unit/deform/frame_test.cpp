@@ -111,9 +111,7 @@ TEST(Frame, WeightsAreWholeStepsAndSumToOneExactly) {
   EXPECT_GT(shared, 1000u);
 }
 
-TEST(Frame, TheBlendHasTheSameBitsOnAllLanes) {
-  const Case c = cactus_bend();
-  const Dragged d = drag(c, {}, 4);
+void expect_same_blend(const Dragged& d) {
   const Mesh& mesh = d.core->mesh;
   const ClusterWeights& w = *d.pose->weights();
   const Span<const Affine> transforms = d.pose->cluster_transforms();
@@ -127,14 +125,57 @@ TEST(Frame, TheBlendHasTheSameBitsOnAllLanes) {
   EXPECT_EQ(std::memcmp(x.data(), plain.data(), x.size() * sizeof(Vec3)), 0);
   for (std::size_t i = 0; i < packed.size(); ++i) ASSERT_EQ(packed[i], static_cast<float>((&x[0].x)[i]));
 #if defined(__x86_64__) && defined(__GNUC__)
-  const BlendRows rows{w.start.data(), w.cluster.data(), w.weight.data(), columns.data(), &mesh.positions.data()->x,
-                       {mesh.centre.x, mesh.centre.y, mesh.centre.z}, mesh.scale, &x[0].x};
-  if (__builtin_cpu_supports("avx2")) {
+  for (const bool blocks : {true, false}) {
+    const BlendRows rows{w.start.data(), w.cluster.data(), w.weight.data(), columns.data(), &mesh.positions.data()->x,
+                         {mesh.centre.x, mesh.centre.y, mesh.centre.z}, mesh.scale, &x[0].x,
+                         blocks ? w.block_start.data() : nullptr, w.block_cluster.data(), w.block_weight.data()};
+    if (!__builtin_cpu_supports("avx2")) continue;
     std::fill(x.begin(), x.end(), Vec3());
     blend_rows_avx2(rows, 0, d.core->size());
     EXPECT_EQ(std::memcmp(x.data(), plain.data(), x.size() * sizeof(Vec3)), 0);
   }
 #endif
+}
+
+double listed_share(const ClusterWeights& w) {
+  double listed = 0;
+  for (std::size_t b = 0; b + 1 < w.block_start.size(); ++b) listed += w.block_start[b + 1] > w.block_start[b];
+  return listed / static_cast<double>(w.block_start.size() - 1);
+}
+
+TEST(Frame, TheBlendHasTheSameBitsOnAllLanes) {
+  const Dragged d = drag(cactus_bend(), {}, 4);
+  EXPECT_GT(listed_share(*d.pose->weights()), 0.9);  // neighbours in the mesh's order share their clusters
+  expect_same_blend(d);
+}
+
+TEST(Frame, VerticesInAnyOrderAreBlendedOneByOne) {
+  const Dragged d = drag(scattered_plane(), {}, 4);
+  EXPECT_LT(listed_share(*d.pose->weights()), 0.2);
+  expect_same_blend(d);
+}
+
+TEST(Frame, BlocksHoldTheWeightsOfTheirVertices) {
+  Case c = cactus_bend();
+  Dragged d = set_up(c, {});
+  add(*d.pose, {select(*d.core, [](Vec3 p) { return p.x > 0.55; }),
+                select(*d.core, [](Vec3 p) { return p.x < -0.5; })});
+  const ClusterWeights& w = *d.pose->weights();
+  for (std::size_t b = 0; b + 1 < w.block_start.size(); ++b) {
+    if (w.block_start[b] == w.block_start[b + 1]) continue;
+    for (std::size_t l = 0; l < 8; ++l) {
+      const std::size_t v = 8 * b + l;
+      std::int32_t next = w.start[v];
+      for (std::int32_t k = w.block_start[b]; k < w.block_start[b + 1]; ++k) {
+        ASSERT_TRUE(k == w.block_start[b] || w.block_cluster[k - 1] < w.block_cluster[k]);
+        const float weight = w.block_weight[8 * static_cast<std::size_t>(k) + l];
+        if (weight == 0) continue;
+        ASSERT_EQ(w.cluster[next], w.block_cluster[k]);
+        ASSERT_EQ(w.weight[next++], weight);
+      }
+      ASSERT_EQ(next, w.start[v + 1]);
+    }
+  }
 }
 
 }  // namespace

@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <Eigen/Dense>
 #include <limits>
 #include <random>
 
 #include "cases.h"
+#include "deform/rotation_batch.h"
+#include "deform/rotation_step.h"
 
 namespace {
 
@@ -123,6 +126,94 @@ TEST(Rotation, WarmStartGivesTheSameRotationAsTheColdOne) {
     EXPECT_LT(angle_between(best_rotation_from(s, near), truth), 1e-12);
     EXPECT_LT(angle_between(best_rotation(s, near), truth), 1e-12);
   }
+}
+
+void set(RotationBatch& batch, int lane, const Mat3& s, const Quaternion& near) {
+  double columns[3][4] = {};
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) columns[j][i] = s.m[i][j];
+  }
+  batch.set_columns(lane, columns), batch.set_rotation(lane, near);
+}
+
+TEST(Rotation, EightAtATimeAreTheBestOnesAndDoNotSeeEachOther) {
+  Random random;
+  constexpr int lanes = RotationBatch::lanes;
+  for (int round = 0; round < 20000; ++round) {
+    Mat3 s[lanes];
+    Quaternion near[lanes];
+    RotationBatch batch;
+    const int count = 1 + round % lanes;
+    for (int l = 0; l < count; ++l) {
+      // a warm start, a cold one, and whatever is degenerate side by side
+      near[l] = random.rotation();
+      s[l] = (round + l) % 3 ? to_matrix(exponential(0.05 * random.vector()) * near[l]) : random.any(round + l);
+      set(batch, l, s[l], near[l]);
+    }
+    best_rotations_from(batch, count);
+    for (int l = 0; l < count; ++l) {
+      const Quaternion q = batch.rotation(l), cold = best_rotation(s[l], near[l]);
+      ASSERT_NEAR(dot(q, q), 1, 1e-12);
+      const double size = std::sqrt(trace_of_product(s[l], s[l]));
+      ASSERT_NEAR(trace_of_product(to_matrix(q), s[l]), trace_of_product(to_matrix(cold), s[l]), 1e-11 * size);
+      // alone in another lane the bits are the same
+      RotationBatch alone;
+      set(alone, 0, s[l], near[l]);
+      best_rotations_from(alone, 1);
+      const Quaternion r = alone.rotation(0);
+      ASSERT_TRUE(q.x == r.x && q.y == r.y && q.z == r.z && q.w == r.w) << round << " " << l;
+    }
+  }
+}
+
+TEST(Rotation, EightAtATimeArriveWithinRoundingInFourSteps) {
+  Random random;
+  constexpr int lanes = RotationBatch::lanes;
+  for (int round = 0; round < 2000; ++round) {
+    Quaternion truth[lanes];
+    RotationBatch batch;
+    for (int l = 0; l < lanes; ++l) {
+      const Mat3 m = random.matrix();
+      truth[l] = random.rotation();
+      set(batch, l, to_matrix(truth[l]) * (m * transpose(m) + Mat3::identity()),
+          exponential(0.1 * random.vector()) * truth[l]);
+    }
+    RotationBatch stepped = batch;
+    best_rotations_from(batch, lanes);
+    RotationStep step;
+    for (int iteration = 0; iteration < 5; ++iteration)
+      step_rotations(stepped.s[0], stepped.q[0], step, false), step_rotations(stepped.s[0], stepped.q[0], step, true);
+    for (int l = 0; l < lanes; ++l) {
+      EXPECT_LT(angle_between(batch.rotation(l), truth[l]), 1e-12);
+      EXPECT_LT(step.square[l], 1e-20);  // the fifth step has nothing left to do: each squares the error
+    }
+  }
+}
+
+TEST(Rotation, StepsHaveTheSameBitsOnAllLanes) {
+#if defined(__x86_64__) && defined(__GNUC__)
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has no wider lanes";
+  Random random;
+  for (int round = 0; round < 1000; ++round) {
+    alignas(64) double s[9][8], q[3][4][8];
+    for (int l = 0; l < 8; ++l) {
+      const Quaternion near = random.rotation();
+      const Mat3 matrix = random.any(round + l) + to_matrix(near);
+      for (int k = 0; k < 9; ++k) s[k][l] = matrix.m[k / 3][k % 3];
+      for (auto& one : q) one[0][l] = near.x, one[1][l] = near.y, one[2][l] = near.z, one[3][l] = near.w;
+    }
+    const auto run = [&](StepLoop loop, int which) {
+      RotationStep step;
+      for (int iteration = 0; iteration < 3; ++iteration)
+        loop(s[0], q[which][0], step, false), loop(s[0], q[which][0], step, true);
+    };
+    run(&step_rotations, 0), run(&step_rotations_avx2, 1);
+    EXPECT_EQ(std::memcmp(q[0], q[1], sizeof q[0]), 0) << round;
+    if (!__builtin_cpu_supports("avx512f")) continue;
+    run(rotation_loop(), 2);
+    EXPECT_EQ(std::memcmp(q[0], q[2], sizeof q[0]), 0) << round;
+  }
+#endif
 }
 
 TEST(Rotation, TiesGoToTheRotationNearestToTheGivenOne) {

@@ -1,0 +1,85 @@
+#include "deform/rotation_batch.h"
+
+#include <cstring>
+
+#include "deform/rotation_step.h"
+
+namespace hf {
+namespace {
+
+#include "deform/rotation_step.inl"
+
+constexpr int lanes = RotationBatch::lanes;
+constexpr double settled = 1e-14;  // square of the last step; what is left is of the order of its square
+
+struct LaneState {
+  double floor;  // pivots at or below are not safely positive
+  bool open;     // goes on; settled or lost otherwise
+  bool lost;     // no certified maximum
+};
+
+// Lanes whose step cannot be trusted are lost; those that are not open do not move. Says whether any goes on.
+bool judge(RotationStep& step, LaneState (&state)[lanes]) noexcept {
+  bool open = false;
+  for (int l = 0; l < lanes; ++l) {
+    LaneState& lane = state[l];
+    const bool good = step.pivot[0][l] > lane.floor && step.pivot[1][l] > lane.floor && step.pivot[2][l] > lane.floor &&
+                      step.square[l] <= 1.0;
+    const bool moves = lane.open && good;
+    lane.lost = lane.lost || (lane.open && !good);
+    lane.open = moves && step.square[l] >= settled;
+    open = open || lane.open;
+    if (!moves) step.u[0][l] = step.u[1][l] = step.u[2][l] = 0;
+  }
+  return open;
+}
+
+}  // namespace
+
+void step_rotations(const double* s, double* q, RotationStep& step, bool take) noexcept {
+  step_lanes<double>(s, q, step, take);
+}
+
+StepLoop rotation_loop() noexcept {
+#ifdef HF_DEFORM_AVX512
+  if (__builtin_cpu_supports("avx512f")) return &step_rotations_avx512;
+#endif
+#ifdef HF_DEFORM_AVX2
+  if (__builtin_cpu_supports("avx2")) return &step_rotations_avx2;
+#endif
+  return &step_rotations;
+}
+
+void best_rotations_from(RotationBatch& batch, int count) noexcept {
+  for (int l = count; l < lanes; ++l) {
+    for (auto& row : batch.s) row[l] = 0;
+    batch.set_rotation(l, Quaternion());
+  }
+  const RotationBatch start = batch;
+  LaneState state[lanes];
+  for (int l = 0; l < lanes; ++l) {
+    double square = 0;
+    for (const auto& row : batch.s) square += row[l] * row[l];
+    const bool usable = square > 1e-300 && square < 1e300;
+    state[l] = {usable ? 1e-6 * std::sqrt(square) : 0.0, usable, !usable};
+  }
+  const StepLoop loop = rotation_loop();
+  RotationStep step;
+  for (int iteration = 0; iteration < 6; ++iteration) {
+    loop(batch.s[0], batch.q[0], step, false);
+    const bool open = judge(step, state);
+    loop(batch.s[0], batch.q[0], step, true);
+    if (!open) break;
+  }
+  for (int l = 0; l < count; ++l) {
+    if (!state[l].lost && !state[l].open) {
+      batch.set_rotation(l, normalised(batch.rotation(l)));
+      continue;
+    }
+    Mat3 s;
+    for (int k = 0; k < 9; ++k) s.m[k / 3][k % 3] = batch.s[k][l];
+    batch.set_rotation(l, best_rotation(s, start.rotation(l)));
+  }
+}
+
+}  // namespace hf
