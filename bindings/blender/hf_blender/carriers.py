@@ -64,12 +64,12 @@ def motion_of(to_local, carrier):
     return np.array(Matrix.Translation(shift) @ turn.to_matrix().to_4x4())
 
 
-def make_empty(obj, name, vertices, rest_positions, layer):
-    """An empty at the centre of a region of the mesh at rest."""
+def make_empty(obj, name, vertices, rest_positions, diagonal, layer):
+    """An empty at the centre of a region of the mesh at rest; diagonal: of the mesh's box."""
     rest = Matrix.Translation(rest_positions[np.asarray(vertices)].mean(0).tolist())
     empty = bpy.data.objects.new(f"{obj.name} {name}", None)
     empty.empty_display_type = "SPHERE"
-    empty.empty_display_size = 0.05 * float(np.linalg.norm(np.ptp(rest_positions, axis=0)))
+    empty.empty_display_size = 0.05 * diagonal
     for collection in obj.users_collection or (bpy.context.scene.collection,):
         collection.objects.link(empty)
     mark(empty, obj, vertices, rest, layer)

@@ -45,14 +45,23 @@ def triangles_of(mesh, positions):
         mesh.calc_loop_triangles()
         return column(mesh.loop_triangles, "vertices", 3).reshape(-1, 3)
     corners = column(mesh.loops, "vertex_index")
-    three, four = starts[sizes == 3], starts[sizes == 4]
-    quads = corners[four[:, None] + np.arange(4)]
-    by_axis = np.ascontiguousarray(positions.T)
-    a, b, c, d = (by_axis[:, quads[:, k]] for k in range(4))
-    one, other = cross(c - a, b - a), cross(d - a, c - a)
-    folded = sum(x * y for x, y in zip(one, other)) < 0
-    quads[folded] = np.roll(quads[folded], -1, axis=1)
-    return np.vstack([corners[three[:, None] + np.arange(3)], quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    four = sizes == 4
+    if four.all():
+        quads, threes = corners.reshape(-1, 4), corners[:0].reshape(-1, 3)  # polygons lie one after the other
+    else:
+        quads = corners[starts[four][:, None] + np.arange(4, dtype=np.uint32)]
+        threes = corners[starts[~four][:, None] + np.arange(3, dtype=np.uint32)]
+    by_corner = np.ascontiguousarray(quads.T)
+    x, y, z = (np.take(np.ascontiguousarray(positions[:, k]), by_corner) for k in range(3))
+    b, c, d = ((x[k] - x[0], y[k] - y[0], z[k] - z[0]) for k in (1, 2, 3))
+    folded = np.flatnonzero(sum(p * q for p, q in zip(cross(c, b), cross(d, c))) < 0)
+    if len(folded):
+        quads = quads.copy()
+        quads[folded] = np.roll(quads[folded], -1, axis=1)
+    out = np.empty((len(threes) + 2 * len(quads), 3), np.uint32)
+    out[:len(threes)], out[len(threes):len(out) - len(quads)] = threes, quads[:, :3]
+    out[len(out) - len(quads):, 0], out[len(out) - len(quads):, 1:] = quads[:, 0], quads[:, 2:]
+    return out
 
 
 def groups_vertices(obj, names, least=0.5):

@@ -21,6 +21,8 @@ from .mesh_data import group_vertices, rest_of, triangles_of
 ORDERING = hf.constants.HF_ORDERING_MINIMUM_DEGREE
 ORDERING_LIMIT = 300000  # vertices; above it nested dissection, the library's default
 
+IDENTITY = np.eye(4)
+
 sessions = {}
 figures = {"bind_ms": 0.0, "update_ms": 0.0, "sync_ms": 0.0}
 
@@ -65,6 +67,7 @@ class Session:
         self.solver = make_solver(self.rest, triangles_of(mesh, self.rest), window_manager, meanwhile)
         self.pose = hf.Pose(self.solver)
         self.numbers = {}  # hf_id -> handle
+        self.placed = {}  # hf_id -> matrix of the last update
         self.posed = self.rest.copy()
         mesh_data.keep_rest(mesh, self.rest)
         obj["hf_key"] = obj.get("hf_key") or uuid.uuid4().hex
@@ -97,9 +100,13 @@ class Session:
             matrices = np.array([carriers.motion_of(to_local, carrier) for carrier in found.values()])
             self.pose.set_matrices([self.numbers[i] for i in found], matrices)
             self.pose.deform(self.posed)
+            moved = any(not np.array_equal(self.placed.get(i, IDENTITY), m) for i, m in zip(found, matrices))
+            self.placed = dict(zip(found, matrices))
         else:
             self.posed[:] = self.rest
-        if write:
+            moved = True
+        # a mesh that is as it should be stays untouched: Blender would compute its normals and its box anew
+        if write and (moved or not np.array_equal(mesh_data.positions_of(obj.data), self.posed)):
             obj.data.vertices.foreach_set("co", self.posed.ravel())
             obj.data.update()
         figures["update_ms"] = 1e3 * (time.perf_counter() - begin)
@@ -160,7 +167,8 @@ def add_handles(obj, regions, names, layer=0):
     for vertices, name in zip(regions, names):
         if not len(vertices):
             raise hf.EmptyError(f"no vertex in {name}")
-    return take_up(obj, [carriers.make_empty(obj, name, vertices, session.rest, layer) for vertices,
+    diagonal = session.solver.report.bounding_box_diagonal
+    return take_up(obj, [carriers.make_empty(obj, name, vertices, session.rest, diagonal, layer) for vertices,
         name in zip(regions, names)])
 
 
