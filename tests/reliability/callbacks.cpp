@@ -31,7 +31,8 @@ void* allocate(void* user, std::size_t size, std::size_t alignment) {
     if (host.kind == 2) throw Foreign();
     throw 7;
   }
-  void* block = aligned_alloc(alignment < 16 ? 16 : alignment, (size + alignment + 15) / alignment * alignment);
+  const std::size_t step = alignment < 16 ? 16 : alignment;
+  void* block = aligned_alloc(step, (size + step - 1) / step * step);
   if (block) ++host.live;
   return block;
 }

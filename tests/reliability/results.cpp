@@ -114,7 +114,8 @@ void* allocate(void* user, std::size_t size, std::size_t alignment) {
   if (mode == Hooks::hold)
     std::thread([&] { provoke(hooks.answer = hf_record(hooks.solver), "a call beside a change"); }).join();
   if (mode == Hooks::wreck) throw std::runtime_error("a fault of the host");
-  return aligned_alloc(alignment < 16 ? 16 : alignment, (size + alignment + 15) / alignment * alignment);
+  const std::size_t step = alignment < 16 ? 16 : alignment;
+  return aligned_alloc(step, (size + step - 1) / step * step);
 }
 void release(void*, void* block, std::size_t, std::size_t) { free(block); }
 
