@@ -101,8 +101,7 @@ HF_API const char* hf_result_name(hf_result result);
 HF_API uint32_t hf_get_version(void);
 
 /* Memory of a solver and all that is made from it. Both functions, or neither (then malloc).
- * allocate: returns `size` bytes aligned to `alignment` (a power of two; aligned_alloc wants `size` rounded up to a
- * multiple of it), or NULL to refuse.
+ * allocate: returns `size` bytes aligned to `alignment`, a power of two that need not divide it, or NULL to refuse.
  * release: takes back a block with the size and alignment it was asked with; must not throw.
  * Called from the thread of the call, and from worker threads when the desc grants any. An exception of a C++ host that
  * leaves allocate ends the call with HF_ERROR_INTERNAL (std::bad_alloc: HF_ERROR_OUT_OF_MEMORY), the object as before. */
