@@ -111,6 +111,8 @@ class Stages {
     must(hf_move_sites(solver, 2, sites, &more), "hf_move_sites");
     take(solver, hash);
     add(solver, 120, 83, 41, nullptr);
+    must(hf_remove_sites(solver, 1, sites + 9), "hf_remove_sites, by rotations");
+    take(solver, hash);
     must(hf_prepare_rebase(solver), "hf_prepare_rebase");
     must(hf_set_site_values(solver, 1, sites + 8, values_.data() + 7), "hf_set_site_values");
     take(solver, hash);
