@@ -34,34 +34,10 @@ def column(collection, name, count=1):
     return out
 
 
-def cross(u, v):
-    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
-
-
-def triangles_of(mesh, positions):
-    """(m, 3) uint32. Quads are split where Blender splits them: along the first diagonal unless the halves fold over."""
-    sizes, starts = column(mesh.polygons, "loop_total"), column(mesh.polygons, "loop_start")
-    if len(sizes) and (sizes.min() < 3 or sizes.max() > 4):  # Blender's own triangles: slower to read
-        mesh.calc_loop_triangles()
-        return column(mesh.loop_triangles, "vertices", 3).reshape(-1, 3)
-    corners = column(mesh.loops, "vertex_index")
-    four = sizes == 4
-    if four.all():
-        quads, threes = corners.reshape(-1, 4), corners[:0].reshape(-1, 3)  # polygons lie one after the other
-    else:
-        quads = corners[starts[four][:, None] + np.arange(4, dtype=np.uint32)]
-        threes = corners[starts[~four][:, None] + np.arange(3, dtype=np.uint32)]
-    by_corner = np.ascontiguousarray(quads.T)
-    x, y, z = (np.take(np.ascontiguousarray(positions[:, k]), by_corner) for k in range(3))
-    b, c, d = ((x[k] - x[0], y[k] - y[0], z[k] - z[0]) for k in (1, 2, 3))
-    folded = np.flatnonzero(sum(p * q for p, q in zip(cross(c, b), cross(d, c))) < 0)
-    if len(folded):
-        quads = quads.copy()
-        quads[folded] = np.roll(quads[folded], -1, axis=1)
-    out = np.empty((len(threes) + 2 * len(quads), 3), np.uint32)
-    out[:len(threes)], out[len(threes):len(out) - len(quads)] = threes, quads[:, :3]
-    out[len(out) - len(quads):, 0], out[len(out) - len(quads):, 1:] = quads[:, 0], quads[:, 2:]
-    return out
+def triangles_of(mesh):
+    """(m, 3) uint32: the triangles Blender cuts the mesh into as it stands."""
+    mesh.calc_loop_triangles()
+    return column(mesh.loop_triangles, "vertices", 3).reshape(-1, 3)
 
 
 def groups_vertices(obj, names, least=0.5):

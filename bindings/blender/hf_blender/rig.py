@@ -59,7 +59,7 @@ def transfer_animation(source, target, frames, prefix="hf ", window_manager=None
         raise hf.InvalidArgumentError(f"{source.name} and {target.name} need two vertex groups or more of the same names, "
                                       f"starting with '{prefix}'")
     rest, source_rest = session_of(target).rest, rest_of(source.data)
-    with make_solver(source_rest, triangles_of(source.data, source_rest), window_manager) as from_solver:
+    with make_solver(source_rest, triangles_of(source.data), window_manager) as from_solver:
         with hf.Transfer(from_solver, session_of(target).solver, scale=scale) as transfer:
             transfer.add_pairs([group_vertices(source, n) for n in names], [group_vertices(target, n) for n in names])
             armature, scene = None, bpy.context.scene

@@ -64,12 +64,11 @@ class Session:
         mesh = obj.data
         begin = time.perf_counter()
         self.rest = rest_of(mesh)
-        self.solver = make_solver(self.rest, triangles_of(mesh, self.rest), window_manager, meanwhile)
+        self.solver = make_solver(self.rest, triangles_of(mesh), window_manager, meanwhile)
         self.pose = hf.Pose(self.solver)
         self.numbers = {}  # hf_id -> handle
         self.placed = {}  # hf_id -> matrix of the last update
         self.posed = self.rest.copy()
-        mesh_data.keep_rest(mesh, self.rest)
         obj["hf_key"] = obj.get("hf_key") or uuid.uuid4().hex
         figures["bind_ms"] = 1e3 * (time.perf_counter() - begin)
 
@@ -107,6 +106,7 @@ class Session:
             moved = True
         # a mesh that is as it should be stays untouched: Blender would compute its normals and its box anew
         if write and (moved or not np.array_equal(mesh_data.positions_of(obj.data), self.posed)):
+            mesh_data.keep_rest(obj.data, self.rest)  # until now the mesh itself holds it
             obj.data.vertices.foreach_set("co", self.posed.ravel())
             obj.data.update()
         figures["update_ms"] = 1e3 * (time.perf_counter() - begin)
