@@ -19,18 +19,20 @@ struct Front {
 class Spreading {
  public:
   Spreading(const Core& core, Memory& memory)
-      : topology_(core.topology),
-        length_(core.topology.neighbour.size(), &memory),
-        distance_(core.size(), std::numeric_limits<double>::infinity(), &memory),
-        place_(core.size(), 0, &memory),
+      : start_(core.topology.neighbour_start.data()),
+        arc_(memory, core.topology.neighbour.size()),
+        node_(memory, core.size()),
         near_(&memory),
         far_(&memory),
         best_(&memory),
         stale_(&memory) {
-    Vector<double> of_edge(topology_.edge_count(), &memory);
-    for (std::int32_t e = 0; e < topology_.edge_count(); ++e)
-      of_edge[e] = norm(core.mesh.positions[topology_.second(e)] - core.mesh.positions[topology_.first(e)]);
-    for (std::size_t k = 0; k < length_.size(); ++k) length_[k] = of_edge[topology_.neighbour_edge[k]];
+    const Topology& topology = core.topology;
+    Buffer<double> length(memory, topology.edge_count());
+    for (std::int32_t e = 0; e < topology.edge_count(); ++e)
+      length[e] = norm(core.mesh.positions[topology.second(e)] - core.mesh.positions[topology.first(e)]);
+    for (std::size_t k = 0; k < arc_.size(); ++k)
+      arc_[k] = {length[topology.neighbour_edge[k]], topology.neighbour[k]};
+    std::fill(node_.begin(), node_.end(), Node{std::numeric_limits<double>::infinity(), -1, 0});
   }
 
   // The vertices of the component that groups are made in next.
@@ -39,10 +41,9 @@ class Spreading {
     double total = 0;
     std::size_t ends = 0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      place_[vertices[i]] = static_cast<std::int32_t>(i);
-      const std::int32_t first = topology_.neighbour_start[vertices[i]],
-                         last = topology_.neighbour_start[vertices[i] + 1];
-      for (std::int32_t k = first; k < last; ++k) total += length_[k];
+      node_[vertices[i]].block = static_cast<std::int32_t>(i / block);
+      const std::int32_t first = start_[vertices[i]], last = start_[vertices[i] + 1];
+      for (std::int32_t k = first; k < last; ++k) total += arc_[k].length;
       ends += static_cast<std::size_t>(last - first);
     }
     step_ = ends > 0 ? total / static_cast<double>(ends) : 0.0;
@@ -50,24 +51,23 @@ class Spreading {
     best_.assign(blocks, 0), stale_.assign(blocks, 1);
   }
 
-  void add(std::int32_t group, std::int32_t seed, Vector<std::int32_t>& group_of) {
-    const auto reach = [&](std::int32_t v, double distance) {
-      distance_[v] = distance, group_of[v] = group, stale_[place_[v] / block] = 1;
+  void add(std::int32_t group, std::int32_t seed) {
+    const auto reach = [&](Node& node, double distance) {
+      node.distance = distance, node.group = group, stale_[node.block] = 1;
     };
-    reach(seed, 0.0);
+    reach(node_[seed], 0.0);
     near_.assign(1, Front{0.0, seed});
     for (double limit = step_;;) {
       while (!near_.empty()) {
         const Front front = near_.back();
         near_.pop_back();
-        if (front.distance > distance_[front.vertex]) continue;  // came nearer since
-        for (std::int32_t k = topology_.neighbour_start[front.vertex]; k < topology_.neighbour_start[front.vertex + 1];
-             ++k) {
-          const std::int32_t u = topology_.neighbour[k];
-          const double distance = front.distance + length_[k];
-          if (!(distance < distance_[u])) continue;
-          reach(u, distance);
-          (distance < limit ? near_ : far_).push_back({distance, u});
+        if (front.distance > node_[front.vertex].distance) continue;  // came nearer since
+        for (std::int32_t k = start_[front.vertex]; k < start_[front.vertex + 1]; ++k) {
+          Node& node = node_[arc_[k].vertex];
+          const double distance = front.distance + arc_[k].length;
+          if (!(distance < node.distance)) continue;
+          reach(node, distance);
+          (distance < limit ? near_ : far_).push_back({distance, arc_[k].vertex});
         }
       }
       if (far_.empty()) return;
@@ -76,7 +76,7 @@ class Spreading {
       limit = nearest + step_;
       std::size_t kept = 0;
       for (const Front& front : far_) {
-        if (front.distance > distance_[front.vertex]) continue;
+        if (front.distance > node_[front.vertex].distance) continue;
         if (front.distance < limit || front.distance == nearest)
           near_.push_back(front);
         else
@@ -94,22 +94,30 @@ class Spreading {
         const std::size_t last = std::min((b + 1) * block, vertices_.size());
         best_[b] = vertices_[b * block];
         for (std::size_t i = b * block; i < last; ++i) {
-          if (distance_[vertices_[i]] > distance_[best_[b]]) best_[b] = vertices_[i];
+          if (distance(vertices_[i]) > distance(best_[b])) best_[b] = vertices_[i];
         }
         stale_[b] = 0;
       }
-      if (distance_[best_[b]] > distance_[found]) found = best_[b];
+      if (distance(best_[b]) > distance(found)) found = best_[b];
     }
     return found;
   }
-  double distance(std::int32_t v) const noexcept { return distance_[v]; }
+  double distance(std::int32_t v) const noexcept { return node_[v].distance; }
+  std::int32_t group(std::int32_t v) const noexcept { return node_[v].group; }
 
  private:
   static constexpr std::size_t block = 256;
-  const Topology& topology_;
-  Vector<double> length_;  // of the edges, by neighbour
-  Vector<double> distance_;
-  Vector<std::int32_t> place_;  // in vertices_
+  struct Arc {
+    double length;
+    std::int32_t vertex;
+  };
+  struct Node {
+    double distance;
+    std::int32_t group, block;  // of vertices_
+  };
+  const std::int32_t* start_;  // neighbours of vertex v: arc_[start_[v] .. start_[v + 1])
+  Buffer<Arc> arc_;
+  Buffer<Node> node_;
   Vector<Front> near_, far_;
   Span<const std::int32_t> vertices_;
   Vector<std::int32_t> best_;   // per block of vertices_ the farthest
@@ -147,10 +155,11 @@ std::shared_ptr<const Groups> Groups::with(std::shared_ptr<const Groups> groups,
     for (std::int32_t k = 0; k < quota; ++k) {
       const std::int32_t seed = spreading.farthest();
       if (k > 0 && !(spreading.distance(seed) > 0)) break;  // every vertex is a seed or coincides with one
-      spreading.add(grown->count(), seed, grown->group_of);
+      spreading.add(grown->count(), seed);
       grown->seed.push_back(seed), grown->component.push_back(c);
     }
     grown->component_end[c] = grown->count();
+    for (const std::int32_t v : vertices) grown->group_of[v] = spreading.group(v);
   }
   return grown;
 }

@@ -8,8 +8,13 @@ namespace {
 
 constexpr double triangle_samples = 20000;
 
+constexpr std::uint32_t shares = 8;
+
 struct Histogram {
   double cubed[Levels::bins], squared[Levels::bins];
+  void add(const Histogram& other) noexcept {
+    for (int b = 0; b < Levels::bins; ++b) cubed[b] += other.cubed[b], squared[b] += other.squared[b];
+  }
 };
 
 // |grad phi| and area of a triangle: grad = n x (sum of phi_k opposite edge k) / (2 area).
@@ -96,14 +101,23 @@ Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleField
   Vector<std::int32_t> part_start(mesh.component_count() + 1, 0, &memory);
   for (const FieldPart& part : parts) ++part_start[part.component + 1];
   for (std::int32_t c = 0; c < mesh.component_count(); ++c) part_start[c + 1] += part_start[c];
-  Vector<Histogram> histograms(parts.size(), Histogram{}, &memory);
-  for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
-    const std::int32_t* corner = mesh.triangle(t);
-    const std::int32_t c = mesh.component[corner[0]];
-    if (part_start[c] == part_start[c + 1]) continue;
-    if (scattered(static_cast<std::uint32_t>(t)) * rest.component_triangles[c] > triangle_samples) continue;
-    for (std::int32_t p = part_start[c]; p < part_start[c + 1]; ++p)
-      add_triangle(mesh, corner, fields.of(parts[p].handle), histograms[p]);
+  // shares of the triangles, always the same, summed in their order
+  Vector<Histogram> histograms(shares * parts.size(), Histogram{}, &memory);
+  core.jobs->for_each(shares, [&](std::uint32_t share) {
+    const std::int64_t count = mesh.triangle_count();
+    const std::int32_t first = static_cast<std::int32_t>(share * count / shares),
+                       last = static_cast<std::int32_t>((share + 1) * count / shares);
+    for (std::int32_t t = first; t < last; ++t) {
+      const std::int32_t* corner = mesh.triangle(t);
+      const std::int32_t c = mesh.component[corner[0]];
+      if (part_start[c] == part_start[c + 1]) continue;
+      if (scattered(static_cast<std::uint32_t>(t)) * rest.component_triangles[c] > triangle_samples) continue;
+      for (std::int32_t p = part_start[c]; p < part_start[c + 1]; ++p)
+        add_triangle(mesh, corner, fields.of(parts[p].handle), histograms[share * parts.size() + p]);
+    }
+  });
+  for (std::size_t share = 1; share < shares; ++share) {
+    for (std::size_t p = 0; p < parts.size(); ++p) histograms[p].add(histograms[share * parts.size() + p]);
   }
   for (std::size_t p = 0; p < parts.size(); ++p) set_equal_length(histograms[p], levels[p]);
   return levels;
