@@ -1,4 +1,4 @@
-// Reading a script's arguments, for surface.cpp and surface_fields.cpp.
+// Reading a script's arguments, for surface*.cpp.
 #pragma once
 #include "surface.h"
 

@@ -1,6 +1,16 @@
 #include "arguments.h"
 
 namespace hf_godot {
+
+hf_pose pose_of(Surface& s) {
+  if (!s.pose) {
+    hf_pose raw = nullptr;
+    check(hf_pose_create(s.solver.get(), nullptr, &raw));
+    s.pose = hfpp::Handle<hf_pose, hf_pose_destroy>(raw);
+  }
+  return s.pose.get();
+}
+
 namespace {
 
 Value create(Surface& s, const Arguments& a) {
@@ -112,6 +122,42 @@ Value solve_at(Surface& s, const Arguments& a) {
   return value;
 }
 
+// edit_sites(remove, move, move_to, set, set_values, add, add_values): one batch, all or nothing; lists may be null.
+// Returns the numbers of the sites added.
+Value edit_sites(Surface& s, const Arguments& a) {
+  const List remove = integers(at(a, 0), "remove"), move = integers(at(a, 1), "move"),
+             move_to = integers(at(a, 2), "move_to"), set = integers(at(a, 3), "set"), add = integers(at(a, 5), "add");
+  if (move.values.size() != move_to.values.size()) fail("move and move_to must be of one length");
+  auto edit = make<hf_edit_desc>();
+  auto places = make<hf_sites_desc>(), added = make<hf_sites_desc>();
+  edit.remove_count = static_cast<uint32_t>(remove.values.size()), edit.remove_sites = remove.data();
+  edit.move_count = static_cast<uint32_t>(move.values.size()), edit.move_sites = move.data(), edit.move_to = &places;
+  places.site_count = edit.move_count, places.vertices = move_to.data();
+  edit.set_count = static_cast<uint32_t>(set.values.size()), edit.set_sites = set.data();
+  edit.set_values = doubles(at(a, 4), set.values.size(), "set_values");
+  added.site_count = static_cast<uint32_t>(add.values.size()), added.vertices = add.data();
+  added.values = doubles(at(a, 6), add.values.size(), "add_values");
+  if (!add.values.empty()) edit.add = &added;
+  Numbers made(add.values.size() + 1);
+  check(hf_edit_sites(s.solver.get(), &edit, made.data()));
+  made.pop_back();
+  return numbers(made);
+}
+
+// certify(tolerance = 0): how right the field is; fails with HF_ERROR_INACCURATE when it is not
+Value certify(Surface& s, const Arguments& a) {
+  auto found = make<hf_certificate>();
+  found.tolerance = at(a, 0).number;
+  check(hf_certify(s.solver.get(), &found));
+  return named({{"tolerance", found.tolerance},
+                {"value_range", found.value_range},
+                {"residual", found.residual},
+                {"site_error", found.site_error},
+                {"overshoot", found.overshoot},
+                {"overshoot_checked", found.overshoot_checked},
+                {"worst_vertex", found.worst_vertex}});
+}
+
 Value statistics(Surface& s, const Arguments&) {
   auto figures = make<hf_statistics>();
   check(hf_get_statistics(s.solver.get(), &figures));
@@ -144,15 +190,6 @@ Value save_factor(Surface& s, const Arguments&) {
   value.kind = Value::bytes, value.octets.resize(size);
   check(hf_save_factor(s.solver.get(), value.octets.data(), size));
   return value;
-}
-
-hf_pose pose_of(Surface& s) {
-  if (!s.pose) {
-    hf_pose raw = nullptr;
-    check(hf_pose_create(s.solver.get(), nullptr, &raw));
-    s.pose = hfpp::Handle<hf_pose, hf_pose_destroy>(raw);
-  }
-  return s.pose.get();
 }
 
 Value add_handles(Surface& s, const Arguments& a) {
@@ -246,6 +283,46 @@ Value normals_of(Surface& s, const Arguments&) {
   return value;
 }
 
+// The pose as a skin. skin_joints(): a row for every joint; p goes to rotation (p - pivot) + translation.
+Value skin_joints(Surface& s, const Arguments&) {
+  auto info = make<hf_skin_info>();
+  check(hf_pose_get_skin(pose_of(s), &info));
+  Doubles pivots(3 * size_t{info.joint_count}), rotations(4 * size_t{info.joint_count}), places(pivots.size());
+  info.pivots = pivots.data(), info.rotations = rotations.data(), info.translations = places.data();
+  check(hf_pose_get_skin(pose_of(s), &info));
+  Value value;
+  value.kind = Value::rows;
+  for (size_t j = 0; j < info.joint_count; ++j) {
+    const double *p = &pivots[3 * j], *q = &rotations[4 * j], *t = &places[3 * j];
+    value.table.push_back({{"pivot_x", p[0]}, {"pivot_y", p[1]}, {"pivot_z", p[2]},
+                           {"x", q[0]}, {"y", q[1]}, {"z", q[2]}, {"w", q[3]},
+                           {"translation_x", t[0]}, {"translation_y", t[1]}, {"translation_z", t[2]}});
+  }
+  return value;
+}
+
+// The joints and weights of the vertices as Mesh.ARRAY_BONES and ARRAY_WEIGHTS want them: weight_count (4 or 8; 0 = 4)
+// a vertex, the heaviest first.
+void skin_of(Surface& s, const Arguments& a, Numbers* joints, std::vector<float>* weights) {
+  auto info = make<hf_skin_info>();
+  info.weight_count = whole(at(a, 0).number, "weight_count");
+  const size_t count = s.vertex_count * (info.weight_count == 8 ? 8 : 4);
+  if (joints) joints->resize(count), info.vertex_joints = joints->data();
+  if (weights) weights->resize(count), info.vertex_weights = weights->data();
+  check(hf_pose_get_skin(pose_of(s), &info));
+}
+Value skin_bones(Surface& s, const Arguments& a) {
+  Numbers joints;
+  skin_of(s, a, &joints, nullptr);
+  return numbers(joints);
+}
+Value skin_weights(Surface& s, const Arguments& a) {
+  Value value;
+  value.kind = Value::reals;
+  skin_of(s, a, nullptr, &value.floats);
+  return value;
+}
+
 // The motion of this surface played on another: transfer_to(target, source regions, target regions, flags or null,
 // scale).
 Value transfer_to(Surface& s, const Arguments& a) {
@@ -296,6 +373,8 @@ std::vector<Entry> all_methods() {
                             {"redo", 0, 0, redo},
                             {"solve", 0, 0, solve},
                             {"solve_at", 1, 1, solve_at},
+                            {"edit_sites", 7, 7, edit_sites},
+                            {"certify", 0, 1, certify},
                             {"statistics", 0, 0, statistics},
                             {"report", 0, 0, report},
                             {"save_factor", 0, 0, save_factor},
@@ -307,9 +386,13 @@ std::vector<Entry> all_methods() {
                             {"handle_field", 1, 1, handle_field},
                             {"deform", 0, 1, deform},
                             {"normals", 0, 0, normals_of},
+                            {"skin_joints", 0, 0, skin_joints},
+                            {"skin_bones", 0, 1, skin_bones},
+                            {"skin_weights", 0, 1, skin_weights},
                             {"transfer_to", 3, 5, transfer_to},
                             {"transfer_apply", 1, 1, transfer_apply}};
   all.insert(all.end(), field_methods().begin(), field_methods().end());
+  all.insert(all.end(), region_methods().begin(), region_methods().end());
   return all;
 }
 

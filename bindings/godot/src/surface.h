@@ -52,8 +52,12 @@ struct Surface {
   hfpp::Handle<hf_direction, hf_direction_destroy> direction;
   hfpp::Handle<hf_quads, hf_quads_destroy> quads;
   hfpp::Handle<hf_flow, hf_flow_destroy> flow;
+  hfpp::Handle<hf_region, hf_region_destroy> region;
+  hfpp::Handle<hf_detail, hf_detail_destroy> detail;
   // Everything made from the solver.
-  void forget() { pose = {}, transfer = {}, geodesics = {}, direction = {}, quads = {}, flow = {}; }
+  void forget() {
+    pose = {}, transfer = {}, geodesics = {}, direction = {}, quads = {}, flow = {}, region = {}, detail = {};
+  }
   size_t vertex_count = 0, target_count = 0;
   std::vector<float> normals;  // of the last deform
   // the last failure, for scripts that have no exceptions
@@ -67,8 +71,11 @@ struct Entry {
   int least, most;  // arguments
   Method method;
 };
-const std::vector<Entry>& methods();        // all of them
-const std::vector<Entry>& field_methods();  // those of surface_fields.cpp
+const std::vector<Entry>& methods();         // all of them
+const std::vector<Entry>& field_methods();   // those of surface_fields.cpp
+const std::vector<Entry>& region_methods();  // those of surface_regions.cpp
+
+hf_pose pose_of(Surface& surface);  // made when there is none
 
 // Calls a method; a failure is kept in the surface and gives Value::nothing.
 Value call(Surface& surface, const Entry& entry, const Arguments& arguments) noexcept;

@@ -1,0 +1,118 @@
+// Methods of detail modelling (hf/detail.h): a region of the surface, its smooth base, the morph between them, and the
+// detail of another surface's region carried to it.
+#include "arguments.h"
+
+namespace hf_godot {
+namespace {
+
+// region_create(positions = null): an empty region, of a pose of the surface or of the surface itself
+Value region_create(Surface& s, const Arguments& a) {
+  auto desc = make<hf_region_desc>();
+  desc.positions_f64 = doubles(at(a, 0), 3 * s.vertex_count, "positions");
+  hf_region raw = nullptr;
+  check(hf_region_create(s.solver.get(), &desc, &raw));
+  s.region = hfpp::Handle<hf_region, hf_region_destroy>(raw), s.detail = {};
+  return done();
+}
+
+// region_edit(add = null, remove = null, rings = 0, curve = null, side = 0, seed vertex = 0): one edit, all or nothing:
+// what a closed curve through these vertices encloses, rings of vertices more (below 0: less), vertices
+Value region_edit(Surface& s, const Arguments& a) {
+  const List add = integers(at(a, 0), "add"), remove = integers(at(a, 1), "remove"), along = integers(at(a, 3), "curve");
+  const double rings = at(a, 2).number;
+  if (!(rings >= -1e9 && rings <= 1e9) || rings != static_cast<int32_t>(rings)) fail("rings must be a whole number");
+  auto edit = make<hf_region_edit_desc>();
+  auto curve = make<hf_curve_desc>();
+  edit.ring_count = static_cast<int32_t>(rings);
+  edit.add_count = static_cast<uint32_t>(add.values.size()), edit.add_vertices = add.data();
+  edit.remove_count = static_cast<uint32_t>(remove.values.size()), edit.remove_vertices = remove.data();
+  if (!along.null) {
+    curve.point_count = along.count(), curve.vertices = along.data();
+    curve.side = static_cast<int32_t>(whole(at(a, 4).number, "side"));
+    curve.seed_vertex = whole(at(a, 5).number, "seed vertex");
+    edit.curve = &curve;
+  }
+  check(hf_region_edit(s.region.get(), &edit));
+  return done();
+}
+
+Value region_record(Surface& s, const Arguments&) { return check(hf_region_record(s.region.get())), done(); }
+Value region_undo(Surface& s, const Arguments&) { return check(hf_region_undo(s.region.get())), done(); }
+Value region_redo(Surface& s, const Arguments&) { return check(hf_region_redo(s.region.get())), done(); }
+
+hf_region_info info_of(const Surface& s) {
+  auto info = make<hf_region_info>();
+  check(hf_region_get_info(s.region.get(), &info));
+  return info;
+}
+
+Value region_info(Surface& s, const Arguments&) {
+  const hf_region_info info = info_of(s);
+  return named({{"vertex_count", info.vertex_count},
+                {"rim_count", info.rim_count},
+                {"site_count", info.site_count},
+                {"inserted_count", info.inserted_count},
+                {"removed_count", info.removed_count},
+                {"factorisation_count", info.factorisation_count},
+                {"thin_plate", info.thin_plate},
+                {"area", info.area},
+                {"base_area", info.base_area}});
+}
+
+// region_vertices(list = 0): HF_REGION_INSIDE, _RIM or _SITES
+Value region_vertices(Surface& s, const Arguments& a) {
+  const hf_region_info info = info_of(s);
+  const int32_t list = static_cast<int32_t>(whole(at(a, 0).number, "list"));
+  const uint32_t count = list == HF_REGION_INSIDE ? info.vertex_count : list == HF_REGION_RIM ? info.rim_count
+                                                                                               : info.site_count;
+  Numbers found(size_t{count} + 1);
+  check(hf_region_get_vertices(s.region.get(), list, count, found.data()));
+  found.pop_back();
+  return numbers(found);
+}
+
+template <class Raw>
+Value morph(Surface& s, const Arguments& a, Raw from, hf_result (*write)(Raw, const hf_morph_desc*)) {
+  Value value;
+  value.kind = Value::vectors, value.floats.resize(3 * s.vertex_count + 1);
+  auto desc = make<hf_morph_desc>();
+  desc.weight = at(a, 0).number, desc.positions = value.floats.data();
+  check(write(from, &desc));
+  value.floats.pop_back();
+  return value;
+}
+
+// region_morph(weight): 0 the surface, 1 its base
+Value region_morph(Surface& s, const Arguments& a) { return morph(s, a, s.region.get(), hf_region_morph); }
+
+// detail_from(surface with a region, its rim vertices = null, ours = null, scale = 0): its detail on our region
+Value detail_from(Surface& s, const Arguments& a) {
+  if (!at(a, 0).surface) fail("detail_from needs a surface");
+  const List source = integers(at(a, 1), "source vertices"), target = integers(at(a, 2), "target vertices");
+  if (source.values.size() != target.values.size()) fail("source and target vertices must be of one length");
+  auto desc = make<hf_detail_desc>();
+  desc.pair_count = static_cast<uint32_t>(source.values.size()), desc.scale = at(a, 3).number;
+  desc.source_vertices = source.data(), desc.target_vertices = target.data();
+  hf_detail raw = nullptr;
+  check(hf_detail_create(a[0].surface->region.get(), s.region.get(), &desc, &raw));
+  s.detail = hfpp::Handle<hf_detail, hf_detail_destroy>(raw);
+  return done();
+}
+
+// detail_morph(weight): 0 the base, 1 the detail carried here
+Value detail_morph(Surface& s, const Arguments& a) { return morph(s, a, s.detail.get(), hf_detail_morph); }
+
+}  // namespace
+
+const std::vector<Entry>& region_methods() {
+  static const std::vector<Entry> all = {
+      {"region_create", 0, 1, region_create}, {"region_edit", 0, 6, region_edit},
+      {"region_record", 0, 0, region_record}, {"region_undo", 0, 0, region_undo},
+      {"region_redo", 0, 0, region_redo},     {"region_info", 0, 0, region_info},
+      {"region_vertices", 0, 1, region_vertices}, {"region_morph", 1, 1, region_morph},
+      {"detail_from", 1, 4, detail_from},     {"detail_morph", 1, 1, detail_morph},
+  };
+  return all;
+}
+
+}  // namespace hf_godot
