@@ -27,6 +27,8 @@ run() { # NAME TARGET PROGRAM OPTIONS...
   [ "${done:-0}" -ge "$target" ] || status=1
 }
 cd "$build"
+# what AddressSanitizer keeps back of freed memory is not the library's
+export ASAN_OPTIONS="quarantine_size_mb=8${ASAN_OPTIONS:+:$ASAN_OPTIONS}"
 run fuzz_sequences_executed "$sequences" bin/fuzz_sequences "-runs=$sequences" -max_len=96 -timeout=10 inputs_sequences
 run fuzz_gltf_executed "$files" bin/fuzz_gltf "-runs=$files" -max_len=16384 -timeout=1 -rss_limit_mb=512 inputs_gltf
 exit $status
