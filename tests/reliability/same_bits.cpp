@@ -197,9 +197,9 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
 // and must not wait for them.
 [[maybe_unused]] unsigned wrong_in_many_children(int count) {
   Surface surface;
-  add_torus(surface, 60, 50);
+  add_torus(surface, 120, 100);  // large enough for sweeps on all threads
   hf_create_desc d = create_desc(surface);
-  d.thread_count = 8;
+  d.thread_count = 16;
   const hf_solver solver = make_solver(d);
   const std::uint32_t vertices[2] = {1, 500};
   const double values[2] = {0, 1};
