@@ -148,11 +148,13 @@ void BandCutter::find_floor(const FieldPart& part) noexcept {
 
 void BandCutter::evaluate(const FieldPart& part, const Levels& levels, Span<const std::int32_t> vertices) noexcept {
   const double* phi = fields_.of(part.handle);
-  const bool several = reach_.handles_of(part.component).size() > 2;
+  const bool several = reach_.handles_of(part.component).size() > 2, eased = several && options_.degree == 2;
   for (const std::int32_t v : vertices) {
     share_[v] = several ? std::max(0.0, phi[v] - floor_[v]) : 1.0;
     if (share_[v] <= 0) continue;  // nothing of this field counts here
-    values_[v] = band_values(levels(phi[v]), options_.band_count, options_.degree);
+    const double level = levels(phi[v]);
+    values_[v] = band_values(eased ? eased_level(level, options_.band_count) : level, options_.band_count,
+                             options_.degree);
   }
 }
 
@@ -267,7 +269,7 @@ void BandCutter::finish_component(std::int32_t component) {
   });
 }
 
-void find_elastic(const Mesh& mesh, ClusterWeights& weights, Memory& memory) {
+void find_elastic(const Mesh& mesh, const Reach& reach, ClusterWeights& weights, Memory& memory) {
   Vector<std::uint8_t> elastic(mesh.component_count(), 0, &memory);
   for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
     // clusters ascend, free ones come last
@@ -275,7 +277,9 @@ void find_elastic(const Mesh& mesh, ClusterWeights& weights, Memory& memory) {
     if (end > weights.start[v] && weights.cluster[end - 1] >= weights.handle_count) elastic[mesh.component[v]] = 1;
   }
   for (std::int32_t c = 0; c < mesh.component_count(); ++c) {
-    if (elastic[c]) weights.elastic_components.push_back(c);
+    if (!elastic[c]) continue;
+    weights.elastic_components.push_back(c);
+    weights.shared.push_back(reach.handles_of(c).size() > 2);
   }
 }
 
@@ -307,7 +311,7 @@ ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Re
   weights.handle_count = handle_count, weights.cluster_count = cutter.cluster_count(),
   weights.band_count = used.band_count;
   write_rows(core, reach, fields, cutter.entries(), weights, memory);
-  find_elastic(core.mesh, weights, memory);
+  find_elastic(core.mesh, reach, weights, memory);
   return weights;
 }
 

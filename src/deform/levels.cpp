@@ -123,6 +123,13 @@ Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleField
   return levels;
 }
 
+double eased_level(double level, std::int32_t band_count) noexcept {
+  const double spans = band_count, x = std::clamp(level, 0.0, 1.0) * spans;  // of the basis of degree 2
+  const auto eased = [](double d) { return 0.5 * (d + d * d * (2 - d)); };
+  if (x < 1) return eased(x) / spans;
+  return x > spans - 1 ? 1 - eased(spans - x) / spans : level;
+}
+
 BandValues band_values(double level, std::int32_t band_count, int degree) noexcept {
   // K + 2 functions of degree p take K + 2 - p spans; knots are clamped at both ends
   const std::int32_t spans = band_count + 2 - degree;

@@ -35,6 +35,10 @@ struct BandValues {
   std::int32_t first;  // number of the function of value[0]
   double value[3];
 };
+// The level at which the bands are read where several handles share a surface: over the last span at each end it slows
+// down to half its speed, so that bending sets in gradually at a handle. d spans from an end become
+// (d + d^2 (2 - d)) / 2. band_count: spans of the basis of degree 2.
+double eased_level(double level, std::int32_t band_count) noexcept;
 BandValues band_values(double level, std::int32_t band_count, int degree) noexcept;
 
 }  // namespace hf

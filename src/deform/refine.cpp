@@ -1,6 +1,9 @@
 #include "deform/refine.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "deform/rotation_batch.h"
 
 namespace hf {
 namespace {
@@ -36,39 +39,58 @@ void Refinement::fit(std::int32_t slot_count) { values_.resize(3 * static_cast<s
 
 void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) {
   const Core& core = input.core;
+  const SymmetricMatrix& k = core.laplacian;
   for_vertex_pieces(*core.jobs, core.size(), [&](std::int32_t first, std::int32_t last) {
+    RotationBatch batch;
+    std::int32_t vertex[RotationBatch::lanes];
+    int count = 0;
+    const auto fit = [&] {
+      best_rotations_from(batch, count);
+      for (int l = 0; l < count; ++l) rotation_[vertex[l]] = to_matrix(batch.rotation(l));
+      count = 0;
+    };
     for (std::int32_t v = first; v < last; ++v) {
       const std::int32_t owner = input.reach.owner[v];
       if (owner >= 0) {
         rotation_[v] = linear_part(input.transforms[owner]);
       } else if (elastic_[core.mesh.component[v]]) {
-        Mat3 s;
-        add_ring(core, input.rest, positions, v, s);
-        const Quaternion q = input.groups ? best_rotation_from(s, (*input.group_rotation)[input.groups->group_of[v]])
-                                          : best_rotation(s, Quaternion());
-        rotation_[v] = to_matrix(q);
+        const Vec3 x = positions[v], p = core.mesh.positions[v];
+        double s[3][4] = {};
+        for (std::int32_t e = k.column_start[v]; e < k.column_start[v + 1]; ++e) {
+          const std::int32_t u = k.row[e];
+          const double w = std::fmax(-k.value[e], 0.0);  // the diagonal too: nothing
+          const Vec3 moved = w * (x - positions[u]), edge = p - core.mesh.positions[u];
+          const double along[3] = {edge.x, edge.y, edge.z};
+          for (int j = 0; j < 3; ++j)
+            s[j][0] += moved.x * along[j], s[j][1] += moved.y * along[j], s[j][2] += moved.z * along[j];
+        }
+        batch.set_columns(count, s);
+        batch.set_rotation(count, input.groups ? (*input.group_rotation)[input.groups->group_of[v]] : Quaternion());
+        vertex[count++] = v;
+        if (count == RotationBatch::lanes) fit();
       } else {
         rotation_[v] = Mat3::identity();
       }
     }
+    fit();
   });
 }
 
-// b - L x in factor order, in the mesh's own unit.
+// b - K x in factor order, in the mesh's own unit.
 void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* positions, double* z) {
   const Core& core = input.core;
-  const Topology& topology = core.topology;
+  const SymmetricMatrix& k = core.laplacian;
   const Span<const std::int32_t> position = core.factor->position();
   const double own_unit = 2.0 / core.mesh.scale;  // and the half of the two rotations
   for_vertex_pieces(*core.jobs, core.size(), [&](std::int32_t first, std::int32_t last) {
     for (std::int32_t v = first; v < last; ++v) {
       Vec3 sum;
       if (elastic_[core.mesh.component[v]]) {
-        for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
-          const std::int32_t u = topology.neighbour[k];
+        for (std::int32_t e = k.column_start[v]; e < k.column_start[v + 1]; ++e) {
+          const std::int32_t u = k.row[e];
           const Vec3 edge = core.mesh.positions[v] - core.mesh.positions[u];
-          const Vec3 missing = rotation_[v] * edge + rotation_[u] * edge - own_unit * (positions[v] - positions[u]);
-          sum = sum + 0.5 * core.weights[topology.neighbour_edge[k]] * missing;
+          const Vec3 missing = (rotation_[v] + rotation_[u]) * edge - own_unit * (positions[v] - positions[u]);
+          sum = sum - 0.5 * k.value[e] * missing;  // nothing from the diagonal
         }
       }
       double* row = z + 3 * static_cast<std::size_t>(position[v]);

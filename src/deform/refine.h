@@ -4,9 +4,11 @@
 // 2007), from the blended positions x:
 //     R_v = argmax tr(R' sum_u w_vu (x_v - x_u)(p_v - p_u)'),
 //     sum_u w_vu (y_v - y_u) = sum_u w_vu / 2 (R_v + R_u)(p_v - p_u),   y = x on the handles.
-// With L the left side and b the right one, y = x + K^-1 (b - L x), K the operator the fields are solved with, so the
-// factor that is there does it: two sweeps, and the harmonic field that takes the rings back to their places, one more.
-// K is L with cotangents; with the intrinsic Delaunay operator it is near it, and x = p stays p. One step only: further
+// w are the weights of the operator K the fields are solved with (u over the neighbours in the intrinsic Delaunay
+// triangulation, all w >= 0, unless it was made of other edges), so y = x + K^-1 (b - K x) with b the right side, and
+// the factor that is there does it: two sweeps, and the harmonic field that takes the rings back to their places, one
+// more. The energy of these weights never grows. With cotangents of the mesh's own edges for w, above K where triangles
+// are obtuse, the step overshoots there: it folded a scan's (smallest stretch 0.55; now 0.78). One step only: further
 // ones walk towards the collapsed minima of that energy. Cost: a rotation per vertex, three sweeps of three channels.
 //
 // GroupStart: the rotation of every rotation group of a given surface, from the edges at some of its vertices.

@@ -12,7 +12,8 @@ namespace {
 constexpr double rigidity = 1e-3;         // eps, relative to the mean diagonal of the cluster's linear part
 constexpr double edge_samples = 60000;    // about this many edges are used
 constexpr std::int32_t few_edges = 1500;  // clusters with fewer are never sampled
-constexpr double border_stiffness = 0.25;  // what edges at a handle's border gain
+// What edges at a handle's border gain, by the handles of the component: two, more.
+constexpr double border_stiffness[] = {0.25, 1.5};
 constexpr std::int32_t edge_piece = 16384;
 
 // Blended positions of vertices before any transform: x_v = sum_k weight[k] A_cluster[k] (p_v, 1).
@@ -184,7 +185,8 @@ class Assembly {
  private:
   void find_elastic_components() {
     elastic_.assign(core_.mesh.component_count(), 0);
-    for (const std::int32_t c : weights_.elastic_components) elastic_[c] = 1;
+    for (std::size_t k = 0; k < weights_.elastic_components.size(); ++k)
+      elastic_[weights_.elastic_components[k]] = 1 + weights_.shared[k];
     for (std::int32_t g = 0; g < groups_.count(); ++g) {
       if (elastic_[groups_.component[g]]) out_.group.push_back(g);
     }
@@ -300,8 +302,9 @@ class Assembly {
         const double sampled = sample_weight(e);
         if (sampled == 0) continue;
         const std::int32_t i = topology.first(e), j = topology.second(e);
+        const double gain = border_stiffness[elastic_[core_.mesh.component[i]] - 1];
         const double close = std::max(handle_share_[i], handle_share_[j]), square = close * close;
-        samples_[p].push_back({i, j, sampled * rest_.stiffness[e] * (1 + border_stiffness * square * square)});
+        samples_[p].push_back({i, j, sampled * rest_.stiffness[e] * (1 + gain * square * square)});
       }
     });
   }
@@ -381,7 +384,7 @@ class Assembly {
   const Groups& groups_;
   Subspace& out_;
   Memory& memory_;
-  Vector<std::uint8_t> elastic_;        // per component
+  Vector<std::uint8_t> elastic_;        // per component; 2: with more than two handles
   Vector<std::int32_t> edge_count_;     // per cluster, ends counted
   Vector<std::uint8_t> needs_all_;      // per vertex: in a cluster with few edges
   Vector<std::int32_t> entry_of_;       // per active group and cluster

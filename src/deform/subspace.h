@@ -10,8 +10,10 @@
 // rotation Rbar_c of its groups. For fixed transforms R_g = argmax tr(R' S_g), S_g = sum_c A_c Q_gc.
 //
 // Bending ends abruptly at a handle, and the group that lies across its border turns too far for the triangles there:
-// edges gain a quarter of their weight towards the border, (1 + b^4 / 4), b the handle's weight at the edge. Measured:
-// smallest stretch of the bent cactus 0.786 -> 0.801, of the plane's longest edge 2.7 -> 2.5, energy + 0.1 per cent.
+// edges gain weight towards the border, (1 + a b^4), b the handle's weight at the edge. With two handles a = 1/4;
+// measured: smallest stretch of the bent cactus 0.786 -> 0.801, of the plane's longest edge 2.7 -> 2.5, energy + 0.1
+// per cent.
+// With more handles, whose bands are eased towards them (bands.h), a = 3/2.
 //
 // What the subspace leaves out: a cross-section stays affine. Ten times the groups and twice the bands lower the energy
 // of the bent cylinder and of the twisted bar by 0.3 per cent, the full-mesh step (refine.h) by 3 and 5. Surfaces of

@@ -47,6 +47,29 @@ double leak_with(std::uint32_t samples) {
   return std::max(pose->handle(numbers[0]).leak, pose->handle(numbers[1]).leak);
 }
 
+TEST(Levels, EasedLevelsSlowToHalfAtTheEndsAndKeepTheMiddle) {
+  for (const std::int32_t bands : {2, 3, 10, 64}) {
+    EXPECT_EQ(eased_level(0, bands), 0);
+    EXPECT_EQ(eased_level(1, bands), 1);
+    const double step = 1e-7;
+    EXPECT_NEAR(eased_level(step, bands) / step, 0.5, 1e-4);
+    EXPECT_NEAR((1 - eased_level(1 - step, bands)) / step, 0.5, 1e-4);
+    double last = -1;
+    for (double s = 0; s <= 1; s += 1.0 / 1024) {
+      const double eased = eased_level(s, bands);
+      EXPECT_GT(eased, last);
+      EXPECT_NEAR(eased + eased_level(1 - s, bands), 1, 1e-14);
+      EXPECT_TRUE(eased == s || s * bands <= 1 || (1 - s) * bands <= 1);
+      // never slower than half, and no corner where the middle begins
+      if (s < 1) {
+        EXPECT_NEAR(eased_level(s + step, bands) - eased, step, 0.51 * step);
+      }
+      last = eased;
+    }
+    EXPECT_NEAR(eased_level(1.0 / bands - step, bands), 1.0 / bands - step, 1e-3 * step);
+  }
+}
+
 TEST(Handles, SampledRingsLeakAsMeasuredAndFullRingsDoNot) {
   const double few = leak_with(24), more = leak_with(48), all = leak_with(0);
   std::printf("leak: 24 of 128 %.3f %%, 48 of 128 %.3f %%, all %.1e\n", 100 * few, 100 * more, all);
