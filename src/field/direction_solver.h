@@ -63,7 +63,7 @@ class DirectionSolver {
  public:
   // degree >= 1: fields of vectors (1), lines (2), crosses (4). Throws what Factor::make does.
   DirectionSolver(std::shared_ptr<const Core> core, std::int32_t degree)
-      : DirectionSolver(make_shared_in<DirectionSystem>(*core->memory, core, degree)) {}
+      : DirectionSolver(make_owner_in<DirectionSystem>(core->memory, core, degree)) {}
   // Without constraints, on a system that others may share.
   explicit DirectionSolver(std::shared_ptr<const DirectionSystem> system);
   // Shares the system and, until they are edited, paths and dense blocks; with the same constraints.
