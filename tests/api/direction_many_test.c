@@ -43,6 +43,10 @@ static void many_constraints_come_and_go_without_a_trace(void** state) {
     assert_ok(hf_direction_create(solver, NULL, &fresh));
     if (round == 2) constrain(direction, 3, 700, HALF, NULL), constrain(fresh, 3, 700, HALF, NULL);
     constrain(direction, count, step, 0, sites);
+    hf_direction_statistics statistics;
+    HF_INIT(statistics);
+    assert_ok(hf_direction_get_statistics(direction, &statistics));
+    assert_int_equal(statistics.sites_eliminated, round > 0);
     uint32_t leaving = 0, list[MANY];
     for (uint32_t i = 0; i < count; ++i)
       if (i % keep != 0) list[leaving++] = sites[i];
