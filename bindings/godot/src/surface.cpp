@@ -413,7 +413,7 @@ Value call(Surface& surface, const Entry& entry, const Arguments& arguments) noe
     return entry.method(surface, arguments);
   } catch (const hfpp::Error& error) {
     surface.error_name = hf_result_name(error.code()), surface.error_message = error.what();
-    surface.error_index = error.index() == HF_NO_INDEX ? -1 : error.index();
+    surface.error_index = error.index() == HF_NO_INDEX ? -1.0 : error.index();
   } catch (const std::exception& error) {
     surface.error_name = "HF_ERROR_INTERNAL", surface.error_message = error.what();
   }

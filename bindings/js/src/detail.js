@@ -1,6 +1,6 @@
 // Regions of a surface, their smooth base, the detail on it, and detail carried to another region (hf/detail.h).
-export function detailClasses(tools, Solver) {
-  const { make, call, create, handleOf, query, Handle, fail, integers, output, points, read, written, bare, classes } =
+export function detailClasses(tools) {
+  const { make, call, handleOf, query, Handle, OnSolver, fail, integers, output, points, read, written, classes } =
     tools;
 
   const morph = (name, thing, weight, out, { normals = null, Type = Float32Array } = {}) => {
@@ -19,22 +19,18 @@ export function detailClasses(tools, Solver) {
   };
 
   /** A region of a solver's surface; `positions`: a pose of the surface to work on, null: the solver's own. */
-  class Region extends Handle {
+  class Region extends OnSolver {
+    static prefix = 'hf_region';
     constructor(solver, positions = null) {
-      super();
-      if (solver === bare) return;
-      const parent = handleOf(solver, Solver, 'solver');
-      const desc = make('hf_region_desc');
-      if (positions) {
+      super(solver, () => {
+        const desc = make('hf_region_desc');
+        if (!positions) return desc;
         const given = points(positions, 'positions', 3 * solver.vertexCount);
-        desc.set(given instanceof Float32Array ? 'positions' : 'positions_f64', read(given));
-      }
-      create(this, 'hf_region_destroy', 'hf_region_create', parent, desc);
-      this.vertexCount = solver.vertexCount;
+        return desc.set(given instanceof Float32Array ? 'positions' : 'positions_f64', read(given));
+      });
     }
     clone() {
-      const made = create(new Region(bare), 'hf_region_destroy', 'hf_region_clone', this._handle);
-      return Object.assign(made, { vertexCount: this.vertexCount });
+      return this._copy();
     }
     /** One edit: what a closed curve encloses; rings more or less; vertices added and removed. */
     edit({ curve = null, side = 0, seedVertex = 0, rings = 0, add = null, remove = null, progress = null } = {}) {
@@ -78,6 +74,7 @@ export function detailClasses(tools, Solver) {
 
   /** The detail of one region on the base of another. */
   class Detail extends Handle {
+    static prefix = 'hf_detail';
     constructor(source, target, { sourceVertices = null, targetVertices = null, scale = 0, progress = null } = {}) {
       super();
       const [starts, ends] = [integers(sourceVertices, 'sourceVertices'), integers(targetVertices, 'targetVertices')];
@@ -89,7 +86,7 @@ export function detailClasses(tools, Solver) {
       }
       if (progress) desc.set('progress', handleOf(progress, classes.Progress, 'progress'));
       const [from, to] = [handleOf(source, Region, 'source'), handleOf(target, Region, 'target')];
-      create(this, 'hf_detail_destroy', 'hf_detail_create', from, to, desc);
+      this._make('create', from, to, desc);
       this.vertexCount = target.vertexCount;
     }
     /** 0: the target's smooth base, 1: with the source's detail, more exaggerates. */

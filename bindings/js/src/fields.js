@@ -1,37 +1,27 @@
 // What stands on a solver: geodesic distances and direction fields.
-export function fieldClasses(tools, Solver) {
+export function fieldClasses(tools) {
   const {
     make,
     call,
-    create,
     direct,
-    handleOf,
     query,
     table,
     rowSize,
-    Handle,
+    OnSolver,
     doubles,
     integers,
     output,
     read,
     written,
-    bare,
     counted,
     pairOf,
     solveName,
   } = tools;
 
-  class Geodesics extends Handle {
+  class Geodesics extends OnSolver {
+    static prefix = 'hf_geodesics';
     constructor(solver, { smoothing = 0 } = {}) {
-      super();
-      create(
-        this,
-        'hf_geodesics_destroy',
-        'hf_geodesics_create',
-        handleOf(solver, Solver, 'solver'),
-        make('hf_geodesics_desc').options({ smoothing }),
-      );
-      this.vertexCount = solver.vertexCount;
+      super(solver, () => make('hf_geodesics_desc').options({ smoothing }));
     }
     distance(sources, out, Type = Float32Array) {
       const at = integers(sources, 'sources');
@@ -41,23 +31,14 @@ export function fieldClasses(tools, Solver) {
     }
   }
 
-  class Direction extends Handle {
+  class Direction extends OnSolver {
+    static prefix = 'hf_direction';
     constructor(solver, options = {}) {
-      super();
-      if (solver === bare) return;
-      create(
-        this,
-        'hf_direction_destroy',
-        'hf_direction_create',
-        handleOf(solver, Solver, 'solver'),
-        make('hf_direction_desc').options(options),
-      );
-      this.vertexCount = solver.vertexCount;
+      super(solver, () => make('hf_direction_desc').options(options));
     }
     /** One that shares connection and factor and has a copy of the constraints. */
     clone() {
-      const made = create(new Direction(bare), 'hf_direction_destroy', 'hf_direction_clone', this._handle);
-      return Object.assign(made, { vertexCount: this.vertexCount });
+      return this._copy();
     }
     addSites(vertices, vectors) {
       const at = integers(vertices, 'vertices');

@@ -23,17 +23,27 @@ export function makeApi(backend) {
     );
   };
 
+  const bare = Symbol('an object whose handle is made elsewhere');
+  const classes = {}; // all of them, for those that name each other
   const registry = new FinalizationRegistry(({ destroy, handle }) => backend.call(destroy, [handle]));
 
   /** Owns one handle. Objects may be closed in any order and more than once; a call on a closed one throws. */
   class Handle {
     #open = false;
-    _own(destroy, array) {
-      this._handle = array[0];
-      this._destroy = destroy;
+    /** Takes the handle that PREFIX_verb(...args, out) makes, PREFIX the class's own; PREFIX_destroy ends it. */
+    _make(verb, ...args) {
+      const { prefix } = this.constructor;
+      const handle = backend.newHandle();
+      call(`${prefix}_${verb}`, ...args, written(handle));
+      this._handle = handle[0];
       this.#open = true;
-      registry.register(this, { destroy, handle: this._handle }, this);
-      return this;
+      registry.register(this, { destroy: `${prefix}_destroy`, handle: this._handle }, this);
+    }
+    /** A copy by PREFIX_clone, for classes whose constructor passes over `bare`. */
+    _copy() {
+      const copy = new this.constructor(bare);
+      copy._make('clone', this._handle);
+      return Object.assign(copy, this, { _handle: copy._handle });
     }
     get closed() {
       return !this.#open;
@@ -42,17 +52,22 @@ export function makeApi(backend) {
       if (!this.#open) return;
       this.#open = false;
       registry.unregister(this);
-      backend.call(this._destroy, [this._handle]);
+      backend.call(`${this.constructor.prefix}_destroy`, [this._handle]);
     }
   }
   if (Symbol.dispose) Handle.prototype[Symbol.dispose] = Handle.prototype.close;
 
-  /** Creates an object's handle: fn(...args, out). */
-  const create = (object, destroy, name, ...args) => {
-    const handle = backend.newHandle();
-    call(name, ...args, written(handle));
-    return object._own(destroy, handle);
-  };
+  /** What is made from one solver by PREFIX_create(solver, describe(), out), or without a desc, and has its vertices. */
+  class OnSolver extends Handle {
+    constructor(solver, describe = null) {
+      super();
+      if (solver === bare) return;
+      const parent = handleOf(solver, classes.Solver, 'solver');
+      this._make('create', parent, ...(describe ? [describe()] : []));
+      this.vertexCount = solver.vertexCount;
+    }
+  }
+
   const handleOf = (thing, kind, name) => {
     if (thing === null || thing === undefined) return 0;
     if (!(thing instanceof kind)) fail(`${name} must be a ${kind.name}`);
@@ -83,20 +98,18 @@ export function makeApi(backend) {
     if (array.length !== vertexCount) fail(`field must hold ${vertexCount} numbers, not ${array.length}`);
     return make('hf_scalars').set(array instanceof Float32Array ? 'values' : 'values_f64', read(array));
   };
-  const bare = Symbol('an object whose handle is made elsewhere');
-  const classes = {}; // all of them, for those that name each other
 
   const tools = {
     backend,
     make,
     call,
-    create,
     direct,
     handleOf,
     query,
     table,
     rowSize,
     Handle,
+    OnSolver,
     doubles,
     fail,
     integers,

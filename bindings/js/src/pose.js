@@ -3,11 +3,11 @@ export function poseClasses(tools, Solver) {
   const {
     make,
     call,
-    create,
     direct,
     handleOf,
     query,
     Handle,
+    OnSolver,
     doubles,
     fail,
     integers,
@@ -16,7 +16,6 @@ export function poseClasses(tools, Solver) {
     read,
     regions,
     written,
-    bare,
     counted,
   } = tools;
 
@@ -46,22 +45,13 @@ export function poseClasses(tools, Solver) {
     return { jointCount: n, ...skin };
   };
 
-  class Pose extends Handle {
+  class Pose extends OnSolver {
+    static prefix = 'hf_pose';
     constructor(solver, options = {}) {
-      super();
-      if (solver === bare) return;
-      create(
-        this,
-        'hf_pose_destroy',
-        'hf_pose_create',
-        handleOf(solver, Solver, 'solver'),
-        make('hf_pose_desc').options(options),
-      );
-      this.vertexCount = solver.vertexCount;
+      super(solver, () => make('hf_pose_desc').options(options));
     }
     clone() {
-      const made = create(new Pose(bare), 'hf_pose_destroy', 'hf_pose_clone', this._handle);
-      return Object.assign(made, { vertexCount: this.vertexCount });
+      return this._copy();
     }
     addHandles(lists, { points: centres = null, radii = null, layer = 0 } = {}) {
       const desc = make('hf_handles_desc');
@@ -138,12 +128,11 @@ export function poseClasses(tools, Solver) {
   }
 
   class Transfer extends Handle {
+    static prefix = 'hf_transfer';
     constructor(source, target, options = {}) {
       super();
-      create(
-        this,
-        'hf_transfer_destroy',
-        'hf_transfer_create',
+      this._make(
+        'create',
         handleOf(source, Solver, 'source'),
         handleOf(target, Solver, 'target'),
         make('hf_transfer_desc').options(options),

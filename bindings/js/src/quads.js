@@ -1,9 +1,10 @@
 // Quad meshes and flow lines from harmonic fields (hf/quads.h).
 export function quadClasses(tools, Solver) {
-  const { make, call, create, handleOf, query, Handle, fail, integers, read, written, classes, scalarsOf } = tools;
+  const { make, call, handleOf, query, Handle, OnSolver, fail, integers, read, written, classes, scalarsOf } = tools;
   const tooSmall = 'HF_ERROR_TOO_SMALL';
 
   class Quads extends Handle {
+    static prefix = 'hf_quads';
     constructor(solver, { siteVertices = null, siteLines = null, progress = null, ...options } = {}) {
       super();
       const desc = make('hf_quads_desc').options(options);
@@ -17,7 +18,7 @@ export function quadClasses(tools, Solver) {
         desc.set('site_lines', read(Int32Array.from(lines)));
       }
       if (progress) desc.set('progress', handleOf(progress, classes.Progress, 'progress'));
-      create(this, 'hf_quads_destroy', 'hf_quads_create', handleOf(solver, Solver, 'solver'), desc);
+      this._make('create', handleOf(solver, Solver, 'solver'), desc);
     }
     get info() {
       return query('hf_quads_info', 'hf_quads_get_info', this._handle);
@@ -56,14 +57,10 @@ export function quadClasses(tools, Solver) {
   }
 
   /** A surface prepared for tracing flow lines, again and again. */
-  class Flow extends Handle {
+  class Flow extends OnSolver {
+    static prefix = 'hf_flow';
     #points = 4096;
     #lines = 64;
-    constructor(solver) {
-      super();
-      create(this, 'hf_flow_destroy', 'hf_flow_create', handleOf(solver, Solver, 'solver'));
-      this.vertexCount = solver.vertexCount;
-    }
     /** wantedCount lines of equal flux from the minima of a field, or one through every seed vertex. */
     trace(field, { wantedCount = 0, seeds = null } = {}) {
       const scalars = scalarsOf(field, this.vertexCount);

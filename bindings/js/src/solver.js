@@ -3,7 +3,6 @@ export function solverClasses(tools) {
   const {
     make,
     call,
-    create,
     direct,
     handleOf,
     query,
@@ -26,9 +25,10 @@ export function solverClasses(tools) {
   } = tools;
 
   class Progress extends Handle {
+    static prefix = 'hf_progress';
     constructor() {
       super();
-      create(this, 'hf_progress_destroy', 'hf_progress_create');
+      this._make('create');
     }
     get fraction() {
       const value = new Float32Array(1);
@@ -41,6 +41,7 @@ export function solverClasses(tools) {
   }
 
   class Solver extends Handle {
+    static prefix = 'hf';
     constructor(positions, triangles, { savedFactor = null, progress = null, ...options } = {}) {
       super();
       if (positions === bare) return;
@@ -59,14 +60,13 @@ export function solverClasses(tools) {
         if (!(savedFactor instanceof Uint8Array)) fail('savedFactor must be a Uint8Array');
         desc.set('saved_factor', make('hf_factor_desc', { bytes: read(savedFactor), byte_count: savedFactor.length }));
       }
-      create(this, 'hf_destroy', 'hf_create', desc);
+      this._make('create', desc);
       this.vertexCount = xyz.length / 3;
       this.channelCount = desc.get('channel_count') || 1;
     }
 
     clone() {
-      const made = create(new Solver(bare), 'hf_destroy', 'hf_clone', this._handle);
-      return Object.assign(made, { vertexCount: this.vertexCount, channelCount: this.channelCount });
+      return this._copy();
     }
     get report() {
       return query('hf_mesh_report', 'hf_get_mesh_report', this._handle);
