@@ -39,6 +39,7 @@ std::int32_t capture_features(const FluxSurface& s, const QuadDistance& distance
     distance.measure(mesh, options.tolerance, &misses, nullptr);
     std::int32_t moved = 0;
     Table<Vec3> taken(memory);
+    Table<std::uint8_t> moving(mesh.position.size(), 0, memory);
     for (const QuadMiss& miss : misses) {
       if (miss.vertex < 0) continue;
       const Vec3 p = s.position[miss.vertex];
@@ -64,12 +65,13 @@ std::int32_t capture_features(const FluxSurface& s, const QuadDistance& distance
         mesh.location[best] = old_location, mesh.position[best] = old_position;
         continue;
       }
-      mesh.pinned[best] = QuadMesh::drawn_out, taken.push_back(p), ++moved;
+      mesh.pinned[best] = QuadMesh::drawn_out, taken.push_back(p), moving[best] = 1, ++moved;
     }
     drawn += moved;
     if (moved == 0) break;
     RelaxOptions relax;
-    relax.rounds = options.relax_rounds, relax.edge_length = options.edge_length;
+    grow_marks(mesh, 3, moving);
+    relax.rounds = options.relax_rounds, relax.edge_length = options.edge_length, relax.moving = &moving;
     relax_quads(s, mesh, relax, memory);
   }
   return drawn;

@@ -9,6 +9,7 @@ namespace hf {
 namespace {
 
 constexpr std::int32_t none = -1;
+constexpr double judged = 2;  // edge lengths around a quad that closes within which nothing more may be missed
 
 struct Closing {
   double length;  // of its shortest edge
@@ -55,8 +56,16 @@ void block_around(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, 
   }
 }
 
-// Closes them; no two share a vertex or a neighbour.
-void close_quads(const FluxSurface& surface, QuadMesh& mesh, const Vector<Closing>& closings, Memory& memory) {
+std::int32_t nearest(const Vector<Vec3>& points, const Vec3& to) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (norm(points[i] - to) < norm(points[best] - to)) best = i;
+  return static_cast<std::int32_t>(best);
+}
+
+// Closes them; no two share a vertex or a neighbour. merged: by vertex of the new mesh, whether it was two.
+void close_quads(const FluxSurface& surface, QuadMesh& mesh, const Vector<Closing>& closings,
+                 Table<std::uint8_t>& merged, Memory& memory) {
   Table<std::int32_t> becomes(mesh.position.size(), 0, memory);
   for (std::int32_t v = 0; v < becomes.size(); ++v) becomes[v] = v;
   Table<std::uint8_t> gone(mesh.face_count(), 0, memory);
@@ -71,11 +80,18 @@ void close_quads(const FluxSurface& surface, QuadMesh& mesh, const Vector<Closin
     mesh.scale[a] = std::max(mesh.scale[a], mesh.scale[b]);
     becomes[b] = a, gone[closing.face] = 1;
   }
+  merged.clear();
   Table<std::int32_t> number(becomes.size(), none, memory);
   QuadMesh out(memory);
+  Table<std::uint8_t> kept(becomes.size(), 0, memory);
+  for (const Closing& closing : closings) {
+    const std::int32_t* c = mesh.corner.data() + mesh.face_start[closing.face];
+    kept[becomes[c[closing.corner]]] = 1;
+  }
   for (std::int32_t v = 0; v < becomes.size(); ++v)
     if (becomes[v] == v)
-      number[v] = out.add_vertex(mesh.location[v], mesh.position[v], mesh.pinned[v], mesh.border[v], mesh.scale[v]);
+      merged.push_back(kept[v]),
+          number[v] = out.add_vertex(mesh.location[v], mesh.position[v], mesh.pinned[v], mesh.border[v], mesh.scale[v]);
   out.face_start.push_back(0);
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
     if (gone[f]) continue;
@@ -119,7 +135,8 @@ bool can_close(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, std
   return true;
 }
 
-std::int32_t close_misses(const FluxSurface& surface, QuadMesh& mesh, const Vector<QuadMiss>& misses, Memory& memory) {
+std::int32_t close_misses(const FluxSurface& surface, QuadMesh& mesh, const Vector<QuadMiss>& misses,
+                          Table<std::uint8_t>& merged, Memory& memory) {
   const VertexFans fans(mesh, memory);
   Table<std::uint8_t> blocked(mesh.position.size(), 0, memory);
   Vector<Closing> taken(&memory);
@@ -136,16 +153,33 @@ std::int32_t close_misses(const FluxSurface& surface, QuadMesh& mesh, const Vect
     taken.push_back({0, f, k});
     block_around(mesh, fans, f, blocked);
   }
-  if (!taken.empty()) close_quads(surface, mesh, taken, memory);
+  if (!taken.empty()) close_quads(surface, mesh, taken, merged, memory);
   return static_cast<std::int32_t>(taken.size());
 }
 
 double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, double deviation,
                      const CoarsenOptions& options, Memory& memory) {
   Vector<Closing> list(&memory), taken(&memory);
-  Vector<QuadMiss> misses(&memory);
+  Vector<QuadMiss> before(&memory), after(&memory);
+  NearFaces known(memory);
+  Table<std::uint8_t> moving(memory);
   Vector<Vec3> kept(&memory), centres(&memory);  // where nothing is closed; where something was
-  const double limit = std::max(deviation, options.tolerance), length = options.edge_length;
+  const double length = options.edge_length;
+  // what is missed within a radius of a point
+  const double reach = judged * length;
+  auto excess = [&](const Vector<QuadMiss>& misses, const Vec3& point, double radius) {
+    double sum = 0;
+    for (const QuadMiss& miss : misses)
+      if (norm(miss.point - point) < radius) sum += miss.distance - options.tolerance;
+    return sum;
+  };
+  auto look = [&](QuadMesh& at, Vector<QuadMiss>& misses) {
+    distance.turn_quads(at, &known);
+    misses.clear();
+    distance.measure(at, options.tolerance, &misses, nullptr, &known);
+  };
+  look(mesh, before);
+  bool any = false;
   for (std::int32_t round = 0; round < options.rounds; ++round) {
     report(options.progress, static_cast<float>(round) / static_cast<float>(options.rounds));
     const VertexFans fans(mesh, memory);
@@ -158,7 +192,7 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
       bool free = true;
       for (std::int32_t k = 0; k < 4; ++k) free = free && !blocked[c[k]];
       const Vec3 centre = 0.5 * (mesh.position[c[closing.corner]] + mesh.position[c[closing.corner + 2]]);
-      for (const Vec3& p : kept) free = free && norm(p - centre) > 0.5 * length;
+      for (const Vec3& p : kept) free = free && norm(p - centre) > 0.3 * length;
       if (!free) continue;
       taken.push_back(closing), centres.push_back(centre);
       block_around(mesh, fans, closing.face, blocked);
@@ -166,38 +200,39 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
     if (taken.empty()) break;
     // what brings a miss about is left out, until none does
     constexpr int most_tries = 4;
-    bool closed = false;
     for (int tries = 0; tries < most_tries && !taken.empty(); ++tries) {
       QuadMesh trial = mesh;
-      close_quads(surface, trial, taken, memory);
+      close_quads(surface, trial, taken, moving, memory);
+      grow_marks(trial, 2, moving);
       RelaxOptions relax;
-      relax.rounds = options.relax_rounds, relax.edge_length = length;
+      relax.rounds = options.relax_rounds, relax.edge_length = length, relax.moving = &moving;
       relax_quads(surface, trial, relax, memory);
-      distance.turn_quads(trial);
-      misses.clear();
-      const double now = distance.measure(trial, limit, &misses, nullptr);
-      if (now <= limit) {
-        mesh = std::move(trial), deviation = now, closed = true;
-        break;
+      look(trial, after);
+      Table<std::uint8_t> bad(static_cast<std::int32_t>(taken.size()), 0, memory);
+      for (std::int32_t i = 0; i < bad.size(); ++i) {
+        const Vec3& centre = centres[static_cast<std::size_t>(i)];
+        bad[i] = excess(after, centre, reach) > excess(before, centre, reach);
       }
-      auto is_near = [&](const Vec3& centre) {
-        return std::any_of(misses.begin(), misses.end(),
-                           [&](const QuadMiss& miss) { return norm(centre - miss.point) < 1.5 * length; });
-      };
-      const bool any = std::any_of(centres.begin(), centres.end(), is_near);
+      // what reaches farther than that counts against the nearest
+      if (std::count(bad.begin(), bad.end(), 1) == 0 && excess(after, {}, HUGE_VAL) > excess(before, {}, HUGE_VAL))
+        for (const QuadMiss& miss : after)
+          if (excess(before, miss.point, length) <= 0) bad[nearest(centres, miss.point)] = 1;
       std::size_t left = 0;
       for (std::size_t i = 0; i < taken.size(); ++i) {
-        if (!any || is_near(centres[i])) {
+        if (bad[static_cast<std::int32_t>(i)]) {
           kept.push_back(centres[i]);
         } else {
           taken[left] = taken[i], centres[left++] = centres[i];
         }
       }
+      if (left == taken.size()) {
+        mesh = std::move(trial), before.swap(after), any = true;
+        break;
+      }
       taken.resize(left), centres.resize(left);
     }
-    if (!closed) break;
   }
-  return deviation;
+  return any ? distance.measure(mesh, 0, nullptr, nullptr) : deviation;
 }
 
 }  // namespace hf

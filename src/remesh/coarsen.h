@@ -16,8 +16,10 @@ namespace hf {
 bool can_close(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, std::int32_t k);
 
 // Closes quads that are farther from the surface than they may be, no two of them neighbours: what lies across a fold,
-// or in a tangle, is not mended by making it finer. Returns how many.
-std::int32_t close_misses(const FluxSurface& surface, QuadMesh& mesh, const Vector<QuadMiss>& misses, Memory& memory);
+// or in a tangle, is not mended by making it finer. Returns how many. merged: by vertex of the new mesh, whether it was
+// two; left as it is where none closed.
+std::int32_t close_misses(const FluxSurface& surface, QuadMesh& mesh, const Vector<QuadMiss>& misses,
+                          Table<std::uint8_t>& merged, Memory& memory);
 
 struct CoarsenOptions {
   double edge_length = 0.02, shortest = 0.55, tolerance = 0.008;  // shortest in edge lengths, the others in inner units

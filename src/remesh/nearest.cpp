@@ -7,21 +7,39 @@ namespace {
 
 double squared(Vec3 a) { return dot(a, a); }
 
-// Squared distance to a triangle, by the regions of its corners, edges and face (Ericson 2005, Section 5.1.5).
-double to_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+// Squared distance to a triangle, by the regions of its corners, edges and face (Ericson 2005, Section 5.1.5). weights:
+// NULL, or those of the nearest point.
+double to_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c, double* weights = nullptr) {
+  const auto take = [&](double s, double t, double rest, double distance) {
+    if (weights) weights[0] = s, weights[1] = t, weights[2] = rest;
+    return distance;
+  };
   const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
   const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp),
                d6 = dot(ac, cp);
-  if (d1 <= 0 && d2 <= 0) return squared(ap);
-  if (d3 >= 0 && d4 <= d3) return squared(bp);
-  if (d6 >= 0 && d5 <= d6) return squared(cp);
+  if (d1 <= 0 && d2 <= 0) return take(1, 0, 0, squared(ap));
+  if (d3 >= 0 && d4 <= d3) return take(0, 1, 0, squared(bp));
+  if (d6 >= 0 && d5 <= d6) return take(0, 0, 1, squared(cp));
   const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return squared(ap - (d1 / (d1 - d3)) * ab);
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return squared(ap - (d2 / (d2 - d6)) * ac);
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return squared(bp - ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (c - b));
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+    const double w = d1 / (d1 - d3);
+    return take(1 - w, w, 0, squared(ap - w * ab));
+  }
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+    const double w = d2 / (d2 - d6);
+    return take(1 - w, 0, w, squared(ap - w * ac));
+  }
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return take(0, 1 - w, w, squared(bp - w * (c - b)));
+  }
   const double sum = va + vb + vc;
-  if (!(sum > 0)) return std::min(squared(ap), std::min(squared(bp), squared(cp)));
-  return squared(ap - (vb / sum) * ab - (vc / sum) * ac);
+  if (!(sum > 0)) {
+    const double corners[3] = {squared(ap), squared(bp), squared(cp)};
+    const int k = corners[0] <= corners[1] && corners[0] <= corners[2] ? 0 : corners[1] <= corners[2] ? 1 : 2;
+    return take(k == 0, k == 1, k == 2, corners[k]);
+  }
+  return take(va / sum, vb / sum, vc / sum, squared(ap - (vb / sum) * ab - (vc / sum) * ac));
 }
 
 double to_box(Vec3 p, Vec3 low, Vec3 high) {
@@ -68,9 +86,16 @@ std::int32_t NearestTriangle::build(std::int32_t first, std::int32_t count) {
   return number;
 }
 
-NearestTriangle::Found NearestTriangle::find(Vec3 p, std::int32_t hint) const noexcept {
+void NearestTriangle::weights(Vec3 p, std::int32_t t, double* out) const noexcept {
+  to_triangle(p, corner(t, 0), corner(t, 1), corner(t, 2), out);
+}
+
+NearestTriangle::Found NearestTriangle::find(Vec3 p, std::int32_t hint, double enough) const noexcept {
   Found found;
-  if (hint >= 0) found = {hint, to_triangle(p, corner(hint, 0), corner(hint, 1), corner(hint, 2))};
+  if (hint >= 0) {
+    found = {hint, to_triangle(p, corner(hint, 0), corner(hint, 1), corner(hint, 2))};
+    if (found.squared <= enough) return found;
+  }
   std::int32_t stack[128], top = 0;
   if (!boxes_.empty()) stack[top++] = 0;
   while (top > 0) {
@@ -82,7 +107,10 @@ NearestTriangle::Found NearestTriangle::find(Vec3 p, std::int32_t hint) const no
       const double d = to_triangle(p, corner(t, 0), corner(t, 1), corner(t, 2));
       if (found.triangle < 0 || d < found.squared) found.triangle = t, found.squared = d;
     }
-    if (box.count) continue;
+    if (box.count) {
+      if (found.squared <= enough) return found;
+      continue;
+    }
     std::int32_t near = number + 1, far = box.right;
     if (to_box(p, boxes_[far].low, boxes_[far].high) < to_box(p, boxes_[near].low, boxes_[near].high))
       std::swap(near, far);

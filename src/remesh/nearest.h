@@ -13,8 +13,14 @@ class NearestTriangle {
     std::int32_t triangle = -1;
     double squared = 0;
   };
-  // hint: a triangle that may be near, or -1. Cost: O(log triangles) where the soup is a surface.
-  Found find(Vec3 p, std::int32_t hint = -1) const noexcept;
+  // hint: a triangle that may be near, or -1. enough: the squared distance at which the search ends; what is found
+  // farther away is the nearest. Cost: O(log triangles) where the soup is a surface, O(1) where the hint is near
+  // enough.
+  Found find(Vec3 p, std::int32_t hint = -1, double enough = 0) const noexcept;
+  // Weights of the corners of triangle t at its point nearest to p.
+  void weights(Vec3 p, std::int32_t t, double* out) const noexcept;
+  // Triangles in the order of the tree: neighbours in it are neighbours in space.
+  const Table<std::int32_t>& order() const noexcept { return order_; }
 
  private:
   struct Box {

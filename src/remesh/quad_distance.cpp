@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace hf {
 namespace {
 
 constexpr std::int32_t most_samples = 60000, most_spread = 30000;
-constexpr std::int32_t report_step = 20000;  // samples between two reports
+constexpr std::int32_t samples_a_piece = 4096, faces_a_piece = 512;
+constexpr std::int32_t none = -1;
+constexpr double flat = 0.02;  // squared spacings: a diagonal as near to the surface as that is as good as any
 
 // How many corners of a quad are no convex ones in the plane of its mean normal, and the last of them.
 std::int32_t reflex_corners(const QuadMesh& mesh, const std::int32_t* c, std::int32_t& last) {
@@ -39,80 +42,154 @@ struct Soup {
   }
 };
 
+// Points of a triangle but its corners, `spacing` apart, at most 8 steps to an edge.
+template <class Visit>
+void spread(Vec3 a, Vec3 b, Vec3 c, double spacing, std::int32_t least, Visit&& visit) {
+  const double longest = std::max(norm(b - a), std::max(norm(c - b), norm(a - c)));
+  const std::int32_t n = std::max(least, static_cast<std::int32_t>(std::min(std::ceil(longest / spacing), 8.0)));
+  for (std::int32_t j = 0; j < n; ++j)
+    for (std::int32_t k = j == 0 ? 1 : 0; j + k <= n && k < n; ++k)
+      visit((1.0 / n) * (static_cast<double>(j) * b + static_cast<double>(k) * c + static_cast<double>(n - j - k) * a));
+}
+
 }  // namespace
 
-QuadDistance::QuadDistance(const FluxSurface& surface, double spacing, Memory& memory)
+QuadDistance::QuadDistance(const FluxSurface& surface, double spacing, Memory& memory, JobRunner* jobs)
     : surface_(&surface),
       spacing_(spacing),
       memory_(&memory),
+      jobs_(jobs),
       corners_([&] {
         Table<std::int32_t> corners(memory);
         for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) corners.push_back(surface.tail[h]);
         return corners;
       }()),
-      tree_(surface.position, corners_, memory) {}
+      tree_(surface.position, corners_, memory),
+      samples_(memory) {
+  sample_surface();
+}
 
-void QuadDistance::turn_quads(QuadMesh& mesh) const {
-  for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
-    if (mesh.size(f) != 4) continue;
-    std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
-    std::int32_t reflex = 0;
-    if (reflex_corners(mesh, c, reflex) == 1) {
-      std::rotate(c, c + reflex, c + 4);
-      continue;
+void QuadDistance::sample_surface() {
+  const FluxSurface& s = *surface_;
+  const std::int32_t step = 1 + s.first_apex / most_samples;
+  Table<std::uint8_t> seen(s.first_apex, 0, *memory_);
+  for (const std::int32_t t : tree_.order()) {
+    const std::int32_t* c = corners_.data() + 3 * t;
+    for (std::int32_t k = 0; k < 3; ++k) {
+      if (seen[c[k]] || c[k] % step != 0) continue;
+      seen[c[k]] = 1;
+      samples_.push_back({s.position[c[k]], c[k], none, none});
     }
-    auto miss = [&](std::int32_t k) {
-      const Vec3 a = mesh.position[c[k]], b = mesh.position[c[k + 2]];
-      return std::max(tree_.find(0.5 * (a + b)).squared,
-                      std::max(tree_.find(0.25 * a + 0.75 * b).squared, tree_.find(0.75 * a + 0.25 * b).squared));
-    };
-    if (miss(1) < miss(0)) std::rotate(c, c + 1, c + 4);
+    if (s.real_triangles > most_spread) continue;
+    spread(s.position[c[0]], s.position[c[1]], s.position[c[2]], spacing_, 1, [&](const Vec3& p) {
+      samples_.push_back({p, QuadMiss::of_surface, none, none});
+    });
   }
 }
 
-double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<QuadMiss>* out_misses,
-                             Progress* progress) const {
-  const FluxSurface& s = *surface_;
+Table<QuadDistance::Sample> QuadDistance::sample_quads(const QuadMesh& mesh, const Table<std::int32_t>& corners,
+                                                       const Table<std::int32_t>& faces, const NearFaces* known) const {
+  Table<Sample> samples(*memory_);
+  for (std::int32_t i = 0; i < faces.size(); ++i) {
+    if (known && known->has(mesh, faces[i])) continue;
+    const std::int32_t* c = corners.data() + 3 * i;
+    spread(mesh.position[c[0]], mesh.position[c[1]], mesh.position[c[2]], spacing_, 2, [&](const Vec3& p) {
+      samples.push_back({p, QuadMiss::of_quads, faces[i], mesh.location[c[0]].triangle});
+    });
+  }
+  return samples;
+}
+
+SurfacePoint QuadDistance::nearest(Vec3 p) const noexcept {
+  SurfacePoint at;
+  at.triangle = tree_.find(p).triangle;
+  tree_.weights(p, at.triangle, at.weight);
+  return at;
+}
+
+std::uint64_t NearFaces::key(const QuadMesh& mesh, std::int32_t f) noexcept {
+  std::uint64_t key = 0x9e3779b97f4a7c15u;
+  for (std::int32_t k = mesh.face_start[f]; k < mesh.face_start[f + 1]; ++k) {
+    const Vec3 p = mesh.position[mesh.corner[k]];
+    for (const double x : {p.x, p.y, p.z}) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &x, sizeof bits);
+      key = (key ^ bits) * 0xff51afd7ed558ccdu;
+      key ^= key >> 32;
+    }
+  }
+  return key;
+}
+
+void QuadDistance::turn_quads(QuadMesh& mesh, const NearFaces* known) const {
+  const std::int32_t pieces = (mesh.face_count() + faces_a_piece - 1) / faces_a_piece;
+  for_each(jobs_, static_cast<std::uint32_t>(pieces), [&](std::uint32_t piece) {
+    const std::int32_t first = static_cast<std::int32_t>(piece) * faces_a_piece;
+    for (std::int32_t f = first; f < std::min(first + faces_a_piece, mesh.face_count()); ++f) {
+      if (mesh.size(f) != 4 || (known && known->has(mesh, f))) continue;
+      std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
+      std::int32_t reflex = 0;
+      if (reflex_corners(mesh, c, reflex) == 1) {
+        std::rotate(c, c + reflex, c + 4);
+        continue;
+      }
+      auto miss = [&](std::int32_t k, double enough) {
+        const Vec3 a = mesh.position[c[k]], b = mesh.position[c[k + 2]];
+        double worst = flat * spacing_ * spacing_;
+        for (const double share : {0.5, 0.25, 0.75}) {
+          const std::int32_t hint = mesh.location[c[share < 0.5 ? k + 2 : k]].triangle;
+          worst = std::max(worst, tree_.find(share * a + (1 - share) * b, hint, worst).squared);
+          if (worst > enough) break;
+        }
+        return worst;
+      };
+      const double own = miss(0, HUGE_VAL);
+      if (miss(1, own) < own) std::rotate(c, c + 1, c + 4);
+    }
+  });
+}
+
+double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<QuadMiss>* out_misses, Progress* progress,
+                             NearFaces* known) const {
   Soup soup(*memory_);
   soup.make(mesh);
   const NearestTriangle quads(mesh.position, soup.corners, *memory_);
-  double worst = 0;
-  std::int32_t looked = 0, hint = -1;  // neighbours in number are neighbours on the surface
-  auto take = [&](Vec3 p, std::int32_t vertex, std::int32_t face, const NearestTriangle::Found& found) {
-    const double distance = std::sqrt(found.squared);
-    worst = std::max(worst, distance);
-    if (out_misses && distance > tolerance) out_misses->push_back({distance, p, vertex, face});
-    if (progress && ++looked % report_step == 0) progress->report(0.5f);
-  };
-  auto to_quads = [&](Vec3 p, std::int32_t vertex) {
-    const NearestTriangle::Found found = quads.find(p, hint);
-    hint = found.triangle;
-    take(p, vertex, soup.face[found.triangle], found);
-  };
-  // points of a triangle but its corners
-  auto spread = [&](Vec3 a, Vec3 b, Vec3 c, std::int32_t least, auto&& visit) {
-    const double longest = std::max(norm(b - a), std::max(norm(c - b), norm(a - c)));
-    const std::int32_t n = std::max(least, static_cast<std::int32_t>(std::min(std::ceil(longest / spacing_), 8.0)));
-    for (std::int32_t j = 0; j < n; ++j)
-      for (std::int32_t k = j == 0 ? 1 : 0; j + k <= n && k < n; ++k)
-        visit((1.0 / n) *
-              (static_cast<double>(j) * b + static_cast<double>(k) * c + static_cast<double>(n - j - k) * a));
-  };
-  const std::int32_t step = 1 + s.first_apex / most_samples;
-  for (std::int32_t v = 0; v < s.first_apex; v += step) to_quads(s.position[v], v);
-  for (std::int32_t t = 0; t < s.real_triangles && s.real_triangles <= most_spread; ++t) {
-    const std::int32_t* c = corners_.data() + 3 * t;
-    spread(s.position[c[0]], s.position[c[1]], s.position[c[2]], 1,
-           [&](const Vec3& p) { to_quads(p, QuadMiss::of_surface); });
-  }
-  hint = -1;
-  for (std::int32_t i = 0; i < soup.face.size(); ++i) {
-    const std::int32_t* c = soup.corners.data() + 3 * i;
-    spread(mesh.position[c[0]], mesh.position[c[1]], mesh.position[c[2]], 2, [&](const Vec3& p) {
-      const NearestTriangle::Found found = tree_.find(p, hint);
-      hint = found.triangle;
-      take(p, QuadMiss::of_quads, soup.face[i], found);
+  double worst = out_misses ? tolerance : 0;
+  Table<double> distance(*memory_);
+  Table<std::int32_t> nearest(*memory_);
+  // distances above `tolerance`, or larger than those before in their piece; 0 for the others
+  auto look = [&](const NearestTriangle& tree, const Table<Sample>& samples, const Table<std::int32_t>* faces) {
+    distance.assign(samples.size(), 0), nearest.assign(samples.size(), none);
+    const std::int32_t pieces = (samples.size() + samples_a_piece - 1) / samples_a_piece;
+    for_each(jobs_, static_cast<std::uint32_t>(pieces), [&](std::uint32_t piece) {
+      const std::int32_t first = static_cast<std::int32_t>(piece) * samples_a_piece;
+      std::int32_t hint = none;
+      double least = out_misses ? tolerance * tolerance : 0;
+      for (std::int32_t i = first; i < std::min(first + samples_a_piece, samples.size()); ++i) {
+        if (samples[i].hint >= 0 && (i == first || samples[i].face != samples[i - 1].face)) hint = samples[i].hint;
+        const NearestTriangle::Found found = tree.find(samples[i].point, hint, least);
+        hint = found.triangle;
+        if (found.squared <= least) continue;
+        distance[i] = std::sqrt(found.squared), nearest[i] = found.triangle;
+        if (!out_misses) least = found.squared;
+      }
     });
+    report(progress, 0.5f);
+    for (std::int32_t i = 0; i < samples.size(); ++i) {
+      worst = std::max(worst, distance[i]);
+      if (!out_misses || !(distance[i] > tolerance)) continue;
+      out_misses->push_back(
+          {distance[i], samples[i].point, samples[i].vertex, faces ? (*faces)[nearest[i]] : samples[i].face});
+    }
+  };
+  look(quads, samples_, &soup.face);
+  look(tree_, sample_quads(mesh, soup.corners, soup.face, known), nullptr);
+  if (known) {
+    Table<std::uint8_t> off(mesh.face_count(), out_misses ? 0 : 1, *memory_);
+    for (std::size_t i = 0; out_misses && i < out_misses->size(); ++i)
+      if ((*out_misses)[i].vertex == QuadMiss::of_quads) off[(*out_misses)[i].face] = 1;
+    for (std::int32_t f = 0; f < mesh.face_count(); ++f)
+      if (!off[f]) known->keys.insert(NearFaces::key(mesh, f));
   }
   if (out_misses) {
     std::sort(out_misses->begin(), out_misses->end(), [](const QuadMiss& a, const QuadMiss& b) {

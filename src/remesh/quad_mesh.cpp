@@ -121,6 +121,16 @@ VertexFans::VertexFans(const QuadMesh& mesh, Memory& memory) : start(memory), fa
     for (std::int32_t k = mesh.face_start[f]; k < mesh.face_start[f + 1]; ++k) face[fill[mesh.corner[k]]++] = f;
 }
 
+void grow_marks(const QuadMesh& mesh, std::int32_t rings, Table<std::uint8_t>& marked) {
+  Table<std::uint8_t> before = marked;
+  for (std::int32_t ring = 0; ring < rings; ++ring, before = marked)
+    for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+      const std::int32_t *first = mesh.corner.data() + mesh.face_start[f], *last = first + mesh.size(f);
+      if (std::any_of(first, last, [&](std::int32_t v) { return before[v] != 0; }))
+        for (const std::int32_t* c = first; c < last; ++c) marked[*c] = 1;
+    }
+}
+
 Vec3 position_of(const FluxSurface& surface, const SurfacePoint& point) noexcept {
   Vec3 p;
   for (int k = 0; k < 3; ++k) p = p + point.weight[k] * surface.position[surface.tail[3 * point.triangle + k]];

@@ -43,6 +43,9 @@ struct VertexFans {
   Table<std::int32_t> start, face;
 };
 
+// Marks the vertices of all faces at marked ones, `rings` times.
+void grow_marks(const QuadMesh& mesh, std::int32_t rings, Table<std::uint8_t>& marked);
+
 Vec3 position_of(const FluxSurface& surface, const SurfacePoint& point) noexcept;
 
 // centre: by face, the critical vertex of the surface in it, -1 for faces between rings of one arc.

@@ -7,7 +7,7 @@
 #include "field/extremities.h"
 #include "remesh/capture.h"
 #include "remesh/coarsen.h"
-#include "remesh/refine.h"
+#include "remesh/fit.h"
 #include "remesh/relax.h"
 #include "remesh/ring_levels.h"
 
@@ -20,6 +20,7 @@ constexpr double tip_distance = 0.06;  // of two automatic sites, in box diagona
 constexpr std::size_t most_tips = 32;
 constexpr double least_deviation = 0.003;  // below it nothing is drawn out
 constexpr double tolerance = 0.39;         // in edge lengths: what is farther from the surface is refined
+constexpr double enough = 0.41;            // in edge lengths: the distance of a mesh as it should be
 
 // Which tips become sites decides whether limbs get rings of their own, and how much flow runs where. No threshold is
 // right for all shapes: several lists are tried, and the mesh that comes nearest to the surface is kept.
@@ -28,7 +29,11 @@ struct TipLengths {
 };
 constexpr TipLengths tip_lengths[] = {{0.008, 0.02}, {0.015, 0.05}, {0.03, 0.1}, {0.1, 0.3}};
 constexpr int tip_trials = 4;
-constexpr std::size_t most_fitted = 3;
+constexpr double hopeless = 1.35;  // times as far from the surface as the nearest of the meshes: not fitted
+constexpr std::size_t most_fitted = 3, most_dense = 2;
+// Where no list gives a mesh near enough of edges even enough (Maker::worth), shorter edges are tried.
+constexpr double near_enough = 1.06;
+constexpr double densities[] = {1.15, 1.3};
 
 // Scales the lines of every component so that its faces have a little less than the area of squares of the edge length
 // in the mean: rings times lines, summed over arcs, are the faces.
@@ -81,17 +86,18 @@ class Maker {
         memory_(*core_.memory),
         surface_(FluxSurface::make(core_.mesh, core_.topology, apex_weight, memory_)),
         solver_(surface_, memory_, *core_.jobs, options.progress),
-        distance_(surface_, 0.33 * options.edge_length, memory_) {}
+        distance_(surface_, 0.33 * options.edge_length, memory_, core_.jobs.get()) {}
 
   const FluxSurface& surface() const noexcept { return surface_; }
 
   // out_deviation: how far the mesh and the surface are from each other.
-  QuadResult make(Span<const FluxSite> given, double* out_deviation) const {
+  // density: edge lengths are 1 / density of what is aimed at.
+  QuadResult make(Span<const FluxSite> given, double density, double* out_deviation) const {
     Progress* const progress = options_.progress;
     QuadResult result(memory_);
     result.euler_characteristic = surface_.euler_characteristic;
     RingOptions ring_options;
-    ring_options.edge_length = options_.edge_length, ring_options.uniform = options_.uniform;
+    ring_options.edge_length = options_.edge_length / density, ring_options.uniform = options_.uniform;
     Vector<double> u = flow(given, ring_options, result);
     report(progress, 0.3f);
 
@@ -123,38 +129,48 @@ class Maker {
     }
     report(progress, 0.7f);
     const ProgressRange range(progress, 0.7f, 1.0f);
-    *out_deviation = even_out(result.mesh);
+    *out_deviation = even_out(result.mesh, ring_options.edge_length);
     return result;
   }
 
-  // Refines what is farther from the surface than it may be, takes short edges out (in kind pure those that refining
-  // made), and returns what the mesh is worth: less is better.
-  double fit(QuadMesh& mesh, double deviation) const {
-    const double allowed = tolerance * options_.edge_length;
+  // Fits the mesh where it is farther from the surface than it may be, takes short edges out (in kind pure those that
+  // refining made), in turns that may fold more and more, and returns what the mesh is worth: less is better.
+  double fit(QuadMesh& mesh, double density, double deviation) const {
+    const double allowed = tolerance * options_.edge_length, edge_length = options_.edge_length / density;
     if (options_.relax > 0) {
-      constexpr int turns = 2;
+      constexpr int turns = 4;
       for (int turn = 0; turn < turns; ++turn) {
+        const double before = deviation;
+        const std::int32_t faces = mesh.face_count();
         constexpr float share = 1.0f / turns;
         const float from = share * static_cast<float>(turn);
         {
           const ProgressRange range(options_.progress, from, from + 0.6f * share);
-          RefineOptions refine;
-          refine.edge_length = options_.edge_length, refine.tolerance = allowed, refine.progress = options_.progress;
-          deviation = refine_misses(surface_, distance_, mesh, deviation, refine, memory_);
+          FitOptions fit;
+          fit.edge_length = edge_length, fit.tolerance = allowed, fit.progress = options_.progress;
+          fit.most_folds = 2 * turn, fit.relax_rings = turn % 2 == 0 ? 2 : 1;
+          deviation = fit_quads(surface_, distance_, mesh, fit, memory_);
         }
         const ProgressRange range(options_.progress, from + 0.6f * share, from + share);
         CoarsenOptions coarsen;
         if (!options_.uniform) coarsen.only_refined = true, coarsen.shortest = 0.3;
-        coarsen.edge_length = options_.edge_length, coarsen.tolerance = 1.03 * allowed,
-        coarsen.progress = options_.progress;
+        coarsen.edge_length = edge_length, coarsen.tolerance = 1.03 * allowed, coarsen.progress = options_.progress;
         deviation = coarsen_quads(surface_, distance_, mesh, deviation, coarsen, memory_);
+        if (turn > 0 && worth(mesh, deviation) <= 1) break;
+        if (turn > 1 && deviation == before && mesh.face_count() == faces) break;
       }
       check_quads(mesh, surface_.euler_characteristic, memory_);
     }
     report(options_.progress, 1.0f);
-    const double shape = options_.uniform ? shape_cost(mesh, options_.edge_length, 0.5, 4, memory_)
+    deviation = distance_.measure(mesh, 0, nullptr, nullptr);
+    return worth(mesh, deviation);
+  }
+
+  // 1 for a mesh as it should be; more is worse.
+  double worth(const QuadMesh& mesh, double deviation) const {
+    const double shape = options_.uniform ? shape_cost(mesh, options_.edge_length, 0.52, 4, memory_)
                                           : shape_cost(mesh, options_.edge_length, 0, 12, memory_);
-    return std::max(deviation / (1.03 * allowed), 1.0) + shape;
+    return std::max(deviation / (enough * options_.edge_length), 1.0) + shape;
   }
 
   // Sites as vertices of the Mesh, weights in the order of its own triangles, which may have been turned here.
@@ -177,7 +193,7 @@ class Maker {
   Vector<double> flow(Span<const FluxSite> given, const RingOptions& rings, QuadResult& result) const {
     const ProgressRange range(options_.progress, 0.0f, 0.2f);
     result.sites =
-        choose_flux_sites(surface_, given, options_.automatic, options_.edge_length, memory_, options_.progress);
+        choose_flux_sites(surface_, given, options_.automatic, rings.edge_length, memory_, options_.progress);
     Vector<double> u = solve_with_borders(surface_, solver_, result.sites);
     for (int round = 0; round < 2 && !options_.uniform && options_.scale_lines; ++round) {
       report(options_.progress, 1.0f);
@@ -188,12 +204,12 @@ class Maker {
   }
 
   // Relaxes, and draws features out where that brings the meshes nearer to each other, not only one to the other.
-  double even_out(QuadMesh& mesh) const {
+  double even_out(QuadMesh& mesh, double edge_length) const {
     Progress* const progress = options_.progress;
     auto relax = [&](std::int32_t rounds, float from, float to) {
       const ProgressRange range(progress, from, to);
       RelaxOptions options;
-      options.rounds = rounds, options.edge_length = options_.edge_length, options.progress = progress;
+      options.rounds = rounds, options.edge_length = edge_length, options.progress = progress;
       relax_quads(surface_, mesh, options, memory_);
     };
     auto measure = [&](QuadMesh& at, float from) {
@@ -214,7 +230,7 @@ class Maker {
       {
         const ProgressRange range(progress, 0.6f, 0.9f);
         CaptureOptions capture;
-        capture.edge_length = options_.edge_length, capture.progress = progress;
+        capture.edge_length = edge_length, capture.progress = progress;
         capture_features(surface_, distance_, drawn, capture, memory_);
       }
       const double after = measure(drawn, 0.9f);
@@ -254,10 +270,10 @@ QuadResult make_quads(const QuadOptions& options) {
     for (const FluxSite& site : options.sites) given.push_back({fan[site.vertex], site.lines});
     QuadResult result = [&] {
       const ProgressRange sub(progress, 0.15f, 0.7f);
-      return maker.make(given, &deviation);
+      return maker.make(given, 1, &deviation);
     }();
     const ProgressRange range(progress, 0.7f, 1.0f);
-    maker.fit(result.mesh, deviation);
+    maker.fit(result.mesh, 1, deviation);
     maker.to_mesh(result);
     report(progress, 1.0f);
     return result;
@@ -276,6 +292,7 @@ QuadResult make_quads(const QuadOptions& options) {
   struct Trial {
     double deviation;
     QuadResult result;
+    Vector<FluxSite> given;
   };
   Vector<Trial> trials(&memory);
   trials.reserve(tip_trials);
@@ -296,25 +313,47 @@ QuadResult make_quads(const QuadOptions& options) {
     const float share = 0.3f / tip_trials, from = 0.3f + share * static_cast<float>(trial);
     const ProgressRange range(progress, from, from + share);
     try {
-      QuadResult result = maker.make(given, &deviation);
-      trials.push_back({deviation, std::move(result)});
+      QuadResult result = maker.make(given, 1, &deviation);
+      trials.push_back({deviation, std::move(result), Vector<FluxSite>(given, &memory)});
     } catch (const Error& error) {
       if (error.code() == HF_ERROR_CANCELLED || (trial + 1 == tip_trials && trials.empty())) throw;
     }
   }
-  if (trials.empty()) trials.push_back({0, maker.make(given, &deviation)});  // says why there is none
+  if (trials.empty())
+    trials.push_back(
+        {0, maker.make(given, 1, &deviation), Vector<FluxSite>(given, &memory)});  // says why there is none
   // the nearest first; the first that is as it should be is taken, or the best
   std::stable_sort(trials.begin(), trials.end(),
                    [](const Trial& a, const Trial& b) { return a.deviation < b.deviation; });
   double least = -1;
   std::size_t taken = 0;
   for (std::size_t i = 0; i < std::min(trials.size(), most_fitted) && (i == 0 || least > 1); ++i) {
-    const float share = 0.4f / most_fitted, from = 0.6f + share * static_cast<float>(i);
+    if (trials[i].deviation > hopeless * trials[0].deviation) break;
+    const float share = 0.2f / most_fitted, from = 0.6f + share * static_cast<float>(i);
     const ProgressRange range(progress, from, from + share);
-    const double cost = maker.fit(trials[i].result.mesh, trials[i].deviation);
+    const double cost = maker.fit(trials[i].result.mesh, 1, trials[i].deviation);
     if (least < 0 || cost < least) least = cost, taken = i;
   }
   QuadResult best = std::move(trials[taken].result);
+  float from = 0.8f;
+  for (const double density : densities) {
+    for (std::size_t i = 0; i < std::min(trials.size(), most_dense) && options.relax > 0 && least > near_enough; ++i) {
+      constexpr float share = 0.1f / most_dense;
+      const ProgressRange range(progress, from, from + share);
+      from += share;
+      try {
+        QuadResult result = [&] {
+          const ProgressRange sub(progress, 0.0f, 0.3f);
+          return maker.make(trials[i].given, density, &deviation);
+        }();
+        const ProgressRange sub(progress, 0.3f, 1.0f);
+        const double cost = maker.fit(result.mesh, density, deviation);
+        if (cost < least) least = cost, best = std::move(result);
+      } catch (const Error& error) {
+        if (error.code() == HF_ERROR_CANCELLED) throw;  // otherwise the mesh that there is stays
+      }
+    }
+  }
   maker.to_mesh(best);
   report(progress, 1.0f);
   return best;

@@ -3,43 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "remesh/capture.h"
-#include "remesh/coarsen.h"
 #include "remesh/relax.h"
 
 namespace hf {
 namespace {
 
 constexpr std::int32_t none = -1;
-constexpr float finer = 0.75f, finest = 0.5f;  // scales of a refined vertex's edges, and where refining ends
+constexpr float finer = 0.75f, opened = 0.92f;  // scales of the edges around what was refined
 
-// Marks a corner near every miss; how many.
-std::int32_t mark_misses(const QuadMesh& mesh, const Vector<QuadMiss>& misses, std::int32_t most, Memory& memory,
-                         Table<std::uint8_t>& marked) {
-  const VertexFans fans(mesh, memory);
-  Table<std::uint8_t> blocked(mesh.position.size(), 0, memory);
-  std::int32_t count = 0;
-  auto can_be = [&](std::int32_t v) {
-    if (mesh.border[v] || mesh.scale[v] < finest) return false;
-    for (std::int32_t i = fans.start[v]; i < fans.start[v + 1]; ++i)
-      if (mesh.size(fans.face[i]) != 4) return false;
-    return true;
-  };
-  for (const QuadMiss& miss : misses) {
-    if (count >= most) break;
-    std::int32_t best = none;
-    for (std::int32_t k = mesh.face_start[miss.face]; k < mesh.face_start[miss.face + 1]; ++k) {
-      const std::int32_t v = mesh.corner[k];
-      if (can_be(v) && (best == none || norm(mesh.position[v] - miss.point) < norm(mesh.position[best] - miss.point)))
-        best = v;
-    }
-    if (best == none || blocked[best]) continue;
-    marked[best] = 1, ++count;
-    for (std::int32_t i = fans.start[best]; i < fans.start[best + 1]; ++i)
-      for (std::int32_t k = mesh.face_start[fans.face[i]]; k < mesh.face_start[fans.face[i] + 1]; ++k)
-        blocked[mesh.corner[k]] = 1;
-  }
-  return count;
+Vec3 unit(Vec3 a) {
+  const double length = norm(a);
+  return length > 0 ? (1 / length) * a : Vec3{};
 }
 
 }  // namespace
@@ -91,61 +65,44 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
   mesh.face_start.swap(starts), mesh.corner.swap(corners);
 }
 
-double refine_misses(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, double deviation,
-                     const RefineOptions& options, Memory& memory) {
-  if (deviation <= options.tolerance) return deviation;
-  const std::int32_t most_faces = static_cast<std::int32_t>(options.most_faces * mesh.face_count());
-  QuadMesh work = mesh;
-  Vector<QuadMiss> misses(&memory), drawn_misses(&memory);
-  Table<std::uint8_t> marked(memory);
-  // what the misses exceed the tolerance by, all together: one place better is better, though another is still the
-  // worst
-  auto excess = [&](const Vector<QuadMiss>& list) {
-    double sum = 0;
-    for (const QuadMiss& miss : list) sum += miss.distance - options.tolerance;
-    return sum;
-  };
-  auto look = [&](QuadMesh& at, Vector<QuadMiss>& list) {
-    distance.turn_quads(at);
-    list.clear();
-    const double found = distance.measure(at, options.tolerance, &list, nullptr);
-    if (found < deviation) deviation = found, mesh = at;
-  };
-  look(work, misses);
-  double least = excess(misses);
-  int worse = 0;  // rounds since it was least
-  for (std::int32_t round = 0; round < options.rounds && deviation > options.tolerance; ++round) {
-    report(options.progress, static_cast<float>(round) / static_cast<float>(options.rounds));
-    // what was drawn out too far, or wrongly, may go back
-    for (const QuadMiss& miss : misses)
-      for (std::int32_t k = work.face_start[miss.face]; k < work.face_start[miss.face + 1]; ++k)
-        if (miss.vertex == QuadMiss::of_quads && work.pinned[work.corner[k]] == QuadMesh::drawn_out)
-          work.pinned[work.corner[k]] = QuadMesh::free;
-    marked.assign(work.position.size(), 0);
-    const std::int32_t room = (most_faces - work.face_count()) / 8;
-    constexpr int most_worse = 2;
-    if (worse < most_worse && mark_misses(work, misses, room, memory, marked) > 0) {
-      refine_quads(surface, work, marked, memory);
-    } else {
-      worse = 0, least = excess(misses);
-      if (close_misses(surface, work, misses, memory) == 0) break;
+std::int32_t open_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Memory& memory) {
+  // the faces around v and their first neighbours of v, counter-clockwise
+  Table<std::int32_t> faces(memory), spokes(memory);
+  Table<std::int32_t> first(memory), last(memory);
+  for (std::int32_t f = 0; f < mesh.face_count(); ++f)
+    for (std::int32_t k = 0; k < mesh.size(f); ++k) {
+      const std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
+      if (c[k] == v) faces.push_back(f), first.push_back(c[(k + 1) % 4]), last.push_back(c[(k + 3) % 4]);
     }
-    RelaxOptions relax;
-    relax.rounds = options.relax_rounds, relax.edge_length = options.edge_length;
-    relax_quads(surface, work, relax, memory);
-    look(work, misses);
-    if (misses.empty()) break;
-    QuadMesh drawn = work;
-    CaptureOptions capture;
-    capture.edge_length = options.edge_length, capture.tolerance = options.tolerance, capture.rounds = 2;
-    if (capture_features(surface, distance, drawn, capture, memory) > 0) {
-      look(drawn, drawn_misses);
-      if (excess(drawn_misses) < excess(misses)) work = std::move(drawn), misses.swap(drawn_misses);
+  const std::int32_t n = faces.size();
+  for (std::int32_t i = 0; i + 1 < n; ++i)
+    for (std::int32_t j = i + 1; j < n; ++j)
+      if (first[j] == last[i]) {
+        std::swap(first[j], first[i + 1]), std::swap(last[j], last[i + 1]), std::swap(faces[j], faces[i + 1]);
+        break;
+      }
+  // the two spokes between which the quad opens: across the way, at least two faces on both sides
+  const Vec3 p = mesh.position[v], way = unit(towards - p);
+  std::int32_t from = none, to = none;
+  double best = 0;
+  for (std::int32_t i = 0; i < n; ++i)
+    for (std::int32_t count = 2; count <= n - 2; ++count) {  // faces from spoke i on go with the new vertex
+      const std::int32_t j = (i + count) % n;
+      double sum = 0;
+      for (std::int32_t k = 1; k < count; ++k)
+        sum += dot(unit(mesh.position[first[(i + k) % n]] - p), way) / (count - 1);
+      sum -= std::fabs(dot(unit(mesh.position[first[i]] - p), way)) +
+             std::fabs(dot(unit(mesh.position[first[j]] - p), way));
+      if (from == none || sum > best) best = sum, from = i, to = j;
     }
-    worse = excess(misses) < least ? 0 : worse + 1;
-    least = std::min(least, excess(misses));
-  }
-  return deviation;
+  mesh.scale[v] *= opened;
+  const std::int32_t added = mesh.add_vertex(mesh.location[v], p, QuadMesh::free, false, mesh.scale[v]);
+  for (std::int32_t i = from; i != to; i = (i + 1) % n)
+    for (std::int32_t k = mesh.face_start[faces[i]]; k < mesh.face_start[faces[i] + 1]; ++k)
+      if (mesh.corner[k] == v) mesh.corner[k] = added;
+  for (const std::int32_t c : {v, first[from], added, first[to]}) mesh.corner.push_back(c);
+  mesh.face_start.push_back(mesh.corner.size());
+  return added;
 }
 
 }  // namespace hf

@@ -6,28 +6,17 @@
 // (the template of one node in Schneiders 1996, with halves for thirds). Only edges at v are split, so the quads beyond
 // stay what they are: the mesh stays a mesh of quads with its Euler characteristic, whatever is marked, as long as no
 // quad has two marked corners. Points are reached by walking along the surface from v, so none jumps to another sheet.
-//
-// refine_misses marks, where the surface and the quads are farther from each other than `tolerance`, the nearest corner
-// of the quad, the farthest places first, refines, relaxes, draws out what is still missed, and begins again; where
-// that makes it worse twice, it closes the quads that are off instead (coarsen.h). Vertices of borders and of polygons
-// that are no quads are not marked, nor is one four times.
 #pragma once
-#include "remesh/quad_distance.h"
+#include "remesh/quad_mesh.h"
 
 namespace hf {
 
 // marked: by vertex; of inner vertices with nothing but quads around them, no two in one quad.
 void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::uint8_t>& marked, Memory& memory);
 
-struct RefineOptions {
-  double edge_length = 0.02, tolerance = 0.008;  // inner units
-  std::int32_t rounds = 16, relax_rounds = 12;
-  double most_faces = 1.5;  // of those the mesh came with
-  Progress* progress = nullptr;
-};
-
-// Leaves the nearest mesh it met. deviation: of the mesh; returns that of the new one.
-double refine_misses(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, double deviation,
-                     const RefineOptions& options, Memory& memory);
+// Makes v two vertices with a new quad between them (the inverse of closing one, Tarini et al. 2010): the quads on the
+// side of `towards` go with the new vertex, whose number is returned; both stay where v is. v: inner, with nothing but
+// quads around it, four or more.
+std::int32_t open_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Memory& memory);
 
 }  // namespace hf

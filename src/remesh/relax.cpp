@@ -107,9 +107,19 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
                y = mesh.position[c[(k + size - 1) % size]] - p;
     return dot(cross(x, y), triangle_normal(s, mesh.location[c[k]].triangle)) <= 0;
   };
+  // what may move, and the faces around it
+  Table<std::int32_t> vertices(memory), faces(memory);
+  for (std::int32_t v = 0; v < n; ++v)
+    if (!options.moving || (*options.moving)[v]) vertices.push_back(v);
+  for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+    const std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
+    if (!options.moving || std::any_of(c, c + mesh.size(f), [&](std::int32_t v) { return (*options.moving)[v] != 0; }))
+      faces.push_back(f);
+  }
+  old_position = mesh.position, old_location = mesh.location;
   for (std::int32_t round = 0; round < options.rounds; ++round) {
-    for (std::int32_t v = 0; v < n; ++v) sum[v] = centres[v] = Vec3{}, count[v] = 0, tangled[v] = 0;
-    for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+    for (const std::int32_t v : vertices) sum[v] = centres[v] = Vec3{}, count[v] = 0, tangled[v] = 0;
+    for (const std::int32_t f : faces) {
       const std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
       for (std::int32_t k = 0; k < mesh.size(f); ++k) was_over[mesh.face_start[f] + k] = over(f, k);
       Vec3 proposal[4];
@@ -128,8 +138,8 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
           for (int j = 0; j < 4; ++j) tangled[c[j]] = 1;
       }
     }
-    old_position = mesh.position, old_location = mesh.location;
-    for (std::int32_t v = 0; v < n; ++v) {
+    for (const std::int32_t v : vertices) {
+      old_position[v] = mesh.position[v], old_location[v] = mesh.location[v];
       if (mesh.pinned[v] || mesh.border[v] || count[v] == 0) continue;
       const Vec3 way = 0.5 * ((1 / count[v]) * (tangled[v] ? centres[v] : sum[v]) - mesh.position[v]);
       mesh.location[v] = walk_surface(s, mesh.location[v], way);
@@ -138,8 +148,8 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
     // corners that turned over: their faces go back, until none is left that was not before
     for (int again = 0; again < 4; ++again) {
       bool any = false;
-      for (std::int32_t v = 0; v < n; ++v) back[v] = 0;
-      for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+      for (const std::int32_t v : vertices) back[v] = 0;
+      for (const std::int32_t f : faces) {
         for (std::int32_t k = 0; k < mesh.size(f); ++k) {
           if (was_over[mesh.face_start[f] + k] || !over(f, k)) continue;
           any = true;
@@ -147,7 +157,7 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
         }
       }
       if (!any) break;
-      for (std::int32_t v = 0; v < n; ++v)
+      for (const std::int32_t v : vertices)
         if (back[v]) mesh.position[v] = old_position[v], mesh.location[v] = old_location[v];
     }
     report(options.progress, static_cast<float>(round + 1) / static_cast<float>(options.rounds));

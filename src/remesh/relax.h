@@ -9,7 +9,7 @@
 // the surface, cannot jump between sheets, and stop at a border. Vertices that would turn a corner over stay where they
 // were; sites, what was drawn out, and border vertices stay.
 //
-// Cost: O(vertices) a round.
+// Cost: O(vertices that may move) a round, and once O(vertices).
 #pragma once
 #include "base/progress.h"
 #include "remesh/quad_mesh.h"
@@ -18,7 +18,8 @@ namespace hf {
 
 struct RelaxOptions {
   std::int32_t rounds = 20;
-  double edge_length = 0;  // 0: quads keep their sizes
+  double edge_length = 0;                       // 0: quads keep their sizes
+  const Table<std::uint8_t>* moving = nullptr;  // by vertex: whether it may move; NULL: all may
   Progress* progress = nullptr;
 };
 

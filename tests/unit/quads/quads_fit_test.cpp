@@ -6,11 +6,14 @@
 #include <cmath>
 #include <set>
 
+#include "assets/creature.h"
 #include "assets/shapes.h"
 #include "remesh/capture.h"
 #include "remesh/coarsen.h"
+#include "remesh/fit.h"
 #include "remesh/quads.h"
 #include "remesh/refine.h"
+#include "remesh/relax.h"
 #include "support/meshes.h"
 
 namespace {
@@ -81,6 +84,107 @@ TEST(RefineQuads, WhateverIsMarkedTheMeshStaysClosedAndOfQuads) {
     expect_closed_quads(mesh, 0);
     expect_on_surface(made.surface, mesh);
   }
+}
+
+// Vertices from a sequence that jumps over the mesh, one by one, those of four quads or more.
+TEST(OpenVertex, MakesOneQuadMoreAndTheMeshStaysClosedAndOfQuads) {
+  const Made made(plain(samples::jittered_torus(60, 40)));
+  Memory& memory = *made.core->memory;
+  QuadMesh mesh = made.result.mesh;
+  std::int32_t opened = 0;
+  for (std::uint64_t i = 0; opened < 200; ++i) {
+    const auto v = static_cast<std::int32_t>(samples::hash_to_unit(1, i) * mesh.position.size());
+    const VertexFans fans(mesh, memory);
+    if (fans.valence(v) < 4) continue;
+    const std::int32_t faces = mesh.face_count(), valence = fans.valence(v);
+    const Vec3 towards = mesh.position[v] + Vec3{samples::hash_to_unit(2, i) - 0.5, samples::hash_to_unit(3, i) - 0.5,
+                                                 samples::hash_to_unit(4, i) - 0.5};
+    const std::int32_t added = open_vertex(mesh, v, towards, memory);
+    ++opened;
+    ASSERT_EQ(added, mesh.position.size() - 1);
+    ASSERT_EQ(mesh.face_count(), faces + 1);
+    const VertexFans after(mesh, memory);
+    ASSERT_EQ(after.valence(v) + after.valence(added), valence + 2);
+    ASSERT_GE(std::min(after.valence(v), after.valence(added)), 3);
+  }
+  expect_closed_quads(mesh, 0);
+  expect_on_surface(made.surface, mesh);
+}
+
+// The quads that go with the new vertex are those on the side it goes to.
+TEST(OpenVertex, OpensAcrossTheWay) {
+  const auto core = hf_test::make_core(hf_test::grid(4, 4, 1, 0));
+  Memory& memory = *core->memory;
+  QuadMesh mesh(memory);
+  for (std::int32_t j = 0; j < 3; ++j)
+    for (std::int32_t i = 0; i < 3; ++i)
+      mesh.add_vertex({}, {static_cast<double>(i), static_cast<double>(j), 0}, QuadMesh::free, i != 1 || j != 1, 1);
+  mesh.face_start.push_back(0);
+  for (const std::int32_t v : {0, 1, 3, 4}) {
+    for (const std::int32_t c : {v, v + 1, v + 4, v + 3}) mesh.corner.push_back(c);
+    mesh.face_start.push_back(mesh.corner.size());
+  }
+  const std::int32_t added = open_vertex(mesh, 4, {2, 1, 0}, memory);
+  const VertexFans fans(mesh, memory);
+  EXPECT_EQ(fans.valence(added), 3);
+  for (const std::int32_t f : {1, 3}) {  // the right ones
+    const std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
+    EXPECT_EQ(std::count(c, c + 4, added), 1) << f;
+    EXPECT_EQ(std::count(c, c + 4, 4), 0) << f;
+  }
+  const std::int32_t* c = mesh.corner.data() + mesh.face_start[4];
+  EXPECT_EQ(std::set<std::int32_t>(c, c + 4), (std::set<std::int32_t>{1, 4, 7, added}));
+}
+
+TEST(FitQuads, BringsTheMeshNearAndItStaysClosedAndOfQuads) {
+  const Made made(plain(samples::welded_surface(samples::make_creature("bull", 6000))), 0.03, 0);
+  Memory& memory = *made.core->memory;
+  QuadMesh mesh = made.result.mesh;
+  RelaxOptions relax;
+  relax.edge_length = 0.03;
+  relax_quads(made.surface, mesh, relax, memory);
+  const QuadDistance distance(made.surface, 0.01, memory);
+  const double before = distance.measure(mesh, 0, nullptr, nullptr);
+  FitOptions options;
+  options.edge_length = 0.03, options.tolerance = 0.4 * 0.03, options.most_folds = 4;
+  ASSERT_GT(before, 1.2 * options.tolerance);
+  const std::int32_t faces = mesh.face_count();
+  const double after = fit_quads(made.surface, distance, mesh, options, memory);
+  EXPECT_LE(after, 1.05 * options.tolerance);
+  EXPECT_LE(distance.measure(mesh, 0, nullptr, nullptr), after * (1 + 1e-12));
+  EXPECT_LT(mesh.face_count(), 1.2 * faces);  // one quad at a time, where one is enough
+  expect_closed_quads(mesh, made.result.euler_characteristic);
+  expect_on_surface(made.surface, mesh);
+}
+
+// What is left out because it was found near changes nothing, and neither does the number of threads.
+TEST(QuadDistance, IsTheSameWithFacesKnownAndFromAnyNumberOfThreads) {
+  const Made made(plain(samples::cactus(4000)), 0.03, 0);
+  Memory& memory = *made.core->memory;
+  JobRunner four(4);
+  const QuadDistance alone(made.surface, 0.01, memory), shared(made.surface, 0.01, memory, &four);
+  QuadMesh mesh = made.result.mesh;
+  alone.turn_quads(mesh);
+  QuadMesh same = made.result.mesh;
+  shared.turn_quads(same);
+  for (std::int32_t i = 0; i < mesh.corner.size(); ++i) ASSERT_EQ(mesh.corner[i], same.corner[i]);
+  const double worst = alone.measure(mesh, 0, nullptr, nullptr);
+  EXPECT_EQ(shared.measure(mesh, 0, nullptr, nullptr), worst);
+  Vector<QuadMiss> all(&memory), again(&memory);
+  const double tolerance = 0.6 * worst;
+  NearFaces known(memory);
+  EXPECT_EQ(alone.measure(mesh, tolerance, &all, nullptr), worst);
+  EXPECT_EQ(shared.measure(mesh, tolerance, &again, nullptr, &known), worst);
+  ASSERT_FALSE(known.keys.empty());
+  ASSERT_EQ(all.size(), again.size());
+  again.clear();
+  shared.measure(mesh, tolerance, &again, nullptr, &known);  // now with what is known
+  ASSERT_EQ(all.size(), again.size());
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i].distance, again[i].distance);
+  // a corner that moves makes its faces unknown
+  const std::int32_t f = 0, v = mesh.corner[mesh.face_start[f]];
+  if (known.has(mesh, f)) mesh.position[v] = mesh.position[v] + Vec3{3 * tolerance, 0, 0};
+  EXPECT_FALSE(known.has(mesh, f));
 }
 
 TEST(CoarsenQuads, TakesOutAllItMayAndTheMeshStaysClosedAndOfQuads) {

@@ -1,0 +1,316 @@
+#include "remesh/fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "remesh/coarsen.h"
+#include "remesh/refine.h"
+#include "remesh/relax.h"
+
+namespace hf {
+namespace {
+
+constexpr std::int32_t none = -1;
+constexpr double judged = 2.2;        // edge lengths around a place within which a step is judged
+constexpr double same_place = 0.8;    // edge lengths within which a place is one that was tried before
+constexpr double least_gain = 0.97;   // of what was missed; more than that is no gain
+constexpr double folding_gain = 0.5;  // and where a corner turns over
+constexpr float finest = 0.5f;        // scale of vertices around which quads are divided no further
+
+enum Step : std::int32_t { release, draw, open, widen, divide, close, given_up };
+
+struct Place {
+  QuadMiss miss;
+  std::int32_t vertex = none;  // what the step is made at
+  double before = 0, after = 0;
+  std::int32_t folds_before = 0, folds_after = 0;
+};
+
+struct Tried {
+  Vec3 point;
+  std::int32_t step;  // to be tried next
+};
+
+// By vertex, the sum of the normals around it, weighted by area: that of a triangle says little at a crease.
+Table<Vec3> vertex_normals(const FluxSurface& s, Memory& memory) {
+  Table<Vec3> normals(s.vertex_count(), Vec3{}, memory);
+  for (std::int32_t t = 0; t < s.real_triangles; ++t) {
+    const std::int32_t* c = s.tail.data() + 3 * t;
+    const Vec3 n = cross(s.position[c[1]] - s.position[c[0]], s.position[c[2]] - s.position[c[0]]);
+    for (int k = 0; k < 3; ++k) normals[c[k]] = normals[c[k]] + n;
+  }
+  return normals;
+}
+
+class Fitter {
+ public:
+  Fitter(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, const FitOptions& options,
+         Memory& memory)
+      : surface_(surface),
+        distance_(distance),
+        mesh_(mesh),
+        options_(options),
+        memory_(memory),
+        misses_(&memory),
+        after_(&memory),
+        tried_(&memory),
+        normals_(vertex_normals(surface, memory)),
+        known_(memory),
+        most_faces_(static_cast<std::int32_t>(options.most_faces * mesh.face_count())) {}
+
+  double run() {
+    double deviation = look(mesh_, misses_);
+    Vector<Place> chosen(&memory_);
+    for (std::int32_t round = 0; round < options_.rounds && !misses_.empty(); ++round) {
+      report(options_.progress, static_cast<float>(round) / static_cast<float>(options_.rounds));
+      const std::int32_t step = choose(chosen);
+      if (step == given_up) break;
+      if (chosen.empty()) continue;
+      QuadMesh trial = mesh_;
+      take(step, chosen, trial);
+      double now = look(trial, after_);
+      judge(trial, chosen);
+      const auto helped = [&](const Place& place) {
+        const std::int32_t more = place.folds_after - place.folds_before;
+        return place.after < (more > 0 ? folding_gain : least_gain) * place.before && more <= options_.most_folds;
+      };
+      const auto failed = std::stable_partition(chosen.begin(), chosen.end(), helped);
+      for (auto place = failed; place != chosen.end(); ++place) next_step(place->miss.point, step + 1);
+      for (auto place = chosen.begin(); place != failed; ++place) next_step(place->miss.point, release);
+      if (failed == chosen.begin()) continue;
+      if (failed != chosen.end()) {
+        chosen.erase(failed, chosen.end());
+        trial = mesh_;
+        take(step, chosen, trial);
+        now = look(trial, after_);
+        if (total(after_) >= total(misses_)) {
+          for (const Place& place : chosen) next_step(place.miss.point, step + 1);
+          continue;
+        }
+      }
+      mesh_ = std::move(trial), misses_.swap(after_), deviation = now;
+    }
+    return deviation;
+  }
+
+ private:
+  double look(QuadMesh& mesh, Vector<QuadMiss>& misses) {
+    distance_.turn_quads(mesh, &known_);
+    misses.clear();
+    return distance_.measure(mesh, options_.tolerance, &misses, nullptr, &known_);
+  }
+  double excess(const QuadMiss& miss) const {
+    return miss.distance * miss.distance - options_.tolerance * options_.tolerance;
+  }
+  double total(const Vector<QuadMiss>& misses) const {
+    double sum = 0;
+    for (const QuadMiss& miss : misses) sum += excess(miss);
+    return sum;
+  }
+
+  Tried* find_tried(const Vec3& point) {
+    Tried* best = nullptr;
+    for (Tried& tried : tried_)
+      if (norm(tried.point - point) < same_place * options_.edge_length &&
+          (!best || norm(tried.point - point) < norm(best->point - point)))
+        best = &tried;
+    return best;
+  }
+  void next_step(const Vec3& point, std::int32_t step) {
+    if (Tried* tried = find_tried(point)) {
+      tried->step = step;
+    } else {
+      tried_.push_back({point, step});
+    }
+  }
+
+  // Whether a vertex of the surface lies on a border.
+  bool on_border(std::int32_t v) const {
+    std::int32_t h = surface_.out[v];
+    do {
+      if (!surface_.is_real(h)) return true;
+      h = surface_.turn_left(h);
+    } while (h != surface_.out[v]);
+    return false;
+  }
+
+  // The vertex a step would be made at: of the quad's corners that may take part the nearest.
+  std::int32_t vertex_for(std::int32_t step, const QuadMiss& miss, const VertexFans& fans) const {
+    const std::int32_t f = miss.face, size = mesh_.size(f), *c = mesh_.corner.data() + mesh_.face_start[f];
+    if (step == close) return size == 4 && (can_close(mesh_, fans, f, 0) || can_close(mesh_, fans, f, 1)) ? c[0] : none;
+    if (step > draw && mesh_.face_count() + 12 > most_faces_) return none;
+    std::int32_t best = none;
+    for (std::int32_t k = 0; k < size; ++k) {
+      const std::int32_t v = c[k];
+      bool may = !mesh_.border[v] || (step == draw && miss.vertex >= 0 && on_border(miss.vertex));
+      if (step == release) may = may && mesh_.pinned[v] == QuadMesh::drawn_out && miss.vertex == QuadMiss::of_quads;
+      if (step == draw) may = may && !mesh_.pinned[v];
+      if (step == open || step == widen) may = may && fans.valence(v) >= 4;
+      if (step == divide) may = may && mesh_.scale[v] >= finest;
+      for (std::int32_t i = fans.start[v]; step > draw && may && i < fans.start[v + 1]; ++i)
+        may = mesh_.size(fans.face[i]) == 4;
+      if (may && (best == none || norm(mesh_.position[v] - miss.point) < norm(mesh_.position[best] - miss.point)))
+        best = v;
+    }
+    return best;
+  }
+
+  // The places of the gentlest step that is to be tried, no two of them near each other.
+  std::int32_t choose(Vector<Place>& chosen) {
+    Vector<Place> places(&memory_);
+    std::int32_t step = given_up;
+    for (const QuadMiss& miss : misses_) {
+      const Tried* tried = find_tried(miss.point);
+      if (tried && tried->step == given_up) continue;
+      const bool close_to_one = std::any_of(places.begin(), places.end(), [&](const Place& place) {
+        return norm(place.miss.point - miss.point) < options_.edge_length;
+      });
+      if (close_to_one) continue;
+      Place place;
+      place.miss = miss;
+      places.push_back(place);
+      step = std::min(step, tried ? tried->step : std::int32_t{release});
+    }
+    chosen.clear();
+    const VertexFans fans(mesh_, memory_);
+    Table<std::uint8_t> blocked(mesh_.position.size(), 0, memory_), around = blocked;
+    for (Place& place : places) {
+      const Tried* tried = find_tried(place.miss.point);
+      if ((tried ? tried->step : std::int32_t{release}) != step) continue;
+      place.vertex = vertex_for(step, place.miss, fans);
+      if (place.vertex == none) {
+        next_step(place.miss.point, step + 1);
+        continue;
+      }
+      if (blocked[place.vertex]) continue;
+      chosen.push_back(place);
+      around.assign(around.size(), 0);
+      around[place.vertex] = 1;
+      grow_marks(mesh_, 3, around);
+      for (std::int32_t v = 0; v < around.size(); ++v) blocked[v] = blocked[v] || around[v];
+    }
+    return step;
+  }
+
+  // Where a vertex that goes to the missed place comes to lie.
+  SurfacePoint target(const QuadMiss& miss) const {
+    SurfacePoint at;
+    if (miss.vertex < 0) return distance_.nearest(miss.point);
+    std::int32_t h = surface_.out[miss.vertex];
+    while (!surface_.is_real(h)) h = surface_.turn_left(h);
+    at.triangle = h / 3, at.weight[h % 3] = 1;
+    return at;
+  }
+
+  void put(QuadMesh& mesh, std::int32_t v, const SurfacePoint& at, std::uint8_t pin) const {
+    mesh.location[v] = at, mesh.position[v] = position_of(surface_, at), mesh.pinned[v] = pin;
+  }
+
+  void relax(QuadMesh& mesh, std::int32_t rings, Table<std::uint8_t>& moving) const {
+    grow_marks(mesh, rings, moving);
+    RelaxOptions relax;
+    relax.rounds = options_.relax_rounds, relax.edge_length = options_.edge_length, relax.moving = &moving;
+    relax_quads(surface_, mesh, relax, memory_);
+  }
+
+  void take(std::int32_t step, const Vector<Place>& places, QuadMesh& mesh) const {
+    Table<std::uint8_t> moving(mesh.position.size(), 0, memory_);
+    if (step == close) {
+      Vector<QuadMiss> list(&memory_);
+      for (const Place& place : places) list.push_back(place.miss);
+      close_misses(surface_, mesh, list, moving, memory_);
+      return relax(mesh, options_.relax_rings, moving);
+    }
+    if (step == divide) {
+      for (const Place& place : places) moving[place.vertex] = 1;
+      refine_quads(surface_, mesh, moving, memory_);
+      moving.resize(mesh.position.size(), 1);
+      relax(mesh, options_.relax_rings, moving);
+      draw_nearest(places, mesh, moving);
+      return relax(mesh, 1, moving);
+    }
+    for (const Place& place : places) {
+      moving[place.vertex] = 1;
+      if (step == release) {
+        for (std::int32_t k = mesh.face_start[place.miss.face]; k < mesh.face_start[place.miss.face + 1]; ++k)
+          if (mesh.pinned[mesh.corner[k]] == QuadMesh::drawn_out)
+            mesh.pinned[mesh.corner[k]] = QuadMesh::free, moving[mesh.corner[k]] = 1;
+        continue;
+      }
+      if (step == draw) {
+        put(mesh, place.vertex, target(place.miss), QuadMesh::drawn_out);
+        continue;
+      }
+      const std::int32_t v = open_vertex(mesh, place.vertex, place.miss.point, memory_);
+      moving.push_back(1);
+      if (step == open) put(mesh, v, target(place.miss), QuadMesh::drawn_out);
+      if (step == widen)
+        put(mesh, v, walk_surface(surface_, mesh.location[v], 0.5 * (place.miss.point - mesh.position[v])),
+            QuadMesh::free);
+    }
+    relax(mesh, options_.relax_rings + (step <= draw ? 1 : 0), moving);
+  }
+
+  // The nearest of the vertices that moved goes to its place.
+  void draw_nearest(const Vector<Place>& places, QuadMesh& mesh, const Table<std::uint8_t>& moving) const {
+    for (const Place& place : places) {
+      std::int32_t best = none;
+      for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
+        if (!moving[v] || mesh.pinned[v] || mesh.border[v]) continue;
+        if (best == none || norm(mesh.position[v] - place.miss.point) < norm(mesh.position[best] - place.miss.point))
+          best = v;
+      }
+      if (best != none) put(mesh, best, target(place.miss), QuadMesh::drawn_out);
+    }
+  }
+
+  // Corners around `point` that are turned over, as seen from the surface at each.
+  std::int32_t folds(const QuadMesh& mesh, const Vec3& point) const {
+    std::int32_t count = 0;
+    const double radius = judged * options_.edge_length;
+    for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
+      const std::int32_t size = mesh.size(f), *c = mesh.corner.data() + mesh.face_start[f];
+      if (norm(mesh.position[c[0]] - point) > radius) continue;
+      for (std::int32_t k = 0; k < size; ++k) {
+        const Vec3 p = mesh.position[c[k]], x = mesh.position[c[(k + 1) % size]] - p,
+                   y = mesh.position[c[(k + size - 1) % size]] - p;
+        const SurfacePoint& at = mesh.location[c[k]];
+        Vec3 normal;
+        for (int j = 0; j < 3; ++j) normal = normal + at.weight[j] * normals_[surface_.tail[3 * at.triangle + j]];
+        count += dot(cross(x, y), normal) <= 0;
+      }
+    }
+    return count;
+  }
+
+  void judge(const QuadMesh& trial, Vector<Place>& places) const {
+    for (Place& place : places) {
+      const double radius = judged * options_.edge_length;
+      for (const QuadMiss& miss : misses_)
+        if (norm(miss.point - place.miss.point) < radius) place.before += excess(miss);
+      for (const QuadMiss& miss : after_)
+        if (norm(miss.point - place.miss.point) < radius) place.after += excess(miss);
+      place.folds_before = folds(mesh_, place.miss.point), place.folds_after = folds(trial, place.miss.point);
+    }
+  }
+
+  const FluxSurface& surface_;
+  const QuadDistance& distance_;
+  QuadMesh& mesh_;
+  const FitOptions& options_;
+  Memory& memory_;
+  Vector<QuadMiss> misses_, after_;  // of mesh_; of what was tried
+  Vector<Tried> tried_;
+  Table<Vec3> normals_;
+  NearFaces known_;
+  std::int32_t most_faces_;
+};
+
+}  // namespace
+
+double fit_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, const FitOptions& options,
+                 Memory& memory) {
+  return Fitter(surface, distance, mesh, options, memory).run();
+}
+
+}  // namespace hf
