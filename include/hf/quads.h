@@ -59,8 +59,8 @@ typedef struct hf_quads_info {
  * proposing sites. Sources and sinks are chosen so that they carry the same number of lines and neighbours differ; a
  * Neumann problem with these numbers as fluxes gives the field; rings of nodes stand on its level loops edge_length
  * apart, arc by arc of its Reeb graph; the lines between them make the faces. Vertices lie on the surface. Where the
- * relaxed mesh and the surface are farther from each other than 0.39 edge lengths, quads are made smaller there, in both
- * kinds; HF_QUADS_UNIFORM also takes quads with short edges out. A quad starts at the corner whose diagonal keeps
+ * relaxed mesh and the surface are farther from each other than 0.39 edge lengths, vertices are drawn there and quads
+ * added, in both kinds; HF_QUADS_UNIFORM also takes quads with short edges out. A quad starts at the corner whose diagonal keeps
  * nearer to the surface (at its reflex corner, if it has one): fans of triangles from first corners are meant. Every
  * result is checked before it is handed out: each directed edge once, no corner repeated in a face, the Euler
  * characteristic of the surface (a vertex where the surface touches itself counts once per sheet).
@@ -71,7 +71,8 @@ typedef struct hf_quads_info {
  * A border that the flux of the other sites would cross whatever its own holds all sites of its component at one of two
  * levels instead; site_lines are then the even numbers nearest to the fluxes.
  * out_quads: set to NULL first. Cost: a factorisation of the mesh, O(n log n + faces), and for sites that are proposed
- * up to four meshes of which the best is kept. Progress: rises through factorisations, sites, critical points of the
+ * up to four meshes of which the best is kept, and where none keeps within 0.43 edge lengths of the surface up to four
+ * more with edges down to edge_length / 1.3. Progress: rises through factorisations, sites, critical points of the
  * field, and rounds of relaxation and fitting, and a cancel is heeded at each of them; ranking the vertices, and
  * measuring 100,000 points against a mesh, are one step each.
  * Results: HF_OK; HF_ERROR_INVALID_HANDLE (solver, progress), HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC,

@@ -9,6 +9,7 @@ namespace hf {
 namespace {
 
 constexpr std::int32_t none = -1;
+constexpr double far = 1.1;   // tolerances that may be missed beyond that, where less was before
 constexpr double judged = 2;  // edge lengths around a quad that closes within which nothing more may be missed
 
 struct Closing {
@@ -214,9 +215,10 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
         bad[i] = excess(after, centre, reach) > excess(before, centre, reach);
       }
       // what reaches farther than that counts against the nearest
-      if (std::count(bad.begin(), bad.end(), 1) == 0 && excess(after, {}, HUGE_VAL) > excess(before, {}, HUGE_VAL))
+      const double limit = std::max(before.empty() ? 0 : before[0].distance, far * options.tolerance);
+      if (std::count(bad.begin(), bad.end(), 1) == 0)
         for (const QuadMiss& miss : after)
-          if (excess(before, miss.point, length) <= 0) bad[nearest(centres, miss.point)] = 1;
+          if (miss.distance > limit) bad[nearest(centres, miss.point)] = 1;
       std::size_t left = 0;
       for (std::size_t i = 0; i < taken.size(); ++i) {
         if (bad[static_cast<std::int32_t>(i)]) {

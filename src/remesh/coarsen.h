@@ -6,7 +6,7 @@
 // faces or more, a and c three, and together no more than eight. Borders and their faces stay.
 //
 // coarsen_quads closes quads with an edge shorter than `shortest`, the shortest first, many at a time; the rest is
-// relaxed and measured. Where the mesh then misses the surface by more than it may, those quads stay.
+// relaxed and measured. Where more than `tolerance` is then missed around a quad that was not before, it stays.
 #pragma once
 #include "remesh/quad_distance.h"
 
@@ -29,7 +29,8 @@ struct CoarsenOptions {
   Progress* progress = nullptr;
 };
 
-// Returns how far the mesh and the surface are from each other then: at most tolerance, or what it was (`deviation`).
+// Returns how far the mesh and the surface are from each other then: at most 1.1 tolerances, or what it was
+// (`deviation`).
 double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, double deviation,
                      const CoarsenOptions& options, Memory& memory);
 
