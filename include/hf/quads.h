@@ -60,10 +60,10 @@ typedef struct hf_quads_info {
  * Neumann problem with these numbers as fluxes gives the field; rings of nodes stand on its level loops edge_length
  * apart, arc by arc of its Reeb graph; the lines between them make the faces. Vertices lie on the surface. Where the
  * relaxed mesh and the surface are farther from each other than 0.39 edge lengths, vertices are drawn there and quads
- * added, in both kinds; HF_QUADS_UNIFORM also takes quads with short edges out. A quad starts at the corner whose diagonal keeps
- * nearer to the surface (at its reflex corner, if it has one): fans of triangles from first corners are meant. Every
- * result is checked before it is handed out: each directed edge once, no corner repeated in a face, the Euler
- * characteristic of the surface (a vertex where the surface touches itself counts once per sheet).
+ * added, in both kinds; HF_QUADS_UNIFORM also takes quads with short edges out. A quad starts at the corner whose
+ * diagonal keeps nearer to the surface (at its reflex corner, if it has one): fans of triangles from first corners are
+ * meant. Every result is checked before it is handed out: each directed edge once, no corner repeated in a face, the
+ * Euler characteristic of the surface (a vertex where the surface touches itself counts once per sheet).
  *
  * Works on manifold surfaces with or without borders, of any genus, in several components; triangles that disagree in
  * orientation are turned. Every component gets at least 4 nodes around and 2 sites, so a mesh finer than its features
