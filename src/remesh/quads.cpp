@@ -56,9 +56,10 @@ void fit_lines(const FluxSurface& surface, Span<const double> u, const RingOptio
   }
 }
 
-// 0 for a mesh whose edges are `shortest` edge lengths or more and whose quads are at most `longest` times as long as
-// wide, but for 5 in 100.
-double shape_cost(const QuadMesh& mesh, double edge_length, double shortest, double longest, Memory& memory) {
+// 0 for a mesh whose edges are `shortest` to `longest` edge lengths and whose quads are at most `narrowest` times as
+// long as wide, but for 5 in 100 of each.
+double shape_cost(const QuadMesh& mesh, double edge_length, double shortest, double longest, double narrowest,
+                  Memory& memory) {
   Vector<double> lengths(&memory), aspects(&memory);
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
     double least = 1e300, most = 0;
@@ -74,7 +75,8 @@ double shape_cost(const QuadMesh& mesh, double edge_length, double shortest, dou
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
   };
-  return 2 * std::max(0.0, shortest - at(lengths, 0.05)) + std::max(0.0, std::log(at(aspects, 0.95) / longest));
+  return 2 * std::max(0.0, shortest - at(lengths, 0.05)) + std::max(0.0, at(lengths, 0.95) - longest) +
+         std::max(0.0, std::log(at(aspects, 0.95) / narrowest));
 }
 
 // One surface, its factor and the trees to measure against, for one or more sets of sites.
@@ -168,8 +170,8 @@ class Maker {
 
   // 1 for a mesh as it should be; more is worse.
   double worth(const QuadMesh& mesh, double deviation) const {
-    const double shape = options_.uniform ? shape_cost(mesh, options_.edge_length, 0.52, 4, memory_)
-                                          : shape_cost(mesh, options_.edge_length, 0, 12, memory_);
+    const double shape = options_.uniform ? shape_cost(mesh, options_.edge_length, 0.52, 2, 4, memory_)
+                                          : shape_cost(mesh, options_.edge_length, 0, HUGE_VAL, 12, memory_);
     return std::max(deviation / (enough * options_.edge_length), 1.0) + shape;
   }
 
