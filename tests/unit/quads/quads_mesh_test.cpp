@@ -241,7 +241,7 @@ TEST(Quads, OfTheSharedMeshesAreValidAndNear) {
                       {"cgal_elephant.off", 0.01, 0.01, 0.5, false},
                       {"boot.obj", 0.01, 0.01, 0.5, false},
                       {"cgal_blobby_3cc.off", 0.017, 0.01, 0.5, false},  // teeth of its border are cut off
-                      {"bunny_35k_holes_isolated.obj", 0.02, 0.02, 0, false}};
+                      {"bunny_35k_holes_isolated.obj", 0.01, 0.01, 0.5, false}};
   const bool full = std::getenv("HF_FULL_TESTS") != nullptr;
   for (const Row& row : rows) {
     if (!full && !row.quick) continue;
