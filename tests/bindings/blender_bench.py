@@ -40,7 +40,7 @@ def sphere(name, n):
     bpy.context.scene.collection.objects.link(obj)
     order, k = np.argsort(points[:, 2]), min(500, len(points) // 20)
     for group, members in (("hf low", order[:k]), ("hf high", order[-k:]),
-        ("middle", np.flatnonzero(points @ [1, 0, 0] > 0.98)[:k])):
+        ("middle", np.flatnonzero(points[:, 0] > 0.98)[:k])):
         obj.vertex_groups.new(name=group).add(members.tolist(), 1.0, "REPLACE")
     obj.vertex_groups.new(name="anchors").add(np.concatenate([order[:k], order[-k:]]).tolist(), 1.0, "REPLACE")
     return obj

@@ -58,6 +58,23 @@ def fails(text, operator, **arguments):
 
 for leftover in list(bpy.data.objects):
     bpy.data.objects.remove(leftover)
+
+# what was kept for an object that is no more goes when the next one is bound
+for _ in range(4):
+    gone = cylinder("gone", 4.0, 0.5, 60, 40, (0, 0, 0))[0]
+    active(gone)
+    assert bpy.ops.hf.add_groups(prefix="hf ") == {"FINISHED"}
+    assert list(session.sessions) == [gone["hf_key"]], session.sessions
+    last = session.sessions[gone["hf_key"]]
+    for leftover in list(bpy.data.objects):
+        bpy.data.objects.remove(leftover)
+assert not last.solver.closed
+kept, _ = cylinder("kept", 4.0, 0.5, 60, 40, (0, 0, 0))
+active(kept)
+assert bpy.ops.hf.bind() == {"FINISHED"}
+assert last.solver.closed and last.pose.closed
+assert bpy.ops.hf.unbind() == {"FINISHED"}
+bpy.data.objects.remove(kept)
 bar, points = cylinder("bar", 4.0, 0.5, 81, 48, (0, 0, 0))
 
 # ---- bind, handles from groups

@@ -4,9 +4,9 @@ The scene is the truth (carriers.py); sync() brings the pose in line with it. No
 come and go on the factor made at bind.
 """
 
-import threading
 import time
 import uuid
+from concurrent.futures import ThreadPoolExecutor, wait
 
 import bpy
 import numpy as np
@@ -22,6 +22,9 @@ ORDERING = hf.constants.HF_ORDERING_MINIMUM_DEGREE
 ORDERING_LIMIT = 300000  # vertices; above it nested dissection, the library's default
 
 IDENTITY = np.eye(4)
+
+# One thread makes all solvers: what one gave back of its memory the next one finds.
+WORKER = ThreadPoolExecutor(1, "hf")
 
 sessions = {}
 figures = {"bind_ms": 0.0, "update_ms": 0.0, "sync_ms": 0.0}
@@ -40,16 +43,14 @@ def make_solver(positions, triangles, window_manager=None, meanwhile=None, **opt
         except BaseException as error:  # noqa: BLE001 - raised again below
             made["error"] = error
 
-    worker = threading.Thread(target=work)
+    worker = WORKER.submit(work)
     if window_manager:
         window_manager.progress_begin(0, 100)
-    worker.start()
     try:
         if meanwhile:
             meanwhile()
     finally:
-        while worker.is_alive():
-            worker.join(0.05)
+        while wait([worker], 0.05).not_done:
             if window_manager:
                 window_manager.progress_update(int(100 * progress.fraction))
         if window_manager:
@@ -71,6 +72,10 @@ class Session:
         self.posed = self.rest.copy()
         obj["hf_key"] = obj.get("hf_key") or uuid.uuid4().hex
         figures["bind_ms"] = 1e3 * (time.perf_counter() - begin)
+
+    def close(self):
+        self.pose.close()
+        self.solver.close()
 
     def sync(self, obj):
         """Handles for new carriers, none for those that have gone."""
@@ -112,6 +117,13 @@ class Session:
         figures["update_ms"] = 1e3 * (time.perf_counter() - begin)
 
 
+def forget_removed():
+    """What was kept for objects that are no more; should one come back by undo, its next use binds it again."""
+    there = {obj.get("hf_key") for obj in bpy.data.objects if obj.type == "MESH"}
+    for key in sessions.keys() - there:
+        sessions.pop(key).close()
+
+
 def session_of(obj, window_manager=None, bind=True, meanwhile=None):
     """The session of a mesh object, made when there is none. meanwhile: called once, while the mesh is factorised when
     that is necessary."""
@@ -124,6 +136,7 @@ def session_of(obj, window_manager=None, bind=True, meanwhile=None):
         return found
     if not bind:
         return None
+    forget_removed()
     made = Session(obj, window_manager, meanwhile)
     sessions[obj["hf_key"]] = made
     return made
@@ -145,8 +158,7 @@ def forget(obj):
     if "hf_key" in obj:
         del obj["hf_key"]
     if session:
-        session.pose.close()
-        session.solver.close()
+        session.close()
 
 
 def take_up(obj, made):
