@@ -1,8 +1,8 @@
 // A long session on one solver: 100,000 edits on 41,000 vertices, a field every twentieth, an undo record 500 times in
-// every tenth (the stack is bounded). The memory of the solver after the first tenth and at the end, that of the
-// process from the fourth tenth on: clones that come and go as undo records leave gaps in the C library's heap, which
-// are filled after some 15,000 edits, and then no more come (40 tenths long, it stays to the page). And how long an
-// edit takes at the end and at the beginning (the fastest of twenty stretches each, because other programs run beside
+// every tenth (the stack is bounded). The memory of the solver after the first tenth and at the end; that of the
+// process from the tenth that ends 15,000 edits or more on: clones that come and go as undo records leave gaps in the C
+// library's heap, which are filled by then, and no more come (40 tenths long, it stays to the page). What the gaps take
+// is a figure of its own: the growth of the process from the first tenth on. And how long an edit takes at the end and at the beginning (the fastest of twenty stretches each, because other programs run beside
 // this one). The quick form makes 40,000 edits on 9,800 vertices.
 #include <algorithm>
 #include <chrono>
@@ -60,16 +60,18 @@ int main(int argc, char** argv) {
   EditedSolver solver(surface, 1, 5);
   solver.add(50, {0});
   const Stretch first = edit_on(solver, edits / 10);
-  Stretch fourth = first, last = first;
+  Stretch settled = first, last = first;
   for (int tenth = 2; tenth <= 10; ++tenth) {
     last = edit_on(solver, edits / 10);
-    if (tenth == 4) fourth = last;
+    if ((tenth - 1) * (edits / 10) < 15000) settled = last;
   }
   report_at_least("SESSION_EDITS", edits, 40000);
   report_at_most("SESSION_LIBRARY_GROWTH_BYTES", last.library_bytes - first.library_bytes, 1 << 20);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they keep what was given back
-  report_at_most("SESSION_PROCESS_GROWTH_BYTES", last.process_bytes - fourth.process_bytes, 1 << 20);
+  report_at_most("SESSION_PROCESS_GROWTH_BYTES", last.process_bytes - settled.process_bytes, 1 << 20);
+  report_at_most("SESSION_PROCESS_GROWTH_WITH_GAPS_BYTES", last.process_bytes - first.process_bytes, 4 << 20);
 #endif
-  report_at_most("SESSION_LAST_EDITS_TO_FIRST", last.fastest_ms / first.fastest_ms, 3);
+  if (full)  // the quick form's stretches are too short for a machine that others use
+    report_at_most("SESSION_LAST_EDITS_TO_FIRST", last.fastest_ms / first.fastest_ms, 3);
   return report_status();
 }
