@@ -2,8 +2,9 @@
 // every tenth (the stack is bounded). The memory of the solver after the first tenth and at the end; that of the
 // process from the tenth that ends 15,000 edits or more on: clones that come and go as undo records leave gaps in the C
 // library's heap, which are filled by then, and no more come (40 tenths long, it stays to the page). What the gaps take
-// is a figure of its own: the growth of the process from the first tenth on. And how long an edit takes at the end and at the beginning (the fastest of twenty stretches each, because other programs run beside
-// this one). The quick form makes 40,000 edits on 9,800 vertices.
+// is a figure of its own: the growth of the process from the first tenth on. In the long form also how long an edit
+// takes at the end and at the beginning (the fastest of twenty stretches each, because other programs run beside this
+// one). The quick form makes 40,000 edits on 9,800 vertices.
 #include <algorithm>
 #include <chrono>
 #include <cstring>
