@@ -1,7 +1,8 @@
-"""Runs the first program of a README: readme_example.py README.md LANGUAGE FILE COMMAND...
+"""Runs the first program of a README: readme_example.py [--calls TEMPLATE] README.md LANGUAGE FILE COMMAND...
 
 Writes the first ```LANGUAGE block to FILE, runs COMMAND and compares what it prints with the ```text block after it.
-A program without such a block only has to succeed.
+A program without such a block only has to succeed. With --calls the second block is meant, a list of calls: it stands
+in for the line @BLOCK@ of TEMPLATE, one tab deeper.
 """
 
 import pathlib
@@ -9,13 +10,22 @@ import re
 import subprocess
 import sys
 
-readme, language, path, command = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), sys.argv[4:]
+arguments = sys.argv[1:]
+template = None
+if arguments[0] == "--calls":
+    template, arguments = pathlib.Path(arguments[1]).read_text(), arguments[2:]
+readme, language, path, command = arguments[0], arguments[1], pathlib.Path(arguments[2]), arguments[3:]
 text = pathlib.Path(readme).read_text()
+if template is not None:
+    text = text[text.index("```" + language) + 3 :]
 match = re.search(r"^```" + language + r"\n(.*?)^```\n(?:\s*prints:?\s*```text\n(.*?)^```)?", text, re.S | re.M)
 if not match:
     sys.exit(f"error: {readme} has no {language} block")
 path.parent.mkdir(parents=True, exist_ok=True)
-path.write_text(match.group(1))
+program = match.group(1)
+if template is not None:
+    program = template.replace("@BLOCK@\n", "".join("\t" + line + "\n" if line else "\n" for line in program.splitlines()))
+path.write_text(program)
 run = subprocess.run(command, capture_output=True, text=True)
 if run.returncode == 77:
     print(run.stdout)
