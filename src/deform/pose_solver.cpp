@@ -12,12 +12,12 @@ namespace {
 constexpr double over_relaxation = 1.5;
 constexpr double pi = 3.14159265358979323846;
 
-// The rotation of active group g as a matrix, and its columns padded.
-void set_matrix(SmoothState& state, std::size_t g, const Quaternion& q) noexcept {
-  const Mat3 r = to_matrix(q);
-  state.matrix[g] = r;
+// What active group g aims at: its rotation, strained.
+void set_target(const SmoothSystem& system, std::size_t g, SmoothState& state) noexcept {
+  const Mat3 target =
+      strained(system.sheet[g], state.stress[g], to_matrix(state.rotation[system.subspace.group[g]]));
   for (std::size_t j = 0; j < 3; ++j) {
-    for (std::size_t i = 0; i < 3; ++i) state.columns[12 * g + 4 * j + i] = r.m[i][j];
+    for (std::size_t i = 0; i < 3; ++i) state.columns[12 * g + 4 * j + i] = target.m[i][j];
   }
 }
 
@@ -141,6 +141,17 @@ void set_right_hand_side(const SmoothSystem& system, SmoothState& state) noexcep
   if (count > 0) add_means(system, batch, cluster, count, free_rows);
 }
 
+// S_g at rest: every cluster's transform is the identity.
+Mat3 rest_moments(const Subspace& s, std::size_t g) noexcept {
+  Mat3 sum;
+  for (std::int32_t e = s.entry_start[g]; e < s.entry_start[g + 1]; ++e) {
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) sum.m[i][j] += s.entry[e].q[i][j];
+    }
+  }
+  return 0.5 * (sum + transpose(sum));
+}
+
 void read_transforms(const SmoothSystem& system, const SmoothState& state, Affine* transforms) noexcept {
   for (std::int32_t c = system.handle_count; c < system.handle_count + system.free_count; ++c) {
     const double* x = state.rows.data() + 16 * static_cast<std::size_t>(c);
@@ -175,7 +186,6 @@ double turn_group(const SmoothSystem& system, std::size_t g, Quaternion fit, boo
   const double on = relax && cosine > 0.7 ? over_relaxation : 1.0, back = 1.0 - on;
   q = normalised({on * fit.x + back * q.x, on * fit.y + back * q.y, on * fit.z + back * q.z, on * fit.w + back * q.w});
   if (state.leash < pi) q = on_leash(q, state.anchor[g], state.leash);
-  set_matrix(state, g, q);
   return change;
 }
 
@@ -187,17 +197,21 @@ double fit_rotations(const SmoothSystem& system, bool relax, SmoothState& state)
   double largest = 0;
   for (std::size_t first = 0; first < s.group.size(); first += lanes) {
     const int count = static_cast<int>(std::min(lanes, s.group.size() - first));
+    double sum[lanes][3][4];
     for (int l = 0; l < count; ++l) {
-      double sum[3][4];
       const std::size_t g = first + static_cast<std::size_t>(l);
-      match_group(s, g, state.rows.data(), sum);
-      batch.set_columns(l, sum);
+      match_group(s, g, state.rows.data(), sum[l]);
+      batch.set_columns(l, sum[l]);
       batch.set_rotation(l, state.rotation[s.group[g]]);
     }
     best_rotations_from(batch, count);
-    for (int l = 0; l < count; ++l)
-      largest =
-          std::max(largest, turn_group(system, first + static_cast<std::size_t>(l), batch.rotation(l), relax, state));
+    for (int l = 0; l < count; ++l) {
+      const std::size_t g = first + static_cast<std::size_t>(l);
+      const Stress wanted = stress_of(system.sheet[g], sum[l], to_matrix(batch.rotation(l)));
+      largest = std::max(largest, follow(system.sheet[g], wanted, state.stress[g]));
+      largest = std::max(largest, turn_group(system, g, batch.rotation(l), relax, state));
+      set_target(system, g, state);
+    }
   }
   return largest;
 }
@@ -209,18 +223,22 @@ SmoothSystem::SmoothSystem(const Core& core, const Rest& rest, const ClusterWeig
     : subspace(make_subspace(core, rest, weights, groups, memory)),
       handle_count(weights.handle_count),
       free_count(weights.free_count()),
-      seed_field(&memory) {
+      seed_field(&memory),
+      sheet(&memory) {
   seed_field.reserve(subspace.group.size() * static_cast<std::size_t>(handle_count));
   for (const std::int32_t g : subspace.group) {
     for (std::int32_t i = 0; i < handle_count; ++i) seed_field.push_back(fields.of(i)[groups.seed[g]]);
   }
+  sheet.reserve(subspace.group.size());
+  for (std::size_t g = 0; g < subspace.group.size(); ++g)
+    sheet.push_back(make_sheet(rest_moments(subspace, g), subspace.shared[g]));
 }
 
 void SmoothState::fit(const SmoothSystem& system, const Groups& groups) {
   rotation.resize(groups.count());
   anchor.assign(system.subspace.group.size(), Quaternion());
   leash = 10;
-  matrix.assign(system.subspace.group.size(), Mat3::identity());
+  stress.assign(system.subspace.group.size(), Stress());
   columns.assign(12 * system.subspace.group.size(), 0.0);
   rows.assign(16 * static_cast<std::size_t>(system.handle_count + system.free_count), 0.0);
   known.assign(16 * static_cast<std::size_t>(system.free_count), 0.0);
@@ -233,6 +251,7 @@ void start_rotations(const SmoothSystem& system, const Groups& groups, std::int3
     if (component >= 0 && groups.component[s.group[g]] != component) continue;
     const Vec3 turn = blended_turn(system, g, turns);
     state.rotation[s.group[g]] = exponential(turn);
+    state.stress[g] = Stress();
   }
 }
 
@@ -261,7 +280,7 @@ SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, dou
   SolveReport report;
   if (system.free_count == 0) return report;
   const Subspace& s = system.subspace;
-  for (std::size_t g = 0; g < s.group.size(); ++g) set_matrix(state, g, state.rotation[s.group[g]]);
+  for (std::size_t g = 0; g < s.group.size(); ++g) set_target(system, g, state);
   set_handle_rows(system, transforms, state);
   set_known(system, state);
   while (report.iterations < iterations) {

@@ -4,7 +4,8 @@
 //            so that 450 degrees stay 450;
 //   start:   R_g = exp(sum_i phi_i(seed_g) w_i), w_i = the accumulated turn of handle i;
 //   global:  transforms of the free clusters from the prefactored dense system;
-//   local:   R_g = argmax tr(R' S_g), the step over-relaxed by 1.5 except in the last iteration;
+//   local:   R_g = argmax tr(R' S_g), the step over-relaxed by 1.5 except in the last iteration, and the stress of the
+//            group where it is strained beyond its limits (strain.h), which the next global step aims at too;
 //   leash:   handles turned against each other by more than 290 degrees leave a pose that can fall back by a whole
 //            turn. R_g is then kept within an angle of exp(sum_i phi_i(seed_g) w_i) that shrinks from 180 degrees
 //            to 17 at 400 degrees of turn.
@@ -13,6 +14,7 @@
 // fail.
 #pragma once
 #include "deform/blend.h"
+#include "deform/strain.h"
 #include "deform/subspace.h"
 
 namespace hf {
@@ -24,26 +26,32 @@ struct SmoothSystem {
   Subspace subspace;
   std::int32_t handle_count, free_count;
   Vector<double> seed_field;  // phi_i at the seed of active group k: [k * handle_count + i]
+  Vector<Sheet> sheet;        // per active group
 };
 
 // What a solve leaves for the next.
 struct SmoothState {
   explicit SmoothState(Memory& memory)
-      : rotation(&memory), anchor(&memory), matrix(&memory), columns(&memory), rows(&memory), known(&memory) {}
+      : rotation(&memory),
+        anchor(&memory),
+        stress(&memory),
+        columns(&memory),
+        rows(&memory),
+        known(&memory) {}
   SmoothState(const SmoothState& other, Memory& memory)
       : rotation(other.rotation, &memory),
         anchor(other.anchor, &memory),
-        matrix(other.matrix, &memory),
+        stress(other.stress, &memory),
         columns(other.columns, &memory),
         rows(other.rows, &memory),
         known(other.known, &memory),
         leash(other.leash) {}
-  // Makes room for a system; rotations of groups that were there stay.
+  // Makes room for a system; rotations of groups that were there stay, no group is under stress.
   void fit(const SmoothSystem& system, const Groups& groups);
   Vector<Quaternion> rotation;  // per group of Groups
   Vector<Quaternion> anchor;    // per active group: where the leash ends, set while it is shorter than pi
-  Vector<Mat3> matrix;          // per active group
-  Vector<double> columns;       // the same, three columns of four numbers each
+  Vector<Stress> stress;        // per active group
+  Vector<double> columns;       // per active group what the global step aims at: three columns of four numbers each
   Vector<double> rows;          // 4 x 4 doubles per cluster, handles first: rows of X, padded
   Vector<double> known;         // the handles' part of the right-hand side
   double leash = 10;            // radians
@@ -51,10 +59,11 @@ struct SmoothState {
 
 struct SolveReport {
   std::uint32_t iterations = 0;
-  double last_change = 0;  // largest Frobenius norm of the change of a group's rotation in the last iteration
+  // Largest Frobenius norm of the change of a group's rotation, or stress, in the last iteration.
+  double last_change = 0;
 };
 
-// Groups of `component`, or of all when it is negative.
+// Groups of `component`, or of all when it is negative; their stress is taken away.
 void start_rotations(const SmoothSystem& system, const Groups& groups, std::int32_t component, Span<const Vec3> turns,
                      SmoothState& state) noexcept;
 void predict_rotations(const SmoothSystem& system, Span<const Vec3> increments, SmoothState& state) noexcept;

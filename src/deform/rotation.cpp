@@ -258,6 +258,27 @@ Quaternion best_rotation_from(const Mat3& s, const Quaternion& near) noexcept {
   return best_rotation(s, near);
 }
 
+Mat3 principal_axes(Mat3 a) noexcept {
+  Mat3 v = Mat3::identity();
+  for (int sweep = 0; sweep < 12; ++sweep) {
+    bool settled = true;
+    for (int p = 0; p < 3; ++p) {
+      const int q = (p + 1) % 3;
+      if (!(std::fabs(a.m[p][q]) > 1e-16 * (std::fabs(a.m[p][p]) + std::fabs(a.m[q][q])))) continue;
+      settled = false;
+      // the smaller of the two angles: with the larger one rows are swapped for ever
+      const double theta = 0.5 * (a.m[q][q] - a.m[p][p]) / a.m[p][q];
+      const double t = (theta >= 0 ? 1.0 : -1.0) / (std::fabs(theta) + std::sqrt(theta * theta + 1.0));
+      Mat3 turn = Mat3::identity();
+      turn.m[p][p] = turn.m[q][q] = 1.0 / std::sqrt(t * t + 1.0);
+      turn.m[p][q] = t * turn.m[p][p], turn.m[q][p] = -turn.m[p][q];
+      a = transpose(turn) * a * turn, v = v * turn;
+    }
+    if (settled) break;
+  }
+  return v;
+}
+
 RigidMotion fit_rigid(Span<const Vec3> rest, Span<const Vec3> posed, Span<const double> weights,
                       const Quaternion& near) noexcept {
   const std::size_t count = rest.size();

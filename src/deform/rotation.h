@@ -88,6 +88,9 @@ Quaternion best_rotation(const Mat3& s, const Quaternion& near) noexcept;
 // The same maximiser by Newton steps from `near`, with best_rotation() where they do not settle on a certified maximum.
 Quaternion best_rotation_from(const Mat3& s, const Quaternion& near) noexcept;
 
+// Eigenvectors of a symmetric matrix as columns, a rotation (cyclic Jacobi).
+Mat3 principal_axes(Mat3 a) noexcept;
+
 // x = R p + t
 struct RigidMotion {
   Quaternion rotation;

@@ -27,23 +27,6 @@ Mat3 linear_part(const JointMotion& motion, const Mat3& axes) noexcept {
   return to_matrix(motion.rotation) * (scaled * transpose(axes));
 }
 
-// Eigenvectors of a symmetric matrix as columns, a rotation: cyclic Jacobi.
-Mat3 principal_axes(Mat3 a) noexcept {
-  Mat3 v = Mat3::identity();
-  for (int sweep = 0; sweep < 8; ++sweep) {
-    for (int p = 0; p < 3; ++p) {
-      const int q = (p + 1) % 3;
-      if (std::fabs(a.m[p][q]) <= 1e-15 * (std::fabs(a.m[p][p]) + std::fabs(a.m[q][q]))) continue;
-      const double angle = 0.5 * std::atan2(2 * a.m[p][q], a.m[p][p] - a.m[q][q]);
-      Mat3 turn = Mat3::identity();
-      turn.m[p][p] = turn.m[q][q] = std::cos(angle);
-      turn.m[q][p] = std::sin(angle), turn.m[p][q] = -turn.m[q][p];
-      a = transpose(turn) * a * turn, v = v * turn;
-    }
-  }
-  return v;
-}
-
 // The least-squares fit of the joints, in the mesh's own unit.
 class JointFit {
  public:

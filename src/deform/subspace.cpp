@@ -13,7 +13,7 @@ constexpr double rigidity = 1e-3;         // eps, relative to the mean diagonal 
 constexpr double edge_samples = 60000;    // about this many edges are used
 constexpr std::int32_t few_edges = 1500;  // clusters with fewer are never sampled
 // What edges at a handle's border gain, by the handles of the component: two, more.
-constexpr double border_stiffness[] = {0.25, 1.5};
+constexpr double border_stiffness[] = {0.25, 3.5};
 constexpr std::int32_t edge_piece = 16384;
 
 // Blended positions of vertices before any transform: x_v = sum_k weight[k] A_cluster[k] (p_v, 1).
@@ -188,7 +188,8 @@ class Assembly {
     for (std::size_t k = 0; k < weights_.elastic_components.size(); ++k)
       elastic_[weights_.elastic_components[k]] = 1 + weights_.shared[k];
     for (std::int32_t g = 0; g < groups_.count(); ++g) {
-      if (elastic_[groups_.component[g]]) out_.group.push_back(g);
+      const std::uint8_t kind = elastic_[groups_.component[g]];
+      if (kind) out_.group.push_back(g), out_.shared.push_back(kind - 1);
     }
   }
 

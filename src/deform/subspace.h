@@ -13,7 +13,7 @@
 // edges gain weight towards the border, (1 + a b^4), b the handle's weight at the edge. With two handles a = 1/4;
 // measured: smallest stretch of the bent cactus 0.786 -> 0.801, of the plane's longest edge 2.7 -> 2.5, energy + 0.1
 // per cent.
-// With more handles, whose bands are eased towards them (bands.h), a = 3/2.
+// With more handles, whose bands are eased towards them (bands.h), a = 7/2.
 //
 // What the subspace leaves out: a cross-section stays affine. Ten times the groups and twice the bands lower the energy
 // of the bent cylinder and of the twisted bar by 0.3 per cent, the full-mesh step (refine.h) by 3 and 5. Surfaces of
@@ -35,6 +35,7 @@ namespace hf {
 struct Subspace {
   explicit Subspace(Memory& memory)
       : group(&memory),
+        shared(&memory),
         entry_start(&memory),
         entry(&memory),
         use_start(&memory),
@@ -56,6 +57,7 @@ struct Subspace {
   };
 
   Vector<std::int32_t> group;        // groups of the elastic components, ascending
+  Vector<std::uint8_t> shared;       // per active group: more than two handles meet in its component
   Vector<std::int32_t> entry_start;  // entries of group[k]: entry[entry_start[k] .. entry_start[k + 1])
   Vector<Entry> entry;
   // The entries of free cluster f and their groups (positions in Subspace::group), by group: use[use_start[f] ..
