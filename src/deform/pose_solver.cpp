@@ -14,8 +14,7 @@ constexpr double pi = 3.14159265358979323846;
 
 // What active group g aims at: its rotation, strained.
 void set_target(const SmoothSystem& system, std::size_t g, SmoothState& state) noexcept {
-  const Mat3 target =
-      strained(system.sheet[g], state.stress[g], to_matrix(state.rotation[system.subspace.group[g]]));
+  const Mat3 target = strained(system.sheet[g], state.stress[g], to_matrix(state.rotation[system.subspace.group[g]]));
   for (std::size_t j = 0; j < 3; ++j) {
     for (std::size_t i = 0; i < 3; ++i) state.columns[12 * g + 4 * j + i] = target.m[i][j];
   }

@@ -32,12 +32,7 @@ struct SmoothSystem {
 // What a solve leaves for the next.
 struct SmoothState {
   explicit SmoothState(Memory& memory)
-      : rotation(&memory),
-        anchor(&memory),
-        stress(&memory),
-        columns(&memory),
-        rows(&memory),
-        known(&memory) {}
+      : rotation(&memory), anchor(&memory), stress(&memory), columns(&memory), rows(&memory), known(&memory) {}
   SmoothState(const SmoothState& other, Memory& memory)
       : rotation(other.rotation, &memory),
         anchor(other.anchor, &memory),

@@ -7,9 +7,9 @@
 // With P the clamp to [low, high], the stress X, symmetric with the eigenvectors of U,
 //     x_+ = clamp(k (P sigma_+ - sigma_+), -c, c) - n (P sigma_- - 1),   and x_- likewise,
 // goes into the group's target for the global step, T = R (1 + E X E') in place of R: k times stiffer outside the
-// limits, up to a stress of c, where it yields instead of crumpling what lies beside; n is a contraction across (Poisson),
-// which keeps the volume of a limb that is pulled. U is unchanged by a common rotation of surface and groups, and X = 0
-// at rest. X follows with a factor r < 2 / (1 + k), under which the alternation contracts.
+// limits, up to a stress of c, where it yields instead of crumpling what lies beside; n is a contraction across
+// (Poisson), which keeps the volume of a limb that is pulled. U is unchanged by a common rotation of surface and
+// groups, and X = 0 at rest. X follows with a factor r < 2 / (1 + k), under which the alternation contracts.
 //
 // Measured (docs/benchmarks.md): a scan pulled by one hand, longest edge 1.35 -> 1.29, smallest stretch 0.67 -> 0.74,
 // volume +3.3 -> +3.1 per cent, for 12 per cent more energy; a lifted plane, edges within [0.8, 1.25] 71.0 -> 72.1 per

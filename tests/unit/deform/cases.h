@@ -117,10 +117,10 @@ inline Case plane_lift(std::uint32_t side = 101) {
   return c;
 }
 
-// The plane as the design study has it, read off its pictures: narrow bumps on every other field of a board of 11 x 11, a
-// broad frame, a lift of 0.9. Converged as-rigid-as-possible iterations have 73.2 per cent of edges in [0.8, 1.25], the
-// longest at 2.64, a smallest stretch of 0.898 and dihedral angles changed by 100.2 degrees on it, 73.05, 2.65, 0.90 and
-// 100.4 in the study.
+// The plane as the design study has it, read off its pictures: narrow bumps on every other field of a board of 11 x 11,
+// a broad frame, a lift of 0.9. Converged as-rigid-as-possible iterations have 73.2 per cent of edges in [0.8, 1.25],
+// the longest at 2.64, a smallest stretch of 0.898 and dihedral angles changed by 100.2 degrees on it, 73.05, 2.65,
+// 0.90 and 100.4 in the study.
 inline Case study_plane_lift() {
   Case c = plane_lift();
   c.name = "study plane lift";

@@ -63,7 +63,7 @@ TEST(Strain, AxesOfASymmetricMatrixAreItsEigenvectors) {
     for (auto& row : a.m) {
       for (double& x : row) x = normal(random);
     }
-    if (i % 4 == 1) a.m[2][0] = a.m[2][1] = a.m[2][2] = 0;              // flat
+    if (i % 4 == 1) a.m[2][0] = a.m[2][1] = a.m[2][2] = 0;               // flat
     if (i % 4 == 2) a.m[1][0] = a.m[0][0], a.m[1][1] = a.m[0][1] = 0.3;  // nearly equal directions
     const Mat3 square = a * transpose(a), v = principal_axes(square), d = transpose(v) * square * v;
     const double size = square.m[0][0] + square.m[1][1] + square.m[2][2];
@@ -200,7 +200,8 @@ void expect_equilibrium(const Case& c, double border_stiffness) {
     force[f].topRows<3>() += 1e-3 * trace[f] / 3 * (a - near).transpose();
     worst = std::max(worst, force[f].norm() / size[f]);
   }
-  std::printf("%s: %d of %zu groups strained, largest force left %.1e\n", c.name.c_str(), strained_groups, count, worst);
+  std::printf("%s: %d of %zu groups strained, largest force left %.1e\n", c.name.c_str(), strained_groups, count,
+              worst);
   EXPECT_GT(strained_groups, 5);
   EXPECT_LT(worst, 1e-5);
 }
