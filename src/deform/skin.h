@@ -8,8 +8,8 @@
 // the clusters; handles keep theirs. B_c are the principal axes of the rest surface under the cluster, along which an
 // engine's joint scale can stretch it: a ring that widens is no rotation. With s = 1 joints are rigid. Rotation and
 // stretch of one joint are found in turn: R = argmax tr(R' Y B s B'), s_i = (B' R' Y B)_ii / (B' P B)_ii, Y and P the
-// moments of target and rest. Measured, worst vertex over the box: lifted plane 2.3 -> 0.4 per cent, cactus with four
-// handles 1.3 -> 0.3, bends and twists 0.6 -> 0.1. Weights: the 4 or 8 largest of a vertex, scaled to sum 1 and rounded
+// moments of target and rest. Measured, worst vertex over the box: lifted plane 2.5 -> 0.2 per cent, cactus with four
+// handles 1.4 -> 0.4, bends and twists 0.6 -> 0.1. Weights: the 4 or 8 largest of a vertex, scaled to sum 1 and rounded
 // to multiples of 2^-24 (the largest takes the remainder), so that they sum to 1 exactly in single precision in any
 // order. Vertices that no handle reaches hang on one more joint, which never moves. Cost O(weights); the fit uses
 // 20,000 vertices at most.
