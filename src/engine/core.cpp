@@ -78,11 +78,17 @@ void find_grounds(Core& core) {
 }
 
 // Weights of a bi-harmonic operator's L stay below these multiples of their median: the first with which K factors.
-constexpr double weight_caps[] = {1e3, 1e2, 1e1};
-constexpr int cap_count = 3;
+// With the last, weights and masses are brought within that of their medians from below too.
+constexpr double weight_caps[] = {1e3, 1e2, 1e1, 1e1};
+constexpr int cap_count = 4;
 // When the weights of a second-order operator spread over more than the digits there are (a needle of 1e-9 ties two
 // vertices 1e18 times as strongly as the third), every weight gets this share of the diagonals at its ends.
-constexpr double tie_shares[] = {0, 1e-12, 1e-9};
+// The last resort confines the weights of a component to this many times their median, both ways.
+constexpr double tie_shares[] = {0, 1e-9, 1e-7, 0};
+constexpr double confined_spread = 1e4;
+// Fields of a second-order operator lose about 2^-52 over the smallest share of a diagonal that a pivot keeps; one of a
+// regular mesh of n vertices keeps 1 / n at least. A fourth-order operator, which keeps 1 / n^2, has the default.
+constexpr double harmonic_lost_share = 0x1p-31;
 
 // K of the options, on the mesh's own edges or on the intrinsic Delaunay ones. cap: of weight_caps.
 void make_operator(Core& core, const CoreOptions& options, int cap) {
@@ -96,10 +102,16 @@ void make_operator(Core& core, const CoreOptions& options, int cap) {
     core.laplacian = hf::laplacian(core.topology, core.weights, pool, core.jobs.get());
     if (options.field_kind == FieldKind::biharmonic) areas.assign(core.areas.begin(), core.areas.end());
   }
-  if (options.field_kind == FieldKind::harmonic && tie_shares[cap] > 0)
-    tie_weakly(core.laplacian, tie_shares[cap], pool);
-  if (options.field_kind != FieldKind::harmonic) {
+  const bool last = cap + 1 == cap_count;
+  if (options.field_kind == FieldKind::harmonic) {
+    if (tie_shares[cap] > 0) tie_weakly(core.laplacian, tie_shares[cap], pool);
+    if (last) confine_weights(core.laplacian, core.mesh.component, confined_spread, pool);
+  } else {
     if (options.field_kind == FieldKind::biharmonic) areas = inverse_masses(core.mesh, std::move(areas));
+    if (last) {
+      confine_weights(core.laplacian, core.mesh.component, weight_caps[cap], pool);
+      for (double& inverse : areas) inverse = std::min(std::max(inverse, 1 / weight_caps[cap]), weight_caps[cap]);
+    }
     cap_weights(core.laplacian, weight_caps[cap], pool);
     core.laplacian = biharmonic(core.laplacian, areas, pool, core.jobs.get());
     core.refinements = 1;
@@ -140,6 +152,7 @@ void make_factor(Core& core, const CoreOptions& options) {
     const Vector<float> coordinates = ordering_coordinates(core.mesh, pool);
     FactorOptions factor_options;
     factor_options.ordering = options.ordering;
+    if (options.field_kind == FieldKind::harmonic) factor_options.lost_share = harmonic_lost_share;
     const InPlaceGrounds grounds(core);
     core.factor = Factor::make(core.laplacian, coordinates, factor_options, pool, *core.jobs);
   }
@@ -177,8 +190,8 @@ std::shared_ptr<const Core> Core::make(const MeshInput& input, const CoreOptions
       break;
     } catch (const Error& error) {
       // a lost pivot, or saved bytes of a factor that was made with the next cap
-      const bool again = cap + 1 < cap_count &&
-                         (error.code() == HF_ERROR_NOT_POSITIVE_DEFINITE || !options.saved_factor.empty());
+      const bool again =
+          cap + 1 < cap_count && (error.code() == HF_ERROR_NOT_POSITIVE_DEFINITE || !options.saved_factor.empty());
       if (!again) throw;
     }
     make_operator(*core, options, cap + 1);

@@ -118,8 +118,8 @@ class UpdownSolver final : public SiteSolver {
       for (std::size_t c = 0; c < m; ++c)
         centre[at(site.component) * m + c] += values[slot * m + c] / count_[at(site.component)];
     }
-    // right-hand side R R' s, by columns
-    Workspace right(core_->workspaces, n * m);
+    // right-hand side R R' s, by columns; s less its component's mean
+    Workspace right(core_->workspaces, n * m), wanted(core_->workspaces, sites_.size() * m);
     std::fill_n(right.data(), n * m, 0.0);
     for (std::size_t slot = 0; slot < sites_.size(); ++slot) {
       const Site& site = sites_[slot];
@@ -127,6 +127,7 @@ class UpdownSolver final : public SiteSolver {
       const double a = alpha(site);
       for (std::size_t c = 0; c < m; ++c) {
         const double s = values[slot * m + c] - centre[at(site.component) * m + c];
+        wanted[slot * m + c] = s;
         for (int k = 0; k < 3; ++k) {
           if (site.vertex[k] >= 0) right[c * n + at(site.vertex[k])] += a * site.weight[k] * s;
         }
@@ -137,8 +138,7 @@ class UpdownSolver final : public SiteSolver {
     if (edits_ > refine_after || core_->refinements > 0) {
       std::copy_n(u, n * m, refined.data());
       Workspace residual(core_->workspaces, n * m);
-      for (std::size_t c = 0; c < m; ++c)
-        subtract_product(right.data() + c * n, refined.data() + c * n, residual.data() + c * n);
+      residual_of(wanted.data(), refined.data(), channels, residual.data());
       const double* correction = back_substitute(residual.data(), m);
       for (std::size_t i = 0; i < n * m; ++i) refined[i] += correction[i];
       u = refined.data();
@@ -292,23 +292,30 @@ class UpdownSolver final : public SiteSolver {
     return static_cast<double*>(work_.x->x);
   }
 
-  // residual = right - (K + R R' + grounds) u, with K in difference form
-  void subtract_product(const double* right, const double* u, double* residual) const {
+  // residual = R R' s - (K + R R' + grounds) u by channel, K in difference form. What a site misses is formed first:
+  // formed by vertex, its rounding, alpha times the last digit, would not point along w, where the penalty makes it
+  // harmless.
+  void residual_of(const double* wanted, const double* u, Index channels, double* residual) const {
     const SymmetricMatrix& k = core_->laplacian;
-    for (Index v = 0; v < core_->size(); ++v) {
-      double sum = right[v];
-      for (Index i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i)
-        sum -= k.value[at(i)] * (u[k.row[at(i)]] - u[v]);
-      const Index c = core_->mesh.component[at(v)];
-      if (count_[at(c)] == 0 && v == core_->ground[at(c)]) sum -= core_->mean_diagonal[at(c)] * u[v];
-      residual[v] = sum;
-    }
-    for (const Site& site : sites_) {
-      if (site.component < 0) continue;
-      double w = 0;
-      for (int q = 0; q < 3; ++q) w += site.vertex[q] >= 0 ? site.weight[q] * u[site.vertex[q]] : 0.0;
-      for (int q = 0; q < 3; ++q) {
-        if (site.vertex[q] >= 0) residual[site.vertex[q]] -= alpha(site) * site.weight[q] * w;
+    const std::size_t n = at(core_->size()), m = at(channels);
+    for (std::size_t c = 0; c < m; ++c, u += n, residual += n) {
+      for (Index v = 0; v < core_->size(); ++v) {
+        double sum = 0;
+        for (Index i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i)
+          sum -= k.value[at(i)] * (u[k.row[at(i)]] - u[v]);
+        const Index component = core_->mesh.component[at(v)];
+        if (count_[at(component)] == 0 && v == core_->ground[at(component)])
+          sum -= core_->mean_diagonal[at(component)] * u[v];
+        residual[v] = sum;
+      }
+      for (std::size_t slot = 0; slot < sites_.size(); ++slot) {
+        const Site& site = sites_[slot];
+        if (site.component < 0) continue;
+        double missed = wanted[slot * m + c];
+        for (int q = 0; q < 3; ++q) missed -= site.vertex[q] >= 0 ? site.weight[q] * u[site.vertex[q]] : 0.0;
+        for (int q = 0; q < 3; ++q) {
+          if (site.vertex[q] >= 0) residual[site.vertex[q]] += alpha(site) * site.weight[q] * missed;
+        }
       }
     }
   }

@@ -112,7 +112,8 @@ void SupernodalFactor::measure_paths() {
   for (std::int32_t s = pattern.supernodes - 1; s >= 0; --s) {
     const double columns = pattern.columns(s);
     const Path above = pattern.parent[s] >= 0 ? path[static_cast<std::size_t>(pattern.parent[s])] : Path{0, 0};
-    path[static_cast<std::size_t>(s)] = {above.entries + columns * (0.5 * columns + pattern.below(s)), above.rows + columns};
+    path[static_cast<std::size_t>(s)] = {above.entries + columns * (0.5 * columns + pattern.below(s)),
+                                         above.rows + columns};
     total.entries += columns * path[static_cast<std::size_t>(s)].entries;
     total.rows += columns * path[static_cast<std::size_t>(s)].rows;
   }
@@ -120,11 +121,11 @@ void SupernodalFactor::measure_paths() {
   statistics_.path_entries = total.entries / pattern.size, statistics_.path_rows = total.rows / pattern.size;
 }
 
-void SupernodalFactor::compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, JobRunner& jobs,
-                               Progress* progress) {
+void SupernodalFactor::compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, double lost_share,
+                               JobRunner& jobs, Progress* progress) {
   Stopwatch watch;
   values_.allocate(memory_, static_cast<std::size_t>(symbolic().stored_entries) + value_slack);
-  factorise(symbolic(), plan(), kernels(), matrix, eliminated, values_.data(), memory_, jobs, progress);
+  factorise(symbolic(), plan(), kernels(), matrix, eliminated, lost_share, values_.data(), memory_, jobs, progress);
   statistics_.numeric_ms = watch.lap_ms();
 }
 
@@ -160,7 +161,7 @@ std::shared_ptr<const Factor> Factor::make(const SymmetricMatrix& matrix, Coordi
   report(options.progress, 0.55f);
   std::shared_ptr<SupernodalFactor> factor = make_shared_in<SupernodalFactor>(memory, std::move(analysis), memory);
   factor->set_timings(ordering_ms, symbolic_ms);
-  factor->compute(matrix, {}, jobs, options.progress);
+  factor->compute(matrix, {}, options.lost_share, jobs, options.progress);
   report(options.progress, 1.0f);
   return factor;
 }
@@ -182,7 +183,7 @@ std::shared_ptr<const Factor> SupernodalFactor::refactor(const SymmetricMatrix& 
   }
   std::shared_ptr<SupernodalFactor> factor = make_shared_in<SupernodalFactor>(memory, analysis_, memory);
   factor->kernels_ = kernels_;
-  factor->compute(matrix, eliminated, jobs, nullptr);
+  factor->compute(matrix, eliminated, default_lost_share, jobs, nullptr);
   return factor;
 }
 

@@ -24,17 +24,21 @@ enum class Ordering : std::int32_t {
   natural = 3,
 };
 
+// A pivot below this share of its diagonal entry is rounding noise: the matrix is singular to working precision.
+constexpr double default_lost_share = 0x1p-46;
+
 struct FactorOptions {
   Ordering ordering = Ordering::nested_dissection;
-  Progress* progress = nullptr;  // reported between 0 and 1
+  double lost_share = default_lost_share;  // larger: pivots are lost that keep fewer digits than wished
+  Progress* progress = nullptr;            // reported between 0 and 1
 };
 
 struct FactorStatistics {
   double ordering_ms = 0, symbolic_ms = 0, numeric_ms = 0;
-  double entries = 0;         // non-zeros of G
-  double stored_entries = 0;  // with the relaxation zeros
-  double flops = 0;           // sum of squared column counts
-  double bytes = 0;           // of the stored factor with its index lists
+  double entries = 0;                      // non-zeros of G
+  double stored_entries = 0;               // with the relaxation zeros
+  double flops = 0;                        // sum of squared column counts
+  double bytes = 0;                        // of the stored factor with its index lists
   double path_entries = 0, path_rows = 0;  // of the elimination path of an unknown, in the mean
   std::int32_t supernodes = 0;
   bool loaded = false;    // from bytes, not made here: the three times above are 0
@@ -73,9 +77,9 @@ class Factor {
   virtual void forward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
   virtual void backward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
 
-  // The backward sweep as far as these unknowns (caller's numbering) need it: over their elimination paths. Their rows of
-  // z get the bits that backward() gives; the other rows of the paths hold numbers of their own. Cost: one read of the
-  // factor's entries on the union of the paths.
+  // The backward sweep as far as these unknowns (caller's numbering) need it: over their elimination paths. Their rows
+  // of z get the bits that backward() gives; the other rows of the paths hold numbers of their own. Cost: one read of
+  // the factor's entries on the union of the paths.
   virtual void backward_at(Span<const std::int32_t> unknowns, double* z, std::int32_t channels) const = 0;
   // z = 0 on those paths.
   virtual void clear_at(Span<const std::int32_t> unknowns, double* z, std::int32_t channels) const = 0;

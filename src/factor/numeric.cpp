@@ -10,9 +10,6 @@
 namespace hf {
 namespace {
 
-// A pivot below this share of its diagonal entry is rounding noise: the matrix is singular to working precision.
-constexpr double lost_share = 0x1p-46;
-
 // Everything one thread needs to run fronts; reused from front to front.
 struct Workspace {
   Workspace(Memory& memory, std::int32_t unknowns, const Plan::Sizes& sizes)
@@ -68,12 +65,13 @@ class WorkspacePool {
 class Factorisation {
  public:
   Factorisation(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix,
-                Span<const std::uint8_t> eliminated, double* values, Memory& memory, JobRunner& jobs)
+                Span<const std::uint8_t> eliminated, double lost_share, double* values, Memory& memory, JobRunner& jobs)
       : symbolic_(symbolic),
         plan_(plan),
         kernels_(kernels),
         matrix_(matrix),
         eliminated_(eliminated),
+        lost_share_(lost_share),
         values_(values),
         memory_(memory),
         jobs_(jobs),
@@ -162,7 +160,7 @@ class Factorisation {
         if (!eliminated_.empty() && (identity || eliminated_[row[e]])) entry = other == column ? 1.0 : 0.0;
         const std::int32_t place = workspace.place_of[other];
         target[(place >> 3) * stride + (place & 7)] = entry;
-        if (other == column) workspace.floor[j] = std::max(0.0, entry * lost_share);
+        if (other == column) workspace.floor[j] = std::max(0.0, entry * lost_share_);
       }
     }
   }
@@ -311,6 +309,7 @@ class Factorisation {
   const Kernels& kernels_;
   const SymmetricMatrix& matrix_;
   Span<const std::uint8_t> eliminated_;
+  double lost_share_;
   double* values_;
   Memory& memory_;
   JobRunner& jobs_;
@@ -322,9 +321,9 @@ class Factorisation {
 }  // namespace
 
 void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix,
-               Span<const std::uint8_t> eliminated, double* values, Memory& memory, JobRunner& jobs,
+               Span<const std::uint8_t> eliminated, double lost_share, double* values, Memory& memory, JobRunner& jobs,
                Progress* progress) {
-  Factorisation(symbolic, plan, kernels, matrix, eliminated, values, memory, jobs).run(progress);
+  Factorisation(symbolic, plan, kernels, matrix, eliminated, lost_share, values, memory, jobs).run(progress);
   const std::size_t stored = static_cast<std::size_t>(symbolic.stored_entries);
   std::fill(values + stored, values + stored + value_slack, 0.0);
 }

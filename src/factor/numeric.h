@@ -22,10 +22,10 @@ namespace hf {
 // Numbers behind the last stored one that sweeps may read over (and ignore).
 constexpr std::size_t value_slack = 64;
 
-// `eliminated` (per unknown, may be empty): rows and columns taken as the identity. Throws
-// HF_ERROR_NOT_POSITIVE_DEFINITE with the unknown whose pivot is lost, the first in factor order.
+// `eliminated` (per unknown, may be empty): rows and columns taken as the identity. lost_share: see FactorOptions.
+// Throws HF_ERROR_NOT_POSITIVE_DEFINITE with the unknown whose pivot is lost, the first in factor order.
 void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix,
-               Span<const std::uint8_t> eliminated, double* values, Memory& memory, JobRunner& jobs,
+               Span<const std::uint8_t> eliminated, double lost_share, double* values, Memory& memory, JobRunner& jobs,
                Progress* progress);
 
 // No NaN and no infinity among the numbers.

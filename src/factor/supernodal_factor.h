@@ -14,8 +14,8 @@ struct Analysis {
   Symbolic symbolic;
   Plan plan;
   Ordering ordering = Ordering::nested_dissection;  // that was asked for
-  std::uint64_t pattern_hash = 0;  // of the matrix: refactor takes the same pattern only
-  bool loaded = false;             // from bytes: the hash is not to be trusted
+  std::uint64_t pattern_hash = 0;                   // of the matrix: refactor takes the same pattern only
+  bool loaded = false;                              // from bytes: the hash is not to be trusted
 };
 
 // One supernode of a path group: nc rows of `lanes` numbers, sites [low, low + used) of the group.
@@ -77,7 +77,8 @@ class SupernodalFactor final : public Factor {
   const Buffer<double>& values() const noexcept { return values_; }
   const std::shared_ptr<const Analysis>& analysis() const noexcept { return analysis_; }
   // Factorises the matrix into values(), which it allocates.
-  void compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, JobRunner& jobs, Progress* progress);
+  void compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, double lost_share, JobRunner& jobs,
+               Progress* progress);
   void set_timings(double ordering_ms, double symbolic_ms) noexcept {
     statistics_.ordering_ms = ordering_ms, statistics_.symbolic_ms = symbolic_ms;
   }

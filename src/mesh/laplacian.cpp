@@ -175,4 +175,38 @@ void tie_weakly(SymmetricMatrix& matrix, double share, Memory& memory) {
   }
 }
 
+void confine_weights(SymmetricMatrix& matrix, const Vector<Index>& component, double spread, Memory& memory) {
+  struct Entry {
+    Index component;
+    double weight;
+    std::size_t position;
+  };
+  Vector<Entry> entries(&memory);
+  entries.reserve(matrix.row.size());
+  for (Index v = 0; v < matrix.size(); ++v) {
+    for (std::size_t i = at(matrix.column_start[at(v)]); i < at(matrix.column_start[at(v) + 1]); ++i) {
+      if (matrix.row[i] != v) entries.push_back({component[at(v)], std::fabs(matrix.value[i]), i});
+    }
+  }
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    if (a.component != b.component) return a.component < b.component;
+    return a.weight != b.weight ? a.weight < b.weight : a.position < b.position;
+  });
+  for (std::size_t begin = 0; begin < entries.size();) {
+    std::size_t end = begin, zeros = begin;
+    for (; end < entries.size() && entries[end].component == entries[begin].component; ++end)
+      zeros += entries[end].weight == 0;
+    const double median = zeros < end ? entries[zeros + (end - zeros) / 2].weight : 1.0;
+    for (; begin < end; ++begin)
+      matrix.value[entries[begin].position] =
+          -std::min(std::max(entries[begin].weight, median / spread), median * spread);
+  }
+  for (Index v = 0; v < matrix.size(); ++v) {
+    double rest = 0;
+    for (std::size_t i = at(matrix.column_start[at(v)]); i < at(matrix.column_start[at(v) + 1]); ++i)
+      rest += matrix.row[i] == v ? 0.0 : matrix.value[i];
+    matrix.value[matrix.diagonal(v)] = -rest;
+  }
+}
+
 }  // namespace hf

@@ -39,6 +39,12 @@ Vector<double> vertex_areas(const Mesh& mesh, Memory& memory, JobRunner* jobs = 
 // others by less than rounding. Weights stay non-negative.
 void tie_weakly(SymmetricMatrix& matrix, double share, Memory& memory);
 
+// The last resort where weights of one component spread over more digits than there are (needles at 1e34 beside parts
+// of size 1): every stored weight is brought within `spread` of the component's median, both ways, keeping K 1 = 0.
+// Fields there follow the graph more than the lengths; they stay within the values of their sites. component: by
+// vertex.
+void confine_weights(SymmetricMatrix& matrix, const Vector<std::int32_t>& component, double spread, Memory& memory);
+
 // K_ij = -w_ij, K_ii = sum_j w_ij: symmetric, K 1 = 0 exactly in each row up to the rounding of one sum.
 SymmetricMatrix laplacian(const Topology& topology, const Vector<double>& weights, Memory& memory,
                           JobRunner* jobs = nullptr);

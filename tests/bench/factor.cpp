@@ -67,8 +67,8 @@ json compare_numeric(const InnerSystem& system, const hf::SupernodalFactor& fact
   if (peer) peer->analyse_given_ms(std::vector<int>(factor.order().begin(), factor.order().end()));
   const auto ours_with = [&](const hf::Kernels& kernels) {
     return time_ms([&] {
-      hf::factorise(factor.symbolic(), factor.plan(), kernels, system.matrix(), {}, values.data(), system.memory(),
-                    system.jobs(), nullptr);
+      hf::factorise(factor.symbolic(), factor.plan(), kernels, system.matrix(), {}, hf::default_lost_share,
+                    values.data(), system.memory(), system.jobs(), nullptr);
     });
   };
   std::vector<double> ours, narrow, theirs, theirs_serial;
