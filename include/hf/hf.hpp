@@ -2,9 +2,9 @@
 // arrays.
 //
 // Header only; every function forwards to the C function of the same name and nothing else happens here. The namespace
-// is hfpp, because the library's own inner namespace is hf and its tests see both.
+// is hf, because the library's own inner namespace is hf and its tests see both.
 //
-//   hfpp::Solver solver(positions, triangles);
+//   hf::Solver solver(positions, triangles);
 //   auto sites = solver.add_sites({0, 41}, {0.0, 1.0});
 //   std::vector<float> field = solver.solve();
 #ifndef HF_HF_HPP
@@ -18,7 +18,7 @@
 
 #include "hf/hf.h"
 
-namespace hfpp {
+namespace hf {
 
 // What a failing call reported. what() is "function: message (HF_ERROR_...)".
 class Error : public std::runtime_error {
@@ -650,6 +650,6 @@ class Transfer {
   uint32_t source_vertices_ = 0, target_vertices_ = 0;
 };
 
-}  // namespace hfpp
+}  // namespace hf
 
 #endif

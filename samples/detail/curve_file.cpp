@@ -48,13 +48,13 @@ CurveFile read_curve_file(const std::string& file, const SurfaceMesh& mesh) {
   return curve;
 }
 
-void enclose(hfpp::Region& region, const CurveFile& curve, int32_t grow) {
-  auto desc = hfpp::make<hf_curve_desc>();
+void enclose(hf::Region& region, const CurveFile& curve, int32_t grow) {
+  auto desc = hf::make<hf_curve_desc>();
   desc.point_count = static_cast<uint32_t>(curve.vertices.size() + curve.triangles.size());
   if (!curve.vertices.empty()) desc.vertices = curve.vertices.data();
   if (!curve.triangles.empty()) desc.triangles = curve.triangles.data(), desc.barycentrics = curve.barycentrics.data();
   desc.side = curve.side, desc.seed_vertex = curve.seed;
-  auto edit = hfpp::make<hf_region_edit_desc>();
+  auto edit = hf::make<hf_region_edit_desc>();
   edit.curve = &desc, edit.ring_count = curve.grow + grow;
   region.edit(edit);
 }

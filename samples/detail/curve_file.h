@@ -24,7 +24,7 @@ struct CurveFile {
 CurveFile read_curve_file(const std::string& file, const SurfaceMesh& mesh);
 
 // The region that the curve encloses, and `grow` rings more.
-void enclose(hfpp::Region& region, const CurveFile& curve, int32_t grow);
+void enclose(hf::Region& region, const CurveFile& curve, int32_t grow);
 
 }  // namespace samples
 

@@ -93,14 +93,14 @@ struct Subject {
     region.grow(grow);
     grow_seconds = seconds_of(again);
   }
-  std::optional<hfpp::Solver> make_solver(bool thin_plate) {
+  std::optional<hf::Solver> make_solver(bool thin_plate) {
     const auto begin = std::chrono::steady_clock::now();
-    auto create = hfpp::make<hf_create_desc>();
+    auto create = hf::make<hf_create_desc>();
     create.vertex_count = static_cast<uint32_t>(mesh.positions.size());
     create.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
     create.positions = positions.data(), create.triangles = mesh.triangles.data();
     create.field_kind = thin_plate ? HF_FIELD_BIHARMONIC : HF_FIELD_HARMONIC;
-    std::optional<hfpp::Solver> made(create);
+    std::optional<hf::Solver> made(create);
     create_seconds = seconds_of(begin);
     return made;
   }
@@ -119,13 +119,13 @@ struct Subject {
   SurfaceMesh mesh;
   std::vector<float> positions;
   CurveFile curve;
-  std::optional<hfpp::Solver> solver;
-  hfpp::Region region;
+  std::optional<hf::Solver> solver;
+  hf::Region region;
 };
 
 // The detail of `from` on `onto`: the points of the two curves correspond where both have as many on their rims.
-hfpp::Detail carry(const Subject& from, const Subject& onto) {
-  auto desc = hfpp::make<hf_detail_desc>();
+hf::Detail carry(const Subject& from, const Subject& onto) {
+  auto desc = hf::make<hf_detail_desc>();
   const std::vector<uint32_t>&a = from.curve.vertices, &b = onto.curve.vertices;
   const auto on_rim = [](const Subject& s) {
     const std::vector<uint32_t> rim = s.region.vertices(HF_REGION_RIM);
@@ -135,14 +135,14 @@ hfpp::Detail carry(const Subject& from, const Subject& onto) {
   };
   if (!a.empty() && a.size() == b.size() && on_rim(from) && on_rim(onto))
     desc.pair_count = static_cast<uint32_t>(a.size()), desc.source_vertices = a.data(), desc.target_vertices = b.data();
-  return hfpp::Detail(from.region, onto.region, &desc);
+  return hf::Detail(from.region, onto.region, &desc);
 }
 
 void run(const Command& options) {
   const Subject subject(options.mesh, options.curve, options.thin_plate, options.grow);
   subject.print("mesh");
   std::optional<Subject> onto;
-  std::optional<hfpp::Detail> detail;
+  std::optional<hf::Detail> detail;
   if (!options.onto.empty()) {
     onto.emplace(options.onto, options.onto_curve, options.thin_plate, 0);
     onto->print("onto");

@@ -3,7 +3,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-namespace hf {
+namespace hf_inner {
 
 void fail(hf_result code, std::uint32_t index, const char* format, ...) {
   Error error(code, index);
@@ -14,4 +14,4 @@ void fail(hf_result code, std::uint32_t index, const char* format, ...) {
   throw error;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

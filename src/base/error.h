@@ -6,7 +6,7 @@
 
 #include "hf/base.h"
 
-namespace hf {
+namespace hf_inner {
 
 class Error final : public std::exception {
  public:
@@ -28,4 +28,4 @@ class Error final : public std::exception {
 [[noreturn]] void fail(hf_result code, std::uint32_t index, const char* format, ...)
     __attribute__((format(printf, 3, 4)));
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -9,7 +9,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace hf {
+namespace hf_inner {
 
 class FloatEnvironment {
  public:
@@ -38,4 +38,4 @@ class FloatEnvironment {
 #endif
 };
 
-}  // namespace hf
+}  // namespace hf_inner

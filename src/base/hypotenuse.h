@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf {
+namespace hf_inner {
 
 // Without overflow or underflow on the way, to two units in the last place. a and b are numbers, infinite ones too.
 inline double hypotenuse(double a, double b) noexcept {
@@ -16,4 +16,4 @@ inline double hypotenuse(double a, double b) noexcept {
   return large * std::sqrt(x * x + y * y);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -13,7 +13,7 @@
 #include <unistd.h>
 #endif
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 long this_process() noexcept {
@@ -181,4 +181,4 @@ void JobRunner::run(std::uint32_t count, Call call, void* context) {
   if (batch.failed) std::rethrow_exception(batch.error);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "hf/base.h"
 
-namespace hf {
+namespace hf_inner {
 
 class JobRunner {
  public:
@@ -54,4 +54,4 @@ void for_each(JobRunner* jobs, std::uint32_t count, Job&& job) {
   for (std::uint32_t i = 0; i < count; ++i) job(i);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -6,7 +6,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::size_t huge_page = std::size_t{2} << 20;
@@ -57,4 +57,4 @@ void Memory::do_deallocate(void* pointer, std::size_t bytes, std::size_t alignme
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

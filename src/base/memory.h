@@ -1,7 +1,7 @@
 // All memory of a solver passes through one Memory: the host's hooks (or malloc), live and peak bytes, and a byte
 // limit.
 //
-// Containers: hf::Vector<T> (std::pmr::vector on a Memory) for small and growing arrays, hf::Buffer<T> for large
+// Containers: hf_inner::Vector<T> (std::pmr::vector on a Memory) for small and growing arrays, hf_inner::Buffer<T> for large
 // numeric arrays (64-byte aligned, not initialised). Failure throws std::bad_alloc and leaves what was allocated before
 // intact. A Memory outlives everything allocated from it; handles share it by std::shared_ptr. Thread safety: allocate
 // and deallocate may be called from any thread if the host's hooks allow it (the default ones do).
@@ -17,7 +17,7 @@
 
 #include "hf/base.h"
 
-namespace hf {
+namespace hf_inner {
 
 class Memory final : public std::pmr::memory_resource {
  public:
@@ -137,4 +137,4 @@ class Buffer {
   std::size_t size_ = 0;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

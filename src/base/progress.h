@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace hf {
+namespace hf_inner {
 
 class Progress {
  public:
@@ -54,4 +54,4 @@ inline void report(Progress* progress, float fraction) {
   if (progress) progress->report(fraction);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace hf {
+namespace hf_inner {
 
 template <class T>
 class Span {
@@ -87,4 +87,4 @@ class Rows {
   bool is_double_ = false;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Both triangles of a symmetric n x n matrix, compressed by columns (equally rows), the diagonal present in every
 // column, row indices ascending. column_start has n + 1 entries; entries < 2^31.
@@ -25,4 +25,4 @@ struct SymmetricMatrix {
   Vector<double> value;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -2,7 +2,7 @@
 #pragma once
 #include <chrono>
 
-namespace hf {
+namespace hf_inner {
 
 class Timer {
  public:
@@ -15,4 +15,4 @@ class Timer {
   Clock::time_point start_ = Clock::now();
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -13,7 +13,7 @@
 #include "field/levels.h"
 #include "hf/analysis.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 namespace {
 
 struct GeodesicsObject final : Object {
@@ -197,10 +197,10 @@ void find_extremities(hf_solver handle, const hf_extremities_desc* given, std::u
 }
 
 }  // namespace
-}  // namespace hf::capi
+}  // namespace hf_inner::capi
 
-using namespace hf;
-using namespace hf::capi;
+using namespace hf_inner;
+using namespace hf_inner::capi;
 
 extern "C" {
 

@@ -5,7 +5,7 @@
 #include "capi/boundary.h"
 #include "capi/objects.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 namespace {
 
 // The detail of this thread's last failure. Plain data: no constructor, no destructor, nothing to allocate.
@@ -53,10 +53,10 @@ hf_result record_failure(hf_result code, std::uint32_t index, const char* functi
   return code;
 }
 
-}  // namespace hf::capi
+}  // namespace hf_inner::capi
 
-using namespace hf;
-using namespace hf::capi;
+using namespace hf_inner;
+using namespace hf_inner::capi;
 
 extern "C" {
 

@@ -11,7 +11,7 @@
 #include "base/span.h"
 #include "capi/first_sizes.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 
 // Stores the detail of a failure for hf_get_error_detail and returns the code.
 hf_result record_failure(hf_result code, std::uint32_t index, const char* function, const char* message) noexcept;
@@ -108,4 +108,4 @@ inline Rows rows_of(float* f32, double* f64, std::uint32_t stride, const char* s
   return {};
 }
 
-}  // namespace hf::capi
+}  // namespace hf_inner::capi

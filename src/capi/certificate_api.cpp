@@ -7,7 +7,7 @@
 #include "field/certificate.h"
 #include "hf/field.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 namespace {
 
 // What the engines reach with room to spare; the sites of updown are penalties, which hold to about 1 / penalty.
@@ -22,10 +22,10 @@ double tolerance_of(const hf_certificate& asked, EngineKind engine) {
 }
 
 }  // namespace
-}  // namespace hf::capi
+}  // namespace hf_inner::capi
 
-using namespace hf;
-using namespace hf::capi;
+using namespace hf_inner;
+using namespace hf_inner::capi;
 
 extern "C" {
 

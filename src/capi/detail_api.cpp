@@ -5,7 +5,7 @@
 #include "capi/region_object.h"
 #include "detail/carried_detail.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 namespace {
 
 struct DetailObject final : Object {
@@ -70,10 +70,10 @@ void morph(hf_detail handle, const hf_morph_desc* given) {
 }
 
 }  // namespace
-}  // namespace hf::capi
+}  // namespace hf_inner::capi
 
-using namespace hf;
-using namespace hf::capi;
+using namespace hf_inner;
+using namespace hf_inner::capi;
 
 extern "C" {
 

@@ -9,7 +9,7 @@
 #include "field/vector_field.h"
 #include "hf/direction.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 namespace {
 
 struct DirectionObject final : Object {
@@ -163,10 +163,10 @@ void rotate_vectors(SolverObject& solver, std::uint32_t count, const std::uint32
 }
 
 }  // namespace
-}  // namespace hf::capi
+}  // namespace hf_inner::capi
 
-using namespace hf;
-using namespace hf::capi;
+using namespace hf_inner;
+using namespace hf_inner::capi;
 
 extern "C" {
 

@@ -7,7 +7,7 @@
 #include "factor/factor_bytes.h"
 #include "hf/factor.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 namespace {
 
 void solve_preview(hf_solver handle, float* f32, double* f64, std::uint32_t value_stride,
@@ -38,10 +38,10 @@ void solve_preview(hf_solver handle, float* f32, double* f64, std::uint32_t valu
 }
 
 }  // namespace
-}  // namespace hf::capi
+}  // namespace hf_inner::capi
 
-using namespace hf;
-using namespace hf::capi;
+using namespace hf_inner;
+using namespace hf_inner::capi;
 
 extern "C" {
 

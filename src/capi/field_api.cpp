@@ -7,7 +7,7 @@
 #include "field/vector_field.h"
 #include "hf/field.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 namespace {
 
 Places read_places(const hf_sites_desc& desc) {
@@ -119,10 +119,10 @@ void solve_vectors(hf_solver handle, float* f32, double* f64, std::uint32_t stri
 }
 
 }  // namespace
-}  // namespace hf::capi
+}  // namespace hf_inner::capi
 
-using namespace hf;
-using namespace hf::capi;
+using namespace hf_inner;
+using namespace hf_inner::capi;
 
 extern "C" {
 

@@ -5,7 +5,7 @@
 
 #include "hf/hf.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 
 template <class T>
 inline constexpr std::size_t first_size = sizeof(T);
@@ -31,4 +31,4 @@ inline constexpr std::size_t first_size<hf_transfer_frame> = offsetof(hf_transfe
 template <>
 inline constexpr std::size_t first_size<hf_skin_info> = offsetof(hf_skin_info, axes);
 
-}  // namespace hf::capi
+}  // namespace hf_inner::capi

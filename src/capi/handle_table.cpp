@@ -3,7 +3,7 @@
 #include <mutex>
 #include <new>
 
-namespace hf::capi {
+namespace hf_inner::capi {
 namespace {
 
 constexpr unsigned index_bits = sizeof(std::uintptr_t) >= 8 ? 24 : 13;
@@ -122,4 +122,4 @@ std::shared_ptr<Object> remove(std::uintptr_t handle, Kind kind) noexcept {
   return object;  // destroyed outside the lock: its destructor may call the host's hooks
 }
 
-}  // namespace hf::capi
+}  // namespace hf_inner::capi

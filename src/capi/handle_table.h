@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 
 enum class Kind : std::uint32_t {
   solver = 1,
@@ -88,4 +88,4 @@ std::shared_ptr<T> get(Handle handle, Kind kind, const char* name, std::uint32_t
   return std::static_pointer_cast<T>(std::move(object));
 }
 
-}  // namespace hf::capi
+}  // namespace hf_inner::capi

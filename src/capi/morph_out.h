@@ -7,7 +7,7 @@
 #include "detail/morph.h"
 #include "hf/detail.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 
 struct MorphOut {
   double weight;
@@ -65,4 +65,4 @@ void write_morph(const RegionSurface& surface, const RegionState& state, const M
   });
 }
 
-}  // namespace hf::capi
+}  // namespace hf_inner::capi

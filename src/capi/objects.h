@@ -7,7 +7,7 @@
 #include "capi/handle_table.h"
 #include "field/scalar_field.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 
 struct ProgressObject final : Object {
   ProgressObject() noexcept : Object(Kind::progress) {}
@@ -37,4 +37,4 @@ struct SolverObject final : Object {
       0};  // of the last finished change: may be read while another thread changes the field
 };
 
-}  // namespace hf::capi
+}  // namespace hf_inner::capi

@@ -12,7 +12,7 @@
 #include "deform/skin.h"
 #include "hf/deform.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 namespace {
 
 struct PoseObject final : Object {
@@ -155,10 +155,10 @@ void scatter_range(const Core& core, const Range& range, const Rows& out, Isolat
 }
 
 }  // namespace
-}  // namespace hf::capi
+}  // namespace hf_inner::capi
 
-using namespace hf;
-using namespace hf::capi;
+using namespace hf_inner;
+using namespace hf_inner::capi;
 
 extern "C" {
 

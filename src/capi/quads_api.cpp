@@ -10,7 +10,7 @@
 #include "remesh/flow_lines.h"
 #include "remesh/quads.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 namespace {
 
 struct QuadsObject final : Object {
@@ -201,10 +201,10 @@ void trace(hf_flow handle, const hf_scalars* given, hf_flow_lines* inout_lines) 
 }
 
 }  // namespace
-}  // namespace hf::capi
+}  // namespace hf_inner::capi
 
-using namespace hf;
-using namespace hf::capi;
+using namespace hf_inner;
+using namespace hf_inner::capi;
 
 extern "C" {
 

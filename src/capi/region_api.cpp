@@ -5,7 +5,7 @@
 #include "capi/morph_out.h"
 #include "capi/region_object.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 namespace {
 
 // Positions of the vertices as given: the caller's, or the solver's own.
@@ -187,10 +187,10 @@ hf_result change(const char* function, hf_region handle, Work&& work) {
 }
 
 }  // namespace
-}  // namespace hf::capi
+}  // namespace hf_inner::capi
 
-using namespace hf;
-using namespace hf::capi;
+using namespace hf_inner;
+using namespace hf_inner::capi;
 
 extern "C" {
 

@@ -3,7 +3,7 @@
 #include "capi/objects.h"
 #include "detail/region.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 
 struct RegionObject final : Object {
   explicit RegionObject(std::shared_ptr<const RegionSurface> surface)
@@ -13,4 +13,4 @@ struct RegionObject final : Object {
   Region region;
 };
 
-}  // namespace hf::capi
+}  // namespace hf_inner::capi

@@ -6,7 +6,7 @@
 #include "engine/core.h"
 #include "hf/analysis.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 
 // One value per inner vertex.
 inline Vector<double> read_scalars(const Core& core, const hf_scalars* given) {
@@ -28,4 +28,4 @@ inline Vector<double> read_scalars(const Core& core, const hf_scalars* given) {
   return field;
 }
 
-}  // namespace hf::capi
+}  // namespace hf_inner::capi

@@ -6,7 +6,7 @@
 #include "base/span.h"
 #include "engine/site_solver.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 
 // row(inner, values) fills `width` (at most 64) numbers. Isolated vertices get what isolated(entry, values) fills in,
 // or zeros without it.
@@ -128,4 +128,4 @@ inline void append_starts(std::uint32_t count, const std::uint32_t* sizes, std::
   }
 }
 
-}  // namespace hf::capi
+}  // namespace hf_inner::capi

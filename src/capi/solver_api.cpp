@@ -6,7 +6,7 @@
 #include "factor/factor_bytes.h"
 #include "hf/field.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 namespace {
 
 // A std allocator straight on the host's hooks, for the Memory object itself.
@@ -111,10 +111,10 @@ void count_given(SolverObject& solver) {
 }
 
 }  // namespace
-}  // namespace hf::capi
+}  // namespace hf_inner::capi
 
-using namespace hf;
-using namespace hf::capi;
+using namespace hf_inner;
+using namespace hf_inner::capi;
 
 extern "C" {
 

@@ -9,7 +9,7 @@
 #include "hf/transfer.h"
 #include "transfer/transfer.h"
 
-namespace hf::capi {
+namespace hf_inner::capi {
 namespace {
 
 struct TransferObject final : Object {
@@ -63,10 +63,10 @@ void check_engine(const SolverObject& solver, std::uint32_t index) {
 }
 
 }  // namespace
-}  // namespace hf::capi
+}  // namespace hf_inner::capi
 
-using namespace hf;
-using namespace hf::capi;
+using namespace hf_inner;
+using namespace hf_inner::capi;
 
 extern "C" {
 

@@ -5,7 +5,7 @@
 
 #include "deform/cluster_rows.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double field_prune = 0.3;     // of |phi|: fields that count at a vertex
@@ -315,4 +315,4 @@ ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Re
   return weights;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

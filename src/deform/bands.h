@@ -16,7 +16,7 @@
 
 #include "deform/levels.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct BandOptions {
   int degree = 2;
@@ -66,4 +66,4 @@ struct ClusterWeights {
 ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Reach& reach, const HandleFields& fields,
                                     const BandOptions& options, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

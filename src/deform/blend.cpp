@@ -4,7 +4,7 @@
 
 #include "deform/blend_rows.h"
 
-namespace hf {
+namespace hf_inner {
 
 Vec3 blend_vertex(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, std::int32_t v) noexcept {
   const Vec3 p = mesh.positions[v];
@@ -76,4 +76,4 @@ void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transf
   });
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -3,7 +3,7 @@
 #pragma once
 #include "deform/bands.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Row-major 3 x 4: x = A (p, 1), in the mesh's own unit.
 struct Affine {
@@ -26,4 +26,4 @@ void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transf
 // One vertex, in the mesh's own unit.
 Vec3 blend_vertex(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, std::int32_t v) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -5,7 +5,7 @@
 
 #include "deform/blend_rows.h"
 
-namespace hf {
+namespace hf_inner {
 
 namespace {
 
@@ -93,4 +93,4 @@ void blend_rows_avx2(const BlendRows& rows, std::int32_t first, std::int32_t las
   blend_vertices(rows, v, last);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -5,7 +5,7 @@
 
 #include "deform/blend_rows.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 // Masked by all ones: the plain intrinsics start from an undefined register, and GCC 12 warns of it.
@@ -104,4 +104,4 @@ void blend_rows_avx512(const BlendRows& rows, std::int32_t first, std::int32_t l
   blend_vertices(rows, v, last);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

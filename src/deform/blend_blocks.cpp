@@ -3,7 +3,7 @@
 #include "deform/blend.h"
 #include "deform/rest.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t lanes = 8, blocks_at_once = 512;
@@ -65,4 +65,4 @@ void list_blocks(ClusterWeights& weights, JobRunner& jobs) {
   weights.block_start = std::move(begin);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hf {
+namespace hf_inner {
 
 struct BlendRows {
   const std::int32_t* start;  // by vertex
@@ -24,4 +24,4 @@ struct BlendRows {
 void blend_rows_avx2(const BlendRows& rows, std::int32_t first, std::int32_t last) noexcept;
 void blend_rows_avx512(const BlendRows& rows, std::int32_t first, std::int32_t last) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double weight_prune = 1e-3;  // of |W|: clusters that count at a vertex
@@ -142,4 +142,4 @@ void write_rows(const Core& core, const Reach& reach, const HandleFields& fields
   for (const PieceRows& own : rows) out.unreached_vertex_count += own.unreached;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,7 +4,7 @@
 #pragma once
 #include "deform/bands.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct ClusterEntry {
   std::int32_t vertex, cluster;
@@ -16,4 +16,4 @@ struct ClusterEntry {
 void write_rows(const Core& core, const Reach& reach, const HandleFields& fields,
                 const Vector<Vector<ClusterEntry>>& entries, ClusterWeights& out, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

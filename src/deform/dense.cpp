@@ -5,7 +5,7 @@
 
 #include "deform/lanes.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double pivot_floor = 1e-10;  // of the diagonal
@@ -117,4 +117,4 @@ void DenseFactor::solve(double* x) const noexcept {
   solve_upper(lower_.data(), inverse_pivot_.data(), size_, x);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -8,7 +8,7 @@
 
 #include "base/memory.h"
 
-namespace hf {
+namespace hf_inner {
 
 class DenseFactor {
  public:
@@ -27,4 +27,4 @@ class DenseFactor {
   Buffer<double> inverse_pivot_;  // 0 for dropped unknowns
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 struct Front {
@@ -164,4 +164,4 @@ std::shared_ptr<const Groups> Groups::with(std::shared_ptr<const Groups> groups,
   return grown;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -10,7 +10,7 @@
 
 #include "deform/rest.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Groups {
   explicit Groups(Memory& memory)
@@ -28,4 +28,4 @@ struct Groups {
                                             Span<const std::int32_t> components, std::int32_t wished, Memory& memory);
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -7,7 +7,7 @@
 #include "deform/rest.h"
 #include "engine/rim.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 // Farthest-point sampling of the ring, one vertex of every component first so that no component loses its sites.
@@ -186,4 +186,4 @@ HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Han
   return fields;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -13,7 +13,7 @@
 
 #include "engine/site_solver.h"
 
-namespace hf {
+namespace hf_inner {
 
 constexpr std::uint32_t handle_limit = 256;
 
@@ -77,4 +77,4 @@ struct HandleFields {
 HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Handles& handles, const Reach& reach,
                                  Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double triangle_samples = 20000;
@@ -149,4 +149,4 @@ BandValues band_values(double level, std::int32_t band_count, int degree) noexce
   return b;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

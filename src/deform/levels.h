@@ -10,7 +10,7 @@
 #include "deform/handles.h"
 #include "deform/rest.h"
 
-namespace hf {
+namespace hf_inner {
 
 enum class LevelSpacing : std::int32_t { equal_value, equal_length };
 
@@ -41,4 +41,4 @@ struct BandValues {
 double eased_level(double level, std::int32_t band_count) noexcept;
 BandValues band_values(double level, std::int32_t band_count, int degree) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

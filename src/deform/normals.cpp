@@ -6,7 +6,7 @@
 
 #include "deform/normals_avx2.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 // Below, in squares of the box: rounding of the positions, not a direction.
@@ -76,4 +76,4 @@ void vertex_normals(const Mesh& mesh, const Rest& rest, const Vec3* positions, N
   });
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -5,7 +5,7 @@
 #pragma once
 #include "deform/rest.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Normal {
   float x, y, z;
@@ -23,4 +23,4 @@ struct alignas(16) NormalSum {
 void vertex_normals(const Mesh& mesh, const Rest& rest, const Vec3* positions, NormalSum* sums, Normal* normals,
                     JobRunner& jobs);
 
-}  // namespace hf
+}  // namespace hf_inner

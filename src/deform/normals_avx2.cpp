@@ -5,7 +5,7 @@
 
 #include <immintrin.h>
 
-namespace hf {
+namespace hf_inner {
 
 namespace {
 
@@ -50,4 +50,4 @@ void add_border_normals_avx2(const NormalRows& rows, const std::int32_t* corners
   add_normals(rows, corners, count, [=](std::int32_t v) { return v >= first && v < last; });
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 // Vertices by free cluster.
@@ -135,4 +135,4 @@ SolveReport solve_paper_pose(const PaperSystem& system, const Mesh& mesh, const 
   return report;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

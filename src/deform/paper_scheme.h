@@ -9,7 +9,7 @@
 #include "deform/pose_solver.h"
 #include "deform/rotation.h"
 
-namespace hf {
+namespace hf_inner {
 
 // What stays while handles stay. Immutable once made.
 struct PaperSystem {
@@ -44,4 +44,4 @@ SolveReport solve_paper_pose(const PaperSystem& system, const Mesh& mesh, const 
                              std::uint32_t iterations, double tolerance, PaperState& state,
                              Affine* transforms) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/timer.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double settled_change = 1e-6;  // of a rotation: below, a pose that is asked for again is not solved on
@@ -576,4 +576,4 @@ DeformReport Pose::deform_from(const Pose& start, Span<const Vec3> turns, const 
   return report;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

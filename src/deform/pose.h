@@ -16,7 +16,7 @@
 #include "deform/pose_solver.h"
 #include "deform/refine.h"
 
-namespace hf {
+namespace hf_inner {
 
 enum class DeformMode : std::int32_t { smooth = 0, paper = 1 };
 
@@ -187,4 +187,4 @@ class Pose {
   SolveReport report_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -6,7 +6,7 @@
 #include "deform/lanes.h"
 #include "deform/rotation_batch.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double over_relaxation = 1.5;
@@ -293,4 +293,4 @@ SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, dou
   return report;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -17,7 +17,7 @@
 #include "deform/strain.h"
 #include "deform/subspace.h"
 
-namespace hf {
+namespace hf_inner {
 
 // What stays while handles stay. Immutable once made.
 struct SmoothSystem {
@@ -69,4 +69,4 @@ void set_leash(const SmoothSystem& system, Span<const Vec3> turns, SmoothState& 
 SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, double tolerance, SmoothState& state,
                        Affine* transforms) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -7,7 +7,7 @@
 #include "base/timer.h"
 #include "deform/normals.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 // A layer starts from the surface below whenever anything moves, and takes at least this many steps.
@@ -368,4 +368,4 @@ DeformReport PoseStack::deform(const DeformRequest& request) {
   return report;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -20,7 +20,7 @@
 
 #include "deform/pose.h"
 
-namespace hf {
+namespace hf_inner {
 
 class PoseStack {
  public:
@@ -96,4 +96,4 @@ class PoseStack {
   bool base_stale_ = true, refined_ = false;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

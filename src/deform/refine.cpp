@@ -5,7 +5,7 @@
 
 #include "deform/rotation_batch.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t samples_per_group = 24;
@@ -167,4 +167,4 @@ void GroupStart::fit(const Core& core, const Rest& rest, Span<const Vec3> surfac
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

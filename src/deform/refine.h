@@ -20,7 +20,7 @@
 #include "deform/handles.h"
 #include "deform/rotation.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct RefineInput {
   const Core& core;
@@ -71,4 +71,4 @@ class GroupStart {
 // The rotation of the edges at one vertex: sum_u w_vu (x_v - x_u)(p_v - p_u)'.
 void add_ring(const Core& core, const Rest& rest, const Vec3* positions, std::int32_t v, Mat3& sum) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 void sort_components(const Mesh& mesh, Rest& rest) {
@@ -68,4 +68,4 @@ Rest::Rest(const Core& core, Memory& memory)
   });
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -5,7 +5,7 @@
 
 #include "engine/core.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Rest {
   Rest(const Core& core, Memory& memory);
@@ -53,4 +53,4 @@ inline double scattered(std::uint32_t index) noexcept {
   return static_cast<double>((x ^ (x >> 31)) >> 11) * 0x1.0p-53;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

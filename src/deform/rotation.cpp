@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -299,4 +299,4 @@ RigidMotion fit_rigid(Span<const Vec3> rest, Span<const Vec3> posed, Span<const 
   return motion;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -15,7 +15,7 @@
 #include "base/span.h"
 #include "mesh/mesh.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Row-major 3 x 3 matrix.
 struct Mat3 {
@@ -103,4 +103,4 @@ inline Vec3 apply(const RigidMotion& motion, Vec3 p) noexcept {
 RigidMotion fit_rigid(Span<const Vec3> rest, Span<const Vec3> posed, Span<const double> weights,
                       const Quaternion& near) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,7 +4,7 @@
 
 #include "deform/rotation_step.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 typedef double Lanes __attribute__((vector_size(32)));
@@ -17,4 +17,4 @@ void step_rotations_avx2(const double* s, double* q, RotationStep& step, bool ta
   step_lanes<Lanes>(s, q, step, take);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

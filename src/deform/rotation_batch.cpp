@@ -4,7 +4,7 @@
 
 #include "deform/rotation_step.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 #include "deform/rotation_step.inl"
@@ -82,4 +82,4 @@ void best_rotations_from(RotationBatch& batch, int count) noexcept {
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

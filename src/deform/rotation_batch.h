@@ -6,7 +6,7 @@
 #pragma once
 #include "deform/rotation.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct alignas(64) RotationBatch {
   static constexpr int lanes = 8;
@@ -27,4 +27,4 @@ struct alignas(64) RotationBatch {
 // The first `count` lanes; best_rotation() from the same start where the steps do not settle on a certified maximum.
 void best_rotations_from(RotationBatch& batch, int count) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -1,7 +1,7 @@
 // What a Newton step of eight rotations came to: shared by rotation_batch.cpp and its wider builds.
 #pragma once
 
-namespace hf {
+namespace hf_inner {
 
 struct alignas(64) RotationStep {
   double u[3][8];      // rotation vector of the step
@@ -16,4 +16,4 @@ void step_rotations_avx2(const double* s, double* q, RotationStep& step, bool ta
 void step_rotations_avx512(const double* s, double* q, RotationStep& step, bool take) noexcept;
 StepLoop rotation_loop() noexcept;  // the widest this processor has
 
-}  // namespace hf
+}  // namespace hf_inner

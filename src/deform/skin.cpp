@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double fit_vertices = 20000;
@@ -256,4 +256,4 @@ void skin_weights(const Pose& pose, std::int32_t vertex, std::uint32_t count, st
   weights[0] = static_cast<float>(left / steps);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

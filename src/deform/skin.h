@@ -17,7 +17,7 @@
 #include "deform/blend.h"
 #include "deform/pose.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Skin {
   explicit Skin(Memory& memory) : pivot(&memory), rotation(&memory), place(&memory), axes(&memory), stretch(&memory) {}
@@ -38,4 +38,4 @@ Skin make_skin(const Pose& pose, std::uint32_t weight_count, bool stretching, Me
 // Joints and weights of an inner vertex (-1: one without a triangle), `count` (4 or 8) of them, descending.
 void skin_weights(const Pose& pose, std::int32_t vertex, std::uint32_t count, std::uint32_t* joints, float* weights);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double thinnest = 1e-2;  // m_2 / m_1 of a sheet; below it is a line
@@ -73,4 +73,4 @@ Mat3 strained(const Sheet& sheet, const Stress& stress, const Mat3& r) noexcept 
   return target;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -23,7 +23,7 @@
 
 #include "deform/rotation.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct StrainLimits {
   double low, high;    // of sigma
@@ -54,4 +54,4 @@ double follow(const Sheet& sheet, const Stress& wanted, Stress& stress) noexcept
 // R (1 + E X E')
 Mat3 strained(const Sheet& sheet, const Stress& stress, const Mat3& r) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -6,7 +6,7 @@
 
 #include "deform/lanes.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double rigidity = 1e-3;         // eps, relative to the mean diagonal of the cluster's linear part
@@ -406,4 +406,4 @@ Subspace make_subspace(const Core& core, const Rest& rest, const ClusterWeights&
   return subspace;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

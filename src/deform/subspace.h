@@ -30,7 +30,7 @@
 #include "deform/groups.h"
 #include "deform/rotation.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Subspace {
   explicit Subspace(Memory& memory)
@@ -77,4 +77,4 @@ struct Subspace {
 Subspace make_subspace(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,
                        Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,13 +4,11 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "detail/morph.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 struct Frame {
   Vec3 x, y, z;
@@ -141,4 +139,4 @@ CarriedDetail carry_detail(const Region& source, const Region& target, const Car
   return carried;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

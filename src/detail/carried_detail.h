@@ -9,7 +9,7 @@
 #pragma once
 #include "detail/disc_map.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct CarryOptions {
   Span<const std::int32_t> source_pins, target_pins;  // inner vertices in pairs; empty: the states' first points
@@ -25,4 +25,4 @@ struct CarriedDetail {
 
 CarriedDetail carry_detail(const Region& source, const Region& target, const CarryOptions& options, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

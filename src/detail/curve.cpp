@@ -3,12 +3,10 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/index.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 constexpr Index none = -1, on_curve = -2;
 
@@ -153,4 +151,4 @@ Vector<std::int32_t> curve_side(const Core& core, Span<const std::int32_t> curve
   return inside;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

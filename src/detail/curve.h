@@ -8,7 +8,7 @@
 
 #include "engine/core.h"
 
-namespace hf {
+namespace hf_inner {
 
 enum class CurveSide : std::int32_t { smaller = 0, larger = 1, seed = 2 };
 
@@ -20,4 +20,4 @@ Vector<std::int32_t> closed_curve(const Core& core, Span<const std::int32_t> poi
 Vector<std::int32_t> curve_side(const Core& core, Span<const std::int32_t> curve, CurveSide side, std::int32_t seed,
                                 Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

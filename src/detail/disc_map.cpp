@@ -5,13 +5,11 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "factor/factor.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 struct HalfEdge {
   Index from, to;
@@ -269,4 +267,4 @@ std::int32_t DiscSearch::find(DiscPoint point, double weights[3]) const {
   return best;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -6,7 +6,7 @@
 #pragma once
 #include "detail/region.h"
 
-namespace hf {
+namespace hf_inner {
 
 // The triangles of a region as a disc. Numbers are local ones of its shape.
 struct DiscBoundary {
@@ -56,4 +56,4 @@ class DiscSearch {
   Vector<Box> boxes_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

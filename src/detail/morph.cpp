@@ -1,9 +1,8 @@
 #include "detail/morph.h"
 
-namespace hf {
-namespace {
-std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
-}  // namespace
+#include "base/index.h"
+
+namespace hf_inner {
 
 Vector<Vec3> morphed_positions(const RegionSurface& surface, const RegionState& state, double weight, Memory& memory) {
   const RegionShape& shape = *state.shape;
@@ -43,4 +42,4 @@ Vec3 unit_normal(Vec3 sum) noexcept {
   return length > 0 ? (1 / length) * sum : Vec3{0, 0, 1};
 }
 
-}  // namespace hf
+}  // namespace hf_inner

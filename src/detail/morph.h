@@ -3,7 +3,7 @@
 #pragma once
 #include "detail/region.h"
 
-namespace hf {
+namespace hf_inner {
 
 // p + weight (base - p), with the bits of p at 0 and those of the base at 1.
 inline Vec3 morphed(Vec3 p, Vec3 base, double weight) noexcept {
@@ -24,4 +24,4 @@ Vector<Vec3> local_normal_sums(const RegionState& state, Span<const Vec3> positi
 // Unit vector; (0, 0, 1) where triangles cancel out or have no area.
 Vec3 unit_normal(Vec3 sum) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -3,13 +3,12 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "detail/morph.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 constexpr std::size_t most_records = 256;
 
 Vector<Index> edited(const Core& core, Vector<Index>&& inside, const RegionEdit& edit, Memory& memory) {
@@ -159,4 +158,4 @@ void Region::step(Stack& from, Stack& to, const char* nothing) {
   from.pop_back();
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -18,7 +18,7 @@
 #include "detail/region_shape.h"
 #include "engine/site_solver.h"
 
-namespace hf {
+namespace hf_inner {
 
 // The surface that regions lie on: positions of the vertices as given, in the caller's unit.
 struct RegionSurface {
@@ -80,4 +80,4 @@ class Region {
   Stack undo_, redo_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

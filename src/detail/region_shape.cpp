@@ -3,12 +3,10 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/index.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 // use(u) for the neighbours of v.
 template <class Use>
@@ -102,4 +100,4 @@ Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, st
   return result;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

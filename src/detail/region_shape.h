@@ -13,7 +13,7 @@
 
 #include "engine/core.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct RegionShape {
   // inside: inner vertices, ascending, each once. Throws HF_ERROR_INVALID_ARGUMENT (index = a vertex as given) when a
@@ -36,4 +36,4 @@ struct RegionShape {
 // `rings` rings of vertices more, or less when it is below 0.
 Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, std::int32_t rings, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

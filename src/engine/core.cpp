@@ -5,11 +5,12 @@
 
 #include "base/error.h"
 #include "base/timer.h"
+#include "engine/lost_components.h"
 #include "factor/factor_bytes.h"
 #include "mesh/biharmonic.h"
 #include "mesh/delaunay_patches.h"
 
-namespace hf {
+namespace hf_inner {
 
 Buffer<double> WorkspacePool::take(std::size_t size) {
   {
@@ -78,20 +79,21 @@ void find_grounds(Core& core) {
 }
 
 // Weights of a bi-harmonic operator's L stay below these multiples of their median: the first with which K factors.
-// With the last, weights and masses are brought within that of their medians from below too.
-constexpr double weight_caps[] = {1e3, 1e2, 1e1, 1e1};
-constexpr int cap_count = 4;
+constexpr double weight_caps[] = {1e3, 1e2, 1e1};
+constexpr int cap_count = 3;
 // When the weights of a second-order operator spread over more than the digits there are (a needle of 1e-9 ties two
 // vertices 1e18 times as strongly as the third), every weight gets this share of the diagonals at its ends.
-// The last resort confines the weights of a component to this many times their median, both ways.
-constexpr double tie_shares[] = {0, 1e-9, 1e-7, 0};
-constexpr double confined_spread = 1e4;
+constexpr double tie_shares[] = {0, 1e-9, 1e-7};
+// The last resort, for the components alone that do not factor even so: their weights, and the masses of bi-harmonic
+// operators, come within this many times their median, both ways.
+constexpr double confined_spread = 1e4, confined_biharmonic_spread = 10;
 // Fields of a second-order operator lose about 2^-52 over the smallest share of a diagonal that a pivot keeps; one of a
 // regular mesh of n vertices keeps 1 / n at least. A fourth-order operator, which keeps 1 / n^2, has the default.
 constexpr double harmonic_lost_share = 0x1p-31;
 
-// K of the options, on the mesh's own edges or on the intrinsic Delaunay ones. cap: of weight_caps.
-void make_operator(Core& core, const CoreOptions& options, int cap) {
+// K of the options, on the mesh's own edges or on the intrinsic Delaunay ones. cap: of weight_caps and tie_shares;
+// confined: empty, or the components of the last resort.
+void make_operator(Core& core, const CoreOptions& options, int cap, const Vector<std::uint8_t>& confined) {
   Memory& pool = *core.memory;
   Vector<double> areas(&pool);
   if (options.operator_kind == OperatorKind::intrinsic_delaunay) {
@@ -99,20 +101,23 @@ void make_operator(Core& core, const CoreOptions& options, int cap) {
                                               options.field_kind == FieldKind::biharmonic, pool, core.jobs.get());
     core.laplacian = std::move(made.laplacian), areas = std::move(made.areas);
   } else {
-    core.laplacian = hf::laplacian(core.topology, core.weights, pool, core.jobs.get());
+    core.laplacian = hf_inner::laplacian(core.topology, core.weights, pool, core.jobs.get());
     if (options.field_kind == FieldKind::biharmonic) areas.assign(core.areas.begin(), core.areas.end());
   }
-  const bool last = cap + 1 == cap_count;
-  if (options.field_kind == FieldKind::harmonic) {
+  const bool harmonic = options.field_kind == FieldKind::harmonic;
+  const double spread = harmonic ? confined_spread : confined_biharmonic_spread;
+  if (harmonic) {
     if (tie_shares[cap] > 0) tie_weakly(core.laplacian, tie_shares[cap], pool);
-    if (last) confine_weights(core.laplacian, core.mesh.component, confined_spread, pool);
   } else {
-    if (options.field_kind == FieldKind::biharmonic) areas = inverse_masses(core.mesh, std::move(areas));
-    if (last) {
-      confine_weights(core.laplacian, core.mesh.component, weight_caps[cap], pool);
-      for (double& inverse : areas) inverse = std::min(std::max(inverse, 1 / weight_caps[cap]), weight_caps[cap]);
-    }
     cap_weights(core.laplacian, weight_caps[cap], pool);
+  }
+  if (!confined.empty()) confine_weights(core.laplacian, core.mesh.component, confined, spread, pool);
+  if (!harmonic) {
+    if (options.field_kind == FieldKind::biharmonic) areas = inverse_masses(core.mesh, std::move(areas));
+    for (std::size_t v = 0; !confined.empty() && v < areas.size(); ++v) {
+      if (confined[static_cast<std::size_t>(core.mesh.component[v])])
+        areas[v] = std::min(std::max(areas[v], 1 / spread), spread);
+    }
     core.laplacian = biharmonic(core.laplacian, areas, pool, core.jobs.get());
     core.refinements = 1;
   }
@@ -142,6 +147,13 @@ class InPlaceGrounds {
   Vector<double> plain_;
 };
 
+FactorOptions factor_options(const CoreOptions& options) noexcept {
+  FactorOptions out;
+  out.ordering = options.ordering;
+  if (options.field_kind == FieldKind::harmonic) out.lost_share = harmonic_lost_share;
+  return out;
+}
+
 void make_factor(Core& core, const CoreOptions& options) {
   Memory& pool = *core.memory;
   if (!options.saved_factor.empty()) {
@@ -150,11 +162,8 @@ void make_factor(Core& core, const CoreOptions& options) {
     core.factor = load_factor(options.saved_factor, load, pool, *core.jobs);
   } else if (options.need_factor) {
     const Vector<float> coordinates = ordering_coordinates(core.mesh, pool);
-    FactorOptions factor_options;
-    factor_options.ordering = options.ordering;
-    if (options.field_kind == FieldKind::harmonic) factor_options.lost_share = harmonic_lost_share;
     const InPlaceGrounds grounds(core);
-    core.factor = Factor::make(core.laplacian, coordinates, factor_options, pool, *core.jobs);
+    core.factor = Factor::make(core.laplacian, coordinates, factor_options(options), pool, *core.jobs);
   }
 }
 
@@ -180,27 +189,36 @@ std::shared_ptr<const Core> Core::make(const MeshInput& input, const CoreOptions
   if (options.operator_kind == OperatorKind::clamped || options.operator_kind == OperatorKind::uniform)
     core->weights = edge_weights(core->mesh, core->topology, options.operator_kind, pool, core->jobs.get());
   count_edges(core->mesh, core->topology, found);
-  make_operator(*core, options, 0);
+  Vector<std::uint8_t> confined(&pool);
+  make_operator(*core, options, 0, confined);
   core->ordering = options.ordering;
   core->times.operator_ms = operator_timer.milliseconds();
   report(options.progress, 0.2f);
-  for (int cap = 0;; ++cap) {
+  for (int cap = 0;;) {
     try {
       make_factor(*core, options);
       break;
     } catch (const Error& error) {
-      // a lost pivot, or saved bytes of a factor that was made with the next cap
-      const bool again =
-          cap + 1 < cap_count && (error.code() == HF_ERROR_NOT_POSITIVE_DEFINITE || !options.saved_factor.empty());
-      if (!again) throw;
+      // a lost pivot, or saved bytes of a factor that was made of a later operator
+      const bool loading = !options.saved_factor.empty();
+      if (!confined.empty() || !(loading || error.code() == HF_ERROR_NOT_POSITIVE_DEFINITE)) throw;
+      if (cap + 1 == cap_count) {
+        core->confined_hash = grounded_hash(*core) + 1;
+        if (loading && saved_matrix_hash(options.saved_factor) != core->confined_hash) throw;
+      }
     }
-    make_operator(*core, options, cap + 1);
+    if (core->confined_hash != 0)
+      confined = lost_components(*core, factor_options(options));
+    else
+      ++cap;
+    make_operator(*core, options, cap, confined);
   }
   report(options.progress, 1.0f);
   return core;
 }
 
 std::uint64_t grounded_hash(const Core& core) {
+  if (core.confined_hash != 0) return core.confined_hash;
   return hash_matrix(core.laplacian, core.ground, core.mean_diagonal, *core.memory, *core.jobs);
 }
 
@@ -224,4 +242,4 @@ Vector<float> ordering_coordinates(const Mesh& mesh, Memory& memory) {
   return coordinates;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

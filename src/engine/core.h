@@ -13,7 +13,7 @@
 #include "mesh/mesh.h"
 #include "mesh/topology.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Large scratch arrays that are used again and again: first touch of fresh memory costs more than a sweep.
 class WorkspacePool {
@@ -57,7 +57,7 @@ struct CoreOptions {
   OperatorKind operator_kind = OperatorKind::intrinsic_delaunay;
   FieldKind field_kind = FieldKind::harmonic;
   Ordering ordering = Ordering::nested_dissection;
-  bool need_factor = true;  // the engines updown and refactor keep their own
+  bool need_factor = true;                // the engines updown and refactor keep their own
   Span<const std::uint8_t> saved_factor;  // not empty: the factor is loaded from these bytes instead of made
   bool borrow_factor = false;             // its numbers are read in place: the bytes outlive the core
   Progress* progress = nullptr;
@@ -88,6 +88,9 @@ struct Core {
   // Corrections with the true operator, in difference form, that a field takes after its sweep: 0 for second-order
   // operators, 1 for bi-harmonic ones, whose condition is squared.
   std::int32_t refinements = 0;
+  // Where components had to be confined (lost_components.h): one more than the hash of A before, by which bytes of a
+  // saved factor tell that before the components are looked for; else 0.
+  std::uint64_t confined_hash = 0;
   Ordering ordering = Ordering::nested_dissection;
   std::shared_ptr<const Factor> factor;  // of A; null when the options asked for none
   CoreTimes times;
@@ -103,4 +106,4 @@ std::uint64_t grounded_hash(const Core& core);
 // Coordinates of the inner vertices as the ordering takes them.
 Vector<float> ordering_coordinates(const Mesh& mesh, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

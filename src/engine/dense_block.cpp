@@ -7,7 +7,7 @@
 #include "base/hypotenuse.h"
 #include "factor/kernels.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t tile = 4;
@@ -296,4 +296,4 @@ void DenseBlock::solve(double* x, std::int32_t channels) const noexcept {
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

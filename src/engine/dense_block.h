@@ -14,7 +14,7 @@
 #include "base/memory.h"
 #include "base/span.h"
 
-namespace hf {
+namespace hf_inner {
 
 class DenseBlock {
  public:
@@ -64,4 +64,4 @@ class DenseBlock {
   double ones_sum_ = 0;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

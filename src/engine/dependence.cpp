@@ -4,11 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-namespace hf {
-namespace {
+#include "base/index.h"
 
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+namespace hf_inner {
+namespace {
 
 constexpr double dependence = 1e-9;  // what is left of a row that others make up, over its length
 
@@ -88,4 +87,4 @@ Index dependent_site(Span<const HardSite> sites, Memory& memory) {
   return -1;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

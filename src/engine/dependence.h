@@ -9,7 +9,7 @@
 #include "base/span.h"
 #include "engine/site_solver.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct HardSite {
   const Site* site = nullptr;
@@ -22,4 +22,4 @@ struct HardSite {
 // vertices) of the group.
 std::int32_t dependent_site(Span<const HardSite> sites, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

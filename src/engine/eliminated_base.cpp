@@ -1,6 +1,6 @@
 #include "engine/eliminated_base.h"
 
-namespace hf {
+namespace hf_inner {
 
 std::shared_ptr<const EliminatedBase> EliminatedBase::make(const Core& core, Span<const std::int32_t> vertices,
                                                            JobRunner& jobs) {
@@ -26,4 +26,4 @@ std::shared_ptr<const EliminatedBase> EliminatedBase::make(const Core& core, Spa
   return base;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -6,7 +6,7 @@
 #pragma once
 #include "engine/site_solver.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct EliminatedBase {
   explicit EliminatedBase(Memory& memory) : vertex(&memory), index_of(&memory), floating(&memory) {}
@@ -23,4 +23,4 @@ struct EliminatedBase {
   std::shared_ptr<const Factor> factor;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

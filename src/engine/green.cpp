@@ -1,14 +1,12 @@
+#include "base/index.h"
 #include "engine/green_right.h"
 
 #include <algorithm>
 #include <cmath>
 
-
-namespace hf {
+namespace hf_inner {
 namespace {
 
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 constexpr std::size_t piece = 16384;  // rows a job takes
 
 }  // namespace
@@ -390,4 +388,4 @@ void GreenSolver::solve_at(const double* values, Index channels, Span<const Inde
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -27,7 +27,7 @@
 #include "engine/eliminated_base.h"
 #include "engine/site_solver.h"
 
-namespace hf {
+namespace hf_inner {
 
 class GreenSolver final : public SiteSolver {
  public:
@@ -170,4 +170,4 @@ class GreenSolver final : public SiteSolver {
   Counts cloned_at_;  // counts of the engine this one was cloned from, at that time
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -3,16 +3,14 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "engine/dependence.h"
 #include "engine/green.h"
 #include "engine/site_cost.h"
 #include "engine/sparse_sites.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 // An edit cannot go on from the present layout: a component lost its last eliminated site, or signs came out mixed.
 struct NeedsNewLayout {};
@@ -421,4 +419,4 @@ void GreenSolver::add_rows(State& state, Span<const Addition> additions, const S
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -11,13 +11,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
 #include "engine/green_right.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 constexpr double sweep_error = 1e-5;   // of a single-precision sweep, at most seen on hard site sets
 constexpr double first_shrink = 2e-3;  // of the error by the first correction, at most seen; later ones are measured
@@ -100,4 +98,4 @@ void GreenSolver::solve_preview(const double* values, Index channels, Index corr
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

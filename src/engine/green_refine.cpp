@@ -10,13 +10,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
 #include "engine/green_right.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 constexpr std::size_t piece = 16384;
 
 }  // namespace
@@ -122,4 +121,4 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -1,13 +1,13 @@
 // The dense unknowns of engine green on their way through a solve; shared by green.cpp and green_refine.cpp.
 #pragma once
+#include "base/index.h"
 #include "engine/green.h"
 
-namespace hf {
+namespace hf_inner {
 
 // The answer of the dense system: lambda or t by row, and the constant of every component.
 struct GreenSolver::Right {
   using Index = std::int32_t;
-  static std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
   explicit Right(Memory& memory)
       : slot(&memory), freed(&memory), centre(&memory), constant(&memory), x(&memory), probe(&memory), total(&memory) {}
   const double* of(Index row, std::size_t m) const noexcept {
@@ -30,4 +30,4 @@ struct GreenSolver::SingleSweeps {
   double largest;    // written: the largest change of a value
 };
 
-}  // namespace hf
+}  // namespace hf_inner

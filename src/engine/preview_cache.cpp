@@ -1,6 +1,6 @@
 #include "engine/preview_cache.h"
 
-namespace hf {
+namespace hf_inner {
 
 std::shared_ptr<const PreviewFactor> PreviewCache::get(const Factor& factor, Memory& memory, JobRunner& jobs) {
   {
@@ -21,4 +21,4 @@ void PreviewCache::release() noexcept {
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -6,7 +6,7 @@
 
 #include "factor/preview.h"
 
-namespace hf {
+namespace hf_inner {
 
 class PreviewCache {
  public:
@@ -21,4 +21,4 @@ class PreviewCache {
   std::shared_ptr<const PreviewFactor> made_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -3,13 +3,11 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "engine/dependence.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 std::size_t diagonal(const SymmetricMatrix& a, Index v) noexcept {
   const auto begin = a.row.begin() + a.column_start[at(v)], end = a.row.begin() + a.column_start[at(v) + 1];
@@ -278,4 +276,4 @@ void RefactorSolver::solve_at(const double* values, Index channels, Span<const I
     std::copy_n(field.data() + at(vertices[i]) * at(channels), channels, out + i * at(channels));
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -13,7 +13,7 @@
 #include "engine/dense_block.h"
 #include "engine/site_solver.h"
 
-namespace hf {
+namespace hf_inner {
 
 class RefactorSolver final : public SiteSolver {
  public:
@@ -64,4 +64,4 @@ class RefactorSolver final : public SiteSolver {
   mutable std::atomic<std::uint32_t> factorisations_{1}, sweeps_{0};
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,7 +4,7 @@
 #pragma once
 #include "engine/core.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Whether K couples v with a vertex that is not inside.
 template <class Inside>
@@ -17,4 +17,4 @@ bool couples_outward(const Core& core, std::int32_t v, Inside&& inside) {
   return false;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

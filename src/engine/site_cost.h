@@ -7,7 +7,7 @@
 #pragma once
 #include "factor/factor.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct SiteCost {
   explicit SiteCost(const FactorStatistics& factor) noexcept : factor_(factor) {}
@@ -25,4 +25,4 @@ struct SiteCost {
   const FactorStatistics& factor_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

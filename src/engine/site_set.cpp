@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "engine/rim.h"
 #include "mesh/geodesic_disc.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 bool same_site(const Site& a, const Site& b) noexcept {
   return a.component == b.component && a.compliance == b.compliance && std::equal(a.vertex, a.vertex + 3, b.vertex) &&
@@ -293,4 +292,4 @@ SiteDifference::SiteDifference(const SiteSet& from, const SiteSet& to, Memory& m
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

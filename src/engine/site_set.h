@@ -10,7 +10,7 @@
 
 #include "engine/site_solver.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Places of a batch: vertices, or triangles with barycentric weights, as given.
 struct Places {
@@ -100,4 +100,4 @@ struct SiteDifference {
   Vector<Site> sites;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -5,7 +5,7 @@
 #include "engine/refactor.h"
 #include "engine/updown.h"
 
-namespace hf {
+namespace hf_inner {
 
 void SiteSolver::rebase(JobRunner&) {
   fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "only engine green keeps its sites outside the factor; there is nothing to rebase");
@@ -24,4 +24,4 @@ std::shared_ptr<SiteSolver> SiteSolver::make(EngineKind kind, std::shared_ptr<co
   return make_owner_in<GreenSolver>(memory, std::move(core));
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -10,7 +10,7 @@
 
 #include "engine/core.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Site {
   std::int32_t vertex[3] = {-1, -1, -1};  // inner vertices; unused corners are -1
@@ -126,4 +126,4 @@ inline void solve_copied(const SiteSolver& solver, const Core& core, const doubl
   sink.take(0, channels, field.data(), nullptr);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

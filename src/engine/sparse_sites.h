@@ -2,7 +2,7 @@
 #pragma once
 #include "engine/eliminated_base.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct SiteColumns {
   explicit SiteColumns(Memory& memory) : start(&memory), row(&memory), value(&memory) { start.push_back(0); }
@@ -28,4 +28,4 @@ struct SiteColumns {
   Vector<double> value;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -1,6 +1,7 @@
 #include "engine/updown.h"
 
 #include "base/error.h"
+#include "base/index.h"
 
 #ifdef HF_WITH_GPL
 
@@ -11,11 +12,8 @@
 #include <cmath>
 #include <mutex>
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 constexpr std::uint32_t refine_after = 256;  // edited sites since the factor was made
 
@@ -343,17 +341,17 @@ std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core> core,
   return make_owner_in<UpdownSolver>(memory, std::move(core), penalty);
 }
 
-}  // namespace hf
+}  // namespace hf_inner
 
 #else
 
-namespace hf {
+namespace hf_inner {
 
 std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core>, double) {
   fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
        "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
 }
 
-}  // namespace hf
+}  // namespace hf_inner
 
 #endif

@@ -16,9 +16,9 @@
 
 #include "engine/site_solver.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Throws HF_ERROR_UNSUPPORTED in builds without HF_WITH_GPL.
 std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core> core, double penalty);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -1,6 +1,6 @@
 #include "factor/bytes_hash.h"
 
-namespace hf {
+namespace hf_inner {
 
 std::uint64_t hash_piece(const std::uint8_t* bytes, std::uint64_t length) noexcept {
   constexpr int chains = 8;
@@ -22,4 +22,4 @@ std::uint64_t hash_piece(const std::uint8_t* bytes, std::uint64_t length) noexce
   return state;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

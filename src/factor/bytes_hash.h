@@ -12,7 +12,7 @@
 #include "base/jobs.h"
 #include "base/memory.h"
 
-namespace hf {
+namespace hf_inner {
 
 constexpr std::uint64_t hash_piece_bytes = std::uint64_t{1} << 16;
 
@@ -47,4 +47,4 @@ std::uint64_t hash_array(const T* values, std::size_t count, Memory& memory, Job
                     [](std::uint64_t, std::uint64_t) {});
 }
 
-}  // namespace hf
+}  // namespace hf_inner

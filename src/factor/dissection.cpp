@@ -7,7 +7,7 @@
 #include "factor/multilevel.h"
 #include "factor/ordering.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t leaf_size = 180;    // parts this small are ordered by exact minimum degree
@@ -276,4 +276,4 @@ void order_by_dissection(const SymmetricMatrix& matrix, Coordinates coordinates,
   Dissection(matrix, coordinates, memory, jobs, order.data()).run(progress);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -14,9 +14,9 @@
 #include "base/progress.h"
 #include "factor/matrix.h"
 
-namespace hf {
+namespace hf_inner {
 
 void order_by_dissection(const SymmetricMatrix& matrix, Coordinates coordinates, Memory& memory, JobRunner& jobs,
                          Progress* progress, Buffer<std::int32_t>& order);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 // Liu's algorithm: parent[j] by walking from every neighbour k < i up to its present root, ancestors path-compressed to
@@ -161,4 +161,4 @@ void make_elimination_tree(const SymmetricMatrix& matrix, Span<const std::int32_
   count_columns(out, n, memory);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

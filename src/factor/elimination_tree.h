@@ -6,7 +6,7 @@
 #include "base/span.h"
 #include "factor/matrix.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Pattern of P A P' and its elimination tree, all in postordered labels: label[k] = unknown.
 struct EliminationTree {
@@ -20,4 +20,4 @@ struct EliminationTree {
 void make_elimination_tree(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memory& memory,
                            EliminationTree& out);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -9,7 +9,7 @@
 #include "factor/ordering.h"
 #include "factor/supernodal_factor.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 class Stopwatch {
@@ -187,4 +187,4 @@ std::shared_ptr<const Factor> SupernodalFactor::refactor(const SymmetricMatrix& 
   return factor;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

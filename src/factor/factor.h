@@ -15,7 +15,7 @@
 #include "base/span.h"
 #include "factor/matrix.h"
 
-namespace hf {
+namespace hf_inner {
 
 enum class Ordering : std::int32_t {
   nested_dissection = 0,  // our own multilevel nested dissection on graph and geometry
@@ -116,4 +116,4 @@ class PathGroup {
   virtual double bytes() const noexcept = 0;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

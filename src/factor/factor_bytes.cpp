@@ -10,7 +10,7 @@
 #include "factor/numeric.h"
 #include "factor/supernodal_factor.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::uint64_t magic = 0x524F544341464648ull;  // "HFFACTOR"
@@ -290,6 +290,8 @@ Ordering check_saved_factor(Span<const std::uint8_t> bytes) {
   return static_cast<Ordering>(read_header(bytes).ordering);
 }
 
+std::uint64_t saved_matrix_hash(Span<const std::uint8_t> bytes) { return read_header(bytes).matrix_hash; }
+
 std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, const LoadOptions& options, Memory& memory,
                                           JobRunner& jobs) {
   const Timer timer;
@@ -351,4 +353,4 @@ std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, const 
   return factor;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -18,7 +18,7 @@
 #include "base/span.h"
 #include "factor/factor.h"
 
-namespace hf {
+namespace hf_inner {
 
 // What bytes that are read in place must be aligned to: a cache line.
 constexpr std::size_t saved_factor_alignment = 64;
@@ -45,9 +45,12 @@ void save_factor(const Factor& factor, std::uint64_t matrix_hash, Span<std::uint
 // HF_ERROR_UNSUPPORTED for those of another version or byte order. Returns the ordering the factor was made with.
 Ordering check_saved_factor(Span<const std::uint8_t> bytes);
 
+// Throws as check_saved_factor. The hash_matrix that the bytes were saved with.
+std::uint64_t saved_matrix_hash(Span<const std::uint8_t> bytes);
+
 // Throws as check_saved_factor, and HF_ERROR_INVALID_ARGUMENT for a factor of another matrix, for damaged bytes, and
 // for a borrowed block that is not aligned. On failure nothing is kept.
 std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, const LoadOptions& options, Memory& memory,
                                           JobRunner& jobs);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -1,6 +1,6 @@
 #include "factor/kernels.h"
 
-namespace hf {
+namespace hf_inner {
 
 #if defined(HF_KERNELS_X86)
 extern const Kernels kernels_avx2_set, kernels_avx512_set;
@@ -30,4 +30,4 @@ const Kernels& choose_kernels() noexcept {
   return kernels_plain_set;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

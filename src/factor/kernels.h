@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hf {
+namespace hf_inner {
 
 // Where column tile t of an update matrix of `tiles` tiles begins.
 constexpr std::int64_t update_tile_start(std::int64_t tiles, std::int64_t t) noexcept {
@@ -103,4 +103,4 @@ const Kernels* plain_kernels() noexcept;
 const Kernels* avx2_kernels() noexcept;
 const Kernels* avx512_kernels() noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

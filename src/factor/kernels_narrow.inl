@@ -13,7 +13,7 @@
 
 namespace {
 
-constexpr int most_narrow = hf::narrow_columns;
+constexpr int most_narrow = hf_inner::narrow_columns;
 
 // Entry (i, j) of the triangle tiles of a front.
 inline double& triangle_entry(double* panel, std::int64_t stride, std::int32_t i, std::int32_t j) noexcept {

@@ -8,7 +8,7 @@
 #include "factor/kernels_path.inl"
 // clang-format on
 
-namespace hf {
+namespace hf_inner {
 
 extern const Kernels HF_KERNEL_SET = {
     HF_KERNEL_NAME,
@@ -34,4 +34,4 @@ extern const Kernels HF_KERNEL_SET = {
     gram,
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 // Set bits of a word; the plain instruction set has no instruction for it.
@@ -63,4 +63,4 @@ void LeafOrder::run(std::int32_t* out) {
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-namespace hf {
+namespace hf_inner {
 
 class LeafOrder {
  public:
@@ -26,4 +26,4 @@ class LeafOrder {
   Vector<std::int32_t> degree_, left_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

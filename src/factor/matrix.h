@@ -3,9 +3,9 @@
 #include "base/span.h"
 #include "base/symmetric_matrix.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Coordinates of the unknowns, xyz per unknown, used by the geometric part of the ordering; may be empty.
 using Coordinates = Span<const float>;
 
-}  // namespace hf
+}  // namespace hf_inner

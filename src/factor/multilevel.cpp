@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t direct_size = 400;     // graphs this small are bisected as they are
@@ -163,4 +163,4 @@ Cut MultilevelBisection::run(const GraphView& graph, std::uint8_t* side) {
   return cut.usable() ? cut : search_.bisect(graph, side, true);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "factor/separator.h"
 
-namespace hf {
+namespace hf_inner {
 
 class MultilevelBisection {
  public:
@@ -37,4 +37,4 @@ class MultilevelBisection {
   Vector<std::int32_t> cluster_start_, mark_, queue_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

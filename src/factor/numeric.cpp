@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 // Everything one thread needs to run fronts; reused from front to front.
@@ -350,4 +350,4 @@ void require_finite(const SymmetricMatrix& matrix) {
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -17,7 +17,7 @@
 #include "factor/plan.h"
 #include "factor/symbolic.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Numbers behind the last stored one that sweeps may read over (and ignore).
 constexpr std::size_t value_slack = 64;
@@ -34,4 +34,4 @@ bool all_finite(const double* values, std::size_t count) noexcept;
 // Throws HF_ERROR_NON_FINITE with the column of the first NaN or infinity.
 void require_finite(const SymmetricMatrix& matrix);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "factor/dissection.h"
 
-namespace hf {
+namespace hf_inner {
 
 void order_graph_by_minimum_degree(std::int32_t size, const std::int32_t* start, const std::int32_t* neighbour,
                                    Memory& memory, Buffer<std::int32_t>& order) {
@@ -64,4 +64,4 @@ void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering
   fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "unknown ordering %d", static_cast<int>(ordering));
 }
 
-}  // namespace hf
+}  // namespace hf_inner

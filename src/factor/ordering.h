@@ -9,7 +9,7 @@
 #include "factor/factor.h"
 #include "factor/matrix.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Dispatches; throws HF_ERROR_UNSUPPORTED for an ordering this build does not have.
 void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering ordering, Memory& memory,
@@ -25,4 +25,4 @@ void order_graph_by_minimum_degree(std::int32_t size, const std::int32_t* start,
 void order_by_metis(const SymmetricMatrix& matrix, Memory& memory, Buffer<std::int32_t>& order);
 #endif
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "factor/ordering.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 // Sets the host's rand() sequence aside for its lifetime: METIS reseeds and draws from it. Not for several threads at
@@ -50,5 +50,5 @@ void order_by_metis(const SymmetricMatrix& matrix, Memory& memory, Buffer<std::i
   if (!done) fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "METIS failed with CHOLMOD status %d", status);
 }
 
-}  // namespace hf
+}  // namespace hf_inner
 #endif

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "factor/supernodal_factor.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t lane_slack = 64;  // numbers a vector of padding lanes may touch behind the last block
@@ -201,4 +201,4 @@ void SupernodalFactor::project(const PathGroup& group, const double* z, std::int
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double task_share = 1.0 / 32.0;   // a subtree this small is not cut further
@@ -175,4 +175,4 @@ void make_plan(const Symbolic& symbolic, Memory& memory, Plan& out) {
   place_shared(symbolic, memory, out);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

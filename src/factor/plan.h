@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "factor/symbolic.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Plan {
   // tasks
@@ -49,4 +49,4 @@ inline std::int64_t update_size(std::int64_t below) noexcept {
 
 void make_plan(const Symbolic& symbolic, Memory& memory, Plan& out);
 
-}  // namespace hf
+}  // namespace hf_inner

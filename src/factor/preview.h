@@ -12,7 +12,7 @@
 #include "base/memory.h"
 #include "factor/factor.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Analysis;
 struct Kernels;
@@ -42,4 +42,4 @@ class PreviewFactor {
   Buffer<float> values_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::uint8_t touches_left = 1, touches_right = 2, on_path = 4;
@@ -404,4 +404,4 @@ Cut SeparatorSearch::bisect(const GraphView& graph, std::uint8_t* side, bool tho
   return best;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

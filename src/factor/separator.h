@@ -9,7 +9,7 @@
 
 #include "base/memory.h"
 
-namespace hf {
+namespace hf_inner {
 
 // A graph without loops, both directions of every edge stored.
 struct GraphView {
@@ -79,4 +79,4 @@ class SeparatorSearch {
   Vector<float> key_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

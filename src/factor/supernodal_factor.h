@@ -8,7 +8,7 @@
 #include "factor/plan.h"
 #include "factor/symbolic.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Analysis {
   Symbolic symbolic;
@@ -100,4 +100,4 @@ class SupernodalFactor final : public Factor {
 
 std::uint64_t hash_pattern(const SymmetricMatrix& matrix) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

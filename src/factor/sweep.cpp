@@ -11,7 +11,7 @@
 #include "factor/preview.h"
 #include "factor/supernodal_factor.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t piece_columns = 96;  // columns of a top supernode that one job sums
@@ -387,4 +387,4 @@ void PreviewFactor::backward(double* z, std::int32_t channels, float* scratch, J
 
 std::size_t PreviewFactor::size() const noexcept { return static_cast<std::size_t>(analysis_->symbolic.size); }
 
-}  // namespace hf
+}  // namespace hf_inner

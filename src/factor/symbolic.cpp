@@ -5,7 +5,7 @@
 
 #include "factor/elimination_tree.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 // Supernodes while they merge. Index = fundamental supernode, in postorder.
@@ -230,4 +230,4 @@ FillEstimate estimate_fill(const SymmetricMatrix& matrix, Span<const std::int32_
   return estimate;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -14,7 +14,7 @@
 #include "base/span.h"
 #include "factor/matrix.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Symbolic {
   static constexpr std::int32_t relaxation = 16;  // tau
@@ -56,4 +56,4 @@ struct FillEstimate {
 };
 FillEstimate estimate_fill(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -20,11 +20,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/index.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 // Smallest and largest site value by component and channel.
 struct Ranges {
@@ -136,4 +135,4 @@ Certificate certify(const ScalarField& field) {
   return found;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,7 +4,7 @@
 
 #include "field/scalar_field.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Errors are relative to the range of the site values of a component and channel: where all are equal, to their size.
 struct Certificate {
@@ -19,4 +19,4 @@ struct Certificate {
 // Solves the field and checks it; what is not finite counts as infinitely wrong. Throws HF_ERROR_NO_SITES.
 Certificate certify(const ScalarField& field);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
 #include "field/vector_field.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 constexpr double pi = 3.141592653589793238462643383279502884;
 
@@ -240,4 +238,4 @@ Vector<Index> edge_path(const Mesh& mesh, const Topology& topology, Index from, 
   return path;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

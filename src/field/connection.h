@@ -16,7 +16,7 @@
 
 #include "mesh/topology.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Connection {
   explicit Connection(Memory& memory)
@@ -60,4 +60,4 @@ Vec3 carry(Vec3 vector, Vec3 from_normal, Vec3 to_normal) noexcept;
 Vector<std::int32_t> edge_path(const Mesh& mesh, const Topology& topology, std::int32_t from, std::int32_t to,
                                Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

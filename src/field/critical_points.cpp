@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf {
-namespace {
+#include "base/index.h"
 
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+namespace hf_inner {
+namespace {
 
 struct Link {
   Index below = 0, above = 0;              // neighbours
@@ -58,4 +57,4 @@ CriticalPoints find_critical_points(const Mesh& mesh, const Topology& topology, 
   return found;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -11,7 +11,7 @@
 #include "base/span.h"
 #include "mesh/topology.h"
 
-namespace hf {
+namespace hf_inner {
 
 enum class CriticalKind : std::int32_t { minimum = 0, maximum = 1, saddle = 2 };
 
@@ -33,4 +33,4 @@ struct CriticalPoints {
 CriticalPoints find_critical_points(const Mesh& mesh, const Topology& topology, Span<const double> field,
                                     Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

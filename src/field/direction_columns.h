@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "factor/factor.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct UnitColumns {
   explicit UnitColumns(Memory& memory) : start(1, 0, &memory), row(&memory), value(&memory) {}
@@ -16,4 +16,4 @@ struct UnitColumns {
   Vector<double> value;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/index.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 using Index = std::int32_t;
 using Complex = std::complex<double>;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 constexpr std::size_t most_records = 256;
 constexpr double two_pi = 6.283185307179586476925286766559;
@@ -275,4 +275,4 @@ Vector<Singularity> DirectionField::singularities() const {
   return found;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -14,7 +14,7 @@
 
 #include "field/direction_solver.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct DirectionConstraint {
   std::int32_t vertex = -1;                  // inner; -1: the slot is free
@@ -79,4 +79,4 @@ class DirectionField {
   Vector<Record> undo_, redo_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

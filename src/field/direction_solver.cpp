@@ -4,16 +4,11 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "engine/site_cost.h"
 #include "field/direction_columns.h"
 
-namespace hf {
-namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace hf_inner {
 
 void DirectionSolver::State::swap(State& other) noexcept {
   slots.swap(other.slots), groups.swap(other.groups), blocks.swap(other.blocks), count.swap(other.count);
@@ -370,4 +365,4 @@ void DirectionSolver::solve(Span<const std::complex<double>> values, std::comple
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -25,7 +25,7 @@
 #include "engine/dense_block.h"
 #include "field/connection.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct DirectionCounters {
   std::uint32_t factorisations = 0, path_solves = 0, sweeps = 0;
@@ -146,4 +146,4 @@ class DirectionSolver {
   mutable std::atomic<std::uint32_t> factorisations_{0}, path_solves_{0}, sweeps_{0};
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -2,16 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
 #include "base/timer.h"
 #include "factor/ordering.h"
 #include "field/direction_columns.h"
 #include "field/direction_solver.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 // Edges of the mesh that the surface's operator does not have.
 std::size_t missing_edges(const Core& core) {
@@ -56,7 +54,7 @@ void DirectionSystem::make_order() {
   const SymmetricMatrix graph = laplacian(core->topology, core->weights, *core->memory, core->jobs.get());
   const Vector<float> coordinates = ordering_coordinates(core->mesh, *core->memory);
   Buffer<Index> order;
-  hf::make_order(graph, {coordinates.data(), coordinates.size()}, core->ordering, *core->memory, *core->jobs, nullptr,
+  hf_inner::make_order(graph, {coordinates.data(), coordinates.size()}, core->ordering, *core->memory, *core->jobs, nullptr,
                  order);
   for (Index k = 0; k < core->size(); ++k) position[at(order[k])] = k;
 }
@@ -158,4 +156,4 @@ void DirectionSystem::make_grounds() {
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

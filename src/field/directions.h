@@ -4,7 +4,7 @@
 #pragma once
 #include <cstdint>
 
-namespace hf {
+namespace hf_inner {
 
 // A triangle with area in its plane, the first edge along x: corners (0, 0), (along, 0), (px, py).
 struct TriangleFrame {
@@ -23,4 +23,4 @@ struct DirectionSums {
 
 void add_directions(const DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.h"
 #include "field/peaks.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 // work(component, begin, end) for every run of vertices of one component.
 template <class Work>
@@ -195,4 +193,4 @@ Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source
   return found;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -20,7 +20,7 @@
 #include "base/progress.h"
 #include "field/geodesics.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Extremity {
   std::int32_t vertex;  // inner
@@ -39,4 +39,4 @@ Extremities poisson_extremities(const Core& core, double least_length, Progress*
 Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length,
                                  Progress* progress);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "field/spread.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 constexpr Index group_size = 8;
 constexpr std::int64_t piece = 8192;  // triangles of one job
 
@@ -83,7 +82,7 @@ void Geodesics::add_directions(const double* heat, Index channels, const double*
   const DirectionSums job = {frames_.data(), heat, weights, channels, sums.data()};
   const std::int64_t count = static_cast<std::int64_t>(frames_.size());
   core_->jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
-    hf::add_directions(job, p * piece, std::min(count, (p + std::int64_t{1}) * piece));
+    hf_inner::add_directions(job, p * piece, std::min(count, (p + std::int64_t{1}) * piece));
   });
 }
 
@@ -174,4 +173,4 @@ void Geodesics::average(Index count, double* out, Progress* progress, float from
   report(progress, to);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

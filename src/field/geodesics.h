@@ -16,7 +16,7 @@
 #include "engine/core.h"
 #include "field/directions.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Throws HF_ERROR_UNSUPPORTED when the core does not hold the factor of a Laplacian (bi-harmonic ones do not).
 void require_laplacian(const Core& core);
@@ -49,4 +49,4 @@ class Geodesics {
   std::shared_ptr<const Factor> heat_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-namespace hf {
-namespace {
+#include "base/index.h"
 
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+namespace hf_inner {
+namespace {
 
 class Tracer {
  public:
@@ -198,4 +197,4 @@ Isolines trace_isolines(const Mesh& mesh, const Topology& topology, Span<const d
   return out;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -14,7 +14,7 @@
 #include "base/span.h"
 #include "mesh/topology.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Isolines {
   explicit Isolines(Memory& memory) : points(&memory), start(&memory), level(&memory), closed(&memory) {}
@@ -35,4 +35,4 @@ struct Isolines {
 Isolines trace_isolines(const Mesh& mesh, const Topology& topology, Span<const double> field, Span<const double> levels,
                         Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

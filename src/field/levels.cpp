@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/index.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 // A triangle as the field sees it: its values in order, its area, and area times |grad u|.
 struct Part {
@@ -160,4 +158,4 @@ void space_levels(const Mesh& mesh, Span<const double> field, LevelSpacing spaci
   for (double& level : out) level = (1 - level) * low + level * high;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

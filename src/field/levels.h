@@ -14,7 +14,7 @@
 #include "base/span.h"
 #include "mesh/mesh.h"
 
-namespace hf {
+namespace hf_inner {
 
 enum class LevelSpacing : std::int32_t { value = 0, area = 1, length = 2 };
 
@@ -22,4 +22,4 @@ enum class LevelSpacing : std::int32_t { value = 0, area = 1, length = 2 };
 // Throws HF_ERROR_EMPTY when no triangle has values, HF_ERROR_INVALID_ARGUMENT when the field is constant.
 void space_levels(const Mesh& mesh, Span<const double> field, LevelSpacing spacing, Span<double> out, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

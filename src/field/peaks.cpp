@@ -2,13 +2,10 @@
 
 #include <algorithm>
 
+#include "base/index.h"
 #include "mesh/mesh.h"
 
-namespace hf {
-namespace {
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
-}  // namespace
+namespace hf_inner {
 
 Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memory& memory) {
   const auto less = [&](Index a, Index b) {
@@ -77,4 +74,4 @@ Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memo
   return peaks;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

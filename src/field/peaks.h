@@ -9,7 +9,7 @@
 #include "base/span.h"
 #include "mesh/topology.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Peak {
   std::int32_t vertex;  // inner
@@ -19,4 +19,4 @@ struct Peak {
 // Every local maximum, by vertex. field: finite, one value per inner vertex.
 Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 constexpr std::size_t most_records = 256;
 }
@@ -176,4 +176,4 @@ void ScalarField::flux(Vector<double>& out, double* field) const {
   out.resize(slots * channels);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -11,7 +11,7 @@
 
 #include "engine/site_set.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct FieldEdit {
   std::uint32_t remove_count = 0;
@@ -81,4 +81,4 @@ class ScalarField {
   std::optional<Record> prepared_;  // a rebased engine and the sites it was made for
 };
 
-}  // namespace hf
+}  // namespace hf_inner

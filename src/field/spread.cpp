@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
-namespace hf {
+#include "base/index.h"
+
+namespace hf_inner {
 namespace {
 
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 constexpr double far = std::numeric_limits<double>::infinity();
 
 // The graph that is searched: patches of vertices, or the vertices themselves.
@@ -188,4 +188,4 @@ SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, const V
   return samples;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -9,7 +9,7 @@
 #pragma once
 #include "mesh/topology.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct SpreadSamples {
   explicit SpreadSamples(Memory& memory) : vertex(&memory), share(&memory) {}
@@ -21,4 +21,4 @@ struct SpreadSamples {
 SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, const Vector<double>& areas,
                              std::int32_t count, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -1,6 +1,6 @@
 #include "field/vector_field.h"
 
-namespace hf {
+namespace hf_inner {
 
 Vector<Vec3> vertex_normals(const Mesh& mesh, Memory& memory) {
   const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
@@ -46,4 +46,4 @@ void project_on_tangent_planes(const Vector<Vec3>& normals, double* vectors) noe
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -3,7 +3,7 @@
 #pragma once
 #include "mesh/topology.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Unit area-weighted normals of the inner vertices; zero where the triangles around cancel out.
 Vector<Vec3> vertex_normals(const Mesh& mesh, Memory& memory);
@@ -14,4 +14,4 @@ Vec3 vertex_normal(const Mesh& mesh, const Topology& topology, std::int32_t vert
 // vectors[v * 3 + c], in place. Projected twice, so that n . v is zero to rounding even for nearly normal vectors.
 void project_on_tangent_planes(const Vector<Vec3>& normals, double* vectors) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/index.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 constexpr std::size_t piece = 8192;
 
@@ -140,4 +138,4 @@ SymmetricMatrix biharmonic(const SymmetricMatrix& laplacian, const Vector<double
   return matrix;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

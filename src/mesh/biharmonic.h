@@ -12,7 +12,7 @@
 #include "base/symmetric_matrix.h"
 #include "mesh/mesh.h"
 
-namespace hf {
+namespace hf_inner {
 
 // 1 / m of every vertex, from vertex areas: mean 1 by component, masses floored at a ten-thousandth of it, so that a
 // vertex of zero-area triangles does not swamp its neighbours.
@@ -26,4 +26,4 @@ std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memor
 SymmetricMatrix biharmonic(const SymmetricMatrix& laplacian, const Vector<double>& inverse_mass, Memory& memory,
                            JobRunner* jobs = nullptr);
 
-}  // namespace hf
+}  // namespace hf_inner

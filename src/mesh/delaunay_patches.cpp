@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.h"
 #include "mesh/laplacian.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 constexpr std::size_t piece = 16384;
 constexpr int most_attempts = 4;
 // (cot a + cot b) / 2 below this is not Delaunay, with IntrinsicTriangulation's room for rounding
@@ -364,4 +363,4 @@ DelaunayOperator delaunay_operator(const Mesh& mesh, const Topology& topology, c
   return out;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

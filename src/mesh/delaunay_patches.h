@@ -12,7 +12,7 @@
 #pragma once
 #include "mesh/intrinsic.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct DelaunayOperator {
   explicit DelaunayOperator(Memory& memory) : laplacian(memory), areas(&memory) {}
@@ -25,4 +25,4 @@ struct DelaunayOperator {
 DelaunayOperator delaunay_operator(const Mesh& mesh, const Topology& topology, const Vector<double>& weights,
                                    bool with_areas, Memory& memory, JobRunner* jobs = nullptr);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -6,12 +6,10 @@
 #include <unordered_map>
 
 #include "base/hypotenuse.h"
+#include "base/index.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 constexpr double beyond = 0.3;  // of the mean edge
 
@@ -128,4 +126,4 @@ Vector<DiscVertex> geodesic_disc(const Mesh& mesh, const Topology& topology, con
   return disc;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,14 +4,12 @@
 #include <cmath>
 
 #include "base/hypotenuse.h"
+#include "base/index.h"
 #include "mesh/laplacian.h"
 #include "mesh/mollify.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
-
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 // A side of a triangle at an edge.
 struct Side {
@@ -318,4 +316,4 @@ SymmetricMatrix IntrinsicTriangulation::laplacian(Index vertex_count, Memory& me
   return matrix;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -20,10 +20,11 @@
 #pragma once
 #include <cstdint>
 
+#include "base/index.h"
 #include "base/symmetric_matrix.h"
 #include "mesh/topology.h"
 
-namespace hf {
+namespace hf_inner {
 
 class IntrinsicTriangulation {
  public:
@@ -62,7 +63,6 @@ class IntrinsicTriangulation {
   Vector<double> vertex_areas(std::int32_t vertex_count, Memory& memory) const;
 
  private:
-  static std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
   static std::int32_t next(std::int32_t half) noexcept { return half % 3 == 2 ? half - 2 : half + 1; }
 
   // back: of every triangle of the mesh, the face of its back; its own number where the component is its own cover.
@@ -80,4 +80,4 @@ class IntrinsicTriangulation {
   std::uint32_t mollified_ = 0;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

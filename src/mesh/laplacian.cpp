@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf {
-namespace {
+#include "base/index.h"
 
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+namespace hf_inner {
+namespace {
 
 // Runs work(begin, end) over [0, count) in fixed pieces.
 template <class Work>
@@ -175,15 +174,16 @@ void tie_weakly(SymmetricMatrix& matrix, double share, Memory& memory) {
   }
 }
 
-void confine_weights(SymmetricMatrix& matrix, const Vector<Index>& component, double spread, Memory& memory) {
+void confine_weights(SymmetricMatrix& matrix, const Vector<Index>& component, const Vector<std::uint8_t>& confined,
+                     double spread, Memory& memory) {
   struct Entry {
     Index component;
     double weight;
     std::size_t position;
   };
   Vector<Entry> entries(&memory);
-  entries.reserve(matrix.row.size());
   for (Index v = 0; v < matrix.size(); ++v) {
+    if (!confined[at(component[at(v)])]) continue;
     for (std::size_t i = at(matrix.column_start[at(v)]); i < at(matrix.column_start[at(v) + 1]); ++i) {
       if (matrix.row[i] != v) entries.push_back({component[at(v)], std::fabs(matrix.value[i]), i});
     }
@@ -202,6 +202,7 @@ void confine_weights(SymmetricMatrix& matrix, const Vector<Index>& component, do
           -std::min(std::max(entries[begin].weight, median / spread), median * spread);
   }
   for (Index v = 0; v < matrix.size(); ++v) {
+    if (!confined[at(component[at(v)])]) continue;
     double rest = 0;
     for (std::size_t i = at(matrix.column_start[at(v)]); i < at(matrix.column_start[at(v) + 1]); ++i)
       rest += matrix.row[i] == v ? 0.0 : matrix.value[i];
@@ -209,4 +210,4 @@ void confine_weights(SymmetricMatrix& matrix, const Vector<Index>& component, do
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -9,7 +9,7 @@
 #include "base/symmetric_matrix.h"
 #include "mesh/topology.h"
 
-namespace hf {
+namespace hf_inner {
 
 enum class OperatorKind : std::int32_t { intrinsic_delaunay = 0, clamped = 1, uniform = 2, cotangent = 3 };
 
@@ -42,11 +42,12 @@ void tie_weakly(SymmetricMatrix& matrix, double share, Memory& memory);
 // The last resort where weights of one component spread over more digits than there are (needles at 1e34 beside parts
 // of size 1): every stored weight is brought within `spread` of the component's median, both ways, keeping K 1 = 0.
 // Fields there follow the graph more than the lengths; they stay within the values of their sites. component: by
-// vertex.
-void confine_weights(SymmetricMatrix& matrix, const Vector<std::int32_t>& component, double spread, Memory& memory);
+// vertex; confined: by component, the others stay as they are.
+void confine_weights(SymmetricMatrix& matrix, const Vector<std::int32_t>& component,
+                     const Vector<std::uint8_t>& confined, double spread, Memory& memory);
 
 // K_ij = -w_ij, K_ii = sum_j w_ij: symmetric, K 1 = 0 exactly in each row up to the rounding of one sum.
 SymmetricMatrix laplacian(const Topology& topology, const Vector<double>& weights, Memory& memory,
                           JobRunner* jobs = nullptr);
 
-}  // namespace hf
+}  // namespace hf_inner

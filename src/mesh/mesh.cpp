@@ -8,15 +8,14 @@
 
 #include "base/error.h"
 #include "base/hypotenuse.h"
+#include "base/index.h"
 #include "mesh/weld.h"
 
-namespace hf {
+namespace hf_inner {
 
 namespace {
 
 using Index = std::int32_t;
-
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
 
 void check_sizes(const MeshInput& input) {
   if (input.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the mesh has no vertices");
@@ -223,4 +222,4 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
   return mesh;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

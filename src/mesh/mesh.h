@@ -12,7 +12,7 @@
 #include "base/memory.h"
 #include "base/span.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Vec3 {
   double x = 0, y = 0, z = 0;
@@ -90,4 +90,4 @@ struct Mesh {
   MeshReport report;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

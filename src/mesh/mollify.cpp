@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf {
-namespace {
+#include "base/index.h"
 
-using Index = std::int32_t;
-std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+namespace hf_inner {
+namespace {
 
 constexpr std::size_t piece = 16384;
 constexpr double closing = 1e-8, smallest = 1e-3;
@@ -105,4 +104,4 @@ MollifiedLengths MollifiedLengths::make(const Mesh& mesh, const Topology& topolo
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

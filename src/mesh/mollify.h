@@ -6,7 +6,7 @@
 #pragma once
 #include "mesh/topology.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct MollifiedLengths {
   explicit MollifiedLengths(Memory& memory) : length(&memory), edge_of_side(&memory), changed(&memory) {}
@@ -18,4 +18,4 @@ struct MollifiedLengths {
   std::uint32_t thin_count = 0;       // triangles that did not close
 };
 
-}  // namespace hf
+}  // namespace hf_inner

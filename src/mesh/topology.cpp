@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hf {
+namespace hf_inner {
 
 Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
   using Index = std::int32_t;
@@ -84,4 +84,4 @@ void count_edges(const Mesh& mesh, const Topology& topology, MeshReport& report)
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,7 +4,7 @@
 
 #include "mesh/mesh.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Topology {
   explicit Topology(Memory& memory)
@@ -33,4 +33,4 @@ struct Topology {
 // direction.
 void count_edges(const Mesh& mesh, const Topology& topology, MeshReport& report) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

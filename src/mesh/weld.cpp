@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 using Index = std::int32_t;
@@ -159,4 +159,4 @@ Vector<Index> weld(const MeshInput& input, Memory& memory) {
   return weld_exact(input, memory);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

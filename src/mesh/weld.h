@@ -5,8 +5,8 @@
 #pragma once
 #include "mesh/mesh.h"
 
-namespace hf {
+namespace hf_inner {
 
 Vector<std::int32_t> weld(const MeshInput& input, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

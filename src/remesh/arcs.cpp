@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 
-namespace hf {
+namespace hf_inner {
 
 void walk_loop(const FluxField& field, Loop loop, Table<std::int32_t>& out) {
   const FluxSurface& s = field.surface();
@@ -101,4 +101,4 @@ ArcGraph::ArcGraph(const FluxField& field, Memory& memory)
   for (std::int32_t a = 0; a < arcs.size(); ++a) down_arc[fill[number[arcs[a].upper]]++] = a;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -13,7 +13,7 @@
 #pragma once
 #include "remesh/flux_field.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct Arc {
   std::int32_t lower = -1, upper = -1;  // critical vertices
@@ -44,4 +44,4 @@ struct ArcGraph {
 // on the left of the walk.
 void walk_loop(const FluxField& field, Loop loop, Table<std::int32_t>& out);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 // Solves A x = b in place, A positive definite by rows, b becomes x.
@@ -71,4 +71,4 @@ Vector<double> solve_between_levels(const FluxSurface& s, const FluxSolver& solv
   return solver.solve(exact);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -13,10 +13,10 @@
 #pragma once
 #include "remesh/flux_sites.h"
 
-namespace hf {
+namespace hf_inner {
 
 // The field, with as many lines between sources and sinks of each component as there were. Lines of sites become the
 // even numbers nearest to their fluxes, 4 at least.
 Vector<double> solve_between_levels(const FluxSurface& surface, const FluxSolver& solver, Vector<FluxSite>& sites);
 
-}  // namespace hf
+}  // namespace hf_inner

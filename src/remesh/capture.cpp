@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 Vec3 face_normal(const FluxSurface& s, std::int32_t t) {
@@ -77,4 +77,4 @@ std::int32_t capture_features(const FluxSurface& s, const QuadDistance& distance
   return drawn;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

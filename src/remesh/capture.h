@@ -7,7 +7,7 @@
 #include "remesh/quad_distance.h"
 #include "remesh/relax.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct CaptureOptions {
   double edge_length = 0.02, tolerance = 0.006;  // inner units
@@ -19,4 +19,4 @@ struct CaptureOptions {
 std::int32_t capture_features(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh,
                               const CaptureOptions& options, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -5,7 +5,7 @@
 
 #include "remesh/relax.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -237,4 +237,4 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
   return any ? distance.measure(mesh, 0, nullptr, nullptr) : deviation;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

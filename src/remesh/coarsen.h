@@ -10,7 +10,7 @@
 #pragma once
 #include "remesh/quad_distance.h"
 
-namespace hf {
+namespace hf_inner {
 
 // Whether quad f may close along the diagonal of its corners k and k + 2.
 bool can_close(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, std::int32_t k);
@@ -34,4 +34,4 @@ struct CoarsenOptions {
 double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, double deviation,
                      const CoarsenOptions& options, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

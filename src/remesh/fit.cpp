@@ -7,7 +7,7 @@
 #include "remesh/refine.h"
 #include "remesh/relax.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -313,4 +313,4 @@ double fit_quads(const FluxSurface& surface, const QuadDistance& distance, QuadM
   return Fitter(surface, distance, mesh, options, memory).run();
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -17,7 +17,7 @@
 #pragma once
 #include "remesh/quad_distance.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct FitOptions {
   double edge_length = 0.02, tolerance = 0.008;  // inner units
@@ -31,4 +31,4 @@ struct FitOptions {
 double fit_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, const FitOptions& options,
                  Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace hf {
+namespace hf_inner {
 
 namespace {
 
@@ -148,4 +148,4 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
   return out;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

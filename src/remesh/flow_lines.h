@@ -12,7 +12,7 @@
 #include "engine/core.h"
 #include "remesh/flux_field.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct FlowLineSet {
   explicit FlowLineSet(Memory& memory) : point(&memory), value(&memory), start(&memory), from(&memory), to(&memory) {}
@@ -41,4 +41,4 @@ class FlowTracer {
   Table<std::int32_t> fan_;  // by inner vertex, its first vertex of the surface
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -191,4 +191,4 @@ FluxPoint FluxField::down(FluxPoint p) const {
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

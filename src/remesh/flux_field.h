@@ -17,7 +17,7 @@
 #include "base/span.h"
 #include "remesh/flux_surface.h"
 
-namespace hf {
+namespace hf_inner {
 
 // A place on a flux line: the half-edge that points uphill, and the offset of the line in its flux.
 struct FluxPoint {
@@ -66,4 +66,4 @@ class FluxField {
   Table<double> saddle_scale_;       // out per in
 };
 
-}  // namespace hf
+}  // namespace hf_inner

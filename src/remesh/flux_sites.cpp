@@ -8,7 +8,7 @@
 #include "factor/factor.h"
 #include "remesh/border_flux.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double circle_radius = 0.1;
@@ -357,4 +357,4 @@ Vector<double> solve_with_borders(const FluxSurface& s, const FluxSolver& solver
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

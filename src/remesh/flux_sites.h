@@ -15,7 +15,7 @@
 #include "factor/factor.h"
 #include "remesh/flux_surface.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct FluxSite {
   std::int32_t vertex;  // of the surface
@@ -51,4 +51,4 @@ void scale_lines(const FluxSurface& surface, std::int32_t component, double fact
 // Where that does not help, sources and sinks are held at two levels (border_flux.h).
 Vector<double> solve_with_borders(const FluxSurface& surface, const FluxSolver& solver, Vector<FluxSite>& sites);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -182,4 +182,4 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
   return s;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -11,7 +11,7 @@
 #include "mesh/laplacian.h"
 #include "remesh/table.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct FluxSurface {
   explicit FluxSurface(Memory& memory)
@@ -47,4 +47,4 @@ struct FluxSurface {
   std::int32_t euler_characteristic = 0;  // of the surface without the apexes
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf {
+namespace hf_inner {
 
 void LoopLine::build(const FluxField& field, Loop loop, double value, bool border) {
   field_ = &field;
@@ -85,4 +85,4 @@ SurfacePoint LoopLine::location(double place) const noexcept {
   return out;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

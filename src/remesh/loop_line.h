@@ -6,7 +6,7 @@
 #pragma once
 #include "remesh/rings.h"
 
-namespace hf {
+namespace hf_inner {
 
 class LoopLine {
  public:
@@ -47,4 +47,4 @@ class LoopLine {
   double length_ = 0;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 double squared(Vec3 a) { return dot(a, a); }
@@ -119,4 +119,4 @@ NearestTriangle::Found NearestTriangle::find(Vec3 p, std::int32_t hint, double e
   return found;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -3,7 +3,7 @@
 #include "mesh/mesh.h"
 #include "remesh/table.h"
 
-namespace hf {
+namespace hf_inner {
 
 class NearestTriangle {
  public:
@@ -36,4 +36,4 @@ class NearestTriangle {
   Table<Box> boxes_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t most_samples = 60000, most_spread = 30000;
@@ -201,4 +201,4 @@ double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<Quad
   return worst;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

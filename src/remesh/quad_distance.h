@@ -13,7 +13,7 @@
 #include "remesh/nearest.h"
 #include "remesh/quad_mesh.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct QuadMiss {
   static constexpr std::int32_t of_surface = -1, of_quads = -2;
@@ -68,4 +68,4 @@ class QuadDistance {
   Table<Sample> samples_;  // of the surface, in the order of the tree
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -221,4 +221,4 @@ void check_quads(const QuadMesh& mesh, std::int32_t euler_characteristic, Memory
          static_cast<long long>(found), euler_characteristic);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -9,7 +9,7 @@
 #pragma once
 #include "remesh/rings.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct QuadMesh {
   explicit QuadMesh(Memory& memory)
@@ -57,4 +57,4 @@ QuadMesh split_polygons(const FluxSurface& surface, const QuadMesh& polygons, co
 // Throws HF_ERROR_INTERNAL naming what does not hold.
 void check_quads(const QuadMesh& mesh, std::int32_t euler_characteristic, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

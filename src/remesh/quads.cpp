@@ -11,7 +11,7 @@
 #include "remesh/relax.h"
 #include "remesh/ring_levels.h"
 
-namespace hf {
+namespace hf_inner {
 
 namespace {
 
@@ -361,4 +361,4 @@ QuadResult make_quads(const QuadOptions& options) {
   return best;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

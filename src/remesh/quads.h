@@ -4,7 +4,7 @@
 #include "remesh/flux_sites.h"
 #include "remesh/quad_mesh.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct QuadOptions {
   std::shared_ptr<const Core> core;
@@ -31,4 +31,4 @@ struct QuadResult {
 // HF_ERROR_CANCELLED, std::bad_alloc.
 QuadResult make_quads(const QuadOptions& options);
 
-}  // namespace hf
+}  // namespace hf_inner

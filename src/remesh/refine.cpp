@@ -5,7 +5,7 @@
 
 #include "remesh/relax.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -105,4 +105,4 @@ std::int32_t open_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Me
   return added;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

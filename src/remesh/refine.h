@@ -9,7 +9,7 @@
 #pragma once
 #include "remesh/quad_mesh.h"
 
-namespace hf {
+namespace hf_inner {
 
 // marked: by vertex; of inner vertices with nothing but quads around them, no two in one quad.
 void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::uint8_t>& marked, Memory& memory);
@@ -19,4 +19,4 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
 // quads around it, four or more.
 std::int32_t open_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Memory& memory);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <complex>
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 Vec3 unit(Vec3 a) {
@@ -164,4 +164,4 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -14,7 +14,7 @@
 #include "base/progress.h"
 #include "remesh/quad_mesh.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct RelaxOptions {
   std::int32_t rounds = 20;
@@ -28,4 +28,4 @@ void relax_quads(const FluxSurface& surface, QuadMesh& mesh, const RelaxOptions&
 // The point reached by going `way` (its part in the plane of the triangle) from `from`.
 SurfacePoint walk_surface(const FluxSurface& surface, SurfacePoint from, Vec3 way) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "remesh/loop_line.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double at_site = 0.8, at_saddle = 0.5;  // edge lengths from a critical vertex to the ring beside it
@@ -151,4 +151,4 @@ void place_rings(const FluxField& field, const ArcGraph& graph, const RingOption
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -7,7 +7,7 @@
 #include "remesh/loop_line.h"
 #include "remesh/ring_levels.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -379,4 +379,4 @@ RingMesh make_rings(const FluxField& field, const ArcGraph& graph, const Table<d
   return out;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -18,7 +18,7 @@
 #include "base/progress.h"
 #include "remesh/arcs.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct RingOptions {
   double edge_length = 0.02;  // inner units
@@ -58,4 +58,4 @@ struct RingMesh {
 RingMesh make_rings(const FluxField& field, const ArcGraph& graph, const Table<double>& lines_at,
                     const RingOptions& options, Memory& memory, Progress* progress);
 
-}  // namespace hf
+}  // namespace hf_inner

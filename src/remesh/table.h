@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-namespace hf {
+namespace hf_inner {
 
 template <class T>
 class Table {
@@ -46,4 +46,4 @@ class Table {
   Vector<T> data_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 struct Window {
@@ -100,4 +100,4 @@ Quaternion minimal_rotation(Vec3 from, Vec3 to, Vec3 axis) noexcept {
 
 Quaternion power(const Quaternion& q, double w) noexcept { return exponential(w * logarithm(q)); }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -14,7 +14,7 @@
 #include "deform/rotation.h"
 #include "mesh/mesh.h"
 
-namespace hf {
+namespace hf_inner {
 
 // One side's shape in field terms.
 struct RestSide {
@@ -44,4 +44,4 @@ Quaternion minimal_rotation(Vec3 from, Vec3 to, Vec3 axis) noexcept;
 // q^w, w in [0, 1].
 Quaternion power(const Quaternion& q, double w) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
-namespace hf {
+#include "base/index.h"
+
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t nearest_count = 6;  // source vertices a kernel reaches at one width
@@ -14,7 +16,6 @@ constexpr double broad_factor = 3;
 constexpr double flattest = 1e-3, steepest = 50;             // cotangent weights that count
 constexpr std::size_t most_narrow = 1536, most_broad = 384;  // vertices of a kernel; more are thinned evenly
 constexpr double paper_exponent = 4;
-std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 double squared_distance(const double* a, const double* b, std::int32_t count) noexcept {
   double sum = 0;
@@ -382,4 +383,4 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
   return out;
 }
 
-}  // namespace hf
+}  // namespace hf_inner

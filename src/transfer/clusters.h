@@ -16,7 +16,7 @@
 #include "base/span.h"
 #include "engine/core.h"
 
-namespace hf {
+namespace hf_inner {
 
 constexpr std::int32_t blend_count = 4;  // clusters per target vertex
 
@@ -74,4 +74,4 @@ struct Candidate {
 };
 void write_weights(Candidate* candidates, std::int32_t count, std::int32_t* joint, float* weight) noexcept;
 
-}  // namespace hf
+}  // namespace hf_inner

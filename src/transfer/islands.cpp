@@ -7,14 +7,14 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.h"
 #include "transfer/pair_fields.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr std::int32_t most_sweeps = 200;
 constexpr double rigid_share = 0.03;  // of the box: smaller islands get one row
-std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 // Points sorted into the cells of a uniform grid over the unit-diagonal box of the mesh.
 class PointGrid {
@@ -174,4 +174,4 @@ void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

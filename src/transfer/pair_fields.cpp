@@ -2,11 +2,11 @@
 #include "transfer/pair_fields.h"
 
 #include "base/error.h"
+#include "base/index.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 constexpr std::int32_t none = -1;
-std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 }  // namespace
 
 PairFields::PairFields(std::shared_ptr<const Core> core)
@@ -107,4 +107,4 @@ void PairFields::solve(Span<const std::uint32_t> numbers, double* field, double*
   if (any_island) attach_islands(*core_, {reached.data(), reached.size()}, static_cast<std::int32_t>(count), field);
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -17,7 +17,7 @@
 #include "base/span.h"
 #include "deform/handles.h"
 
-namespace hf {
+namespace hf_inner {
 
 class PairFields {
  public:
@@ -53,4 +53,4 @@ class PairFields {
 // Rows of vertices in components without a region; `reached` per component. Declared here for its test.
 void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int32_t channels, double* field);
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,7 +4,7 @@
 
 #include "transfer/transfer.h"
 
-namespace hf {
+namespace hf_inner {
 
 // A cluster's motion for the blend: columns of the matrix and the shift, one number of padding each.
 struct BlendColumns {
@@ -111,4 +111,4 @@ struct Transfer::Prepared {
   std::int32_t held_vertices[vertex_rows] = {};
 };
 
-}  // namespace hf
+}  // namespace hf_inner

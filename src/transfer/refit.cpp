@@ -3,12 +3,13 @@
 
 #include <algorithm>
 
-namespace hf {
+#include "base/index.h"
+
+namespace hf_inner {
 namespace {
 
 constexpr double keep = 0.18;         // b
 constexpr double handle_share = 0.9;  // centres beyond belong to a handle
-std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
@@ -68,4 +69,4 @@ void Refit::turn(const Quaternion* given, const Vec3* shifts, Quaternion* rotati
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

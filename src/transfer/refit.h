@@ -17,7 +17,7 @@
 #include "deform/rotation.h"
 #include "transfer/clusters.h"
 
-namespace hf {
+namespace hf_inner {
 
 class Refit {
  public:
@@ -38,4 +38,4 @@ class Refit {
   Vector<Vec3> centroid_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf {
+#include "base/index.h"
+
+namespace hf_inner {
 namespace {
 
 constexpr double prior = 0.02;        // of the broad rotation, in spreads of the cluster
 constexpr double broad_prior = 1e-3;  // of the rotation of the whole
 constexpr std::size_t most_sampled = 4096;
-std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 // M = sum_v q_v g_v'. The slopes sum to zero, so any origin will do; one near the cluster keeps the digits of far-away
 // poses.
@@ -80,4 +81,4 @@ void SourceRotations::clusters(const Clusters& clusters, const Vec3* posed, cons
   });
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -12,7 +12,7 @@
 #include "deform/rotation.h"
 #include "transfer/clusters.h"
 
-namespace hf {
+namespace hf_inner {
 
 // The source as a whole: rotation, area centroid, and how far from rigid the frame is.
 struct WholeMotion {
@@ -38,4 +38,4 @@ class SourceRotations {
   double sample_spread_ = 0;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

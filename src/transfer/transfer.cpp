@@ -5,9 +5,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "transfer/prepared.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;
@@ -17,7 +18,6 @@ constexpr double shortest_limb = 0.1;  // of the box: shorter limbs have no reli
 constexpr double least_side = 0.03;    // of the box: nearer to the middle a region is neither left nor right
 constexpr std::int32_t enough_support = 6;
 constexpr double rides_from = 0.75;  // share of a vertex in the clusters of a region from which it moves with it
-std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 Vec3 area_mean(const Mesh& mesh, const Vector<double>& area) noexcept {
   Vec3 sum;
@@ -319,4 +319,4 @@ void Transfer::skin_weights(std::int32_t vertex, std::uint32_t weight_count, std
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

@@ -26,7 +26,7 @@
 #include "transfer/source_rotations.h"
 #include "transfer/translations.h"
 
-namespace hf {
+namespace hf_inner {
 
 struct TransferOptions {
   std::int32_t mode = HF_TRANSFER_FIELDS;
@@ -127,4 +127,4 @@ class Transfer {
   std::shared_ptr<Prepared> prepared_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

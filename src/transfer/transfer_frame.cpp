@@ -2,9 +2,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "transfer/prepared.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;
@@ -13,7 +14,6 @@ constexpr double turn_low = 20 * degree,
                  turn_high = 50 * degree;  // between these a turn of the whole takes the anchors' offsets along
 constexpr std::int32_t refit_rounds = 4;
 constexpr std::size_t block = 2048;
-std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 bool is_finite(Vec3 p) noexcept { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
@@ -179,4 +179,4 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
                                });
 }
 
-}  // namespace hf
+}  // namespace hf_inner

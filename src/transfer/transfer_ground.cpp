@@ -12,9 +12,10 @@
 // Nothing is paid in frames where nothing lies or sinks but a look at every height.
 #include <cmath>
 
+#include "base/index.h"
 #include "transfer/prepared.h"
 
-namespace hf {
+namespace hf_inner {
 namespace {
 
 // heights over the ground: of a foot, in boxes, that stands or flies; of a contact, in its own rest heights
@@ -23,7 +24,6 @@ constexpr double lies_low = 0.01, lies_high = 0.06;  // share of the surface in 
 constexpr double least_depth = 1e-4;                 // of the box: less is no sinking
 constexpr double firm = 0.98;                        // share of a held vertex
 constexpr std::int32_t sunk_rounds = 8, turning_rounds = 3;
-std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
@@ -197,4 +197,4 @@ void Transfer::keep_above_ground(Prepared& p, Vec3 centroid, double share, doubl
   }
 }
 
-}  // namespace hf
+}  // namespace hf_inner

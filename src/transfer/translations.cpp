@@ -5,11 +5,12 @@
 #include <cmath>
 #include <utility>
 
-namespace hf {
+#include "base/index.h"
+
+namespace hf_inner {
 namespace {
 
 constexpr double steepest = 50;  // largest cotangent weight that counts
-std::size_t at(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 template <class Matrix>
 double trace(const Matrix& matrix, std::size_t count) noexcept {
@@ -308,4 +309,4 @@ void Translations::solve(const Clusters& clusters, const Mat3* rotations, Span<c
   for (std::size_t c = 0; c < at(count_); ++c) out[c] = {scratch_[4 * c], scratch_[4 * c + 1], scratch_[4 * c + 2]};
 }
 
-}  // namespace hf
+}  // namespace hf_inner

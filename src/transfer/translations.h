@@ -21,7 +21,7 @@
 #include "engine/core.h"
 #include "transfer/clusters.h"
 
-namespace hf {
+namespace hf_inner {
 
 constexpr std::size_t vertex_rows = 24;  // single vertices that can be held in one frame
 
@@ -119,4 +119,4 @@ class Translations {
   Vector<Vec3> hold_rhs_;
 };
 
-}  // namespace hf
+}  // namespace hf_inner

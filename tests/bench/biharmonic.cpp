@@ -10,8 +10,8 @@ namespace {
 
 // K du = right off the eliminated vertices, du = 0 on them; both in the core's vertex numbers.
 void solve_eliminated(const InnerSystem& system, const std::vector<uint8_t>& eliminated, std::vector<double>& right) {
-  const hf::SymmetricMatrix& k = system.core().laplacian;
-  const auto grounded = hf::Factor::make(system.matrix(), system.coordinates(), {}, system.memory(), system.jobs());
+  const hf_inner::SymmetricMatrix& k = system.core().laplacian;
+  const auto grounded = hf_inner::Factor::make(system.matrix(), system.coordinates(), {}, system.memory(), system.jobs());
   // sites stand in for the grounds: K itself, pattern as it was
   const auto factor = grounded->refactor(k, {eliminated.data(), eliminated.size()}, system.memory(), system.jobs());
   std::vector<double> z(right.size());
@@ -37,9 +37,9 @@ BiharmonicResult biharmonic_refinement(const Mesh& mesh, uint32_t threads) {
     solver.solve(given);
     result.solve_ms = median_ms(3, [&] { solver.solve(given); });
   }
-  const InnerSystem system(mesh, threads, hf::FieldKind::biharmonic);
-  const hf::Mesh& inner = system.core().mesh;
-  const hf::SymmetricMatrix& k = system.core().laplacian;
+  const InnerSystem system(mesh, threads, hf_inner::FieldKind::biharmonic);
+  const hf_inner::Mesh& inner = system.core().mesh;
+  const hf_inner::SymmetricMatrix& k = system.core().laplacian;
   const size_t n = static_cast<size_t>(k.size());
   std::vector<double> u(n), change(n, 0.0);
   std::vector<uint8_t> eliminated(n, 0);

@@ -119,21 +119,21 @@ Rows run_deform_quality(const Run& run, Report& report) {
     const Case& c = study.scene;
     Dragged d = drag(c, {}, 30, 5, run.threads);
     const std::vector<Vec3> smooth = positions(d.report);
-    hf::DeformRequest request;
+    hf_inner::DeformRequest request;
     request.iteration_count = 1, request.refine = true;
     const std::vector<Vec3> refined = positions(d.pose->deform(request));
     std::printf("%s, %d vertices\n", c.name.c_str(), d.core->size());
 
-    hf::PoseOptions options;
-    options.mode = hf::DeformMode::paper;
+    hf_inner::PoseOptions options;
+    options.mode = hf_inner::DeformMode::paper;
     Dragged paper = drag(c, options, 30, 10, run.threads);
     const std::vector<Vec3> early = positions(paper.report);
     for (int i = 0; i < 2; ++i) paper.report = paper.pose->deform({false, 1000, false});
     const std::vector<Vec3> late = positions(paper.report);
 
     // the oracle from two starts: our pose, and the paper's; its energy is that of the mesh's own edges
-    hf::CoreOptions own_edges;
-    own_edges.operator_kind = hf::OperatorKind::cotangent;
+    hf_inner::CoreOptions own_edges;
+    own_edges.operator_kind = hf_inner::OperatorKind::cotangent;
     const auto cotangents = hf_test::make_core(c.mesh, run.threads, own_edges);
     std::vector<uint8_t> fixed(static_cast<size_t>(d.core->size()), 0);
     for (const auto& region : c.regions) {

@@ -24,15 +24,15 @@ struct ConnectionSystem {
   std::vector<uint32_t> constrained;
 };
 ConnectionSystem connection_system(const Mesh& mesh, const std::vector<uint32_t>& sites) {
-  const auto memory = std::make_shared<hf::Memory>();
-  hf::MeshInput input;
+  const auto memory = std::make_shared<hf_inner::Memory>();
+  hf_inner::MeshInput input;
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
   input.positions = {mesh.positions.data(), 3 * sizeof(double)};
   input.triangles = mesh.triangles.data();
-  const auto core = hf::Core::make(input, {}, memory, std::make_shared<hf::JobRunner>(1));
-  const hf::DirectionSolver solver(core, 1);
-  const hf::SymmetricMatrix& a = solver.matrix();
+  const auto core = hf_inner::Core::make(input, {}, memory, std::make_shared<hf_inner::JobRunner>(1));
+  const hf_inner::DirectionSolver solver(core, 1);
+  const hf_inner::SymmetricMatrix& a = solver.matrix();
   ConnectionSystem out;
   for (int32_t v = 0; v < a.size(); ++v) {
     out.matrix.start.push_back(static_cast<int>(out.matrix.row.size()));

@@ -3,31 +3,31 @@
 namespace bench {
 namespace {
 
-std::shared_ptr<const hf::Core> make_core(const Mesh& mesh, const std::shared_ptr<hf::Memory>& memory,
-                                          const std::shared_ptr<hf::JobRunner>& jobs, hf::FieldKind kind) {
-  hf::MeshInput input;
+std::shared_ptr<const hf_inner::Core> make_core(const Mesh& mesh, const std::shared_ptr<hf_inner::Memory>& memory,
+                                          const std::shared_ptr<hf_inner::JobRunner>& jobs, hf_inner::FieldKind kind) {
+  hf_inner::MeshInput input;
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
   input.positions = {mesh.positions.data(), 3 * sizeof(double)};
   input.triangles = mesh.triangles.data();
-  hf::CoreOptions options;
+  hf_inner::CoreOptions options;
   options.need_factor = false, options.field_kind = kind;
-  options.operator_kind = hf::OperatorKind::cotangent;  // the matrix the peers get
-  return hf::Core::make(input, options, memory, jobs);
+  options.operator_kind = hf_inner::OperatorKind::cotangent;  // the matrix the peers get
+  return hf_inner::Core::make(input, options, memory, jobs);
 }
 
 }  // namespace
 
-InnerSystem::InnerSystem(const Mesh& mesh, uint32_t threads, hf::FieldKind kind)
-    : memory_(std::make_shared<hf::Memory>()),
-      jobs_(std::make_shared<hf::JobRunner>(threads)),
+InnerSystem::InnerSystem(const Mesh& mesh, uint32_t threads, hf_inner::FieldKind kind)
+    : memory_(std::make_shared<hf_inner::Memory>()),
+      jobs_(std::make_shared<hf_inner::JobRunner>(threads)),
       core_(make_core(mesh, memory_, jobs_, kind)),
-      matrix_(hf::grounded(*core_)),
-      coordinates_(hf::ordering_coordinates(core_->mesh, *memory_)) {}
+      matrix_(hf_inner::grounded(*core_)),
+      coordinates_(hf_inner::ordering_coordinates(core_->mesh, *memory_)) {}
 
 PeerMatrix InnerSystem::peer_matrix() const {
   PeerMatrix out;
-  const hf::SymmetricMatrix& a = matrix_;
+  const hf_inner::SymmetricMatrix& a = matrix_;
   for (int32_t v = 0; v < a.size(); ++v) {
     out.start.push_back(static_cast<int>(out.row.size()));
     for (int32_t i = a.column_start[v]; i < a.column_start[v + 1]; ++i) {

@@ -12,22 +12,22 @@ namespace bench {
 
 class InnerSystem {
  public:
-  InnerSystem(const Mesh& mesh, uint32_t threads, hf::FieldKind kind = hf::FieldKind::harmonic);
-  hf::Memory& memory() const { return *memory_; }
-  hf::JobRunner& jobs() const { return *jobs_; }
-  const hf::SymmetricMatrix& matrix() const { return matrix_; }
-  hf::Coordinates coordinates() const { return {coordinates_.data(), coordinates_.size()}; }
+  InnerSystem(const Mesh& mesh, uint32_t threads, hf_inner::FieldKind kind = hf_inner::FieldKind::harmonic);
+  hf_inner::Memory& memory() const { return *memory_; }
+  hf_inner::JobRunner& jobs() const { return *jobs_; }
+  const hf_inner::SymmetricMatrix& matrix() const { return matrix_; }
+  hf_inner::Coordinates coordinates() const { return {coordinates_.data(), coordinates_.size()}; }
   // The operator without its grounds, in the core's own vertex numbers.
-  const hf::Core& core() const { return *core_; }
+  const hf_inner::Core& core() const { return *core_; }
   // The same matrix as the peer takes it.
   PeerMatrix peer_matrix() const;
 
  private:
-  std::shared_ptr<hf::Memory> memory_;
-  std::shared_ptr<hf::JobRunner> jobs_;
-  std::shared_ptr<const hf::Core> core_;
-  hf::SymmetricMatrix matrix_;
-  hf::Vector<float> coordinates_;
+  std::shared_ptr<hf_inner::Memory> memory_;
+  std::shared_ptr<hf_inner::JobRunner> jobs_;
+  std::shared_ptr<const hf_inner::Core> core_;
+  hf_inner::SymmetricMatrix matrix_;
+  hf_inner::Vector<float> coordinates_;
 };
 
 }  // namespace bench

@@ -16,10 +16,10 @@ class Reader {
 
  private:
   double pass(size_t streams);
-  hf::Memory memory_;
-  hf::JobRunner jobs_;
-  hf::Buffer<double> data_;
-  hf::Buffer<double> sums_;
+  hf_inner::Memory memory_;
+  hf_inner::JobRunner jobs_;
+  hf_inner::Buffer<double> data_;
+  hf_inner::Buffer<double> sums_;
   size_t streams_ = 1;
 };
 

@@ -3,8 +3,8 @@
 
 namespace golden {
 
-using hfpp::check;
-using hfpp::make;
+using hf::check;
+using hf::make;
 
 void Scene::make_object(const Json& step, const std::string& what) {
   hf_solver solver = objects_[step["on"]].solver.get();
@@ -16,17 +16,17 @@ void Scene::make_object(const Json& step, const std::string& what) {
     set_options(step, desc, {{"mode", &desc.mode}, {"band_count", &desc.band_count}}, {});
     hf_pose raw = nullptr;
     check(hf_pose_create(solver, &desc, &raw));
-    object.pose = hfpp::Handle<hf_pose, hf_pose_destroy>(raw);
+    object.pose = hf::Handle<hf_pose, hf_pose_destroy>(raw);
   } else if (what == "geodesics") {
     hf_geodesics raw = nullptr;
     check(hf_geodesics_create(solver, nullptr, &raw));
-    object.geodesics = hfpp::Handle<hf_geodesics, hf_geodesics_destroy>(raw);
+    object.geodesics = hf::Handle<hf_geodesics, hf_geodesics_destroy>(raw);
   } else if (what == "direction") {
     auto desc = make<hf_direction_desc>();
     set_options(step, desc, {{"degree", &desc.degree}}, {});
     hf_direction raw = nullptr;
     check(hf_direction_create(solver, &desc, &raw));
-    object.direction = hfpp::Handle<hf_direction, hf_direction_destroy>(raw);
+    object.direction = hf::Handle<hf_direction, hf_direction_destroy>(raw);
   } else if (what == "quads") {
     auto desc = make<hf_quads_desc>();
     set_options(step, desc,
@@ -40,11 +40,11 @@ void Scene::make_object(const Json& step, const std::string& what) {
     if (!lines.empty()) desc.site_lines = lines.data();
     hf_quads raw = nullptr;
     check(hf_quads_create(solver, &desc, &raw));
-    object.quads = hfpp::Handle<hf_quads, hf_quads_destroy>(raw);
+    object.quads = hf::Handle<hf_quads, hf_quads_destroy>(raw);
   } else {
     hf_flow raw = nullptr;
     check(hf_flow_create(solver, &raw));
-    object.flow = hfpp::Handle<hf_flow, hf_flow_destroy>(raw);
+    object.flow = hf::Handle<hf_flow, hf_flow_destroy>(raw);
   }
   objects_[step["as"]] = std::move(object);
 }
@@ -80,7 +80,7 @@ Result Scene::run_direction(const Json& step, const std::string& what) {
     hf_direction raw = nullptr;
     check(hf_direction_clone(direction, &raw));
     Object& made = objects_[step["as"]];
-    made.direction = hfpp::Handle<hf_direction, hf_direction_destroy>(raw), made.vertex_count = n;
+    made.direction = hf::Handle<hf_direction, hf_direction_destroy>(raw), made.vertex_count = n;
   } else if (what == "vectors") {
     const uint32_t k = hf_direction_get_site_count(direction);
     result.array.emplace(3 * size_t{k});

@@ -32,20 +32,20 @@ void check_lifetime(const Json& mesh, int rounds) {
   std::mt19937 draw(7);
   long long most = 0;
   for (int round = 0; round < rounds; ++round) {
-    auto desc = hfpp::make<hf_create_desc>();
+    auto desc = hf::make<hf_create_desc>();
     desc.vertex_count = last + 1, desc.positions = positions.data();
     desc.triangle_count = static_cast<uint32_t>(triangles.size() / 3), desc.triangles = triangles.data();
     desc.allocator.allocate = allocate, desc.allocator.release = release;
-    auto solver = std::make_shared<hfpp::Solver>(desc);
+    auto solver = std::make_shared<hf::Solver>(desc);
     solver->add_sites({0, last}, {0.0, 1.0});
-    auto clone = std::make_shared<hfpp::Solver>(solver->clone());
-    auto pose = std::make_shared<hfpp::Pose>(*solver);
+    auto clone = std::make_shared<hf::Solver>(solver->clone());
+    auto pose = std::make_shared<hf::Pose>(*solver);
     pose->add_handles({{0, 1, 2}, {last - 1, last}});
-    auto transfer = std::make_shared<hfpp::Transfer>(*solver, *clone);
-    auto geodesics = std::make_shared<hfpp::Geodesics>(*solver);
-    auto direction = std::make_shared<hfpp::Direction>(*solver);
+    auto transfer = std::make_shared<hf::Transfer>(*solver, *clone);
+    auto geodesics = std::make_shared<hf::Geodesics>(*solver);
+    auto direction = std::make_shared<hf::Direction>(*solver);
     direction->add_sites({0}, {1.0, 0.0, 0.0});
-    auto flow = std::make_shared<hfpp::Flow>(*solver);
+    auto flow = std::make_shared<hf::Flow>(*solver);
     std::vector<std::function<void()>> ends = {
         [&] { solver.reset(); },    [&] { clone.reset(); },     [&] { pose.reset(); }, [&] { transfer.reset(); },
         [&] { geodesics.reset(); }, [&] { direction.reset(); }, [&] { flow.reset(); }};

@@ -3,8 +3,8 @@
 
 namespace golden {
 
-using hfpp::check;
-using hfpp::make;
+using hf::check;
+using hf::make;
 
 Result Scene::run_posing(const Json& step, const std::string& what) {
   Result result;

@@ -3,8 +3,8 @@
 
 namespace golden {
 
-using hfpp::check;
-using hfpp::make;
+using hf::check;
+using hf::make;
 
 Result Scene::run_region(const Json& step, const std::string& what) {
   Result result;
@@ -16,7 +16,7 @@ Result Scene::run_region(const Json& step, const std::string& what) {
     check(hf_detail_create(source.region.get(), target.region.get(), &desc, &raw));
     const size_t n = target.vertex_count;
     Object& made = objects_[step["as"]];
-    made.detail = hfpp::Handle<hf_detail, hf_detail_destroy>(raw), made.vertex_count = n;
+    made.detail = hf::Handle<hf_detail, hf_detail_destroy>(raw), made.vertex_count = n;
     return result;
   }
   Object& on = objects_[step["on"]];
@@ -29,7 +29,7 @@ Result Scene::run_region(const Json& step, const std::string& what) {
     check(hf_region_create(on.solver.get(), &desc, &raw));
     const size_t n = on.vertex_count;
     Object& made = objects_[step["as"]];
-    made.region = hfpp::Handle<hf_region, hf_region_destroy>(raw), made.vertex_count = n;
+    made.region = hf::Handle<hf_region, hf_region_destroy>(raw), made.vertex_count = n;
   } else if (what == "region_edit") {
     const auto curve = numbers(step, "curve"), add = numbers(step, "add"), removed = numbers(step, "remove");
     auto desc = make<hf_region_edit_desc>();

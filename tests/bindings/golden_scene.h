@@ -30,7 +30,7 @@ inline void expect(bool condition, const std::string& what) {
   hf_error_detail detail{};
   detail.code = code, detail.index = HF_NO_INDEX;
   message.copy(detail.message, sizeof detail.message - 1);
-  throw hfpp::Error(detail);
+  throw hf::Error(detail);
 }
 
 inline double number(const Json& value) {
@@ -42,15 +42,15 @@ inline double number(const Json& value) {
 }
 
 struct Object {
-  hfpp::Handle<hf_solver, hf_destroy> solver;
-  hfpp::Handle<hf_pose, hf_pose_destroy> pose;
-  hfpp::Handle<hf_transfer, hf_transfer_destroy> transfer;
-  hfpp::Handle<hf_geodesics, hf_geodesics_destroy> geodesics;
-  hfpp::Handle<hf_direction, hf_direction_destroy> direction;
-  hfpp::Handle<hf_quads, hf_quads_destroy> quads;
-  hfpp::Handle<hf_flow, hf_flow_destroy> flow;
-  hfpp::Handle<hf_region, hf_region_destroy> region;
-  hfpp::Handle<hf_detail, hf_detail_destroy> detail;
+  hf::Handle<hf_solver, hf_destroy> solver;
+  hf::Handle<hf_pose, hf_pose_destroy> pose;
+  hf::Handle<hf_transfer, hf_transfer_destroy> transfer;
+  hf::Handle<hf_geodesics, hf_geodesics_destroy> geodesics;
+  hf::Handle<hf_direction, hf_direction_destroy> direction;
+  hf::Handle<hf_quads, hf_quads_destroy> quads;
+  hf::Handle<hf_flow, hf_flow_destroy> flow;
+  hf::Handle<hf_region, hf_region_destroy> region;
+  hf::Handle<hf_detail, hf_detail_destroy> detail;
   size_t vertex_count = 0, source_vertex_count = 0;
 };
 
@@ -93,7 +93,7 @@ class Scene {
     Result result;
     try {
       result = run(step);
-    } catch (const hfpp::Error& error) {
+    } catch (const hf::Error& error) {
       expect(step.contains("error") && step["error"] == hf_result_name(error.code()),
              std::string("raised ") + error.what());
       expect(!step.contains("index") || step["index"] == error.index(), "index " + std::to_string(error.index()));

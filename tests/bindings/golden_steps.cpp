@@ -3,8 +3,8 @@
 
 namespace golden {
 
-using hfpp::check;
-using hfpp::make;
+using hf::check;
+using hf::make;
 
 namespace {
 const std::set<std::string> direction_steps = {"add_vectors",   "remove_vectors", "move_vectors", "set_vectors",
@@ -47,7 +47,7 @@ Result Scene::run_solver(const Json& step) {
   hf_solver raw = nullptr;
   check(hf_create(&desc, &raw));
   Object& object = objects_[step["as"]];
-  object.solver = hfpp::Handle<hf_solver, hf_destroy>(raw), object.vertex_count = desc.vertex_count;
+  object.solver = hf::Handle<hf_solver, hf_destroy>(raw), object.vertex_count = desc.vertex_count;
   return {};
 }
 
@@ -109,7 +109,7 @@ Result Scene::run(const Json& step) {
     check(hf_transfer_create(source.solver.get(), target.solver.get(), &desc, &raw));
     const size_t sources = source.vertex_count, targets = target.vertex_count;
     Object& made = objects_[step["as"]];
-    made.transfer = hfpp::Handle<hf_transfer, hf_transfer_destroy>(raw), made.source_vertex_count = sources,
+    made.transfer = hf::Handle<hf_transfer, hf_transfer_destroy>(raw), made.source_vertex_count = sources,
     made.vertex_count = targets;
     return result;
   }
@@ -130,7 +130,7 @@ Result Scene::run(const Json& step) {
     hf_solver raw = nullptr;
     check(hf_clone(solver, &raw));
     Object& made = objects_[step["as"]];
-    made.solver = hfpp::Handle<hf_solver, hf_destroy>(raw), made.vertex_count = n;
+    made.solver = hf::Handle<hf_solver, hf_destroy>(raw), made.vertex_count = n;
   } else if (what == "add_sites") {
     const size_t k = count(vertices ? vertices : triangles);
     const auto weights = doubles(step, "barycentrics", 3 * k), values = doubles(step, "values", k),

@@ -15,7 +15,7 @@ namespace hf_test {
 class ArapOracle {
  public:
   // fixed: per inner vertex, non-zero where it belongs to a handle.
-  ArapOracle(const hf::Core& core, std::vector<std::uint8_t> fixed)
+  ArapOracle(const hf_inner::Core& core, std::vector<std::uint8_t> fixed)
       : core_(core),
         rest_(core, *core.memory),
         fixed_(std::move(fixed)),
@@ -25,26 +25,26 @@ class ArapOracle {
   }
 
   // One iteration on positions in the mesh's own unit; the fixed ones stay.
-  void iterate(std::vector<hf::Vec3>& x) {
-    const hf::Topology& topology = core_.topology;
+  void iterate(std::vector<hf_inner::Vec3>& x) {
+    const hf_inner::Topology& topology = core_.topology;
     const auto& p = core_.mesh.positions;
-    hf::for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
+    hf_inner::for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
       for (std::int32_t v = first; v < last; ++v) {
-        hf::Mat3 s;
-        hf::add_ring(core_, rest_, x.data(), v, s);
-        rotation_[v] = hf::best_rotation_from(s, rotation_[v]);
+        hf_inner::Mat3 s;
+        hf_inner::add_ring(core_, rest_, x.data(), v, s);
+        rotation_[v] = hf_inner::best_rotation_from(s, rotation_[v]);
       }
     });
-    const hf::Span<const std::int32_t> position = core_.factor->position();
-    hf::for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
+    const hf_inner::Span<const std::int32_t> position = core_.factor->position();
+    hf_inner::for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
       for (std::int32_t v = first; v < last; ++v) {
-        hf::Vec3 sum;
+        hf_inner::Vec3 sum;
         if (!fixed_[v]) {
-          const hf::Mat3 own = hf::to_matrix(rotation_[v]);
+          const hf_inner::Mat3 own = hf_inner::to_matrix(rotation_[v]);
           for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
             const std::int32_t u = topology.neighbour[k];
             const double w = core_.weights[topology.neighbour_edge[k]];
-            const hf::Mat3 r = own + hf::to_matrix(rotation_[u]);
+            const hf_inner::Mat3 r = own + hf_inner::to_matrix(rotation_[u]);
             sum = sum + 0.5 * w * (r * (p[v] - p[u]));
             if (fixed_[u]) sum = sum + w * x[u];
           }
@@ -63,7 +63,7 @@ class ArapOracle {
 
   // Until 20 iterations lower the energy by less than 2e-5 of it, or `limit`. Returns the iterations done.
   template <class Energy>
-  int converge(std::vector<hf::Vec3>& x, int limit, Energy&& energy) {
+  int converge(std::vector<hf_inner::Vec3>& x, int limit, Energy&& energy) {
     double last = energy(x);
     int done = 0;
     while (done < limit) {
@@ -77,11 +77,11 @@ class ArapOracle {
   }
 
  private:
-  const hf::Core& core_;
-  hf::Rest rest_;
+  const hf_inner::Core& core_;
+  hf_inner::Rest rest_;
   std::vector<std::uint8_t> fixed_;
-  std::shared_ptr<const hf::Factor> factor_;
-  std::vector<hf::Quaternion> rotation_;
+  std::shared_ptr<const hf_inner::Factor> factor_;
+  std::vector<hf_inner::Quaternion> rotation_;
   std::vector<double> z_;
 };
 

@@ -11,11 +11,11 @@ namespace hf_test {
 
 // sites in use only; values one row per site. Returns n x m (components without a site: zero rows). lambda: one row per
 // site.
-inline Eigen::MatrixXd dense_field(const hf::Core& core, const std::vector<hf::Site>& sites,
+inline Eigen::MatrixXd dense_field(const hf_inner::Core& core, const std::vector<hf_inner::Site>& sites,
                                    const Eigen::MatrixXd& values, Eigen::MatrixXd* lambda = nullptr) {
   const int n = core.size(), k = static_cast<int>(sites.size());
   std::vector<int> reached(static_cast<std::size_t>(core.mesh.component_count()), 0);
-  for (const hf::Site& site : sites) reached[static_cast<std::size_t>(site.component)] = 1;
+  for (const hf_inner::Site& site : sites) reached[static_cast<std::size_t>(site.component)] = 1;
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + k, n + k);
   for (int v = 0; v < n; ++v) {
     if (!reached[static_cast<std::size_t>(core.mesh.component[static_cast<std::size_t>(v)])]) {
@@ -29,7 +29,7 @@ inline Eigen::MatrixXd dense_field(const hf::Core& core, const std::vector<hf::S
   }
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(n + k, values.cols());
   for (int i = 0; i < k; ++i) {
-    const hf::Site& site = sites[static_cast<std::size_t>(i)];
+    const hf_inner::Site& site = sites[static_cast<std::size_t>(i)];
     for (int q = 0; q < 3; ++q) {
       if (site.vertex[q] < 0) continue;
       a(site.vertex[q], n + i) -= site.weight[q];

@@ -19,7 +19,7 @@ struct Strip {
 
 TEST(Wrapper, solves_edits_and_undoes) {
   const Strip strip(8);
-  hfpp::Solver solver(strip.positions, strip.triangles);
+  hf::Solver solver(strip.positions, strip.triangles);
   const auto sites = solver.add_sites({0, 1, 16, 17}, {0, 0, 1, 1});
   EXPECT_FLOAT_EQ(solver.solve()[8], 0.5f);
   EXPECT_DOUBLE_EQ(solver.solve_at({8})[0], solver.solve_f64()[8]);
@@ -36,19 +36,19 @@ TEST(Wrapper, solves_edits_and_undoes) {
 
 TEST(Wrapper, saves_and_loads_a_factor_and_previews_with_it) {
   const Strip strip(40);
-  hfpp::Solver made(strip.positions, strip.triangles);
+  hf::Solver made(strip.positions, strip.triangles);
   const std::vector<uint8_t> bytes = made.save_factor();
-  auto saved = hfpp::make<hf_factor_desc>();
+  auto saved = hf::make<hf_factor_desc>();
   saved.bytes = bytes.data(), saved.byte_count = bytes.size();
-  auto desc = hfpp::make<hf_create_desc>();
+  auto desc = hf::make<hf_create_desc>();
   desc.vertex_count = static_cast<uint32_t>(strip.positions.size() / 3), desc.positions = strip.positions.data();
   desc.triangle_count = static_cast<uint32_t>(strip.triangles.size() / 3), desc.triangles = strip.triangles.data();
   desc.saved_factor = &saved;
-  hfpp::Solver loaded(desc);
+  hf::Solver loaded(desc);
   EXPECT_EQ(loaded.statistics().factor_loaded, 1u);
   made.add_sites({0, 80}, {0, 1}), loaded.add_sites({0, 80}, {0, 1});
   EXPECT_EQ(made.solve_f64(), loaded.solve_f64());
-  auto info = hfpp::make<hf_preview_info>();
+  auto info = hf::make<hf_preview_info>();
   EXPECT_NEAR(loaded.solve_preview(1, &info)[40], loaded.solve()[40], 1e-6f);
   EXPECT_EQ(info.correction_count, 1u);
   loaded.release_preview();
@@ -56,8 +56,8 @@ TEST(Wrapper, saves_and_loads_a_factor_and_previews_with_it) {
 
 TEST(Wrapper, directions_follow_their_constraints) {
   const Strip strip(8);
-  const hfpp::Solver solver(strip.positions, strip.triangles);
-  hfpp::Direction direction(solver);
+  const hf::Solver solver(strip.positions, strip.triangles);
+  hf::Direction direction(solver);
   const auto sites = direction.add_sites({4}, {1, 2, 0});
   std::vector<float> field = direction.solve();  // flat: parallel everywhere
   EXPECT_NEAR(field[3 * 15], 1, 1e-6);
@@ -76,11 +76,11 @@ TEST(Wrapper, directions_follow_their_constraints) {
 
 TEST(Wrapper, throws_with_code_and_index) {
   const Strip strip(2);
-  hfpp::Solver solver(strip.positions, strip.triangles);
+  hf::Solver solver(strip.positions, strip.triangles);
   try {
     solver.add_sites({0, 99}, {0, 1});
     FAIL();
-  } catch (const hfpp::Error& error) {
+  } catch (const hf::Error& error) {
     EXPECT_EQ(error.code(), HF_ERROR_OUT_OF_RANGE);
     EXPECT_EQ(error.index(), 1u);
     EXPECT_NE(std::string(error.what()).find("hf_add_sites"), std::string::npos);
@@ -91,12 +91,12 @@ TEST(Wrapper, throws_with_code_and_index) {
 
 TEST(Wrapper, handles_move_and_children_outlive_parents) {
   const Strip strip(8);
-  auto solver = std::make_unique<hfpp::Solver>(strip.positions, strip.triangles);
-  hfpp::Solver clone = solver->clone();
-  hfpp::Pose pose(*solver);
-  hfpp::Transfer transfer(*solver, clone);
+  auto solver = std::make_unique<hf::Solver>(strip.positions, strip.triangles);
+  hf::Solver clone = solver->clone();
+  hf::Pose pose(*solver);
+  hf::Transfer transfer(*solver, clone);
   solver.reset();
-  hfpp::Solver moved = std::move(clone);
+  hf::Solver moved = std::move(clone);
   moved.add_sites({0, 17}, {0, 1});
   EXPECT_EQ(moved.solve().size(), 18u);
 
@@ -114,23 +114,23 @@ TEST(Wrapper, handles_move_and_children_outlive_parents) {
 
 TEST(Wrapper, reads_lines_points_distances_and_tips_of_a_strip) {
   const Strip strip(8);
-  hfpp::Solver solver(strip.positions, strip.triangles);
+  hf::Solver solver(strip.positions, strip.triangles);
   solver.add_sites({0, 1, 16, 17}, {0, 0, 1, 1});
   const auto field = solver.solve_f64();
-  const auto levels = hfpp::space_levels(solver, field, HF_LEVELS_LENGTH, 3);
+  const auto levels = hf::space_levels(solver, field, HF_LEVELS_LENGTH, 3);
   ASSERT_EQ(levels.size(), 3u);
   EXPECT_NEAR(levels[1], 0.5, 1e-9);
-  const auto lines = hfpp::trace_isolines(solver, field, levels);
+  const auto lines = hf::trace_isolines(solver, field, levels);
   EXPECT_EQ(lines.line_levels, (std::vector<uint32_t>{0, 1, 2}));
   EXPECT_EQ(lines.line_closed, (std::vector<int32_t>{0, 0, 0}));
   EXPECT_EQ(lines.positions.size(), 3 * lines.parameters.size());
   int index = 0;
-  for (const auto& point : hfpp::find_critical_points(solver, field)) index += point.index;
+  for (const auto& point : hf::find_critical_points(solver, field)) index += point.index;
   EXPECT_EQ(index, 1);  // a disk
-  const hfpp::Geodesics geodesics(solver);
+  const hf::Geodesics geodesics(solver);
   const auto distance = geodesics.distance({0, 1});
   EXPECT_NEAR(distance[16], 8, 0.8);
-  const auto tips = hfpp::find_extremities(solver);
+  const auto tips = hf::find_extremities(solver);
   ASSERT_EQ(tips.size(), 2u);
   EXPECT_NEAR(std::fabs(tips[0].position[0] - tips[1].position[0]), 8, 0.01);
 }
@@ -147,8 +147,8 @@ TEST(Wrapper, regions_morph_and_hand_their_detail_on) {
       const uint32_t v = 13 * j + i;
       triangles.insert(triangles.end(), {v, v + 1, v + 14, v, v + 14, v + 13});
     }
-  const hfpp::Solver solver(positions, triangles);
-  hfpp::Region region(solver, positions);
+  const hf::Solver solver(positions, triangles);
+  hf::Region region(solver, positions);
   region.enclose({13 * 3 + 3, 13 * 3 + 9, 13 * 9 + 9, 13 * 9 + 3});
   EXPECT_EQ(region.info().vertex_count, 25u);
   EXPECT_EQ(region.vertices(HF_REGION_RIM).size(), region.info().rim_count);
@@ -158,20 +158,20 @@ TEST(Wrapper, regions_morph_and_hand_their_detail_on) {
   const size_t middle = 3 * (13 * 6 + 6);
   EXPECT_NEAR(flat[middle + 2], 0, 1e-6f);
   EXPECT_NEAR(normals[middle + 2], 1, 1e-6f);
-  const hfpp::Detail detail(region, region);
+  const hf::Detail detail(region, region);
   const std::vector<float> back = detail.morph(1);
   for (size_t i = 0; i < back.size(); ++i) EXPECT_NEAR(back[i], positions[i], 1e-5f);
   region.record();
   region.grow(1);
   EXPECT_EQ(region.info().factorisation_count, 0u);
-  const hfpp::Region grown = region.clone();
+  const hf::Region grown = region.clone();
   region.undo();
   EXPECT_LT(region.info().vertex_count, grown.info().vertex_count);
   region.redo();
   region.remove_vertices({13 * 6 + 6});
   region.add_vertices({13 * 6 + 6});
   EXPECT_EQ(region.info().vertex_count, grown.info().vertex_count);
-  EXPECT_THROW(region.enclose({0, 1}), hfpp::Error);
+  EXPECT_THROW(region.enclose({0, 1}), hf::Error);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 namespace hf_godot {
 
-using hfpp::check;
-using hfpp::make;
+using hf::check;
+using hf::make;
 
 inline const Argument& at(const Arguments& arguments, size_t i) {
   static const Argument missing;

@@ -6,7 +6,7 @@ hf_pose pose_of(Surface& s) {
   if (!s.pose) {
     hf_pose raw = nullptr;
     check(hf_pose_create(s.solver.get(), nullptr, &raw));
-    s.pose = hfpp::Handle<hf_pose, hf_pose_destroy>(raw);
+    s.pose = hf::Handle<hf_pose, hf_pose_destroy>(raw);
   }
   return s.pose.get();
 }
@@ -48,7 +48,7 @@ Value create(Surface& s, const Arguments& a) {
   hf_solver raw = nullptr;
   check(hf_create(&desc, &raw));
   s.forget();
-  s.solver = hfpp::Handle<hf_solver, hf_destroy>(raw), s.vertex_count = desc.vertex_count;
+  s.solver = hf::Handle<hf_solver, hf_destroy>(raw), s.vertex_count = desc.vertex_count;
   return done();
 }
 
@@ -57,7 +57,7 @@ Value clone_from(Surface& s, const Arguments& a) {
   hf_solver raw = nullptr;
   check(hf_clone(a[0].surface->solver.get(), &raw));
   s.forget();
-  s.solver = hfpp::Handle<hf_solver, hf_destroy>(raw), s.vertex_count = a[0].surface->vertex_count;
+  s.solver = hf::Handle<hf_solver, hf_destroy>(raw), s.vertex_count = a[0].surface->vertex_count;
   return done();
 }
 
@@ -331,7 +331,7 @@ Value transfer_to(Surface& s, const Arguments& a) {
   desc.scale = static_cast<float>(at(a, 4).number);
   hf_transfer raw = nullptr;
   check(hf_transfer_create(s.solver.get(), a[0].surface->solver.get(), &desc, &raw));
-  hfpp::Handle<hf_transfer, hf_transfer_destroy> made(raw);
+  hf::Handle<hf_transfer, hf_transfer_destroy> made(raw);
   const Regions source(at(a, 1), "source regions"), target(at(a, 2), "target regions");
   if (source.counts.size() != target.counts.size()) fail("source and target regions must be of one length");
   const List flags = integers(at(a, 3), "flags");
@@ -411,7 +411,7 @@ Value call(Surface& surface, const Entry& entry, const Arguments& arguments) noe
       fail(std::string(entry.name) + " takes " + std::to_string(entry.least) + " to " + std::to_string(entry.most) +
            " arguments");
     return entry.method(surface, arguments);
-  } catch (const hfpp::Error& error) {
+  } catch (const hf::Error& error) {
     surface.error_name = hf_result_name(error.code()), surface.error_message = error.what();
     surface.error_index = error.index() == HF_NO_INDEX ? -1.0 : error.index();
   } catch (const std::exception& error) {

@@ -41,19 +41,19 @@ struct Value {
   hf_error_detail detail{};
   detail.code = code, detail.index = HF_NO_INDEX;
   message.copy(detail.message, sizeof detail.message - 1);
-  throw hfpp::Error(detail);
+  throw hf::Error(detail);
 }
 
 struct Surface {
-  hfpp::Handle<hf_solver, hf_destroy> solver;
-  hfpp::Handle<hf_pose, hf_pose_destroy> pose;
-  hfpp::Handle<hf_transfer, hf_transfer_destroy> transfer;
-  hfpp::Handle<hf_geodesics, hf_geodesics_destroy> geodesics;
-  hfpp::Handle<hf_direction, hf_direction_destroy> direction;
-  hfpp::Handle<hf_quads, hf_quads_destroy> quads;
-  hfpp::Handle<hf_flow, hf_flow_destroy> flow;
-  hfpp::Handle<hf_region, hf_region_destroy> region;
-  hfpp::Handle<hf_detail, hf_detail_destroy> detail;
+  hf::Handle<hf_solver, hf_destroy> solver;
+  hf::Handle<hf_pose, hf_pose_destroy> pose;
+  hf::Handle<hf_transfer, hf_transfer_destroy> transfer;
+  hf::Handle<hf_geodesics, hf_geodesics_destroy> geodesics;
+  hf::Handle<hf_direction, hf_direction_destroy> direction;
+  hf::Handle<hf_quads, hf_quads_destroy> quads;
+  hf::Handle<hf_flow, hf_flow_destroy> flow;
+  hf::Handle<hf_region, hf_region_destroy> region;
+  hf::Handle<hf_detail, hf_detail_destroy> detail;
   // Everything made from the solver.
   void forget() {
     pose = {}, transfer = {}, geodesics = {}, direction = {}, quads = {}, flow = {}, region = {}, detail = {};

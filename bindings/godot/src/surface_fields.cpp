@@ -26,11 +26,11 @@ Value lines_of(const Doubles& positions, const Numbers& starts) {
 
 // Creates into a slot of the surface; what was there before stays when it fails.
 template <class Raw, void (*destroy)(Raw), class Create>
-Raw make_once(hfpp::Handle<Raw, destroy>& slot, Create&& create) {
+Raw make_once(hf::Handle<Raw, destroy>& slot, Create&& create) {
   if (!slot) {
     Raw raw = nullptr;
     check(create(&raw));
-    slot = hfpp::Handle<Raw, destroy>(raw);
+    slot = hf::Handle<Raw, destroy>(raw);
   }
   return slot.get();
 }
@@ -107,7 +107,7 @@ Value direction_create(Surface& s, const Arguments& a) {
   desc.degree = whole(at(a, 0).number, "degree");
   hf_direction raw = nullptr;
   check(hf_direction_create(s.solver.get(), &desc, &raw));
-  s.direction = hfpp::Handle<hf_direction, hf_direction_destroy>(raw);
+  s.direction = hf::Handle<hf_direction, hf_direction_destroy>(raw);
   return done();
 }
 
@@ -213,7 +213,7 @@ Value quads_create(Surface& s, const Arguments& a) {
   }
   hf_quads raw = nullptr;
   check(hf_quads_create(s.solver.get(), &desc, &raw));
-  s.quads = hfpp::Handle<hf_quads, hf_quads_destroy>(raw);
+  s.quads = hf::Handle<hf_quads, hf_quads_destroy>(raw);
   return done();
 }
 

@@ -11,7 +11,7 @@ Value region_create(Surface& s, const Arguments& a) {
   desc.positions_f64 = doubles(at(a, 0), 3 * s.vertex_count, "positions");
   hf_region raw = nullptr;
   check(hf_region_create(s.solver.get(), &desc, &raw));
-  s.region = hfpp::Handle<hf_region, hf_region_destroy>(raw), s.detail = {};
+  s.region = hf::Handle<hf_region, hf_region_destroy>(raw), s.detail = {};
   return done();
 }
 
@@ -95,7 +95,7 @@ Value detail_from(Surface& s, const Arguments& a) {
   desc.source_vertices = source.data(), desc.target_vertices = target.data();
   hf_detail raw = nullptr;
   check(hf_detail_create(a[0].surface->region.get(), s.region.get(), &desc, &raw));
-  s.detail = hfpp::Handle<hf_detail, hf_detail_destroy>(raw);
+  s.detail = hf::Handle<hf_detail, hf_detail_destroy>(raw);
   return done();
 }
 

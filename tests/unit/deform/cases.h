@@ -14,20 +14,20 @@
 
 namespace deform_test {
 
-using hf::Vec3;
+using hf_inner::Vec3;
 
 constexpr double pi = 3.14159265358979323846;
 
 inline hf_test::PlainMesh plain(const samples::ShapeMesh& shape) { return {shape.positions, shape.triangles}; }
 
 // Inner vertices of those as given; the shapes have no welded or isolated vertices, but the map is asked all the same.
-inline std::vector<std::int32_t> inner(const hf::Core& core, const std::vector<std::uint32_t>& given) {
+inline std::vector<std::int32_t> inner(const hf_inner::Core& core, const std::vector<std::uint32_t>& given) {
   std::vector<std::int32_t> out;
   for (const std::uint32_t v : given) out.push_back(core.mesh.inner_of_given[v]);
   return out;
 }
 
-inline std::vector<std::int32_t> select(const hf::Core& core, const std::function<bool(Vec3)>& inside) {
+inline std::vector<std::int32_t> select(const hf_inner::Core& core, const std::function<bool(Vec3)>& inside) {
   std::vector<std::int32_t> out;
   for (std::int32_t v = 0; v < core.size(); ++v) {
     if (inside(core.mesh.to_given(core.mesh.positions[v]))) out.push_back(v);
@@ -35,7 +35,7 @@ inline std::vector<std::int32_t> select(const hf::Core& core, const std::functio
   return out;
 }
 
-inline std::vector<std::uint32_t> add(hf::Pose& pose, const std::vector<std::vector<std::int32_t>>& regions) {
+inline std::vector<std::uint32_t> add(hf_inner::Pose& pose, const std::vector<std::vector<std::int32_t>>& regions) {
   std::vector<std::uint32_t> start{0}, numbers(regions.size());
   std::vector<std::int32_t> vertices;
   for (const auto& region : regions) {
@@ -46,9 +46,9 @@ inline std::vector<std::uint32_t> add(hf::Pose& pose, const std::vector<std::vec
   return numbers;
 }
 
-inline hf::Quaternion about(Vec3 axis, double angle) { return hf::exponential((angle / hf::norm(axis)) * axis); }
+inline hf_inner::Quaternion about(Vec3 axis, double angle) { return hf_inner::exponential((angle / hf_inner::norm(axis)) * axis); }
 
-inline void place(hf::Pose& pose, std::uint32_t handle, const hf::HandleTransform& transform) {
+inline void place(hf_inner::Pose& pose, std::uint32_t handle, const hf_inner::HandleTransform& transform) {
   pose.set_transforms({&handle, 1}, {&transform, 1});
 }
 
@@ -57,17 +57,17 @@ struct Case {
   std::string name;
   hf_test::PlainMesh mesh;
   std::vector<std::function<bool(Vec3)>> regions;
-  std::function<hf::HandleTransform(std::size_t handle, double t, Vec3 centroid)> motion;
+  std::function<hf_inner::HandleTransform(std::size_t handle, double t, Vec3 centroid)> motion;
   bool closed = true;
 };
 
 // The end of a straight beam along y, from `bottom` to `top` free, bent into an arc of `angle` in the plane of x and y.
-inline hf::HandleTransform bend(double angle, double bottom, double top, Vec3 centroid) {
+inline hf_inner::HandleTransform bend(double angle, double bottom, double top, Vec3 centroid) {
   if (std::fabs(angle) < 1e-12) return {};
   const double radius = (top - bottom) / angle;
-  const hf::Quaternion turn = about({0, 0, -1}, angle);
+  const hf_inner::Quaternion turn = about({0, 0, -1}, angle);
   const Vec3 end{radius * (1 - std::cos(angle)), bottom + radius * std::sin(angle), 0};
-  const Vec3 target = end + hf::rotate(turn, centroid - Vec3{0, top, 0});
+  const Vec3 target = end + hf_inner::rotate(turn, centroid - Vec3{0, top, 0});
   return {turn, target - centroid};
 }
 
@@ -89,7 +89,7 @@ inline Case bar_twist(double degrees, std::uint32_t n = 16) {
   c.mesh = plain(samples::box(1, 6, 1, n, 6 * n, n));
   c.regions = {[](Vec3 p) { return p.y < 0.45; }, [](Vec3 p) { return p.y > 5.55; }};
   c.motion = [=](std::size_t, double t, Vec3) {
-    return hf::HandleTransform{about({0, 1, 0}, t * degrees * pi / 180), {}};
+    return hf_inner::HandleTransform{about({0, 1, 0}, t * degrees * pi / 180), {}};
   };
   return c;
 }
@@ -112,7 +112,7 @@ inline Case plane_lift(std::uint32_t side = 101) {
   c.mesh = plain(samples::bumpy_plane(side, side));
   c.regions = {[](Vec3 p) { return std::max(std::fabs(p.x), std::fabs(p.z)) > 0.9; },
                [](Vec3 p) { return std::hypot(p.x, p.z) < 0.2; }};
-  c.motion = [](std::size_t, double t, Vec3) { return hf::HandleTransform{{}, {0, t * 1.0, 0}}; };
+  c.motion = [](std::size_t, double t, Vec3) { return hf_inner::HandleTransform{{}, {0, t * 1.0, 0}}; };
   c.closed = false;
   return c;
 }
@@ -130,7 +130,7 @@ inline Case study_plane_lift() {
     p[1] = 0.06 * wave * wave;
   }
   c.regions[0] = [](Vec3 p) { return std::max(std::fabs(p.x), std::fabs(p.z)) > 0.85; };
-  c.motion = [](std::size_t, double t, Vec3) { return hf::HandleTransform{{}, {0, t * 0.9, 0}}; };
+  c.motion = [](std::size_t, double t, Vec3) { return hf_inner::HandleTransform{{}, {0, t * 0.9, 0}}; };
   return c;
 }
 
@@ -151,9 +151,9 @@ inline Case scan_reach(const hf_test::PlainMesh& mesh) {
                [=](Vec3 p) { return p.y < floor && p.x >= middle; },
                [=](Vec3 p) { return norm(p - hand) < 0.13 * height; }};
   c.motion = [=](std::size_t handle, double t, Vec3) {
-    return handle == 2 ? hf::HandleTransform{about({0, 1, 1}, t * 0.7),
+    return handle == 2 ? hf_inner::HandleTransform{about({0, 1, 1}, t * 0.7),
                                              {-0.12 * t * height, 0.03 * t * height, -0.1 * t * height}}
-                       : hf::HandleTransform{};
+                       : hf_inner::HandleTransform{};
   };
   return c;
 }
@@ -176,24 +176,24 @@ inline Case scan_hands(const hf_test::PlainMesh& mesh) {
   c.regions = {[=](Vec3 p) { return p.y < floor; }, [=](Vec3 p) { return norm(p - raised) < 0.13 * height; },
                [=](Vec3 p) { return norm(p - lowered) < 0.13 * height; }};
   c.motion = [=](std::size_t handle, double t, Vec3) {
-    return handle == 1 ? hf::HandleTransform{about({0, 0, -1}, t * 0.4), {-0.08 * t * height, 0.05 * t * height, 0}}
-                       : hf::HandleTransform{about({0, 0, -1}, t * 0.9),
+    return handle == 1 ? hf_inner::HandleTransform{about({0, 0, -1}, t * 0.4), {-0.08 * t * height, 0.05 * t * height, 0}}
+                       : hf_inner::HandleTransform{about({0, 0, -1}, t * 0.9),
                                              {-0.1 * t * height, -0.3 * t * height, 0.05 * t * height}};
   };
   return c;
 }
 
 struct Dragged {
-  std::shared_ptr<const hf::Core> core;
-  std::shared_ptr<hf::Pose> pose;
+  std::shared_ptr<const hf_inner::Core> core;
+  std::shared_ptr<hf_inner::Pose> pose;
   std::vector<std::uint32_t> handles;
-  hf::DeformReport report;
+  hf_inner::DeformReport report;
 };
 
-inline Dragged set_up(const Case& c, const hf::PoseOptions& options, std::uint32_t threads = 1) {
+inline Dragged set_up(const Case& c, const hf_inner::PoseOptions& options, std::uint32_t threads = 1) {
   Dragged d;
   d.core = hf_test::make_core(c.mesh, threads);
-  d.pose = hf::Pose::make(d.core, options);
+  d.pose = hf_inner::Pose::make(d.core, options);
   std::vector<std::vector<std::int32_t>> regions;
   for (const auto& region : c.regions) regions.push_back(select(*d.core, region));
   d.handles = add(*d.pose, regions);
@@ -205,7 +205,7 @@ inline void move_to(const Case& c, Dragged& d, double t) {
     place(*d.pose, d.handles[i], c.motion(i, t, d.pose->handle(d.handles[i]).centroid));
 }
 
-inline Dragged drag(const Case& c, const hf::PoseOptions& options, int frames = 30, std::uint32_t iterations = 5,
+inline Dragged drag(const Case& c, const hf_inner::PoseOptions& options, int frames = 30, std::uint32_t iterations = 5,
                     std::uint32_t threads = 1) {
   Dragged d = set_up(c, options, threads);
   d.pose->deform({});
@@ -216,11 +216,11 @@ inline Dragged drag(const Case& c, const hf::PoseOptions& options, int frames = 
   return d;
 }
 
-inline std::vector<Vec3> positions(const hf::DeformReport& report) {
+inline std::vector<Vec3> positions(const hf_inner::DeformReport& report) {
   return {report.positions.begin(), report.positions.end()};
 }
 
-inline std::vector<Vec3> rest(const hf::Core& core) {
+inline std::vector<Vec3> rest(const hf_inner::Core& core) {
   std::vector<Vec3> out;
   for (const Vec3& p : core.mesh.positions) out.push_back(core.mesh.to_given(p));
   return out;
@@ -228,7 +228,7 @@ inline std::vector<Vec3> rest(const hf::Core& core) {
 
 inline double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, hf::norm(a[i] - b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, hf_inner::norm(a[i] - b[i]));
   return largest;
 }
 
@@ -243,60 +243,60 @@ struct Quality {
       0;  // area-weighted jump between neighbours of the change of mean curvature, times the box diagonal
 };
 
-inline double signed_volume(const hf::Mesh& mesh, const std::vector<Vec3>& x) {
+inline double signed_volume(const hf_inner::Mesh& mesh, const std::vector<Vec3>& x) {
   double sum = 0;
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::int32_t* k = mesh.triangle(t);
-    sum += dot(x[k[0]], hf::cross(x[k[1]], x[k[2]])) / 6;
+    sum += dot(x[k[0]], hf_inner::cross(x[k[1]], x[k[2]])) / 6;
   }
   return sum;
 }
 
 // Mean curvature, signed by the normal: |sum w (x_i - x_j)| / (2 area) with cotangents of the surface itself.
-inline std::vector<double> mean_curvature(const hf::Mesh& mesh, const std::vector<Vec3>& x) {
+inline std::vector<double> mean_curvature(const hf_inner::Mesh& mesh, const std::vector<Vec3>& x) {
   std::vector<Vec3> sum(x.size()), normal(x.size());
   std::vector<double> area(x.size(), 0.0), h(x.size());
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::int32_t* k = mesh.triangle(t);
-    const Vec3 n = hf::cross(x[k[1]] - x[k[0]], x[k[2]] - x[k[0]]);
-    const double twice = std::max(hf::norm(n), 1e-300);
+    const Vec3 n = hf_inner::cross(x[k[1]] - x[k[0]], x[k[2]] - x[k[0]]);
+    const double twice = std::max(hf_inner::norm(n), 1e-300);
     for (int c = 0; c < 3; ++c) {
       const std::int32_t o = k[c], i = k[(c + 1) % 3], j = k[(c + 2) % 3];
-      const double w = 0.5 * hf::dot(x[i] - x[o], x[j] - x[o]) / twice;
+      const double w = 0.5 * hf_inner::dot(x[i] - x[o], x[j] - x[o]) / twice;
       sum[i] = sum[i] + w * (x[i] - x[j]), sum[j] = sum[j] + w * (x[j] - x[i]);
       normal[o] = normal[o] + n, area[o] += twice / 6;
     }
   }
   for (std::size_t v = 0; v < x.size(); ++v) {
-    const double sign = hf::dot(sum[v], normal[v]) < 0 ? -1 : 1;
-    h[v] = sign * hf::norm(sum[v]) / (2 * std::max(area[v], 1e-300));
+    const double sign = hf_inner::dot(sum[v], normal[v]) < 0 ? -1 : 1;
+    h[v] = sign * hf_inner::norm(sum[v]) / (2 * std::max(area[v], 1e-300));
   }
   return h;
 }
 
-inline double arap_energy(const hf::Core& core, const std::vector<Vec3>& rest_positions, const std::vector<Vec3>& x) {
-  const hf::Topology& topology = core.topology;
+inline double arap_energy(const hf_inner::Core& core, const std::vector<Vec3>& rest_positions, const std::vector<Vec3>& x) {
+  const hf_inner::Topology& topology = core.topology;
   double sum = 0;
   for (std::int32_t v = 0; v < core.size(); ++v) {
-    hf::Mat3 s;
+    hf_inner::Mat3 s;
     for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
       const std::int32_t u = topology.neighbour[k];
-      hf::add_outer(s, std::max(core.weights[topology.neighbour_edge[k]], 0.01), x[v] - x[u],
+      hf_inner::add_outer(s, std::max(core.weights[topology.neighbour_edge[k]], 0.01), x[v] - x[u],
                     rest_positions[v] - rest_positions[u]);
     }
-    const hf::Quaternion r = hf::best_rotation(s, {});
+    const hf_inner::Quaternion r = hf_inner::best_rotation(s, {});
     for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
       const std::int32_t u = topology.neighbour[k];
-      const Vec3 d = x[v] - x[u] - hf::rotate(r, rest_positions[v] - rest_positions[u]);
-      sum += std::max(core.weights[topology.neighbour_edge[k]], 0.01) * hf::dot(d, d);
+      const Vec3 d = x[v] - x[u] - hf_inner::rotate(r, rest_positions[v] - rest_positions[u]);
+      sum += std::max(core.weights[topology.neighbour_edge[k]], 0.01) * hf_inner::dot(d, d);
     }
   }
   return sum;
 }
 
-inline Quality measure(const hf::Core& core, const std::vector<Vec3>& x) {
-  const hf::Mesh& mesh = core.mesh;
-  const hf::Topology& topology = core.topology;
+inline Quality measure(const hf_inner::Core& core, const std::vector<Vec3>& x) {
+  const hf_inner::Mesh& mesh = core.mesh;
+  const hf_inner::Topology& topology = core.topology;
   const std::vector<Vec3> p = rest(core);
   Quality q;
   q.energy = arap_energy(core, p, x);
@@ -304,7 +304,7 @@ inline Quality measure(const hf::Core& core, const std::vector<Vec3>& x) {
   int inside = 0;
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
     const std::int32_t i = topology.first(e), j = topology.second(e);
-    ratios.push_back(hf::norm(x[i] - x[j]) / hf::norm(p[i] - p[j]));
+    ratios.push_back(hf_inner::norm(x[i] - x[j]) / hf_inner::norm(p[i] - p[j]));
     inside += ratios.back() >= 0.8 && ratios.back() <= 1.25;
   }
   std::sort(ratios.begin(), ratios.end());
@@ -316,10 +316,10 @@ inline Quality measure(const hf::Core& core, const std::vector<Vec3>& x) {
     const std::int32_t* k = mesh.triangle(t);
     const Vec3 a = p[k[1]] - p[k[0]], b = p[k[2]] - p[k[0]], c = x[k[1]] - x[k[0]], d = x[k[2]] - x[k[0]];
     // J = [c d] [a b]^-1 in the triangle's own plane; its singular values from J'J
-    const double length = hf::norm(a), bx = hf::dot(a, b) / length, by = hf::norm(hf::cross(a, b)) / length;
+    const double length = hf_inner::norm(a), bx = hf_inner::dot(a, b) / length, by = hf_inner::norm(hf_inner::cross(a, b)) / length;
     if (!(by > 0)) continue;
     const Vec3 u = (1 / length) * c, v = (1 / by) * (d - bx * u);
-    const double uu = hf::dot(u, u), vv = hf::dot(v, v), uv = hf::dot(u, v);
+    const double uu = hf_inner::dot(u, u), vv = hf_inner::dot(v, v), uv = hf_inner::dot(u, v);
     const double mean = 0.5 * (uu + vv), gap = std::sqrt(std::max(0.0, 0.25 * (uu - vv) * (uu - vv) + uv * uv));
     q.smallest_stretch = std::min(q.smallest_stretch, std::sqrt(std::max(0.0, mean - gap)));
   }
@@ -328,10 +328,10 @@ inline Quality measure(const hf::Core& core, const std::vector<Vec3>& x) {
     Vec3 n[2];
     for (int s = 0; s < 2; ++s) {
       const std::int32_t* k = mesh.triangle(topology.edge_triangle[first + s]);
-      n[s] = hf::cross(y[k[1]] - y[k[0]], y[k[2]] - y[k[0]]);
+      n[s] = hf_inner::cross(y[k[1]] - y[k[0]], y[k[2]] - y[k[0]]);
     }
     const Vec3 edge = y[topology.second(e)] - y[topology.first(e)];
-    return std::atan2(hf::dot(hf::cross(n[0], n[1]), edge) / hf::norm(edge), hf::dot(n[0], n[1])) * 180 / pi;
+    return std::atan2(hf_inner::dot(hf_inner::cross(n[0], n[1]), edge) / hf_inner::norm(edge), hf_inner::dot(n[0], n[1])) * 180 / pi;
   };
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
     if (topology.edge_triangle_start[e + 1] - topology.edge_triangle_start[e] != 2) continue;
@@ -344,7 +344,7 @@ inline Quality measure(const hf::Core& core, const std::vector<Vec3>& x) {
   std::vector<double> area(x.size(), 0.0);
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::int32_t* k = mesh.triangle(t);
-    for (int c = 0; c < 3; ++c) area[k[c]] += hf::norm(hf::cross(p[k[1]] - p[k[0]], p[k[2]] - p[k[0]])) / 6;
+    for (int c = 0; c < 3; ++c) area[k[c]] += hf_inner::norm(hf_inner::cross(p[k[1]] - p[k[0]], p[k[2]] - p[k[0]])) / 6;
   }
   double sum = 0, weight = 0;
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {

@@ -15,7 +15,7 @@ namespace {
 
 samples::Picture draw(const Dragged& d, const std::vector<Vec3>& posed, const Case& c, bool stripes) {
   samples::Surface surface;
-  const hf::Mesh& mesh = d.core->mesh;
+  const hf_inner::Mesh& mesh = d.core->mesh;
   for (const Vec3& x : posed) surface.positions.insert(surface.positions.end(), {x.x, x.y, x.z});
   for (const std::int32_t v : mesh.corners) surface.triangles.push_back(static_cast<std::uint32_t>(v));
   samples::SurfaceLook look;
@@ -60,12 +60,12 @@ int time_all() {
   for (const std::uint32_t side : {90u, 205u, 304u}) {
     const auto core = hf_test::make_core(plain(samples::jittered_torus(side, side)));
     for (const int count : {2, 3, 4, 8, 16}) {
-      const auto pose = hf::Pose::make(core, {});
+      const auto pose = hf_inner::Pose::make(core, {});
       std::vector<std::vector<std::int32_t>> regions;
       for (int i = 0; i < count; ++i) {
         const double a = 2 * pi * i / count;
         regions.push_back(select(*core, [&](Vec3 p) {
-          return hf::norm(p - Vec3{1.4 * std::cos(a), 0, 1.4 * std::sin(a)}) < 0.1;
+          return hf_inner::norm(p - Vec3{1.4 * std::cos(a), 0, 1.4 * std::sin(a)}) < 0.1;
         }));
       }
       const auto seconds = [](auto&& work) {
@@ -82,7 +82,7 @@ int time_all() {
       std::uint32_t clusters = 0;
       for (int frame = 0; frame < 20; ++frame) {
         place(*pose, numbers[0], {about({1, 0, 0}, 0.02 * frame), {0, 0, 0.01 * frame}});
-        const hf::DeformReport r = pose->deform({true, 5, false});
+        const hf_inner::DeformReport r = pose->deform({true, 5, false});
         solve = std::min(solve, r.solve_ms), blend = std::min(blend, r.blend_ms),
         normal = std::min(normal, r.normal_ms), clusters = r.cluster_count;
       }
@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
   if (!large && !what.empty()) cases = {scan_hands(read(what)), scan_reach(read(what))};
   for (const Case& c : cases) {
     std::vector<samples::Picture> tiles, lower;
-    const auto run = [&](const char* mode, hf::PoseOptions options, std::uint32_t iterations, int settle) {
+    const auto run = [&](const char* mode, hf_inner::PoseOptions options, std::uint32_t iterations, int settle) {
       const auto start = std::chrono::steady_clock::now();
       Dragged d = drag(c, options, 30, iterations);
       const double ms =
@@ -123,8 +123,8 @@ int main(int argc, char** argv) {
       };
       const std::vector<Vec3> posed = positions(d.report);
       show(mode, posed);
-      if (options.mode == hf::DeformMode::paper) return;
-      hf::DeformRequest request;
+      if (options.mode == hf_inner::DeformMode::paper) return;
+      hf_inner::DeformRequest request;
       request.iteration_count = 1, request.refine = true;
       show("smooth, refined", positions(d.pose->deform(request)));
       // converged as-rigid-as-possible iterations from here
@@ -140,15 +140,15 @@ int main(int argc, char** argv) {
         for (const Vec3& q : x) out.push_back(d.core->mesh.to_given(q));
         return out;
       };
-      hf::CoreOptions own_edges;
-      own_edges.operator_kind = hf::OperatorKind::cotangent;
+      hf_inner::CoreOptions own_edges;
+      own_edges.operator_kind = hf_inner::OperatorKind::cotangent;
       const auto cotangents = hf_test::make_core(c.mesh, 1, own_edges);
       hf_test::ArapOracle oracle(*cotangents, fixed);
       oracle.converge(x, 300, [&](const std::vector<Vec3>&) { return arap_energy(*d.core, p, given()); });
       show("ARAP, converged", given());
     };
-    hf::PoseOptions paper;
-    paper.mode = hf::DeformMode::paper;
+    hf_inner::PoseOptions paper;
+    paper.mode = hf_inner::DeformMode::paper;
     run("paper 10/frame", paper, 10, 0);
     run("paper conv.", paper, 100, 1);
     run("smooth", {}, 5, 0);

@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace hf;
+using namespace hf_inner;
 using namespace deform_test;
 
 // Turn of the surface from the lower to the upper end, section by section, in degrees.

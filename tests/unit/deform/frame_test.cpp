@@ -10,7 +10,7 @@
 
 namespace {
 
-using namespace hf;
+using namespace hf_inner;
 using namespace deform_test;
 
 // The plane with its vertices in any order: every piece of vertices has triangles that lie across to all others.

@@ -12,7 +12,7 @@
 
 namespace {
 
-using namespace hf;
+using namespace hf_inner;
 using namespace deform_test;
 using Regions = std::vector<std::vector<std::int32_t>>;
 

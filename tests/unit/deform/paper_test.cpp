@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace hf;
+using namespace hf_inner;
 using namespace deform_test;
 
 struct PaperRig {

@@ -14,7 +14,7 @@
 
 namespace {
 
-using namespace hf;
+using namespace hf_inner;
 using namespace deform_test;
 
 struct RandomMotion {

@@ -15,7 +15,7 @@
 
 namespace {
 
-using namespace hf;
+using namespace hf_inner;
 using deform_test::pi;
 
 Mat3 outer(Vec3 a, Vec3 b) {

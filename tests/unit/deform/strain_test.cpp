@@ -11,7 +11,7 @@
 
 namespace {
 
-using namespace hf;
+using namespace hf_inner;
 using namespace deform_test;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;

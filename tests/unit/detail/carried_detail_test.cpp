@@ -5,7 +5,7 @@
 
 namespace {
 
-using namespace hf;
+using namespace hf_inner;
 using namespace hf_test;
 
 Memory& memory_of(const Region& region) { return *region.core().memory; }

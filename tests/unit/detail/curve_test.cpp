@@ -3,7 +3,7 @@
 
 namespace {
 
-using namespace hf;
+using namespace hf_inner;
 using namespace hf_test;
 
 // A grid of 21 x 21 vertices, one unit apart.

@@ -6,7 +6,7 @@
 
 namespace {
 
-using namespace hf;
+using namespace hf_inner;
 using namespace hf_test;
 
 std::shared_ptr<const RegionSurface> torus_surface(OperatorKind kind = OperatorKind::intrinsic_delaunay) {

@@ -3,7 +3,7 @@
 
 namespace {
 
-using namespace hf;
+using namespace hf_inner;
 using namespace hf_test;
 
 // The clamped plate by itself: K_II u = -K_IS p, dense, with K from the core and everything off I held.

@@ -11,9 +11,9 @@
 namespace {
 
 TEST(DenseBlock, solves_with_the_present_rows_after_any_edits) {
-  hf::Memory memory;
-  hf::JobRunner jobs(2);
-  hf::DenseBlock block(memory);
+  hf_inner::Memory memory;
+  hf_inner::JobRunner jobs(2);
+  hf_inner::DenseBlock block(memory);
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   const int most = 90;
@@ -69,9 +69,9 @@ TEST(DenseBlock, solves_with_the_present_rows_after_any_edits) {
 }
 
 TEST(DenseBlock, names_the_row_that_depends_on_those_before_it) {
-  hf::Memory memory;
-  hf::JobRunner jobs(2);
-  hf::DenseBlock block(memory);
+  hf_inner::Memory memory;
+  hf_inner::JobRunner jobs(2);
+  hf_inner::DenseBlock block(memory);
   const double first[] = {2}, second[] = {1, 3}, copy_of_first[] = {2, 1, 2};
   block.append(7, first), block.append(8, second), block.append(9, copy_of_first);
   EXPECT_EQ(block.factorise(jobs), 2);

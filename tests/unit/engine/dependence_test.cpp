@@ -9,8 +9,8 @@
 
 namespace {
 
-using hf::HardSite;
-using hf::Site;
+using hf_inner::HardSite;
+using hf_inner::Site;
 
 Site corner(std::int32_t vertex) {
   Site site;
@@ -27,10 +27,10 @@ Site point(std::int32_t a, double u, double v) {
 }
 
 std::int32_t lost_of(const std::vector<Site>& sites, bool suspect = true) {
-  hf::Memory memory;
+  hf_inner::Memory memory;
   std::vector<HardSite> hard;
   for (const Site& site : sites) hard.push_back({&site, static_cast<std::int32_t>(hard.size()), suspect});
-  return hf::dependent_site({hard.data(), hard.size()}, memory);
+  return hf_inner::dependent_site({hard.data(), hard.size()}, memory);
 }
 
 TEST(Dependence, a_triangle_takes_three_points_and_names_the_fourth) {

@@ -19,10 +19,10 @@ using Stages = std::vector<std::pair<std::string, std::uint64_t>>;
 
 class Recorder {
  public:
-  explicit Recorder(std::shared_ptr<const hf::Core> c) : core_(std::move(c)) {}
+  explicit Recorder(std::shared_ptr<const hf_inner::Core> c) : core_(std::move(c)) {}
   template <class T>
   void add(std::string name, const T* values, std::size_t count) {
-    stages.emplace_back(std::move(name), hf::hash_array(values, count, memory_, one_));
+    stages.emplace_back(std::move(name), hf_inner::hash_array(values, count, memory_, one_));
   }
   std::vector<double> wave(std::size_t count) const {
     std::vector<double> z(count);
@@ -31,10 +31,10 @@ class Recorder {
   }
 
   void factor_and_sweeps() {
-    const hf::Factor& factor = *core_->factor;
+    const hf_inner::Factor& factor = *core_->factor;
     add("ordering", factor.order().data(), factor.order().size());
-    std::vector<std::uint8_t> bytes(hf::saved_factor_size(factor));
-    hf::save_factor(factor, hf::grounded_hash(*core_), {bytes.data(), bytes.size()}, *core_->memory, *core_->jobs);
+    std::vector<std::uint8_t> bytes(hf_inner::saved_factor_size(factor));
+    hf_inner::save_factor(factor, hf_inner::grounded_hash(*core_), {bytes.data(), bytes.size()}, *core_->memory, *core_->jobs);
     add("saved factor", bytes.data(), bytes.size());
     const std::size_t n = static_cast<std::size_t>(core_->size());
     const auto preview = core_->preview.get(factor, *core_->memory, *core_->jobs);
@@ -57,7 +57,7 @@ class Recorder {
   }
 
   void paths() {
-    const hf::Factor& factor = *core_->factor;
+    const hf_inner::Factor& factor = *core_->factor;
     const std::int32_t n = factor.size(), count = 150;
     std::vector<std::int32_t> start = {0}, row, group(count), column(count);
     std::vector<double> value;
@@ -65,7 +65,7 @@ class Recorder {
       row.push_back(static_cast<std::int32_t>((std::int64_t{i} * 7919 + 13) % n)), value.push_back(1.0 + 0.01 * i);
       start.push_back(static_cast<std::int32_t>(row.size()));
     }
-    hf::Vector<std::shared_ptr<const hf::PathGroup>> groups(core_->memory.get());
+    hf_inner::Vector<std::shared_ptr<const hf_inner::PathGroup>> groups(core_->memory.get());
     factor.solve_paths({start, row, value}, *core_->memory, *core_->jobs, groups, {group.data(), group.size()},
                        {column.data(), column.size()});
     add("path groups", group.data(), group.size());
@@ -83,13 +83,13 @@ class Recorder {
   }
 
   void fields(int channels) {
-    EditScript script(core_, {hf::EngineKind::green}, channels, 77, 0);
-    hf::ScalarField& field = *script.fields[0];
+    EditScript script(core_, {hf_inner::EngineKind::green}, channels, 77, 0);
+    hf_inner::ScalarField& field = *script.fields[0];
     std::vector<double> u(static_cast<std::size_t>(core_->size() * channels));
     const auto solve = [&](const char* name) {
       field.solve(u.data());
       add(name, u.data(), u.size());
-      hf::Vector<double> flux(core_->memory.get());
+      hf_inner::Vector<double> flux(core_->memory.get());
       field.flux(flux);
       add(std::string(name) + ", flux", flux.data(), flux.size());
       for (std::int32_t corrections = 0; corrections < 2; ++corrections) {
@@ -115,12 +115,12 @@ class Recorder {
   Stages stages;
 
  private:
-  std::shared_ptr<const hf::Core> core_;
-  hf::Memory memory_;
-  hf::JobRunner one_{1};
+  std::shared_ptr<const hf_inner::Core> core_;
+  hf_inner::Memory memory_;
+  hf_inner::JobRunner one_{1};
 };
 
-Stages stages_of(const std::shared_ptr<const hf::Core>& core) {
+Stages stages_of(const std::shared_ptr<const hf_inner::Core>& core) {
   Recorder recorder(core);
   recorder.factor_and_sweeps();
   recorder.paths();
@@ -152,10 +152,10 @@ TEST(Determinism, a_factor_from_bytes_gives_the_same_bits_at_every_stage) {
   const PlainMesh mesh = large_and_dirty();
   const auto made = hf_test::make_core(mesh, 1);
   const Stages expected = stages_of(made);
-  hf::Buffer<std::uint8_t> bytes(*made->memory, hf::saved_factor_size(*made->factor));
-  hf::save_factor(*made->factor, hf::grounded_hash(*made), {bytes.data(), bytes.size()}, *made->memory, *made->jobs);
+  hf_inner::Buffer<std::uint8_t> bytes(*made->memory, hf_inner::saved_factor_size(*made->factor));
+  hf_inner::save_factor(*made->factor, hf_inner::grounded_hash(*made), {bytes.data(), bytes.size()}, *made->memory, *made->jobs);
   for (const bool borrow : {false, true}) {
-    hf::CoreOptions options;
+    hf_inner::CoreOptions options;
     options.saved_factor = {bytes.data(), bytes.size()}, options.borrow_factor = borrow;
     const Stages got = stages_of(hf_test::make_core(mesh, 2, options));
     ASSERT_EQ(got.size(), expected.size());

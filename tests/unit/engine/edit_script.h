@@ -23,16 +23,16 @@ struct ModelSite {
 
 class EditScript {
  public:
-  EditScript(std::shared_ptr<const hf::Core> c, std::vector<hf::EngineKind> kinds, int channels, std::uint32_t seed,
+  EditScript(std::shared_ptr<const hf_inner::Core> c, std::vector<hf_inner::EngineKind> kinds, int channels, std::uint32_t seed,
              double offset)
       : core(std::move(c)), m(static_cast<std::size_t>(channels)), shift(offset), random_(seed) {
-    for (const hf::EngineKind kind : kinds)
-      fields.emplace_back(std::make_unique<hf::ScalarField>(core, kind, 1e8, channels, 100000));
+    for (const hf_inner::EngineKind kind : kinds)
+      fields.emplace_back(std::make_unique<hf_inner::ScalarField>(core, kind, 1e8, channels, 100000));
     for (std::uint32_t v = 0; v < core->mesh.report.vertex_count; ++v) {
-      if (core->mesh.inner_of_given[v] != hf::Mesh::none) vertices_.push_back(v);
+      if (core->mesh.inner_of_given[v] != hf_inner::Mesh::none) vertices_.push_back(v);
     }
     for (std::uint32_t t = 0; t < core->mesh.report.triangle_count; ++t) {
-      if (core->mesh.triangle_of_given[t] != hf::Mesh::none) triangles_.push_back(t);
+      if (core->mesh.triangle_of_given[t] != hf_inner::Mesh::none) triangles_.push_back(t);
     }
   }
 
@@ -171,7 +171,7 @@ class EditScript {
       try {
         field->edit(batch.edit(), nullptr);
         ADD_FAILURE() << "a bad batch was accepted";
-      } catch (const hf::Error& error) {
+      } catch (const hf_inner::Error& error) {
         EXPECT_TRUE(std::count(allowed.begin(), allowed.end(), error.code())) << error.what();
       }
       EXPECT_EQ(field->sites().count(), count());
@@ -179,13 +179,13 @@ class EditScript {
   }
 
   // The model's sites for an engine or an oracle, with their values less the common offset.
-  void present(std::vector<hf::Site>& out, Eigen::MatrixXd& values) const {
+  void present(std::vector<hf_inner::Site>& out, Eigen::MatrixXd& values) const {
     values.resize(static_cast<Eigen::Index>(count()), static_cast<Eigen::Index>(m));
     for (const ModelSite& s : sites) {
       if (!s.used) continue;
-      hf::Site site;
+      hf_inner::Site site;
       if (s.at_vertex) {
-        site = hf::Site::at_vertex(core->mesh, core->mesh.inner_of_given[s.given]);
+        site = hf_inner::Site::at_vertex(core->mesh, core->mesh.inner_of_given[s.given]);
       } else {
         const std::int32_t t = core->mesh.triangle_of_given[s.given];
         for (int k = 0; k < 3; ++k) site.vertex[k] = core->mesh.triangle(t)[k], site.weight[k] = s.weight[k];
@@ -199,10 +199,10 @@ class EditScript {
   }
 
   // Every engine's field against `exact` (of the values less the offset; n x m), relative to its size.
-  void expect_fields(const Eigen::MatrixXd& exact, const std::vector<hf::Site>& used, double tolerance,
+  void expect_fields(const Eigen::MatrixXd& exact, const std::vector<hf_inner::Site>& used, double tolerance,
                      double updown_tolerance) const {
     std::vector<char> reached(static_cast<std::size_t>(core->mesh.component_count()), 0);
-    for (const hf::Site& site : used) reached[static_cast<std::size_t>(site.component)] = 1;
+    for (const hf_inner::Site& site : used) reached[static_cast<std::size_t>(site.component)] = 1;
     const double size = std::max(2.0, exact.cwiseAbs().maxCoeff());
     for (const auto& field : fields) {
       std::vector<double> u(static_cast<std::size_t>(core->size()) * m, -7);
@@ -215,11 +215,11 @@ class EditScript {
           worst = std::max(worst, std::fabs(u[v * m + c] - expected));
         }
       }
-      if (field->engine().kind() == hf::EngineKind::green) {
+      if (field->engine().kind() == hf_inner::EngineKind::green) {
         // what single precision and corrections make of the same sites
         std::vector<double> preview(u.size());
         for (const int corrections : {0, 2}) {
-          const hf::PreviewInfo info = field->solve_preview(corrections, preview.data());
+          const hf_inner::PreviewInfo info = field->solve_preview(corrections, preview.data());
           double off = 0;
           for (std::size_t i = 0; i < u.size(); ++i) off = std::max(off, std::fabs(preview[i] - u[i]));
           EXPECT_LE(off, (corrections ? 1e-10 : 1e-4) * size) << corrections << " corrections";
@@ -228,17 +228,17 @@ class EditScript {
           }
         }
       }
-      const bool penalty = field->engine().kind() == hf::EngineKind::updown;
+      const bool penalty = field->engine().kind() == hf_inner::EngineKind::updown;
       EXPECT_LE(worst, (penalty ? updown_tolerance : tolerance) * size)
           << "engine " << static_cast<int>(field->engine().kind()) << ", " << used.size() << " sites";
     }
   }
 
-  std::shared_ptr<const hf::Core> core;
+  std::shared_ptr<const hf_inner::Core> core;
   std::size_t m;
   double shift;
   std::vector<ModelSite> sites;  // by number
-  std::vector<std::unique_ptr<hf::ScalarField>> fields;
+  std::vector<std::unique_ptr<hf_inner::ScalarField>> fields;
 
  private:
   // A batch as FieldEdit wants it.
@@ -250,15 +250,15 @@ class EditScript {
       place.push_back(site.given);
       weight.insert(weight.end(), site.weight, site.weight + 3);
     }
-    static hf::Places places(const std::vector<std::uint32_t>& place, const std::vector<double>& weight, bool vertex) {
-      hf::Places p;
+    static hf_inner::Places places(const std::vector<std::uint32_t>& place, const std::vector<double>& weight, bool vertex) {
+      hf_inner::Places p;
       p.count = static_cast<std::uint32_t>(place.size());
       (vertex ? p.vertices : p.triangles) = place.data();
       p.barycentrics = weight.data();
       return p;
     }
-    hf::FieldEdit edit() const {
-      hf::FieldEdit e;
+    hf_inner::FieldEdit edit() const {
+      hf_inner::FieldEdit e;
       e.remove_count = static_cast<std::uint32_t>(remove.size()), e.remove_sites = remove.data();
       e.move_count = static_cast<std::uint32_t>(move.size()), e.move_sites = move.data();
       e.move_to = places(move_place, move_weight, moves_to_vertices);

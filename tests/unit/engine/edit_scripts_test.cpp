@@ -12,11 +12,11 @@ using hf_test::PlainMesh;
 
 bool full() { return std::getenv("HF_FULL_TESTS") != nullptr; }
 
-std::vector<hf::EngineKind> engines() {
+std::vector<hf_inner::EngineKind> engines() {
 #ifdef HF_WITH_GPL
-  return {hf::EngineKind::green, hf::EngineKind::refactor, hf::EngineKind::updown};
+  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor, hf_inner::EngineKind::updown};
 #else
-  return {hf::EngineKind::green, hf::EngineKind::refactor};
+  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor};
 #endif
 }
 
@@ -29,18 +29,18 @@ PlainMesh several_components() {
 }
 
 // A factor's round trip through bytes: the core that a host with a saved factor works on.
-std::shared_ptr<const hf::Core> loaded_core(const PlainMesh& mesh) {
+std::shared_ptr<const hf_inner::Core> loaded_core(const PlainMesh& mesh) {
   const auto made = hf_test::make_core(mesh);
-  std::vector<std::uint8_t> bytes(hf::saved_factor_size(*made->factor));
-  hf::save_factor(*made->factor, hf::grounded_hash(*made), {bytes.data(), bytes.size()}, *made->memory, *made->jobs);
-  hf::CoreOptions options;
+  std::vector<std::uint8_t> bytes(hf_inner::saved_factor_size(*made->factor));
+  hf_inner::save_factor(*made->factor, hf_inner::grounded_hash(*made), {bytes.data(), bytes.size()}, *made->memory, *made->jobs);
+  hf_inner::CoreOptions options;
   options.saved_factor = bytes;
   return hf_test::make_core(mesh, 1, options);
 }
 
 void expect_dense_oracle(const EditScript& script, double tolerance, double updown_tolerance) {
   if (script.count() == 0) return;
-  std::vector<hf::Site> used;
+  std::vector<hf_inner::Site> used;
   Eigen::MatrixXd values;
   script.present(used, values);
   script.expect_fields(hf_test::dense_field(*script.core, used, values), used, tolerance, updown_tolerance);
@@ -49,17 +49,17 @@ void expect_dense_oracle(const EditScript& script, double tolerance, double updo
 // Field of a fresh elimination of the present sites.
 void expect_fresh_elimination(const EditScript& script, double tolerance) {
   if (script.count() == 0) return;
-  std::vector<hf::Site> used;
+  std::vector<hf_inner::Site> used;
   Eigen::MatrixXd values;
   script.present(used, values);
-  const auto solver = hf::SiteSolver::make(hf::EngineKind::refactor, script.core, 1e8);
+  const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::refactor, script.core, 1e8);
   std::vector<std::int32_t> slots(used.size());
   std::vector<double> s;
   for (std::size_t i = 0; i < used.size(); ++i) {
     slots[i] = static_cast<std::int32_t>(i);
     for (Eigen::Index c = 0; c < values.cols(); ++c) s.push_back(values(static_cast<Eigen::Index>(i), c));
   }
-  hf::SiteEdit edit;
+  hf_inner::SiteEdit edit;
   edit.add = slots, edit.sites = used;
   solver->edit(edit);
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> u(script.core->size(), values.cols());
@@ -104,7 +104,7 @@ TEST_P(EditScripts, give_the_dense_oracles_field_with_every_engine) {
 TEST_P(EditScripts, stay_exact_when_sites_were_moved_into_the_factor) {
   for (const bool loaded : {false, true}) {
     const auto core = loaded ? loaded_core(GetParam().make()) : hf_test::make_core(GetParam().make());
-    EditScript script(core, {hf::EngineKind::green}, 1, 31 + loaded, 1e4);
+    EditScript script(core, {hf_inner::EngineKind::green}, 1, 31 + loaded, 1e4);
     int checked_inside = 0, checked_freed = 0;
     for (int round = 0; round < (full() ? 40 : 5); ++round) {
       SCOPED_TRACE(testing::Message() << "loaded " << loaded << " round " << round);
@@ -115,7 +115,7 @@ TEST_P(EditScripts, stay_exact_when_sites_were_moved_into_the_factor) {
         if (script.below(12) == 0) script.refused_step();
         if (done < next) continue;
         next += 25;
-        const hf::EngineCounters counters = script.fields[0]->engine().counters();
+        const hf_inner::EngineCounters counters = script.fields[0]->engine().counters();
         checked_inside += counters.eliminated > 5, checked_freed += counters.eliminated > 5 && counters.dense_rows > 5;
         expect_dense_oracle(script, 1e-10, 0);
         if (HasFailure()) return;
@@ -139,7 +139,7 @@ TEST(LongEditScripts, agree_with_a_fresh_elimination_and_never_refactor_below_th
   append(mesh, hf_test::slab_with_holes(4, 5), 20);
   append(mesh, hf_test::dirty(20), 100);
   const auto core = hf_test::make_core(mesh);
-  EditScript script(core, {hf::EngineKind::green}, 1, 5, 1e4);
+  EditScript script(core, {hf_inner::EngineKind::green}, 1, 5, 1e4);
   run(script, full() ? 100000 : 10000, 60, full() ? 60 : 12, [&] {
     expect_fresh_elimination(script, 1e-10);
     EXPECT_EQ(script.fields[0]->engine().counters().factorisations, 1u);

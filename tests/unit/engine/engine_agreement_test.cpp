@@ -11,43 +11,43 @@ namespace {
 
 using hf_test::PlainMesh;
 
-std::vector<hf::EngineKind> engines() {
+std::vector<hf_inner::EngineKind> engines() {
 #ifdef HF_WITH_GPL
-  return {hf::EngineKind::green, hf::EngineKind::refactor, hf::EngineKind::updown};
+  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor, hf_inner::EngineKind::updown};
 #else
-  return {hf::EngineKind::green, hf::EngineKind::refactor};
+  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor};
 #endif
 }
 
 // hard sites of updown are penalties of 1e8 mean diagonals
-double tolerance(hf::EngineKind kind) { return kind == hf::EngineKind::updown ? 2e-6 : 1e-11; }
+double tolerance(hf_inner::EngineKind kind) { return kind == hf_inner::EngineKind::updown ? 2e-6 : 1e-11; }
 
 struct Script {
-  explicit Script(std::shared_ptr<const hf::Core> c, int channels, std::uint32_t seed, double offset = 0)
+  explicit Script(std::shared_ptr<const hf_inner::Core> c, int channels, std::uint32_t seed, double offset = 0)
       : core(std::move(c)), m(channels), random(seed), shift(offset) {}
 
   // a random site: a vertex, or a point in a triangle that shares no triangle with another point
-  hf::Site random_site() {
+  hf_inner::Site random_site() {
     const auto pick = [&](int count) { return std::uniform_int_distribution<int>(0, count - 1)(random); };
     const double compliance = pick(3) ? 0.0 : std::pow(10.0, -2.0 + pick(4));
     for (;;) {
       if (pick(3)) {
         const int v = pick(core->size());
         bool free = true;
-        for (const hf::Site& s : sites) {
+        for (const hf_inner::Site& s : sites) {
           for (const int w : s.vertex) free = free && w != v;
         }
-        if (free) return hf::Site::at_vertex(core->mesh, v, compliance);
+        if (free) return hf_inner::Site::at_vertex(core->mesh, v, compliance);
         continue;
       }
       const int t = pick(core->mesh.triangle_count());
-      hf::Site site;
+      hf_inner::Site site;
       bool free = true;
       double w[3] = {0.2 + 0.1 * pick(5), 0.3, 0};
       w[2] = 1 - w[0] - w[1];
       for (int k = 0; k < 3; ++k) {
         site.vertex[k] = core->mesh.triangle(t)[k], site.weight[k] = w[k];
-        for (const hf::Site& s : sites) {
+        for (const hf_inner::Site& s : sites) {
           for (const int x : s.vertex) free = free && x != site.vertex[k];
         }
       }
@@ -55,11 +55,11 @@ struct Script {
       if (free) return site;
     }
   }
-  void add(int count, hf::SiteSolver& solver) {
+  void add(int count, hf_inner::SiteSolver& solver) {
     std::vector<std::int32_t> slots;
-    std::vector<hf::Site> fresh;
+    std::vector<hf_inner::Site> fresh;
     for (int i = 0; i < count; ++i) {
-      hf::Site site = random_site();
+      hf_inner::Site site = random_site();
       std::size_t slot = 0;
       while (slot < sites.size() && sites[slot].component >= 0) ++slot;
       if (slot == sites.size()) sites.emplace_back(), values.resize(sites.size() * static_cast<std::size_t>(m));
@@ -69,11 +69,11 @@ struct Script {
             shift + std::uniform_real_distribution<double>(-1, 1)(random);
       slots.push_back(static_cast<std::int32_t>(slot)), fresh.push_back(site);
     }
-    hf::SiteEdit edit;
+    hf_inner::SiteEdit edit;
     edit.add = slots, edit.sites = fresh;
     solver.edit(edit);
   }
-  void remove(int count, hf::SiteSolver& solver) {
+  void remove(int count, hf_inner::SiteSolver& solver) {
     std::vector<std::int32_t> used, slots;
     for (std::size_t s = 0; s < sites.size(); ++s) {
       if (sites[s].component >= 0) used.push_back(static_cast<std::int32_t>(s));
@@ -81,13 +81,13 @@ struct Script {
     std::shuffle(used.begin(), used.end(), random);
     for (int i = 0; i < count && i < static_cast<int>(used.size()); ++i)
       slots.push_back(used[static_cast<std::size_t>(i)]),
-          sites[static_cast<std::size_t>(used[static_cast<std::size_t>(i)])] = hf::Site{};
-    hf::SiteEdit edit;
+          sites[static_cast<std::size_t>(used[static_cast<std::size_t>(i)])] = hf_inner::Site{};
+    hf_inner::SiteEdit edit;
     edit.remove = slots;
     solver.edit(edit);
   }
-  void expect_oracle(const hf::SiteSolver& solver, double tolerance_of_range) const {
-    std::vector<hf::Site> used;
+  void expect_oracle(const hf_inner::SiteSolver& solver, double tolerance_of_range) const {
+    std::vector<hf_inner::Site> used;
     Eigen::MatrixXd s(0, m);
     std::vector<std::size_t> slot;
     for (std::size_t i = 0; i < sites.size(); ++i) {
@@ -128,11 +128,11 @@ struct Script {
     }
   }
 
-  std::shared_ptr<const hf::Core> core;
+  std::shared_ptr<const hf_inner::Core> core;
   int m;
   std::mt19937 random;
   double shift;
-  std::vector<hf::Site> sites;
+  std::vector<hf_inner::Site> sites;
   std::vector<double> values;
 };
 
@@ -145,8 +145,8 @@ PlainMesh three_islands() {
 
 TEST(Engines, give_the_dense_oracles_field_over_random_edits) {
   const auto core = hf_test::make_core(three_islands());
-  for (const hf::EngineKind kind : engines()) {
-    const auto solver = hf::SiteSolver::make(kind, core, 1e8);
+  for (const hf_inner::EngineKind kind : engines()) {
+    const auto solver = hf_inner::SiteSolver::make(kind, core, 1e8);
     Script script(core, 2, 11);
     for (int round = 0; round < 40; ++round) {
       script.add(1 + round % 4, *solver);
@@ -159,8 +159,8 @@ TEST(Engines, give_the_dense_oracles_field_over_random_edits) {
 
 TEST(Engines, walk_through_zero_sites_and_back) {
   const auto core = hf_test::make_core(three_islands());
-  for (const hf::EngineKind kind : engines()) {
-    const auto solver = hf::SiteSolver::make(kind, core, 1e8);
+  for (const hf_inner::EngineKind kind : engines()) {
+    const auto solver = hf_inner::SiteSolver::make(kind, core, 1e8);
     Script script(core, 1, 5);
     for (int round = 0; round < 30; ++round) {
       script.add(1 + round % 3, *solver);
@@ -173,17 +173,17 @@ TEST(Engines, walk_through_zero_sites_and_back) {
 
 TEST(Engines, lose_no_digits_to_a_common_offset) {
   const auto core = hf_test::make_core(three_islands());
-  for (const hf::EngineKind kind : engines()) {
-    const auto solver = hf::SiteSolver::make(kind, core, 1e8);
+  for (const hf_inner::EngineKind kind : engines()) {
+    const auto solver = hf_inner::SiteSolver::make(kind, core, 1e8);
     Script script(core, 1, 7, 1e4);
     script.add(12, *solver);
-    script.expect_oracle(*solver, kind == hf::EngineKind::updown ? 2e-6 : 1e-10);
+    script.expect_oracle(*solver, kind == hf_inner::EngineKind::updown ? 2e-6 : 1e-10);
   }
 }
 
 TEST(Green, many_channels_are_the_single_channels) {
   const auto core = hf_test::make_core(hf_test::torus(30, 20));
-  const auto solver = hf::SiteSolver::make(hf::EngineKind::green, core, 1e8);
+  const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
   Script script(core, 13, 3);
   script.add(20, *solver);
   script.expect_oracle(*solver, 1e-11);
@@ -191,23 +191,23 @@ TEST(Green, many_channels_are_the_single_channels) {
 
 TEST(Green, refuses_a_dependent_site_and_stays_as_it_was) {
   const auto core = hf_test::make_core(hf_test::torus(10, 10));
-  const auto solver = hf::SiteSolver::make(hf::EngineKind::green, core, 1e8);
+  const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
   std::vector<std::int32_t> slots;
-  std::vector<hf::Site> sites;
+  std::vector<hf_inner::Site> sites;
   for (int k = 0; k < 3; ++k)
-    sites.push_back(hf::Site::at_vertex(core->mesh, core->mesh.triangle(5)[k])), slots.push_back(k);
-  hf::SiteEdit edit;
+    sites.push_back(hf_inner::Site::at_vertex(core->mesh, core->mesh.triangle(5)[k])), slots.push_back(k);
+  hf_inner::SiteEdit edit;
   edit.add = slots, edit.sites = sites;
   solver->edit(edit);
-  hf::Site point;
+  hf_inner::Site point;
   for (int k = 0; k < 3; ++k) point.vertex[k] = core->mesh.triangle(5)[k], point.weight[k] = 1.0 / 3;
   point.component = 0;
   const std::int32_t slot[] = {3};
-  edit.add = hf::Span<const std::int32_t>(slot, 1), edit.sites = hf::Span<const hf::Site>(&point, 1);
+  edit.add = hf_inner::Span<const std::int32_t>(slot, 1), edit.sites = hf_inner::Span<const hf_inner::Site>(&point, 1);
   try {
     solver->edit(edit);
     FAIL() << "a point in a triangle of three hard corners was accepted";
-  } catch (const hf::Error& error) {
+  } catch (const hf_inner::Error& error) {
     EXPECT_EQ(error.code(), HF_ERROR_CONFLICT);
     EXPECT_EQ(error.index(), 0u);
   }
@@ -222,7 +222,7 @@ TEST(Green, gives_the_same_bits_for_any_number_of_threads) {
   std::vector<double> first;
   for (const std::uint32_t threads : {1u, 2u, 4u}) {
     const auto core = hf_test::make_core(hf_test::torus(120, 90), threads);
-    const auto solver = hf::SiteSolver::make(hf::EngineKind::green, core, 1e8);
+    const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
     Script script(core, 3, 21);
     script.add(150, *solver);
     script.remove(40, *solver);
@@ -240,16 +240,16 @@ TEST(Green, moves_many_sites_into_the_factor_and_stays_exact_under_edits) {
   const auto core = hf_test::make_core(mesh);
   std::uint32_t rebased = 0, freed = 0;
   for (std::uint32_t seed = 1; seed <= 6; ++seed) {
-    const auto solver = hf::SiteSolver::make(hf::EngineKind::green, core, 1e8);
+    const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
     Script script(core, 2, seed);
     // hard vertex sites only at first, all at once
     std::vector<std::int32_t> slots;
-    std::vector<hf::Site> sites;
+    std::vector<hf_inner::Site> sites;
     for (int v = 0; v < core->size(); v += 3)
-      sites.push_back(hf::Site::at_vertex(core->mesh, v)), slots.push_back(static_cast<std::int32_t>(slots.size()));
+      sites.push_back(hf_inner::Site::at_vertex(core->mesh, v)), slots.push_back(static_cast<std::int32_t>(slots.size()));
     script.sites = sites;
     for (std::size_t i = 0; i < 2 * sites.size(); ++i) script.values.push_back(std::sin(static_cast<double>(i)));
-    hf::SiteEdit edit;
+    hf_inner::SiteEdit edit;
     edit.add = slots, edit.sites = sites;
     solver->edit(edit);
     script.expect_oracle(*solver, 1e-11);
@@ -274,7 +274,7 @@ TEST(Green, moves_many_sites_into_the_factor_and_stays_exact_under_edits) {
 
 TEST(Green, ten_thousand_edits_drift_by_nothing) {
   const auto core = hf_test::make_core(hf_test::torus(40, 25));
-  const auto solver = hf::SiteSolver::make(hf::EngineKind::green, core, 1e8);
+  const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
   Script script(core, 1, 99, 1e4);
   script.add(50, *solver);
   for (int i = 0; i < 5000; ++i) {

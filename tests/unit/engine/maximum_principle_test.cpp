@@ -11,26 +11,26 @@
 namespace {
 
 // How far fields of random site sets leave the range of their sites, as a share of it; per component.
-double worst_overshoot(const hf_test::PlainMesh& mesh, hf::OperatorKind kind, int rounds, std::uint32_t seed) {
-  hf::CoreOptions options;
+double worst_overshoot(const hf_test::PlainMesh& mesh, hf_inner::OperatorKind kind, int rounds, std::uint32_t seed) {
+  hf_inner::CoreOptions options;
   options.operator_kind = kind;
   const auto core = hf_test::make_core(mesh, 1, options);
   std::mt19937 random(seed);
   double worst = 0;
   for (int round = 0; round < rounds; ++round) {
-    const auto solver = hf::SiteSolver::make(hf::EngineKind::green, core, 1e8);
+    const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
     const std::size_t count = 2 + random() % 12;
     std::vector<std::int32_t> slots, taken;
-    std::vector<hf::Site> sites;
+    std::vector<hf_inner::Site> sites;
     std::vector<double> values;
     while (sites.size() < count) {
       const auto v = static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(core->size()));
       if (std::find(taken.begin(), taken.end(), v) != taken.end()) continue;
       taken.push_back(v), slots.push_back(static_cast<std::int32_t>(sites.size()));
-      sites.push_back(hf::Site::at_vertex(core->mesh, v));
+      sites.push_back(hf_inner::Site::at_vertex(core->mesh, v));
       values.push_back(std::uniform_real_distribution<double>(-1, 1)(random));
     }
-    hf::SiteEdit edit;
+    hf_inner::SiteEdit edit;
     edit.add = slots, edit.sites = sites;
     solver->edit(edit);
     std::vector<double> u(static_cast<std::size_t>(core->size()));
@@ -54,7 +54,7 @@ TEST(MaximumPrinciple, holds_for_a_thousand_random_site_sets_on_obtuse_and_non_m
   const int rounds = 1 + 1000 / static_cast<int>(meshes.size());
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     SCOPED_TRACE(meshes[i].first);
-    EXPECT_LE(worst_overshoot(meshes[i].second, hf::OperatorKind::intrinsic_delaunay, rounds,
+    EXPECT_LE(worst_overshoot(meshes[i].second, hf_inner::OperatorKind::intrinsic_delaunay, rounds,
                               100 + static_cast<std::uint32_t>(i)),
               1e-11);
   }
@@ -64,7 +64,7 @@ TEST(MaximumPrinciple, fails_with_plain_cotangents_on_the_same_surfaces) {
   double worst = 0;
   const auto meshes = hf_test::dirty_meshes();
   for (std::size_t i = 0; i < 3; ++i)
-    worst = std::max(worst, worst_overshoot(meshes[i].second, hf::OperatorKind::cotangent, 30, 100));
+    worst = std::max(worst, worst_overshoot(meshes[i].second, hf_inner::OperatorKind::cotangent, 30, 100));
   EXPECT_GT(worst, 1e-3);
 }
 

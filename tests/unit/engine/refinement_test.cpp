@@ -5,40 +5,39 @@
 #include <algorithm>
 #include <random>
 
+#include "base/index.h"
 #include "engine/green.h"
 #include "support/meshes.h"
 #include "support/oracle.h"
 
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-std::shared_ptr<const hf::Core> biharmonic_core(const hf_test::PlainMesh& mesh, std::int32_t refinements) {
-  hf::CoreOptions options;
-  options.field_kind = hf::FieldKind::biharmonic;
+std::shared_ptr<const hf_inner::Core> biharmonic_core(const hf_test::PlainMesh& mesh, std::int32_t refinements) {
+  hf_inner::CoreOptions options;
+  options.field_kind = hf_inner::FieldKind::biharmonic;
   const auto core = hf_test::make_core(mesh, 2, options);
   EXPECT_EQ(core->refinements, 1);
-  const_cast<hf::Core&>(*core).refinements = refinements;
+  const_cast<hf_inner::Core&>(*core).refinements = refinements;
   return core;
 }
 
 struct Sites {
   std::vector<std::int32_t> slots;
-  std::vector<hf::Site> sites;
+  std::vector<hf_inner::Site> sites;
   std::vector<double> values;  // two channels
-  void add(const hf::Site& site, double a, double b) {
+  void add(const hf_inner::Site& site, double a, double b) {
     slots.push_back(static_cast<std::int32_t>(slots.size()));
     sites.push_back(site), values.push_back(a), values.push_back(b);
   }
 };
 
-Sites scattered(const hf::Core& core, std::uint32_t seed, int step) {
+Sites scattered(const hf_inner::Core& core, std::uint32_t seed, int step) {
   Sites out;
   std::mt19937 random(seed);
   for (std::int32_t v = 0; v < core.size(); v += step + static_cast<int>(random() % 5)) {
-    out.add(hf::Site::at_vertex(core.mesh, v, random() % 4 == 0 ? 0.5 : 0.0), std::sin(v), std::cos(2.0 * v));
+    out.add(hf_inner::Site::at_vertex(core.mesh, v, random() % 4 == 0 ? 0.5 : 0.0), std::sin(v), std::cos(2.0 * v));
     if (v % 3) continue;
-    hf::Site point;  // a point in a triangle away from other sites
+    hf_inner::Site point;  // a point in a triangle away from other sites
     const std::int32_t t = static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(core.mesh.triangle_count()));
     for (int k = 0; k < 3; ++k) point.vertex[k] = core.mesh.triangle(t)[k], point.weight[k] = k ? 0.25 : 0.5;
     point.component = core.mesh.component[at(point.vertex[0])], point.compliance = 0.01;
@@ -54,15 +53,15 @@ double worst_difference(const std::vector<double>& a, const std::vector<double>&
 }
 
 // The field with this many refinements, and lambda.
-std::vector<double> field_of(const std::shared_ptr<const hf::Core>& core, const Sites& sites, int removed,
+std::vector<double> field_of(const std::shared_ptr<const hf_inner::Core>& core, const Sites& sites, int removed,
                              std::vector<double>& flux, std::uint32_t* factorisations = nullptr) {
-  hf::GreenSolver solver(core);
-  hf::SiteEdit edit;
+  hf_inner::GreenSolver solver(core);
+  hf_inner::SiteEdit edit;
   edit.add = sites.slots, edit.sites = sites.sites;
   solver.edit(edit);
   if (removed > 0) {
     const std::vector<std::int32_t> leaving(sites.slots.begin() + 5, sites.slots.begin() + 5 + removed);
-    hf::SiteEdit out;
+    hf_inner::SiteEdit out;
     out.remove = leaving;
     solver.edit(out);
   }
@@ -120,11 +119,11 @@ TEST(Refinement, holds_for_eliminated_and_freed_sites) {
     const auto core = biharmonic_core(mesh, r);
     Sites sites;
     for (std::int32_t v = 0; v < core->size(); v += 2)
-      sites.add(hf::Site::at_vertex(core->mesh, v), std::sin(0.1 * v), 1e3);
+      sites.add(hf_inner::Site::at_vertex(core->mesh, v), std::sin(0.1 * v), 1e3);
     std::uint32_t factorisations = 0;
     fields[r] = field_of(core, sites, 7, flux, &factorisations);
     EXPECT_EQ(factorisations, 2u) << "the cost model did not eliminate";
-    std::vector<hf::Site> used;
+    std::vector<hf_inner::Site> used;
     Eigen::MatrixXd values(static_cast<Eigen::Index>(sites.sites.size()) - 7, 2);
     for (std::size_t i = 0; i < sites.sites.size(); ++i) {
       if (i >= 5 && i < 12) continue;

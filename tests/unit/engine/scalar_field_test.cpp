@@ -8,23 +8,23 @@
 
 namespace {
 
-std::vector<double> field_of(const hf::ScalarField& field) {
+std::vector<double> field_of(const hf_inner::ScalarField& field) {
   std::vector<double> u(static_cast<std::size_t>(field.core().size() * field.sites().channels()));
   field.solve(u.data());
   return u;
 }
 
-hf::FieldEdit adding(const std::vector<std::uint32_t>& vertices, const std::vector<double>& values) {
-  hf::FieldEdit edit;
+hf_inner::FieldEdit adding(const std::vector<std::uint32_t>& vertices, const std::vector<double>& values) {
+  hf_inner::FieldEdit edit;
   edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data(),
   edit.add_values = values.data();
   return edit;
 }
 
-hf_result code_of(hf::ScalarField& field, const hf::FieldEdit& edit, std::uint32_t* index = nullptr) {
+hf_result code_of(hf_inner::ScalarField& field, const hf_inner::FieldEdit& edit, std::uint32_t* index = nullptr) {
   try {
     field.edit(edit, nullptr);
-  } catch (const hf::Error& error) {
+  } catch (const hf_inner::Error& error) {
     if (index) *index = error.index();
     return error.code();
   }
@@ -33,8 +33,8 @@ hf_result code_of(hf::ScalarField& field, const hf::FieldEdit& edit, std::uint32
 
 class ScalarFieldTest : public testing::TestWithParam<int> {
  protected:
-  std::shared_ptr<const hf::Core> core = hf_test::make_core(hf_test::torus(24, 18));
-  hf::ScalarField field{core, static_cast<hf::EngineKind>(GetParam()), 1e8, 1, 1000};
+  std::shared_ptr<const hf_inner::Core> core = hf_test::make_core(hf_test::torus(24, 18));
+  hf_inner::ScalarField field{core, static_cast<hf_inner::EngineKind>(GetParam()), 1e8, 1, 1000};
 };
 
 TEST_P(ScalarFieldTest, undo_and_redo_come_back_to_the_same_field) {
@@ -44,7 +44,7 @@ TEST_P(ScalarFieldTest, undo_and_redo_come_back_to_the_same_field) {
   const std::uint32_t gone[] = {1};
   const std::vector<std::uint32_t> vertices = {77, 120};
   const std::vector<double> values = {5, -1};
-  hf::FieldEdit edit = adding(vertices, values);
+  hf_inner::FieldEdit edit = adding(vertices, values);
   edit.remove_count = 1, edit.remove_sites = gone;
   field.edit(edit, nullptr);
   const auto second = field_of(field);
@@ -60,7 +60,7 @@ TEST_P(ScalarFieldTest, undo_and_redo_come_back_to_the_same_field) {
     EXPECT_NEAR(first[i], undone[i], 1e-6);
     EXPECT_NEAR(second[i], redone[i], 1e-6);
   }
-  EXPECT_THROW(field.redo(), hf::Error);
+  EXPECT_THROW(field.redo(), hf_inner::Error);
 }
 
 TEST_P(ScalarFieldTest, a_failing_batch_changes_nothing) {
@@ -75,7 +75,7 @@ TEST_P(ScalarFieldTest, a_failing_batch_changes_nothing) {
   EXPECT_EQ(index, 1u);
   EXPECT_EQ(code_of(field, adding({3}, {std::nan("")})), HF_ERROR_NON_FINITE);
   const std::uint32_t absent[] = {0, 9};
-  hf::FieldEdit edit;
+  hf_inner::FieldEdit edit;
   edit.remove_count = 2, edit.remove_sites = absent;
   EXPECT_EQ(code_of(field, edit, &index), HF_ERROR_NO_SUCH_SITE);
   EXPECT_EQ(index, 1u);
@@ -87,7 +87,7 @@ TEST_P(ScalarFieldTest, sites_may_swap_places) {
   field.edit(adding({1, 50}, {0, 1}), nullptr);
   const auto before = field_of(field);
   const std::uint32_t both[] = {0, 1}, to[] = {50, 1};
-  hf::FieldEdit edit;
+  hf_inner::FieldEdit edit;
   edit.move_count = 2, edit.move_sites = both, edit.move_to.count = 2, edit.move_to.vertices = to;
   field.edit(edit, nullptr);
   const auto after = field_of(field);
@@ -99,7 +99,7 @@ TEST_P(ScalarFieldTest, new_values_factorise_nothing_and_solve_no_path) {
   const auto before = field.engine().counters();
   const std::uint32_t site[] = {1};
   const double value[] = {4};
-  hf::FieldEdit edit;
+  hf_inner::FieldEdit edit;
   edit.set_count = 1, edit.set_sites = site, edit.set_values = value;
   field.edit(edit, nullptr);
   EXPECT_NEAR(field_of(field)[50], 4, 1e-6);
@@ -110,7 +110,7 @@ TEST_P(ScalarFieldTest, new_values_factorise_nothing_and_solve_no_path) {
 TEST_P(ScalarFieldTest, a_copy_goes_its_own_way) {
   field.edit(adding({1, 50}, {0, 1}), nullptr);
   const auto before = field_of(field);
-  hf::ScalarField copy(field);
+  hf_inner::ScalarField copy(field);
   copy.edit(adding({90}, {7}), nullptr);
   EXPECT_EQ(before, field_of(field));
   EXPECT_NEAR(field_of(copy)[90], 7, 1e-5);

@@ -17,24 +17,24 @@ class FactorBytes : public testing::Test {
   static constexpr std::uint64_t matrix_hash = 0x1234;
   static constexpr std::size_t header = 128;
 
-  std::shared_ptr<const hf::Factor> make(const hf::SymmetricMatrix& a, hf::JobRunner& jobs) {
-    return hf::Factor::make(a, {}, hf::FactorOptions{}, memory, jobs);
+  std::shared_ptr<const hf_inner::Factor> make(const hf_inner::SymmetricMatrix& a, hf_inner::JobRunner& jobs) {
+    return hf_inner::Factor::make(a, {}, hf_inner::FactorOptions{}, memory, jobs);
   }
-  std::shared_ptr<const hf::Factor> make(const hf::SymmetricMatrix& a) { return make(a, one); }
-  std::vector<std::uint8_t> save(const hf::Factor& factor) {
-    std::vector<std::uint8_t> bytes(hf::saved_factor_size(factor), 0xAB);
-    hf::save_factor(factor, matrix_hash, {bytes.data(), bytes.size()}, memory, two);
+  std::shared_ptr<const hf_inner::Factor> make(const hf_inner::SymmetricMatrix& a) { return make(a, one); }
+  std::vector<std::uint8_t> save(const hf_inner::Factor& factor) {
+    std::vector<std::uint8_t> bytes(hf_inner::saved_factor_size(factor), 0xAB);
+    hf_inner::save_factor(factor, matrix_hash, {bytes.data(), bytes.size()}, memory, two);
     return bytes;
   }
-  std::shared_ptr<const hf::Factor> load(hf::Span<const std::uint8_t> bytes, std::int32_t n, bool borrow = false) {
-    hf::LoadOptions options;
+  std::shared_ptr<const hf_inner::Factor> load(hf_inner::Span<const std::uint8_t> bytes, std::int32_t n, bool borrow = false) {
+    hf_inner::LoadOptions options;
     options.unknowns = n, options.matrix_hash = matrix_hash, options.borrow = borrow;
-    return hf::load_factor(bytes, options, memory, two);
+    return hf_inner::load_factor(bytes, options, memory, two);
   }
   hf_result code_of(const std::vector<std::uint8_t>& bytes, std::int32_t n) {
     try {
       load(bytes, n);
-    } catch (const hf::Error& error) {
+    } catch (const hf_inner::Error& error) {
       return error.code();
     }
     return HF_OK;
@@ -42,29 +42,29 @@ class FactorBytes : public testing::Test {
   // Both checksums of changed bytes are set right, so that the other checks have to hold alone.
   void repair(std::vector<std::uint8_t>& bytes) {
     const std::uint64_t body =
-        hf::hash_bytes(bytes.data() + header, bytes.size() - header, memory, one, [](std::uint64_t, std::uint64_t) {});
+        hf_inner::hash_bytes(bytes.data() + header, bytes.size() - header, memory, one, [](std::uint64_t, std::uint64_t) {});
     std::memcpy(bytes.data() + 88, &body, 8);
-    const std::uint64_t head = hf::hash_piece(bytes.data(), header - 8);
+    const std::uint64_t head = hf_inner::hash_piece(bytes.data(), header - 8);
     std::memcpy(bytes.data() + header - 8, &head, 8);
   }
   // A copy aligned for reading in place.
-  hf::Buffer<std::uint8_t> aligned(const std::vector<std::uint8_t>& bytes) {
-    hf::Buffer<std::uint8_t> copy(memory, bytes.size());
+  hf_inner::Buffer<std::uint8_t> aligned(const std::vector<std::uint8_t>& bytes) {
+    hf_inner::Buffer<std::uint8_t> copy(memory, bytes.size());
     std::memcpy(copy.data(), bytes.data(), bytes.size());
     return copy;
   }
-  hf::Memory memory;
-  hf::JobRunner one{1};
-  hf::JobRunner two{2};
+  hf_inner::Memory memory;
+  hf_inner::JobRunner one{1};
+  hf_inner::JobRunner two{2};
 };
 
 TEST_F(FactorBytes, a_loaded_factor_sweeps_to_the_same_bits_and_refactors) {
   for (const std::int32_t side : {1, 2, 40}) {
-    const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, side, side);
+    const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, side, side);
     const auto factor = make(a);
     const std::vector<std::uint8_t> bytes = save(*factor);
     EXPECT_EQ(save(*make(a, two)), bytes);
-    const hf::Buffer<std::uint8_t> in_place = aligned(bytes);
+    const hf_inner::Buffer<std::uint8_t> in_place = aligned(bytes);
     for (const bool borrow : {false, true}) {
       const auto loaded = load({in_place.data(), in_place.size()}, a.size(), borrow);
       EXPECT_TRUE(loaded->statistics().loaded);
@@ -86,49 +86,49 @@ TEST_F(FactorBytes, a_loaded_factor_sweeps_to_the_same_bits_and_refactors) {
 
 TEST_F(FactorBytes, the_hash_is_the_same_for_any_threads_and_sees_every_bit) {
   for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{63}, std::size_t{64}, std::size_t{200},
-                                   static_cast<std::size_t>(hf::hash_piece_bytes) + 13}) {
+                                   static_cast<std::size_t>(hf_inner::hash_piece_bytes) + 13}) {
     std::vector<std::uint8_t> bytes(length);
     for (std::size_t k = 0; k < length; ++k) bytes[k] = static_cast<std::uint8_t>(k * 37 + 5);
-    const std::uint64_t expected = hf::hash_array(bytes.data(), length, memory, one);
-    EXPECT_EQ(hf::hash_array(bytes.data(), length, memory, two), expected);
+    const std::uint64_t expected = hf_inner::hash_array(bytes.data(), length, memory, one);
+    EXPECT_EQ(hf_inner::hash_array(bytes.data(), length, memory, two), expected);
     const std::size_t step = length > 1000 ? 997 : 1;
     for (std::size_t k = 0; k < length; k += step) {
       for (int bit = 0; bit < 8; ++bit) {
         bytes[k] ^= static_cast<std::uint8_t>(1 << bit);
-        EXPECT_NE(hf::hash_array(bytes.data(), length, memory, one), expected);
+        EXPECT_NE(hf_inner::hash_array(bytes.data(), length, memory, one), expected);
         bytes[k] ^= static_cast<std::uint8_t>(1 << bit);
       }
     }
     bytes.push_back(0);
-    EXPECT_NE(hf::hash_array(bytes.data(), length + 1, memory, one), expected);
+    EXPECT_NE(hf_inner::hash_array(bytes.data(), length + 1, memory, one), expected);
   }
 }
 
 TEST_F(FactorBytes, the_hash_of_a_matrix_sees_pattern_numbers_and_grounds) {
-  hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 9, 8);
+  hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 9, 8);
   const std::vector<std::int32_t> ground = {0, 40};
   const std::vector<double> weight = {1.0, 2.0};
-  const std::uint64_t expected = hf::hash_matrix(a, ground, weight, memory, one);
-  EXPECT_EQ(hf::hash_matrix(a, ground, weight, memory, two), expected);
+  const std::uint64_t expected = hf_inner::hash_matrix(a, ground, weight, memory, one);
+  EXPECT_EQ(hf_inner::hash_matrix(a, ground, weight, memory, two), expected);
   a.value[17] = std::nextafter(a.value[17], 1e300);
-  EXPECT_NE(hf::hash_matrix(a, ground, weight, memory, one), expected);
+  EXPECT_NE(hf_inner::hash_matrix(a, ground, weight, memory, one), expected);
   a.value[17] = std::nextafter(a.value[17], -1e300);
-  EXPECT_EQ(hf::hash_matrix(a, ground, weight, memory, one), expected);
+  EXPECT_EQ(hf_inner::hash_matrix(a, ground, weight, memory, one), expected);
   a.row[3] += 1;
-  EXPECT_NE(hf::hash_matrix(a, ground, weight, memory, one), expected);
+  EXPECT_NE(hf_inner::hash_matrix(a, ground, weight, memory, one), expected);
   a.row[3] -= 1;
-  EXPECT_NE(hf::hash_matrix(a, std::vector<std::int32_t>{0, 41}, weight, memory, one), expected);
-  EXPECT_NE(hf::hash_matrix(a, ground, std::vector<double>{1.0, 2.5}, memory, one), expected);
+  EXPECT_NE(hf_inner::hash_matrix(a, std::vector<std::int32_t>{0, 41}, weight, memory, one), expected);
+  EXPECT_NE(hf_inner::hash_matrix(a, ground, std::vector<double>{1.0, 2.5}, memory, one), expected);
 }
 
 TEST_F(FactorBytes, foreign_matrices_sizes_versions_byte_orders_and_every_truncation_are_refused) {
-  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 6, 6);
+  const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 6, 6);
   const std::vector<std::uint8_t> bytes = save(*make(a));
   EXPECT_EQ(code_of(bytes, 36), HF_OK);
   EXPECT_EQ(code_of(bytes, 37), HF_ERROR_INVALID_ARGUMENT);
-  hf::LoadOptions other;
+  hf_inner::LoadOptions other;
   other.unknowns = 36, other.matrix_hash = matrix_hash + 1;
-  EXPECT_THROW(hf::load_factor(bytes, other, memory, one), hf::Error);
+  EXPECT_THROW(hf_inner::load_factor(bytes, other, memory, one), hf_inner::Error);
   for (std::size_t length = 0; length < bytes.size(); ++length) {
     EXPECT_EQ(code_of({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)}, 36),
               HF_ERROR_INVALID_ARGUMENT);
@@ -142,27 +142,27 @@ TEST_F(FactorBytes, foreign_matrices_sizes_versions_byte_orders_and_every_trunca
     EXPECT_EQ(code_of(future, 36), HF_ERROR_UNSUPPORTED);
   }
   std::vector<std::uint8_t> small(bytes.size() - 1);
-  EXPECT_THROW(hf::save_factor(*make(a), matrix_hash, {small.data(), small.size()}, memory, one), hf::Error);
+  EXPECT_THROW(hf_inner::save_factor(*make(a), matrix_hash, {small.data(), small.size()}, memory, one), hf_inner::Error);
 }
 
 TEST_F(FactorBytes, borrowed_bytes_that_are_not_aligned_are_refused) {
-  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 6, 6);
+  const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 6, 6);
   const std::vector<std::uint8_t> bytes = save(*make(a));
-  hf::Buffer<std::uint8_t> block(memory, bytes.size() + 64);
+  hf_inner::Buffer<std::uint8_t> block(memory, bytes.size() + 64);
   for (const std::size_t offset : {std::size_t{0}, std::size_t{8}, std::size_t{1}, std::size_t{32}}) {
     std::memcpy(block.data() + offset, bytes.data(), bytes.size());
-    const hf::Span<const std::uint8_t> given(block.data() + offset, bytes.size());
+    const hf_inner::Span<const std::uint8_t> given(block.data() + offset, bytes.size());
     EXPECT_NO_THROW(load(given, 36));
     if (offset == 0) {
       EXPECT_NO_THROW(load(given, 36, true));
     } else {
-      EXPECT_THROW(load(given, 36, true), hf::Error);
+      EXPECT_THROW(load(given, 36, true), hf_inner::Error);
     }
   }
 }
 
 TEST_F(FactorBytes, every_flipped_bit_is_refused) {
-  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 4, 4);
+  const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 4, 4);
   const std::vector<std::uint8_t> bytes = save(*make(a));
   for (std::size_t k = 0; k < bytes.size(); ++k) {
     for (int bit = 0; bit < 8; ++bit) {
@@ -174,10 +174,10 @@ TEST_F(FactorBytes, every_flipped_bit_is_refused) {
 }
 
 TEST_F(FactorBytes, numbers_that_are_not_finite_and_diagonals_that_are_not_positive_are_refused) {
-  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 7, 5);
+  const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 7, 5);
   const std::vector<std::uint8_t> bytes = save(*make(a));
   const auto factor = make(a);
-  const hf::Symbolic& symbolic = static_cast<const hf::SupernodalFactor&>(*factor).symbolic();
+  const hf_inner::Symbolic& symbolic = static_cast<const hf_inner::SupernodalFactor&>(*factor).symbolic();
   const std::size_t numbers = static_cast<std::size_t>(symbolic.stored_entries);
   const std::size_t values = bytes.size() - (8 * (numbers + 64) + 63) / 64 * 64;
   const double bad[] = {std::nan(""), HUGE_VAL, -HUGE_VAL};
@@ -203,10 +203,10 @@ TEST_F(FactorBytes, numbers_that_are_not_finite_and_diagonals_that_are_not_posit
 }
 
 TEST_F(FactorBytes, row_lists_that_do_not_go_on_in_their_parent_are_refused) {
-  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 12, 9);
+  const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 12, 9);
   const auto factor = make(a);
   const std::vector<std::uint8_t> bytes = save(*factor);
-  const hf::Symbolic& symbolic = static_cast<const hf::SupernodalFactor&>(*factor).symbolic();
+  const hf_inner::Symbolic& symbolic = static_cast<const hf_inner::SupernodalFactor&>(*factor).symbolic();
   const std::size_t n = 108, supernodes = static_cast<std::size_t>(symbolic.supernodes);
   const auto padded = [](std::size_t size) { return (size + 63) / 64 * 64; };
   const std::size_t rows = header + padded(4 * n) + padded(4 * (supernodes + 1)) + padded(4 * supernodes);
@@ -230,7 +230,7 @@ TEST_F(FactorBytes, row_lists_that_do_not_go_on_in_their_parent_are_refused) {
 }
 
 TEST_F(FactorBytes, forged_bytes_with_right_checksums_never_crash) {
-  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 9, 8);
+  const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 9, 8);
   const std::vector<std::uint8_t> bytes = save(*make(a));
   const std::size_t lists = bytes.size() / 4;  // the index lists lie in front of the numbers
   std::mt19937 random(1);
@@ -257,7 +257,7 @@ TEST_F(FactorBytes, forged_bytes_with_right_checksums_never_crash) {
       }
     }
     repair(forged);
-    const hf::Buffer<std::uint8_t> in_place = aligned(forged);
+    const hf_inner::Buffer<std::uint8_t> in_place = aligned(forged);
     try {
       const auto factor = load({in_place.data(), in_place.size()}, 72, round % 2);
       ++accepted;
@@ -265,14 +265,14 @@ TEST_F(FactorBytes, forged_bytes_with_right_checksums_never_crash) {
       factor->forward(z.data(), 3, two), factor->backward(z.data(), 3, two);
       try {
         factor->refactor(a, {}, memory, one);
-      } catch (const hf::Error&) {
+      } catch (const hf_inner::Error&) {
       }
       const std::int32_t start[] = {0, 1, 2}, row[] = {5, 60};
       const double value[] = {1, 1};
       std::int32_t group[2], column[2];
-      hf::Vector<std::shared_ptr<const hf::PathGroup>> groups(&memory);
+      hf_inner::Vector<std::shared_ptr<const hf_inner::PathGroup>> groups(&memory);
       factor->solve_paths({{start, 3}, {row, 2}, {value, 2}}, memory, one, groups, {group, 2}, {column, 2});
-    } catch (const hf::Error&) {
+    } catch (const hf_inner::Error&) {
       ++refused;
     }
   }
@@ -281,9 +281,9 @@ TEST_F(FactorBytes, forged_bytes_with_right_checksums_never_crash) {
 }
 
 TEST_F(FactorBytes, the_single_precision_copy_sweeps_to_single_precision_and_the_same_bits_for_any_threads) {
-  const hf::SymmetricMatrix a = hf_test::cotangent_matrix(memory, hf_test::torus(150, 90, 0.25));
+  const hf_inner::SymmetricMatrix a = hf_test::cotangent_matrix(memory, hf_test::torus(150, 90, 0.25));
   const auto factor = make(a);
-  const auto preview = hf::PreviewFactor::make(*factor, memory, two);
+  const auto preview = hf_inner::PreviewFactor::make(*factor, memory, two);
   EXPECT_LT(preview->bytes(), 0.55 * factor->statistics().bytes);
   for (const std::int32_t channels : {1, 2, 3, 8}) {
     std::vector<double> z(static_cast<std::size_t>(a.size() * channels));

@@ -17,7 +17,7 @@ namespace {
 
 using hf_test::Assembly;
 
-Eigen::MatrixXd dense(const hf::SymmetricMatrix& a) {
+Eigen::MatrixXd dense(const hf_inner::SymmetricMatrix& a) {
   Eigen::MatrixXd full = Eigen::MatrixXd::Zero(a.size(), a.size());
   for (std::int32_t j = 0; j < a.size(); ++j) {
     for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e) full(a.row[e], j) = a.value[e];
@@ -35,15 +35,15 @@ std::vector<double> random_vector(std::size_t size, std::uint32_t seed) {
 
 class Fixture : public testing::Test {
  protected:
-  std::shared_ptr<const hf::Factor> make(const hf::SymmetricMatrix& a,
-                                         hf::Ordering ordering = hf::Ordering::minimum_degree,
+  std::shared_ptr<const hf_inner::Factor> make(const hf_inner::SymmetricMatrix& a,
+                                         hf_inner::Ordering ordering = hf_inner::Ordering::minimum_degree,
                                          const std::vector<float>& points = {}) {
-    hf::FactorOptions options;
+    hf_inner::FactorOptions options;
     options.ordering = ordering;
-    return hf::Factor::make(a, hf::Span<const float>(points.data(), points.size()), options, memory, one);
+    return hf_inner::Factor::make(a, hf_inner::Span<const float>(points.data(), points.size()), options, memory, one);
   }
-  std::vector<double> solve(const hf::Factor& factor, const std::vector<double>& b, std::int32_t channels = 1,
-                            hf::JobRunner* jobs = nullptr) {
+  std::vector<double> solve(const hf_inner::Factor& factor, const std::vector<double>& b, std::int32_t channels = 1,
+                            hf_inner::JobRunner* jobs = nullptr) {
     std::vector<double> z(b.size()), x(b.size());
     for (std::int32_t k = 0; k < factor.size(); ++k) {
       for (std::int32_t c = 0; c < channels; ++c) z[k * channels + c] = b[factor.order()[k] * channels + c];
@@ -56,7 +56,7 @@ class Fixture : public testing::Test {
     return x;
   }
   // sweeps and P against the dense factor: G^-1 and G^-T column by column
-  void expect_factor_of(const hf::SymmetricMatrix& a, hf::Ordering ordering) {
+  void expect_factor_of(const hf_inner::SymmetricMatrix& a, hf_inner::Ordering ordering) {
     const auto factor = make(a, ordering);
     const std::int32_t n = a.size();
     ASSERT_EQ(factor->size(), n);
@@ -92,7 +92,7 @@ class Fixture : public testing::Test {
       }
     }
   }
-  void expect_residual(const hf::SymmetricMatrix& a, const hf::Factor& factor, double bound) {
+  void expect_residual(const hf_inner::SymmetricMatrix& a, const hf_inner::Factor& factor, double bound) {
     const std::vector<double> b = random_vector(static_cast<std::size_t>(a.size()), 5);
     const std::vector<double> x = solve(factor, b);
     const std::vector<double> ax = hf_test::multiply(a, x);
@@ -106,9 +106,9 @@ class Fixture : public testing::Test {
     EXPECT_LT(worst / (size * diagonal), bound);
   }
 
-  hf::Memory memory;
-  hf::JobRunner one{1};
-  hf::JobRunner two{2};
+  hf_inner::Memory memory;
+  hf_inner::JobRunner one{1};
+  hf_inner::JobRunner two{2};
 };
 
 using FactorTest = Fixture;
@@ -117,7 +117,7 @@ TEST_F(FactorTest, sweeps_equal_dense_cholesky_on_random_patterns) {
   for (std::int32_t n = 1; n <= 60; n += (n < 20 ? 1 : 7)) {
     for (const double density : {0.0, 0.05, 0.2, 0.6, 1.0}) {
       for (const auto ordering :
-           {hf::Ordering::minimum_degree, hf::Ordering::natural, hf::Ordering::nested_dissection}) {
+           {hf_inner::Ordering::minimum_degree, hf_inner::Ordering::natural, hf_inner::Ordering::nested_dissection}) {
         expect_factor_of(hf_test::random_matrix(memory, n, density, static_cast<std::uint32_t>(n)), ordering);
         if (HasFatalFailure()) return;
       }
@@ -126,16 +126,16 @@ TEST_F(FactorTest, sweeps_equal_dense_cholesky_on_random_patterns) {
 }
 
 TEST_F(FactorTest, sweeps_equal_dense_cholesky_on_grids_arrows_and_dense_blocks) {
-  expect_factor_of(hf_test::grid_laplacian(memory, 20, 17), hf::Ordering::minimum_degree);
-  expect_factor_of(hf_test::grid_laplacian(memory, 20, 17), hf::Ordering::natural);
-  expect_factor_of(hf_test::grid_laplacian(memory, 300, 1), hf::Ordering::nested_dissection);
-  expect_factor_of(hf_test::arrow_matrix(memory, 100), hf::Ordering::natural);
-  expect_factor_of(hf_test::arrow_matrix(memory, 100), hf::Ordering::minimum_degree);
+  expect_factor_of(hf_test::grid_laplacian(memory, 20, 17), hf_inner::Ordering::minimum_degree);
+  expect_factor_of(hf_test::grid_laplacian(memory, 20, 17), hf_inner::Ordering::natural);
+  expect_factor_of(hf_test::grid_laplacian(memory, 300, 1), hf_inner::Ordering::nested_dissection);
+  expect_factor_of(hf_test::arrow_matrix(memory, 100), hf_inner::Ordering::natural);
+  expect_factor_of(hf_test::arrow_matrix(memory, 100), hf_inner::Ordering::minimum_degree);
   expect_factor_of(hf_test::random_matrix(memory, 300, 1.0, 1),
-                   hf::Ordering::natural);  // one supernode wider than a chunk
-  expect_factor_of(hf_test::random_matrix(memory, 600, 0.5, 2), hf::Ordering::minimum_degree);
+                   hf_inner::Ordering::natural);  // one supernode wider than a chunk
+  expect_factor_of(hf_test::random_matrix(memory, 600, 0.5, 2), hf_inner::Ordering::minimum_degree);
   expect_factor_of(hf_test::squared(memory, hf_test::grid_laplacian(memory, 16, 16), 1.0),
-                   hf::Ordering::minimum_degree);
+                   hf_inner::Ordering::minimum_degree);
 }
 
 TEST_F(FactorTest, several_components_and_single_unknowns_are_solved) {
@@ -145,14 +145,14 @@ TEST_F(FactorTest, several_components_and_single_unknowns_are_solved) {
     a.add(c * 5, c * 5, 1.0);
   }
   for (std::int32_t k = 50; k < 70; ++k) a.add(k, k, k);
-  expect_factor_of(a.build(memory), hf::Ordering::minimum_degree);
+  expect_factor_of(a.build(memory), hf_inner::Ordering::minimum_degree);
   Assembly b(70);
   for (std::int32_t k = 0; k < 70; ++k) b.add(k, k, 1.0 + k);
-  expect_factor_of(b.build(memory), hf::Ordering::nested_dissection);
+  expect_factor_of(b.build(memory), hf_inner::Ordering::nested_dissection);
 }
 
 TEST_F(FactorTest, empty_matrix_is_a_factor_of_size_zero) {
-  hf::SymmetricMatrix a(memory);
+  hf_inner::SymmetricMatrix a(memory);
   a.column_start.push_back(0);
   const auto factor = make(a);
   EXPECT_EQ(factor->size(), 0);
@@ -161,26 +161,26 @@ TEST_F(FactorTest, empty_matrix_is_a_factor_of_size_zero) {
 }
 
 TEST_F(FactorTest, residual_of_a_large_grid_and_torus_is_rounding) {
-  const hf::SymmetricMatrix grid = hf_test::grid_laplacian(memory, 200, 150);
-  for (const auto ordering : {hf::Ordering::minimum_degree, hf::Ordering::nested_dissection}) {
+  const hf_inner::SymmetricMatrix grid = hf_test::grid_laplacian(memory, 200, 150);
+  for (const auto ordering : {hf_inner::Ordering::minimum_degree, hf_inner::Ordering::nested_dissection}) {
     expect_residual(grid, *make(grid, ordering, hf_test::grid_points(200, 150)), 1e-14);
   }
-  const hf::SymmetricMatrix ring = hf_test::cotangent_matrix(memory, hf_test::torus(120, 60, 0.25));
+  const hf_inner::SymmetricMatrix ring = hf_test::cotangent_matrix(memory, hf_test::torus(120, 60, 0.25));
   expect_residual(ring, *make(ring), 1e-14);
   expect_residual(hf_test::squared(memory, ring, 1.0), *make(hf_test::squared(memory, ring, 1.0)), 1e-13);
 }
 
 TEST_F(FactorTest, factor_and_sweeps_are_the_same_bits_for_any_number_of_threads) {
-  const hf::SymmetricMatrix a = hf_test::cotangent_matrix(memory, hf_test::torus(200, 100, 0.25));
-  for (const auto ordering : {hf::Ordering::minimum_degree, hf::Ordering::nested_dissection}) {
-    hf::FactorOptions options;
+  const hf_inner::SymmetricMatrix a = hf_test::cotangent_matrix(memory, hf_test::torus(200, 100, 0.25));
+  for (const auto ordering : {hf_inner::Ordering::minimum_degree, hf_inner::Ordering::nested_dissection}) {
+    hf_inner::FactorOptions options;
     options.ordering = ordering;
-    hf::JobRunner five(5);
-    const auto f1 = hf::Factor::make(a, {}, options, memory, one);
-    for (hf::JobRunner* jobs : {&two, &five}) {
-      const auto f2 = hf::Factor::make(a, {}, options, memory, *jobs);
-      const auto& v1 = static_cast<const hf::SupernodalFactor&>(*f1).values();
-      const auto& v2 = static_cast<const hf::SupernodalFactor&>(*f2).values();
+    hf_inner::JobRunner five(5);
+    const auto f1 = hf_inner::Factor::make(a, {}, options, memory, one);
+    for (hf_inner::JobRunner* jobs : {&two, &five}) {
+      const auto f2 = hf_inner::Factor::make(a, {}, options, memory, *jobs);
+      const auto& v1 = static_cast<const hf_inner::SupernodalFactor&>(*f1).values();
+      const auto& v2 = static_cast<const hf_inner::SupernodalFactor&>(*f2).values();
       ASSERT_EQ(v1.size(), v2.size());
       EXPECT_EQ(std::memcmp(v1.data(), v2.data(), v1.size() * sizeof(double)), 0);
       for (const std::int32_t channels : {1, 3, 8}) {
@@ -199,18 +199,18 @@ void run_backwards(void* user, std::uint32_t count, void (*job)(void* data, std:
 
 TEST_F(FactorTest, a_host_that_runs_jobs_serially_and_backwards_gets_the_same_bits) {
   const hf_test::TriangleMesh mesh = hf_test::torus(160, 100, 0.25);
-  const hf::SymmetricMatrix a = hf_test::cotangent_matrix(memory, mesh);
+  const hf_inner::SymmetricMatrix a = hf_test::cotangent_matrix(memory, mesh);
   const std::vector<float> points(mesh.points.begin(), mesh.points.end());
   int batches = 0;
   hf_job_runner host{run_backwards, &batches};
-  hf::JobRunner jobs(4, host);
-  hf::FactorOptions options;
-  const hf::Span<const float> coordinates(points.data(), points.size());
-  const auto f = hf::Factor::make(a, coordinates, options, memory, one),
-             g = hf::Factor::make(a, coordinates, options, memory, jobs);
+  hf_inner::JobRunner jobs(4, host);
+  hf_inner::FactorOptions options;
+  const hf_inner::Span<const float> coordinates(points.data(), points.size());
+  const auto f = hf_inner::Factor::make(a, coordinates, options, memory, one),
+             g = hf_inner::Factor::make(a, coordinates, options, memory, jobs);
   EXPECT_GT(batches, 3);
-  const auto& v = static_cast<const hf::SupernodalFactor&>(*f).values();
-  const auto& w = static_cast<const hf::SupernodalFactor&>(*g).values();
+  const auto& v = static_cast<const hf_inner::SupernodalFactor&>(*f).values();
+  const auto& w = static_cast<const hf_inner::SupernodalFactor&>(*g).values();
   ASSERT_EQ(v.size(), w.size());
   EXPECT_EQ(std::memcmp(v.data(), w.data(), v.size() * sizeof(double)), 0);
   const std::vector<double> b = random_vector(static_cast<std::size_t>(a.size()) * 3, 9);
@@ -218,14 +218,14 @@ TEST_F(FactorTest, a_host_that_runs_jobs_serially_and_backwards_gets_the_same_bi
 }
 
 TEST_F(FactorTest, clones_of_one_factor_sweep_on_many_threads_at_once) {
-  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 80, 70);
+  const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 80, 70);
   const auto factor = make(a);
   const std::vector<double> b = random_vector(static_cast<std::size_t>(a.size()), 9), expected = solve(*factor, b);
   std::vector<std::thread> threads;
   std::vector<int> good(4, 0);
   for (int t = 0; t < 4; ++t) {
     threads.emplace_back([&, t] {
-      hf::JobRunner own(1 + static_cast<std::uint32_t>(t) % 2);
+      hf_inner::JobRunner own(1 + static_cast<std::uint32_t>(t) % 2);
       for (int round = 0; round < 5; ++round)
         good[static_cast<std::size_t>(t)] += solve(*factor, b, 1, &own) == expected;
     });
@@ -235,34 +235,34 @@ TEST_F(FactorTest, clones_of_one_factor_sweep_on_many_threads_at_once) {
 }
 
 TEST_F(FactorTest, a_cancelled_factorisation_unwinds_and_frees_everything) {
-  hf::Memory counted;
-  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 60, 60);
-  hf::Progress progress;
+  hf_inner::Memory counted;
+  const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 60, 60);
+  hf_inner::Progress progress;
   progress.cancel();
-  hf::FactorOptions options;
+  hf_inner::FactorOptions options;
   options.progress = &progress;
   try {
-    hf::Factor::make(a, {}, options, counted, two);
+    hf_inner::Factor::make(a, {}, options, counted, two);
     FAIL() << "went on";
-  } catch (const hf::Error& error) {
+  } catch (const hf_inner::Error& error) {
     EXPECT_EQ(error.code(), HF_ERROR_CANCELLED);
   }
   EXPECT_EQ(counted.live_bytes(), 0u);
 }
 
 TEST_F(FactorTest, avx2_and_avx512_give_the_same_bits) {
-  const hf::Kernels* narrow = hf::avx2_kernels();
-  const hf::Kernels* wide = hf::avx512_kernels();
+  const hf_inner::Kernels* narrow = hf_inner::avx2_kernels();
+  const hf_inner::Kernels* wide = hf_inner::avx512_kernels();
   if (!narrow || !wide) GTEST_SKIP() << "this processor has not both AVX2 and AVX-512";
   for (const bool bend : {false, true}) {
-    hf::SymmetricMatrix a = hf_test::cotangent_matrix(memory, hf_test::torus(100, 60, 0.25));
+    hf_inner::SymmetricMatrix a = hf_test::cotangent_matrix(memory, hf_test::torus(100, 60, 0.25));
     if (bend) a = hf_test::squared(memory, a, 1.0);
     const auto made = make(a);
-    const auto analysis = static_cast<const hf::SupernodalFactor&>(*made).analysis();
-    hf::SupernodalFactor f(analysis, memory), g(analysis, memory), h(analysis, memory);
-    f.use_kernels(*narrow), g.use_kernels(*wide), h.use_kernels(*hf::plain_kernels());
-    f.compute(a, {}, hf::default_lost_share, one, nullptr), g.compute(a, {}, hf::default_lost_share, one, nullptr);
-    h.compute(a, {}, hf::default_lost_share, one, nullptr);
+    const auto analysis = static_cast<const hf_inner::SupernodalFactor&>(*made).analysis();
+    hf_inner::SupernodalFactor f(analysis, memory), g(analysis, memory), h(analysis, memory);
+    f.use_kernels(*narrow), g.use_kernels(*wide), h.use_kernels(*hf_inner::plain_kernels());
+    f.compute(a, {}, hf_inner::default_lost_share, one, nullptr), g.compute(a, {}, hf_inner::default_lost_share, one, nullptr);
+    h.compute(a, {}, hf_inner::default_lost_share, one, nullptr);
     ASSERT_EQ(std::memcmp(f.values().data(), g.values().data(), f.values().size() * sizeof(double)), 0);
     for (const std::int32_t channels : {1, 2, 3, 4, 8, 9}) {
       const std::vector<double> b = random_vector(static_cast<std::size_t>(a.size()) * channels, 9);
@@ -277,17 +277,17 @@ TEST_F(FactorTest, avx2_and_avx512_give_the_same_bits) {
 }
 
 TEST_F(FactorTest, a_lost_pivot_names_the_callers_column) {
-  hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 30, 30);
+  hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 30, 30);
   for (std::int32_t e = a.column_start[411]; e < a.column_start[412]; ++e) {
     if (a.row[e] == 411) a.value[e] = -5;
   }
-  for (hf::JobRunner* jobs : {&one, &two}) {
+  for (hf_inner::JobRunner* jobs : {&one, &two}) {
     try {
-      hf::FactorOptions options;
-      options.ordering = hf::Ordering::minimum_degree;
-      hf::Factor::make(a, {}, options, memory, *jobs);
+      hf_inner::FactorOptions options;
+      options.ordering = hf_inner::Ordering::minimum_degree;
+      hf_inner::Factor::make(a, {}, options, memory, *jobs);
       FAIL() << "accepted an indefinite matrix";
-    } catch (const hf::Error& error) {
+    } catch (const hf_inner::Error& error) {
       EXPECT_EQ(error.code(), HF_ERROR_NOT_POSITIVE_DEFINITE);
       EXPECT_EQ(error.index(), 411u);
     }
@@ -295,23 +295,23 @@ TEST_F(FactorTest, a_lost_pivot_names_the_callers_column) {
 }
 
 TEST_F(FactorTest, a_singular_laplacian_is_refused) {
-  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 30, 30, 0.0);
+  const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 30, 30, 0.0);
   try {
     make(a);
     FAIL() << "accepted a singular matrix";
-  } catch (const hf::Error& error) {
+  } catch (const hf_inner::Error& error) {
     EXPECT_EQ(error.code(), HF_ERROR_NOT_POSITIVE_DEFINITE);
   }
 }
 
 TEST_F(FactorTest, nan_and_infinity_name_their_column) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 10, 10);
+    hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 10, 10);
     a.value[static_cast<std::size_t>(a.column_start[37])] = bad;
     try {
       make(a);
       FAIL() << "accepted " << bad;
-    } catch (const hf::Error& error) {
+    } catch (const hf_inner::Error& error) {
       EXPECT_EQ(error.code(), HF_ERROR_NON_FINITE);
       EXPECT_EQ(error.index(), 37u);
     }
@@ -319,15 +319,15 @@ TEST_F(FactorTest, nan_and_infinity_name_their_column) {
 }
 
 TEST_F(FactorTest, malformed_matrices_are_refused) {
-  const auto code_of = [&](const hf::SymmetricMatrix& a) {
+  const auto code_of = [&](const hf_inner::SymmetricMatrix& a) {
     try {
       make(a);
-    } catch (const hf::Error& error) {
+    } catch (const hf_inner::Error& error) {
       return error.code();
     }
     return static_cast<hf_result>(HF_OK);
   };
-  hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 5, 5);
+  hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 5, 5);
   a.row[3] = 99;
   EXPECT_EQ(code_of(a), HF_ERROR_INVALID_ARGUMENT);
   a = hf_test::grid_laplacian(memory, 5, 5);
@@ -339,13 +339,13 @@ TEST_F(FactorTest, malformed_matrices_are_refused) {
 }
 
 TEST_F(FactorTest, refactor_solves_the_matrix_with_eliminated_rows) {
-  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 25, 20, 0.0);
-  const hf::SymmetricMatrix grounded = hf_test::grid_laplacian(memory, 25, 20, 1.0);
+  const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 25, 20, 0.0);
+  const hf_inner::SymmetricMatrix grounded = hf_test::grid_laplacian(memory, 25, 20, 1.0);
   const auto factor = make(grounded);
   std::vector<std::uint8_t> eliminated(500, 0);
   for (const int v : {3, 77, 250, 499}) eliminated[static_cast<std::size_t>(v)] = 1;
   const auto reduced = factor->refactor(a, {eliminated.data(), eliminated.size()}, memory, two);
-  hf::SymmetricMatrix expected = a;
+  hf_inner::SymmetricMatrix expected = a;
   for (std::int32_t j = 0; j < 500; ++j) {
     for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e) {
       if (eliminated[static_cast<std::size_t>(j)] || eliminated[static_cast<std::size_t>(a.row[e])])
@@ -353,7 +353,7 @@ TEST_F(FactorTest, refactor_solves_the_matrix_with_eliminated_rows) {
     }
   }
   expect_residual(expected, *reduced, 1e-14);
-  EXPECT_THROW(factor->refactor(hf_test::grid_laplacian(memory, 20, 25), {}, memory, one), hf::Error);
+  EXPECT_THROW(factor->refactor(hf_test::grid_laplacian(memory, 20, 25), {}, memory, one), hf_inner::Error);
 }
 
 struct Batch {
@@ -363,15 +363,15 @@ struct Batch {
     for (const auto& [r, v] : entries) row.push_back(r), value.push_back(v);
     start.push_back(static_cast<std::int32_t>(row.size()));
   }
-  hf::SparseColumns view() const {
+  hf_inner::SparseColumns view() const {
     return {{start.data(), start.size()}, {row.data(), row.size()}, {value.data(), value.size()}};
   }
 };
 
 TEST_F(FactorTest, paths_gram_combine_project_and_clear_equal_the_dense_forms) {
-  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 40, 35);
+  const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 40, 35);
   const std::int32_t n = a.size();
-  for (const auto ordering : {hf::Ordering::minimum_degree, hf::Ordering::natural}) {
+  for (const auto ordering : {hf_inner::Ordering::minimum_degree, hf_inner::Ordering::natural}) {
     const auto factor = make(a, ordering);
     for (const std::int32_t k : {1, 2, 3, 7, 8, 9, 33, 70, 150}) {
       Batch batch;
@@ -393,14 +393,14 @@ TEST_F(FactorTest, paths_gram_combine_project_and_clear_equal_the_dense_forms) {
         factor->forward(z.data(), 1, one);
         for (std::int32_t r = 0; r < n; ++r) y(r, i) = z[static_cast<std::size_t>(r)];
       }
-      hf::Vector<std::shared_ptr<const hf::PathGroup>> groups(&memory);
+      hf_inner::Vector<std::shared_ptr<const hf_inner::PathGroup>> groups(&memory);
       std::vector<std::int32_t> group(static_cast<std::size_t>(k)), column(static_cast<std::size_t>(k));
       factor->solve_paths(batch.view(), memory, two, groups, {group.data(), group.size()},
                           {column.data(), column.size()});
       std::int32_t total = 0;
       for (const auto& g : groups) {
         total += g->count();
-        ASSERT_LE(g->count(), hf::PathGroup::capacity);
+        ASSERT_LE(g->count(), hf_inner::PathGroup::capacity);
       }
       ASSERT_EQ(total, k);
       const double scale = 1e-13 * (1 + y.cwiseAbs().maxCoeff());
@@ -453,31 +453,31 @@ TEST_F(FactorTest, paths_gram_combine_project_and_clear_equal_the_dense_forms) {
 
 TEST_F(FactorTest, a_site_outside_the_matrix_is_refused) {
   const auto factor = make(hf_test::grid_laplacian(memory, 5, 5));
-  hf::Vector<std::shared_ptr<const hf::PathGroup>> groups(&memory);
+  hf_inner::Vector<std::shared_ptr<const hf_inner::PathGroup>> groups(&memory);
   std::int32_t group = 0, column = 0;
   for (const std::int32_t row : {-1, 25, INT32_MAX}) {
     Batch batch;
     batch.add({{row, 1.0}});
-    EXPECT_THROW(factor->solve_paths(batch.view(), memory, one, groups, {&group, 1}, {&column, 1}), hf::Error);
+    EXPECT_THROW(factor->solve_paths(batch.view(), memory, one, groups, {&group, 1}, {&column, 1}), hf_inner::Error);
   }
 }
 
 TEST_F(FactorTest, memory_that_runs_out_anywhere_is_reported_and_nothing_leaks) {
-  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 60, 60);
+  const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 60, 60);
   std::uint64_t needed = 0;
   {
-    hf::Memory counted;
-    hf::FactorOptions options;
-    hf::Factor::make(a, {}, options, counted, two);
+    hf_inner::Memory counted;
+    hf_inner::FactorOptions options;
+    hf_inner::Factor::make(a, {}, options, counted, two);
     needed = counted.peak_bytes();
     EXPECT_EQ(counted.live_bytes(), 0u);
   }
   int refused = 0;
   for (std::uint64_t limit = 1000; limit < needed; limit += needed / 40) {
-    hf::Memory tight({}, limit);
+    hf_inner::Memory tight({}, limit);
     try {
-      hf::FactorOptions options;
-      hf::Factor::make(a, {}, options, tight, two);
+      hf_inner::FactorOptions options;
+      hf_inner::Factor::make(a, {}, options, tight, two);
     } catch (const std::bad_alloc&) {
       ++refused;
     }

@@ -27,8 +27,8 @@ class Assembly {
   void add_edge(std::int32_t i, std::int32_t j, double weight) {
     add(i, j, -weight), add(i, i, weight), add(j, j, weight);
   }
-  hf::SymmetricMatrix build(hf::Memory& memory) {
-    hf::SymmetricMatrix matrix(memory);
+  hf_inner::SymmetricMatrix build(hf_inner::Memory& memory) {
+    hf_inner::SymmetricMatrix matrix(memory);
     matrix.column_start.push_back(0);
     for (auto& column : columns_) {
       std::stable_sort(column.begin(), column.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -48,7 +48,7 @@ class Assembly {
   std::vector<std::vector<std::pair<std::int32_t, double>>> columns_;
 };
 
-inline hf::SymmetricMatrix grid_laplacian(hf::Memory& memory, std::int32_t nx, std::int32_t ny, double ground = 1.0,
+inline hf_inner::SymmetricMatrix grid_laplacian(hf_inner::Memory& memory, std::int32_t nx, std::int32_t ny, double ground = 1.0,
                                           bool diagonals = true) {
   Assembly a(nx * ny);
   std::mt19937 random(7);
@@ -75,7 +75,7 @@ inline std::vector<float> grid_points(std::int32_t nx, std::int32_t ny) {
 }
 
 // Random sparse symmetric pattern, diagonally dominant.
-inline hf::SymmetricMatrix random_matrix(hf::Memory& memory, std::int32_t size, double density, std::uint32_t seed) {
+inline hf_inner::SymmetricMatrix random_matrix(hf_inner::Memory& memory, std::int32_t size, double density, std::uint32_t seed) {
   Assembly a(size);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0), weight(-1.0, 1.0);
@@ -92,7 +92,7 @@ inline hf::SymmetricMatrix random_matrix(hf::Memory& memory, std::int32_t size, 
   return a.build(memory);
 }
 
-inline hf::SymmetricMatrix arrow_matrix(hf::Memory& memory, std::int32_t size) {
+inline hf_inner::SymmetricMatrix arrow_matrix(hf_inner::Memory& memory, std::int32_t size) {
   Assembly a(size);
   for (std::int32_t i = 1; i < size; ++i) a.add(0, i, 0.5), a.add(i, i, 2.0);
   a.add(0, 0, static_cast<double>(size));
@@ -137,7 +137,7 @@ inline TriangleMesh torus(std::int32_t nu, std::int32_t nv, double jitter) {
 }
 
 // Cotangent Laplacian, cotangents clamped from below so that the matrix is an M-matrix, and a ground at vertex 0.
-inline hf::SymmetricMatrix cotangent_matrix(hf::Memory& memory, const TriangleMesh& mesh, bool ground = true) {
+inline hf_inner::SymmetricMatrix cotangent_matrix(hf_inner::Memory& memory, const TriangleMesh& mesh, bool ground = true) {
   const std::int32_t n = static_cast<std::int32_t>(mesh.points.size() / 3);
   Assembly a(n);
   double trace = 0;
@@ -160,8 +160,8 @@ inline hf::SymmetricMatrix cotangent_matrix(hf::Memory& memory, const TriangleMe
 }
 
 // A A with unit mass, plus ground: the bi-harmonic pattern (two rings).
-inline hf::SymmetricMatrix squared(hf::Memory& memory, const hf::SymmetricMatrix& a, double ground) {
-  hf::SymmetricMatrix product(memory);
+inline hf_inner::SymmetricMatrix squared(hf_inner::Memory& memory, const hf_inner::SymmetricMatrix& a, double ground) {
+  hf_inner::SymmetricMatrix product(memory);
   product.column_start.push_back(0);
   std::vector<double> sum(static_cast<std::size_t>(a.size()), 0.0);
   std::vector<std::int32_t> touched;
@@ -184,7 +184,7 @@ inline hf::SymmetricMatrix squared(hf::Memory& memory, const hf::SymmetricMatrix
   return product;
 }
 
-inline std::vector<double> multiply(const hf::SymmetricMatrix& a, const std::vector<double>& x) {
+inline std::vector<double> multiply(const hf_inner::SymmetricMatrix& a, const std::vector<double>& x) {
   std::vector<double> y(x.size(), 0.0);
   for (std::int32_t j = 0; j < a.size(); ++j) {
     for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e)

@@ -20,10 +20,10 @@ using hf_test::Assembly;
 
 class OrderingTest : public testing::Test {
  protected:
-  hf::Buffer<std::int32_t> order(const hf::SymmetricMatrix& a, hf::Ordering kind, const std::vector<float>& points = {},
-                                 hf::JobRunner* jobs = nullptr) {
-    hf::Buffer<std::int32_t> result;
-    hf::make_order(a, {points.data(), points.size()}, kind, memory, jobs ? *jobs : one, nullptr, result);
+  hf_inner::Buffer<std::int32_t> order(const hf_inner::SymmetricMatrix& a, hf_inner::Ordering kind, const std::vector<float>& points = {},
+                                 hf_inner::JobRunner* jobs = nullptr) {
+    hf_inner::Buffer<std::int32_t> result;
+    hf_inner::make_order(a, {points.data(), points.size()}, kind, memory, jobs ? *jobs : one, nullptr, result);
     std::vector<char> seen(static_cast<std::size_t>(a.size()), 0);
     EXPECT_EQ(result.size(), seen.size());
     for (const std::int32_t v : result) {
@@ -32,33 +32,33 @@ class OrderingTest : public testing::Test {
     }
     return result;
   }
-  hf::FillEstimate fill(const hf::SymmetricMatrix& a, hf::Ordering kind, const std::vector<float>& points = {}) {
-    const hf::Buffer<std::int32_t> result = order(a, kind, points);
-    return hf::estimate_fill(a, {result.data(), result.size()}, memory);
+  hf_inner::FillEstimate fill(const hf_inner::SymmetricMatrix& a, hf_inner::Ordering kind, const std::vector<float>& points = {}) {
+    const hf_inner::Buffer<std::int32_t> result = order(a, kind, points);
+    return hf_inner::estimate_fill(a, {result.data(), result.size()}, memory);
   }
   // dissection is a permutation, the same for 1, 2 and 5 threads, and its fill is at most `factor` times minimum
   // degree's
-  void expect_sound(const hf::SymmetricMatrix& a, const std::vector<float>& points, double factor, const char* what) {
-    hf::JobRunner two(2), five(5);
-    const auto x = order(a, hf::Ordering::nested_dissection, points),
-               y = order(a, hf::Ordering::nested_dissection, points, &two),
-               z = order(a, hf::Ordering::nested_dissection, points, &five);
+  void expect_sound(const hf_inner::SymmetricMatrix& a, const std::vector<float>& points, double factor, const char* what) {
+    hf_inner::JobRunner two(2), five(5);
+    const auto x = order(a, hf_inner::Ordering::nested_dissection, points),
+               y = order(a, hf_inner::Ordering::nested_dissection, points, &two),
+               z = order(a, hf_inner::Ordering::nested_dissection, points, &five);
     EXPECT_TRUE(std::equal(x.begin(), x.end(), y.begin())) << what;
     EXPECT_TRUE(std::equal(x.begin(), x.end(), z.begin())) << what;
-    const double own = hf::estimate_fill(a, {x.data(), x.size()}, memory).entries,
-                 amd = fill(a, hf::Ordering::minimum_degree).entries;
+    const double own = hf_inner::estimate_fill(a, {x.data(), x.size()}, memory).entries,
+                 amd = fill(a, hf_inner::Ordering::minimum_degree).entries;
     EXPECT_LE(own, factor * amd) << what << ": " << own << " against " << amd;
   }
-  hf::Memory memory;
-  hf::JobRunner one{1};
+  hf_inner::Memory memory;
+  hf_inner::JobRunner one{1};
 };
 
 std::vector<float> floats(const std::vector<double>& x) { return {x.begin(), x.end()}; }
 
 TEST_F(OrderingTest, fill_estimate_counts_the_entries_of_dense_elimination) {
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
-    const hf::SymmetricMatrix a = hf_test::random_matrix(memory, 40, 0.1, seed);
-    const auto p = order(a, hf::Ordering::nested_dissection);
+    const hf_inner::SymmetricMatrix a = hf_test::random_matrix(memory, 40, 0.1, seed);
+    const auto p = order(a, hf_inner::Ordering::nested_dissection);
     std::vector<std::set<std::int32_t>> graph(40);
     for (std::int32_t j = 0; j < 40; ++j) {
       for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e) {
@@ -77,7 +77,7 @@ TEST_F(OrderingTest, fill_estimate_counts_the_entries_of_dense_elimination) {
         graph[static_cast<std::size_t>(u)].erase(v);
       }
     }
-    const hf::FillEstimate estimate = hf::estimate_fill(a, {p.data(), p.size()}, memory);
+    const hf_inner::FillEstimate estimate = hf_inner::estimate_fill(a, {p.data(), p.size()}, memory);
     EXPECT_EQ(estimate.entries, entries);
     EXPECT_EQ(estimate.flops, flops);
   }
@@ -85,13 +85,13 @@ TEST_F(OrderingTest, fill_estimate_counts_the_entries_of_dense_elimination) {
 
 TEST_F(OrderingTest, surfaces_fill_less_than_minimum_degree_and_about_as_much_as_metis) {
   const hf_test::TriangleMesh mesh = hf_test::torus(200, 210, 0.25);
-  const hf::SymmetricMatrix a = hf_test::cotangent_matrix(memory, mesh);
+  const hf_inner::SymmetricMatrix a = hf_test::cotangent_matrix(memory, mesh);
   expect_sound(a, floats(mesh.points), 0.95, "torus");
-  const hf::SymmetricMatrix k = hf_test::squared(memory, a, 1.0);
+  const hf_inner::SymmetricMatrix k = hf_test::squared(memory, a, 1.0);
   expect_sound(k, floats(mesh.points), 1.0, "torus, two rings");
 #if defined(HF_WITH_GPL)
-  const hf::FillEstimate own = fill(a, hf::Ordering::nested_dissection, floats(mesh.points)),
-                         metis = fill(a, hf::Ordering::metis);
+  const hf_inner::FillEstimate own = fill(a, hf_inner::Ordering::nested_dissection, floats(mesh.points)),
+                         metis = fill(a, hf_inner::Ordering::metis);
   EXPECT_LE(own.entries, 1.12 * metis.entries);
   EXPECT_LE(own.flops, 1.25 * metis.flops);
 #endif
@@ -99,7 +99,7 @@ TEST_F(OrderingTest, surfaces_fill_less_than_minimum_degree_and_about_as_much_as
 
 TEST_F(OrderingTest, no_coordinates_and_worthless_coordinates_are_no_catastrophe) {
   const hf_test::TriangleMesh mesh = hf_test::torus(120, 100, 0.25);
-  const hf::SymmetricMatrix a = hf_test::cotangent_matrix(memory, mesh);
+  const hf_inner::SymmetricMatrix a = hf_test::cotangent_matrix(memory, mesh);
   const std::size_t count = mesh.points.size();
   expect_sound(a, {}, 1.35, "no coordinates");
   expect_sound(a, std::vector<float>(count, 3.0f), 1.35, "all points equal");
@@ -145,25 +145,25 @@ TEST_F(OrderingTest, islands_strips_stars_and_cliques_are_ordered) {
 
 TEST_F(OrderingTest, a_graph_that_separates_badly_falls_back_on_minimum_degree) {
   const hf_test::TriangleMesh mesh = hf_test::torus(120, 100, 0.25);
-  const hf::SymmetricMatrix a = hf_test::cotangent_matrix(memory, mesh);
+  const hf_inner::SymmetricMatrix a = hf_test::cotangent_matrix(memory, mesh);
   std::vector<float> points(mesh.points.size());
   std::mt19937 random(1);
   for (float& x : points) x = static_cast<float>(random());
-  hf::FactorOptions options;
-  const auto guarded = hf::Factor::make(a, {points.data(), points.size()}, options, memory, one);
-  EXPECT_LE(guarded->statistics().entries, 1.5 * fill(a, hf::Ordering::minimum_degree).entries);
+  hf_inner::FactorOptions options;
+  const auto guarded = hf_inner::Factor::make(a, {points.data(), points.size()}, options, memory, one);
+  EXPECT_LE(guarded->statistics().entries, 1.5 * fill(a, hf_inner::Ordering::minimum_degree).entries);
 }
 
 #if defined(HF_WITH_GPL)
 TEST_F(OrderingTest, metis_leaves_the_hosts_random_numbers_alone) {
-  const hf::SymmetricMatrix a = hf_test::grid_laplacian(memory, 60, 60);
+  const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 60, 60);
   std::srand(42);
   std::vector<int> expected;
   for (int k = 0; k < 20; ++k) expected.push_back(std::rand());
   std::srand(42);
   for (int k = 0; k < 20; ++k) {
     EXPECT_EQ(std::rand(), expected[static_cast<std::size_t>(k)]);
-    if (k % 5 == 2) order(a, hf::Ordering::metis);
+    if (k % 5 == 2) order(a, hf_inner::Ordering::metis);
   }
 }
 #endif
@@ -171,7 +171,7 @@ TEST_F(OrderingTest, metis_leaves_the_hosts_random_numbers_alone) {
 TEST_F(OrderingTest, the_minimum_separator_is_minimum) {
   // random small graphs: left and right ends fixed, the separator compared with exhaustive search
   std::mt19937 random(5);
-  hf::SeparatorSearch search(memory);
+  hf_inner::SeparatorSearch search(memory);
   for (int round = 0; round < 300; ++round) {
     const std::int32_t n = 6 + static_cast<std::int32_t>(random() % 9);
     std::vector<std::vector<std::int32_t>> ring(static_cast<std::size_t>(n));
@@ -186,9 +186,9 @@ TEST_F(OrderingTest, the_minimum_separator_is_minimum) {
     for (auto& r : ring)
       neighbour.insert(neighbour.end(), r.begin(), r.end()),
           start.push_back(static_cast<std::int32_t>(neighbour.size()));
-    std::vector<std::uint8_t> side(static_cast<std::size_t>(n), hf::side_between);
-    side.front() = hf::side_left, side.back() = hf::side_right;
-    const hf::Cut cut = search.refine({n, start.data(), neighbour.data(), nullptr, nullptr}, side.data());
+    std::vector<std::uint8_t> side(static_cast<std::size_t>(n), hf_inner::side_between);
+    side.front() = hf_inner::side_left, side.back() = hf_inner::side_right;
+    const hf_inner::Cut cut = search.refine({n, start.data(), neighbour.data(), nullptr, nullptr}, side.data());
     std::int32_t best = n;
     for (std::uint32_t set = 0; set < 1u << (n - 2); ++set) {
       if (__builtin_popcount(set) >= best) continue;
@@ -208,10 +208,10 @@ TEST_F(OrderingTest, the_minimum_separator_is_minimum) {
     ASSERT_EQ(cut.separator, best) << "round " << round;
     std::int32_t between = 0;
     for (std::int32_t v = 0; v < n; ++v) {
-      between += side[static_cast<std::size_t>(v)] == hf::side_between;
+      between += side[static_cast<std::size_t>(v)] == hf_inner::side_between;
       for (const std::int32_t u : ring[static_cast<std::size_t>(v)]) {
-        ASSERT_FALSE(side[static_cast<std::size_t>(v)] == hf::side_left &&
-                     side[static_cast<std::size_t>(u)] == hf::side_right)
+        ASSERT_FALSE(side[static_cast<std::size_t>(v)] == hf_inner::side_left &&
+                     side[static_cast<std::size_t>(u)] == hf_inner::side_right)
             << "round " << round;
       }
     }

@@ -12,23 +12,23 @@
 
 namespace {
 
-using hf::CriticalKind;
-using hf::CriticalPoints;
+using hf_inner::CriticalKind;
+using hf_inner::CriticalPoints;
 using hf_test::PlainMesh;
 
-std::shared_ptr<const hf::Core> bare(const PlainMesh& mesh) {
-  hf::CoreOptions options;
+std::shared_ptr<const hf_inner::Core> bare(const PlainMesh& mesh) {
+  hf_inner::CoreOptions options;
   options.need_factor = false;
   return hf_test::make_core(mesh, 1, options);
 }
 
-CriticalPoints find(const hf::Core& core, const std::vector<double>& field) {
-  static hf::Memory memory;  // outlives the core
-  return hf::find_critical_points(core.mesh, core.topology, field, memory);
+CriticalPoints find(const hf_inner::Core& core, const std::vector<double>& field) {
+  static hf_inner::Memory memory;  // outlives the core
+  return hf_inner::find_critical_points(core.mesh, core.topology, field, memory);
 }
 
 // index by the sign changes around the ring of an inner manifold vertex: 1 - changes / 2
-int index_by_walking(const hf::Core& core, const std::vector<double>& u, int v) {
+int index_by_walking(const hf_inner::Core& core, const std::vector<double>& u, int v) {
   const auto below = [&](int w) {
     const std::size_t a = static_cast<std::size_t>(w), b = static_cast<std::size_t>(v);
     return u[a] != u[b] ? u[a] < u[b] : w < v;
@@ -102,7 +102,7 @@ TEST(CriticalPoints, of_a_height_are_those_one_expects) {
     return a * a * a - 3 * a * b * b + 1e-9 * (a + 2 * b);
   }));
   const auto centre = std::find_if(monkey.points.begin(), monkey.points.end(),
-                                   [](const hf::CriticalPoint& p) { return p.vertex == 6 * 11 + 5; });
+                                   [](const hf_inner::CriticalPoint& p) { return p.vertex == 6 * 11 + 5; });
   ASSERT_TRUE(centre != monkey.points.end());
   EXPECT_EQ(centre->kind, CriticalKind::saddle);
   EXPECT_EQ(centre->index, -2);
@@ -136,8 +136,8 @@ TEST(CriticalPoints, sum_up_on_every_component_with_borders_ties_missing_values_
 
 // ---- fields
 
-void add(hf::ScalarField& field, const std::vector<std::uint32_t>& vertices, const std::vector<double>& values) {
-  hf::FieldEdit edit;
+void add(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& vertices, const std::vector<double>& values) {
+  hf_inner::FieldEdit edit;
   edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data();
   edit.add_values = values.data();
   field.edit(edit, nullptr);
@@ -154,13 +154,13 @@ std::vector<std::uint32_t> different_vertices(std::uint32_t below, std::size_t c
 
 TEST(MaximumPrinciple, holds_for_1000_random_site_sets_with_weights_above_zero) {
   PlainMesh mesh = hf_test::torus(24, 14, 0.35);
-  hf::CoreOptions options;
-  options.operator_kind = hf::OperatorKind::clamped;
+  hf_inner::CoreOptions options;
+  options.operator_kind = hf_inner::OperatorKind::clamped;
   const auto core = hf_test::make_core(mesh, 1, options);
   std::mt19937_64 random(5);
   std::vector<double> u(mesh.vertex_count());
   for (int set = 0; set < 1000; ++set) {
-    hf::ScalarField field(core, hf::EngineKind::green, 1e8, 1, 1000);
+    hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 1000);
     const auto vertices = different_vertices(mesh.vertex_count(), 2 + random() % 9, random);
     std::vector<double> values;
     for (std::size_t i = 0; i < vertices.size(); ++i) values.push_back(static_cast<double>(random() % 1000) / 1000);
@@ -186,7 +186,7 @@ TEST(MaximumPrinciple, holds_along_the_edges_of_the_intrinsic_operator) {
   std::vector<double> u(mesh.vertex_count());
   int seeming = 0;
   for (int set = 0; set < 200; ++set) {
-    hf::ScalarField field(core, hf::EngineKind::green, 1e8, 1, 1000);
+    hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 1000);
     const auto vertices = different_vertices(mesh.vertex_count(), 10, random);
     std::vector<double> values;
     for (std::size_t i = 0; i < vertices.size(); ++i) values.push_back(static_cast<double>(random() % 1000) / 1000);
@@ -195,7 +195,7 @@ TEST(MaximumPrinciple, holds_along_the_edges_of_the_intrinsic_operator) {
     const auto is_site = [&](int v) {
       return std::find(vertices.begin(), vertices.end(), static_cast<std::uint32_t>(v)) != vertices.end();
     };
-    const hf::SymmetricMatrix& k = core->laplacian;
+    const hf_inner::SymmetricMatrix& k = core->laplacian;
     for (std::int32_t v = 0; v < core->size(); ++v) {
       bool lower = false, higher = false;
       for (std::int32_t i = k.column_start[static_cast<std::size_t>(v)];
@@ -216,10 +216,10 @@ TEST(MaximumPrinciple, holds_along_the_edges_of_the_intrinsic_operator) {
 
 // ---- the paper's open question (docs/critical_points.md)
 
-std::vector<double> solve(const std::shared_ptr<const hf::Core>& core, hf::EngineKind engine, double stiffness,
+std::vector<double> solve(const std::shared_ptr<const hf_inner::Core>& core, hf_inner::EngineKind engine, double stiffness,
                           const std::vector<std::uint32_t>& vertices, const std::vector<double>& values) {
-  hf::ScalarField field(core, engine, 1e8, 1, 100000);
-  hf::FieldEdit edit;
+  hf_inner::ScalarField field(core, engine, 1e8, 1, 100000);
+  hf_inner::FieldEdit edit;
   const std::vector<double> soft(vertices.size(), stiffness);
   edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data();
   edit.add_values = values.data();
@@ -232,13 +232,13 @@ std::vector<double> solve(const std::shared_ptr<const hf::Core>& core, hf::Engin
 
 bool same_points(const CriticalPoints& a, const CriticalPoints& b) {
   return std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(),
-                    [](const hf::CriticalPoint& p, const hf::CriticalPoint& q) {
+                    [](const hf_inner::CriticalPoint& p, const hf_inner::CriticalPoint& q) {
                       return p.vertex == q.vertex && p.kind == q.kind && p.index == q.index;
                     });
 }
 
 // No two of them neighbours: equal values next to each other are a tie, which anything decides.
-std::vector<std::uint32_t> scattered_vertices(const hf::Core& core, std::size_t count, std::mt19937_64& random) {
+std::vector<std::uint32_t> scattered_vertices(const hf_inner::Core& core, std::size_t count, std::mt19937_64& random) {
   std::vector<std::uint32_t> vertices;
   while (vertices.size() < count) {
     const std::uint32_t v = static_cast<std::uint32_t>(random() % static_cast<std::uint64_t>(core.size()));
@@ -261,8 +261,8 @@ TEST(CriticalPointsUnderPenalty, are_the_very_vertices_of_the_exact_field) {
   int sets = 0, changed_at_100 = 0, changed_at_1 = 0;
   for (int run = 0; run < 10; ++run) {
     const PlainMesh& mesh = meshes[run / 2];
-    hf::CoreOptions options;  // the paper's operator and the default
-    options.operator_kind = run % 2 ? hf::OperatorKind::cotangent : hf::OperatorKind::intrinsic_delaunay;
+    hf_inner::CoreOptions options;  // the paper's operator and the default
+    options.operator_kind = run % 2 ? hf_inner::OperatorKind::cotangent : hf_inner::OperatorKind::intrinsic_delaunay;
     const auto core = hf_test::make_core(mesh, 1, options);
     std::mt19937_64 random(7);
     for (const std::size_t count : {std::size_t{8}, std::size_t{64}}) {
@@ -274,15 +274,15 @@ TEST(CriticalPointsUnderPenalty, are_the_very_vertices_of_the_exact_field) {
                            : kind == 1 ? static_cast<double>(i % 2)
                                        : static_cast<double>(i % 4) / 3);
         }
-        const CriticalPoints exact = find(*core, solve(core, hf::EngineKind::green, 0, vertices, values));
+        const CriticalPoints exact = find(*core, solve(core, hf_inner::EngineKind::green, 0, vertices, values));
         for (const double alpha : {1e8, 1e6}) {
-          const CriticalPoints soft = find(*core, solve(core, hf::EngineKind::green, alpha, vertices, values));
+          const CriticalPoints soft = find(*core, solve(core, hf_inner::EngineKind::green, alpha, vertices, values));
           EXPECT_TRUE(same_points(exact, soft)) << "alpha " << alpha << ", " << count << " sites, kind " << kind;
         }
-        changed_at_100 += !same_points(exact, find(*core, solve(core, hf::EngineKind::green, 100, vertices, values)));
-        changed_at_1 += !same_points(exact, find(*core, solve(core, hf::EngineKind::green, 1, vertices, values)));
+        changed_at_100 += !same_points(exact, find(*core, solve(core, hf_inner::EngineKind::green, 100, vertices, values)));
+        changed_at_1 += !same_points(exact, find(*core, solve(core, hf_inner::EngineKind::green, 1, vertices, values)));
 #ifdef HF_WITH_GPL
-        EXPECT_TRUE(same_points(exact, find(*core, solve(core, hf::EngineKind::updown, 0, vertices, values))));
+        EXPECT_TRUE(same_points(exact, find(*core, solve(core, hf_inner::EngineKind::updown, 0, vertices, values))));
 #endif
       }
     }
@@ -323,10 +323,10 @@ TEST(CriticalPointsUnderPenalty, differ_where_the_exact_field_is_flat) {
     }
     return found;
   };
-  const auto exact = solve(core, hf::EngineKind::green, 0, vertices, values);
+  const auto exact = solve(core, hf_inner::EngineKind::green, 0, vertices, values);
   EXPECT_LT(inside_range(exact), 1e-12);
   for (const double alpha : {1e8, 1e4}) {
-    const auto soft = solve(core, hf::EngineKind::green, alpha, vertices, values);
+    const auto soft = solve(core, hf_inner::EngineKind::green, alpha, vertices, values);
     EXPECT_GT(inside_range(soft), 1e-3 / alpha);
     EXPECT_LT(inside_range(soft), 10 / alpha);
     EXPECT_FALSE(same_points(find(*core, exact), find(*core, soft)));

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "field/direction_field.h"
 #include "support/dirty_meshes.h"
 #include "support/meshes.h"
@@ -15,22 +16,21 @@ namespace {
 
 using hf_test::PlainMesh;
 using Complex = std::complex<double>;
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 constexpr double pi = 3.14159265358979323846;
 
-std::vector<hf::Vec3> solved(const hf::DirectionField& field) {
-  std::vector<hf::Vec3> out(at(field.solver().core().size()));
+std::vector<hf_inner::Vec3> solved(const hf_inner::DirectionField& field) {
+  std::vector<hf_inner::Vec3> out(at(field.solver().core().size()));
   field.solve(out.data());
   return out;
 }
 
-double largest_difference(const std::vector<hf::Vec3>& a, const std::vector<hf::Vec3>& b) {
+double largest_difference(const std::vector<hf_inner::Vec3>& a, const std::vector<hf_inner::Vec3>& b) {
   double worst = 0;
   for (std::size_t v = 0; v < a.size(); ++v) worst = std::max(worst, norm(a[v] - b[v]));
   return worst;
 }
 
-std::uint32_t add(hf::DirectionField& field, std::uint32_t vertex, hf::Vec3 vector) {
+std::uint32_t add(hf_inner::DirectionField& field, std::uint32_t vertex, hf_inner::Vec3 vector) {
   const double v[3] = {vector.x, vector.y, vector.z};
   std::uint32_t site = 99;
   field.add(1, &vertex, v, &site);
@@ -89,7 +89,7 @@ PlainMesh plate_with_holes(int holes) {
   return mesh;
 }
 
-int euler_characteristic(const hf::Core& core) {
+int euler_characteristic(const hf_inner::Core& core) {
   return core.size() - core.topology.edge_count() + core.mesh.triangle_count();
 }
 
@@ -99,7 +99,7 @@ TEST(Connection, curvature_of_a_closed_surface_sums_to_its_euler_characteristic)
   for (const auto& [mesh, euler] : cases) {
     const auto core = hf_test::make_core(mesh);
     ASSERT_EQ(euler_characteristic(*core), euler);
-    const hf::Connection connection = hf::Connection::make(core->mesh, core->topology, *core->memory);
+    const hf_inner::Connection connection = hf_inner::Connection::make(core->mesh, core->topology, *core->memory);
     EXPECT_EQ(connection.irregular_count, 0u);
     EXPECT_EQ(connection.closed[0], 1);
     double sum = 0;
@@ -126,7 +126,7 @@ TEST(Connection, frames_are_tangent_and_right_handed_on_any_surface) {
   for (const auto& [name, mesh] : hf_test::dirty_meshes()) {
     SCOPED_TRACE(name);
     const auto core = hf_test::make_core(mesh);
-    const hf::Connection c = hf::Connection::make(core->mesh, core->topology, *core->memory);
+    const hf_inner::Connection c = hf_inner::Connection::make(core->mesh, core->topology, *core->memory);
     for (std::size_t v = 0; v < c.x.size(); ++v) {
       EXPECT_NEAR(norm(c.normal[v]), 1, 1e-14);
       EXPECT_NEAR(norm(c.x[v]), 1, 1e-14);
@@ -140,19 +140,19 @@ TEST(Connection, frames_are_tangent_and_right_handed_on_any_surface) {
 TEST(Direction, one_constraint_on_a_flat_patch_or_a_tube_gives_a_parallel_field) {
   const PlainMesh patch = hf_test::sheared_patch(12, 9, 0.4);
   const auto core = hf_test::make_core(patch);
-  hf::DirectionField field(core, 1, 100);
+  hf_inner::DirectionField field(core, 1, 100);
   add(field, 20, {1, 2, 0});
-  for (const hf::Vec3 v : solved(field)) EXPECT_LE(norm(v - hf::Vec3{1, 2, 0}), 1e-10);
+  for (const hf_inner::Vec3 v : solved(field)) EXPECT_LE(norm(v - hf_inner::Vec3{1, 2, 0}), 1e-10);
 
   // on a tube the field turns with the surface and keeps its part along the axis; K is singular there
-  hf::DirectionField around(hf_test::make_core(tube(24, 10)), 1, 100);
-  const hf::Mesh& mesh = around.solver().core().mesh;
-  const hf::Vec3 p0 = mesh.to_given(mesh.positions[0]);
-  add(around, 0, 2 * ((1 / std::hypot(p0.x, p0.y)) * hf::Vec3{-p0.y, p0.x, 0}) + hf::Vec3{0, 0, 1});
-  const std::vector<hf::Vec3> u = solved(around);
+  hf_inner::DirectionField around(hf_test::make_core(tube(24, 10)), 1, 100);
+  const hf_inner::Mesh& mesh = around.solver().core().mesh;
+  const hf_inner::Vec3 p0 = mesh.to_given(mesh.positions[0]);
+  add(around, 0, 2 * ((1 / std::hypot(p0.x, p0.y)) * hf_inner::Vec3{-p0.y, p0.x, 0}) + hf_inner::Vec3{0, 0, 1});
+  const std::vector<hf_inner::Vec3> u = solved(around);
   for (std::size_t v = 0; v < u.size(); ++v) {
-    const hf::Vec3 p = mesh.to_given(mesh.positions[v]);
-    const hf::Vec3 along = (1 / std::hypot(p.x, p.y)) * hf::Vec3{-p.y, p.x, 0};
+    const hf_inner::Vec3 p = mesh.to_given(mesh.positions[v]);
+    const hf_inner::Vec3 along = (1 / std::hypot(p.x, p.y)) * hf_inner::Vec3{-p.y, p.x, 0};
     EXPECT_NEAR(norm(u[v]), std::sqrt(5.0), 1e-9);
     if (v >= 24 && v + 24 < u.size()) {  // away from the border, where normals lean
       EXPECT_NEAR(dot(u[v], along), 2, 0.05);
@@ -162,10 +162,10 @@ TEST(Direction, one_constraint_on_a_flat_patch_or_a_tube_gives_a_parallel_field)
 }
 
 // minimise z' K z under the constraints, densely
-std::vector<Complex> dense_field(const hf::DirectionSolver& solver, const std::vector<std::int32_t>& vertices,
+std::vector<Complex> dense_field(const hf_inner::DirectionSolver& solver, const std::vector<std::int32_t>& vertices,
                                  const std::vector<Complex>& values) {
-  const hf::SymmetricMatrix& k = solver.matrix();
-  const hf::Core& core = solver.core();
+  const hf_inner::SymmetricMatrix& k = solver.matrix();
+  const hf_inner::Core& core = solver.core();
   const int n = k.size(), m = 2 * static_cast<int>(vertices.size());
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + m, n + m);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(n + m);
@@ -196,9 +196,9 @@ std::vector<Complex> dense_field(const hf::DirectionSolver& solver, const std::v
 }
 
 struct Script {
-  Script(std::shared_ptr<const hf::Core> core, std::int32_t degree, std::uint32_t seed)
+  Script(std::shared_ptr<const hf_inner::Core> core, std::int32_t degree, std::uint32_t seed)
       : field(std::move(core), degree, 100000), random(seed) {}
-  hf::Vec3 random_vector() {
+  hf_inner::Vec3 random_vector() {
     std::normal_distribution<double> normal;
     return {normal(random), normal(random), normal(random)};
   }
@@ -220,7 +220,7 @@ struct Script {
   void step() {
     const std::vector<std::uint32_t> sites = present();
     const std::uint32_t one = sites.empty() ? 0 : sites[random() % sites.size()];
-    const hf::Vec3 v = random_vector();
+    const hf_inner::Vec3 v = random_vector();
     const double vector[3] = {v.x, v.y, v.z}, angle = v.x;
     switch (sites.size() < 2 ? 0 : random() % 6) {
       case 0:
@@ -247,7 +247,7 @@ struct Script {
         field.set_vectors(1, &one, vector);
     }
   }
-  hf::DirectionField field;
+  hf_inner::DirectionField field;
   std::mt19937 random;
 };
 
@@ -265,7 +265,7 @@ TEST(Direction, edits_give_the_dense_oracles_field) {
       if (c.vertex >= 0) vertices.push_back(c.vertex), values.push_back(c.vector);
     }
     const std::vector<Complex> exact = dense_field(script.field.solver(), vertices, values);
-    const std::vector<hf::Vec3> u = solved(script.field);
+    const std::vector<hf_inner::Vec3> u = solved(script.field);
     for (std::int32_t v = 0; v < core->size(); ++v)
       EXPECT_LE(norm(u[at(v)] - script.field.solver().connection().to_space(v, exact[at(v)])), 1e-11)
           << "round " << round;
@@ -277,7 +277,7 @@ TEST(Direction, many_edits_equal_a_fresh_solve) {
   for (const int degree : {1, 2, 4}) {
     Script script(core, degree, 5);
     for (int round = 0; round < 400; ++round) script.step();
-    hf::DirectionField fresh(core, degree, 1000);
+    hf_inner::DirectionField fresh(core, degree, 1000);
     for (const auto& c : script.field.constraints()) {
       if (c.vertex >= 0)
         add(fresh, static_cast<std::uint32_t>(c.vertex), fresh.solver().connection().to_space(c.vertex, c.vector));
@@ -289,7 +289,7 @@ TEST(Direction, many_edits_equal_a_fresh_solve) {
 
 TEST(Direction, thousands_of_constraints_go_into_the_factor_and_come_back) {
   const auto core = hf_test::make_core(hf_test::torus(60, 40, 0.2));
-  hf::DirectionField field(core, 1, 100000);
+  hf_inner::DirectionField field(core, 1, 100000);
   std::vector<std::uint32_t> vertices, sites;
   std::vector<double> vectors;
   std::mt19937 random(9);
@@ -308,8 +308,8 @@ TEST(Direction, thousands_of_constraints_go_into_the_factor_and_come_back) {
       if (c.vertex >= 0) inner.push_back(c.vertex), values.push_back(c.vector);
     }
     // residual of the free vertices: K z = 0 there
-    const std::vector<hf::Vec3> u = solved(field);
-    const hf::SymmetricMatrix& k = field.solver().matrix();
+    const std::vector<hf_inner::Vec3> u = solved(field);
+    const hf_inner::SymmetricMatrix& k = field.solver().matrix();
     std::vector<double> z(at(k.size())), kz(at(k.size()), 0.0);
     std::vector<int> fixed(at(k.size()), 0);
     for (std::int32_t v = 0; v < core->size(); ++v) {
@@ -346,7 +346,7 @@ TEST(Direction, indices_sum_to_the_euler_characteristic_and_survive_edits) {
       for (int round = 0; round < 12; ++round) {
         script.step();
         int sum = 0;
-        for (const hf::Singularity& s : script.field.singularities()) sum += s.index;
+        for (const hf_inner::Singularity& s : script.field.singularities()) sum += s.index;
         EXPECT_EQ(sum, degree * euler) << holes << " holes, degree " << degree << ", round " << round;
       }
     }
@@ -354,7 +354,7 @@ TEST(Direction, indices_sum_to_the_euler_characteristic_and_survive_edits) {
 }
 
 TEST(Direction, a_lone_constraint_on_a_sphere_leaves_few_singularities) {
-  hf::DirectionField field(hf_test::make_core(hf_test::sphere(16)), 1, 10);
+  hf_inner::DirectionField field(hf_test::make_core(hf_test::sphere(16)), 1, 10);
   add(field, 40, {1, 1, 1});
   EXPECT_LE(field.singularities().size(), 4u);
 }
@@ -365,9 +365,9 @@ TEST(Direction, turning_and_rewriting_constraints_touch_no_factor_and_no_path) {
   const auto before = script.field.solver().counters();
   const std::uint32_t site = 1;
   const double quarter = pi / 2, vector[3] = {0, 1, 5};
-  const hf::Vec3 old = solved(script.field)[77];
+  const hf_inner::Vec3 old = solved(script.field)[77];
   script.field.rotate(1, &site, &quarter);
-  const hf::Vec3 turned = solved(script.field)[77];
+  const hf_inner::Vec3 turned = solved(script.field)[77];
   EXPECT_NEAR(dot(old, turned), 0, 1e-12);
   EXPECT_NEAR(norm(old), norm(turned), 1e-12);
   EXPECT_GT(dot(cross(old, turned), script.field.solver().connection().normal[77]), 0);
@@ -377,15 +377,15 @@ TEST(Direction, turning_and_rewriting_constraints_touch_no_factor_and_no_path) {
 }
 
 TEST(Direction, moving_carries_the_vector_along_the_surface) {
-  hf::DirectionField field(hf_test::make_core(hf_test::sheared_patch(12, 9, 0.4)), 1, 10);
+  hf_inner::DirectionField field(hf_test::make_core(hf_test::sheared_patch(12, 9, 0.4)), 1, 10);
   const std::uint32_t site = add(field, 20, {1, 2, 0}), to = 100;
   field.move(1, &site, &to);
-  EXPECT_LE(norm(solved(field)[100] - hf::Vec3{1, 2, 0}), 1e-10);
+  EXPECT_LE(norm(solved(field)[100] - hf_inner::Vec3{1, 2, 0}), 1e-10);
   // there and back again
   Script script(hf_test::make_core(hf_test::torus(30, 20)), 1, 2);
   const std::uint32_t there = 321, home = 5, one = add(script.field, home, {1, 2, 3});
   add(script.field, 200, {0, 0, 1});
-  const std::vector<hf::Vec3> before = solved(script.field);
+  const std::vector<hf_inner::Vec3> before = solved(script.field);
   script.field.move(1, &one, &there);
   script.field.move(1, &one, &home);
   EXPECT_LE(largest_difference(before, solved(script.field)), 1e-11);
@@ -396,12 +396,12 @@ TEST(Direction, fields_are_finite_and_tangent_on_dirty_surfaces) {
     SCOPED_TRACE(name);
     for (const int degree : {1, 4}) {
       const auto core = hf_test::make_core(mesh);
-      hf::DirectionField field(core, degree, 100);
+      hf_inner::DirectionField field(core, degree, 100);
       for (std::int32_t v = 0; v < core->size(); v += 11) {
         const auto& c = field.solver().connection();
         add(field, static_cast<std::uint32_t>(core->mesh.given_of_inner[at(v)]), c.x[at(v)] + 0.3 * c.y[at(v)]);
       }
-      const std::vector<hf::Vec3> u = solved(field);
+      const std::vector<hf_inner::Vec3> u = solved(field);
       for (std::size_t v = 0; v < u.size(); ++v) {
         EXPECT_TRUE(std::isfinite(norm(u[v])));
         EXPECT_LE(norm(u[v]), 1.1 * std::sqrt(1.09));
@@ -414,20 +414,20 @@ TEST(Direction, fields_are_finite_and_tangent_on_dirty_surfaces) {
 
 TEST(Direction, does_not_depend_on_the_numbering_or_the_place_of_the_surface) {
   const PlainMesh mesh = hf_test::torus(20, 14, 0.25);
-  hf::DirectionField first(hf_test::make_core(mesh), 1, 10);
+  hf_inner::DirectionField first(hf_test::make_core(mesh), 1, 10);
   const auto& frame = first.solver().connection();
   const std::uint32_t sites[] = {3, 100, 222};
   for (const std::uint32_t v : sites) add(first, v, frame.x[v] + frame.y[v]);
-  const std::vector<hf::Vec3> expected = solved(first);
+  const std::vector<hf_inner::Vec3> expected = solved(first);
   std::vector<std::uint32_t> place;
-  hf::DirectionField second(hf_test::make_core(hf_test::shuffled_and_rotated(mesh, 3, place)), 1, 10);
+  hf_inner::DirectionField second(hf_test::make_core(hf_test::shuffled_and_rotated(mesh, 3, place)), 1, 10);
   const double a = 0.7 * 3, b = 1.3 * 3;  // as shuffled_and_rotated turns
-  const auto turn = [&](hf::Vec3 p) {
+  const auto turn = [&](hf_inner::Vec3 p) {
     const double x = std::cos(a) * p.x - std::sin(a) * p.y, y = std::sin(a) * p.x + std::cos(a) * p.y;
-    return hf::Vec3{x, std::cos(b) * y - std::sin(b) * p.z, std::sin(b) * y + std::cos(b) * p.z};
+    return hf_inner::Vec3{x, std::cos(b) * y - std::sin(b) * p.z, std::sin(b) * y + std::cos(b) * p.z};
   };
   for (const std::uint32_t v : sites) add(second, place[v], turn(frame.x[v] + frame.y[v]));
-  const std::vector<hf::Vec3> found = solved(second);
+  const std::vector<hf_inner::Vec3> found = solved(second);
   for (std::size_t v = 0; v < expected.size(); ++v) {
     const std::int32_t inner = second.solver().core().mesh.inner_of_given[place[v]];
     EXPECT_LE(norm(turn(expected[v]) - found[at(inner)]), 1e-10);
@@ -435,14 +435,14 @@ TEST(Direction, does_not_depend_on_the_numbering_or_the_place_of_the_surface) {
 }
 
 TEST(Direction, refuses_bad_edits_and_stays_as_it_was) {
-  hf::DirectionField field(hf_test::make_core(hf_test::torus(12, 9)), 1, 4);
+  hf_inner::DirectionField field(hf_test::make_core(hf_test::torus(12, 9)), 1, 4);
   add(field, 5, {1, 2, 3});
   add(field, 50, {1, 0, 3});
-  const std::vector<hf::Vec3> before = solved(field);
+  const std::vector<hf_inner::Vec3> before = solved(field);
   const auto code = [&](auto&& edit, std::uint32_t* index) {
     try {
       edit();
-    } catch (const hf::Error& error) {
+    } catch (const hf_inner::Error& error) {
       *index = error.index();
       return error.code();
     }
@@ -461,7 +461,7 @@ TEST(Direction, refuses_bad_edits_and_stays_as_it_was) {
   const std::uint32_t both[] = {0, 1};
   EXPECT_EQ(code([&] { field.set_vectors(2, both, bad); }, &index), HF_ERROR_NON_FINITE);
   EXPECT_EQ(index, 1u);
-  const hf::Vec3 n = field.solver().connection().normal[5];
+  const hf_inner::Vec3 n = field.solver().connection().normal[5];
   const double upright[] = {n.x, n.y, n.z};
   EXPECT_EQ(code([&] { field.set_vectors(1, both, upright); }, &index), HF_ERROR_INVALID_ARGUMENT);
   const std::uint32_t five[] = {60, 61, 62, 63, 64};
@@ -473,9 +473,9 @@ TEST(Direction, refuses_bad_edits_and_stays_as_it_was) {
 TEST(Direction, its_factor_does_not_fill_where_the_surface_has_other_edges) {
   // a third of the edges of this torus are not those of the intrinsic operator, whose ordering separates other things
   const PlainMesh mesh = hf_test::torus(160, 80, 0.35);
-  hf::CoreOptions plain;
-  plain.operator_kind = hf::OperatorKind::cotangent;
-  const hf::DirectionSolver own(hf_test::make_core(mesh, 1, plain), 1), other(hf_test::make_core(mesh), 1);
+  hf_inner::CoreOptions plain;
+  plain.operator_kind = hf_inner::OperatorKind::cotangent;
+  const hf_inner::DirectionSolver own(hf_test::make_core(mesh, 1, plain), 1), other(hf_test::make_core(mesh), 1);
   EXPECT_LE(other.statistics().entries, 1.2 * own.statistics().entries);
   EXPECT_LE(other.statistics().flops, 1.4 * own.statistics().flops);
 }

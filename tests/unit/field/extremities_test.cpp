@@ -15,7 +15,7 @@
 
 namespace {
 
-using hf::Vec3;
+using hf_inner::Vec3;
 using hf_test::PlainMesh;
 
 struct Tip {
@@ -65,8 +65,8 @@ struct Found {
 // kind 0: Poisson, 1: geodesic. Lengths as shares of the box diagonal.
 std::vector<Found> search(const PlainMesh& mesh, int kind, double least = 0.012, std::uint32_t threads = 1) {
   const auto core = hf_test::make_core(mesh, threads);
-  const hf::Extremities found = kind == 0 ? hf::poisson_extremities(*core, least, nullptr)
-                                          : hf::geodesic_extremities(hf::Geodesics(core, 1), 40, least, nullptr);
+  const hf_inner::Extremities found = kind == 0 ? hf_inner::poisson_extremities(*core, least, nullptr)
+                                          : hf_inner::geodesic_extremities(hf_inner::Geodesics(core, 1), 40, least, nullptr);
   std::vector<Found> list;
   for (const auto& point : found.points)
     list.push_back({core->mesh.to_given(core->mesh.positions[static_cast<std::size_t>(point.vertex)]), point.length});
@@ -176,15 +176,15 @@ TEST(Extremities, are_found_in_every_component_and_are_the_same_bits_for_any_thr
 
 TEST(Extremities, can_be_cancelled) {
   const auto core = hf_test::make_core(hf_test::torus(20, 10));
-  hf::Progress progress;
+  hf_inner::Progress progress;
   progress.cancel();
   try {
-    hf::poisson_extremities(*core, 0.05, &progress);
+    hf_inner::poisson_extremities(*core, 0.05, &progress);
     FAIL();
-  } catch (const hf::Error& error) {
+  } catch (const hf_inner::Error& error) {
     EXPECT_EQ(error.code(), HF_ERROR_CANCELLED);
   }
-  EXPECT_THROW(hf::geodesic_extremities(hf::Geodesics(core, 1), 8, 0.05, &progress), hf::Error);
+  EXPECT_THROW(hf_inner::geodesic_extremities(hf_inner::Geodesics(core, 1), 8, 0.05, &progress), hf_inner::Error);
 }
 
 // Persistence by the definition: the lowest point of the best way from a peak to something higher, by flooding.
@@ -214,7 +214,7 @@ TEST(Peaks, have_the_persistence_that_flooding_from_the_top_finds) {
       std::sort(around.begin(), around.end(), higher);
       around.erase(std::unique(around.begin(), around.end()), around.end());
       if (around.empty()) {
-        expected[v] = hf::Mesh::none;
+        expected[v] = hf_inner::Mesh::none;
         name[static_cast<std::size_t>(v)] = v;
         continue;
       }
@@ -224,9 +224,9 @@ TEST(Peaks, have_the_persistence_that_flooding_from_the_top_finds) {
       }
       name[static_cast<std::size_t>(v)] = around[0];
     }
-    const auto peaks = hf::find_peaks(core->topology, u, *core->memory);
+    const auto peaks = hf_inner::find_peaks(core->topology, u, *core->memory);
     ASSERT_EQ(peaks.size(), expected.size());
-    for (const hf::Peak& peak : peaks) EXPECT_EQ(peak.saddle, expected.at(peak.vertex)) << "peak " << peak.vertex;
+    for (const hf_inner::Peak& peak : peaks) EXPECT_EQ(peak.saddle, expected.at(peak.vertex)) << "peak " << peak.vertex;
   }
 }
 

@@ -15,20 +15,20 @@ using hf_test::PlainMesh;
 
 PlainMesh from_shape(samples::ShapeMesh shape) { return {std::move(shape.positions), std::move(shape.triangles)}; }
 
-hf::ScalarField make_field(const PlainMesh& mesh, hf::EngineKind engine = hf::EngineKind::green, int channels = 1) {
-  return hf::ScalarField(hf_test::make_core(mesh), engine, 1e8, channels, 100000);
+hf_inner::ScalarField make_field(const PlainMesh& mesh, hf_inner::EngineKind engine = hf_inner::EngineKind::green, int channels = 1) {
+  return hf_inner::ScalarField(hf_test::make_core(mesh), engine, 1e8, channels, 100000);
 }
 
-void add(hf::ScalarField& field, const std::vector<std::uint32_t>& vertices, const std::vector<double>& values,
+void add(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& vertices, const std::vector<double>& values,
          const std::vector<double>& stiffness = {}) {
-  hf::FieldEdit edit;
+  hf_inner::FieldEdit edit;
   edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data(),
   edit.add_values = values.data();
   if (!stiffness.empty()) edit.add_stiffness = stiffness.data();
   field.edit(edit, nullptr);
 }
 
-std::vector<double> solve(const hf::ScalarField& field) {
+std::vector<double> solve(const hf_inner::ScalarField& field) {
   std::vector<double> u(static_cast<std::size_t>(field.core().size() * field.sites().channels()));
   field.solve(u.data());
   return u;
@@ -37,7 +37,7 @@ std::vector<double> solve(const hf::ScalarField& field) {
 TEST(HarmonicField, is_linear_on_a_flat_patch_with_linear_borders) {
   const std::uint32_t nx = 30, ny = 20;
   const PlainMesh mesh = hf_test::grid(nx, ny, 1, 0.35, 3);
-  hf::ScalarField field = make_field(mesh);
+  hf_inner::ScalarField field = make_field(mesh);
   std::vector<std::uint32_t> border;
   std::vector<double> values;
   const auto linear = [&](std::uint32_t v) {
@@ -56,7 +56,7 @@ TEST(HarmonicField, has_natural_borders) {
   // sites on the short sides only: linear along the strip, zero flux through the long sides
   const std::uint32_t nx = 40, ny = 9;
   const PlainMesh mesh = hf_test::grid(nx, ny, 1, 0.3, 8);
-  hf::ScalarField field = make_field(mesh);
+  hf_inner::ScalarField field = make_field(mesh);
   std::vector<std::uint32_t> ends;
   std::vector<double> values;
   for (std::uint32_t j = 0; j <= ny; ++j)
@@ -87,7 +87,7 @@ double annulus_error(std::uint32_t rings) {
         mesh.triangles.insert(mesh.triangles.end(), {a, c, d, a, d, b});
     }
   }
-  hf::ScalarField field = make_field(mesh);
+  hf_inner::ScalarField field = make_field(mesh);
   std::vector<std::uint32_t> rim;
   std::vector<double> values;
   for (std::uint32_t j = 0; j < around; ++j)
@@ -120,8 +120,8 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes_up_to_300
                {"cylinder", from_shape(samples::cylinder(16, 100))},
                {"torus 304K", from_shape(samples::jittered_torus(551, 552))}};
   for (const auto& entry : cases) {
-    hf::ScalarField exact = make_field(entry.mesh, hf::EngineKind::refactor);
-    hf::ScalarField soft(exact.shared_core(), hf::EngineKind::green, 1e8, 1, 1000);
+    hf_inner::ScalarField exact = make_field(entry.mesh, hf_inner::EngineKind::refactor);
+    hf_inner::ScalarField soft(exact.shared_core(), hf_inner::EngineKind::green, 1e8, 1, 1000);
     std::set<std::uint32_t> seen;
     std::vector<std::uint32_t> vertices;
     std::vector<double> values;
@@ -132,7 +132,7 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes_up_to_300
     add(exact, vertices, values);
     add(soft, vertices, values, std::vector<double>(60, 1e8));
     const auto u = solve(exact), penalty = solve(soft);
-    hf::ScalarField hard(exact.shared_core(), hf::EngineKind::green, 1e8, 1, 1000);
+    hf_inner::ScalarField hard(exact.shared_core(), hf_inner::EngineKind::green, 1e8, 1, 1000);
     add(hard, vertices, values);
     const auto green = solve(hard);
     double penalty_error = 0, green_error = 0;
@@ -145,7 +145,7 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes_up_to_300
     EXPECT_LE(penalty_error, 1e-6) << entry.name;
     EXPECT_LE(green_error, 1e-11) << entry.name;
 #ifdef HF_WITH_GPL
-    hf::ScalarField updown(exact.shared_core(), hf::EngineKind::updown, 1e8, 1, 1000);
+    hf_inner::ScalarField updown(exact.shared_core(), hf_inner::EngineKind::updown, 1e8, 1, 1000);
     add(updown, vertices, values);
     const auto paper = solve(updown);
     double paper_error = 0, same = 0;
@@ -161,13 +161,13 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes_up_to_300
 
 TEST(VectorField, is_tangent_and_its_constraints_turn_without_touching_the_factor) {
   const PlainMesh mesh = hf_test::torus(60, 40);
-  hf::ScalarField field = make_field(mesh, hf::EngineKind::green, 3);
-  const auto normals = hf::vertex_normals(field.core().mesh, *field.core().memory);
+  hf_inner::ScalarField field = make_field(mesh, hf_inner::EngineKind::green, 3);
+  const auto normals = hf_inner::vertex_normals(field.core().mesh, *field.core().memory);
   const std::vector<std::uint32_t> vertices = {3, 700, 1500};
   add(field, vertices, {1, 0, 0, 0, 1, 0, 0, 0, 1});
   const auto tangent = [&] {
     auto v = solve(field);
-    hf::project_on_tangent_planes(normals, v.data());
+    hf_inner::project_on_tangent_planes(normals, v.data());
     double worst = 0;
     for (std::size_t i = 0; i < normals.size(); ++i)
       worst = std::max(worst,
@@ -180,7 +180,7 @@ TEST(VectorField, is_tangent_and_its_constraints_turn_without_touching_the_facto
   for (int step = 1; step <= 8; ++step) {  // turn the first vector about z
     const double a = 0.1 * step, turned[] = {std::cos(a), std::sin(a), 0};
     const std::uint32_t site[] = {0};
-    hf::FieldEdit edit;
+    hf_inner::FieldEdit edit;
     edit.set_count = 1, edit.set_sites = site, edit.set_values = turned;
     field.edit(edit, nullptr);
     EXPECT_NE(tangent(), before);
@@ -190,16 +190,16 @@ TEST(VectorField, is_tangent_and_its_constraints_turn_without_touching_the_facto
   // insert, move and delete come back to where they began
   const std::uint32_t first[] = {0};
   const double x[] = {1, 0, 0};
-  hf::FieldEdit back;
+  hf_inner::FieldEdit back;
   back.set_count = 1, back.set_sites = first, back.set_values = x;
   field.edit(back, nullptr);
   add(field, {99}, {0.5, 0.5, 0});
   const std::uint32_t there[] = {101}, fourth[] = {3};
-  hf::FieldEdit move;
+  hf_inner::FieldEdit move;
   move.move_count = 1, move.move_sites = fourth, move.move_to.count = 1, move.move_to.vertices = there;
   field.edit(move, nullptr);
   EXPECT_EQ(solve(field)[3 * 101], 0.5);
-  hf::FieldEdit remove;
+  hf_inner::FieldEdit remove;
   remove.remove_count = 1, remove.remove_sites = fourth;
   field.edit(remove, nullptr);
   const auto after = tangent();
@@ -209,11 +209,11 @@ TEST(VectorField, is_tangent_and_its_constraints_turn_without_touching_the_facto
 TEST(MaximumPrinciple, holds_with_clamped_weights_on_an_obtuse_mesh) {
   PlainMesh mesh = hf_test::grid(40, 8, 1, 0.3, 2);
   for (std::size_t i = 0; i < mesh.positions.size(); i += 3) mesh.positions[i] += 2 * mesh.positions[i + 1];
-  hf::CoreOptions options;
-  options.operator_kind = hf::OperatorKind::clamped;
+  hf_inner::CoreOptions options;
+  options.operator_kind = hf_inner::OperatorKind::clamped;
   const auto core = hf_test::make_core(mesh, 1, options);
   for (int trial = 0; trial < 100; ++trial) {
-    hf::ScalarField field(core, hf::EngineKind::green, 1e8, 1, 100);
+    hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 100);
     std::set<std::uint32_t> seen;
     std::vector<double> values;
     for (std::uint32_t i = 0; seen.size() < 5; ++i)

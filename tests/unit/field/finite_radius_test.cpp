@@ -6,6 +6,7 @@
 
 #include "assets/shapes.h"
 #include "base/error.h"
+#include "base/index.h"
 #include "field/scalar_field.h"
 #include "mesh/geodesic_disc.h"
 #include "support/meshes.h"
@@ -15,14 +16,13 @@ namespace {
 using hf_test::PlainMesh;
 
 PlainMesh from_shape(samples::ShapeMesh shape) { return {std::move(shape.positions), std::move(shape.triangles)}; }
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 struct Field {
-  explicit Field(const PlainMesh& mesh, hf::EngineKind engine = hf::EngineKind::green, hf::CoreOptions options = {})
+  explicit Field(const PlainMesh& mesh, hf_inner::EngineKind engine = hf_inner::EngineKind::green, hf_inner::CoreOptions options = {})
       : field(hf_test::make_core(mesh, 1, options), engine, 1e8, 1, 5000) {}
   std::vector<std::uint32_t> add(const std::vector<std::uint32_t>& vertices, const std::vector<double>& values,
                                  const std::vector<double>& radii, const std::vector<double>& stiffness = {}) {
-    hf::FieldEdit edit;
+    hf_inner::FieldEdit edit;
     edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data();
     edit.add.radii = radii.data(), edit.add_values = values.data();
     if (!stiffness.empty()) edit.add_stiffness = stiffness.data();
@@ -35,7 +35,7 @@ struct Field {
     field.solve(u.data());
     return u;
   }
-  hf::ScalarField field;
+  hf_inner::ScalarField field;
 };
 
 TEST(GeodesicDisc, is_exact_on_a_plane) {
@@ -44,11 +44,11 @@ TEST(GeodesicDisc, is_exact_on_a_plane) {
   const std::int32_t middle = 30 * 61 + 30;
   const std::int32_t point[3] = {middle, -1, -1};
   const double weight[3] = {1, 0, 0};
-  const auto disc = hf::geodesic_disc(core->mesh, core->topology, point, weight, 2.0 / core->mesh.scale, *core->memory);
+  const auto disc = hf_inner::geodesic_disc(core->mesh, core->topology, point, weight, 2.0 / core->mesh.scale, *core->memory);
   ASSERT_GT(disc.size(), 1000u);
   double last = 0;
-  for (const hf::DiscVertex& v : disc) {
-    const hf::Vec3 d = core->mesh.positions[at(v.vertex)] - core->mesh.positions[at(middle)];
+  for (const hf_inner::DiscVertex& v : disc) {
+    const hf_inner::Vec3 d = core->mesh.positions[at(v.vertex)] - core->mesh.positions[at(middle)];
     EXPECT_NEAR(v.distance, norm(d), 1e-12);
     EXPECT_GE(v.distance, last);
     last = v.distance;
@@ -60,15 +60,15 @@ TEST(GeodesicDisc, follows_great_circles_from_a_point_in_a_face) {
   const auto core = hf_test::make_core(mesh);
   std::int32_t point[3];
   const double weight[3] = {0.2, 0.5, 0.3};
-  hf::Vec3 source;
+  hf_inner::Vec3 source;
   for (int k = 0; k < 3; ++k) {
     point[k] = core->mesh.triangle(777)[k];
     source = source + weight[k] * core->mesh.positions[at(point[k])];
   }
   const double radius = norm(core->mesh.positions[0]);
   source = (radius / norm(source)) * source;
-  const auto disc = hf::geodesic_disc(core->mesh, core->topology, point, weight, radius, *core->memory);
-  for (const hf::DiscVertex& v : disc) {
+  const auto disc = hf_inner::geodesic_disc(core->mesh, core->topology, point, weight, radius, *core->memory);
+  for (const hf_inner::DiscVertex& v : disc) {
     const double arc =
         radius * std::atan2(norm(cross(source, core->mesh.positions[at(v.vertex)])), dot(source, core->mesh.positions[at(v.vertex)]));
     EXPECT_NEAR(v.distance, arc, 0.01 * radius);
@@ -81,7 +81,7 @@ double middle_share(std::uint32_t side, double radius) {
   Field field(from_shape(shape));
   field.add({0, side * side / 2 + side / 2}, {0, 1}, {radius, radius});
   const std::vector<double> u = field.solve();
-  const hf::Mesh& mesh = field.field.core().mesh;
+  const hf_inner::Mesh& mesh = field.field.core().mesh;
   double inside = 0, all = 0;
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::int32_t* v = mesh.triangle(t);
@@ -110,7 +110,7 @@ TEST(FiniteRadius, field_shares_stay_from_4096_to_262144_vertices_where_points_d
 }
 
 TEST(FiniteRadius, holds_its_value_on_the_whole_disc_and_its_flux_balances) {
-  for (const hf::EngineKind engine : {hf::EngineKind::green, hf::EngineKind::refactor}) {
+  for (const hf_inner::EngineKind engine : {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor}) {
     Field field(hf_test::torus(60, 40), engine);
     const auto numbers = field.add({0, 1220}, {-2, 3}, {0.5, 0.3});
     const std::vector<double> u = field.solve();
@@ -122,7 +122,7 @@ TEST(FiniteRadius, holds_its_value_on_the_whole_disc_and_its_flux_balances) {
       on_disc += std::fabs(x + 2) < 1e-12;
     }
     EXPECT_GT(on_disc, 20);
-    hf::Vector<double> flux(field.field.core().memory.get());
+    hf_inner::Vector<double> flux(field.field.core().memory.get());
     field.field.flux(flux);
     double sum = 0, one = 0;
     for (std::size_t s = 0; s < flux.size(); ++s) {
@@ -141,7 +141,7 @@ TEST(FiniteRadius, moves_and_changes_value_as_one_site_and_leaves_nothing_behind
   const std::vector<double> before = field.solve();
   const std::uint32_t away = 700, back = 1220;
   const double two = 2, one = 1;
-  hf::FieldEdit edit;
+  hf_inner::FieldEdit edit;
   edit.move_count = 1, edit.move_sites = &numbers[1], edit.move_to.count = 1, edit.move_to.vertices = &away;
   edit.set_count = 1, edit.set_sites = &numbers[1], edit.set_values = &two;
   field.field.edit(edit, nullptr);
@@ -152,7 +152,7 @@ TEST(FiniteRadius, moves_and_changes_value_as_one_site_and_leaves_nothing_behind
   field.field.edit(edit, nullptr);
   const std::vector<double> after = field.solve();
   for (std::size_t v = 0; v < before.size(); ++v) EXPECT_NEAR(after[v], before[v], 1e-12);
-  hf::FieldEdit out;
+  hf_inner::FieldEdit out;
   out.remove_count = 2, out.remove_sites = numbers.data();
   field.field.edit(out, nullptr);
   EXPECT_EQ(field.field.sites().count(), 0u);
@@ -163,7 +163,7 @@ TEST(FiniteRadius, moves_and_changes_value_as_one_site_and_leaves_nothing_behind
 hf_result code_of(const std::function<void()>& work, std::uint32_t* index = nullptr) {
   try {
     work();
-  } catch (const hf::Error& error) {
+  } catch (const hf_inner::Error& error) {
     if (index) *index = error.index();
     return error.code();
   }
@@ -187,16 +187,16 @@ TEST(FiniteRadius, refuses_overlaps_hidden_numbers_and_too_many_vertices) {
   }
   ASSERT_NE(hidden, numbers[0]);
   EXPECT_EQ(code_of([&] {
-              hf::FieldEdit edit;
+              hf_inner::FieldEdit edit;
               edit.remove_count = 1, edit.remove_sites = &hidden;
               field.field.edit(edit, nullptr);
             }),
             HF_ERROR_NO_SUCH_SITE);
   EXPECT_EQ(field.solve(), before);
-  hf::ScalarField small(field.field.shared_core(), hf::EngineKind::green, 1e8, 1, 10);
+  hf_inner::ScalarField small(field.field.shared_core(), hf_inner::EngineKind::green, 1e8, 1, 10);
   const std::uint32_t v = 0;
   const double radius = 0.5;
-  hf::FieldEdit edit;
+  hf_inner::FieldEdit edit;
   edit.add.count = 1, edit.add.vertices = &v, edit.add.radii = &radius;
   EXPECT_EQ(code_of([&] { small.edit(edit, nullptr); }), HF_ERROR_TOO_LARGE);
 }
@@ -219,9 +219,9 @@ TEST(FiniteRadius, soft_discs_share_their_stiffness) {
 }
 
 TEST(FiniteRadius, holds_whole_discs_of_a_biharmonic_field) {
-  hf::CoreOptions options;
-  options.field_kind = hf::FieldKind::biharmonic;
-  Field field(hf_test::torus(60, 40), hf::EngineKind::green, options);
+  hf_inner::CoreOptions options;
+  options.field_kind = hf_inner::FieldKind::biharmonic;
+  Field field(hf_test::torus(60, 40), hf_inner::EngineKind::green, options);
   field.add({0, 1220}, {0, 1}, {0.5, 0.5});
   int held = 0;
   for (const double x : field.solve()) held += x == 1.0;

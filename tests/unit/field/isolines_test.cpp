@@ -13,11 +13,11 @@
 
 namespace {
 
-using hf::Isolines;
+using hf_inner::Isolines;
 using hf_test::PlainMesh;
 
-hf::Memory& memory() {
-  static hf::Memory instance;
+hf_inner::Memory& memory() {
+  static hf_inner::Memory instance;
   return instance;
 }
 
@@ -36,8 +36,8 @@ struct Surface {
       if (start[i + 1] - start[i] == 1) border.insert({core->topology.first(e), core->topology.second(e)});
     }
   }
-  static hf::CoreOptions without_factor() {
-    hf::CoreOptions options;
+  static hf_inner::CoreOptions without_factor() {
+    hf_inner::CoreOptions options;
     options.need_factor = false;
     return options;
   }
@@ -60,7 +60,7 @@ struct Surface {
     }
     return false;
   }
-  hf::Vec3 place(const Isolines::Point& p) const {
+  hf_inner::Vec3 place(const Isolines::Point& p) const {
     return (1 - p.t) * core->mesh.positions[static_cast<std::size_t>(p.a)] +
            p.t * core->mesh.positions[static_cast<std::size_t>(p.b)];
   }
@@ -69,7 +69,7 @@ struct Surface {
     double sum = 0;
     for (int t = 0; t < core->mesh.triangle_count(); ++t) {
       const int* v = core->mesh.triangle(t);
-      std::vector<hf::Vec3> ends;
+      std::vector<hf_inner::Vec3> ends;
       for (int k = 0; k < 3; ++k) {
         const std::size_t a = static_cast<std::size_t>(v[k]), b = static_cast<std::size_t>(v[(k + 1) % 3]);
         if ((u[a] >= c) == (u[b] >= c)) continue;
@@ -82,13 +82,13 @@ struct Surface {
   }
 
   PlainMesh plain;
-  std::shared_ptr<const hf::Core> core;
+  std::shared_ptr<const hf_inner::Core> core;
   std::set<std::set<int>> triangles;
   std::set<std::pair<int, int>> edges, border;
 };
 
 Isolines trace(const Surface& s, const std::vector<double>& field, const std::vector<double>& levels) {
-  return hf::trace_isolines(s.core->mesh, s.core->topology, field, levels, memory());
+  return hf_inner::trace_isolines(s.core->mesh, s.core->topology, field, levels, memory());
 }
 
 // Every line is closed or ends at borders, steps inside triangles, and nothing is missing. Returns the lines seen.
@@ -173,8 +173,8 @@ TEST(Isolines, of_a_height_on_a_sphere_are_one_circle_each_with_higher_values_on
     EXPECT_TRUE(lines.closed[l]);
     double turn = 0;
     for (std::uint32_t i = lines.start[l]; i < lines.start[l + 1]; ++i) {
-      const hf::Vec3 p = s.core->mesh.to_given(s.place(lines.points[i]));
-      const hf::Vec3 q =
+      const hf_inner::Vec3 p = s.core->mesh.to_given(s.place(lines.points[i]));
+      const hf_inner::Vec3 q =
           s.core->mesh.to_given(s.place(lines.points[i + 1 < lines.start[l + 1] ? i + 1 : lines.start[l]]));
       EXPECT_NEAR(p.y, levels[l], 1e-12);
       EXPECT_NEAR(norm(p), 1, 0.01);
@@ -215,9 +215,9 @@ TEST(Isolines, come_in_the_order_of_the_list_and_repeats_give_repeats) {
 
 // ---- levels
 
-std::vector<double> space(const Surface& s, const std::vector<double>& u, hf::LevelSpacing spacing, std::size_t count) {
+std::vector<double> space(const Surface& s, const std::vector<double>& u, hf_inner::LevelSpacing spacing, std::size_t count) {
   std::vector<double> levels(count);
-  hf::space_levels(s.core->mesh, u, spacing, levels, memory());
+  hf_inner::space_levels(s.core->mesh, u, spacing, levels, memory());
   return levels;
 }
 
@@ -226,10 +226,10 @@ double area_below(const Surface& s, const std::vector<double>& u, double c) {
   double sum = 0;
   for (int t = 0; t < s.core->mesh.triangle_count(); ++t) {
     const int* v = s.core->mesh.triangle(t);
-    std::vector<hf::Vec3> kept;
+    std::vector<hf_inner::Vec3> kept;
     for (int k = 0; k < 3; ++k) {
       const std::size_t a = static_cast<std::size_t>(v[k]), b = static_cast<std::size_t>(v[(k + 1) % 3]);
-      const hf::Vec3 p = s.core->mesh.positions[a], q = s.core->mesh.positions[b];
+      const hf_inner::Vec3 p = s.core->mesh.positions[a], q = s.core->mesh.positions[b];
       if (u[a] < c) kept.push_back(p);
       if ((u[a] < c) != (u[b] < c)) kept.push_back(p + ((c - u[a]) / (u[b] - u[a])) * (q - p));
     }
@@ -243,7 +243,7 @@ TEST(Levels, of_equal_area_cut_the_surface_into_strips_of_the_same_area) {
   for (std::uint32_t seed = 0; seed < 3; ++seed) {
     const auto u = seed ? hf_test::random_field(s.plain, seed)
                         : hf_test::field_of(s.plain, [](double x, double y, double) { return std::exp(x) + y; });
-    const auto levels = space(s, u, hf::LevelSpacing::area, 9);
+    const auto levels = space(s, u, hf_inner::LevelSpacing::area, 9);
     const double whole = area_below(s, u, 1e300);
     for (std::size_t k = 0; k < 9; ++k)
       EXPECT_NEAR(area_below(s, u, levels[k]), whole * static_cast<double>(k + 1) / 10, 1e-12 * whole);
@@ -253,7 +253,7 @@ TEST(Levels, of_equal_area_cut_the_surface_into_strips_of_the_same_area) {
 TEST(Levels, of_equal_value_divide_the_range) {
   const Surface s(hf_test::grid(5, 5));
   const auto u = hf_test::field_of(s.plain, [](double x, double, double) { return 3 + 2 * x; });
-  const auto levels = space(s, u, hf::LevelSpacing::value, 4);
+  const auto levels = space(s, u, hf_inner::LevelSpacing::value, 4);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(levels[k], 3 + 2 * static_cast<double>(k + 1), 1e-13);
 }
 
@@ -262,7 +262,7 @@ TEST(Levels, of_equal_length_are_evenly_spaced_rings_whatever_the_values) {
   for (const double power : {1.0, 4.0, 0.25}) {
     const auto u =
         hf_test::field_of(tube.plain, [&](double, double, double z) { return std::pow(z / 5 + 1e-3, power); });
-    const auto levels = space(tube, u, hf::LevelSpacing::length, 9);
+    const auto levels = space(tube, u, hf_inner::LevelSpacing::length, 9);
     // the field is linear between the rings: compare with the height at which it takes the level
     for (std::size_t k = 0; k < 9; ++k) {
       std::uint32_t ring = 0;
@@ -274,7 +274,7 @@ TEST(Levels, of_equal_length_are_evenly_spaced_rings_whatever_the_values) {
   }
   const Surface ball(hf_test::from_shape(samples::sphere(40)));
   const auto height = hf_test::field_of(ball.plain, [](double, double y, double) { return y; });
-  const auto levels = space(ball, height, hf::LevelSpacing::length, 7);
+  const auto levels = space(ball, height, hf_inner::LevelSpacing::length, 7);
   const double pi = 4 * std::atan(1.0);
   for (std::size_t k = 0; k < 7; ++k) EXPECT_NEAR(std::acos(-levels[k]), pi * static_cast<double>(k + 1) / 8, 0.01);
 }
@@ -283,7 +283,7 @@ TEST(Levels, of_equal_length_pass_over_what_is_constant) {
   // other components at the ends of the range, one of them with rounding errors on it: no lines there, no levels either
   const Surface tube(hf_test::tube(24, 60, 5));
   auto u = hf_test::field_of(tube.plain, [](double, double, double z) { return z; });
-  const auto alone = space(tube, u, hf::LevelSpacing::length, 9);
+  const auto alone = space(tube, u, hf_inner::LevelSpacing::length, 9);
   PlainMesh more = tube.plain;
   for (const double value : {0.0, 5.0, 2.0}) {
     const PlainMesh ball = hf_test::from_shape(samples::sphere(30));
@@ -291,14 +291,14 @@ TEST(Levels, of_equal_length_pass_over_what_is_constant) {
     for (std::uint32_t v = 0; v < ball.vertex_count(); ++v)
       u.push_back(std::min(5.0, std::max(0.0, value + 1e-15 * (v % 7))));
   }
-  const auto levels = space(Surface(more), u, hf::LevelSpacing::length, 9);
+  const auto levels = space(Surface(more), u, hf_inner::LevelSpacing::length, 9);
   for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(levels[k], alone[k], 0.02);
 }
 
 TEST(Levels, of_a_constant_field_are_refused) {
   const Surface s(hf_test::grid(3, 3));
-  EXPECT_THROW(space(s, std::vector<double>(16, 2.0), hf::LevelSpacing::area, 3), hf::Error);
-  EXPECT_THROW(space(s, std::vector<double>(16, std::nan("")), hf::LevelSpacing::value, 3), hf::Error);
+  EXPECT_THROW(space(s, std::vector<double>(16, 2.0), hf_inner::LevelSpacing::area, 3), hf_inner::Error);
+  EXPECT_THROW(space(s, std::vector<double>(16, std::nan("")), hf_inner::LevelSpacing::value, 3), hf_inner::Error);
 }
 
 }  // namespace

@@ -6,36 +6,35 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "field/scalar_field.h"
 #include "support/meshes.h"
 
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-std::vector<std::uint32_t> add(hf::ScalarField& field, const std::vector<std::uint32_t>& vertices) {
+std::vector<std::uint32_t> add(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& vertices) {
   std::vector<double> values;
   for (const std::uint32_t v : vertices) values.push_back(std::sin(0.7 * v));
-  hf::FieldEdit edit;
+  hf_inner::FieldEdit edit;
   edit.add.count = static_cast<std::uint32_t>(vertices.size()), edit.add.vertices = vertices.data();
   edit.add_values = values.data();
   std::vector<std::uint32_t> numbers(vertices.size());
   field.edit(edit, numbers.data());
   return numbers;
 }
-void remove(hf::ScalarField& field, const std::vector<std::uint32_t>& numbers) {
-  hf::FieldEdit edit;
+void remove(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& numbers) {
+  hf_inner::FieldEdit edit;
   edit.remove_count = static_cast<std::uint32_t>(numbers.size()), edit.remove_sites = numbers.data();
   field.edit(edit, nullptr);
 }
-std::vector<double> solve(const hf::ScalarField& field) {
+std::vector<double> solve(const hf_inner::ScalarField& field) {
   std::vector<double> u(at(field.core().size()));
   field.solve(u.data());
   return u;
 }
 // The field of the same sites by elimination.
-std::vector<double> oracle(const hf::ScalarField& field) {
-  hf::ScalarField fresh(field.shared_core(), hf::EngineKind::refactor, 1e8, 1, 100000);
+std::vector<double> oracle(const hf_inner::ScalarField& field) {
+  hf_inner::ScalarField fresh(field.shared_core(), hf_inner::EngineKind::refactor, 1e8, 1, 100000);
   std::vector<std::uint32_t> vertices;
   for (const auto& slot : field.sites().slots()) {
     if (slot.used()) vertices.push_back(slot.given_vertex);
@@ -56,18 +55,18 @@ std::vector<std::uint32_t> every(std::uint32_t begin, std::uint32_t end, std::ui
 
 TEST(Rebase, waits_for_the_next_edit_which_brings_it_up_to_date) {
   const auto core = hf_test::make_core(hf_test::torus(80, 60));
-  hf::ScalarField field(core, hf::EngineKind::green, 1e8, 1, 100000);
+  hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 100000);
   const auto first = add(field, every(0, 4800, 50));
   field.prepare_rebase();
   EXPECT_EQ(field.engine().counters().rebases, 0u);
   const std::vector<double> before = solve(field);
   remove(field, {first[3], first[9]});
-  const hf::EngineCounters counters = field.engine().counters();
+  const hf_inner::EngineCounters counters = field.engine().counters();
   EXPECT_EQ(counters.rebases, 1u);
   EXPECT_EQ(counters.factorisations, 2u);
   EXPECT_EQ(counters.eliminated, 94u);
   EXPECT_EQ(counters.dense_rows, 2u);  // the freed ones
-  EXPECT_EQ(counters.last_route, hf::EditRoute::dense);
+  EXPECT_EQ(counters.last_route, hf_inner::EditRoute::dense);
   EXPECT_LE(worst(solve(field), oracle(field)), 1e-11);
   add(field, {150, 450});  // the very vertices again
   EXPECT_LE(worst(solve(field), before), 1e-11);
@@ -75,7 +74,7 @@ TEST(Rebase, waits_for_the_next_edit_which_brings_it_up_to_date) {
 
 TEST(Rebase, takes_in_what_changed_between) {
   const auto core = hf_test::make_core(hf_test::torus(80, 60));
-  hf::ScalarField field(core, hf::EngineKind::green, 1e8, 1, 100000);
+  hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 100000);
   const auto first = add(field, every(0, 4800, 50));
   std::atomic<bool> done{false};
   std::thread other([&] {
@@ -100,7 +99,7 @@ TEST(Rebase, takes_in_what_changed_between) {
 
 TEST(Rebase, survives_undo_between_its_making_and_its_use) {
   const auto core = hf_test::make_core(hf_test::torus(60, 40));
-  hf::ScalarField field(core, hf::EngineKind::green, 1e8, 1, 100000);
+  hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 100000);
   add(field, every(0, 2400, 60));
   field.record();
   const std::vector<double> recorded = solve(field);
@@ -115,33 +114,33 @@ TEST(Rebase, survives_undo_between_its_making_and_its_use) {
 
 TEST(Rebase, says_what_it_cannot_do) {
   const auto core = hf_test::make_core(hf_test::torus(20, 14));
-  const auto code_of = [](hf::ScalarField& field) {
+  const auto code_of = [](hf_inner::ScalarField& field) {
     try {
       field.prepare_rebase();
-    } catch (const hf::Error& error) {
+    } catch (const hf_inner::Error& error) {
       return error.code();
     }
     return static_cast<hf_result>(HF_OK);
   };
-  hf::ScalarField green(core, hf::EngineKind::green, 1e8, 1, 100), refactor(core, hf::EngineKind::refactor, 1e8, 1, 100);
+  hf_inner::ScalarField green(core, hf_inner::EngineKind::green, 1e8, 1, 100), refactor(core, hf_inner::EngineKind::refactor, 1e8, 1, 100);
   EXPECT_EQ(code_of(green), HF_ERROR_NO_SITES);
   EXPECT_EQ(code_of(refactor), HF_ERROR_UNSUPPORTED);
 }
 
 TEST(Decisions, are_counted_with_what_the_cost_model_said) {
   const auto core = hf_test::make_core(hf_test::torus(80, 60));
-  hf::ScalarField field(core, hf::EngineKind::green, 1e8, 1, 100000);
-  EXPECT_EQ(field.engine().counters().last_route, hf::EditRoute::none);
+  hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 100000);
+  EXPECT_EQ(field.engine().counters().last_route, hf_inner::EditRoute::none);
   const auto few = add(field, {5, 701, 2001});
-  hf::EngineCounters counters = field.engine().counters();
-  EXPECT_EQ(counters.last_route, hf::EditRoute::dense);
+  hf_inner::EngineCounters counters = field.engine().counters();
+  EXPECT_EQ(counters.last_route, hf_inner::EditRoute::dense);
   EXPECT_EQ(counters.dense_edits, 1u);
   EXPECT_EQ(counters.dense_rows, 3u);
   EXPECT_GT(counters.dense_ms, 0);
   EXPECT_GT(counters.rebase_ms, counters.dense_ms);
   add(field, every(6, 4800, 2));
   counters = field.engine().counters();
-  EXPECT_EQ(counters.last_route, hf::EditRoute::rebase);
+  EXPECT_EQ(counters.last_route, hf_inner::EditRoute::rebase);
   EXPECT_LT(counters.rebase_ms, counters.dense_ms);
   EXPECT_EQ(counters.rebases, 1u);
   EXPECT_GT(counters.eliminated, 2000u);
@@ -151,7 +150,7 @@ TEST(Decisions, are_counted_with_what_the_cost_model_said) {
 
 TEST(PartialSolve, has_the_bits_of_the_whole_field_and_solves_no_path) {
   const auto core = hf_test::make_core(hf_test::torus(80, 60), 2);
-  hf::ScalarField field(core, hf::EngineKind::green, 1e8, 1, 100000);
+  hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 100000);
   add(field, every(0, 4800, 37));
   const std::vector<double> whole = solve(field);
   const std::uint32_t paths = field.engine().counters().path_solves;

@@ -13,21 +13,21 @@
 
 namespace {
 
-std::shared_ptr<const hf::Core> core_of(const hf_test::PlainMesh& mesh, hf::OperatorKind kind) {
-  hf::CoreOptions options;
+std::shared_ptr<const hf_inner::Core> core_of(const hf_test::PlainMesh& mesh, hf_inner::OperatorKind kind) {
+  hf_inner::CoreOptions options;
   options.operator_kind = kind;
   return hf_test::make_core(mesh, 1, options);
 }
 
-constexpr hf::OperatorKind kinds[] = {hf::OperatorKind::cotangent, hf::OperatorKind::intrinsic_delaunay};
+constexpr hf_inner::OperatorKind kinds[] = {hf_inner::OperatorKind::cotangent, hf_inner::OperatorKind::intrinsic_delaunay};
 
 TEST(Rim, of_a_disc_keeps_its_inside_at_the_value_of_the_site) {
-  for (const hf::OperatorKind kind : kinds) {
+  for (const hf_inner::OperatorKind kind : kinds) {
     const auto core = core_of(hf_test::torus(60, 30, 0.4, 3), kind);
-    hf::ScalarField field(core, hf::EngineKind::green, 1e8, 1, 10000);
+    hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 10000);
     const std::uint32_t vertices[] = {100, 1000};
     const double values[] = {2, -1}, radii[] = {0.8, 0.7};
-    hf::FieldEdit edit;
+    hf_inner::FieldEdit edit;
     edit.add.count = 2, edit.add.vertices = vertices, edit.add.radii = radii, edit.add_values = values;
     field.edit(edit, nullptr);
     std::vector<double> u(static_cast<std::size_t>(core->size()));
@@ -44,28 +44,28 @@ TEST(Rim, of_a_disc_keeps_its_inside_at_the_value_of_the_site) {
 }
 
 TEST(Rim, of_a_region_lets_nothing_of_the_field_through) {
-  for (const hf::OperatorKind kind : kinds) {
+  for (const hf_inner::OperatorKind kind : kinds) {
     const auto core = core_of(hf_test::sheared_patch(30, 24, 2.5), kind);
-    hf::Memory& memory = *core->memory;
+    hf_inner::Memory& memory = *core->memory;
     std::vector<std::int32_t> left, right;
     for (std::int32_t v = 0; v < core->size(); ++v) {
       const int column = v % 31;
       if (column < 8) left.push_back(v);
       if (column > 22) right.push_back(v);
     }
-    const auto solver = hf::SiteSolver::make(hf::EngineKind::green, core, 1e8);
+    const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
     std::vector<std::int32_t> slots;
-    std::vector<hf::Site> sites;
+    std::vector<hf_inner::Site> sites;
     std::vector<double> values;
     for (const auto* region : {&left, &right}) {
-      const auto made = hf::make_region(*core, *region, 0, memory);
+      const auto made = hf_inner::make_region(*core, *region, 0, memory);
       EXPECT_LT(made->sites.size(), region->size());
       for (const std::int32_t v : made->sites) {
-        slots.push_back(static_cast<std::int32_t>(slots.size())), sites.push_back(hf::Site::at_vertex(core->mesh, v));
+        slots.push_back(static_cast<std::int32_t>(slots.size())), sites.push_back(hf_inner::Site::at_vertex(core->mesh, v));
         values.push_back(region == &left ? 0.0 : 1.0);
       }
     }
-    hf::SiteEdit edit;
+    hf_inner::SiteEdit edit;
     edit.add = slots, edit.sites = sites;
     solver->edit(edit);
     std::vector<double> u(static_cast<std::size_t>(core->size()));

@@ -1,4 +1,5 @@
 // Intrinsic Delaunay triangulations: identities of the operator, on clean, obtuse, open and non-manifold surfaces.
+#include "base/index.h"
 #include "mesh/intrinsic.h"
 
 #include <gtest/gtest.h>
@@ -17,27 +18,25 @@ namespace {
 
 using hf_test::PlainMesh;
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 struct Surface {
   explicit Surface(const PlainMesh& mesh, std::uint32_t threads = 1) : core(core_of(mesh, threads)) {
     triangulation.emplace(
-        hf::IntrinsicTriangulation::make(core->mesh, core->topology, *core->memory, core->jobs.get()));
+        hf_inner::IntrinsicTriangulation::make(core->mesh, core->topology, *core->memory, core->jobs.get()));
   }
-  static std::shared_ptr<const hf::Core> core_of(const PlainMesh& mesh, std::uint32_t threads) {
-    hf::CoreOptions options;
-    options.operator_kind = hf::OperatorKind::cotangent, options.need_factor = false;
+  static std::shared_ptr<const hf_inner::Core> core_of(const PlainMesh& mesh, std::uint32_t threads) {
+    hf_inner::CoreOptions options;
+    options.operator_kind = hf_inner::OperatorKind::cotangent, options.need_factor = false;
     return hf_test::make_core(mesh, threads, options);
   }
-  hf::SymmetricMatrix laplacian() const {
+  hf_inner::SymmetricMatrix laplacian() const {
     return triangulation->laplacian(core->size(), *core->memory, core->jobs.get());
   }
-  std::shared_ptr<const hf::Core> core;
-  std::optional<hf::IntrinsicTriangulation> triangulation;
+  std::shared_ptr<const hf_inner::Core> core;
+  std::optional<hf_inner::IntrinsicTriangulation> triangulation;
 };
 
 using Entries = std::map<std::pair<int, int>, double>;
-Entries entries_of(const hf::SymmetricMatrix& k) {
+Entries entries_of(const hf_inner::SymmetricMatrix& k) {
   Entries entries;
   for (std::int32_t v = 0; v < k.size(); ++v) {
     for (std::int32_t i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i)
@@ -56,7 +55,7 @@ double largest_difference(const Entries& a, const Entries& b) {
   return worst;
 }
 
-double energy(const hf::SymmetricMatrix& k, const std::vector<double>& u) {
+double energy(const hf_inner::SymmetricMatrix& k, const std::vector<double>& u) {
   double sum = 0;
   for (const auto& [ij, value] : entries_of(k))
     sum += value * u[static_cast<std::size_t>(ij.first)] * u[static_cast<std::size_t>(ij.second)];
@@ -75,7 +74,7 @@ TEST(Intrinsic, weights_are_never_negative_and_every_edge_is_delaunay) {
                    b = surface.triangulation->cotangent(surface.triangulation->twin(h));
       EXPECT_GE(a + b, -1e-9 * (1 + std::fabs(a) + std::fabs(b)));
     }
-    const hf::SymmetricMatrix k = surface.laplacian();
+    const hf_inner::SymmetricMatrix k = surface.laplacian();
     for (std::int32_t v = 0; v < k.size(); ++v) {
       double sum = 0, diagonal = 0;
       for (std::int32_t i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i) {
@@ -108,10 +107,10 @@ TEST(Intrinsic, annihilates_linear_functions_inside_a_sheared_flat_patch) {
   for (std::size_t i = 0; i < mesh.positions.size(); i += 3) mesh.positions[i] += 2 * mesh.positions[i + 1];
   Surface surface(mesh);
   EXPECT_GT(surface.triangulation->flip_to_delaunay(), 500u);
-  const hf::SymmetricMatrix k = surface.laplacian();
+  const hf_inner::SymmetricMatrix k = surface.laplacian();
   std::vector<double> residual(at(k.size()), 0.0);
   for (const auto& [ij, value] : entries_of(k)) {
-    const hf::Vec3 p = surface.core->mesh.positions[static_cast<std::size_t>(ij.second)];
+    const hf_inner::Vec3 p = surface.core->mesh.positions[static_cast<std::size_t>(ij.second)];
     residual[static_cast<std::size_t>(ij.first)] += value * (1 + 3 * p.x - 2 * p.y);
   }
   for (int j = 8; j <= 22; ++j) {
@@ -124,7 +123,7 @@ TEST(Intrinsic, flips_keep_the_area) {
     SCOPED_TRACE(name);
     Surface surface(mesh);
     const auto area = [&] {
-      const hf::Vector<double> areas = surface.triangulation->vertex_areas(surface.core->size(), *surface.core->memory);
+      const hf_inner::Vector<double> areas = surface.triangulation->vertex_areas(surface.core->size(), *surface.core->memory);
       return std::accumulate(areas.begin(), areas.end(), 0.0);
     };
     const double whole = area();
@@ -133,7 +132,7 @@ TEST(Intrinsic, flips_keep_the_area) {
     EXPECT_NEAR(area(), whole, thin * whole);
     if (name == "strip on a line") continue;  // its own triangles have no area
     double own = 0;
-    for (const double a : hf::vertex_areas(surface.core->mesh, *surface.core->memory)) own += a;
+    for (const double a : hf_inner::vertex_areas(surface.core->mesh, *surface.core->memory)) own += a;
     EXPECT_NEAR(area(), own, thin * whole);
   }
 }
@@ -186,7 +185,7 @@ TEST(Intrinsic, gives_the_same_bits_for_any_number_of_threads) {
   for (const std::uint32_t threads : {1u, 2u, 4u}) {
     Surface surface(mesh, threads);
     surface.triangulation->flip_to_delaunay();
-    const hf::SymmetricMatrix k = surface.laplacian();
+    const hf_inner::SymmetricMatrix k = surface.laplacian();
     const std::vector<double> value(k.value.begin(), k.value.end());
     if (first.empty()) first = value;
     EXPECT_EQ(first, value);
@@ -214,13 +213,13 @@ TEST(Intrinsic, stopped_early_it_still_has_no_negative_weight) {
 // The operator by patches and the one of the whole triangulation, and how many triangles the patches took.
 struct TwoWays {
   explicit TwoWays(const PlainMesh& mesh, std::uint32_t threads = 1) : surface(mesh, threads) {
-    const hf::Core& core = *surface.core;
-    patches.emplace(hf::delaunay_operator(core.mesh, core.topology, core.weights, true, *core.memory, core.jobs.get()));
+    const hf_inner::Core& core = *surface.core;
+    patches.emplace(hf_inner::delaunay_operator(core.mesh, core.topology, core.weights, true, *core.memory, core.jobs.get()));
     flips = surface.triangulation->flip_to_delaunay();
   }
   double share() const { return patches->patch_triangles / static_cast<double>(surface.core->mesh.triangle_count()); }
   Surface surface;
-  std::optional<hf::DelaunayOperator> patches;
+  std::optional<hf_inner::DelaunayOperator> patches;
   std::uint64_t flips = 0;
 };
 
@@ -257,12 +256,12 @@ TEST(DelaunayPatches, give_the_operator_and_areas_of_the_whole_triangulation) {
   for (const auto& [name, mesh] : meshes) {
     SCOPED_TRACE(name);
     const TwoWays ways(mesh);
-    const hf::Core& core = *ways.surface.core;
+    const hf_inner::Core& core = *ways.surface.core;
     const Entries whole = entries_of(ways.surface.laplacian()), patched = entries_of(ways.patches->laplacian);
     double size = 0;
     for (const auto& entry : whole) size = std::max(size, std::fabs(entry.second));
     EXPECT_LE(largest_difference(whole, patched), 1e-9 * size);
-    const hf::Vector<double> areas = ways.surface.triangulation->vertex_areas(core.size(), *core.memory);
+    const hf_inner::Vector<double> areas = ways.surface.triangulation->vertex_areas(core.size(), *core.memory);
     double largest = 0, worst = 0;
     for (const double a : areas) largest = std::max(largest, a);
     if (hf_test::is_generic(name) || name.find("disk") != std::string::npos || name.find("sphere") == 0) {
@@ -325,7 +324,7 @@ TEST(DelaunayPatches, leave_a_delaunay_mesh_its_cotangent_bits) {
   for (const PlainMesh& mesh : {hf_test::sphere(12), hf_test::disk(9)}) {
     const TwoWays ways(mesh);
     EXPECT_EQ(ways.patches->patch_triangles, 0);
-    const hf::SymmetricMatrix& cotangent = ways.surface.core->laplacian;
+    const hf_inner::SymmetricMatrix& cotangent = ways.surface.core->laplacian;
     EXPECT_TRUE(ways.patches->laplacian.column_start == cotangent.column_start);
     EXPECT_TRUE(ways.patches->laplacian.row == cotangent.row);
     EXPECT_TRUE(ways.patches->laplacian.value == cotangent.value);

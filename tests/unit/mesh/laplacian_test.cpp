@@ -10,7 +10,7 @@
 
 namespace {
 
-double largest_row_sum(const hf::SymmetricMatrix& k) {
+double largest_row_sum(const hf_inner::SymmetricMatrix& k) {
   double worst = 0;
   for (std::int32_t v = 0; v < k.size(); ++v) {
     double sum = 0, size = 0;
@@ -23,7 +23,7 @@ double largest_row_sum(const hf::SymmetricMatrix& k) {
   return worst;
 }
 
-std::vector<double> times(const hf::SymmetricMatrix& k, const std::vector<double>& u) {
+std::vector<double> times(const hf_inner::SymmetricMatrix& k, const std::vector<double>& u) {
   std::vector<double> out(u.size(), 0.0);
   for (std::int32_t v = 0; v < k.size(); ++v) {
     for (std::int32_t i = k.column_start[static_cast<std::size_t>(v)];
@@ -36,12 +36,12 @@ std::vector<double> times(const hf::SymmetricMatrix& k, const std::vector<double
 }
 
 TEST(Laplacian, annihilates_constants_and_is_symmetric) {
-  for (const hf::OperatorKind kind :
-       {hf::OperatorKind::cotangent, hf::OperatorKind::clamped, hf::OperatorKind::uniform}) {
-    hf::CoreOptions options;
+  for (const hf_inner::OperatorKind kind :
+       {hf_inner::OperatorKind::cotangent, hf_inner::OperatorKind::clamped, hf_inner::OperatorKind::uniform}) {
+    hf_inner::CoreOptions options;
     options.operator_kind = kind;
     const auto core = hf_test::make_core(hf_test::torus(20, 15, 0.3), 1, options);
-    const hf::SymmetricMatrix& k = core->laplacian;
+    const hf_inner::SymmetricMatrix& k = core->laplacian;
     EXPECT_LE(largest_row_sum(k), 1e-15);
     for (std::int32_t v = 0; v < k.size(); ++v) {
       EXPECT_TRUE(std::is_sorted(k.row.begin() + k.column_start[static_cast<std::size_t>(v)],
@@ -62,7 +62,7 @@ TEST(Laplacian, annihilates_constants_and_is_symmetric) {
 TEST(Laplacian, annihilates_linear_functions_inside_a_flat_patch) {
   const auto core = hf_test::make_core(hf_test::grid(12, 9, 1, 0.35, 5));
   std::vector<double> u;
-  for (const hf::Vec3& p : core->mesh.positions) u.push_back(0.3 + 2 * p.x - 5 * p.y);
+  for (const hf_inner::Vec3& p : core->mesh.positions) u.push_back(0.3 + 2 * p.x - 5 * p.y);
   const std::vector<double> ku = times(core->laplacian, u);
   for (std::size_t v = 0; v < u.size(); ++v) {
     const std::size_t i = v % 13, j = v / 13;
@@ -75,11 +75,11 @@ TEST(Laplacian, annihilates_linear_functions_inside_a_flat_patch) {
 TEST(Laplacian, energy_is_the_dirichlet_energy_of_a_linear_function) {
   const auto core = hf_test::make_core(hf_test::grid(7, 11, 1, 0.3, 9));
   std::vector<double> u;
-  for (const hf::Vec3& p : core->mesh.positions) u.push_back(3 * p.x + 4 * p.y);
+  for (const hf_inner::Vec3& p : core->mesh.positions) u.push_back(3 * p.x + 4 * p.y);
   const std::vector<double> ku = times(core->laplacian, u);
   double energy = 0, area = 0;
   for (std::size_t v = 0; v < u.size(); ++v) energy += u[v] * ku[v];
-  for (const double a : hf::vertex_areas(core->mesh, *core->memory)) area += a;
+  for (const double a : hf_inner::vertex_areas(core->mesh, *core->memory)) area += a;
   EXPECT_NEAR(energy, 25 * area, 1e-12);
 }
 
@@ -95,8 +95,8 @@ TEST(Laplacian, stays_finite_and_factors_on_zero_area_triangles) {
 TEST(Laplacian, clamped_weights_are_positive_on_obtuse_meshes) {
   hf_test::PlainMesh mesh = hf_test::grid(20, 3);
   for (std::size_t i = 0; i < mesh.positions.size(); i += 3) mesh.positions[i] += 3 * mesh.positions[i + 1];  // sheared
-  hf::CoreOptions options;
-  options.operator_kind = hf::OperatorKind::clamped;
+  hf_inner::CoreOptions options;
+  options.operator_kind = hf_inner::OperatorKind::clamped;
   const auto core = hf_test::make_core(mesh, 1, options);
   EXPECT_GT(core->mesh.report.negative_edge_count, 0u);
   for (const double w : core->weights) EXPECT_GT(w, 0);

@@ -18,24 +18,24 @@ namespace {
 struct Given {
   std::vector<double> positions;
   std::vector<std::uint32_t> triangles;
-  hf::Weld weld = hf::Weld::exact;
+  hf_inner::Weld weld = hf_inner::Weld::exact;
   double tolerance = 0;
 
-  hf::Mesh make(hf::Memory& memory) const {
-    hf::MeshInput input;
+  hf_inner::Mesh make(hf_inner::Memory& memory) const {
+    hf_inner::MeshInput input;
     input.vertex_count = static_cast<std::uint32_t>(positions.size() / 3),
     input.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
-    input.positions = hf::ConstRows(positions.data(), 3 * sizeof(double));
+    input.positions = hf_inner::ConstRows(positions.data(), 3 * sizeof(double));
     input.triangles = triangles.data(), input.weld = weld, input.weld_tolerance = tolerance;
-    hf::Mesh mesh = hf::Mesh::make(input, memory);
-    hf::count_edges(mesh, hf::Topology::make(mesh, memory), mesh.report);
+    hf_inner::Mesh mesh = hf_inner::Mesh::make(input, memory);
+    hf_inner::count_edges(mesh, hf_inner::Topology::make(mesh, memory), mesh.report);
     return mesh;
   }
   hf_result code(std::uint32_t* index = nullptr) const {
-    hf::Memory memory;
+    hf_inner::Memory memory;
     try {
       make(memory);
-    } catch (const hf::Error& error) {
+    } catch (const hf_inner::Error& error) {
       if (index) *index = error.index();
       return error.code();
     }
@@ -47,8 +47,8 @@ struct Given {
 Given cut_square() { return {{0, 0, 0, 1, 0, 0, 1, 1, 0, 0.0, -0.0, 0, 0, 1, 0, 1, 1, 0}, {0, 1, 2, 3, 5, 4}}; }
 
 TEST(Mesh, welds_bit_equal_copies_into_one_vertex) {
-  hf::Memory memory;
-  const hf::Mesh mesh = cut_square().make(memory);
+  hf_inner::Memory memory;
+  const hf_inner::Mesh mesh = cut_square().make(memory);
   EXPECT_EQ(mesh.vertex_count(), 4);
   EXPECT_EQ(mesh.report.component_count, 1u);
   EXPECT_EQ(mesh.inner_of_given[0], mesh.inner_of_given[3]);
@@ -57,10 +57,10 @@ TEST(Mesh, welds_bit_equal_copies_into_one_vertex) {
 }
 
 TEST(Mesh, keeps_vertices_as_stored_when_told_so) {
-  hf::Memory memory;
+  hf_inner::Memory memory;
   Given given = cut_square();
-  given.weld = hf::Weld::none;
-  const hf::Mesh mesh = given.make(memory);
+  given.weld = hf_inner::Weld::none;
+  const hf_inner::Mesh mesh = given.make(memory);
   EXPECT_EQ(mesh.vertex_count(), 6);
   EXPECT_EQ(mesh.report.component_count, 2u);
 }
@@ -90,8 +90,8 @@ TEST(Mesh, welds_places_that_were_made_to_collide) {
   }
   for (std::uint32_t v = 0; v + 2 < places; ++v)
     given.triangles.insert(given.triangles.end(), {v, 2 * places - 2 - v, v + 2});
-  hf::Memory memory;
-  const hf::Mesh mesh = given.make(memory);
+  hf_inner::Memory memory;
+  const hf_inner::Mesh mesh = given.make(memory);
   EXPECT_EQ(mesh.vertex_count(), static_cast<std::int32_t>(places));
   EXPECT_EQ(mesh.report.component_count, 1u);
   for (std::uint32_t v = 0; v < places; ++v)
@@ -99,11 +99,11 @@ TEST(Mesh, welds_places_that_were_made_to_collide) {
 }
 
 TEST(Mesh, welds_within_a_tolerance_across_cell_borders) {
-  hf::Memory memory;
+  hf_inner::Memory memory;
   Given given = cut_square();
   given.positions[9] = -0.0007, given.positions[15] = 1.0006;
   EXPECT_EQ(given.make(memory).report.component_count, 2u);
-  given.weld = hf::Weld::tolerance, given.tolerance = 0.001;
+  given.weld = hf_inner::Weld::tolerance, given.tolerance = 0.001;
   EXPECT_EQ(given.make(memory).report.component_count, 1u);
   given.tolerance = 0.0005;
   EXPECT_EQ(given.make(memory).report.component_count, 2u);
@@ -112,13 +112,13 @@ TEST(Mesh, welds_within_a_tolerance_across_cell_borders) {
 }
 
 TEST(Mesh, counts_what_is_dirty) {
-  hf::Memory memory;
+  hf_inner::Memory memory;
   // three pages on one edge, one of them flipped; a duplicate; a collapsed and a zero-area triangle; an isolated vertex
   const Given given{{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 9, 9, 9, 2, 0, 0},
                     {0, 1, 2, 0, 1, 3, 1, 0, 4, 2, 0, 1, 3, 3, 4, 0, 1, 6}};
-  const hf::Mesh mesh = given.make(memory);
+  const hf_inner::Mesh mesh = given.make(memory);
   EXPECT_EQ(mesh.report.isolated_vertex_count, 1u);
-  EXPECT_EQ(mesh.inner_of_given[5], hf::Mesh::none);
+  EXPECT_EQ(mesh.inner_of_given[5], hf_inner::Mesh::none);
   EXPECT_EQ(mesh.report.collapsed_triangle_count, 1u);
   EXPECT_EQ(mesh.report.degenerate_triangle_count, 1u);
   EXPECT_EQ(mesh.report.duplicate_triangle_count, 1u);
@@ -127,10 +127,10 @@ TEST(Mesh, counts_what_is_dirty) {
 }
 
 TEST(Mesh, numbers_components_by_their_first_vertex) {
-  hf::Memory memory;
+  hf_inner::Memory memory;
   hf_test::PlainMesh plain = hf_test::grid(2, 2);
   append(plain, hf_test::grid(1, 1), 10);
-  const hf::Mesh mesh = Given{plain.positions, plain.triangles}.make(memory);
+  const hf_inner::Mesh mesh = Given{plain.positions, plain.triangles}.make(memory);
   EXPECT_EQ(mesh.report.component_count, 2u);
   EXPECT_EQ(mesh.component.front(), 0);
   EXPECT_EQ(mesh.component.back(), 1);
@@ -156,13 +156,13 @@ TEST(Mesh, refuses_what_it_cannot_take_and_names_it) {
 }
 
 TEST(Mesh, is_the_same_at_any_scale_and_place) {
-  hf::Memory memory;
+  hf_inner::Memory memory;
   const hf_test::PlainMesh plain = hf_test::torus(12, 8);
-  const hf::Mesh first = Given{plain.positions, plain.triangles}.make(memory);
+  const hf_inner::Mesh first = Given{plain.positions, plain.triangles}.make(memory);
   for (const double scale : {1e-30, 1024.0, 1e30}) {
     std::vector<double> moved = plain.positions;
     for (double& x : moved) x = scale * x + (scale == 1024 ? 4096.0 : 0);
-    const hf::Mesh mesh = Given{moved, plain.triangles}.make(memory);
+    const hf_inner::Mesh mesh = Given{moved, plain.triangles}.make(memory);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
       EXPECT_LE(norm(mesh.positions[v] - first.positions[v]), 1e-14);
   }

@@ -18,7 +18,7 @@
 
 namespace {
 
-using namespace hf;
+using namespace hf_inner;
 
 hf_test::PlainMesh plain(const samples::ShapeMesh& shape) { return {shape.positions, shape.triangles}; }
 

@@ -6,7 +6,7 @@
 namespace {
 
 using namespace transfer_test;
-using hf::Vec3;
+using hf_inner::Vec3;
 
 bool have(const std::string& name) { return std::filesystem::exists(data_folder() / "gltf" / name); }
 Body load(const std::string& name, const World& world) {
@@ -24,9 +24,9 @@ Figures self_transfer(int32_t mode, bool anchored) {
   Pairs pairs = find_pairs("q_horse_to_q_wolf.json", horse, horse, true);
   for (uint32_t& flags : pairs.flags)
     flags = anchored ? flags | HF_PAIR_ANCHOR : flags & ~uint32_t{HF_PAIR_ANCHOR | HF_PAIR_FOOT};
-  hf::TransferOptions options;
+  hf_inner::TransferOptions options;
   options.mode = mode, options.scale = 1;
-  hf::Transfer transfer(horse.core, horse.core, options);
+  hf_inner::Transfer transfer(horse.core, horse.core, options);
   add(transfer, pairs.inputs());
   Figures out;
   int frames = 0;
@@ -66,9 +66,9 @@ struct CrossFigures {
 };
 
 CrossFigures cross(const Body& horse, const Body& other, const Pairs& pairs, int32_t mode) {
-  hf::TransferOptions options;
+  hf_inner::TransferOptions options;
   options.mode = mode;
-  hf::Transfer transfer(horse.core, other.core, options);
+  hf_inner::Transfer transfer(horse.core, other.core, options);
   add(transfer, pairs.inputs());
   const std::vector<Vec3> horse_rest = horse.rest(), rest = other.rest();
   CrossFigures out;
@@ -83,7 +83,7 @@ CrossFigures cross(const Body& horse, const Body& other, const Pairs& pairs, int
       for (size_t p = 0; p < pairs.names.size(); ++p) {
         if (!(pairs.flags[p] & HF_PAIR_FOOT)) continue;
         const Vec3 path = out.scale * (centre_of(pairs.source[p], posed) - centre_of(pairs.source[p], horse_rest));
-        const double miss = hf::norm(centre_of(pairs.target[p], frame) - centre_of(pairs.target[p], rest) - path) /
+        const double miss = hf_inner::norm(centre_of(pairs.target[p], frame) - centre_of(pairs.target[p], rest) - path) /
                             other.core->mesh.scale;
         out.mean += miss, out.largest = std::max(out.largest, miss), ++count;
       }
@@ -91,7 +91,7 @@ CrossFigures cross(const Body& horse, const Body& other, const Pairs& pairs, int
       for (int32_t e = 0; e < other.core->topology.edge_count(); ++e) {
         const auto i = static_cast<size_t>(other.core->topology.first(e)),
                    j = static_cast<size_t>(other.core->topology.second(e));
-        stretch.push_back(std::abs(hf::norm(frame[i] - frame[j]) / hf::norm(rest[i] - rest[j]) - 1));
+        stretch.push_back(std::abs(hf_inner::norm(frame[i] - frame[j]) / hf_inner::norm(rest[i] - rest[j]) - 1));
       }
       std::nth_element(stretch.begin(), stretch.begin() + static_cast<std::ptrdiff_t>(stretch.size() * 95 / 100),
                        stretch.end());
@@ -129,7 +129,7 @@ TEST(TransferData, TheDeersNoseComesAsNearToTheGroundAsTheGrazingHorses) {
   Pairs pairs = find_pairs("q_horse_to_q_deer.json", horse, deer);
   ASSERT_EQ(pairs.names[0], "nose");
   pairs.flags[0] |= HF_PAIR_CONTACT;
-  hf::Transfer transfer(horse.core, deer.core, {});
+  hf_inner::Transfer transfer(horse.core, deer.core, {});
   add(transfer, pairs.inputs());
   const samples::Animation& eating =
       horse.model.animations[static_cast<size_t>(samples::find_animation(horse.model, "AnimalArmature|Eating"))];

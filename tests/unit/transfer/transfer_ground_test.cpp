@@ -6,7 +6,7 @@
 namespace {
 
 using namespace transfer_test;
-using hf::Vec3;
+using hf_inner::Vec3;
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -16,8 +16,8 @@ double smooth(double low, double high, double x) {
 }
 
 Vec3 centroid_of(const Body& body, const std::vector<Vec3>& points) {
-  hf::Memory memory;
-  const auto area = hf::area_shares(body.core->mesh, memory);
+  hf_inner::Memory memory;
+  const auto area = hf_inner::area_shares(body.core->mesh, memory);
   Vec3 sum;
   for (size_t v = 0; v < points.size(); ++v) sum = sum + area[v] * points[v];
   return sum;
@@ -30,7 +30,7 @@ std::vector<Vec3> twisted(const Body& horse, double angle, double from) {
   const Vec3 middle = centroid_of(horse, posed);
   for (Vec3& p : posed) {
     const double share = from > 0 ? smooth(0.5 * from * box, from * box, p.y - ground) : 1.0;
-    const Vec3 d = hf::rotate(hf::exponential({0, share * angle, 0}), p - middle);
+    const Vec3 d = hf_inner::rotate(hf_inner::exponential({0, share * angle, 0}), p - middle);
     p = middle + d;
   }
   return posed;
@@ -40,7 +40,7 @@ std::vector<Vec3> twisted(const Body& horse, double angle, double from) {
 std::vector<Vec3> falling(const Animals& a, double angle, double time) {
   std::vector<Vec3> posed = a.horse.posed(a.walk, time);
   const double ground = lowest_of(a.horse.rest());
-  for (Vec3& p : posed) p = hf::rotate(hf::exponential({0, 0, angle}), p);
+  for (Vec3& p : posed) p = hf_inner::rotate(hf_inner::exponential({0, 0, angle}), p);
   const double low = lowest_of(posed);
   for (Vec3& p : posed) p.y += ground - low;
   return posed;
@@ -48,7 +48,7 @@ std::vector<Vec3> falling(const Animals& a, double angle, double time) {
 
 TEST(TransferGround, AFootThatStandsStaysWhileTheBodyTurnsOverIt) {
   const Animals& a = animals();
-  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
   const std::vector<Vec3> still = frame_of(transfer, a.horse.rest());
   for (const double degrees : {25.0, 40.0, 60.0}) {
@@ -56,7 +56,7 @@ TEST(TransferGround, AFootThatStandsStaysWhileTheBodyTurnsOverIt) {
     for (size_t foot = 2; foot < 6; ++foot) {
       Vec3 off = centre_of(a.pairs.target[foot], out) - centre_of(a.pairs.target[foot], still);
       off.y = 0;
-      EXPECT_LT(hf::norm(off) / a.box, 1e-3) << a.pairs.names[foot] << " at " << degrees << " degrees";
+      EXPECT_LT(hf_inner::norm(off) / a.box, 1e-3) << a.pairs.names[foot] << " at " << degrees << " degrees";
     }
   }
 }
@@ -64,7 +64,7 @@ TEST(TransferGround, AFootThatStandsStaysWhileTheBodyTurnsOverIt) {
 TEST(TransferGround, FeetThatTurnWithTheBodyComeRoundWithIt) {
   // all of it turned, and the head bent so that the motion is not rigid: the frame before, turned
   const Animals& a = animals();
-  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
   const auto bent = [&](std::vector<Vec3> points) {
     const std::vector<Vec3> rest = a.horse.rest();
@@ -75,11 +75,11 @@ TEST(TransferGround, FeetThatTurnWithTheBodyComeRoundWithIt) {
   };
   const std::vector<Vec3> straight = frame_of(transfer, bent(a.horse.rest()));
   const std::vector<Vec3> out = frame_of(transfer, bent(twisted(a.horse, 0.5 * pi, 0)));
-  const hf::Quaternion turn = hf::exponential({0, 0.5 * pi, 0});
+  const hf_inner::Quaternion turn = hf_inner::exponential({0, 0.5 * pi, 0});
   const Vec3 from = centroid_of(a.bull, straight), to = centroid_of(a.bull, out);
   for (size_t foot = 2; foot < 6; ++foot) {
-    const Vec3 expected = hf::rotate(turn, centre_of(a.pairs.target[foot], straight) - from) + to;
-    EXPECT_LT(hf::norm(centre_of(a.pairs.target[foot], out) - expected) / a.box, 0.01) << a.pairs.names[foot];
+    const Vec3 expected = hf_inner::rotate(turn, centre_of(a.pairs.target[foot], straight) - from) + to;
+    EXPECT_LT(hf_inner::norm(centre_of(a.pairs.target[foot], out) - expected) / a.box, 0.01) << a.pairs.names[foot];
   }
 }
 
@@ -91,8 +91,8 @@ double sunk(const Animals& a, const std::vector<Vec3>& posed, const std::vector<
 
 TEST(TransferGround, NoPartOfTheSurfaceSinks) {
   const Animals& a = animals();
-  hf::Transfer transfer(a.horse.core, a.bull.core, {});
-  std::vector<hf::PairInput> inputs = a.pairs.inputs();
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
   add(transfer, inputs);
   const std::vector<Vec3> rest = a.horse.rest();
   const double ground = lowest_of(rest), box = a.horse.core->mesh.scale;
@@ -117,7 +117,7 @@ TEST(TransferGround, NoPartOfTheSurfaceSinks) {
 
 TEST(TransferGround, ABodyThatLiesRestsOnItsTrunkNotOnWhateverReachesLowest) {
   const Animals& a = animals();
-  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
   const std::vector<Vec3> rest = a.bull.rest(), source_rest = a.horse.rest();
   const auto trunk_height = [](const Body& body, const std::vector<Vec3>& still, const std::vector<Vec3>& points) {
@@ -143,7 +143,7 @@ TEST(TransferGround, ABodyThatLiesRestsOnItsTrunkNotOnWhateverReachesLowest) {
 
 TEST(TransferGround, FallingIsAsSmoothAsItsSource) {
   const Animals& a = animals();
-  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
   std::vector<Vec3> before, source_before;
   double worst = 0;
@@ -161,26 +161,26 @@ TEST(TransferGround, FallingIsAsSmoothAsItsSource) {
 TEST(TransferGround, ARegionTheCallerHoldsUnderTheGroundStaysThere) {
   // a foot on a step down
   const Animals& a = animals();
-  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
   std::vector<uint32_t> numbers(a.pairs.names.size());
   add(transfer, a.pairs.inputs(), numbers.data());
   const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.3), still = frame_of(transfer, posed);
   const size_t foot = a.pair("front foot left");
   const Vec3 step = centre_of(a.pairs.target[foot], still) - Vec3{0, 0.06 * a.box, 0};
-  const hf::PairHold hold{numbers[foot], step};
+  const hf_inner::PairHold hold{numbers[foot], step};
   std::vector<Vec3> out(still.size());
   transfer.apply(posed.data(), out.data(), {&hold, 1});
-  EXPECT_LT(hf::norm(centre_of(a.pairs.target[foot], out) - step), 1e-6 * a.box);
+  EXPECT_LT(hf_inner::norm(centre_of(a.pairs.target[foot], out) - step), 1e-6 * a.box);
   // its sole too: nothing of it is bent up to the ground
   EXPECT_NEAR(lowest_of(a.pairs.target[foot], out) - step.y,
               lowest_of(a.pairs.target[foot], still) - centre_of(a.pairs.target[foot], still).y, 0.01 * a.box);
   const size_t other = a.pair("hind foot right");
-  EXPECT_LT(hf::norm(centre_of(a.pairs.target[other], out) - centre_of(a.pairs.target[other], still)), 0.01 * a.box);
+  EXPECT_LT(hf_inner::norm(centre_of(a.pairs.target[other], out) - centre_of(a.pairs.target[other], still)), 0.01 * a.box);
 }
 
 TEST(TransferGround, FramesInWhichSomethingSinksAllocateNothingAndRepeat) {
   const Animals& a = animals();
-  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
   const std::vector<Vec3> posed = falling(a, 1.2, 0.2);
   const std::vector<Vec3> first = frame_of(transfer, posed);

@@ -9,13 +9,13 @@
 namespace {
 
 using namespace transfer_test;
-using hf::Vec3;
+using hf_inner::Vec3;
 
 template <class Call>
 hf_result code_of(Call&& call, uint32_t* index = nullptr) {
   try {
     call();
-  } catch (const hf::Error& error) {
+  } catch (const hf_inner::Error& error) {
     if (index) *index = error.index();
     EXPECT_GT(std::string(error.what()).size(), 10u);
     return error.code();
@@ -25,9 +25,9 @@ hf_result code_of(Call&& call, uint32_t* index = nullptr) {
 
 TEST(TransferPairs, AddingAndRemovingPairsFactorisesNothingAndEqualsATransferMadeAtOnce) {
   const Animals& a = animals();
-  const std::vector<hf::PairInput> inputs = a.pairs.inputs();
+  const std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
   const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.4);
-  hf::Transfer edited(a.horse.core, a.bull.core, {});
+  hf_inner::Transfer edited(a.horse.core, a.bull.core, {});
   const uint32_t source_before = edited.source_counters().factorisations,
                  target_before = edited.target_counters().factorisations;
   std::vector<uint32_t> numbers(inputs.size());
@@ -47,13 +47,13 @@ TEST(TransferPairs, AddingAndRemovingPairsFactorisesNothingAndEqualsATransferMad
     }
     const std::vector<Vec3> out = frame_of(edited, posed);
     if (step % 6 != 0) continue;
-    hf::Transfer fresh(a.horse.core, a.bull.core, {});
-    std::vector<std::pair<uint32_t, hf::PairInput>> ordered;
+    hf_inner::Transfer fresh(a.horse.core, a.bull.core, {});
+    std::vector<std::pair<uint32_t, hf_inner::PairInput>> ordered;
     for (size_t k = 0; k < inputs.size(); ++k) {
       if (present[k]) ordered.emplace_back(numbers[k], inputs[k]);
     }
     std::sort(ordered.begin(), ordered.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
-    std::vector<hf::PairInput> now;
+    std::vector<hf_inner::PairInput> now;
     for (const auto& entry : ordered) now.push_back(entry.second);
     add(fresh, now);
     EXPECT_LT(largest_distance(out, frame_of(fresh, posed)), 1e-7) << "step " << step;
@@ -65,9 +65,9 @@ TEST(TransferPairs, AddingAndRemovingPairsFactorisesNothingAndEqualsATransferMad
 
 TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
   const Animals& a = animals();
-  const std::vector<hf::PairInput> inputs = a.pairs.inputs();
+  const std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
   const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.4);
-  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
   std::vector<Vec3> out(static_cast<size_t>(a.bull.core->size()));
   EXPECT_EQ(code_of([&] { transfer.apply(posed.data(), out.data()); }), HF_ERROR_EMPTY);
   EXPECT_EQ(code_of([&] { transfer.cluster_count(); }), HF_ERROR_EMPTY);
@@ -77,7 +77,7 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
 
   int32_t free_vertex = 0;
   const auto taken = [&](int32_t v) {
-    return std::any_of(inputs.begin(), inputs.end(), [&](const hf::PairInput& input) {
+    return std::any_of(inputs.begin(), inputs.end(), [&](const hf_inner::PairInput& input) {
       return std::count(input.source.begin(), input.source.end(), v) +
                  std::count(input.target.begin(), input.target.end(), v) >
              0;
@@ -86,7 +86,7 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
   while (taken(free_vertex)) ++free_vertex;
   const int32_t out_of_range[] = {free_vertex, free_vertex, a.bull.core->size()};
   uint32_t index = 0;
-  hf::PairInput bad;
+  hf_inner::PairInput bad;
   EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }, &index), HF_ERROR_EMPTY);
   EXPECT_EQ(index, 0u);
   bad.source = {&free_vertex, 1};
@@ -99,7 +99,7 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
   EXPECT_EQ(index, 0u);
   bad.target = {&free_vertex, 1}, bad.flags = 1u << 20;
   EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }), HF_ERROR_INVALID_ARGUMENT);
-  const std::vector<hf::PairInput> many(300, inputs[0]);
+  const std::vector<hf_inner::PairInput> many(300, inputs[0]);
   EXPECT_EQ(code_of([&] { transfer.add_pairs({many.data(), many.size()}, nullptr); }), HF_ERROR_TOO_LARGE);
   const uint32_t twice[] = {1, 1}, absent[] = {0, 99};
   EXPECT_EQ(code_of([&] { transfer.remove_pairs({twice, 2}); }, &index), HF_ERROR_NO_SUCH_PAIR);
@@ -119,19 +119,19 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
 TEST(TransferPairs, BadOptionsAreRefused) {
   const Animals& a = animals();
   const auto refused = [&](auto&& change) {
-    hf::TransferOptions options;
+    hf_inner::TransferOptions options;
     change(options);
-    return code_of([&] { hf::Transfer transfer(a.horse.core, a.bull.core, options); });
+    return code_of([&] { hf_inner::Transfer transfer(a.horse.core, a.bull.core, options); });
   };
-  EXPECT_EQ(refused([](hf::TransferOptions&) {}), HF_OK);
-  EXPECT_EQ(refused([](hf::TransferOptions& o) { o.mode = 7; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf::TransferOptions& o) { o.cluster_count = 513; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf::TransferOptions& o) { o.kernel_width = 0.6; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf::TransferOptions& o) { o.kernel_width = -1; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf::TransferOptions& o) { o.scale = -1; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf::TransferOptions& o) { o.scale = std::nan(""); }), HF_ERROR_NON_FINITE);
-  EXPECT_EQ(refused([](hf::TransferOptions& o) { o.source_axes[0] = 1; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf::TransferOptions& o) {
+  EXPECT_EQ(refused([](hf_inner::TransferOptions&) {}), HF_OK);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.mode = 7; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.cluster_count = 513; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.kernel_width = 0.6; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.kernel_width = -1; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.scale = -1; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.scale = std::nan(""); }), HF_ERROR_NON_FINITE);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.source_axes[0] = 1; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) {
               const double mirrored[9] = {-1, 0, 0, 0, 1, 0, 0, 0, 1};
               std::copy_n(mirrored, 9, o.target_axes);
             }),
@@ -157,10 +157,10 @@ TEST(TransferPairs, WhenMemoryRunsOutAtAnyAllocationTheTransferStaysAsItWas) {
   const World world(1, {Faults::allocate, Faults::release, &faults});
   Body horse = a.horse, bull = a.bull;
   horse.build(world), bull.build(world);
-  const std::vector<hf::PairInput> inputs = a.pairs.inputs();
-  const std::vector<hf::PairInput> first(inputs.begin(), inputs.begin() + 6), rest(inputs.begin() + 6, inputs.end());
+  const std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
+  const std::vector<hf_inner::PairInput> first(inputs.begin(), inputs.begin() + 6), rest(inputs.begin() + 6, inputs.end());
   const std::vector<Vec3> posed = horse.posed(a.walk, 0.4);
-  hf::Transfer transfer(horse.core, bull.core, {});
+  hf_inner::Transfer transfer(horse.core, bull.core, {});
   add(transfer, first);
   const std::vector<Vec3> with_six = frame_of(transfer, posed);
   std::vector<uint32_t> numbers(rest.size());
@@ -201,12 +201,12 @@ TEST(TransferPairs, WhenMemoryRunsOutAtAnyAllocationTheTransferStaysAsItWas) {
 
 TEST(TransferPairs, OnePairMovesTheWholeTargetRigidly) {
   const Animals& a = animals();
-  hf::Transfer transfer(a.horse.core, a.bull.core, {});
-  const std::vector<hf::PairInput> inputs = a.pairs.inputs();
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  const std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
   transfer.add_pairs({&inputs[0], 1}, nullptr);
   EXPECT_EQ(transfer.cluster_count(), 1);
   const std::vector<Vec3> out = frame_of(transfer, a.horse.posed(a.walk, 0.3)), rest = a.bull.rest();
-  EXPECT_NEAR(hf::norm(out[0] - out[100]), hf::norm(rest[0] - rest[100]), 1e-9);
+  EXPECT_NEAR(hf_inner::norm(out[0] - out[100]), hf_inner::norm(rest[0] - rest[100]), 1e-9);
 }
 
 TEST(TransferPairs, OddRegionsGiveFiniteResultsAndKeepTheRules) {
@@ -215,28 +215,28 @@ TEST(TransferPairs, OddRegionsGiveFiniteResultsAndKeepTheRules) {
   for (size_t v = 0; v < everything.size(); ++v) everything[v] = static_cast<int32_t>(v);
   for (int32_t v = 0; v < a.bull.core->size() / 2; ++v) half.push_back(v);
   const int32_t single = 3, doubled[] = {9, 9, 9};
-  hf::PairInput all_on_source, single_vertices;
+  hf_inner::PairInput all_on_source, single_vertices;
   all_on_source.source = {everything.data(), everything.size()}, all_on_source.target = {half.data(), half.size()};
   single_vertices.source = {&single, 1}, single_vertices.target = {doubled, 3};
-  for (const hf::PairInput& input : {all_on_source, single_vertices}) {
+  for (const hf_inner::PairInput& input : {all_on_source, single_vertices}) {
     for (const int32_t mode : {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER}) {
-      hf::TransferOptions options;
+      hf_inner::TransferOptions options;
       options.mode = mode;
-      hf::Transfer transfer(a.horse.core, a.bull.core, options);
+      hf_inner::Transfer transfer(a.horse.core, a.bull.core, options);
       transfer.add_pairs({&input, 1}, nullptr);
       EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), a.bull.rest()), 1e-6);
       for (const Vec3& p : frame_of(transfer, a.horse.posed(a.walk, 0.3))) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
     }
   }
   // all vertices of the target shared among two pairs
-  hf::PairInput two[2];
+  hf_inner::PairInput two[2];
   std::vector<int32_t> front, back, other_half;
   for (int32_t v = 0; v < a.horse.core->size(); ++v)
     (a.horse.core->mesh.positions[static_cast<size_t>(v)].z > 0 ? front : back).push_back(v);
   for (int32_t v = a.bull.core->size() / 2; v < a.bull.core->size(); ++v) other_half.push_back(v);
   two[0].source = {front.data(), front.size()}, two[0].target = {half.data(), half.size()};
   two[1].source = {back.data(), back.size()}, two[1].target = {other_half.data(), other_half.size()};
-  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
   transfer.add_pairs({two, 2}, nullptr);
   EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), a.bull.rest()), 1e-6);
   EXPECT_EQ(transfer.cluster_count(), 2);
@@ -244,11 +244,11 @@ TEST(TransferPairs, OddRegionsGiveFiniteResultsAndKeepTheRules) {
 
 TEST(TransferPairs, APairSaysItsFlagsItsLeakAndHowSureItIs) {
   const Animals& a = animals();
-  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
   std::vector<uint32_t> numbers(a.pairs.names.size());
   add(transfer, a.pairs.inputs(), numbers.data());
   for (size_t i = 0; i < numbers.size(); ++i) {
-    const hf::PairInfo info = transfer.pair_info(numbers[i]);
+    const hf_inner::PairInfo info = transfer.pair_info(numbers[i]);
     EXPECT_EQ(info.flags, a.pairs.flags[i]);
     EXPECT_LT(info.source_leak, 1e-9);
     EXPECT_LT(info.target_leak, 1e-9);
@@ -262,8 +262,8 @@ TEST(TransferPairs, APairSaysItsFlagsItsLeakAndHowSureItIs) {
 
 TEST(TransferPairs, PairsThatComeAndGoLeaveNoMemoryBehind) {
   const Animals& a = animals();
-  const std::vector<hf::PairInput> inputs = a.pairs.inputs();
-  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  const std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, inputs);
   uint64_t before = 0;
   for (int i = 0; i < 60; ++i) {
@@ -282,32 +282,32 @@ TEST(TransferPairs, PairsThatComeAndGoLeaveNoMemoryBehind) {
 TEST(TransferPairs, KernelsOfTheSourceAreNormalisedAndLocal) {
   const Animals& a = animals();
   const size_t width = a.pairs.names.size();
-  hf::Memory memory;
+  hf_inner::Memory memory;
   std::vector<uint32_t> numbers(width);
-  std::vector<hf::Span<const int32_t>> source, target;
+  std::vector<hf_inner::Span<const int32_t>> source, target;
   for (size_t i = 0; i < width; ++i) {
     numbers[i] = static_cast<uint32_t>(i);
     source.push_back({a.pairs.source[i].data(), a.pairs.source[i].size()});
     target.push_back({a.pairs.target[i].data(), a.pairs.target[i].size()});
   }
-  hf::PairFields from(a.horse.core), to(a.bull.core);
+  hf_inner::PairFields from(a.horse.core), to(a.bull.core);
   from.add({numbers.data(), width}, {source.data(), width}, "source");
   to.add({numbers.data(), width}, {target.data(), width}, "target");
   const auto n = static_cast<size_t>(a.horse.core->size()), m = static_cast<size_t>(a.bull.core->size());
   std::vector<double> source_field(n * width), target_field(m * width), leaks(width);
   from.solve({numbers.data(), width}, source_field.data(), leaks.data());
   to.solve({numbers.data(), width}, target_field.data(), leaks.data());
-  const auto source_area = hf::area_shares(a.horse.core->mesh, memory),
-             target_area = hf::area_shares(a.bull.core->mesh, memory);
+  const auto source_area = hf_inner::area_shares(a.horse.core->mesh, memory),
+             target_area = hf_inner::area_shares(a.bull.core->mesh, memory);
   for (const bool paper : {false, true}) {
-    hf::ClusterOptions options;
+    hf_inner::ClusterOptions options;
     options.paper_bands = paper;
-    const hf::Clusters clusters = hf::make_clusters(
+    const hf_inner::Clusters clusters = hf_inner::make_clusters(
         options, static_cast<int32_t>(width), {source_field.data(), source_field.size()}, source_area, *a.horse.core,
         {target_field.data(), target_field.size()}, target_area, a.bull.core->mesh, memory, *a.world.jobs);
     ASSERT_GT(clusters.count, 20);
     double narrow_radius = 0, broad_radius = 0;
-    for (const hf::SourceKernels* kernels : {&clusters.narrow, &clusters.broad}) {
+    for (const hf_inner::SourceKernels* kernels : {&clusters.narrow, &clusters.broad}) {
       for (size_t c = 0; c < static_cast<size_t>(clusters.count); ++c) {
         Vec3 sum, centre;
         double trace = 0, largest = 0, radius = 0;
@@ -316,12 +316,12 @@ TEST(TransferPairs, KernelsOfTheSourceAreNormalisedAndLocal) {
           return a.horse.core->mesh.positions[static_cast<size_t>(kernels->vertex[i])];
         };
         for (size_t i = first; i < last; ++i) {
-          sum = sum + kernels->slope[i], trace += hf::dot(point(i), kernels->slope[i]);
-          largest = std::max(largest, hf::norm(kernels->slope[i]));
+          sum = sum + kernels->slope[i], trace += hf_inner::dot(point(i), kernels->slope[i]);
+          largest = std::max(largest, hf_inner::norm(kernels->slope[i]));
           centre = centre + (1.0 / static_cast<double>(last - first)) * point(i);
         }
-        for (size_t i = first; i < last; ++i) radius += hf::norm(point(i) - centre) / static_cast<double>(last - first);
-        EXPECT_LT(hf::norm(sum), 1e-9 * std::max(largest, 1.0)) << c;
+        for (size_t i = first; i < last; ++i) radius += hf_inner::norm(point(i) - centre) / static_cast<double>(last - first);
+        EXPECT_LT(hf_inner::norm(sum), 1e-9 * std::max(largest, 1.0)) << c;
         EXPECT_NEAR(trace, 1.0, 1e-9) << c;
         (kernels == &clusters.narrow ? narrow_radius : broad_radius) += radius / clusters.count;
       }

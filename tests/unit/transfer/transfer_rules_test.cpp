@@ -6,10 +6,10 @@
 namespace {
 
 using namespace transfer_test;
-using hf::Vec3;
+using hf_inner::Vec3;
 
-hf::TransferOptions options(int32_t mode, double alignment = -1) {
-  hf::TransferOptions out;
+hf_inner::TransferOptions options(int32_t mode, double alignment = -1) {
+  hf_inner::TransferOptions out;
   out.mode = mode, out.alignment_angle = alignment;
   return out;
 }
@@ -17,7 +17,7 @@ hf::TransferOptions options(int32_t mode, double alignment = -1) {
 TEST(TransferRules, TheRestFrameOfTheSourceGivesTheRestOfTheTarget) {
   const Animals& a = animals();
   for (const int32_t mode : {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER}) {
-    hf::Transfer transfer(a.horse.core, a.bull.core, options(mode));
+    hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(mode));
     add(transfer, a.pairs.inputs());
     EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), a.bull.rest()), 1e-6 * a.box) << "mode " << mode;
   }
@@ -26,24 +26,24 @@ TEST(TransferRules, TheRestFrameOfTheSourceGivesTheRestOfTheTarget) {
 TEST(TransferRules, ARigidMotionOfTheSourceIsTheSameRigidMotionWithScaledTranslation) {
   const Animals& a = animals();
   const std::vector<Vec3> rest = a.horse.rest(), target_rest = a.bull.rest();
-  hf::Memory memory;
-  const auto source_area = hf::area_shares(a.horse.core->mesh, memory),
-             target_area = hf::area_shares(a.bull.core->mesh, memory);
+  hf_inner::Memory memory;
+  const auto source_area = hf_inner::area_shares(a.horse.core->mesh, memory),
+             target_area = hf_inner::area_shares(a.bull.core->mesh, memory);
   Vec3 source_centroid, target_centroid;
   for (size_t v = 0; v < rest.size(); ++v) source_centroid = source_centroid + source_area[v] * rest[v];
   for (size_t v = 0; v < target_rest.size(); ++v) target_centroid = target_centroid + target_area[v] * target_rest[v];
   const Vec3 turns[] = {{0, 0, 0}, {0, 1.0, 0}, {0.2, 0, 0}, {1.1, -0.7, 2.0}, {0, 3.14, 0}};
   for (const int32_t mode : {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER}) {
-    hf::Transfer transfer(a.horse.core, a.bull.core, options(mode));
+    hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(mode));
     add(transfer, a.pairs.inputs());
     for (const Vec3& turn : turns) {
-      const hf::Quaternion rotation = hf::exponential(turn);
+      const hf_inner::Quaternion rotation = hf_inner::exponential(turn);
       const Vec3 shift{3.0, -0.4, 11.0};
       std::vector<Vec3> posed, expected;
-      for (const Vec3& p : rest) posed.push_back(hf::rotate(rotation, p) + shift);
-      const Vec3 moved = hf::rotate(rotation, source_centroid) + shift - source_centroid;
+      for (const Vec3& p : rest) posed.push_back(hf_inner::rotate(rotation, p) + shift);
+      const Vec3 moved = hf_inner::rotate(rotation, source_centroid) + shift - source_centroid;
       for (const Vec3& p : target_rest)
-        expected.push_back(hf::rotate(rotation, p - target_centroid) + target_centroid + transfer.scale() * moved);
+        expected.push_back(hf_inner::rotate(rotation, p - target_centroid) + target_centroid + transfer.scale() * moved);
       EXPECT_LT(largest_distance(frame_of(transfer, posed), expected), 1e-6 * a.box)
           << "mode " << mode << " turn " << turn.x << " " << turn.y << " " << turn.z;
     }
@@ -60,11 +60,11 @@ TEST(TransferRules, TurningTheSourceAboutTheVerticalWithItsAxesGivesTheSameClip)
   Body other = a.horse;
   other.move(a.world, turned);
   ASSERT_EQ(other.core->size(), a.horse.core->size());
-  hf::TransferOptions straight = options(HF_TRANSFER_FIELDS, 0), rotated = straight;
+  hf_inner::TransferOptions straight = options(HF_TRANSFER_FIELDS, 0), rotated = straight;
   const glm::dvec3 right = turned({1, 0, 0}), forward = turned({0, 0, 1});
   const double axes[9] = {right.x, right.y, right.z, 0, 1, 0, forward.x, forward.y, forward.z};
   std::copy_n(axes, 9, rotated.source_axes);
-  hf::Transfer first(a.horse.core, a.bull.core, straight), second(other.core, a.bull.core, rotated);
+  hf_inner::Transfer first(a.horse.core, a.bull.core, straight), second(other.core, a.bull.core, rotated);
   add(first, a.pairs.inputs()), add(second, a.pairs.inputs());
   for (const double time : {0.0, 0.2, 0.55, 0.9}) {
     std::vector<glm::dvec3> posed = samples::posed_positions(a.horse.model, a.horse.mesh, a.walk, time), moved;
@@ -80,12 +80,12 @@ TEST(TransferRules, OnlyRotationsAreTransferredSoTheTargetsScaleDoesNotChangeThe
   const auto rotations = [&](double scale) {
     Body bull = a.bull;
     bull.move(a.world, [&](const glm::dvec3& p) { return scale * p; });
-    hf::Transfer transfer(a.horse.core, bull.core, options(HF_TRANSFER_FIELDS, 0));
+    hf_inner::Transfer transfer(a.horse.core, bull.core, options(HF_TRANSFER_FIELDS, 0));
     add(transfer, a.pairs.inputs());
-    std::vector<hf::Quaternion> all;
+    std::vector<hf_inner::Quaternion> all;
     for (const double time : {0.1, 0.6}) {
       const std::vector<Vec3> posed = frame_of(transfer, a.horse.posed(a.walk, time));
-      std::vector<hf::Quaternion> frame(static_cast<size_t>(transfer.cluster_count()));
+      std::vector<hf_inner::Quaternion> frame(static_cast<size_t>(transfer.cluster_count()));
       transfer.skin_motion(nullptr, frame.data(), nullptr);
       all.insert(all.end(), frame.begin(), frame.end());
     }
@@ -95,24 +95,24 @@ TEST(TransferRules, OnlyRotationsAreTransferredSoTheTargetsScaleDoesNotChangeThe
   for (const double scale : {0.5, 2.0}) {
     const auto other = rotations(scale);
     ASSERT_EQ(one.size(), other.size());
-    for (size_t c = 0; c < one.size(); ++c) EXPECT_LT(hf::angle_between(one[c], other[c]), 1e-6) << c;
+    for (size_t c = 0; c < one.size(); ++c) EXPECT_LT(hf_inner::angle_between(one[c], other[c]), 1e-6) << c;
   }
 }
 
 TEST(TransferRules, TheTargetIsNotStretchedByAStretchedSource) {
   // the source twice as large in every frame: rotations only, so the target's edges keep their lengths
   const Animals& a = animals();
-  hf::Transfer transfer(a.horse.core, a.bull.core, options(HF_TRANSFER_FIELDS));
-  std::vector<hf::PairInput> inputs = a.pairs.inputs();
-  for (hf::PairInput& input : inputs) input.flags &= ~uint32_t{HF_PAIR_ANCHOR | HF_PAIR_FOOT};
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(HF_TRANSFER_FIELDS));
+  std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
+  for (hf_inner::PairInput& input : inputs) input.flags &= ~uint32_t{HF_PAIR_ANCHOR | HF_PAIR_FOOT};
   add(transfer, inputs);
   std::vector<Vec3> posed = a.horse.rest();
   for (Vec3& p : posed) p = 2.0 * p;
   const std::vector<Vec3> out = frame_of(transfer, posed), rest = a.bull.rest();
-  const hf::Topology& topology = a.bull.core->topology;
+  const hf_inner::Topology& topology = a.bull.core->topology;
   for (int32_t e = 0; e < topology.edge_count(); ++e) {
     const auto i = static_cast<size_t>(topology.first(e)), j = static_cast<size_t>(topology.second(e));
-    ASSERT_NEAR(hf::norm(out[i] - out[j]), hf::norm(rest[i] - rest[j]), 1e-6 * a.box);
+    ASSERT_NEAR(hf_inner::norm(out[i] - out[j]), hf_inner::norm(rest[i] - rest[j]), 1e-6 * a.box);
   }
 }
 
@@ -123,7 +123,7 @@ TEST(TransferRules, ResultsAreTheSameBitsForAnyNumberOfThreads) {
     const World world(threads);
     Body horse = a.horse, bull = a.bull;
     horse.build(world), bull.build(world);
-    hf::Transfer transfer(horse.core, bull.core, options(HF_TRANSFER_FIELDS, 0));
+    hf_inner::Transfer transfer(horse.core, bull.core, options(HF_TRANSFER_FIELDS, 0));
     add(transfer, a.pairs.inputs());
     const std::vector<Vec3> out = frame_of(transfer, horse.posed(a.walk, 0.37));
     if (expected.empty()) expected = out;
@@ -137,7 +137,7 @@ TEST(TransferRules, ResultsAreTheSameBitsForAnyNumberOfThreads) {
 
 TEST(TransferRules, SteadyFramesAllocateNothing) {
   const Animals& a = animals();
-  hf::Transfer transfer(a.horse.core, a.bull.core, options(HF_TRANSFER_FIELDS, 0));
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(HF_TRANSFER_FIELDS, 0));
   add(transfer, a.pairs.inputs());
   const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.2);
   std::vector<Vec3> out = frame_of(transfer, posed);
@@ -149,12 +149,12 @@ TEST(TransferRules, SteadyFramesAllocateNothing) {
 TEST(TransferRules, TheSkinReplaysTheFrameAndItsWeightsSumToExactlyOne) {
   const Animals& a = animals();
   for (const int32_t mode : {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER}) {
-    hf::Transfer transfer(a.horse.core, a.bull.core, options(mode, 0));
+    hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(mode, 0));
     add(transfer, a.pairs.inputs());
     const std::vector<Vec3> out = frame_of(transfer, a.horse.posed(a.walk, 0.7)), rest = a.bull.rest();
     const auto count = static_cast<size_t>(transfer.cluster_count());
     std::vector<Vec3> pivots(count), places(count);
-    std::vector<hf::Quaternion> rotations(count);
+    std::vector<hf_inner::Quaternion> rotations(count);
     transfer.skin_motion(pivots.data(), rotations.data(), places.data());
     for (const uint32_t width : {4u, 8u}) {
       std::vector<uint32_t> joints(width);
@@ -169,10 +169,10 @@ TEST(TransferRules, TheSkinReplaysTheFrameAndItsWeightsSumToExactlyOne) {
             ASSERT_LE(weights[i], weights[i - 1]);
           }
           p = p + static_cast<double>(weights[i]) *
-                      (hf::rotate(rotations[joints[i]], rest[v] - pivots[joints[i]]) + places[joints[i]]);
+                      (hf_inner::rotate(rotations[joints[i]], rest[v] - pivots[joints[i]]) + places[joints[i]]);
         }
         ASSERT_EQ(sum, 1.0f) << v;
-        ASSERT_LT(hf::norm(p - out[v]), 1e-9 * a.box) << v;
+        ASSERT_LT(hf_inner::norm(p - out[v]), 1e-9 * a.box) << v;
       }
     }
   }
@@ -180,14 +180,14 @@ TEST(TransferRules, TheSkinReplaysTheFrameAndItsWeightsSumToExactlyOne) {
 
 TEST(TransferRules, WeightsOfAVertexAreRoundedToAnExactSum) {
   for (int trial = 0; trial < 1000; ++trial) {
-    hf::Candidate candidates[6];
+    hf_inner::Candidate candidates[6];
     const int count = 1 + trial % 6;
     for (int i = 0; i < count; ++i)
       candidates[i].cluster = i,
       candidates[i].weight = trial % 7 == 0 ? 0.0 : std::fmod(0.137 * (trial + 1) * (i + 1), 1.0);
     int32_t joint[4];
     float weight[4];
-    hf::write_weights(candidates, count, joint, weight);
+    hf_inner::write_weights(candidates, count, joint, weight);
     ASSERT_EQ(((weight[0] + weight[1]) + weight[2]) + weight[3], 1.0f);
     for (int i = 0; i < 4; ++i) {
       ASSERT_GE(weight[i], 0.0f);

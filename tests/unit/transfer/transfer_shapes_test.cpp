@@ -7,7 +7,7 @@
 namespace {
 
 using namespace transfer_test;
-using hf::Vec3;
+using hf_inner::Vec3;
 
 TEST(TransferShapes, TheSameSurfaceRemeshedAndScaledFollowsWithinTwoPercentOfTheBox) {
   const Animals& a = animals();
@@ -19,7 +19,7 @@ TEST(TransferShapes, TheSameSurfaceRemeshedAndScaledFollowsWithinTwoPercentOfThe
   Pairs pairs = find_pairs("horse_to_bull.json", a.horse, a.horse);
   pairs.target = find_pairs("horse_to_bull.json", plain, plain).target;
   for (uint32_t& flags : pairs.flags) flags |= HF_PAIR_ANCHOR;
-  hf::Transfer transfer(a.horse.core, other.core, {});
+  hf_inner::Transfer transfer(a.horse.core, other.core, {});
   add(transfer, pairs.inputs());
   EXPECT_NEAR(transfer.scale(), scale, 0.01 * scale);
   double sum = 0, worst = 0, largest = 0;
@@ -60,12 +60,12 @@ TEST(TransferShapes, ACopyWithAnotherRestPoseOfTheTailMovesLikeTheSource) {
   ASSERT_EQ(lifted.core->size(), a.horse.core->size());
   Pairs pairs = find_pairs("horse_to_bull.json", a.horse, a.horse);
   const auto error = [&](double alignment) {
-    hf::TransferOptions options;
+    hf_inner::TransferOptions options;
     options.alignment_angle = alignment, options.scale = 1;
-    hf::Transfer transfer(a.horse.core, lifted.core, options);
+    hf_inner::Transfer transfer(a.horse.core, lifted.core, options);
     std::vector<uint32_t> numbers(pairs.names.size());
     add(transfer, pairs.inputs(), numbers.data());
-    const hf::PairInfo tail = transfer.pair_info(numbers[1]);
+    const hf_inner::PairInfo tail = transfer.pair_info(numbers[1]);
     EXPECT_GT(tail.alignment_angle, 0.7);
     EXPECT_EQ(tail.aligned, alignment >= 0);
     double largest = 0;
@@ -88,7 +88,7 @@ TEST(TransferShapes, AnAlignmentSwitchedOffForAPairIsNotApplied) {
   lifted.build(a.world);
   Pairs pairs = find_pairs("horse_to_bull.json", a.horse, a.horse);
   pairs.flags[1] |= HF_PAIR_NO_ALIGNMENT;
-  hf::Transfer transfer(a.horse.core, lifted.core, {});
+  hf_inner::Transfer transfer(a.horse.core, lifted.core, {});
   add(transfer, pairs.inputs());
   EXPECT_FALSE(transfer.pair_info(1).aligned);
   EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), lifted.rest()), 1e-6 * lifted.core->mesh.scale);
@@ -124,7 +124,7 @@ TEST(TransferShapes, LoosePartsFollowWhatTheyLieNextTo) {
   const size_t first = bull.mesh.positions.size();
   add_loose_parts(bull, head + glm::dvec3(0.1, 0.1, 0.15), {0, 1.45, -0.6}, a.world);
   ASSERT_EQ(bull.core->mesh.component_count(), 3);
-  hf::Transfer transfer(a.horse.core, bull.core, {});
+  hf_inner::Transfer transfer(a.horse.core, bull.core, {});
   add(transfer, a.pairs.inputs());
   EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), bull.rest()), 1e-6);
   const auto inner = [&](size_t given) { return static_cast<size_t>(bull.core->mesh.inner_of_given[given]); };
@@ -136,15 +136,15 @@ TEST(TransferShapes, LoosePartsFollowWhatTheyLieNextTo) {
       size_t host = 0;
       double best = 1e300;
       for (size_t w = 0; w < first; ++w) {
-        const double distance = hf::norm(rest[inner(w)] - rest[inner(v)]);
+        const double distance = hf_inner::norm(rest[inner(w)] - rest[inner(v)]);
         if (distance < best) best = distance, host = w;
       }
-      EXPECT_NEAR(hf::norm(out[inner(v)] - out[inner(host)]), best, 0.02 * bull.core->mesh.scale) << v;
+      EXPECT_NEAR(hf_inner::norm(out[inner(v)] - out[inner(host)]), best, 0.02 * bull.core->mesh.scale) << v;
     }
     // the eye stays rigid
     for (size_t v = first; v < first + 6; ++v) {
       for (size_t w = first; w < v; ++w)
-        EXPECT_NEAR(hf::norm(out[inner(v)] - out[inner(w)]), hf::norm(rest[inner(v)] - rest[inner(w)]), 1e-3);
+        EXPECT_NEAR(hf_inner::norm(out[inner(v)] - out[inner(w)]), hf_inner::norm(rest[inner(v)] - rest[inner(w)]), 1e-3);
     }
   }
 }
@@ -155,7 +155,7 @@ TEST(TransferShapes, AnIslandTakesTheRowsOfTheNearestVerticesAndIsRelaxedBetween
   Body bull = a.bull;
   const size_t first = bull.mesh.positions.size();
   add_loose_parts(bull, {0.3, 1.6, 0.9}, {0.4, 1.0, -0.7}, a.world);
-  const hf::Core& core = *bull.core;
+  const hf_inner::Core& core = *bull.core;
   std::vector<uint8_t> reached(static_cast<size_t>(core.mesh.component_count()), 0);
   const auto inner = [&](size_t given) { return core.mesh.inner_of_given[given]; };
   const auto place = [&](int32_t v) { return core.mesh.positions[static_cast<size_t>(v)]; };
@@ -172,12 +172,12 @@ TEST(TransferShapes, AnIslandTakesTheRowsOfTheNearestVerticesAndIsRelaxedBetween
     field[3 * static_cast<size_t>(v)] = p.x, field[3 * static_cast<size_t>(v) + 1] = p.y,
               field[3 * static_cast<size_t>(v) + 2] = p.z;
   }
-  hf::attach_islands(core, {reached.data(), reached.size()}, 3, field.data());
+  hf_inner::attach_islands(core, {reached.data(), reached.size()}, 3, field.data());
   const auto nearest = [&](int32_t island_vertex) {
     double best = 1e300;
     int32_t host = -1;
     for (int32_t v = 0; v < core.size(); ++v) {
-      const double d = hf::norm(place(v) - place(island_vertex));
+      const double d = hf_inner::norm(place(v) - place(island_vertex));
       if (core.mesh.component[static_cast<size_t>(v)] == body && d < best) best = d, host = v;
     }
     return host;
@@ -186,7 +186,7 @@ TEST(TransferShapes, AnIslandTakesTheRowsOfTheNearestVerticesAndIsRelaxedBetween
   size_t hosted = 0, relaxed = 0;
   for (size_t given = first + 6; given < bull.mesh.positions.size(); ++given) {
     const int32_t v = inner(given);
-    if (hf::norm(row(v) - place(nearest(v))) < 1e-12) {
+    if (hf_inner::norm(row(v) - place(nearest(v))) < 1e-12) {
       ++hosted;
       continue;
     }
@@ -197,15 +197,15 @@ TEST(TransferShapes, AnIslandTakesTheRowsOfTheNearestVerticesAndIsRelaxedBetween
       const double w = core.weights[static_cast<size_t>(core.topology.neighbour_edge[static_cast<size_t>(e)])];
       mean = mean + w * row(core.topology.neighbour[static_cast<size_t>(e)]), sum += w;
     }
-    EXPECT_LT(hf::norm(row(v) - (1 / sum) * mean), 1e-3 * core.mesh.scale) << given;
+    EXPECT_LT(hf_inner::norm(row(v) - (1 / sum) * mean), 1e-3 * core.mesh.scale) << given;
     ++relaxed;
   }
   EXPECT_EQ(hosted, 8u);  // a third of 26
   EXPECT_EQ(relaxed, 18u);
   // the eye: one row, the mean of its three nearest
   for (size_t given = first; given < first + 6; ++given)
-    EXPECT_EQ(hf::norm(row(inner(given)) - row(inner(first))), 0.0);
-  EXPECT_LT(hf::norm(row(inner(first)) - place(nearest(inner(first)))), 0.1 * core.mesh.scale);
+    EXPECT_EQ(hf_inner::norm(row(inner(given)) - row(inner(first))), 0.0);
+  EXPECT_LT(hf_inner::norm(row(inner(first)) - place(nearest(inner(first)))), 0.1 * core.mesh.scale);
 }
 
 // Bottom of a foot region: its lowest point, and its centre.
@@ -224,7 +224,7 @@ Foot foot_of(const std::vector<int32_t>& region, const std::vector<Vec3>& points
 
 TEST(TransferShapes, FeetFollowTheScaledPathsOfTheSourcesFeetWithoutSinkingOrJitter) {
   const Animals& a = animals();
-  hf::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
   const double box = a.bull.core->mesh.scale, scale = transfer.scale(), duration = samples::clip_duration(a.walk);
   const std::vector<Vec3> source_rest = a.horse.rest(), target_rest = a.bull.rest();
@@ -239,7 +239,7 @@ TEST(TransferShapes, FeetFollowTheScaledPathsOfTheSourcesFeetWithoutSinkingOrJit
       const Foot from_rest = foot_of(a.pairs.source[foot], source_rest),
                  to_rest = foot_of(a.pairs.target[foot], target_rest);
       const Vec3 goal = to_rest.centre + scale * (from.centre - from_rest.centre);
-      const double miss = hf::norm(to.centre - goal) / box;
+      const double miss = hf_inner::norm(to.centre - goal) / box;
       sum += miss, largest = std::max(largest, miss), ++count;
       sunk = std::max(sunk, (scale * std::min(0.0, from.low - from_rest.low) - (to.low - to_rest.low)) / box);
       paths[foot - 2].push_back(scale * from.centre), paths[foot + 2].push_back(to.centre);
@@ -248,7 +248,7 @@ TEST(TransferShapes, FeetFollowTheScaledPathsOfTheSourcesFeetWithoutSinkingOrJit
   for (size_t foot = 0; foot < 4; ++foot) {
     for (size_t f = 0; f + 3 < frames; ++f) {
       const auto jerk = [&](const std::vector<Vec3>& p) {
-        return hf::norm(p[f + 3] - 3.0 * p[f + 2] + 3.0 * p[f + 1] - p[f]);
+        return hf_inner::norm(p[f + 3] - 3.0 * p[f + 2] + 3.0 * p[f + 1] - p[f]);
       };
       source_jerk += jerk(paths[foot]), target_jerk += jerk(paths[foot + 4]);
     }
@@ -263,13 +263,13 @@ TEST(TransferShapes, FeetFollowTheScaledPathsOfTheSourcesFeetWithoutSinkingOrJit
 
 TEST(TransferShapes, ALimbIsTurnedTheShortestWayAlsoWhenItPointsTheOtherWay) {
   const Vec3 a{0.3, -2, 0.5}, b{-0.1, 0.4, 3};
-  const Vec3 turned = hf::rotate(hf::minimal_rotation(a, b, {1, 0, 0}), (1 / hf::norm(a)) * a);
-  EXPECT_LT(hf::norm(turned - (1 / hf::norm(b)) * b), 1e-12);
-  const Vec3 opposite = hf::rotate(hf::minimal_rotation({0, 1, 0}, {0, -1, 0}, {1, 0, 0}), {0, 1, 0});
-  EXPECT_LT(hf::norm(opposite - Vec3{0, -1, 0}), 1e-12);
-  const Vec3 along_axis = hf::rotate(hf::minimal_rotation({1, 0, 0}, {-1, 0, 0}, {1, 0, 0}), {1, 0, 0});
-  EXPECT_LT(hf::norm(along_axis - Vec3{-1, 0, 0}), 1e-12);
-  EXPECT_NEAR(hf::angle_between(hf::power(hf::exponential({0, 1.2, 0}), 0.25), {}), 0.3, 1e-12);
+  const Vec3 turned = hf_inner::rotate(hf_inner::minimal_rotation(a, b, {1, 0, 0}), (1 / hf_inner::norm(a)) * a);
+  EXPECT_LT(hf_inner::norm(turned - (1 / hf_inner::norm(b)) * b), 1e-12);
+  const Vec3 opposite = hf_inner::rotate(hf_inner::minimal_rotation({0, 1, 0}, {0, -1, 0}, {1, 0, 0}), {0, 1, 0});
+  EXPECT_LT(hf_inner::norm(opposite - Vec3{0, -1, 0}), 1e-12);
+  const Vec3 along_axis = hf_inner::rotate(hf_inner::minimal_rotation({1, 0, 0}, {-1, 0, 0}, {1, 0, 0}), {1, 0, 0});
+  EXPECT_LT(hf_inner::norm(along_axis - Vec3{-1, 0, 0}), 1e-12);
+  EXPECT_NEAR(hf_inner::angle_between(hf_inner::power(hf_inner::exponential({0, 1.2, 0}), 0.25), {}), 0.3, 1e-12);
 }
 
 }  // namespace

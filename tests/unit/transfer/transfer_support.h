@@ -30,24 +30,24 @@ inline std::filesystem::path pairs_path(const std::string& name) {
 
 struct World {
   explicit World(uint32_t threads = 1, const hf_allocator& hooks = {})
-      : memory(std::make_shared<hf::Memory>(hooks)), jobs(std::make_shared<hf::JobRunner>(threads)) {}
-  std::shared_ptr<hf::Memory> memory;
-  std::shared_ptr<hf::JobRunner> jobs;
+      : memory(std::make_shared<hf_inner::Memory>(hooks)), jobs(std::make_shared<hf_inner::JobRunner>(threads)) {}
+  std::shared_ptr<hf_inner::Memory> memory;
+  std::shared_ptr<hf_inner::JobRunner> jobs;
 };
 
-inline std::shared_ptr<const hf::Core> make_core(const std::vector<glm::dvec3>& positions,
+inline std::shared_ptr<const hf_inner::Core> make_core(const std::vector<glm::dvec3>& positions,
                                                  const std::vector<uint32_t>& triangles, const World& world) {
-  hf::MeshInput input;
+  hf_inner::MeshInput input;
   input.vertex_count = static_cast<uint32_t>(positions.size()),
   input.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
-  input.positions = hf::ConstRows(&positions[0].x, sizeof(glm::dvec3)), input.triangles = triangles.data();
-  return hf::Core::make(input, {}, world.memory, world.jobs);
+  input.positions = hf_inner::ConstRows(&positions[0].x, sizeof(glm::dvec3)), input.triangles = triangles.data();
+  return hf_inner::Core::make(input, {}, world.memory, world.jobs);
 }
 
 struct Body {
   samples::Model model;
   samples::FlatMesh mesh;
-  std::shared_ptr<const hf::Core> core;
+  std::shared_ptr<const hf_inner::Core> core;
 
   Body(samples::Model from, const World& world) : model(std::move(from)), mesh(samples::flatten(model)) {
     build(world);
@@ -61,16 +61,16 @@ struct Body {
   void build(const World& world) { core = make_core(mesh.positions, mesh.triangles, world); }
 
   // Given positions of flat vertices as inner vertices.
-  std::vector<hf::Vec3> inner(const std::vector<glm::dvec3>& flat) const {
-    std::vector<hf::Vec3> out(static_cast<size_t>(core->size()));
+  std::vector<hf_inner::Vec3> inner(const std::vector<glm::dvec3>& flat) const {
+    std::vector<hf_inner::Vec3> out(static_cast<size_t>(core->size()));
     for (size_t v = 0; v < out.size(); ++v) {
       const glm::dvec3& p = flat[static_cast<size_t>(core->mesh.given_of_inner[v])];
       out[v] = {p.x, p.y, p.z};
     }
     return out;
   }
-  std::vector<hf::Vec3> rest() const { return inner(mesh.positions); }
-  std::vector<hf::Vec3> posed(const samples::Animation& clip, double time) const {
+  std::vector<hf_inner::Vec3> rest() const { return inner(mesh.positions); }
+  std::vector<hf_inner::Vec3> posed(const samples::Animation& clip, double time) const {
     return inner(samples::posed_positions(model, mesh, clip, time));
   }
   std::vector<int32_t> inner_of(const std::vector<uint32_t>& flat) const {
@@ -91,8 +91,8 @@ struct Pairs {
   std::vector<std::string> names;
   std::vector<std::vector<int32_t>> source, target;
   std::vector<uint32_t> flags;
-  std::vector<hf::PairInput> inputs() const {
-    std::vector<hf::PairInput> out(names.size());
+  std::vector<hf_inner::PairInput> inputs() const {
+    std::vector<hf_inner::PairInput> out(names.size());
     for (size_t i = 0; i < out.size(); ++i)
       out[i].source = {source[i].data(), source[i].size()}, out[i].target = {target[i].data(), target[i].size()},
       out[i].flags = flags[i];
@@ -137,54 +137,54 @@ inline const Animals& animals() {
 }
 
 // Mean over the vertices of a region, each once.
-inline hf::Vec3 centre_of(std::vector<int32_t> region, const std::vector<hf::Vec3>& points) {
+inline hf_inner::Vec3 centre_of(std::vector<int32_t> region, const std::vector<hf_inner::Vec3>& points) {
   std::sort(region.begin(), region.end());
   region.erase(std::unique(region.begin(), region.end()), region.end());
-  hf::Vec3 sum;
+  hf_inner::Vec3 sum;
   for (const int32_t v : region)
     sum = sum + (1.0 / static_cast<double>(region.size())) * points[static_cast<size_t>(v)];
   return sum;
 }
 
-inline double lowest_of(const std::vector<int32_t>& region, const std::vector<hf::Vec3>& points) {
+inline double lowest_of(const std::vector<int32_t>& region, const std::vector<hf_inner::Vec3>& points) {
   double low = 1e300;
   for (const int32_t v : region) low = std::min(low, points[static_cast<size_t>(v)].y);
   return low;
 }
 
-inline double lowest_of(const std::vector<hf::Vec3>& points) {
+inline double lowest_of(const std::vector<hf_inner::Vec3>& points) {
   double low = 1e300;
-  for (const hf::Vec3& p : points) low = std::min(low, p.y);
+  for (const hf_inner::Vec3& p : points) low = std::min(low, p.y);
   return low;
 }
 
-inline void add(hf::Transfer& transfer, const std::vector<hf::PairInput>& inputs, uint32_t* numbers = nullptr) {
+inline void add(hf_inner::Transfer& transfer, const std::vector<hf_inner::PairInput>& inputs, uint32_t* numbers = nullptr) {
   transfer.add_pairs({inputs.data(), inputs.size()}, numbers);
 }
 
-inline std::vector<hf::Vec3> frame_of(hf::Transfer& transfer, const std::vector<hf::Vec3>& posed) {
-  std::vector<hf::Vec3> out(static_cast<size_t>(transfer.target().size()));
+inline std::vector<hf_inner::Vec3> frame_of(hf_inner::Transfer& transfer, const std::vector<hf_inner::Vec3>& posed) {
+  std::vector<hf_inner::Vec3> out(static_cast<size_t>(transfer.target().size()));
   transfer.apply(posed.data(), out.data());
   return out;
 }
 
-inline double largest_distance(const std::vector<hf::Vec3>& a, const std::vector<hf::Vec3>& b) {
+inline double largest_distance(const std::vector<hf_inner::Vec3>& a, const std::vector<hf_inner::Vec3>& b) {
   double largest = 0;
-  for (size_t i = 0; i < a.size(); ++i) largest = std::max(largest, hf::norm(a[i] - b[i]));
+  for (size_t i = 0; i < a.size(); ++i) largest = std::max(largest, hf_inner::norm(a[i] - b[i]));
   return largest;
 }
 
 // Area-weighted root mean square over the box diagonal; centred: the mean difference is taken out.
-inline double rms(const hf::Core& core, const std::vector<hf::Vec3>& a, const std::vector<hf::Vec3>& b,
+inline double rms(const hf_inner::Core& core, const std::vector<hf_inner::Vec3>& a, const std::vector<hf_inner::Vec3>& b,
                   bool centred = false) {
-  hf::Memory memory;
-  const auto area = hf::area_shares(core.mesh, memory);
-  hf::Vec3 mean;
+  hf_inner::Memory memory;
+  const auto area = hf_inner::area_shares(core.mesh, memory);
+  hf_inner::Vec3 mean;
   for (size_t v = 0; centred && v < a.size(); ++v) mean = mean + area[v] * (a[v] - b[v]);
   double sum = 0;
   for (size_t v = 0; v < a.size(); ++v) {
-    const hf::Vec3 d = a[v] - b[v] - mean;
-    sum += area[v] * hf::dot(d, d);
+    const hf_inner::Vec3 d = a[v] - b[v] - mean;
+    sum += area[v] * hf_inner::dot(d, d);
   }
   return std::sqrt(sum) / core.mesh.scale;
 }

@@ -1,0 +1,12 @@
+// Numbers of vertices, edges, triangles, rows and columns, and their conversion to positions in arrays.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace hf_inner {
+
+using Index = std::int32_t;  // -1 often stands for "none"
+
+constexpr std::size_t at(Index i) noexcept { return static_cast<std::size_t>(i); }
+
+}  // namespace hf_inner
