@@ -1,11 +1,10 @@
-// hf/hf.hpp - a thin C++17 wrapper over hf.h: handles that destroy themselves, failures as exceptions, vectors for
-// arrays.
+// hf/hf.hpp - C++17 over hf.h: handles that destroy themselves, failures as exceptions, vectors for arrays.
 //
-// Header only; every function forwards to the C function of the same name and nothing else happens here. The namespace
-// is hf, because the library's own inner namespace is hf and its tests see both.
+// Header only. Every function forwards to the C function of the same name; nothing else happens here.
 //
-//   hf::Solver solver(positions, triangles);
-//   auto sites = solver.add_sites({0, 41}, {0.0, 1.0});
+//   hf::Surface surface(positions, triangles);
+//   hf::Solver solver(surface);
+//   solver.add_sites({0, 41}, {0.0, 1.0});
 //   std::vector<float> field = solver.solve();
 #ifndef HF_HF_HPP
 #define HF_HF_HPP
@@ -24,8 +23,8 @@ namespace hf {
 class Error : public std::runtime_error {
  public:
   explicit Error(const hf_error_detail& detail)
-      : std::runtime_error(std::string(detail.function) + ": " + detail.message + " (" + hf_result_name(detail.code) +
-                           ")"),
+      : std::runtime_error(std::string(detail.function) + ": " + detail.message + " (" +
+                           hf_result_get_name(detail.code) + ")"),
         code_(detail.code),
         index_(detail.index) {}
   hf_result code() const noexcept { return code_; }
@@ -39,15 +38,15 @@ class Error : public std::runtime_error {
 inline void check(hf_result result) {
   if (result == HF_OK) return;
   hf_error_detail detail;
-  hf_get_error_detail(&detail);
+  hf_error_get_detail(&detail);
   throw Error(detail);
 }
 
-// A desc with every byte zero but its size.
+// A struct of defaults.
 template <class Desc>
 Desc make() {
-  Desc desc;
-  hf_init_desc(&desc, static_cast<uint32_t>(sizeof(Desc)));
+  Desc desc = Desc();
+  desc.struct_size = static_cast<uint32_t>(sizeof(Desc));
   return desc;
 }
 
@@ -84,7 +83,7 @@ class Progress {
   }
   float fraction() const {
     float value = 0;
-    check(hf_progress_get(handle_.get(), &value));
+    check(hf_progress_get_fraction(handle_.get(), &value));
     return value;
   }
   void cancel() { check(hf_progress_cancel(handle_.get())); }
@@ -94,22 +93,84 @@ class Progress {
   Handle<hf_progress, hf_progress_destroy> handle_;
 };
 
-class Solver {
+// The mesh, welded and factorised once. Everything below is made on it, and may outlive it.
+class Surface {
  public:
-  explicit Solver(const hf_create_desc& desc)
-      : channels_(desc.channel_count ? desc.channel_count : 1), vertices_(desc.vertex_count) {
-    hf_solver raw = nullptr;
-    check(hf_create(&desc, &raw));
-    handle_ = Handle<hf_solver, hf_destroy>(raw);
+  explicit Surface(const hf_surface_desc& desc) : vertices_(desc.vertex_count) {
+    hf_surface raw = nullptr;
+    check(hf_surface_create(&desc, &raw));
+    handle_ = Handle<hf_surface, hf_surface_destroy>(raw);
   }
   // xyz per vertex, three vertices per triangle.
-  Solver(const std::vector<float>& positions, const std::vector<uint32_t>& triangles)
-      : Solver(mesh(positions, triangles)) {}
+  Surface(const std::vector<float>& positions, const std::vector<uint32_t>& triangles)
+      : Surface(mesh(positions, triangles)) {}
+
+  hf_surface get() const noexcept { return handle_.get(); }
+  uint32_t vertex_count() const noexcept { return vertices_; }
+  hf_surface_report report() const {
+    auto report = make<hf_surface_report>();
+    check(hf_surface_get_report(get(), &report));
+    return report;
+  }
+  hf_surface_statistics statistics() const {
+    auto statistics = make<hf_surface_statistics>();
+    check(hf_surface_get_statistics(get(), &statistics));
+    return statistics;
+  }
+  std::vector<uint32_t> components() const {
+    std::vector<uint32_t> components(vertices_);
+    check(hf_surface_get_components(get(), vertices_, components.data(), nullptr));
+    return components;
+  }
+  // The bytes of a factor; hand them to hf_surface_create through hf_surface_desc::saved_factor.
+  std::vector<uint8_t> save(int32_t field_kind = HF_FIELD_HARMONIC) const {
+    size_t size = 0;
+    check(hf_surface_save(get(), field_kind, 0, nullptr, &size));
+    std::vector<uint8_t> bytes(size);
+    check(hf_surface_save(get(), field_kind, size, bytes.data(), &size));
+    return bytes;
+  }
+  // The first triangle on a ray; desc: null for the rest positions.
+  hf_hit cast_ray(const double (&origin)[3], const double (&direction)[3], const hf_pick_desc* desc = nullptr) const {
+    auto hit = make<hf_hit>();
+    check(hf_surface_cast_ray(get(), origin, direction, desc, &hit));
+    return hit;
+  }
+  uint32_t find_vertex(const double (&point)[3], const hf_pick_desc* desc = nullptr) const {
+    uint32_t vertex = HF_NO_INDEX;
+    check(hf_surface_find_vertex(get(), point, desc, &vertex, nullptr));
+    return vertex;
+  }
+
+ private:
+  static hf_surface_desc mesh(const std::vector<float>& positions, const std::vector<uint32_t>& triangles) {
+    auto desc = make<hf_surface_desc>();
+    if (positions.size() % 3 != 0 || triangles.size() % 3 != 0)
+      throw std::invalid_argument("positions and triangles hold three numbers each");
+    desc.vertex_count = static_cast<uint32_t>(positions.size() / 3);
+    desc.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
+    desc.positions = positions.data(), desc.triangles = triangles.data();
+    return desc;
+  }
+  Handle<hf_surface, hf_surface_destroy> handle_;
+  uint32_t vertices_ = 0;
+};
+
+// Sites on a surface, and their field.
+class Solver {
+ public:
+  explicit Solver(const Surface& surface, uint32_t channel_count = 1) : Solver(surface, channels(channel_count)) {}
+  Solver(const Surface& surface, const hf_solver_desc& desc)
+      : channels_(desc.channel_count ? desc.channel_count : 1), vertices_(surface.vertex_count()) {
+    hf_solver raw = nullptr;
+    check(hf_create(surface.get(), &desc, &raw));
+    handle_ = Handle<hf_solver, hf_solver_destroy>(raw);
+  }
 
   hf_solver get() const noexcept { return handle_.get(); }
   Solver clone() const {
     hf_solver raw = nullptr;
-    check(hf_clone(get(), &raw));
+    check(hf_solver_clone(get(), &raw));
     return Solver(raw, channels_, vertices_);
   }
 
@@ -129,16 +190,16 @@ class Solver {
   void move_sites(const std::vector<uint32_t>& sites, const std::vector<uint32_t>& vertices) {
     auto to = make<hf_sites_desc>();
     to.site_count = size(vertices), to.vertices = vertices.data();
-    check(hf_move_sites(get(), size(sites), sites.data(), &to));
+    check(hf_solver_move_sites(get(), size(sites), sites.data(), &to));
   }
-  void set_site_values(const std::vector<uint32_t>& sites, const std::vector<double>& values) {
+  void set_values(const std::vector<uint32_t>& sites, const std::vector<double>& values) {
     need(values.size(), sites.size() * channels_, "values");
-    check(hf_set_site_values(get(), size(sites), sites.data(), values.data()));
+    check(hf_solver_set_values(get(), size(sites), sites.data(), values.data()));
   }
-  uint32_t site_count() const noexcept { return hf_get_site_count(get()); }
-  void record() { check(hf_record(get())); }
-  void undo() { check(hf_undo(get())); }
-  void redo() { check(hf_redo(get())); }
+  uint32_t site_count() const noexcept { return hf_solver_get_site_count(get()); }
+  void record() { check(hf_solver_record(get())); }
+  void undo() { check(hf_solver_undo(get())); }
+  void redo() { check(hf_solver_redo(get())); }
 
   std::vector<float> solve(hf_solve_info* info = nullptr) const {
     std::vector<float> field(size_t{vertices_} * channels_);
@@ -147,59 +208,42 @@ class Solver {
   }
   std::vector<double> solve_f64(hf_solve_info* info = nullptr) const {
     std::vector<double> field(size_t{vertices_} * channels_);
-    check(hf_solve_f64(get(), field.data(), 0, info));
+    check(hf_solver_solve_f64(get(), field.data(), 0, info));
     return field;
   }
   std::vector<double> solve_at(const std::vector<uint32_t>& vertices) const {
     std::vector<double> values(vertices.size() * channels_);
-    check(hf_solve_at(get(), size(vertices), vertices.data(), values.data()));
+    check(hf_solver_solve_at(get(), size(vertices), vertices.data(), values.data()));
     return values;
   }
-  // On a thread of the host's, beside edits and solves on others; see hf_prepare_rebase.
-  void prepare_rebase() { check(hf_prepare_rebase(get())); }
-  // Single precision, for previews; see hf_solve_preview.
+  // On a thread of the host's, beside edits and solves on others; see hf_solver_prepare_rebase.
+  void prepare_rebase() { check(hf_solver_prepare_rebase(get())); }
+  // Single precision, for previews; see hf_solver_solve_preview.
   std::vector<float> solve_preview(uint32_t correction_count = 0, hf_preview_info* info = nullptr) const {
     std::vector<float> field(size_t{vertices_} * channels_);
-    check(hf_solve_preview(get(), field.data(), 0, correction_count, info));
+    check(hf_solver_solve_preview(get(), field.data(), 0, correction_count, info));
     return field;
   }
-  void release_preview() { check(hf_release_preview(get())); }
-  // The factor's bytes; hand them to hf_create through hf_create_desc::saved_factor.
-  std::vector<uint8_t> save_factor() const {
-    size_t size = 0;
-    check(hf_get_factor_size(get(), &size));
-    std::vector<uint8_t> bytes(size);
-    check(hf_save_factor(get(), bytes.data(), size));
-    return bytes;
-  }
-  hf_mesh_report mesh_report() const {
-    auto report = make<hf_mesh_report>();
-    check(hf_get_mesh_report(get(), &report));
-    return report;
-  }
+  void release_preview() { check(hf_solver_release_preview(get())); }
   // Throws when the field is wrong by more than the tolerance (0 = the engine's own).
   hf_certificate certify(double tolerance = 0) const {
     auto certificate = make<hf_certificate>();
     certificate.tolerance = tolerance;
-    check(hf_certify(get(), &certificate));
+    check(hf_solver_certify(get(), &certificate));
     return certificate;
   }
-  hf_statistics statistics() const {
-    auto statistics = make<hf_statistics>();
-    check(hf_get_statistics(get(), &statistics));
+  hf_solver_statistics statistics() const {
+    auto statistics = make<hf_solver_statistics>();
+    check(hf_solver_get_statistics(get(), &statistics));
     return statistics;
   }
 
  private:
   Solver(hf_solver raw, uint32_t channels, uint32_t vertices)
       : handle_(raw), channels_(channels), vertices_(vertices) {}
-  static hf_create_desc mesh(const std::vector<float>& positions, const std::vector<uint32_t>& triangles) {
-    auto desc = make<hf_create_desc>();
-    if (positions.size() % 3 != 0 || triangles.size() % 3 != 0)
-      throw std::invalid_argument("positions and triangles hold three numbers each");
-    desc.vertex_count = static_cast<uint32_t>(positions.size() / 3);
-    desc.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
-    desc.positions = positions.data(), desc.triangles = triangles.data();
+  static hf_solver_desc channels(uint32_t count) {
+    auto desc = make<hf_solver_desc>();
+    desc.channel_count = count;
     return desc;
   }
   static uint32_t size(const std::vector<uint32_t>& list) { return static_cast<uint32_t>(list.size()); }
@@ -209,18 +253,18 @@ class Solver {
                                   std::to_string(wanted) + " needed");
   }
 
-  Handle<hf_solver, hf_destroy> handle_;
+  Handle<hf_solver, hf_solver_destroy> handle_;
   uint32_t channels_ = 1, vertices_ = 0;
 };
 
 // A direction field; vectors are three numbers each.
 class Direction {
  public:
-  explicit Direction(const Solver& solver, uint32_t degree = 1) : vertices_(solver.mesh_report().vertex_count) {
+  explicit Direction(const Surface& surface, uint32_t degree = 1) : vertices_(surface.vertex_count()) {
     auto desc = make<hf_direction_desc>();
     desc.degree = degree;
     hf_direction raw = nullptr;
-    check(hf_direction_create(solver.get(), &desc, &raw));
+    check(hf_direction_create(surface.get(), &desc, &raw));
     handle_ = Handle<hf_direction, hf_direction_destroy>(raw);
   }
   // Shares the factor; with the same constraints.
@@ -275,8 +319,8 @@ class Direction {
 };
 
 // hf/analysis.h: what can be read from a field or from the shape alone. A field holds one value per vertex.
-inline hf_scalars scalars(const Solver& solver, const std::vector<double>& field) {
-  if (field.size() != solver.mesh_report().vertex_count)
+inline hf_scalars scalars(const Surface& surface, const std::vector<double>& field) {
+  if (field.size() != surface.vertex_count())
     throw std::invalid_argument("field: one value for each vertex of the mesh is needed");
   auto desc = make<hf_scalars>();
   desc.values_f64 = field.data();
@@ -284,11 +328,11 @@ inline hf_scalars scalars(const Solver& solver, const std::vector<double>& field
 }
 
 // spacing: HF_LEVELS_*.
-inline std::vector<double> space_levels(const Solver& solver, const std::vector<double>& field, int32_t spacing,
+inline std::vector<double> space_levels(const Surface& surface, const std::vector<double>& field, int32_t spacing,
                                         uint32_t count) {
-  const hf_scalars desc = scalars(solver, field);
+  const hf_scalars desc = scalars(surface, field);
   std::vector<double> levels(count);
-  check(hf_space_levels(solver.get(), &desc, spacing, count, levels.data()));
+  check(hf_surface_space_levels(surface.get(), &desc, spacing, count, levels.data()));
   return levels;
 }
 
@@ -298,12 +342,12 @@ struct Isolines {
   std::vector<uint32_t> line_starts, line_levels;
   std::vector<int32_t> line_closed;
 };
-inline Isolines trace_isolines(const Solver& solver, const std::vector<double>& field,
+inline Isolines trace_isolines(const Surface& surface, const std::vector<double>& field,
                                const std::vector<double>& levels) {
-  const hf_scalars desc = scalars(solver, field);
+  const hf_scalars desc = scalars(surface, field);
   const uint32_t level_count = static_cast<uint32_t>(levels.size());
   auto raw = make<hf_isolines>();
-  check(hf_trace_isolines(solver.get(), &desc, level_count, levels.data(), &raw));
+  check(hf_surface_trace_isolines(surface.get(), &desc, level_count, levels.data(), &raw));
   Isolines lines;
   lines.point_edges.resize(size_t{raw.point_count} * 2), lines.parameters.resize(raw.point_count);
   lines.positions.resize(size_t{raw.point_count} * 3), lines.line_starts.resize(size_t{raw.line_count} + 1);
@@ -312,30 +356,30 @@ inline Isolines trace_isolines(const Solver& solver, const std::vector<double>& 
   raw.point_edges = lines.point_edges.data(), raw.parameters = lines.parameters.data();
   raw.positions = lines.positions.data(), raw.line_starts = lines.line_starts.data();
   raw.line_levels = lines.line_levels.data(), raw.line_closed = lines.line_closed.data();
-  check(hf_trace_isolines(solver.get(), &desc, level_count, levels.data(), &raw));
+  check(hf_surface_trace_isolines(surface.get(), &desc, level_count, levels.data(), &raw));
   return lines;
 }
 
-inline std::vector<hf_critical_point> find_critical_points(const Solver& solver, const std::vector<double>& field) {
-  const hf_scalars desc = scalars(solver, field);
+inline std::vector<hf_critical_point> find_critical_points(const Surface& surface, const std::vector<double>& field) {
+  const hf_scalars desc = scalars(surface, field);
   auto info = make<hf_critical_info>();
-  check(hf_find_critical_points(solver.get(), &desc, 0, nullptr, &info));
+  check(hf_surface_find_critical_points(surface.get(), &desc, 0, nullptr, &info));
   std::vector<hf_critical_point> points(info.point_count);
   if (!points.empty())
-    check(hf_find_critical_points(solver.get(), &desc, info.point_count, points.data(), &info));
+    check(hf_surface_find_critical_points(surface.get(), &desc, info.point_count, points.data(), &info));
   return points;
 }
 
 // The longest first. desc: null for the defaults.
-inline std::vector<hf_extremity> find_extremities(const Solver& solver, const hf_extremities_desc* desc = nullptr) {
+inline std::vector<hf_extremity> find_extremities(const Surface& surface, const hf_extremities_desc* desc = nullptr) {
   // room for as many as one search can propose in practice; a second search when that is not enough
   std::vector<hf_extremity> found(256);
   uint32_t count = 0;
   hf_result result =
-      hf_find_extremities(solver.get(), desc, static_cast<uint32_t>(found.size()), found.data(), &count);
+      hf_surface_find_extremities(surface.get(), desc, static_cast<uint32_t>(found.size()), found.data(), &count);
   if (result == HF_ERROR_TOO_SMALL) {
     found.resize(count);
-    result = hf_find_extremities(solver.get(), desc, count, found.data(), &count);
+    result = hf_surface_find_extremities(surface.get(), desc, count, found.data(), &count);
   }
   check(result);
   found.resize(count);
@@ -344,16 +388,16 @@ inline std::vector<hf_extremity> find_extremities(const Solver& solver, const hf
 
 class Geodesics {
  public:
-  explicit Geodesics(const Solver& solver, const hf_geodesics_desc* desc = nullptr)
-      : vertices_(solver.mesh_report().vertex_count) {
+  explicit Geodesics(const Surface& surface, const hf_geodesics_desc* desc = nullptr)
+      : vertices_(surface.vertex_count()) {
     hf_geodesics raw = nullptr;
-    check(hf_geodesics_create(solver.get(), desc, &raw));
+    check(hf_geodesics_create(surface.get(), desc, &raw));
     handle_ = Handle<hf_geodesics, hf_geodesics_destroy>(raw);
   }
   hf_geodesics get() const noexcept { return handle_.get(); }
   std::vector<double> distance(const std::vector<uint32_t>& sources) const {
     std::vector<double> distances(vertices_);
-    check(hf_geodesics_distance_f64(get(), static_cast<uint32_t>(sources.size()), sources.data(), distances.data(), 0));
+    check(hf_geodesics_solve_f64(get(), static_cast<uint32_t>(sources.size()), sources.data(), distances.data(), 0));
     return distances;
   }
 
@@ -362,7 +406,7 @@ class Geodesics {
   uint32_t vertices_ = 0;
 };
 
-// hf/quads.h: a quad mesh of the solver's surface, read out whole.
+// hf/quads.h: a quad mesh of a surface, read out whole.
 struct QuadMesh {
   std::vector<double> positions, barycentrics;  // three numbers per vertex
   std::vector<uint32_t> triangles;              // by vertex, of the mesh as given
@@ -371,9 +415,9 @@ struct QuadMesh {
   std::vector<int32_t> site_lines;
   hf_quads_info info;
 };
-inline QuadMesh make_quads(const Solver& solver, const hf_quads_desc* desc = nullptr) {
+inline QuadMesh make_quads(const Surface& surface, const hf_quads_desc* desc = nullptr) {
   hf_quads raw = nullptr;
-  check(hf_quads_create(solver.get(), desc, &raw));
+  check(hf_quads_create(surface.get(), desc, &raw));
   const Handle<hf_quads, hf_quads_destroy> handle(raw);
   QuadMesh mesh;
   mesh.info = make<hf_quads_info>();
@@ -400,16 +444,16 @@ struct FlowLines {
 };
 class Flow {
  public:
-  explicit Flow(const Solver& solver) {
+  explicit Flow(const Surface& surface) {
     hf_flow raw = nullptr;
-    check(hf_flow_create(solver.get(), &raw));
+    check(hf_flow_create(surface.get(), &raw));
     handle_ = Handle<hf_flow, hf_flow_destroy>(raw);
   }
   hf_flow get() const noexcept { return handle_.get(); }
   // wanted lines, or one through every seed. A second trace only when the arrays of the last one are too small.
-  FlowLines trace(const Solver& solver, const std::vector<double>& field, uint32_t wanted,
+  FlowLines trace(const Surface& surface, const std::vector<double>& field, uint32_t wanted,
                   const std::vector<uint32_t>& seeds = {}) {
-    const hf_scalars values = scalars(solver, field);
+    const hf_scalars values = scalars(surface, field);
     auto out = make<hf_flow_lines>();
     out.wanted_count = wanted, out.seed_count = static_cast<uint32_t>(seeds.size()), out.seeds = seeds.data();
     FlowLines lines;
@@ -436,18 +480,21 @@ class Flow {
   uint32_t points_ = 4096, lines_ = 64;
 };
 
-// hf/detail.h: a region of a surface, its smooth base, and the morph between the two.
+// hf/region.h: a region of a surface, its smooth base, and the morph between the two.
 class Region {
  public:
-  // positions: what weight 0 gives back; empty: the solver's own.
-  explicit Region(const Solver& solver, const std::vector<float>& positions = {})
-      : vertices_(solver.mesh_report().vertex_count) {
+  // positions: what weight 0 gives back; empty: those of the mesh.
+  // field_kind: HF_FIELD_HARMONIC a membrane, the others thin plates.
+  explicit Region(const Surface& surface, const std::vector<float>& positions = {},
+                  int32_t field_kind = HF_FIELD_HARMONIC)
+      : vertices_(surface.vertex_count()) {
     if (!positions.empty() && positions.size() != size_t{vertices_} * 3)
       throw std::invalid_argument("positions: three numbers per vertex are needed");
     auto desc = make<hf_region_desc>();
+    desc.field_kind = field_kind;
     if (!positions.empty()) desc.positions = positions.data();
     hf_region raw = nullptr;
-    check(hf_region_create(solver.get(), &desc, &raw));
+    check(hf_region_create(surface.get(), &desc, &raw));
     handle_ = Handle<hf_region, hf_region_destroy>(raw);
   }
   hf_region get() const noexcept { return handle_.get(); }
@@ -492,13 +539,10 @@ class Region {
   }
   // list: HF_REGION_*.
   std::vector<uint32_t> vertices(int32_t list = HF_REGION_INSIDE) const {
-    const hf_region_info counts = info();
-    std::vector<uint32_t> found(list == HF_REGION_INSIDE ? counts.vertex_count
-                                : list == HF_REGION_RIM  ? counts.rim_count
-                                                         : counts.site_count);
-    uint32_t none = 0;
-    check(hf_region_get_vertices(get(), list, static_cast<uint32_t>(found.size()),
-                                 found.empty() ? &none : found.data()));
+    uint32_t count = 0;
+    check(hf_region_get_vertices(get(), list, 0, nullptr, &count));
+    std::vector<uint32_t> found(count);
+    check(hf_region_get_vertices(get(), list, count, found.data(), &count));
     return found;
   }
   // out_normals: null, or what it points to gets the normals.
@@ -545,10 +589,9 @@ class Detail {
 
 class Pose {
  public:
-  explicit Pose(const Solver& solver, const hf_pose_desc* desc = nullptr)
-      : vertices_(solver.mesh_report().vertex_count) {
+  explicit Pose(const Surface& surface, const hf_pose_desc* desc = nullptr) : vertices_(surface.vertex_count()) {
     hf_pose raw = nullptr;
-    check(hf_pose_create(solver.get(), desc, &raw));
+    check(hf_pose_create(surface.get(), desc, &raw));
     handle_ = Handle<hf_pose, hf_pose_destroy>(raw);
   }
   hf_pose get() const noexcept { return handle_.get(); }
@@ -576,7 +619,7 @@ class Pose {
   void set_transform(uint32_t handle, const hf_transform& transform) {
     check(hf_pose_set_transforms(get(), 1, &handle, &transform));
   }
-  // What hangs together with the vertex nearest to a point at rest, within a radius of it.
+  // The vertex nearest to a point at rest, and what is edge-connected to it within a radius of the point.
   uint32_t add_handle(const double (&point)[3], double radius, uint32_t layer = 0) {
     auto desc = make<hf_handles_desc>();
     desc.handle_count = 1, desc.points = point, desc.radii = &radius, desc.layer = layer;
@@ -596,9 +639,7 @@ class Pose {
   }
   std::vector<float> deform(hf_deform_info* info = nullptr) {
     std::vector<float> positions(size_t{vertices_} * 3);
-    auto desc = make<hf_deform_desc>();
-    desc.positions = positions.data();
-    check(hf_deform(get(), &desc, info));
+    check(hf_deform(get(), positions.data(), info));
     return positions;
   }
 
@@ -610,8 +651,8 @@ class Pose {
 
 class Transfer {
  public:
-  Transfer(const Solver& source, const Solver& target, const hf_transfer_desc* desc = nullptr)
-      : source_vertices_(source.mesh_report().vertex_count), target_vertices_(target.mesh_report().vertex_count) {
+  Transfer(const Surface& source, const Surface& target, const hf_transfer_desc* desc = nullptr)
+      : source_vertices_(source.vertex_count()), target_vertices_(target.vertex_count()) {
     hf_transfer raw = nullptr;
     check(hf_transfer_create(source.get(), target.get(), desc, &raw));
     handle_ = Handle<hf_transfer, hf_transfer_destroy>(raw);

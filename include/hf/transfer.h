@@ -1,13 +1,13 @@
-/* hf/transfer.h - the motion of one surface played on another.
+/* hf/transfer.h - play the motion of one surface on another.
  *
- * Pairs of handle regions, one on the source and one on the target, give both surfaces the same harmonic coordinates;
- * places of equal coordinates correspond. The rotations of the source's clusters are carried over, the target's
- * translations follow from its own shape (Xu, Zhang, Cohen-Or and Xiong 2009, Section 6).
+ * Pairs of regions, one on the source and one on the target, give both surfaces the same harmonic coordinates. Places of
+ * equal coordinates correspond. The rotations of the source's clusters are carried over; the translations of the target
+ * follow from its own shape (Xu, Zhang, Cohen-Or and Xiong 2009, Section 6).
  */
 #ifndef HF_TRANSFER_H
 #define HF_TRANSFER_H
 
-#include "hf/deform.h"
+#include "hf/pose.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -30,44 +30,43 @@ enum {
                                that grazes, a hand that leans); elsewhere it is free */
 };
 
+enum { HF_PAIR_LIMIT = 256 }; /* most pairs of a transfer */
+
 typedef struct hf_transfer_desc {
   uint32_t struct_size;
   int32_t mode;           /* HF_TRANSFER_* */
   uint32_t cluster_count; /* 1 to 512; 0 = 80 */
   float kernel_width;     /* of a cluster in field space, 0.005 to 0.5; 0 = 0.04 */
-  float scale; /* lengths of the target over those of the source; 0 = from the legs, or the boxes when no pair is a foot
-                */
-  float
-      alignment_angle;  /* rest directions that differ by more are aligned, radians; 0 = 40 degrees; negative = never */
-  float source_axes[9]; /* rows right, up, forward of the source; all zero = x, y, z (glTF: up +y, forward +z) */
+  float scale;            /* lengths of the target over those of the source; 0 = from the legs, or from the boxes when no
+                             pair is a foot */
+  float alignment_angle;  /* rest directions that differ by more are aligned, radians; 0 = 40 degrees; negative = never */
+  float source_axes[9];   /* rows right, up, forward of the source; all zero = x, y, z (glTF: up +y, forward +z) */
   float target_axes[9];
 } hf_transfer_desc;
 
-/* Creates a transfer between the surfaces of two solvers (which may be one). Sites of the solvers are not touched.
- * *out_transfer is set to NULL first. desc: NULL for defaults. Results: HF_OK, HF_ERROR_INVALID_HANDLE (index 0 source,
- * 1 target), HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED (engine),
- * HF_ERROR_OUT_OF_MEMORY. Thread safety: reads the solvers. Since 0.1. */
-HF_API hf_result hf_transfer_create(hf_solver source, hf_solver target, const hf_transfer_desc* desc,
+/* Creates a transfer between two surfaces, which may be one. Sets *out_transfer to NULL first. desc: NULL for defaults.
+ * Errors: HF_ERROR_INVALID_HANDLE (index 0 source, 1 target), HF_ERROR_INVALID_ARGUMENT. Thread safety: reads the
+ * surfaces. Since 0.1. */
+HF_API hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_transfer_desc* desc,
                                     hf_transfer* out_transfer);
-/* Destroys it; NULL, stale and foreign handles are ignored. Since 0.1. */
+/* Destroys a transfer. Ignores NULL and destroyed handles. Since 0.1. */
 HF_API void hf_transfer_destroy(hf_transfer transfer);
 
 /* Pairs to add: regions of both surfaces, as lists one after the other. */
 typedef struct hf_pairs_desc {
   uint32_t struct_size;
-  uint32_t pair_count;
-  const uint32_t* source_counts; /* [pair_count] */
-  const uint32_t* source_vertices;
-  const uint32_t* target_counts; /* [pair_count] */
+  uint32_t pair_count;             /* >= 1 */
+  const uint32_t* source_counts;   /* [pair_count] vertices of each region, >= 1 */
+  const uint32_t* source_vertices; /* all regions one after the other; vertices as given */
+  const uint32_t* target_counts;   /* [pair_count] */
   const uint32_t* target_vertices;
   const uint32_t* flags; /* [pair_count] HF_PAIR_*, or NULL for none */
 } hf_pairs_desc;
 
-/* Adds pairs. out_pairs: NULL, or uint32_t[pair_count]. No factorisation on either side. Results and state after
- * failure: as hf_pose_add_handles. Thread safety: changes `transfer`. Since 0.1. */
+/* Adds pairs. out_pairs: NULL, or uint32_t[pair_count] for their numbers. Does not factorise. Errors: as
+ * hf_pose_add_handles, HF_ERROR_TOO_LARGE (HF_PAIR_LIMIT). Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_add_pairs(hf_transfer transfer, const hf_pairs_desc* pairs, uint32_t* out_pairs);
-/* Removes pairs by number. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_EMPTY,
- * HF_ERROR_NO_SUCH_PAIR (index = position in the list), HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Since 0.1. */
+/* Removes pairs by number. Errors: HF_ERROR_NO_SUCH_PAIR. Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_remove_pairs(hf_transfer transfer, uint32_t pair_count, const uint32_t* pairs);
 
 typedef struct hf_pair_info {
@@ -75,16 +74,14 @@ typedef struct hf_pair_info {
   uint32_t flags;
   double source_leak; /* of the pair's fields, see hf_handle_info */
   double target_leak;
-  double
-      alignment_angle; /* between the rest directions of the limb, radians; negative when unknown (trunk, short limb) */
-  double confidence;   /* 0..1: share of the pair's clusters that rest on enough source vertices */
-  int32_t aligned;     /* non-zero when the rest alignment is applied */
-  int32_t crossed;     /* non-zero when the region lies on one side of the source and on the other of the target, by the
-                          axes: left and right may be exchanged */
+  double alignment_angle; /* between the rest directions of the limb, radians; negative when unknown (trunk, short limb) */
+  double confidence;      /* 0..1: share of the pair's clusters that rest on enough source vertices */
+  int32_t aligned;        /* 1: the rest alignment is applied */
+  int32_t crossed;        /* 1: the region lies on one side of the source and on the other of the target, by the axes:
+                             left and right may be exchanged */
 } hf_pair_info;
-/* Writes what is known of a pair (fields are solved when needed). Results: HF_OK, HF_ERROR_INVALID_HANDLE,
- * HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_NO_SUCH_PAIR, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread
- * safety: changes `transfer`. Since 0.1. */
+/* Writes what is known of a pair. The first call after a change of pairs solves their fields, unless hf_transfer_apply
+ * did; nothing that can be seen changes. Errors: HF_ERROR_NO_SUCH_PAIR. Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_pair(hf_transfer transfer, uint32_t pair, hf_pair_info* out_info);
 
 /* The transfer as a whole. */
@@ -94,52 +91,46 @@ typedef struct hf_transfer_info {
   uint32_t cluster_count;
   uint32_t aligned_count; /* pairs whose rest alignment is applied */
   uint32_t crossed_count; /* pairs that change sides, see hf_pair_info */
-  int32_t scale_found;    /* non-zero: from the legs or the boxes; zero: given in the desc */
+  int32_t scale_found;    /* 1: from the legs or the boxes; 0: given in the desc */
   double scale;           /* lengths of the target over those of the source, both in the units of their meshes */
 } hf_transfer_info;
-/* Writes what is known of the transfer (fields are solved when needed). Results: HF_OK, HF_ERROR_INVALID_HANDLE,
- * HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_EMPTY (no pair), HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread
- * safety: changes `transfer`. Since 0.1. */
+/* Writes what is known of the transfer; see hf_transfer_get_pair. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads
+ * `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_info(hf_transfer transfer, hf_transfer_info* out_info);
 
-/* One frame. */
+/* One frame. Set one of the source positions, and at least one output. Strides are in bytes; 0 = packed. */
 typedef struct hf_transfer_frame {
   uint32_t struct_size;
-  uint32_t source_stride;        /* bytes; 0 = packed */
+  uint32_t source_stride;
   const float* source_positions; /* [source vertex_count][3] the posed source, its own vertex order */
   const double* source_positions_f64;
   uint32_t target_stride;
   uint32_t normal_stride;
   float* target_positions; /* [target vertex_count][3], or NULL */
   double* target_positions_f64;
-  float* target_normals; /* or NULL */
-  /* Places the caller decides in this frame: the mean of the target's region of a pair, welded copies counted once,
-     goes exactly there (a foot on a step, a hand on a rail), the rest follows. */
+  float* target_normals;   /* [target vertex_count][3], or NULL */
+  /* Holds: the mean of the target's region of a pair (welded copies count once) goes exactly where you say: a foot on a
+     step, a hand on a rail. The rest follows. */
   uint32_t hold_count;
   uint32_t reserved;            /* 0 */
   const uint32_t* hold_pairs;   /* [hold_count] each pair at most once */
   const double* hold_positions; /* [hold_count][3] in the target's unit and frame */
 } hf_transfer_frame;
 
-/* Transfers one posed frame. A foot follows its scaled path exactly while the source's stands on the ground of its rest
- * shape, also while the body turns over it. With anchors, no part of the surface sinks deeper under the target's ground
- * than the source does, scaled (parts bend up; regions that the caller holds are left where they are), and a body that
- * lies rests on the parts its source rests on (all this in HF_TRANSFER_FIELDS, and for no rigid motion of the whole
- * source, which stays one). The rest frame of
- * the source gives the rest of the target, except for limbs whose rest alignment is applied (hf_pair_info): those take
- * the direction of the source's. Results: HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC,
- * HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE (index = source vertex, or position in the holds),
- * HF_ERROR_NO_SUCH_PAIR, HF_ERROR_INVALID_ARGUMENT (a pair held twice; index = position in the holds),
- * HF_ERROR_TOO_SMALL, HF_ERROR_TOO_LARGE (holds), HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread safety: changes
- * `transfer`. Since 0.1. */
+/* Transfers one posed frame. The rest pose of the source gives the rest pose of the target. Limbs whose rest alignment is
+ * applied (hf_pair_info) take the direction of the source's instead.
+ * In HF_TRANSFER_FIELDS with anchors, the ground counts too. A foot follows its scaled path exactly while the source's foot
+ * stands. No part sinks deeper than the source's does, scaled; held regions are left where they are. A lying body rests on
+ * the parts its source rests on. A rigid motion of the whole source is copied unchanged. Errors: HF_ERROR_EMPTY (no pair),
+ * HF_ERROR_NON_FINITE (index = source vertex, or position in the holds), HF_ERROR_NO_SUCH_PAIR,
+ * HF_ERROR_INVALID_ARGUMENT (a pair held twice), HF_ERROR_TOO_LARGE (holds). Thread safety: changes `transfer`. Since 0.1.
+ */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
-/* The transfer as a skin (hf/deform.h). Writes what is asked for; call with NULL arrays first for joint_count. The skin
- * replays hf_transfer_apply within the
- * weights left out (hf_transfer_apply itself uses the four largest, so with weight_count 4 it is exact). Results:
- * HF_OK, HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT,
- * HF_ERROR_EMPTY, HF_ERROR_OUT_OF_MEMORY, HF_ERROR_BUSY. Thread safety: changes `transfer`. Since 0.1. */
-HF_API hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* info);
+/* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With weight_count 4 the skin replays
+ * hf_transfer_apply exactly, which uses the four largest weights itself. Errors: HF_ERROR_INVALID_ARGUMENT
+ * (weight_count), HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */
+HF_API hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* inout_skin);
 
 #ifdef __cplusplus
 }

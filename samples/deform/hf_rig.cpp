@@ -70,8 +70,7 @@ Command parse(Words words) {
 void append_frame(const Posable& posable, uint32_t weight_count, const std::vector<double>& pivots, SkinClip& clip) {
   const size_t joints = pivots.size() / 3;
   std::vector<double> rotations(4 * joints), places(3 * joints), scales(3 * joints);
-  hf_skin_info info;
-  HF_INIT(info);
+  hf_skin_info info = HF_INIT(hf_skin_info);
   info.weight_count = weight_count;
   info.rotations = rotations.data(), info.translations = places.data(), info.scales = scales.data();
   expect_ok(hf_pose_get_skin(posable.pose(), &info), "the skin");
@@ -88,8 +87,7 @@ void append_frame(const Posable& posable, uint32_t weight_count, const std::vect
 nlohmann::json describe(const Posable& posable, const SkinDescription& skin, uint32_t weight_count) {
   nlohmann::json out;
   for (const Posable::Live& live : posable.handles()) {
-    hf_handle_info info;
-    HF_INIT(info);
+    hf_handle_info info = HF_INIT(hf_handle_info);
     expect_ok(hf_pose_get_handle(posable.pose(), live.number, &info), "handle \"" + live.name + "\"");
     out["handles"].push_back({{"name", live.name},
                               {"joint", out["handles"].size()},
@@ -120,8 +118,7 @@ void run(const Command& command) {
   posable.add(rig.handles);
   bar.end(std::to_string(rig.handles.size()) + " handles");
 
-  hf_skin_info info;
-  HF_INIT(info);
+  hf_skin_info info = HF_INIT(hf_skin_info);
   expect_ok(hf_pose_get_skin(posable.pose(), &info), "the skin");
   const size_t joints = info.joint_count;
   SkinDescription skin;
@@ -171,7 +168,7 @@ void run(const Command& command) {
   write_json(command.json, describe(posable, skin, command.weights));
   bar.end();
 
-  // the file, read again and played, beside what hf_deform gave
+  // the file, read again and played, beside what hf_pose_deform gave
   const Model written = read_gltf(command.output);
   const FlatMesh flat = flatten(written);
   std::printf("%s: %u vertices, %zu handles, %zu joints, %u weights a vertex\n", command.output.string().c_str(),

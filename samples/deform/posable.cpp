@@ -22,9 +22,8 @@ std::string lower_case(std::string text) {
 
 void expect_ok(hf_result result, const std::string& what) {
   if (result == HF_OK) return;
-  hf_error_detail detail;
-  HF_INIT(detail);
-  hf_get_error_detail(&detail);
+  hf_error_detail detail = HF_INIT(hf_error_detail);
+  hf_error_get_detail(&detail);
   throw std::runtime_error(what + ": " + detail.message);
 }
 
@@ -49,24 +48,22 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
   for (const glm::dvec3& p : mesh.positions) lower_ = glm::min(lower_, p), upper_ = glm::max(upper_, p);
   diagonal_ = glm::length(upper_ - lower_);
   const std::vector<double> positions = double_positions(mesh.positions);
-  hf_create_desc desc;
-  HF_INIT(desc);
+  hf_create_desc desc = HF_INIT(hf_create_desc);
   desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
   desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
   desc.thread_count = options.threads;
   if (options.paper) desc.operator_kind = HF_OPERATOR_COTANGENT;
   expect_ok(hf_create(&desc, &solver_), "the surface");
-  hf_pose_desc pose;
-  HF_INIT(pose);
+  hf_pose_desc pose = HF_INIT(hf_pose_desc);
   pose.mode = options.paper ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH, pose.band_count = options.bands;
   const hf_result result = hf_pose_create(solver_, &pose, &pose_);
   if (result != HF_OK) {
-    hf_destroy(solver_);
+    hf_solver_destroy(solver_);
     expect_ok(result, "the pose");
   }
 }
 
-Posable::~Posable() { hf_pose_destroy(pose_), hf_destroy(solver_); }
+Posable::~Posable() { hf_pose_destroy(pose_), hf_solver_destroy(solver_); }
 
 std::vector<uint32_t> Posable::vertices_of(const HandleEntry& entry) const {
   if (!entry.has_box) return entry.vertices;
@@ -91,8 +88,7 @@ void Posable::add(const std::vector<HandleEntry>& handles) {
     }
     Live live;
     live.name = entry.name, live.entry = entry;
-    hf_handles_desc desc;
-    HF_INIT(desc);
+    hf_handles_desc desc = HF_INIT(hf_handles_desc);
     desc.handle_count = 1, desc.layer = entry.layer;
     const glm::dvec3 point = at(entry.point);
     const double xyz[3] = {point.x, point.y, point.z}, radius = entry.radius * diagonal_;
@@ -105,8 +101,7 @@ void Posable::add(const std::vector<HandleEntry>& handles) {
       desc.region_counts = &count, desc.region_vertices = live.vertices.data();
     }
     expect_ok(hf_pose_add_handles(pose_, &desc, &live.number), "handle \"" + entry.name + "\"");
-    hf_handle_info info;
-    HF_INIT(info);
+    hf_handle_info info = HF_INIT(hf_handle_info);
     expect_ok(hf_pose_get_handle(pose_, live.number, &info), "handle \"" + entry.name + "\"");
     live.centroid = {info.centroid[0], info.centroid[1], info.centroid[2]};
     live_.push_back(live);
@@ -178,11 +173,10 @@ void Posable::drag(double t) {
 
 void Posable::deform(bool refine, std::vector<double>& positions, std::vector<float>& normals, uint32_t iterations) {
   positions.resize(3 * mesh_.positions.size()), normals.resize(positions.size());
-  hf_deform_desc desc;
-  HF_INIT(desc);
+  hf_deform_desc desc = HF_INIT(hf_deform_desc);
   desc.positions_f64 = positions.data(), desc.normals = normals.data();
   desc.refine = refine ? 1 : 0, desc.iteration_count = iterations;
-  expect_ok(hf_deform(pose_, &desc, nullptr), "a frame");
+  expect_ok(hf_pose_deform(pose_, &desc, nullptr), "a frame");
 }
 
 std::vector<uint32_t> Posable::region_of(const Live& live) const {

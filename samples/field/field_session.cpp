@@ -13,7 +13,7 @@ namespace {
 // Places of a list, as the library takes them.
 struct Batch {
   explicit Batch(const std::vector<SiteArgument>& sites, bool with_values) {
-    HF_INIT(desc);
+    HF_INIT(desc); /* FIXME type */
     desc.site_count = static_cast<uint32_t>(sites.size());
     const bool points = !sites.empty() && !sites[0].place.is_vertex();
     bool soft = false;
@@ -39,8 +39,7 @@ struct Batch {
 };
 
 hf_scalars scalars(const std::vector<double>& field) {
-  hf_scalars desc;
-  HF_INIT(desc);
+  hf_scalars desc = HF_INIT(hf_scalars);
   desc.values_f64 = field.data();
   return desc;
 }
@@ -75,15 +74,14 @@ std::vector<double> tangent(const glm::dvec3& normal, size_t turn) {
 void check(hf_result result) {
   if (result == HF_OK) return;
   hf_error_detail detail;
-  hf_get_error_detail(&detail);
-  throw std::runtime_error(std::string(detail.function) + ": " + detail.message + " (" + hf_result_name(result) + ")");
+  hf_error_get_detail(&detail);
+  throw std::runtime_error(std::string(detail.function) + ": " + detail.message + " (" + hf_result_get_name(result) + ")");
 }
 
 Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
     : vertex_count_(static_cast<uint32_t>(mesh.positions.size())),
       components_(options.kind == FieldType::vector || options.kind == FieldType::direction ? 3 : 1) {
-  hf_create_desc desc;
-  HF_INIT(desc);
+  hf_create_desc desc = HF_INIT(hf_create_desc);
   desc.vertex_count = vertex_count_;
   desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
   desc.positions_f64 = mesh.positions.empty() ? nullptr : &mesh.positions[0].x;
@@ -95,7 +93,7 @@ Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
   check(hf_create(&desc, &solver_));
   if (options.kind == FieldType::direction) {
     const hf_result result = hf_direction_create(solver_, nullptr, &direction_);
-    if (result != HF_OK) hf_destroy(solver_);
+    if (result != HF_OK) hf_solver_destroy(solver_);
     check(result);
   }
 }
@@ -146,19 +144,19 @@ void Session::apply(const Edit& edit) {
     if (direction_)
       check(undo ? hf_direction_undo(direction_) : hf_direction_redo(direction_));
     else
-      check(undo ? hf_undo(solver_) : hf_redo(solver_));
+      check(undo ? hf_solver_undo(solver_) : hf_solver_redo(solver_));
     auto &from = undo ? undone_from_ : redone_from_, &to = undo ? redone_from_ : undone_from_;
     to.push_back(sites_);
     sites_ = from.back();
     from.pop_back();
     return;
   }
-  check(direction_ ? hf_direction_record(direction_) : hf_record(solver_));
+  check(direction_ ? hf_direction_record(direction_) : hf_solver_record(solver_));
   const auto before = sites_;
   try {
     direction_ ? change_directions(edit) : change(edit);
   } catch (...) {
-    direction_ ? hf_direction_undo(direction_) : hf_undo(solver_);  // forgets the record; the failed edit has changed nothing
+    direction_ ? hf_direction_undo(direction_) : hf_solver_undo(solver_);  // forgets the record; the failed edit has changed nothing
     throw;
   }
   undone_from_.push_back(before);
@@ -167,13 +165,13 @@ void Session::apply(const Edit& edit) {
 
 std::vector<double> Session::solve(hf_solve_info& info) const {
   std::vector<double> field(vertex_count_ * components_);
-  HF_INIT(info);
+  info = HF_INIT(hf_solve_);
   if (direction_) {
     check(hf_direction_solve_f64(direction_, field.data(), 0, &info));
   } else if (components_ == 3) {
-    check(hf_solve_vectors_f64(solver_, field.data(), 0, nullptr, &info));
+    check(hf_solver_solve_vectors_f64(solver_, field.data(), 0, nullptr, &info));
   } else {
-    check(hf_solve_f64(solver_, field.data(), 0, &info));
+    check(hf_solver_solve_f64(solver_, field.data(), 0, &info));
   }
   return field;
 }
@@ -224,7 +222,7 @@ void Session::change(const Edit& edit) {
       for (size_t i = 0; i < edit.sites.size(); i += 2)
         numbers.push_back(number(edit.sites[i].place)), to.push_back(edit.sites[i + 1]);
       const Batch batch(to, false);
-      check(hf_move_sites(solver_, static_cast<uint32_t>(numbers.size()), numbers.data(), &batch.desc));
+      check(hf_solver_move_sites(solver_, static_cast<uint32_t>(numbers.size()), numbers.data(), &batch.desc));
       for (size_t i = 0; i < edit.sites.size(); i += 2) sites_.erase(edit.sites[i].place);
       for (size_t i = 0; i < to.size(); ++i) sites_[to[i].place] = numbers[i];
       break;
@@ -235,7 +233,7 @@ void Session::change(const Edit& edit) {
         numbers.push_back(number(site.place));
         values.insert(values.end(), site.values.begin(), site.values.end());
       }
-      check(hf_set_site_values(solver_, static_cast<uint32_t>(numbers.size()), numbers.data(), values.data()));
+      check(hf_solver_set_values(solver_, static_cast<uint32_t>(numbers.size()), numbers.data(), values.data()));
       break;
     }
     case Edit::Kind::undo:
@@ -245,12 +243,11 @@ void Session::change(const Edit& edit) {
 }
 
 std::vector<bool> Session::reached() const {
-  std::vector<uint32_t> component(vertex_count_), served(hf_get_site_count(solver_));
-  check(hf_get_components(solver_, vertex_count_, component.data()));
-  hf_site_info info;
-  HF_INIT(info);
+  std::vector<uint32_t> component(vertex_count_), served(hf_solver_get_site_count(solver_));
+  check(hf_surface_get_components(solver_, vertex_count_, component.data()));
+  hf_sites_info info = HF_INIT(hf_sites_info);
   info.capacity = static_cast<uint32_t>(served.size()), info.components = served.data();
-  check(hf_get_sites(solver_, &info));
+  check(hf_solver_get_sites(solver_, &info));
   const std::set<uint32_t> found(served.begin(), served.end());
   std::vector<bool> reached(vertex_count_);
   for (uint32_t v = 0; v < vertex_count_; ++v) reached[v] = found.count(component[v]) > 0;
@@ -258,13 +255,12 @@ std::vector<bool> Session::reached() const {
 }
 
 std::vector<hf_extremity> Session::extremities(int kind) const {
-  hf_extremities_desc desc;
-  HF_INIT(desc);
+  hf_extremities_desc desc = HF_INIT(hf_extremities_desc);
   desc.kind = kind;
   uint32_t count = 0;
-  check(hf_find_extremities(solver_, &desc, 0, nullptr, &count));
+  check(hf_surface_find_extremities(solver_, &desc, 0, nullptr, &count));
   std::vector<hf_extremity> found(count);
-  check(hf_find_extremities(solver_, &desc, count, found.data(), &count));
+  check(hf_surface_find_extremities(solver_, &desc, count, found.data(), &count));
   return found;
 }
 
@@ -274,23 +270,22 @@ std::vector<double> Session::distance(const std::vector<uint32_t>& sources) cons
   const std::unique_ptr<std::remove_pointer_t<hf_geodesics>, void (*)(hf_geodesics)> geodesics(raw,
                                                                                                hf_geodesics_destroy);
   std::vector<double> distance(vertex_count_);
-  check(hf_geodesics_distance_f64(raw, static_cast<uint32_t>(sources.size()), sources.data(), distance.data(), 0));
+  check(hf_geodesics_solve_f64(raw, static_cast<uint32_t>(sources.size()), sources.data(), distance.data(), 0));
   return distance;
 }
 
 std::vector<double> Session::levels(const std::vector<double>& field, int spacing, int count) const {
   std::vector<double> levels(static_cast<size_t>(count));
   const hf_scalars desc = scalars(field);
-  check(hf_space_levels(solver_, &desc, spacing, static_cast<uint32_t>(count), levels.data()));
+  check(hf_surface_space_levels(solver_, &desc, spacing, static_cast<uint32_t>(count), levels.data()));
   return levels;
 }
 
 std::vector<IsoLine> Session::isolines(const std::vector<double>& field, const std::vector<double>& levels) const {
-  hf_isolines lines;
-  HF_INIT(lines);
+  hf_isolines lines = HF_INIT(hf_isolines);
   const hf_scalars desc = scalars(field);
   const uint32_t level_count = static_cast<uint32_t>(levels.size());
-  check(hf_trace_isolines(solver_, &desc, level_count, levels.data(), &lines));
+  check(hf_surface_trace_isolines(solver_, &desc, level_count, levels.data(), &lines));
   std::vector<double> positions(3 * size_t(lines.point_count));
   std::vector<uint32_t> starts(size_t(lines.line_count) + 1), of_level(lines.line_count);
   std::vector<int32_t> closed(lines.line_count);
@@ -298,7 +293,7 @@ std::vector<IsoLine> Session::isolines(const std::vector<double>& field, const s
   lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
   lines.positions = positions.data(), lines.line_starts = starts.data(), lines.line_levels = of_level.data();
   lines.line_closed = closed.data();
-  check(hf_trace_isolines(solver_, &desc, level_count, levels.data(), &lines));
+  check(hf_surface_trace_isolines(solver_, &desc, level_count, levels.data(), &lines));
   std::vector<IsoLine> found(lines.line_count);
   for (size_t l = 0; l < found.size(); ++l) {
     found[l].level = of_level[l], found[l].closed = closed[l] != 0;
@@ -310,11 +305,11 @@ std::vector<IsoLine> Session::isolines(const std::vector<double>& field, const s
 
 std::vector<hf_critical_point> Session::critical_points(const std::vector<double>& field,
                                                         hf_critical_info& info) const {
-  HF_INIT(info);
+  info = HF_INIT(hf_critical_);
   const hf_scalars desc = scalars(field);
-  check(hf_find_critical_points(solver_, &desc, 0, nullptr, &info));
+  check(hf_surface_find_critical_points(solver_, &desc, 0, nullptr, &info));
   std::vector<hf_critical_point> points(info.point_count);
-  check(hf_find_critical_points(solver_, &desc, info.point_count, points.data(), &info));
+  check(hf_surface_find_critical_points(solver_, &desc, info.point_count, points.data(), &info));
   return points;
 }
 
@@ -322,7 +317,7 @@ std::vector<SiteArgument> propose_sites(const SurfaceMesh& mesh, const Session& 
   // a harmonic solver of its own: the session's may be bi-harmonic
   const Session laplacian(mesh, FieldOptions());
   std::vector<uint32_t> vertices, component(mesh.positions.size());
-  check(hf_get_components(laplacian.solver(), static_cast<uint32_t>(component.size()), component.data()));
+  check(hf_surface_get_components(laplacian.solver(), static_cast<uint32_t>(component.size()), component.data()));
   std::map<uint32_t, int> count{{HF_NO_INDEX, 2}};
   for (const hf_extremity& tip : laplacian.extremities(extremities)) {
     vertices.push_back(tip.vertex);

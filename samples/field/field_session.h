@@ -27,7 +27,7 @@ class Session {
   Session(const SurfaceMesh& mesh, const FieldOptions& options);
   ~Session() {
     hf_direction_destroy(direction_);
-    hf_destroy(solver_);
+    hf_solver_destroy(solver_);
   }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -35,7 +35,7 @@ class Session {
   hf_solver solver() const { return solver_; }
   size_t components() const { return components_; }
   uint32_t site_count() const {
-    return direction_ ? hf_direction_get_site_count(direction_) : hf_get_site_count(solver_);
+    return direction_ ? hf_direction_get_site_count(direction_) : hf_solver_get_site_count(solver_);
   }
 
   void apply(const Edit& edit);

@@ -26,12 +26,10 @@ class Clock {
 };
 
 void describe(hf_solver solver, double create_ms) {
-  hf_mesh_report report;
-  HF_INIT(report);
-  check(hf_get_mesh_report(solver, &report));
-  hf_statistics statistics;
-  HF_INIT(statistics);
-  check(hf_get_statistics(solver, &statistics));
+  hf_surface_report report = HF_INIT(hf_surface_report);
+  check(hf_surface_get_report(solver, &report));
+  hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
+  check(hf_solver_get_statistics(solver, &statistics));
   std::printf("mesh        %u vertices (%u welded), %u triangles, %u components\n", report.vertex_count,
               report.welded_vertex_count, report.triangle_count, report.component_count);
   const struct {

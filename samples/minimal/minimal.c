@@ -10,18 +10,16 @@ int main(void) {
   float field[6];
   hf_solver solver;
 
-  hf_create_desc mesh;
-  HF_INIT(mesh);
+  hf_create_desc mesh = HF_INIT(hf_create_desc);
   mesh.vertex_count = 6, mesh.triangle_count = 4;
   mesh.positions = positions, mesh.triangles = triangles;
   if (hf_create(&mesh, &solver) != HF_OK) return 1;
 
-  hf_sites_desc sites;
-  HF_INIT(sites);
+  hf_sites_desc sites = HF_INIT(hf_sites_desc);
   sites.site_count = 4, sites.vertices = vertices, sites.values = values;
   if (hf_add_sites(solver, &sites, NULL) != HF_OK) return 1;
   if (hf_solve(solver, field, 0, NULL) != HF_OK) return 1;
   for (int v = 0; v < 6; ++v) printf("%.3f\n", (double)field[v]);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   return 0;
 }

@@ -5,7 +5,7 @@
 // further off it where a model rests in mid-stride), so any number of legs is found and a front leg named "hand" does
 // no harm. The side axis is the one the shape is most symmetric along, forward is where toes, head and eyes point (+z
 // when in doubt, as glTF says). Head, tail and hands go by joint names first, else by the extremities of the surface
-// (hf_find_extremities); ears by joint names only. The trunk places lie where a line through the belly, or through
+// (hf_surface_find_extremities); ears by joint names only. The trunk places lie where a line through the belly, or through
 // the back of someone upright, leaves the body. Every landmark says how it was found and how far to trust it.
 #ifndef HF_SAMPLES_TRANSFER_LANDMARKS_H
 #define HF_SAMPLES_TRANSFER_LANDMARKS_H

@@ -10,7 +10,7 @@ enum { AROUND = 12, RINGS = 40, VERTICES = AROUND * RINGS, TRIANGLES = 2 * AROUN
 static void ok(hf_result result) {
   if (result == HF_OK) return;
   hf_error_detail detail;
-  hf_get_error_detail(&detail);
+  hf_error_get_detail(&detail);
   fprintf(stderr, "live_transfer: %s\n", detail.message), exit(1);
 }
 static void tube(float* p, float length, float radius, float sway) {
@@ -27,8 +27,7 @@ static hf_solver solver_of(const float* positions) {
       const uint32_t a = r * AROUND + k, b = r * AROUND + (k + 1) % AROUND;
       *t++ = a, *t++ = a + AROUND, *t++ = b, *t++ = b, *t++ = a + AROUND, *t++ = b + AROUND;
     }
-  hf_create_desc desc;
-  HF_INIT(desc);
+  hf_create_desc desc = HF_INIT(hf_create_desc);
   desc.vertex_count = VERTICES, desc.triangle_count = TRIANGLES, desc.positions = positions, desc.triangles = triangles;
   hf_solver solver;
   return ok(hf_create(&desc, &solver)), solver;
@@ -37,8 +36,7 @@ static void add_ring(hf_transfer transfer, uint32_t ring, uint32_t flags) {
   uint32_t vertices[AROUND];
   const uint32_t count = AROUND;
   for (uint32_t k = 0; k < AROUND; ++k) vertices[k] = ring * AROUND + k;
-  hf_pairs_desc pairs;
-  HF_INIT(pairs);
+  hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
   pairs.pair_count = 1, pairs.source_counts = pairs.target_counts = &count, pairs.flags = &flags;
   pairs.source_vertices = pairs.target_vertices = vertices; /* the tubes have the same rings */
   ok(hf_transfer_add_pairs(transfer, &pairs, NULL));
@@ -53,8 +51,7 @@ int main(void) {
   for (int f = 0; f < 60; ++f) {
     if (f == 30) add_ring(transfer, RINGS / 2, 0); /* no factorisation on either side */
     tube(posed, 1, 0.1f, 0.4f * sinf(0.2f * (float)f));
-    hf_transfer_frame frame;
-    HF_INIT(frame);
+    hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
     frame.source_positions = posed, frame.target_positions = out;
     ok(hf_transfer_apply(transfer, &frame));
     if (f % 10 == 5)
@@ -62,5 +59,5 @@ int main(void) {
              (double)(posed[3 * VERTICES - 3] - rest[3 * VERTICES - 3]),
              (double)(out[3 * VERTICES - 3] - shape[3 * VERTICES - 3]));
   }
-  return hf_transfer_destroy(transfer), hf_destroy(source), hf_destroy(target), 0;
+  return hf_transfer_destroy(transfer), hf_solver_destroy(source), hf_solver_destroy(target), 0;
 }

@@ -83,8 +83,7 @@ void Session::create(uint32_t threads, ProgressBar& bar) {
   setup_ms_ = milliseconds_since(start);
 
   const TransferSettings& settings = file_.settings;
-  hf_transfer_desc desc;
-  HF_INIT(desc);
+  hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
   desc.mode = settings.paper ? HF_TRANSFER_PAPER : HF_TRANSFER_FIELDS;
   desc.cluster_count = settings.clusters;
   desc.kernel_width = static_cast<float>(settings.width), desc.scale = static_cast<float>(settings.scale);
@@ -124,8 +123,7 @@ void Session::add(const std::vector<PairEntry>& entries) {
         target_vertices.insert(target_vertices.end(), b.begin(), b.end());
     flags.push_back(entries[i].flags());
   }
-  hf_pairs_desc desc;
-  HF_INIT(desc);
+  hf_pairs_desc desc = HF_INIT(hf_pairs_desc);
   desc.pair_count = static_cast<uint32_t>(entries.size());
   desc.source_counts = source_counts.data(), desc.source_vertices = source_vertices.data();
   desc.target_counts = target_counts.data(), desc.target_vertices = target_vertices.data();
@@ -158,8 +156,7 @@ void Session::edit(const EditsFile& edits) {
 // Solves the fields and so on, by asking for the scale.
 void Session::prepare() {
   const auto start = std::chrono::steady_clock::now();
-  hf_transfer_info info;
-  HF_INIT(info);
+  hf_transfer_info info = HF_INIT(hf_transfer_info);
   check(hf_transfer_get_info(transfer_, &info), "the transfer");
   prepare_ms_ = milliseconds_since(start);
   scale_ = info.scale;
@@ -167,15 +164,13 @@ void Session::prepare() {
 
 void Session::apply(const std::vector<double>& posed, std::vector<double>& out) {
   out.resize(3 * target_flat_.positions.size());
-  hf_transfer_frame frame;
-  HF_INIT(frame);
+  hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
   frame.source_positions_f64 = posed.data(), frame.target_positions_f64 = out.data();
   check(hf_transfer_apply(transfer_, &frame), "a frame");
 }
 
 uint32_t Session::cluster_count() {
-  hf_skin_info info;
-  HF_INIT(info);
+  hf_skin_info info = HF_INIT(hf_skin_info);
   check(hf_transfer_get_skin(transfer_, &info), "the skin");
   return info.joint_count;
 }
@@ -190,8 +185,7 @@ void Session::change_flags(const std::vector<PairEntry>& entries) {
     const auto source_count = static_cast<uint32_t>(live->source.vertices.size()),
                target_count = static_cast<uint32_t>(live->target.vertices.size());
     const uint32_t flags = entry.flags();
-    hf_pairs_desc desc;
-    HF_INIT(desc);
+    hf_pairs_desc desc = HF_INIT(hf_pairs_desc);
     desc.pair_count = 1, desc.flags = &flags;
     desc.source_counts = &source_count, desc.source_vertices = live->source.vertices.data();
     desc.target_counts = &target_count, desc.target_vertices = live->target.vertices.data();
@@ -286,8 +280,7 @@ PlayedClip Session::play(const std::string& name, const std::vector<double>& tim
   out.clip.name = name;
   const uint32_t joints = cluster_count();
   std::vector<double> pivots(3 * joints), rotations(4 * joints), places(3 * joints), target;
-  hf_skin_info info;
-  HF_INIT(info);
+  hf_skin_info info = HF_INIT(hf_skin_info);
   info.pivots = pivots.data(), info.rotations = rotations.data(), info.translations = places.data();
   bar.begin("transferring \"" + name + "\"");
   double inside = 0;
@@ -363,8 +356,7 @@ SkinDescription Session::skin() {
   std::vector<double> pivots(3 * joints);
   out.vertex_joints.resize(size_t{4} * target_flat_.vertex_count()),
       out.vertex_weights.resize(out.vertex_joints.size());
-  hf_skin_info info;
-  HF_INIT(info);
+  hf_skin_info info = HF_INIT(hf_skin_info);
   info.weight_count = 4;
   info.pivots = pivots.data(), info.vertex_joints = out.vertex_joints.data(),
   info.vertex_weights = out.vertex_weights.data();
@@ -377,8 +369,7 @@ SkinDescription Session::skin() {
 std::vector<PairReport> Session::pairs() {
   std::vector<PairReport> out;
   for (const Live& live : live_) {
-    hf_pair_info info;
-    HF_INIT(info);
+    hf_pair_info info = HF_INIT(hf_pair_info);
     check(hf_transfer_get_pair(transfer_, live.number, &info), "pair \"" + live.entry.name + "\"");
     PairReport report;
     report.name = live.entry.name;
@@ -426,7 +417,7 @@ std::vector<std::string> Session::warnings() {
         "feet are anchored but no trunk pair is: the trunk may float; give withers and rump with \"trunk\" and "
         "\"anchor\"");
   for (const bool is_source : {true, false}) {
-    const hf_mesh_report report = is_source ? source_mesh() : target_mesh();
+    const hf_surface_report report = is_source ? source_mesh() : target_mesh();
     if (report.component_count > 1) {
       out.push_back((is_source ? source_ : target_).name + " has " + std::to_string(report.component_count) +
                     " loose parts; those without a pair follow what they lie next to");
@@ -435,17 +426,15 @@ std::vector<std::string> Session::warnings() {
   return out;
 }
 
-hf_statistics Session::statistics(hf_solver solver) {
-  hf_statistics out;
-  HF_INIT(out);
-  check(hf_get_statistics(solver, &out), "statistics");
+hf_solver_statistics Session::statistics(hf_solver solver) {
+  hf_solver_statistics out = HF_INIT(hf_solver_statistics);
+  check(hf_solver_get_statistics(solver, &out), "statistics");
   return out;
 }
 
-hf_mesh_report Session::mesh_report(hf_solver solver) {
-  hf_mesh_report out;
-  HF_INIT(out);
-  check(hf_get_mesh_report(solver, &out), "mesh report");
+hf_surface_report Session::mesh_report(hf_solver solver) {
+  hf_surface_report out = HF_INIT(hf_surface_report);
+  check(hf_surface_get_report(solver, &out), "mesh report");
   return out;
 }
 

@@ -74,10 +74,10 @@ class Session {
   uint32_t cluster_count();
 
   // Figures of the solvers.
-  hf_statistics source_statistics() const { return statistics(source_solver_->get()); }
-  hf_statistics target_statistics() const { return statistics(target_solver_->get()); }
-  hf_mesh_report source_mesh() const { return mesh_report(source_solver_->get()); }
-  hf_mesh_report target_mesh() const { return mesh_report(target_solver_->get()); }
+  hf_solver_statistics source_statistics() const { return statistics(source_solver_->get()); }
+  hf_solver_statistics target_statistics() const { return statistics(target_solver_->get()); }
+  hf_surface_report source_mesh() const { return mesh_report(source_solver_->get()); }
+  hf_surface_report target_mesh() const { return mesh_report(target_solver_->get()); }
   double setup_ms() const { return setup_ms_; }      // both solvers
   double prepare_ms() const { return prepare_ms_; }  // fields, clusters, translations after the last change of pairs
   double edit_ms() const { return edit_ms_; }        // the last edit's calls, without prepare
@@ -101,8 +101,8 @@ class Session {
   std::vector<PairEntry> named_contacts(const std::vector<std::string>& names) const;
   void apply(const std::vector<double>& posed, std::vector<double>& out);
   void measure_feet(const PlayedClip& played, FootReport& feet) const;
-  static hf_statistics statistics(hf_solver solver);
-  static hf_mesh_report mesh_report(hf_solver solver);
+  static hf_solver_statistics statistics(hf_solver solver);
+  static hf_surface_report mesh_report(hf_solver solver);
 
   const Model& source_;
   const Model& target_;

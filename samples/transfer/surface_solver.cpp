@@ -10,9 +10,9 @@ namespace samples {
 void check(hf_result result, const std::string& what) {
   if (result == HF_OK) return;
   hf_error_detail detail;
-  hf_get_error_detail(&detail);
-  throw std::runtime_error(what + ": " + (detail.code == result ? detail.message : hf_result_name(result)) + " (" +
-                           hf_result_name(result) + ")");
+  hf_error_get_detail(&detail);
+  throw std::runtime_error(what + ": " + (detail.code == result ? detail.message : hf_result_get_name(result)) + " (" +
+                           hf_result_get_name(result) + ")");
 }
 
 SurfaceSolver::SurfaceSolver(const FlatMesh& mesh, const std::string& name, uint32_t threads, bool paper) {
@@ -20,8 +20,7 @@ SurfaceSolver::SurfaceSolver(const FlatMesh& mesh, const std::string& name, uint
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
   for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
   const glm::dvec3 extent = high - low;
-  hf_create_desc desc;
-  HF_INIT(desc);
+  hf_create_desc desc = HF_INIT(hf_create_desc);
   desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
   desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
   desc.weld = HF_WELD_TOLERANCE,

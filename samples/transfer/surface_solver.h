@@ -17,7 +17,7 @@ class SurfaceSolver {
  public:
   // paper: plain cotangents, as the paper has them, instead of the library's default operator.
   SurfaceSolver(const FlatMesh& mesh, const std::string& name, uint32_t threads, bool paper = false);
-  ~SurfaceSolver() { hf_destroy(solver_); }
+  ~SurfaceSolver() { hf_solver_destroy(solver_); }
   SurfaceSolver(const SurfaceSolver&) = delete;
   SurfaceSolver& operator=(const SurfaceSolver&) = delete;
   hf_solver get() const { return solver_; }

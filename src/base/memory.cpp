@@ -25,7 +25,42 @@ void* default_allocate(std::size_t bytes, std::size_t alignment) noexcept {
   return pointer;
 }
 
+// A std allocator straight on the hooks, for the Memory object itself.
+template <class T>
+struct HookAllocator {
+  using value_type = T;
+  explicit HookAllocator(const hf_allocator& given) noexcept : hooks(given) {}
+  template <class U>
+  HookAllocator(const HookAllocator<U>& other) noexcept : hooks(other.hooks) {}
+  T* allocate(std::size_t count) {
+    void* block = hooks.allocate ? hooks.allocate(hooks.user, count * sizeof(T), alignof(T))
+                                 : ::operator new(count * sizeof(T), std::nothrow);
+    if (!block) throw std::bad_alloc();
+    return static_cast<T*>(block);
+  }
+  void deallocate(T* block, std::size_t count) noexcept {
+    if (hooks.allocate) {
+      hooks.release(hooks.user, block, count * sizeof(T), alignof(T));
+    } else {
+      ::operator delete(block);
+    }
+  }
+  template <class U>
+  bool operator==(const HookAllocator<U>& other) const noexcept {
+    return hooks.allocate == other.hooks.allocate && hooks.user == other.hooks.user;
+  }
+  template <class U>
+  bool operator!=(const HookAllocator<U>& other) const noexcept {
+    return !(*this == other);
+  }
+  hf_allocator hooks;
+};
+
 }  // namespace
+
+std::shared_ptr<Memory> make_memory(const hf_allocator& hooks, std::uint64_t byte_limit) {
+  return std::allocate_shared<Memory>(HookAllocator<Memory>(hooks), hooks, byte_limit);
+}
 
 void* Memory::do_allocate(std::size_t bytes, std::size_t alignment) {
   // counted until the block is there, or the host's hook refuses or throws

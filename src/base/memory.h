@@ -41,6 +41,9 @@ class Memory final : public std::pmr::memory_resource {
   std::atomic<std::uint64_t> live_{0}, peak_{0}, count_{0};
 };
 
+// A Memory that lies in a block of the hooks itself. Throws std::bad_alloc.
+std::shared_ptr<Memory> make_memory(const hf_allocator& hooks, std::uint64_t byte_limit);
+
 template <class T>
 using Vector = std::pmr::vector<T>;
 

@@ -60,50 +60,43 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-void hf_init_desc(void* desc, uint32_t struct_size) {
-  if (!desc || struct_size < sizeof struct_size) return;
-  std::memset(desc, 0, struct_size);
-  std::memcpy(desc, &struct_size, sizeof struct_size);
-}
-
-hf_result hf_get_error_detail(hf_error_detail* out_detail) {
+hf_result hf_error_get_detail(hf_error_detail* out_detail) {
   if (!out_detail) return HF_ERROR_NULL_POINTER;
   *out_detail = last_failure;
   return HF_OK;
 }
 
-const char* hf_result_name(hf_result result) {
+const char* hf_result_get_name(hf_result result) {
   for (const Name& entry : names) {
     if (entry.code == result) return entry.name;
   }
   return "unknown";
 }
 
-uint32_t hf_get_version(void) {
-  return HF_VERSION_NUMBER_MAJOR * 1000000u + HF_VERSION_NUMBER_MINOR * 1000u + HF_VERSION_NUMBER_PATCH;
+uint32_t hf_version_get(void) {
+  static_assert(HF_VERSION_MAJOR == HF_VERSION_NUMBER_MAJOR && HF_VERSION_MINOR == HF_VERSION_NUMBER_MINOR &&
+                    HF_VERSION_PATCH == HF_VERSION_NUMBER_PATCH,
+                "hf/base.h and CMakeLists.txt name different versions");
+  return HF_VERSION_MAJOR * 1000000u + HF_VERSION_MINOR * 1000u + HF_VERSION_PATCH;
 }
 
 hf_result hf_progress_create(hf_progress* out_progress) {
-  return guarded("hf_progress_create", [&] {
-    require(out_progress, "out_progress");
-    *out_progress = nullptr;
-    *out_progress = reinterpret_cast<hf_progress>(insert(std::make_shared<ProgressObject>()));
-  });
+  return guarded("hf_progress_create",
+                 [&] { create(out_progress, "out_progress", [] { return std::make_shared<ProgressObject>(); }); });
 }
 
-void hf_progress_destroy(hf_progress progress) { remove(reinterpret_cast<std::uintptr_t>(progress), Kind::progress); }
+void hf_progress_destroy(hf_progress progress) { destroy<ProgressObject>(progress); }
 
-hf_result hf_progress_get(hf_progress progress, float* out_fraction) {
-  return guarded("hf_progress_get", [&] {
-    const auto object = get<ProgressObject>(progress, Kind::progress, "progress");
+hf_result hf_progress_get_fraction(hf_progress progress, float* out_fraction) {
+  return guarded("hf_progress_get_fraction", [&] {
+    const auto object = get<ProgressObject>(progress, "progress");
     require(out_fraction, "out_fraction");
     *out_fraction = object->progress.fraction();
   });
 }
 
 hf_result hf_progress_cancel(hf_progress progress) {
-  return guarded("hf_progress_cancel",
-                 [&] { get<ProgressObject>(progress, Kind::progress, "progress")->progress.cancel(); });
+  return guarded("hf_progress_cancel", [&] { get<ProgressObject>(progress, "progress")->progress.cancel(); });
 }
 
 }  // extern "C"

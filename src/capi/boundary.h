@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "base/float_environment.h"
 #include "base/span.h"
-#include "capi/first_sizes.h"
 
 namespace hf_inner::capi {
 
@@ -38,14 +37,17 @@ inline void require(const void* pointer, const char* name) {
   if (!pointer) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s is NULL", name);
 }
 
-// Checks struct_size: the size of the first version of the struct, or that of this one or more, and zero in every byte
-// this version does not know.
+// The size of a struct in the first release that had it. A field appended after a release gets a specialisation here,
+// offsetof the first new field, so that programs built before go on working.
+template <class T>
+inline constexpr std::size_t released_size = sizeof(T);
+
+// Checks struct_size: the released size or more, and zero in every byte this version does not know.
 template <class T>
 void check_struct(const T* given, const char* name) {
   require(given, name);
-  constexpr std::uint32_t most = 4096;
-  const bool known = given->struct_size == first_size<T> || given->struct_size >= sizeof(T);
-  if (!known || given->struct_size > most) {
+  constexpr std::uint32_t most = 4096;  // bytes of the caller that are read: no struct will ever be that long
+  if (given->struct_size < released_size<T> || given->struct_size > most) {
     fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "%s: struct_size is %u; set it to sizeof (%zu here), as HF_INIT does",
          name, given->struct_size, sizeof(T));
   }
@@ -67,6 +69,21 @@ T read_struct(const T* given, const char* name) {
   return copy;
 }
 
+// As read_struct; NULL gives a struct of defaults.
+template <class T>
+T read_optional(const T* given, const char* name) {
+  if (given) return read_struct(given, name);
+  T defaults;
+  std::memset(static_cast<void*>(&defaults), 0, sizeof defaults);
+  return defaults;
+}
+
+template <class T>
+void require_zero(T reserved) {
+  if (reserved != 0)
+    fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "reserved is %lld; set it to 0", static_cast<long long>(reserved));
+}
+
 // Writes an output struct as far as the caller's version goes; its struct_size stays.
 template <class T>
 void write_struct(T* out, T value) {
@@ -79,6 +96,27 @@ inline std::size_t stride_of(std::uint32_t stride, std::size_t row, const char* 
   if (stride == 0) return row;
   if (stride < row) fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "%s is %u bytes; a row has %zu", name, stride, row);
   return stride;
+}
+
+// Refuses an array out that cannot take what there is. Counts are written before this is called.
+inline void check_capacity(bool given, std::size_t capacity, std::size_t count, const char* name) {
+  if (given && capacity < count)
+    fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "%s is %zu; %zu are needed", name, capacity, count);
+}
+
+inline void write_count(std::uint32_t* out_count, std::size_t count) noexcept {
+  if (out_count) *out_count = static_cast<std::uint32_t>(count);
+}
+
+// A list of the caller: at least one entry.
+inline void require_list(std::uint32_t count, const void* list, const char* count_name, const char* name) {
+  if (count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "%s is 0", count_name);
+  require(list, name);
+}
+
+inline void check_flag(std::int32_t value, const char* name) {
+  if (value != 0 && value != 1)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s is %d; it must be 0 or 1", name, value);
 }
 
 inline void check_choice(std::int32_t value, std::int32_t count, const char* name) {
@@ -96,15 +134,19 @@ inline std::uint32_t count_of(std::uint32_t value, std::uint32_t standard, std::
   return value;
 }
 
-// Positions as float or double rows; null when neither is given.
-inline ConstRows rows_of(const float* f32, const double* f64, std::uint32_t stride, const char* stride_name) {
-  if (f64) return {f64, stride_of(stride, 3 * sizeof(double), stride_name)};
-  if (f32) return {f32, stride_of(stride, 3 * sizeof(float), stride_name)};
+// Rows of `width` floats or doubles of the caller; null when neither is given, refused when both are.
+inline void check_one(const void* f32, const void* f64, const char* name) {
+  if (f32 && f64) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s and %s_f64 are both set; set one", name, name);
+}
+inline ConstRows rows_of(const float* f32, const double* f64, std::size_t width, std::uint32_t stride,
+                         const char* stride_name) {
+  if (f64) return {f64, stride_of(stride, width * sizeof(double), stride_name)};
+  if (f32) return {f32, stride_of(stride, width * sizeof(float), stride_name)};
   return {};
 }
-inline Rows rows_of(float* f32, double* f64, std::uint32_t stride, const char* stride_name) {
-  if (f64) return {f64, stride_of(stride, 3 * sizeof(double), stride_name)};
-  if (f32) return {f32, stride_of(stride, 3 * sizeof(float), stride_name)};
+inline Rows rows_of(float* f32, double* f64, std::size_t width, std::uint32_t stride, const char* stride_name) {
+  if (f64) return {f64, stride_of(stride, width * sizeof(double), stride_name)};
+  if (f32) return {f32, stride_of(stride, width * sizeof(float), stride_name)};
   return {};
 }
 

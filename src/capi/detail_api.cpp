@@ -1,4 +1,4 @@
-// hf/detail.h: detail carried to another region.
+// hf/region.h: detail carried to another region.
 #include <cmath>
 
 #include "capi/morph_out.h"
@@ -9,8 +9,9 @@ namespace hf_inner::capi {
 namespace {
 
 struct DetailObject final : Object {
+  static constexpr Kind kind_of = Kind::detail;
   explicit DetailObject(CarriedDetail&& made)
-      : Object(Kind::detail), memory(made.surface->core->memory), detail(std::move(made)) {}
+      : Object(kind_of), memory(made.surface->core->memory), detail(std::move(made)) {}
   std::shared_ptr<Memory> memory;  // outlives what follows
   CarriedDetail detail;
 };
@@ -19,26 +20,17 @@ struct DetailObject final : Object {
 void read_pins(const Mesh& mesh, std::uint32_t count, const std::uint32_t* vertices, const char* name,
                Vector<std::int32_t>& out) {
   require(vertices, name);
-  if (count > mesh.report.vertex_count)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "pair_count is %u; the mesh has %u vertices", count,
-         mesh.report.vertex_count);
-  append_inner(mesh, count, vertices, name, out);
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (out[i] == Mesh::none)
-      fail(HF_ERROR_INVALID_ARGUMENT, i, "entry %u of %s: vertex %u is in no usable triangle", i, name, vertices[i]);
+  check_vertex_count(mesh, count, "pair_count");
+  append_usable(mesh, count, vertices, name, out);
 }
 
-void create(hf_region source_handle, hf_region target_handle, const hf_detail_desc* given, hf_detail* out_detail) {
-  require(out_detail, "out_detail");
-  *out_detail = nullptr;
-  const auto source = get<RegionObject>(source_handle, Kind::region, "source");
-  const auto target = get<RegionObject>(target_handle, Kind::region, "target");
-  hf_detail_desc desc{};
-  if (given) desc = read_struct(given, "desc");
+std::shared_ptr<DetailObject> make_detail(hf_region source_handle, hf_region target_handle,
+                                          const hf_detail_desc* given) {
+  const auto source = get<RegionObject>(source_handle, "source");
+  const auto target = get<RegionObject>(target_handle, "target");
+  const hf_detail_desc desc = read_optional(given, "desc");
   if (!std::isfinite(desc.scale)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "scale is not finite");
   if (desc.scale < 0) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it must be above 0, or 0", desc.scale);
-  std::shared_ptr<ProgressObject> progress;
-  if (desc.progress) progress = get<ProgressObject>(desc.progress, Kind::progress, "progress");
   const Reading reading_source(*source), reading_target(*target);
   Memory* const memory = target->memory.get();
   Vector<std::int32_t> source_pins(memory), target_pins(memory);
@@ -48,18 +40,14 @@ void create(hf_region source_handle, hf_region target_handle, const hf_detail_de
   }
   CarryOptions options;
   options.source_pins = source_pins, options.target_pins = target_pins, options.scale = desc.scale;
-  options.progress = progress ? &progress->progress : nullptr;
-  try {
-    CarriedDetail carried = carry_detail(source->region, target->region, options, *memory);
-    *out_detail = reinterpret_cast<hf_detail>(insert(make_owner_in<DetailObject>(target->memory, std::move(carried))));
-  } catch (const Error& error) {
-    if (error.code() == HF_ERROR_CANCELLED && progress) progress->progress.reset();  // one cancel stops one call
-    throw;
-  }
+  return with_progress(desc.progress, [&](Progress* progress) {
+    options.progress = progress;
+    return make_owner_in<DetailObject>(target->memory, carry_detail(source->region, target->region, options, *memory));
+  });
 }
 
 void morph(hf_detail handle, const hf_morph_desc* given) {
-  const auto object = get<DetailObject>(handle, Kind::detail, "detail");
+  const auto object = get<DetailObject>(handle, "detail");
   const MorphOut out = read_morph(given);
   const Reading reading(*object);
   const CarriedDetail& carried = object->detail;
@@ -78,13 +66,11 @@ using namespace hf_inner::capi;
 extern "C" {
 
 hf_result hf_detail_create(hf_region source, hf_region target, const hf_detail_desc* desc, hf_detail* out_detail) {
-  return guarded("hf_detail_create", [&] { create(source, target, desc, out_detail); });
+  return guarded("hf_detail_create",
+                 [&] { create(out_detail, "out_detail", [&] { return make_detail(source, target, desc); }); });
 }
 
-void hf_detail_destroy(hf_detail detail) {
-  const FloatEnvironment environment;
-  remove(reinterpret_cast<std::uintptr_t>(detail), Kind::detail);
-}
+void hf_detail_destroy(hf_detail detail) { destroy<DetailObject>(detail); }
 
 hf_result hf_detail_morph(hf_detail detail, const hf_morph_desc* desc) {
   return guarded("hf_detail_morph", [&] { morph(detail, desc); });

@@ -9,7 +9,8 @@ namespace {
 constexpr unsigned index_bits = sizeof(std::uintptr_t) >= 8 ? 24 : 13;
 constexpr unsigned generation_bits = sizeof(std::uintptr_t) >= 8 ? 32 : 15;
 // what is left for the kind on 32-bit hosts; looked at in every build
-static_assert(static_cast<unsigned>(Kind::detail) >> (32 - 13 - 15) == 0, "the last kind does not fit a 32-bit handle");
+static_assert(static_cast<unsigned>(Kind::surface) >> (32 - 13 - 15) == 0,
+              "the last kind does not fit a 32-bit handle");
 constexpr std::uintptr_t index_mask = (std::uintptr_t{1} << index_bits) - 1;
 constexpr std::uintptr_t generation_mask = (std::uintptr_t{1} << (generation_bits - 1) << 1) - 1;
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/float_environment.h"
 
 namespace hf_inner::capi {
 
@@ -22,7 +23,8 @@ enum class Kind : std::uint32_t {
   quads = 7,
   flow = 8,
   region = 9,
-  detail = 10
+  detail = 10,
+  surface = 11
 };
 
 // What a handle stands for. Readers share, a writer is alone; nobody waits: a call that overlaps answers HF_ERROR_BUSY,
@@ -79,13 +81,28 @@ std::shared_ptr<Object> find(std::uintptr_t handle, Kind kind) noexcept;
 // Takes it out of the table; the last user destroys it.
 std::shared_ptr<Object> remove(std::uintptr_t handle, Kind kind) noexcept;
 
+// The object behind a handle of the host. T::kind_of says which kind is meant.
 template <class T, class Handle>
-std::shared_ptr<T> get(Handle handle, Kind kind, const char* name, std::uint32_t index = HF_NO_INDEX) {
-  std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(handle), kind);
+std::shared_ptr<T> get(Handle handle, const char* name, std::uint32_t index = HF_NO_INDEX) {
+  std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(handle), T::kind_of);
   if (!object)
     fail(HF_ERROR_INVALID_HANDLE, index, "%s is %s; pass a live handle", name,
          handle ? "stale, destroyed or of another kind" : "NULL");
   return std::static_pointer_cast<T>(std::move(object));
+}
+
+// Makes an object and hands its handle out; *out is NULL after a failure.
+template <class Handle, class Make>
+void create(Handle* out, const char* name, Make&& make) {
+  if (!out) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s is NULL", name);
+  *out = nullptr;
+  *out = reinterpret_cast<Handle>(insert(make()));
+}
+
+template <class T, class Handle>
+void destroy(Handle handle) noexcept {
+  const FloatEnvironment environment;
+  remove(reinterpret_cast<std::uintptr_t>(handle), T::kind_of);
 }
 
 }  // namespace hf_inner::capi

@@ -3,9 +3,10 @@
 #include <cmath>
 
 #include "capi/boundary.h"
-#include "capi/scatter.h"
+#include "capi/vertex_lists.h"
+#include "capi/vertex_writer.h"
 #include "detail/morph.h"
-#include "hf/detail.h"
+#include "hf/region.h"
 
 namespace hf_inner::capi {
 
@@ -16,14 +17,13 @@ struct MorphOut {
 
 inline MorphOut read_morph(const hf_morph_desc* given) {
   const hf_morph_desc desc = read_struct(given, "desc");
-  if (desc.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "desc: reserved must be 0");
-  if (desc.positions && desc.positions_f64)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "positions and positions_f64 are both set; set one");
+  require_zero(desc.reserved);
+  check_one(desc.positions, desc.positions_f64, "positions");
   if (!desc.positions && !desc.positions_f64 && !desc.normals)
     fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "positions, positions_f64 and normals are all NULL; nothing to write");
   if (!std::isfinite(desc.weight)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "weight is not finite");
-  return {desc.weight, rows_of(desc.positions, desc.positions_f64, desc.position_stride, "position_stride"),
-          rows_of(desc.normals, static_cast<double*>(nullptr), desc.normal_stride, "normal_stride")};
+  return {desc.weight, rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride"),
+          rows_of(desc.normals, nullptr, 3, desc.normal_stride, "normal_stride")};
 }
 
 // moved(given, i): where the vertex `given`, number i of those inside, stands.
@@ -42,25 +42,20 @@ void write_morph(const RegionSurface& surface, const RegionState& state, const M
     for (const std::int32_t v : shape.rim) local.push_back(surface.scaled_position(v));
     normal_sums = local_normal_sums(state, local, *core.memory);
   }
-  const std::size_t count = surface.positions.size();
-  constexpr std::size_t piece = 16384;
-  core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
+  for_each_given(core, 0, surface.positions.size(), [&](std::size_t v, std::int32_t inner) {
     double row[3];
-    for (std::size_t v = p * piece; v < std::min(count, (p + std::size_t{1}) * piece); ++v) {
-      const std::int32_t inner = core.mesh.inner_of_given[v];
-      const std::int32_t local = inner == Mesh::none ? -1 : shape.local[static_cast<std::size_t>(inner)];
-      const std::size_t i = static_cast<std::size_t>(local);
-      if (out.positions) {
-        put(local >= 0 && i < shape.inside.size() ? moved(v, i) : surface.positions[v], row);
-        for (std::size_t c = 0; c < 3; ++c) out.positions.set(v, c, row[c]);
-      }
-      if (out.normals) {
-        put(inner == Mesh::none
-                ? Vec3{0, 0, 1}
-                : unit_normal(local >= 0 ? normal_sums[i] : surface.normal_sum[static_cast<std::size_t>(inner)]),
-            row);
-        for (std::size_t c = 0; c < 3; ++c) out.normals.set(v, c, row[c]);
-      }
+    const std::int32_t local = inner == Mesh::none ? -1 : shape.local[static_cast<std::size_t>(inner)];
+    const std::size_t i = static_cast<std::size_t>(local);
+    if (out.positions) {
+      put(local >= 0 && i < shape.inside.size() ? moved(v, i) : surface.positions[v], row);
+      for (std::size_t c = 0; c < 3; ++c) out.positions.set(v, c, row[c]);
+    }
+    if (out.normals) {
+      put(inner == Mesh::none
+              ? Vec3{0, 0, 1}
+              : unit_normal(local >= 0 ? normal_sums[i] : surface.normal_sum[static_cast<std::size_t>(inner)]),
+          row);
+      for (std::size_t c = 0; c < 3; ++c) out.normals.set(v, c, row[c]);
     }
   });
 }

@@ -5,7 +5,8 @@
 #include "capi/boundary.h"
 #include "capi/objects.h"
 #include "capi/scalars.h"
-#include "capi/scatter.h"
+#include "capi/vertex_lists.h"
+#include "capi/vertex_writer.h"
 #include "hf/quads.h"
 #include "remesh/flow_lines.h"
 #include "remesh/quads.h"
@@ -14,24 +15,21 @@ namespace hf_inner::capi {
 namespace {
 
 struct QuadsObject final : Object {
+  static constexpr Kind kind_of = Kind::quads;
   QuadsObject(std::shared_ptr<const Core> shared, QuadResult&& made, double length)
-      : Object(Kind::quads), core(std::move(shared)), result(std::move(made)), edge_length(length) {}
+      : Object(kind_of), core(std::move(shared)), result(std::move(made)), edge_length(length) {}
   std::shared_ptr<const Core> core;  // outlives the result, which lies in its memory
   QuadResult result;
   double edge_length;
 };
 
 struct FlowObject final : Object {
+  static constexpr Kind kind_of = Kind::flow;
   explicit FlowObject(std::shared_ptr<const Core> core)
-      : Object(Kind::flow), memory(core->memory), tracer(std::move(core)) {}
+      : Object(kind_of), memory(core->memory), tracer(std::move(core)) {}
   std::shared_ptr<Memory> memory;  // outlives what follows
   FlowTracer tracer;
 };
-
-std::uint32_t given_of(const Mesh& mesh, std::int32_t inner) {
-  return inner == Mesh::none ? HF_NO_INDEX
-                             : static_cast<std::uint32_t>(mesh.given_of_inner[static_cast<std::size_t>(inner)]);
-}
 
 void read_sites(const Core& core, const hf_quads_desc& desc, Vector<FluxSite>& sites) {
   if (desc.site_count == 0) {
@@ -40,16 +38,11 @@ void read_sites(const Core& core, const hf_quads_desc& desc, Vector<FluxSite>& s
     return;
   }
   require(desc.site_vertices, "desc->site_vertices");
-  if (desc.site_count > core.mesh.report.vertex_count)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u sites; the mesh has %u vertices", desc.site_count,
-         core.mesh.report.vertex_count);
+  check_vertex_count(core.mesh, desc.site_count, "site_count");
   Vector<std::int32_t> inner(core.memory.get());
-  append_inner(core.mesh, desc.site_count, desc.site_vertices, "site_vertices", inner);
+  append_usable(core.mesh, desc.site_count, desc.site_vertices, "site_vertices", inner);
   Vector<std::uint8_t> taken(static_cast<std::size_t>(core.size()), std::uint8_t{0}, core.memory.get());
   for (std::uint32_t i = 0; i < desc.site_count; ++i) {
-    if (inner[i] == Mesh::none)
-      fail(HF_ERROR_INVALID_ARGUMENT, i, "entry %u of site_vertices: vertex %u is in no usable triangle", i,
-           desc.site_vertices[i]);
     if (taken[static_cast<std::size_t>(inner[i])]++)
       fail(HF_ERROR_DUPLICATE_SITE, i, "entry %u of site_vertices: vertex %u is named twice", i, desc.site_vertices[i]);
     constexpr std::int32_t most = 100000;
@@ -60,14 +53,13 @@ void read_sites(const Core& core, const hf_quads_desc& desc, Vector<FluxSite>& s
   }
 }
 
-void create(hf_solver handle, const hf_quads_desc* given, hf_quads* out_quads) {
-  require(out_quads, "out_quads");
-  *out_quads = nullptr;
-  const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
-  hf_quads_desc desc{};
-  if (given) desc = read_struct(given, "desc");
+std::shared_ptr<QuadsObject> make_object(hf_surface handle, const hf_quads_desc* given) {
+  QuadOptions options;
+  options.core = harmonic_core(handle);
+  const Core& core = *options.core;
+  const hf_quads_desc desc = read_optional(given, "desc");
   check_choice(desc.kind, 2, "kind");
-  check_choice(desc.keep_polygons, 2, "keep_polygons");
+  check_flag(desc.keep_polygons, "keep_polygons");
   const double length = static_cast<double>(desc.edge_length);
   if (!std::isfinite(length)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "edge_length is not finite");
   if (length < 0) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; it must be above 0, or 0", length);
@@ -75,12 +67,6 @@ void create(hf_solver handle, const hf_quads_desc* given, hf_quads* out_quads) {
   if (desc.relax_count > most_rounds && desc.relax_count != HF_NO_INDEX)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "relax_count is %u; it must be up to %u, or HF_NO_INDEX",
          desc.relax_count, most_rounds);
-  std::shared_ptr<ProgressObject> progress;
-  if (desc.progress) progress = get<ProgressObject>(desc.progress, Kind::progress, "progress");
-  const Reading reading(*solver);
-  QuadOptions options;
-  options.core = solver->field.shared_core();
-  const Core& core = *options.core;
   options.edge_length = length > 0 ? length / core.mesh.scale : 0.022;
   constexpr double least = 1e-4, largest = 1.0;
   if (options.edge_length < least || options.edge_length > largest)
@@ -92,15 +78,11 @@ void create(hf_solver handle, const hf_quads_desc* given, hf_quads* out_quads) {
   Vector<FluxSite> sites(core.memory.get());
   read_sites(core, desc, sites);
   options.sites = sites, options.automatic = sites.empty(), options.scale_lines = !desc.site_lines;
-  options.progress = progress ? &progress->progress : nullptr;
-  try {
-    QuadResult result = make_quads(options);
-    *out_quads = reinterpret_cast<hf_quads>(insert(make_owner_in<QuadsObject>(
-        solver->memory, options.core, std::move(result), options.edge_length * core.mesh.scale)));
-  } catch (const Error& error) {
-    if (error.code() == HF_ERROR_CANCELLED && progress) progress->progress.reset();  // one cancel stops one call
-    throw;
-  }
+  return with_progress(desc.progress, [&](Progress* progress) {
+    options.progress = progress;
+    return make_owner_in<QuadsObject>(core.memory, options.core, make_quads(options),
+                                      options.edge_length * core.mesh.scale);
+  });
 }
 
 hf_quads_info info_of(const QuadsObject& object) {
@@ -119,21 +101,20 @@ hf_quads_info info_of(const QuadsObject& object) {
   return info;
 }
 
-void need(std::uint32_t capacity, std::uint32_t count, const char* name) {
-  if (capacity < count) fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "%s is %u; %u are needed", name, capacity, count);
-}
-
-void get_mesh(hf_quads handle, const hf_quads_mesh* given) {
-  const auto object = get<QuadsObject>(handle, Kind::quads, "quads");
-  const hf_quads_mesh out = read_struct(given, "out_mesh");
-  if (out.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "out_mesh: reserved must be 0");
+void get_mesh(hf_quads handle, hf_quads_mesh* inout_mesh) {
+  const auto object = get<QuadsObject>(handle, "quads");
+  hf_quads_mesh out = read_struct(inout_mesh, "inout_mesh");
+  require_zero(out.reserved);
   const Reading reading(*object);
   const hf_quads_info info = info_of(*object);
-  if (out.positions || out.triangles || out.barycentrics)
-    need(out.vertex_capacity, info.vertex_count, "vertex_capacity");
-  if (out.face_starts) need(out.face_capacity, info.face_count, "face_capacity");
-  if (out.face_corners) need(out.corner_capacity, info.corner_count, "corner_capacity");
-  if (out.site_vertices || out.site_lines) need(out.site_capacity, info.site_count, "site_capacity");
+  out.vertex_count = info.vertex_count, out.face_count = info.face_count, out.corner_count = info.corner_count;
+  out.site_count = info.site_count;
+  write_struct(inout_mesh, out);
+  check_capacity(out.positions || out.triangles || out.barycentrics, out.vertex_capacity, out.vertex_count,
+                 "vertex_capacity");
+  check_capacity(out.face_starts, out.face_capacity, out.face_count, "face_capacity");
+  check_capacity(out.face_corners, out.corner_capacity, out.corner_count, "corner_capacity");
+  check_capacity(out.site_vertices || out.site_lines, out.site_capacity, out.site_count, "site_capacity");
   const Mesh& mesh = object->core->mesh;
   const QuadResult& result = object->result;
   Vector<std::uint32_t> given_triangle(out.triangles || out.barycentrics ? mesh.triangle_count() : 0, HF_NO_INDEX,
@@ -153,15 +134,15 @@ void get_mesh(hf_quads handle, const hf_quads_mesh* given) {
   if (out.face_starts) std::copy(result.mesh.face_start.begin(), result.mesh.face_start.end(), out.face_starts);
   if (out.face_corners) std::copy(result.mesh.corner.begin(), result.mesh.corner.end(), out.face_corners);
   for (std::size_t i = 0; i < result.sites.size(); ++i) {
-    if (out.site_vertices) out.site_vertices[i] = given_of(mesh, result.sites[i].vertex);
+    if (out.site_vertices) out.site_vertices[i] = given_vertex(mesh, result.sites[i].vertex);
     if (out.site_lines) out.site_lines[i] = static_cast<std::int32_t>(std::lround(result.sites[i].lines));
   }
 }
 
 void trace(hf_flow handle, const hf_scalars* given, hf_flow_lines* inout_lines) {
-  const auto object = get<FlowObject>(handle, Kind::flow, "flow");
+  const auto object = get<FlowObject>(handle, "flow");
   hf_flow_lines out = read_struct(inout_lines, "inout_lines");
-  if (out.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "inout_lines: reserved must be 0");
+  require_zero(out.reserved);
   constexpr std::uint32_t most = 1000000;
   if (out.seed_count > most)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "seed_count is %u; it must be up to %u", out.seed_count, most);
@@ -173,30 +154,27 @@ void trace(hf_flow handle, const hf_scalars* given, hf_flow_lines* inout_lines) 
   Vector<std::int32_t> seeds(core.memory.get());
   if (out.seed_count) {
     require(out.seeds, "inout_lines->seeds");
-    append_inner(mesh, out.seed_count, out.seeds, "seeds", seeds);
-    for (std::uint32_t i = 0; i < out.seed_count; ++i)
-      if (seeds[i] == Mesh::none)
-        fail(HF_ERROR_INVALID_ARGUMENT, i, "entry %u of seeds: vertex %u is in no usable triangle", i, out.seeds[i]);
+    append_usable(mesh, out.seed_count, out.seeds, "seeds", seeds);
   }
-  const Vector<double> field = read_scalars(core, given);
+  const Vector<double> field = read_scalars(*core.geometry, given);
   for (std::size_t v = 0; v < field.size(); ++v)
     if (std::isnan(field[v]))
-      fail(HF_ERROR_NON_FINITE, given_of(mesh, static_cast<std::int32_t>(v)), "the value of vertex %u is NaN",
-           given_of(mesh, static_cast<std::int32_t>(v)));
+      fail(HF_ERROR_NON_FINITE, given_vertex(mesh, static_cast<std::int32_t>(v)), "the value of vertex %u is NaN",
+           given_vertex(mesh, static_cast<std::int32_t>(v)));
   const FlowLineSet lines = object->tracer.trace(field, out.wanted_count, seeds);
   if (lines.point.size() >= HF_NO_INDEX) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the lines have 2^32 points or more");
   out.point_count = static_cast<std::uint32_t>(lines.point.size());
   out.line_count = static_cast<std::uint32_t>(lines.from.size());
   write_struct(inout_lines, out);
-  if (out.positions || out.values) need(out.point_capacity, out.point_count, "point_capacity");
-  if (out.line_starts || out.line_ends) need(out.line_capacity, out.line_count, "line_capacity");
+  check_capacity(out.positions || out.values, out.point_capacity, out.point_count, "point_capacity");
+  check_capacity(out.line_starts || out.line_ends, out.line_capacity, out.line_count, "line_capacity");
   for (std::size_t i = 0; out.positions && i < lines.point.size(); ++i)
     put(mesh.to_given(lines.point[i]), out.positions + 3 * i);
   if (out.values) std::copy(lines.value.begin(), lines.value.end(), out.values);
   if (out.line_starts) std::copy(lines.start.begin(), lines.start.end(), out.line_starts);
   for (std::size_t l = 0; out.line_ends && l < lines.from.size(); ++l) {
-    out.line_ends[2 * l] = given_of(mesh, lines.from[l]);
-    out.line_ends[2 * l + 1] = given_of(mesh, lines.to[l]);
+    out.line_ends[2 * l] = given_vertex(mesh, lines.from[l]);
+    out.line_ends[2 * l + 1] = given_vertex(mesh, lines.to[l]);
   }
 }
 
@@ -208,43 +186,36 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_quads_create(hf_solver solver, const hf_quads_desc* desc, hf_quads* out_quads) {
-  return guarded("hf_quads_create", [&] { create(solver, desc, out_quads); });
+hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads) {
+  return guarded("hf_quads_create",
+                 [&] { create(out_quads, "out_quads", [&] { return make_object(surface, desc); }); });
 }
 
-void hf_quads_destroy(hf_quads quads) {
-  const FloatEnvironment environment;
-  remove(reinterpret_cast<std::uintptr_t>(quads), Kind::quads);
-}
+void hf_quads_destroy(hf_quads quads) { destroy<QuadsObject>(quads); }
 
 hf_result hf_quads_get_info(hf_quads quads, hf_quads_info* out_info) {
   return guarded("hf_quads_get_info", [&] {
-    const auto object = get<QuadsObject>(quads, Kind::quads, "quads");
+    const auto object = get<QuadsObject>(quads, "quads");
     check_struct(out_info, "out_info");
     const Reading reading(*object);
     write_struct(out_info, info_of(*object));
   });
 }
 
-hf_result hf_quads_get_mesh(hf_quads quads, const hf_quads_mesh* out_mesh) {
-  return guarded("hf_quads_get_mesh", [&] { get_mesh(quads, out_mesh); });
+hf_result hf_quads_get_mesh(hf_quads quads, hf_quads_mesh* inout_mesh) {
+  return guarded("hf_quads_get_mesh", [&] { get_mesh(quads, inout_mesh); });
 }
 
-hf_result hf_flow_create(hf_solver handle, hf_flow* out_flow) {
+hf_result hf_flow_create(hf_surface surface, hf_flow* out_flow) {
   return guarded("hf_flow_create", [&] {
-    require(out_flow, "out_flow");
-    *out_flow = nullptr;
-    const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
-    const Reading reading(*solver);
-    *out_flow =
-        reinterpret_cast<hf_flow>(insert(make_owner_in<FlowObject>(solver->memory, solver->field.shared_core())));
+    create(out_flow, "out_flow", [&] {
+      const std::shared_ptr<const Core> core = harmonic_core(surface);
+      return make_owner_in<FlowObject>(core->memory, core);
+    });
   });
 }
 
-void hf_flow_destroy(hf_flow flow) {
-  const FloatEnvironment environment;
-  remove(reinterpret_cast<std::uintptr_t>(flow), Kind::flow);
-}
+void hf_flow_destroy(hf_flow flow) { destroy<FlowObject>(flow); }
 
 hf_result hf_flow_trace(hf_flow flow, const hf_scalars* field, hf_flow_lines* inout_lines) {
   return guarded("hf_flow_trace", [&] { trace(flow, field, inout_lines); });

@@ -1,4 +1,4 @@
-// hf/detail.h: regions.
+// hf/region.h: regions.
 #include <algorithm>
 #include <cmath>
 
@@ -10,16 +10,12 @@ namespace {
 
 // Positions of the vertices as given: the caller's, or the solver's own.
 Vector<Vec3> read_positions(const Core& core, const hf_region_desc& desc) {
-  if (desc.positions && desc.positions_f64)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "positions and positions_f64 are both set; set one");
+  check_one(desc.positions, desc.positions_f64, "positions");
   const Mesh& mesh = core.mesh;
   const std::size_t count = mesh.report.vertex_count;
   Vector<Vec3> positions(count, core.memory.get());
   if (desc.positions || desc.positions_f64) {
-    const ConstRows rows =
-        desc.positions_f64
-            ? ConstRows(desc.positions_f64, stride_of(desc.position_stride, 3 * sizeof(double), "position_stride"))
-            : ConstRows(desc.positions, stride_of(desc.position_stride, 3 * sizeof(float), "position_stride"));
+    const ConstRows rows = rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
     for (std::size_t v = 0; v < count; ++v) {
       const Vec3 p{rows.get(v, 0), rows.get(v, 1), rows.get(v, 2)};
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
@@ -34,18 +30,6 @@ Vector<Vec3> read_positions(const Core& core, const hf_region_desc& desc) {
   }
   for (const Mesh::Isolated& entry : mesh.isolated) positions[static_cast<std::size_t>(entry.given)] = entry.position;
   return positions;
-}
-
-void check_count(const Mesh& mesh, std::uint32_t count, const char* name) {
-  if (count > mesh.report.vertex_count)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%s is %u; the mesh has %u vertices", name, count, mesh.report.vertex_count);
-}
-
-void need_triangle(const Vector<std::int32_t>& inner, const std::uint32_t* vertices, const char* name) {
-  for (std::size_t i = 0; i < inner.size(); ++i)
-    if (inner[i] == Mesh::none)
-      fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i),
-           "entry %zu of %s: vertex %u is in no usable triangle", i, name, vertices[i]);
 }
 
 // The corner that a point on a triangle stands for.
@@ -79,10 +63,9 @@ void read_curve(const Mesh& mesh, const hf_curve_desc* given, Vector<std::int32_
   if (desc.point_count < least)
     fail(HF_ERROR_EMPTY, desc.point_count, "a closed curve takes %u points or more; %u are given", least,
          desc.point_count);
-  check_count(mesh, desc.point_count, "point_count");
+  check_vertex_count(mesh, desc.point_count, "point_count");
   if (desc.vertices) {
-    append_inner(mesh, desc.point_count, desc.vertices, "vertices", points);
-    need_triangle(points, desc.vertices, "vertices");
+    append_usable(mesh, desc.point_count, desc.vertices, "vertices", points);
   } else {
     for (std::uint32_t i = 0; i < desc.point_count; ++i) points.push_back(corner_of(mesh, desc, i));
   }
@@ -104,16 +87,13 @@ void read_list(const Mesh& mesh, std::uint32_t count, const std::uint32_t* verti
                Vector<std::int32_t>& out) {
   if (count == 0) return;
   require(vertices, name);
-  check_count(mesh, count, name);
-  append_inner(mesh, count, vertices, name, out);
-  need_triangle(out, vertices, name);
+  check_vertex_count(mesh, count, name);
+  append_usable(mesh, count, vertices, name, out);
 }
 
 void edit_region(hf_region handle, const hf_region_edit_desc* given) {
-  const auto object = get<RegionObject>(handle, Kind::region, "region");
+  const auto object = get<RegionObject>(handle, "region");
   const hf_region_edit_desc desc = read_struct(given, "edit");
-  std::shared_ptr<ProgressObject> progress;
-  if (desc.progress) progress = get<ProgressObject>(desc.progress, Kind::progress, "progress");
   const Changing changing(*object);
   const Mesh& mesh = object->region.core().mesh;
   Memory* const memory = object->memory.get();
@@ -123,20 +103,17 @@ void edit_region(hf_region handle, const hf_region_edit_desc* given) {
   read_list(mesh, desc.remove_count, desc.remove_vertices, "remove_vertices", remove);
   read_list(mesh, desc.add_count, desc.add_vertices, "add_vertices", add);
   edit.rings = desc.ring_count, edit.remove = remove, edit.add = add;
-  edit.progress = progress ? &progress->progress : nullptr;
-  try {
+  with_progress(desc.progress, [&](Progress* progress) {
+    edit.progress = progress;
     object->region.edit(edit);
-  } catch (const Error& error) {
-    if (error.code() == HF_ERROR_CANCELLED && progress) progress->progress.reset();  // one cancel stops one call
-    throw;
-  }
+  });
 }
 
 hf_region_info info_of(const Region& region) {
   const RegionState& state = *region.state();
   const EngineCounters counters = state.engine->counters();
   hf_region_info info{};
-  info.thin_plate = region.core().refinements > 0;
+  info.field_kind = static_cast<std::int32_t>(region.core().field_kind);
   info.vertex_count = static_cast<std::uint32_t>(state.shape->inside.size());
   info.rim_count = static_cast<std::uint32_t>(state.shape->rim.size());
   info.site_count = static_cast<std::uint32_t>(state.shape->sites.size());
@@ -150,17 +127,19 @@ hf_region_info info_of(const Region& region) {
   return info;
 }
 
-void get_vertices(hf_region handle, std::int32_t list, std::uint32_t capacity, std::uint32_t* out_vertices) {
-  const auto object = get<RegionObject>(handle, Kind::region, "region");
+void get_vertices(hf_region handle, std::int32_t list, std::uint32_t capacity, std::uint32_t* out_vertices,
+                  std::uint32_t* out_count) {
+  const auto object = get<RegionObject>(handle, "region");
   check_choice(list, 3, "list");
-  require(out_vertices, "out_vertices");
+  if (!out_vertices && !out_count) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_vertices and out_count are both NULL");
   const Reading reading(*object);
   const RegionShape& shape = *object->region.state()->shape;
   const Vector<std::int32_t>& vertices = list == HF_REGION_INSIDE ? shape.inside
                                          : list == HF_REGION_RIM  ? shape.rim
                                                                   : shape.sites;
-  if (capacity < vertices.size())
-    fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "capacity is %u; %zu are needed", capacity, vertices.size());
+  write_count(out_count, vertices.size());
+  check_capacity(out_vertices, capacity, vertices.size(), "capacity");
+  if (!out_vertices) return;
   const Mesh& mesh = object->region.core().mesh;
   for (std::size_t i = 0; i < vertices.size(); ++i)
     out_vertices[i] = static_cast<std::uint32_t>(mesh.given_of_inner[static_cast<std::size_t>(vertices[i])]);
@@ -168,7 +147,7 @@ void get_vertices(hf_region handle, std::int32_t list, std::uint32_t capacity, s
 }
 
 void morph(hf_region handle, const hf_morph_desc* given) {
-  const auto object = get<RegionObject>(handle, Kind::region, "region");
+  const auto object = get<RegionObject>(handle, "region");
   const MorphOut out = read_morph(given);
   const Reading reading(*object);
   const RegionSurface& surface = *object->region.surface();
@@ -180,7 +159,7 @@ void morph(hf_region handle, const hf_morph_desc* given) {
 template <class Work>
 hf_result change(const char* function, hf_region handle, Work&& work) {
   return guarded(function, [&] {
-    const auto object = get<RegionObject>(handle, Kind::region, "region");
+    const auto object = get<RegionObject>(handle, "region");
     const Changing changing(*object);
     work(object->region);
   });
@@ -194,36 +173,33 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_region_create(hf_solver handle, const hf_region_desc* given, hf_region* out_region) {
+hf_result hf_region_create(hf_surface handle, const hf_region_desc* given, hf_region* out_region) {
   return guarded("hf_region_create", [&] {
-    require(out_region, "out_region");
-    *out_region = nullptr;
-    const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
-    hf_region_desc desc{};
-    if (given) desc = read_struct(given, "desc");
-    const Reading reading(*solver);
-    if (solver->field.engine().kind() != EngineKind::green)
-      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "regions need a solver with HF_ENGINE_GREEN");
-    const std::shared_ptr<const Core>& core = solver->field.shared_core();
-    auto surface = make_owner_in<RegionSurface>(solver->memory, core, read_positions(*core, desc));
-    *out_region = reinterpret_cast<hf_region>(insert(make_owner_in<RegionObject>(solver->memory, std::move(surface))));
+    create(out_region, "out_region", [&] {
+      const auto surface = get<SurfaceObject>(handle, "surface");
+      const hf_region_desc desc = read_optional(given, "desc");
+      check_choice(desc.field_kind, 3, "field_kind");
+      require_zero(desc.reserved);
+      return with_progress(desc.progress, [&](Progress* progress) {
+        const auto core = surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress);
+        return make_owner_in<RegionObject>(
+            core->memory, make_owner_in<RegionSurface>(core->memory, core, read_positions(*core, desc)));
+      });
+    });
   });
 }
 
 hf_result hf_region_clone(hf_region handle, hf_region* out_region) {
   return guarded("hf_region_clone", [&] {
-    require(out_region, "out_region");
-    *out_region = nullptr;
-    const auto object = get<RegionObject>(handle, Kind::region, "region");
-    const Reading reading(*object);
-    *out_region = reinterpret_cast<hf_region>(insert(make_owner_in<RegionObject>(object->memory, *object)));
+    create(out_region, "out_region", [&] {
+      const auto object = get<RegionObject>(handle, "region");
+      const Reading reading(*object);
+      return make_owner_in<RegionObject>(object->memory, *object);
+    });
   });
 }
 
-void hf_region_destroy(hf_region region) {
-  const FloatEnvironment environment;
-  remove(reinterpret_cast<std::uintptr_t>(region), Kind::region);
-}
+void hf_region_destroy(hf_region region) { destroy<RegionObject>(region); }
 
 hf_result hf_region_edit(hf_region region, const hf_region_edit_desc* edit) {
   return guarded("hf_region_edit", [&] { edit_region(region, edit); });
@@ -243,15 +219,16 @@ hf_result hf_region_redo(hf_region region) {
 
 hf_result hf_region_get_info(hf_region region, hf_region_info* out_info) {
   return guarded("hf_region_get_info", [&] {
-    const auto object = get<RegionObject>(region, Kind::region, "region");
+    const auto object = get<RegionObject>(region, "region");
     check_struct(out_info, "out_info");
     const Reading reading(*object);
     write_struct(out_info, info_of(object->region));
   });
 }
 
-hf_result hf_region_get_vertices(hf_region region, int32_t list, uint32_t capacity, uint32_t* out_vertices) {
-  return guarded("hf_region_get_vertices", [&] { get_vertices(region, list, capacity, out_vertices); });
+hf_result hf_region_get_vertices(hf_region region, int32_t list, uint32_t capacity, uint32_t* out_vertices,
+                                 uint32_t* out_count) {
+  return guarded("hf_region_get_vertices", [&] { get_vertices(region, list, capacity, out_vertices, out_count); });
 }
 
 hf_result hf_region_morph(hf_region region, const hf_morph_desc* desc) {

@@ -3,23 +3,20 @@
 #include <cmath>
 
 #include "capi/boundary.h"
-#include "engine/core.h"
+#include "engine/geometry.h"
 #include "hf/analysis.h"
 
 namespace hf_inner::capi {
 
 // One value per inner vertex.
-inline Vector<double> read_scalars(const Core& core, const hf_scalars* given) {
+inline Vector<double> read_scalars(const Geometry& shape, const hf_scalars* given) {
   const hf_scalars desc = read_struct(given, "field");
-  if (desc.values && desc.values_f64)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "values and values_f64 are both set; set one");
+  check_one(desc.values, desc.values_f64, "values");
   if (!desc.values && !desc.values_f64) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "values and values_f64 are both NULL");
-  const ConstRows rows = desc.values_f64
-                             ? ConstRows(desc.values_f64, stride_of(desc.value_stride, sizeof(double), "value_stride"))
-                             : ConstRows(desc.values, stride_of(desc.value_stride, sizeof(float), "value_stride"));
-  Vector<double> field(static_cast<std::size_t>(core.size()), core.memory.get());
+  const ConstRows rows = rows_of(desc.values, desc.values_f64, 1, desc.value_stride, "value_stride");
+  Vector<double> field(static_cast<std::size_t>(shape.mesh.vertex_count()), shape.memory.get());
   for (std::size_t v = 0; v < field.size(); ++v) {
-    const std::uint32_t vertex = static_cast<std::uint32_t>(core.mesh.given_of_inner[v]);
+    const std::uint32_t vertex = static_cast<std::uint32_t>(shape.mesh.given_of_inner[v]);
     field[v] = rows.get(vertex, 0);
     if (std::isinf(field[v]))
       fail(HF_ERROR_NON_FINITE, vertex, "the value of vertex %u is infinite; NaN marks a vertex without a value",

@@ -1,112 +1,191 @@
-// hf/mesh.h: creating and looking at solvers.
+// hf/solver.h: solvers and their sites.
 #include <algorithm>
 
 #include "capi/boundary.h"
 #include "capi/objects.h"
-#include "factor/factor_bytes.h"
-#include "hf/field.h"
+#include "field/vector_sites.h"
+#include "hf/solver.h"
 
 namespace hf_inner::capi {
 namespace {
 
-// A std allocator straight on the host's hooks, for the Memory object itself.
-template <class T>
-struct HookAllocator {
-  using value_type = T;
-  explicit HookAllocator(const hf_allocator& given) noexcept : hooks(given) {}
-  template <class U>
-  HookAllocator(const HookAllocator<U>& other) noexcept : hooks(other.hooks) {}
-  T* allocate(std::size_t count) {
-    void* block = hooks.allocate ? hooks.allocate(hooks.user, count * sizeof(T), alignof(T))
-                                 : ::operator new(count * sizeof(T), std::nothrow);
-    if (!block) throw std::bad_alloc();
-    return static_cast<T*>(block);
-  }
-  void deallocate(T* block, std::size_t count) noexcept {
-    if (hooks.allocate) {
-      hooks.release(hooks.user, block, count * sizeof(T), alignof(T));
-    } else {
-      ::operator delete(block);
-    }
-  }
-  template <class U>
-  bool operator==(const HookAllocator<U>& other) const noexcept {
-    return hooks.allocate == other.hooks.allocate && hooks.user == other.hooks.user;
-  }
-  template <class U>
-  bool operator!=(const HookAllocator<U>& other) const noexcept {
-    return !(*this == other);
-  }
-  hf_allocator hooks;
-};
+constexpr std::uint32_t most_channels = 64, default_site_limit = 100000;
+constexpr double default_penalty = 1e8;   // the paper's
+constexpr double largest_penalty = 1e10;  // beyond it the other equations of a penalised row drown in rounding
 
-struct Options {
-  CoreOptions core;
-  EngineKind engine;
-  std::uint32_t channels, threads, site_limit;
-  double penalty;
-};
-
-Options read_options(const hf_create_desc& desc) {
-  Options options;
-  check_choice(desc.weld, 3, "weld");
-  check_choice(desc.operator_kind, 4, "operator_kind");
+std::shared_ptr<SolverObject> make_solver(hf_surface handle, const hf_solver_desc* given) {
+  const auto surface = get<SurfaceObject>(handle, "surface");
+  const hf_solver_desc desc = read_optional(given, "desc");
   check_choice(desc.field_kind, 3, "field_kind");
   check_choice(desc.engine, 3, "engine");
-  check_choice(desc.ordering, 3, "ordering");
+  require_zero(desc.reserved);
 #ifndef HF_WITH_GPL
   if (desc.engine == HF_ENGINE_UPDOWN)
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
          "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
-  if (desc.ordering == HF_ORDERING_METIS)
-    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-         "HF_ORDERING_METIS needs a build with HF_WITH_GPL; use HF_ORDERING_NESTED_DISSECTION");
 #endif
-  if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
-  options.core.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
-  options.core.field_kind = static_cast<FieldKind>(desc.field_kind);
-  options.core.ordering = desc.ordering == HF_ORDERING_METIS            ? Ordering::metis
-                          : desc.ordering == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree
-                                                                        : Ordering::nested_dissection;
-  options.engine = static_cast<EngineKind>(desc.engine);
-  options.channels = count_of(desc.channel_count, 1, 1, 64, "channel_count");
-  options.threads = count_of(desc.thread_count, 1, 1, 256, "thread_count");
-  options.site_limit = desc.site_limit ? desc.site_limit : 100000;
+  const std::uint32_t channels = count_of(desc.channel_count, 1, 1, most_channels, "channel_count");
   if (desc.penalty != 0 && !(desc.penalty > 0))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
-  options.penalty = desc.penalty > 0 ? std::min(desc.penalty, 1e10) : 1e8;
-  return options;
+  const double penalty = desc.penalty > 0 ? std::min(desc.penalty, largest_penalty) : default_penalty;
+  return with_progress(desc.progress, [&](Progress* progress) {
+    return make_owner_in<SolverObject>(surface->memory,
+                                       surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress),
+                                       static_cast<EngineKind>(desc.engine), penalty, channels,
+                                       desc.site_limit ? desc.site_limit : default_site_limit);
+  });
 }
 
-// 0 is eight triangles per vertex of the vertex limit: dirty meshes have more than a surface needs, none has that many.
-void check_triangle_count(std::uint32_t count, std::uint32_t limit, std::uint32_t vertex_limit) {
-  if (limit != 0 && count > limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; the triangle_limit is %u", count, limit);
-  if (limit == 0 && count / 8 > vertex_limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
-         "%u triangles; without a triangle_limit at most eight per vertex of the vertex_limit %u are taken", count,
-         vertex_limit);
+hf_solver_info info_of(const SolverObject& solver) {
+  hf_solver_info info{};
+  info.field_kind = static_cast<std::int32_t>(solver.field.core().field_kind);
+  info.engine = static_cast<std::int32_t>(solver.field.engine().kind());
+  info.channel_count = static_cast<std::uint32_t>(solver.field.sites().channels());
+  info.site_limit = solver.site_limit, info.site_count = solver.field.sites().count();
+  info.penalty = solver.penalty, info.vertex_count = solver.field.core().mesh.report.vertex_count;
+  return info;
 }
 
-void read_saved_factor(const hf_create_desc& desc, CoreOptions& options) {
-  const hf_factor_desc saved = read_struct(desc.saved_factor, "saved_factor");
-  require(saved.bytes, "saved_factor->bytes");
-  if (saved.byte_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "saved_factor->byte_count is 0");
-  options.saved_factor = {static_cast<const std::uint8_t*>(saved.bytes), saved.byte_count};
-  options.borrow_factor = saved.borrow != 0;
-  const Ordering ordering = check_saved_factor(options.saved_factor);
-  if (desc.ordering != 0 && options.ordering != ordering)
+hf_solver_statistics statistics_of(const SolverObject& solver) {
+  const EngineCounters counters = solver.field.engine().counters();
+  hf_solver_statistics statistics{};
+  statistics.site_count = solver.field.sites().count();
+  statistics.factorisation_count = counters.factorisations;
+  // engine green counts the factor of the surface as its first
+  if (solver.field.engine().kind() == EngineKind::green) --statistics.factorisation_count;
+  statistics.path_solve_count = counters.path_solves, statistics.sweep_count = counters.sweeps;
+  statistics.last_route = static_cast<std::uint32_t>(counters.last_route);
+  statistics.rebase_count = counters.rebases, statistics.dense_edit_count = counters.dense_edits;
+  statistics.dense_row_count = counters.dense_rows, statistics.eliminated_count = counters.eliminated;
+  statistics.rebase_advised = counters.rebase_advised;
+  statistics.site_memory_bytes = counters.bytes;
+  statistics.predicted_dense_ms = counters.dense_ms, statistics.predicted_rebase_ms = counters.rebase_ms;
+  return statistics;
+}
+
+// ---- edits ----
+
+Places read_places(const hf_sites_desc& desc) {
+  if (desc.site_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
+  if (desc.vertices && desc.triangles)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and triangles are both set; set one");
+  if (!desc.vertices && !desc.triangles)
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "vertices and triangles are both NULL");
+  if (desc.triangles && !desc.barycentrics)
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "barycentrics is NULL, but the sites are in triangles");
+  Places places;
+  places.count = desc.site_count, places.vertices = desc.vertices, places.triangles = desc.triangles;
+  places.barycentrics = desc.barycentrics, places.radii = desc.radii;
+  return places;
+}
+
+void read_addition(const hf_sites_desc* given, FieldEdit& edit) {
+  const hf_sites_desc desc = read_struct(given, "sites");
+  edit.add = read_places(desc);
+  edit.add_values = desc.values, edit.add_stiffness = desc.stiffness;
+}
+
+void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_desc* to, FieldEdit& edit) {
+  require_list(count, sites, "site_count", "sites");
+  const hf_sites_desc desc = read_struct(to, "to");
+  if (desc.values || desc.stiffness || desc.radii)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "ordering is %d, but the saved factor has ordering %d; set it to 0 to take the factor's", desc.ordering,
-         static_cast<int>(ordering));
+         "moving keeps values, stiffness and radius: set them to NULL in the desc");
+  edit.move_count = count, edit.move_sites = sites, edit.move_to = read_places(desc);
+  if (edit.move_to.count != count)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
 }
 
-void count_given(SolverObject& solver) {
-  const Mesh& mesh = solver.field.core().mesh;
-  solver.given_count.assign(mesh.report.component_count, 0);
-  for (const std::int32_t v : mesh.inner_of_given) {
-    if (v != Mesh::none) ++solver.given_count[static_cast<std::size_t>(mesh.component[static_cast<std::size_t>(v)])];
+// Counts no list can have, refused before the lists are read or anything is allocated by them.
+void check_counts(const SolverObject& solver, const FieldEdit& edit) {
+  const std::uint32_t there = solver.field.sites().count();
+  if (edit.remove_count > there)
+    fail(HF_ERROR_NO_SUCH_SITE, there, "%u sites to remove, but the solver has %u", edit.remove_count, there);
+  const std::uint32_t left = there - edit.remove_count;
+  const auto check = [&](std::uint32_t count, const char* what) {
+    if (count > left)
+      fail(HF_ERROR_NO_SUCH_SITE, left, "%u %s, but the solver has %u sites%s", count, what, left,
+           edit.remove_count ? " after the removals" : "");
+  };
+  check(edit.move_count, "sites to move"), check(edit.set_count, "values to set");
+  if (edit.add.count > solver.site_limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u sites to add; the site_limit is %u", edit.add.count, solver.site_limit);
+}
+
+template <class Work>
+void change(hf_solver handle, Work&& work) {
+  const auto solver = get<SolverObject>(handle, "solver");
+  const Changing changing(*solver);
+  work(*solver);
+  solver->site_count = solver->field.sites().count();
+}
+
+// read(edit) fills the edit in; the handle is checked before it.
+template <class Read>
+hf_result apply(const char* function, hf_solver handle, std::uint32_t* out_sites, Read&& read) {
+  return guarded(function, [&] {
+    get<SolverObject>(handle, "solver");
+    FieldEdit edit;
+    read(edit);
+    change(handle, [&](SolverObject& solver) {
+      check_counts(solver, edit);
+      solver.field.edit(edit, out_sites);
+    });
+  });
+}
+
+template <class Work>
+hf_result change_vectors(const char* function, hf_solver handle, std::uint32_t count, const std::uint32_t* sites,
+                         const void* list, const char* name, Work&& work) {
+  return guarded(function, [&] {
+    get<SolverObject>(handle, "solver");
+    require_list(count, sites, "site_count", "sites"), require(list, name);
+    change(handle, [&](SolverObject& solver) {
+      if (solver.field.sites().channels() != 3)
+        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the solver has %d channels; vector fields need channel_count 3",
+             solver.field.sites().channels());
+      if (count > solver.field.sites().count())
+        fail(HF_ERROR_NO_SUCH_SITE, solver.field.sites().count(), "%u sites named, but there are %u", count,
+             solver.field.sites().count());
+      work(solver.field);
+    });
+  });
+}
+
+// ---- reading ----
+
+void get_sites(const SolverObject& solver, hf_sites_info* inout) {
+  hf_sites_info info = read_struct(inout, "inout_info");
+  require_zero(info.reserved);
+  const Reading reading(const_cast<SolverObject&>(solver));
+  const SiteSet& sites = solver.field.sites();
+  info.count = sites.count();
+  write_struct(inout, info);
+  const bool given =
+      info.sites || info.vertices || info.components || info.values || info.stiffness || info.flux || info.radii;
+  check_capacity(given, info.capacity, info.count, "capacity");
+  const std::size_t m = static_cast<std::size_t>(sites.channels());
+  Vector<double> flux(solver.memory.get());
+  if (info.flux) {
+    solver.field.flux(flux);
+    for (std::size_t s = 0; s < sites.slots().size(); ++s) {
+      const std::int32_t owner = sites.slots()[s].owner;
+      for (std::size_t c = 0; owner >= 0 && c < m; ++c)
+        flux[static_cast<std::size_t>(owner) * m + c] += flux[s * m + c];
+    }
+  }
+  std::size_t at = 0;
+  for (std::size_t s = 0; s < sites.slots().size(); ++s) {
+    const SiteSet::Slot& slot = sites.slots()[s];
+    if (!slot.is_site()) continue;
+    if (info.sites) info.sites[at] = static_cast<std::uint32_t>(s);
+    if (info.vertices) info.vertices[at] = slot.given_vertex;
+    if (info.components) info.components[at] = static_cast<std::uint32_t>(slot.site.component);
+    if (info.stiffness) info.stiffness[at] = slot.stiffness;
+    if (info.radii) info.radii[at] = slot.radius;
+    if (info.values) std::copy_n(sites.values() + s * m, m, info.values + at * m);
+    if (info.flux) std::copy_n(flux.data() + s * m, m, info.flux + at * m);
+    ++at;
   }
 }
 
@@ -118,148 +197,116 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_create(const hf_create_desc* given, hf_solver* out_solver) {
-  return guarded("hf_create", [&] {
-    require(out_solver, "out_solver");
-    *out_solver = nullptr;
-    const hf_create_desc desc = read_struct(given, "desc");
-    Options options = read_options(desc);
-    if (desc.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "vertex_count is 0");
-    if (desc.triangle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "triangle_count is 0");
-    if (desc.positions && desc.positions_f64)
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "positions and positions_f64 are both set; set one");
-    if (!desc.positions && !desc.positions_f64)
-      fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "positions and positions_f64 are both NULL");
-    require(desc.triangles, "triangles");
-    const std::uint32_t limit = desc.vertex_limit ? desc.vertex_limit : 20000000;
-    if (desc.vertex_count > limit)
-      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; the vertex_limit is %u", desc.vertex_count, limit);
-    check_triangle_count(desc.triangle_count, desc.triangle_limit, limit);
+hf_result hf_create(hf_surface surface, const hf_solver_desc* desc, hf_solver* out_solver) {
+  return guarded("hf_create", [&] { create(out_solver, "out_solver", [&] { return make_solver(surface, desc); }); });
+}
 
-    MeshInput input;
-    input.vertex_count = desc.vertex_count, input.triangle_count = desc.triangle_count;
-    input.positions = rows_of(desc.positions, desc.positions_f64, desc.position_stride, "position_stride");
-    input.triangles = desc.triangles;
-    input.weld = static_cast<Weld>(desc.weld);
-    input.weld_tolerance = static_cast<double>(desc.weld_tolerance);
-
-    std::shared_ptr<ProgressObject> progress;
-    if (desc.saved_factor) read_saved_factor(desc, options.core);
-    if (desc.progress) progress = get<ProgressObject>(desc.progress, Kind::progress, "progress");
-    options.core.progress = progress ? &progress->progress : nullptr;
-
-    auto memory = std::allocate_shared<Memory>(HookAllocator<Memory>(desc.allocator), desc.allocator,
-                                               std::uint64_t{desc.memory_limit_mb} << 20);
-    Memory& pool = *memory;
-    auto jobs = make_shared_in<JobRunner>(pool, options.threads, desc.job_runner);
-    std::shared_ptr<const Core> core;
-    try {
-      core = Core::make(input, options.core, memory, std::move(jobs));
-    } catch (const Error& error) {
-      if (error.code() == HF_ERROR_CANCELLED && progress) progress->progress.reset();  // one cancel stops one call
-      throw;
-    }
-    const auto solver = make_owner_in<SolverObject>(memory, std::move(core), options.engine, options.penalty,
-                                                    static_cast<std::int32_t>(options.channels), options.site_limit);
-    count_given(*solver);
-    *out_solver = reinterpret_cast<hf_solver>(insert(solver));
+hf_result hf_solver_clone(hf_solver handle, hf_solver* out_solver) {
+  return guarded("hf_solver_clone", [&] {
+    create(out_solver, "out_solver", [&] {
+      const auto solver = get<SolverObject>(handle, "solver");
+      const Reading reading(*solver);
+      return make_owner_in<SolverObject>(solver->memory, *solver);
+    });
   });
 }
 
-hf_result hf_clone(hf_solver handle, hf_solver* out_solver) {
-  return guarded("hf_clone", [&] {
-    require(out_solver, "out_solver");
-    *out_solver = nullptr;
-    const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
+void hf_solver_destroy(hf_solver solver) { destroy<SolverObject>(solver); }
+
+hf_result hf_solver_get_info(hf_solver handle, hf_solver_info* out_info) {
+  return guarded("hf_solver_get_info", [&] {
+    const auto solver = get<SolverObject>(handle, "solver");
+    check_struct(out_info, "out_info");
     const Reading reading(*solver);
-    *out_solver = reinterpret_cast<hf_solver>(insert(make_owner_in<SolverObject>(solver->memory, *solver)));
+    write_struct(out_info, info_of(*solver));
   });
 }
 
-void hf_destroy(hf_solver solver) {
-  const FloatEnvironment environment;
-  remove(reinterpret_cast<std::uintptr_t>(solver), Kind::solver);
+hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint32_t* out_sites) {
+  return apply("hf_add_sites", solver, out_sites, [&](FieldEdit& edit) { read_addition(sites, edit); });
 }
 
-hf_result hf_get_mesh_report(hf_solver handle, hf_mesh_report* out_report) {
-  return guarded("hf_get_mesh_report", [&] {
-    const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
-    check_struct(out_report, "out_report");
-    const MeshReport& found = solver->field.core().mesh.report;
-    hf_mesh_report report{};
-    report.vertex_count = found.vertex_count;
-    report.triangle_count = found.triangle_count;
-    report.welded_vertex_count = found.welded_vertex_count;
-    report.component_count = found.component_count;
-    report.isolated_vertex_count = found.isolated_vertex_count;
-    report.degenerate_triangle_count = found.degenerate_triangle_count;
-    report.collapsed_triangle_count = found.collapsed_triangle_count;
-    report.duplicate_triangle_count = found.duplicate_triangle_count;
-    report.non_manifold_edge_count = found.non_manifold_edge_count;
-    report.flipped_edge_count = found.flipped_edge_count;
-    report.boundary_edge_count = found.boundary_edge_count;
-    report.negative_edge_count = found.negative_edge_count;
-    report.smallest_angle = static_cast<float>(found.smallest_angle);
-    report.bounding_box_diagonal = found.bounding_box_diagonal;
-    write_struct(out_report, report);
+hf_result hf_solver_add_site(hf_solver solver, uint32_t vertex, const double* values, uint32_t* out_site) {
+  return apply("hf_solver_add_site", solver, out_site,
+               [&](FieldEdit& edit) { edit.add.count = 1, edit.add.vertices = &vertex, edit.add_values = values; });
+}
+
+hf_result hf_remove_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites) {
+  return apply("hf_remove_sites", solver, nullptr, [&](FieldEdit& edit) {
+    require_list(site_count, sites, "site_count", "sites");
+    edit.remove_count = site_count, edit.remove_sites = sites;
   });
 }
 
-hf_result hf_get_components(hf_solver handle, uint32_t vertex_count, uint32_t* out_components) {
-  return guarded("hf_get_components", [&] {
-    const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
-    require(out_components, "out_components");
-    const Mesh& mesh = solver->field.core().mesh;
-    if (vertex_count != mesh.report.vertex_count)
-      fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "vertex_count is %u; the mesh has %u vertices", vertex_count,
-           mesh.report.vertex_count);
-    for (std::uint32_t v = 0; v < vertex_count; ++v) {
-      const std::int32_t inner = mesh.inner_of_given[v];
-      out_components[v] = inner == Mesh::none
-                              ? HF_NO_INDEX
-                              : static_cast<std::uint32_t>(mesh.component[static_cast<std::size_t>(inner)]);
-    }
+hf_result hf_solver_move_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const hf_sites_desc* to) {
+  return apply("hf_solver_move_sites", solver, nullptr,
+               [&](FieldEdit& edit) { read_move(site_count, sites, to, edit); });
+}
+
+hf_result hf_solver_set_values(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* values) {
+  return apply("hf_solver_set_values", solver, nullptr, [&](FieldEdit& edit) {
+    require_list(site_count, sites, "site_count", "sites"), require(values, "values");
+    edit.set_count = site_count, edit.set_sites = sites, edit.set_values = values;
   });
 }
 
-hf_result hf_get_statistics(hf_solver handle, hf_statistics* out_statistics) {
-  return guarded("hf_get_statistics", [&] {
-    const auto solver = get<SolverObject>(handle, Kind::solver, "solver");
+hf_result hf_solver_edit_sites(hf_solver solver, const hf_edit_desc* given, uint32_t* out_sites) {
+  return apply("hf_solver_edit_sites", solver, out_sites, [&](FieldEdit& edit) {
+    const hf_edit_desc desc = read_struct(given, "edit");
+    if (desc.remove_count) require(desc.remove_sites, "remove_sites");
+    edit.remove_count = desc.remove_count, edit.remove_sites = desc.remove_sites;
+    if (desc.move_count) read_move(desc.move_count, desc.move_sites, desc.move_to, edit);
+    if (desc.set_count) require(desc.set_sites, "set_sites"), require(desc.set_values, "set_values");
+    edit.set_count = desc.set_count, edit.set_sites = desc.set_sites, edit.set_values = desc.set_values;
+    if (desc.add) read_addition(desc.add, edit);
+  });
+}
+
+hf_result hf_solver_move_vectors(hf_solver solver, uint32_t site_count, const uint32_t* sites,
+                                 const uint32_t* vertices) {
+  return change_vectors("hf_solver_move_vectors", solver, site_count, sites, vertices, "vertices",
+                        [&](ScalarField& field) { move_vectors(field, site_count, sites, vertices); });
+}
+
+hf_result hf_solver_rotate_vectors(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* angles) {
+  return change_vectors("hf_solver_rotate_vectors", solver, site_count, sites, angles, "angles",
+                        [&](ScalarField& field) { rotate_vectors(field, site_count, sites, angles); });
+}
+
+uint32_t hf_solver_get_site_count(hf_solver solver) {
+  const std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(solver), Kind::solver);
+  return object ? static_cast<SolverObject&>(*object).site_count.load() : 0;
+}
+
+hf_result hf_solver_get_sites(hf_solver solver, hf_sites_info* inout_info) {
+  return guarded("hf_solver_get_sites", [&] { get_sites(*get<SolverObject>(solver, "solver"), inout_info); });
+}
+
+hf_result hf_solver_prepare_rebase(hf_solver solver) {
+  return guarded("hf_solver_prepare_rebase", [&] {
+    // neither reading nor changing: it runs beside both, the field guards itself
+    get<SolverObject>(solver, "solver")->field.prepare_rebase();
+  });
+}
+
+hf_result hf_solver_record(hf_solver solver) {
+  return guarded("hf_solver_record", [&] { change(solver, [](SolverObject& object) { object.field.record(); }); });
+}
+
+hf_result hf_solver_undo(hf_solver solver) {
+  return guarded("hf_solver_undo", [&] { change(solver, [](SolverObject& object) { object.field.undo(); }); });
+}
+
+hf_result hf_solver_redo(hf_solver solver) {
+  return guarded("hf_solver_redo", [&] { change(solver, [](SolverObject& object) { object.field.redo(); }); });
+}
+
+hf_result hf_solver_get_statistics(hf_solver handle, hf_solver_statistics* out_statistics) {
+  return guarded("hf_solver_get_statistics", [&] {
+    const auto solver = get<SolverObject>(handle, "solver");
     check_struct(out_statistics, "out_statistics");
     const Reading reading(*solver);
-    const Core& core = solver->field.core();
-    const FactorStatistics& factor = core.factor->statistics();
-    const EngineCounters counters = solver->field.engine().counters();
-    hf_statistics statistics{};
-    statistics.unknown_count = static_cast<std::uint32_t>(core.size());
-    statistics.weld_ms = core.times.weld_ms;
-    statistics.operator_ms = core.times.operator_ms;
-    statistics.ordering_ms = factor.ordering_ms;
-    statistics.symbolic_ms = factor.symbolic_ms;
-    statistics.numeric_ms = factor.numeric_ms;
-    statistics.factor_entries = factor.entries;
-    statistics.factor_bytes = factor.bytes;
-    statistics.factor_flops = factor.flops;
-    statistics.memory_bytes = static_cast<double>(solver->memory->live_bytes());
-    statistics.peak_memory_bytes = static_cast<double>(solver->memory->peak_bytes());
-    statistics.site_memory_bytes = counters.bytes;
-    statistics.site_count = solver->field.sites().count();
-    statistics.factorisation_count = counters.factorisations;
-    statistics.path_solve_count = counters.path_solves;
-    statistics.sweep_count = counters.sweeps;
-    statistics.engine = static_cast<std::uint32_t>(solver->field.engine().kind());
-    statistics.thread_count = core.jobs->thread_count();
-    statistics.last_route = static_cast<std::uint32_t>(counters.last_route);
-    statistics.rebase_count = counters.rebases, statistics.dense_edit_count = counters.dense_edits;
-    statistics.dense_row_count = counters.dense_rows, statistics.eliminated_count = counters.eliminated;
-    statistics.rebase_advised = counters.rebase_advised;
-    statistics.predicted_dense_ms = counters.dense_ms, statistics.predicted_rebase_ms = counters.rebase_ms;
-    statistics.load_ms = factor.load_ms, statistics.factor_loaded = factor.loaded,
-    statistics.factor_borrowed = factor.borrowed;
-    // the engines count the factor of hf_create as made
-    if (factor.loaded && statistics.factorisation_count > 0 && solver->field.engine().kind() == EngineKind::green)
-      --statistics.factorisation_count;
-    write_struct(out_statistics, statistics);
+    write_struct(out_statistics, statistics_of(*solver));
   });
 }
 

@@ -4,7 +4,9 @@
 
 #include "capi/boundary.h"
 #include "capi/objects.h"
-#include "capi/scatter.h"
+#include "capi/skin_out.h"
+#include "capi/vertex_lists.h"
+#include "capi/vertex_writer.h"
 #include "deform/normals.h"
 #include "hf/transfer.h"
 #include "transfer/transfer.h"
@@ -13,8 +15,9 @@ namespace hf_inner::capi {
 namespace {
 
 struct TransferObject final : Object {
+  static constexpr Kind kind_of = Kind::transfer;
   TransferObject(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target, const TransferOptions& options)
-      : Object(Kind::transfer),
+      : Object(kind_of),
         memory(target->memory),
         source_memory(source->memory),
         transfer(std::move(source), std::move(target), options),
@@ -22,6 +25,7 @@ struct TransferObject final : Object {
         target_posed(*memory, static_cast<std::size_t>(transfer.target().size())) {}
   std::shared_ptr<Memory> memory, source_memory;  // outlive the transfer
   Transfer transfer;
+  OwnedMutex preparing;  // readers that solve the fields of new pairs take turns
   Buffer<Vec3> source_posed, target_posed;
   // made at the first frame that asks for normals
   std::shared_ptr<const Rest> rest;
@@ -54,14 +58,6 @@ TransferOptions read_options(const hf_transfer_desc* given) {
   return options;
 }
 
-void check_engine(const SolverObject& solver, std::uint32_t index) {
-  if (solver.field.engine().kind() != EngineKind::green)
-    fail(HF_ERROR_UNSUPPORTED, index, "transfers need solvers with HF_ENGINE_GREEN");
-  if (solver.field.core().refinements > 0)
-    fail(HF_ERROR_UNSUPPORTED, index,
-         "transfers need fields that keep to the range of their sites; make the solvers with HF_FIELD_HARMONIC");
-}
-
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -70,32 +66,28 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_transfer_create(hf_solver source, hf_solver target, const hf_transfer_desc* desc,
+hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_transfer_desc* desc,
                              hf_transfer* out_transfer) {
   return guarded("hf_transfer_create", [&] {
-    require(out_transfer, "out_transfer");
-    *out_transfer = nullptr;
-    const auto from = get<SolverObject>(source, Kind::solver, "source", 0);
-    const auto to = get<SolverObject>(target, Kind::solver, "target", 1);
-    const TransferOptions options = read_options(desc);
-    check_engine(*from, 0), check_engine(*to, 1);
-    *out_transfer = reinterpret_cast<hf_transfer>(
-        insert(make_owner_in<TransferObject>(to->memory, from->field.shared_core(), to->field.shared_core(), options)));
+    create(out_transfer, "out_transfer", [&] {
+      get<SurfaceObject>(source, "source", 0), get<SurfaceObject>(target, "target", 1);
+      const TransferOptions options = read_options(desc);
+      const auto from = harmonic_core(source, "source", 0), to = harmonic_core(target, "target", 1);
+      return make_owner_in<TransferObject>(to->memory, from, to, options);
+    });
   });
 }
 
-void hf_transfer_destroy(hf_transfer transfer) {
-  const FloatEnvironment environment;
-  remove(reinterpret_cast<std::uintptr_t>(transfer), Kind::transfer);
-}
+void hf_transfer_destroy(hf_transfer transfer) { destroy<TransferObject>(transfer); }
 
 hf_result hf_transfer_add_pairs(hf_transfer handle, const hf_pairs_desc* given, uint32_t* out_pairs) {
   return guarded("hf_transfer_add_pairs", [&] {
-    const auto object = get<TransferObject>(handle, Kind::transfer, "transfer");
+    const auto object = get<TransferObject>(handle, "transfer");
     const hf_pairs_desc desc = read_struct(given, "pairs");
     if (desc.pair_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "pair_count is 0");
-    if (desc.pair_count > 256)
-      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u pairs in one batch; a transfer takes at most 256", desc.pair_count);
+    if (desc.pair_count > HF_PAIR_LIMIT)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u pairs in one batch; a transfer takes at most %d", desc.pair_count,
+           HF_PAIR_LIMIT);
     require(desc.source_counts, "source_counts"), require(desc.source_vertices, "source_vertices");
     require(desc.target_counts, "target_counts"), require(desc.target_vertices, "target_vertices");
     const Changing changing(*object);
@@ -105,16 +97,8 @@ hf_result hf_transfer_add_pairs(hf_transfer handle, const hf_pairs_desc* given, 
     append_starts(desc.pair_count, desc.source_counts, source.report.vertex_count, "source_counts", source_start);
     append_starts(desc.pair_count, desc.target_counts, target.report.vertex_count, "target_counts", target_start);
     Vector<std::int32_t> source_vertices(memory), target_vertices(memory);
-    append_inner(source, source_start.back(), desc.source_vertices, "source_vertices", source_vertices);
-    append_inner(target, target_start.back(), desc.target_vertices, "target_vertices", target_vertices);
-    const auto check_isolated = [](const Vector<std::int32_t>& vertices, const char* name) {
-      for (std::size_t i = 0; i < vertices.size(); ++i) {
-        if (vertices[i] == Mesh::none)
-          fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i),
-               "entry %zu of %s belongs to no usable triangle; leave it out", i, name);
-      }
-    };
-    check_isolated(source_vertices, "source_vertices"), check_isolated(target_vertices, "target_vertices");
+    append_usable(source, source_start.back(), desc.source_vertices, "source_vertices", source_vertices);
+    append_usable(target, target_start.back(), desc.target_vertices, "target_vertices", target_vertices);
     Vector<PairInput> pairs(desc.pair_count, memory);
     for (std::uint32_t p = 0; p < desc.pair_count; ++p) {
       pairs[p].source =
@@ -129,7 +113,7 @@ hf_result hf_transfer_add_pairs(hf_transfer handle, const hf_pairs_desc* given, 
 
 hf_result hf_transfer_remove_pairs(hf_transfer handle, uint32_t pair_count, const uint32_t* pairs) {
   return guarded("hf_transfer_remove_pairs", [&] {
-    const auto object = get<TransferObject>(handle, Kind::transfer, "transfer");
+    const auto object = get<TransferObject>(handle, "transfer");
     if (pair_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "pair_count is 0");
     require(pairs, "pairs");
     const Changing changing(*object);
@@ -139,9 +123,10 @@ hf_result hf_transfer_remove_pairs(hf_transfer handle, uint32_t pair_count, cons
 
 hf_result hf_transfer_get_pair(hf_transfer handle, uint32_t pair, hf_pair_info* out_info) {
   return guarded("hf_transfer_get_pair", [&] {
-    const auto object = get<TransferObject>(handle, Kind::transfer, "transfer");
+    const auto object = get<TransferObject>(handle, "transfer");
     check_struct(out_info, "out_info");
-    const Changing changing(*object);
+    const Reading reading(*object);
+    const std::lock_guard<OwnedMutex> lock(object->preparing);
     const PairInfo found = object->transfer.pair_info(pair);
     hf_pair_info info{};
     info.flags = found.flags;
@@ -154,9 +139,10 @@ hf_result hf_transfer_get_pair(hf_transfer handle, uint32_t pair, hf_pair_info* 
 
 hf_result hf_transfer_get_info(hf_transfer handle, hf_transfer_info* out_info) {
   return guarded("hf_transfer_get_info", [&] {
-    const auto object = get<TransferObject>(handle, Kind::transfer, "transfer");
+    const auto object = get<TransferObject>(handle, "transfer");
     check_struct(out_info, "out_info");
-    const Changing changing(*object);
+    const Reading reading(*object);
+    const std::lock_guard<OwnedMutex> lock(object->preparing);
     hf_transfer_info info{};
     info.cluster_count = static_cast<std::uint32_t>(object->transfer.cluster_count());
     info.pair_count = object->transfer.pair_count();
@@ -171,23 +157,21 @@ hf_result hf_transfer_get_info(hf_transfer handle, hf_transfer_info* out_info) {
 
 hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) {
   return guarded("hf_transfer_apply", [&] {
-    const auto object = get<TransferObject>(handle, Kind::transfer, "transfer");
+    const auto object = get<TransferObject>(handle, "transfer");
     const hf_transfer_frame frame = read_struct(given, "frame");
-    if (frame.source_positions && frame.source_positions_f64)
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "source_positions and source_positions_f64 are both set; set one");
+    check_one(frame.source_positions, frame.source_positions_f64, "source_positions");
     if (!frame.source_positions && !frame.source_positions_f64)
       fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "source_positions and source_positions_f64 are both NULL");
-    if (frame.target_positions && frame.target_positions_f64)
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "target_positions and target_positions_f64 are both set; set one");
+    check_one(frame.target_positions, frame.target_positions_f64, "target_positions");
     const ConstRows posed =
-        rows_of(frame.source_positions, frame.source_positions_f64, frame.source_stride, "source_stride");
+        rows_of(frame.source_positions, frame.source_positions_f64, 3, frame.source_stride, "source_stride");
     const Rows positions =
-        rows_of(frame.target_positions, frame.target_positions_f64, frame.target_stride, "target_stride");
-    const Rows normals =
-        rows_of(frame.target_normals, static_cast<double*>(nullptr), frame.normal_stride, "normal_stride");
-    if (frame.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "reserved is %u; it must be 0", frame.reserved);
-    if (frame.hold_count > 256)
-      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u holds in a frame; a transfer has at most 256 pairs", frame.hold_count);
+        rows_of(frame.target_positions, frame.target_positions_f64, 3, frame.target_stride, "target_stride");
+    const Rows normals = rows_of(frame.target_normals, nullptr, 3, frame.normal_stride, "normal_stride");
+    require_zero(frame.reserved);
+    if (frame.hold_count > HF_PAIR_LIMIT)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u holds in a frame; a transfer has at most %d pairs", frame.hold_count,
+           HF_PAIR_LIMIT);
     if (frame.hold_count > 0) require(frame.hold_pairs, "hold_pairs"), require(frame.hold_positions, "hold_positions");
     const Changing changing(*object);
     const Mesh& source = object->transfer.source().mesh;
@@ -204,61 +188,42 @@ hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) 
       object->normals.allocate(*object->memory, static_cast<std::size_t>(target.size()));
       object->rest = make_shared_in<Rest>(*object->memory, target, *object->memory);
     }
-    PairHold holds[256];
+    PairHold holds[HF_PAIR_LIMIT];
     for (std::uint32_t i = 0; i < frame.hold_count; ++i)
       holds[i] = {frame.hold_pairs[i],
                   {frame.hold_positions[3 * i], frame.hold_positions[3 * i + 1], frame.hold_positions[3 * i + 2]}};
     object->transfer.apply(object->source_posed.data(), object->target_posed.data(), {holds, frame.hold_count});
     if (positions)
-      scatter(target, 3, positions, put_rest,
-              [&](std::size_t v, double* values) { put(object->target_posed[v], values); });
+      write_vertices(target, 3, positions, put_rest,
+                     [&](std::size_t v, double* values) { put(object->target_posed[v], values); });
     if (normals) {
       vertex_normals(target.mesh, *object->rest, object->target_posed.data(), object->normal_sums.data(),
                      object->normals.data(), *target.jobs);
-      scatter(target, 3, normals, put_up,
-              [&](std::size_t v, double* values) { put(to_vec3(object->normals[v]), values); });
+      write_vertices(target, 3, normals, put_up,
+                     [&](std::size_t v, double* values) { put(to_vec3(object->normals[v]), values); });
     }
   });
 }
 
-hf_result hf_transfer_get_skin(hf_transfer handle, hf_skin_info* info) {
+hf_result hf_transfer_get_skin(hf_transfer handle, hf_skin_info* inout_skin) {
   return guarded("hf_transfer_get_skin", [&] {
-    const auto object = get<TransferObject>(handle, Kind::transfer, "transfer");
-    hf_skin_info skin = read_struct(info, "info");
-    const std::uint32_t weight_count = skin.weight_count == 0 ? 4 : skin.weight_count;
-    if (weight_count != 4 && weight_count != 8)
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "weight_count is %u; it must be 4 or 8, or 0 for 4", weight_count);
-    if (skin.reserved != 0) fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "reserved is %u; it must be 0", skin.reserved);
-    const Changing changing(*object);
+    const auto object = get<TransferObject>(handle, "transfer");
+    SkinOut out(inout_skin);
+    const Reading reading(*object);
+    const std::lock_guard<OwnedMutex> lock(object->preparing);
     Memory* memory = object->memory.get();
+    const Mesh& mesh = object->transfer.target().mesh;
     const std::size_t joints = static_cast<std::size_t>(object->transfer.cluster_count());
+    out.write_counts(joints, mesh.report.vertex_count);
     Vector<Vec3> pivots(joints, memory), places(joints, memory);
     Vector<Quaternion> rotations(joints, memory);
     object->transfer.skin_motion(pivots.data(), rotations.data(), places.data());
-    for (std::size_t j = 0; j < joints; ++j) {
-      if (skin.pivots) put(pivots[j], skin.pivots + 3 * j);
-      if (skin.translations) put(places[j], skin.translations + 3 * j);
-      if (skin.rotations) {
-        const double q[4] = {rotations[j].x, rotations[j].y, rotations[j].z, rotations[j].w};
-        std::copy_n(q, 4, skin.rotations + 4 * j);
-      }
-      const double identity[4] = {0, 0, 0, 1}, ones[3] = {1, 1, 1};  // a transfer's joints are rigid
-      if (skin.axes) std::copy_n(identity, 4, skin.axes + 4 * j);
-      if (skin.scales) std::copy_n(ones, 3, skin.scales + 3 * j);
-    }
-    if (skin.vertex_joints || skin.vertex_weights) {
-      const Mesh& mesh = object->transfer.target().mesh;
-      for (std::size_t v = 0; v < mesh.report.vertex_count; ++v) {
-        std::uint32_t joint[8] = {0};
-        float weight[8] = {1};  // isolated vertices hang on the first joint
-        if (mesh.inner_of_given[v] != Mesh::none)
-          object->transfer.skin_weights(mesh.inner_of_given[v], weight_count, joint, weight);
-        if (skin.vertex_joints) std::copy_n(joint, weight_count, skin.vertex_joints + v * weight_count);
-        if (skin.vertex_weights) std::copy_n(weight, weight_count, skin.vertex_weights + v * weight_count);
-      }
-    }
-    skin.joint_count = static_cast<std::uint32_t>(joints), skin.weight_count = weight_count;
-    write_struct(info, skin);
+    for (std::size_t j = 0; j < joints; ++j)  // a transfer's joints are rigid
+      out.write_joint(j, pivots[j], rotations[j], places[j], Quaternion(), {1, 1, 1});
+    out.write_vertices(mesh, [&](std::int32_t inner, std::uint32_t* joint, float* weight) {
+      weight[0] = 1;  // isolated vertices follow the first joint
+      if (inner != Mesh::none) object->transfer.skin_weights(inner, out.weight_count(), joint, weight);
+    });
   });
 }
 

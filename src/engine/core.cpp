@@ -12,50 +12,19 @@
 
 namespace hf_inner {
 
-Buffer<double> WorkspacePool::take(std::size_t size) {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    for (auto it = free_.begin(); it != free_.end(); ++it) {
-      if (it->size() < size) continue;
-      Buffer<double> found = std::move(*it);
-      free_.erase(it);
-      return found;
-    }
-  }
-  Buffer<double> fresh(memory_, size);
-  if (zeroed_) std::fill(fresh.begin(), fresh.end(), 0.0);
-  return fresh;
-}
-
-void WorkspacePool::give(Buffer<double>&& buffer) noexcept {
-  try {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    constexpr std::size_t most = 8;  // more callers at once than this allocate their own
-    if (free_.size() < most) {
-      free_.push_back(std::move(buffer));
-      return;
-    }
-    // keep the larger ones
-    const auto smallest =
-        std::min_element(free_.begin(), free_.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-    if (smallest->size() < buffer.size()) *smallest = std::move(buffer);
-  } catch (...) {
-    // no room to remember it: the buffer is released by its owner
-  }
-}
-
-Core::Core(std::shared_ptr<Memory> owner, std::shared_ptr<JobRunner> runner)
-    : memory(std::move(owner)),
-      jobs(std::move(runner)),
-      mesh(*memory),
-      topology(*memory),
-      areas(memory.get()),
-      weights(memory.get()),
+Core::Core(std::shared_ptr<const Geometry> shape)
+    : memory(shape->memory),
+      geometry(std::move(shape)),
+      jobs(geometry->jobs),
+      mesh(geometry->mesh),
+      topology(geometry->topology),
+      areas(geometry->areas),
+      weights(geometry->weights),
       laplacian(*memory),
       ground(memory.get()),
       mean_diagonal(memory.get()),
-      workspaces(*memory),
-      zeroed_workspaces(*memory, true) {}
+      workspaces(geometry->workspaces),
+      zeroed_workspaces(geometry->zeroed_workspaces) {}
 
 namespace {
 
@@ -171,28 +140,22 @@ void make_factor(Core& core, const CoreOptions& options) {
 
 std::shared_ptr<const Core> Core::make(const MeshInput& input, const CoreOptions& options,
                                        std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs) {
-  Memory& pool = *memory;
   if (!options.saved_factor.empty()) check_saved_factor(options.saved_factor);
-  std::shared_ptr<Core> core = make_owner_in<Core>(memory, memory, std::move(jobs));
-  report(options.progress, 0.0f);
-  Timer weld_timer;
-  core->mesh = Mesh::make(input, pool, core->jobs.get());
-  core->times.weld_ms = weld_timer.milliseconds();
-  report(options.progress, 0.1f);
+  return make(Geometry::make(input, options.operator_kind, std::move(memory), std::move(jobs), options.progress),
+              options);
+}
 
+std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, const CoreOptions& options) {
+  Memory& pool = *shape->memory;
+  if (!options.saved_factor.empty()) check_saved_factor(options.saved_factor);
   Timer operator_timer;
-  core->topology = Topology::make(core->mesh, pool, core->jobs.get());
-  core->areas = vertex_areas(core->mesh, pool, core->jobs.get());
-  core->weights = edge_weights(core->mesh, core->topology, OperatorKind::cotangent, pool, core->jobs.get());
-  MeshReport& found = core->mesh.report;
-  found.negative_edge_count = count_negative(core->weights);
-  if (options.operator_kind == OperatorKind::clamped || options.operator_kind == OperatorKind::uniform)
-    core->weights = edge_weights(core->mesh, core->topology, options.operator_kind, pool, core->jobs.get());
-  count_edges(core->mesh, core->topology, found);
+  std::shared_ptr<Core> core = make_owner_in<Core>(shape->memory, shape);
+  core->field_kind = options.field_kind;
+  core->times.weld_ms = shape->weld_ms;
   Vector<std::uint8_t> confined(&pool);
   make_operator(*core, options, 0, confined);
   core->ordering = options.ordering;
-  core->times.operator_ms = operator_timer.milliseconds();
+  core->times.operator_ms = shape->weights_ms + operator_timer.milliseconds();
   report(options.progress, 0.2f);
   for (int cap = 0;;) {
     try {

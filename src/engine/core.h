@@ -1,57 +1,16 @@
-// What all solvers, clones, poses and transfers of one surface share: mesh, operator, factor. Immutable once made, so
-// any number of threads may read it; only the workspace pool inside has a lock.
+// Geometry, operator and factor: what all fields of one kind on one surface share. Immutable once made, so any number of
+// threads may read it; only the workspace pools inside have a lock.
 #pragma once
 #include <cstdint>
 #include <memory>
-#include <mutex>
 
 #include "base/jobs.h"
 #include "base/memory.h"
+#include "engine/geometry.h"
 #include "engine/preview_cache.h"
 #include "factor/factor.h"
-#include "mesh/laplacian.h"
-#include "mesh/mesh.h"
-#include "mesh/topology.h"
 
 namespace hf_inner {
-
-// Large scratch arrays that are used again and again: first touch of fresh memory costs more than a sweep.
-class WorkspacePool {
- public:
-  // zeroed: buffers of this pool are all zero when taken, and must be all zero when given back.
-  explicit WorkspacePool(Memory& memory, bool zeroed = false) : memory_(memory), zeroed_(zeroed), free_(&memory) {}
-  // Moves a buffer of at least `size` doubles out of the pool, or makes one.
-  Buffer<double> take(std::size_t size);
-  // Puts it back; never throws (the buffer is released when the pool cannot grow).
-  void give(Buffer<double>&& buffer) noexcept;
-
- private:
-  Memory& memory_;
-  const bool zeroed_;
-  std::mutex mutex_;
-  Vector<Buffer<double>> free_;
-};
-
-// A buffer of the pool for one scope.
-class Workspace {
- public:
-  Workspace(WorkspacePool& pool, std::size_t size) : pool_(pool), buffer_(pool.take(size)) {}
-  ~Workspace() {
-    if (!dropped_) pool_.give(std::move(buffer_));
-  }
-  Workspace(const Workspace&) = delete;
-  Workspace& operator=(const Workspace&) = delete;
-  double* data() noexcept { return buffer_.data(); }
-  double& operator[](std::size_t i) noexcept { return buffer_[i]; }
-  // Of a zeroed pool: the buffer is in use and must not go back unless clean() is called.
-  void soil() noexcept { dropped_ = true; }
-  void clean() noexcept { dropped_ = false; }
-
- private:
-  bool dropped_ = false;
-  WorkspacePool& pool_;
-  Buffer<double> buffer_;
-};
 
 struct CoreOptions {
   OperatorKind operator_kind = OperatorKind::intrinsic_delaunay;
@@ -68,20 +27,24 @@ struct CoreTimes {
 };
 
 struct Core {
-  Core(std::shared_ptr<Memory> owner, std::shared_ptr<JobRunner> runner);
-  // Intake, operator, grounded factor A = K + sum_c beta_c e_gc e_gc' (beta_c = mean diagonal of component c, g_c its
-  // first vertex).
+  explicit Core(std::shared_ptr<const Geometry> shape);
+  // The operator K on a geometry and its grounded factor A = K + sum_c beta_c e_gc e_gc' (beta_c = mean diagonal of
+  // component c, g_c its first vertex). options.operator_kind must be the geometry's. Progress: 0.15 to 1.
+  static std::shared_ptr<const Core> make(std::shared_ptr<const Geometry> shape, const CoreOptions& options);
+  // Both in one call.
   static std::shared_ptr<const Core> make(const MeshInput& input, const CoreOptions& options,
                                           std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs);
 
   std::int32_t size() const noexcept { return mesh.vertex_count(); }
 
   std::shared_ptr<Memory> memory;  // first member: outlives what is allocated from it
+  std::shared_ptr<const Geometry> geometry;
   std::shared_ptr<JobRunner> jobs;
-  Mesh mesh;
-  Topology topology;
-  Vector<double> areas;          // per vertex, a third of the triangles around it
-  Vector<double> weights;        // per edge of the mesh, of the Laplacian L
+  const Mesh& mesh;  // these four: the geometry's
+  const Topology& topology;
+  const Vector<double>& areas;
+  const Vector<double>& weights;
+  FieldKind field_kind = FieldKind::harmonic;
   SymmetricMatrix laplacian;     // K: L, or bi-harmonic
   Vector<std::int32_t> ground;   // per component
   Vector<double> mean_diagonal;  // per component
@@ -95,8 +58,8 @@ struct Core {
   std::shared_ptr<const Factor> factor;  // of A; null when the options asked for none
   CoreTimes times;
   mutable PreviewCache preview;  // the factor in single precision
-  mutable WorkspacePool workspaces;
-  mutable WorkspacePool zeroed_workspaces;
+  WorkspacePool& workspaces;     // the geometry's
+  WorkspacePool& zeroed_workspaces;
 };
 
 // The grounded matrix A.

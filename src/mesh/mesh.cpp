@@ -30,7 +30,7 @@ void check_sizes(const MeshInput& input) {
 void check_triangles(const MeshInput& input) {
   for (std::uint32_t t = 0; t < input.triangle_count; ++t) {
     for (int k = 0; k < 3; ++k) {
-      const std::uint32_t v = input.triangles[std::size_t{3} * t + static_cast<std::size_t>(k)];
+      const std::uint32_t v = input.triangles.get(t, static_cast<std::size_t>(k));
       if (v >= input.vertex_count) {
         fail(HF_ERROR_OUT_OF_RANGE, t, "triangle %u: corner %d is vertex %u, but there are %u vertices", t, k, v,
              input.vertex_count);
@@ -167,7 +167,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
   mesh.corners.reserve(std::size_t{3} * input.triangle_count);
   for (std::uint32_t t = 0; t < input.triangle_count; ++t) {
     Index v[3];
-    for (std::size_t k = 0; k < 3; ++k) v[k] = representative[input.triangles[std::size_t{3} * t + k]];
+    for (std::size_t k = 0; k < 3; ++k) v[k] = representative[input.triangles.get(t, k)];
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
       ++mesh.report.collapsed_triangle_count;
       continue;

@@ -26,7 +26,7 @@ static hf_result call_create(World* w) {
   desc.allocator = counting_hooks(&w->memory), desc.engine = w->engine, desc.channel_count = 2;
   return hf_create(&desc, &w->made_solver);
 }
-static hf_result call_clone(World* w) { return hf_clone(w->solver, &w->made_solver); }
+static hf_result call_clone(World* w) { return hf_solver_clone(w->solver, &w->made_solver); }
 static hf_result call_add(World* w) {
   const uint32_t vertices[3] = {11, 33, 60};
   const double values[3] = {3, 4, 5};
@@ -37,42 +37,39 @@ static hf_result call_remove(World* w) { return hf_remove_sites(w->solver, 1, w-
 static hf_result call_move(World* w) {
   const uint32_t vertex = 44;
   const hf_sites_desc to = sites_at(1, &vertex, NULL);
-  return hf_move_sites(w->solver, 1, w->sites, &to);
+  return hf_solver_move_sites(w->solver, 1, w->sites, &to);
 }
 static hf_result call_set(World* w) {
   const double value = 9;
-  return hf_set_site_values(w->solver, 1, w->sites, &value);
+  return hf_solver_set_values(w->solver, 1, w->sites, &value);
 }
 static hf_result call_edit(World* w) {
   const uint32_t vertex = 21, place = 47;
   const double value = 6;
   const hf_sites_desc add = sites_at(1, &vertex, &value), to = sites_at(1, &place, NULL);
-  hf_edit_desc edit;
-  HF_INIT(edit);
+  hf_edit_desc edit = HF_INIT(hf_edit_desc);
   edit.remove_count = 1, edit.remove_sites = w->sites;
   edit.move_count = 1, edit.move_sites = w->sites + 1, edit.move_to = &to;
   edit.add = &add;
-  return hf_edit_sites(w->solver, &edit, NULL);
+  return hf_solver_edit_sites(w->solver, &edit, NULL);
 }
-static hf_result call_solve(World* w) { return hf_solve_f64(w->solver, w->field, 0, NULL); }
+static hf_result call_solve(World* w) { return hf_solver_solve_f64(w->solver, w->field, 0, NULL); }
 static hf_result call_solve_at(World* w) {
   const uint32_t v[2] = {7, 70};
-  return hf_solve_at(w->solver, 2, v, w->field);
+  return hf_solver_solve_at(w->solver, 2, v, w->field);
 }
 static hf_result call_get_sites(World* w) {
-  hf_site_info info;
-  HF_INIT(info);
+  hf_sites_info info = HF_INIT(hf_sites_info);
   info.capacity = 2, info.flux = w->field;
-  return hf_get_sites(w->solver, &info);
+  return hf_solver_get_sites(w->solver, &info);
 }
-static hf_result call_record(World* w) { return hf_record(w->solver); }
-static hf_result call_undo(World* w) { return hf_undo(w->solver); }
+static hf_result call_record(World* w) { return hf_solver_record(w->solver); }
+static hf_result call_undo(World* w) { return hf_solver_undo(w->solver); }
 static hf_result call_pose_create(World* w) { return hf_pose_create(w->solver, NULL, &w->made_pose); }
 static hf_result call_pose_clone(World* w) { return hf_pose_clone(w->pose, &w->made_pose); }
 static hf_result call_add_handles(World* w) {
   const uint32_t count = 2, region[2] = {5 * AROUND, 5 * AROUND + 1};
-  hf_handles_desc desc;
-  HF_INIT(desc);
+  hf_handles_desc desc = HF_INIT(hf_handles_desc);
   desc.handle_count = 1, desc.region_counts = &count, desc.region_vertices = region;
   return hf_pose_add_handles(w->pose, &desc, NULL);
 }
@@ -80,22 +77,19 @@ static hf_result call_add_layer(World* w) {
   const double point[3] = {(double)w->tube.positions[3 * 4 * AROUND], (double)w->tube.positions[3 * 4 * AROUND + 1],
                            (double)w->tube.positions[3 * 4 * AROUND + 2]};
   const double radius = 0;
-  hf_handles_desc desc;
-  HF_INIT(desc);
+  hf_handles_desc desc = HF_INIT(hf_handles_desc);
   desc.handle_count = 1, desc.points = point, desc.radii = &radius, desc.layer = 1;
   return hf_pose_add_handles(w->pose, &desc, NULL);
 }
 static hf_result call_pose_skin(World* w) {
-  hf_skin_info info;
-  HF_INIT(info);
+  hf_skin_info info = HF_INIT(hf_skin_info);
   return hf_pose_get_skin(w->pose, &info);
 }
 static hf_result call_remove_handles(World* w) { return hf_pose_remove_handles(w->pose, 1, w->handles); }
 static hf_result deform_to(World* w, float* positions) {
-  hf_deform_desc desc;
-  HF_INIT(desc);
+  hf_deform_desc desc = HF_INIT(hf_deform_desc);
   desc.positions = positions, desc.restart = 1;
-  return hf_deform(w->pose, &desc, NULL);
+  return hf_pose_deform(w->pose, &desc, NULL);
 }
 static hf_result call_deform(World* w) { return deform_to(w, w->result); }
 static hf_result call_transfer_create(World* w) {
@@ -103,16 +97,14 @@ static hf_result call_transfer_create(World* w) {
 }
 static hf_result call_add_pairs(World* w) {
   const uint32_t count = 2, region[2] = {5 * AROUND, 5 * AROUND + 1};
-  hf_pairs_desc desc;
-  HF_INIT(desc);
+  hf_pairs_desc desc = HF_INIT(hf_pairs_desc);
   desc.pair_count = 1, desc.source_counts = desc.target_counts = &count,
   desc.source_vertices = desc.target_vertices = region;
   return hf_transfer_add_pairs(w->transfer, &desc, NULL);
 }
 static hf_result call_remove_pairs(World* w) { return hf_transfer_remove_pairs(w->transfer, 1, w->pairs); }
 static hf_result apply_to(World* w, float* positions, float* normals) {
-  hf_transfer_frame frame;
-  HF_INIT(frame);
+  hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
   frame.source_positions = w->posed, frame.target_positions = positions, frame.target_normals = normals;
   return hf_transfer_apply(w->transfer, &frame);
 }
@@ -121,8 +113,7 @@ static hf_result call_apply(World* w) {
   return apply_to(w, w->result, normals);
 }
 static hf_result call_get_skin(World* w) {
-  hf_skin_info info;
-  HF_INIT(info);
+  hf_skin_info info = HF_INIT(hf_skin_info);
   return hf_transfer_get_skin(w->transfer, &info);
 }
 
@@ -155,11 +146,9 @@ static hf_result call_region_create(World* w) { return hf_region_create(w->solve
 static hf_result call_region_clone(World* w) { return hf_region_clone(w->region, &w->made_region); }
 static hf_result call_region_edit(World* w) {
   const uint32_t points[3] = {2 * AROUND, 2 * AROUND + 3, 2 * AROUND + 6};
-  hf_curve_desc curve;
-  HF_INIT(curve);
+  hf_curve_desc curve = HF_INIT(hf_curve_desc);
   curve.point_count = 3, curve.vertices = points;
-  hf_region_edit_desc edit;
-  HF_INIT(edit);
+  hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
   edit.curve = &curve, edit.ring_count = 1, edit.remove_count = 1, edit.remove_vertices = points;
   return hf_region_edit(w->region, &edit);
 }
@@ -167,8 +156,7 @@ static hf_result call_region_record(World* w) { return hf_region_record(w->regio
 static hf_result call_region_undo(World* w) { return hf_region_undo(w->region); }
 static hf_result morph_into(World* w, float* positions) {
   float normals[3 * VERTICES];
-  hf_morph_desc desc;
-  HF_INIT(desc);
+  hf_morph_desc desc = HF_INIT(hf_morph_desc);
   desc.weight = 1, desc.positions = positions, desc.normals = normals;
   return hf_region_morph(w->region, &desc);
 }
@@ -176,8 +164,7 @@ static hf_result call_region_morph(World* w) { return morph_into(w, w->result); 
 static hf_result call_detail_create(World* w) { return hf_detail_create(w->region, w->region, NULL, &w->made_detail); }
 static hf_result call_detail_morph(World* w) {
   float normals[3 * VERTICES];
-  hf_morph_desc desc;
-  HF_INIT(desc);
+  hf_morph_desc desc = HF_INIT(hf_morph_desc);
   desc.weight = 2, desc.positions = w->result, desc.normals = normals;
   return hf_detail_morph(w->detail, &desc);
 }
@@ -188,24 +175,24 @@ static const struct {
   int green_only;
 } scenarios[] = {
     {"hf_create", call_create, 0},
-    {"hf_clone", call_clone, 0},
+    {"hf_solver_clone", call_clone, 0},
     {"hf_add_sites", call_add, 0},
     {"hf_remove_sites", call_remove, 0},
-    {"hf_move_sites", call_move, 0},
-    {"hf_set_site_values", call_set, 0},
-    {"hf_edit_sites", call_edit, 0},
-    {"hf_solve_f64", call_solve, 0},
-    {"hf_solve_at", call_solve_at, 0},
-    {"hf_get_sites", call_get_sites, 0},
-    {"hf_record", call_record, 0},
-    {"hf_undo", call_undo, 0},
+    {"hf_solver_move_sites", call_move, 0},
+    {"hf_solver_set_values", call_set, 0},
+    {"hf_solver_edit_sites", call_edit, 0},
+    {"hf_solver_solve_f64", call_solve, 0},
+    {"hf_solver_solve_at", call_solve_at, 0},
+    {"hf_solver_get_sites", call_get_sites, 0},
+    {"hf_solver_record", call_record, 0},
+    {"hf_solver_undo", call_undo, 0},
     {"hf_pose_create", call_pose_create, 1},
     {"hf_pose_clone", call_pose_clone, 1},
     {"hf_pose_add_handles", call_add_handles, 1},
     {"hf_pose_add_handles", call_add_layer, 1},
     {"hf_pose_get_skin", call_pose_skin, 1},
     {"hf_pose_remove_handles", call_remove_handles, 1},
-    {"hf_deform", call_deform, 1},
+    {"hf_pose_deform", call_deform, 1},
     {"hf_transfer_create", call_transfer_create, 1},
     {"hf_transfer_add_pairs", call_add_pairs, 1},
     {"hf_transfer_remove_pairs", call_remove_pairs, 1},
@@ -236,7 +223,7 @@ static void create_world(World* w, int32_t engine) {
   desc.allocator = counting_hooks(&w->memory), desc.engine = engine;
   assert_ok(hf_create(&desc, &w->solver));
   w->sites[0] = add_site(w->solver, 0, 0);
-  assert_ok(hf_record(w->solver));
+  assert_ok(hf_solver_record(w->solver));
   w->sites[1] = add_site(w->solver, VERTICES - 1, 1);
   if (engine != HF_ENGINE_GREEN) return;
   const uint32_t constrained[2] = {9, 70};
@@ -244,8 +231,7 @@ static void create_world(World* w, int32_t engine) {
   assert_ok(hf_direction_create(w->solver, NULL, &w->direction));
   assert_ok(hf_direction_add_sites(w->direction, 2, constrained, vectors, w->constraints));
   const uint32_t inside[6] = {4 * AROUND, 4 * AROUND + 1, 4 * AROUND + 2, 5 * AROUND, 5 * AROUND + 1, 5 * AROUND + 2};
-  hf_region_edit_desc edit;
-  HF_INIT(edit);
+  hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
   edit.add_count = 6, edit.add_vertices = inside;
   assert_ok(hf_region_create(w->solver, NULL, &w->region));
   assert_ok(hf_region_record(w->region));
@@ -257,8 +243,7 @@ static void create_world(World* w, int32_t engine) {
   assert_ok(deform_to(w, w->posed));
   w->ends = tube_ends(AROUND, RINGS);
   const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
-  hf_pairs_desc pairs;
-  HF_INIT(pairs);
+  hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
   pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts,
   pairs.source_vertices = pairs.target_vertices = w->ends;
   assert_ok(hf_transfer_create(w->solver, w->solver, NULL, &w->transfer));
@@ -267,11 +252,11 @@ static void create_world(World* w, int32_t engine) {
 
 static void destroy_world(World* w) {
   w->memory.refuse_at = 0;
-  hf_destroy(w->solver), hf_pose_destroy(w->pose), hf_transfer_destroy(w->transfer);
+  hf_solver_destroy(w->solver), hf_pose_destroy(w->pose), hf_transfer_destroy(w->transfer);
   hf_direction_destroy(w->direction), hf_direction_destroy(w->made_direction);
   hf_region_destroy(w->region), hf_region_destroy(w->made_region);
   hf_detail_destroy(w->detail), hf_detail_destroy(w->made_detail);
-  hf_destroy(w->made_solver), hf_pose_destroy(w->made_pose), hf_transfer_destroy(w->made_transfer);
+  hf_solver_destroy(w->made_solver), hf_pose_destroy(w->made_pose), hf_transfer_destroy(w->made_transfer);
   assert_int_equal(w->memory.live_blocks, 0);
   assert_int_equal(w->memory.live_bytes, 0);
   assert_int_equal(w->memory.mismatches, 0);
@@ -287,8 +272,8 @@ typedef struct Picture {
 
 static void take_picture(World* w, Picture* p) {
   memset(p, 0, sizeof *p);
-  p->site_count = hf_get_site_count(w->solver), p->handle_count = hf_pose_get_handle_count(w->pose);
-  assert_ok(hf_solve_f64(w->solver, p->field, 0, NULL));
+  p->site_count = hf_solver_get_site_count(w->solver), p->handle_count = hf_pose_get_handle_count(w->pose);
+  assert_ok(hf_solver_solve_f64(w->solver, p->field, 0, NULL));
   if (!w->pose) return;
   assert_ok(deform_to(w, p->posed));
   assert_ok(apply_to(w, p->transferred, NULL));
@@ -326,12 +311,12 @@ static unsigned refuse_each(size_t s, int32_t engine, int on) {
     if (result != HF_OK) {
       if (result != HF_ERROR_OUT_OF_MEMORY)
         fail_msg("%s, engine %d, allocation %u: %s", scenarios[s].name, (int)engine, (unsigned)n,
-                 hf_result_name(result));
+                 hf_result_get_name(result));
       if (world.made_solver || world.made_pose || world.made_transfer || world.made_direction || world.made_region ||
           world.made_detail)
         fail_msg("%s, allocation %u: a handle came back", scenarios[s].name, (unsigned)n);
       hf_error_detail detail;
-      assert_ok(hf_get_error_detail(&detail));
+      assert_ok(hf_error_get_detail(&detail));
       assert_int_equal(detail.code, HF_ERROR_OUT_OF_MEMORY);
       assert_string_equal(detail.function, scenarios[s].name);
       ++refused;
@@ -378,15 +363,14 @@ static void dragging_allocates_nothing(void** state) {
   World world;
   create_world(&world, HF_ENGINE_GREEN);
   float normals[3 * VERTICES];
-  hf_deform_desc desc;
-  HF_INIT(desc);
+  hf_deform_desc desc = HF_INIT(hf_deform_desc);
   desc.positions = world.result, desc.normals = normals;
-  assert_ok(hf_deform(world.pose, &desc, NULL));
+  assert_ok(hf_pose_deform(world.pose, &desc, NULL));
   world.memory.calls = 0;
   for (int i = 0; i < 20; ++i) {
     const hf_transform moved = {{0, 0, 0, 0}, {0.1 * i, 0, 0}};
     assert_ok(hf_pose_set_transforms(world.pose, 1, world.handles, &moved));
-    assert_ok(hf_deform(world.pose, &desc, NULL));
+    assert_ok(hf_pose_deform(world.pose, &desc, NULL));
   }
   assert_int_equal(world.memory.calls, 0);
   destroy_world(&world);
@@ -425,8 +409,8 @@ static void* reentrant_allocate(void* user, size_t size, size_t alignment) {
     const hf_sites_desc sites = sites_at(1, &vertex, NULL);
     assert_code(HF_ERROR_REENTRANT, hf_add_sites(r->solver, &sites, NULL));
     assert_code(HF_ERROR_REENTRANT, hf_remove_sites(r->solver, 1, &site));
-    assert_code(HF_ERROR_REENTRANT, hf_record(r->solver));
-    assert_code(r->expect_read, hf_solve_at(r->solver, 1, &vertex, value));
+    assert_code(HF_ERROR_REENTRANT, hf_solver_record(r->solver));
+    assert_code(r->expect_read, hf_solver_solve_at(r->solver, 1, &vertex, value));
     ++r->tried;
   }
   return r->inner.allocate(&r->memory, size, alignment);
@@ -452,10 +436,10 @@ static void a_callback_that_calls_back_is_refused(void** state) {
   double values[2];
   const uint32_t vertices[2] = {7, 20};
   r.armed = 1, r.expect_read = HF_OK; /* inside a read, reading is */
-  assert_ok(hf_solve_at(r.solver, 2, vertices, values));
+  assert_ok(hf_solver_solve_at(r.solver, 2, vertices, values));
   assert_int_equal(r.tried, 2);
-  assert_int_equal(hf_get_site_count(r.solver), 2);
-  hf_destroy(r.solver), surface_free(&tube);
+  assert_int_equal(hf_solver_get_site_count(r.solver), 2);
+  hf_solver_destroy(r.solver), surface_free(&tube);
   assert_int_equal(r.memory.live_blocks, 0);
 }
 

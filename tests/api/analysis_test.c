@@ -5,14 +5,12 @@
 #define assert_near(a, b, tolerance) assert_true(fabs((a) - (b)) <= (tolerance))
 
 static hf_scalars scalars_f64(const double* values) {
-  hf_scalars field;
-  HF_INIT(field);
+  hf_scalars field = HF_INIT(hf_scalars);
   field.values_f64 = values;
   return field;
 }
 static hf_isolines no_lines(void) {
-  hf_isolines lines;
-  HF_INIT(lines);
+  hf_isolines lines = HF_INIT(hf_isolines);
   return lines;
 }
 
@@ -30,18 +28,18 @@ static void tube_create(Tube* tube) {
   for (uint32_t v = 0; v < COUNT; ++v) tube->height[v] = (double)tube->surface.positions[3 * v + 1];
   tube->field = scalars_f64(tube->height);
 }
-static void tube_destroy(Tube* tube) { hf_destroy(tube->solver), surface_free(&tube->surface); }
+static void tube_destroy(Tube* tube) { hf_solver_destroy(tube->solver), surface_free(&tube->surface); }
 
 static void iso_lines_come_in_two_calls_with_points_on_edges(void** state) {
   (void)state;
   Tube tube;
   tube_create(&tube);
   double levels[3];
-  assert_ok(hf_space_levels(tube.solver, &tube.field, HF_LEVELS_VALUE, 3, levels));
+  assert_ok(hf_surface_space_levels(tube.solver, &tube.field, HF_LEVELS_VALUE, 3, levels));
   for (int k = 0; k < 3; ++k) assert_near(levels[k], 5.0 * (k + 1), 1e-12);
   levels[0] = 4.25;
   hf_isolines lines = no_lines();
-  assert_ok(hf_trace_isolines(tube.solver, &tube.field, 3, levels, &lines));
+  assert_ok(hf_surface_trace_isolines(tube.solver, &tube.field, 3, levels, &lines));
   assert_int_equal(lines.line_count, 3);
   uint32_t* edges = calloc(lines.point_count, 2 * sizeof *edges);
   double* parameters = calloc(lines.point_count, sizeof *parameters);
@@ -51,7 +49,7 @@ static void iso_lines_come_in_two_calls_with_points_on_edges(void** state) {
   lines.point_capacity = lines.point_count, lines.line_capacity = 3;
   lines.point_edges = edges, lines.parameters = parameters, lines.positions = positions;
   lines.line_starts = starts, lines.line_levels = of_level, lines.line_closed = closed;
-  assert_ok(hf_trace_isolines(tube.solver, &tube.field, 3, levels, &lines));
+  assert_ok(hf_surface_trace_isolines(tube.solver, &tube.field, 3, levels, &lines));
   assert_int_equal(starts[0], 0);
   assert_int_equal(starts[3], lines.point_count);
   for (uint32_t l = 0; l < 3; ++l) {
@@ -74,7 +72,7 @@ static void iso_lines_come_in_two_calls_with_points_on_edges(void** state) {
   hf_isolines small = no_lines();
   small.point_capacity = lines.point_count - 1, small.parameters = parameters;
   parameters[0] = 77;
-  assert_code(HF_ERROR_TOO_SMALL, hf_trace_isolines(tube.solver, &tube.field, 3, levels, &small));
+  assert_code(HF_ERROR_TOO_SMALL, hf_surface_trace_isolines(tube.solver, &tube.field, 3, levels, &small));
   assert_int_equal(small.point_count, lines.point_count);
   assert_near(parameters[0], 77, 0);
   free(edges), free(parameters), free(positions);
@@ -89,7 +87,7 @@ static void levels_of_equal_area_and_length_are_even_on_a_tube(void** state) {
   for (int v = 0; v < COUNT; ++v) squared[v] = tube.height[v] * tube.height[v];
   const hf_scalars field = scalars_f64(squared);
   for (int32_t spacing = HF_LEVELS_AREA; spacing <= HF_LEVELS_LENGTH; ++spacing) {
-    assert_ok(hf_space_levels(tube.solver, &field, spacing, 4, levels));
+    assert_ok(hf_surface_space_levels(tube.solver, &field, spacing, 4, levels));
     for (int k = 0; k < 4; ++k) assert_near(sqrt(levels[k]), 4.0 * (k + 1), 0.05);
   }
   tube_destroy(&tube);
@@ -100,16 +98,15 @@ static void critical_points_sum_to_the_euler_characteristic(void** state) {
   Tube tube;
   tube_create(&tube);
   for (uint32_t v = 0; v < COUNT; ++v) tube.height[v] = sin(0.9 * v) + 0.01 * v;
-  hf_critical_info info;
-  HF_INIT(info);
-  assert_ok(hf_find_critical_points(tube.solver, &tube.field, 0, NULL, &info));
+  hf_critical_info info = HF_INIT(hf_critical_info);
+  assert_ok(hf_surface_find_critical_points(tube.solver, &tube.field, 0, NULL, &info));
   assert_int_equal(info.euler_characteristic, 0);
   assert_int_equal(info.index_sum, 0);
   assert_int_equal(info.point_count, info.minimum_count + info.maximum_count + info.saddle_count);
   hf_critical_point points[COUNT];
   assert_code(HF_ERROR_TOO_SMALL,
-              hf_find_critical_points(tube.solver, &tube.field, info.point_count - 1, points, NULL));
-  assert_ok(hf_find_critical_points(tube.solver, &tube.field, COUNT, points, NULL));
+              hf_surface_find_critical_points(tube.solver, &tube.field, info.point_count - 1, points, NULL));
+  assert_ok(hf_surface_find_critical_points(tube.solver, &tube.field, COUNT, points, NULL));
   int32_t sum = 0;
   for (uint32_t i = 0; i < info.point_count; ++i) {
     sum += points[i].index;
@@ -126,12 +123,12 @@ static void distances_are_along_the_surface_and_minus_one_where_nothing_is_reach
   hf_solver solver = surface_solver(&cut);
   hf_geodesics geodesics = NULL;
   assert_ok(hf_geodesics_create(solver, NULL, &geodesics));
-  hf_destroy(solver); /* the child keeps what it needs */
+  hf_solver_destroy(solver); /* the child keeps what it needs */
   float distance[CUT_VERTICES];
   double precise[CUT_VERTICES];
   const uint32_t sources[2] = {CUT_LEFT, CUT_LEFT};
-  assert_ok(hf_geodesics_distance(geodesics, 2, sources, distance, 0));
-  assert_ok(hf_geodesics_distance_f64(geodesics, 1, sources, precise, 0));
+  assert_ok(hf_geodesics_solve(geodesics, 2, sources, distance, 0));
+  assert_ok(hf_geodesics_solve_f64(geodesics, 1, sources, precise, 0));
   assert_true(distance[CUT_LEFT] == 0.0f);
   assert_true(distance[CUT_SEAM_LEFT] == distance[CUT_SEAM_RIGHT]);
   assert_true(distance[CUT_ISLAND] == -1.0f && distance[CUT_ISOLATED] == -1.0f);
@@ -148,14 +145,13 @@ static void extremities_of_a_tube_are_at_its_ends(void** state) {
   hf_geodesics geodesics = NULL;
   assert_ok(hf_geodesics_create(tube.solver, NULL, &geodesics));
   for (int way = 0; way < 3; ++way) {
-    hf_extremities_desc desc;
-    HF_INIT(desc);
+    hf_extremities_desc desc = HF_INIT(hf_extremities_desc);
     double field[COUNT];
     desc.kind = way > 0, desc.geodesics = way == 2 ? geodesics : NULL, desc.least_length = 0.1f;
     desc.out_field = field;
     hf_extremity found[8];
     uint32_t count = 0;
-    assert_ok(hf_find_extremities(tube.solver, &desc, 8, found, &count));
+    assert_ok(hf_surface_find_extremities(tube.solver, &desc, 8, found, &count));
     assert_int_equal(count, 2);
     assert_near(fabs(found[0].position[1] - found[1].position[1]), 20, 1e-4);
     assert_true(found[0].length >= found[1].length && found[1].length > 4 && found[0].length < 11);
@@ -163,7 +159,7 @@ static void extremities_of_a_tube_are_at_its_ends(void** state) {
       for (int v = 0; v < COUNT; ++v) assert_true(field[v] <= field[found[0].vertex] + 1e-6 * fabs(field[v]));
     }
     uint32_t again = 0;
-    assert_code(HF_ERROR_TOO_SMALL, hf_find_extremities(tube.solver, &desc, 1, found, &again));
+    assert_code(HF_ERROR_TOO_SMALL, hf_surface_find_extremities(tube.solver, &desc, 1, found, &again));
     assert_int_equal(again, 2);
   }
   hf_geodesics_destroy(geodesics);
@@ -177,16 +173,15 @@ static void a_cancelled_search_leaves_the_outputs_alone_and_the_next_one_runs(vo
   hf_progress progress = NULL;
   assert_ok(hf_progress_create(&progress));
   for (int32_t kind = 0; kind < 2; ++kind) {
-    hf_extremities_desc desc;
-    HF_INIT(desc);
+    hf_extremities_desc desc = HF_INIT(hf_extremities_desc);
     desc.kind = kind, desc.progress = progress;
     uint32_t count = 77;
     assert_ok(hf_progress_cancel(progress));
-    assert_code(HF_ERROR_CANCELLED, hf_find_extremities(tube.solver, &desc, 0, NULL, &count));
+    assert_code(HF_ERROR_CANCELLED, hf_surface_find_extremities(tube.solver, &desc, 0, NULL, &count));
     assert_int_equal(count, 77);
-    assert_ok(hf_find_extremities(tube.solver, &desc, 0, NULL, &count));
+    assert_ok(hf_surface_find_extremities(tube.solver, &desc, 0, NULL, &count));
     float done = 0;
-    assert_ok(hf_progress_get(progress, &done));
+    assert_ok(hf_progress_get_fraction(progress, &done));
     assert_true(done == 1.0f);
   }
   hf_progress_destroy(progress);
@@ -207,42 +202,40 @@ static void bad_input_is_named(void** state) {
   double levels[2] = {1, 2}, out[COUNT];
   float floats[COUNT] = {0};
   hf_isolines lines = no_lines();
-  hf_critical_info info;
-  HF_INIT(info);
+  hf_critical_info info = HF_INIT(hf_critical_info);
   hf_solver s = tube.solver;
 
   hf_scalars f = tube.field;
   f.values = floats;
-  BAD("both kinds of values", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_space_levels(s, &f, 0, 2, levels));
+  BAD("both kinds of values", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &f, 0, 2, levels));
   f.values = NULL, f.values_f64 = NULL;
-  BAD("no values", HF_ERROR_NULL_POINTER, NO_INDEX, hf_trace_isolines(s, &f, 2, levels, &lines));
+  BAD("no values", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_trace_isolines(s, &f, 2, levels, &lines));
   f = tube.field, f.value_stride = 4;
-  BAD("stride 4 for doubles", HF_ERROR_TOO_SMALL, NO_INDEX, hf_find_critical_points(s, &f, 0, NULL, &info));
+  BAD("stride 4 for doubles", HF_ERROR_TOO_SMALL, NO_INDEX, hf_surface_find_critical_points(s, &f, 0, NULL, &info));
   tube.height[17] = HUGE_VAL;
-  BAD("an infinite value", HF_ERROR_NON_FINITE, 17, hf_space_levels(s, &tube.field, 0, 2, levels));
-  BAD("an infinite value", HF_ERROR_NON_FINITE, 17, hf_trace_isolines(s, &tube.field, 2, levels, &lines));
-  BAD("an infinite value", HF_ERROR_NON_FINITE, 17, hf_find_critical_points(s, &tube.field, 0, NULL, &info));
+  BAD("an infinite value", HF_ERROR_NON_FINITE, 17, hf_surface_space_levels(s, &tube.field, 0, 2, levels));
+  BAD("an infinite value", HF_ERROR_NON_FINITE, 17, hf_surface_trace_isolines(s, &tube.field, 2, levels, &lines));
+  BAD("an infinite value", HF_ERROR_NON_FINITE, 17, hf_surface_find_critical_points(s, &tube.field, 0, NULL, &info));
   for (int v = 0; v < COUNT; ++v) tube.height[v] = 3;
-  BAD("a constant field", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_space_levels(s, &tube.field, 1, 2, levels));
+  BAD("a constant field", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &tube.field, 1, 2, levels));
   for (int v = 0; v < COUNT; ++v) tube.height[v] = (double)NAN;
-  BAD("no value at all", HF_ERROR_EMPTY, NO_INDEX, hf_space_levels(s, &tube.field, 2, 2, levels));
+  BAD("no value at all", HF_ERROR_EMPTY, NO_INDEX, hf_surface_space_levels(s, &tube.field, 2, 2, levels));
   for (int v = 0; v < COUNT; ++v) tube.height[v] = v;
 
-  BAD("spacing 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_space_levels(s, &tube.field, 3, 2, levels));
-  BAD("spacing -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_space_levels(s, &tube.field, -1, 2, levels));
-  BAD("no level", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_space_levels(s, &tube.field, 0, 0, levels));
-  BAD("2^32 - 1 levels", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_space_levels(s, &tube.field, 0, UINT32_MAX, levels));
-  BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_space_levels(s, &tube.field, 0, 2, NULL));
-  BAD("no level", HF_ERROR_EMPTY, NO_INDEX, hf_trace_isolines(s, &tube.field, 0, levels, &lines));
-  BAD("levels NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_trace_isolines(s, &tube.field, 2, NULL, &lines));
+  BAD("spacing 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &tube.field, 3, 2, levels));
+  BAD("spacing -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &tube.field, -1, 2, levels));
+  BAD("no level", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &tube.field, 0, 0, levels));
+  BAD("2^32 - 1 levels", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &tube.field, 0, UINT32_MAX, levels));
+  BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_space_levels(s, &tube.field, 0, 2, NULL));
+  BAD("no level", HF_ERROR_EMPTY, NO_INDEX, hf_surface_trace_isolines(s, &tube.field, 0, levels, &lines));
+  BAD("levels NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_trace_isolines(s, &tube.field, 2, NULL, &lines));
   levels[1] = (double)NAN;
-  BAD("a level NaN", HF_ERROR_NON_FINITE, 1, hf_trace_isolines(s, &tube.field, 2, levels, &lines));
+  BAD("a level NaN", HF_ERROR_NON_FINITE, 1, hf_surface_trace_isolines(s, &tube.field, 2, levels, &lines));
   levels[1] = 2, lines.reserved = 1;
-  BAD("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, hf_trace_isolines(s, &tube.field, 2, levels, &lines));
-  BAD("no output", HF_ERROR_NULL_POINTER, NO_INDEX, hf_find_critical_points(s, &tube.field, 0, NULL, NULL));
+  BAD("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, hf_surface_trace_isolines(s, &tube.field, 2, levels, &lines));
+  BAD("no output", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_find_critical_points(s, &tube.field, 0, NULL, NULL));
 
-  hf_geodesics_desc g;
-  HF_INIT(g);
+  hf_geodesics_desc g = HF_INIT(hf_geodesics_desc);
   hf_geodesics made = geodesics;
   g.smoothing = -1;
   BAD("smoothing -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_create(s, &g, &made));
@@ -251,25 +244,25 @@ static void bad_input_is_named(void** state) {
   BAD("smoothing NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_geodesics_create(s, &g, &made));
   BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_create(s, NULL, NULL));
   uint32_t source[2] = {0, COUNT};
-  BAD("no source", HF_ERROR_EMPTY, NO_INDEX, hf_geodesics_distance(geodesics, 0, source, floats, 0));
-  BAD("sources NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_distance(geodesics, 1, NULL, floats, 0));
-  BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_distance_f64(geodesics, 1, source, NULL, 0));
-  BAD("source out of range", HF_ERROR_OUT_OF_RANGE, 1, hf_geodesics_distance_f64(geodesics, 2, source, out, 0));
-  BAD("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, hf_geodesics_distance(geodesics, 1, source, floats, 3));
-  BAD("too many", HF_ERROR_TOO_LARGE, NO_INDEX, hf_geodesics_distance(geodesics, UINT32_MAX, source, floats, 0));
+  BAD("no source", HF_ERROR_EMPTY, NO_INDEX, hf_geodesics_solve(geodesics, 0, source, floats, 0));
+  BAD("sources NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_solve(geodesics, 1, NULL, floats, 0));
+  BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_solve_f64(geodesics, 1, source, NULL, 0));
+  BAD("source out of range", HF_ERROR_OUT_OF_RANGE, 1, hf_geodesics_solve_f64(geodesics, 2, source, out, 0));
+  BAD("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, hf_geodesics_solve(geodesics, 1, source, floats, 3));
+  BAD("too many", HF_ERROR_TOO_LARGE, NO_INDEX, hf_geodesics_solve(geodesics, UINT32_MAX, source, floats, 0));
   source[0] = CUT_ISOLATED;
-  BAD("isolated", HF_ERROR_INVALID_ARGUMENT, 0, hf_geodesics_distance(of_other, 1, source, floats, 0));
+  BAD("isolated", HF_ERROR_INVALID_ARGUMENT, 0, hf_geodesics_solve(of_other, 1, source, floats, 0));
 
   hf_extremities_desc e;
   uint32_t count = 0;
 #define EXTREMITIES(what, expected, change) \
-  HF_INIT(e), change, BAD(what, expected, NO_INDEX, hf_find_extremities(s, &e, 0, NULL, &count))
+  HF_INIT(e), change, BAD(what, expected, NO_INDEX, hf_surface_find_extremities(s, &e, 0, NULL, &count))
   EXTREMITIES("kind 2", HF_ERROR_INVALID_ARGUMENT, e.kind = 2);
   EXTREMITIES("least_length NaN", HF_ERROR_INVALID_ARGUMENT, e.least_length = (float)NAN);
   EXTREMITIES("least_length -1", HF_ERROR_INVALID_ARGUMENT, e.least_length = -1);
   EXTREMITIES("1001 sources", HF_ERROR_INVALID_ARGUMENT, e.source_count = 1001);
   EXTREMITIES("geodesics of another mesh", HF_ERROR_INVALID_ARGUMENT, (e.kind = 1, e.geodesics = of_other));
-  BAD("no output", HF_ERROR_NULL_POINTER, NO_INDEX, hf_find_extremities(s, NULL, 0, NULL, NULL));
+  BAD("no output", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_find_extremities(s, NULL, 0, NULL, NULL));
 
   /* a bi-harmonic factor is not that of a Laplacian */
   hf_create_desc desc = surface_desc(&tube.surface);
@@ -277,11 +270,11 @@ static void bad_input_is_named(void** state) {
   hf_solver plate = NULL;
   assert_ok(hf_create(&desc, &plate));
   BAD("bi-harmonic", HF_ERROR_UNSUPPORTED, NO_INDEX, hf_geodesics_create(plate, NULL, &made));
-  BAD("bi-harmonic", HF_ERROR_UNSUPPORTED, NO_INDEX, hf_find_extremities(plate, NULL, 0, NULL, &count));
-  hf_destroy(plate);
+  BAD("bi-harmonic", HF_ERROR_UNSUPPORTED, NO_INDEX, hf_surface_find_extremities(plate, NULL, 0, NULL, &count));
+  hf_solver_destroy(plate);
   finish_rows("analysis");
   hf_geodesics_destroy(geodesics), hf_geodesics_destroy(of_other);
-  hf_destroy(other), surface_free(&cut);
+  hf_solver_destroy(other), surface_free(&cut);
   tube_destroy(&tube);
 }
 

@@ -76,8 +76,7 @@ void surface_free(Surface* surface) {
 }
 
 hf_create_desc surface_desc(const Surface* surface) {
-  hf_create_desc desc;
-  HF_INIT(desc);
+  hf_create_desc desc = HF_INIT(hf_create_desc);
   desc.vertex_count = surface->vertex_count, desc.triangle_count = surface->triangle_count;
   desc.positions = surface->positions, desc.triangles = surface->triangles;
   return desc;
@@ -92,8 +91,7 @@ hf_solver surface_solver(const Surface* surface) {
 }
 
 hf_sites_desc sites_at(uint32_t count, const uint32_t* vertices, const double* values) {
-  hf_sites_desc desc;
-  HF_INIT(desc);
+  hf_sites_desc desc = HF_INIT(hf_sites_desc);
   desc.site_count = count, desc.vertices = vertices, desc.values = values;
   return desc;
 }
@@ -107,7 +105,7 @@ uint32_t add_site(hf_solver solver, uint32_t vertex, double value) {
 
 double* field_of(hf_solver solver, uint32_t vertex_count) {
   double* field = checked_malloc(sizeof(double) * vertex_count);
-  assert_ok(hf_solve_f64(solver, field, 0, NULL));
+  assert_ok(hf_solver_solve_f64(solver, field, 0, NULL));
   return field;
 }
 
@@ -127,8 +125,7 @@ hf_pose tube_pose(hf_solver solver, uint32_t around, uint32_t rings, uint32_t ou
   assert_ok(hf_pose_create(solver, NULL, &pose));
   uint32_t* vertices = tube_ends(around, rings);
   const uint32_t counts[2] = {2 * around, 2 * around};
-  hf_handles_desc desc;
-  HF_INIT(desc);
+  hf_handles_desc desc = HF_INIT(hf_handles_desc);
   desc.handle_count = 2, desc.region_counts = counts, desc.region_vertices = vertices;
   assert_ok(hf_pose_add_handles(pose, &desc, out_handles));
   free(vertices);
@@ -199,13 +196,13 @@ void check_row(int line, const char* what, const char* call, hf_result got, hf_r
   count_row(call);
   if (got != expected) {
     ++rows.failures;
-    print_error("row at line %d, %s, %s: got %s, expected %s\n", line, call, what, hf_result_name(got),
-                hf_result_name(expected));
-    if (got != HF_OK && hf_get_error_detail(&detail) == HF_OK) print_error("  detail: %s\n", detail.message);
+    print_error("row at line %d, %s, %s: got %s, expected %s\n", line, call, what, hf_result_get_name(got),
+                hf_result_get_name(expected));
+    if (got != HF_OK && hf_error_get_detail(&detail) == HF_OK) print_error("  detail: %s\n", detail.message);
     return;
   }
   if (expected == HF_OK) return;
-  if (hf_get_error_detail(&detail) != HF_OK) memset(&detail, 0, sizeof detail);
+  if (hf_error_get_detail(&detail) != HF_OK) memset(&detail, 0, sizeof detail);
   row_holds(line, what, "the detail has the code that was returned", detail.code == got);
   row_holds(line, what, "the detail names the function", starts_with_name(call, detail.function));
   row_holds(line, what, "the message is one line of text", strlen(detail.message) > 8 && !strchr(detail.message, '\n'));

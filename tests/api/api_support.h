@@ -21,7 +21,7 @@
 #define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
 #define NO_INDEX HF_NO_INDEX
 #define assert_ok(call) assert_code(HF_OK, call)
-#define assert_code(expected, call) assert_string_equal(hf_result_name(call), hf_result_name(expected))
+#define assert_code(expected, call) assert_string_equal(hf_result_get_name(call), hf_result_get_name(expected))
 
 /* A surface owned by the test; freed with surface_free. */
 typedef struct Surface {

@@ -14,7 +14,7 @@ static hf_result create(void* d) {
   hf_solver solver = (hf_solver)(void*)&scene;
   const hf_result result = hf_create(d, &solver);
   if (result != HF_OK && solver != NULL) return HF_ERROR_INTERNAL; /* the handle must be NULL after a failure */
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   return result;
 }
 static union {
@@ -23,10 +23,10 @@ static union {
 } saved;
 static void fill_factor(void* d) {
   hf_factor_desc* factor = d;
-  HF_INIT(*factor);
+  *factor = HF_INIT(hf_factor_desc);
   factor->bytes = saved.bytes;
   if (hf_get_factor_size(scene.solver, &factor->byte_count) != HF_OK || factor->byte_count > sizeof saved.bytes ||
-      hf_save_factor(scene.solver, saved.bytes, sizeof saved.bytes) != HF_OK)
+      hf_surface_save(scene.solver, saved.bytes, sizeof saved.bytes) != HF_OK)
     factor->byte_count = 0;
 }
 static hf_result create_loaded(void* d) {
@@ -34,56 +34,56 @@ static hf_result create_loaded(void* d) {
   desc.saved_factor = d;
   return create(&desc);
 }
-static void fill_report(void* d) { HF_INIT(*(hf_mesh_report*)d); }
-static hf_result get_mesh_report(void* d) { return hf_get_mesh_report(scene.solver, d); }
-static void fill_statistics(void* d) { HF_INIT(*(hf_statistics*)d); }
-static hf_result get_statistics(void* d) { return hf_get_statistics(scene.solver, d); }
+static void fill_report(void* d) { *(hf_surface_report*)d = HF_INIT(hf_surface_report); }
+static hf_result get_mesh_report(void* d) { return hf_surface_get_report(scene.solver, d); }
+static void fill_statistics(void* d) { *(hf_solver_statistics*)d = HF_INIT(hf_solver_statistics); }
+static hf_result get_statistics(void* d) { return hf_solver_get_statistics(scene.solver, d); }
 static void fill_sites(void* d) { *(hf_sites_desc*)d = sites_at(1, &free_vertex, &value); }
 static hf_result add_sites(void* d) { return hf_add_sites(scene.solver, d, NULL); }
 static void fill_places(void* d) { *(hf_sites_desc*)d = sites_at(1, &free_vertex, NULL); }
-static hf_result move_sites(void* d) { return hf_move_sites(scene.solver, 1, scene.sites, d); }
+static hf_result move_sites(void* d) { return hf_solver_move_sites(scene.solver, 1, scene.sites, d); }
 static void fill_edit(void* d) {
   hf_edit_desc* edit = d;
-  HF_INIT(*edit);
+  *edit = HF_INIT(hf_edit_desc);
   edit->remove_count = 1, edit->remove_sites = scene.sites;
 }
-static hf_result edit_sites(void* d) { return hf_edit_sites(scene.solver, d, NULL); }
+static hf_result edit_sites(void* d) { return hf_solver_edit_sites(scene.solver, d, NULL); }
 static hf_result edit_add(void* d) {
   hf_edit_desc edit;
   fill_edit(&edit);
   edit.add = d;
-  return hf_edit_sites(scene.solver, &edit, NULL);
+  return hf_solver_edit_sites(scene.solver, &edit, NULL);
 }
 static hf_result edit_move(void* d) {
   hf_edit_desc edit;
   fill_edit(&edit);
   edit.move_count = 1, edit.move_sites = scene.sites + 1, edit.move_to = d;
-  return hf_edit_sites(scene.solver, &edit, NULL);
+  return hf_solver_edit_sites(scene.solver, &edit, NULL);
 }
-static void fill_site_info(void* d) { HF_INIT(*(hf_site_info*)d), ((hf_site_info*)d)->capacity = 3; }
-static hf_result get_sites(void* d) { return hf_get_sites(scene.solver, d); }
-static void fill_solve_info(void* d) { HF_INIT(*(hf_solve_info*)d); }
+static void fill_site_info(void* d) { HF_INIT(*(hf_sites_info*)d), ((hf_sites_info*)d)->capacity = 3; }
+static hf_result get_sites(void* d) { return hf_solver_get_sites(scene.solver, d); }
+static void fill_solve_info(void* d) { *(hf_solve_info*)d = HF_INIT(hf_solve_info); }
 static hf_result solve(void* d) { return hf_solve(scene.solver, floats, 0, d); }
-static hf_result solve_f64(void* d) { return hf_solve_f64(scene.solver, doubles, 0, d); }
-static void fill_preview_info(void* d) { HF_INIT(*(hf_preview_info*)d); }
-static hf_result solve_preview(void* d) { return hf_solve_preview(scene.solver, floats, 0, 1, d); }
-static hf_result solve_preview_f64(void* d) { return hf_solve_preview_f64(scene.solver, doubles, 0, 0, d); }
+static hf_result solve_f64(void* d) { return hf_solver_solve_f64(scene.solver, doubles, 0, d); }
+static void fill_preview_info(void* d) { *(hf_preview_info*)d = HF_INIT(hf_preview_info); }
+static hf_result solve_preview(void* d) { return hf_solver_solve_preview(scene.solver, floats, 0, 1, d); }
+static hf_result solve_preview_f64(void* d) { return hf_solver_solve_preview_f64(scene.solver, doubles, 0, 0, d); }
 static hf_result with_three_sites(hf_result (*call)(hf_solver, void*), void* d) {
   hf_solver copy = NULL;
-  hf_result result = hf_clone(scene.three, &copy);
+  hf_result result = hf_solver_clone(scene.three, &copy);
   const double vector[3] = {1, 2, 3};
   const hf_sites_desc site = sites_at(1, &free_vertex, vector);
   if (result == HF_OK) result = hf_add_sites(copy, &site, NULL);
   if (result == HF_OK) result = call(copy, d);
-  hf_destroy(copy);
+  hf_solver_destroy(copy);
   return result;
 }
-static hf_result vectors(hf_solver s, void* d) { return hf_solve_vectors(s, floats, 0, NULL, d); }
-static hf_result vectors_f64(hf_solver s, void* d) { return hf_solve_vectors_f64(s, doubles, 0, NULL, d); }
+static hf_result vectors(hf_solver s, void* d) { return hf_solver_solve_vectors(s, floats, 0, NULL, d); }
+static hf_result vectors_f64(hf_solver s, void* d) { return hf_solver_solve_vectors_f64(s, doubles, 0, NULL, d); }
 static hf_result solve_vectors(void* d) { return with_three_sites(vectors, d); }
 static hf_result solve_vectors_f64(void* d) { return with_three_sites(vectors_f64, d); }
 
-static void fill_pose(void* d) { HF_INIT(*(hf_pose_desc*)d); }
+static void fill_pose(void* d) { *(hf_pose_desc*)d = HF_INIT(hf_pose_desc); }
 static hf_result pose_create(void* d) {
   hf_pose pose = (hf_pose)(void*)&scene;
   const hf_result result = hf_pose_create(scene.body, d, &pose);
@@ -93,25 +93,25 @@ static hf_result pose_create(void* d) {
 }
 static void fill_handles(void* d) {
   hf_handles_desc* handles = d;
-  HF_INIT(*handles);
+  *handles = HF_INIT(hf_handles_desc);
   handles->handle_count = 1, handles->region_counts = &one, handles->region_vertices = &middle;
 }
 static hf_result pose_add_handles(void* d) { return hf_pose_add_handles(scene.pose, d, NULL); }
-static void fill_handle_info(void* d) { HF_INIT(*(hf_handle_info*)d); }
+static void fill_handle_info(void* d) { *(hf_handle_info*)d = HF_INIT(hf_handle_info); }
 static hf_result pose_get_handle(void* d) { return hf_pose_get_handle(scene.pose, scene.handles[0], d); }
 static void fill_deform(void* d) { HF_INIT(*(hf_deform_desc*)d), ((hf_deform_desc*)d)->positions = floats; }
-static hf_result deform(void* d) { return hf_deform(scene.pose, d, NULL); }
-static void fill_deform_info(void* d) { HF_INIT(*(hf_deform_info*)d); }
+static hf_result deform(void* d) { return hf_pose_deform(scene.pose, d, NULL); }
+static void fill_deform_info(void* d) { *(hf_deform_info*)d = HF_INIT(hf_deform_info); }
 static hf_result deform_info(void* d) {
   hf_deform_desc desc;
   fill_deform(&desc);
-  return hf_deform(scene.pose, &desc, d);
+  return hf_pose_deform(scene.pose, &desc, d);
 }
 
-static void fill_pose_skin(void* d) { HF_INIT(*(hf_skin_info*)d); }
+static void fill_pose_skin(void* d) { *(hf_skin_info*)d = HF_INIT(hf_skin_info); }
 static hf_result pose_get_skin(void* d) { return hf_pose_get_skin(scene.pose, d); }
 
-static void fill_transfer(void* d) { HF_INIT(*(hf_transfer_desc*)d); }
+static void fill_transfer(void* d) { *(hf_transfer_desc*)d = HF_INIT(hf_transfer_desc); }
 static hf_result transfer_create(void* d) {
   hf_transfer transfer = (hf_transfer)(void*)&scene;
   const hf_result result = hf_transfer_create(scene.body, scene.body, d, &transfer);
@@ -121,22 +121,22 @@ static hf_result transfer_create(void* d) {
 }
 static void fill_pairs(void* d) {
   hf_pairs_desc* pairs = d;
-  HF_INIT(*pairs);
+  *pairs = HF_INIT(hf_pairs_desc);
   pairs->pair_count = 1, pairs->source_counts = pairs->target_counts = &one,
   pairs->source_vertices = pairs->target_vertices = &middle;
 }
 static hf_result transfer_add_pairs(void* d) { return hf_transfer_add_pairs(scene.transfer, d, NULL); }
-static void fill_pair_info(void* d) { HF_INIT(*(hf_pair_info*)d); }
-static void fill_transfer_info(void* d) { HF_INIT(*(hf_transfer_info*)d); }
+static void fill_pair_info(void* d) { *(hf_pair_info*)d = HF_INIT(hf_pair_info); }
+static void fill_transfer_info(void* d) { *(hf_transfer_info*)d = HF_INIT(hf_transfer_info); }
 static hf_result transfer_get_info(void* d) { return hf_transfer_get_info(scene.transfer, d); }
 static hf_result transfer_get_pair(void* d) { return hf_transfer_get_pair(scene.transfer, scene.pairs[0], d); }
 static void fill_frame(void* d) {
   hf_transfer_frame* frame = d;
-  HF_INIT(*frame);
+  *frame = HF_INIT(hf_transfer_frame);
   frame->source_positions = scene.posed, frame->target_positions = floats;
 }
 static hf_result transfer_apply(void* d) { return hf_transfer_apply(scene.transfer, d); }
-static void fill_skin(void* d) { HF_INIT(*(hf_skin_info*)d); }
+static void fill_skin(void* d) { *(hf_skin_info*)d = HF_INIT(hf_skin_info); }
 static hf_result transfer_get_skin(void* d) { return hf_transfer_get_skin(scene.transfer, d); }
 
 static void fill_scalars(void* d) {
@@ -145,32 +145,30 @@ static void fill_scalars(void* d) {
 }
 static hf_result space_levels(void* d) {
   double level;
-  return hf_space_levels(scene.solver, d, HF_LEVELS_AREA, 1, &level);
+  return hf_surface_space_levels(scene.solver, d, HF_LEVELS_AREA, 1, &level);
 }
 static hf_result trace_field(void* d) {
-  hf_isolines lines;
-  HF_INIT(lines);
-  return hf_trace_isolines(scene.solver, d, 1, &value, &lines);
+  hf_isolines lines = HF_INIT(hf_isolines);
+  return hf_surface_trace_isolines(scene.solver, d, 1, &value, &lines);
 }
-static void fill_isolines(void* d) { HF_INIT(*(hf_isolines*)d); }
+static void fill_isolines(void* d) { *(hf_isolines*)d = HF_INIT(hf_isolines); }
 static hf_result trace_isolines(void* d) {
   hf_scalars field;
   fill_scalars(&field);
-  return hf_trace_isolines(scene.solver, &field, 1, &value, d);
+  return hf_surface_trace_isolines(scene.solver, &field, 1, &value, d);
 }
 static hf_result critical_field(void* d) {
-  hf_critical_info info;
-  HF_INIT(info);
-  return hf_find_critical_points(scene.solver, d, 0, NULL, &info);
+  hf_critical_info info = HF_INIT(hf_critical_info);
+  return hf_surface_find_critical_points(scene.solver, d, 0, NULL, &info);
 }
-static void fill_critical_info(void* d) { HF_INIT(*(hf_critical_info*)d); }
+static void fill_critical_info(void* d) { *(hf_critical_info*)d = HF_INIT(hf_critical_info); }
 static hf_result critical_info(void* d) {
   static hf_critical_point points[CUT_VERTICES];
   hf_scalars field;
   fill_scalars(&field);
-  return hf_find_critical_points(scene.solver, &field, CUT_VERTICES, points, d);
+  return hf_surface_find_critical_points(scene.solver, &field, CUT_VERTICES, points, d);
 }
-static void fill_geodesics(void* d) { HF_INIT(*(hf_geodesics_desc*)d); }
+static void fill_geodesics(void* d) { *(hf_geodesics_desc*)d = HF_INIT(hf_geodesics_desc); }
 static hf_result geodesics_create(void* d) {
   hf_geodesics geodesics = (hf_geodesics)(void*)&scene;
   const hf_result result = hf_geodesics_create(scene.body, d, &geodesics);
@@ -178,13 +176,13 @@ static hf_result geodesics_create(void* d) {
   hf_geodesics_destroy(geodesics);
   return result;
 }
-static void fill_extremities(void* d) { HF_INIT(*(hf_extremities_desc*)d); }
+static void fill_extremities(void* d) { *(hf_extremities_desc*)d = HF_INIT(hf_extremities_desc); }
 static hf_result find_extremities(void* d) {
   uint32_t count;
-  return hf_find_extremities(scene.body, d, 0, NULL, &count);
+  return hf_surface_find_extremities(scene.body, d, 0, NULL, &count);
 }
 
-static void fill_direction(void* d) { HF_INIT(*(hf_direction_desc*)d); }
+static void fill_direction(void* d) { *(hf_direction_desc*)d = HF_INIT(hf_direction_desc); }
 static hf_result direction_create(void* d) {
   hf_direction direction = (hf_direction)(void*)&scene;
   const hf_result result = hf_direction_create(scene.body, d, &direction);
@@ -194,7 +192,7 @@ static hf_result direction_create(void* d) {
 }
 static hf_result direction_solve(void* d) { return hf_direction_solve(scene.direction, floats, 0, d); }
 static hf_result direction_solve_f64(void* d) { return hf_direction_solve_f64(scene.direction, doubles, 0, d); }
-static void fill_direction_statistics(void* d) { HF_INIT(*(hf_direction_statistics*)d); }
+static void fill_direction_statistics(void* d) { *(hf_direction_statistics*)d = HF_INIT(hf_direction_statistics); }
 static hf_result direction_statistics(void* d) { return hf_direction_get_statistics(scene.direction, d); }
 
 static const struct {
@@ -207,29 +205,29 @@ static const struct {
 } structs[] = {
     {"hf_create: desc", sizeof(hf_create_desc), fill_create, create, 0, offsetof(hf_create_desc, saved_factor)},
     {"hf_create: desc->saved_factor", sizeof(hf_factor_desc), fill_factor, create_loaded, 1, 0},
-    {"hf_get_mesh_report: out_report", sizeof(hf_mesh_report), fill_report, get_mesh_report, 0, 0},
-    {"hf_get_statistics: out_statistics", sizeof(hf_statistics), fill_statistics, get_statistics, 0,
-     offsetof(hf_statistics, load_ms)},
+    {"hf_surface_get_report: out_report", sizeof(hf_surface_report), fill_report, get_mesh_report, 0, 0},
+    {"hf_solver_get_statistics: out_statistics", sizeof(hf_solver_statistics), fill_statistics, get_statistics, 0,
+     offsetof(hf_solver_statistics, load_ms)},
     {"hf_add_sites: sites", sizeof(hf_sites_desc), fill_sites, add_sites, 0, offsetof(hf_sites_desc, radii)},
-    {"hf_move_sites: to", sizeof(hf_sites_desc), fill_places, move_sites, 0, offsetof(hf_sites_desc, radii)},
-    {"hf_edit_sites: edit", sizeof(hf_edit_desc), fill_edit, edit_sites, 0, 0},
-    {"hf_edit_sites: edit->add", sizeof(hf_sites_desc), fill_sites, edit_add, 1, offsetof(hf_sites_desc, radii)},
-    {"hf_edit_sites: edit->move_to", sizeof(hf_sites_desc), fill_places, edit_move, 0, offsetof(hf_sites_desc, radii)},
-    {"hf_get_sites: out_info", sizeof(hf_site_info), fill_site_info, get_sites, 0, offsetof(hf_site_info, radii)},
+    {"hf_solver_move_sites: to", sizeof(hf_sites_desc), fill_places, move_sites, 0, offsetof(hf_sites_desc, radii)},
+    {"hf_solver_edit_sites: edit", sizeof(hf_edit_desc), fill_edit, edit_sites, 0, 0},
+    {"hf_solver_edit_sites: edit->add", sizeof(hf_sites_desc), fill_sites, edit_add, 1, offsetof(hf_sites_desc, radii)},
+    {"hf_solver_edit_sites: edit->move_to", sizeof(hf_sites_desc), fill_places, edit_move, 0, offsetof(hf_sites_desc, radii)},
+    {"hf_solver_get_sites: out_info", sizeof(hf_sites_info), fill_site_info, get_sites, 0, offsetof(hf_sites_info, radii)},
     {"hf_solve: out_info", sizeof(hf_solve_info), fill_solve_info, solve, 1, 0},
-    {"hf_solve_f64: out_info", sizeof(hf_solve_info), fill_solve_info, solve_f64, 1, 0},
-    {"hf_solve_preview: out_info", sizeof(hf_preview_info), fill_preview_info, solve_preview, 1, 0},
-    {"hf_solve_preview_f64: out_info", sizeof(hf_preview_info), fill_preview_info, solve_preview_f64, 1, 0},
-    {"hf_solve_vectors: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors, 1, 0},
-    {"hf_solve_vectors_f64: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors_f64, 1, 0},
+    {"hf_solver_solve_f64: out_info", sizeof(hf_solve_info), fill_solve_info, solve_f64, 1, 0},
+    {"hf_solver_solve_preview: out_info", sizeof(hf_preview_info), fill_preview_info, solve_preview, 1, 0},
+    {"hf_solver_solve_preview_f64: out_info", sizeof(hf_preview_info), fill_preview_info, solve_preview_f64, 1, 0},
+    {"hf_solver_solve_vectors: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors, 1, 0},
+    {"hf_solver_solve_vectors_f64: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors_f64, 1, 0},
     {"hf_pose_create: desc", sizeof(hf_pose_desc), fill_pose, pose_create, 1, 0},
     {"hf_pose_add_handles: handles", sizeof(hf_handles_desc), fill_handles, pose_add_handles, 0,
      offsetof(hf_handles_desc, points)},
     {"hf_pose_get_skin: info", sizeof(hf_skin_info), fill_pose_skin, pose_get_skin, 0, offsetof(hf_skin_info, axes)},
     {"hf_pose_get_handle: out_info", sizeof(hf_handle_info), fill_handle_info, pose_get_handle, 0,
      offsetof(hf_handle_info, rotation)},
-    {"hf_deform: desc", sizeof(hf_deform_desc), fill_deform, deform, 0, offsetof(hf_deform_desc, first_vertex)},
-    {"hf_deform: out_info", sizeof(hf_deform_info), fill_deform_info, deform_info, 1,
+    {"hf_pose_deform: desc", sizeof(hf_deform_desc), fill_deform, deform, 0, offsetof(hf_deform_desc, first_vertex)},
+    {"hf_pose_deform: out_info", sizeof(hf_deform_info), fill_deform_info, deform_info, 1,
      offsetof(hf_deform_info, refine_ms)},
     {"hf_transfer_create: desc", sizeof(hf_transfer_desc), fill_transfer, transfer_create, 1, 0},
     {"hf_transfer_add_pairs: pairs", sizeof(hf_pairs_desc), fill_pairs, transfer_add_pairs, 0, 0},
@@ -237,13 +235,13 @@ static const struct {
     {"hf_transfer_get_info: out_info", sizeof(hf_transfer_info), fill_transfer_info, transfer_get_info, 0, 0},
     {"hf_transfer_apply: frame", sizeof(hf_transfer_frame), fill_frame, transfer_apply, 0,
      offsetof(hf_transfer_frame, hold_count)},
-    {"hf_space_levels: field", sizeof(hf_scalars), fill_scalars, space_levels, 0, 0},
-    {"hf_trace_isolines: field", sizeof(hf_scalars), fill_scalars, trace_field, 0, 0},
-    {"hf_trace_isolines: out_lines", sizeof(hf_isolines), fill_isolines, trace_isolines, 0, 0},
-    {"hf_find_critical_points: field", sizeof(hf_scalars), fill_scalars, critical_field, 0, 0},
-    {"hf_find_critical_points: out_info", sizeof(hf_critical_info), fill_critical_info, critical_info, 1, 0},
+    {"hf_surface_space_levels: field", sizeof(hf_scalars), fill_scalars, space_levels, 0, 0},
+    {"hf_surface_trace_isolines: field", sizeof(hf_scalars), fill_scalars, trace_field, 0, 0},
+    {"hf_surface_trace_isolines: out_lines", sizeof(hf_isolines), fill_isolines, trace_isolines, 0, 0},
+    {"hf_surface_find_critical_points: field", sizeof(hf_scalars), fill_scalars, critical_field, 0, 0},
+    {"hf_surface_find_critical_points: out_info", sizeof(hf_critical_info), fill_critical_info, critical_info, 1, 0},
     {"hf_geodesics_create: desc", sizeof(hf_geodesics_desc), fill_geodesics, geodesics_create, 1, 0},
-    {"hf_find_extremities: desc", sizeof(hf_extremities_desc), fill_extremities, find_extremities, 1, 0},
+    {"hf_surface_find_extremities: desc", sizeof(hf_extremities_desc), fill_extremities, find_extremities, 1, 0},
     {"hf_direction_create: desc", sizeof(hf_direction_desc), fill_direction, direction_create, 1, 0},
     {"hf_direction_solve: out_info", sizeof(hf_solve_info), fill_solve_info, direction_solve, 1, 0},
     {"hf_direction_solve_f64: out_info", sizeof(hf_solve_info), fill_solve_info, direction_solve_f64, 1, 0},

@@ -11,27 +11,25 @@ static uint32_t numbers[TUBE_VERTICES];
 /* One call per function, everything but the handle in order. */
 static hf_result clone(void* h) {
   hf_solver out;
-  return hf_clone(h, &out);
+  return hf_solver_clone(h, &out);
 }
 static hf_result get_mesh_report(void* h) {
-  hf_mesh_report r;
-  HF_INIT(r);
-  return hf_get_mesh_report(h, &r);
+  hf_surface_report r = HF_INIT(hf_surface_report);
+  return hf_surface_get_report(h, &r);
 }
-static hf_result get_components(void* h) { return hf_get_components(h, CUT_VERTICES, numbers); }
+static hf_result get_components(void* h) { return hf_surface_get_components(h, CUT_VERTICES, numbers); }
 static hf_result get_statistics(void* h) {
-  hf_statistics s;
-  HF_INIT(s);
-  return hf_get_statistics(h, &s);
+  hf_solver_statistics s = HF_INIT(hf_solver_statistics);
+  return hf_solver_get_statistics(h, &s);
 }
 static hf_result get_factor_size(void* h) {
   size_t size;
   return hf_get_factor_size(h, &size);
 }
-static hf_result save_factor(void* h) { return hf_save_factor(h, doubles, sizeof doubles); }
-static hf_result solve_preview(void* h) { return hf_solve_preview(h, floats, 0, 0, NULL); }
-static hf_result solve_preview_f64(void* h) { return hf_solve_preview_f64(h, doubles, 0, 1, NULL); }
-static hf_result release_preview(void* h) { return hf_release_preview(h); }
+static hf_result save_factor(void* h) { return hf_surface_save(h, doubles, sizeof doubles); }
+static hf_result solve_preview(void* h) { return hf_solver_solve_preview(h, floats, 0, 0, NULL); }
+static hf_result solve_preview_f64(void* h) { return hf_solver_solve_preview_f64(h, doubles, 0, 1, NULL); }
+static hf_result release_preview(void* h) { return hf_solver_release_preview(h); }
 static hf_result add_sites(void* h) {
   const uint32_t vertex = 7;
   const hf_sites_desc d = sites_at(1, &vertex, NULL);
@@ -41,36 +39,34 @@ static hf_result remove_sites(void* h) { return hf_remove_sites(h, 1, scene.site
 static hf_result move_sites(void* h) {
   const uint32_t vertex = 7;
   const hf_sites_desc d = sites_at(1, &vertex, NULL);
-  return hf_move_sites(h, 1, scene.sites, &d);
+  return hf_solver_move_sites(h, 1, scene.sites, &d);
 }
 static hf_result set_site_values(void* h) {
   const double v = 3;
-  return hf_set_site_values(h, 1, scene.sites, &v);
+  return hf_solver_set_values(h, 1, scene.sites, &v);
 }
 static hf_result edit_sites(void* h) {
-  hf_edit_desc d;
-  HF_INIT(d);
+  hf_edit_desc d = HF_INIT(hf_edit_desc);
   d.remove_count = 1, d.remove_sites = scene.sites;
-  return hf_edit_sites(h, &d, NULL);
+  return hf_solver_edit_sites(h, &d, NULL);
 }
 static hf_result get_sites(void* h) {
-  hf_site_info i;
-  HF_INIT(i);
+  hf_sites_info i = HF_INIT(hf_sites_info);
   i.capacity = 3;
-  return hf_get_sites(h, &i);
+  return hf_solver_get_sites(h, &i);
 }
 static hf_result solve(void* h) { return hf_solve(h, floats, 0, NULL); }
-static hf_result solve_f64(void* h) { return hf_solve_f64(h, doubles, 0, NULL); }
-static hf_result solve_vectors(void* h) { return hf_solve_vectors(h, floats, 0, NULL, NULL); }
-static hf_result solve_vectors_f64(void* h) { return hf_solve_vectors_f64(h, doubles, 0, NULL, NULL); }
+static hf_result solve_f64(void* h) { return hf_solver_solve_f64(h, doubles, 0, NULL); }
+static hf_result solve_vectors(void* h) { return hf_solver_solve_vectors(h, floats, 0, NULL, NULL); }
+static hf_result solve_vectors_f64(void* h) { return hf_solver_solve_vectors_f64(h, doubles, 0, NULL, NULL); }
 static hf_result solve_at(void* h) {
   const uint32_t v = 3;
-  return hf_solve_at(h, 1, &v, doubles);
+  return hf_solver_solve_at(h, 1, &v, doubles);
 }
-static hf_result record(void* h) { return hf_record(h); }
-static hf_result prepare_rebase(void* h) { return hf_prepare_rebase(h); }
-static hf_result undo(void* h) { return hf_undo(h); }
-static hf_result redo(void* h) { return hf_redo(h); }
+static hf_result record(void* h) { return hf_solver_record(h); }
+static hf_result prepare_rebase(void* h) { return hf_solver_prepare_rebase(h); }
+static hf_result undo(void* h) { return hf_solver_undo(h); }
+static hf_result redo(void* h) { return hf_solver_redo(h); }
 static hf_result pose_create(void* h) {
   hf_pose out;
   return hf_pose_create(h, NULL, &out);
@@ -85,28 +81,25 @@ static hf_result transfer_to(void* h) {
 }
 
 static hf_scalars scalars(void) {
-  hf_scalars f;
-  HF_INIT(f);
+  hf_scalars f = HF_INIT(hf_scalars);
   f.values_f64 = doubles;
   return f;
 }
 static hf_result space_levels(void* h) {
   const hf_scalars f = scalars();
   double level;
-  return hf_space_levels(h, &f, HF_LEVELS_VALUE, 1, &level);
+  return hf_surface_space_levels(h, &f, HF_LEVELS_VALUE, 1, &level);
 }
 static hf_result trace_isolines(void* h) {
   const hf_scalars f = scalars();
   const double level = 0.5;
-  hf_isolines lines;
-  HF_INIT(lines);
-  return hf_trace_isolines(h, &f, 1, &level, &lines);
+  hf_isolines lines = HF_INIT(hf_isolines);
+  return hf_surface_trace_isolines(h, &f, 1, &level, &lines);
 }
 static hf_result find_critical_points(void* h) {
   const hf_scalars f = scalars();
-  hf_critical_info info;
-  HF_INIT(info);
-  return hf_find_critical_points(h, &f, 0, NULL, &info);
+  hf_critical_info info = HF_INIT(hf_critical_info);
+  return hf_surface_find_critical_points(h, &f, 0, NULL, &info);
 }
 static hf_result geodesics_create(void* h) {
   hf_geodesics out;
@@ -114,32 +107,32 @@ static hf_result geodesics_create(void* h) {
 }
 static hf_result find_extremities(void* h) {
   uint32_t count;
-  return hf_find_extremities(h, NULL, 0, NULL, &count);
+  return hf_surface_find_extremities(h, NULL, 0, NULL, &count);
 }
 static hf_result geodesics_distance(void* h) {
   const uint32_t v = 3;
-  return hf_geodesics_distance(h, 1, &v, floats, 0);
+  return hf_geodesics_solve(h, 1, &v, floats, 0);
 }
 static hf_result geodesics_distance_f64(void* h) {
   const uint32_t v = 3;
-  return hf_geodesics_distance_f64(h, 1, &v, doubles, 0);
+  return hf_geodesics_solve_f64(h, 1, &v, doubles, 0);
 }
 static hf_result find_extremities_with(void* h) {
   hf_extremities_desc d;
   uint32_t count;
-  HF_INIT(d);
+  d = HF_INIT(hf_extremities_desc);
   d.kind = HF_EXTREMITIES_GEODESIC, d.geodesics = h;
-  return h ? hf_find_extremities(scene.body, &d, 0, NULL, &count)
-           : hf_find_extremities(NULL, &d, 0, NULL, &count); /* NULL there asks for one of its own */
+  return h ? hf_surface_find_extremities(scene.body, &d, 0, NULL, &count)
+           : hf_surface_find_extremities(NULL, &d, 0, NULL, &count); /* NULL there asks for one of its own */
 }
 
 static hf_result move_vector_sites(void* h) {
   const uint32_t vertex = 7;
-  return hf_move_vector_sites(h, 1, scene.sites, &vertex);
+  return hf_solver_move_vectors(h, 1, scene.sites, &vertex);
 }
 static hf_result rotate_vector_sites(void* h) {
   const double angle = 1;
-  return hf_rotate_vector_sites(h, 1, scene.sites, &angle);
+  return hf_solver_rotate_vectors(h, 1, scene.sites, &angle);
 }
 static hf_result direction_create(void* h) {
   hf_direction out;
@@ -178,8 +171,7 @@ static hf_result direction_get_singularities(void* h) {
   return hf_direction_get_singularities(h, 0, NULL, &count);
 }
 static hf_result direction_get_statistics(void* h) {
-  hf_direction_statistics s;
-  HF_INIT(s);
+  hf_direction_statistics s = HF_INIT(hf_direction_statistics);
   return hf_direction_get_statistics(h, &s);
 }
 
@@ -189,8 +181,7 @@ static hf_result pose_clone(void* h) {
 }
 static hf_result pose_add_handles(void* h) {
   const uint32_t count = 1, vertex = 5 * TUBE_AROUND;
-  hf_handles_desc d;
-  HF_INIT(d);
+  hf_handles_desc d = HF_INIT(hf_handles_desc);
   d.handle_count = 1, d.region_counts = &count, d.region_vertices = &vertex;
   return hf_pose_add_handles(h, &d, NULL);
 }
@@ -204,56 +195,48 @@ static hf_result pose_set_matrices(void* h) {
   return hf_pose_set_matrices(h, 1, scene.handles, unit);
 }
 static hf_result pose_get_skin(void* h) {
-  hf_skin_info info;
-  HF_INIT(info);
+  hf_skin_info info = HF_INIT(hf_skin_info);
   return hf_pose_get_skin(h, &info);
 }
 static hf_result pose_get_handle(void* h) {
-  hf_handle_info i;
-  HF_INIT(i);
+  hf_handle_info i = HF_INIT(hf_handle_info);
   return hf_pose_get_handle(h, scene.handles[0], &i);
 }
 static hf_result pose_get_field(void* h) { return hf_pose_get_field(h, scene.handles[0], floats, 0); }
 static hf_result deform(void* h) {
-  hf_deform_desc d;
-  HF_INIT(d);
+  hf_deform_desc d = HF_INIT(hf_deform_desc);
   d.positions = floats;
-  return hf_deform(h, &d, NULL);
+  return hf_pose_deform(h, &d, NULL);
 }
 
 static hf_result transfer_add_pairs(void* h) {
   const uint32_t count = 1, vertex = 5 * TUBE_AROUND;
-  hf_pairs_desc d;
-  HF_INIT(d);
+  hf_pairs_desc d = HF_INIT(hf_pairs_desc);
   d.pair_count = 1, d.source_counts = d.target_counts = &count, d.source_vertices = d.target_vertices = &vertex;
   return hf_transfer_add_pairs(h, &d, NULL);
 }
 static hf_result transfer_remove_pairs(void* h) { return hf_transfer_remove_pairs(h, 1, scene.pairs); }
 static hf_result transfer_get_pair(void* h) {
-  hf_pair_info i;
-  HF_INIT(i);
+  hf_pair_info i = HF_INIT(hf_pair_info);
   return hf_transfer_get_pair(h, scene.pairs[0], &i);
 }
 static hf_result transfer_get_info(void* h) {
-  hf_transfer_info i;
-  HF_INIT(i);
+  hf_transfer_info i = HF_INIT(hf_transfer_info);
   return hf_transfer_get_info(h, &i);
 }
 static hf_result transfer_apply(void* h) {
-  hf_transfer_frame f;
-  HF_INIT(f);
+  hf_transfer_frame f = HF_INIT(hf_transfer_frame);
   f.source_positions = scene.posed, f.target_positions = floats;
   return hf_transfer_apply(h, &f);
 }
 static hf_result transfer_get_skin(void* h) {
-  hf_skin_info i;
-  HF_INIT(i);
+  hf_skin_info i = HF_INIT(hf_skin_info);
   return hf_transfer_get_skin(h, &i);
 }
 
 static hf_result progress_get(void* h) {
   float f;
-  return hf_progress_get(h, &f);
+  return hf_progress_get_fraction(h, &f);
 }
 static hf_result progress_cancel(void* h) { return hf_progress_cancel(h); }
 
@@ -265,30 +248,30 @@ static const struct {
   hf_result (*call)(void* handle);
   uint32_t index;
 } functions[] = {
-    {"hf_clone", SOLVER, clone, NO_INDEX},
-    {"hf_get_mesh_report", SOLVER, get_mesh_report, NO_INDEX},
-    {"hf_get_components", SOLVER, get_components, NO_INDEX},
-    {"hf_get_statistics", SOLVER, get_statistics, NO_INDEX},
+    {"hf_solver_clone", SOLVER, clone, NO_INDEX},
+    {"hf_surface_get_report", SOLVER, get_mesh_report, NO_INDEX},
+    {"hf_surface_get_components", SOLVER, get_components, NO_INDEX},
+    {"hf_solver_get_statistics", SOLVER, get_statistics, NO_INDEX},
     {"hf_get_factor_size", SOLVER, get_factor_size, NO_INDEX},
-    {"hf_save_factor", SOLVER, save_factor, NO_INDEX},
-    {"hf_solve_preview", SOLVER, solve_preview, NO_INDEX},
-    {"hf_solve_preview_f64", SOLVER, solve_preview_f64, NO_INDEX},
-    {"hf_release_preview", SOLVER, release_preview, NO_INDEX},
+    {"hf_surface_save", SOLVER, save_factor, NO_INDEX},
+    {"hf_solver_solve_preview", SOLVER, solve_preview, NO_INDEX},
+    {"hf_solver_solve_preview_f64", SOLVER, solve_preview_f64, NO_INDEX},
+    {"hf_solver_release_preview", SOLVER, release_preview, NO_INDEX},
     {"hf_add_sites", SOLVER, add_sites, NO_INDEX},
     {"hf_remove_sites", SOLVER, remove_sites, NO_INDEX},
-    {"hf_move_sites", SOLVER, move_sites, NO_INDEX},
-    {"hf_set_site_values", SOLVER, set_site_values, NO_INDEX},
-    {"hf_edit_sites", SOLVER, edit_sites, NO_INDEX},
-    {"hf_get_sites", SOLVER, get_sites, NO_INDEX},
+    {"hf_solver_move_sites", SOLVER, move_sites, NO_INDEX},
+    {"hf_solver_set_values", SOLVER, set_site_values, NO_INDEX},
+    {"hf_solver_edit_sites", SOLVER, edit_sites, NO_INDEX},
+    {"hf_solver_get_sites", SOLVER, get_sites, NO_INDEX},
     {"hf_solve", SOLVER, solve, NO_INDEX},
-    {"hf_solve_f64", SOLVER, solve_f64, NO_INDEX},
-    {"hf_solve_vectors", SOLVER, solve_vectors, NO_INDEX},
-    {"hf_solve_vectors_f64", SOLVER, solve_vectors_f64, NO_INDEX},
-    {"hf_solve_at", SOLVER, solve_at, NO_INDEX},
-    {"hf_record", SOLVER, record, NO_INDEX},
-    {"hf_prepare_rebase", SOLVER, prepare_rebase, NO_INDEX},
-    {"hf_undo", SOLVER, undo, NO_INDEX},
-    {"hf_redo", SOLVER, redo, NO_INDEX},
+    {"hf_solver_solve_f64", SOLVER, solve_f64, NO_INDEX},
+    {"hf_solver_solve_vectors", SOLVER, solve_vectors, NO_INDEX},
+    {"hf_solver_solve_vectors_f64", SOLVER, solve_vectors_f64, NO_INDEX},
+    {"hf_solver_solve_at", SOLVER, solve_at, NO_INDEX},
+    {"hf_solver_record", SOLVER, record, NO_INDEX},
+    {"hf_solver_prepare_rebase", SOLVER, prepare_rebase, NO_INDEX},
+    {"hf_solver_undo", SOLVER, undo, NO_INDEX},
+    {"hf_solver_redo", SOLVER, redo, NO_INDEX},
     {"hf_pose_create", SOLVER, pose_create, NO_INDEX},
     {"hf_transfer_create", SOLVER, transfer_from, 0},
     {"hf_transfer_create", SOLVER, transfer_to, 1},
@@ -300,23 +283,23 @@ static const struct {
     {"hf_pose_get_skin", POSE, pose_get_skin, NO_INDEX},
     {"hf_pose_get_handle", POSE, pose_get_handle, NO_INDEX},
     {"hf_pose_get_field", POSE, pose_get_field, NO_INDEX},
-    {"hf_deform", POSE, deform, NO_INDEX},
+    {"hf_pose_deform", POSE, deform, NO_INDEX},
     {"hf_transfer_add_pairs", TRANSFER, transfer_add_pairs, NO_INDEX},
     {"hf_transfer_remove_pairs", TRANSFER, transfer_remove_pairs, NO_INDEX},
     {"hf_transfer_get_pair", TRANSFER, transfer_get_pair, NO_INDEX},
     {"hf_transfer_get_info", TRANSFER, transfer_get_info, NO_INDEX},
     {"hf_transfer_apply", TRANSFER, transfer_apply, NO_INDEX},
     {"hf_transfer_get_skin", TRANSFER, transfer_get_skin, NO_INDEX},
-    {"hf_space_levels", SOLVER, space_levels, NO_INDEX},
-    {"hf_trace_isolines", SOLVER, trace_isolines, NO_INDEX},
-    {"hf_find_critical_points", SOLVER, find_critical_points, NO_INDEX},
+    {"hf_surface_space_levels", SOLVER, space_levels, NO_INDEX},
+    {"hf_surface_trace_isolines", SOLVER, trace_isolines, NO_INDEX},
+    {"hf_surface_find_critical_points", SOLVER, find_critical_points, NO_INDEX},
     {"hf_geodesics_create", SOLVER, geodesics_create, NO_INDEX},
-    {"hf_find_extremities", SOLVER, find_extremities, NO_INDEX},
-    {"hf_geodesics_distance", GEODESICS, geodesics_distance, NO_INDEX},
-    {"hf_geodesics_distance_f64", GEODESICS, geodesics_distance_f64, NO_INDEX},
-    {"hf_find_extremities", GEODESICS, find_extremities_with, NO_INDEX},
-    {"hf_move_vector_sites", SOLVER, move_vector_sites, NO_INDEX},
-    {"hf_rotate_vector_sites", SOLVER, rotate_vector_sites, NO_INDEX},
+    {"hf_surface_find_extremities", SOLVER, find_extremities, NO_INDEX},
+    {"hf_geodesics_solve", GEODESICS, geodesics_distance, NO_INDEX},
+    {"hf_geodesics_solve_f64", GEODESICS, geodesics_distance_f64, NO_INDEX},
+    {"hf_surface_find_extremities", GEODESICS, find_extremities_with, NO_INDEX},
+    {"hf_solver_move_vectors", SOLVER, move_vector_sites, NO_INDEX},
+    {"hf_solver_rotate_vectors", SOLVER, rotate_vector_sites, NO_INDEX},
     {"hf_direction_create", SOLVER, direction_create, NO_INDEX},
     {"hf_direction_add_sites", DIRECTION, direction_add_sites, NO_INDEX},
     {"hf_direction_remove_sites", DIRECTION, direction_remove_sites, NO_INDEX},
@@ -332,7 +315,7 @@ static const struct {
     {"hf_direction_solve_f64", DIRECTION, direction_solve_f64, NO_INDEX},
     {"hf_direction_get_singularities", DIRECTION, direction_get_singularities, NO_INDEX},
     {"hf_direction_get_statistics", DIRECTION, direction_get_statistics, NO_INDEX},
-    {"hf_progress_get", PROGRESS, progress_get, NO_INDEX},
+    {"hf_progress_get_fraction", PROGRESS, progress_get, NO_INDEX},
     {"hf_progress_cancel", PROGRESS, progress_cancel, NO_INDEX},
 };
 
@@ -386,12 +369,12 @@ static void destroying_what_is_no_handle_does_nothing(void** state) {
                        scene.stale_geodesics,
                        scene.stale_direction};
   for (size_t b = 0; b < COUNT_OF(bad); ++b) {
-    hf_destroy(bad[b]), hf_pose_destroy(bad[b]), hf_transfer_destroy(bad[b]), hf_progress_destroy(bad[b]);
+    hf_solver_destroy(bad[b]), hf_pose_destroy(bad[b]), hf_transfer_destroy(bad[b]), hf_progress_destroy(bad[b]);
     hf_geodesics_destroy(bad[b]), hf_direction_destroy(bad[b]);
   }
   void* const live[KIND_COUNT] = {scene.solver, scene.pose, scene.transfer, scene.progress, scene.geodesics, scene.direction};
   for (int k = 0; k < KIND_COUNT; ++k) {
-    if (k != SOLVER) hf_destroy(live[k]);
+    if (k != SOLVER) hf_solver_destroy(live[k]);
     if (k != POSE) hf_pose_destroy(live[k]);
     if (k != TRANSFER) hf_transfer_destroy(live[k]);
     if (k != PROGRESS) hf_progress_destroy(live[k]);
@@ -401,20 +384,20 @@ static void destroying_what_is_no_handle_does_nothing(void** state) {
   float fraction;
   assert_ok(geodesics_distance(scene.geodesics));
   assert_true(solver_unchanged(&scene) && pose_unchanged(&scene) && transfer_unchanged(&scene));
-  assert_ok(hf_progress_get(scene.progress, &fraction));
+  assert_ok(hf_progress_get_fraction(scene.progress, &fraction));
   scene_destroy(&scene);
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_record(scene.solver));
+  assert_code(HF_ERROR_INVALID_HANDLE, hf_solver_record(scene.solver));
 }
 
 static void counts_of_what_is_no_handle_are_zero(void** state) {
   (void)state;
   scene_create(&scene);
-  assert_int_equal(hf_get_site_count(NULL), 0);
+  assert_int_equal(hf_solver_get_site_count(NULL), 0);
   assert_int_equal(hf_direction_get_site_count(NULL), 0);
   assert_int_equal(hf_direction_get_site_count(scene.stale_direction), 0);
   assert_int_equal(hf_direction_get_site_count(scene.direction), 2);
-  assert_int_equal(hf_get_site_count(scene.stale_solver), 0);
-  assert_int_equal(hf_get_site_count((hf_solver)(void*)scene.pose), 0);
+  assert_int_equal(hf_solver_get_site_count(scene.stale_solver), 0);
+  assert_int_equal(hf_solver_get_site_count((hf_solver)(void*)scene.pose), 0);
   assert_int_equal(hf_pose_get_handle_count(NULL), 0);
   assert_int_equal(hf_pose_get_handle_count(scene.stale_pose), 0);
   assert_int_equal(hf_pose_get_handle_count((hf_pose)(void*)scene.solver), 0);
@@ -425,12 +408,12 @@ static void a_new_object_never_answers_to_an_old_handle(void** state) {
   (void)state;
   Surface sheet = surface_sheet(2, 2);
   hf_solver first = surface_solver(&sheet);
-  hf_destroy(first);
+  hf_solver_destroy(first);
   for (int i = 0; i < 1000; ++i) {
     hf_solver next = surface_solver(&sheet);
     assert_ptr_not_equal(next, first);
-    assert_code(HF_ERROR_INVALID_HANDLE, hf_record(first));
-    hf_destroy(next);
+    assert_code(HF_ERROR_INVALID_HANDLE, hf_solver_record(first));
+    hf_solver_destroy(next);
   }
   surface_free(&sheet);
 }

@@ -36,7 +36,7 @@ static void hf_create_refuses_bad_meshes(void** state) {
   scene_create(&scene);
   good_input();
   assert_ok(hf_create(&desc, &out)); /* the good input is good */
-  hf_destroy(out), out = NULL;
+  hf_solver_destroy(out), out = NULL;
   assert_true(nothing_exists());
 
   CREATE("no vertices", HF_ERROR_EMPTY, NO_INDEX, desc.vertex_count = 0);
@@ -150,11 +150,10 @@ static void a_memory_limit_is_kept(void** state) {
   assert_null(solver);
   wide.memory_limit_mb = 1000;
   assert_ok(hf_create(&wide, &solver));
-  hf_statistics statistics;
-  HF_INIT(statistics);
-  assert_ok(hf_get_statistics(solver, &statistics));
+  hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
+  assert_ok(hf_solver_get_statistics(solver, &statistics));
   assert_true(statistics.peak_memory_bytes < 1000.0 * 1048576.0);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   surface_free(&sheet);
 }
 
@@ -167,20 +166,20 @@ static void readers_of_base_and_mesh_refuse_null_and_small_arrays(void** state) 
   scene_create(&scene);
   uint32_t components[CUT_VERTICES + 1];
   float fraction;
-  ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_clone(scene.solver, NULL));
-  ROW("out NULL and no handle", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_clone(NULL, NULL));
-  ROW("array NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_get_components(scene.solver, CUT_VERTICES, NULL));
+  ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_clone(scene.solver, NULL));
+  ROW("out NULL and no handle", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_clone(NULL, NULL));
+  ROW("array NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_get_components(scene.solver, CUT_VERTICES, NULL));
   ROW("array too small", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
-      hf_get_components(scene.solver, CUT_VERTICES - 1, components));
+      hf_surface_get_components(scene.solver, CUT_VERTICES - 1, components));
   ROW("array too large", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
-      hf_get_components(scene.solver, CUT_VERTICES + 1, components));
-  ROW("array of 0", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_get_components(scene.solver, 0, components));
+      hf_surface_get_components(scene.solver, CUT_VERTICES + 1, components));
+  ROW("array of 0", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_surface_get_components(scene.solver, 0, components));
   ROW("array of 2^32 - 1", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
-      hf_get_components(scene.solver, UINT32_MAX, components));
+      hf_surface_get_components(scene.solver, UINT32_MAX, components));
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_progress_create(NULL));
-  ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_progress_get(scene.progress, NULL));
-  ROW("handle NULL", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_progress_get(NULL, &fraction));
-  assert_code(HF_ERROR_NULL_POINTER, hf_get_error_detail(NULL));
+  ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_progress_get_fraction(scene.progress, NULL));
+  ROW("handle NULL", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_progress_get_fraction(NULL, &fraction));
+  assert_code(HF_ERROR_NULL_POINTER, hf_error_get_detail(NULL));
   scene_destroy(&scene);
   finish_rows("readers");
 }
@@ -189,41 +188,41 @@ static void every_code_has_its_name_and_others_are_unknown(void** state) {
   (void)state;
   unsigned named = 0;
   for (hf_result code = -400; code <= 400; ++code) {
-    const char* name = hf_result_name(code);
+    const char* name = hf_result_get_name(code);
     assert_non_null(name);
     if (strcmp(name, "unknown") != 0)
       ++named, assert_int_equal(strncmp(name, code ? "HF_ERROR_" : "HF_OK", code ? 9 : 5), 0);
   }
   assert_int_equal(named, 26);
-  assert_string_equal(hf_result_name(INT32_MIN), "unknown");
-  assert_string_equal(hf_result_name(INT32_MAX), "unknown");
-  assert_string_equal(hf_result_name(HF_ERROR_BUSY), "HF_ERROR_BUSY");
+  assert_string_equal(hf_result_get_name(INT32_MIN), "unknown");
+  assert_string_equal(hf_result_get_name(INT32_MAX), "unknown");
+  assert_string_equal(hf_result_get_name(HF_ERROR_BUSY), "HF_ERROR_BUSY");
 }
 
 static void a_success_leaves_the_detail_of_the_last_failure(void** state) {
   (void)state;
   hf_error_detail before, after;
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_record(NULL));
-  assert_ok(hf_get_error_detail(&before));
+  assert_code(HF_ERROR_INVALID_HANDLE, hf_solver_record(NULL));
+  assert_ok(hf_error_get_detail(&before));
   Surface sheet = surface_sheet(2, 2);
   hf_solver solver = surface_solver(&sheet);
-  hf_destroy(solver);
-  assert_ok(hf_get_error_detail(&after));
+  hf_solver_destroy(solver);
+  assert_ok(hf_error_get_detail(&after));
   assert_true(same_bits(&before, &after, sizeof before));
-  assert_string_equal(after.function, "hf_record");
+  assert_string_equal(after.function, "hf_solver_record");
   surface_free(&sheet);
 }
 
 static void the_version_is_that_of_the_project(void** state) {
   (void)state;
-  assert_int_equal(hf_get_version(), HF_EXPECTED_VERSION);
+  assert_int_equal(hf_version_get(), HF_EXPECTED_VERSION);
 }
 
 int main(void) {
   hf_error_detail detail;
   memset(&detail, 1, sizeof detail);
   const hf_error_detail zero = {0, 0, {0}, {0}};
-  const int clean = hf_get_error_detail(&detail) == HF_OK && memcmp(&detail, &zero, sizeof zero) == 0;
+  const int clean = hf_error_get_detail(&detail) == HF_OK && memcmp(&detail, &zero, sizeof zero) == 0;
   if (!clean) return printf("before the first failure the detail must be all zero\n"), 1;
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(hf_create_refuses_bad_meshes),

@@ -11,10 +11,8 @@ static void regions_name_points_that_are_no_surface(void** state) {
   const hf_solver solver = surface_solver(&cut);
   hf_region region = NULL;
   assert_ok(hf_region_create(solver, NULL, &region));
-  hf_curve_desc curve;
-  HF_INIT(curve);
-  hf_region_edit_desc edit;
-  HF_INIT(edit);
+  hf_curve_desc curve = HF_INIT(hf_curve_desc);
+  hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
   edit.curve = &curve;
   uint32_t points[4] = {1, 3, CUT_ISOLATED, 15};
   curve.point_count = 4, curve.vertices = points;
@@ -26,18 +24,17 @@ static void regions_name_points_that_are_no_surface(void** state) {
   REFUSED("a seed in no triangle", HF_ERROR_INVALID_ARGUMENT, CUT_ISOLATED, hf_region_edit(region, &edit));
   uint32_t triangles[3] = {0, 9, CUT_COLLAPSED};
   const double corners[9] = {1, 0, 0, 1, 0, 0, 1, 0, 0};
-  HF_INIT(curve);
+  curve = HF_INIT(hf_curve_desc);
   curve.point_count = 3, curve.triangles = triangles, curve.barycentrics = corners;
   REFUSED("a triangle of equal corners", HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
-  HF_INIT(edit);
+  edit = HF_INIT(hf_region_);
   edit.add_count = 4, edit.add_vertices = points, points[3] = CUT_ISOLATED;
   REFUSED("added in no triangle", HF_ERROR_INVALID_ARGUMENT, 3, hf_region_edit(region, &edit));
 
   /* detail: pins */
   points[3] = 12, edit.add_count = 1, edit.add_vertices = points + 3;
   assert_ok(hf_region_edit(region, &edit));
-  hf_detail_desc pins;
-  HF_INIT(pins);
+  hf_detail_desc pins = HF_INIT(hf_detail_desc);
   hf_detail detail = NULL;
   const uint32_t good[1] = {11}, isolated[1] = {CUT_ISOLATED};
   pins.pair_count = 1, pins.source_vertices = good, pins.target_vertices = isolated;
@@ -46,7 +43,7 @@ static void regions_name_points_that_are_no_surface(void** state) {
   REFUSED("a source pin in no triangle", HF_ERROR_INVALID_ARGUMENT, 0,
           hf_detail_create(region, region, &pins, &detail));
   assert_null(detail);
-  hf_region_destroy(region), hf_destroy(solver);
+  hf_region_destroy(region), hf_solver_destroy(solver);
   surface_free(&cut);
   finish_rows("regions");
 }
@@ -58,8 +55,7 @@ static void pairs_name_vertices_that_are_no_surface(void** state) {
   hf_transfer transfer = NULL;
   assert_ok(hf_transfer_create(solver, solver, NULL, &transfer));
   const uint32_t counts[1] = {3}, good[3] = {0, 1, 2}, bad[3] = {0, CUT_ISOLATED, 2};
-  hf_pairs_desc pairs;
-  HF_INIT(pairs);
+  hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
   pairs.pair_count = 1, pairs.source_counts = pairs.target_counts = counts;
   pairs.source_vertices = bad, pairs.target_vertices = good;
   REFUSED("a source vertex in no triangle", HF_ERROR_INVALID_ARGUMENT, 1,
@@ -67,7 +63,7 @@ static void pairs_name_vertices_that_are_no_surface(void** state) {
   pairs.source_vertices = good, pairs.target_vertices = bad;
   REFUSED("a target vertex in no triangle", HF_ERROR_INVALID_ARGUMENT, 1,
           hf_transfer_add_pairs(transfer, &pairs, NULL));
-  hf_transfer_destroy(transfer), hf_destroy(solver);
+  hf_transfer_destroy(transfer), hf_solver_destroy(solver);
   surface_free(&cut);
   finish_rows("pairs");
 }
@@ -85,10 +81,10 @@ static void vectors_stay_on_their_component(void** state) {
   uint32_t site = 0;
   assert_ok(hf_add_sites(solver, &sites, &site));
   double before[3 * CUT_VERTICES], after[3 * CUT_VERTICES];
-  assert_ok(hf_solve_vectors_f64(solver, before, 0, NULL, NULL));
-  REFUSED("to a vertex in no triangle", HF_ERROR_INVALID_ARGUMENT, 0, hf_move_vector_sites(solver, 1, &site, isolated));
-  REFUSED("to another component", HF_ERROR_INVALID_ARGUMENT, 0, hf_move_vector_sites(solver, 1, &site, island));
-  assert_ok(hf_solve_vectors_f64(solver, after, 0, NULL, NULL));
+  assert_ok(hf_solver_solve_vectors_f64(solver, before, 0, NULL, NULL));
+  REFUSED("to a vertex in no triangle", HF_ERROR_INVALID_ARGUMENT, 0, hf_solver_move_vectors(solver, 1, &site, isolated));
+  REFUSED("to another component", HF_ERROR_INVALID_ARGUMENT, 0, hf_solver_move_vectors(solver, 1, &site, island));
+  assert_ok(hf_solver_solve_vectors_f64(solver, after, 0, NULL, NULL));
   assert_true(same_bits(before, after, sizeof before));
 
   hf_direction direction = NULL;
@@ -96,7 +92,7 @@ static void vectors_stay_on_their_component(void** state) {
   const double huge[3] = {0, 1e150, 0};
   REFUSED("1e150 long", HF_ERROR_TOO_LARGE, 0, hf_direction_add_sites(direction, 1, place, huge, NULL));
   assert_int_equal(hf_direction_get_site_count(direction), 0);
-  hf_direction_destroy(direction), hf_destroy(solver);
+  hf_direction_destroy(direction), hf_solver_destroy(solver);
   surface_free(&cut);
   finish_rows("vectors");
 }
@@ -118,7 +114,7 @@ static void a_site_is_moved_once_in_a_list_of_any_length(void** state) {
       const uint32_t kept = sites[count - 1];
       sites[count - 1] = sites[first];
       const hf_sites_desc there = sites_at(count, to, NULL);
-      REFUSED("named twice", HF_ERROR_NO_SUCH_SITE, count - 1, hf_move_sites(solver, count, sites, &there));
+      REFUSED("named twice", HF_ERROR_NO_SUCH_SITE, count - 1, hf_solver_move_sites(solver, count, sites, &there));
       sites[count - 1] = kept;
     }
   }
@@ -126,9 +122,9 @@ static void a_site_is_moved_once_in_a_list_of_any_length(void** state) {
   assert_true(same_bits(before, after, sheet.vertex_count * sizeof(double)));
   /* and the whole list, once each, is fine */
   const hf_sites_desc there = sites_at(MANY, to, NULL);
-  assert_ok(hf_move_sites(solver, MANY, sites, &there));
+  assert_ok(hf_solver_move_sites(solver, MANY, sites, &there));
   free(before), free(after);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   surface_free(&sheet);
   finish_rows("lists");
 }
@@ -173,7 +169,7 @@ static void singularities_need_their_room(void** state) {
   double sum = 0;
   for (uint32_t i = 0; i < found; ++i) sum += list[i].index;
   assert_true(fabs(sum - 2) < 1e-12);
-  hf_direction_destroy(direction), hf_destroy(solver);
+  hf_direction_destroy(direction), hf_solver_destroy(solver);
   finish_rows("singularities");
 }
 

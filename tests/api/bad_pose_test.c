@@ -25,7 +25,7 @@ static void good_input(void) {
   flags[0] = 0, flags[1] = HF_PAIR_ANCHOR, out_numbers[0] = 777;
   numbers[0] = scene.handles[0], numbers[1] = scene.handles[1], numbers[2] = 0;
   HF_INIT(handles), HF_INIT(pairs), HF_INIT(pose_desc), HF_INIT(transfer_desc), HF_INIT(deform), HF_INIT(frame),
-      HF_INIT(skin);
+      skin = HF_INIT(hf_skin_info);
   handles.handle_count = 2, handles.region_counts = counts, handles.region_vertices = region;
   pairs.pair_count = 2, pairs.flags = flags;
   pairs.source_counts = counts, pairs.source_vertices = region;
@@ -88,7 +88,7 @@ static void bad_poses_are_not_made(void** state) {
 #define UNCHANGED pose_as_before
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_create(scene.body, NULL, NULL));
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_clone(scene.pose, NULL));
-  hf_destroy(refactor), hf_destroy(plates[0]), hf_destroy(plates[1]);
+  hf_solver_destroy(refactor), hf_solver_destroy(plates[0]), hf_solver_destroy(plates[1]);
   scene_destroy(&scene);
   finish_rows("making poses");
 }
@@ -142,12 +142,10 @@ static void isolated_vertices_and_welded_copies_in_regions_are_found(void** stat
   hf_pose pose = NULL;
   assert_ok(hf_pose_create(scene.solver, NULL, &pose));
   uint32_t sizes[2] = {2, 2}, vertices[4] = {0, 1, CUT_SEAM_LEFT, CUT_SEAM_RIGHT};
-  hf_handles_desc d;
-  HF_INIT(d);
+  hf_handles_desc d = HF_INIT(hf_handles_desc);
   d.handle_count = 2, d.region_counts = sizes, d.region_vertices = vertices;
   assert_ok(hf_pose_add_handles(pose, &d, NULL)); /* two copies in one region are one vertex */
-  hf_handle_info info;
-  HF_INIT(info);
+  hf_handle_info info = HF_INIT(hf_handle_info);
   assert_ok(hf_pose_get_handle(pose, 1, &info));
   assert_int_equal(info.vertex_count, 1);
   const uint32_t both[] = {0, 1};
@@ -172,23 +170,21 @@ static void a_pose_takes_256_handles_and_no_more(void** state) {
   assert_ok(hf_pose_create(solver, NULL, &pose));
   uint32_t sizes[200], vertices[200];
   for (uint32_t i = 0; i < 200; ++i) sizes[i] = 1, vertices[i] = 3 * i;
-  hf_handles_desc d;
-  HF_INIT(d);
+  hf_handles_desc d = HF_INIT(hf_handles_desc);
   d.handle_count = 200, d.region_counts = sizes, d.region_vertices = vertices;
   assert_ok(hf_pose_add_handles(pose, &d, NULL));
   for (uint32_t i = 0; i < 200; ++i) vertices[i] = 3 * i + 1;
   d.handle_count = 57;
   assert_code(HF_ERROR_TOO_LARGE, hf_pose_add_handles(pose, &d, NULL));
   assert_int_equal(hf_pose_get_handle_count(pose), 200);
-  hf_pose_destroy(pose), hf_destroy(solver);
+  hf_pose_destroy(pose), hf_solver_destroy(solver);
   surface_free(&tube);
 }
 
 static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   (void)state;
   scene_create(&scene);
-  hf_handle_info info;
-  HF_INIT(info);
+  hf_handle_info info = HF_INIT(hf_handle_info);
   ROW("none", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_pose_remove_handles(scene.pose, 0, numbers));
   ROW("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_remove_handles(scene.pose, 1, NULL));
   ROW("no such handle", HF_ERROR_NO_SUCH_HANDLE, 1, numbers[1] = 2, hf_pose_remove_handles(scene.pose, 2, numbers));
@@ -218,7 +214,7 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   ROW("output NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 0, NULL, 0));
   ROW("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 0, floats, 3));
 
-#define DEFORM(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_deform(scene.pose, &deform, NULL))
+#define DEFORM(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_pose_deform(scene.pose, &deform, NULL))
   DEFORM("no output", HF_ERROR_NULL_POINTER, deform.positions = NULL);
   DEFORM("both outputs", HF_ERROR_INVALID_ARGUMENT, deform.positions_f64 = doubles);
   DEFORM("stride 11", HF_ERROR_TOO_SMALL, deform.position_stride = 11);
@@ -254,7 +250,7 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   POSE_SKIN("reserved set", HF_ERROR_INVALID_DESC, skin.reserved = 1);
   GOOD();
   assert_ok(hf_pose_create(scene.body, NULL, &out_pose));
-  check_row(__LINE__, "no handle", "hf_deform", hf_deform(out_pose, &deform, NULL), HF_ERROR_EMPTY, NO_INDEX);
+  check_row(__LINE__, "no handle", "hf_pose_deform", hf_pose_deform(out_pose, &deform, NULL), HF_ERROR_EMPTY, NO_INDEX);
   check_row(__LINE__, "no handle", "hf_pose_get_skin", hf_pose_get_skin(out_pose, &skin), HF_ERROR_EMPTY, NO_INDEX);
   check_row(__LINE__, "no handle", "hf_pose_get_handle", hf_pose_get_handle(out_pose, 0, &info),
             HF_ERROR_NO_SUCH_HANDLE, NO_INDEX);
@@ -310,12 +306,12 @@ static void bad_transfers_are_not_made(void** state) {
     ROW("direction target", HF_ERROR_INVALID_HANDLE, 1, (void)0,
         hf_transfer_create(scene.body, (hf_solver)direction, NULL, &out_transfer));
     hf_direction_destroy(direction);
-    hf_destroy(plate);
+    hf_solver_destroy(plate);
   }
 #undef UNCHANGED
 #define UNCHANGED transfer_as_before
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_transfer_create(scene.body, scene.body, NULL, NULL));
-  hf_destroy(refactor);
+  hf_solver_destroy(refactor);
   scene_destroy(&scene);
   finish_rows("making transfers");
 }
@@ -357,8 +353,7 @@ static void bad_pairs_are_not_added(void** state) {
 static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
   (void)state;
   scene_create(&scene);
-  hf_pair_info info;
-  HF_INIT(info);
+  hf_pair_info info = HF_INIT(hf_pair_info);
   ROW("none", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_transfer_remove_pairs(scene.transfer, 0, numbers));
   ROW("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_transfer_remove_pairs(scene.transfer, 1, NULL));
   ROW("no such pair", HF_ERROR_NO_SUCH_PAIR, 1, numbers[1] = 2, hf_transfer_remove_pairs(scene.transfer, 2, numbers));

@@ -14,8 +14,7 @@ static void setup_surface(void) {
   tube = surface_tube(TUBE_AROUND, TUBE_RINGS);
   solver = surface_solver(&tube);
   for (int v = 0; v < TUBE_VERTICES; ++v) height[v] = (double)tube.positions[3 * v + 1] + 0.01 * sin(2.3 * v);
-  hf_quads_desc desc;
-  HF_INIT(desc);
+  hf_quads_desc desc = HF_INIT(hf_quads_desc);
   desc.edge_length = 2, desc.relax_count = 2;
   assert_ok(hf_quads_create(solver, &desc, &quads));
   assert_ok(hf_flow_create(solver, &flow));
@@ -23,7 +22,7 @@ static void setup_surface(void) {
 }
 
 static void teardown_surface(void) {
-  hf_quads_destroy(quads), hf_flow_destroy(flow), hf_region_destroy(region), hf_destroy(solver);
+  hf_quads_destroy(quads), hf_flow_destroy(flow), hf_region_destroy(region), hf_solver_destroy(solver);
   surface_free(&tube);
 }
 
@@ -33,13 +32,11 @@ static hf_result quads_create(void* h) {
   return hf_quads_create(h, NULL, &out);
 }
 static hf_result quads_get_info(void* h) {
-  hf_quads_info info;
-  HF_INIT(info);
+  hf_quads_info info = HF_INIT(hf_quads_info);
   return hf_quads_get_info(h, &info);
 }
 static hf_result quads_get_mesh(void* h) {
-  hf_quads_mesh mesh;
-  HF_INIT(mesh);
+  hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
   return hf_quads_get_mesh(h, &mesh);
 }
 static hf_result flow_create(void* h) {
@@ -49,14 +46,13 @@ static hf_result flow_create(void* h) {
 static hf_result flow_trace(void* h) {
   hf_scalars field;
   hf_flow_lines lines;
-  HF_INIT(field);
-  HF_INIT(lines);
+  field = HF_INIT(hf_scalars);
+  lines = HF_INIT(hf_flow_lines);
   field.values_f64 = height, lines.wanted_count = 4;
   return hf_flow_trace(h, &field, &lines);
 }
 static hf_result region_get_info(void* h) {
-  hf_region_info info;
-  HF_INIT(info);
+  hf_region_info info = HF_INIT(hf_region_info);
   return hf_region_get_info(h, &info);
 }
 static hf_result region_get_vertices(void* h) {
@@ -65,8 +61,7 @@ static hf_result region_get_vertices(void* h) {
 static hf_result region_undo(void* h) { return hf_region_undo(h); }
 static hf_result region_redo(void* h) { return hf_region_redo(h); }
 static hf_result detail_morph(void* h) {
-  hf_morph_desc desc;
-  HF_INIT(desc);
+  hf_morph_desc desc = HF_INIT(hf_morph_desc);
   desc.positions_f64 = positions;
   return hf_detail_morph(h, &desc);
 }
@@ -109,7 +104,7 @@ static hf_quads_desc good_quads;
 static hf_quads made;
 static const uint32_t two_sites[2] = {0, TUBE_VERTICES - 1};
 static void refresh_quads(void) {
-  HF_INIT(good_quads);
+  good_quads = HF_INIT(hf_quads_desc);
   good_quads.edge_length = 2, good_quads.relax_count = 2;
   good_quads.site_count = 2, good_quads.site_vertices = two_sites;
   made = (hf_quads)(uintptr_t)5;
@@ -152,12 +147,10 @@ static void quads_refuse_bad_descs(void** state) {
 #undef UNCHANGED
 #define UNCHANGED() 1
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_create(solver, &good_quads, NULL));
-  hf_quads_info info;
-  HF_INIT(info);
+  hf_quads_info info = HF_INIT(hf_quads_info);
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_get_info(quads, NULL));
   ROW("struct_size 0", HF_ERROR_INVALID_DESC, NO_INDEX, info.struct_size = 0, hf_quads_get_info(quads, &info));
-  hf_quads_mesh mesh;
-  HF_INIT(mesh);
+  hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_get_mesh(quads, NULL));
   ROW("no room", HF_ERROR_TOO_SMALL, NO_INDEX, (mesh.positions = positions, mesh.vertex_capacity = 1),
       hf_quads_get_mesh(quads, &mesh));
@@ -169,8 +162,8 @@ static void quads_refuse_bad_descs(void** state) {
 static hf_scalars good_field;
 static hf_flow_lines good_lines;
 static void refresh_flow(void) {
-  HF_INIT(good_field);
-  HF_INIT(good_lines);
+  good_field = HF_INIT(hf_scalars);
+  good_lines = HF_INIT(hf_flow_lines);
   good_field.values_f64 = height, good_lines.wanted_count = 4;
 }
 #undef GOOD
@@ -219,7 +212,7 @@ static void what_is_no_handle_is_ignored_by_every_destroy_and_counts_as_nothing(
   setup_surface();
   int on_the_stack = 0;
   hf_solver gone = surface_solver(&tube);
-  hf_destroy(gone);
+  hf_solver_destroy(gone);
   void* const bad[] = {NULL, (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &on_the_stack, gone};
 #define NOTHING_HAPPENS(function)                                              \
   do {                                                                         \
@@ -227,10 +220,10 @@ static void what_is_no_handle_is_ignored_by_every_destroy_and_counts_as_nothing(
       function(bad[b]);                                                        \
       count_row(#function);                                                    \
       row_holds(__LINE__, #function, "the live objects go on",                 \
-                hf_get_site_count(solver) == 0 && hf_record(solver) == HF_OK); \
+                hf_solver_get_site_count(solver) == 0 && hf_solver_record(solver) == HF_OK); \
     }                                                                          \
   } while (0)
-  NOTHING_HAPPENS(hf_destroy);
+  NOTHING_HAPPENS(hf_solver_destroy);
   NOTHING_HAPPENS(hf_pose_destroy);
   NOTHING_HAPPENS(hf_transfer_destroy);
   NOTHING_HAPPENS(hf_progress_destroy);
@@ -247,14 +240,14 @@ static void what_is_no_handle_is_ignored_by_every_destroy_and_counts_as_nothing(
       row_holds(__LINE__, #function, "the count is 0", function(bad[b]) == 0); \
     }                                                                          \
   } while (0)
-  COUNTS_NOTHING(hf_get_site_count);
+  COUNTS_NOTHING(hf_solver_get_site_count);
   COUNTS_NOTHING(hf_pose_get_handle_count);
   COUNTS_NOTHING(hf_direction_get_site_count);
   check_row(__LINE__, "no output", "hf_progress_create", hf_progress_create(NULL), HF_ERROR_NULL_POINTER, NO_INDEX);
-  count_row("hf_get_error_detail");
-  row_holds(__LINE__, "hf_get_error_detail", "no output is named", hf_get_error_detail(NULL) == HF_ERROR_NULL_POINTER);
-  count_row("hf_result_name");
-  row_holds(__LINE__, "hf_result_name", "no such code is unknown", strcmp(hf_result_name(12345), "unknown") == 0);
+  count_row("hf_error_get_detail");
+  row_holds(__LINE__, "hf_error_get_detail", "no output is named", hf_error_get_detail(NULL) == HF_ERROR_NULL_POINTER);
+  count_row("hf_result_get_name");
+  row_holds(__LINE__, "hf_result_get_name", "no such code is unknown", strcmp(hf_result_get_name(12345), "unknown") == 0);
   count_row("hf_init_desc");
   hf_init_desc(NULL, 16);
   row_holds(__LINE__, "hf_init_desc", "nothing is written to nowhere", 1);

@@ -7,15 +7,13 @@ static void* copy_of(size_t size) {
 }
 
 static hf_result deform_now(hf_pose pose, float* positions) {
-  hf_deform_desc desc;
-  HF_INIT(desc);
+  hf_deform_desc desc = HF_INIT(hf_deform_desc);
   desc.positions = positions, desc.restart = 1;
-  return hf_deform(pose, &desc, NULL);
+  return hf_pose_deform(pose, &desc, NULL);
 }
 
 static hf_result transfer_now(const Scene* scene, float* positions) {
-  hf_transfer_frame frame;
-  HF_INIT(frame);
+  hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
   frame.source_positions = scene->posed, frame.target_positions = positions;
   return hf_transfer_apply(scene->transfer, &frame);
 }
@@ -32,8 +30,7 @@ static void create_pose(Scene* s) {
 
 static void create_transfer(Scene* s) {
   const uint32_t counts[2] = {2 * TUBE_AROUND, 2 * TUBE_AROUND};
-  hf_pairs_desc desc;
-  HF_INIT(desc);
+  hf_pairs_desc desc = HF_INIT(hf_pairs_desc);
   desc.pair_count = 2;
   desc.source_counts = desc.target_counts = counts;
   desc.source_vertices = desc.target_vertices = s->ends;
@@ -62,7 +59,7 @@ void scene_create(Scene* s) {
   assert_ok(hf_progress_create(&s->progress));
   assert_ok(hf_geodesics_create(s->body, NULL, &s->geodesics));
 
-  assert_ok(hf_clone(s->solver, &s->stale_solver));
+  assert_ok(hf_solver_clone(s->solver, &s->stale_solver));
   assert_ok(hf_pose_clone(s->pose, &s->stale_pose));
   assert_ok(hf_transfer_create(s->body, s->body, NULL, &s->stale_transfer));
   assert_ok(hf_progress_create(&s->stale_progress));
@@ -74,12 +71,12 @@ void scene_create(Scene* s) {
   assert_ok(hf_direction_add_sites(s->direction, 2, corners, vectors, NULL));
   assert_ok(hf_direction_create(s->solver, NULL, &s->stale_direction));
   hf_direction_destroy(s->stale_direction);
-  hf_destroy(s->stale_solver), hf_pose_destroy(s->stale_pose);
+  hf_solver_destroy(s->stale_solver), hf_pose_destroy(s->stale_pose);
   hf_transfer_destroy(s->stale_transfer), hf_progress_destroy(s->stale_progress);
 }
 
 void scene_destroy(Scene* s) {
-  hf_destroy(s->solver), hf_destroy(s->three), hf_destroy(s->body);
+  hf_solver_destroy(s->solver), hf_solver_destroy(s->three), hf_solver_destroy(s->body);
   hf_pose_destroy(s->pose), hf_transfer_destroy(s->transfer), hf_progress_destroy(s->progress);
   hf_geodesics_destroy(s->geodesics), hf_direction_destroy(s->direction);
   surface_free(&s->cut), surface_free(&s->tube);
@@ -89,13 +86,12 @@ void scene_destroy(Scene* s) {
 int solver_unchanged(const Scene* s) {
   double field[CUT_VERTICES];
   uint32_t sites[3] = {0}, vertices[3] = {0};
-  hf_site_info info;
-  HF_INIT(info);
+  hf_sites_info info = HF_INIT(hf_sites_info);
   info.capacity = 3, info.sites = sites, info.vertices = vertices;
-  if (hf_get_site_count(s->solver) != 3 || hf_get_site_count(s->three) != 0) return 0;
-  if (hf_get_sites(s->solver, &info) != HF_OK || !same_bits(sites, s->sites, sizeof sites)) return 0;
+  if (hf_solver_get_site_count(s->solver) != 3 || hf_solver_get_site_count(s->three) != 0) return 0;
+  if (hf_solver_get_sites(s->solver, &info) != HF_OK || !same_bits(sites, s->sites, sizeof sites)) return 0;
   if (vertices[0] != CUT_LEFT || vertices[1] != CUT_RIGHT || vertices[2] != CUT_SEAM_LEFT) return 0;
-  return hf_solve_f64(s->solver, field, 0, NULL) == HF_OK && same_bits(field, s->field, sizeof field);
+  return hf_solver_solve_f64(s->solver, field, 0, NULL) == HF_OK && same_bits(field, s->field, sizeof field);
 }
 
 int pose_unchanged(const Scene* s) {

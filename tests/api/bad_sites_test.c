@@ -8,7 +8,7 @@ static uint32_t places[3], corners[3], out_sites[3], numbers[4];
 static double weights[9], values[9], stiffness[3];
 static hf_sites_desc sites, to;
 static hf_edit_desc edit;
-static hf_site_info info;
+static hf_sites_info info;
 static uint32_t info_sites[3];
 static double points[CUT_VERTICES];
 static float floats[CUT_VERTICES];
@@ -23,8 +23,8 @@ static void good_input(void) {
   sites = sites_at(3, places, values);
   sites.stiffness = stiffness;
   to = sites_at(3, places, NULL);
-  HF_INIT(edit);
-  HF_INIT(info);
+  edit = HF_INIT(hf_edit_desc);
+  info = HF_INIT(hf_sites_info);
   info.capacity = 3, info.sites = info_sites;
   info_sites[0] = floats[0] = doubles[0] = points[0] = 777;
 }
@@ -41,11 +41,11 @@ static int as_before(void) {
 #define REMOVE(what, expected, index, change) \
   ROW(what, expected, index, change, hf_remove_sites(scene.solver, 3, numbers))
 #define MOVE(what, expected, index, change) \
-  ROW(what, expected, index, change, hf_move_sites(scene.solver, 3, numbers, &to))
+  ROW(what, expected, index, change, hf_solver_move_sites(scene.solver, 3, numbers, &to))
 #define SET(what, expected, index, change) \
-  ROW(what, expected, index, change, hf_set_site_values(scene.solver, 3, numbers, values))
+  ROW(what, expected, index, change, hf_solver_set_values(scene.solver, 3, numbers, values))
 #define EDIT(what, expected, index, change) \
-  ROW(what, expected, index, change, hf_edit_sites(scene.solver, &edit, out_sites))
+  ROW(what, expected, index, change, hf_solver_edit_sites(scene.solver, &edit, out_sites))
 
 static void in_triangles(hf_sites_desc* d) { d->vertices = NULL, d->triangles = corners, d->barycentrics = weights; }
 
@@ -102,14 +102,14 @@ static void linearly_dependent_points_are_refused(void** state) {
   scene_create(&scene);
   /* the corners of triangle 10 are hard sites; any further hard point in it depends on them */
   hf_solver solver = NULL;
-  assert_ok(hf_clone(scene.solver, &solver));
+  assert_ok(hf_solver_clone(scene.solver, &solver));
   const double value = 2;
   for (int k = 0; k < 3; ++k) {
     const hf_sites_desc corner = sites_at(1, &scene.cut.triangles[3 * 10 + k], &value);
     assert_ok(hf_add_sites(solver, &corner, NULL));
   }
   double before[CUT_VERTICES], after[CUT_VERTICES];
-  assert_ok(hf_solve_f64(solver, before, 0, NULL));
+  assert_ok(hf_solver_solve_f64(solver, before, 0, NULL));
   GOOD();
   in_triangles(&sites);
   sites.site_count = 1, sites.stiffness = NULL;
@@ -120,14 +120,14 @@ static void linearly_dependent_points_are_refused(void** state) {
             1);
   hf_sites_desc there = sites;
   there.values = NULL, there.site_count = 1, there.triangles = corners + 1;
-  check_row(__LINE__, "a move to such a point", "hf_move_sites", hf_move_sites(solver, 1, scene.sites, &there),
+  check_row(__LINE__, "a move to such a point", "hf_solver_move_sites", hf_solver_move_sites(solver, 1, scene.sites, &there),
             HF_ERROR_CONFLICT, 0);
-  assert_ok(hf_solve_f64(solver, after, 0, NULL));
+  assert_ok(hf_solver_solve_f64(solver, after, 0, NULL));
   assert_true(same_bits(before, after, sizeof before));
   const double soft = 3;
   sites.site_count = 1, corners[0] = 10, sites.stiffness = &soft; /* soft points are never dependent */
   assert_ok(hf_add_sites(solver, &sites, NULL));
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   scene_destroy(&scene);
   finish_rows("dependent points");
 }
@@ -145,9 +145,9 @@ static void removing_moving_and_setting_bad_sites_is_refused(void** state) {
   ROW("2^31 of them", HF_ERROR_NO_SUCH_SITE, 3, (void)0, hf_remove_sites(scene.solver, 0x80000000u, numbers));
   ROW("2^32 - 1 of them", HF_ERROR_NO_SUCH_SITE, 3, (void)0, hf_remove_sites(scene.solver, UINT32_MAX, numbers));
 
-  ROW("no site", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_move_sites(scene.solver, 0, numbers, &to));
-  ROW("no list", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_move_sites(scene.solver, 3, NULL, &to));
-  ROW("no places", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_move_sites(scene.solver, 3, numbers, NULL));
+  ROW("no site", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solver_move_sites(scene.solver, 0, numbers, &to));
+  ROW("no list", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_move_sites(scene.solver, 3, NULL, &to));
+  ROW("no places", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_move_sites(scene.solver, 3, numbers, NULL));
   MOVE("fewer places than sites", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, to.site_count = 2);
   MOVE("more places than sites", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, to.site_count = UINT32_MAX);
   MOVE("places empty", HF_ERROR_EMPTY, NO_INDEX, to.site_count = 0);
@@ -166,13 +166,13 @@ static void removing_moving_and_setting_bad_sites_is_refused(void** state) {
   MOVE("weights sum to 2", HF_ERROR_INVALID_ARGUMENT, 1, (in_triangles(&to), weights[3] = 1.5));
   MOVE("collapsed triangle", HF_ERROR_INVALID_ARGUMENT, 2, (in_triangles(&to), corners[2] = CUT_COLLAPSED));
   ROW("to the place of a site that stays", HF_ERROR_CONFLICT, 0, places[0] = CUT_RIGHT,
-      hf_move_sites(scene.solver, 1, numbers, (to.site_count = 1, &to)));
+      hf_solver_move_sites(scene.solver, 1, numbers, (to.site_count = 1, &to)));
   ROW("2^31 of them", HF_ERROR_NO_SUCH_SITE, 3, to.site_count = 0x80000000u,
-      hf_move_sites(scene.solver, 0x80000000u, numbers, &to));
+      hf_solver_move_sites(scene.solver, 0x80000000u, numbers, &to));
 
-  ROW("no site", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_set_site_values(scene.solver, 0, numbers, values));
-  ROW("no list", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_set_site_values(scene.solver, 3, NULL, values));
-  ROW("no values", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_set_site_values(scene.solver, 3, numbers, NULL));
+  ROW("no site", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solver_set_values(scene.solver, 0, numbers, values));
+  ROW("no list", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_set_values(scene.solver, 3, NULL, values));
+  ROW("no values", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_set_values(scene.solver, 3, numbers, NULL));
   SET("no such number", HF_ERROR_NO_SUCH_SITE, 1, numbers[1] = 3);
   SET("number UINT32_MAX", HF_ERROR_NO_SUCH_SITE, 0, numbers[0] = UINT32_MAX);
   SET("value NaN", HF_ERROR_NON_FINITE, 2, values[2] = (double)NAN);
@@ -228,35 +228,35 @@ static void reading_with_bad_arguments_is_refused(void** state) {
   (void)state;
   scene_create(&scene);
   uint32_t list[2] = {3, 4};
-  ROW("no room", HF_ERROR_TOO_SMALL, NO_INDEX, info.capacity = 2, hf_get_sites(scene.solver, &info));
-  ROW("capacity 0", HF_ERROR_TOO_SMALL, NO_INDEX, info.capacity = 0, hf_get_sites(scene.solver, &info));
+  ROW("no room", HF_ERROR_TOO_SMALL, NO_INDEX, info.capacity = 2, hf_solver_get_sites(scene.solver, &info));
+  ROW("capacity 0", HF_ERROR_TOO_SMALL, NO_INDEX, info.capacity = 0, hf_solver_get_sites(scene.solver, &info));
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solve(scene.solver, NULL, 0, NULL));
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solve_f64(scene.solver, NULL, 0, NULL));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_f64(scene.solver, NULL, 0, NULL));
   ROW("stride 1", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solve(scene.solver, floats, 1, NULL));
   ROW("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solve(scene.solver, floats, 3, NULL));
-  ROW("stride of floats", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solve_f64(scene.solver, doubles, 4, NULL));
+  ROW("stride of floats", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solver_solve_f64(scene.solver, doubles, 4, NULL));
   ROW("stride of two of three channels", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
-      hf_solve_f64(scene.three, doubles, 16, NULL));
+      hf_solver_solve_f64(scene.three, doubles, 16, NULL));
   ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solve(scene.three, floats, 0, NULL));
-  ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solve_f64(scene.three, doubles, 0, NULL));
-  ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solve_at(scene.three, 1, list, points));
-  ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solve_vectors(scene.three, floats, 0, NULL, NULL));
-  ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solve_vectors_f64(scene.three, doubles, 0, NULL, NULL));
+  ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solver_solve_f64(scene.three, doubles, 0, NULL));
+  ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solver_solve_at(scene.three, 1, list, points));
+  ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, floats, 0, NULL, NULL));
+  ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solver_solve_vectors_f64(scene.three, doubles, 0, NULL, NULL));
   ROW("one channel", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0,
-      hf_solve_vectors(scene.solver, floats, 0, NULL, NULL));
+      hf_solver_solve_vectors(scene.solver, floats, 0, NULL, NULL));
   ROW("one channel", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0,
-      hf_solve_vectors_f64(scene.solver, doubles, 0, NULL, NULL));
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solve_vectors(scene.three, NULL, 0, doubles, NULL));
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solve_vectors_f64(scene.three, NULL, 0, doubles, NULL));
-  ROW("stride 11", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solve_vectors(scene.three, floats, 11, NULL, NULL));
-  ROW("stride 23", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solve_vectors_f64(scene.three, doubles, 23, NULL, NULL));
-  ROW("no vertex", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solve_at(scene.solver, 0, list, points));
-  ROW("no list", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solve_at(scene.solver, 2, NULL, points));
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solve_at(scene.solver, 2, list, NULL));
+      hf_solver_solve_vectors_f64(scene.solver, doubles, 0, NULL, NULL));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, NULL, 0, doubles, NULL));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_vectors_f64(scene.three, NULL, 0, doubles, NULL));
+  ROW("stride 11", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, floats, 11, NULL, NULL));
+  ROW("stride 23", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solver_solve_vectors_f64(scene.three, doubles, 23, NULL, NULL));
+  ROW("no vertex", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solver_solve_at(scene.solver, 0, list, points));
+  ROW("no list", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_at(scene.solver, 2, NULL, points));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_at(scene.solver, 2, list, NULL));
   ROW("vertex = vertex_count", HF_ERROR_OUT_OF_RANGE, 1, list[1] = CUT_VERTICES,
-      hf_solve_at(scene.solver, 2, list, points));
-  ROW("vertex UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 0, list[0] = UINT32_MAX, hf_solve_at(scene.solver, 2, list, points));
-  ROW("2^31 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0, hf_solve_at(scene.solver, 0x80000000u, list, points));
+      hf_solver_solve_at(scene.solver, 2, list, points));
+  ROW("vertex UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 0, list[0] = UINT32_MAX, hf_solver_solve_at(scene.solver, 2, list, points));
+  ROW("2^31 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0, hf_solver_solve_at(scene.solver, 0x80000000u, list, points));
   scene_destroy(&scene);
   finish_rows("reading");
 }
@@ -264,18 +264,18 @@ static void reading_with_bad_arguments_is_refused(void** state) {
 static void nothing_to_undo_or_redo_is_said(void** state) {
   (void)state;
   scene_create(&scene);
-  ROW("nothing recorded", HF_ERROR_NO_RECORD, NO_INDEX, (void)0, hf_undo(scene.solver));
-  ROW("nothing undone", HF_ERROR_NO_RECORD, NO_INDEX, (void)0, hf_redo(scene.solver));
-  assert_ok(hf_record(scene.solver));
-  ROW("recorded, not undone", HF_ERROR_NO_RECORD, NO_INDEX, (void)0, hf_redo(scene.solver));
-  assert_ok(hf_undo(scene.solver));
-  ROW("all undone", HF_ERROR_NO_RECORD, NO_INDEX, (void)0, hf_undo(scene.solver));
-  assert_ok(hf_redo(scene.solver));
-  ROW("all redone", HF_ERROR_NO_RECORD, NO_INDEX, (void)0, hf_redo(scene.solver));
+  ROW("nothing recorded", HF_ERROR_NO_RECORD, NO_INDEX, (void)0, hf_solver_undo(scene.solver));
+  ROW("nothing undone", HF_ERROR_NO_RECORD, NO_INDEX, (void)0, hf_solver_redo(scene.solver));
+  assert_ok(hf_solver_record(scene.solver));
+  ROW("recorded, not undone", HF_ERROR_NO_RECORD, NO_INDEX, (void)0, hf_solver_redo(scene.solver));
+  assert_ok(hf_solver_undo(scene.solver));
+  ROW("all undone", HF_ERROR_NO_RECORD, NO_INDEX, (void)0, hf_solver_undo(scene.solver));
+  assert_ok(hf_solver_redo(scene.solver));
+  ROW("all redone", HF_ERROR_NO_RECORD, NO_INDEX, (void)0, hf_solver_redo(scene.solver));
   hf_solver copy = NULL;
-  assert_ok(hf_clone(scene.solver, &copy));
-  check_row(__LINE__, "a clone has no records", "hf_undo", hf_undo(copy), HF_ERROR_NO_RECORD, NO_INDEX);
-  hf_destroy(copy);
+  assert_ok(hf_solver_clone(scene.solver, &copy));
+  check_row(__LINE__, "a clone has no records", "hf_solver_undo", hf_solver_undo(copy), HF_ERROR_NO_RECORD, NO_INDEX);
+  hf_solver_destroy(copy);
   scene_destroy(&scene);
   finish_rows("undo");
 }
@@ -291,10 +291,10 @@ static void the_site_limit_of_the_desc_is_kept(void** state) {
   const uint32_t list[2] = {3, 9};
   const hf_sites_desc two = sites_at(2, list, NULL), single = sites_at(1, list, NULL);
   assert_code(HF_ERROR_TOO_LARGE, hf_add_sites(solver, &two, NULL));
-  assert_int_equal(hf_get_site_count(solver), 1);
+  assert_int_equal(hf_solver_get_site_count(solver), 1);
   assert_ok(hf_add_sites(solver, &single, NULL));
   assert_code(HF_ERROR_TOO_LARGE, hf_add_sites(solver, &single, NULL));
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   surface_free(&sheet);
 }
 

@@ -32,9 +32,8 @@ static void every_engine_and_operator_passes_with_its_own_tolerance(void** state
         hf_solver solver = NULL;
         if (hf_create(&desc, &solver) == HF_ERROR_UNSUPPORTED) continue; /* updown without HF_WITH_GPL */
         add_sites(solver, 9);
-        hf_certificate found;
-        HF_INIT(found);
-        assert_ok(hf_certify(solver, &found));
+        hf_certificate found = HF_INIT(hf_certificate);
+        assert_ok(hf_solver_certify(solver, &found));
         const int updown = engine == HF_ENGINE_UPDOWN;
         assert_true(found.tolerance == (updown ? 1e-5 : 1e-8));
         assert_true(found.value_range > 1 && found.value_range <= 80);
@@ -44,7 +43,7 @@ static void every_engine_and_operator_passes_with_its_own_tolerance(void** state
         if (operator_kind != HF_OPERATOR_COTANGENT)
           assert_int_equal(found.overshoot_checked, field_kind == HF_FIELD_HARMONIC);
         assert_true(found.worst_vertex < VERTICES);
-        hf_destroy(solver);
+        hf_solver_destroy(solver);
       }
     }
   }
@@ -54,9 +53,8 @@ static void points_soft_sites_discs_and_a_single_site_pass(void** state) {
   (void)state;
   hf_solver solver = surface_solver(&tube);
   add_site(solver, 7, 12345.0);
-  hf_certificate found;
-  HF_INIT(found);
-  assert_ok(hf_certify(solver, &found));
+  hf_certificate found = HF_INIT(hf_certificate);
+  assert_ok(hf_solver_certify(solver, &found));
   assert_true(found.value_range == 0 && found.residual < 1e-12 && found.overshoot_checked == 1);
   const uint32_t triangle = 400, vertices[2] = {100, 200};
   const double weights[3] = {0.2, 0.3, 0.5}, values[2] = {12346, 12350}, stiffness[2] = {1e3, 1e-3},
@@ -64,19 +62,19 @@ static void points_soft_sites_discs_and_a_single_site_pass(void** state) {
   hf_sites_desc sites = sites_at(2, vertices, values);
   sites.stiffness = stiffness;
   assert_ok(hf_add_sites(solver, &sites, NULL));
-  assert_ok(hf_certify(solver, &found));
+  assert_ok(hf_solver_certify(solver, &found));
   assert_int_equal(found.overshoot_checked, 1);
   const uint32_t more[2] = {300, 330};
   sites = sites_at(2, more, values), sites.radii = radii;
   assert_ok(hf_add_sites(solver, &sites, NULL));
-  assert_ok(hf_certify(solver, &found));
-  HF_INIT(sites);
+  assert_ok(hf_solver_certify(solver, &found));
+  sites = HF_INIT(hf_add_);
   sites.site_count = 1, sites.triangles = &triangle, sites.barycentrics = weights, sites.values = values;
   assert_ok(hf_add_sites(solver, &sites, NULL));
-  assert_ok(hf_certify(solver, &found));
+  assert_ok(hf_solver_certify(solver, &found));
   assert_int_equal(found.overshoot_checked, 0); /* the corners of a point may lie beyond it */
   assert_true(found.residual < 1e-12 && found.site_error < 1e-12);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 }
 
 static void sites_in_the_factor_and_several_channels_pass(void** state) {
@@ -91,13 +89,12 @@ static void sites_in_the_factor_and_several_channels_pass(void** state) {
   for (uint32_t i = 0; i < 180; ++i) values[i] = cos(3.0 * i) + (i % 3 == 1 ? 1e4 : 0);
   const hf_sites_desc batch = sites_at(60, vertices, values);
   assert_ok(hf_add_sites(solver, &batch, sites));
-  assert_ok(hf_prepare_rebase(solver));
+  assert_ok(hf_solver_prepare_rebase(solver));
   assert_ok(hf_remove_sites(solver, 5, sites + 10));
-  hf_certificate found;
-  HF_INIT(found);
-  assert_ok(hf_certify(solver, &found));
+  hf_certificate found = HF_INIT(hf_certificate);
+  assert_ok(hf_solver_certify(solver, &found));
   assert_true(found.residual < 1e-11 && found.overshoot_checked == 1);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 }
 
 /* The numbers of a borrowed factor lie in the host's memory. Changed there, every field is wrong, and only the
@@ -110,18 +107,16 @@ static void a_factor_that_changed_behind_the_library_is_found_out(void** state) 
   unsigned char* block = malloc(size + HF_FACTOR_ALIGNMENT);
   assert_non_null(block);
   unsigned char* bytes = block + HF_FACTOR_ALIGNMENT - (uintptr_t)block % HF_FACTOR_ALIGNMENT;
-  assert_ok(hf_save_factor(solver, bytes, size));
-  hf_factor_desc factor;
-  HF_INIT(factor);
+  assert_ok(hf_surface_save(solver, bytes, size));
+  hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.borrow = 1, factor.bytes = bytes, factor.byte_count = size;
   hf_create_desc desc = surface_desc(&tube);
   desc.saved_factor = &factor;
   assert_ok(hf_create(&desc, &loaded));
   add_sites(solver, 6), add_sites(loaded, 6);
   double* right = field_of(solver, VERTICES);
-  hf_certificate found;
-  HF_INIT(found);
-  assert_ok(hf_certify(loaded, &found));
+  hf_certificate found = HF_INIT(hf_certificate);
+  assert_ok(hf_solver_certify(loaded, &found));
 
   /* the largest part of the file are numbers: scale one per 64 in its last quarter, by a little and by much */
   const double scales[3] = {1 + 1e-4, 3, 1e200};
@@ -142,19 +137,19 @@ static void a_factor_that_changed_behind_the_library_is_found_out(void** state) 
     double largest = 0;
     for (int v = 0; v < VERTICES; ++v) largest = fmax(largest, isfinite(wrong[v]) ? fabs(wrong[v] - right[v]) : 1e300);
     assert_true(largest > 1e-5); /* the fault matters */
-    HF_INIT(found);
-    assert_code(HF_ERROR_INACCURATE, hf_certify(loaded, &found));
+    found = HF_INIT(hf_certificate);
+    assert_code(HF_ERROR_INACCURATE, hf_solver_certify(loaded, &found));
     assert_true(found.residual > 1e-8 && found.tolerance == 1e-8 && found.worst_vertex < VERTICES);
     hf_error_detail detail;
-    assert_ok(hf_get_error_detail(&detail));
+    assert_ok(hf_error_get_detail(&detail));
     assert_int_equal(detail.index, found.worst_vertex);
     /* the solver stands: its bytes restored, it is right again */
     memcpy(bytes, kept, size);
-    HF_INIT(found);
-    assert_ok(hf_certify(loaded, &found));
+    found = HF_INIT(hf_certificate);
+    assert_ok(hf_solver_certify(loaded, &found));
     free(wrong), free(kept);
   }
-  hf_destroy(solver), hf_destroy(loaded);
+  hf_solver_destroy(solver), hf_solver_destroy(loaded);
   free(right), free(block);
 }
 
@@ -174,10 +169,9 @@ static void the_largest_values_stay_finite_on_needles(void** state) {
     add_site(solver, 0, 1e200), add_site(solver, 9, -1e200), add_site(solver, VERTICES - 1, 1e200);
     double* field = field_of(solver, VERTICES);
     for (int v = 0; v < VERTICES; ++v) assert_true(isfinite(field[v]));
-    hf_certificate found;
-    HF_INIT(found);
-    assert_ok(hf_certify(solver, &found));
-    free(field), hf_destroy(solver);
+    hf_certificate found = HF_INIT(hf_certificate);
+    assert_ok(hf_solver_certify(solver, &found));
+    free(field), hf_solver_destroy(solver);
   }
   surface_free(&needles);
 }
@@ -187,20 +181,19 @@ static void nothing_is_changed(void** state) {
   hf_solver solver = surface_solver(&tube);
   add_sites(solver, 5);
   double* before = field_of(solver, VERTICES);
-  hf_certificate found;
-  HF_INIT(found);
-  assert_ok(hf_certify(solver, &found));
+  hf_certificate found = HF_INIT(hf_certificate);
+  assert_ok(hf_solver_certify(solver, &found));
   double* after = field_of(solver, VERTICES);
   assert_true(same_bits(before, after, sizeof(double) * VERTICES));
-  free(before), free(after), hf_destroy(solver);
+  free(before), free(after), hf_solver_destroy(solver);
 }
 
 #define CERTIFY(what, expected, ...)                                                         \
   do {                                                                                       \
     hf_certificate found;                                                                    \
-    HF_INIT(found);                                                                          \
+    found = HF_INIT(hf_certificate);                                                                          \
     __VA_ARGS__;                                                                             \
-    check_row(__LINE__, what, "hf_certify", hf_certify(solver, &found), expected, NO_INDEX); \
+    check_row(__LINE__, what, "hf_solver_certify", hf_solver_certify(solver, &found), expected, NO_INDEX); \
   } while (0)
 
 static void bad_arguments_are_answered(void** state) {
@@ -216,13 +209,12 @@ static void bad_arguments_are_answered(void** state) {
   CERTIFY("reserved set", HF_ERROR_INVALID_DESC, found.reserved = 1);
   CERTIFY("struct_size 0", HF_ERROR_INVALID_DESC, found.struct_size = 0);
   CERTIFY("struct_size one short", HF_ERROR_INVALID_DESC, --found.struct_size);
-  check_row(__LINE__, "no certificate", "hf_certify", hf_certify(solver, NULL), HF_ERROR_NULL_POINTER, NO_INDEX);
-  hf_certificate found;
-  HF_INIT(found);
+  check_row(__LINE__, "no certificate", "hf_solver_certify", hf_solver_certify(solver, NULL), HF_ERROR_NULL_POINTER, NO_INDEX);
+  hf_certificate found = HF_INIT(hf_certificate);
   found.tolerance = 1e-300;
-  assert_code(HF_ERROR_INACCURATE, hf_certify(solver, &found));
+  assert_code(HF_ERROR_INACCURATE, hf_solver_certify(solver, &found));
   assert_true(found.tolerance == 1e-300);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   CERTIFY("a destroyed solver", HF_ERROR_INVALID_HANDLE, (void)0);
   finish_rows("certificate");
 }

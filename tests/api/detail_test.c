@@ -9,30 +9,26 @@ static uint32_t at(uint32_t i, uint32_t j) { return j * ROW + i; }
 static const uint32_t square[4] = {3 * ROW + 3, 3 * ROW + 12, 12 * ROW + 12, 12 * ROW + 3};
 
 static hf_curve_desc curve_of(uint32_t count, const uint32_t* vertices) {
-  hf_curve_desc curve;
-  HF_INIT(curve);
+  hf_curve_desc curve = HF_INIT(hf_curve_desc);
   curve.point_count = count, curve.vertices = vertices;
   return curve;
 }
 
 static hf_region_edit_desc edit_of(const hf_curve_desc* curve, int32_t rings) {
-  hf_region_edit_desc edit;
-  HF_INIT(edit);
+  hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
   edit.curve = curve, edit.ring_count = rings;
   return edit;
 }
 
 static hf_region_info info_of(hf_region region) {
-  hf_region_info info;
-  HF_INIT(info);
+  hf_region_info info = HF_INIT(hf_region_info);
   assert_ok(hf_region_get_info(region, &info));
   return info;
 }
 
 /* A region of 8 x 8 vertices on a bumpy sheet. */
 static hf_region sheet_region(hf_solver solver, const Surface* sheet) {
-  hf_region_desc desc;
-  HF_INIT(desc);
+  hf_region_desc desc = HF_INIT(hf_region_desc);
   desc.positions = sheet->positions;
   hf_region region = NULL;
   assert_ok(hf_region_create(solver, &desc, &region));
@@ -43,8 +39,7 @@ static hf_region sheet_region(hf_solver solver, const Surface* sheet) {
 }
 
 static void morph_to(hf_region region, double weight, float* positions, double* positions_f64, float* normals) {
-  hf_morph_desc desc;
-  HF_INIT(desc);
+  hf_morph_desc desc = HF_INIT(hf_morph_desc);
   desc.weight = weight, desc.positions = positions, desc.positions_f64 = positions_f64, desc.normals = normals;
   assert_ok(hf_region_morph(region, &desc));
 }
@@ -91,15 +86,14 @@ static void weight_0_gives_the_bits_and_1_the_base(void** state) {
     float p[3], guard;
   } rows_of_four[COUNT];
   memset(rows_of_four, 0x5a, sizeof rows_of_four);
-  hf_morph_desc desc;
-  HF_INIT(desc);
+  hf_morph_desc desc = HF_INIT(hf_morph_desc);
   desc.weight = 1, desc.positions = rows_of_four[0].p, desc.position_stride = sizeof rows_of_four[0];
   assert_ok(hf_region_morph(region, &desc));
   for (uint32_t v = 0; v < COUNT; ++v) {
     assert_true(same_bits(rows_of_four[v].p, q + 3 * v, 3 * sizeof(float)));
     assert_true(same_bits(&rows_of_four[v].guard, &rows_of_four[0].guard, sizeof(float)));
   }
-  hf_region_destroy(region), hf_destroy(solver), surface_free(&sheet);
+  hf_region_destroy(region), hf_solver_destroy(solver), surface_free(&sheet);
 }
 
 static void edits_keep_the_factor_and_undo_brings_back_the_bits(void** state) {
@@ -122,7 +116,7 @@ static void edits_keep_the_factor_and_undo_brings_back_the_bits(void** state) {
   assert_true(info.base_area > 0 && info.area > info.base_area);
   assert_int_equal(info.thin_plate, 0);
   const uint32_t out = at(7, 7);
-  HF_INIT(edit);
+  edit = HF_INIT(hf_region_);
   edit.remove_count = 1, edit.remove_vertices = &out;
   assert_ok(hf_region_edit(region, &edit));
   assert_int_equal(info_of(region).vertex_count, info.vertex_count - 1);
@@ -139,8 +133,8 @@ static void edits_keep_the_factor_and_undo_brings_back_the_bits(void** state) {
   assert_ok(hf_region_redo(region));
   assert_int_equal(info_of(region).vertex_count, info.vertex_count - 1);
   /* the solver knows nothing of it */
-  assert_int_equal(hf_get_site_count(solver), 0);
-  hf_region_destroy(copy), hf_region_destroy(region), hf_destroy(solver), surface_free(&sheet);
+  assert_int_equal(hf_solver_get_site_count(solver), 0);
+  hf_region_destroy(copy), hf_region_destroy(region), hf_solver_destroy(solver), surface_free(&sheet);
 }
 
 static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
@@ -160,19 +154,17 @@ static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
     }
   }
   hf_region other = NULL;
-  hf_region_desc desc;
-  HF_INIT(desc);
+  hf_region_desc desc = HF_INIT(hf_region_desc);
   desc.positions = sheet.positions;
   assert_ok(hf_region_create(solver, &desc, &other));
-  hf_curve_desc curve;
-  HF_INIT(curve);
+  hf_curve_desc curve = HF_INIT(hf_curve_desc);
   curve.point_count = 4, curve.triangles = triangles, curve.barycentrics = weights;
   const hf_region_edit_desc edit = edit_of(&curve, 0);
   assert_ok(hf_region_edit(other, &edit));
   double a[3 * COUNT], b[3 * COUNT];
   morph_to(region, 1, NULL, a, NULL), morph_to(other, 1, NULL, b, NULL);
   assert_true(same_bits(a, b, sizeof a));
-  hf_region_destroy(region), hf_region_destroy(other), hf_destroy(solver), surface_free(&sheet);
+  hf_region_destroy(region), hf_region_destroy(other), hf_solver_destroy(solver), surface_free(&sheet);
 }
 
 static void a_thin_plate_comes_from_a_biharmonic_solver(void** state) {
@@ -195,7 +187,7 @@ static void a_thin_plate_comes_from_a_biharmonic_solver(void** state) {
     while (k < info.site_count && sites[k] < rim[i]) ++k;
     assert_true(k < info.site_count && sites[k] == rim[i]);
   }
-  hf_region_destroy(region), hf_destroy(solver), surface_free(&sheet);
+  hf_region_destroy(region), hf_solver_destroy(solver), surface_free(&sheet);
 }
 
 static void detail_onto_itself_is_the_surface_and_outlives_all_else(void** state) {
@@ -209,9 +201,8 @@ static void detail_onto_itself_is_the_surface_and_outlives_all_else(void** state
   assert_ok(hf_detail_create(region, region, NULL, &detail));
   const hf_region_edit_desc edit = edit_of(NULL, 1);
   assert_ok(hf_region_edit(region, &edit)); /* a later edit changes nothing */
-  hf_region_destroy(region), hf_destroy(solver);
-  hf_morph_desc desc;
-  HF_INIT(desc);
+  hf_region_destroy(region), hf_solver_destroy(solver);
+  hf_morph_desc desc = HF_INIT(hf_morph_desc);
   desc.positions_f64 = carried;
   assert_ok(hf_detail_morph(detail, &desc));
   assert_true(same_bits(carried, base, sizeof base));
@@ -241,8 +232,7 @@ static void an_empty_region_gives_the_surface(void** state) {
   assert_ok(hf_region_get_vertices(region, HF_REGION_INSIDE, 0, &none));
   /* both copies of a seam vertex go to one base */
   const uint32_t seam = CUT_SEAM_RIGHT;
-  hf_region_edit_desc edit;
-  HF_INIT(edit);
+  hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
   edit.add_count = 1, edit.add_vertices = &seam;
   assert_ok(hf_region_edit(region, &edit));
   morph_to(region, 1, p, NULL, NULL);
@@ -252,7 +242,7 @@ static void an_empty_region_gives_the_surface(void** state) {
   const uint32_t isolated = CUT_ISOLATED;
   edit.add_vertices = &isolated;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_region_edit(region, &edit));
-  hf_region_destroy(region), hf_destroy(solver), surface_free(&sheet);
+  hf_region_destroy(region), hf_solver_destroy(solver), surface_free(&sheet);
 }
 
 static void cancelling_leaves_all_as_it_was_and_stops_one_call(void** state) {
@@ -269,17 +259,16 @@ static void cancelling_leaves_all_as_it_was_and_stops_one_call(void** state) {
   assert_int_equal(info_of(region).vertex_count, 64);
   assert_ok(hf_region_edit(region, &edit));
   float done = 0;
-  assert_ok(hf_progress_get(progress, &done));
+  assert_ok(hf_progress_get_fraction(progress, &done));
   assert_true(done == 1.0f);
   assert_ok(hf_progress_cancel(progress));
-  hf_detail_desc desc;
-  HF_INIT(desc);
+  hf_detail_desc desc = HF_INIT(hf_detail_desc);
   desc.progress = progress;
   hf_detail detail = (hf_detail)(uintptr_t)1;
   assert_code(HF_ERROR_CANCELLED, hf_detail_create(region, region, &desc, &detail));
   assert_null(detail);
   assert_ok(hf_detail_create(region, region, &desc, &detail));
-  hf_detail_destroy(detail), hf_progress_destroy(progress), hf_region_destroy(region), hf_destroy(solver);
+  hf_detail_destroy(detail), hf_progress_destroy(progress), hf_region_destroy(region), hf_solver_destroy(solver);
   surface_free(&sheet);
 }
 
@@ -297,13 +286,12 @@ static void bad_regions_are_named(void** state) {
   double before[3 * COUNT], after[3 * COUNT];
   morph_to(region, 1, NULL, before, NULL);
   hf_region made = NULL;
-  hf_region_desc desc;
-  HF_INIT(desc);
+  hf_region_desc desc = HF_INIT(hf_region_desc);
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_create(solver, NULL, NULL));
   BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_region_create(NULL, NULL, &made));
   desc.struct_size = 4;
   BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_create(solver, &desc, &made));
-  HF_INIT(desc);
+  desc = HF_INIT(hf_region_);
   desc.positions = sheet.positions, desc.positions_f64 = before;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_create(solver, &desc, &made));
   desc.positions = NULL, desc.position_stride = 8;
@@ -315,7 +303,7 @@ static void bad_regions_are_named(void** state) {
   hf_solver slow = NULL;
   assert_ok(hf_create(&create, &slow));
   BAD(HF_ERROR_UNSUPPORTED, NO_INDEX, hf_region_create(slow, NULL, &made));
-  hf_destroy(slow);
+  hf_solver_destroy(slow);
   assert_null(made);
   morph_to(region, 1, NULL, before, NULL);
 
@@ -353,7 +341,7 @@ static void bad_regions_are_named(void** state) {
   BAD(HF_ERROR_INVALID_ARGUMENT, at(3, 7), hf_region_edit(region, &edit));
   uint32_t triangles[3] = {0, 100, 300};
   double weights[9] = {1, 0, 0, 1, 0, 0, 1, 0, 0};
-  HF_INIT(curve);
+  curve = HF_INIT(hf_curve_desc);
   curve.point_count = 3, curve.triangles = triangles;
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_edit(region, &edit));
   curve.barycentrics = weights, triangles[1] = sheet.triangle_count;
@@ -366,12 +354,12 @@ static void bad_regions_are_named(void** state) {
   BAD(HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
   curve.vertices = square;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_edit(region, &edit));
-  HF_INIT(edit);
+  edit = HF_INIT(hf_region_);
   edit.add_count = 3;
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_edit(region, &edit));
   edit.add_vertices = beyond;
   BAD(HF_ERROR_OUT_OF_RANGE, 2, hf_region_edit(region, &edit));
-  HF_INIT(edit);
+  edit = HF_INIT(hf_region_);
   edit.remove_count = COUNT + 1, edit.remove_vertices = beyond;
   BAD(HF_ERROR_TOO_LARGE, NO_INDEX, hf_region_edit(region, &edit));
 
@@ -380,8 +368,7 @@ static void bad_regions_are_named(void** state) {
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_get_vertices(region, 0, 64, NULL));
   BAD(HF_ERROR_TOO_SMALL, NO_INDEX, hf_region_get_vertices(region, 0, 63, found));
   assert_int_equal(found[0], 7);
-  hf_morph_desc morph;
-  HF_INIT(morph);
+  hf_morph_desc morph = HF_INIT(hf_morph_desc);
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_morph(region, &morph));
   morph.positions_f64 = after, morph.weight = INFINITY;
   BAD(HF_ERROR_NON_FINITE, NO_INDEX, hf_region_morph(region, &morph));
@@ -400,7 +387,7 @@ static void bad_regions_are_named(void** state) {
   morph_to(region, 1, NULL, after, NULL);
   assert_true(same_bits(before, after, sizeof before)); /* whatever failed, the region is as it was */
   finish_rows("regions");
-  hf_region_destroy(region), hf_destroy(solver), surface_free(&sheet);
+  hf_region_destroy(region), hf_solver_destroy(solver), surface_free(&sheet);
 }
 
 static void bad_details_are_named(void** state) {
@@ -411,8 +398,7 @@ static void bad_details_are_named(void** state) {
   hf_region empty = NULL;
   assert_ok(hf_region_create(solver, NULL, &empty));
   hf_detail detail = NULL;
-  hf_detail_desc desc;
-  HF_INIT(desc);
+  hf_detail_desc desc = HF_INIT(hf_detail_desc);
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_detail_create(region, region, NULL, NULL));
   BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_detail_create(NULL, region, NULL, &detail));
   BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_detail_create(region, (hf_region)solver, NULL, &detail));
@@ -422,7 +408,7 @@ static void bad_details_are_named(void** state) {
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
   desc.scale = NAN;
   BAD(HF_ERROR_NON_FINITE, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
-  HF_INIT(desc);
+  desc = HF_INIT(hf_detail_);
   desc.pair_count = 2, desc.source_vertices = square;
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
   const uint32_t off[2] = {square[0], at(8, 8)}, beyond[2] = {square[0], COUNT}, twice[2] = {square[0], square[0]};
@@ -436,14 +422,13 @@ static void bad_details_are_named(void** state) {
   BAD(HF_ERROR_TOO_LARGE, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
   /* with a square in its middle taken out it is no disc any more */
   const uint32_t hole[4] = {at(7, 7), at(8, 7), at(7, 8), at(8, 8)};
-  hf_region_edit_desc edit;
-  HF_INIT(edit);
+  hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
   edit.remove_count = 4, edit.remove_vertices = hole;
   assert_ok(hf_region_edit(region, &edit));
   assert_code(HF_ERROR_UNSUPPORTED, hf_detail_create(region, region, NULL, &detail));
   assert_null(detail);
   finish_rows("details");
-  hf_region_destroy(empty), hf_region_destroy(region), hf_destroy(solver), surface_free(&sheet);
+  hf_region_destroy(empty), hf_region_destroy(region), hf_solver_destroy(solver), surface_free(&sheet);
 }
 
 int main(void) {

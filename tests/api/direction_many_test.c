@@ -43,8 +43,7 @@ static void many_constraints_come_and_go_without_a_trace(void** state) {
     assert_ok(hf_direction_create(solver, NULL, &fresh));
     if (round == 2) constrain(direction, 3, 700, HALF, NULL), constrain(fresh, 3, 700, HALF, NULL);
     constrain(direction, count, step, 0, sites);
-    hf_direction_statistics statistics;
-    HF_INIT(statistics);
+    hf_direction_statistics statistics = HF_INIT(hf_direction_statistics);
     assert_ok(hf_direction_get_statistics(direction, &statistics));
     assert_int_equal(statistics.sites_eliminated, round > 0);
     uint32_t leaving = 0, list[MANY];
@@ -54,8 +53,7 @@ static void many_constraints_come_and_go_without_a_trace(void** state) {
     for (uint32_t i = 0; i < leaving; i += 20)
       assert_ok(hf_direction_remove_sites(direction, leaving - i < 20 ? leaving - i : 20, list + i));
     constrain(fresh, (count + keep - 1) / keep, step * keep, 0, NULL);
-    hf_solve_info info;
-    HF_INIT(info);
+    hf_solve_info info = HF_INIT(hf_solve_info);
     assert_ok(hf_direction_solve_f64(direction, got, 0, &info));
     assert_ok(hf_direction_solve_f64(fresh, right, 0, NULL));
     assert_int_equal(info.unreached_vertex_count, round == 2 ? 0 : HALF);
@@ -63,7 +61,7 @@ static void many_constraints_come_and_go_without_a_trace(void** state) {
     hf_direction_destroy(direction), hf_direction_destroy(fresh);
   }
   free(got), free(right);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   surface_free(&sheet), surface_free(&two);
 }
 
@@ -87,19 +85,17 @@ static void triangles_that_nothing_reaches_do_not_matter(void** state) {
   hf_direction direction = NULL;
   assert_ok(hf_direction_create(solver, NULL, &direction));
   constrain(direction, MANY, 2, 0, NULL);
-  hf_direction_statistics statistics;
-  HF_INIT(statistics);
+  hf_direction_statistics statistics = HF_INIT(hf_direction_statistics);
   assert_ok(hf_direction_get_statistics(direction, &statistics));
   assert_int_equal(statistics.sites_eliminated, 1);
-  hf_solve_info info;
-  HF_INIT(info);
+  hf_solve_info info = HF_INIT(hf_solve_info);
   assert_ok(hf_direction_solve_f64(direction, got, 0, &info));
   assert_int_equal(info.unreached_vertex_count, 3 * LOOSE);
   for (uint32_t i = 0; i < 3 * HALF; ++i) assert_true(fabs(got[i]) <= 10);
   for (uint32_t i = 3 * HALF; i < 3 * ALL; ++i) assert_true(got[i] == 0);
   free(got);
   hf_direction_destroy(direction);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   surface_free(&sheet), surface_free(&all);
 }
 

@@ -29,36 +29,36 @@ static void a_vector_of_three_channels_is_carried_and_turned_without_touching_th
   uint32_t sites[2];
   assert_ok(hf_add_sites(solver, &batch, sites));
   static double field[3 * VERTICES], normals[3 * VERTICES];
-  assert_ok(hf_solve_vectors_f64(solver, field, 0, normals, NULL));
+  assert_ok(hf_solver_solve_vectors_f64(solver, field, 0, normals, NULL));
   for (uint32_t v = 0; v < VERTICES; ++v) {
     assert_true(fabs(dot3(field + 3 * v, normals + 3 * v)) <= 1e-12);
     assert_true(fabs(dot3(normals + 3 * v, normals + 3 * v) - 1) <= 1e-12);
   }
 
-  hf_statistics before, after;
-  HF_INIT(before), HF_INIT(after);
-  assert_ok(hf_get_statistics(solver, &before));
+  hf_solver_statistics before, after;
+  HF_INIT(before), after = HF_INIT(hf_solver_statistics);
+  assert_ok(hf_solver_get_statistics(solver, &before));
   const double quarter = acos(0.0);
-  assert_ok(hf_rotate_vector_sites(solver, 1, sites + 1, &quarter));
-  assert_ok(hf_get_statistics(solver, &after));
+  assert_ok(hf_solver_rotate_vectors(solver, 1, sites + 1, &quarter));
+  assert_ok(hf_solver_get_statistics(solver, &after));
   assert_int_equal(after.factorisation_count, before.factorisation_count);
   assert_int_equal(after.path_solve_count, before.path_solve_count);
-  assert_ok(hf_solve_vectors_f64(solver, field, 0, normals, NULL));
+  assert_ok(hf_solver_solve_vectors_f64(solver, field, 0, normals, NULL));
   const double up[3] = {0, 1, 0};
   assert_true(fabs(dot3(field + 3 * places[1], up)) <= 1e-9);
   assert_true(fabs(dot3(field + 3 * places[1], field + 3 * places[1]) - 1) <= 1e-9);
 
   /* a quarter of the way around: still as much up, and around */
   const uint32_t there = ring + AROUND / 4;
-  assert_ok(hf_move_vector_sites(solver, 1, sites, &there));
-  assert_ok(hf_get_statistics(solver, &after));
+  assert_ok(hf_solver_move_vectors(solver, 1, sites, &there));
+  assert_ok(hf_solver_get_statistics(solver, &after));
   assert_int_equal(after.factorisation_count, before.factorisation_count);
-  assert_ok(hf_solve_vectors_f64(solver, field, 0, normals, NULL));
+  assert_ok(hf_solver_solve_vectors_f64(solver, field, 0, normals, NULL));
   const float* q = tube.positions + 3 * there;
   const double along[3] = {-q[2], 0, q[0]};
   assert_true(fabs(dot3(field + 3 * there, up) - 1) <= 1e-6);
   assert_true(fabs(dot3(field + 3 * there, along) - 1) <= 1e-6);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   surface_free(&tube);
 }
 
@@ -72,36 +72,35 @@ static void vectors_are_refused_with_their_place_in_the_list(void** state) {
   uint32_t sites[2];
   assert_ok(hf_add_sites(solver, &batch, sites));
   add_site(flat, 3, 1);
-  check_row(__LINE__, "past the end", "hf_move_vector_sites", hf_move_vector_sites(solver, 2, sites, far),
+  check_row(__LINE__, "past the end", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 2, sites, far),
             HF_ERROR_OUT_OF_RANGE, 1);
-  check_row(__LINE__, "taken", "hf_move_vector_sites", hf_move_vector_sites(solver, 1, sites, taken), HF_ERROR_CONFLICT,
+  check_row(__LINE__, "taken", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 1, sites, taken), HF_ERROR_CONFLICT,
             0);
-  check_row(__LINE__, "absent", "hf_move_vector_sites", hf_move_vector_sites(solver, 2, absent, places),
+  check_row(__LINE__, "absent", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 2, absent, places),
             HF_ERROR_NO_SUCH_SITE, 1);
-  check_row(__LINE__, "none", "hf_move_vector_sites", hf_move_vector_sites(solver, 0, sites, places), HF_ERROR_EMPTY,
+  check_row(__LINE__, "none", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 0, sites, places), HF_ERROR_EMPTY,
             NO_INDEX);
-  check_row(__LINE__, "NULL", "hf_move_vector_sites", hf_move_vector_sites(solver, 1, NULL, places),
+  check_row(__LINE__, "NULL", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 1, NULL, places),
             HF_ERROR_NULL_POINTER, NO_INDEX);
-  check_row(__LINE__, "NULL", "hf_move_vector_sites", hf_move_vector_sites(solver, 1, sites, NULL),
+  check_row(__LINE__, "NULL", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 1, sites, NULL),
             HF_ERROR_NULL_POINTER, NO_INDEX);
-  check_row(__LINE__, "one channel", "hf_move_vector_sites", hf_move_vector_sites(flat, 1, sites, places),
+  check_row(__LINE__, "one channel", "hf_solver_move_vectors", hf_solver_move_vectors(flat, 1, sites, places),
             HF_ERROR_INVALID_ARGUMENT, NO_INDEX);
-  check_row(__LINE__, "infinite", "hf_rotate_vector_sites", hf_rotate_vector_sites(solver, 2, sites, angles),
+  check_row(__LINE__, "infinite", "hf_solver_rotate_vectors", hf_solver_rotate_vectors(solver, 2, sites, angles),
             HF_ERROR_NON_FINITE, 1);
-  check_row(__LINE__, "absent", "hf_rotate_vector_sites", hf_rotate_vector_sites(solver, 2, absent, values),
+  check_row(__LINE__, "absent", "hf_solver_rotate_vectors", hf_solver_rotate_vectors(solver, 2, absent, values),
             HF_ERROR_NO_SUCH_SITE, 1);
-  check_row(__LINE__, "too many", "hf_rotate_vector_sites", hf_rotate_vector_sites(solver, 1000000, sites, angles),
+  check_row(__LINE__, "too many", "hf_solver_rotate_vectors", hf_solver_rotate_vectors(solver, 1000000, sites, angles),
             HF_ERROR_NO_SUCH_SITE, 2);
-  check_row(__LINE__, "one channel", "hf_rotate_vector_sites", hf_rotate_vector_sites(flat, 1, sites, angles),
+  check_row(__LINE__, "one channel", "hf_solver_rotate_vectors", hf_solver_rotate_vectors(flat, 1, sites, angles),
             HF_ERROR_INVALID_ARGUMENT, NO_INDEX);
   double now[6];
-  hf_site_info info;
-  HF_INIT(info);
+  hf_sites_info info = HF_INIT(hf_sites_info);
   info.capacity = 2, info.values = now;
-  assert_ok(hf_get_sites(solver, &info));
+  assert_ok(hf_solver_get_sites(solver, &info));
   row_holds(__LINE__, "values", "are as they were", same_bits(now, values, sizeof now));
   finish_rows("vectors");
-  hf_destroy(solver), hf_destroy(flat);
+  hf_solver_destroy(solver), hf_solver_destroy(flat);
   surface_free(&tube);
 }
 
@@ -110,8 +109,7 @@ static void a_direction_field_follows_its_constraints(void** state) {
   Surface tube;
   const hf_solver solver = tube_solver(&tube, 1);
   for (uint32_t degree = 1; degree <= 4; degree *= 2) {
-    hf_direction_desc desc;
-    HF_INIT(desc);
+    hf_direction_desc desc = HF_INIT(hf_direction_desc);
     desc.degree = degree;
     hf_direction direction;
     assert_ok(hf_direction_create(solver, &desc, &direction));
@@ -133,8 +131,7 @@ static void a_direction_field_follows_its_constraints(void** state) {
     }
     assert_ok(hf_direction_add_sites(direction, 1, places + 1, up + 3, sites + 1));
     assert_int_equal(hf_direction_get_site_count(direction), 2);
-    hf_solve_info info;
-    HF_INIT(info);
+    hf_solve_info info = HF_INIT(hf_solve_info);
     assert_ok(hf_direction_solve_f64(direction, exact, 0, &info));
     assert_int_equal(info.unreached_component_count, 0);
     double vectors[6];
@@ -145,7 +142,7 @@ static void a_direction_field_follows_its_constraints(void** state) {
       for (int k = 0; k < 3; ++k) assert_true(exact[3 * places[i] + (uint32_t)k] == vectors[3 * i + k]);
     }
     hf_direction_statistics before, after;
-    HF_INIT(before), HF_INIT(after);
+    HF_INIT(before), after = HF_INIT(hf_direction_statistics);
     assert_ok(hf_direction_get_statistics(direction, &before));
     assert_int_equal(before.unknown_count, 2 * VERTICES);
     assert_int_equal(before.path_solve_count, 4);
@@ -179,7 +176,7 @@ static void a_direction_field_follows_its_constraints(void** state) {
   /* children keep what they share */
   hf_direction direction;
   assert_ok(hf_direction_create(solver, NULL, &direction));
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   const uint32_t vertex = 5;
   const double vector[3] = {0, 1, 0};
   assert_ok(hf_direction_add_sites(direction, 1, &vertex, vector, NULL));
@@ -193,8 +190,7 @@ static void a_direction_object_refuses_bad_input_and_stays_as_it_was(void** stat
   (void)state;
   Surface cut = surface_cut();
   const hf_solver solver = surface_solver(&cut);
-  hf_direction_desc desc;
-  HF_INIT(desc);
+  hf_direction_desc desc = HF_INIT(hf_direction_desc);
   hf_direction direction;
   desc.degree = 3;
   check_row(__LINE__, "degree 3", "hf_direction_create", hf_direction_create(solver, &desc, &direction),
@@ -211,8 +207,7 @@ static void a_direction_object_refuses_bad_input_and_stays_as_it_was(void** stat
   uint32_t sites[2];
   assert_ok(hf_direction_add_sites(direction, 2, places, vectors, sites));
   static double before[3 * CUT_VERTICES], now[3 * CUT_VERTICES];
-  hf_solve_info info;
-  HF_INIT(info);
+  hf_solve_info info = HF_INIT(hf_solve_info);
   assert_ok(hf_direction_solve_f64(direction, before, 0, &info));
   assert_int_equal(info.unreached_component_count, 1); /* the island */
   assert_int_equal(info.unreached_vertex_count, 10);
@@ -248,7 +243,7 @@ static void a_direction_object_refuses_bad_input_and_stays_as_it_was(void** stat
   row_holds(__LINE__, "the field", "is as it was", same_bits(before, now, sizeof now));
   finish_rows("direction input");
   hf_direction_destroy(direction);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   surface_free(&cut);
 }
 
@@ -259,8 +254,7 @@ static void constraints_come_back_to_the_same_bits(void** state) {
   Surface tube;
   const hf_solver solver = tube_solver(&tube, 1);
   for (uint32_t degree = 1; degree <= 4; degree *= 2) {
-    hf_direction_desc desc;
-    HF_INIT(desc);
+    hf_direction_desc desc = HF_INIT(hf_direction_desc);
     desc.degree = degree;
     hf_direction direction, clone;
     assert_ok(hf_direction_create(solver, &desc, &direction));
@@ -293,7 +287,7 @@ static void constraints_come_back_to_the_same_bits(void** state) {
       counts[step] = hf_direction_get_site_count(direction);
     }
     hf_direction_statistics before, after;
-    HF_INIT(before), HF_INIT(after);
+    HF_INIT(before), after = HF_INIT(hf_direction_statistics);
     assert_ok(hf_direction_get_statistics(direction, &before));
     static double field[KEPT];
     int here = STEPS;
@@ -337,7 +331,7 @@ static void constraints_come_back_to_the_same_bits(void** state) {
     hf_direction_destroy(clone);
     for (int step = 0; step <= STEPS; ++step) free(fields[step]);
   }
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   surface_free(&tube);
 }
 
@@ -371,7 +365,7 @@ static void the_oldest_of_257_records_of_a_direction_is_dropped(void** state) {
   assert_ok(hf_direction_record(direction));
   assert_code(HF_ERROR_NO_RECORD, hf_direction_redo(direction));
   hf_direction_destroy(direction);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   surface_free(&tube);
 }
 
@@ -392,7 +386,7 @@ static void a_biharmonic_solver_takes_the_same_edits_and_overshoots(void** state
       add_site(solver, row + 10, 0), add_site(solver, 6 * 21 + 6, 1), add_site(solver, 14 * 21 + 6, 1);
       assert_ok(hf_remove_sites(solver, 1, &gone));
       fields[e] = field_of(solver, sheet.vertex_count);
-      hf_destroy(solver);
+      hf_solver_destroy(solver);
     }
     double low = 0, high = 0;
     for (uint32_t v = 0; v < sheet.vertex_count; ++v) {

@@ -23,15 +23,14 @@ static Saved saved_tube(void) {
   hf_solver solver = surface_solver(&saved.tube);
   assert_ok(hf_get_factor_size(solver, &saved.size));
   saved.bytes = aligned_bytes(saved.size, &saved.block);
-  assert_ok(hf_save_factor(solver, saved.bytes, saved.size));
-  hf_destroy(solver);
+  assert_ok(hf_surface_save(solver, saved.bytes, saved.size));
+  hf_solver_destroy(solver);
   return saved;
 }
 static void saved_free(Saved* saved) { free(saved->block), surface_free(&saved->tube); }
 
 static hf_result load(const Surface* surface, const void* bytes, size_t size, int borrow, hf_solver* out) {
-  hf_factor_desc factor;
-  HF_INIT(factor);
+  hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.bytes = bytes, factor.byte_count = size, factor.borrow = borrow;
   hf_create_desc desc = surface_desc(surface);
   desc.saved_factor = &factor;
@@ -48,17 +47,15 @@ static void a_loaded_factor_gives_the_same_bits_as_a_made_one(void** state) {
   Saved saved = saved_tube();
   hf_solver made = surface_solver(&saved.tube);
   double* expected = some_field(made);
-  hf_statistics made_statistics;
-  HF_INIT(made_statistics);
-  assert_ok(hf_get_statistics(made, &made_statistics));
+  hf_solver_statistics made_statistics = HF_INIT(hf_solver_statistics);
+  assert_ok(hf_solver_get_statistics(made, &made_statistics));
   assert_int_equal(made_statistics.factor_loaded, 0);
   assert_true(made_statistics.load_ms == 0);
   unsigned char* untouched = malloc(saved.size);
   memcpy(untouched, saved.bytes, saved.size);
   for (int borrow = 0; borrow < 2; ++borrow) {
     for (uint32_t threads = 1; threads <= 4; threads *= 2) {
-      hf_factor_desc factor;
-      HF_INIT(factor);
+      hf_factor_desc factor = HF_INIT(hf_factor_desc);
       factor.bytes = saved.bytes, factor.byte_count = saved.size, factor.borrow = borrow;
       hf_create_desc desc = surface_desc(&saved.tube);
       desc.saved_factor = &factor, desc.thread_count = threads;
@@ -66,9 +63,8 @@ static void a_loaded_factor_gives_the_same_bits_as_a_made_one(void** state) {
       assert_ok(hf_create(&desc, &loaded));
       double* field = some_field(loaded);
       assert_true(same_bits(field, expected, sizeof(double) * VERTICES));
-      hf_statistics s;
-      HF_INIT(s);
-      assert_ok(hf_get_statistics(loaded, &s));
+      hf_solver_statistics s = HF_INIT(hf_solver_statistics);
+      assert_ok(hf_solver_get_statistics(loaded, &s));
       assert_int_equal(s.factor_loaded, 1);
       assert_int_equal(s.factor_borrowed, borrow);
       assert_true(s.ordering_ms == 0 && s.symbolic_ms == 0 && s.numeric_ms == 0 && s.load_ms > 0);
@@ -82,13 +78,13 @@ static void a_loaded_factor_gives_the_same_bits_as_a_made_one(void** state) {
       assert_ok(hf_get_factor_size(loaded, &size));
       assert_int_equal(size, saved.size);
       unsigned char* again = malloc(size);
-      assert_ok(hf_save_factor(loaded, again, size));
+      assert_ok(hf_surface_save(loaded, again, size));
       assert_true(same_bits(again, saved.bytes, size));
-      free(again), free(field), hf_destroy(loaded);
+      free(again), free(field), hf_solver_destroy(loaded);
     }
   }
   assert_true(same_bits(untouched, saved.bytes, saved.size));
-  free(untouched), free(expected), hf_destroy(made), saved_free(&saved);
+  free(untouched), free(expected), hf_solver_destroy(made), saved_free(&saved);
 }
 
 static void borrowed_bytes_serve_clones_and_poses_until_the_last_is_gone(void** state) {
@@ -96,23 +92,22 @@ static void borrowed_bytes_serve_clones_and_poses_until_the_last_is_gone(void** 
   Saved saved = saved_tube();
   hf_solver first = NULL, copy = NULL;
   assert_ok(load(&saved.tube, saved.bytes, saved.size, 1, &first));
-  assert_ok(hf_clone(first, &copy));
+  assert_ok(hf_solver_clone(first, &copy));
   uint32_t handles[2];
   hf_pose pose = tube_pose(first, AROUND, RINGS, handles);
-  hf_destroy(first);
+  hf_solver_destroy(first);
   double* field = some_field(copy);
   hf_solver made = surface_solver(&saved.tube);
   double* expected = some_field(made);
   assert_true(same_bits(field, expected, sizeof(double) * VERTICES));
-  hf_destroy(copy);
+  hf_solver_destroy(copy);
   float positions[3 * VERTICES];
-  hf_deform_desc deform;
-  HF_INIT(deform);
+  hf_deform_desc deform = HF_INIT(hf_deform_desc);
   deform.positions = positions;
-  assert_ok(hf_deform(pose, &deform, NULL));
+  assert_ok(hf_pose_deform(pose, &deform, NULL));
   hf_pose_destroy(pose);
   memset(saved.bytes, 0xFF, saved.size); /* nobody reads them any more */
-  hf_destroy(made), free(field), free(expected), saved_free(&saved);
+  hf_solver_destroy(made), free(field), free(expected), saved_free(&saved);
 }
 
 static void copied_bytes_may_go_at_once_and_need_no_alignment(void** state) {
@@ -128,7 +123,7 @@ static void copied_bytes_may_go_at_once_and_need_no_alignment(void** state) {
   memset(odd, 0xFF, saved.size);
   double *expected = some_field(made), *field = some_field(loaded);
   assert_true(same_bits(field, expected, sizeof(double) * VERTICES));
-  free(expected), free(field), free(block), hf_destroy(made), hf_destroy(loaded), saved_free(&saved);
+  free(expected), free(field), free(block), hf_solver_destroy(made), hf_solver_destroy(loaded), saved_free(&saved);
 }
 
 static void a_factor_of_another_surface_is_refused(void** state) {
@@ -139,7 +134,7 @@ static void a_factor_of_another_surface_is_refused(void** state) {
   /* another size */
   Surface other = surface_tube(AROUND, RINGS + 1);
   assert_code(HF_ERROR_INVALID_ARGUMENT, load(&other, saved.bytes, saved.size, 0, &out));
-  assert_ok(hf_get_error_detail(&detail));
+  assert_ok(hf_error_get_detail(&detail));
   assert_non_null(strstr(detail.message, "another mesh"));
   surface_free(&other);
   /* the same size, another connectivity */
@@ -150,12 +145,11 @@ static void a_factor_of_another_surface_is_refused(void** state) {
   other = surface_tube(AROUND, RINGS);
   other.positions[3 * 100] += 1e-4f;
   assert_code(HF_ERROR_INVALID_ARGUMENT, load(&other, saved.bytes, saved.size, 0, &out));
-  assert_ok(hf_get_error_detail(&detail));
+  assert_ok(hf_error_get_detail(&detail));
   assert_non_null(strstr(detail.message, "other positions"));
   surface_free(&other);
   /* another operator */
-  hf_factor_desc factor;
-  HF_INIT(factor);
+  hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.bytes = saved.bytes, factor.byte_count = saved.size;
   hf_create_desc desc = surface_desc(&saved.tube);
   desc.saved_factor = &factor, desc.operator_kind = HF_OPERATOR_UNIFORM;
@@ -166,7 +160,7 @@ static void a_factor_of_another_surface_is_refused(void** state) {
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_create(&desc, &out));
   desc.ordering = HF_ORDERING_NESTED_DISSECTION;
   assert_ok(hf_create(&desc, &out));
-  hf_destroy(out);
+  hf_solver_destroy(out);
   saved_free(&saved);
 }
 
@@ -180,17 +174,16 @@ static void an_ordering_is_saved_with_the_factor(void** state) {
   size_t size = 0;
   assert_ok(hf_get_factor_size(solver, &size));
   unsigned char* bytes = malloc(size);
-  assert_ok(hf_save_factor(solver, bytes, size));
+  assert_ok(hf_surface_save(solver, bytes, size));
   assert_ok(load(&tube, bytes, size, 0, &loaded)); /* ordering 0: the factor's own */
   double *expected = some_field(solver), *field = some_field(loaded);
   assert_true(same_bits(field, expected, sizeof(double) * VERTICES));
-  hf_destroy(loaded);
-  hf_factor_desc factor;
-  HF_INIT(factor);
+  hf_solver_destroy(loaded);
+  hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.bytes = bytes, factor.byte_count = size;
   desc.saved_factor = &factor;
   assert_ok(hf_create(&desc, &loaded));
-  free(expected), free(field), free(bytes), hf_destroy(solver), hf_destroy(loaded), surface_free(&tube);
+  free(expected), free(field), free(bytes), hf_solver_destroy(solver), hf_solver_destroy(loaded), surface_free(&tube);
 }
 
 static void bad_arguments_are_answered(void** state) {
@@ -201,20 +194,20 @@ static void bad_arguments_are_answered(void** state) {
   assert_code(HF_ERROR_NULL_POINTER, hf_get_factor_size(solver, NULL));
   assert_code(HF_ERROR_INVALID_HANDLE, hf_get_factor_size(NULL, &size));
   assert_int_equal(size, 7);
-  assert_code(HF_ERROR_NULL_POINTER, hf_save_factor(solver, NULL, saved.size));
+  assert_code(HF_ERROR_NULL_POINTER, hf_surface_save(solver, NULL, saved.size));
   unsigned char* small = malloc(saved.size + 16);
   memset(small, 0x5A, saved.size + 16);
-  assert_code(HF_ERROR_TOO_SMALL, hf_save_factor(solver, small, saved.size - 1));
-  assert_code(HF_ERROR_TOO_SMALL, hf_save_factor(solver, small, 0));
+  assert_code(HF_ERROR_TOO_SMALL, hf_surface_save(solver, small, saved.size - 1));
+  assert_code(HF_ERROR_TOO_SMALL, hf_surface_save(solver, small, 0));
   for (size_t i = 0; i < saved.size + 16; ++i) assert_int_equal(small[i], 0x5A);
-  assert_ok(hf_save_factor(solver, small, saved.size + 16));
+  assert_ok(hf_surface_save(solver, small, saved.size + 16));
   for (size_t i = saved.size; i < saved.size + 16; ++i) assert_int_equal(small[i], 0x5A);
   assert_code(HF_ERROR_NULL_POINTER, load(&saved.tube, NULL, saved.size, 0, &out));
   assert_code(HF_ERROR_EMPTY, load(&saved.tube, saved.bytes, 0, 0, &out));
   assert_code(HF_ERROR_INVALID_ARGUMENT, load(&saved.tube, saved.bytes, saved.size - 1, 0, &out));
   assert_code(HF_ERROR_INVALID_ARGUMENT, load(&saved.tube, saved.bytes, 1, 0, &out));
   assert_null(out);
-  free(small), hf_destroy(solver), saved_free(&saved);
+  free(small), hf_solver_destroy(solver), saved_free(&saved);
 }
 
 /* Thousands of damaged copies through the front door: flips, truncations, splices, bytes of another factor. */
@@ -227,7 +220,7 @@ static void damaged_bytes_are_refused_and_never_crash(void** state) {
   unsigned char *bytes_block, *damaged_block;
   unsigned char* bytes = aligned_bytes(size, &bytes_block);
   unsigned char* damaged = aligned_bytes(size, &damaged_block);
-  assert_ok(hf_save_factor(solver, bytes, size));
+  assert_ok(hf_surface_save(solver, bytes, size));
   uint64_t random = 88172645463325252ull;
   unsigned refused = 0, unsupported = 0;
   for (int round = 0; round < 6000; ++round) {
@@ -260,14 +253,14 @@ static void damaged_bytes_are_refused_and_never_crash(void** state) {
     const hf_result result = load(&sheet, damaged, length, round % 2, &out);
     assert_null(out);
     if (length == 0) {
-      assert_string_equal(hf_result_name(result), "HF_ERROR_EMPTY");
+      assert_string_equal(hf_result_get_name(result), "HF_ERROR_EMPTY");
     } else {
       assert_true(result == HF_ERROR_INVALID_ARGUMENT || result == HF_ERROR_UNSUPPORTED);
       refused += result == HF_ERROR_INVALID_ARGUMENT, unsupported += result == HF_ERROR_UNSUPPORTED;
     }
   }
   assert_true(refused > 3000 && unsupported > 50);
-  free(bytes_block), free(damaged_block), hf_destroy(solver), surface_free(&sheet);
+  free(bytes_block), free(damaged_block), hf_solver_destroy(solver), surface_free(&sheet);
 }
 
 static void memory_that_runs_out_while_loading_or_saving_leaves_nothing(void** state) {
@@ -279,8 +272,7 @@ static void memory_that_runs_out_while_loading_or_saving_leaves_nothing(void** s
       CountingAllocator memory;
       memset(&memory, 0, sizeof memory);
       memory.refuse_at = n;
-      hf_factor_desc factor;
-      HF_INIT(factor);
+      hf_factor_desc factor = HF_INIT(hf_factor_desc);
       factor.bytes = saved.bytes, factor.byte_count = saved.size, factor.borrow = borrow;
       hf_create_desc desc = surface_desc(&saved.tube);
       desc.saved_factor = &factor, desc.allocator = counting_hooks(&memory);
@@ -292,20 +284,20 @@ static void memory_that_runs_out_while_loading_or_saving_leaves_nothing(void** s
         unsigned char* again = malloc(saved.size);
         for (size_t m = 1;; ++m) {
           memory.refuse_at = memory.calls + m;
-          const hf_result save = hf_save_factor(solver, again, saved.size);
+          const hf_result save = hf_surface_save(solver, again, saved.size);
           if (save == HF_OK) break;
-          assert_string_equal(hf_result_name(save), "HF_ERROR_OUT_OF_MEMORY");
+          assert_string_equal(hf_result_get_name(save), "HF_ERROR_OUT_OF_MEMORY");
           assert_true(m < 100);
         }
         assert_true(memory.calls > calls);
         assert_true(same_bits(again, saved.bytes, saved.size));
         free(again);
       } else {
-        assert_string_equal(hf_result_name(result), "HF_ERROR_OUT_OF_MEMORY");
+        assert_string_equal(hf_result_get_name(result), "HF_ERROR_OUT_OF_MEMORY");
         assert_null(solver);
         ++failures;
       }
-      hf_destroy(solver);
+      hf_solver_destroy(solver);
       assert_int_equal(memory.live_blocks, 0);
       assert_int_equal(memory.live_bytes, 0);
       assert_int_equal(memory.mismatches, 0);
@@ -334,15 +326,14 @@ static void a_preview_is_close_and_a_correction_makes_it_accurate(void** state) 
     assert_ok(hf_create(&desc, &solver));
     for (uint32_t i = 0; i < 40; ++i) add_site(solver, (i * 7919u) % LARGE, sin(3.0 * i));
     double* exact = field_of(solver, LARGE);
-    hf_statistics before, after;
-    HF_INIT(before);
-    HF_INIT(after);
-    assert_ok(hf_get_statistics(solver, &before));
+    hf_solver_statistics before, after;
+    before = HF_INIT(hf_solver_statistics);
+    after = HF_INIT(hf_solver_statistics);
+    assert_ok(hf_solver_get_statistics(solver, &before));
     for (uint32_t corrections = 0; corrections < 3; ++corrections) {
       double* field = malloc(sizeof(double) * LARGE);
-      hf_preview_info info;
-      HF_INIT(info);
-      assert_ok(hf_solve_preview_f64(solver, field, 0, corrections, &info));
+      hf_preview_info info = HF_INIT(hf_preview_info);
+      assert_ok(hf_solver_solve_preview_f64(solver, field, 0, corrections, &info));
       const double error = worst_difference(field, exact, LARGE);
       const double allowed[3] = {1e-5, 1e-9, 2e-12};
       assert_true(error <= allowed[corrections] * info.value_range);
@@ -357,22 +348,22 @@ static void a_preview_is_close_and_a_correction_makes_it_accurate(void** state) 
       if (threads == 1) first[corrections] = field;
       assert_true(same_bits(field, first[corrections], sizeof(double) * LARGE));
       float* values = malloc(sizeof(float) * LARGE);
-      assert_ok(hf_solve_preview(solver, values, 0, corrections, NULL));
+      assert_ok(hf_solver_solve_preview(solver, values, 0, corrections, NULL));
       for (uint32_t v = 0; v < LARGE; ++v) assert_true(values[v] == (float)field[v]);
       free(values);
       if (threads != 1) free(field);
     }
-    assert_ok(hf_get_statistics(solver, &after));
+    assert_ok(hf_solver_get_statistics(solver, &after));
     assert_true(after.memory_bytes >= before.memory_bytes + 0.3 * before.factor_bytes);
-    assert_ok(hf_release_preview(solver));
-    assert_ok(hf_release_preview(solver));
+    assert_ok(hf_solver_release_preview(solver));
+    assert_ok(hf_solver_release_preview(solver));
     const double with = after.memory_bytes;
-    assert_ok(hf_get_statistics(solver, &after));
+    assert_ok(hf_solver_get_statistics(solver, &after));
     assert_true(after.memory_bytes <= with - 0.3 * before.factor_bytes);
     double* again = malloc(sizeof(double) * LARGE);
-    assert_ok(hf_solve_preview_f64(solver, again, 0, 0, NULL));
+    assert_ok(hf_solver_solve_preview_f64(solver, again, 0, 0, NULL));
     assert_true(same_bits(again, first[0], sizeof(double) * LARGE));
-    free(again), free(exact), hf_destroy(solver);
+    free(again), free(exact), hf_solver_destroy(solver);
   }
   for (int i = 0; i < 3; ++i) free(first[i]);
   surface_free(&tube);
@@ -386,14 +377,13 @@ static void previews_of_tiny_huge_and_shifted_values_are_as_close(void** state) 
     hf_solver solver = surface_solver(&tube);
     for (uint32_t i = 0; i < 9; ++i) add_site(solver, i * 71u, shift[k] + scale[k] * sin(2.0 * i));
     double *exact = field_of(solver, VERTICES), *field = malloc(sizeof(double) * VERTICES);
-    hf_preview_info info;
-    HF_INIT(info);
+    hf_preview_info info = HF_INIT(hf_preview_info);
     for (uint32_t corrections = 0; corrections < 2; ++corrections) {
-      assert_ok(hf_solve_preview_f64(solver, field, 0, corrections, &info));
+      assert_ok(hf_solver_solve_preview_f64(solver, field, 0, corrections, &info));
       const double allowed = (corrections ? 1e-9 : 1e-5) * scale[k] + 1e-15 * shift[k];
       assert_true(worst_difference(field, exact, VERTICES) <= allowed);
     }
-    free(exact), free(field), hf_destroy(solver);
+    free(exact), free(field), hf_solver_destroy(solver);
   }
   surface_free(&tube);
 }
@@ -418,19 +408,18 @@ static void solvers_without_a_preview_answer_with_the_exact_field(void** state) 
       for (uint32_t i = 0; i < VERTICES / 2; ++i) vertices[i] = 2 * i, values[i] = cos(0.1 * i);
       const hf_sites_desc sites = sites_at(VERTICES / 2, vertices, values);
       assert_ok(hf_add_sites(solver, &sites, NULL));
-      assert_ok(hf_prepare_rebase(solver));
+      assert_ok(hf_solver_prepare_rebase(solver));
       add_site(solver, 1, 3), add_site(solver, 33, -2);
     } else {
       add_site(solver, 1, 3), add_site(solver, 33, -2);
     }
     double *exact = field_of(solver, VERTICES), *field = malloc(sizeof(double) * VERTICES);
-    hf_preview_info info;
-    HF_INIT(info);
-    assert_ok(hf_solve_preview_f64(solver, field, 0, 2, &info));
+    hf_preview_info info = HF_INIT(hf_preview_info);
+    assert_ok(hf_solver_solve_preview_f64(solver, field, 0, 2, &info));
     assert_int_equal(info.exact, 1);
     assert_true(info.error_estimate == 0 && info.correction_count == 0);
     assert_true(same_bits(field, exact, sizeof(double) * VERTICES));
-    free(exact), free(field), hf_destroy(solver);
+    free(exact), free(field), hf_solver_destroy(solver);
   }
   surface_free(&tube);
 }
@@ -441,24 +430,23 @@ static void previews_report_what_no_site_reaches_and_check_their_arguments(void*
   hf_solver solver = surface_solver(&cut);
   float values[2 * CUT_VERTICES];
   double doubles[CUT_VERTICES];
-  hf_preview_info info;
-  HF_INIT(info);
+  hf_preview_info info = HF_INIT(hf_preview_info);
   memset(values, 0x5A, sizeof values);
-  assert_code(HF_ERROR_NO_SITES, hf_solve_preview(solver, values, 0, 0, &info));
+  assert_code(HF_ERROR_NO_SITES, hf_solver_solve_preview(solver, values, 0, 0, &info));
   add_site(solver, CUT_LEFT, 1), add_site(solver, CUT_RIGHT, 3);
-  assert_code(HF_ERROR_NULL_POINTER, hf_solve_preview(solver, NULL, 0, 0, &info));
-  assert_code(HF_ERROR_NULL_POINTER, hf_solve_preview_f64(solver, NULL, 0, 0, &info));
-  assert_code(HF_ERROR_TOO_SMALL, hf_solve_preview(solver, values, 3, 0, &info));
-  assert_code(HF_ERROR_TOO_SMALL, hf_solve_preview_f64(solver, doubles, 4, 0, &info));
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_solve_preview(solver, values, 0, 9, &info));
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_solve_preview_f64(solver, doubles, 0, UINT32_MAX, &info));
+  assert_code(HF_ERROR_NULL_POINTER, hf_solver_solve_preview(solver, NULL, 0, 0, &info));
+  assert_code(HF_ERROR_NULL_POINTER, hf_solver_solve_preview_f64(solver, NULL, 0, 0, &info));
+  assert_code(HF_ERROR_TOO_SMALL, hf_solver_solve_preview(solver, values, 3, 0, &info));
+  assert_code(HF_ERROR_TOO_SMALL, hf_solver_solve_preview_f64(solver, doubles, 4, 0, &info));
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_solver_solve_preview(solver, values, 0, 9, &info));
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_solver_solve_preview_f64(solver, doubles, 0, UINT32_MAX, &info));
   for (size_t i = 0; i < sizeof values; ++i) assert_int_equal(((unsigned char*)values)[i], 0x5A);
-  assert_ok(hf_solve_preview(solver, values, 8, 1, &info));
+  assert_ok(hf_solver_solve_preview(solver, values, 8, 1, &info));
   assert_int_equal(info.unreached_component_count, 1);
   assert_true(values[2 * CUT_ISLAND] == 0 && values[2 * CUT_ISOLATED] == 0);
   assert_true(values[2 * CUT_SEAM_LEFT] == values[2 * CUT_SEAM_RIGHT]);
   assert_true(values[2 * CUT_LEFT] == 1 && values[2 * CUT_RIGHT] == 3);
-  hf_destroy(solver), surface_free(&cut);
+  hf_solver_destroy(solver), surface_free(&cut);
 }
 
 static void memory_that_runs_out_in_a_preview_changes_nothing(void** state) {
@@ -475,11 +463,11 @@ static void memory_that_runs_out_in_a_preview_changes_nothing(void** state) {
   size_t failures = 0;
   for (size_t n = 1;; ++n) {
     memory.refuse_at = memory.calls + n;
-    const hf_result result = hf_solve_preview_f64(solver, field, 0, 2, NULL);
+    const hf_result result = hf_solver_solve_preview_f64(solver, field, 0, 2, NULL);
     memory.refuse_at = 0;
-    assert_ok(hf_release_preview(solver));
+    assert_ok(hf_solver_release_preview(solver));
     if (result == HF_OK) break;
-    assert_string_equal(hf_result_name(result), "HF_ERROR_OUT_OF_MEMORY");
+    assert_string_equal(hf_result_get_name(result), "HF_ERROR_OUT_OF_MEMORY");
     double* after = field_of(solver, VERTICES);
     assert_true(same_bits(after, expected, sizeof(double) * VERTICES));
     free(after);
@@ -487,7 +475,7 @@ static void memory_that_runs_out_in_a_preview_changes_nothing(void** state) {
   }
   assert_true(failures > 5);
   assert_true(worst_difference(field, expected, VERTICES) < 1e-11);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   assert_int_equal(memory.live_blocks, 0);
   free(expected), surface_free(&tube);
 }

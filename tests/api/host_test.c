@@ -40,40 +40,36 @@ static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t thread
   uint32_t sites[3], handles[2];
   hf_sites_desc batch = sites_at(3, vertices, values);
   note(w, hf_add_sites(solver, &batch, sites));
-  note(w, hf_clone(solver, &copy));
+  note(w, hf_solver_clone(solver, &copy));
   note(w, hf_remove_sites(copy, 1, sites));
-  note(w, hf_solve_f64(solver, w->field, 0, NULL));
+  note(w, hf_solver_solve_f64(solver, w->field, 0, NULL));
   hf_add_sites(solver, &batch, NULL); /* a failure: formats a message */
   hf_pose pose = NULL;
   hf_transfer transfer = NULL;
   if (engine == HF_ENGINE_GREEN) {
     uint32_t* ends = tube_ends(AROUND, RINGS);
     const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
-    hf_handles_desc regions;
-    HF_INIT(regions);
+    hf_handles_desc regions = HF_INIT(hf_handles_desc);
     regions.handle_count = 2, regions.region_counts = counts, regions.region_vertices = ends;
     note(w, hf_pose_create(solver, NULL, &pose));
     note(w, hf_pose_add_handles(pose, &regions, handles));
     const hf_transform turned = {{0, 0.5, 0, 0.8660254}, {1, 2, 3}};
     note(w, hf_pose_set_transforms(pose, 1, &handles[1], &turned));
-    hf_deform_desc deform;
-    HF_INIT(deform);
+    hf_deform_desc deform = HF_INIT(hf_deform_desc);
     deform.positions = w->posed, deform.normals = w->normals;
-    note(w, hf_deform(pose, &deform, NULL));
-    hf_pairs_desc pairs;
-    HF_INIT(pairs);
+    note(w, hf_pose_deform(pose, &deform, NULL));
+    hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
     pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts,
     pairs.source_vertices = pairs.target_vertices = ends;
     note(w, hf_transfer_create(solver, copy, NULL, &transfer));
     note(w, hf_transfer_add_pairs(transfer, &pairs, NULL));
-    hf_transfer_frame frame;
-    HF_INIT(frame);
+    hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
     frame.source_positions = w->posed, frame.target_positions = w->transferred;
     note(w, hf_transfer_apply(transfer, &frame));
     free(ends);
   }
   hf_pose_destroy(pose), hf_transfer_destroy(transfer);
-  hf_destroy(copy), hf_destroy(solver);
+  hf_solver_destroy(copy), hf_solver_destroy(solver);
   surface_free(&tube);
 }
 
@@ -126,8 +122,8 @@ static void rounding_modes_are_kept_and_do_not_matter(void** state) {
     assert_int_equal(fesetround(modes[m]), 0);
     results[0] = hf_create(&desc, &solver), after[0] = fegetround();
     results[1] = hf_add_sites(solver, &sites, NULL), after[1] = fegetround();
-    results[2] = hf_solve_f64(solver, fields[m], 0, NULL), after[2] = fegetround();
-    hf_destroy(solver), after[3] = fegetround();
+    results[2] = hf_solver_solve_f64(solver, fields[m], 0, NULL), after[2] = fegetround();
+    hf_solver_destroy(solver), after[3] = fegetround();
     fesetround(FE_TONEAREST);
     for (int i = 0; i < 3; ++i) assert_int_equal(results[i], HF_OK);
     for (int i = 0; i < 4; ++i) assert_int_equal(after[i], modes[m]);
@@ -179,7 +175,7 @@ static void sticky_flags_are_kept(void** state) {
     const unsigned after = _mm_getcsr();
     assert_int_equal(before, after);
     assert_int_equal(fetestexcept(FE_ALL_EXCEPT) & FE_INVALID, raised ? FE_INVALID : 0);
-    hf_destroy(solver);
+    hf_solver_destroy(solver);
   }
   surface_free(&tube);
 }
@@ -202,7 +198,7 @@ static void floating_point_traps_of_the_host_do_not_strike(void** state) {
   const int traps = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW | FE_UNDERFLOW | FE_INEXACT;
   feenableexcept(traps);
   const hf_result made = hf_create(&desc, &solver), added = hf_add_sites(solver, &sites, NULL),
-                  solved = hf_solve_f64(solver, field, 0, NULL);
+                  solved = hf_solver_solve_f64(solver, field, 0, NULL);
   const int still = fegetexcept();
   fedisableexcept(traps);
   assert_int_equal(made, HF_OK);
@@ -210,7 +206,7 @@ static void floating_point_traps_of_the_host_do_not_strike(void** state) {
   assert_int_equal(solved, HF_OK);
   assert_int_equal(still, traps);
   for (int v = 0; v < VERTICES; ++v) assert_true(isfinite(field[v]));
-  hf_destroy(solver), surface_free(&tube);
+  hf_solver_destroy(solver), surface_free(&tube);
 }
 
 static void random_numbers_of_the_host_are_not_drawn(void** state) {
@@ -266,7 +262,7 @@ static void granted_threads_end_with_their_solver(void** state) {
   hf_solver solver = NULL;
   assert_ok(hf_create(&desc, &solver));
   assert_true(entries("/proc/self/task") <= threads + 3);
-  hf_destroy(solver), surface_free(&tube);
+  hf_solver_destroy(solver), surface_free(&tube);
   for (int wait = 0; wait < 200 && entries("/proc/self/task") != threads; ++wait)
     usleep(5000); /* the kernel lists joined threads a moment longer */
   assert_int_equal(entries("/proc/self/task"), threads);
@@ -282,8 +278,8 @@ static void nothing_is_printed(void** state) {
   fflush(stdout), fflush(stderr);
   dup2(file, 1), dup2(file, 2);
   work(&done);
-  for (hf_result code = -400; code <= 0; ++code) hf_result_name(code);
-  hf_create(NULL, NULL), hf_solve(NULL, NULL, 0, NULL), hf_destroy(NULL);
+  for (hf_result code = -400; code <= 0; ++code) hf_result_get_name(code);
+  hf_create(NULL, NULL), hf_solve(NULL, NULL, 0, NULL), hf_solver_destroy(NULL);
   fflush(stdout), fflush(stderr);
   dup2(out, 1), dup2(err, 2);
   const off_t printed = lseek(file, 0, SEEK_END);
@@ -369,7 +365,7 @@ static void a_large_surface_gives_the_same_bits_on_any_threads(void** state) {
       assert_true(same_bits(field, reference, sizeof(double) * sheet.vertex_count)), free(field);
     else
       reference = field;
-    hf_destroy(solver);
+    hf_solver_destroy(solver);
   }
   assert_true(jobs.batches > 0 && jobs.jobs > jobs.batches);
   free(reference), surface_free(&sheet);

@@ -80,22 +80,22 @@ static void print_factor_desc(void) {
 }
 
 static void print_mesh_report(void) {
-  STRUCT(hf_mesh_report);
-  FIELD(hf_mesh_report, struct_size);
-  FIELD(hf_mesh_report, vertex_count);
-  FIELD(hf_mesh_report, triangle_count);
-  FIELD(hf_mesh_report, welded_vertex_count);
-  FIELD(hf_mesh_report, component_count);
-  FIELD(hf_mesh_report, isolated_vertex_count);
-  FIELD(hf_mesh_report, degenerate_triangle_count);
-  FIELD(hf_mesh_report, collapsed_triangle_count);
-  FIELD(hf_mesh_report, duplicate_triangle_count);
-  FIELD(hf_mesh_report, non_manifold_edge_count);
-  FIELD(hf_mesh_report, flipped_edge_count);
-  FIELD(hf_mesh_report, boundary_edge_count);
-  FIELD(hf_mesh_report, negative_edge_count);
-  FIELD(hf_mesh_report, smallest_angle);
-  FIELD(hf_mesh_report, bounding_box_diagonal);
+  STRUCT(hf_surface_report);
+  FIELD(hf_surface_report, struct_size);
+  FIELD(hf_surface_report, vertex_count);
+  FIELD(hf_surface_report, triangle_count);
+  FIELD(hf_surface_report, welded_vertex_count);
+  FIELD(hf_surface_report, component_count);
+  FIELD(hf_surface_report, isolated_vertex_count);
+  FIELD(hf_surface_report, degenerate_triangle_count);
+  FIELD(hf_surface_report, collapsed_triangle_count);
+  FIELD(hf_surface_report, duplicate_triangle_count);
+  FIELD(hf_surface_report, non_manifold_edge_count);
+  FIELD(hf_surface_report, flipped_edge_count);
+  FIELD(hf_surface_report, boundary_edge_count);
+  FIELD(hf_surface_report, negative_edge_count);
+  FIELD(hf_surface_report, smallest_angle);
+  FIELD(hf_surface_report, bounding_box_diagonal);
 }
 
 static void print_sites_desc(void) {
@@ -125,16 +125,16 @@ static void print_edit_desc(void) {
 }
 
 static void print_site_info(void) {
-  STRUCT(hf_site_info);
-  FIELD(hf_site_info, struct_size);
-  FIELD(hf_site_info, capacity);
-  FIELD(hf_site_info, sites);
-  FIELD(hf_site_info, vertices);
-  FIELD(hf_site_info, components);
-  FIELD(hf_site_info, values);
-  FIELD(hf_site_info, stiffness);
-  FIELD(hf_site_info, flux);
-  FIELD(hf_site_info, radii);
+  STRUCT(hf_sites_info);
+  FIELD(hf_sites_info, struct_size);
+  FIELD(hf_sites_info, capacity);
+  FIELD(hf_sites_info, sites);
+  FIELD(hf_sites_info, vertices);
+  FIELD(hf_sites_info, components);
+  FIELD(hf_sites_info, values);
+  FIELD(hf_sites_info, stiffness);
+  FIELD(hf_sites_info, flux);
+  FIELD(hf_sites_info, radii);
 }
 
 static void print_solve_info(void) {
@@ -159,37 +159,37 @@ static void print_certificate(void) {
 }
 
 static void print_statistics(void) {
-  STRUCT(hf_statistics);
-  FIELD(hf_statistics, struct_size);
-  FIELD(hf_statistics, unknown_count);
-  FIELD(hf_statistics, weld_ms);
-  FIELD(hf_statistics, operator_ms);
-  FIELD(hf_statistics, ordering_ms);
-  FIELD(hf_statistics, symbolic_ms);
-  FIELD(hf_statistics, numeric_ms);
-  FIELD(hf_statistics, factor_entries);
-  FIELD(hf_statistics, factor_bytes);
-  FIELD(hf_statistics, factor_flops);
-  FIELD(hf_statistics, memory_bytes);
-  FIELD(hf_statistics, peak_memory_bytes);
-  FIELD(hf_statistics, site_memory_bytes);
-  FIELD(hf_statistics, site_count);
-  FIELD(hf_statistics, factorisation_count);
-  FIELD(hf_statistics, path_solve_count);
-  FIELD(hf_statistics, sweep_count);
-  FIELD(hf_statistics, engine);
-  FIELD(hf_statistics, thread_count);
-  FIELD(hf_statistics, load_ms);
-  FIELD(hf_statistics, factor_loaded);
-  FIELD(hf_statistics, factor_borrowed);
-  FIELD(hf_statistics, last_route);
-  FIELD(hf_statistics, rebase_count);
-  FIELD(hf_statistics, dense_edit_count);
-  FIELD(hf_statistics, dense_row_count);
-  FIELD(hf_statistics, eliminated_count);
-  FIELD(hf_statistics, rebase_advised);
-  FIELD(hf_statistics, predicted_dense_ms);
-  FIELD(hf_statistics, predicted_rebase_ms);
+  STRUCT(hf_solver_statistics);
+  FIELD(hf_solver_statistics, struct_size);
+  FIELD(hf_solver_statistics, unknown_count);
+  FIELD(hf_solver_statistics, weld_ms);
+  FIELD(hf_solver_statistics, operator_ms);
+  FIELD(hf_solver_statistics, ordering_ms);
+  FIELD(hf_solver_statistics, symbolic_ms);
+  FIELD(hf_solver_statistics, numeric_ms);
+  FIELD(hf_solver_statistics, factor_entries);
+  FIELD(hf_solver_statistics, factor_bytes);
+  FIELD(hf_solver_statistics, factor_flops);
+  FIELD(hf_solver_statistics, memory_bytes);
+  FIELD(hf_solver_statistics, peak_memory_bytes);
+  FIELD(hf_solver_statistics, site_memory_bytes);
+  FIELD(hf_solver_statistics, site_count);
+  FIELD(hf_solver_statistics, factorisation_count);
+  FIELD(hf_solver_statistics, path_solve_count);
+  FIELD(hf_solver_statistics, sweep_count);
+  FIELD(hf_solver_statistics, engine);
+  FIELD(hf_solver_statistics, thread_count);
+  FIELD(hf_solver_statistics, load_ms);
+  FIELD(hf_solver_statistics, factor_loaded);
+  FIELD(hf_solver_statistics, factor_borrowed);
+  FIELD(hf_solver_statistics, last_route);
+  FIELD(hf_solver_statistics, rebase_count);
+  FIELD(hf_solver_statistics, dense_edit_count);
+  FIELD(hf_solver_statistics, dense_row_count);
+  FIELD(hf_solver_statistics, eliminated_count);
+  FIELD(hf_solver_statistics, rebase_advised);
+  FIELD(hf_solver_statistics, predicted_dense_ms);
+  FIELD(hf_solver_statistics, predicted_rebase_ms);
 }
 
 static void print_pose_desc(void) {

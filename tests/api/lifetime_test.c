@@ -9,13 +9,13 @@ static void clones_are_independent(void** state) {
   hf_solver original = surface_solver(&tube), copy = NULL;
   const uint32_t first = add_site(original, 0, 0);
   add_site(original, VERTICES - 1, 1);
-  assert_ok(hf_clone(original, &copy));
+  assert_ok(hf_solver_clone(original, &copy));
   double* before = field_of(original, VERTICES);
   double* same = field_of(copy, VERTICES);
   assert_true(same_bits(before, same, sizeof(double) * VERTICES));
   add_site(copy, 77, 5);
   assert_ok(hf_remove_sites(copy, 1, &first));
-  assert_int_equal(hf_get_site_count(original), 2);
+  assert_int_equal(hf_solver_get_site_count(original), 2);
   double* after = field_of(original, VERTICES);
   assert_true(same_bits(before, after, sizeof(double) * VERTICES));
   /* and the other way round */
@@ -23,12 +23,11 @@ static void clones_are_independent(void** state) {
   add_site(original, 30, -3);
   double* still = field_of(copy, VERTICES);
   assert_true(same_bits(copied, still, sizeof(double) * VERTICES));
-  hf_statistics statistics;
-  HF_INIT(statistics);
-  assert_ok(hf_get_statistics(copy, &statistics));
+  hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
+  assert_ok(hf_solver_get_statistics(copy, &statistics));
   assert_int_equal(statistics.factorisation_count, 1);
   free(before), free(same), free(after), free(copied), free(still);
-  hf_destroy(original), hf_destroy(copy), surface_free(&tube);
+  hf_solver_destroy(original), hf_solver_destroy(copy), surface_free(&tube);
 }
 
 /* A family: a solver, two clones, a pose and its clone, a transfer. Each member does its work after any other is gone.
@@ -48,16 +47,15 @@ static void create_family(Family* f, const Surface* tube) {
   desc.allocator = counting_hooks(&f->memory);
   assert_ok(hf_create(&desc, &f->solvers[0]));
   add_site(f->solvers[0], 0, 0), add_site(f->solvers[0], VERTICES - 1, 1);
-  assert_ok(hf_clone(f->solvers[0], &f->solvers[1]));
-  assert_ok(hf_clone(f->solvers[1], &f->solvers[2]));
+  assert_ok(hf_solver_clone(f->solvers[0], &f->solvers[1]));
+  assert_ok(hf_solver_clone(f->solvers[1], &f->solvers[2]));
   uint32_t handles[2];
   f->poses[0] = tube_pose(f->solvers[0], AROUND, RINGS, handles);
   assert_ok(hf_pose_clone(f->poses[0], &f->poses[1]));
   assert_ok(hf_transfer_create(f->solvers[0], f->solvers[1], NULL, &f->transfer));
   uint32_t* ends = tube_ends(AROUND, RINGS);
   const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
-  hf_pairs_desc pairs;
-  HF_INIT(pairs);
+  hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
   pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts,
   pairs.source_vertices = pairs.target_vertices = ends;
   assert_ok(hf_transfer_add_pairs(f->transfer, &pairs, NULL));
@@ -69,24 +67,21 @@ static void use_member(Family* f, int member, const Surface* tube) {
   float positions[3 * VERTICES];
   if (member < POSE) {
     const uint32_t site = add_site(f->solvers[member], 50, 2);
-    assert_ok(hf_solve_f64(f->solvers[member], field, 0, NULL));
+    assert_ok(hf_solver_solve_f64(f->solvers[member], field, 0, NULL));
     assert_true(field[50] == 2);
     assert_ok(hf_remove_sites(f->solvers[member], 1, &site));
   } else if (member < TRANSFER) {
     const uint32_t count = 1, vertex = 5 * AROUND;
     uint32_t handle;
-    hf_handles_desc more;
-    HF_INIT(more);
+    hf_handles_desc more = HF_INIT(hf_handles_desc);
     more.handle_count = 1, more.region_counts = &count, more.region_vertices = &vertex;
     assert_ok(hf_pose_add_handles(f->poses[member - POSE], &more, &handle));
-    hf_deform_desc deform;
-    HF_INIT(deform);
+    hf_deform_desc deform = HF_INIT(hf_deform_desc);
     deform.positions = positions;
-    assert_ok(hf_deform(f->poses[member - POSE], &deform, NULL));
+    assert_ok(hf_pose_deform(f->poses[member - POSE], &deform, NULL));
     assert_ok(hf_pose_remove_handles(f->poses[member - POSE], 1, &handle));
   } else {
-    hf_transfer_frame frame;
-    HF_INIT(frame);
+    hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
     frame.source_positions = tube->positions, frame.target_positions = positions;
     assert_ok(hf_transfer_apply(f->transfer, &frame));
   }
@@ -94,7 +89,7 @@ static void use_member(Family* f, int member, const Surface* tube) {
 
 static void destroy_member(Family* f, int member) {
   if (member < POSE)
-    hf_destroy(f->solvers[member]);
+    hf_solver_destroy(f->solvers[member]);
   else if (member < TRANSFER)
     hf_pose_destroy(f->poses[member - POSE]);
   else
@@ -142,7 +137,7 @@ static void* cancelling_allocate(void* user, size_t size, size_t alignment) {
   Canceller* c = user;
   void* block = c->inner.allocate(&c->memory, size, alignment);
   if (c->memory.calls == c->at)
-    assert_ok(hf_progress_get(c->progress, &c->seen)), assert_ok(hf_progress_cancel(c->progress));
+    assert_ok(hf_progress_get_fraction(c->progress, &c->seen)), assert_ok(hf_progress_cancel(c->progress));
   return block;
 }
 static void cancelling_release(void* user, void* block, size_t size, size_t alignment) {
@@ -167,10 +162,10 @@ static void a_cancel_in_the_middle_leaves_nothing_and_the_object_may_be_used_aga
   hf_solver solver = NULL;
   assert_ok(create_cancelled_at(0, &tube, &c, &solver));
   float fraction = -1;
-  assert_ok(hf_progress_get(c.progress, &fraction));
+  assert_ok(hf_progress_get_fraction(c.progress, &fraction));
   assert_true(fraction == 1.0f);
   const size_t calls = c.memory.calls;
-  hf_destroy(solver), hf_progress_destroy(c.progress);
+  hf_solver_destroy(solver), hf_progress_destroy(c.progress);
   assert_int_equal(c.memory.live_blocks, 0);
   float last = 0;
   for (size_t at = 1; at + 8 < calls; at += 1 + calls / 50) {
@@ -179,7 +174,7 @@ static void a_cancel_in_the_middle_leaves_nothing_and_the_object_may_be_used_aga
     last = c.seen;
     if (result == HF_OK) { /* after the last phase it is too late: the next call is stopped */
       assert_true(at > calls / 2);
-      hf_destroy(solver);
+      hf_solver_destroy(solver);
     } else {
       assert_code(HF_ERROR_CANCELLED, result);
       assert_null(solver);
@@ -187,7 +182,7 @@ static void a_cancel_in_the_middle_leaves_nothing_and_the_object_may_be_used_aga
       hf_create_desc again = surface_desc(&tube);
       again.progress = c.progress;
       assert_ok(hf_create(&again, &solver));
-      hf_destroy(solver);
+      hf_solver_destroy(solver);
     }
     hf_progress_destroy(c.progress);
   }
@@ -200,7 +195,7 @@ static void a_cancel_before_the_call_stops_one_call(void** state) {
   hf_progress progress = NULL;
   float fraction = -1;
   assert_ok(hf_progress_create(&progress));
-  assert_ok(hf_progress_get(progress, &fraction));
+  assert_ok(hf_progress_get_fraction(progress, &fraction));
   assert_true(fraction == 0);
   assert_ok(hf_progress_cancel(progress));
   hf_create_desc desc = surface_desc(&tube);
@@ -213,7 +208,7 @@ static void a_cancel_before_the_call_stops_one_call(void** state) {
   hf_progress_destroy(progress);
   add_site(solver, 0, 1);
   free(field_of(solver, VERTICES));
-  hf_destroy(solver), surface_free(&tube);
+  hf_solver_destroy(solver), surface_free(&tube);
 }
 
 int main(void) {

@@ -1,10 +1,9 @@
 /* Surfaces as they come: seams, islands, isolated vertices, any unit and offset. */
 #include "api_support.h"
 
-static hf_mesh_report report_of(hf_solver solver) {
-  hf_mesh_report report;
-  HF_INIT(report);
-  assert_ok(hf_get_mesh_report(solver, &report));
+static hf_surface_report report_of(hf_solver solver) {
+  hf_surface_report report = HF_INIT(hf_surface_report);
+  assert_ok(hf_surface_get_report(solver, &report));
   return report;
 }
 
@@ -24,14 +23,14 @@ static void welded_copies_get_the_same_value(void** state) {
   free(field);
   field = field_of(solver, CUT_VERTICES);
   assert_true(field[CUT_SEAM_LEFT + 10] == 7 && field[CUT_SEAM_RIGHT + 10] == 7);
-  free(field), hf_destroy(solver), surface_free(&cut);
+  free(field), hf_solver_destroy(solver), surface_free(&cut);
 }
 
 static void the_report_counts_what_was_found(void** state) {
   (void)state;
   Surface cut = surface_cut();
   hf_solver solver = surface_solver(&cut);
-  const hf_mesh_report r = report_of(solver);
+  const hf_surface_report r = report_of(solver);
   assert_int_equal(r.vertex_count, CUT_VERTICES);
   assert_int_equal(r.triangle_count, CUT_TRIANGLES);
   assert_int_equal(r.welded_vertex_count, CUT_VERTICES - 5);
@@ -45,7 +44,7 @@ static void the_report_counts_what_was_found(void** state) {
   assert_int_equal(r.boundary_edge_count, 2 * (8 + 4) + 2 * (2 + 2));
   assert_true(r.smallest_angle > 0.1f && r.smallest_angle < 1.0472f);
   assert_true(r.bounding_box_diagonal > 30 && r.bounding_box_diagonal < 31);
-  hf_destroy(solver), surface_free(&cut);
+  hf_solver_destroy(solver), surface_free(&cut);
 }
 
 static void dirty_triangles_are_counted_and_the_field_is_finite(void** state) {
@@ -63,14 +62,14 @@ static void dirty_triangles_are_counted_and_the_field_is_finite(void** state) {
   desc.triangles = dirty, desc.triangle_count = 36;
   hf_solver solver = NULL;
   assert_ok(hf_create(&desc, &solver));
-  const hf_mesh_report r = report_of(solver);
+  const hf_surface_report r = report_of(solver);
   assert_int_equal(r.duplicate_triangle_count, 2);
   assert_true(r.non_manifold_edge_count > 0);
   assert_true(r.flipped_edge_count > 0);
   add_site(solver, 0, 0), add_site(solver, 24, 1);
   double* field = field_of(solver, 25);
   for (int v = 0; v < 25; ++v) assert_true(isfinite(field[v]));
-  free(field), hf_destroy(solver), surface_free(&sheet);
+  free(field), hf_solver_destroy(solver), surface_free(&sheet);
 }
 
 static void components_are_numbered_by_their_smallest_vertex(void** state) {
@@ -78,10 +77,10 @@ static void components_are_numbered_by_their_smallest_vertex(void** state) {
   Surface cut = surface_cut();
   hf_solver solver = surface_solver(&cut);
   uint32_t component[CUT_VERTICES];
-  assert_ok(hf_get_components(solver, CUT_VERTICES, component));
+  assert_ok(hf_surface_get_components(solver, CUT_VERTICES, component));
   for (uint32_t v = 0; v < CUT_VERTICES; ++v)
     assert_int_equal(component[v], v == CUT_ISOLATED ? HF_NO_INDEX : v >= CUT_ISLAND);
-  hf_destroy(solver), surface_free(&cut);
+  hf_solver_destroy(solver), surface_free(&cut);
 }
 
 static void what_no_site_reaches_is_zero_and_counted(void** state) {
@@ -89,17 +88,16 @@ static void what_no_site_reaches_is_zero_and_counted(void** state) {
   Surface cut = surface_cut();
   hf_solver solver = surface_solver(&cut);
   double field[CUT_VERTICES];
-  hf_solve_info info;
-  HF_INIT(info);
+  hf_solve_info info = HF_INIT(hf_solve_info);
   const uint32_t first = add_site(solver, CUT_LEFT, 3);
-  assert_ok(hf_solve_f64(solver, field, 0, &info));
+  assert_ok(hf_solver_solve_f64(solver, field, 0, &info));
   assert_int_equal(info.unreached_component_count, 1);
   assert_int_equal(info.first_unreached_component, 1);
   assert_int_equal(info.unreached_vertex_count, 9 + 1);
   for (uint32_t v = 0; v < CUT_VERTICES; ++v) assert_true(v < CUT_ISLAND ? fabs(field[v] - 3) < 1e-12 : field[v] == 0);
   /* a site on the island reaches it; the isolated vertex stays */
   const uint32_t second = add_site(solver, CUT_ISLAND + 4, -2);
-  assert_ok(hf_solve_f64(solver, field, 0, &info));
+  assert_ok(hf_solver_solve_f64(solver, field, 0, &info));
   assert_int_equal(info.unreached_component_count, 0);
   assert_int_equal(info.first_unreached_component, HF_NO_INDEX);
   assert_int_equal(info.unreached_vertex_count, 1);
@@ -107,19 +105,19 @@ static void what_no_site_reaches_is_zero_and_counted(void** state) {
   assert_true(field[CUT_ISOLATED] == 0);
   /* the last site of the first component leaves: it is unreached, and exact again after another comes */
   assert_ok(hf_remove_sites(solver, 1, &first));
-  assert_ok(hf_solve_f64(solver, field, 0, &info));
+  assert_ok(hf_solver_solve_f64(solver, field, 0, &info));
   assert_int_equal(info.first_unreached_component, 0);
   assert_int_equal(info.unreached_vertex_count, 50 + 1);
   for (uint32_t v = 0; v < CUT_ISLAND; ++v) assert_true(field[v] == 0);
   add_site(solver, CUT_RIGHT, 11);
-  assert_ok(hf_solve_f64(solver, field, 0, &info));
+  assert_ok(hf_solver_solve_f64(solver, field, 0, &info));
   for (uint32_t v = 0; v < CUT_ISLAND; ++v) assert_true(fabs(field[v] - 11) < 1e-11);
   assert_ok(hf_remove_sites(solver, 1, &second));
   double at[2];
   const uint32_t ask[2] = {CUT_ISLAND, CUT_ISOLATED};
-  assert_ok(hf_solve_at(solver, 2, ask, at));
+  assert_ok(hf_solver_solve_at(solver, 2, ask, at));
   assert_true(at[0] == 0 && at[1] == 0);
-  hf_destroy(solver), surface_free(&cut);
+  hf_solver_destroy(solver), surface_free(&cut);
 }
 
 static void weld_none_keeps_the_cut_and_a_tolerance_closes_a_gap(void** state) {
@@ -130,18 +128,18 @@ static void weld_none_keeps_the_cut_and_a_tolerance_closes_a_gap(void** state) {
   desc.weld = HF_WELD_NONE;
   assert_ok(hf_create(&desc, &solver));
   assert_int_equal(report_of(solver).component_count, 3);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   /* the right sheet a thousandth away: cut for exact welding, closed within a tolerance */
   for (uint32_t v = CUT_SEAM_RIGHT; v < CUT_ISLAND; ++v) cut.positions[3 * v] += 0.001f;
   desc.weld = HF_WELD_EXACT;
   assert_ok(hf_create(&desc, &solver));
   assert_int_equal(report_of(solver).component_count, 3);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = 0.002f;
   assert_ok(hf_create(&desc, &solver));
   assert_int_equal(report_of(solver).component_count, 2);
   assert_int_equal(report_of(solver).welded_vertex_count, CUT_VERTICES - 5);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   surface_free(&cut);
 }
 
@@ -152,7 +150,7 @@ static void minus_zero_and_zero_are_one_place(void** state) {
   for (uint32_t j = 0; j < 5; ++j) cut.positions[3 * (CUT_SEAM_RIGHT + 5 * j)] = -0.0f;
   hf_solver solver = surface_solver(&cut);
   assert_int_equal(report_of(solver).component_count, 2);
-  hf_destroy(solver), surface_free(&cut);
+  hf_solver_destroy(solver), surface_free(&cut);
 }
 
 /* The field of the sheet at p -> scale p + offset, in double. */
@@ -169,7 +167,7 @@ static double* moved_field(const Surface* sheet, double scale, double offset, in
   add_site(solver, 0, -1e6), add_site(solver, sheet->vertex_count - 1, 1e6),
       add_site(solver, sheet->vertex_count / 2, 5e5);
   double* field = field_of(solver, sheet->vertex_count);
-  hf_destroy(solver), free(doubles), free(floats);
+  hf_solver_destroy(solver), free(doubles), free(floats);
   return field;
 }
 
@@ -213,7 +211,7 @@ static void interleaved_vertices_are_read_by_their_stride(void** state) {
     add_site(both[i], 0, 0), add_site(both[i], 20, 1), field[i] = field_of(both[i], sheet.vertex_count);
   assert_true(same_bits(field[0], field[1], sizeof(double) * sheet.vertex_count));
   free(field[0]), free(field[1]), free(records);
-  hf_destroy(plain), hf_destroy(strided), surface_free(&sheet);
+  hf_solver_destroy(plain), hf_solver_destroy(strided), surface_free(&sheet);
 }
 
 static void the_mesh_is_copied(void** state) {
@@ -230,7 +228,7 @@ static void the_mesh_is_copied(void** state) {
   assert_ok(hf_remove_sites(solver, 1, &last));
   double* after = field_of(solver, 36);
   for (int v = 0; v < 36; ++v) assert_true(fabs(before[v] - after[v]) < 1e-12);
-  free(before), free(after), hf_destroy(solver);
+  free(before), free(after), hf_solver_destroy(solver);
 }
 
 static void limits_that_are_just_met_are_no_obstacle(void** state) {
@@ -245,8 +243,8 @@ static void limits_that_are_just_met_are_no_obstacle(void** state) {
   const double value = 2;
   const hf_sites_desc third = sites_at(1, &vertex, &value);
   assert_code(HF_ERROR_TOO_LARGE, hf_add_sites(solver, &third, NULL));
-  assert_int_equal(hf_get_site_count(solver), 2);
-  hf_destroy(solver), surface_free(&cut);
+  assert_int_equal(hf_solver_get_site_count(solver), 2);
+  hf_solver_destroy(solver), surface_free(&cut);
 }
 
 int main(void) {

@@ -17,13 +17,12 @@ static int create_tube(void** state) {
 }
 static int free_tube(void** state) {
   (void)state;
-  hf_destroy(solver), surface_free(&tube);
+  hf_solver_destroy(solver), surface_free(&tube);
   return 0;
 }
 
 static hf_deform_desc to_doubles(double* positions, float* normals) {
-  hf_deform_desc desc;
-  HF_INIT(desc);
+  hf_deform_desc desc = HF_INIT(hf_deform_desc);
   desc.positions_f64 = positions, desc.normals = normals;
   return desc;
 }
@@ -31,15 +30,13 @@ static hf_deform_desc to_doubles(double* positions, float* normals) {
 static const int32_t modes[] = {HF_DEFORM_SMOOTH, HF_DEFORM_PAPER};
 
 static hf_pose pose_of(int32_t mode, uint32_t out_handles[2]) {
-  hf_pose_desc desc;
-  HF_INIT(desc);
+  hf_pose_desc desc = HF_INIT(hf_pose_desc);
   desc.mode = mode;
   hf_pose pose = NULL;
   assert_ok(hf_pose_create(solver, &desc, &pose));
   uint32_t* ends = tube_ends(AROUND, RINGS);
   const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
-  hf_handles_desc handles;
-  HF_INIT(handles);
+  hf_handles_desc handles = HF_INIT(hf_handles_desc);
   handles.handle_count = 2, handles.region_counts = counts, handles.region_vertices = ends;
   assert_ok(hf_pose_add_handles(pose, &handles, out_handles));
   free(ends);
@@ -70,9 +67,8 @@ static void identity_transforms_give_the_rest_pose(void** state) {
                                       {{0, 0, 0, 0}, {0, 0, 0}}}; /* all zero is identity, too */
     assert_ok(hf_pose_set_transforms(pose, 2, handles, identity));
     const hf_deform_desc desc = to_doubles(positions, normals);
-    hf_deform_info info;
-    HF_INIT(info);
-    assert_ok(hf_deform(pose, &desc, &info));
+    hf_deform_info info = HF_INIT(hf_deform_info);
+    assert_ok(hf_pose_deform(pose, &desc, &info));
     assert_int_equal(info.unreached_vertex_count, 0);
     assert_true(info.cluster_count > 0);
     for (uint32_t i = 0; i < 3 * VERTICES; ++i) assert_true(fabs(positions[i] - (double)tube.positions[i]) < 1e-9);
@@ -99,10 +95,9 @@ static void handles_land_exactly_where_their_transforms_put_them(void** state) {
     const hf_deform_desc desc = to_doubles(positions, NULL);
     uint32_t* ends = tube_ends(AROUND, RINGS);
     for (int repeat = 0; repeat < 3; ++repeat) {
-      assert_ok(hf_deform(pose, &desc, NULL));
+      assert_ok(hf_pose_deform(pose, &desc, NULL));
       for (uint32_t h = 0; h < 2; ++h) {
-        hf_handle_info info;
-        HF_INIT(info);
+        hf_handle_info info = HF_INIT(hf_handle_info);
         assert_ok(hf_pose_get_handle(pose, handles[h], &info));
         assert_int_equal(info.vertex_count, 2 * AROUND);
         assert_true(info.site_count > 0 && info.site_count <= 2 * AROUND && info.leak < 1e-9);
@@ -128,8 +123,7 @@ static void one_rigid_motion_of_all_handles_moves_everything(void** state) {
     const double origin[3] = {0, 0, 0};
     hf_transform moves[2] = {body, body};
     for (int h = 0; h < 2; ++h) {
-      hf_handle_info info;
-      HF_INIT(info);
+      hf_handle_info info = HF_INIT(hf_handle_info);
       assert_ok(hf_pose_get_handle(pose, handles[h], &info));
       const float centre[3] = {(float)info.centroid[0], (float)info.centroid[1], (float)info.centroid[2]};
       double placed[3];
@@ -140,7 +134,7 @@ static void one_rigid_motion_of_all_handles_moves_everything(void** state) {
     static double positions[3 * VERTICES];
     hf_deform_desc desc = to_doubles(positions, NULL);
     desc.iteration_count = 500;
-    assert_ok(hf_deform(pose, &desc, NULL));
+    assert_ok(hf_pose_deform(pose, &desc, NULL));
     double worst = 0;
     for (uint32_t v = 0; v < VERTICES; ++v) {
       double target[3];
@@ -186,12 +180,12 @@ static void float_double_and_strided_outputs_agree(void** state) {
   for (uint32_t v = 0; v < VERTICES; ++v) records[v].other[0] = records[v].other[1] = 42;
   hf_deform_desc desc = to_doubles(doubles, NULL);
   desc.restart = 1;
-  assert_ok(hf_deform(pose, &desc, NULL));
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
   desc.positions_f64 = NULL, desc.positions = floats, desc.normals = normals;
-  assert_ok(hf_deform(pose, &desc, NULL));
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
   desc.positions = records[0].position, desc.normals = records[0].normal,
   desc.position_stride = desc.normal_stride = sizeof(Record);
-  assert_ok(hf_deform(pose, &desc, NULL));
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
   for (uint32_t v = 0; v < VERTICES; ++v) {
     for (uint32_t k = 0; k < 3; ++k) {
       assert_true(floats[3 * v + k] == (float)doubles[3 * v + k]);
@@ -211,27 +205,25 @@ static void handles_come_and_go_and_clones_are_independent(void** state) {
   static double before[3 * VERTICES], after[3 * VERTICES];
   hf_deform_desc desc = to_doubles(before, NULL);
   desc.restart = 1;
-  assert_ok(hf_deform(pose, &desc, NULL));
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
   assert_ok(hf_pose_clone(pose, &copy));
   const uint32_t count = AROUND;
   uint32_t ring[AROUND];
   for (uint32_t i = 0; i < AROUND; ++i) ring[i] = 12 * AROUND + i;
-  hf_handles_desc more;
-  HF_INIT(more);
+  hf_handles_desc more = HF_INIT(hf_handles_desc);
   more.handle_count = 1, more.region_counts = &count, more.region_vertices = ring;
   assert_ok(hf_pose_add_handles(pose, &more, &third));
   assert_int_equal(hf_pose_get_handle_count(pose), 3);
   assert_int_equal(hf_pose_get_handle_count(copy), 2);
   desc.positions_f64 = after;
-  assert_ok(hf_deform(copy, &desc, NULL));
+  assert_ok(hf_pose_deform(copy, &desc, NULL));
   assert_true(same_bits(before, after, sizeof before));
-  assert_ok(hf_deform(pose, &desc, NULL));
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
   assert_ok(hf_pose_remove_handles(pose, 1, &third));
-  assert_ok(hf_deform(pose, &desc, NULL));
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
   assert_true(same_bits(before, after, sizeof before));
-  hf_statistics statistics;
-  HF_INIT(statistics);
-  assert_ok(hf_get_statistics(solver, &statistics));
+  hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
+  assert_ok(hf_solver_get_statistics(solver, &statistics));
   assert_int_equal(statistics.factorisation_count, 1);
   assert_int_equal(statistics.site_count, 0); /* a pose has sites of its own */
   hf_pose_destroy(pose), hf_pose_destroy(copy);
@@ -245,39 +237,35 @@ static void what_no_handle_reaches_stays_at_rest(void** state) {
   assert_ok(hf_pose_create(both, NULL, &pose));
   const uint32_t counts[2] = {5, 5}, vertices[10] = {0, 5, 10, 15, 20, 29, 34, 39, 44, 49};
   uint32_t handles[2];
-  hf_handles_desc desc;
-  HF_INIT(desc);
+  hf_handles_desc desc = HF_INIT(hf_handles_desc);
   desc.handle_count = 2, desc.region_counts = counts, desc.region_vertices = vertices;
   assert_ok(hf_pose_add_handles(pose, &desc, handles));
   const hf_transform lifted = {{0, 0, 0, 1}, {0, 0, 3}};
   assert_ok(hf_pose_set_transforms(pose, 1, &handles[1], &lifted));
   double positions[3 * CUT_VERTICES];
   const hf_deform_desc deform = to_doubles(positions, NULL);
-  hf_deform_info info;
-  HF_INIT(info);
-  assert_ok(hf_deform(pose, &deform, &info));
+  hf_deform_info info = HF_INIT(hf_deform_info);
+  assert_ok(hf_pose_deform(pose, &deform, &info));
   assert_int_equal(info.unreached_vertex_count, 10);
   for (uint32_t i = 3 * CUT_ISLAND; i < 3 * CUT_VERTICES; ++i)
     assert_true(fabs(positions[i] - (double)cut.positions[i]) < 1e-9);
   for (uint32_t j = 0; j < 5; ++j)
     assert_true(same_bits(positions + 3 * (CUT_SEAM_LEFT + 5 * j), positions + 3 * (CUT_SEAM_RIGHT + 5 * j), 24));
   assert_true(positions[3 * CUT_SEAM_LEFT + 2] > (double)cut.positions[3 * CUT_SEAM_LEFT + 2] + 0.1);
-  hf_pose_destroy(pose), hf_destroy(both), surface_free(&cut);
+  hf_pose_destroy(pose), hf_solver_destroy(both), surface_free(&cut);
 }
 
 static hf_transfer transfer_of(int32_t mode, hf_solver source, hf_solver target, uint32_t source_around,
                                uint32_t source_rings, uint32_t target_around, uint32_t target_rings,
                                uint32_t out_pairs[2]) {
-  hf_transfer_desc desc;
-  HF_INIT(desc);
+  hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
   desc.mode = mode;
   hf_transfer transfer = NULL;
   assert_ok(hf_transfer_create(source, target, &desc, &transfer));
   uint32_t *from = tube_ends(source_around, source_rings), *to = tube_ends(target_around, target_rings);
   const uint32_t from_counts[2] = {2 * source_around, 2 * source_around},
                  to_counts[2] = {2 * target_around, 2 * target_around};
-  hf_pairs_desc pairs;
-  HF_INIT(pairs);
+  hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
   pairs.pair_count = 2;
   pairs.source_counts = from_counts, pairs.source_vertices = from;
   pairs.target_counts = to_counts, pairs.target_vertices = to;
@@ -295,8 +283,7 @@ static void the_rest_of_the_source_gives_the_rest_of_the_target(void** state) {
     uint32_t pairs[2];
     hf_transfer transfer = transfer_of(transfer_modes[m], solver, target, AROUND, RINGS, 9, 17, pairs);
     static float positions[3 * 9 * 17], normals[3 * 9 * 17];
-    hf_transfer_frame frame;
-    HF_INIT(frame);
+    hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
     frame.source_positions = tube.positions, frame.target_positions = positions, frame.target_normals = normals;
     assert_ok(hf_transfer_apply(transfer, &frame));
     for (uint32_t i = 0; i < 3 * 9 * 17; ++i) assert_true(fabs((double)(positions[i] - other.positions[i])) < 1e-4);
@@ -304,14 +291,13 @@ static void the_rest_of_the_source_gives_the_rest_of_the_target(void** state) {
       assert_true(fabs((double)(normals[3 * v] * normals[3 * v] + normals[3 * v + 1] * normals[3 * v + 1] +
                                 normals[3 * v + 2] * normals[3 * v + 2]) -
                        1) < 1e-5);
-    hf_pair_info info;
-    HF_INIT(info);
+    hf_pair_info info = HF_INIT(hf_pair_info);
     assert_ok(hf_transfer_get_pair(transfer, pairs[1], &info));
     assert_true(info.flags == 0 && info.source_leak < 1e-9 && info.target_leak < 1e-9 && info.confidence > 0 &&
                 info.confidence <= 1);
     hf_transfer_destroy(transfer);
   }
-  hf_destroy(target), surface_free(&other);
+  hf_solver_destroy(target), surface_free(&other);
 }
 
 static void the_skin_replays_the_transfer(void** state) {
@@ -325,15 +311,13 @@ static void the_skin_replays_the_transfer(void** state) {
   assert_ok(hf_pose_set_transforms(pose, 1, &handles[1], &bent));
   static double posed[3 * VERTICES], moved[3 * TARGET];
   const hf_deform_desc desc = to_doubles(posed, NULL);
-  assert_ok(hf_deform(pose, &desc, NULL));
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
   hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, solver, target, AROUND, RINGS, 9, 17, pairs);
-  hf_transfer_frame frame;
-  HF_INIT(frame);
+  hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
   frame.source_positions_f64 = posed, frame.target_positions_f64 = moved;
   assert_ok(hf_transfer_apply(transfer, &frame));
 
-  hf_skin_info skin;
-  HF_INIT(skin);
+  hf_skin_info skin = HF_INIT(hf_skin_info);
   assert_ok(hf_transfer_get_skin(transfer, &skin));
   const uint32_t n = skin.joint_count;
   assert_true(n > 0 && skin.weight_count == 4);
@@ -369,7 +353,7 @@ static void the_skin_replays_the_transfer(void** state) {
   frame.target_positions_f64 = NULL;
   assert_ok(hf_transfer_apply(transfer, &frame));
   free(pivots), free(rotations), free(translations);
-  hf_transfer_destroy(transfer), hf_pose_destroy(pose), hf_destroy(target), surface_free(&other);
+  hf_transfer_destroy(transfer), hf_pose_destroy(pose), hf_solver_destroy(target), surface_free(&other);
 }
 
 static void a_frame_may_be_transferred_in_place_and_leaves_the_solvers_alone(void** state) {
@@ -380,17 +364,16 @@ static void a_frame_may_be_transferred_in_place_and_leaves_the_solvers_alone(voi
   assert_ok(hf_pose_set_transforms(pose, 1, &handles[1], &bent));
   static double posed[3 * VERTICES], apart[3 * VERTICES];
   const hf_deform_desc desc = to_doubles(posed, NULL);
-  assert_ok(hf_deform(pose, &desc, NULL));
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
   hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, solver, solver, AROUND, RINGS, AROUND, RINGS, pairs);
-  hf_transfer_frame frame;
-  HF_INIT(frame);
+  hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
   frame.source_positions_f64 = posed, frame.target_positions_f64 = apart;
   assert_ok(hf_transfer_apply(transfer, &frame));
   frame.target_positions_f64 = posed;
   assert_ok(hf_transfer_apply(transfer, &frame));
   assert_true(same_bits(posed, apart, sizeof posed));
   assert_ok(hf_transfer_remove_pairs(transfer, 1, pairs));
-  assert_int_equal(hf_get_site_count(solver), 0);
+  assert_int_equal(hf_solver_get_site_count(solver), 0);
   hf_transfer_destroy(transfer), hf_pose_destroy(pose);
 }
 
@@ -401,8 +384,7 @@ static void a_transfer_says_its_scale_and_holds_regions_where_the_caller_wants_t
   hf_solver target = surface_solver(&other);
   uint32_t pairs[2];
   hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, solver, target, AROUND, RINGS, AROUND, RINGS, pairs);
-  hf_transfer_info info;
-  HF_INIT(info);
+  hf_transfer_info info = HF_INIT(hf_transfer_info);
   assert_ok(hf_transfer_get_info(transfer, &info));
   assert_int_equal(info.pair_count, 2);
   assert_true(info.cluster_count > 1 && info.scale_found && info.crossed_count == 0);
@@ -410,8 +392,7 @@ static void a_transfer_says_its_scale_and_holds_regions_where_the_caller_wants_t
   /* the far end where it is asked to be, the other free */
   static float out[3 * VERTICES];
   const double place[3] = {1.5, -0.25, 7.0};
-  hf_transfer_frame frame;
-  HF_INIT(frame);
+  hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
   frame.source_positions = tube.positions, frame.target_positions = out;
   frame.hold_count = 1, frame.hold_pairs = &pairs[1], frame.hold_positions = place;
   assert_ok(hf_transfer_apply(transfer, &frame));
@@ -436,19 +417,18 @@ static void a_transfer_says_its_scale_and_holds_regions_where_the_caller_wants_t
   frame.hold_pairs = pairs, frame.hold_count = 257;
   assert_int_equal(hf_transfer_apply(transfer, &frame), HF_ERROR_TOO_LARGE);
   assert_true(same_bits(before, out, sizeof out));
-  hf_transfer_destroy(transfer), hf_destroy(target), surface_free(&other);
+  hf_transfer_destroy(transfer), hf_solver_destroy(target), surface_free(&other);
 }
 
-/* Bent, and settled so that another hf_deform gives the same bits. */
+/* Bent, and settled so that another hf_pose_deform gives the same bits. */
 static hf_pose bent_pose(int32_t mode, uint32_t handles[2], double* positions) {
   hf_pose pose = pose_of(mode, handles);
   const hf_transform bent = {{0, 0, 0.4, 1}, {1, 0.5, 0}};
   assert_ok(hf_pose_set_transforms(pose, 1, &handles[1], &bent));
   hf_deform_desc desc = to_doubles(positions, NULL);
-  hf_deform_info info;
-  HF_INIT(info);
+  hf_deform_info info = HF_INIT(hf_deform_info);
   info.iteration_count = 1;
-  for (int i = 0; i < 400 && info.iteration_count > 0; ++i) assert_ok(hf_deform(pose, &desc, &info));
+  for (int i = 0; i < 400 && info.iteration_count > 0; ++i) assert_ok(hf_pose_deform(pose, &desc, &info));
   return pose;
 }
 
@@ -466,28 +446,25 @@ static void a_handle_on_a_layer_comes_without_a_jump_and_goes_without_a_trace(vo
     hf_pose pose = bent_pose(modes[m], handles, before);
     const uint32_t count = 3;
     for (uint32_t i = 0; i < count; ++i) region[i] = (RINGS / 2) * AROUND + i;
-    hf_handles_desc desc;
-    HF_INIT(desc);
+    hf_handles_desc desc = HF_INIT(hf_handles_desc);
     desc.handle_count = 1, desc.region_counts = &count, desc.region_vertices = region, desc.layer = 1;
     assert_ok(hf_pose_add_handles(pose, &desc, &fine));
     const hf_deform_desc out = to_doubles(after, NULL);
-    assert_ok(hf_deform(pose, &out, NULL));
+    assert_ok(hf_pose_deform(pose, &out, NULL));
     assert_true(farthest_apart(before, after) < 1e-9);
-    hf_handle_info info;
-    HF_INIT(info);
+    hf_handle_info info = HF_INIT(hf_handle_info);
     assert_ok(hf_pose_get_handle(pose, fine, &info));
     assert_int_equal(info.layer, 1);
     assert_true(fabs(info.rotation[2]) > 0.05); /* turned by the layer below */
     const hf_transform edit = {{0, 0, 0, 1}, {0, 0, 0.3}};
     assert_ok(hf_pose_set_transforms(pose, 1, &fine, &edit));
-    assert_ok(hf_deform(pose, &out, NULL));
+    assert_ok(hf_pose_deform(pose, &out, NULL));
     assert_true(farthest_apart(before, after) > 0.25);
     /* a skin cannot say what a layer does */
-    hf_skin_info skin;
-    HF_INIT(skin);
+    hf_skin_info skin = HF_INIT(hf_skin_info);
     assert_code(HF_ERROR_UNSUPPORTED, hf_pose_get_skin(pose, &skin));
     assert_ok(hf_pose_remove_handles(pose, 1, &fine));
-    assert_ok(hf_deform(pose, &out, NULL));
+    assert_ok(hf_pose_deform(pose, &out, NULL));
     assert_true(same_bits(before, after, sizeof before));
     assert_ok(hf_pose_get_skin(pose, &skin));
     hf_pose_destroy(pose);
@@ -499,8 +476,7 @@ static void matrices_place_handles_like_transforms(void** state) {
   uint32_t handles[2];
   static double by_transform[3 * VERTICES], by_matrix[3 * VERTICES];
   hf_pose pose = pose_of(HF_DEFORM_SMOOTH, handles), other = pose_of(HF_DEFORM_SMOOTH, handles);
-  hf_handle_info info;
-  HF_INIT(info);
+  hf_handle_info info = HF_INIT(hf_handle_info);
   assert_ok(hf_pose_get_handle(pose, handles[1], &info));
   const double c = cos(0.8), s = sin(0.8), *p = info.centroid;
   const hf_transform turned = {{0, 0, sin(0.4), cos(0.4)}, {0.5, 0, 0.25}};
@@ -510,9 +486,9 @@ static void matrices_place_handles_like_transforms(void** state) {
   assert_ok(hf_pose_set_transforms(pose, 1, &handles[1], &turned));
   assert_ok(hf_pose_set_matrices(other, 1, &handles[1], matrix));
   hf_deform_desc desc = to_doubles(by_transform, NULL);
-  assert_ok(hf_deform(pose, &desc, NULL));
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
   desc.positions_f64 = by_matrix;
-  assert_ok(hf_deform(other, &desc, NULL));
+  assert_ok(hf_pose_deform(other, &desc, NULL));
   assert_true(farthest_apart(by_transform, by_matrix) < 1e-9);
   hf_pose_destroy(pose), hf_pose_destroy(other);
 }
@@ -525,13 +501,11 @@ static void a_point_and_a_radius_make_a_handle(void** state) {
   double points[6], radii[2] = {0, 0};
   for (uint32_t i = 0; i < 3; ++i)
     points[i] = (double)tube.positions[3 * at + i], points[3 + i] = (double)tube.positions[i];
-  hf_handles_desc desc;
-  HF_INIT(desc);
+  hf_handles_desc desc = HF_INIT(hf_handles_desc);
   desc.handle_count = 2, desc.points = points, desc.radii = radii;
   uint32_t handles[2];
   assert_ok(hf_pose_add_handles(pose, &desc, handles));
-  hf_handle_info info;
-  HF_INIT(info);
+  hf_handle_info info = HF_INIT(hf_handle_info);
   assert_ok(hf_pose_get_handle(pose, handles[0], &info));
   assert_int_equal(info.vertex_count, 1);
   for (int i = 0; i < 3; ++i) assert_true(fabs(info.centroid[i] - points[i]) < 1e-9);
@@ -551,13 +525,13 @@ static void a_range_of_vertices_is_the_same_as_in_the_whole(void** state) {
   static float normals[3 * VERTICES], part_normals[3 * VERTICES];
   hf_pose pose = bent_pose(HF_DEFORM_SMOOTH, handles, whole);
   hf_deform_desc desc = to_doubles(whole, normals);
-  assert_ok(hf_deform(pose, &desc, NULL));
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
   const uint32_t first = 3 * AROUND + 5, count = 2 * AROUND;
   for (int with_normals = 0; with_normals < 2; ++with_normals) {
     part[3 * count] = 777;
     desc = to_doubles(part, with_normals ? part_normals : NULL);
     desc.first_vertex = first, desc.vertex_count = count;
-    assert_ok(hf_deform(pose, &desc, NULL));
+    assert_ok(hf_pose_deform(pose, &desc, NULL));
     for (uint32_t i = 0; i < 3 * count; ++i) {
       assert_true(fabs(part[i] - whole[3 * first + i]) < 1e-12);
       if (with_normals) assert_true(part_normals[i] == normals[3 * first + i]);
@@ -566,7 +540,7 @@ static void a_range_of_vertices_is_the_same_as_in_the_whole(void** state) {
   }
   desc = to_doubles(part, NULL);
   desc.first_vertex = VERTICES - 2; /* to the end */
-  assert_ok(hf_deform(pose, &desc, NULL));
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
   assert_true(fabs(part[5] - whole[3 * VERTICES - 1]) < 1e-12);
   hf_pose_destroy(pose);
 }
@@ -578,14 +552,13 @@ static void a_refined_frame_keeps_the_handles_and_moves_the_rest_a_little(void**
   hf_pose pose = bent_pose(HF_DEFORM_SMOOTH, handles, plain);
   hf_deform_desc desc = to_doubles(refined, NULL);
   desc.refine = 1;
-  hf_deform_info info;
-  HF_INIT(info);
-  assert_ok(hf_deform(pose, &desc, &info));
+  hf_deform_info info = HF_INIT(hf_deform_info);
+  assert_ok(hf_pose_deform(pose, &desc, &info));
   const double moved = farthest_apart(plain, refined);
   assert_true(moved > 1e-4 && moved < 0.5);
   for (uint32_t i = 0; i < 3 * 2 * AROUND; ++i) assert_true(fabs(plain[i] - refined[i]) < 1e-9);
   desc.refine = 0;
-  assert_ok(hf_deform(pose, &desc, NULL));
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
   assert_true(farthest_apart(plain, refined) == 0);
   hf_pose_destroy(pose);
 }
@@ -606,8 +579,7 @@ static void the_skin_replays_the_pose(void** state) {
   double worst[2] = {0, 0}; /* rigid joints, stretching joints */
   for (uint32_t round = 0; round < 4; ++round) {
     const uint32_t count = round % 2 ? 8 : 4, stretching = round / 2;
-    hf_skin_info skin;
-    HF_INIT(skin);
+    hf_skin_info skin = HF_INIT(hf_skin_info);
     skin.weight_count = count;
     assert_ok(hf_pose_get_skin(pose, &skin));
     const uint32_t n = skin.joint_count;

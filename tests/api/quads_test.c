@@ -10,8 +10,7 @@ static hf_solver tube_solver(Surface* surface) {
 }
 
 static hf_quads_desc quads_desc(void) {
-  hf_quads_desc desc;
-  HF_INIT(desc);
+  hf_quads_desc desc = HF_INIT(hf_quads_desc);
   desc.edge_length = 1;
   return desc;
 }
@@ -25,8 +24,7 @@ static void a_tube_becomes_a_closed_net_of_quads(void** state) {
     desc.kind = kind;
     hf_quads quads = NULL;
     assert_ok(hf_quads_create(solver, &desc, &quads));
-    hf_quads_info info;
-    HF_INIT(info);
+    hf_quads_info info = HF_INIT(hf_quads_info);
     assert_ok(hf_quads_get_info(quads, &info));
     assert_int_equal(info.euler_characteristic, 0);
     assert_int_equal(info.quad_count, info.face_count);
@@ -40,8 +38,7 @@ static void a_tube_becomes_a_closed_net_of_quads(void** state) {
     uint32_t* corners = calloc(info.corner_count, sizeof *corners);
     uint32_t sites[2];
     int32_t lines[2];
-    hf_quads_mesh mesh;
-    HF_INIT(mesh);
+    hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
     mesh.vertex_capacity = info.vertex_count, mesh.face_capacity = info.face_count;
     mesh.corner_capacity = info.corner_count, mesh.site_capacity = 2;
     mesh.positions = positions, mesh.triangles = triangles, mesh.barycentrics = weights;
@@ -69,7 +66,7 @@ static void a_tube_becomes_a_closed_net_of_quads(void** state) {
     hf_quads_destroy(quads);
     assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_get_info(quads, &info));
   }
-  hf_destroy(solver), surface_free(&surface);
+  hf_solver_destroy(solver), surface_free(&surface);
 }
 
 static void flow_lines_rise_and_outlive_the_solver(void** state) {
@@ -80,14 +77,12 @@ static void flow_lines_rise_and_outlive_the_solver(void** state) {
   for (uint32_t v = 0; v < COUNT; ++v) height[v] = (double)surface.positions[3 * v + 1] + 1e-3 * (v % AROUND);
   hf_flow flow = NULL;
   assert_ok(hf_flow_create(solver, &flow));
-  hf_destroy(solver);
-  hf_scalars field;
-  HF_INIT(field);
+  hf_solver_destroy(solver);
+  hf_scalars field = HF_INIT(hf_scalars);
   field.values_f64 = height;
   const uint32_t seed = 10 * AROUND + 3;
   for (int pass = 0; pass < 2; ++pass) {
-    hf_flow_lines lines;
-    HF_INIT(lines);
+    hf_flow_lines lines = HF_INIT(hf_flow_lines);
     if (pass == 0) lines.wanted_count = 12;
     if (pass == 1) lines.seed_count = 1, lines.seeds = &seed;
     assert_ok(hf_flow_trace(flow, &field, &lines));
@@ -109,8 +104,7 @@ static void flow_lines_rise_and_outlive_the_solver(void** state) {
     free(positions), free(values);
   }
   height[5] = NAN;
-  hf_flow_lines lines;
-  HF_INIT(lines);
+  hf_flow_lines lines = HF_INIT(hf_flow_lines);
   lines.wanted_count = 3;
   assert_code(HF_ERROR_NON_FINITE, hf_flow_trace(flow, &field, &lines));
   hf_flow_destroy(flow), hf_flow_destroy(flow);
@@ -131,9 +125,9 @@ static void cancelling_leaves_nothing_and_stops_one_call(void** state) {
   assert_null(quads);
   assert_ok(hf_quads_create(solver, &desc, &quads));
   float done = 0;
-  assert_ok(hf_progress_get(progress, &done));
+  assert_ok(hf_progress_get_fraction(progress, &done));
   assert_true(done == 1.0f);
-  hf_quads_destroy(quads), hf_progress_destroy(progress), hf_destroy(solver), surface_free(&surface);
+  hf_quads_destroy(quads), hf_progress_destroy(progress), hf_solver_destroy(solver), surface_free(&surface);
 }
 
 /* A host's allocator that looks at the progress whenever the library asks for memory. */
@@ -146,7 +140,7 @@ typedef struct Watcher {
 static void* watch(void* user, size_t size, size_t alignment) {
   Watcher* watcher = user;
   float now = 0;
-  if (watcher->progress && hf_progress_get(watcher->progress, &now) == HF_OK) {
+  if (watcher->progress && hf_progress_get_fraction(watcher->progress, &now) == HF_OK) {
     if (now < watcher->last) ++watcher->falls;
     if (now > watcher->last) {
       if (now - watcher->last > watcher->largest_step) watcher->largest_step = now - watcher->last;
@@ -199,7 +193,7 @@ static void progress_rises_in_small_steps_and_stops_where_it_is_cancelled(void**
     }
   }
   hf_progress_destroy(watcher.progress), watcher.progress = NULL;
-  hf_destroy(solver), surface_free(&surface);
+  hf_solver_destroy(solver), surface_free(&surface);
 }
 
 static void bad_input_is_named(void** state) {
@@ -233,7 +227,7 @@ static void bad_input_is_named(void** state) {
   desc = quads_desc(), desc.site_count = 3, desc.site_vertices = vertices;
   assert_code(HF_ERROR_DUPLICATE_SITE, hf_quads_create(solver, &desc, &quads));
   hf_error_detail detail;
-  assert_ok(hf_get_error_detail(&detail));
+  assert_ok(hf_error_get_detail(&detail));
   assert_int_equal(detail.index, 2);
   desc = quads_desc(), desc.site_count = 2, desc.site_vertices = vertices, desc.site_lines = lines;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
@@ -246,11 +240,9 @@ static void bad_input_is_named(void** state) {
   assert_ok(hf_flow_create(solver, &flow));
   assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_get_info((hf_quads)flow, NULL));
   double values[COUNT] = {0};
-  hf_scalars field;
-  HF_INIT(field);
+  hf_scalars field = HF_INIT(hf_scalars);
   field.values_f64 = values;
-  hf_flow_lines out;
-  HF_INIT(out);
+  hf_flow_lines out = HF_INIT(hf_flow_lines);
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_flow_trace(flow, &field, &out)); /* no line is wanted */
   out.wanted_count = 1;
   assert_code(HF_ERROR_NULL_POINTER, hf_flow_trace(flow, &field, NULL));
@@ -259,15 +251,14 @@ static void bad_input_is_named(void** state) {
   assert_code(HF_ERROR_OUT_OF_RANGE, hf_flow_trace(flow, &field, &out));
   out.reserved = 1;
   assert_code(HF_ERROR_INVALID_DESC, hf_flow_trace(flow, &field, &out));
-  hf_flow_destroy(flow), hf_destroy(solver), surface_free(&surface);
+  hf_flow_destroy(flow), hf_solver_destroy(solver), surface_free(&surface);
 }
 
 static void a_non_manifold_edge_is_refused_with_its_vertex(void** state) {
   (void)state;
   const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, -1};
   const uint32_t triangles[] = {0, 1, 2, 1, 0, 3, 0, 1, 4};
-  hf_create_desc create;
-  HF_INIT(create);
+  hf_create_desc create = HF_INIT(hf_create_desc);
   create.vertex_count = 5, create.triangle_count = 3, create.positions = positions, create.triangles = triangles;
   hf_solver solver = NULL;
   assert_ok(hf_create(&create, &solver));
@@ -276,9 +267,9 @@ static void a_non_manifold_edge_is_refused_with_its_vertex(void** state) {
   assert_code(HF_ERROR_UNSUPPORTED, hf_quads_create(solver, NULL, &quads));
   assert_code(HF_ERROR_UNSUPPORTED, hf_flow_create(solver, &flow));
   hf_error_detail detail;
-  assert_ok(hf_get_error_detail(&detail));
+  assert_ok(hf_error_get_detail(&detail));
   assert_true(detail.index == 0 || detail.index == 1);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 }
 
 int main(void) {

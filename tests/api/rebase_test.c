@@ -7,10 +7,9 @@
 
 enum { COLUMNS = 60, ROWS_ = 50, VERTICES = (COLUMNS + 1) * (ROWS_ + 1) };
 
-static hf_statistics statistics_of(hf_solver solver) {
-  hf_statistics statistics;
-  HF_INIT(statistics);
-  assert_ok(hf_get_statistics(solver, &statistics));
+static hf_solver_statistics statistics_of(hf_solver solver) {
+  hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
+  assert_ok(hf_solver_get_statistics(solver, &statistics));
   return statistics;
 }
 
@@ -24,7 +23,7 @@ static int is_finished(void) {
   return now;
 }
 static void* prepare(void* solver) {
-  for (int i = 0; i < 4; ++i) prepared = prepared == HF_OK ? hf_prepare_rebase(solver) : prepared;
+  for (int i = 0; i < 4; ++i) prepared = prepared == HF_OK ? hf_solver_prepare_rebase(solver) : prepared;
   pthread_mutex_lock(&lock);
   finished = 1;
   pthread_mutex_unlock(&lock);
@@ -51,14 +50,14 @@ static void edits_and_fields_go_on_while_a_rebase_is_prepared(void** state) {
   assert_ok(prepared);
   const uint32_t site = add_site(solver, 5, 1.0); /* takes it over */
   assert_ok(hf_remove_sites(solver, 1, &site));
-  const hf_statistics statistics = statistics_of(solver);
+  const hf_solver_statistics statistics = statistics_of(solver);
   assert_true(statistics.rebase_count >= 1);
   assert_int_equal(statistics.eliminated_count, 100);
   assert_int_equal(statistics.last_route, HF_ROUTE_DENSE);
   double* after = field_of(solver, VERTICES);
   for (uint32_t v = 0; v < VERTICES; ++v) assert_true(fabs(before[v] - after[v]) <= 1e-11);
   free(before), free(after);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   surface_free(&sheet);
 }
 
@@ -66,15 +65,15 @@ static void a_rebase_needs_a_solver_with_hard_sites(void** state) {
   (void)state;
   Surface sheet = surface_sheet(8, 8);
   hf_solver solver = surface_solver(&sheet);
-  assert_code(HF_ERROR_NO_SITES, hf_prepare_rebase(solver));
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_prepare_rebase(NULL));
-  hf_destroy(solver);
+  assert_code(HF_ERROR_NO_SITES, hf_solver_prepare_rebase(solver));
+  assert_code(HF_ERROR_INVALID_HANDLE, hf_solver_prepare_rebase(NULL));
+  hf_solver_destroy(solver);
   hf_create_desc desc = surface_desc(&sheet);
   desc.engine = HF_ENGINE_REFACTOR;
   assert_ok(hf_create(&desc, &solver));
   add_site(solver, 3, 1);
-  assert_code(HF_ERROR_UNSUPPORTED, hf_prepare_rebase(solver));
-  hf_destroy(solver);
+  assert_code(HF_ERROR_UNSUPPORTED, hf_solver_prepare_rebase(solver));
+  hf_solver_destroy(solver);
   surface_free(&sheet);
 }
 
@@ -88,16 +87,15 @@ static void a_disc_is_one_site(void** state) {
   hf_sites_desc sites = sites_at(2, vertices, values);
   sites.radii = radii;
   assert_ok(hf_add_sites(solver, &sites, numbers));
-  assert_int_equal(hf_get_site_count(solver), 2);
+  assert_int_equal(hf_solver_get_site_count(solver), 2);
   double* field = field_of(solver, VERTICES);
   assert_true(fabs(field[vertices[0] + 3]) <= 1e-12 && fabs(field[vertices[0] - 3 * (COLUMNS + 1)]) <= 1e-12);
   assert_true(field[vertices[0] + 8] > 1e-3);
   free(field);
   double got_radii[2], flux[2];
-  hf_site_info info;
-  HF_INIT(info);
+  hf_sites_info info = HF_INIT(hf_sites_info);
   info.capacity = 2, info.radii = got_radii, info.flux = flux;
-  assert_ok(hf_get_sites(solver, &info));
+  assert_ok(hf_solver_get_sites(solver, &info));
   assert_true(got_radii[0] == 4.5 && got_radii[1] == 0);
   assert_true(fabs(flux[0] + flux[1]) <= 1e-10 && flux[1] > 0.1);
   assert_code(HF_ERROR_NO_SUCH_SITE, hf_remove_sites(solver, 1, (const uint32_t[]){numbers[0] + 2})); /* of the disc */
@@ -107,13 +105,13 @@ static void a_disc_is_one_site(void** state) {
   const double negative = -1;
   sites.radii = &negative;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_add_sites(solver, &sites, NULL));
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_move_sites(solver, 1, numbers, &sites)); /* a radius cannot be moved to */
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_solver_move_sites(solver, 1, numbers, &sites)); /* a radius cannot be moved to */
   const uint32_t there = vertices[0] + 2 * (COLUMNS + 1) + 2;
   sites = sites_at(1, &there, NULL);
-  assert_ok(hf_move_sites(solver, 1, numbers, &sites));
+  assert_ok(hf_solver_move_sites(solver, 1, numbers, &sites));
   assert_ok(hf_remove_sites(solver, 2, numbers));
   assert_int_equal(statistics_of(solver).dense_row_count, 0);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   surface_free(&sheet);
 }
 

@@ -22,10 +22,9 @@ static hf_solver solver_of(int32_t engine, uint32_t channels) {
   return solver;
 }
 
-static hf_statistics statistics_of(hf_solver solver) {
-  hf_statistics s;
-  HF_INIT(s);
-  assert_ok(hf_get_statistics(solver, &s));
+static hf_solver_statistics statistics_of(hf_solver solver) {
+  hf_solver_statistics s = HF_INIT(hf_solver_statistics);
+  assert_ok(hf_solver_get_statistics(solver, &s));
   return s;
 }
 
@@ -57,13 +56,13 @@ static void a_linear_function_on_the_border_is_continued_inside(void** state) {
     const hf_sites_desc sites = sites_at(n, border, values);
     assert_ok(hf_add_sites(solver, &sites, NULL));
     double field[2 * VERTICES];
-    assert_ok(hf_solve_f64(solver, field, 0, NULL));
+    assert_ok(hf_solver_solve_f64(solver, field, 0, NULL));
     for (uint32_t v = 0; v < VERTICES; ++v) {
       const uint32_t i = v % (COLUMNS + 1), j = v / (COLUMNS + 1);
       assert_true(fabs(field[2 * v] - (3.0 * i - 2.0 * j)) < 60 * tolerance_of(engines[e]));
       assert_true(fabs(field[2 * v + 1] - (1e4 + 0.5 * j)) < 1e4 * tolerance_of(engines[e]));
     }
-    hf_destroy(solver);
+    hf_solver_destroy(solver);
   }
   surface_free(&sheet);
   sheet = surface_sheet(COLUMNS, ROWS_);
@@ -83,16 +82,15 @@ static void hard_sites_are_exact_and_soft_ones_give_way(void** state) {
   /* w'u + lambda / alpha = s, and what flows in flows out: the fluxes sum to zero */
   double flux[3], held[3], stiff[3];
   uint32_t at[3], component[3];
-  hf_site_info info;
-  HF_INIT(info);
+  hf_sites_info info = HF_INIT(hf_sites_info);
   info.capacity = 3, info.flux = flux, info.values = held, info.stiffness = stiff, info.vertices = at,
   info.components = component;
-  assert_ok(hf_get_sites(solver, &info));
+  assert_ok(hf_solver_get_sites(solver, &info));
   assert_true(fabs(flux[0] + flux[1] + flux[2]) < 1e-12);
   assert_true(same_bits(held, values, sizeof held) && same_bits(stiff, stiffness, sizeof stiff) &&
               same_bits(at, vertices, sizeof at));
   assert_true(component[0] == 0 && component[1] == 0 && component[2] == 0);
-  free(field), hf_destroy(solver);
+  free(field), hf_solver_destroy(solver);
 }
 
 static void sites_in_triangles_hold_at_their_point(void** state) {
@@ -101,8 +99,7 @@ static void sites_in_triangles_hold_at_their_point(void** state) {
     hf_solver solver = solver_of(engines[e], 1);
     const uint32_t triangles[2] = {30, 200};
     const double weights[6] = {0.2, 0.3, 0.5, 0.6, 0.4, 0.0}, values[2] = {4, -3};
-    hf_sites_desc sites;
-    HF_INIT(sites);
+    hf_sites_desc sites = HF_INIT(hf_sites_desc);
     sites.site_count = 2, sites.triangles = triangles, sites.barycentrics = weights, sites.values = values;
     uint32_t numbers[2], at[2];
     assert_ok(hf_add_sites(solver, &sites, numbers));
@@ -112,12 +109,11 @@ static void sites_in_triangles_hold_at_their_point(void** state) {
       for (int k = 0; k < 3; ++k) value += weights[3 * s + k] * field[sheet.triangles[3 * triangles[s] + (uint32_t)k]];
       assert_true(fabs(value - values[s]) < 10 * tolerance_of(engines[e]));
     }
-    hf_site_info info;
-    HF_INIT(info);
+    hf_sites_info info = HF_INIT(hf_sites_info);
     info.capacity = 2, info.vertices = at;
-    assert_ok(hf_get_sites(solver, &info));
+    assert_ok(hf_solver_get_sites(solver, &info));
     assert_true(at[0] == HF_NO_INDEX && at[1] == HF_NO_INDEX);
-    free(field), hf_destroy(solver);
+    free(field), hf_solver_destroy(solver);
   }
 }
 
@@ -136,24 +132,23 @@ static void a_batch_is_the_same_as_its_single_calls(void** state) {
     const hf_sites_desc to = sites_at(1, &moved, NULL), more = sites_at(1, &fresh, &new_value);
 
     assert_ok(hf_remove_sites(one, 1, &a[0]));
-    assert_ok(hf_move_sites(one, 1, &a[1], &to));
-    assert_ok(hf_set_site_values(one, 1, &a[2], &set_value));
+    assert_ok(hf_solver_move_sites(one, 1, &a[1], &to));
+    assert_ok(hf_solver_set_values(one, 1, &a[2], &set_value));
     assert_ok(hf_add_sites(one, &more, &added_one));
 
-    hf_edit_desc edit;
-    HF_INIT(edit);
+    hf_edit_desc edit = HF_INIT(hf_edit_desc);
     edit.remove_count = 1, edit.remove_sites = &b[0];
     edit.move_count = 1, edit.move_sites = &b[1], edit.move_to = &to;
     edit.set_count = 1, edit.set_sites = &b[2], edit.set_values = &set_value;
     edit.add = &more;
-    assert_ok(hf_edit_sites(many, &edit, &added_many));
+    assert_ok(hf_solver_edit_sites(many, &edit, &added_many));
     assert_int_equal(added_one, added_many);
     assert_int_equal(added_one, a[0]); /* numbers are reused */
-    assert_int_equal(hf_get_site_count(many), 4);
+    assert_int_equal(hf_solver_get_site_count(many), 4);
     double *x = field_of(one, VERTICES), *y = field_of(many, VERTICES);
     for (int v = 0; v < VERTICES; ++v) assert_true(fabs(x[v] - y[v]) < 14 * tolerance_of(engines[e]));
     assert_true(fabs(x[99] - 2) < 14 * tolerance_of(engines[e]) && fabs(x[77] + 5) < 14 * tolerance_of(engines[e]));
-    free(x), free(y), hf_destroy(one), hf_destroy(many);
+    free(x), free(y), hf_solver_destroy(one), hf_solver_destroy(many);
   }
 }
 
@@ -162,12 +157,11 @@ static void an_empty_batch_changes_nothing(void** state) {
   hf_solver solver = solver_of(HF_ENGINE_GREEN, 1);
   add_site(solver, 3, 1), add_site(solver, 100, 2);
   double* before = field_of(solver, VERTICES);
-  hf_edit_desc edit;
-  HF_INIT(edit);
-  assert_ok(hf_edit_sites(solver, &edit, NULL));
+  hf_edit_desc edit = HF_INIT(hf_edit_desc);
+  assert_ok(hf_solver_edit_sites(solver, &edit, NULL));
   double* after = field_of(solver, VERTICES);
   assert_true(same_bits(before, after, sizeof(double) * VERTICES));
-  free(before), free(after), hf_destroy(solver);
+  free(before), free(after), hf_solver_destroy(solver);
 }
 
 static void sites_may_swap_places_in_one_move(void** state) {
@@ -175,10 +169,10 @@ static void sites_may_swap_places_in_one_move(void** state) {
   hf_solver solver = solver_of(HF_ENGINE_GREEN, 1);
   const uint32_t numbers[2] = {add_site(solver, 20, 1), add_site(solver, 130, 2)}, swapped[2] = {130, 20};
   const hf_sites_desc to = sites_at(2, swapped, NULL);
-  assert_ok(hf_move_sites(solver, 2, numbers, &to));
+  assert_ok(hf_solver_move_sites(solver, 2, numbers, &to));
   double* field = field_of(solver, VERTICES);
   assert_true(field[20] == 2 && field[130] == 1);
-  free(field), hf_destroy(solver);
+  free(field), hf_solver_destroy(solver);
 }
 
 static void all_engines_agree_after_edits(void** state) {
@@ -208,7 +202,7 @@ static void all_engines_agree_after_edits(void** state) {
       free(field);
     else
       reference = field;
-    hf_destroy(solver);
+    hf_solver_destroy(solver);
   }
   free(reference);
 }
@@ -223,13 +217,13 @@ static void solving_at_vertices_equals_solving_everywhere(void** state) {
     assert_ok(hf_add_sites(solver, &sites, NULL));
     double everywhere[3 * VERTICES], here[3 * 7];
     const uint32_t ask[7] = {0, 2, 88, 179, 50, 50, 7};
-    assert_ok(hf_solve_f64(solver, everywhere, 0, NULL));
-    assert_ok(hf_solve_at(solver, 7, ask, here));
+    assert_ok(hf_solver_solve_f64(solver, everywhere, 0, NULL));
+    assert_ok(hf_solver_solve_at(solver, 7, ask, here));
     for (int i = 0; i < 7; ++i) {
       for (int c = 0; c < 3; ++c)
         assert_true(fabs(here[3 * i + c] - everywhere[3 * ask[i] + (uint32_t)c]) < 1e3 * tolerance_of(engines[e]));
     }
-    hf_destroy(solver);
+    hf_solver_destroy(solver);
   }
 }
 
@@ -244,10 +238,10 @@ static void the_list_of_solve_at_may_lie_in_its_output(void** state) {
     uint32_t vertices[6];
   } shared;
   memcpy(shared.vertices, ask, sizeof ask);
-  assert_ok(hf_solve_at(solver, 6, ask, apart));
-  assert_ok(hf_solve_at(solver, 6, shared.vertices, shared.values));
+  assert_ok(hf_solver_solve_at(solver, 6, ask, apart));
+  assert_ok(hf_solver_solve_at(solver, 6, shared.vertices, shared.values));
   assert_true(same_bits(apart, shared.values, sizeof apart));
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 }
 
 static void float_and_double_outputs_agree_at_any_stride(void** state) {
@@ -259,13 +253,13 @@ static void float_and_double_outputs_agree_at_any_stride(void** state) {
   assert_ok(hf_add_sites(solver, &sites, NULL));
   double packed[2 * VERTICES];
   float packed_f32[2 * VERTICES];
-  assert_ok(hf_solve_f64(solver, packed, 0, NULL));
+  assert_ok(hf_solver_solve_f64(solver, packed, 0, NULL));
   assert_ok(hf_solve(solver, packed_f32, 0, NULL));
   for (int i = 0; i < 2 * VERTICES; ++i) assert_true(packed_f32[i] == (float)packed[i]);
   for (uint32_t stride = 16; stride <= 41; stride += 5) { /* unaligned rows too; bytes between the rows stay */
     unsigned char* wide = malloc((size_t)stride * VERTICES);
     memset(wide, 0x5A, (size_t)stride * VERTICES);
-    assert_ok(hf_solve_f64(solver, (double*)(void*)wide, stride, NULL));
+    assert_ok(hf_solver_solve_f64(solver, (double*)(void*)wide, stride, NULL));
     for (uint32_t v = 0; v < VERTICES; ++v) {
       assert_true(same_bits(wide + (size_t)stride * v, packed + 2 * v, 16));
       for (uint32_t k = 16; k < stride; ++k) assert_int_equal(wide[(size_t)stride * v + k], 0x5A);
@@ -278,7 +272,7 @@ static void float_and_double_outputs_agree_at_any_stride(void** state) {
     }
     free(wide);
   }
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 }
 
 static void vectors_are_tangent_and_follow_their_constraints(void** state) {
@@ -290,9 +284,9 @@ static void vectors_are_tangent_and_follow_their_constraints(void** state) {
   assert_ok(hf_add_sites(solver, &sites, NULL));
   double vectors[3 * VERTICES], normals[3 * VERTICES], free_field[3 * VERTICES];
   float vectors_f32[3 * VERTICES];
-  assert_ok(hf_solve_vectors_f64(solver, vectors, 0, normals, NULL));
-  assert_ok(hf_solve_vectors(solver, vectors_f32, 0, NULL, NULL));
-  assert_ok(hf_solve_f64(solver, free_field, 0, NULL));
+  assert_ok(hf_solver_solve_vectors_f64(solver, vectors, 0, normals, NULL));
+  assert_ok(hf_solver_solve_vectors(solver, vectors_f32, 0, NULL, NULL));
+  assert_ok(hf_solver_solve_f64(solver, free_field, 0, NULL));
   for (int v = 0; v < VERTICES; ++v) {
     const double *x = vectors + 3 * v, *n = normals + 3 * v, *u = free_field + 3 * v;
     const double along = u[0] * n[0] + u[1] * n[1] + u[2] * n[2];
@@ -302,7 +296,7 @@ static void vectors_are_tangent_and_follow_their_constraints(void** state) {
       assert_true(vectors_f32[3 * v + c] == (float)x[c]);
     }
   }
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 }
 
 static void undo_and_redo_bring_back_the_same_bits(void** state) {
@@ -313,14 +307,14 @@ static void undo_and_redo_bring_back_the_same_bits(void** state) {
     for (uint32_t step = 0; step < 6; ++step) {
       add_site(solver, 17 * step + 5, (double)step);
       fields[step] = field_of(solver, VERTICES);
-      if (step < 5) assert_ok(hf_record(solver));
+      if (step < 5) assert_ok(hf_solver_record(solver));
     }
     const int exact = engines[e] == HF_ENGINE_GREEN;
     for (int way = 0; way < 2; ++way) {
       for (int i = 0; i < 5; ++i) {
         const int now = way == 0 ? 4 - i : i + 1;
-        assert_ok(way == 0 ? hf_undo(solver) : hf_redo(solver));
-        assert_int_equal(hf_get_site_count(solver), now + 1);
+        assert_ok(way == 0 ? hf_solver_undo(solver) : hf_solver_redo(solver));
+        assert_int_equal(hf_solver_get_site_count(solver), now + 1);
         double* field = field_of(solver, VERTICES);
         if (exact) assert_true(same_bits(field, fields[now], sizeof(double) * VERTICES));
         for (int v = 0; v < VERTICES; ++v) assert_true(fabs(field[v] - fields[now][v]) < 5 * tolerance_of(engines[e]));
@@ -328,11 +322,11 @@ static void undo_and_redo_bring_back_the_same_bits(void** state) {
       }
     }
     /* an edit forgets what could be redone */
-    assert_ok(hf_undo(solver));
+    assert_ok(hf_solver_undo(solver));
     add_site(solver, 111, 2);
-    assert_code(HF_ERROR_NO_RECORD, hf_redo(solver));
+    assert_code(HF_ERROR_NO_RECORD, hf_solver_redo(solver));
     for (int i = 0; i < 6; ++i) free(fields[i]);
-    hf_destroy(solver);
+    hf_solver_destroy(solver);
   }
 }
 
@@ -342,23 +336,23 @@ static void the_oldest_of_257_records_is_dropped(void** state) {
   const uint32_t site = add_site(solver, 5, 0);
   for (int i = 0; i < 257; ++i) {
     const double value = i;
-    assert_ok(hf_set_site_values(solver, 1, &site, &value));
-    assert_ok(hf_record(solver));
+    assert_ok(hf_solver_set_values(solver, 1, &site, &value));
+    assert_ok(hf_solver_record(solver));
   }
   for (int i = 256; i >= 1; --i) {
-    assert_ok(hf_undo(solver));
+    assert_ok(hf_solver_undo(solver));
     double* field = field_of(solver, VERTICES);
     assert_true(field[5] == (double)i);
     free(field);
   }
-  assert_code(HF_ERROR_NO_RECORD, hf_undo(solver));
-  hf_destroy(solver);
+  assert_code(HF_ERROR_NO_RECORD, hf_solver_undo(solver));
+  hf_solver_destroy(solver);
 }
 
 static void edits_never_factorise_again(void** state) {
   (void)state;
   hf_solver solver = solver_of(HF_ENGINE_GREEN, 1);
-  const hf_statistics before = statistics_of(solver);
+  const hf_solver_statistics before = statistics_of(solver);
   assert_int_equal(before.factorisation_count, 1);
   assert_int_equal(before.site_count, 0);
   uint32_t numbers[20];
@@ -367,11 +361,11 @@ static void edits_never_factorise_again(void** state) {
     const uint32_t vertex = 8 * i + 3;
     const double value = 2.0 * i;
     const hf_sites_desc to = sites_at(1, &vertex, NULL);
-    assert_ok(hf_move_sites(solver, 1, &numbers[i], &to));
-    assert_ok(hf_set_site_values(solver, 1, &numbers[i], &value));
+    assert_ok(hf_solver_move_sites(solver, 1, &numbers[i], &to));
+    assert_ok(hf_solver_set_values(solver, 1, &numbers[i], &value));
   }
   assert_ok(hf_remove_sites(solver, 5, numbers + 10));
-  const hf_statistics edited = statistics_of(solver);
+  const hf_solver_statistics edited = statistics_of(solver);
   assert_int_equal(edited.factorisation_count, 1);
   assert_int_equal(edited.site_count, 15);
   assert_int_equal(edited.sweep_count, before.sweep_count); /* values and edits wait for the solve */
@@ -384,7 +378,7 @@ static void edits_never_factorise_again(void** state) {
   double* field = field_of(solver, VERTICES);
   assert_true(statistics_of(solver).sweep_count > edited.sweep_count);
   assert_int_equal(statistics_of(solver).factorisation_count, 1);
-  free(field), hf_destroy(solver);
+  free(field), hf_solver_destroy(solver);
 }
 
 static void values_may_be_set_without_the_factor_being_touched(void** state) {
@@ -394,12 +388,12 @@ static void values_may_be_set_without_the_factor_being_touched(void** state) {
   double* unit = field_of(solver, VERTICES);
   const uint32_t paths = statistics_of(solver).path_solve_count;
   const double values[2] = {-4, 16};
-  assert_ok(hf_set_site_values(solver, 2, numbers, values));
+  assert_ok(hf_solver_set_values(solver, 2, numbers, values));
   assert_int_equal(statistics_of(solver).path_solve_count, paths);
   double* field = field_of(solver, VERTICES);
   for (int v = 0; v < VERTICES; ++v)
     assert_true(fabs(field[v] - (-4 + 20 * unit[v])) < 1e-11); /* fields are linear in the values */
-  free(unit), free(field), hf_destroy(solver);
+  free(unit), free(field), hf_solver_destroy(solver);
 }
 
 static void values_around_a_million_lose_nothing(void** state) {
@@ -409,7 +403,7 @@ static void values_around_a_million_lose_nothing(void** state) {
   for (int i = 0; i < 3; ++i) add_site(solver, at[i], i), add_site(shifted, at[i], 1e6 + i);
   double *x = field_of(solver, VERTICES), *y = field_of(shifted, VERTICES);
   for (int v = 0; v < VERTICES; ++v) assert_true(fabs(y[v] - 1e6 - x[v]) < 2e-8);
-  free(x), free(y), hf_destroy(solver), hf_destroy(shifted);
+  free(x), free(y), hf_solver_destroy(solver), hf_solver_destroy(shifted);
 }
 
 int main(void) {

@@ -48,7 +48,7 @@ static hf_result edit_and_solve(hf_solver solver, unsigned number, double* field
     if (added != HF_OK) return added;
   }
   const hf_result removed = hf_remove_sites(solver, 2, sites + 1);
-  return removed != HF_OK ? removed : hf_solve_f64(solver, field, 0, NULL);
+  return removed != HF_OK ? removed : hf_solver_solve_f64(solver, field, 0, NULL);
 }
 
 static void* own_solver(void* user) {
@@ -59,11 +59,11 @@ static void* own_solver(void* user) {
     hf_solver solver = NULL;
     w->wrong += hf_create(&desc, &solver) != HF_OK || edit_and_solve(solver, w->number, field) != HF_OK;
     w->wrong += !same_bits(field, w->expected + (size_t)VERTICES * w->number, sizeof(double) * VERTICES);
-    hf_destroy(solver);
+    hf_solver_destroy(solver);
     /* the detail belongs to the thread */
     hf_error_detail detail;
     w->wrong +=
-        hf_pose_get_handle(NULL, w->number, NULL) != HF_ERROR_INVALID_HANDLE || hf_get_error_detail(&detail) != HF_OK;
+        hf_pose_get_handle(NULL, w->number, NULL) != HF_ERROR_INVALID_HANDLE || hf_error_get_detail(&detail) != HF_OK;
     w->wrong += strcmp(detail.function, "hf_pose_get_handle") != 0;
   }
   free(field);
@@ -75,9 +75,9 @@ static void* own_clone(void* user) {
   double* field = malloc(sizeof(double) * VERTICES);
   for (int round = 0; round < ROUNDS; ++round) {
     hf_solver copy = NULL;
-    w->wrong += hf_clone(w->solver, &copy) != HF_OK || edit_and_solve(copy, w->number, field) != HF_OK;
+    w->wrong += hf_solver_clone(w->solver, &copy) != HF_OK || edit_and_solve(copy, w->number, field) != HF_OK;
     w->wrong += !same_bits(field, w->expected + (size_t)VERTICES * w->number, sizeof(double) * VERTICES);
-    hf_destroy(copy);
+    hf_solver_destroy(copy);
   }
   free(field);
   return NULL;
@@ -88,7 +88,7 @@ static double* expected_fields(void) {
   for (unsigned i = 0; i < THREADS; ++i) {
     hf_solver solver = surface_solver(&sheet);
     assert_ok(edit_and_solve(solver, i, fields + (size_t)VERTICES * i));
-    hf_destroy(solver);
+    hf_solver_destroy(solver);
   }
   return fields;
 }
@@ -105,7 +105,7 @@ static void solvers_and_clones_work_on_their_own_threads(void** state) {
     run_workers(workers, THREADS, bodies[b]);
     for (int i = 0; i < THREADS; ++i) assert_int_equal(workers[i].wrong, 0);
   }
-  hf_destroy(shared), free(expected);
+  hf_solver_destroy(shared), free(expected);
 }
 
 static void* reader(void* user) {
@@ -114,12 +114,11 @@ static void* reader(void* user) {
   for (int round = 0; round < ROUNDS; ++round) {
     const uint32_t vertices[2] = {5, 300};
     double at[2];
-    hf_statistics statistics;
-    HF_INIT(statistics);
+    hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
     w->wrong +=
-        hf_solve_f64(w->solver, field, 0, NULL) != HF_OK || !same_bits(field, w->expected, sizeof(double) * VERTICES);
-    w->wrong += hf_solve_at(w->solver, 2, vertices, at) != HF_OK || fabs(at[1] - w->expected[300]) > 1e-11;
-    w->wrong += hf_get_statistics(w->solver, &statistics) != HF_OK || hf_get_site_count(w->solver) != 2;
+        hf_solver_solve_f64(w->solver, field, 0, NULL) != HF_OK || !same_bits(field, w->expected, sizeof(double) * VERTICES);
+    w->wrong += hf_solver_solve_at(w->solver, 2, vertices, at) != HF_OK || fabs(at[1] - w->expected[300]) > 1e-11;
+    w->wrong += hf_solver_get_statistics(w->solver, &statistics) != HF_OK || hf_solver_get_site_count(w->solver) != 2;
   }
   free(field);
   return NULL;
@@ -135,7 +134,7 @@ static void many_threads_may_read_one_solver(void** state) {
   for (int i = 0; i < THREADS; ++i) workers[i].solver = solver, workers[i].expected = expected;
   run_workers(workers, THREADS, reader);
   for (int i = 0; i < THREADS; ++i) assert_int_equal(workers[i].wrong, 0);
-  free(expected), hf_destroy(solver);
+  free(expected), hf_solver_destroy(solver);
 }
 
 /* Odd workers change the site set, even ones read it. Every answer is HF_OK or HF_ERROR_BUSY, every field read is one
@@ -163,10 +162,10 @@ static void* contender(void* user) {
       while ((result = hf_remove_sites(w->solver, 2, sites)) == HF_ERROR_BUSY) ++w->busy;
       w->wrong += result != HF_OK;
     } else {
-      const hf_result result = hf_solve_f64(w->solver, field, 0, NULL);
+      const hf_result result = hf_solver_solve_f64(w->solver, field, 0, NULL);
       pause_a_moment();
       w->wrong += result != HF_OK && result != HF_ERROR_BUSY;
-      w->wrong += hf_get_site_count(w->solver) % 2 != 0;
+      w->wrong += hf_solver_get_site_count(w->solver) % 2 != 0;
       w->busy += result == HF_ERROR_BUSY, w->done += result == HF_OK;
       for (unsigned other = 1; result == HF_OK && other < THREADS; other += 2) {
         w->wrong += (field[other * 31] == 1) != (field[other * 31 + 200] == 1);
@@ -197,10 +196,10 @@ static void an_overlapping_change_is_busy_or_whole(void** state) {
   }
   print_message("%u fields read, %u changes made, %u calls busy\n", read, changed, busy);
   assert_true(read > 0 && changed > 0);
-  assert_int_equal(hf_get_site_count(solver), 2);
+  assert_int_equal(hf_solver_get_site_count(solver), 2);
   double* after = field_of(solver, VERTICES);
   for (int v = 0; v < VERTICES; ++v) assert_true(fabs(before[v] - after[v]) < 1e-12);
-  free(before), free(after), hf_destroy(solver);
+  free(before), free(after), hf_solver_destroy(solver);
 }
 
 /* Busy for certain: the second thread calls while the first is held inside an allocation. */
@@ -239,7 +238,7 @@ static void* held_solve(void* user) {
   Worker* w = user;
   const uint32_t vertex = 333;
   double value;
-  w->wrong += hf_solve_at(w->solver, 1, &vertex, &value) != HF_OK;
+  w->wrong += hf_solver_solve_at(w->solver, 1, &vertex, &value) != HF_OK;
   return NULL;
 }
 
@@ -277,24 +276,24 @@ static void calls_during_a_change_are_busy_and_destroy_waits_for_it(void** state
   w.solver = solver;
 
   hold_a_call(&gate, &w, held_add);
-  assert_code(HF_ERROR_BUSY, hf_solve_f64(solver, field, 0, NULL));
-  assert_code(HF_ERROR_BUSY, hf_set_site_values(solver, 1, &site, &value));
-  assert_code(HF_ERROR_BUSY, hf_clone(solver, &copy));
+  assert_code(HF_ERROR_BUSY, hf_solver_solve_f64(solver, field, 0, NULL));
+  assert_code(HF_ERROR_BUSY, hf_solver_set_values(solver, 1, &site, &value));
+  assert_code(HF_ERROR_BUSY, hf_solver_clone(solver, &copy));
   assert_null(copy);
-  assert_code(HF_ERROR_BUSY, hf_record(solver));
-  assert_int_equal(hf_get_site_count(solver), 1); /* the count of the last finished change */
+  assert_code(HF_ERROR_BUSY, hf_solver_record(solver));
+  assert_int_equal(hf_solver_get_site_count(solver), 1); /* the count of the last finished change */
   let_it_go(&gate, &w);
-  assert_int_equal(hf_get_site_count(solver), 2);
+  assert_int_equal(hf_solver_get_site_count(solver), 2);
 
   hold_a_call(&gate, &w, held_solve);
-  assert_code(HF_ERROR_BUSY, hf_set_site_values(solver, 1, &site, &value));
-  assert_int_equal(hf_get_site_count(solver), 2);
+  assert_code(HF_ERROR_BUSY, hf_solver_set_values(solver, 1, &site, &value));
+  assert_int_equal(hf_solver_get_site_count(solver), 2);
   let_it_go(&gate, &w);
-  assert_ok(hf_set_site_values(solver, 1, &site, &value));
+  assert_ok(hf_solver_set_values(solver, 1, &site, &value));
 
   hold_a_call(&gate, &w, held_solve);
-  hf_destroy(solver); /* the call that is under way is finished first */
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_record(solver));
+  hf_solver_destroy(solver); /* the call that is under way is finished first */
+  assert_code(HF_ERROR_INVALID_HANDLE, hf_solver_record(solver));
   let_it_go(&gate, &w);
   assert_int_equal(gate.memory.live_blocks, 0);
   free(field);
@@ -308,10 +307,10 @@ static void* maker(void* user) {
     hf_solver copy = NULL;
     hf_progress progress = NULL;
     float fraction;
-    w->wrong += hf_clone(w->solver, &copy) != HF_OK || hf_progress_create(&progress) != HF_OK;
-    w->wrong += hf_get_site_count(copy) != 1 || hf_progress_get(progress, &fraction) != HF_OK;
-    hf_destroy(copy), hf_progress_destroy(progress);
-    w->wrong += hf_record(copy) != HF_ERROR_INVALID_HANDLE || hf_progress_cancel(progress) != HF_ERROR_INVALID_HANDLE;
+    w->wrong += hf_solver_clone(w->solver, &copy) != HF_OK || hf_progress_create(&progress) != HF_OK;
+    w->wrong += hf_solver_get_site_count(copy) != 1 || hf_progress_get_fraction(progress, &fraction) != HF_OK;
+    hf_solver_destroy(copy), hf_progress_destroy(progress);
+    w->wrong += hf_solver_record(copy) != HF_ERROR_INVALID_HANDLE || hf_progress_cancel(progress) != HF_ERROR_INVALID_HANDLE;
   }
   return NULL;
 }
@@ -325,7 +324,7 @@ static void handles_are_made_and_destroyed_on_all_threads(void** state) {
   for (int i = 0; i < THREADS; ++i) workers[i].solver = solver;
   run_workers(workers, THREADS, maker);
   for (int i = 0; i < THREADS; ++i) assert_int_equal(workers[i].wrong, 0);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 }
 
 int main(void) {

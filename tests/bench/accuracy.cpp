@@ -66,8 +66,7 @@ json hard_sites(const Mesh& mesh, const Run& run, Report& report) {
   std::vector<double> barycentrics, values;
   for (const uint32_t t : triangles)
     barycentrics.insert(barycentrics.end(), weights, weights + 3), values.push_back(value_of(t));
-  hf_sites_desc points;
-  HF_INIT(points);
+  hf_sites_desc points = HF_INIT(hf_sites_desc);
   points.site_count = static_cast<uint32_t>(triangles.size()), points.triangles = triangles.data();
   points.barycentrics = barycentrics.data(), points.values = values.data();
   check(hf_add_sites(solver.handle(), &points, nullptr));
@@ -123,15 +122,13 @@ double error_after_edits(const Mesh& mesh, const SolverOptions& options, uint32_
   Sites sites(solver, offset);
   sites.edit(scattered_vertices(mesh.vertex_count(), 100, 3), {});
   for (uint64_t i = 0; i < count; ++i) random_edit(sites, mesh.vertex_count(), i);
-  hf_site_info info;
-  HF_INIT(info);
-  std::vector<uint32_t> vertices(hf_get_site_count(solver.handle()));
+  hf_sites_info info = HF_INIT(hf_sites_info);
+  std::vector<uint32_t> vertices(hf_solver_get_site_count(solver.handle()));
   std::vector<double> values(vertices.size());
   info.capacity = static_cast<uint32_t>(vertices.size()), info.vertices = vertices.data(), info.values = values.data();
-  check(hf_get_sites(solver.handle(), &info));
+  check(hf_solver_get_sites(solver.handle(), &info));
   const Solver exact(mesh, {HF_ENGINE_REFACTOR, options.threads});
-  hf_sites_desc same;
-  HF_INIT(same);
+  hf_sites_desc same = HF_INIT(hf_sites_desc);
   same.site_count = info.capacity, same.vertices = vertices.data(), same.values = values.data();
   check(hf_add_sites(exact.handle(), &same, nullptr));
   std::vector<double> u, v;

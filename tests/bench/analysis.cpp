@@ -1,5 +1,5 @@
 // Extremities beside the sweeps they are made of: from a Poisson field, and from the mean geodesic distance to 40
-// sources. A sweep is one field of a solver, hf_solve_f64: one backward pass through the factor, scattered.
+// sources. A sweep is one field of a solver, hf_solver_solve_f64: one backward pass through the factor, scattered.
 #include <cstdio>
 
 #include "bench/bench_mesh.h"
@@ -22,8 +22,7 @@ Rows run_analysis(const Run& run, Report& report) {
         hf_geodesics_destroy(geodesics);
         check(hf_geodesics_create(solver.handle(), nullptr, &geodesics));
       });
-      hf_extremities_desc desc;
-      HF_INIT(desc);
+      hf_extremities_desc desc = HF_INIT(hf_extremities_desc);
       desc.kind = HF_EXTREMITIES_GEODESIC, desc.geodesics = geodesics;
       std::vector<double> field(mesh->vertex_count());
       const uint32_t vertex = 0;
@@ -31,12 +30,12 @@ Rows run_analysis(const Run& run, Report& report) {
       auto times = take_turns(
           {{"sweep", [&] { return time_ms([&] { solver.solve(field); }); }},
            {"poisson",
-            [&] { return time_ms([&] { check(hf_find_extremities(solver.handle(), nullptr, 0, nullptr, &tips)); }); }},
+            [&] { return time_ms([&] { check(hf_surface_find_extremities(solver.handle(), nullptr, 0, nullptr, &tips)); }); }},
            {"distance",
-            [&] { return time_ms([&] { check(hf_geodesics_distance_f64(geodesics, 1, &vertex, field.data(), 0)); }); }},
+            [&] { return time_ms([&] { check(hf_geodesics_solve_f64(geodesics, 1, &vertex, field.data(), 0)); }); }},
            {"average",
             [&] {
-              return time_ms([&] { check(hf_find_extremities(solver.handle(), &desc, 0, nullptr, &far_tips)); });
+              return time_ms([&] { check(hf_surface_find_extremities(solver.handle(), &desc, 0, nullptr, &far_tips)); });
             }}},
           run.repetitions);
       hf_geodesics_destroy(geodesics);

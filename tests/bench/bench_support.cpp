@@ -42,14 +42,13 @@ std::map<std::string, double> take_turns(const std::vector<Candidate>& candidate
 void check(hf_result result) {
   if (result == HF_OK) return;
   hf_error_detail detail;
-  hf_get_error_detail(&detail);
+  hf_error_get_detail(&detail);
   throw std::runtime_error(std::string(detail.function) + ": " + detail.message);
 }
 
 Solver::Solver(const Mesh& mesh, const SolverOptions& options)
     : vertex_count_(mesh.vertex_count()), channels_(options.channels) {
-  hf_create_desc desc;
-  HF_INIT(desc);
+  hf_create_desc desc = HF_INIT(hf_create_desc);
   desc.vertex_count = mesh.vertex_count();
   desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
   desc.positions_f64 = mesh.positions.data(), desc.triangles = mesh.triangles.data();
@@ -59,10 +58,9 @@ Solver::Solver(const Mesh& mesh, const SolverOptions& options)
   create_ms_ = time_ms([&] { check(hf_create(&desc, &handle_)); });
 }
 
-hf_statistics Solver::statistics() const {
-  hf_statistics statistics;
-  HF_INIT(statistics);
-  check(hf_get_statistics(handle_, &statistics));
+hf_solver_statistics Solver::statistics() const {
+  hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
+  check(hf_solver_get_statistics(handle_, &statistics));
   return statistics;
 }
 
@@ -73,7 +71,7 @@ void Solver::solve(std::vector<float>& field) const {
 
 void Solver::solve(std::vector<double>& field) const {
   field.resize(size_t{vertex_count_} * channels_);
-  check(hf_solve_f64(handle_, field.data(), 0, nullptr));
+  check(hf_solver_solve_f64(handle_, field.data(), 0, nullptr));
 }
 
 double Sites::edit(const std::vector<uint32_t>& insert, const std::vector<uint32_t>& remove) {
@@ -84,14 +82,12 @@ double Sites::edit(const std::vector<uint32_t>& insert, const std::vector<uint32
   for (const uint32_t v : insert) {
     for (uint32_t c = 0; c < solver_.channels(); ++c) values.push_back(value_of(v) + c + offset_);
   }
-  hf_sites_desc add;
-  HF_INIT(add);
+  hf_sites_desc add = HF_INIT(hf_sites_desc);
   add.site_count = static_cast<uint32_t>(insert.size()), add.vertices = insert.data(), add.values = values.data();
-  hf_edit_desc edit;
-  HF_INIT(edit);
+  hf_edit_desc edit = HF_INIT(hf_edit_desc);
   edit.remove_count = static_cast<uint32_t>(leaving.size()), edit.remove_sites = leaving.data();
   if (!insert.empty()) edit.add = &add;
-  const double ms = time_ms([&] { check(hf_edit_sites(solver_.handle(), &edit, numbers.data())); });
+  const double ms = time_ms([&] { check(hf_solver_edit_sites(solver_.handle(), &edit, numbers.data())); });
   for (const uint32_t v : remove) number_.erase(v);
   for (size_t i = 0; i < insert.size(); ++i) number_[insert[i]] = numbers[i];
   return ms;
@@ -105,16 +101,15 @@ double Sites::clear() {
 
 void Sites::move(uint32_t from, uint32_t to) {
   const uint32_t number = number_.at(from);
-  hf_sites_desc place;
-  HF_INIT(place);
+  hf_sites_desc place = HF_INIT(hf_sites_desc);
   place.site_count = 1, place.vertices = &to;
-  check(hf_move_sites(solver_.handle(), 1, &number, &place));
+  check(hf_solver_move_sites(solver_.handle(), 1, &number, &place));
   number_.erase(from), number_[to] = number;
 }
 
 void Sites::set_value(uint32_t vertex, double value) {
   const std::vector<double> values(solver_.channels(), value + offset_);
-  check(hf_set_site_values(solver_.handle(), 1, &number_.at(vertex), values.data()));
+  check(hf_solver_set_values(solver_.handle(), 1, &number_.at(vertex), values.data()));
 }
 
 std::vector<uint32_t> scattered_vertices(uint32_t vertex_count, uint32_t count, uint64_t seed) {

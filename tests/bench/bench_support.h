@@ -69,12 +69,12 @@ inline SolverOptions own_defaults(uint32_t threads) {
 class Solver {
  public:
   Solver(const Mesh& mesh, const SolverOptions& options);
-  ~Solver() { hf_destroy(handle_); }
+  ~Solver() { hf_solver_destroy(handle_); }
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
   hf_solver handle() const { return handle_; }
   double create_ms() const { return create_ms_; }
-  hf_statistics statistics() const;
+  hf_solver_statistics statistics() const;
   uint32_t vertex_count() const { return vertex_count_; }
   uint32_t channels() const { return channels_; }
 
@@ -92,7 +92,7 @@ class Solver {
 class Sites {
  public:
   explicit Sites(const Solver& solver, double offset = 0) : solver_(solver), offset_(offset) {}
-  // One batch through hf_edit_sites; milliseconds of that call.
+  // One batch through hf_solver_edit_sites; milliseconds of that call.
   double edit(const std::vector<uint32_t>& insert, const std::vector<uint32_t>& remove);
   double clear();
   // Moves the site of one vertex to another.

@@ -2,7 +2,7 @@
 // full mesh with a prefactored system and beside making fields and bands anew; allocations while dragging; exactness.
 //
 // The surface is the jittered torus with handles round it; a drag turns and lifts one of them. Times are user visible:
-// hf_deform with positions in single precision and normals, the default 5 iterations a frame.
+// hf_pose_deform with positions in single precision and normals, the default 5 iterations a frame.
 #include <cmath>
 #include <cstdio>
 
@@ -48,8 +48,7 @@ class Rig {
  public:
   Rig(const Mesh& mesh, const Solver& solver, const std::vector<std::vector<uint32_t>>& regions, int mode = 0)
       : positions(3 * static_cast<size_t>(mesh.vertex_count())), normals(positions.size()) {
-    hf_pose_desc desc;
-    HF_INIT(desc);
+    hf_pose_desc desc = HF_INIT(hf_pose_desc);
     desc.mode = mode;
     check(hf_pose_create(solver.handle(), &desc, &pose));
     handles = add(regions, 0);
@@ -64,8 +63,7 @@ class Rig {
       counts.push_back(static_cast<uint32_t>(region.size()));
       vertices.insert(vertices.end(), region.begin(), region.end());
     }
-    hf_handles_desc desc;
-    HF_INIT(desc);
+    hf_handles_desc desc = HF_INIT(hf_handles_desc);
     desc.handle_count = static_cast<uint32_t>(regions.size()), desc.layer = layer;
     desc.region_counts = counts.data(), desc.region_vertices = vertices.data();
     check(hf_pose_add_handles(pose, &desc, out.data()));
@@ -76,12 +74,10 @@ class Rig {
     check(hf_pose_set_transforms(pose, 1, &handle, &transform));
   }
   hf_deform_info deform(bool refine = false) {
-    hf_deform_desc desc;
-    HF_INIT(desc);
+    hf_deform_desc desc = HF_INIT(hf_deform_desc);
     desc.positions = positions.data(), desc.normals = normals.data(), desc.refine = refine;
-    hf_deform_info info;
-    HF_INIT(info);
-    check(hf_deform(pose, &desc, &info));
+    hf_deform_info info = HF_INIT(hf_deform_info);
+    check(hf_pose_deform(pose, &desc, &info));
     return info;
   }
 

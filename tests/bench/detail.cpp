@@ -19,20 +19,17 @@ class Region {
   Region& operator=(const Region&) = delete;
   ~Region() { hf_region_destroy(handle_); }
   void grow(int32_t rings) const {
-    hf_region_edit_desc edit;
-    HF_INIT(edit);
+    hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
     edit.ring_count = rings;
     check(hf_region_edit(handle_, &edit));
   }
   void add(const std::vector<uint32_t>& vertices) const {
-    hf_region_edit_desc edit;
-    HF_INIT(edit);
+    hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
     edit.add_count = static_cast<uint32_t>(vertices.size()), edit.add_vertices = vertices.data();
     check(hf_region_edit(handle_, &edit));
   }
   hf_region_info info() const {
-    hf_region_info info;
-    HF_INIT(info);
+    hf_region_info info = HF_INIT(hf_region_info);
     check(hf_region_get_info(handle_, &info));
     return info;
   }
@@ -45,8 +42,7 @@ class Region {
     return found;
   }
   void morph(std::vector<float>& positions, std::vector<float>& normals) const {
-    hf_morph_desc desc;
-    HF_INIT(desc);
+    hf_morph_desc desc = HF_INIT(hf_morph_desc);
     desc.weight = 0.5, desc.positions = positions.data(), desc.normals = normals.data();
     check(hf_region_morph(handle_, &desc));
   }

@@ -99,12 +99,11 @@ Way by_channels(const Mesh& mesh, const std::vector<uint32_t>& sites, const Run&
   const Solver solver(mesh, options);
   std::vector<double> vectors = vectors_of(site_count);
   std::vector<uint32_t> numbers(site_count);
-  hf_sites_desc batch;
-  HF_INIT(batch);
+  hf_sites_desc batch = HF_INIT(hf_sites_desc);
   batch.site_count = site_count, batch.vertices = sites.data(), batch.values = vectors.data();
   check(hf_add_sites(solver.handle(), &batch, numbers.data()));
   std::vector<float> field(size_t{3} * mesh.vertex_count());
-  const auto solve = [&] { check(hf_solve_vectors(solver.handle(), field.data(), 0, nullptr, nullptr)); };
+  const auto solve = [&] { check(hf_solver_solve_vectors(solver.handle(), field.data(), 0, nullptr, nullptr)); };
   const uint32_t before = solver.statistics().factorisation_count;
   double angle = 0.3;
   uint32_t next = 0;
@@ -112,14 +111,14 @@ Way by_channels(const Mesh& mesh, const std::vector<uint32_t>& sites, const Run&
       {{"turn",
         [&] {
           return time_ms([&] {
-            check(hf_rotate_vector_sites(solver.handle(), 1, &numbers[next++ % site_count], &angle));
+            check(hf_solver_rotate_vectors(solver.handle(), 1, &numbers[next++ % site_count], &angle));
             solve();
           });
         }},
        {"rewrite",
         [&] {
           return time_ms([&] {
-            check(hf_set_site_values(solver.handle(), 1, &numbers[next % site_count], &vectors[3 * (next % 7)]));
+            check(hf_solver_set_values(solver.handle(), 1, &numbers[next % site_count], &vectors[3 * (next % 7)]));
             ++next;
             solve();
           });
@@ -158,8 +157,7 @@ Way by_connection(const Mesh& mesh, const std::vector<uint32_t>& sites, const Ru
                               });
                             }}},
                           run.repetitions);
-  hf_direction_statistics statistics;
-  HF_INIT(statistics);
+  hf_direction_statistics statistics = HF_INIT(hf_direction_statistics);
   check(hf_direction_get_statistics(direction, &statistics));
   hf_direction_destroy(direction);
   if (statistics.factorisation_count != 1) throw std::runtime_error("turning a vector has factorised");

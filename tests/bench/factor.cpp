@@ -108,15 +108,14 @@ void print_numeric(const char* what, const json& row) {
 json store_and_load(const Mesh& mesh, const Run& run) {
   const SolverOptions options{HF_ENGINE_GREEN, run.threads};
   const Solver maker(mesh, options);
-  const hf_statistics made = maker.statistics();
+  const hf_solver_statistics made = maker.statistics();
   const double make_ms = made.ordering_ms + made.symbolic_ms + made.numeric_ms;
-  hf_factor_desc saved;
-  HF_INIT(saved);
+  hf_factor_desc saved = HF_INIT(hf_factor_desc);
   check(hf_get_factor_size(maker.handle(), &saved.byte_count));
   hf_inner::Memory memory;
   hf_inner::Buffer<uint8_t> bytes(memory, saved.byte_count);
   saved.bytes = bytes.data();
-  const double save = time_ms([&] { check(hf_save_factor(maker.handle(), bytes.data(), saved.byte_count)); });
+  const double save = time_ms([&] { check(hf_surface_save(maker.handle(), bytes.data(), saved.byte_count)); });
   std::vector<double> copied, borrowed;
   for (uint32_t r = 0; r < run.repetitions; ++r) {
     for (const int borrow : {0, 1}) {

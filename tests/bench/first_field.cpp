@@ -13,7 +13,7 @@ namespace {
 
 struct Ours {
   double total = 0;
-  hf_statistics statistics;
+  hf_solver_statistics statistics;
 };
 
 Ours our_first_field(const Mesh& mesh, const std::vector<uint32_t>& sites, uint32_t threads) {
@@ -34,7 +34,7 @@ nlohmann::json run_mesh(const Mesh& mesh, const Run& run, Report& report) {
   if (peer) peer->set_sites(sites);
   std::vector<double> ours, analyse, factorise, solve, theirs;
   double cold_ours = 0, cold_theirs = 0;
-  hf_statistics phases{};
+  hf_solver_statistics phases{};
   for (uint32_t r = 0; r < run.repetitions + 1; ++r) {
     const Ours own = our_first_field(mesh, sites, run.threads);
     phases = own.statistics;

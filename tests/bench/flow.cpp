@@ -18,11 +18,9 @@ class Tracer {
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
   uint32_t trace(const std::vector<double>& values) {
-    hf_scalars field;
-    HF_INIT(field);
+    hf_scalars field = HF_INIT(hf_scalars);
     field.values_f64 = values.data();
-    hf_flow_lines lines;
-    HF_INIT(lines);
+    hf_flow_lines lines = HF_INIT(hf_flow_lines);
     lines.wanted_count = 64;
     for (;;) {
       lines.point_capacity = static_cast<uint32_t>(positions_.size() / 3);

@@ -19,7 +19,7 @@ Rows run_partial(const Run& run, Report&) {
     std::vector<double> at(10), whole, at_times, whole_times;
     for (uint32_t r = 0; r < 5 * run.repetitions; ++r) {
       const std::vector<uint32_t> probes = scattered_vertices(mesh->vertex_count(), 10, 100 + r);
-      at_times.push_back(time_ms([&] { check(hf_solve_at(solver.handle(), 10, probes.data(), at.data())); }));
+      at_times.push_back(time_ms([&] { check(hf_solver_solve_at(solver.handle(), 10, probes.data(), at.data())); }));
       whole_times.push_back(time_ms([&] { solver.solve(whole); }));
     }
     std::printf("%-14s at ten vertices %7.3f ms   everywhere %7.3f ms\n", mesh->name.c_str(), median(at_times),

@@ -166,7 +166,7 @@ json run_row(const Row& row, const std::string& name, Bed& bed, const Run& run) 
   }
   std::printf("\n");
   std::fflush(stdout);
-  const hf_statistics statistics = bed.green.statistics();
+  const hf_solver_statistics statistics = bed.green.statistics();
   out["read_once_ms"] = bed.read_ms, out["factor_bytes"] = statistics.factor_bytes;
   out["analysis_ms"] = statistics.ordering_ms + statistics.symbolic_ms;
   out["factorisation_ms"] = statistics.numeric_ms;

@@ -44,7 +44,7 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
                 {{"restart", &desc.restart}, {"iteration_count", &desc.iteration_count}, {"refine", &desc.refine}}, {});
     result.array.emplace(3 * on.vertex_count);
     desc.positions_f64 = result.array->data();
-    check(hf_deform(pose, &desc, nullptr));
+    check(hf_pose_deform(pose, &desc, nullptr));
   } else if (what == "handle_field") {
     std::vector<float> field(on.vertex_count);
     check(hf_pose_get_field(pose, step["handle"], field.data(), 0));

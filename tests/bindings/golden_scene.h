@@ -42,7 +42,7 @@ inline double number(const Json& value) {
 }
 
 struct Object {
-  hf::Handle<hf_solver, hf_destroy> solver;
+  hf::Handle<hf_solver, hf_solver_destroy> solver;
   hf::Handle<hf_pose, hf_pose_destroy> pose;
   hf::Handle<hf_transfer, hf_transfer_destroy> transfer;
   hf::Handle<hf_geodesics, hf_geodesics_destroy> geodesics;
@@ -94,7 +94,7 @@ class Scene {
     try {
       result = run(step);
     } catch (const hf::Error& error) {
-      expect(step.contains("error") && step["error"] == hf_result_name(error.code()),
+      expect(step.contains("error") && step["error"] == hf_result_get_name(error.code()),
              std::string("raised ") + error.what());
       expect(!step.contains("index") || step["index"] == error.index(), "index " + std::to_string(error.index()));
       return;

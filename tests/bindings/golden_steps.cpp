@@ -47,7 +47,7 @@ Result Scene::run_solver(const Json& step) {
   hf_solver raw = nullptr;
   check(hf_create(&desc, &raw));
   Object& object = objects_[step["as"]];
-  object.solver = hf::Handle<hf_solver, hf_destroy>(raw), object.vertex_count = desc.vertex_count;
+  object.solver = hf::Handle<hf_solver, hf_solver_destroy>(raw), object.vertex_count = desc.vertex_count;
   return {};
 }
 
@@ -56,7 +56,7 @@ Result Scene::run_looking(const Json& step, const std::string& what, hf_solver s
   if (what == "extremities") {
     std::vector<hf_extremity> found(64);
     uint32_t size = 0;
-    check(hf_find_extremities(solver, nullptr, 64, found.data(), &size));
+    check(hf_surface_find_extremities(solver, nullptr, 64, found.data(), &size));
     result.array.emplace();
     for (uint32_t i = 0; i < size; ++i) result.array->push_back(found[i].vertex);
     std::sort(result.array->begin(), result.array->end());
@@ -71,16 +71,16 @@ Result Scene::run_looking(const Json& step, const std::string& what, hf_solver s
                             : step["spacing"] == "HF_LEVELS_LENGTH" ? HF_LEVELS_LENGTH
                                                                     : HF_LEVELS_VALUE;
     result.array.emplace(std::max(1u, wanted));
-    check(hf_space_levels(solver, &scalars, spacing, wanted, result.array->data()));
+    check(hf_surface_space_levels(solver, &scalars, spacing, wanted, result.array->data()));
   } else if (what == "isolines") {
     const auto levels = doubles(step, "levels");
     auto lines = make<hf_isolines>();
-    check(hf_trace_isolines(solver, &scalars, count(levels), data(levels), &lines));
+    check(hf_surface_trace_isolines(solver, &scalars, count(levels), data(levels), &lines));
     result.array.emplace(3 * size_t{lines.point_count});
     std::vector<int32_t> closed(lines.line_count);
     lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
     lines.positions = result.array->data(), lines.line_closed = closed.data();
-    check(hf_trace_isolines(solver, &scalars, count(levels), data(levels), &lines));
+    check(hf_surface_trace_isolines(solver, &scalars, count(levels), data(levels), &lines));
     if (step.contains("lines")) {
       int32_t sum = 0;
       for (int32_t one : closed) sum += one;
@@ -89,7 +89,7 @@ Result Scene::run_looking(const Json& step, const std::string& what, hf_solver s
   } else {
     std::vector<hf_critical_point> points(1000);
     auto info = make<hf_critical_info>();
-    check(hf_find_critical_points(solver, &scalars, 1000, points.data(), &info));
+    check(hf_surface_find_critical_points(solver, &scalars, 1000, points.data(), &info));
     result.array.emplace();
     for (uint32_t i = 0; i < info.point_count; ++i) result.array->push_back(points[i].index);
   }
@@ -128,9 +128,9 @@ Result Scene::run(const Json& step) {
     on.quads = {}, on.flow = {}, on.region = {}, on.detail = {};
   } else if (what == "clone") {
     hf_solver raw = nullptr;
-    check(hf_clone(solver, &raw));
+    check(hf_solver_clone(solver, &raw));
     Object& made = objects_[step["as"]];
-    made.solver = hf::Handle<hf_solver, hf_destroy>(raw), made.vertex_count = n;
+    made.solver = hf::Handle<hf_solver, hf_solver_destroy>(raw), made.vertex_count = n;
   } else if (what == "add_sites") {
     const size_t k = count(vertices ? vertices : triangles);
     const auto weights = doubles(step, "barycentrics", 3 * k), values = doubles(step, "values", k),
@@ -144,10 +144,10 @@ Result Scene::run(const Json& step) {
     check(hf_remove_sites(solver, count(sites), data(sites)));
   } else if (what == "move_sites") {
     const auto desc = places(vertices);
-    check(hf_move_sites(solver, count(sites), data(sites), &desc));
+    check(hf_solver_move_sites(solver, count(sites), data(sites), &desc));
   } else if (what == "set_values") {
     const auto values = doubles(step, "values", count(sites));
-    check(hf_set_site_values(solver, count(sites), data(sites), data(values)));
+    check(hf_solver_set_values(solver, count(sites), data(sites), data(values)));
   } else if (what == "edit") {
     const auto removed = numbers(step, "remove"), moved = numbers(step, "move"), to = numbers(step, "move_to"),
                changed = numbers(step, "set"), added = numbers(step, "add");
@@ -161,42 +161,42 @@ Result Scene::run(const Json& step) {
     if (changed) edit.set_count = count(changed), edit.set_sites = data(changed), edit.set_values = data(values);
     if (added) edit.add = &add;
     result.numbers.emplace(count(added));
-    check(hf_edit_sites(solver, &edit, result.numbers->data()));
+    check(hf_solver_edit_sites(solver, &edit, result.numbers->data()));
   } else if (what == "record") {
-    check(hf_record(solver));
+    check(hf_solver_record(solver));
   } else if (what == "undo") {
-    check(hf_undo(solver));
+    check(hf_solver_undo(solver));
   } else if (what == "redo") {
-    check(hf_redo(solver));
+    check(hf_solver_redo(solver));
   } else if (what == "solve") {
     result.array.emplace(n);
-    check(hf_solve_f64(solver, result.array->data(), 0, nullptr));
+    check(hf_solver_solve_f64(solver, result.array->data(), 0, nullptr));
   } else if (what == "solve_f32") {
     std::vector<float> field(n);
     check(hf_solve(solver, field.data(), 0, nullptr));
     result.array.emplace(field.begin(), field.end());
   } else if (what == "preview") {
     result.array.emplace(n);
-    check(hf_solve_preview_f64(solver, result.array->data(), 0, step.value("correction_count", 0u), nullptr));
+    check(hf_solver_solve_preview_f64(solver, result.array->data(), 0, step.value("correction_count", 0u), nullptr));
   } else if (what == "solve_at") {
     result.array.emplace(count(vertices));
-    check(hf_solve_at(solver, count(vertices), data(vertices), result.array->data()));
+    check(hf_solver_solve_at(solver, count(vertices), data(vertices), result.array->data()));
   } else if (what == "report") {
-    auto report = make<hf_mesh_report>();
-    check(hf_get_mesh_report(solver, &report));
+    auto report = make<hf_surface_report>();
+    check(hf_surface_get_report(solver, &report));
     result.fields = {{"vertex_count", report.vertex_count},
                      {"component_count", report.component_count},
                      {"boundary_edge_count", report.boundary_edge_count}};
   } else if (what == "statistics") {
-    auto figures = make<hf_statistics>();
-    check(hf_get_statistics(solver, &figures));
+    auto figures = make<hf_solver_statistics>();
+    check(hf_solver_get_statistics(solver, &figures));
     result.fields = {{"factorisation_count", figures.factorisation_count},
                      {"site_count", figures.site_count},
                      {"factor_loaded", figures.factor_loaded}};
   } else if (what == "certify") {
     auto certificate = make<hf_certificate>();
     certificate.tolerance = step.contains("tolerance") ? number(step["tolerance"]) : 0.0;
-    check(hf_certify(solver, &certificate));
+    check(hf_solver_certify(solver, &certificate));
     result.fields = {{"residual", certificate.residual},
                      {"site_error", certificate.site_error},
                      {"overshoot_checked", certificate.overshoot_checked}};
@@ -205,13 +205,13 @@ Result Scene::run(const Json& step) {
     check(hf_get_factor_size(solver, &size));
     auto& bytes = bytes_[step["as"]];
     bytes.resize(size);
-    check(hf_save_factor(solver, bytes.data(), size));
+    check(hf_surface_save(solver, bytes.data(), size));
   } else if (what == "levels" || what == "isolines" || what == "critical" || what == "extremities") {
     return run_looking(step, what, solver, n);
   } else if (what == "distance") {
     const auto sources = numbers(step, "sources");
     result.array.emplace(n);
-    check(hf_geodesics_distance_f64(on.geodesics.get(), count(sources), data(sources), result.array->data(), 0));
+    check(hf_geodesics_solve_f64(on.geodesics.get(), count(sources), data(sources), result.array->data(), 0));
   } else if (what == "pose" || what == "geodesics" || what == "direction" || what == "quads" || what == "flow") {
     make_object(step, what);
   } else if (direction_steps.count(what)) {

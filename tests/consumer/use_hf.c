@@ -10,15 +10,15 @@ int main(void) {
   hf_solver solver;
   hf_create_desc mesh;
   hf_sites_desc sites;
-  HF_INIT(mesh);
+  mesh = HF_INIT(hf_create_desc);
   mesh.vertex_count = 4, mesh.triangle_count = 2, mesh.positions = positions, mesh.triangles = triangles;
-  HF_INIT(sites);
+  sites = HF_INIT(hf_sites_desc);
   sites.site_count = 2, sites.vertices = vertices, sites.values = values;
   if (hf_create(&mesh, &solver) != HF_OK || hf_add_sites(solver, &sites, NULL) != HF_OK ||
       hf_solve(solver, field, 0, NULL) != HF_OK)
     return 1;
-  printf("hf %u: %.3f %.3f %.3f %.3f\n", hf_get_version(), (double)field[0], (double)field[1], (double)field[2],
+  printf("hf %u: %.3f %.3f %.3f %.3f\n", hf_version_get(), (double)field[0], (double)field[1], (double)field[2],
          (double)field[3]);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   return field[1] > 0.49f && field[1] < 0.51f ? 0 : 1;
 }

@@ -54,8 +54,7 @@ std::vector<Given> meshes(std::size_t most) {
 // A solver on the mesh with eight random sites of values in [-1, 1] and their range; null when the mesh is refused.
 hf_solver make_solver(const samples::SurfaceMesh& mesh, int field_kind, std::vector<std::uint32_t>& vertices,
                       std::vector<double>& values) {
-  hf_create_desc desc;
-  HF_INIT(desc);
+  hf_create_desc desc = HF_INIT(hf_create_desc);
   desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
   desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
   desc.positions_f64 = &mesh.positions[0].x, desc.triangles = mesh.triangles.data();
@@ -66,15 +65,14 @@ hf_solver make_solver(const samples::SurfaceMesh& mesh, int field_kind, std::vec
     // coordinates that are no numbers, or no triangle that is one
     EXPECT_TRUE(made == HF_ERROR_NON_FINITE || made == HF_ERROR_EMPTY || made == HF_ERROR_OUT_OF_RANGE ||
                 made == HF_ERROR_TOO_LARGE)
-        << hf_result_name(made);
+        << hf_result_get_name(made);
     return nullptr;
   }
   std::mt19937 random(7);
   for (int i = 0; i < 40 && vertices.size() < 8; ++i) {
     const std::uint32_t v = random() % desc.vertex_count;
     const double value = std::uniform_real_distribution<double>(-1, 1)(random);
-    hf_sites_desc batch;
-    HF_INIT(batch);
+    hf_sites_desc batch = HF_INIT(hf_sites_desc);
     batch.site_count = 1, batch.vertices = &v, batch.values = &value;
     if (hf_add_sites(solver, &batch, nullptr) == HF_OK) vertices.push_back(v), values.push_back(value);
   }
@@ -91,11 +89,11 @@ TEST(EveryMesh, harmonic_fields_keep_to_the_range_of_their_sites) {
     std::vector<double> values;
     const hf_solver solver = make_solver(g.mesh, HF_FIELD_HARMONIC, vertices, values);
     if (!solver || vertices.empty()) {
-      hf_destroy(solver);
+      hf_solver_destroy(solver);
       continue;
     }
     std::vector<double> u(g.mesh.positions.size());
-    ASSERT_EQ(hf_solve_f64(solver, u.data(), 0, nullptr), HF_OK);
+    ASSERT_EQ(hf_solver_solve_f64(solver, u.data(), 0, nullptr), HF_OK);
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     for (const double x : u) {
       ASSERT_TRUE(std::isfinite(x));
@@ -103,7 +101,7 @@ TEST(EveryMesh, harmonic_fields_keep_to_the_range_of_their_sites) {
       ASSERT_TRUE(x == 0 || (x >= *low - 1e-9 && x <= *high + 1e-9)) << x << " outside " << *low << " to " << *high;
     }
     ++solved;
-    hf_destroy(solver);
+    hf_solver_destroy(solver);
   }
   std::printf("%d of %zu meshes\n", solved, given.size());
   EXPECT_GE(solved, 20);
@@ -119,11 +117,11 @@ TEST(EveryMesh, biharmonic_fields_are_finite_and_hold_their_sites) {
       std::vector<double> values;
       const hf_solver solver = make_solver(g.mesh, kind, vertices, values);
       if (!solver || vertices.empty()) {
-        hf_destroy(solver);
+        hf_solver_destroy(solver);
         continue;
       }
       std::vector<double> u(g.mesh.positions.size());
-      ASSERT_EQ(hf_solve_f64(solver, u.data(), 0, nullptr), HF_OK);
+      ASSERT_EQ(hf_solver_solve_f64(solver, u.data(), 0, nullptr), HF_OK);
       double most = 0;
       for (const double x : u) {
         ASSERT_TRUE(std::isfinite(x));
@@ -131,7 +129,7 @@ TEST(EveryMesh, biharmonic_fields_are_finite_and_hold_their_sites) {
       }
       EXPECT_LE(most, 1e4);
       for (std::size_t i = 0; i < vertices.size(); ++i) EXPECT_EQ(u[vertices[i]], values[i]);
-      hf_destroy(solver);
+      hf_solver_destroy(solver);
     }
   }
 }
@@ -152,7 +150,7 @@ TEST(EveryMesh, direction_fields_are_finite_and_their_singularities_sum_up) {
       const double vector[3] = {1, 0.3, -0.2};
       const hf_result added = hf_direction_add_sites(direction, 1, &v, vector, nullptr);
       EXPECT_TRUE(added == HF_OK || added == HF_ERROR_INVALID_ARGUMENT || added == HF_ERROR_DUPLICATE_SITE)
-          << hf_result_name(added);
+          << hf_result_get_name(added);
     }
     std::vector<double> u(3 * g.mesh.positions.size());
     if (hf_direction_solve_f64(direction, u.data(), 0, nullptr) == HF_OK) {
@@ -160,10 +158,10 @@ TEST(EveryMesh, direction_fields_are_finite_and_their_singularities_sum_up) {
         ASSERT_TRUE(std::isfinite(x));
         ASSERT_LE(std::fabs(x), 2.0);
       }
-      hf_mesh_report report;
+      hf_surface_report report;
       hf_direction_statistics statistics;
-      HF_INIT(report), HF_INIT(statistics);
-      ASSERT_EQ(hf_get_mesh_report(solver, &report), HF_OK);
+      HF_INIT(report), statistics = HF_INIT(hf_direction_statistics);
+      ASSERT_EQ(hf_surface_get_report(solver, &report), HF_OK);
       ASSERT_EQ(hf_direction_get_statistics(direction, &statistics), HF_OK);
       std::uint32_t count = 0;
       ASSERT_EQ(hf_direction_get_singularities(direction, 0, nullptr, &count), HF_OK);
@@ -179,7 +177,7 @@ TEST(EveryMesh, direction_fields_are_finite_and_their_singularities_sum_up) {
       }
     }
     hf_direction_destroy(direction);
-    hf_destroy(solver);
+    hf_solver_destroy(solver);
   }
   std::printf("%d closed meshes\n", closed);
   EXPECT_GE(closed, 8);

@@ -44,27 +44,25 @@ TEST_P(ReferenceField, is_reproduced_by_every_engine) {
 #ifndef HF_WITH_GPL
     if (engine == HF_ENGINE_UPDOWN) continue;
 #endif
-    hf_create_desc desc;
-    HF_INIT(desc);
+    hf_create_desc desc = HF_INIT(hf_create_desc);
     desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size()),
     desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
     desc.positions_f64 = &mesh.positions[0].x, desc.triangles = mesh.triangles.data();
     desc.engine = engine, desc.weld = HF_WELD_NONE, desc.operator_kind = HF_OPERATOR_COTANGENT;
     hf_solver solver = nullptr;
     ASSERT_EQ(hf_create(&desc, &solver), HF_OK);
-    hf_sites_desc batch;
-    HF_INIT(batch);
+    hf_sites_desc batch = HF_INIT(hf_sites_desc);
     batch.site_count = static_cast<std::uint32_t>(vertices.size()), batch.vertices = vertices.data(),
     batch.values = values.data();
     ASSERT_EQ(hf_add_sites(solver, &batch, nullptr), HF_OK);
     std::vector<double> u(reference.size());
-    ASSERT_EQ(hf_solve_f64(solver, u.data(), 0, nullptr), HF_OK);
+    ASSERT_EQ(hf_solver_solve_f64(solver, u.data(), 0, nullptr), HF_OK);
     double worst = 0;
     for (std::size_t i = 0; i < u.size(); ++i) worst = std::max(worst, std::fabs(u[i] - reference[i]));
     // the paper's engine holds its sites by penalties of 1e8
     EXPECT_LE(worst, (engine == HF_ENGINE_UPDOWN ? 1e-6 : 1e-9) * (*high - *low)) << "engine " << engine;
     std::printf("%s engine %d: %.1e of the range\n", GetParam(), engine, worst / (*high - *low));
-    hf_destroy(solver);
+    hf_solver_destroy(solver);
   }
 }
 

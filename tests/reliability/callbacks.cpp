@@ -53,7 +53,7 @@ void run(void* user, std::uint32_t count, void (*job)(void*, std::uint32_t), voi
   if (host.runner == 4) throw Foreign();
   if (host.runner == 5 && host.solver) {  // a change from inside: refused
     ++host.reentered;
-    const hf_result result = hf_record(host.solver);
+    const hf_result result = hf_solver_record(host.solver);
     host.wrong += result != HF_ERROR_REENTRANT && result != HF_ERROR_BUSY;
   }
 }
@@ -72,8 +72,8 @@ bool is_answer(int kind, hf_result result) {
 }
 
 double live_bytes(hf_solver solver) {
-  hf_statistics statistics = desc<hf_statistics>();
-  must(hf_get_statistics(solver, &statistics), "hf_get_statistics");
+  hf_solver_statistics statistics = desc<hf_solver_statistics>();
+  must(hf_solver_get_statistics(solver, &statistics), "hf_solver_get_statistics");
   return statistics.memory_bytes;
 }
 
@@ -102,18 +102,18 @@ int main() {
         host.until_throw = -1;
         host.wrong += !is_answer(kind, made) || (made != HF_OK && (solver || host.live != before));
         thrown += made != HF_OK;
-        hf_destroy(solver);
+        hf_solver_destroy(solver);
         host.wrong += host.live != before;
         if (!struck) break;
       }
       hf_solver solver = make_solver(d);
       must(add(solver, 5, 11), "hf_add_sites");
       std::vector<double> right(surface.vertex_count()), field(right), before(right);
-      must(hf_solve_f64(solver, before.data(), 0, nullptr), "hf_solve_f64");
+      must(hf_solver_solve_f64(solver, before.data(), 0, nullptr), "hf_solver_solve_f64");
       hf_solver other = nullptr;
-      must(hf_clone(solver, &other), "hf_clone"), must(add(other, 40, 3), "hf_add_sites");
-      must(hf_solve_f64(other, right.data(), 0, nullptr), "hf_solve_f64");
-      hf_destroy(other);
+      must(hf_solver_clone(solver, &other), "hf_solver_clone"), must(add(other, 40, 3), "hf_add_sites");
+      must(hf_solver_solve_f64(other, right.data(), 0, nullptr), "hf_solver_solve_f64");
+      hf_solver_destroy(other);
       const double bytes = live_bytes(solver);
       for (long at = 0;; at += 1 + at / 8) {
         host.until_throw = at;
@@ -122,13 +122,13 @@ int main() {
         host.wrong += !is_answer(kind, added);
         if (added == HF_OK) break;
         ++thrown;
-        host.wrong += hf_get_site_count(solver) != 5 || live_bytes(solver) != bytes;
-        must(hf_solve_f64(solver, field.data(), 0, nullptr), "hf_solve_f64");
+        host.wrong += hf_solver_get_site_count(solver) != 5 || live_bytes(solver) != bytes;
+        must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
         host.wrong += field != before;
       }
-      must(hf_solve_f64(solver, field.data(), 0, nullptr), "hf_solve_f64");
+      must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
       host.wrong += field != right;
-      hf_destroy(solver);
+      hf_solver_destroy(solver);
     }
   }
 
@@ -139,8 +139,8 @@ int main() {
   hf_solver plain = make_solver(d);
   must(add(plain, 5, 11), "hf_add_sites");
   std::vector<double> right(large.vertex_count()), field(right);
-  must(hf_solve_f64(plain, right.data(), 0, nullptr), "hf_solve_f64");
-  hf_destroy(plain);
+  must(hf_solver_solve_f64(plain, right.data(), 0, nullptr), "hf_solver_solve_f64");
+  hf_solver_destroy(plain);
   d.job_runner = {run, &host};
   unsigned refused = 0;
   for (int runner = 0; runner < 6; ++runner) {
@@ -151,15 +151,15 @@ int main() {
     host.runner = 0;
     host.wrong += added != HF_OK && added != HF_ERROR_INTERNAL;
     refused += added != HF_OK;
-    if (added != HF_OK) host.wrong += hf_get_site_count(solver) != 0, must(add(solver, 5, 11), "hf_add_sites, again");
+    if (added != HF_OK) host.wrong += hf_solver_get_site_count(solver) != 0, must(add(solver, 5, 11), "hf_add_sites, again");
     host.runner = runner;
-    const hf_result solved = hf_solve_f64(solver, field.data(), 0, nullptr);
+    const hf_result solved = hf_solver_solve_f64(solver, field.data(), 0, nullptr);
     host.runner = 0, host.solver = nullptr;
     refused += solved != HF_OK;
     host.wrong += solved != HF_OK && solved != HF_ERROR_INTERNAL;
-    must(hf_solve_f64(solver, field.data(), 0, nullptr), "hf_solve_f64, again");
+    must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64, again");
     host.wrong += field != right;
-    hf_destroy(solver);
+    hf_solver_destroy(solver);
   }
   report_at_least("CALLBACKS_EXCEPTIONS_SURVIVED", thrown, 200);
   report_at_least("CALLBACKS_FAULTY_RUNS_REFUSED", refused, 2);

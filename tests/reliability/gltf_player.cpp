@@ -32,8 +32,7 @@ void hold(bool condition, const char* what) {
 // other values; a finite field between them.
 bool solve(const FlatMesh& mesh) {
   const std::vector<double> positions = double_positions(mesh.positions);
-  hf_create_desc desc;
-  HF_INIT(desc);
+  hf_create_desc desc = HF_INIT(hf_create_desc);
   desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
   desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
   desc.vertex_limit = 200000, desc.memory_limit_mb = 256;
@@ -44,15 +43,15 @@ bool solve(const FlatMesh& mesh) {
     // a file may be empty, far too large, or hold numbers that overflow a double when squared
     hold(made == HF_ERROR_EMPTY || made == HF_ERROR_TOO_LARGE || made == HF_ERROR_OUT_OF_MEMORY ||
              made == HF_ERROR_NON_FINITE,
-         hf_result_name(made));
+         hf_result_get_name(made));
     return false;
   }
   struct Owner {
     hf_solver solver;
-    ~Owner() { hf_destroy(solver); }
+    ~Owner() { hf_solver_destroy(solver); }
   } owner{solver};
   std::vector<std::uint32_t> component(mesh.vertex_count());
-  hold(hf_get_components(solver, mesh.vertex_count(), component.data()) == HF_OK, "hf_get_components failed");
+  hold(hf_surface_get_components(solver, mesh.vertex_count(), component.data()) == HF_OK, "hf_surface_get_components failed");
   std::vector<std::uint32_t> places;
   std::vector<bool> seen(mesh.vertex_count(), false);
   for (std::uint32_t v = 0; v < mesh.vertex_count() && places.size() < 64; ++v) {
@@ -63,8 +62,7 @@ bool solve(const FlatMesh& mesh) {
   if (places.empty()) return false;
   std::vector<double> values(places.size()), field(mesh.vertex_count());
   for (std::size_t i = 0; i < places.size(); ++i) values[i] = static_cast<double>(i % 7);
-  hf_sites_desc sites;
-  HF_INIT(sites);
+  hf_sites_desc sites = HF_INIT(hf_sites_desc);
   sites.site_count = static_cast<std::uint32_t>(places.size()), sites.vertices = places.data(),
   sites.values = values.data();
   hold(hf_add_sites(solver, &sites, nullptr) == HF_OK, "hf_add_sites refused first vertices of components");
@@ -74,14 +72,13 @@ bool solve(const FlatMesh& mesh) {
     const double value = 10;
     sites.site_count = 1, sites.vertices = &v, sites.values = &value;
     const hf_result added = hf_add_sites(solver, &sites, nullptr);
-    hold(added == HF_OK, hf_result_name(added));
+    hold(added == HF_OK, hf_result_get_name(added));
     break;
   }
-  hold(hf_solve_f64(solver, field.data(), 0, nullptr) == HF_OK, "hf_solve_f64 failed");
+  hold(hf_solver_solve_f64(solver, field.data(), 0, nullptr) == HF_OK, "hf_solver_solve_f64 failed");
   // where triangles have no area to working precision (a vertex at 1e30, say) only finite values are promised
-  hf_mesh_report report;
-  HF_INIT(report);
-  hold(hf_get_mesh_report(solver, &report) == HF_OK, "hf_get_mesh_report failed");
+  hf_surface_report report = HF_INIT(hf_surface_report);
+  hold(hf_surface_get_report(solver, &report) == HF_OK, "hf_surface_get_report failed");
   const bool sound = report.degenerate_triangle_count == 0;
   for (const double u : field) {
     hold(std::isfinite(u), "a field value is not finite");

@@ -108,18 +108,18 @@ class Stages {
     take(solver, hash);
     must(hf_remove_sites(solver, 4, sites + 3), "hf_remove_sites");
     more = places(2, 613, 17), more.values = nullptr;
-    must(hf_move_sites(solver, 2, sites, &more), "hf_move_sites");
+    must(hf_solver_move_sites(solver, 2, sites, &more), "hf_solver_move_sites");
     take(solver, hash);
     add(solver, 120, 83, 41, nullptr);
     must(hf_remove_sites(solver, 1, sites + 9), "hf_remove_sites, by rotations");
     take(solver, hash);
-    must(hf_prepare_rebase(solver), "hf_prepare_rebase");
-    must(hf_set_site_values(solver, 1, sites + 8, values_.data() + 7), "hf_set_site_values");
+    must(hf_solver_prepare_rebase(solver), "hf_solver_prepare_rebase");
+    must(hf_solver_set_values(solver, 1, sites + 8, values_.data() + 7), "hf_solver_set_values");
     take(solver, hash);
     must(hf_solve(solver, floats_.data(), 0, nullptr), "hf_solve"), hash.take(floats_.data(), floats_.size());
-    must(hf_solve_preview(solver, floats_.data(), 0, 0, nullptr), "hf_solve_preview");
+    must(hf_solver_solve_preview(solver, floats_.data(), 0, 0, nullptr), "hf_solver_solve_preview");
     hash.take(floats_.data(), floats_.size());
-    hf_destroy(solver);
+    hf_solver_destroy(solver);
   }
 
   // Every operator, every kind of field, minimum degree and the engine that factors anew.
@@ -133,8 +133,8 @@ class Stages {
         if (op == HF_OPERATOR_CLAMPED) d.ordering = HF_ORDERING_MINIMUM_DEGREE;
         const hf_solver solver = make_solver(d);
         add(solver, 9, 701, 3, nullptr);
-        must(hf_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solve_f64"), hash.take(doubles_.data(), n_);
-        hf_destroy(solver);
+        must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64"), hash.take(doubles_.data(), n_);
+        hf_solver_destroy(solver);
       }
     }
   }
@@ -143,19 +143,19 @@ class Stages {
   void analysis(Hash& hash) {
     const hf_solver solver = make_solver(base_);
     add(solver, 7, 811, 29, nullptr);
-    must(hf_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solve_f64");
+    must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64");
     hf_scalars scalars = desc<hf_scalars>();
     scalars.values_f64 = doubles_.data();
     std::vector<hf_critical_point> points(n_);
     hf_critical_info info = desc<hf_critical_info>();
-    must(hf_find_critical_points(solver, &scalars, n_, points.data(), &info), "hf_find_critical_points");
+    must(hf_surface_find_critical_points(solver, &scalars, n_, points.data(), &info), "hf_surface_find_critical_points");
     for (std::uint32_t i = 0; i < info.point_count; ++i) hash.take(&points[i].vertex, 1), hash.take(&points[i].kind, 1);
     hf_geodesics geodesics = nullptr;
     must(hf_geodesics_create(solver, nullptr, &geodesics), "hf_geodesics_create");
     const std::uint32_t sources[2] = {3, 2000};
-    must(hf_geodesics_distance_f64(geodesics, 2, sources, doubles_.data(), 0), "hf_geodesics_distance_f64");
+    must(hf_geodesics_solve_f64(geodesics, 2, sources, doubles_.data(), 0), "hf_geodesics_solve_f64");
     hash.take(doubles_.data(), n_);
-    hf_geodesics_destroy(geodesics), hf_destroy(solver);
+    hf_geodesics_destroy(geodesics), hf_solver_destroy(solver);
   }
 
  private:
@@ -174,7 +174,7 @@ class Stages {
     must(hf_add_sites(solver, &d, sites), "hf_add_sites");
   }
   void take(hf_solver solver, Hash& hash) {
-    must(hf_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solve_f64"),
+    must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64"),
         hash.take(doubles_.data(), doubles_.size());
   }
 

@@ -121,7 +121,7 @@ Outcome run(const Scene& scene, bool paper_engine) {
   Options options;
   options.paper_engine = paper_engine;
   const Outcome outcome = run_whole_api(scene, options);
-  if (outcome.unexpected > 0) fprintf(stderr, "%s answered %s\n", outcome.first, hf_result_name(outcome.got));
+  if (outcome.unexpected > 0) fprintf(stderr, "%s answered %s\n", outcome.first, hf_result_get_name(outcome.got));
   unexpected += outcome.unexpected;
   return outcome;
 }
@@ -222,7 +222,7 @@ unsigned answers_from_the_default_resource(const Scene& scene, std::uint64_t exp
   std::pmr::memory_resource* before = std::pmr::set_default_resource(std::pmr::null_memory_resource());
   const Outcome outcome = run_whole_api(scene);
   std::pmr::set_default_resource(before);
-  if (outcome.unexpected > 0) fprintf(stderr, "%s answered %s\n", outcome.first, hf_result_name(outcome.got));
+  if (outcome.unexpected > 0) fprintf(stderr, "%s answered %s\n", outcome.first, hf_result_get_name(outcome.got));
   return outcome.unexpected + (outcome.hash != expected);
 }
 
@@ -253,7 +253,7 @@ unsigned different_jobs(const Scene& scene, std::uint64_t expected, unsigned& jo
   Options options;
   options.threads = 4, options.runner = &runner;
   const Outcome outcome = run_whole_api(scene, options);
-  if (outcome.unexpected > 0) fprintf(stderr, "%s answered %s\n", outcome.first, hf_result_name(outcome.got));
+  if (outcome.unexpected > 0) fprintf(stderr, "%s answered %s\n", outcome.first, hf_result_get_name(outcome.got));
   jobs = seen.jobs;
   return seen.changed + outcome.unexpected + (outcome.hash != expected);
 }

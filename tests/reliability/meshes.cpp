@@ -264,7 +264,7 @@ Mesh of_any_magnitudes(std::uint64_t seed) {
 // Empty, or what is wrong with the field of two sites, far apart in number, with values 0 and 1, or both c.
 std::string check_field(hf_solver solver, const Mesh& m, double beyond, double far_value, double near_value) {
   std::vector<std::uint32_t> component(m.count());
-  if (hf_get_components(solver, m.count(), component.data()) != HF_OK) return "hf_get_components failed";
+  if (hf_surface_get_components(solver, m.count(), component.data()) != HF_OK) return "hf_surface_get_components failed";
   std::uint32_t first = HF_NO_INDEX, last = HF_NO_INDEX;
   for (std::uint32_t v = 0; v < m.count(); ++v) {
     if (component[v] == HF_NO_INDEX) continue;
@@ -277,15 +277,14 @@ std::string check_field(hf_solver solver, const Mesh& m, double beyond, double f
   }
   const std::uint32_t places[2] = {first, last};
   const double values[2] = {near_value, far_value};
-  hf_sites_desc sites;
-  HF_INIT(sites);
+  hf_sites_desc sites = HF_INIT(hf_sites_desc);
   sites.site_count = last == HF_NO_INDEX ? 1 : 2, sites.vertices = places, sites.values = values;
   std::uint32_t numbers[2];
   hf_result got = hf_add_sites(solver, &sites, numbers);
-  if (got != HF_OK) return std::string("hf_add_sites: ") + hf_result_name(got);
+  if (got != HF_OK) return std::string("hf_add_sites: ") + hf_result_get_name(got);
   std::vector<double> field(m.count());
-  got = hf_solve_f64(solver, field.data(), 0, nullptr);
-  if (got != HF_OK) return std::string("hf_solve_f64: ") + hf_result_name(got);
+  got = hf_solver_solve_f64(solver, field.data(), 0, nullptr);
+  if (got != HF_OK) return std::string("hf_solver_solve_f64: ") + hf_result_get_name(got);
   const double low = std::fmin(near_value, far_value), high = std::fmax(near_value, far_value);
   for (std::uint32_t v = 0; v < m.count(); ++v) {
     if (!std::isfinite(field[v])) return "a value is not finite";
@@ -298,8 +297,7 @@ std::string check_field(hf_solver solver, const Mesh& m, double beyond, double f
 }
 
 std::string check(const Mesh& m, int operator_kind, int field_kind, bool any_magnitudes = false) {
-  hf_create_desc desc;
-  HF_INIT(desc);
+  hf_create_desc desc = HF_INIT(hf_create_desc);
   desc.vertex_count = m.count(), desc.triangle_count = static_cast<std::uint32_t>(m.triangles.size() / 3);
   desc.positions_f64 = m.positions.data(), desc.triangles = m.triangles.data();
   static const std::uint32_t no_triangle[3] = {0, 0, 0};
@@ -308,8 +306,8 @@ std::string check(const Mesh& m, int operator_kind, int field_kind, bool any_mag
   hf_solver solver = nullptr;
   const hf_result got = hf_create(&desc, &solver);
   if (got != m.expected && !(any_magnitudes && got == HF_ERROR_EMPTY)) {
-    hf_destroy(solver);
-    return hf_result_name(got);
+    hf_solver_destroy(solver);
+    return hf_result_get_name(got);
   }
   if (got != HF_OK) return solver == nullptr ? "" : "a refused hf_create gave a handle";
   // weights of any magnitudes spread over ten digits of sixteen, whatever is done to them
@@ -318,14 +316,13 @@ std::string check(const Mesh& m, int operator_kind, int field_kind, bool any_mag
   std::string wrong =
       check_field(solver, m, harmonic && operator_kind != HF_OPERATOR_COTANGENT ? rounding : 1e300, 1, 0);
   if (wrong.empty()) wrong = check_field(solver, m, harmonic ? rounding : 1e300, 3, 3);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   return wrong;
 }
 
 // The field of the first vertices with three sites there, of a solver that is made, saved and loaded again.
 std::vector<double> loaded_field(const Mesh& m, std::uint32_t count, int operator_kind, int field_kind) {
-  hf_create_desc desc;
-  HF_INIT(desc);
+  hf_create_desc desc = HF_INIT(hf_create_desc);
   desc.vertex_count = m.count(), desc.triangle_count = static_cast<std::uint32_t>(m.triangles.size() / 3);
   desc.positions_f64 = m.positions.data(), desc.triangles = m.triangles.data();
   desc.operator_kind = operator_kind, desc.field_kind = field_kind;
@@ -334,20 +331,18 @@ std::vector<double> loaded_field(const Mesh& m, std::uint32_t count, int operato
   std::vector<double> field(m.count(), NAN);
   if (hf_create(&desc, &made) == HF_OK && hf_get_factor_size(made, &size) == HF_OK) {
     std::vector<unsigned char> bytes(size);
-    hf_factor_desc saved;
-    HF_INIT(saved);
+    hf_factor_desc saved = HF_INIT(hf_factor_desc);
     saved.bytes = bytes.data(), saved.byte_count = size;
     desc.saved_factor = &saved;
     const std::uint32_t places[] = {0, count / 2, count - 1};
     const double values[] = {0, 1, -1};
-    hf_sites_desc sites;
-    HF_INIT(sites);
+    hf_sites_desc sites = HF_INIT(hf_sites_desc);
     sites.site_count = 3, sites.vertices = places, sites.values = values;
-    if (hf_save_factor(made, bytes.data(), size) != HF_OK || hf_create(&desc, &solver) != HF_OK ||
-        hf_add_sites(solver, &sites, nullptr) != HF_OK || hf_solve_f64(solver, field.data(), 0, nullptr) != HF_OK)
+    if (hf_surface_save(made, bytes.data(), size) != HF_OK || hf_create(&desc, &solver) != HF_OK ||
+        hf_add_sites(solver, &sites, nullptr) != HF_OK || hf_solver_solve_f64(solver, field.data(), 0, nullptr) != HF_OK)
       field.assign(m.count(), NAN);
   }
-  hf_destroy(made), hf_destroy(solver);
+  hf_solver_destroy(made), hf_solver_destroy(solver);
   field.resize(count);
   return field;
 }

@@ -21,9 +21,9 @@ unsigned wrong_details;
 void provoke(hf_result got, const char* how) {
   if (!seen.emplace(got, how).second || got == HF_OK) return;
   hf_error_detail detail;
-  hf_get_error_detail(&detail);
+  hf_error_get_detail(&detail);
   const bool named = detail.code == got && std::strlen(detail.function) > 0 && std::strlen(detail.message) > 0;
-  if (!named) fprintf(stderr, "%s: the detail says %s\n", how, hf_result_name(detail.code));
+  if (!named) fprintf(stderr, "%s: the detail says %s\n", how, hf_result_get_name(detail.code));
   wrong_details += !named;
 }
 
@@ -44,7 +44,7 @@ void arguments(const Scene& s) {
   hf_solver solver = nullptr;
   hf_create_desc d = scene_desc(s);
   provoke(hf_create(nullptr, &solver), "no desc");
-  provoke(hf_get_mesh_report(nullptr, nullptr), "no solver");
+  provoke(hf_surface_get_report(nullptr, nullptr), "no solver");
   d.weld = 9, provoke(hf_create(&d, &solver), "weld 9");
   d = scene_desc(s), d.struct_size = 1, provoke(hf_create(&d, &solver), "struct_size 1");
   d = scene_desc(s), d.vertex_count = 0, provoke(hf_create(&d, &solver), "no vertices");
@@ -66,13 +66,13 @@ void states(const Scene& s) {
   provoke(hf_create(&d, &solver), "a solver");
   double value = 0;
   const std::uint32_t vertex = 3, none = 77;
-  provoke(hf_solve_at(solver, 1, &vertex, &value), "a field without sites");
+  provoke(hf_solver_solve_at(solver, 1, &vertex, &value), "a field without sites");
   provoke(add_one(solver, 3, 1), "a site"), provoke(add_one(solver, 3, 1), "the same again");
   provoke(add_one(solver, 3, 2), "another value there");
-  provoke(hf_remove_sites(solver, 1, &none), "an absent site"), provoke(hf_undo(solver), "nothing to undo");
+  provoke(hf_remove_sites(solver, 1, &none), "an absent site"), provoke(hf_solver_undo(solver), "nothing to undo");
   hf_certificate certificate = desc<hf_certificate>();
   add_one(solver, 200, 2), certificate.tolerance = 1e-300;
-  provoke(hf_certify(solver, &certificate), "a tolerance no field can meet");
+  provoke(hf_solver_certify(solver, &certificate), "a tolerance no field can meet");
 
   hf_pose pose = nullptr;
   hf_transfer transfer = nullptr;
@@ -84,13 +84,13 @@ void states(const Scene& s) {
   provoke(hf_pose_remove_handles(pose, 1, &none), "an absent handle");
   must(hf_transfer_create(solver, solver, nullptr, &transfer), "hf_transfer_create");
   provoke(hf_transfer_remove_pairs(transfer, 1, &none), "an absent pair");
-  hf_pose_destroy(pose), hf_transfer_destroy(transfer), hf_destroy(solver);
+  hf_pose_destroy(pose), hf_transfer_destroy(transfer), hf_solver_destroy(solver);
 
   hf_create_desc bent = scene_desc(s);
   bent.field_kind = HF_FIELD_BIHARMONIC;
   must(hf_create(&bent, &solver), "hf_create");
   provoke(hf_pose_create(solver, nullptr, &pose), "a pose on a bi-harmonic solver");
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 
   hf_progress progress = nullptr;
   must(hf_progress_create(&progress), "hf_progress_create"), must(hf_progress_cancel(progress), "hf_progress_cancel");
@@ -110,9 +110,9 @@ void* allocate(void* user, std::size_t size, std::size_t alignment) {
   Hooks& hooks = *static_cast<Hooks*>(user);
   const auto mode = hooks.mode;
   hooks.mode = Hooks::plain;
-  if (mode == Hooks::call_back) provoke(hooks.answer = hf_record(hooks.solver), "a call from a callback");
+  if (mode == Hooks::call_back) provoke(hooks.answer = hf_solver_record(hooks.solver), "a call from a callback");
   if (mode == Hooks::hold)
-    std::thread([&] { provoke(hooks.answer = hf_record(hooks.solver), "a call beside a change"); }).join();
+    std::thread([&] { provoke(hooks.answer = hf_solver_record(hooks.solver), "a call beside a change"); }).join();
   if (mode == Hooks::wreck) throw std::runtime_error("a fault of the host");
   const std::size_t step = alignment < 16 ? 16 : alignment;
   return aligned_alloc(step, (size + step - 1) / step * step);
@@ -128,7 +128,7 @@ void callbacks(const Scene& s) {
     hooks.mode = mode;
     provoke(add_one(hooks.solver, 20 + static_cast<std::uint32_t>(mode), 1), "an edit with a faulty hook");
   }
-  hf_destroy(hooks.solver);
+  hf_solver_destroy(hooks.solver);
 }
 
 // Two needles of 1e34 with nearly all of their length in common: a solver takes them, the heat of distances, which has
@@ -146,7 +146,7 @@ void indefinite() {
   hf_geodesics geodesics = nullptr;
   provoke(hf_geodesics_create(solver, &g, &geodesics), "the heat on two needles");
   hf_geodesics_destroy(geodesics);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 }
 
 }  // namespace
@@ -156,10 +156,10 @@ int main() {
   arguments(scene), states(scene), callbacks(scene), indefinite();
   unsigned named = 0, missing = 0;
   for (hf_result code = -400; code <= 0; ++code) {
-    if (std::strcmp(hf_result_name(code), "unknown") == 0) continue;
+    if (std::strcmp(hf_result_get_name(code), "unknown") == 0) continue;
     ++named;
     if (seen.count(code)) continue;
-    ++missing, fprintf(stderr, "never returned: %s\n", hf_result_name(code));
+    ++missing, fprintf(stderr, "never returned: %s\n", hf_result_get_name(code));
   }
   report_at_least("RESULT_CODES", named, 25);
   report_at_most("RESULT_CODES_NEVER_RETURNED", missing, 0);

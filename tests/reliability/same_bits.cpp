@@ -22,7 +22,7 @@ unsigned unexpected;
 
 std::uint64_t hash_of(const Scene& scene, const Options& options) {
   const Outcome outcome = run_whole_api(scene, options);
-  if (outcome.unexpected > 0) fprintf(stderr, "%s answered %s\n", outcome.first, hf_result_name(outcome.got));
+  if (outcome.unexpected > 0) fprintf(stderr, "%s answered %s\n", outcome.first, hf_result_get_name(outcome.got));
   unexpected += outcome.unexpected;
   return outcome.hash;
 }
@@ -54,8 +54,8 @@ std::uint64_t large_hash(const Surface& surface, std::uint32_t threads, const hf
   hf_sites_desc sites = desc<hf_sites_desc>();
   sites.site_count = 60, sites.vertices = vertices.data(), sites.values = values.data();
   must(hf_add_sites(solver, &sites, nullptr), "hf_add_sites");
-  must(hf_solve_f64(solver, field.data(), 0, nullptr), "hf_solve_f64");
-  hf_destroy(solver);
+  must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
+  hf_solver_destroy(solver);
   std::uint64_t hash = 14695981039346656037u;
   const unsigned char* bytes = reinterpret_cast<const unsigned char*>(field.data());
   for (std::size_t i = 0; i < field.size() * sizeof(double); ++i) hash = (hash ^ bytes[i]) * 1099511628211u;
@@ -111,40 +111,40 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
   sites.site_count = 3, sites.vertices = vertices, sites.values = values;
   must(hf_add_sites(shared, &sites, nullptr), "hf_add_sites");
   std::vector<double> right(surface.vertex_count());
-  must(hf_solve_f64(shared, right.data(), 0, nullptr), "hf_solve_f64");
+  must(hf_solver_solve_f64(shared, right.data(), 0, nullptr), "hf_solver_solve_f64");
   on_eight([&](unsigned) {
     std::vector<double> field(surface.vertex_count());
     for (int i = 0; i < 20 * rounds; ++i) {
-      different += hf_solve_f64(shared, field.data(), 0, nullptr) != HF_OK || field != right;
+      different += hf_solver_solve_f64(shared, field.data(), 0, nullptr) != HF_OK || field != right;
       double at = 0;
       const std::uint32_t asked = 700;
-      different += hf_solve_at(shared, 1, &asked, &at) != HF_OK || !(std::fabs(at - right[asked]) < 1e-12);
+      different += hf_solver_solve_at(shared, 1, &asked, &at) != HF_OK || !(std::fabs(at - right[asked]) < 1e-12);
       hf_certificate certificate = desc<hf_certificate>();
-      different += hf_certify(shared, &certificate) != HF_OK;
-      hf_statistics statistics = desc<hf_statistics>();
-      different += hf_get_statistics(shared, &statistics) != HF_OK || hf_get_site_count(shared) != 3;
+      different += hf_solver_certify(shared, &certificate) != HF_OK;
+      hf_solver_statistics statistics = desc<hf_solver_statistics>();
+      different += hf_solver_get_statistics(shared, &statistics) != HF_OK || hf_solver_get_site_count(shared) != 3;
     }
   });
   std::vector<double> edited[8];
   on_eight([&](unsigned t) {
     for (int i = 0; i < 10 * rounds; ++i) {
       hf_solver copy = nullptr;
-      different += hf_clone(shared, &copy) != HF_OK;
+      different += hf_solver_clone(shared, &copy) != HF_OK;
       const std::uint32_t vertex = 40 + 17 * t, moved = 90;
       const double value = 3;
       std::uint32_t site = 0;
       hf_sites_desc more = desc<hf_sites_desc>(), to = desc<hf_sites_desc>();
       more.site_count = to.site_count = 1, more.vertices = &vertex, more.values = &value, to.vertices = &moved;
-      different += hf_add_sites(copy, &more, &site) != HF_OK || hf_move_sites(copy, 1, &site, &to) != HF_OK;
+      different += hf_add_sites(copy, &more, &site) != HF_OK || hf_solver_move_sites(copy, 1, &site, &to) != HF_OK;
       std::vector<double> field(surface.vertex_count());
-      different += hf_solve_f64(copy, field.data(), 0, nullptr) != HF_OK;
+      different += hf_solver_solve_f64(copy, field.data(), 0, nullptr) != HF_OK;
       if (edited[t].empty()) edited[t] = field;
       different += field != edited[t];
-      hf_destroy(copy);
+      hf_solver_destroy(copy);
     }
   });
   for (unsigned t = 1; t < 8; ++t) different += edited[t] != edited[0];  // all moved their site to one place
-  hf_destroy(shared);
+  hf_solver_destroy(shared);
   return different;
 }
 
@@ -163,7 +163,7 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
     hf_sites_desc sites = desc<hf_sites_desc>();
     sites.site_count = 2, sites.vertices = vertices, sites.values = values;
     must(hf_add_sites(inherited[i], &sites, nullptr), "hf_add_sites");
-    must(hf_solve_f64(inherited[i], field.data(), 0, nullptr), "hf_solve_f64");
+    must(hf_solver_solve_f64(inherited[i], field.data(), 0, nullptr), "hf_solver_solve_f64");
     right = field;
   }
   fflush(stdout), fflush(stderr);
@@ -175,21 +175,21 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
       alarm(60);  // a child that hangs is ended by the signal
       unsigned bad = 0;
       for (const hf_solver solver : inherited) {
-        bad += hf_solve_f64(solver, field.data(), 0, nullptr) != HF_OK || field != right;
-        bad += hf_record(solver) != HF_OK;
+        bad += hf_solver_solve_f64(solver, field.data(), 0, nullptr) != HF_OK || field != right;
+        bad += hf_solver_record(solver) != HF_OK;
       }
       for (const std::uint32_t threads : {1u, 3u}) bad += run_whole_api(scene, with_threads(threads)).hash != expected;
-      for (const hf_solver solver : inherited) hf_destroy(solver);
+      for (const hf_solver solver : inherited) hf_solver_destroy(solver);
       _exit(bad > 50 ? 50 : static_cast<int>(bad));
     }
     // the parent works on meanwhile
     for (const hf_solver solver : inherited)
-      wrong += hf_solve_f64(solver, field.data(), 0, nullptr) != HF_OK || field != right;
+      wrong += hf_solver_solve_f64(solver, field.data(), 0, nullptr) != HF_OK || field != right;
     int status = 0;
     waitpid(child, &status, 0);
     wrong += WIFEXITED(status) ? static_cast<unsigned>(WEXITSTATUS(status)) : 100;
   }
-  for (const hf_solver solver : inherited) hf_destroy(solver);
+  for (const hf_solver solver : inherited) hf_solver_destroy(solver);
   return wrong;
 }
 
@@ -207,22 +207,22 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
   sites.site_count = 2, sites.vertices = vertices, sites.values = values;
   must(hf_add_sites(solver, &sites, nullptr), "hf_add_sites");
   std::vector<double> field(surface.vertex_count()), right = field;
-  must(hf_solve_f64(solver, right.data(), 0, nullptr), "hf_solve_f64");
+  must(hf_solver_solve_f64(solver, right.data(), 0, nullptr), "hf_solver_solve_f64");
   fflush(stdout), fflush(stderr);
   unsigned wrong = 0;
   for (int i = 0; i < count && wrong < 3; ++i) {  // a child that hangs takes 20 s
-    must(hf_solve_f64(solver, field.data(), 0, nullptr), "hf_solve_f64");
+    must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
     const pid_t child = fork();
     if (child < 0) return wrong + 100;
     if (child == 0) {
       alarm(20);
-      _exit(hf_solve_f64(solver, field.data(), 0, nullptr) != HF_OK || field != right);
+      _exit(hf_solver_solve_f64(solver, field.data(), 0, nullptr) != HF_OK || field != right);
     }
     int status = 0;
     waitpid(child, &status, 0);
     wrong += !WIFEXITED(status) || WEXITSTATUS(status) != 0;
   }
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   return wrong;
 }
 

@@ -15,7 +15,7 @@ struct PlaceLists {
   hf_sites_desc desc;
   PlaceLists(const std::vector<Place>& places, const std::vector<double>* values,
              const std::vector<double>* stiffness) {
-    HF_INIT(desc);
+    desc = HF_INIT(hf_sites_desc);
     desc.site_count = static_cast<std::uint32_t>(places.size());
     for (const Place& p : places) {
       vertices.push_back(p.vertex), triangles.push_back(p.triangle);
@@ -32,7 +32,7 @@ struct PlaceLists {
 
 }  // namespace
 
-// how: 0 hf_edit_sites, otherwise the single call the batch has.
+// how: 0 hf_solver_edit_sites, otherwise the single call the batch has.
 void Player::edit_sites(const Edit& edit, unsigned how) {
   const hf_result expected = here().model.judge(edit);
   const PlaceLists to(edit.move_to, nullptr, nullptr), add(edit.add, &edit.add_values, &edit.add_stiffness);
@@ -41,19 +41,18 @@ void Player::edit_sites(const Edit& edit, unsigned how) {
   const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
   hf_result got;
   if (how == 0) {
-    hf_edit_desc d;
-    HF_INIT(d);
+    hf_edit_desc d = HF_INIT(hf_edit_desc);
     d.remove_count = size(edit.remove), d.remove_sites = edit.remove.data();
     d.move_count = size(edit.move), d.move_sites = edit.move.data(), d.move_to = edit.move.empty() ? nullptr : &to.desc;
     d.set_count = size(edit.set), d.set_sites = edit.set.data(), d.set_values = edit.set_values.data();
     d.add = edit.add.empty() ? nullptr : &add.desc;
-    got = hf_edit_sites(here().solver, &d, numbers.data());
+    got = hf_solver_edit_sites(here().solver, &d, numbers.data());
   } else if (!edit.remove.empty()) {
     got = hf_remove_sites(here().solver, size(edit.remove), edit.remove.data());
   } else if (!edit.move.empty()) {
-    got = hf_move_sites(here().solver, size(edit.move), edit.move.data(), &to.desc);
+    got = hf_solver_move_sites(here().solver, size(edit.move), edit.move.data(), &to.desc);
   } else if (!edit.set.empty()) {
-    got = hf_set_site_values(here().solver, size(edit.set), edit.set.data(), edit.set_values.data());
+    got = hf_solver_set_values(here().solver, size(edit.set), edit.set.data(), edit.set_values.data());
   } else {
     got = hf_add_sites(here().solver, &add.desc, numbers.data());
   }
@@ -69,15 +68,15 @@ void Player::edit_sites(const Edit& edit, unsigned how) {
 
 void Player::record() {
   here().model.recorded_field = field_of(here());
-  expect(HF_OK, hf_record(here().solver), "hf_record");
+  expect(HF_OK, hf_solver_record(here().solver), "hf_solver_record");
   here().model.record();
 }
 
 void Player::step(bool back) {
   Branch& b = here();
   const bool possible = back ? b.model.undo() : b.model.redo();
-  expect(possible ? HF_OK : HF_ERROR_NO_RECORD, back ? hf_undo(b.solver) : hf_redo(b.solver),
-         back ? "hf_undo" : "hf_redo");
+  expect(possible ? HF_OK : HF_ERROR_NO_RECORD, back ? hf_solver_undo(b.solver) : hf_solver_redo(b.solver),
+         back ? "hf_solver_undo" : "hf_solver_redo");
   if (!possible || b.model.recorded_field.empty() || b.model.sites().empty()) return;
   if (setting_.engine != HF_ENGINE_GREEN) return;  // the others follow by an edit: equal to rounding, see compare()
   const std::vector<double> field = field_of(b);
@@ -92,13 +91,13 @@ void Player::branch_off() {
     auto made = std::make_unique<Branch>(setting_);
     made->model = here().model;
     made->model.forget_records();
-    expect(HF_OK, hf_clone(here().solver, &made->solver), "hf_clone");
+    expect(HF_OK, hf_solver_clone(here().solver, &made->solver), "hf_solver_clone");
     branches_.push_back(std::move(made));
     active_ = branches_.size() - 1;
   } else if (branches_.size() > 1 && b % 8 == 1) {
     const hf_solver gone = here().solver;
     branches_.erase(branches_.begin() + static_cast<std::ptrdiff_t>(active_));
-    expect(HF_ERROR_INVALID_HANDLE, hf_record(gone), "hf_record on a destroyed handle");
+    expect(HF_ERROR_INVALID_HANDLE, hf_solver_record(gone), "hf_solver_record on a destroyed handle");
     active_ = 0;
   } else {
     active_ = b / 2 % branches_.size();
@@ -110,10 +109,9 @@ void Player::reload() {
   std::size_t size = 0;
   expect(HF_OK, hf_get_factor_size(here().solver, &size), "hf_get_factor_size");
   std::vector<std::uint8_t> bytes(size + 1, 0x5A);
-  expect(HF_OK, hf_save_factor(here().solver, bytes.data(), size), "hf_save_factor");
-  hold(bytes[size] == 0x5A, "hf_save_factor wrote behind its size");
-  hf_factor_desc factor;
-  HF_INIT(factor);
+  expect(HF_OK, hf_surface_save(here().solver, bytes.data(), size), "hf_surface_save");
+  hold(bytes[size] == 0x5A, "hf_surface_save wrote behind its size");
+  hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.bytes = bytes.data(), factor.byte_count = size;
   hf_create_desc d = desc();
   d.saved_factor = &factor;
@@ -151,15 +149,15 @@ void Player::solve_some() {
     outside = outside || b == 255;
   }
   std::vector<double> values(std::size_t{count} * m, -5.0);
-  const hf_result got = hf_solve_at(here().solver, count, vertices.data(), values.data());
-  if (count > surface_->vertex_count()) return expect(HF_ERROR_TOO_LARGE, got, "hf_solve_at");
-  if (outside) return expect(HF_ERROR_OUT_OF_RANGE, got, "hf_solve_at");
-  if (here().model.sites().empty()) return expect(HF_ERROR_NO_SITES, got, "hf_solve_at");
-  expect(HF_OK, got, "hf_solve_at");
+  const hf_result got = hf_solver_solve_at(here().solver, count, vertices.data(), values.data());
+  if (count > surface_->vertex_count()) return expect(HF_ERROR_TOO_LARGE, got, "hf_solver_solve_at");
+  if (outside) return expect(HF_ERROR_OUT_OF_RANGE, got, "hf_solver_solve_at");
+  if (here().model.sites().empty()) return expect(HF_ERROR_NO_SITES, got, "hf_solver_solve_at");
+  expect(HF_OK, got, "hf_solver_solve_at");
   const std::vector<double> field = field_of(here());
   for (unsigned i = 0; i < count; ++i) {
     hold(std::memcmp(&values[std::size_t{i} * m], &field[std::size_t{vertices[i]} * m], m * sizeof(double)) == 0,
-         "hf_solve_at has other bits than hf_solve_f64");
+         "hf_solver_solve_at has other bits than hf_solver_solve_f64");
   }
 }
 
@@ -173,7 +171,7 @@ void Player::solve_single() {
   const std::vector<double> field = field_of(here());
   for (std::size_t v = 0; v < n; ++v) {
     for (std::size_t c = 0; c < m; ++c)
-      hold(values[v * width + c] == static_cast<float>(field[v * m + c]), "hf_solve is not hf_solve_f64 rounded");
+      hold(values[v * width + c] == static_cast<float>(field[v * m + c]), "hf_solve is not hf_solver_solve_f64 rounded");
     hold(values[v * width + m] == -9.0f, "hf_solve wrote between the rows");
   }
 }
@@ -181,11 +179,10 @@ void Player::solve_single() {
 void Player::preview() {
   const unsigned corrections = bytes_.take() % 4;
   std::vector<double> field(std::size_t{surface_->vertex_count()} * setting_.channels, -3.0);
-  hf_preview_info info;
-  HF_INIT(info);
-  const hf_result got = hf_solve_preview_f64(here().solver, field.data(), 0, corrections, &info);
-  if (here().model.sites().empty()) return expect(HF_ERROR_NO_SITES, got, "hf_solve_preview_f64");
-  expect(HF_OK, got, "hf_solve_preview_f64");
+  hf_preview_info info = HF_INIT(hf_preview_info);
+  const hf_result got = hf_solver_solve_preview_f64(here().solver, field.data(), 0, corrections, &info);
+  if (here().model.sites().empty()) return expect(HF_ERROR_NO_SITES, got, "hf_solver_solve_preview_f64");
+  expect(HF_OK, got, "hf_solver_solve_preview_f64");
   if (info.exact) hold(info.correction_count == 0 && info.error_estimate == 0, "an exact preview says it is not");
   const double error = error_of(here(), field);
   const double most = setting_.engine == HF_ENGINE_UPDOWN || info.exact ? penalty_tolerance
@@ -200,9 +197,9 @@ void Player::rebase() {
   bool hard = false;
   for (const auto& site : here().model.sites())
     hard = hard || (site.second.at_vertex >= 0 && site.second.stiffness == 0);
-  const hf_result got = hf_prepare_rebase(here().solver);
-  if (setting_.engine != HF_ENGINE_GREEN) return expect(HF_ERROR_UNSUPPORTED, got, "hf_prepare_rebase");
-  expect(hard ? HF_OK : HF_ERROR_NO_SITES, got, "hf_prepare_rebase");
+  const hf_result got = hf_solver_prepare_rebase(here().solver);
+  if (setting_.engine != HF_ENGINE_GREEN) return expect(HF_ERROR_UNSUPPORTED, got, "hf_solver_prepare_rebase");
+  expect(hard ? HF_OK : HF_ERROR_NO_SITES, got, "hf_solver_prepare_rebase");
 }
 
 }  // namespace sequences

@@ -9,16 +9,15 @@ namespace sequences {
 
 std::vector<double> Player::field_of(Branch& branch) {
   std::vector<double> field(std::size_t{surface_->vertex_count()} * setting_.channels, -123.0);
-  hf_solve_info info;
-  HF_INIT(info);
-  const hf_result got = hf_solve_f64(branch.solver, field.data(), 0, &info);
+  hf_solve_info info = HF_INIT(hf_solve_info);
+  const hf_result got = hf_solver_solve_f64(branch.solver, field.data(), 0, &info);
   if (branch.model.sites().empty()) {
-    expect(HF_ERROR_NO_SITES, got, "hf_solve_f64");
+    expect(HF_ERROR_NO_SITES, got, "hf_solver_solve_f64");
     hold(std::count(field.begin(), field.end(), -123.0) == static_cast<std::ptrdiff_t>(field.size()),
          "a refused solve wrote");
     return {};
   }
-  expect(HF_OK, got, "hf_solve_f64");
+  expect(HF_OK, got, "hf_solver_solve_f64");
   const Model::Answer& answer = branch.model.answer();
   std::uint32_t unreached = 0, first = HF_NO_INDEX, vertices = 0;
   for (int c = surface_->component_count - 1; c >= 0; --c) {
@@ -61,15 +60,14 @@ double Player::error_of(Branch& branch, const std::vector<double>& field) {
 void Player::compare_sites(Branch& branch) {
   const Model::Sites& sites = branch.model.sites();
   const std::size_t count = sites.size(), m = setting_.channels;
-  hold(hf_get_site_count(branch.solver) == count, "hf_get_site_count is wrong");
+  hold(hf_solver_get_site_count(branch.solver) == count, "hf_solver_get_site_count is wrong");
   std::vector<std::uint32_t> numbers(count), vertices(count), components(count);
   std::vector<double> values(count * m), stiffness(count), flux(count * m);
-  hf_site_info info;
-  HF_INIT(info);
+  hf_sites_info info = HF_INIT(hf_sites_info);
   info.capacity = static_cast<std::uint32_t>(count);
   info.sites = numbers.data(), info.vertices = vertices.data(), info.components = components.data();
   info.values = values.data(), info.stiffness = stiffness.data(), info.flux = flux.data();
-  expect(HF_OK, hf_get_sites(branch.solver, &info), "hf_get_sites");
+  expect(HF_OK, hf_solver_get_sites(branch.solver, &info), "hf_solver_get_sites");
   const Model::Answer& answer = branch.model.answer();
   std::size_t i = 0;
   for (const auto& [number, site] : sites) {
@@ -77,7 +75,7 @@ void Player::compare_sites(Branch& branch) {
         numbers[i] == number && vertices[i] == site.given_vertex &&
         components[i] == static_cast<std::uint32_t>(site.component) && stiffness[i] == site.stiffness &&
         std::equal(site.values.begin(), site.values.end(), values.begin() + static_cast<std::ptrdiff_t>(i * m));
-    hold(same, "hf_get_sites: site " + std::to_string(number) + " is not what was set");
+    hold(same, "hf_solver_get_sites: site " + std::to_string(number) + " is not what was set");
     for (std::size_t c = 0; c < m && setting_.engine != HF_ENGINE_UPDOWN; ++c) {
       const Eigen::Index column = static_cast<Eigen::Index>(c);
       // crowded points have fluxes far beyond the field's own
@@ -86,7 +84,7 @@ void Player::compare_sites(Branch& branch) {
                                    answer.lambda.col(column).cwiseAbs().maxCoeff());
       const double error = std::fabs(flux[i * m + c] - answer.lambda(static_cast<Eigen::Index>(i), column)) / unit;
       char text[96];
-      std::snprintf(text, sizeof text, "hf_get_sites: the flux of site %u is off by %.3g of its scale", number, error);
+      std::snprintf(text, sizeof text, "hf_solver_get_sites: the flux of site %u is off by %.3g of its scale", number, error);
       hold(error <= (setting_.engine == HF_ENGINE_GREEN ? 1e-8 : 1e-6), text);
     }
     ++i;

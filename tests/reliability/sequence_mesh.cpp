@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "hf/mesh.h"
+#include "hf/surface.h"
 
 namespace sequences {
 namespace {

@@ -6,7 +6,7 @@
 #pragma once
 #include <map>
 
-#include "hf/field.h"
+#include "hf/solver.h"
 #include "sequence_mesh.h"
 
 namespace sequences {
@@ -19,7 +19,7 @@ struct Place {
 };
 
 struct Site {
-  std::uint32_t given_vertex = HF_NO_INDEX;  // as hf_get_sites says it
+  std::uint32_t given_vertex = HF_NO_INDEX;  // as hf_solver_get_sites says it
   int at_vertex = -1;                        // inner vertex, or -1 for a point inside a triangle
   std::vector<std::pair<int, double>> row;   // of W'
   int component = 0;

@@ -16,13 +16,13 @@ struct Failure : std::runtime_error {
 
 [[noreturn]] inline void fail(const std::string& what) {
   hf_error_detail detail;
-  hf_get_error_detail(&detail);
+  hf_error_get_detail(&detail);
   throw Failure(what + " (last detail: " + detail.function + ": " + detail.message + ")");
 }
 
 inline void expect(hf_result expected, hf_result got, const char* call) {
   if (got != expected)
-    fail(std::string(call) + ": expected " + hf_result_name(expected) + ", got " + hf_result_name(got));
+    fail(std::string(call) + ": expected " + hf_result_get_name(expected) + ", got " + hf_result_get_name(got));
 }
 inline void hold(bool condition, const std::string& what) {
   if (!condition) fail(what);
@@ -45,7 +45,7 @@ struct Branch {
   explicit Branch(const Setting& setting) : model(setting) {}
   Branch(const Branch&) = delete;
   Branch& operator=(const Branch&) = delete;
-  ~Branch() { hf_destroy(solver); }
+  ~Branch() { hf_solver_destroy(solver); }
 };
 
 class Player {

@@ -18,8 +18,7 @@ const Operator& operator_of(std::size_t surface, int operator_kind, int field_ki
 }  // namespace
 
 hf_create_desc Player::desc() const {
-  hf_create_desc d;
-  HF_INIT(d);
+  hf_create_desc d = HF_INIT(hf_create_desc);
   d.vertex_count = surface_->vertex_count(), d.triangle_count = surface_->triangle_count();
   d.positions = surface_->positions.data(), d.triangles = surface_->triangles.data();
   d.operator_kind = operator_kind_, d.field_kind = field_kind_, d.engine = setting_.engine, d.ordering = ordering_;

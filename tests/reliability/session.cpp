@@ -40,15 +40,15 @@ Stretch edit_on(EditedSolver& solver, int count) {
   for (int part = 0; part < 20; ++part) {
     const auto begin = std::chrono::steady_clock::now();
     for (int i = 0; i < count / 20; ++i) {
-      if (i % (count / 500) == 0) must(hf_record(solver.get()), "hf_record");
+      if (i % (count / 500) == 0) must(hf_solver_record(solver.get()), "hf_solver_record");
       solver.edit(50, offsets);
     }
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     stretch.fastest_ms = std::min(stretch.fastest_ms, took.count() / (count / 20));
     for (int i = 0; i < count / 400; ++i) field = solver.field();
   }
-  hf_statistics statistics = desc<hf_statistics>();
-  must(hf_get_statistics(solver.get(), &statistics), "hf_get_statistics");
+  hf_solver_statistics statistics = desc<hf_solver_statistics>();
+  must(hf_solver_get_statistics(solver.get(), &statistics), "hf_solver_get_statistics");
   stretch.library_bytes = statistics.memory_bytes, stretch.with_gaps_bytes = resident_bytes();
   malloc_trim(0);
   stretch.process_bytes = resident_bytes();

@@ -34,7 +34,7 @@ class Story {
       memory_.refuse_at = 0, memory_.refuse_on = false;
       result = make();
     }
-    if (result != HF_OK) wrong(std::string(function) + ": " + hf_result_name(result));
+    if (result != HF_OK) wrong(std::string(function) + ": " + hf_result_get_name(result));
   }
   template <class Call>
   void call(const char* function, Call&& make) {
@@ -50,7 +50,7 @@ class Story {
   template <class Call>
   void refused(const char* function, hf_result expected, Call&& make) {
     const hf_result result = make();
-    if (result != expected) wrong(std::string(function) + ": " + hf_result_name(result));
+    if (result != expected) wrong(std::string(function) + ": " + hf_result_get_name(result));
   }
 
   void take(const double* values, std::size_t count) { answer.insert(answer.end(), values, values + count); }

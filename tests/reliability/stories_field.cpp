@@ -37,8 +37,7 @@ void release(void* user, void* block, std::size_t size, std::size_t alignment) {
 }
 
 hf_sites_desc sites_at(std::uint32_t count, const std::uint32_t* vertices, const double* values) {
-  hf_sites_desc desc;
-  HF_INIT(desc);
+  hf_sites_desc desc = HF_INIT(hf_sites_desc);
   desc.site_count = count, desc.vertices = vertices, desc.values = values;
   return desc;
 }
@@ -47,7 +46,7 @@ const double values[12] = {0, 1, 3, -2, 5, 4, 2, 2.5, -1, 7, 0.5, 6};
 
 void take_field(Story& s, hf_solver solver, std::size_t channels = 1) {
   std::vector<double> field(Tube::vertices * channels);
-  s.call("hf_solve_f64", [&] { return hf_solve_f64(solver, field.data(), 0, nullptr); });
+  s.call("hf_solver_solve_f64", [&] { return hf_solver_solve_f64(solver, field.data(), 0, nullptr); });
   s.take(field.data(), field.size());
 }
 
@@ -60,40 +59,37 @@ void edits(Story& s, hf_create_desc desc) {
   std::uint32_t numbers[4] = {0, 0, 0, 0};
   const hf_sites_desc first = sites_at(4, places, values), second = sites_at(3, others, values + 4);
   s.call("hf_add_sites", [&] { return hf_add_sites(solver, &first, numbers); });
-  s.call("hf_record", [&] { return hf_record(solver); });
+  s.call("hf_solver_record", [&] { return hf_solver_record(solver); });
   const std::uint32_t to = 20;
   const hf_sites_desc there = sites_at(1, &to, nullptr);
-  s.call("hf_move_sites", [&] { return hf_move_sites(solver, 1, &numbers[1], &there); });
-  s.call("hf_set_site_values", [&] { return hf_set_site_values(solver, 2, &numbers[2], values + 7); });
+  s.call("hf_solver_move_sites", [&] { return hf_solver_move_sites(solver, 1, &numbers[1], &there); });
+  s.call("hf_solver_set_values", [&] { return hf_solver_set_values(solver, 2, &numbers[2], values + 7); });
   take_field(s, solver);
-  hf_edit_desc edit;
-  HF_INIT(edit);
+  hf_edit_desc edit = HF_INIT(hf_edit_desc);
   edit.remove_count = 1, edit.remove_sites = &numbers[0], edit.add = &second;
-  s.call("hf_edit_sites", [&] { return hf_edit_sites(solver, &edit, nullptr); });
-  s.make("hf_clone", copy, [&] { return hf_clone(solver, &copy); });
+  s.call("hf_solver_edit_sites", [&] { return hf_solver_edit_sites(solver, &edit, nullptr); });
+  s.make("hf_solver_clone", copy, [&] { return hf_solver_clone(solver, &copy); });
   take_field(s, solver);
   // a refused undo leaves nothing to redo
   s.call(
-      "hf_undo", [&] { return hf_undo(solver); }, [&] { return hf_redo(solver) == HF_ERROR_NO_RECORD; });
+      "hf_solver_undo", [&] { return hf_solver_undo(solver); }, [&] { return hf_solver_redo(solver) == HF_ERROR_NO_RECORD; });
   take_field(s, solver);
-  s.call("hf_redo", [&] { return hf_redo(solver); });
+  s.call("hf_solver_redo", [&] { return hf_solver_redo(solver); });
   s.call("hf_remove_sites", [&] { return hf_remove_sites(copy, 1, &numbers[3]); });
   take_field(s, copy);
   double some[2], flux[16];
   const std::uint32_t asked[2] = {7, 70};
-  s.call("hf_solve_at", [&] { return hf_solve_at(solver, 2, asked, some); });
+  s.call("hf_solver_solve_at", [&] { return hf_solver_solve_at(solver, 2, asked, some); });
   s.take(some, 2);
-  hf_site_info info;
-  HF_INIT(info);
+  hf_sites_info info = HF_INIT(hf_sites_info);
   info.capacity = 16, info.flux = flux;
-  s.call("hf_get_sites", [&] { return hf_get_sites(solver, &info); });
-  s.take(flux, hf_get_site_count(solver));
-  hf_certificate certificate;
-  HF_INIT(certificate);
-  s.call("hf_certify", [&] { return hf_certify(solver, &certificate); });
-  s.call("hf_undo", [&] { return hf_undo(solver); });
-  s.refused("hf_undo", HF_ERROR_NO_RECORD, [&] { return hf_undo(solver); });
-  hf_destroy(solver), hf_destroy(copy);
+  s.call("hf_solver_get_sites", [&] { return hf_solver_get_sites(solver, &info); });
+  s.take(flux, hf_solver_get_site_count(solver));
+  hf_certificate certificate = HF_INIT(hf_certificate);
+  s.call("hf_solver_certify", [&] { return hf_solver_certify(solver, &certificate); });
+  s.call("hf_solver_undo", [&] { return hf_solver_undo(solver); });
+  s.refused("hf_solver_undo", HF_ERROR_NO_RECORD, [&] { return hf_solver_undo(solver); });
+  hf_solver_destroy(solver), hf_solver_destroy(copy);
 }
 
 void green(Story& s, const Tube& tube, Allocator& memory) { edits(s, tube.desc(memory)); }
@@ -133,11 +129,11 @@ void points_and_discs(Story& s, const Tube& tube, Allocator& memory) {
   take_field(s, solver, 2);
   const std::uint32_t to = 60;
   const hf_sites_desc there = sites_at(1, &to, nullptr);
-  s.call("hf_move_sites", [&] { return hf_move_sites(solver, 1, numbers, &there); });
+  s.call("hf_solver_move_sites", [&] { return hf_solver_move_sites(solver, 1, numbers, &there); });
   std::vector<float> field(2 * Tube::vertices);
   s.call("hf_solve", [&] { return hf_solve(solver, field.data(), 0, nullptr); });
   s.take(field.data(), field.size());
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 }
 
 // Sites moved into the factor.
@@ -150,15 +146,15 @@ void rebase(Story& s, const Tube& tube, Allocator& memory) {
   for (std::uint32_t i = 0; i < 12; ++i) places[i] = 6 * i;
   const hf_sites_desc sites = sites_at(12, places, values);
   s.call("hf_add_sites", [&] { return hf_add_sites(solver, &sites, numbers); });
-  s.call("hf_prepare_rebase", [&] { return hf_prepare_rebase(solver); });
-  s.call("hf_set_site_values", [&] { return hf_set_site_values(solver, 1, numbers, values + 3); });
+  s.call("hf_solver_prepare_rebase", [&] { return hf_solver_prepare_rebase(solver); });
+  s.call("hf_solver_set_values", [&] { return hf_solver_set_values(solver, 1, numbers, values + 3); });
   take_field(s, solver);
   s.call("hf_remove_sites", [&] { return hf_remove_sites(solver, 2, numbers + 4); });
   const std::uint32_t place = 33;
   const hf_sites_desc more = sites_at(1, &place, values + 9);
   s.call("hf_add_sites", [&] { return hf_add_sites(solver, &more, nullptr); });
   take_field(s, solver);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 }
 
 // The factor as bytes, previews.
@@ -170,22 +166,21 @@ void bytes(Story& s, const Tube& tube, Allocator& memory) {
   std::size_t size = 0;
   s.call("hf_get_factor_size", [&] { return hf_get_factor_size(solver, &size); });
   std::vector<char> saved(size);
-  s.call("hf_save_factor", [&] { return hf_save_factor(solver, saved.data(), size); });
-  hf_factor_desc factor;
-  HF_INIT(factor);
+  s.call("hf_surface_save", [&] { return hf_surface_save(solver, saved.data(), size); });
+  hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.bytes = saved.data(), factor.byte_count = size;
   desc.saved_factor = &factor;
   s.make("hf_create", loaded, [&] { return hf_create(&desc, &loaded); });
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   if (!loaded) return;
   const std::uint32_t places[3] = {2, 40, 77};
   const hf_sites_desc sites = sites_at(3, places, values + 1);
   s.call("hf_add_sites", [&] { return hf_add_sites(loaded, &sites, nullptr); });
   std::vector<double> field(Tube::vertices);
-  s.call("hf_solve_preview_f64", [&] { return hf_solve_preview_f64(loaded, field.data(), 0, 2, nullptr); });
+  s.call("hf_solver_solve_preview_f64", [&] { return hf_solver_solve_preview_f64(loaded, field.data(), 0, 2, nullptr); });
   s.take(field.data(), field.size());
-  s.call("hf_release_preview", [&] { return hf_release_preview(loaded); });
-  hf_destroy(loaded);
+  s.call("hf_solver_release_preview", [&] { return hf_solver_release_preview(loaded); });
+  hf_solver_destroy(loaded);
 }
 
 // Tangent vectors by three channels.
@@ -199,14 +194,14 @@ void vectors(Story& s, const Tube& tube, Allocator& memory) {
   std::uint32_t numbers[3] = {0, 0, 0};
   const hf_sites_desc sites = sites_at(3, places, values);
   s.call("hf_add_sites", [&] { return hf_add_sites(solver, &sites, numbers); });
-  s.call("hf_move_vector_sites", [&] { return hf_move_vector_sites(solver, 1, numbers + 1, &to); });
+  s.call("hf_solver_move_vectors", [&] { return hf_solver_move_vectors(solver, 1, numbers + 1, &to); });
   const double angle = 0.7;
-  s.call("hf_rotate_vector_sites", [&] { return hf_rotate_vector_sites(solver, 1, numbers, &angle); });
+  s.call("hf_solver_rotate_vectors", [&] { return hf_solver_rotate_vectors(solver, 1, numbers, &angle); });
   std::vector<double> field(3 * Tube::vertices), normals(3 * Tube::vertices);
-  s.call("hf_solve_vectors_f64",
-         [&] { return hf_solve_vectors_f64(solver, field.data(), 0, normals.data(), nullptr); });
+  s.call("hf_solver_solve_vectors_f64",
+         [&] { return hf_solver_solve_vectors_f64(solver, field.data(), 0, normals.data(), nullptr); });
   s.take(field.data(), field.size()), s.take(normals.data(), normals.size());
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 }
 
 }  // namespace
@@ -215,9 +210,9 @@ hf_allocator Allocator::hooks() { return {allocate, release, this}; }
 
 void Story::check_detail(const char* function) {
   hf_error_detail detail;
-  if (hf_get_error_detail(&detail) != HF_OK || detail.code != HF_ERROR_OUT_OF_MEMORY ||
+  if (hf_error_get_detail(&detail) != HF_OK || detail.code != HF_ERROR_OUT_OF_MEMORY ||
       std::strcmp(detail.function, function) != 0)
-    wrong(std::string(function) + ": the detail speaks of " + detail.function + ", " + hf_result_name(detail.code));
+    wrong(std::string(function) + ": the detail speaks of " + detail.function + ", " + hf_result_get_name(detail.code));
 }
 
 Tube::Tube() {
@@ -236,8 +231,7 @@ Tube::Tube() {
 }
 
 hf_create_desc Tube::desc(Allocator& memory) const {
-  hf_create_desc d;
-  HF_INIT(d);
+  hf_create_desc d = HF_INIT(hf_create_desc);
   d.vertex_count = vertices, d.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
   d.positions_f64 = positions.data(), d.triangles = triangles.data(), d.allocator = memory.hooks();
   return d;

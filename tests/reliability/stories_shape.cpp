@@ -14,7 +14,7 @@ hf_solver made(Story& s, const Tube& tube, Allocator& memory) {
 template <class T>
 T init() {
   T desc;
-  HF_INIT(desc);
+  desc = HF_INIT(hf_create_desc);
   return desc;
 }
 
@@ -23,19 +23,19 @@ void lines(Story& s, const Tube& tube, Allocator& memory) {
   hf_scalars field = init<hf_scalars>();
   field.values_f64 = tube.height.data();
   double levels[4] = {0, 0, 0, 0};
-  s.call("hf_space_levels", [&] { return hf_space_levels(solver, &field, HF_LEVELS_LENGTH, 4, levels); });
+  s.call("hf_surface_space_levels", [&] { return hf_surface_space_levels(solver, &field, HF_LEVELS_LENGTH, 4, levels); });
   s.take(levels, 4);
   std::vector<double> positions(3 * 400);
   hf_isolines out = init<hf_isolines>();
   out.point_capacity = 400, out.line_capacity = 40, out.positions = positions.data();
-  s.call("hf_trace_isolines", [&] { return hf_trace_isolines(solver, &field, 4, levels, &out); });
+  s.call("hf_surface_trace_isolines", [&] { return hf_surface_trace_isolines(solver, &field, 4, levels, &out); });
   s.take(positions.data(), positions.size());
   std::vector<hf_critical_point> points(Tube::vertices);
   hf_critical_info info = init<hf_critical_info>();
-  s.call("hf_find_critical_points",
-         [&] { return hf_find_critical_points(solver, &field, Tube::vertices, points.data(), &info); });
+  s.call("hf_surface_find_critical_points",
+         [&] { return hf_surface_find_critical_points(solver, &field, Tube::vertices, points.data(), &info); });
   s.take(info.point_count);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 }
 
 void distances(Story& s, const Tube& tube, Allocator& memory) {
@@ -44,19 +44,19 @@ void distances(Story& s, const Tube& tube, Allocator& memory) {
   s.make("hf_geodesics_create", geodesics, [&] { return hf_geodesics_create(solver, nullptr, &geodesics); });
   const std::uint32_t sources[2] = {3, 60};
   std::vector<double> distance(Tube::vertices);
-  s.call("hf_geodesics_distance_f64",
-         [&] { return hf_geodesics_distance_f64(geodesics, 2, sources, distance.data(), 0); });
+  s.call("hf_geodesics_solve_f64",
+         [&] { return hf_geodesics_solve_f64(geodesics, 2, sources, distance.data(), 0); });
   s.take(distance.data(), distance.size());
   for (const int kind : {HF_EXTREMITIES_POISSON, HF_EXTREMITIES_GEODESIC}) {
     hf_extremities_desc wanted = init<hf_extremities_desc>();
     wanted.kind = kind, wanted.source_count = 8;
     hf_extremity found[16];
     std::uint32_t count = 0;
-    s.call("hf_find_extremities", [&] { return hf_find_extremities(solver, &wanted, 16, found, &count); });
+    s.call("hf_surface_find_extremities", [&] { return hf_surface_find_extremities(solver, &wanted, 16, found, &count); });
     s.take(count);
     if (count > 0) s.take(found[0].length);
   }
-  hf_geodesics_destroy(geodesics), hf_destroy(solver);
+  hf_geodesics_destroy(geodesics), hf_solver_destroy(solver);
 }
 
 void directions(Story& s, const Tube& tube, Allocator& memory) {
@@ -65,7 +65,7 @@ void directions(Story& s, const Tube& tube, Allocator& memory) {
   hf_direction_desc desc = init<hf_direction_desc>();
   desc.degree = 2;
   s.make("hf_direction_create", direction, [&] { return hf_direction_create(solver, &desc, &direction); });
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   const std::uint32_t places[3] = {9, 40, 70}, to = 22;
   const double vectors[9] = {0, 1, 0, 0, -1, 0.5, 0.3, 2, 0}, angle = 1;
   std::uint32_t numbers[3] = {0, 0, 0};
@@ -97,7 +97,7 @@ void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
   desc.mode = mode;
   hf_pose pose = nullptr, copy = nullptr;
   s.make("hf_pose_create", pose, [&] { return hf_pose_create(solver, &desc, &pose); });
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   const std::uint32_t counts[2] = {2 * Tube::around, 2 * Tube::around};
   hf_handles_desc handles = init<hf_handles_desc>(), layer = init<hf_handles_desc>();
   handles.handle_count = 2, handles.region_counts = counts, handles.region_vertices = tube.ends.data();
@@ -110,14 +110,14 @@ void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
   hf_deform_desc deform = init<hf_deform_desc>();
   deform.positions_f64 = posed.data(), deform.normals = normals.data(), deform.restart = 1;
   deform.refine = mode == HF_DEFORM_SMOOTH;
-  s.call("hf_deform", [&] { return hf_deform(pose, &deform, nullptr); });
+  s.call("hf_pose_deform", [&] { return hf_pose_deform(pose, &deform, nullptr); });
   s.take(posed.data(), posed.size());
   s.make("hf_pose_clone", copy, [&] { return hf_pose_clone(pose, &copy); });
   const double radius = 0;
   layer.handle_count = 1, layer.points = tube.positions.data() + 3 * 4 * Tube::around, layer.radii = &radius,
   layer.layer = 1;
   s.call("hf_pose_add_handles", [&] { return hf_pose_add_handles(copy, &layer, &above); });
-  s.call("hf_deform", [&] { return hf_deform(copy, &deform, nullptr); });
+  s.call("hf_pose_deform", [&] { return hf_pose_deform(copy, &deform, nullptr); });
   s.take(posed.data(), posed.size());
   s.call("hf_pose_remove_handles", [&] { return hf_pose_remove_handles(copy, 1, &above); });
   hf_skin_info skin = init<hf_skin_info>();
@@ -132,7 +132,7 @@ void transfer(Story& s, const Tube& tube, Allocator& memory) {
   const hf_solver solver = made(s, tube, memory);
   hf_transfer motion = nullptr;
   s.make("hf_transfer_create", motion, [&] { return hf_transfer_create(solver, solver, nullptr, &motion); });
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   const std::uint32_t counts[2] = {2 * Tube::around, 2 * Tube::around};
   hf_pairs_desc pairs = init<hf_pairs_desc>();
   pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts;
@@ -170,14 +170,14 @@ void quads(Story& s, const Tube& tube, Allocator& memory) {
   out.vertex_capacity = info.vertex_count, out.positions = positions.data();
   s.call("hf_quads_get_mesh", [&] { return hf_quads_get_mesh(mesh, &out); });
   s.take(positions.data(), positions.size());
-  hf_quads_destroy(mesh), hf_destroy(solver);
+  hf_quads_destroy(mesh), hf_solver_destroy(solver);
 }
 
 void flow(Story& s, const Tube& tube, Allocator& memory) {
   const hf_solver solver = made(s, tube, memory);
   hf_flow flow = nullptr;
   s.make("hf_flow_create", flow, [&] { return hf_flow_create(solver, &flow); });
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   hf_scalars field = init<hf_scalars>();
   field.values_f64 = tube.height.data();
   std::vector<double> positions(3 * 2000);
@@ -192,7 +192,7 @@ void regions(Story& s, const Tube& tube, Allocator& memory) {
   const hf_solver solver = made(s, tube, memory);
   hf_region region = nullptr, copy = nullptr;
   s.make("hf_region_create", region, [&] { return hf_region_create(solver, nullptr, &region); });
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   const std::uint32_t a = 4 * Tube::around, inside[6] = {a, a + 1, a + 2, a + 8, a + 9, a + 10};
   hf_region_edit_desc edit = init<hf_region_edit_desc>(), grow = init<hf_region_edit_desc>();
   edit.add_count = 6, edit.add_vertices = inside, grow.ring_count = 1;

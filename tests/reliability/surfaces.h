@@ -52,8 +52,8 @@ T desc() {
 inline void must(hf_result result, const char* what) {
   if (result == HF_OK) return;
   hf_error_detail detail;
-  hf_get_error_detail(&detail);
-  std::fprintf(stderr, "%s: %s: %s\n", what, hf_result_name(result), detail.message);
+  hf_error_get_detail(&detail);
+  std::fprintf(stderr, "%s: %s: %s\n", what, hf_result_get_name(result), detail.message);
   std::exit(1);
 }
 
@@ -79,7 +79,7 @@ class EditedSolver {
     d.channel_count = channels;
     solver_ = make_solver(d);
   }
-  ~EditedSolver() { hf_destroy(solver_); }
+  ~EditedSolver() { hf_solver_destroy(solver_); }
   EditedSolver(const EditedSolver&) = delete;
   EditedSolver& operator=(const EditedSolver&) = delete;
 
@@ -111,11 +111,11 @@ class EditedSolver {
       const std::uint32_t to = free_vertex();
       hf_sites_desc d = desc<hf_sites_desc>();
       d.site_count = 1, d.vertices = &to;
-      must(hf_move_sites(solver_, 1, &h.site, &d), "hf_move_sites");
+      must(hf_solver_move_sites(solver_, 1, &h.site, &d), "hf_solver_move_sites");
       taken_[h.vertex] = 0, taken_[to] = 1, h.vertex = to;
     } else if (kind < 7) {
       h.values = fresh_values(offsets);
-      must(hf_set_site_values(solver_, 1, &h.site, h.values.data()), "hf_set_site_values");
+      must(hf_solver_set_values(solver_, 1, &h.site, h.values.data()), "hf_solver_set_values");
     } else if (held.size() > wanted + random_() % 10 || (held.size() + 5 > wanted && kind == 9)) {
       remove_one();
     } else {
@@ -126,7 +126,7 @@ class EditedSolver {
   hf_solver get() const { return solver_; }
   std::vector<double> field() const {
     std::vector<double> values(std::size_t{surface_.vertex_count()} * m_);
-    must(hf_solve_f64(solver_, values.data(), 0, nullptr), "hf_solve_f64");
+    must(hf_solver_solve_f64(solver_, values.data(), 0, nullptr), "hf_solver_solve_f64");
     return values;
   }
   // The same sites on a solver of their own.
@@ -144,8 +144,8 @@ class EditedSolver {
     sites.site_count = static_cast<std::uint32_t>(held.size());
     sites.vertices = vertices.data(), sites.values = values.data(), sites.stiffness = stiffness.data();
     must(hf_add_sites(solver, &sites, nullptr), "hf_add_sites, fresh");
-    must(hf_solve_f64(solver, out.data(), 0, nullptr), "hf_solve_f64, fresh");
-    hf_destroy(solver);
+    must(hf_solver_solve_f64(solver, out.data(), 0, nullptr), "hf_solver_solve_f64, fresh");
+    hf_solver_destroy(solver);
     return out;
   }
 

@@ -39,12 +39,12 @@ void take_pose(const Scene& s, hf_pose pose, Seen& seen) {
   std::vector<double> positions(3 * std::size_t{s.vertex_count});
   hf_deform_desc d = desc<hf_deform_desc>();
   d.positions_f64 = positions.data(), d.refine = 1;
-  seen.call(hf_deform(pose, &d, nullptr)), seen.take(positions);
+  seen.call(hf_pose_deform(pose, &d, nullptr)), seen.take(positions);
 }
 
 void take_field(const Scene& s, hf_solver solver, Seen& seen) {
   std::vector<double> field(s.vertex_count);
-  seen.call(hf_solve_f64(solver, field.data(), 0, nullptr)), seen.take(field);
+  seen.call(hf_solver_solve_f64(solver, field.data(), 0, nullptr)), seen.take(field);
 }
 
 void take_region(const Scene& s, hf_region region, Seen& seen) {
@@ -100,7 +100,7 @@ Objects make_objects(const Scene& s) {
 
 Objects clones_of(const Objects& o) {
   Objects made;
-  must(hf_clone(o.solver, &made.solver), "hf_clone"), must(hf_clone(o.refactor, &made.refactor), "hf_clone");
+  must(hf_solver_clone(o.solver, &made.solver), "hf_solver_clone"), must(hf_solver_clone(o.refactor, &made.refactor), "hf_solver_clone");
   must(hf_pose_clone(o.pose, &made.pose), "hf_pose_clone");
   must(hf_direction_clone(o.direction, &made.direction), "hf_direction_clone");
   must(hf_region_clone(o.region, &made.region), "hf_region_clone");
@@ -108,7 +108,7 @@ Objects clones_of(const Objects& o) {
 }
 
 void destroy(const Objects& o) {
-  hf_destroy(o.solver), hf_destroy(o.refactor), hf_region_destroy(o.region), hf_region_destroy(o.target),
+  hf_solver_destroy(o.solver), hf_solver_destroy(o.refactor), hf_region_destroy(o.region), hf_region_destroy(o.target),
       hf_pose_destroy(o.pose);
   hf_direction_destroy(o.direction), hf_detail_destroy(o.detail), hf_quads_destroy(o.quads), hf_flow_destroy(o.flow);
   hf_geodesics_destroy(o.geodesics);
@@ -122,45 +122,45 @@ void read_solver(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   take_field(s, o.solver, seen), take_field(s, o.refactor, seen);
   std::vector<double> preview(s.vertex_count);
   hf_preview_info reached = desc<hf_preview_info>();
-  seen.call(hf_solve_preview_f64(o.solver, preview.data(), 0, 1, &reached)), seen.take(preview);
+  seen.call(hf_solver_solve_preview_f64(o.solver, preview.data(), 0, 1, &reached)), seen.take(preview);
   const std::uint32_t asked[2] = {5, 700};
   double at[2];
-  seen.call(hf_solve_at(o.solver, 2, asked, at)), seen.take(at, 2);
+  seen.call(hf_solver_solve_at(o.solver, 2, asked, at)), seen.take(at, 2);
   hf_certificate certificate = desc<hf_certificate>();
-  seen.call(hf_certify(o.solver, &certificate));
+  seen.call(hf_solver_certify(o.solver, &certificate));
   std::size_t size = 0;
   seen.call(hf_get_factor_size(o.solver, &size));
   std::vector<unsigned char> bytes(size);
-  seen.call(hf_save_factor(o.solver, bytes.data(), size)), seen.take(bytes);
+  seen.call(hf_surface_save(o.solver, bytes.data(), size)), seen.take(bytes);
   std::vector<std::uint32_t> components(s.vertex_count);
-  seen.call(hf_get_components(o.solver, s.vertex_count, components.data())), seen.take(components);
+  seen.call(hf_surface_get_components(o.solver, s.vertex_count, components.data())), seen.take(components);
   double values[5];
-  hf_site_info sites = desc<hf_site_info>();
+  hf_sites_info sites = desc<hf_sites_info>();
   sites.capacity = 5, sites.values = values;
-  seen.call(hf_get_sites(o.solver, &sites)), seen.take(values, 5);
-  hf_statistics statistics = desc<hf_statistics>();
-  seen.call(hf_get_statistics(o.solver, &statistics)), seen.take(&statistics.unknown_count, 1);
+  seen.call(hf_solver_get_sites(o.solver, &sites)), seen.take(values, 5);
+  hf_solver_statistics statistics = desc<hf_solver_statistics>();
+  seen.call(hf_solver_get_statistics(o.solver, &statistics)), seen.take(&statistics.unknown_count, 1);
 }
 
 void read_analysis(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   hf_scalars field = desc<hf_scalars>();
   field.values_f64 = s.height.data();
   double levels[6];
-  seen.call(hf_space_levels(o.solver, &field, HF_LEVELS_AREA, 6, levels)), seen.take(levels, 6);
+  seen.call(hf_surface_space_levels(o.solver, &field, HF_LEVELS_AREA, 6, levels)), seen.take(levels, 6);
   hf_isolines lines = desc<hf_isolines>();
-  seen.call(hf_trace_isolines(o.solver, &field, 6, levels, &lines)), seen.take(&lines.point_count, 1);
+  seen.call(hf_surface_trace_isolines(o.solver, &field, 6, levels, &lines)), seen.take(&lines.point_count, 1);
   std::vector<hf_critical_point> points(s.vertex_count);
   hf_critical_info critical = desc<hf_critical_info>();
-  seen.call(hf_find_critical_points(o.solver, &field, s.vertex_count, points.data(), &critical));
+  seen.call(hf_surface_find_critical_points(o.solver, &field, s.vertex_count, points.data(), &critical));
   seen.take(points.data(), critical.point_count);
   std::vector<double> distance(s.vertex_count);
   const std::uint32_t sources[2] = {3, 900};
-  seen.call(hf_geodesics_distance_f64(o.geodesics, 2, sources, distance.data(), 0)), seen.take(distance);
+  seen.call(hf_geodesics_solve_f64(o.geodesics, 2, sources, distance.data(), 0)), seen.take(distance);
   hf_extremities_desc wanted = desc<hf_extremities_desc>();
   wanted.kind = HF_EXTREMITIES_GEODESIC, wanted.geodesics = o.geodesics, wanted.source_count = 8;
   wanted.out_field = distance.data();
   std::uint32_t count = 0;
-  seen.call(hf_find_extremities(o.solver, &wanted, 0, nullptr, &count)), seen.take(distance), seen.take(&count, 1);
+  seen.call(hf_surface_find_extremities(o.solver, &wanted, 0, nullptr, &count)), seen.take(distance), seen.take(&count, 1);
   hf_flow_lines flow = desc<hf_flow_lines>();
   flow.wanted_count = 12;
   seen.call(hf_flow_trace(o.flow, &field, &flow)), seen.take(&flow.point_count, 1);
@@ -242,19 +242,19 @@ void edit_solver(const Scene& s, hf_solver solver, unsigned t, Seen& seen) {
   std::uint32_t sites[3];
   const hf_sites_desc more = sites_desc(vertices, s.values.data() + t);
   seen.call(hf_add_sites(solver, &more, sites)), take_field(s, solver, seen);
-  seen.call(hf_record(solver));
+  seen.call(hf_solver_record(solver));
   const std::vector<std::uint32_t> elsewhere = {1000 + t};
   const hf_sites_desc to = sites_desc(elsewhere, nullptr);
-  seen.call(hf_move_sites(solver, 1, sites, &to)), seen.call(hf_remove_sites(solver, 1, sites + 1));
+  seen.call(hf_solver_move_sites(solver, 1, sites, &to)), seen.call(hf_remove_sites(solver, 1, sites + 1));
   take_field(s, solver, seen);
   std::vector<float> preview(s.vertex_count);
-  seen.call(hf_solve_preview(solver, preview.data(), 0, 0, nullptr)), seen.take(preview);
-  if (t % 4 == 1) seen.call(hf_release_preview(solver));  // of all that share the factor
-  hf_statistics statistics = desc<hf_statistics>();
-  seen.call(hf_get_statistics(solver, &statistics));
+  seen.call(hf_solver_solve_preview(solver, preview.data(), 0, 0, nullptr)), seen.take(preview);
+  if (t % 4 == 1) seen.call(hf_solver_release_preview(solver));  // of all that share the factor
+  hf_solver_statistics statistics = desc<hf_solver_statistics>();
+  seen.call(hf_solver_get_statistics(solver, &statistics));
   if (t % 4 == 3 && statistics.engine == HF_ENGINE_GREEN)
-    seen.call(hf_prepare_rebase(solver)), take_field(s, solver, seen);
-  seen.call(hf_undo(solver)), take_field(s, solver, seen);
+    seen.call(hf_solver_prepare_rebase(solver)), take_field(s, solver, seen);
+  seen.call(hf_solver_undo(solver)), take_field(s, solver, seen);
 }
 
 void edit_pose(const Scene& s, hf_pose pose, unsigned t, Seen& seen) {
@@ -289,14 +289,14 @@ void edit_region(const Scene& s, hf_region region, unsigned t, Seen& seen) {
 
 void clone_and_edit(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
   Objects mine;
-  seen.call(hf_clone(o.solver, &mine.solver)), edit_solver(s, mine.solver, t, seen);
+  seen.call(hf_solver_clone(o.solver, &mine.solver)), edit_solver(s, mine.solver, t, seen);
   seen.call(hf_pose_create(mine.solver, nullptr, &mine.pose));  // a pose and a region through a clone
   std::uint32_t handles[2];
   seen.call(add_ends(s, mine.pose, handles)), seen.call(turn(mine.pose, handles[1], 0.1 * t));
   take_pose(s, mine.pose, seen);
   seen.call(hf_region_create(mine.solver, nullptr, &mine.region));
   seen.call(edit_to(mine.region, patch_at(s, 9, 3 + t))), take_region(s, mine.region, seen);
-  seen.call(hf_clone(o.refactor, &mine.refactor)), edit_solver(s, mine.refactor, t, seen);
+  seen.call(hf_solver_clone(o.refactor, &mine.refactor)), edit_solver(s, mine.refactor, t, seen);
   destroy(mine);
 }
 

@@ -40,12 +40,12 @@ struct Walk {
   std::vector<double> field() {
     std::vector<double> u(surface.vertex_count(), 7e77);
     hf_solve_info info = desc<hf_solve_info>();
-    const hf_result result = hf_solve_f64(solver, u.data(), 0, &info);
+    const hf_result result = hf_solver_solve_f64(solver, u.data(), 0, &info);
     if (sites.empty()) {
       wrong += result != HF_ERROR_NO_SITES || u[0] != 7e77;
       return u;
     }
-    must(result, "hf_solve_f64");
+    must(result, "hf_solver_solve_f64");
     std::uint32_t unreached = 0, first = HF_NO_INDEX;
     for (std::uint32_t c = components; c-- > 0;) {
       const bool reached =
@@ -68,7 +68,7 @@ struct Walk {
       vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(at));
       if (sites.empty() || random() % 3 == 0) field();
     }
-    wrong += hf_get_site_count(solver) != 0;
+    wrong += hf_solver_get_site_count(solver) != 0;
     vertices = kept;
   }
 };
@@ -103,12 +103,12 @@ int main(int argc, char** argv) {
         for (std::size_t v = 0; v < back.size(); ++v)
           worst[engine] =
               std::max(worst[engine], std::isfinite(back[v]) ? std::fabs(back[v] - never_lost[v]) : HUGE_VAL);
-        hf_destroy(fresh);
+        hf_solver_destroy(fresh);
         // and away, for the next walk
         walk.empty();
       }
       wrong += walk.wrong;
-      hf_destroy(solver);
+      hf_solver_destroy(solver);
     }
   }
   report_at_least("WALKS", walks, 1000);

@@ -9,16 +9,16 @@ void Run::solver_and_sites() {
   d.progress = progress;
   const hf_solver solver = make(d);
   float fraction = 0;
-  call(hf_progress_get(progress, &fraction), "hf_progress_get"), take(&fraction, 1);
+  call(hf_progress_get_fraction(progress, &fraction), "hf_progress_get_fraction"), take(&fraction, 1);
   hf_solver none = nullptr;
   call(hf_progress_cancel(progress), "hf_progress_cancel");
   call(hf_create(&d, &none), "hf_create, cancelled", HF_ERROR_CANCELLED);
   hf_progress_destroy(progress);
 
-  hf_mesh_report report = desc<hf_mesh_report>();
-  call(hf_get_mesh_report(solver, &report), "hf_get_mesh_report"), take(&report, 1);
+  hf_surface_report report = desc<hf_surface_report>();
+  call(hf_surface_get_report(solver, &report), "hf_surface_get_report"), take(&report, 1);
   std::vector<std::uint32_t> components(n), numbers(8);
-  call(hf_get_components(solver, n, components.data()), "hf_get_components"), take(components.data(), n);
+  call(hf_surface_get_components(solver, n, components.data()), "hf_surface_get_components"), take(components.data(), n);
 
   hf_sites_desc sites = sites_at(6, 50);
   sites.stiffness = s.stiffness.data();
@@ -32,43 +32,43 @@ void Run::solver_and_sites() {
   take_field(solver);
   call(hf_solve(solver, floats.data(), 12, nullptr), "hf_solve"), take_floats();
 
-  call(hf_record(solver), "hf_record");
+  call(hf_solver_record(solver), "hf_solver_record");
   sites = sites_at(1, 1, 0, 111), sites.values = nullptr;
-  call(hf_move_sites(solver, 1, &numbers[1], &sites), "hf_move_sites");
-  call(hf_set_site_values(solver, 2, &numbers[2], s.values.data() + 40), "hf_set_site_values");
+  call(hf_solver_move_sites(solver, 1, &numbers[1], &sites), "hf_solver_move_sites");
+  call(hf_solver_set_values(solver, 2, &numbers[2], s.values.data() + 40), "hf_solver_set_values");
   call(hf_remove_sites(solver, 1, &numbers[6]), "hf_remove_sites");
   hf_sites_desc add = sites_at(2, 9, 60, 222);
   hf_edit_desc edit = desc<hf_edit_desc>();
   edit.remove_count = 1, edit.remove_sites = &numbers[4], edit.add = &add;
-  call(hf_edit_sites(solver, &edit, nullptr), "hf_edit_sites");
+  call(hf_solver_edit_sites(solver, &edit, nullptr), "hf_solver_edit_sites");
   take_field(solver);
   const std::uint32_t asked[3] = {5, 100, 222};
   double at[3];
-  call(hf_solve_at(solver, 3, asked, at), "hf_solve_at"), take(at, 3);
-  call(hf_undo(solver), "hf_undo"), take_field(solver);
-  call(hf_redo(solver), "hf_redo"), take_field(solver);
+  call(hf_solver_solve_at(solver, 3, asked, at), "hf_solver_solve_at"), take(at, 3);
+  call(hf_solver_undo(solver), "hf_solver_undo"), take_field(solver);
+  call(hf_solver_redo(solver), "hf_solver_redo"), take_field(solver);
 
   sites = sites_at(40, 8, 80, 3);
   sites.stiffness = nullptr;
   call(hf_add_sites(solver, &sites, nullptr), "hf_add_sites, many");
-  call(hf_prepare_rebase(solver), "hf_prepare_rebase");
-  call(hf_set_site_values(solver, 1, &numbers[2], s.values.data() + 45), "hf_set_site_values, after the rebase");
+  call(hf_solver_prepare_rebase(solver), "hf_solver_prepare_rebase");
+  call(hf_solver_set_values(solver, 1, &numbers[2], s.values.data() + 45), "hf_solver_set_values, after the rebase");
   call(hf_remove_sites(solver, 2, &numbers[2]), "hf_remove_sites, in the factor");
   take_field(solver);
   hf_certificate certificate = desc<hf_certificate>();
-  call(hf_certify(solver, &certificate), "hf_certify");
-  const std::uint32_t count = hf_get_site_count(solver);
+  call(hf_solver_certify(solver, &certificate), "hf_solver_certify");
+  const std::uint32_t count = hf_solver_get_site_count(solver);
   std::vector<std::uint32_t> site(count), vertex(count), component(count);
   Numbers value(count), stiffness(count), flux(count), radius(count);
-  hf_site_info info = desc<hf_site_info>();
+  hf_sites_info info = desc<hf_sites_info>();
   info.capacity = count, info.sites = site.data(), info.vertices = vertex.data(), info.components = component.data();
   info.values = value.data(), info.stiffness = stiffness.data(), info.flux = flux.data(), info.radii = radius.data();
-  call(hf_get_sites(solver, &info), "hf_get_sites");
+  call(hf_solver_get_sites(solver, &info), "hf_solver_get_sites");
   take(site.data(), count), take(vertex.data(), count), take(value.data(), count), take(flux.data(), count);
-  hf_statistics statistics = desc<hf_statistics>();
-  call(hf_get_statistics(solver, &statistics), "hf_get_statistics");
+  hf_solver_statistics statistics = desc<hf_solver_statistics>();
+  call(hf_solver_get_statistics(solver, &statistics), "hf_solver_get_statistics");
   take(&statistics.unknown_count, 1), take(&statistics.factor_entries, 1), take(&statistics.eliminated_count, 1);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 }
 
 void Run::other_engines() {
@@ -88,10 +88,10 @@ void Run::other_engines() {
       const hf_sites_desc sites = sites_at(5, 60);
       std::uint32_t numbers[5];
       call(hf_add_sites(solver, &sites, numbers), "hf_add_sites, engines");
-      call(hf_clone(solver, &copy), "hf_clone");
+      call(hf_solver_clone(solver, &copy), "hf_solver_clone");
       call(hf_remove_sites(copy, 2, numbers), "hf_remove_sites, engines");
       take_field(solver), take_field(copy);
-      hf_destroy(solver), hf_destroy(copy);
+      hf_solver_destroy(solver), hf_solver_destroy(copy);
     }
   }
 }
@@ -102,13 +102,13 @@ void Run::vectors() {
   std::uint32_t numbers[4];
   call(hf_add_sites(solver, &sites, numbers), "hf_add_sites, vectors");
   const std::uint32_t to[1] = {133};
-  call(hf_move_vector_sites(solver, 1, &numbers[1], to), "hf_move_vector_sites");
-  call(hf_rotate_vector_sites(solver, 2, numbers, s.angles.data()), "hf_rotate_vector_sites");
+  call(hf_solver_move_vectors(solver, 1, &numbers[1], to), "hf_solver_move_vectors");
+  call(hf_solver_rotate_vectors(solver, 2, numbers, s.angles.data()), "hf_solver_rotate_vectors");
   Numbers normals(3 * std::size_t{n});
-  call(hf_solve_vectors_f64(solver, doubles.data(), 0, normals.data(), nullptr), "hf_solve_vectors_f64");
+  call(hf_solver_solve_vectors_f64(solver, doubles.data(), 0, normals.data(), nullptr), "hf_solver_solve_vectors_f64");
   take_doubles(), take(normals.data(), normals.size());
-  call(hf_solve_vectors(solver, floats.data(), 0, nullptr, nullptr), "hf_solve_vectors"), take_floats();
-  hf_destroy(solver);
+  call(hf_solver_solve_vectors(solver, floats.data(), 0, nullptr, nullptr), "hf_solver_solve_vectors"), take_floats();
+  hf_solver_destroy(solver);
 }
 
 void Run::factor_and_preview() {
@@ -116,20 +116,20 @@ void Run::factor_and_preview() {
   std::size_t size = 0;
   call(hf_get_factor_size(solver, &size), "hf_get_factor_size");
   std::vector<unsigned char> bytes(size);
-  call(hf_save_factor(solver, bytes.data(), size), "hf_save_factor"), take(bytes.data(), size);
+  call(hf_surface_save(solver, bytes.data(), size), "hf_surface_save"), take(bytes.data(), size);
   hf_factor_desc saved = desc<hf_factor_desc>();
   saved.bytes = bytes.data(), saved.byte_count = size;
   hf_create_desc d = create_desc();
   d.saved_factor = &saved;
   const hf_solver loaded = make(d);
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   const hf_sites_desc sites = sites_at(5, 55);
   call(hf_add_sites(loaded, &sites, nullptr), "hf_add_sites, loaded"), take_field(loaded);
   hf_preview_info info = desc<hf_preview_info>();
-  call(hf_solve_preview(loaded, floats.data(), 0, 0, &info), "hf_solve_preview"), take_floats();
-  call(hf_solve_preview_f64(loaded, doubles.data(), 0, 2, &info), "hf_solve_preview_f64"), take_doubles();
-  call(hf_release_preview(loaded), "hf_release_preview");
-  hf_destroy(loaded);
+  call(hf_solver_solve_preview(loaded, floats.data(), 0, 0, &info), "hf_solver_solve_preview"), take_floats();
+  call(hf_solver_solve_preview_f64(loaded, doubles.data(), 0, 2, &info), "hf_solver_solve_preview_f64"), take_doubles();
+  call(hf_solver_release_preview(loaded), "hf_solver_release_preview");
+  hf_solver_destroy(loaded);
 }
 
 void Run::analysis() {
@@ -140,26 +140,26 @@ void Run::analysis() {
   field.values_f64 = s.height.data();
   Numbers levels(6);
   for (int spacing = 0; spacing < 3; ++spacing)
-    call(hf_space_levels(solver, &field, spacing, 6, levels.data()), "hf_space_levels"), take(levels.data(), 6);
+    call(hf_surface_space_levels(solver, &field, spacing, 6, levels.data()), "hf_surface_space_levels"), take(levels.data(), 6);
   hf_isolines lines = desc<hf_isolines>();
-  call(hf_trace_isolines(solver, &field, 7, s.levels.data(), &lines), "hf_trace_isolines");
+  call(hf_surface_trace_isolines(solver, &field, 7, s.levels.data(), &lines), "hf_surface_trace_isolines");
   std::vector<std::uint32_t> edges(2 * std::size_t{lines.point_count}), starts(lines.line_count + 1u);
   Numbers parameters(lines.point_count), positions(3 * std::size_t{lines.point_count});
   lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
   lines.point_edges = edges.data(), lines.parameters = parameters.data(), lines.positions = positions.data();
   lines.line_starts = starts.data();
-  call(hf_trace_isolines(solver, &field, 7, s.levels.data(), &lines), "hf_trace_isolines, written");
+  call(hf_surface_trace_isolines(solver, &field, 7, s.levels.data(), &lines), "hf_surface_trace_isolines, written");
   take(edges.data(), edges.size()), take(positions.data(), positions.size()), take(starts.data(), starts.size());
   std::vector<hf_critical_point> points(n);
   hf_critical_info info = desc<hf_critical_info>();
-  call(hf_find_critical_points(solver, &field, n, points.data(), &info), "hf_find_critical_points");
+  call(hf_surface_find_critical_points(solver, &field, n, points.data(), &info), "hf_surface_find_critical_points");
   take(points.data(), info.point_count), take(&info, 1);
   hf_geodesics geodesics = nullptr;
   call(hf_geodesics_create(solver, nullptr, &geodesics), "hf_geodesics_create");
   const std::uint32_t sources[2] = {3, 200};
   Numbers distance(n);
-  call(hf_geodesics_distance_f64(geodesics, 2, sources, distance.data(), 0), "hf_geodesics_distance_f64");
-  call(hf_geodesics_distance(geodesics, 1, sources, floats.data(), 12), "hf_geodesics_distance");
+  call(hf_geodesics_solve_f64(geodesics, 2, sources, distance.data(), 0), "hf_geodesics_solve_f64");
+  call(hf_geodesics_solve(geodesics, 1, sources, floats.data(), 12), "hf_geodesics_solve");
   take(distance.data(), n), take_floats();
   for (int kind = 0; kind < 2; ++kind) {
     hf_extremities_desc wanted = desc<hf_extremities_desc>();
@@ -167,10 +167,10 @@ void Run::analysis() {
     wanted.out_field = distance.data();
     std::vector<hf_extremity> found(n);
     std::uint32_t count = 0;
-    call(hf_find_extremities(solver, &wanted, n, found.data(), &count), "hf_find_extremities");
+    call(hf_surface_find_extremities(solver, &wanted, n, found.data(), &count), "hf_surface_find_extremities");
     take(distance.data(), n), take(found.data(), count);
   }
-  hf_geodesics_destroy(geodesics), hf_destroy(solver);
+  hf_geodesics_destroy(geodesics), hf_solver_destroy(solver);
 }
 
 void Run::directions() {
@@ -179,7 +179,7 @@ void Run::directions() {
   wanted.degree = 4;
   hf_direction direction = nullptr, copy = nullptr;
   call(hf_direction_create(solver, &wanted, &direction), "hf_direction_create");
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   const std::uint32_t vertices[4] = {20, 90, 150, 250}, to[1] = {40};
   std::uint32_t sites[4], count = 0;
   call(hf_direction_add_sites(direction, 4, vertices, s.vectors.data(), sites), "hf_direction_add_sites");
@@ -207,16 +207,16 @@ void Run::directions() {
 }
 
 void Run::errors() {
-  const std::uint32_t version = hf_get_version();
+  const std::uint32_t version = hf_version_get();
   take(&version, 1);
   for (hf_result code = -400; code <= 0; ++code) {
-    const char* name = hf_result_name(code);
+    const char* name = hf_result_get_name(code);
     take(name, std::strlen(name));
   }
   call(hf_create(nullptr, nullptr), "hf_create, nothing", HF_ERROR_NULL_POINTER);
   call(hf_solve(nullptr, nullptr, 0, nullptr), "hf_solve, nothing", HF_ERROR_INVALID_HANDLE);
   hf_error_detail detail;
-  call(hf_get_error_detail(&detail), "hf_get_error_detail"), take(&detail.code, 1), take(&detail.index, 1);
+  call(hf_error_get_detail(&detail), "hf_error_get_detail"), take(&detail.code, 1), take(&detail.index, 1);
 }
 
 Outcome run_whole_api(const Scene& scene, const Options& options) {

@@ -42,7 +42,7 @@ class Run {
   template <class T>
   static T desc() {
     T made;
-    HF_INIT(made);
+    HF_INIT(made); /* FIXME type */
     return made;
   }
   hf_create_desc create_desc(std::uint32_t channels = 1) const {
@@ -69,7 +69,7 @@ class Run {
   }
   void take_field(hf_solver solver) {
     hf_solve_info info = desc<hf_solve_info>();
-    call(hf_solve_f64(solver, doubles.data(), 0, &info), "hf_solve_f64"), take_doubles(), take(&info, 1);
+    call(hf_solver_solve_f64(solver, doubles.data(), 0, &info), "hf_solver_solve_f64"), take_doubles(), take(&info, 1);
   }
 
   const Scene& s;

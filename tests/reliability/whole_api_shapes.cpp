@@ -21,7 +21,7 @@ void Run::pose_and_transfer() {
     std::vector<float> normals(3 * std::size_t{n});
     hf_deform_desc deform = desc<hf_deform_desc>();
     deform.positions = floats.data(), deform.normals = normals.data(), deform.refine = mode == HF_DEFORM_SMOOTH;
-    call(hf_deform(pose, &deform, nullptr), "hf_deform"), take_floats(), take(normals.data(), normals.size());
+    call(hf_pose_deform(pose, &deform, nullptr), "hf_pose_deform"), take_floats(), take(normals.data(), normals.size());
     call(hf_pose_get_field(pose, handles[0], floats.data(), 12), "hf_pose_get_field"), take_floats();
     hf_handle_info info = desc<hf_handle_info>();
     call(hf_pose_get_handle(pose, handles[1], &info), "hf_pose_get_handle"), take(&info, 1);
@@ -38,7 +38,7 @@ void Run::pose_and_transfer() {
     regions.handle_count = 1, regions.points = doubles.data(), regions.radii = &radius, regions.layer = 1;
     std::memcpy(doubles.data(), s.positions_f64.data() + 3 * std::size_t{n / 2}, 3 * sizeof(double));
     call(hf_pose_add_handles(copy, &regions, &layered), "hf_pose_add_handles, layer");
-    call(hf_deform(copy, &deform, nullptr), "hf_deform, layers"), take_floats();
+    call(hf_pose_deform(copy, &deform, nullptr), "hf_pose_deform, layers"), take_floats();
     call(hf_pose_remove_handles(copy, 1, &layered), "hf_pose_remove_handles");
     const std::uint32_t count = hf_pose_get_handle_count(copy);
     take(&count, 1);
@@ -67,7 +67,7 @@ void Run::pose_and_transfer() {
     call(hf_transfer_remove_pairs(transfer, 1, numbers), "hf_transfer_remove_pairs");
     hf_transfer_destroy(transfer);
   }
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
 }
 
 void Run::quads_and_flow() {
@@ -88,7 +88,7 @@ void Run::quads_and_flow() {
   hf_quads_destroy(quads);
   hf_flow flow = nullptr;
   call(hf_flow_create(solver, &flow), "hf_flow_create");
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   hf_scalars field = desc<hf_scalars>();
   field.values_f64 = s.height.data();
   hf_flow_lines lines = desc<hf_flow_lines>();
@@ -113,7 +113,7 @@ void Run::regions() {
   hf_region_edit_desc edit = desc<hf_region_edit_desc>();
   edit.add_count = static_cast<std::uint32_t>(patch.size()), edit.add_vertices = patch.data();
   call(hf_region_edit(source, &edit), "hf_region_edit");
-  hf_destroy(solver);
+  hf_solver_destroy(solver);
   call(hf_region_record(source), "hf_region_record");
   call(hf_region_clone(source, &target), "hf_region_clone");
   hf_region_edit_desc grow = desc<hf_region_edit_desc>();

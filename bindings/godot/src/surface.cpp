@@ -48,16 +48,16 @@ Value create(Surface& s, const Arguments& a) {
   hf_solver raw = nullptr;
   check(hf_create(&desc, &raw));
   s.forget();
-  s.solver = hf::Handle<hf_solver, hf_destroy>(raw), s.vertex_count = desc.vertex_count;
+  s.solver = hf::Handle<hf_solver, hf_solver_destroy>(raw), s.vertex_count = desc.vertex_count;
   return done();
 }
 
 Value clone_from(Surface& s, const Arguments& a) {
   if (!at(a, 0).surface) fail("clone_from needs a surface");
   hf_solver raw = nullptr;
-  check(hf_clone(a[0].surface->solver.get(), &raw));
+  check(hf_solver_clone(a[0].surface->solver.get(), &raw));
   s.forget();
-  s.solver = hf::Handle<hf_solver, hf_destroy>(raw), s.vertex_count = a[0].surface->vertex_count;
+  s.solver = hf::Handle<hf_solver, hf_solver_destroy>(raw), s.vertex_count = a[0].surface->vertex_count;
   return done();
 }
 
@@ -91,19 +91,19 @@ Value move_sites(Surface& s, const Arguments& a) {
   const List sites = integers(at(a, 0), "sites"), vertices = integers(at(a, 1), "vertices");
   auto to = make<hf_sites_desc>();
   to.site_count = vertices.count(), to.vertices = vertices.data();
-  check(hf_move_sites(s.solver.get(), sites.count(), sites.data(), &to));
+  check(hf_solver_move_sites(s.solver.get(), sites.count(), sites.data(), &to));
   return done();
 }
 
 Value set_site_values(Surface& s, const Arguments& a) {
   const List sites = integers(at(a, 0), "sites");
-  check(hf_set_site_values(s.solver.get(), sites.count(), sites.data(), doubles(at(a, 1), sites.count(), "values")));
+  check(hf_solver_set_values(s.solver.get(), sites.count(), sites.data(), doubles(at(a, 1), sites.count(), "values")));
   return done();
 }
 
-Value record(Surface& s, const Arguments&) { return check(hf_record(s.solver.get())), done(); }
-Value undo(Surface& s, const Arguments&) { return check(hf_undo(s.solver.get())), done(); }
-Value redo(Surface& s, const Arguments&) { return check(hf_redo(s.solver.get())), done(); }
+Value record(Surface& s, const Arguments&) { return check(hf_solver_record(s.solver.get())), done(); }
+Value undo(Surface& s, const Arguments&) { return check(hf_solver_undo(s.solver.get())), done(); }
+Value redo(Surface& s, const Arguments&) { return check(hf_solver_redo(s.solver.get())), done(); }
 
 Value solve(Surface& s, const Arguments&) {
   Value value;
@@ -116,7 +116,7 @@ Value solve(Surface& s, const Arguments&) {
 Value solve_at(Surface& s, const Arguments& a) {
   const List vertices = integers(at(a, 0), "vertices");
   Doubles found(vertices.count() + 1);
-  check(hf_solve_at(s.solver.get(), vertices.count(), vertices.data(), found.data()));
+  check(hf_solver_solve_at(s.solver.get(), vertices.count(), vertices.data(), found.data()));
   Value value;
   value.kind = Value::reals, value.floats.assign(found.begin(), found.end() - 1);
   return value;
@@ -139,7 +139,7 @@ Value edit_sites(Surface& s, const Arguments& a) {
   added.values = doubles(at(a, 6), add.values.size(), "add_values");
   if (!add.values.empty()) edit.add = &added;
   Numbers made(add.values.size() + 1);
-  check(hf_edit_sites(s.solver.get(), &edit, made.data()));
+  check(hf_solver_edit_sites(s.solver.get(), &edit, made.data()));
   made.pop_back();
   return numbers(made);
 }
@@ -148,7 +148,7 @@ Value edit_sites(Surface& s, const Arguments& a) {
 Value certify(Surface& s, const Arguments& a) {
   auto found = make<hf_certificate>();
   found.tolerance = at(a, 0).number;
-  check(hf_certify(s.solver.get(), &found));
+  check(hf_solver_certify(s.solver.get(), &found));
   return named({{"tolerance", found.tolerance},
                 {"value_range", found.value_range},
                 {"residual", found.residual},
@@ -159,8 +159,8 @@ Value certify(Surface& s, const Arguments& a) {
 }
 
 Value statistics(Surface& s, const Arguments&) {
-  auto figures = make<hf_statistics>();
-  check(hf_get_statistics(s.solver.get(), &figures));
+  auto figures = make<hf_solver_statistics>();
+  check(hf_solver_get_statistics(s.solver.get(), &figures));
   Value value;
   value.kind = Value::named;
   value.fields = {{"factorisation_count", figures.factorisation_count},
@@ -171,8 +171,8 @@ Value statistics(Surface& s, const Arguments&) {
 }
 
 Value report(Surface& s, const Arguments&) {
-  auto found = make<hf_mesh_report>();
-  check(hf_get_mesh_report(s.solver.get(), &found));
+  auto found = make<hf_surface_report>();
+  check(hf_surface_get_report(s.solver.get(), &found));
   Value value;
   value.kind = Value::named;
   value.fields = {{"vertex_count", found.vertex_count},
@@ -188,7 +188,7 @@ Value save_factor(Surface& s, const Arguments&) {
   check(hf_get_factor_size(s.solver.get(), &size));
   Value value;
   value.kind = Value::bytes, value.octets.resize(size);
-  check(hf_save_factor(s.solver.get(), value.octets.data(), size));
+  check(hf_surface_save(s.solver.get(), value.octets.data(), size));
   return value;
 }
 
@@ -270,7 +270,7 @@ Value deform(Surface& s, const Arguments& a) {
   value.kind = Value::vectors, value.floats.resize(3 * s.vertex_count + 1);
   std::vector<float> normals(3 * s.vertex_count + 1);
   desc.positions = value.floats.data(), desc.normals = normals.data();
-  check(hf_deform(pose_of(s), &desc, nullptr));
+  check(hf_pose_deform(pose_of(s), &desc, nullptr));
   value.floats.resize(3 * s.vertex_count), normals.resize(3 * s.vertex_count);
   s.normals = std::move(normals);
   return value;
@@ -412,7 +412,7 @@ Value call(Surface& surface, const Entry& entry, const Arguments& arguments) noe
            " arguments");
     return entry.method(surface, arguments);
   } catch (const hf::Error& error) {
-    surface.error_name = hf_result_name(error.code()), surface.error_message = error.what();
+    surface.error_name = hf_result_get_name(error.code()), surface.error_message = error.what();
     surface.error_index = error.index() == HF_NO_INDEX ? -1.0 : error.index();
   } catch (const std::exception& error) {
     surface.error_name = "HF_ERROR_INTERNAL", surface.error_message = error.what();

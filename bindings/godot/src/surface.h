@@ -45,7 +45,7 @@ struct Value {
 }
 
 struct Surface {
-  hf::Handle<hf_solver, hf_destroy> solver;
+  hf::Handle<hf_solver, hf_solver_destroy> solver;
   hf::Handle<hf_pose, hf_pose_destroy> pose;
   hf::Handle<hf_transfer, hf_transfer_destroy> transfer;
   hf::Handle<hf_geodesics, hf_geodesics_destroy> geodesics;

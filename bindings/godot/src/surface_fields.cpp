@@ -42,7 +42,7 @@ Value distance(Surface& s, const Arguments& a) {
       make_once(s.geodesics, [&](hf_geodesics* out) { return hf_geodesics_create(s.solver.get(), nullptr, out); });
   Value value;
   value.kind = Value::reals, value.floats.resize(s.vertex_count + 1);
-  check(hf_geodesics_distance(geodesics, sources.count(), sources.data(), value.floats.data(), 0));
+  check(hf_geodesics_solve(geodesics, sources.count(), sources.data(), value.floats.data(), 0));
   value.floats.resize(s.vertex_count);
   return value;
 }
@@ -52,7 +52,7 @@ Value space_levels(Surface& s, const Arguments& a) {
   const hf_scalars field = scalars_of(s, at(a, 0));
   const uint32_t count = whole(at(a, 1).number, "count");
   Doubles levels(std::min(count, 1000000u) + 1);
-  check(hf_space_levels(s.solver.get(), &field, static_cast<int32_t>(at(a, 2).number), count, levels.data()));
+  check(hf_surface_space_levels(s.solver.get(), &field, static_cast<int32_t>(at(a, 2).number), count, levels.data()));
   Value value;
   value.kind = Value::reals, value.floats.assign(levels.begin(), levels.end() - 1);
   return value;
@@ -65,12 +65,12 @@ Value trace_isolines(Surface& s, const Arguments& a) {
   const uint32_t count = at(a, 1).null ? 1u : static_cast<uint32_t>(levels.size());
   const double* given = levels.empty() ? nullptr : levels.data();
   auto lines = make<hf_isolines>();
-  check(hf_trace_isolines(s.solver.get(), &field, count, given, &lines));
+  check(hf_surface_trace_isolines(s.solver.get(), &field, count, given, &lines));
   Doubles positions(3 * size_t{lines.point_count});
   Numbers starts(size_t{lines.line_count} + 1);
   lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
   lines.positions = positions.data(), lines.line_starts = starts.data();
-  if (lines.line_count) check(hf_trace_isolines(s.solver.get(), &field, count, given, &lines));
+  if (lines.line_count) check(hf_surface_trace_isolines(s.solver.get(), &field, count, given, &lines));
   return lines_of(positions, starts);
 }
 
@@ -78,9 +78,9 @@ Value trace_isolines(Surface& s, const Arguments& a) {
 Value find_critical_points(Surface& s, const Arguments& a) {
   const hf_scalars field = scalars_of(s, at(a, 0));
   auto info = make<hf_critical_info>();
-  check(hf_find_critical_points(s.solver.get(), &field, 0, nullptr, &info));
+  check(hf_surface_find_critical_points(s.solver.get(), &field, 0, nullptr, &info));
   std::vector<hf_critical_point> points(info.point_count);
-  if (!points.empty()) check(hf_find_critical_points(s.solver.get(), &field, info.point_count, points.data(), &info));
+  if (!points.empty()) check(hf_surface_find_critical_points(s.solver.get(), &field, info.point_count, points.data(), &info));
   Value value;
   value.kind = Value::rows;
   for (const hf_critical_point& p : points)
@@ -91,9 +91,9 @@ Value find_critical_points(Surface& s, const Arguments& a) {
 // find_extremities(): { vertex, length } each, the longest first
 Value find_extremities(Surface& s, const Arguments&) {
   uint32_t count = 0;
-  check(hf_find_extremities(s.solver.get(), nullptr, 0, nullptr, &count));
+  check(hf_surface_find_extremities(s.solver.get(), nullptr, 0, nullptr, &count));
   std::vector<hf_extremity> found(count);
-  if (count) check(hf_find_extremities(s.solver.get(), nullptr, count, found.data(), &count));
+  if (count) check(hf_surface_find_extremities(s.solver.get(), nullptr, count, found.data(), &count));
   Value value;
   value.kind = Value::rows;
   for (const hf_extremity& tip : found) value.table.push_back({{"vertex", tip.vertex}, {"length", tip.length}});

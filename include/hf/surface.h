@@ -1,0 +1,225 @@
+/* hf/surface.h - the mesh, ready for work: welded, checked, ordered and factorised once.
+ *
+ * Make one surface per mesh. Solvers, poses, direction fields, regions, transfers and quads are made on it and share
+ * its factor. A surface never changes, so any number of threads may use it. What is made on it keeps alive what it
+ * needs, so handles can be destroyed in any order.
+ */
+#ifndef HF_SURFACE_H
+#define HF_SURFACE_H
+
+#include "hf/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hf_surface_object* hf_surface;
+
+/* How vertices at one place are joined. Game assets are cut at texture seams: a horse can be 1,109 pieces as stored and
+ * one when welded. Results are written to every copy. */
+enum {
+  HF_WELD_EXACT = 0,    /* bit-equal positions (+0 and -0 are equal) */
+  HF_WELD_NONE = 1,     /* vertices as stored */
+  HF_WELD_TOLERANCE = 2 /* positions closer than weld_tolerance, transitively */
+};
+
+/* The discrete Laplacian L: (L u)_i = sum_j w_ij (u_i - u_j). */
+enum {
+  HF_OPERATOR_INTRINSIC_DELAUNAY = 0, /* cotangent weights of the intrinsic Delaunay triangulation, on the tufted cover
+                                         where edges are open or non-manifold (Bobenko and Springborn 2007; Sharp and
+                                         Crane 2020). Weights are never negative: a field keeps to the range of its
+                                         sites on any mesh */
+  HF_OPERATOR_CLAMPED = 1,  /* cotangents, at least 1e-3 of the median weight: keeps to the range too */
+  HF_OPERATOR_UNIFORM = 2,  /* w_ij = 1 */
+  HF_OPERATOR_COTANGENT = 3 /* w_ij = (cot a_ij + cot b_ij) / 2, the paper's; can be negative at obtuse triangles */
+};
+
+/* What a field minimises. A bi-harmonic field is smooth at its sites and overshoots their values. Its factor is 3 to 4
+ * times larger, and its solve takes one correction. */
+enum {
+  HF_FIELD_HARMONIC = 0,        /* K = L */
+  HF_FIELD_BIHARMONIC = 1,      /* K = L M^-1 L, M the vertex areas scaled to mean 1 by component: does not depend on the
+                                   scale of the mesh */
+  HF_FIELD_BIHARMONIC_GRAPH = 2 /* K = L^2, the paper's: depends on how densely the surface is sampled */
+};
+
+/* Fill-reducing ordering of the factor. */
+enum {
+  HF_ORDERING_NESTED_DISSECTION = 0, /* our own; the least fill */
+  HF_ORDERING_MINIMUM_DEGREE = 1,    /* quicker to compute, more fill on large meshes */
+  HF_ORDERING_METIS = 2              /* builds with HF_WITH_GPL only */
+};
+
+/* A factor that hf_surface_save wrote, to be loaded instead of made. */
+typedef struct hf_factor_desc {
+  uint32_t struct_size;
+  int32_t borrow;    /* 0: the bytes are copied. 1: numbers are read in place (a mapped file, say). Then the bytes stay
+                        unchanged until the surface and everything made on it are destroyed, and are aligned to
+                        HF_FACTOR_ALIGNMENT */
+  const void* bytes; /* all of them, as saved */
+  size_t byte_count;
+} hf_factor_desc;
+enum { HF_FACTOR_ALIGNMENT = 64 };
+
+/* Set positions or positions_f64, and triangles or triangles_u16. Strides are in bytes; 0 means packed. */
+typedef struct hf_surface_desc {
+  uint32_t struct_size;
+  uint32_t vertex_count;         /* >= 1 */
+  uint32_t triangle_count;       /* >= 1 */
+  uint32_t position_stride;      /* bytes between vertices */
+  const float* positions;        /* [vertex_count][3], any unit, any offset */
+  const double* positions_f64;   /* [vertex_count][3] */
+  const uint32_t* triangles;     /* [triangle_count][3], counter-clockwise seen from outside */
+  const uint16_t* triangles_u16; /* [triangle_count][3] */
+  uint32_t triangle_stride;      /* bytes between triangles */
+  int32_t weld;                  /* HF_WELD_* */
+  float weld_tolerance;          /* for HF_WELD_TOLERANCE, in the unit of the positions, > 0 */
+  int32_t operator_kind;         /* HF_OPERATOR_* */
+  int32_t field_kind;            /* HF_FIELD_*: the factor made now. Others are made when a solver or region asks */
+  int32_t ordering;              /* HF_ORDERING_* */
+  uint32_t thread_count;         /* threads the library may use, yours included, 1 to 256; 0 = 1 */
+  uint32_t vertex_limit;         /* refuse larger meshes before allocating; 0 = 20,000,000 */
+  uint32_t triangle_limit;       /* refuse more triangles; 0 = eight per vertex of the vertex limit */
+  uint32_t memory_limit_mb;      /* refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit */
+  hf_allocator allocator;        /* zero = malloc */
+  hf_job_runner job_runner;      /* zero = threads of the library's own */
+  hf_progress progress;          /* NULL, or an object to poll and cancel through */
+  const hf_factor_desc* saved_factor; /* NULL, or the saved factor of this mesh; ordering is then 0 or the factor's */
+} hf_surface_desc;
+
+/* Makes a surface: welds, checks, builds the operator, orders and factorises it. Copies the mesh; keeps only the hooks of
+ * the desc. Takes dirty meshes and counts what it finds (hf_surface_get_report): non-manifold edges, flipped, duplicate
+ * and zero-area triangles, isolated vertices, islands.
+ *
+ * out_surface: set to NULL first, to the new handle on success. Cost: about 2 us a vertex for 300,000 vertices, one
+ * thread. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_EMPTY (no vertex or no triangle), HF_ERROR_OUT_OF_RANGE (index =
+ * triangle), HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_TOO_LARGE (a limit), HF_ERROR_UNSUPPORTED (ordering not in
+ * this build), HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE. With saved_factor also HF_ERROR_INVALID_ARGUMENT
+ * (damaged bytes, or bytes of another mesh, operator or field_kind; borrowed bytes that are not aligned) and
+ * HF_ERROR_UNSUPPORTED (another format version or byte order). Thread safety: any thread. Since 0.1. */
+HF_API hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_surface);
+
+/* Destroys a surface. Ignores NULL and destroyed handles. What was made on it goes on working. Thread safety: any
+ * thread. Since 0.1. */
+HF_API void hf_surface_destroy(hf_surface surface);
+
+/* The options a surface was made with, defaults filled in. */
+typedef struct hf_surface_info {
+  uint32_t struct_size;
+  uint32_t vertex_count;   /* as given */
+  uint32_t triangle_count; /* as given */
+  int32_t weld;
+  float weld_tolerance;
+  int32_t operator_kind;
+  int32_t field_kind;
+  int32_t ordering;
+  uint32_t thread_count;
+  uint32_t vertex_limit;
+  uint32_t triangle_limit;  /* 0: eight per vertex of the vertex limit */
+  uint32_t memory_limit_mb; /* 0: none */
+} hf_surface_info;
+
+/* Writes the options of a surface. Thread safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_get_info(hf_surface surface, hf_surface_info* out_info);
+
+/* What was found in the mesh. */
+typedef struct hf_surface_report {
+  uint32_t struct_size;
+  uint32_t vertex_count;          /* as given */
+  uint32_t triangle_count;        /* as given */
+  uint32_t welded_vertex_count;   /* after welding */
+  uint32_t component_count;       /* connected components with at least one triangle, after welding */
+  uint32_t isolated_vertex_count; /* given vertices in no usable triangle; fields are 0 there */
+  uint32_t degenerate_triangle_count; /* zero area to working precision */
+  uint32_t collapsed_triangle_count;  /* two or three equal corners after welding; left out */
+  uint32_t duplicate_triangle_count;  /* the same three corners again */
+  uint32_t non_manifold_edge_count;   /* edges of three or more triangles */
+  uint32_t flipped_edge_count;        /* edges that two triangles run through in the same direction */
+  uint32_t boundary_edge_count;
+  uint32_t negative_edge_count; /* edges of negative cotangent weight, before any clamping */
+  float smallest_angle;         /* radians, over the usable triangles */
+  double bounding_box_diagonal; /* in the unit of the positions */
+} hf_surface_report;
+
+/* Writes the report of the mesh. Thread safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_report);
+
+/* Writes the component of every given vertex; HF_NO_INDEX for isolated vertices. Components are numbered by their
+ * smallest vertex. out_components: NULL, or uint32_t[capacity]. out_count: NULL, or receives vertex_count. Thread
+ * safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity, uint32_t* out_components,
+                                           uint32_t* out_count);
+
+/* Times in milliseconds, bytes as double (exact to 2^53). */
+typedef struct hf_surface_statistics {
+  uint32_t struct_size;
+  uint32_t unknown_count; /* size of the factored matrix */
+  double weld_ms, operator_ms, ordering_ms, symbolic_ms, numeric_ms;
+  double factor_entries; /* non-zeros of the Cholesky factor */
+  double factor_bytes;   /* memory of the stored factor with its indices */
+  double factor_flops;
+  double memory_bytes; /* in use by this surface and everything made on it */
+  double peak_memory_bytes;
+  double load_ms;          /* to load a saved factor; the times to make it are then 0 */
+  int32_t factor_loaded;   /* 1: the factor was loaded */
+  int32_t factor_borrowed; /* 1: its numbers are read in place; factor_bytes counts them, memory_bytes does not */
+} hf_surface_statistics;
+
+/* Writes the statistics of a surface and of the factor it was made with. Thread safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statistics* out_statistics);
+
+/* ---- the factor as bytes ---- */
+
+/* Saves the factor of one kind of field. An authoring tool saves it once. A game ships the bytes beside the mesh and
+ * gives them to hf_surface_create, which then starts in a fraction of the time. The bytes are the same for the same mesh,
+ * options and library version, whatever the number of threads. They are little-endian and hold a format version, a hash
+ * of the matrix and a checksum. Sites are not part of them.
+ *
+ * field_kind: HF_FIELD_*; a factor that does not exist yet is made first. out_bytes: NULL, or `capacity` bytes, any
+ * alignment. out_size: NULL, or receives the size. Cost: one copy of the factor. On failure out_bytes is undefined.
+ * Thread safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_save(hf_surface surface, int32_t field_kind, size_t capacity, void* out_bytes,
+                                 size_t* out_size);
+
+/* ---- picking ---- */
+
+/* Where the surface stands when it is picked, if not at rest. */
+typedef struct hf_pick_desc {
+  uint32_t struct_size;
+  uint32_t position_stride;    /* bytes between vertices; 0 = packed */
+  const float* positions;      /* [vertex_count][3] posed positions (hf_deform writes them), or NULL */
+  const double* positions_f64; /* the same in double, or NULL; both NULL: the rest positions */
+  int32_t front_only;          /* 1: a ray passes triangles seen from behind */
+  uint32_t reserved;           /* 0 */
+} hf_pick_desc;
+
+/* The first triangle on a ray. */
+typedef struct hf_hit {
+  uint32_t struct_size;
+  int32_t found;          /* 1: a triangle was hit; 0: none, and all else is 0 or HF_NO_INDEX */
+  uint32_t triangle;      /* as given */
+  uint32_t vertex;        /* its corner nearest to the hit, as given */
+  double barycentrics[3]; /* weights of the corners, of sum 1: a site for hf_add_sites */
+  double position[3];     /* in the unit of the positions */
+  double distance;        /* from the origin, in lengths of `direction` */
+} hf_hit;
+
+/* Finds what a click hits: the first triangle on a ray. origin, direction: double[3] in the frame of the positions;
+ * direction of any length above 0. desc: NULL for the rest positions. A ray through an edge or a vertex never slips
+ * between two triangles; of several at one distance the first given triangle counts. Cost: a pass over the triangles,
+ * about 10 ns each on one thread. Errors: HF_ERROR_NON_FINITE (origin, direction, a position: index = vertex),
+ * HF_ERROR_INVALID_ARGUMENT (direction 0). Thread safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const double* direction,
+                                     const hf_pick_desc* desc, hf_hit* out_hit);
+
+/* Finds the vertex nearest to a point: double[3] in the frame of the positions. desc: NULL for the rest positions.
+ * Isolated vertices are passed over; of several at one distance, welded copies among them, the first counts.
+ * out_distance: NULL, or receives the distance. Cost: a pass over the vertices. Errors: HF_ERROR_NON_FINITE (point, or a
+ * position: index = vertex). Thread safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_find_vertex(hf_surface surface, const double* point, const hf_pick_desc* desc,
+                                        uint32_t* out_vertex, double* out_distance);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

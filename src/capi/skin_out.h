@@ -1,0 +1,60 @@
+// The joints and weights of a pose or a transfer, written as hf_skin_info says.
+#pragma once
+#include <algorithm>
+
+#include "capi/boundary.h"
+#include "capi/vertex_writer.h"
+#include "deform/rotation.h"
+#include "hf/pose.h"
+
+namespace hf_inner::capi {
+
+class SkinOut {
+ public:
+  explicit SkinOut(hf_skin_info* inout) : inout_(inout), out_(read_struct(inout, "inout_skin")) {
+    if (out_.weight_count == 0) out_.weight_count = 4;
+    if (out_.weight_count != 4 && out_.weight_count != 8)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "weight_count is %u; it must be 4 or 8, or 0 for 4",
+           out_.weight_count);
+  }
+  std::uint32_t weight_count() const noexcept { return out_.weight_count; }
+  bool wants_scales() const noexcept { return out_.scales != nullptr; }
+
+  // First; throws HF_ERROR_TOO_SMALL when the arrays cannot take as much.
+  void write_counts(std::size_t joints, std::uint32_t vertices) {
+    out_.joint_count = static_cast<std::uint32_t>(joints), out_.vertex_count = vertices;
+    write_struct(inout_, out_);
+    const bool per_joint = out_.pivots || out_.rotations || out_.translations || out_.axes || out_.scales;
+    check_capacity(per_joint, out_.joint_capacity, joints, "joint_capacity");
+    check_capacity(out_.vertex_joints || out_.vertex_weights, out_.vertex_capacity, vertices, "vertex_capacity");
+  }
+  void write_joint(std::size_t j, Vec3 pivot, const Quaternion& rotation, Vec3 place, const Quaternion& axes,
+                   Vec3 scale) const {
+    if (out_.pivots) put(pivot, out_.pivots + 3 * j);
+    if (out_.translations) put(place, out_.translations + 3 * j);
+    if (out_.rotations) put_quaternion(rotation, out_.rotations + 4 * j);
+    if (out_.axes) put_quaternion(axes, out_.axes + 4 * j);
+    if (out_.scales) put(scale, out_.scales + 3 * j);
+  }
+  // weigh(inner, joints, weights) for every vertex as given, inner Mesh::none where isolated.
+  template <class Weigh>
+  void write_vertices(const Mesh& mesh, Weigh&& weigh) const {
+    for (std::size_t v = 0; (out_.vertex_joints || out_.vertex_weights) && v < mesh.report.vertex_count; ++v) {
+      std::uint32_t joints[8] = {0};
+      float weights[8] = {0};
+      weigh(mesh.inner_of_given[v], joints, weights);
+      if (out_.vertex_joints) std::copy_n(joints, weight_count(), out_.vertex_joints + v * weight_count());
+      if (out_.vertex_weights) std::copy_n(weights, weight_count(), out_.vertex_weights + v * weight_count());
+    }
+  }
+
+ private:
+  static void put_quaternion(const Quaternion& q, double* out) noexcept {
+    const double values[4] = {q.x, q.y, q.z, q.w};
+    std::copy_n(values, 4, out);
+  }
+  hf_skin_info* inout_;
+  hf_skin_info out_;
+};
+
+}  // namespace hf_inner::capi

@@ -1,0 +1,22 @@
+// What the sites of a field do not reach.
+#pragma once
+#include "engine/geometry.h"
+#include "hf/solver.h"
+
+namespace hf_inner::capi {
+
+// site_count(component): sites there.
+template <class Count>
+hf_solve_info unreached_by(const Geometry& shape, Count&& site_count) {
+  hf_solve_info info{};
+  info.first_unreached_component = HF_NO_INDEX;
+  info.unreached_vertex_count = shape.mesh.report.isolated_vertex_count;
+  for (std::uint32_t c = 0; c < shape.mesh.report.component_count; ++c) {
+    if (site_count(static_cast<std::int32_t>(c)) > 0) continue;
+    if (info.unreached_component_count++ == 0) info.first_unreached_component = c;
+    info.unreached_vertex_count += shape.given_count[c];
+  }
+  return info;
+}
+
+}  // namespace hf_inner::capi

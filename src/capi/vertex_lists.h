@@ -1,0 +1,55 @@
+// Lists of vertices, triangles and regions that the caller names.
+#pragma once
+#include "capi/boundary.h"
+#include "mesh/mesh.h"
+
+namespace hf_inner::capi {
+
+// Appends the inner vertices of a list of vertices as given; isolated ones are Mesh::none. Throws HF_ERROR_OUT_OF_RANGE
+// with the position in the list.
+inline void append_inner(const Mesh& mesh, std::size_t count, const std::uint32_t* vertices, const char* name,
+                         Vector<std::int32_t>& out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (vertices[i] >= mesh.report.vertex_count)
+      fail(HF_ERROR_OUT_OF_RANGE, static_cast<std::uint32_t>(i),
+           "entry %zu of %s: vertex %u, but there are %u vertices", i, name, vertices[i], mesh.report.vertex_count);
+    out.push_back(mesh.inner_of_given[vertices[i]]);
+  }
+}
+
+// The same, and HF_ERROR_INVALID_ARGUMENT for an isolated vertex.
+inline void append_usable(const Mesh& mesh, std::size_t count, const std::uint32_t* vertices, const char* name,
+                          Vector<std::int32_t>& out) {
+  const std::size_t first = out.size();
+  append_inner(mesh, count, vertices, name, out);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (out[first + i] == Mesh::none)
+      fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i),
+           "entry %zu of %s: vertex %u is in no usable triangle; leave it out", i, name, vertices[i]);
+  }
+}
+
+// A list that cannot name more than every vertex.
+inline void check_vertex_count(const Mesh& mesh, std::uint32_t count, const char* name) {
+  if (count > mesh.report.vertex_count)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%s is %u; the mesh has %u vertices", name, count, mesh.report.vertex_count);
+}
+
+// Sums region sizes, each at least 1; start gets count + 1 entries.
+inline void append_starts(std::uint32_t count, const std::uint32_t* sizes, std::uint32_t limit, const char* name,
+                          Vector<std::uint32_t>& start) {
+  constexpr std::uint64_t most_repeats =
+      4;  // a region may name welded copies and repeats, a list of this length is a mistake
+  std::uint64_t total = 0;
+  start.push_back(0);
+  for (std::uint32_t r = 0; r < count; ++r) {
+    if (sizes[r] == 0) fail(HF_ERROR_EMPTY, r, "%s[%u] is 0; a region has at least one vertex", name, r);
+    total += sizes[r];
+    if (total > most_repeats * limit)
+      fail(HF_ERROR_TOO_LARGE, r, "the regions name %llu vertices; the mesh has %u",
+           static_cast<unsigned long long>(total), limit);
+    start.push_back(static_cast<std::uint32_t>(total));
+  }
+}
+
+}  // namespace hf_inner::capi

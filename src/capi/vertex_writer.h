@@ -1,0 +1,151 @@
+// Writes what inner vertices have to the vertices as given: every welded copy gets the row of its vertex.
+#pragma once
+#include <algorithm>
+#include <cstring>
+
+#include "base/span.h"
+#include "engine/site_solver.h"
+
+namespace hf_inner::capi {
+
+// Visits vertices [first, first + count) as given, on all threads: visit(given, inner), inner Mesh::none where
+// isolated.
+template <class Visit>
+void for_each_given(const Core& core, std::size_t first, std::size_t count, Visit&& visit) {
+  constexpr std::size_t piece =
+      32768;  // vertices of a job: long enough to hide its start, short enough for many threads
+  core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
+    const std::size_t begin = first + p * piece, end = std::min(first + count, begin + piece);
+    for (std::size_t v = begin; v < end; ++v) visit(v, core.mesh.inner_of_given[v]);
+  });
+}
+
+inline void put(Vec3 p, double* values) noexcept { values[0] = p.x, values[1] = p.y, values[2] = p.z; }
+
+// What isolated vertices get; a null function gives zeros.
+using IsolatedRow = void (*)(const Mesh::Isolated& entry, double* values);
+inline void put_rest(const Mesh::Isolated& entry, double* values) { put(entry.position, values); }
+inline void put_up(const Mesh::Isolated&, double* values) { put({0, 0, 1}, values); }
+
+// Writes rows of `width` (at most 64) numbers: row(inner, values) fills one. The rows of vertices [first, first +
+// count) stand at 0 to count - 1 of `out`.
+template <class Row>
+void write_range(const Core& core, std::size_t first, std::size_t count, std::size_t width, const Rows& out,
+                 IsolatedRow isolated, Row&& row) {
+  constexpr std::size_t most = 64;
+  for_each_given(core, first, count, [&](std::size_t v, std::int32_t inner) {
+    if (inner == Mesh::none) return;
+    double values[most];
+    row(static_cast<std::size_t>(inner), values);
+    for (std::size_t c = 0; c < width; ++c) out.set(v - first, c, values[c]);
+  });
+  for (const Mesh::Isolated& entry : core.mesh.isolated) {
+    const std::size_t v = static_cast<std::size_t>(entry.given);
+    if (v < first || v >= first + count) continue;
+    double values[most] = {0};
+    if (isolated) isolated(entry, values);
+    for (std::size_t c = 0; c < width; ++c) out.set(v - first, c, values[c]);
+  }
+}
+
+template <class Row>
+void write_vertices(const Core& core, std::size_t width, const Rows& out, IsolatedRow isolated, Row&& row) {
+  write_range(core, 0, core.mesh.report.vertex_count, width, out, isolated, row);
+}
+
+// Points of all vertices: write_vertices without a call per number, and a plain loop when inner vertices are those
+// given in their order (keeps_order).
+template <class Point, class Real>
+void write_points(const Core& core, bool keeps_order, Span<const Point> points, Real* out, std::size_t stride,
+                  IsolatedRow isolated) {
+  char* bytes = reinterpret_cast<char*>(out);
+  const auto write_row = [&](std::size_t v, const double x, const double y, const double z) {
+    const Real row[3] = {static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z)};
+    std::memcpy(bytes + v * stride, row, sizeof row);
+  };
+  if (keeps_order && stride == 3 * sizeof(Real)) {
+    constexpr std::size_t piece = 32768;
+    const std::size_t count = core.mesh.report.vertex_count;
+    core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
+      const auto* from = &points.data()->x;
+      for (std::size_t i = 3 * p * piece; i < 3 * std::min(count, (p + std::size_t{1}) * piece); ++i)
+        out[i] = static_cast<Real>(from[i]);
+    });
+    return;
+  }
+  for_each_given(core, 0, core.mesh.report.vertex_count, [&](std::size_t v, std::int32_t inner) {
+    if (inner == Mesh::none) return;
+    const Point x = points[static_cast<std::size_t>(inner)];
+    write_row(v, static_cast<double>(x.x), static_cast<double>(x.y), static_cast<double>(x.z));
+  });
+  for (const Mesh::Isolated& entry : core.mesh.isolated) {
+    double values[3] = {0, 0, 0};
+    isolated(entry, values);
+    write_row(static_cast<std::size_t>(entry.given), values[0], values[1], values[2]);
+  }
+}
+
+// Takes the field of a solver from where the engine has it.
+class FieldWriter final : public FieldSink {
+ public:
+  FieldWriter(const Core& core, void* out, bool is_double, std::size_t stride) noexcept
+      : core_(core), out_(static_cast<char*>(out)), is_double_(is_double), stride_(stride) {}
+  void take(std::int32_t first, std::int32_t count, const double* z, const std::int32_t* row) override {
+    if (is_double_) return write<double>(first, count, z, row);
+    write<float>(first, count, z, row);
+  }
+
+ private:
+  template <class T>
+  void write(std::int32_t first, std::int32_t count, const double* z, const std::int32_t* row) const {
+    switch (count) {
+      case 1:
+        return write_rows<T, 1>(first, 1, z, row);
+      case 3:
+        return write_rows<T, 3>(first, 3, z, row);
+      case 8:
+        return write_rows<T, 8>(first, 8, z, row);
+      default:
+        return write_rows<T, 0>(first, static_cast<std::size_t>(count), z, row);
+    }
+  }
+
+  // M: the number of channels when known as the code is compiled, else 0. The rows of z are read in no order, so they
+  // are asked for some vertices ahead.
+  template <class T, std::size_t M>
+  void write_rows(std::int32_t first, std::size_t count, const double* z, const std::int32_t* row) const {
+    const std::size_t vertices = core_.mesh.report.vertex_count, m = M > 0 ? M : count;
+    const std::int32_t* inner = core_.mesh.inner_of_given.data();
+    const auto source_of = [&](std::int32_t i) { return z + static_cast<std::size_t>(row ? row[i] : i) * m; };
+    constexpr std::size_t piece = 16384, ahead = 24;
+    core_.jobs->for_each(static_cast<std::uint32_t>((vertices + piece - 1) / piece), [&](std::uint32_t p) {
+      const std::size_t end = std::min(vertices, (p + std::size_t{1}) * piece);
+      char* target = out_ + p * piece * stride_ + static_cast<std::size_t>(first) * sizeof(T);
+      for (std::size_t v = p * piece; v < end; ++v, target += stride_) {
+        if (v + ahead < end && inner[v + ahead] != Mesh::none) __builtin_prefetch(source_of(inner[v + ahead]));
+        T values[M > 0 ? M : 1];
+        if (inner[v] == Mesh::none) {
+          for (std::size_t c = 0; c < m; ++c) std::memset(target + c * sizeof(T), 0, sizeof(T));
+          continue;
+        }
+        const double* source = source_of(inner[v]);
+        if (M > 0) {
+          for (std::size_t c = 0; c < M; ++c) values[c] = static_cast<T>(source[c]);
+          std::memcpy(target, values, M * sizeof(T));
+          continue;
+        }
+        for (std::size_t c = 0; c < m; ++c) {
+          values[0] = static_cast<T>(source[c]);
+          std::memcpy(target + c * sizeof(T), values, sizeof(T));
+        }
+      }
+    });
+  }
+
+  const Core& core_;
+  char* out_;
+  bool is_double_;
+  std::size_t stride_;
+};
+
+}  // namespace hf_inner::capi

@@ -1,0 +1,49 @@
+#include "engine/geometry.h"
+
+#include "base/index.h"
+#include "base/timer.h"
+
+namespace hf_inner {
+
+Geometry::Geometry(std::shared_ptr<Memory> owner, std::shared_ptr<JobRunner> runner)
+    : memory(std::move(owner)),
+      jobs(std::move(runner)),
+      mesh(*memory),
+      topology(*memory),
+      areas(memory.get()),
+      weights(memory.get()),
+      given_count(memory.get()),
+      workspaces(*memory),
+      zeroed_workspaces(*memory, true) {}
+
+std::shared_ptr<const Geometry> Geometry::make(const MeshInput& input, OperatorKind operator_kind,
+                                               std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs,
+                                               Progress* progress) {
+  Memory& pool = *memory;
+  const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(memory, memory, std::move(jobs));
+  JobRunner* const runner = shape->jobs.get();
+  shape->operator_kind = operator_kind;
+  report(progress, 0.0f);
+  Timer weld_timer;
+  shape->mesh = Mesh::make(input, pool, runner);
+  shape->weld_ms = weld_timer.milliseconds();
+  report(progress, 0.1f);
+  Timer weights_timer;
+  shape->topology = Topology::make(shape->mesh, pool, runner);
+  shape->areas = vertex_areas(shape->mesh, pool, runner);
+  shape->weights = edge_weights(shape->mesh, shape->topology, OperatorKind::cotangent, pool, runner);
+  MeshReport& found = shape->mesh.report;
+  found.negative_edge_count = count_negative(shape->weights);
+  if (operator_kind == OperatorKind::clamped || operator_kind == OperatorKind::uniform)
+    shape->weights = edge_weights(shape->mesh, shape->topology, operator_kind, pool, runner);
+  count_edges(shape->mesh, shape->topology, found);
+  shape->given_count.assign(found.component_count, 0);
+  for (const Index v : shape->mesh.inner_of_given) {
+    if (v != Mesh::none) ++shape->given_count[at(shape->mesh.component[at(v)])];
+  }
+  shape->weights_ms = weights_timer.milliseconds();
+  report(progress, 0.15f);
+  return shape;
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,39 @@
+#include "engine/workspaces.h"
+
+#include <algorithm>
+
+namespace hf_inner {
+
+Buffer<double> WorkspacePool::take(std::size_t size) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (auto it = free_.begin(); it != free_.end(); ++it) {
+      if (it->size() < size) continue;
+      Buffer<double> found = std::move(*it);
+      free_.erase(it);
+      return found;
+    }
+  }
+  Buffer<double> fresh(memory_, size);
+  if (zeroed_) std::fill(fresh.begin(), fresh.end(), 0.0);
+  return fresh;
+}
+
+void WorkspacePool::give(Buffer<double>&& buffer) noexcept {
+  try {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    constexpr std::size_t most = 8;  // more callers at once than this allocate their own
+    if (free_.size() < most) {
+      free_.push_back(std::move(buffer));
+      return;
+    }
+    // keep the larger ones
+    const auto smallest =
+        std::min_element(free_.begin(), free_.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    if (smallest->size() < buffer.size()) *smallest = std::move(buffer);
+  } catch (...) {
+    // no room to remember it: the buffer is released by its owner
+  }
+}
+
+}  // namespace hf_inner

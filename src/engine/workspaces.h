@@ -1,0 +1,47 @@
+// Large scratch arrays that solves share.
+#pragma once
+#include <mutex>
+
+#include "base/memory.h"
+
+namespace hf_inner {
+
+// Keeps scratch arrays for the next solve. The first touch of fresh memory costs more than a sweep.
+class WorkspacePool {
+ public:
+  // zeroed: buffers of this pool are all zero when taken, and must be all zero when given back.
+  explicit WorkspacePool(Memory& memory, bool zeroed = false) : memory_(memory), zeroed_(zeroed), free_(&memory) {}
+  // Moves a buffer of at least `size` doubles out of the pool, or makes one.
+  Buffer<double> take(std::size_t size);
+  // Puts it back; never throws (the buffer is released when the pool cannot grow).
+  void give(Buffer<double>&& buffer) noexcept;
+
+ private:
+  Memory& memory_;
+  const bool zeroed_;
+  std::mutex mutex_;
+  Vector<Buffer<double>> free_;
+};
+
+// A buffer of the pool for one scope.
+class Workspace {
+ public:
+  Workspace(WorkspacePool& pool, std::size_t size) : pool_(pool), buffer_(pool.take(size)) {}
+  ~Workspace() {
+    if (!dropped_) pool_.give(std::move(buffer_));
+  }
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+  double* data() noexcept { return buffer_.data(); }
+  double& operator[](std::size_t i) noexcept { return buffer_[i]; }
+  // Of a zeroed pool: the buffer is in use and must not go back unless clean() is called.
+  void soil() noexcept { dropped_ = true; }
+  void clean() noexcept { dropped_ = false; }
+
+ private:
+  bool dropped_ = false;
+  WorkspacePool& pool_;
+  Buffer<double> buffer_;
+};
+
+}  // namespace hf_inner

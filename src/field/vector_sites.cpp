@@ -1,0 +1,95 @@
+#include "field/vector_sites.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/index.h"
+#include "field/connection.h"
+#include "field/vector_field.h"
+
+namespace hf_inner {
+namespace {
+
+const SiteSet::Slot& vector_site(const ScalarField& field, std::uint32_t position, std::uint32_t site) {
+  const Span<const SiteSet::Slot> slots = field.sites().slots();
+  if (site >= slots.size() || !slots[site].is_site())
+    fail(HF_ERROR_NO_SUCH_SITE, position, "entry %u of the list: there is no site %u (removed already, or never added)",
+         position, site);
+  return slots[site];
+}
+
+// The vertex of a site, or the corner nearest to it.
+std::int32_t vertex_of(const Site& site) noexcept {
+  int best = 0;
+  for (int k = 1; k < 3; ++k) best = site.vertex[k] >= 0 && site.weight[k] > site.weight[best] ? k : best;
+  return site.vertex[best];
+}
+
+Vec3 value_of(const ScalarField& field, std::uint32_t site) noexcept {
+  const double* v = field.sites().values() + std::size_t{3} * site;
+  return {v[0], v[1], v[2]};
+}
+
+// Rodrigues' formula, about a unit axis.
+Vec3 turned(Vec3 v, Vec3 axis, double angle) noexcept {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return c * v + s * cross(axis, v) + ((1 - c) * dot(axis, v)) * axis;
+}
+
+}  // namespace
+
+void move_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* sites, const std::uint32_t* vertices) {
+  const Core& core = field.core();
+  const Mesh& mesh = core.mesh;
+  Vector<std::int32_t> to(field.core().memory.get());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (vertices[i] >= mesh.report.vertex_count)
+      fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of vertices: vertex %u, but there are %u vertices", i, vertices[i],
+           mesh.report.vertex_count);
+    to.push_back(mesh.inner_of_given[vertices[i]]);
+  }
+  Vector<double> values(field.core().memory.get());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const SiteSet::Slot& slot = vector_site(field, i, sites[i]);
+    std::int32_t here = vertex_of(slot.site);
+    if (to[i] == Mesh::none)
+      fail(HF_ERROR_INVALID_ARGUMENT, i,
+           "entry %u of the list: vertex %u belongs to no usable triangle; choose a vertex of the surface", i,
+           vertices[i]);
+    if (mesh.component[at(to[i])] != slot.site.component)
+      fail(HF_ERROR_INVALID_ARGUMENT, i,
+           "entry %u of the list: vertex %u lies in another component than site %u; remove it there and add it here", i,
+           vertices[i], sites[i]);
+    Vec3 vector = value_of(field, sites[i]), normal = vertex_normal(mesh, core.topology, here);
+    for (const std::int32_t e : edge_path(mesh, core.topology, here, to[i], *field.core().memory)) {
+      here = core.topology.first(e) == here ? core.topology.second(e) : core.topology.first(e);
+      const Vec3 next = vertex_normal(mesh, core.topology, here);
+      if (norm(next) == 0) continue;  // triangles that cancel out: the plane before stands
+      if (norm(normal) > 0) vector = carry(vector, normal, next);
+      normal = next;
+    }
+    for (const double x : {vector.x, vector.y, vector.z}) values.push_back(x);
+  }
+  FieldEdit edit;
+  edit.move_count = count, edit.move_sites = sites, edit.move_to.count = count, edit.move_to.vertices = vertices;
+  edit.set_count = count, edit.set_sites = sites, edit.set_values = values.data();
+  field.edit(edit, nullptr);
+}
+
+void rotate_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* sites, const double* angles) {
+  const Core& core = field.core();
+  Vector<double> values(field.core().memory.get());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const SiteSet::Slot& slot = vector_site(field, i, sites[i]);
+    if (!std::isfinite(angles[i]))
+      fail(HF_ERROR_NON_FINITE, i, "entry %u of the list: the angle is not a finite number", i);
+    const Vec3 normal = vertex_normal(core.mesh, core.topology, vertex_of(slot.site));
+    const Vec3 vector = turned(value_of(field, sites[i]), normal, norm(normal) > 0 ? angles[i] : 0.0);
+    for (const double x : {vector.x, vector.y, vector.z}) values.push_back(x);
+  }
+  FieldEdit edit;
+  edit.set_count = count, edit.set_sites = sites, edit.set_values = values.data();
+  field.edit(edit, nullptr);
+}
+
+}  // namespace hf_inner
