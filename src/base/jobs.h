@@ -54,4 +54,13 @@ void for_each(JobRunner* jobs, std::uint32_t count, Job&& job) {
   for (std::uint32_t i = 0; i < count; ++i) job(i);
 }
 
+// Calls work(begin, end) for the pieces of 0 .. count, `piece` numbers each.
+template <class Work>
+void for_ranges(JobRunner& jobs, std::size_t count, std::size_t piece, Work&& work) {
+  jobs.for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
+    const std::size_t begin = p * piece;
+    work(begin, count - begin < piece ? count : begin + piece);
+  });
+}
+
 }  // namespace hf_inner

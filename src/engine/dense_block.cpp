@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/hypotenuse.h"
+#include "base/index.h"
 #include "factor/kernels.h"
 
 namespace hf_inner {
@@ -43,6 +44,18 @@ void tile_dots(const double* const a[tile], const double* const b[tile], std::si
 
 }  // namespace
 
+DenseBlock::DenseBlock(Memory& memory, std::size_t border, const double* corner)
+    : memory_(&memory),
+      ids_(&memory),
+      sign_(&memory),
+      m_(&memory),
+      l_(&memory),
+      border_(border),
+      n_(&memory),
+      m_inverse_n_(&memory) {
+  if (corner) std::copy_n(corner, border * border, corner_);
+}
+
 DenseBlock::DenseBlock(const DenseBlock& other)
     : memory_(other.memory_),
       ids_(other.ids_, other.memory_),
@@ -51,8 +64,12 @@ DenseBlock::DenseBlock(const DenseBlock& other)
       l_(other.l_, other.memory_),
       valid_(other.valid_),
       negative_(other.negative_),
-      ones_(other.ones_, other.memory_),
-      ones_sum_(other.ones_sum_) {}
+      border_(other.border_),
+      n_(other.n_, other.memory_),
+      m_inverse_n_(other.m_inverse_n_, other.memory_) {
+  std::copy(std::begin(other.corner_), std::end(other.corner_), corner_);
+  std::copy(std::begin(other.schur_), std::end(other.schur_), schur_);
+}
 
 // What column r leaves over below row r is rotated into the columns that follow. Row by row: a row takes the rotations
 // of the rows above it, then makes its own; four rows at once, because each is one chain of dependent operations.
@@ -102,10 +119,11 @@ void DenseBlock::keep_rows(Span<const std::int32_t> rows) {
   }
   negative_ = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    ids_[i] = ids_[static_cast<std::size_t>(rows[i])], sign_[i] = sign_[static_cast<std::size_t>(rows[i])];
+    ids_[i] = ids_[at(rows[i])], sign_[i] = sign_[at(rows[i])];
     negative_ += sign_[i] < 0;
+    for (std::size_t p = 0; p < border_; ++p) n_[i * border_ + p] = n_[at(rows[i]) * border_ + p];
   }
-  ids_.resize(rows.size()), sign_.resize(rows.size());
+  ids_.resize(rows.size()), sign_.resize(rows.size()), n_.resize(rows.size() * border_);
 }
 
 void DenseBlock::remove(Span<const std::int32_t> ids) {
@@ -142,13 +160,14 @@ void DenseBlock::remove(Span<const std::int32_t> ids) {
   valid_ = std::min(valid_, first);
 }
 
-void DenseBlock::append(std::int32_t id, const double* values, bool positive) {
+void DenseBlock::append(std::int32_t id, const double* values, bool positive, const double* border) {
   const std::size_t width = static_cast<std::size_t>(count()) + 1;
   m_.insert(m_.end(), values, values + width);
   l_.resize(m_.size(), 0.0);
   ids_.push_back(id);
   sign_.push_back(positive ? 1.0 : -1.0);
   negative_ += !positive;
+  for (std::size_t p = 0; p < border_; ++p) n_.push_back(border ? border[p] : 1.0);
 }
 
 std::int32_t DenseBlock::factorise_signed() {
@@ -264,12 +283,20 @@ double DenseBlock::least_pivot() const noexcept {
 
 std::int32_t DenseBlock::factorise(JobRunner& jobs) {
   const std::int32_t lost = negative_ > 0 ? factorise_signed() : factorise_positive(jobs);
-  if (lost >= 0 || negative_ > 0) return lost;
-  ones_.assign(ids_.size(), 1.0);
-  solve(ones_.data(), 1);
-  ones_sum_ = 0;
-  for (const double x : ones_) ones_sum_ += x;
-  return -1;
+  if (lost < 0 && negative_ == 0 && border_ > 0) factorise_border();
+  return lost;
+}
+
+void DenseBlock::factorise_border() {
+  m_inverse_n_.assign(n_.begin(), n_.end());
+  solve(m_inverse_n_.data(), static_cast<std::int32_t>(border_));
+  for (std::size_t p = 0; p < border_; ++p) {
+    for (std::size_t q = 0; q < border_; ++q) {
+      double& sum = schur_[p * border_ + q];
+      sum = -corner_[p * border_ + q];
+      for (std::size_t i = 0; i < ids_.size(); ++i) sum += n_[i * border_ + p] * m_inverse_n_[i * border_ + q];
+    }
+  }
 }
 
 void DenseBlock::solve(double* x, std::int32_t channels) const noexcept {
@@ -293,6 +320,29 @@ void DenseBlock::solve(double* x, std::int32_t channels) const noexcept {
     for (std::int32_t j = 0; j < i; ++j) {
       for (std::size_t c = 0; c < m; ++c) x[static_cast<std::size_t>(j) * m + c] -= l[j] * xi[c];
     }
+  }
+}
+
+void DenseBlock::solve_bordered(double* x, std::int32_t channels, const double* total, double* nu) const noexcept {
+  solve(x, channels);
+  const std::size_t m = at(channels), k = ids_.size();
+  for (std::size_t c = 0; c < m; ++c) {
+    double right[most_border] = {total ? total[c] : 0.0, 0.0};
+    for (std::size_t i = 0; i < k; ++i) {
+      for (std::size_t p = 0; p < border_; ++p) right[p] += n_[i * border_ + p] * x[i * m + c];
+    }
+    double own[most_border] = {};
+    if (border_ == 1) {
+      own[0] = right[0] / schur_[0];
+    } else if (border_ == 2) {
+      const double determinant = schur_[0] * schur_[3] - schur_[1] * schur_[2];
+      own[0] = (schur_[3] * right[0] - schur_[1] * right[1]) / determinant;
+      own[1] = (schur_[0] * right[1] - schur_[2] * right[0]) / determinant;
+    }
+    for (std::size_t i = 0; i < k; ++i) {
+      for (std::size_t p = 0; p < border_; ++p) x[i * m + c] -= own[p] * m_inverse_n_[i * border_ + p];
+    }
+    for (std::size_t p = 0; p < border_; ++p) nu[p * m + c] = own[p];
   }
 }
 

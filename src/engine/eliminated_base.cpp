@@ -2,27 +2,27 @@
 
 namespace hf_inner {
 
-std::shared_ptr<const EliminatedBase> EliminatedBase::make(const Core& core, Span<const std::int32_t> vertices,
-                                                           JobRunner& jobs) {
-  Memory& memory = *core.memory;
+std::shared_ptr<const EliminatedBase> EliminatedBase::make(const PinnedOperator& a, Span<const Index> unknowns,
+                                                           Span<const Index> components, JobRunner& jobs) {
+  Memory& memory = *a.memory;
   const auto base = make_shared_in<EliminatedBase>(memory, memory);
-  base->vertex.assign(vertices.begin(), vertices.end());
-  base->index_of.assign(static_cast<std::size_t>(core.size()), -1);
-  base->floating.assign(static_cast<std::size_t>(core.mesh.component_count()), 1);
-  Vector<std::uint8_t> eliminated(static_cast<std::size_t>(core.size()), 0, &memory);
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const std::size_t v = static_cast<std::size_t>(vertices[i]);
-    eliminated[v] = 1, base->index_of[v] = static_cast<std::int32_t>(i);
-    base->floating[static_cast<std::size_t>(core.mesh.component[v])] = 0;
+  base->vertex.assign(unknowns.begin(), unknowns.end());
+  base->index_of.assign(at(a.size()), -1);
+  base->floating.assign(a.component_count(), 1);
+  Vector<std::uint8_t> eliminated(at(a.size()), 0, &memory);
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    eliminated[at(unknowns[i])] = 1, base->index_of[at(unknowns[i])] = static_cast<Index>(i);
+    base->floating[at(components[i])] = 0;
   }
-  SymmetricMatrix a = grounded(core);
-  // only floating components stay grounded
-  for (std::size_t c = 0; c < core.ground.size(); ++c) {
-    if (base->floating[c]) continue;
-    const std::size_t diagonal = a.diagonal(core.ground[c]);
-    a.value[diagonal] = core.laplacian.value[diagonal];
+  SymmetricMatrix pinned(memory);
+  pinned.column_start.assign(a.matrix->column_start.begin(), a.matrix->column_start.end());
+  pinned.row.assign(a.matrix->row.begin(), a.matrix->row.end());
+  pinned.value.assign(a.matrix->value.begin(), a.matrix->value.end());
+  for (std::size_t c = 0; c < a.component_count(); ++c) {
+    for (std::size_t p = 0; base->floating[c] && p < a.border(); ++p)
+      pinned.value[pinned.diagonal(a.pins[c * a.border() + p])] += a.pin_weight[c];
   }
-  base->factor = core.factor->refactor(a, eliminated, memory, jobs);
+  base->factor = a.factor->refactor(pinned, eliminated, memory, jobs);
   return base;
 }
 

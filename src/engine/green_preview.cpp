@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include "base/index.h"
-#include "engine/green_right.h"
+#include "engine/green.h"
 
 namespace hf_inner {
 namespace {
@@ -23,18 +23,15 @@ constexpr double least_error = 1e-13;
 
 }  // namespace
 
-// Mean and range of the site values of every component, for channels [first, first + count).
-double GreenSolver::centre_and_range(const double* values, Index channels, Index first, Index count,
-                                     Vector<double>& centre) const {
-  const std::size_t m = at(count), components = state_.sites_of.size();
+// Widest range of the site values over components, for channels [first, first + count).
+double GreenSolver::value_range(const double* values, Index channels, Index first, Index count) const {
+  const std::size_t m = at(count), components = state().sites_of.size();
   Vector<double> low(components * m, HUGE_VAL, &memory()), high(components * m, -HUGE_VAL, &memory());
-  centre.assign(components * m, 0.0);
-  for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
-    if (!state_.entries[slot].used()) continue;
-    const std::size_t c = at(state_.entries[slot].site.component);
+  for (std::size_t slot = 0; slot < state().entries.size(); ++slot) {
+    if (!state().entries[slot].used()) continue;
+    const std::size_t c = at(state().entries[slot].site.component);
     for (std::size_t q = 0; q < m; ++q) {
       const double value = values[slot * at(channels) + at(first) + q];
-      centre[c * m + q] += value / static_cast<double>(state_.sites_of[c]);
       low[c * m + q] = std::min(low[c * m + q], value), high[c * m + q] = std::max(high[c * m + q], value);
     }
   }
@@ -46,7 +43,7 @@ double GreenSolver::centre_and_range(const double* values, Index channels, Index
 void GreenSolver::solve_preview(const double* values, Index channels, Index corrections, double* field,
                                 PreviewInfo& info) const {
   info = PreviewInfo{};
-  if (state_.base) {
+  if (state().base) {
     solve(values, channels, field, nullptr);
     info.exact = true;
     return;
@@ -57,38 +54,24 @@ void GreenSolver::solve_preview(const double* values, Index channels, Index corr
   const std::size_t n = at(core_->size()), stride = at(channels), widest = at(std::min(channels, channel_block));
   Workspace z(core_->workspaces, n * widest);
   Workspace scratch(core_->workspaces, (n * widest + 1) / 2);
-  Right right(memory());
+  Answer answer(memory());
   for (Index first = 0; first < channels; first += channel_block) {
     const Index count = std::min(channel_block, channels - first);
     const std::size_t m = at(count);
-    const double range = centre_and_range(values, channels, first, count, right.centre);
+    const double range = value_range(values, channels, first, count);
     std::fill_n(z.data(), n * m, 0.0);
-    solve_dense(values, channels, first, count, nullptr, right);
-    combine(right, count, z.data());
+    system_.find_centres(values, channels, first, count, answer);
+    system_.solve_dense(values, channels, first, count, nullptr, answer);
+    system_.combine(answer, count, z.data());
     SingleSweeps sweeps{*single, reinterpret_cast<float*>(scratch.data()), 0.0};
     single->backward(z.data(), count, sweeps.scratch, *core_->jobs);
-    ++sweeps_;
-
-    const Span<const Index> position = core_->factor->position();
-    constexpr std::size_t piece = 16384;
-    core_->jobs->for_each(static_cast<std::uint32_t>((n + piece - 1) / piece), [&](std::uint32_t p) {
-      const std::size_t end = std::min(n, (p + std::size_t{1}) * piece);
-      for (std::size_t v = p * piece; v < end; ++v) {
-        const std::size_t c = at(core_->mesh.component[v]);
-        const bool reached = state_.sites_of[c] > 0;
-        for (std::size_t q = 0; q < m; ++q)
-          field[v * stride + at(first) + q] = reached ? z[at(position[v]) * m + q] + right.constant[c * m + q] : 0.0;
-      }
-    });
-    for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
-      const Entry& entry = state_.entries[slot];
-      if (!entry.used() || !entry.site.is_vertex() || entry.site.compliance != 0) continue;
-      std::copy_n(values + slot * stride + at(first), m, field + at(entry.site.vertex[0]) * stride + at(first));
-    }
+    system_.count_sweeps(1);
+    write_field(z.data(), channels, first, count, answer, field);
+    copy_hard_values(values, channels, first, count, [&](Index v) { return field + at(v) * stride + at(first); });
 
     double error = sweep_error * range, last = 0;
     for (Index step = 0; step < corrections; ++step) {
-      refine(values, channels, first, count, z.data(), right, field, &sweeps);
+      refine(values, channels, first, count, z.data(), answer, field, &sweeps);
       const double shrinks = last > 0 ? std::min(1.0, sweeps.largest / last) : first_shrink;
       error = sweeps.largest * shrinks, last = sweeps.largest;
     }

@@ -7,15 +7,6 @@
 #include "engine/dependence.h"
 
 namespace hf_inner {
-namespace {
-
-std::size_t diagonal(const SymmetricMatrix& a, Index v) noexcept {
-  const auto begin = a.row.begin() + a.column_start[at(v)], end = a.row.begin() + a.column_start[at(v) + 1];
-  return static_cast<std::size_t>(std::lower_bound(begin, end, v) - a.row.begin());
-}
-
-}  // namespace
-
 RefactorSolver::RefactorSolver(std::shared_ptr<const Core> core) : core_(std::move(core)), state_(*core_->memory) {
   state_.count.assign(at(core_->mesh.component_count()), 0);
   state_.factor = core_->factor;
@@ -93,11 +84,11 @@ void RefactorSolver::factorise(State& state) const {
     if (site.compliance == 0) {
       eliminated[at(site.vertex[0])] = 1;
     } else {
-      a.value[diagonal(a, site.vertex[0])] += core_->mean_diagonal[at(site.component)] / site.compliance;
+      a.value[a.diagonal(site.vertex[0])] += core_->mean_diagonal[at(site.component)] / site.compliance;
     }
   }
   for (std::size_t c = 0; c < state.floating.size(); ++c) {
-    if (state.floating[c]) a.value[diagonal(a, core_->ground[c])] += core_->mean_diagonal[c];
+    if (state.floating[c]) a.value[a.diagonal(core_->ground[c])] += core_->mean_diagonal[c];
   }
   state.factor = core_->factor->refactor(a, eliminated, memory, *core_->jobs);
   ++factorisations_;
@@ -119,7 +110,7 @@ void RefactorSolver::factorise(State& state) const {
     state.factor->forward(x, 1, *core_->jobs);
     state.factor->backward(x, 1, *core_->jobs);
     auto& block = open[at(site.component)];
-    if (!block) block = make_shared_in<DenseBlock>(memory, memory);
+    if (!block) block = make_shared_in<DenseBlock>(memory, memory, std::size_t{state.floating[at(site.component)]});
     row.clear();
     for (std::size_t j = 0; j <= i; ++j) {
       const Site& other = state.sites[at(state.points[j])];
@@ -210,20 +201,14 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
         x[i * m + c] = value;
       }
     }
-    block->solve(x.data(), channels);
-    for (std::size_t c = 0; c < m; ++c) {
-      double shift = 0;
-      if (state_.floating[component]) {
-        for (std::size_t i = 0; i < members.size(); ++i) shift += x[i * m + c];
-        shift /= block->ones_sum();
+    // without a vertex site the component is pinned: its block has a border of constants
+    block->solve_bordered(x.data(), channels, nullptr, &constant[component * m]);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const double* y = state_.path->data() + at(members[i]) * n;
+      std::copy_n(&x[i * m], m, &lambda[at(members[i]) * m]);
+      for (std::size_t r = 0; r < n; ++r) {
+        for (std::size_t c = 0; c < m; ++c) u[r * m + c] += y[r] * x[i * m + c];
       }
-      for (std::size_t i = 0; i < members.size(); ++i) {
-        const double l = x[i * m + c] - shift * block->ones()[i];
-        lambda[at(members[i]) * m + c] = l;
-        const double* y = state_.path->data() + at(members[i]) * n;
-        for (std::size_t r = 0; r < n; ++r) u[r * m + c] += y[r] * l;
-      }
-      constant[component * m + c] = shift;
     }
   }
 

@@ -9,32 +9,11 @@
 #include <memory>
 
 #include "engine/core.h"
+#include "engine/site.h"
 
 namespace hf_inner {
 
-struct Site {
-  std::int32_t vertex[3] = {-1, -1, -1};  // inner vertices; unused corners are -1
-  double weight[3] = {0, 0, 0};
-  double compliance = 0;  // 1 / alpha; 0 = hard
-  std::int32_t component = -1;
-  bool is_vertex() const noexcept { return vertex[1] < 0; }
-  static Site at_vertex(const Mesh& mesh, std::int32_t vertex, double compliance = 0) noexcept {
-    Site site;
-    site.vertex[0] = vertex, site.weight[0] = 1, site.compliance = compliance;
-    site.component = mesh.component[static_cast<std::size_t>(vertex)];
-    return site;
-  }
-};
-
 enum class EngineKind : std::int32_t { green = 0, updown = 1, refactor = 2 };
-
-// Which way the last edit of places went.
-enum class EditRoute : std::int32_t {
-  none = 0,
-  dense = 1,   // rows of the dense system came and went
-  fresh = 2,   // the dense system was made anew: cheaper than editing it
-  rebase = 3,  // hard vertex sites went into the factor
-};
 
 struct EngineCounters {
   std::uint32_t factorisations = 0, path_solves = 0, sweeps = 0;
@@ -54,13 +33,6 @@ struct PreviewInfo {
   double largest_correction = 0;  // largest change of a value by the last correction
   double error_estimate = 0;      // of the field; 0 when exact
   double bytes = 0;               // of the single-precision copy
-};
-
-// Slots to leave and slots to fill. A slot may stand in both: a move.
-struct SiteEdit {
-  Span<const std::int32_t> remove;
-  Span<const std::int32_t> add;
-  Span<const Site> sites;  // for `add`, in its order
 };
 
 // Takes channels [first, first + count) of a field where they lie: inner vertex v at z[row[v] * count], or at z[v *

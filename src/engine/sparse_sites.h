@@ -1,6 +1,7 @@
 // Sparse columns of sites and free values, as the factor's path solves take them.
 #pragma once
 #include "engine/eliminated_base.h"
+#include "engine/site.h"
 
 namespace hf_inner {
 

@@ -61,7 +61,7 @@ class DirectionField {
         : constraints(field.constraints_, &field.memory()), count(field.count_), state(field.solver_.snapshot()) {}
     Vector<DirectionConstraint> constraints;
     std::uint32_t count;
-    std::shared_ptr<const DirectionSolver::State> state;
+    std::shared_ptr<const ConstraintState> state;
   };
   void step(Vector<Record>& from, Vector<Record>& to, const char* nothing);
   void accept(Vector<DirectionConstraint>& next) noexcept;

@@ -1,18 +1,21 @@
-// See direction_solver.h.
 #include <algorithm>
 #include <cmath>
 
-#include "base/index.h"
 #include "base/timer.h"
 #include "factor/ordering.h"
-#include "field/direction_columns.h"
-#include "field/direction_solver.h"
+#include "field/direction_system.h"
 
 namespace hf_inner {
 namespace {
 
+// Share of the mesh's edges that the surface's operator may lack before the mesh is ordered for itself. A few edges
+// across the separators cost little; many fill the factor (two hundred times the work on a jittered torus of 120,000
+// vertices).
+constexpr double missing_share = 1e-4;
+constexpr std::size_t piece = 8192;  // vertices a job takes
+
 // Edges of the mesh that the surface's operator does not have.
-std::size_t missing_edges(const Core& core) {
+double missing_edges(const Core& core) {
   const SymmetricMatrix& k = core.laplacian;
   std::size_t missing = 0;
   for (std::size_t v = 0; v < at(core.size()); ++v) {
@@ -22,41 +25,48 @@ std::size_t missing_edges(const Core& core) {
       missing += i == k.column_start[v + 1] || k.row[at(i)] != core.topology.neighbour[at(j)];
     }
   }
-  return missing / 2;
+  return static_cast<double>(missing / 2);
 }
 
 }  // namespace
 
-DirectionSystem::DirectionSystem(std::shared_ptr<const Core> given, std::int32_t n)
+DirectionSystem::DirectionSystem(std::shared_ptr<const Core> given, Index n)
     : core(std::move(given)),
       degree(n),
       connection(Connection::make(core->mesh, core->topology, *core->memory)),
       position(core->memory.get()),
+      order(core->size(), core->memory.get()),
       matrix(*core->memory),
       beta(core->memory.get()),
-      ground_groups(core->memory.get()),
-      ground_group(core->memory.get()),
-      ground_column(core->memory.get()),
-      ground_block(core->memory.get()) {
+      pins(core->memory.get()),
+      pin_paths(*core->memory) {
   Timer timer;
   make_order();
   make_matrix();
   operator_ms = timer.milliseconds();
-  make_grounds();
+  make_pins();
 }
 
-// A few edges across the separators cost little; many, and the factor fills (two hundred times the work on a jittered
-// torus of 120,000 vertices).
+PinnedOperator DirectionSystem::pinned_operator() const noexcept {
+  PinnedOperator a;
+  a.matrix = &matrix, a.factor = factor.get();
+  a.pins = pins, a.pin_weight = beta, a.paths = &pin_paths;
+  a.memory = core->memory.get(), a.jobs = core->jobs.get();
+  return a;
+}
+
 void DirectionSystem::make_order() {
   const Span<const Index> own = core->factor->position();
   position.assign(own.begin(), own.end());
-  if (10000 * missing_edges(*core) <= at(core->topology.edge_count())) return;
-  const SymmetricMatrix graph = laplacian(core->topology, core->weights, *core->memory, core->jobs.get());
-  const Vector<float> coordinates = ordering_coordinates(core->mesh, *core->memory);
-  Buffer<Index> order;
-  hf_inner::make_order(graph, {coordinates.data(), coordinates.size()}, core->ordering, *core->memory, *core->jobs, nullptr,
-                 order);
-  for (Index k = 0; k < core->size(); ++k) position[at(order[k])] = k;
+  if (missing_edges(*core) > missing_share * core->topology.edge_count()) {
+    const SymmetricMatrix graph = laplacian(core->topology, core->weights, *core->memory, core->jobs.get());
+    const Vector<float> coordinates = ordering_coordinates(core->mesh, *core->memory);
+    Buffer<Index> made;
+    hf_inner::make_order(graph, {coordinates.data(), coordinates.size()}, core->ordering, *core->memory, *core->jobs,
+                         nullptr, made);
+    for (Index k = 0; k < core->size(); ++k) position[at(made[k])] = k;
+  }
+  for (Index v = 0; v < core->size(); ++v) order[at(position[at(v)])] = v;
 }
 
 // Row and column pairs of the real 2 x 2 blocks: w I on the diagonal, -w R between neighbours, R the turn from column
@@ -66,8 +76,6 @@ void DirectionSystem::make_matrix() {
   const std::size_t n = at(core->size());
   const Vector<double> weights =
       edge_weights(core->mesh, topology, OperatorKind::clamped, *core->memory, core->jobs.get());
-  Vector<Index> order(n, core->memory.get());
-  for (std::size_t v = 0; v < n; ++v) order[at(position[v])] = static_cast<Index>(v);
   matrix.column_start.resize(2 * n + 1);
   matrix.column_start[0] = 0;
   for (std::size_t p = 0; p < n; ++p) {
@@ -77,13 +85,12 @@ void DirectionSystem::make_matrix() {
       matrix.column_start[2 * p + part + 1] = matrix.column_start[2 * p + part] + length;
   }
   matrix.row.resize(at(matrix.column_start[2 * n])), matrix.value.resize(matrix.row.size());
-  constexpr std::size_t piece = 8192;
-  core->jobs->for_each(static_cast<std::uint32_t>((n + piece - 1) / piece), [&](std::uint32_t strip) {
+  for_ranges(*core->jobs, n, piece, [&](std::size_t begin, std::size_t end) {
     struct Neighbour {
       Index position, vertex, edge;
     };
     Vector<Neighbour> ring(&*core->memory);
-    for (std::size_t p = strip * piece; p < std::min(n, (strip + std::size_t{1}) * piece); ++p) {
+    for (std::size_t p = begin; p < end; ++p) {
       const Index v = order[p];
       ring.assign(1, Neighbour{static_cast<Index>(p), v, -1});
       double sum = 0;
@@ -112,46 +119,40 @@ void DirectionSystem::make_matrix() {
   });
 }
 
-// Grounds, the factor of A, and the grounds' own paths with C.
-void DirectionSystem::make_grounds() {
+// Pins, the factor of A, and the pins' own paths with C = Y_g'Y_g - I / beta.
+void DirectionSystem::make_pins() {
   const std::size_t components = core->ground.size();
   beta.assign(components, 0.0);
   Vector<double> count(components, 0.0, &*core->memory);
-  const auto diagonal = [&](const SymmetricMatrix& a, Index u) {
-    const auto begin = a.row.begin() + a.column_start[at(u)], end = a.row.begin() + a.column_start[at(u) + 1];
-    return static_cast<std::size_t>(std::lower_bound(begin, end, u) - a.row.begin());
-  };
-  for (Index v = 0; v < core->size(); ++v)
-    beta[at(core->mesh.component[at(v)])] += matrix.value[diagonal(matrix, unknown(v, 0))],
-        count[at(core->mesh.component[at(v)])] += 1;
+  for (Index v = 0; v < core->size(); ++v) {
+    const std::size_t c = at(core->mesh.component[at(v)]);
+    beta[c] += matrix.value[matrix.diagonal(unknown(v, 0))], count[c] += 1;
+  }
   SymmetricMatrix a(*core->memory);
   a.column_start.assign(matrix.column_start.begin(), matrix.column_start.end());
   a.row.assign(matrix.row.begin(), matrix.row.end()), a.value.assign(matrix.value.begin(), matrix.value.end());
-  UnitColumns columns(*core->memory);
+  Vector<Index> start(1, 0, &*core->memory);
   for (std::size_t c = 0; c < components; ++c) {
     beta[c] = beta[c] > 0 ? beta[c] / count[c] : 1.0;
     for (Index part = 0; part < 2; ++part) {
-      a.value[diagonal(a, unknown(core->ground[c], part))] += beta[c];
-      columns.append(unknown(core->ground[c], part));
+      pins.push_back(unknown(core->ground[c], part)), start.push_back(static_cast<Index>(pins.size()));
+      a.value[a.diagonal(pins.back())] += beta[c];
     }
   }
   FactorOptions options;
   options.ordering = Ordering::natural;  // the unknowns stand in the order of the surface's factor
   factor = Factor::make(a, {}, options, *core->memory, *core->jobs);
-  ground_group.resize(2 * components), ground_column.resize(2 * components);
-  factor->solve_paths(columns.view(), *core->memory, *core->jobs, ground_groups, ground_group, ground_column);
-  ground_block.assign(4 * components, 0.0);
+  const Vector<double> ones(pins.size(), 1.0, &*core->memory);
+  pin_paths.group.resize(pins.size()), pin_paths.column.resize(pins.size());
+  factor->solve_paths({start, pins, ones}, *core->memory, *core->jobs, pin_paths.groups, pin_paths.group,
+                      pin_paths.column);
   double tile[PathGroup::capacity * PathGroup::capacity];
-  for (std::size_t c = 0; c < components; ++c) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      for (std::size_t j = 0; j < 2; ++j) {
-        const PathGroup &p = *ground_groups[at(ground_group[2 * c + i])],
-                        &q = *ground_groups[at(ground_group[2 * c + j])];
-        factor->gram(p, q, tile, PathGroup::capacity);
-        ground_block[4 * c + 2 * i + j] =
-            tile[ground_column[2 * c + i] * PathGroup::capacity + ground_column[2 * c + j]] -
-            (i == j ? 1 / beta[c] : 0.0);
-      }
+  for (std::size_t i = 0; i < pins.size(); ++i) {
+    for (std::size_t j = i / 2 * 2; j < i / 2 * 2 + 2; ++j) {
+      factor->gram(*pin_paths.groups[at(pin_paths.group[i])], *pin_paths.groups[at(pin_paths.group[j])], tile,
+                   PathGroup::capacity);
+      pin_paths.corner.push_back(tile[pin_paths.column[i] * PathGroup::capacity + pin_paths.column[j]] -
+                                 (i == j ? 1 / beta[i / 2] : 0.0));
     }
   }
 }

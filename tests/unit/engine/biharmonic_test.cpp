@@ -13,6 +13,7 @@
 
 namespace {
 
+using hf_inner::at;
 using hf_test::PlainMesh;
 
 constexpr hf_inner::FieldKind both[] = {hf_inner::FieldKind::biharmonic, hf_inner::FieldKind::biharmonic_graph};

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "base/index.h"
 #include "factor/bytes_hash.h"
 #include "factor/factor_bytes.h"
 #include "support/hard_meshes.h"
@@ -11,6 +12,7 @@
 
 namespace {
 
+using hf_inner::at;
 using hf_test::EditScript;
 using hf_test::PlainMesh;
 

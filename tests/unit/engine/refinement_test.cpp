@@ -12,6 +12,7 @@
 
 namespace {
 
+using hf_inner::at;
 std::shared_ptr<const hf_inner::Core> biharmonic_core(const hf_test::PlainMesh& mesh, std::int32_t refinements) {
   hf_inner::CoreOptions options;
   options.field_kind = hf_inner::FieldKind::biharmonic;

@@ -1,5 +1,6 @@
 // Critical points: indices sum to the Euler characteristic; extrema of a field lie at its sites; and the open question
 // of the paper, the number of critical points under penalty against exact constraints.
+#include "base/index.h"
 #include "field/critical_points.h"
 
 #include <gtest/gtest.h>
@@ -12,6 +13,7 @@
 
 namespace {
 
+using hf_inner::at;
 using hf_inner::CriticalKind;
 using hf_inner::CriticalPoints;
 using hf_test::PlainMesh;

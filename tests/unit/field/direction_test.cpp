@@ -14,6 +14,7 @@
 
 namespace {
 
+using hf_inner::at;
 using hf_test::PlainMesh;
 using Complex = std::complex<double>;
 constexpr double pi = 3.14159265358979323846;

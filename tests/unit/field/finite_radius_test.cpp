@@ -13,6 +13,7 @@
 
 namespace {
 
+using hf_inner::at;
 using hf_test::PlainMesh;
 
 PlainMesh from_shape(samples::ShapeMesh shape) { return {std::move(shape.positions), std::move(shape.triangles)}; }

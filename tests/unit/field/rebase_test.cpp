@@ -12,6 +12,7 @@
 
 namespace {
 
+using hf_inner::at;
 std::vector<std::uint32_t> add(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& vertices) {
   std::vector<double> values;
   for (const std::uint32_t v : vertices) values.push_back(std::sin(0.7 * v));

@@ -1,0 +1,141 @@
+#include "engine/constraint_system.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "engine/constraint_system_edit.h"
+#include "engine/site_cost.h"
+
+namespace hf_inner {
+namespace {
+
+// Starting over must save this much of an edit's predicted cost: the rates are good to about a quarter, and an edit that
+// goes on keeps its paths. At 1 fields of similar cost on both routes jump between them.
+constexpr double restart_margin = 1.25;
+
+}  // namespace
+
+void ConstraintState::swap(ConstraintState& other) noexcept {
+  entries.swap(other.entries), base.swap(other.base), freed.swap(other.freed), groups.swap(other.groups),
+      blocks.swap(other.blocks), sites_of.swap(other.sites_of);
+  std::swap(rows, other.rows), std::swap(decision, other.decision);
+}
+
+void ConstraintState::put(Index slot, const Site& site) {
+  if (entries.size() <= at(slot)) entries.resize(at(slot) + 1);
+  entries[at(slot)] = Entry{};
+  entries[at(slot)].site = site;
+}
+
+ConstraintSystem::ConstraintSystem(const ConstraintSystem& other)
+    : operator_(other.operator_),
+      state_(other.state_, other.memory()),
+      path_solves_(other.path_solves_),
+      rebases_(other.rebases_),
+      dense_edits_(other.dense_edits_),
+      sweeps_(other.sweeps_.load()) {}
+
+std::shared_ptr<const ConstraintState> ConstraintSystem::snapshot() const {
+  return make_shared_in<ConstraintState>(memory(), state_, memory());
+}
+
+void ConstraintSystem::restore(const ConstraintState& state) {
+  ConstraintState next(state, memory());
+  state_.swap(next);
+}
+
+ConstraintCounts ConstraintSystem::counts() const noexcept { return {path_solves_, sweeps_, rebases_, dense_edits_}; }
+
+void ConstraintSystem::add_counts(const ConstraintCounts& more) noexcept {
+  path_solves_ += more.path_solves, sweeps_ += more.sweeps;
+  rebases_ += more.rebases, dense_edits_ += more.dense_edits;
+}
+
+double ConstraintSystem::row_bytes() const noexcept {
+  double sum = 0;
+  for (const auto& group : state_.groups) sum += group.paths->bytes();
+  for (const auto& block : state_.blocks) sum += block ? block->bytes() : 0.0;
+  return sum;
+}
+
+double ConstraintSystem::base_bytes() const noexcept {
+  return state_.base ? state_.base->factor->statistics().bytes : 0.0;
+}
+
+// Compares going on with starting over, plainly or with the hard vertex sites eliminated.
+ConstraintState::Decision ConstraintSystem::decide(const SiteEdit& edit) const {
+  const SiteCost cost(operator_.factor->statistics());
+  double sites = 0, hard = 0, rows_removed = 0, freed = 0;
+  for (const auto& entry : state_.entries) {
+    if (!entry.used()) continue;
+    ++sites, hard += entry.site.is_hard_vertex();
+  }
+  for (const Index slot : edit.remove) {
+    const auto& entry = state_.entries[at(slot)];
+    hard -= entry.site.is_hard_vertex();
+    freed += entry.eliminated >= 0;
+    rows_removed += entry.eliminated < 0;
+  }
+  for (const Site& site : edit.sites) hard += site.is_hard_vertex();
+  sites += static_cast<double>(edit.add.size()) - static_cast<double>(edit.remove.size());
+
+  const double kept = std::max(0.0, static_cast<double>(state_.rows) - rows_removed);
+  const double going_on = cost.dense_ns(kept, static_cast<double>(edit.add.size()) + freed);
+  const double plain = cost.dense_ns(0, sites), rebase = cost.rebase_ns(sites - hard);
+  ConstraintState::Decision decision;
+  decision.eliminate = hard > 0 && rebase < plain;
+  decision.dense_ms = std::min(going_on, plain) / 1e6, decision.rebase_ms = hard > 0 ? rebase / 1e6 : 0;
+  if (!(going_on > restart_margin * (decision.eliminate ? rebase : plain))) {
+    decision.route = EditRoute::dense;
+  } else {
+    decision.route = decision.eliminate ? EditRoute::rebase : EditRoute::fresh;
+  }
+  return decision;
+}
+
+// False: the edit needs a plain layout. The last route, fresh, always decides.
+bool ConstraintSystem::try_route(EditRoute route, const SiteEdit& edit, JobRunner& jobs,
+                                 const ConstraintState::Decision& decision) {
+  ConstraintState next(state_, memory());
+  ConstraintEdit change(operator_, jobs, edit, next);
+  bool done = true;
+  try {
+    if (route == EditRoute::dense) {
+      change.go_on();
+    } else {
+      change.start_over(route == EditRoute::rebase);
+    }
+  } catch (const ConstraintEdit::NeedsNewLayout&) {
+    done = false;
+  } catch (...) {
+    path_solves_ += change.path_solves(), rebases_ += change.factorisations();
+    throw;
+  }
+  path_solves_ += change.path_solves(), rebases_ += change.factorisations();
+  if (!done) return false;
+  next.decision = decision, next.decision.route = route;
+  state_.swap(next);
+  return true;
+}
+
+void ConstraintSystem::edit(const SiteEdit& edit) {
+  const ConstraintState::Decision decision = decide(edit);
+  JobRunner& jobs = *operator_.jobs;
+  if (try_route(decision.route, edit, jobs, decision)) {
+    dense_edits_ += decision.route == EditRoute::dense;
+  } else if (decision.route != EditRoute::dense || !decision.eliminate ||
+             !try_route(EditRoute::rebase, edit, jobs, decision)) {
+    try_route(EditRoute::fresh, edit, jobs, decision);
+  }
+}
+
+void ConstraintSystem::rebase(JobRunner& jobs) {
+  const bool hard = std::any_of(state_.entries.begin(), state_.entries.end(), [](const ConstraintState::Entry& entry) {
+    return entry.used() && entry.site.is_hard_vertex();
+  });
+  if (!hard) fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "no hard site on a vertex: there is nothing to move into the factor");
+  if (!try_route(EditRoute::rebase, SiteEdit{}, jobs, {}))
+    fail(HF_ERROR_CONFLICT, HF_NO_INDEX, "the sites that are no hard vertices depend too closely on those that are");
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,400 @@
+#include "engine/constraint_system_edit.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "engine/dependence.h"
+#include "engine/sparse_sites.h"
+
+namespace hf_inner {
+namespace {
+
+constexpr auto no_row = ConstraintState::no_row;
+
+// Groups are packed again when they store more than this many times the rows in use, and so many more: packing solves
+// paths again, waiting costs memory and time in every sweep.
+constexpr std::int64_t stored_share = 2, stored_slack = 64;
+// A pivot below this share of its diagonal entry makes its site a suspect of linear dependence: crowded points lie at
+// d^2 for a distance d, dependent ones below 1e-11 (dense_block.cpp). A larger share examines more crowded points.
+constexpr double suspect_share = 1e-6;
+
+}  // namespace
+
+// The rows of an edit on their way into the blocks: their places there, and the new rows of M one after the other.
+struct ConstraintEdit::Batch {
+  struct Where {
+    Index place = -1, batch = -1, component = -1;  // batch: number among the new rows, or -1
+  };
+  Batch(const ConstraintState& state, Span<const Row> given, Memory& memory)
+      : rows(given),
+        of_slot(state.entries.size(), &memory),
+        of_free(state.freed.size(), &memory),
+        start(given.size() + 1, 0, &memory),
+        values(&memory) {
+    Vector<Index> next_place(state.blocks.size(), 0, &memory);
+    for (std::size_t c = 0; c < state.blocks.size(); ++c) {
+      if (!state.blocks[c]) continue;
+      for (const Index row : state.blocks[c]->ids()) where(row) = {next_place[c]++, -1, static_cast<Index>(c)};
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Index place = next_place[at(rows[i].component)]++;
+      where(rows[i].row) = {place, static_cast<Index>(i), rows[i].component};
+      start[i + 1] = start[i] + at(place) + 1;
+    }
+    values.assign(start.back(), 0.0);
+  }
+  Where& where(Index row) noexcept {
+    return row >= 0 ? of_slot[at(row)] : of_free[at(ConstraintState::base_index(row))];
+  }
+  // M(x, y), or null when both rows were there before or lie in different blocks.
+  double* entry(const Where& x, const Where& y) noexcept {
+    if (x.component != y.component) return nullptr;
+    const Where& later = x.place > y.place ? x : y;
+    const Where& earlier = x.place > y.place ? y : x;
+    return later.batch < 0 ? nullptr : &values[start[at(later.batch)] + at(earlier.place)];
+  }
+  Span<const Row> rows;
+  Vector<Where> of_slot, of_free;
+  Vector<std::size_t> start;
+  Vector<double> values;
+};
+
+void ConstraintEdit::start_over(bool eliminate) {
+  ConstraintState next(state_.blocks.size(), memory());
+  next.entries.swap(state_.entries);
+  for (const Index slot : edit_.remove) next.entries[at(slot)] = {};
+  state_.swap(next);
+  for (std::size_t i = 0; i < edit_.add.size(); ++i) state_.put(edit_.add[i], edit_.sites[i]);
+  Vector<Index> unknowns(&memory()), components(&memory());
+  Vector<Row> rows(&memory());
+  for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
+    auto& entry = state_.entries[slot];
+    entry.path = {}, entry.eliminated = -1;
+    if (!entry.used()) continue;
+    ++state_.sites_of[at(entry.site.component)];
+    if (eliminate && entry.site.is_hard_vertex()) {
+      entry.eliminated = static_cast<Index>(unknowns.size());
+      unknowns.push_back(entry.site.vertex[0]), components.push_back(entry.site.component);
+    } else {
+      rows.push_back({static_cast<Index>(slot), entry.site.component});
+    }
+  }
+  if (eliminate) {
+    state_.base = EliminatedBase::make(operator_, unknowns, components, jobs_);
+    state_.freed.resize(unknowns.size());
+    ++factorisations_;
+  }
+  add_rows(rows);
+}
+
+void ConstraintEdit::go_on() {
+  Vector<Row> coming(&memory());
+  remove_sites(coming);
+  place_sites(coming);
+  check_bases();
+  if (coming.empty()) return;
+  drop_empty_groups();
+  repack();
+  add_rows(coming);
+}
+
+// The rows of sites leave; an eliminated site frees its value, which is a row to come.
+void ConstraintEdit::remove_sites(Vector<Row>& coming) {
+  Vector<Row> leaving(&memory());
+  for (const Index slot : edit_.remove) {
+    const auto& entry = state_.entries[at(slot)];
+    --state_.sites_of[at(entry.site.component)];
+    if (entry.eliminated >= 0) {
+      coming.push_back({ConstraintState::free_row(entry.eliminated), entry.site.component});
+    } else {
+      leaving.push_back({slot, entry.site.component});
+    }
+  }
+  remove_rows(leaving);
+  for (const Index slot : edit_.remove) state_.entries[at(slot)] = {};
+}
+
+void ConstraintEdit::place_sites(Vector<Row>& coming) {
+  Vector<Row> returning(&memory());
+  for (std::size_t i = 0; i < edit_.add.size(); ++i) {
+    const Site& site = edit_.sites[i];
+    state_.put(edit_.add[i], site);
+    ++state_.sites_of[at(site.component)];
+    const Index b = state_.base && site.is_hard_vertex() ? state_.base->index_of[at(site.vertex[0])] : -1;
+    if (b < 0) {
+      coming.push_back({edit_.add[i], site.component});
+      continue;
+    }
+    // a hard site on an eliminated vertex: its value is given again
+    state_.entries[at(edit_.add[i])].eliminated = b;
+    const Index row = ConstraintState::free_row(b);
+    const auto pending = std::find_if(coming.begin(), coming.end(), [&](const Row& r) { return r.row == row; });
+    if (pending != coming.end()) {
+      coming.erase(pending);
+    } else {
+      returning.push_back({row, site.component});
+    }
+  }
+  remove_rows(returning);
+}
+
+// An eliminated component needs a site in force there: its free values alone are a singular system.
+void ConstraintEdit::check_bases() const {
+  if (!state_.base) return;
+  Vector<std::uint8_t> in_force(state_.base->floating, &memory());
+  for (const auto& entry : state_.entries) {
+    if (entry.used() && entry.eliminated >= 0) in_force[at(entry.site.component)] = 1;
+  }
+  if (std::find(in_force.begin(), in_force.end(), 0) != in_force.end()) throw NeedsNewLayout{};
+}
+
+void ConstraintEdit::remove_rows(Span<const Row> rows) {
+  Vector<Index> ids(&memory());
+  Vector<std::uint8_t> done(state_.blocks.size(), 0, &memory());
+  for (const Row& first : rows) {
+    if (done[at(first.component)]) continue;
+    done[at(first.component)] = 1;
+    ids.clear();
+    for (const Row& row : rows) {
+      if (row.component == first.component) ids.push_back(row.row);
+    }
+    auto& block = state_.blocks[at(first.component)];
+    if (block->count() == static_cast<Index>(ids.size())) {
+      block.reset();
+      continue;
+    }
+    const auto copy = make_shared_in<DenseBlock>(memory(), *block);
+    copy->remove(ids);
+    if (copy->factorise(jobs_) >= 0) throw NeedsNewLayout{};
+    block = copy;
+  }
+  for (const Row& row : rows) {
+    auto& path = state_.path_of(row.row);
+    auto& group = state_.groups[at(path.group)];
+    group.row[path.column] = no_row, --group.used;
+    path = {};
+    --state_.rows;
+  }
+}
+
+void ConstraintEdit::drop_empty_groups() {
+  Index kept = 0;
+  for (std::size_t g = 0; g < state_.groups.size(); ++g) {
+    if (state_.groups[g].used == 0) continue;
+    for (const Index row : state_.groups[g].row) {
+      if (row != no_row) state_.path_of(row).group = kept;
+    }
+    if (at(kept) != g) state_.groups[at(kept)] = std::move(state_.groups[g]);
+    ++kept;
+  }
+  state_.groups.resize(at(kept));
+}
+
+// Groups still store the paths of rows that are gone. When those are the larger part, sparse groups are solved again.
+void ConstraintEdit::repack() {
+  std::int64_t stored = 0;
+  for (const auto& group : state_.groups) stored += group.paths->count();
+  if (stored <= stored_share * std::int64_t{state_.rows} + stored_slack) return;
+  Vector<Index> moving(&memory());
+  for (auto& group : state_.groups) {
+    if (stored_share * group.used > group.paths->count()) continue;
+    for (Index& row : group.row) {
+      if (row != no_row) moving.push_back(row), row = no_row;
+    }
+    group.used = 0;
+  }
+  if (!moving.empty()) add_paths(moving);
+  drop_empty_groups();
+}
+
+// Solves the paths of these rows and puts them into new groups at the end.
+void ConstraintEdit::add_paths(Span<const Index> rows) {
+  SiteColumns columns(memory());
+  for (const Index row : rows) {
+    if (row >= 0) {
+      columns.append(state_.entries[at(row)].site, state_.base.get());
+    } else {
+      columns.append_free(state_.base->vertex[at(ConstraintState::base_index(row))], *operator_.matrix, *state_.base);
+    }
+  }
+  Vector<std::shared_ptr<const PathGroup>> groups(&memory());
+  Vector<Index> group(rows.size(), &memory()), column(rows.size(), &memory());
+  factor().solve_paths(columns.view(), memory(), jobs_, groups, group, column);
+  const Index first = static_cast<Index>(state_.groups.size());
+  for (auto& paths : groups) {
+    ConstraintState::Group fresh;
+    fresh.paths = std::move(paths);
+    std::fill(std::begin(fresh.row), std::end(fresh.row), no_row);
+    state_.groups.push_back(std::move(fresh));
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    state_.path_of(rows[i]) = {first + group[i], column[i]};
+    auto& owner = state_.groups[at(first + group[i])];
+    owner.row[column[i]] = rows[i], ++owner.used;
+  }
+  path_solves_ += static_cast<std::uint32_t>(rows.size());
+}
+
+void ConstraintEdit::add_rows(Span<const Row> rows) {
+  if (rows.empty()) return;
+  Vector<Index> ids(&memory());
+  for (const Row& row : rows) ids.push_back(row.row);
+  const std::size_t first_group = state_.groups.size();
+  add_paths(ids);
+  state_.rows += static_cast<Index>(rows.size());
+  if (operator_.paths) project_pins(first_group);
+  Batch batch(state_, rows, memory());
+  take_gram(first_group, batch);
+  take_couplings(batch);
+  append_rows(batch);
+}
+
+// Rows of N for the sites of the groups from the first on.
+void ConstraintEdit::project_pins(std::size_t first_group) {
+  const PinPaths& pins = *operator_.paths;
+  double tile[PathGroup::capacity * PathGroup::capacity];
+  for (std::size_t g = first_group; g < state_.groups.size(); ++g) {
+    const auto& group = state_.groups[g];
+    for (std::size_t b = 0; b < pins.groups.size(); ++b) {
+      factor().gram(*group.paths, *pins.groups[b], tile, PathGroup::capacity);
+      for (Index i = 0; i < group.paths->count(); ++i) {
+        if (group.row[i] < 0) continue;
+        auto& entry = state_.entries[at(group.row[i])];
+        for (std::size_t p = 0; p < operator_.border(); ++p) {
+          const std::size_t pin = at(entry.site.component) * operator_.border() + p;
+          if (at(pins.group[pin]) == b) entry.border[p] = tile[i * PathGroup::capacity + pins.column[pin]];
+        }
+      }
+    }
+  }
+}
+
+// Gram of every new group with itself and every group before it: one piece a pair of groups, one entry a pair of rows.
+void ConstraintEdit::take_gram(std::size_t first_group, Batch& batch) const {
+  struct Pair {
+    std::size_t a, b;
+  };
+  Vector<Pair> pairs(&memory());
+  for (std::size_t a = first_group; a < state_.groups.size(); ++a) {
+    for (std::size_t b = 0; b <= a; ++b) pairs.push_back({a, b});
+  }
+  jobs_.for_each(static_cast<std::uint32_t>(pairs.size()), [&](std::uint32_t piece) {
+    const auto& mine = state_.groups[pairs[piece].a];
+    const auto& other = state_.groups[pairs[piece].b];
+    double tile[PathGroup::capacity * PathGroup::capacity];
+    factor().gram(*mine.paths, *other.paths, tile, PathGroup::capacity);
+    const bool own = &mine == &other;
+    for (Index i = 0; i < mine.paths->count(); ++i) {
+      if (mine.row[i] == no_row) continue;
+      const Batch::Where& x = batch.where(mine.row[i]);
+      for (Index j = 0; j < (own ? i + 1 : other.paths->count()); ++j) {
+        if (other.row[j] == no_row) continue;
+        if (double* m = batch.entry(x, batch.where(other.row[j]))) *m = tile[i * PathGroup::capacity + j];
+      }
+    }
+  });
+}
+
+// D on the diagonal of soft sites; W_R between a site and a free value; -K_RR between free values.
+void ConstraintEdit::take_couplings(Batch& batch) const {
+  for (const Row& row : batch.rows) {
+    if (row.row < 0) continue;
+    const Site& site = state_.entries[at(row.row)].site;
+    const Batch::Where& here = batch.where(row.row);
+    *batch.entry(here, here) += site.compliance / operator_.pin_weight[at(site.component)];
+  }
+  if (!state_.base) return;
+  const auto free_at = [&](Index unknown) -> const Batch::Where* {
+    const Index b = unknown < 0 ? -1 : state_.base->index_of[at(unknown)];
+    return b < 0 || batch.of_free[at(b)].place < 0 ? nullptr : &batch.of_free[at(b)];
+  };
+  const SymmetricMatrix& k = *operator_.matrix;
+  for (const Index r : state_.base->vertex) {
+    const Batch::Where* here = free_at(r);
+    if (!here) continue;
+    for (Index i = k.column_start[at(r)]; i < k.column_start[at(r) + 1]; ++i) {
+      const Batch::Where* there = free_at(k.row[at(i)]);
+      if (!there || there->place > here->place) continue;
+      if (double* m = batch.entry(*here, *there)) *m -= k.value[at(i)];
+    }
+  }
+  for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
+    if (batch.of_slot[slot].place < 0) continue;
+    const Site& site = state_.entries[slot].site;
+    for (int c = 0; c < 3; ++c) {
+      const Batch::Where* free = free_at(site.vertex[c]);
+      double* m = free ? batch.entry(*free, batch.of_slot[slot]) : nullptr;
+      if (m) *m += site.weight[c];
+    }
+  }
+}
+
+std::shared_ptr<DenseBlock> ConstraintEdit::block_to_edit(std::size_t component) const {
+  const auto& present = state_.blocks[component];
+  if (present) return make_shared_in<DenseBlock>(memory(), *present);
+  const std::size_t border = operator_.border();
+  return make_shared_in<DenseBlock>(memory(), memory(), state_.floating(component) ? border : std::size_t{0},
+                                    operator_.paths ? &operator_.paths->corner[component * border * border] : nullptr);
+}
+
+void ConstraintEdit::append_rows(const Batch& batch) {
+  Vector<std::shared_ptr<DenseBlock>> blocks(state_.blocks.size(), &memory());
+  for (std::size_t i = 0; i < batch.rows.size(); ++i) {
+    const Index row = batch.rows[i].row;
+    auto& block = blocks[at(batch.rows[i].component)];
+    if (!block) block = block_to_edit(at(batch.rows[i].component));
+    block->append(row, batch.values.data() + batch.start[i], row >= 0,
+                  operator_.paths && row >= 0 ? state_.entries[at(row)].border : nullptr);
+  }
+  for (std::size_t c = 0; c < blocks.size(); ++c) {
+    if (!blocks[c]) continue;
+    const Index failed = blocks[c]->factorise(jobs_);
+    // among eliminated sites the order of the rows may be the reason: a plain layout decides
+    if (failed >= 0 && state_.base) throw NeedsNewLayout{};
+    refuse_dependent(*blocks[c], static_cast<Index>(c), failed);
+    state_.blocks[c] = blocks[c];
+  }
+}
+
+void ConstraintEdit::refuse_dependent(const DenseBlock& block, Index component, Index failed) const {
+  const Index slot = failed >= 0 ? block.ids()[at(failed)] : dependent_slot(block, component);
+  if (slot < 0) return;
+  const auto found = std::find(edit_.add.begin(), edit_.add.end(), slot);
+  const std::uint32_t position =
+      found == edit_.add.end() ? HF_NO_INDEX : static_cast<std::uint32_t>(found - edit_.add.begin());
+  fail(HF_ERROR_CONFLICT, position,
+       "site %u of the batch depends linearly on hard sites that are there (a triangle takes three independent "
+       "points); leave it out or make it soft",
+       position);
+}
+
+// The slot of a hard site of the component that depends on others though its pivot kept some rounding, or -1. Constraints
+// of this edit are reported before older ones. Among eliminated sites the diagonal itself may be rounding (a point whose
+// corners are eliminated has none), so pivots say nothing and every new site is examined.
+Index ConstraintEdit::dependent_slot(const DenseBlock& block, Index component) const {
+  if (!state_.base && block.least_pivot() >= suspect_share) return -1;
+  Vector<HardSite> sites(&memory());
+  Vector<Index> place(state_.entries.size(), -1, &memory());
+  const auto take = [&](Index slot) {
+    const Site& site = state_.entries[at(slot)].site;
+    if (site.component != component || site.compliance != 0 || place[at(slot)] >= 0) return;
+    place[at(slot)] = static_cast<Index>(sites.size());
+    sites.push_back({&site, slot, false});
+  };
+  Vector<std::uint8_t> is_new(state_.entries.size(), 0, &memory());
+  for (const Index slot : edit_.add) is_new[at(slot)] = 1;
+  for (Index slot = 0; at(slot) < state_.entries.size(); ++slot) {
+    if (!is_new[at(slot)]) take(slot);
+  }
+  for (const Index slot : edit_.add) take(slot);
+  const auto suspect = [&](Index slot) {
+    if (slot >= 0 && place[at(slot)] >= 0) sites[at(place[at(slot)])].suspect = true;
+  };
+  for (Index i = 0; i < block.count() && !state_.base; ++i) {
+    if (block.pivot_share(i) < suspect_share) suspect(block.ids()[at(i)]);
+  }
+  for (std::size_t i = 0; i < edit_.add.size() && state_.base; ++i) suspect(edit_.add[i]);
+  return dependent_site({sites.data(), sites.size()}, memory());
+}
+
+}  // namespace hf_inner

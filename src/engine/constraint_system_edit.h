@@ -1,0 +1,54 @@
+// One edit of a ConstraintSystem: rows that leave and come, on a state that is not yet the present one.
+#pragma once
+#include "engine/constraint_system_state.h"
+
+namespace hf_inner {
+
+class ConstraintEdit {
+ public:
+  // Thrown when the edit cannot go on from the present layout: a component lost its last eliminated site, or a pivot
+  // failed where the order of the rows may be the reason.
+  struct NeedsNewLayout {};
+
+  // state: edited in place; of no use after an exception.
+  ConstraintEdit(const PinnedOperator& a, JobRunner& jobs, const SiteEdit& edit, ConstraintState& state)
+      : operator_(a), jobs_(jobs), edit_(edit), state_(state) {}
+
+  void go_on();                     // from the rows there are
+  void start_over(bool eliminate);  // every site placed again, the hard vertex sites in the factor if asked
+
+  std::uint32_t path_solves() const noexcept { return path_solves_; }
+  std::uint32_t factorisations() const noexcept { return factorisations_; }
+
+ private:
+  struct Row {
+    Index row;  // slot or free_row
+    Index component;
+  };
+  struct Batch;
+  void remove_sites(Vector<Row>& coming);
+  void place_sites(Vector<Row>& coming);
+  void check_bases() const;
+  void remove_rows(Span<const Row> rows);
+  void add_rows(Span<const Row> rows);
+  void add_paths(Span<const Index> rows);
+  void project_pins(std::size_t first_group);
+  void take_gram(std::size_t first_group, Batch& batch) const;
+  void take_couplings(Batch& batch) const;
+  void append_rows(const Batch& batch);
+  void refuse_dependent(const DenseBlock& block, Index component, Index failed) const;
+  Index dependent_slot(const DenseBlock& block, Index component) const;
+  void drop_empty_groups();
+  void repack();
+  std::shared_ptr<DenseBlock> block_to_edit(std::size_t component) const;
+  const Factor& factor() const noexcept { return state_.base ? *state_.base->factor : *operator_.factor; }
+  Memory& memory() const noexcept { return *operator_.memory; }
+
+  const PinnedOperator& operator_;
+  JobRunner& jobs_;
+  const SiteEdit& edit_;
+  ConstraintState& state_;
+  std::uint32_t path_solves_ = 0, factorisations_ = 0;
+};
+
+}  // namespace hf_inner

@@ -1,0 +1,40 @@
+// The operator that a ConstraintSystem constrains, as a view of what its owner keeps alive.
+//
+// K is semi-definite: it maps to zero what every component can do on its own. So one vertex of every component is
+// pinned, A = K + sum_c beta_c E_c E_c', and A is factorised. The answer must not show the pins. Two ways:
+//   K maps constants to zero (fields): sum over the lambda of a component = 0, and a constant is added to it;
+//   anything else (direction fields): the pins are taken away again by their own paths Y_g = G^-1 P E_g.
+#pragma once
+#include "base/index.h"
+#include "base/jobs.h"
+#include "base/symmetric_matrix.h"
+#include "factor/factor.h"
+
+namespace hf_inner {
+
+// Columns Y_g of the pins, by component and pin, and C = Y_g'Y_g - I / beta.
+struct PinPaths {
+  explicit PinPaths(Memory& memory) : groups(&memory), group(&memory), column(&memory), corner(&memory) {}
+  Vector<std::shared_ptr<const PathGroup>> groups;
+  Vector<Index> group, column;  // where the path of a pin lies
+  Vector<double> corner;        // border x border numbers of every component
+};
+
+struct PinnedOperator {
+  static constexpr std::size_t most_border = 2;
+  Index size() const noexcept { return matrix->size(); }
+  std::size_t component_count() const noexcept { return pin_weight.size(); }
+  // Pins of a component, and so the width of the border of its dense block.
+  std::size_t border() const noexcept { return pin_weight.empty() ? 1 : pins.size() / pin_weight.size(); }
+  bool keeps_constants() const noexcept { return paths == nullptr; }
+
+  const SymmetricMatrix* matrix = nullptr;  // K
+  const Factor* factor = nullptr;           // of A
+  Span<const Index> pins;                   // pinned unknowns, border() of every component
+  Span<const double> pin_weight;            // beta by component; the unit of stiffness too
+  const PinPaths* paths = nullptr;          // null: K maps constants to zero
+  Memory* memory = nullptr;
+  JobRunner* jobs = nullptr;
+};
+
+}  // namespace hf_inner

@@ -1,0 +1,45 @@
+// One constraint of a field, and the edit that takes a set of them to another.
+#pragma once
+#include <cstdint>
+
+#include "base/index.h"
+#include "base/span.h"
+#include "mesh/mesh.h"
+
+namespace hf_inner {
+
+// A linear functional w on at most three unknowns with its softness: w'u + compliance lambda = s.
+struct Site {
+  Index vertex[3] = {-1, -1, -1};  // inner vertices, or unknowns of another operator; unused corners are -1
+  double weight[3] = {0, 0, 0};
+  double compliance = 0;  // 1 / alpha; 0 = hard
+  Index component = -1;
+  bool is_vertex() const noexcept { return vertex[1] < 0; }
+  bool is_hard_vertex() const noexcept { return is_vertex() && compliance == 0; }
+  static Site at_unknown(Index unknown, Index component, double compliance = 0) noexcept {
+    Site site;
+    site.vertex[0] = unknown, site.weight[0] = 1, site.compliance = compliance;
+    site.component = component;
+    return site;
+  }
+  static Site at_vertex(const Mesh& mesh, Index vertex, double compliance = 0) noexcept {
+    return at_unknown(vertex, mesh.component[at(vertex)], compliance);
+  }
+};
+
+// Slots to leave and slots to fill. A slot may stand in both: a move.
+struct SiteEdit {
+  Span<const Index> remove;
+  Span<const Index> add;
+  Span<const Site> sites;  // for `add`, in its order
+};
+
+// How the last edit of places was made.
+enum class EditRoute : std::int32_t {
+  none = 0,
+  dense = 1,   // rows of the dense system came and went
+  fresh = 2,   // the dense system was made again, which costs less than editing it
+  rebase = 3,  // hard vertex sites went into the factor
+};
+
+}  // namespace hf_inner
