@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "remesh/constants.h"
+
 namespace hf_inner {
 namespace {
 
@@ -32,11 +34,11 @@ std::int32_t capture_features(const FluxSurface& s, const QuadDistance& distance
   };
 
   std::int32_t drawn = 0;
-  for (std::int32_t round = 0; round < options.rounds; ++round) {
-    report(options.progress, static_cast<float>(round) / static_cast<float>(options.rounds));
+  for (std::int32_t round = 0; round < capture_rounds; ++round) {
+    report(options.progress, static_cast<float>(round) / static_cast<float>(capture_rounds));
     misses.clear();
     distance.turn_quads(mesh);
-    distance.measure(mesh, options.tolerance, &misses, nullptr);
+    distance.measure(mesh, capture_tolerance, &misses, nullptr);
     std::int32_t moved = 0;
     Table<Vec3> taken(memory);
     Table<std::uint8_t> moving(mesh.position.size(), 0, memory);
@@ -70,8 +72,8 @@ std::int32_t capture_features(const FluxSurface& s, const QuadDistance& distance
     drawn += moved;
     if (moved == 0) break;
     RelaxOptions relax;
-    grow_marks(mesh, 3, moving);
-    relax.rounds = options.relax_rounds, relax.edge_length = options.edge_length, relax.moving = &moving;
+    grow_marks(mesh, capture_rings, moving);
+    relax.rounds = capture_relax_rounds, relax.edge_length = options.edge_length, relax.moving = &moving;
     relax_quads(s, mesh, relax, memory);
   }
   return drawn;

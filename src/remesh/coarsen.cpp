@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "remesh/constants.h"
 #include "remesh/relax.h"
 
 namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
-constexpr double far = 1.1;   // tolerances that may be missed beyond that, where less was before
-constexpr double judged = 2;  // edge lengths around a quad that closes within which nothing more may be missed
 
 struct Closing {
   double length;  // of its shortest edge
@@ -112,7 +111,7 @@ bool can_close(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, std
     if (mesh.border[v]) return false;
   if (mesh.pinned[a] && mesh.pinned[c]) return false;
   if (fans.valence(b) < 4 || fans.valence(d) < 4 || fans.valence(a) < 3 || fans.valence(c) < 3 ||
-      fans.valence(a) + fans.valence(c) > 8)
+      fans.valence(a) + fans.valence(c) > collapse_most_faces)
     return false;
   for (std::int32_t i = fans.start[a]; i < fans.start[a + 1]; ++i) {
     const std::int32_t g = fans.face[i], size = mesh.size(g);
@@ -167,7 +166,7 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
   Vector<Vec3> kept(&memory), centres(&memory);  // where nothing is closed; where something was
   const double length = options.edge_length;
   // what is missed within a radius of a point
-  const double reach = judged * length;
+  const double reach = collapse_reach * length;
   auto excess = [&](const Vector<QuadMiss>& misses, const Vec3& point, double radius) {
     double sum = 0;
     for (const QuadMiss& miss : misses)
@@ -185,7 +184,7 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
     report(options.progress, static_cast<float>(round) / static_cast<float>(options.rounds));
     const VertexFans fans(mesh, memory);
     list_closings(mesh, fans, options.shortest * length, options.only_refined, list);
-    if (static_cast<double>(list.size()) <= options.enough * mesh.face_count()) break;
+    if (static_cast<double>(list.size()) <= collapse_enough * mesh.face_count()) break;
     Table<std::uint8_t> blocked(mesh.position.size(), 0, memory);
     taken.clear(), centres.clear();
     for (const Closing& closing : list) {
@@ -193,20 +192,19 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
       bool free = true;
       for (std::int32_t k = 0; k < 4; ++k) free = free && !blocked[c[k]];
       const Vec3 centre = 0.5 * (mesh.position[c[closing.corner]] + mesh.position[c[closing.corner + 2]]);
-      for (const Vec3& p : kept) free = free && norm(p - centre) > 0.3 * length;
+      for (const Vec3& p : kept) free = free && norm(p - centre) > collapse_same_place * length;
       if (!free) continue;
       taken.push_back(closing), centres.push_back(centre);
       block_around(mesh, fans, closing.face, blocked);
     }
     if (taken.empty()) break;
     // what brings a miss about is left out, until none does
-    constexpr int most_tries = 4;
-    for (int tries = 0; tries < most_tries && !taken.empty(); ++tries) {
+    for (int tries = 0; tries < collapse_tries && !taken.empty(); ++tries) {
       QuadMesh trial = mesh;
       close_quads(surface, trial, taken, moving, memory);
-      grow_marks(trial, 2, moving);
+      grow_marks(trial, collapse_rings, moving);
       RelaxOptions relax;
-      relax.rounds = options.relax_rounds, relax.edge_length = length, relax.moving = &moving;
+      relax.rounds = collapse_relax_rounds, relax.edge_length = length, relax.moving = &moving;
       relax_quads(surface, trial, relax, memory);
       look(trial, after);
       Table<std::uint8_t> bad(static_cast<std::int32_t>(taken.size()), 0, memory);
@@ -215,7 +213,7 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
         bad[i] = excess(after, centre, reach) > excess(before, centre, reach);
       }
       // what reaches farther than that counts against the nearest
-      const double limit = std::max(before.empty() ? 0 : before[0].distance, far * options.tolerance);
+      const double limit = std::max(before.empty() ? 0 : before[0].distance, collapse_far * options.tolerance);
       if (std::count(bad.begin(), bad.end(), 1) == 0)
         for (const QuadMiss& miss : after)
           if (miss.distance > limit) bad[nearest(centres, miss.point)] = 1;

@@ -8,6 +8,7 @@
 // coarsen_quads closes quads with an edge shorter than `shortest`, the shortest first, many at a time; the rest is
 // relaxed and measured. Where more than `tolerance` is then missed around a quad that was not before, it stays.
 #pragma once
+#include "remesh/constants.h"
 #include "remesh/quad_distance.h"
 
 namespace hf_inner {
@@ -22,10 +23,10 @@ std::int32_t close_misses(const FluxSurface& surface, QuadMesh& mesh, const Vect
                           Table<std::uint8_t>& merged, Memory& memory);
 
 struct CoarsenOptions {
-  double edge_length = 0.02, shortest = 0.55, tolerance = 0.008;  // shortest in edge lengths, the others in inner units
-  bool only_refined = false;                                      // quads with a corner whose scale is below 1
-  double enough = 0.02;                                           // share of quads with a short edge that may stay
-  std::int32_t rounds = 24, relax_rounds = 12;
+  double edge_length = 0, tolerance = 0;  // inner units
+  double shortest = short_edge;           // edge lengths
+  bool only_refined = false;              // quads with a corner whose scale is below 1
+  std::int32_t rounds = collapse_rounds;
   Progress* progress = nullptr;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "remesh/coarsen.h"
+#include "remesh/constants.h"
 #include "remesh/refine.h"
 #include "remesh/relax.h"
 
@@ -11,11 +12,6 @@ namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
-constexpr double judged = 2.2;        // edge lengths around a place within which a step is judged
-constexpr double same_place = 0.8;    // edge lengths within which a place is one that was tried before
-constexpr double least_gain = 0.97;   // of what was missed; more than that is no gain
-constexpr double folding_gain = 0.5;  // and where a corner turns over
-constexpr float finest = 0.5f;        // scale of vertices around which quads are divided no further
 
 enum Step : std::int32_t { release, draw, open, widen, divide, close, given_up };
 
@@ -56,13 +52,13 @@ class Fitter {
         tried_(&memory),
         normals_(vertex_normals(surface, memory)),
         known_(memory),
-        most_faces_(static_cast<std::int32_t>(options.most_faces * mesh.face_count())) {}
+        most_faces_(static_cast<std::int32_t>(fit_most_faces * mesh.face_count())) {}
 
   double run() {
     double deviation = look(mesh_, misses_);
     Vector<Place> chosen(&memory_);
-    for (std::int32_t round = 0; round < options_.rounds && !misses_.empty(); ++round) {
-      report(options_.progress, static_cast<float>(round) / static_cast<float>(options_.rounds));
+    for (std::int32_t round = 0; round < fit_rounds && !misses_.empty(); ++round) {
+      report(options_.progress, static_cast<float>(round) / static_cast<float>(fit_rounds));
       const std::int32_t step = choose(chosen);
       if (step == given_up) break;
       if (chosen.empty()) continue;
@@ -72,7 +68,7 @@ class Fitter {
       judge(trial, chosen);
       const auto helped = [&](const Place& place) {
         const std::int32_t more = place.folds_after - place.folds_before;
-        return place.after < (more > 0 ? folding_gain : least_gain) * place.before && more <= options_.most_folds;
+        return place.after < (more > 0 ? fit_folding_gain : fit_gain) * place.before && more <= options_.most_folds;
       };
       const auto failed = std::stable_partition(chosen.begin(), chosen.end(), helped);
       for (auto place = failed; place != chosen.end(); ++place) next_step(place->miss.point, step + 1);
@@ -111,7 +107,7 @@ class Fitter {
   Tried* find_tried(const Vec3& point) {
     Tried* best = nullptr;
     for (Tried& tried : tried_)
-      if (norm(tried.point - point) < same_place * options_.edge_length &&
+      if (norm(tried.point - point) < fit_same_place * options_.edge_length &&
           (!best || norm(tried.point - point) < norm(best->point - point)))
         best = &tried;
     return best;
@@ -138,7 +134,7 @@ class Fitter {
   std::int32_t vertex_for(std::int32_t step, const QuadMiss& miss, const VertexFans& fans) const {
     const std::int32_t f = miss.face, size = mesh_.size(f), *c = mesh_.corner.data() + mesh_.face_start[f];
     if (step == close) return size == 4 && (can_close(mesh_, fans, f, 0) || can_close(mesh_, fans, f, 1)) ? c[0] : none;
-    if (step > draw && mesh_.face_count() + 12 > most_faces_) return none;
+    if (step > draw && mesh_.face_count() + step_faces > most_faces_) return none;
     std::int32_t best = none;
     for (std::int32_t k = 0; k < size; ++k) {
       const std::int32_t v = c[k];
@@ -146,7 +142,7 @@ class Fitter {
       if (step == release) may = may && mesh_.pinned[v] == QuadMesh::drawn_out && miss.vertex == QuadMiss::of_quads;
       if (step == draw) may = may && !mesh_.pinned[v];
       if (step == open || step == widen) may = may && fans.valence(v) >= 4;
-      if (step == divide) may = may && mesh_.scale[v] >= finest;
+      if (step == divide) may = may && mesh_.scale[v] >= finest_scale;
       for (std::int32_t i = fans.start[v]; step > draw && may && i < fans.start[v + 1]; ++i)
         may = mesh_.size(fans.face[i]) == 4;
       if (may && (best == none || norm(mesh_.position[v] - miss.point) < norm(mesh_.position[best] - miss.point)))
@@ -186,7 +182,7 @@ class Fitter {
       chosen.push_back(place);
       around.assign(around.size(), 0);
       around[place.vertex] = 1;
-      grow_marks(mesh_, 3, around);
+      grow_marks(mesh_, fit_apart, around);
       for (std::int32_t v = 0; v < around.size(); ++v) blocked[v] = blocked[v] || around[v];
     }
     return step;
@@ -209,7 +205,7 @@ class Fitter {
   void relax(QuadMesh& mesh, std::int32_t rings, Table<std::uint8_t>& moving) const {
     grow_marks(mesh, rings, moving);
     RelaxOptions relax;
-    relax.rounds = options_.relax_rounds, relax.edge_length = options_.edge_length, relax.moving = &moving;
+    relax.rounds = fit_relax_rounds, relax.edge_length = options_.edge_length, relax.moving = &moving;
     relax_quads(surface_, mesh, relax, memory_);
   }
 
@@ -227,7 +223,7 @@ class Fitter {
       moving.resize(mesh.position.size(), 1);
       relax(mesh, options_.relax_rings, moving);
       draw_nearest(places, mesh, moving);
-      return relax(mesh, 1, moving);
+      return relax(mesh, fit_resnap_rings, moving);
     }
     for (const Place& place : places) {
       moving[place.vertex] = 1;
@@ -248,7 +244,7 @@ class Fitter {
         put(mesh, v, walk_surface(surface_, mesh.location[v], 0.5 * (place.miss.point - mesh.position[v])),
             QuadMesh::free);
     }
-    relax(mesh, options_.relax_rings + (step <= draw ? 1 : 0), moving);
+    relax(mesh, options_.relax_rings + (step <= draw ? fit_snap_rings : 0), moving);
   }
 
   // The nearest of the vertices that moved goes to its place.
@@ -267,7 +263,7 @@ class Fitter {
   // Corners around `point` that are turned over, as seen from the surface at each.
   std::int32_t folds(const QuadMesh& mesh, const Vec3& point) const {
     std::int32_t count = 0;
-    const double radius = judged * options_.edge_length;
+    const double radius = fit_reach * options_.edge_length;
     for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
       const std::int32_t size = mesh.size(f), *c = mesh.corner.data() + mesh.face_start[f];
       if (norm(mesh.position[c[0]] - point) > radius) continue;
@@ -285,7 +281,7 @@ class Fitter {
 
   void judge(const QuadMesh& trial, Vector<Place>& places) const {
     for (Place& place : places) {
-      const double radius = judged * options_.edge_length;
+      const double radius = fit_reach * options_.edge_length;
       for (const QuadMiss& miss : misses_)
         if (norm(miss.point - place.miss.point) < radius) place.before += excess(miss);
       for (const QuadMiss& miss : after_)

@@ -15,15 +15,15 @@
 // most_folds), otherwise it is taken back and the next one tried. So the mesh never gets worse, and it stays a mesh of
 // quads with its Euler characteristic. Cost: O(n + faces) for every round of steps, mostly one or two dozen of them.
 #pragma once
+#include "remesh/constants.h"
 #include "remesh/quad_distance.h"
 
 namespace hf_inner {
 
 struct FitOptions {
-  double edge_length = 0.02, tolerance = 0.008;  // inner units
-  std::int32_t most_folds = 0;  // corners that a step may turn over where it takes half or more of what was missed
-  std::int32_t rounds = 80, relax_rounds = 12, relax_rings = 2;  // rings of quads around a step that move with it
-  double most_faces = 1.5;                                       // of those the mesh came with
+  double edge_length = 0, tolerance = 0;  // inner units
+  std::int32_t most_folds = 0;            // corners that a step may turn over where it removes half of the miss or more
+  std::int32_t relax_rings = fit_rings;   // rings of quads around a step that move with it
   Progress* progress = nullptr;
 };
 

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "remesh/constants.h"
 
 namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
-constexpr double least_flux = 1e-300;  // of an edge between equal values
 
 }  // namespace
 
@@ -114,7 +114,7 @@ void FluxField::match(std::int32_t v) {
     double least = 0;
     for (std::size_t i = 0; i < size; ++i)
       least = i == 0 ? ring[i].high - ring[i].low : std::min(least, ring[i].high - ring[i].low);
-    const double floor = std::max(least, 1e-15 * in);
+    const double floor = std::max(least, least_segment * in);
     for (std::size_t i = 0; i < size; ++i)
       if (ring[i].high - ring[i].low > floor) ring[kept++] = ring[i];
     ring.resize(kept);

@@ -7,13 +7,10 @@
 #include "base/error.h"
 #include "factor/factor.h"
 #include "remesh/border_flux.h"
+#include "remesh/constants.h"
 
 namespace hf_inner {
 namespace {
-
-constexpr double circle_radius = 0.1;
-constexpr double border_distance = 0.08;  // of automatic sites
-constexpr std::size_t most_sites = 400;   // of a component
 
 // Lengths of shortest paths over the edges from one vertex; -1 where there is none. The rim of a border is 0 from its
 // apex.
@@ -65,7 +62,7 @@ double border_length(const FluxSurface& s, std::int32_t apex) {
   }
 }
 
-double even(double x) { return std::max(4.0, 2 * std::round(x / 2)); }
+double even(double x) { return std::max(least_lines, 2 * std::round(x / 2)); }
 
 // One component's sites with their distances.
 struct Group {
@@ -79,17 +76,17 @@ double division_cost(const Group& g, const Vector<std::uint8_t>& sinks) {
   const std::size_t k = g.sites.size();
   double up = 0, down = 0, mean = 0, close = 0, like = 0;
   for (std::size_t i = 0; i < k; ++i) (sinks[i] ? up : down) += g.sites[i].lines;
-  if (up <= 0 || down <= 0) return 1e300;
+  if (up <= 0 || down <= 0) return HUGE_VAL;
   for (std::size_t i = 0; i < k; ++i)
     for (std::size_t j = 0; j < i; ++j) mean += g.distance[i * k + j];
-  mean = std::max(mean / (0.5 * static_cast<double>(k * (k - 1))), 1e-12);
+  mean = std::max(mean / (0.5 * static_cast<double>(k * (k - 1))), least_mean_distance);
   for (std::size_t i = 0; i < k; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (sinks[i] != sinks[j]) continue;
       close += std::exp(-g.distance[i * k + j] / mean), like += 1;
     }
   }
-  return std::fabs(up - down) / (up + down) + (like > 0 ? 0.5 * close / like : 0.0);
+  return std::fabs(up - down) / (up + down) + (like > 0 ? neighbour_cost * close / like : 0.0);
 }
 
 // Which sites are sinks: all divisions of up to 12 sites, else single and, up to 40, double exchanges.
@@ -98,7 +95,7 @@ Vector<std::uint8_t> divide(const Group& g) {
   Vector<std::uint8_t> best(k, std::uint8_t{0}, g.sites.get_allocator().resource()), trial(best, best.get_allocator());
   best[0] = 1;
   double least = division_cost(g, best);
-  if (k <= 12) {
+  if (k <= most_tried_at_once) {
     for (std::uint32_t d = 1; d < (1u << (k - 1)); ++d) {
       for (std::size_t i = 0; i < k; ++i) trial[i] = d >> i & 1;
       const double cost = division_cost(g, trial);
@@ -111,11 +108,11 @@ Vector<std::uint8_t> divide(const Group& g) {
   for (bool better = true; better;) {
     better = false;
     for (std::size_t i = 0; i < k; ++i) {
-      for (std::size_t j = k <= 40 ? 0 : i; j <= i; ++j) {
+      for (std::size_t j = k <= most_exchanged_in_pairs ? 0 : i; j <= i; ++j) {
         trial = best, trial[i] ^= 1;
         if (i != j) trial[j] ^= 1;
         const double cost = division_cost(g, trial);
-        if (cost < least - 1e-12) least = cost, best = trial, better = true;
+        if (cost < least - least_cost_gain) least = cost, best = trial, better = true;
       }
     }
   }
@@ -131,7 +128,8 @@ void share_out(Vector<FluxSite>& sites, bool sinks, double total) {
   Vector<std::pair<double, std::size_t>> rest(sites.get_allocator());
   for (std::size_t i = 0; i < sites.size(); ++i) {
     if ((sites[i].lines > 0) != sinks) continue;
-    const double exact = std::fabs(sites[i].lines) * total / sum, whole = std::max(4.0, 2 * std::floor(exact / 2));
+    const double exact = std::fabs(sites[i].lines) * total / sum,
+                 whole = std::max(least_lines, 2 * std::floor(exact / 2));
     rest.push_back({whole - exact, i});
     sites[i].lines = sinks ? whole : -whole, given += whole;
   }
@@ -139,7 +137,7 @@ void share_out(Vector<FluxSite>& sites, bool sinks, double total) {
   for (std::size_t turn = 0; given != total; turn = (turn + 1) % rest.size()) {
     FluxSite& site = sites[rest[given < total ? turn : rest.size() - 1 - turn].second];
     const double step = given < total ? 2.0 : -2.0;
-    if (std::fabs(site.lines) + step < 4) continue;
+    if (std::fabs(site.lines) + step < least_lines) continue;
     site.lines += sinks ? step : -step, given += step;
   }
 }
@@ -152,7 +150,7 @@ void even_out(Vector<FluxSite>& sites) {
     (site.lines > 0 ? up : down) += std::fabs(site.lines);
     ++(site.lines > 0 ? up_count : down_count);
   }
-  const double least = 4.0 * static_cast<double>(std::max(up_count, down_count));
+  const double least = least_lines * static_cast<double>(std::max(up_count, down_count));
   const double total = std::max(2 * std::round(std::max(up, down) / 2), least);
   share_out(sites, true, total);
   share_out(sites, false, total);
@@ -192,14 +190,15 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
     for (std::int32_t v = s.first_apex; v < s.vertex_count(); ++v)
       if (s.component[v] == c) group.sites.push_back({v, 0.0});
     const std::size_t borders = group.sites.size();
-    const std::size_t wanted = euler[c] < 2 && automatic ? 4 : 2;
+    const std::size_t wanted = euler[c] < 2 && automatic ? least_sites_with_handles : least_sites;
     if (borders + given.size() > most_sites)
       fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "a component has %zu borders; with the sites at most %zu can be divided",
            borders, most_sites);
     Vector<Table<double>> from(&memory);
-    nearest.assign(s.vertex_count(), 1e300);
+    nearest.assign(s.vertex_count(), HUGE_VAL);
     auto reach = [&](std::size_t i) {
-      const float part = static_cast<float>(i) / static_cast<float>(i + 4);  // how many there will be is not known
+      const float part =
+          static_cast<float>(i) / static_cast<float>(i + expected_sites);  // how many there will be is not known
       report(progress, (static_cast<float>(c) + part) / static_cast<float>(s.component_count));
       distances_from(s, group.sites[i].vertex, distance, memory);
       // the lines a site should carry: the derivative of the area of discs is the length of the circle
@@ -209,8 +208,9 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
           circumference = border_length(s, group.sites[i].vertex);
         } else {
           for (std::int32_t v = 0; v < s.first_apex; ++v)
-            if (distance[v] >= 0.8 * circle_radius && distance[v] < 1.2 * circle_radius) circumference += area[v];
-          circumference /= 0.4 * circle_radius;
+            if (distance[v] >= (1 - circle_band) * circle_radius && distance[v] < (1 + circle_band) * circle_radius)
+              circumference += area[v];
+          circumference /= 2 * circle_band * circle_radius;
         }
         group.sites[i].lines = even(circumference / edge_length);
       }
@@ -276,7 +276,7 @@ FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs, Pr
       if (g == begin) break;
     }
     if (!grounded[s.component[v]])
-      grounded[s.component[v]] = 1, column.push_back({v, 2 * diagonal});
+      grounded[s.component[v]] = 1, column.push_back({v, pinned_diagonal * diagonal});
     else
       column.push_back({v, diagonal});
     std::sort(column.begin(), column.end());
@@ -305,7 +305,7 @@ Vector<double> FluxSolver::solve(Span<const FluxSite> sites) const {
       u(static_cast<std::size_t>(n), 0.0, memory_), r(memory_);
   for (const FluxSite& site : sites) b[static_cast<std::size_t>(site.vertex)] += site.lines;
   r = b;
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < flux_solves; ++round) {
     for (std::size_t v = 0; v < z.size(); ++v) z[static_cast<std::size_t>(position[v])] = r[v];
     factor_->forward(z.data(), 1, *jobs_);
     factor_->backward(z.data(), 1, *jobs_);
@@ -335,7 +335,6 @@ void scale_lines(const FluxSurface& surface, std::int32_t component, double fact
 }
 
 Vector<double> solve_with_borders(const FluxSurface& s, const FluxSolver& solver, Vector<FluxSite>& sites) {
-  constexpr int most_rounds = 6;
   for (int round = 0;; ++round) {
     Vector<double> u = solver.solve(sites);
     const FluxSite* crossed = nullptr;
@@ -349,10 +348,10 @@ Vector<double> solve_with_borders(const FluxSurface& s, const FluxSolver& solver
         g = s.turn_left(g);
         if (g == begin) break;
       }
-      if (wrong) site.lines *= 1.7, crossed = &site;
+      if (wrong) site.lines *= border_raise, crossed = &site;
     }
     if (!crossed) return u;
-    if (round == most_rounds) return solve_between_levels(s, solver, sites);
+    if (round == border_rounds) return solve_between_levels(s, solver, sites);
     for (std::int32_t c = 0; c < s.component_count; ++c) scale_lines(s, c, 1.0, sites);
   }
 }

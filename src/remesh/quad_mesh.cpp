@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "base/error.h"
+#include "remesh/constants.h"
 
 namespace hf_inner {
 namespace {
@@ -24,10 +25,10 @@ double badness(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   for (int k = 0; k < 4; ++k) {
     const Vec3 x = p[(k + 1) % 4] - p[k], y = p[(k + 3) % 4] - p[k];
     const double lengths = norm(x) * norm(y);
-    if (!(lengths > 0)) return 1e3;
+    if (!(lengths > 0)) return degenerate_cost;
     const double cosine = dot(x, y) / lengths;
     sum += cosine * cosine;
-    if (size > 0 && dot(cross(x, y), normal) <= 0) sum += 4;
+    if (size > 0 && dot(cross(x, y), normal) <= 0) sum += reflex_cost;
   }
   return sum;
 }

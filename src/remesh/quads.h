@@ -1,6 +1,7 @@
 // Quad meshes from harmonic fields: the room's front. Sites -> field -> arcs -> rings -> polygons -> quads -> relaxed.
 #pragma once
 #include "engine/core.h"
+#include "remesh/constants.h"
 #include "remesh/flux_sites.h"
 #include "remesh/quad_mesh.h"
 
@@ -8,10 +9,10 @@ namespace hf_inner {
 
 struct QuadOptions {
   std::shared_ptr<const Core> core;
-  double edge_length = 0.022;  // inner units
+  double edge_length = default_edge_length;  // inner units
   bool uniform = false;
   bool split = true;
-  std::int32_t relax = 60;     // rounds
+  std::int32_t relax = default_relax_rounds;  // rounds
   Span<const FluxSite> sites;  // FluxSite::vertex an inner vertex of the core; borders are sites of their own
   bool automatic = true;
   bool scale_lines = true;  // kind pure: fit the lines to the edge length; off: the caller's numbers stand

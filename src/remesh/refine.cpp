@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "remesh/constants.h"
 #include "remesh/relax.h"
 
 namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
-constexpr float finer = 0.75f, opened = 0.92f;  // scales of the edges around what was refined
 
 Vec3 unit(Vec3 a) {
   const double length = norm(a);
@@ -22,7 +22,7 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
   // a vertex half way from v to the point `to`
   auto half_way = [&](std::int32_t v, const Vec3& to) {
     const SurfacePoint at = walk_surface(surface, mesh.location[v], 0.5 * (to - mesh.position[v]));
-    return mesh.add_vertex(at, position_of(surface, at), QuadMesh::free, false, finer * mesh.scale[v]);
+    return mesh.add_vertex(at, position_of(surface, at), QuadMesh::free, false, subdivided_scale * mesh.scale[v]);
   };
   struct Middle {
     std::int32_t to, vertex;
@@ -61,7 +61,7 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
     quad(v, e_a, i, e_c), quad(e_a, a, b, i), quad(i, b, c, e_c);
   }
   for (std::int32_t v = 0; v < marked.size(); ++v)
-    if (marked[v]) mesh.scale[v] *= finer;
+    if (marked[v]) mesh.scale[v] *= subdivided_scale;
   mesh.face_start.swap(starts), mesh.corner.swap(corners);
 }
 
@@ -95,7 +95,7 @@ std::int32_t open_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Me
              std::fabs(dot(unit(mesh.position[first[j]] - p), way));
       if (from == none || sum > best) best = sum, from = i, to = j;
     }
-  mesh.scale[v] *= opened;
+  mesh.scale[v] *= split_scale;
   const std::int32_t added = mesh.add_vertex(mesh.location[v], p, QuadMesh::free, false, mesh.scale[v]);
   for (std::int32_t i = from; i != to; i = (i + 1) % n)
     for (std::int32_t k = mesh.face_start[faces[i]]; k < mesh.face_start[faces[i] + 1]; ++k)

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <complex>
 
+#include "remesh/constants.h"
+
 namespace hf_inner {
 namespace {
 
@@ -35,7 +37,7 @@ void propose(const QuadMesh& mesh, const std::int32_t* c, double edge_length, Ve
     r += 0.25 * std::complex<double>(dot(q, x), dot(q, y)) * turn;
   }
   const double size = std::abs(r);
-  if (size > 0 && edge_length > 0) r *= 0.5 + 0.5 * (edge_length / std::sqrt(2.0)) / size;
+  if (size > 0 && edge_length > 0) r *= (1 - size_step) + size_step * (edge_length / std::sqrt(2.0)) / size;
   turn = 1;
   for (int k = 0; k < 4; ++k, turn *= i) {
     const std::complex<double> z = r * turn;
@@ -48,7 +50,7 @@ void propose(const QuadMesh& mesh, const std::int32_t* c, double edge_length, Ve
 SurfacePoint walk_surface(const FluxSurface& s, SurfacePoint at, Vec3 way) noexcept {
   double rest = norm(way);
   Vec3 direction = way;
-  for (int step = 0; step < 200 && rest > 0; ++step) {
+  for (int step = 0; step < most_crossings && rest > 0; ++step) {
     const std::int32_t t = at.triangle;
     const Vec3 a = s.position[s.tail[3 * t]], b = s.position[s.tail[3 * t + 1]], c = s.position[s.tail[3 * t + 2]];
     const Vec3 n = cross(b - a, c - a);
@@ -141,12 +143,12 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
     for (const std::int32_t v : vertices) {
       old_position[v] = mesh.position[v], old_location[v] = mesh.location[v];
       if (mesh.pinned[v] || mesh.border[v] || count[v] == 0) continue;
-      const Vec3 way = 0.5 * ((1 / count[v]) * (tangled[v] ? centres[v] : sum[v]) - mesh.position[v]);
+      const Vec3 way = relax_step * ((1 / count[v]) * (tangled[v] ? centres[v] : sum[v]) - mesh.position[v]);
       mesh.location[v] = walk_surface(s, mesh.location[v], way);
       mesh.position[v] = position_of(s, mesh.location[v]);
     }
     // corners that turned over: their faces go back, until none is left that was not before
-    for (int again = 0; again < 4; ++again) {
+    for (int again = 0; again < take_backs; ++again) {
       bool any = false;
       for (const std::int32_t v : vertices) back[v] = 0;
       for (const std::int32_t f : faces) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "remesh/constants.h"
 #include "remesh/loop_line.h"
 #include "remesh/ring_levels.h"
 
@@ -108,8 +109,8 @@ class Builder {
       const std::int32_t r = out_.ring_start[graph_.up_arc[j]];
       open(r);
       double count = options_.uniform ? 2 * std::round(line_.length() / options_.edge_length / 2) : lines_at_[v];
-      count = std::max(count, surface_.is_apex(v) ? 4.0 : least_beside_site());
-      const std::int32_t n = static_cast<std::int32_t>(std::min(count, 1e6));
+      count = std::max(count, surface_.is_apex(v) ? least_lines : least_beside_site());
+      const std::int32_t n = static_cast<std::int32_t>(std::min(count, most_nodes));
       std::int32_t first = none, last = none;
       double sum = 0;
       std::int32_t edge = 0;
@@ -135,7 +136,7 @@ class Builder {
     }
   }
 
-  double least_beside_site() const { return options_.uniform ? 6.0 : 4.0; }
+  double least_beside_site() const { return options_.uniform ? least_nodes_at_site : least_lines; }
 
   void pass_saddle(std::int32_t i) {
     const std::int32_t v = graph_.critical[i], rank = field_.rank(v);
@@ -254,7 +255,7 @@ class Builder {
       if (out_.nodes[m].place >= out_.nodes[after].place) after = m;
     }
     if (best != none) after = best;
-    const std::int32_t m2 = insert(n, out_.nodes[n].place + 0.25 * gap(n));
+    const std::int32_t m2 = insert(n, out_.nodes[n].place + second_line * gap(n));
     const double from = out_.nodes[after].place, width = gap(after);
     for (int k = 1; k <= 2; ++k) {
       double at = from + width * k / 3;
@@ -288,7 +289,7 @@ class Builder {
     std::int32_t wanted = out_.rings[r].count % 2;
     if (options_.uniform) {
       const double more = width / options_.edge_length - 1 - wanted;
-      wanted += 2 * std::max(0, static_cast<std::int32_t>(std::lround(std::min(more, 1e6) / 2)));
+      wanted += 2 * std::max(0, static_cast<std::int32_t>(std::lround(std::min(more, most_nodes) / 2)));
     }
     fill(widest, wanted);
   }
@@ -298,7 +299,7 @@ class Builder {
     const Ring& ring = out_.rings[r];
     const std::int32_t upper = graph_.arcs[ring.arc].upper;
     const bool last = r == last_ring(ring.arc);
-    const double least = last && is_extremum(upper) && !surface_.is_apex(upper) ? least_beside_site() : 4.0;
+    const double least = last && is_extremum(upper) && !surface_.is_apex(upper) ? least_beside_site() : least_lines;
     if (ring.count % 2) fill(widest_gap(r), 1);
     while (out_.rings[r].count < least) fill(widest_gap(r), 2);
     if (options_.uniform) {
@@ -316,7 +317,7 @@ class Builder {
   }
 
   void add_pairs(std::int32_t r) {
-    const double widest = options_.widest * options_.edge_length;
+    const double widest = widest_gap_length * options_.edge_length;
     std::int32_t n = out_.rings[r].node;
     for (std::int32_t k = out_.rings[r].count; k > 0; --k) {
       const std::int32_t following = out_.nodes[n].next;
@@ -326,7 +327,7 @@ class Builder {
   }
 
   void end_pairs(std::int32_t r) {
-    const double narrowest = options_.narrowest * options_.edge_length;
+    const double narrowest = narrowest_gaps_length * options_.edge_length;
     struct Candidate {
       double width;
       std::int32_t node;
@@ -343,7 +344,7 @@ class Builder {
       return a.width != b.width ? a.width < b.width : a.node < b.node;
     });
     for (const Candidate& candidate : list) {
-      if (lined <= 6) return;
+      if (lined <= least_lined) return;
       const std::int32_t a = candidate.node, b = out_.nodes[a].next, c = out_.nodes[b].next, d = out_.nodes[c].next;
       if (ended_[a] || ended_[b] || ended_[c] || ended_[d]) continue;
       if (out_.nodes[b].down == none || out_.nodes[c].down == none) continue;

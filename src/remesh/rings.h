@@ -21,9 +21,8 @@
 namespace hf_inner {
 
 struct RingOptions {
-  double edge_length = 0.02;  // inner units
+  double edge_length = 0;  // inner units
   bool uniform = false;
-  double widest = 1.9, narrowest = 1.7;  // edge lengths
 };
 
 struct RingNode {
