@@ -17,7 +17,7 @@ struct Frame {
 
 Vec3 across(Vec3 v, Vec3 normal) noexcept { return v - dot(v, normal) * normal; }
 
-// The frame of a normal and a direction, whatever the direction.
+// The frame of a normal and a direction; any direction will do, also 0 or one along the normal.
 Frame frame_of(Vec3 normal, Vec3 direction) noexcept {
   const Vec3 z = unit_normal(normal);
   Vec3 x = across(direction, z);
@@ -29,7 +29,7 @@ Frame frame_of(Vec3 normal, Vec3 direction) noexcept {
   return {x, cross(z, x), z};
 }
 
-// Of the vertices inside.
+// Frames of the vertices inside.
 Vector<Frame> base_frames(const RegionSurface& surface, const RegionState& state, Span<const DiscPoint> disc,
                           Memory& memory) {
   const RegionShape& shape = *state.shape;
@@ -58,7 +58,7 @@ Vector<Frame> base_frames(const RegionSurface& surface, const RegionState& state
   return frames;
 }
 
-// Places of the pins along the loop, from the first pin on; each a step further than the one before.
+// Places of the pins along the loop, each further along than the one before.
 void place_pins(const Region& region, const DiscBoundary& boundary, Span<const Index> vertices, const char* name,
                 DiscPins& pins) {
   const RegionState& state = *region.state();

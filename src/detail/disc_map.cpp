@@ -23,7 +23,7 @@ struct HalfEdge {
   fail(HF_ERROR_UNSUPPORTED, static_cast<std::uint32_t>(given), "the region is no disc: %s at vertex %d", what, given);
 }
 
-// Weights of the mesh's edges, positive.
+// Weights of the mesh's edges, made positive.
 Vector<double> positive_weights(const Core& core, Span<const Index> edges, Memory& memory) {
   Vector<double> weights(&memory), magnitude(&memory);
   for (const Index e : edges) weights.push_back(core.weights[at(e)]), magnitude.push_back(std::fabs(weights.back()));
@@ -161,7 +161,7 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
     column.clear();
     for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i, ++edge) {
       const Index l = shape.local[at(topology.neighbour[at(i)])];
-      if (l < 0) continue;  // of another sheet that touches the region here
+      if (l < 0) continue;  // on another sheet that touches the region here
       const double w = weights[edge];
       diagonal += w;
       if (number[at(l)] >= 0) {

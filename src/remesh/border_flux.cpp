@@ -9,7 +9,8 @@
 namespace hf_inner {
 namespace {
 
-// Solves A x = b in place, A positive definite by rows, b becomes x.
+// Solves A x = b by Cholesky in place, A positive definite by rows; b becomes x. By hand: its size is known at run
+// time.
 void solve_dense(Vector<double>& a, Vector<double>& b) {
   const std::size_t n = b.size();
   for (std::size_t j = 0; j < n; ++j) {

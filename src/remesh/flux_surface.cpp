@@ -44,7 +44,7 @@ struct Pairs {
   Table<std::int32_t> twin;
 };
 
-// Which triangles must be turned round so that all of a component agree with its first one.
+// Which triangles must be turned so that all of a component agree with its first one.
 Table<std::uint8_t> orient(const Mesh& mesh, const Pairs& pairs, Memory& memory) {
   constexpr std::uint8_t unseen = 2;  // beside 0 and 1, the answers
   Table<std::uint8_t> turned(mesh.triangle_count(), unseen, memory);
@@ -93,7 +93,7 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
       if (pairs.twin[h] != none) s.twin[moved(h)] = moved(pairs.twin[h]);
   }
 
-  // one vertex per fan: the corners that turning about the vertex joins
+  // one vertex per fan: the corners reached by turning about it
   for (std::int32_t h = 0; h < real_halves; ++h) {
     if (s.tail[h] != none) continue;
     std::int32_t first = h;  // back to the right end of the fan, or once around

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int32_t none = -1;
 
-// How many corners of a quad are no convex ones in the plane of its mean normal, and the last of them.
+// How many corners of a quad are reflex in the plane of its mean normal, and the last of them.
 std::int32_t reflex_corners(const QuadMesh& mesh, const std::int32_t* c, std::int32_t& last) {
   const Vec3 normal = cross(mesh.position[c[2]] - mesh.position[c[0]], mesh.position[c[3]] - mesh.position[c[1]]);
   std::int32_t count = 0;
@@ -23,8 +23,8 @@ std::int32_t reflex_corners(const QuadMesh& mesh, const std::int32_t* c, std::in
   return count;
 }
 
-// The triangles of the quads: fans from their first corners; of quads so twisted that no diagonal is inside, both
-// pairs.
+// The triangles of the quads: fans from their first corners. A quad so twisted that no diagonal lies inside gives the
+// triangles of both diagonals.
 struct Soup {
   explicit Soup(Memory& memory) : corners(memory), face(memory) {}
   Table<std::int32_t> corners, face;
@@ -41,7 +41,7 @@ struct Soup {
   }
 };
 
-// Points of a triangle but its corners, `spacing` apart, at most most_steps to an edge.
+// Visits points of a triangle except its corners, `spacing` apart, at most most_steps to an edge.
 template <class Visit>
 void spread(Vec3 a, Vec3 b, Vec3 c, double spacing, std::int32_t least, Visit&& visit) {
   const double longest = std::max(norm(b - a), std::max(norm(c - b), norm(a - c)));
@@ -156,8 +156,9 @@ double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<Quad
   double worst = out_misses ? tolerance : 0;
   Table<double> distance(*memory_);
   Table<std::int32_t> nearest(*memory_);
-  // distances above `tolerance`, or larger than those before in their piece; 0 for the others
-  auto look = [&](const NearestTriangle& tree, const Table<Sample>& samples, const Table<std::int32_t>* faces) {
+  // distances above `tolerance`, or above all before in their piece; 0 for the others
+  auto measure_samples = [&](const NearestTriangle& tree, const Table<Sample>& samples,
+                             const Table<std::int32_t>* faces) {
     distance.assign(samples.size(), 0), nearest.assign(samples.size(), none);
     const std::int32_t pieces = (samples.size() + samples_a_piece - 1) / samples_a_piece;
     for_each(jobs_, static_cast<std::uint32_t>(pieces), [&](std::uint32_t piece) {
@@ -181,8 +182,8 @@ double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<Quad
           {distance[i], samples[i].point, samples[i].vertex, faces ? (*faces)[nearest[i]] : samples[i].face});
     }
   };
-  look(quads, samples_, &soup.face);
-  look(tree_, sample_quads(mesh, soup.corners, soup.face, known), nullptr);
+  measure_samples(quads, samples_, &soup.face);
+  measure_samples(tree_, sample_quads(mesh, soup.corners, soup.face, known), nullptr);
   if (known) {
     Table<std::uint8_t> off(mesh.face_count(), out_misses ? 0 : 1, *memory_);
     for (std::size_t i = 0; out_misses && i < out_misses->size(); ++i)

@@ -16,8 +16,8 @@ namespace hf_inner {
 
 namespace {
 
-// Scales the lines of every component so that its faces have a little less than the area of squares of the edge length
-// in the mean: rings times lines, summed over arcs, are the faces.
+// Scales the lines of every component so that the mean face is a little smaller than a square of the edge length. The
+// number of faces is rings times lines, summed over arcs.
 void fit_lines(const FluxSurface& surface, Span<const double> u, const RingOptions& options, Vector<FluxSite>& sites,
                Memory& memory) {
   const FluxField field(surface, u, memory);
@@ -38,8 +38,8 @@ void fit_lines(const FluxSurface& surface, Span<const double> u, const RingOptio
   }
 }
 
-// 0 for a mesh whose edges are `shortest` to `longest` edge lengths and whose quads are at most `narrowest` times as
-// long as wide, but for 5 in 100 of each.
+// How uneven a mesh is: 0 if edges have `shortest` to `longest` edge lengths and quads an aspect of at most
+// `narrowest`, apart from a few (outliers).
 double shape_cost(const QuadMesh& mesh, double edge_length, double shortest, double longest, double narrowest,
                   Memory& memory) {
   Vector<double> lengths(&memory), aspects(&memory);
@@ -62,7 +62,7 @@ double shape_cost(const QuadMesh& mesh, double edge_length, double shortest, dou
          std::max(0.0, std::log(at(aspects, 1 - outliers) / narrowest));
 }
 
-// One surface, its factor and the trees to measure against, for one or more sets of sites.
+// Makes meshes of one surface from several sets of sites, with one factor and one tree.
 class Maker {
  public:
   explicit Maker(const QuadOptions& options)
@@ -75,8 +75,8 @@ class Maker {
 
   const FluxSurface& surface() const noexcept { return surface_; }
 
-  // out_deviation: how far the mesh and the surface are from each other.
-  // density: edge lengths are 1 / density of what is aimed at.
+  // out_deviation: the distance of the mesh and the surface. density: edge lengths are 1 / density of the one asked
+  // for.
   QuadResult make(Span<const FluxSite> given, double density, double* out_deviation) const {
     Progress* const progress = options_.progress;
     QuadResult result(memory_);
@@ -118,8 +118,8 @@ class Maker {
     return result;
   }
 
-  // Fits the mesh where it is farther from the surface than it may be, takes short edges out (in kind pure those that
-  // refining made), in turns that may fold more and more, and returns what the mesh is worth: less is better.
+  // Fits the mesh and collapses short edges (in kind pure only those that refining made) in turns. Each turn allows
+  // more folds than the last. Returns the cost of the mesh.
   double fit(QuadMesh& mesh, double density, double deviation) const {
     const double allowed = fit_tolerance * options_.edge_length, edge_length = options_.edge_length / density;
     if (options_.relax > 0) {
@@ -141,25 +141,25 @@ class Maker {
         coarsen.edge_length = edge_length, coarsen.tolerance = collapse_tolerance * allowed,
         coarsen.progress = options_.progress;
         deviation = coarsen_quads(surface_, distance_, mesh, deviation, coarsen, memory_);
-        if (turn > 0 && worth(mesh, deviation) <= 1) break;
+        if (turn > 0 && cost(mesh, deviation) <= 1) break;
         if (turn > 1 && deviation == before && mesh.face_count() == faces) break;
       }
       check_quads(mesh, surface_.euler_characteristic, memory_);
     }
     report(options_.progress, 1.0f);
     deviation = distance_.measure(mesh, 0, nullptr, nullptr);
-    return worth(mesh, deviation);
+    return cost(mesh, deviation);
   }
 
-  // 1 for a mesh as it should be; more is worse.
-  double worth(const QuadMesh& mesh, double deviation) const {
+  // At most 1 for a good mesh, more for worse ones.
+  double cost(const QuadMesh& mesh, double deviation) const {
     const double shape =
         options_.uniform ? shape_cost(mesh, options_.edge_length, shortest_even, longest_even, narrowest_even, memory_)
                          : shape_cost(mesh, options_.edge_length, 0, HUGE_VAL, narrowest_pure, memory_);
     return std::max(deviation / (near_distance * options_.edge_length), 1.0) + shape;
   }
 
-  // Sites as vertices of the Mesh, weights in the order of its own triangles, which may have been turned here.
+  // Numbers sites as vertices of the Mesh, and orders weights as its triangles, which may have been turned here.
   void to_mesh(QuadResult& result) const {
     for (FluxSite& site : result.sites) site.vertex = surface_.mesh_vertex[site.vertex];
     for (SurfacePoint& point : result.mesh.location) {
@@ -175,7 +175,7 @@ class Maker {
   }
 
  private:
-  // Sites with their lines into `result`, and the field.
+  // Chooses sites with their lines and returns the field.
   Vector<double> flow(Span<const FluxSite> given, const RingOptions& rings, QuadResult& result) const {
     const ProgressRange range(options_.progress, 0.0f, make_progress.flow);
     result.sites =
@@ -189,7 +189,7 @@ class Maker {
     return u;
   }
 
-  // Relaxes, and draws features out where that brings the meshes nearer to each other, not only one to the other.
+  // Relaxes, and keeps snapped features if they reduce the distance both ways.
   double even_out(QuadMesh& mesh, double edge_length) const {
     Progress* const progress = options_.progress;
     auto relax = [&](std::int32_t rounds, float from, float to) {
@@ -203,7 +203,7 @@ class Maker {
       distance_.turn_quads(at);
       return distance_.measure(at, 0, nullptr, progress);
     };
-    // vertices may slide off what is thin: in kind pure, where edges are long, a little relaxed is kept if it is nearer
+    // vertices slide off thin parts where edges are long: in kind pure a mesh relaxed less is kept if it is nearer
     const std::int32_t little = options_.uniform ? 0 : options_.relax / early_share;
     relax(little, 0.0f, even_progress.early);
     QuadMesh early = mesh;
@@ -212,15 +212,15 @@ class Maker {
     double deviation = measure(mesh, even_progress.relaxed, even_progress.measured);
     if (little > 0 && before < early_gain * deviation) deviation = before, mesh = std::move(early);
     if (options_.relax > 0 && deviation > capture_from) {
-      QuadMesh drawn = mesh;
+      QuadMesh snapped = mesh;
       {
         const ProgressRange range(progress, even_progress.measured, even_progress.captured);
         CaptureOptions capture;
         capture.edge_length = edge_length, capture.progress = progress;
-        capture_features(surface_, distance_, drawn, capture, memory_);
+        capture_features(surface_, distance_, snapped, capture, memory_);
       }
-      const double after = measure(drawn, even_progress.captured, 1.0f);
-      if (after < deviation) deviation = after, mesh = std::move(drawn);
+      const double after = measure(snapped, even_progress.captured, 1.0f);
+      if (after < deviation) deviation = after, mesh = std::move(snapped);
     }
     report(progress, 1.0f);
     return deviation;
@@ -265,7 +265,7 @@ QuadResult make_quads(const QuadOptions& options) {
     return result;
   }
 
-  // tips by both fields: the mean distance knows limbs that the Poisson field sees as shoulders of others
+  // tips by both fields: the mean distance finds limbs that the Poisson field merges into others
   const Geodesics geodesics(options.core, geodesic_smoothing);
   const Extremities far = [&] {
     const ProgressRange range(progress, quads_progress.prepared, quads_progress.far_tips);
@@ -294,7 +294,7 @@ QuadResult make_quads(const QuadOptions& options) {
       }
     };
     take(far, tip_lengths[trial].geodesic), take(high, tip_lengths[trial].poisson);
-    if (trial > 0 && given.size() == before) continue;  // the same list, cut at the same place
+    if (trial > 0 && given.size() == before) continue;  // the same sites as before
     before = given.size();
     const float share = (quads_progress.tried - quads_progress.tips) / static_cast<float>(tip_trials),
                 from = quads_progress.tips + share * static_cast<float>(trial);
@@ -307,9 +307,8 @@ QuadResult make_quads(const QuadOptions& options) {
     }
   }
   if (trials.empty())
-    trials.push_back(
-        {0, maker.make(given, 1, &deviation), Vector<FluxSite>(given, &memory)});  // says why there is none
-  // the nearest first; the first that is as it should be is taken, or the best
+    trials.push_back({0, maker.make(given, 1, &deviation), Vector<FluxSite>(given, &memory)});  // throws the reason
+  // fitted in order of distance; the first good one is taken, or the best
   std::stable_sort(trials.begin(), trials.end(),
                    [](const Trial& a, const Trial& b) { return a.deviation < b.deviation; });
   double least = -1;
@@ -338,7 +337,7 @@ QuadResult make_quads(const QuadOptions& options) {
         const double cost = maker.fit(result.mesh, density, deviation);
         if (cost < least) least = cost, best = std::move(result);
       } catch (const Error& error) {
-        if (error.code() == HF_ERROR_CANCELLED) throw;  // otherwise the mesh that there is stays
+        if (error.code() == HF_ERROR_CANCELLED) throw;  // otherwise keep the best so far
       }
     }
   }

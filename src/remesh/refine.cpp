@@ -11,11 +11,6 @@ namespace {
 
 constexpr std::int32_t none = -1;
 
-Vec3 unit(Vec3 a) {
-  const double length = norm(a);
-  return length > 0 ? (1 / length) * a : Vec3{};
-}
-
 }  // namespace
 
 void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::uint8_t>& marked, Memory& memory) {
@@ -65,8 +60,8 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
   mesh.face_start.swap(starts), mesh.corner.swap(corners);
 }
 
-std::int32_t open_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Memory& memory) {
-  // the faces around v and their first neighbours of v, counter-clockwise
+std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Memory& memory) {
+  // the faces around v with their first neighbour of v, counter-clockwise
   Table<std::int32_t> faces(memory), spokes(memory);
   Table<std::int32_t> first(memory), last(memory);
   for (std::int32_t f = 0; f < mesh.face_count(); ++f)
@@ -81,12 +76,12 @@ std::int32_t open_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Me
         std::swap(first[j], first[i + 1]), std::swap(last[j], last[i + 1]), std::swap(faces[j], faces[i + 1]);
         break;
       }
-  // the two spokes between which the quad opens: across the way, at least two faces on both sides
+  // the new quad lies between two spokes that run across the way, with two faces or more on both sides
   const Vec3 p = mesh.position[v], way = unit(towards - p);
   std::int32_t from = none, to = none;
   double best = 0;
   for (std::int32_t i = 0; i < n; ++i)
-    for (std::int32_t count = 2; count <= n - 2; ++count) {  // faces from spoke i on go with the new vertex
+    for (std::int32_t count = 2; count <= n - 2; ++count) {  // faces from spoke i on join the new vertex
       const std::int32_t j = (i + count) % n;
       double sum = 0;
       for (std::int32_t k = 1; k < count; ++k)
