@@ -8,6 +8,12 @@
 #include "factor/dissection.h"
 
 namespace hf_inner {
+namespace {
+
+// AMD asks for room of a fifth of the pattern and more.
+constexpr std::size_t elbow_divisor = 5;
+
+}  // namespace
 
 void order_graph_by_minimum_degree(std::int32_t size, const std::int32_t* start, const std::int32_t* neighbour,
                                    Memory& memory, Buffer<std::int32_t>& order) {
@@ -16,7 +22,7 @@ void order_graph_by_minimum_degree(std::int32_t size, const std::int32_t* start,
   if (size == 0) return;
   // the core routine of AMD takes the pattern without diagonal and destroys it; it wants elbow room of a fifth
   std::size_t pattern = static_cast<std::size_t>(start[size] - start[0]);
-  const std::size_t room = pattern + pattern / 5 + n + 1;
+  const std::size_t room = pattern + pattern / elbow_divisor + n + 1;
   if (room > static_cast<std::size_t>(INT32_MAX)) {
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the matrix has %zu entries; minimum degree takes at most about 1.7e9",
          pattern);

@@ -5,13 +5,10 @@
 #include <cmath>
 
 #include "base/index.h"
+#include "transfer/constants.h"
 
 namespace hf_inner {
 namespace {
-
-constexpr double prior = 0.02;        // of the broad rotation, in spreads of the cluster
-constexpr double broad_prior = 1e-3;  // of the rotation of the whole
-constexpr std::size_t most_sampled = 4096;
 
 // M = sum_v q_v g_v'. The slopes sum to zero, so any origin will do; one near the cluster keeps the digits of far-away
 // poses.
@@ -77,7 +74,7 @@ void SourceRotations::clusters(const Clusters& clusters, const Vec3* posed, cons
   jobs.for_each(static_cast<std::uint32_t>(clusters.count), [&](std::uint32_t i) {
     const auto c = static_cast<std::int32_t>(i);
     const Quaternion broad = kernel_rotation(clusters.broad, c, posed, broad_prior, whole);
-    out[i] = kernel_rotation(clusters.narrow, c, posed, prior, broad);
+    out[i] = kernel_rotation(clusters.narrow, c, posed, narrow_prior, broad);
   });
 }
 

@@ -3,21 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/index.h"
+#include "transfer/constants.h"
 #include "transfer/prepared.h"
 
 namespace hf_inner {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
 constexpr std::uint32_t known_flags =
     HF_PAIR_ANCHOR | HF_PAIR_FOOT | HF_PAIR_TRUNK | HF_PAIR_NO_ALIGNMENT | HF_PAIR_CONTACT;
-constexpr double shortest_limb = 0.1;  // of the box: shorter limbs have no reliable direction
-constexpr double least_side = 0.03;    // of the box: nearer to the middle a region is neither left nor right
-constexpr std::int32_t enough_support = 6;
-constexpr double rides_from = 0.75;  // share of a vertex in the clusters of a region from which it moves with it
 
 Vec3 area_mean(const Mesh& mesh, const Vector<double>& area) noexcept {
   Vec3 sum;
@@ -43,24 +40,26 @@ Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Cor
       target_area_(area_shares(target_core_->mesh, *target_core_->memory)) {
   if (options.mode != HF_TRANSFER_FIELDS && options.mode != HF_TRANSFER_PAPER)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "mode %d is none of HF_TRANSFER_*", options.mode);
-  if (options.cluster_count > 512)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "cluster_count is %u; it may be 1 to 512, or 0 for the default",
-         options.cluster_count);
+  if (options.cluster_count > cluster_limit)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "cluster_count is %u; it may be 1 to %u, or 0 for the default",
+         options.cluster_count, cluster_limit);
   if (!std::isfinite(options.kernel_width) || !std::isfinite(options.scale) ||
       !std::isfinite(options.alignment_angle)) {
     fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "kernel_width, scale and alignment_angle must be finite");
   }
-  // the ABI gives floats: the bounds hold for their nearest values too
-  if (options.kernel_width != 0 && (options.kernel_width < 0.00499999 || options.kernel_width > 0.5000001)) {
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "kernel_width is %g; it may be 0.005 to 0.5, or 0 for the default",
-         options.kernel_width);
+  // the ABI gives floats, so the bounds are compared as floats
+  const auto width = static_cast<float>(options.kernel_width);
+  if (options.kernel_width != 0 &&
+      (width < static_cast<float>(least_kernel_width) || width > static_cast<float>(most_kernel_width))) {
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "kernel_width is %g; it may be %g to %g, or 0 for the default",
+         options.kernel_width, least_kernel_width, most_kernel_width);
   }
-  if (options.scale != 0 && !(options.scale >= 1e-6 && options.scale <= 1e6)) {
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it may be 1e-6 to 1e6, or 0 for the ratio of the legs",
-         options.scale);
+  if (options.scale != 0 && !(options.scale >= least_scale && options.scale <= most_scale)) {
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it may be %g to %g, or 0 for the ratio of the legs",
+         options.scale, least_scale, most_scale);
   }
-  if (options_.kernel_width == 0) options_.kernel_width = 0.04;
-  if (options_.alignment_angle == 0) options_.alignment_angle = 40 * degree;
+  if (options_.kernel_width == 0) options_.kernel_width = default_kernel_width;
+  if (options_.alignment_angle == 0) options_.alignment_angle = default_alignment_angle;
 }
 
 Transfer::~Transfer() = default;
@@ -152,7 +151,8 @@ void Transfer::prepare_alignment(Prepared& p) const {
     const auto h = static_cast<std::size_t>(std::max_element(centre, centre + width) - centre);
     owned[h] += 1;
     if (p.clusters.support[at(c)] >= enough_support) p.confidence[h] += 1;
-    if (p.aligned[h]) p.cluster_turn[at(c)] = power(p.limb_turn[h], std::clamp((centre[h] - 0.35) / 0.2, 0.0, 1.0));
+    if (p.aligned[h])
+      p.cluster_turn[at(c)] = power(p.limb_turn[h], std::clamp((centre[h] - fade_from) / fade_width, 0.0, 1.0));
   }
   for (std::size_t h = 0; h < width; ++h) p.confidence[h] = owned[h] > 0 ? p.confidence[h] / owned[h] : 0.0;
 
@@ -163,7 +163,7 @@ void Transfer::prepare_alignment(Prepared& p) const {
   } else if (!feet.empty()) {
     const double of_source = leg_length(source, {feet.data(), feet.size()}),
                  of_target = leg_length(target, {feet.data(), feet.size()});
-    if (of_source > 1e-6 && of_target > 1e-6) p.scale = of_target / of_source;
+    if (of_source > least_leg && of_target > least_leg) p.scale = of_target / of_source;
   }
 }
 
@@ -185,7 +185,7 @@ void Transfer::prepare_anchors(Prepared& p) const {
   TranslationOptions options;
   if (options_.mode == HF_TRANSFER_PAPER) options.spread_share = 0;
   // feet alone would let the trunk float: the centroid holds it then
-  options.root = p.anchors.empty() ? 1.0 : holds_trunk ? 1e-3 : 0.1;
+  options.root = p.anchors.empty() ? root_alone : holds_trunk ? root_with_trunk : root_without_trunk;
   p.translations.prepare(*target_core_, target_area_, p.clusters, {regions.data(), regions.size()},
                          {loose.data(), loose.size()}, options);
   p.holds.reserve(numbers_.size() + vertex_rows), p.given_hold.assign(numbers_.size() + 1, Hold());
@@ -198,9 +198,9 @@ void Transfer::prepare_anchors(Prepared& p) const {
     for (std::size_t v = 0; v < p.rides.size(); ++v) {
       double share = 0;
       for (std::size_t k = v * blend_count; k < (v + 1) * blend_count; ++k)
-        if (p.translations.row_weight(row, p.clusters.joint[k]) > 0.05)
+        if (p.translations.row_weight(row, p.clusters.joint[k]) > region_cluster_share)
           share += static_cast<double>(p.clusters.weight[k]);
-      if (share > rides_from) p.rides[v] = static_cast<std::int32_t>(row);
+      if (share > region_vertex_share) p.rides[v] = static_cast<std::int32_t>(row);
     }
   }
 }
@@ -210,20 +210,23 @@ void Transfer::prepare_ground(Prepared& p) const {
   const std::size_t width = numbers_.size(), count = at(p.clusters.count);
   const Mesh& mesh = source_core_->mesh;
   p.source_owner.assign(mesh.positions.size(), 0);
-  p.rest_lows.assign(count, 1e300), p.source_lows.assign(count, 0.0), p.target_lows.assign(count, 0.0),
+  p.rest_lows.assign(count, no_height), p.source_lows.assign(count, 0.0), p.target_lows.assign(count, 0.0),
       p.touch.assign(count, 0.0);
-  target_core_->jobs->for_each(static_cast<std::uint32_t>((mesh.positions.size() + 255) / 256), [&](std::uint32_t b) {
-    for (std::size_t v = std::size_t{b} * 256; v < std::min(mesh.positions.size(), (std::size_t{b} + 1) * 256); ++v) {
-      const double* row = p.source_field.data() + v * width;
-      double nearest = 1e300;
-      for (std::size_t c = 0; c < count; ++c) {
-        const double* centre = p.clusters.centre.data() + c * width;
-        double d = 0;
-        for (std::size_t h = 0; h < width; ++h) d += (row[h] - centre[h]) * (row[h] - centre[h]);
-        if (d < nearest) nearest = d, p.source_owner[v] = static_cast<std::int32_t>(c);
-      }
-    }
-  });
+  target_core_->jobs->for_each(static_cast<std::uint32_t>((mesh.positions.size() + owner_block - 1) / owner_block),
+                               [&](std::uint32_t b) {
+                                 for (std::size_t v = std::size_t{b} * owner_block;
+                                      v < std::min(mesh.positions.size(), (std::size_t{b} + 1) * owner_block); ++v) {
+                                   const double* row = p.source_field.data() + v * width;
+                                   double nearest = std::numeric_limits<double>::infinity();
+                                   for (std::size_t c = 0; c < count; ++c) {
+                                     const double* centre = p.clusters.centre.data() + c * width;
+                                     double d = 0;
+                                     for (std::size_t h = 0; h < width; ++h)
+                                       d += (row[h] - centre[h]) * (row[h] - centre[h]);
+                                     if (d < nearest) nearest = d, p.source_owner[v] = static_cast<std::int32_t>(c);
+                                   }
+                                 }
+                               });
   const Vec3 up = up_of(source_axes_);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     double& low = p.rest_lows[at(p.source_owner[v])];

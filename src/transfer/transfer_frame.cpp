@@ -3,17 +3,11 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "transfer/constants.h"
 #include "transfer/prepared.h"
 
 namespace hf_inner {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
-constexpr double rigid_residual = 1e-3;  // of the box: frames much nearer to rigid are moved rigidly
-constexpr double turn_low = 20 * degree,
-                 turn_high = 50 * degree;  // between these a turn of the whole takes the anchors' offsets along
-constexpr std::int32_t refit_rounds = 4;
-constexpr std::size_t block = 2048;
 
 bool is_finite(Vec3 p) noexcept { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
@@ -65,7 +59,7 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
     const double allowed =
         p.target_ground + std::min(0.0, p.scale * (lowest(from, p.posed.data(), source_up) - p.source_ground));
     const Mat3 rotation = p.translations.mean_rotation(k, p.matrices.data());
-    double low = 1e300;
+    double low = no_height;
     for (const std::int32_t v : to)
       low = std::min(low, dot(up, rotation * (target_core_->mesh.positions[at(v)] - anchor.target_rest)));
     const double lift = allowed - (dot(up, p.goals[k]) + low);
@@ -115,9 +109,9 @@ void Transfer::blend(Prepared& p) const {
   }
   const Vec3* rest = target_core_->mesh.positions.data();
   const std::size_t n = p.blended.size();
-  target_core_->jobs->for_each(static_cast<std::uint32_t>((n + block - 1) / block), [&](std::uint32_t b) {
-    const std::size_t last = std::min(n, (std::size_t{b} + 1) * block);
-    for (std::size_t v = std::size_t{b} * block; v < last; ++v) {
+  target_core_->jobs->for_each(static_cast<std::uint32_t>((n + vertex_block - 1) / vertex_block), [&](std::uint32_t b) {
+    const std::size_t last = std::min(n, (std::size_t{b} + 1) * vertex_block);
+    for (std::size_t v = std::size_t{b} * vertex_block; v < last; ++v) {
       const Vec3 x = rest[v];
       double sum[4] = {0, 0, 0, 0};
       for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
@@ -171,12 +165,11 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   if (lies > 0) lie_down(p, centroid, lies, fallen, share);
   blend(p);
   if (over_ground) keep_above_ground(p, centroid, 1 - rigid, (1 - lies) * fallen);
-  target_core_->jobs->for_each(static_cast<std::uint32_t>((p.blended.size() + block - 1) / block),
-                               [&](std::uint32_t b) {
-                                 const std::size_t last = std::min(p.blended.size(), (std::size_t{b} + 1) * block);
-                                 for (std::size_t v = std::size_t{b} * block; v < last; ++v)
-                                   out[v] = to.to_given(p.blended[v]);
-                               });
+  target_core_->jobs->for_each(
+      static_cast<std::uint32_t>((p.blended.size() + vertex_block - 1) / vertex_block), [&](std::uint32_t b) {
+        const std::size_t last = std::min(p.blended.size(), (std::size_t{b} + 1) * vertex_block);
+        for (std::size_t v = std::size_t{b} * vertex_block; v < last; ++v) out[v] = to.to_given(p.blended[v]);
+      });
 }
 
 }  // namespace hf_inner
