@@ -79,13 +79,13 @@ HandleTransform read_matrix(const double* m, std::uint32_t index, Vec3 centroid)
   }
   Mat3 linear;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) linear.m[i][j] = m[4 * j + i];
+    for (int j = 0; j < 3; ++j) linear(i, j) = m[4 * j + i];
   }
   const Quaternion rotation = best_rotation(linear, Quaternion());
-  const Mat3 exact = to_matrix(rotation);
+  const Mat3 exact = rotation.toRotationMatrix();
   double off = std::fabs(m[3]) + std::fabs(m[7]) + std::fabs(m[11]) + std::fabs(m[15] - 1);
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) off = std::max(off, std::fabs(linear.m[i][j] - exact.m[i][j]));
+    for (int j = 0; j < 3; ++j) off = std::max(off, std::fabs(linear(i, j) - exact(i, j)));
   }
   if (!(off <= 1e-4))
     fail(HF_ERROR_INVALID_ARGUMENT, index, "matrix %u is no rigid motion; scale and shear are not taken", index);
@@ -254,8 +254,7 @@ hf_result hf_pose_set_transforms(hf_pose handle, uint32_t handle_count, const ui
     for (std::uint32_t i = 0; i < handle_count; ++i) {
       const double* q = transforms[i].rotation;
       const double* t = transforms[i].translation;
-      placed[i].rotation.x = q[0], placed[i].rotation.y = q[1], placed[i].rotation.z = q[2],
-      placed[i].rotation.w = q[3];
+      placed[i].rotation = {{q[0], q[1], q[2]}, q[3]};
       placed[i].translation = {t[0], t[1], t[2]};
     }
     pose->pose->set_transforms({handles, handle_count}, {placed, handle_count});
@@ -287,8 +286,7 @@ hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* ou
     info.centroid[0] = report.centroid.x, info.centroid[1] = report.centroid.y, info.centroid[2] = report.centroid.z;
     info.leak = report.leak;
     const HandleTransform placed = pose->pose->placed(number);
-    const double q[4] = {placed.rotation.x, placed.rotation.y, placed.rotation.z, placed.rotation.w};
-    std::copy_n(q, 4, info.rotation);
+    std::copy_n(placed.rotation.coeffs().data(), 4, info.rotation);  // x y z w
     put(placed.translation, info.translation);
     info.layer = pose->pose->layer_of(number);
     write_struct(out_info, info);
@@ -385,10 +383,8 @@ hf_result hf_pose_get_skin(hf_pose handle, hf_skin_info* info) {
     for (std::size_t j = 0; j < joints; ++j) {
       if (out.pivots) put(skin.pivot[j], out.pivots + 3 * j);
       if (out.translations) put(skin.place[j], out.translations + 3 * j);
-      const double q[4] = {skin.rotation[j].x, skin.rotation[j].y, skin.rotation[j].z, skin.rotation[j].w};
-      if (out.rotations) std::copy_n(q, 4, out.rotations + 4 * j);
-      const double axes[4] = {skin.axes[j].x, skin.axes[j].y, skin.axes[j].z, skin.axes[j].w};
-      if (out.axes) std::copy_n(axes, 4, out.axes + 4 * j);
+      if (out.rotations) std::copy_n(skin.rotation[j].coeffs().data(), 4, out.rotations + 4 * j);  // x y z w
+      if (out.axes) std::copy_n(skin.axes[j].coeffs().data(), 4, out.axes + 4 * j);
       if (out.scales) put(skin.stretch[j], out.scales + 3 * j);
     }
     const Mesh& mesh = base.core().mesh;

@@ -239,8 +239,7 @@ hf_result hf_transfer_get_skin(hf_transfer handle, hf_skin_info* info) {
       if (skin.pivots) put(pivots[j], skin.pivots + 3 * j);
       if (skin.translations) put(places[j], skin.translations + 3 * j);
       if (skin.rotations) {
-        const double q[4] = {rotations[j].x, rotations[j].y, rotations[j].z, rotations[j].w};
-        std::copy_n(q, 4, skin.rotations + 4 * j);
+        std::copy_n(rotations[j].coeffs().data(), 4, skin.rotations + 4 * j);  // x y z w
       }
       const double identity[4] = {0, 0, 0, 1}, ones[3] = {1, 1, 1};  // a transfer's joints are rigid
       if (skin.axes) std::copy_n(identity, 4, skin.axes + 4 * j);

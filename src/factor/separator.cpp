@@ -10,7 +10,8 @@ namespace {
 constexpr std::uint8_t touches_left = 1, touches_right = 2, on_path = 4;
 constexpr std::int32_t none = -1, source = -2, sink = -3;
 
-// Eigenvectors of a symmetric 3 x 3 matrix by Jacobi rotations, columns by falling eigenvalue.
+// Eigenvectors of a symmetric 3 x 3 matrix by Jacobi rotations, columns by falling eigenvalue. By hand, not Eigen's: the
+// order of the unknowns follows the signs of the axes, and with other signs the last bits of fields change.
 void principal_axes(double a[3][3], double axis[3][3], double value[3]) {
   double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (int sweep = 0; sweep < 12; ++sweep) {
