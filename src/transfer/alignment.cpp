@@ -22,7 +22,7 @@ Mat3 checked_axes(const double (&rows)[9], const char* side) {
     if (!std::isfinite(x)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "the %s axes hold a number that is not finite", side);
     all_zero = all_zero && x == 0;
   }
-  if (all_zero) return Mat3::identity();
+  if (all_zero) return Mat3::Identity();
   Vec3 row[3];
   for (int i = 0; i < 3; ++i) row[i] = {rows[3 * i], rows[3 * i + 1], rows[3 * i + 2]};
   const Vec3 third = cross(row[0], row[1]) - row[2];
@@ -33,8 +33,8 @@ Mat3 checked_axes(const double (&rows)[9], const char* side) {
          "the %s axes must be three orthogonal unit rows right, up, forward with right x up = forward", side);
   // exactly orthonormal
   Mat3 axes;
-  for (int i = 0; i < 3; ++i) axes.m[i][0] = row[i].x, axes.m[i][1] = row[i].y, axes.m[i][2] = row[i].z;
-  return to_matrix(best_rotation(axes, Quaternion()));
+  for (int i = 0; i < 3; ++i) axes(i, 0) = row[i].x, axes(i, 1) = row[i].y, axes(i, 2) = row[i].z;
+  return best_rotation(axes, Quaternion()).toRotationMatrix();
 }
 
 double ground_height(const RestSide& side) noexcept {
@@ -89,11 +89,11 @@ Quaternion minimal_rotation(Vec3 from, Vec3 to, Vec3 axis) noexcept {
   const Vec3 a = (1 / norm(from)) * from, b = (1 / norm(to)) * to;
   const Vec3 c = cross(a, b);
   const double w = 1 + dot(a, b);
-  if (w > opposite) return normalised({c.x, c.y, c.z, w});
+  if (w > opposite) return normalised({c, w});
   Vec3 turn = axis - dot(axis, a) * a;
   if (norm(turn) < opposite) turn = cross(a, std::abs(a.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
   turn = (1 / norm(turn)) * turn;
-  return {turn.x, turn.y, turn.z, 0};
+  return {turn, 0};
 }
 
 Quaternion power(const Quaternion& q, double w) noexcept { return exponential(w * logarithm(q)); }

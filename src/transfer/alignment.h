@@ -23,7 +23,7 @@ struct RestSide {
   Span<const double> field;  // n x pair count
   Span<const double> area;
   Mat3 axes;  // rows right, up, forward
-  Vec3 up() const noexcept { return {axes.m[1][0], axes.m[1][1], axes.m[1][2]}; }
+  Vec3 up() const noexcept { return {axes(1, 0), axes(1, 1), axes(1, 2)}; }
 };
 
 // Orthonormal axes of nine numbers; all zero: the identity. Throws HF_ERROR_INVALID_ARGUMENT unless they are a

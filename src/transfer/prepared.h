@@ -28,7 +28,7 @@ inline double smooth_step(double low, double high, double x) noexcept {
   return t * t * (3 - 2 * t);
 }
 
-inline Vec3 up_of(const Mat3& axes) noexcept { return {axes.m[1][0], axes.m[1][1], axes.m[1][2]}; }
+inline Vec3 up_of(const Mat3& axes) noexcept { return {axes(1, 0), axes(1, 1), axes(1, 2)}; }
 
 // Everything derived from the pairs, and the last frame. It is made completely or not at all.
 struct Transfer::Prepared {

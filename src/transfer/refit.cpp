@@ -59,7 +59,7 @@ void Refit::turn(const Quaternion* given, const Vec3* shifts, Quaternion* rotati
       const Vec3 y = 0.5 * ((matrices[c] * x + shifts[c]) + (matrices[d] * x + shifts[d]));
       add_outer(moment, weight_[at(i)] / spread_[c], y - place, x - centroid_[c]);
     }
-    rotations[c] = best_rotation_from(moment + keep_rotation * to_matrix(given[c]), rotations[c]);
+    rotations[c] = best_rotation_from(moment + keep_rotation * given[c].toRotationMatrix(), rotations[c]);
   }
 }
 

@@ -24,7 +24,7 @@ Mat3 moment_of(const SourceKernels& kernels, std::int32_t c, const Vec3* posed) 
 
 Quaternion kernel_rotation(const SourceKernels& kernels, std::int32_t c, const Vec3* posed, double share,
                            const Quaternion& guide) noexcept {
-  return best_rotation_from(moment_of(kernels, c, posed) + share * to_matrix(guide), guide);
+  return best_rotation_from(moment_of(kernels, c, posed) + share * guide.toRotationMatrix(), guide);
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ WholeMotion SourceRotations::whole(const Mesh& mesh, Span<const double> area, co
               mesh.positions[at(sample_[i])] - sample_centroid_);
   }
   if (sample_spread_ > 0) out.rotation = best_rotation((1 / sample_spread_) * moment, Quaternion());
-  const Mat3 rotation = to_matrix(out.rotation);
+  const Mat3 rotation = out.rotation.toRotationMatrix();
   double sum = 0;
   for (std::size_t i = 0; i < sample_.size(); ++i) {
     const Vec3 d = posed[sample_[i]] - out.centroid - rotation * (mesh.positions[at(sample_[i])] - out.rest_centroid);

@@ -31,7 +31,7 @@ Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Cor
       options_(options),
       source_axes_(checked_axes(options.source_axes, "source")),
       target_axes_(checked_axes(options.target_axes, "target")),
-      axes_(to_quaternion(transpose(target_axes_) * source_axes_)),
+      axes_(Mat3(target_axes_.transpose() * source_axes_)),
       source_(source_core_),
       target_(target_core_),
       numbers_(target_core_->memory.get()),
@@ -136,9 +136,9 @@ void Transfer::prepare_alignment(Prepared& p) const {
         limb_direction(target, column, region_mean(target_.region(number), target.mesh->positions.data()), from);
     if (!known || norm(from) < shortest_limb || norm(to) < shortest_limb) continue;
     to = rotate(axes_, to);
-    const Vec3 right{target_axes_.m[0][0], target_axes_.m[0][1], target_axes_.m[0][2]};
+    const Vec3 right{target_axes_(0, 0), target_axes_(0, 1), target_axes_(0, 2)};
     p.limb_turn[h] = minimal_rotation(from, to, right);
-    p.limb_angle[h] = angle_between(p.limb_turn[h], Quaternion());
+    p.limb_angle[h] = p.limb_turn[h].angularDistance(Quaternion());
     p.aligned[h] = options_.mode == HF_TRANSFER_FIELDS && options_.alignment_angle > 0 &&
                    p.limb_angle[h] > options_.alignment_angle && !(flags & HF_PAIR_NO_ALIGNMENT);
   }
@@ -265,7 +265,7 @@ Transfer::Prepared& Transfer::prepare() {
   const std::size_t count = at(p.clusters.count);
   p.posed.resize(at(source_core_->size()));
   p.given.assign(count, Quaternion()), p.rotations.assign(count, Quaternion()),
-      p.matrices.assign(count, Mat3::identity());
+      p.matrices.assign(count, Mat3::Identity());
   p.columns.assign(count, BlendColumns()), p.blended.resize(at(target_core_->size()));
   p.deepest.assign(numbers_.size() + 1 + count, Prepared::Sunk());
   p.shifts.assign(count, Vec3()), p.cluster_goals.assign(count, Vec3()), p.goals.assign(p.anchors.size(), Vec3());
@@ -290,7 +290,7 @@ PairInfo Transfer::pair_info(std::uint32_t pair) {
 bool Transfer::is_crossed(std::uint32_t number) const {
   const auto side = [](const Core& core, const Mat3& axes, Span<const std::int32_t> region,
                        const Vector<double>& area) {
-    return dot(Vec3{axes.m[0][0], axes.m[0][1], axes.m[0][2]},
+    return dot(Vec3{axes(0, 0), axes(0, 1), axes(0, 2)},
                region_mean(region, core.mesh.positions.data()) - area_mean(core.mesh, area));
   };
   const double a = side(*source_core_, source_axes_, source_.region(number), source_area_),

@@ -230,8 +230,8 @@ Vec3 Translations::place(std::size_t row, const Mat3* rotations, const Vec3* shi
   return sum;
 }
 
-// Cholesky of a small positive definite matrix in place, three right-hand sides at once. The rows of holds that take no
-// part are those of the identity.
+// Cholesky of a small positive definite matrix in place, three right-hand sides at once. By hand: Eigen's allocates at
+// sizes known at run time. The rows of holds that take no part are those of the identity.
 void Translations::solve_holds(Span<const Hold> holds, bool with_vertical) noexcept {
   const std::size_t k = holds.size(), rows = row_start_.size() - 1;
   double* m = hold_matrix_.data();

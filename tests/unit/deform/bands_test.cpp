@@ -1,10 +1,10 @@
 // Handles, their fields, levels, bands and the dense system they end in.
+#include "support/eigen.h"
+
 #include "deform/bands.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
 #include <random>
 
 #include "base/error.h"
