@@ -1,6 +1,6 @@
 // The chosen numbers of poses: what each trades, and on what it was chosen. Limits that hosts meet come first.
 //
-// "Bench" is hf_bench deform-quality: planes, bars, a cylinder, a cactus and a scan (docs/benchmarks.md).
+// "Bench" is hf_bench deform-quality: planes, bars, a cylinder, a cactus and a scan (docs/studies/poses.md).
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -58,7 +58,7 @@ struct StrainLimits {
   double follow;       // r
 };
 // By the handles of the component: two, more. Fitted on two planes and two poses of a scan; settings nearby meet the
-// same bars, and 15 of 16 poses of eight other meshes keep more edges within [0.8, 1.25] (docs/benchmarks.md).
+// same bars, and 15 of 16 poses of eight other meshes keep more edges within [0.8, 1.25] (docs/studies/poses.md).
 constexpr StrainLimits strain_limits[] = {{0.8, 1.24, 4.0, 0.25, 0.0, 0.28}, {0.92, 1.14, 8.0, 0.5, 0.2, 0.16}};
 // m_2 / m_1 below which a group is a line, which is never under stress; half or double: the same bench.
 constexpr double thinnest_sheet = 1e-2;
@@ -69,7 +69,7 @@ constexpr double thinnest_sheet = 1e-2;
 // it loses the bar of the plane's refined stretch (0.846 for 0.851), double costs the plane 0.6 % of energy.
 constexpr double rigidity = 1e-3;
 // Gain of edges at a handle's border, by the handles of the component: two, more. 1/4 raises the smallest stretch of
-// the bent cactus from 0.786 to 0.801 for 0.1 % of energy; 7/2 belongs to the strain limits (docs/benchmarks.md).
+// the bent cactus from 0.786 to 0.801 for 0.1 % of energy; 7/2 belongs to the strain limits (docs/studies/poses.md).
 constexpr double border_stiffness[] = {0.25, 3.5};
 // Edges of the energy, against the time of first handles. Half or double change the scan's energy by 1 %.
 constexpr double edge_samples = 60000;

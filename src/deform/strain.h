@@ -10,7 +10,7 @@
 // The global step aims at T = R (1 + E X E') in place of R. This makes the group k times stiffer outside the limits. At
 // the stress c it yields instead of crumpling its neighbours. n is a contraction across (Poisson), which keeps the
 // volume of a limb that is pulled. A common rotation of surface and groups does not change U, and X = 0 at rest. X
-// follows with a factor r < 2 / (1 + k), under which the alternation contracts. Figures: docs/benchmarks.md.
+// follows with a factor r < 2 / (1 + k), under which the alternation contracts. Figures: docs/studies/poses.md.
 //
 // Allocates nothing, cannot fail.
 #pragma once
