@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every relative link of the pages names a file that exists, and so does every path of the project in backticks.
+# Every relative link and picture of the pages names a file that exists, and so does every path of the project in backticks.
 # usage: check_paths.sh SOURCE_DIR
 set -u
 cd "$1" || exit 1
@@ -13,6 +13,9 @@ for page in *.md docs/*.md docs/studies/*.md; do
   while read -r link; do
     check "$page" "$link" "$folder/${link%%#*}"
   done < <(grep -oE '\]\([^)#:][^):]*\)' "$page" | sed 's/^](//; s/)$//')
+  while read -r picture; do
+    check "$page" "$picture" "$folder/$picture"
+  done < <(grep -oE 'src="[^":]*"' "$page" | sed 's/^src="//; s/"$//')
   while read -r path; do
     check "$page" "$path" "$path"
   done < <(grep -oE '`(src|include|tests|samples|bindings|docs|cmake)/[A-Za-z0-9_./-]*`' "$page" | tr -d '`')
