@@ -81,10 +81,7 @@ void run(const Command& options) {
   write("ability_quads.png", {draw_quads(horse, width, height)});
   write("ability_detail.png", {draw_detail(horse, width, height)});
   write("ability_direction.png", {draw_direction(horse, width, height)});
-  Picture both{2 * (width / 2), height, std::vector<uint8_t>(6 * size_t(width / 2) * size_t(height), 0)};
-  paste(both, walk.draw(width / 2, height, 1, false), 0, 0);
-  paste(both, walk.draw(width / 2, height, 1, true), width / 2, 0);
-  write("ability_transfer.png", {both});
+  write("ability_transfer.png", {walk.draw_both(width, height, 1)});
 
   const int tile = pixels(350), upper = pixels(270), lower = pixels(210);
   std::vector<Picture> frames;
@@ -96,6 +93,13 @@ void run(const Command& options) {
     paste(page, field.draw(tile, upper, phase), tile, 0);
     paste(page, walk.draw(tile, lower, i, false), 0, upper);
     paste(page, walk.draw(tile, lower, i, true), tile, upper);
+    if (options.percent >= 50) {
+      const Color grey{0.36, 0.39, 0.45};
+      draw_text(page, 12, 10, "pose: the head is pulled", 1, grey);
+      draw_text(page, tile + 12, 10, "field: a site is dragged", 1, grey);
+      draw_text(page, 12, upper + 4, "a walk", 1, grey);
+      draw_text(page, tile + 12, upper + 4, "transferred to another body", 1, grey);
+    }
     frames.push_back(std::move(page));
   }
   write("hf.png", frames);

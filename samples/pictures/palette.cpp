@@ -21,7 +21,7 @@ size_t key_of(const uint8_t* rgb) {
   return (size_t{rgb[0]} >> 2) << 12 | (size_t{rgb[1]} >> 2) << 6 | size_t{rgb[2]} >> 2;
 }
 
-// The cells in use. A cell weighs the square root of its pixels, so that small marks keep their colour.
+// The cells in use. The exponent is below 1, so that small marks keep their colour.
 std::vector<Cell> cells_of(const std::vector<Picture>& pictures) {
   std::vector<Cell> all(cell_count), used;
   for (const Picture& picture : pictures) {
@@ -35,7 +35,7 @@ std::vector<Cell> cells_of(const std::vector<Picture>& pictures) {
     Cell cell = all[key];
     if (!(cell.weight > 0)) continue;
     for (double& mean : cell.mean) mean /= cell.weight;
-    cell.weight = std::sqrt(cell.weight), cell.key = key;
+    cell.weight = std::pow(cell.weight, 0.8), cell.key = key;
     used.push_back(cell);
   }
   return used;
@@ -85,7 +85,7 @@ std::vector<Run> median_cut(std::vector<Cell>& cells) {
   return runs;
 }
 
-uint8_t nearest(const std::vector<std::array<uint8_t, 3>>& palette, const std::array<double, 3>& color) {
+size_t nearest(const std::vector<std::array<uint8_t, 3>>& palette, const std::array<double, 3>& color) {
   size_t best = 0;
   double least = 1e300;
   for (size_t i = 0; i < palette.size(); ++i) {
@@ -93,8 +93,32 @@ uint8_t nearest(const std::vector<std::array<uint8_t, 3>>& palette, const std::a
     for (size_t c = 0; c < 3; ++c) distance += (palette[i][c] - color[c]) * (palette[i][c] - color[c]);
     if (distance < least) least = distance, best = i;
   }
-  return static_cast<uint8_t>(best);
+  return best;
 }
+
+// Two entries whose mixture is nearer to a colour than either, and the share of the second in 1 / 16.
+struct Mixture {
+  uint8_t first = 0, second = 0, share = 0;
+};
+
+Mixture mixture_of(const std::vector<std::array<uint8_t, 3>>& palette, const std::array<double, 3>& color) {
+  const size_t first = nearest(palette, color);
+  std::array<double, 3> beyond{};
+  for (size_t c = 0; c < 3; ++c) beyond[c] = 2 * color[c] - palette[first][c];
+  const size_t second = nearest(palette, beyond);
+  double along = 0, length = 0;
+  for (size_t c = 0; c < 3; ++c) {
+    const double step = double(palette[second][c]) - palette[first][c];
+    along += step * (color[c] - palette[first][c]), length += step * step;
+  }
+  // far apart they would be seen as dots
+  const bool mixed = length > 0 && length < 24 * 24 && along > 0;
+  return {static_cast<uint8_t>(first), static_cast<uint8_t>(second),
+          static_cast<uint8_t>(mixed ? std::lround(16 * along / length) : 0)};
+}
+
+// Thresholds of ordered dithering (Bayer 1973): the same places in every frame, so that still pixels stay still.
+constexpr uint8_t thresholds[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
 
 }  // namespace
 
@@ -107,11 +131,15 @@ IndexedPictures to_palette(const std::vector<Picture>& pictures) {
     for (size_t c = 0; c < 3; ++c) color[c] = static_cast<uint8_t>(std::lround(run.mean[c]));
     out.palette.push_back(color);
   }
-  std::vector<uint8_t> entry(cell_count);
-  for (const Cell& cell : cells) entry[cell.key] = nearest(out.palette, cell.mean);
+  std::vector<Mixture> mixtures(cell_count);
+  for (const Cell& cell : cells) mixtures[cell.key] = mixture_of(out.palette, cell.mean);
   for (const Picture& picture : pictures) {
     std::vector<uint8_t> pixels(picture.rgb.size() / 3);
-    for (size_t p = 0; p < pixels.size(); ++p) pixels[p] = entry[key_of(&picture.rgb[3 * p])];
+    for (size_t p = 0; p < pixels.size(); ++p) {
+      const Mixture& mixture = mixtures[key_of(&picture.rgb[3 * p])];
+      const size_t x = p % size_t(picture.width), y = p / size_t(picture.width);
+      pixels[p] = mixture.share > thresholds[y % 4][x % 4] ? mixture.second : mixture.first;
+    }
     out.pixels.push_back(std::move(pixels));
   }
   return out;

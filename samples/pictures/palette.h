@@ -1,4 +1,4 @@
-// One palette for many pictures: median cut (Heckbert 1982) over their colours.
+// One palette for many pictures: median cut (Heckbert 1982) over their colours, and ordered dithering.
 #ifndef HF_SAMPLES_PICTURES_PALETTE_H
 #define HF_SAMPLES_PICTURES_PALETTE_H
 

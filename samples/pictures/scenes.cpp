@@ -48,21 +48,16 @@ View side_view(int width, int height) {
   return view;
 }
 
-void extend(Box& box, bool& empty, const std::vector<float>& positions) {
-  extend(box, empty, std::vector<double>(positions.begin(), positions.end()));
-}
-
 PoseScene::PoseScene(const Body& body) : body_(body), pose_(body.surface), handle_of_(body.positions.size() / 3, 0) {
-  // hooves, rump and head of a creature, by the joints that its vertices follow most
-  const auto region = [&](const std::vector<std::string>& joints, double above) {
+  // hind hooves and head, by the joints that their vertices follow most
+  const auto region = [&](const std::vector<std::string>& joints) {
     std::vector<uint8_t> in(handle_of_.size(), 0);
     for (const std::string& name : joints) {
       const uint32_t joint = find_joint(body.creature, name);
       for (size_t v = 0; v < body.creature.surface_vertex.size(); ++v) {
         const auto& weights = body.creature.weights[v];
         const size_t most = size_t(std::max_element(weights.begin(), weights.end()) - weights.begin());
-        const uint32_t at = body.creature.surface_vertex[v];
-        if (body.creature.joints[v][most] == joint && body.mesh.positions[3 * size_t{at} + 1] > above) in[at] = 1;
+        if (body.creature.joints[v][most] == joint) in[body.creature.surface_vertex[v]] = 1;
       }
     }
     std::vector<uint32_t> vertices;
@@ -70,19 +65,17 @@ PoseScene::PoseScene(const Body& body) : body_(body), pose_(body.surface), handl
       if (in[v]) vertices.push_back(v);
     return vertices;
   };
-  const std::vector<std::vector<uint32_t>> regions = {region({"head", "jaw"}, -1),  region({"front_hoof_L"}, -1),
-                                                      region({"front_hoof_R"}, -1), region({"hind_hoof_L"}, -1),
-                                                      region({"hind_hoof_R"}, -1),  region({"hips"}, 1.40)};
+  const std::vector<std::vector<uint32_t>> regions = {region({"head", "jaw"}), region({"hind_hoof_L"}),
+                                                      region({"hind_hoof_R"})};
   head_ = pose_.add_handles(regions)[0];
   for (size_t i = 0; i < regions.size(); ++i)
     for (const uint32_t v : regions[i]) handle_of_[v] = i == 0 ? 2 : 1;
-  box_ = {{-0.25, 0, -1.15}, {0.25, 2.3, 1.75}};
+  box_ = {{-0.15, 0, -1.25}, {0.15, 2.35, 1.5}};
 }
 
 Picture PoseScene::draw(int width, int height, double pull) {
-  const glm::dquat turn =
-      glm::angleAxis(-0.35 * pull, glm::dvec3(1, 0, 0)) * glm::angleAxis(-0.3 * pull, glm::dvec3(0, 1, 0));
-  hf_transform transform = {{turn.x, turn.y, turn.z, turn.w}, {-0.05 * pull, 0.26 * pull, 0.12 * pull}};
+  const glm::dquat turn = glm::angleAxis(-0.7 * pull, glm::dvec3(1, 0, 0));
+  const hf_transform transform = {{turn.x, turn.y, turn.z, turn.w}, {0, 0.5 * pull, -0.42 * pull}};
   pose_.set_transform(head_, transform);
   Surface drawn = body_.drawn(pose_.deform());
   for (size_t v = 0; v < handle_of_.size(); ++v)
@@ -121,7 +114,7 @@ Picture FieldScene::draw(int width, int height, double phase) {
   for (const uint32_t v : still_) marks.dots.push_back({place(v), 0.012, {0.15, 0.20, 0.55}});
   marks.dots.push_back({place(vertex), 0.018});
   View view = side_view(width, height);
-  view.box = {{-0.25, 0, -1.15}, {0.25, 2.05, 1.6}};
+  view.fixed_box = false;
   SurfaceLook look;
   look.fill = Fill::iso_strips;
   look.scalar_low = 0, look.scalar_high = 1, look.strips = 20;

@@ -19,7 +19,7 @@ namespace samples {
 // A creature's closed surface, one vertex per place, with its coat.
 struct Body {
   Body(const std::string& name, uint32_t vertices);
-  // What is nearest to a point, and the middle of a place on the flank seen from the camera's side.
+  // The vertex nearest to a point.
   uint32_t vertex_at(double x, double y, double z) const;
   Surface drawn() const;
   Surface drawn(const std::vector<float>& posed) const;
@@ -32,10 +32,8 @@ struct Body {
 
 // Looking at a creature's right side from a little ahead and above.
 View side_view(int width, int height);
-// One box for several pictures of a clip.
-void extend(Box& box, bool& empty, const std::vector<float>& positions);
 
-// The head is pulled and eases back; hooves and rump stay. Handles are coloured.
+// The head is pulled until the creature rears, and eases back; the hind hooves stay. Handles are coloured.
 class PoseScene {
  public:
   explicit PoseScene(const Body& body);
@@ -70,6 +68,8 @@ class WalkScene {
   WalkScene(const std::string& source, const std::string& target, uint32_t vertices, const std::filesystem::path& pairs,
             uint32_t frames);
   Picture draw(int width, int height, uint32_t frame, bool target) const;
+  // The source behind, the target before it.
+  Picture draw_both(int width, int height, uint32_t frame) const;
 
  private:
   struct Side {
@@ -78,6 +78,7 @@ class WalkScene {
     std::vector<float> coat;
     Box box;
   };
+  static Layer layer(const Side& side, uint32_t frame, const Point& move);
   Side sides_[2];
 };
 

@@ -10,13 +10,6 @@ namespace {
 
 Point point_of(const std::vector<double>& xyz, size_t v) { return {xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]}; }
 
-Box body_box(const Body& body) {
-  Box box;
-  bool empty = true;
-  extend(box, empty, body.mesh.positions);
-  return box;
-}
-
 }  // namespace
 
 Picture draw_quads(const Body& body, int width, int height) {
@@ -36,7 +29,7 @@ Picture draw_quads(const Body& body, int width, int height) {
     marks.lines.push_back(outline);
   }
   View view = side_view(width, height);
-  view.box = body_box(body);
+  view.fixed_box = false;
   SurfaceLook look;
   look.color = {0.72, 0.80, 0.92};
   return render(drawn, view, look, marks);
@@ -56,7 +49,7 @@ Picture draw_detail(const Body& body, int width, int height) {
     seen.insert(seen.end(), p, p + 3);
   }
   extend(box, empty, seen);
-  hf::Region region(body.surface);
+  hf::Region region(body.surface, {}, HF_FIELD_BIHARMONIC);
   region.add_vertices(head);
   std::vector<uint8_t> in(body.surface.vertex_count(), 0);
   for (const uint32_t v : head) in[v] = 1;
@@ -84,7 +77,7 @@ Picture draw_direction(const Body& body, int width, int height) {
   direction.add_sites(sites, vectors);
   const std::vector<float> field = direction.solve();
   // strokes at vertices about equally far apart
-  const double spacing = 0.085;
+  const double spacing = 0.11;
   std::vector<glm::dvec3> taken;
   Marks marks;
   for (size_t v = 0; v < field.size() / 3; ++v) {
@@ -95,16 +88,16 @@ Picture draw_direction(const Body& body, int width, int height) {
     for (const glm::dvec3& other : taken) near = near || glm::distance(p, other) < spacing;
     if (near || !(glm::length(along) > 0)) continue;
     taken.push_back(p);
-    along = 0.4 * spacing * glm::normalize(along);
+    along = 0.45 * spacing * glm::normalize(along);
     Arrow arrow;
     arrow.from = {p.x - along.x, p.y - along.y, p.z - along.z},
     arrow.to = {p.x + along.x, p.y + along.y, p.z + along.z};
-    arrow.width = 1.1, arrow.color = {0.10, 0.22, 0.45};
+    arrow.width = 1.5, arrow.color = {0.10, 0.22, 0.45};
     marks.arrows.push_back(arrow);
   }
   for (const uint32_t site : sites) marks.dots.push_back({point_of(body.mesh.positions, site), 0.013});
   View view = side_view(width, height);
-  view.box = body_box(body);
+  view.fixed_box = false;
   SurfaceLook look;
   look.color = {0.86, 0.85, 0.82};
   return render(body.drawn(), view, look, marks);

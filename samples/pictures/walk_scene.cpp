@@ -42,16 +42,27 @@ WalkScene::WalkScene(const std::string& source, const std::string& target, uint3
   }
 }
 
+Layer WalkScene::layer(const Side& side, uint32_t frame, const Point& move) {
+  Layer out;
+  out.surface = make_surface(side.frames[frame % side.frames.size()], side.triangles);
+  for (size_t i = 0; i < out.surface.positions.size(); ++i) out.surface.positions[i] += move[i % 3];
+  out.surface.colors = side.coat;
+  out.look.fill = Fill::colors;
+  return out;
+}
+
 Picture WalkScene::draw(int width, int height, uint32_t frame, bool target) const {
   const Side& side = sides_[target ? 1 : 0];
-  Surface drawn = make_surface(side.frames[frame % side.frames.size()], side.triangles);
-  drawn.colors = side.coat;
   View view = side_view(width, height);
   view.box = side.box;
   view.ground_height = std::max(0.0, side.box.lower[1]);
-  SurfaceLook look;
-  look.fill = Fill::colors;
-  return render(drawn, view, look);
+  return render({layer(side, frame, {0, 0, 0})}, view);
+}
+
+Picture WalkScene::draw_both(int width, int height, uint32_t frame) const {
+  View view = side_view(width, height);
+  view.fixed_box = false;
+  return render({layer(sides_[0], frame, {2.6, 0, -1.9}), layer(sides_[1], frame, {-0.6, 0, 0.8})}, view);
 }
 
 }  // namespace samples
