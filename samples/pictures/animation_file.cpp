@@ -32,7 +32,7 @@ struct Rectangle {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-// What differs between two frames; one pixel when nothing does, because a frame may not be empty.
+// The rectangle that differs between two frames. One pixel when none does: a frame may not be empty.
 Rectangle changed(const Bytes& before, const Bytes& now, int width) {
   int left = width, right = -1, top = -1, bottom = -1;
   for (size_t p = 0; p < now.size(); ++p) {
