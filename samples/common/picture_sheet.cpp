@@ -34,6 +34,17 @@ void paste(Picture& page, const Picture& tile, int x, int y) {
   }
 }
 
+namespace {
+
+// Twice as large where the tiles are wide enough for every label.
+int label_scale_of(const std::vector<std::string>& labels, int cell_width) {
+  int widest = 0;
+  for (const std::string& label : labels) widest = std::max(widest, text_width(label, 2));
+  return cell_width >= 240 && widest <= cell_width ? 2 : 1;
+}
+
+}  // namespace
+
 void check_picture(const Picture& picture, const char* what) {
   if (picture.width <= 0 || picture.height <= 0 ||
       picture.rgb.size() != 3 * size_t(picture.width) * size_t(picture.height)) {
@@ -54,7 +65,7 @@ Picture contact_sheet(const std::vector<Picture>& tiles, int columns, const std:
   const int gap = 8, count = static_cast<int>(tiles.size());
   columns = std::min(columns, count);
   const int rows = (count + columns - 1) / columns;
-  const int label_scale = cell_width >= 360 ? 2 : 1, title_scale = label_scale + 1;
+  const int label_scale = label_scale_of(labels, cell_width), title_scale = label_scale + 1;
   const int label_height = labels.empty() ? 0 : line_height * label_scale;
   const int title_height = title.empty() ? 0 : line_height * title_scale + gap;
   Picture page;
