@@ -32,7 +32,7 @@ hf_install_packages() {
     hf_fail "apt-get could not install: ${missing[*]}"
 }
 
-# Configures and builds a preset (release, shipped, ...), targets optional.
+# Configures and builds a preset (release, dev, ...), targets optional.
 hf_build() {
   local preset=$1
   shift
