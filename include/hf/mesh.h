@@ -53,7 +53,7 @@ enum {
 /* Fill-reducing ordering of the factor. */
 enum {
   HF_ORDERING_NESTED_DISSECTION = 0, /* our own */
-  HF_ORDERING_MINIMUM_DEGREE = 1,    /* AMD */
+  HF_ORDERING_MINIMUM_DEGREE = 1,    /* approximate minimum degree of the whole matrix */
   HF_ORDERING_METIS = 2              /* METIS (builds with HF_WITH_GPL) */
 };
 
