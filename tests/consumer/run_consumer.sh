@@ -35,7 +35,7 @@ case "$kind" in
     "$work/build/shared_consumer"
     ;;
   fetch_content)
-    quiet cmake -S "$here/fetch_content" -B "$work/build" -G Ninja -DHF_SOURCE_DIR="$source" -DCMAKE_BUILD_TYPE=Release
+    quiet cmake -S "$here/fetch_content" -B "$work/build" -G Ninja -DHF_SOURCE_DIR="$source" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_UNITY_BUILD=ON
     quiet cmake --build "$work/build" -j 2 --target static_consumer shared_consumer
     "$work/build/static_consumer"
     "$work/build/shared_consumer"
