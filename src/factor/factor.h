@@ -18,7 +18,7 @@ namespace hf_inner {
 
 enum class Ordering : std::int32_t {
   nested_dissection = 0,  // our own multilevel nested dissection on graph and geometry
-  minimum_degree = 1,     // AMD
+  minimum_degree = 1,     // approximate, of the whole matrix
   metis = 2,              // METIS through CHOLMOD; only in builds with HF_WITH_GPL (CHOLMOD), its rand() use isolated
   natural = 3,
 };
