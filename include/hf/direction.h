@@ -67,8 +67,8 @@ HF_API hf_result hf_direction_clone(hf_direction direction, hf_direction* out_di
  * this handle (that call is finished first, safely). Since 0.1. */
 HF_API void hf_direction_destroy(hf_direction direction);
 
-/* Adds constraints: vectors at vertices, projected on the tangent planes. Costs two paths and two dense rows each; some
- * hundred and more are eliminated from the factor instead, and then every change of places factorises. All or nothing.
+/* Adds constraints: vectors at vertices, projected on the tangent planes. Costs two paths and two dense rows each. Very
+ * many at once go into the factor instead, by one factorisation; later changes cost paths and rows again. All or nothing.
  * vertices: [site_count] as given; vectors: [site_count][3], zero for a constraint of no length. out_sites: NULL, or
  * [site_count] numbers that stay until the constraint is removed. Results: HF_OK, HF_ERROR_INVALID_HANDLE,
  * HF_ERROR_NULL_POINTER, HF_ERROR_EMPTY, HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (an
@@ -156,7 +156,7 @@ typedef struct hf_direction_statistics {
   uint32_t struct_size;
   uint32_t unknown_count;          /* two per vertex */
   uint32_t site_count;
-  uint32_t factorisation_count;    /* the first included; does not grow with edits until constraints are eliminated */
+  uint32_t factorisation_count;    /* the first included; grows when very many constraints go into the factor */
   uint32_t path_solve_count;       /* two per constraint added or moved */
   uint32_t sweep_count;
   uint32_t irregular_vertex_count; /* vertices whose triangles are no fan of one orientation */

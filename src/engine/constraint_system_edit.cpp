@@ -11,12 +11,9 @@ namespace {
 
 constexpr auto no_row = ConstraintState::no_row;
 
-// Groups are packed again when they store more than this many times the rows in use, and so many more: packing solves
-// paths again, waiting costs memory and time in every sweep.
-constexpr std::int64_t stored_share = 2, stored_slack = 64;
-// A pivot below this share of its diagonal entry makes its site a suspect of linear dependence: crowded points lie at
-// d^2 for a distance d, dependent ones below 1e-11 (dense_block.cpp). A larger share examines more crowded points.
-constexpr double suspect_share = 1e-6;
+// Groups are packed again when they store more than this many times the rows in use, and two groups more. Less packs
+// sooner, which solves paths again; more keeps paths without a row in memory and in every sweep.
+constexpr std::int64_t stored_share = 2, stored_slack = 2 * PathGroup::capacity;
 
 }  // namespace
 
@@ -368,9 +365,9 @@ void ConstraintEdit::refuse_dependent(const DenseBlock& block, Index component, 
        position);
 }
 
-// The slot of a hard site of the component that depends on others though its pivot kept some rounding, or -1. Constraints
-// of this edit are reported before older ones. Among eliminated sites the diagonal itself may be rounding (a point whose
-// corners are eliminated has none), so pivots say nothing and every new site is examined.
+// The slot of a hard site of the component that depends on others though its pivot kept some rounding, or -1.
+// Constraints of this edit are reported before older ones. Among eliminated sites the diagonal itself may be rounding
+// (a point whose corners are eliminated has none), so pivots say nothing and every new site is examined.
 Index ConstraintEdit::dependent_slot(const DenseBlock& block, Index component) const {
   if (!state_.base && block.least_pivot() >= suspect_share) return -1;
   Vector<HardSite> sites(&memory());
