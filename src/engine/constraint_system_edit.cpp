@@ -249,21 +249,22 @@ void ConstraintEdit::add_rows(Span<const Row> rows) {
 // Rows of N for the sites of the groups from the first on.
 void ConstraintEdit::project_pins(std::size_t first_group) {
   const PinPaths& pins = *operator_.paths;
-  double tile[PathGroup::capacity * PathGroup::capacity];
-  for (std::size_t g = first_group; g < state_.groups.size(); ++g) {
-    const auto& group = state_.groups[g];
+  const std::size_t border = operator_.border();
+  jobs_.for_each(static_cast<std::uint32_t>(state_.groups.size() - first_group), [&](std::uint32_t fresh) {
+    const auto& group = state_.groups[first_group + fresh];
+    double tile[PathGroup::capacity * PathGroup::capacity];
     for (std::size_t b = 0; b < pins.groups.size(); ++b) {
       factor().gram(*group.paths, *pins.groups[b], tile, PathGroup::capacity);
       for (Index i = 0; i < group.paths->count(); ++i) {
         if (group.row[i] < 0) continue;
         auto& entry = state_.entries[at(group.row[i])];
-        for (std::size_t p = 0; p < operator_.border(); ++p) {
-          const std::size_t pin = at(entry.site.component) * operator_.border() + p;
+        for (std::size_t p = 0; p < border; ++p) {
+          const std::size_t pin = at(entry.site.component) * border + p;
           if (at(pins.group[pin]) == b) entry.border[p] = tile[i * PathGroup::capacity + pins.column[pin]];
         }
       }
     }
-  }
+  });
 }
 
 // Gram of every new group with itself and every group before it: one piece a pair of groups, one entry a pair of rows.

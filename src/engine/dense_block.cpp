@@ -305,9 +305,11 @@ void DenseBlock::factorise_border() {
   }
 }
 
-void DenseBlock::solve(double* x, std::int32_t channels) const noexcept {
+// fixed: the number of channels where it is known when compiled, else 0.
+template <std::size_t fixed>
+void DenseBlock::solve_channels(double* x, std::size_t channels) const noexcept {
   const std::int32_t k = count();
-  const std::size_t m = static_cast<std::size_t>(channels);
+  const std::size_t m = fixed > 0 ? fixed : channels;
   for (std::int32_t i = 0; i < k; ++i) {
     const double* l = l_.data() + row(i);
     double* xi = x + static_cast<std::size_t>(i) * m;
@@ -326,6 +328,19 @@ void DenseBlock::solve(double* x, std::int32_t channels) const noexcept {
     for (std::int32_t j = 0; j < i; ++j) {
       for (std::size_t c = 0; c < m; ++c) x[static_cast<std::size_t>(j) * m + c] -= l[j] * xi[c];
     }
+  }
+}
+
+void DenseBlock::solve(double* x, std::int32_t channels) const noexcept {
+  switch (channels) {
+    case 1:
+      return solve_channels<1>(x, 1);
+    case 2:
+      return solve_channels<2>(x, 2);
+    case 3:
+      return solve_channels<3>(x, 3);
+    default:
+      return solve_channels<0>(x, at(channels));
   }
 }
 

@@ -62,6 +62,8 @@ class DenseBlock {
   void update_without(std::int32_t r);            // rank-one update of L for the removal of row r
   void keep_rows(Span<const std::int32_t> rows);  // compacts everything to these rows, ascending
   void factorise_border();
+  template <std::size_t fixed>
+  void solve_channels(double* x, std::size_t channels) const noexcept;
 
   Memory* memory_;
   Vector<std::int32_t> ids_;
