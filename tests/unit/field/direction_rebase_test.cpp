@@ -94,6 +94,7 @@ TEST(DirectionRebase, the_last_eliminated_vertex_of_a_component_ends_the_elimina
   c.solver.rebase();
   c.edit({}, {2}, {50});
   c.edit({0}, {}, {});  // only a row is left beside the freed vertex
+  EXPECT_FALSE(c.solver.eliminates());
   EXPECT_LE(c.error(), 1e-11);
   c.edit({2, 1}, {}, {});
   for (const Complex z : c.field()) EXPECT_EQ(z, 0.0);
