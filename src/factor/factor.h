@@ -76,6 +76,13 @@ class Factor {
   virtual void forward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
   virtual void backward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
 
+  // Both, z <- (G G')^-1 z: A^-1 with rows in factor order.
+  void solve_in_order(double* z, std::int32_t channels, JobRunner& jobs) const {
+    forward(z, channels, jobs), backward(z, channels, jobs);
+  }
+  // x <- A^-1 right in the caller's numbering, number * channels + channel; right may be x. scratch: as many numbers.
+  void solve(const double* right, double* x, std::int32_t channels, double* scratch, JobRunner& jobs) const;
+
   // The backward sweep as far as these unknowns (caller's numbering) need it: over their elimination paths. Their rows
   // of z get the bits that backward() gives; the other rows of the paths hold numbers of their own. Cost: one read of
   // the factor's entries on the union of the paths.
