@@ -256,7 +256,7 @@ static void bad_input_is_named(void** state) {
   hf_extremities_desc e;
   uint32_t count = 0;
 #define EXTREMITIES(what, expected, change) \
-  HF_INIT(e), change, BAD(what, expected, NO_INDEX, hf_surface_find_extremities(s, &e, 0, NULL, &count))
+  e = HF_INIT(hf_extremities_desc), change, BAD(what, expected, NO_INDEX, hf_surface_find_extremities(s, &e, 0, NULL, &count))
   EXTREMITIES("kind 2", HF_ERROR_INVALID_ARGUMENT, e.kind = 2);
   EXTREMITIES("least_length NaN", HF_ERROR_INVALID_ARGUMENT, e.least_length = (float)NAN);
   EXTREMITIES("least_length -1", HF_ERROR_INVALID_ARGUMENT, e.least_length = -1);
@@ -265,10 +265,10 @@ static void bad_input_is_named(void** state) {
   BAD("no output", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_find_extremities(s, NULL, 0, NULL, NULL));
 
   /* a bi-harmonic factor is not that of a Laplacian */
-  hf_create_desc desc = surface_desc(&tube.surface);
-  desc.field_kind = HF_FIELD_BIHARMONIC;
+  Options desc = options_of(&tube.surface);
+  desc.surface.field_kind = HF_FIELD_BIHARMONIC;
   hf_solver plate = NULL;
-  assert_ok(hf_create(&desc, &plate));
+  assert_ok(make(&desc, NULL, &plate));
   BAD("bi-harmonic", HF_ERROR_UNSUPPORTED, NO_INDEX, hf_geodesics_create(plate, NULL, &made));
   BAD("bi-harmonic", HF_ERROR_UNSUPPORTED, NO_INDEX, hf_surface_find_extremities(plate, NULL, 0, NULL, &count));
   hf_solver_destroy(plate);

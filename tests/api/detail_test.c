@@ -116,7 +116,7 @@ static void edits_keep_the_factor_and_undo_brings_back_the_bits(void** state) {
   assert_true(info.base_area > 0 && info.area > info.base_area);
   assert_int_equal(info.thin_plate, 0);
   const uint32_t out = at(7, 7);
-  edit = HF_INIT(hf_region_);
+  edit = HF_INIT(hf_region_edit_desc);
   edit.remove_count = 1, edit.remove_vertices = &out;
   assert_ok(hf_region_edit(region, &edit));
   assert_int_equal(info_of(region).vertex_count, info.vertex_count - 1);
@@ -170,10 +170,10 @@ static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
 static void a_thin_plate_comes_from_a_biharmonic_solver(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
-  hf_create_desc create = surface_desc(&sheet);
-  create.field_kind = HF_FIELD_BIHARMONIC;
+  Options create = options_of(&sheet);
+  create.surface.field_kind = HF_FIELD_BIHARMONIC;
   hf_solver solver = NULL;
-  assert_ok(hf_create(&create, &solver));
+  assert_ok(make(&create, NULL, &solver));
   const hf_region region = sheet_region(solver, &sheet);
   const hf_region_info info = info_of(region);
   assert_int_equal(info.thin_plate, 1);
@@ -291,17 +291,17 @@ static void bad_regions_are_named(void** state) {
   BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_region_create(NULL, NULL, &made));
   desc.struct_size = 4;
   BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_create(solver, &desc, &made));
-  desc = HF_INIT(hf_region_);
+  desc = HF_INIT(hf_region_desc);
   desc.positions = sheet.positions, desc.positions_f64 = before;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_create(solver, &desc, &made));
   desc.positions = NULL, desc.position_stride = 8;
   BAD(HF_ERROR_TOO_SMALL, NO_INDEX, hf_region_create(solver, &desc, &made));
   desc.position_stride = 0, before[3 * 40 + 1] = NAN;
   BAD(HF_ERROR_NON_FINITE, 40, hf_region_create(solver, &desc, &made));
-  hf_create_desc create = surface_desc(&sheet);
-  create.engine = HF_ENGINE_REFACTOR;
+  Options create = options_of(&sheet);
+  create.solver.engine = HF_ENGINE_REFACTOR;
   hf_solver slow = NULL;
-  assert_ok(hf_create(&create, &slow));
+  assert_ok(make(&create, NULL, &slow));
   BAD(HF_ERROR_UNSUPPORTED, NO_INDEX, hf_region_create(slow, NULL, &made));
   hf_solver_destroy(slow);
   assert_null(made);
@@ -354,12 +354,12 @@ static void bad_regions_are_named(void** state) {
   BAD(HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
   curve.vertices = square;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_edit(region, &edit));
-  edit = HF_INIT(hf_region_);
+  edit = HF_INIT(hf_region_edit_desc);
   edit.add_count = 3;
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_edit(region, &edit));
   edit.add_vertices = beyond;
   BAD(HF_ERROR_OUT_OF_RANGE, 2, hf_region_edit(region, &edit));
-  edit = HF_INIT(hf_region_);
+  edit = HF_INIT(hf_region_edit_desc);
   edit.remove_count = COUNT + 1, edit.remove_vertices = beyond;
   BAD(HF_ERROR_TOO_LARGE, NO_INDEX, hf_region_edit(region, &edit));
 
@@ -408,7 +408,7 @@ static void bad_details_are_named(void** state) {
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
   desc.scale = NAN;
   BAD(HF_ERROR_NON_FINITE, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
-  desc = HF_INIT(hf_detail_);
+  desc = HF_INIT(hf_detail_desc);
   desc.pair_count = 2, desc.source_vertices = square;
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
   const uint32_t off[2] = {square[0], at(8, 8)}, beyond[2] = {square[0], COUNT}, twice[2] = {square[0], square[0]};

@@ -10,10 +10,10 @@ static double dot3(const double* a, const double* b) { return a[0] * b[0] + a[1]
  * triangles run; only lengths and heights are asked for. */
 static hf_solver tube_solver(Surface* tube, uint32_t channels) {
   *tube = surface_tube(AROUND, RINGS);
-  hf_create_desc desc = surface_desc(tube);
-  desc.channel_count = channels;
+  Options desc = options_of(tube);
+  desc.solver.channel_count = channels;
   hf_solver solver;
-  assert_ok(hf_create(&desc, &solver));
+  assert_ok(make(&desc, NULL, &solver));
   return solver;
 }
 
@@ -36,7 +36,7 @@ static void a_vector_of_three_channels_is_carried_and_turned_without_touching_th
   }
 
   hf_solver_statistics before, after;
-  HF_INIT(before), after = HF_INIT(hf_solver_statistics);
+  before = HF_INIT(hf_solver_statistics), after = HF_INIT(hf_solver_statistics);
   assert_ok(hf_solver_get_statistics(solver, &before));
   const double quarter = acos(0.0);
   assert_ok(hf_solver_rotate_vectors(solver, 1, sites + 1, &quarter));
@@ -142,7 +142,7 @@ static void a_direction_field_follows_its_constraints(void** state) {
       for (int k = 0; k < 3; ++k) assert_true(exact[3 * places[i] + (uint32_t)k] == vectors[3 * i + k]);
     }
     hf_direction_statistics before, after;
-    HF_INIT(before), after = HF_INIT(hf_direction_statistics);
+    before = HF_INIT(hf_direction_statistics), after = HF_INIT(hf_direction_statistics);
     assert_ok(hf_direction_get_statistics(direction, &before));
     assert_int_equal(before.unknown_count, 2 * VERTICES);
     assert_int_equal(before.path_solve_count, 4);
@@ -287,7 +287,7 @@ static void constraints_come_back_to_the_same_bits(void** state) {
       counts[step] = hf_direction_get_site_count(direction);
     }
     hf_direction_statistics before, after;
-    HF_INIT(before), after = HF_INIT(hf_direction_statistics);
+    before = HF_INIT(hf_direction_statistics), after = HF_INIT(hf_direction_statistics);
     assert_ok(hf_direction_get_statistics(direction, &before));
     static double field[KEPT];
     int here = STEPS;
@@ -376,10 +376,10 @@ static void a_biharmonic_solver_takes_the_same_edits_and_overshoots(void** state
     static const int32_t engines[] = {HF_ENGINE_GREEN, HF_ENGINE_REFACTOR};
     double* fields[2];
     for (int e = 0; e < 2; ++e) {
-      hf_create_desc desc = surface_desc(&sheet);
-      desc.field_kind = kind, desc.engine = engines[e];
+      Options desc = options_of(&sheet);
+      desc.surface.field_kind = kind, desc.solver.engine = engines[e];
       hf_solver solver;
-      assert_ok(hf_create(&desc, &solver));
+      assert_ok(make(&desc, NULL, &solver));
       const uint32_t row = 10 * 21;
       add_site(solver, row + 2, 0), add_site(solver, row + 6, 1);
       const uint32_t gone = add_site(solver, 5, 9);

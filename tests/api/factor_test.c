@@ -32,9 +32,9 @@ static void saved_free(Saved* saved) { free(saved->block), surface_free(&saved->
 static hf_result load(const Surface* surface, const void* bytes, size_t size, int borrow, hf_solver* out) {
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.bytes = bytes, factor.byte_count = size, factor.borrow = borrow;
-  hf_create_desc desc = surface_desc(surface);
-  desc.saved_factor = &factor;
-  return hf_create(&desc, out);
+  Options desc = options_of(surface);
+  desc.surface.saved_factor = &factor;
+  return make(&desc, NULL, out);
 }
 
 static double* some_field(hf_solver solver) {
@@ -57,10 +57,10 @@ static void a_loaded_factor_gives_the_same_bits_as_a_made_one(void** state) {
     for (uint32_t threads = 1; threads <= 4; threads *= 2) {
       hf_factor_desc factor = HF_INIT(hf_factor_desc);
       factor.bytes = saved.bytes, factor.byte_count = saved.size, factor.borrow = borrow;
-      hf_create_desc desc = surface_desc(&saved.tube);
-      desc.saved_factor = &factor, desc.thread_count = threads;
+      Options desc = options_of(&saved.tube);
+      desc.surface.saved_factor = &factor, desc.surface.thread_count = threads;
       hf_solver loaded = NULL;
-      assert_ok(hf_create(&desc, &loaded));
+      assert_ok(make(&desc, NULL, &loaded));
       double* field = some_field(loaded);
       assert_true(same_bits(field, expected, sizeof(double) * VERTICES));
       hf_solver_statistics s = HF_INIT(hf_solver_statistics);
@@ -151,15 +151,15 @@ static void a_factor_of_another_surface_is_refused(void** state) {
   /* another operator */
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.bytes = saved.bytes, factor.byte_count = saved.size;
-  hf_create_desc desc = surface_desc(&saved.tube);
-  desc.saved_factor = &factor, desc.operator_kind = HF_OPERATOR_UNIFORM;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_create(&desc, &out));
+  Options desc = options_of(&saved.tube);
+  desc.surface.saved_factor = &factor, desc.surface.operator_kind = HF_OPERATOR_UNIFORM;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, make(&desc, NULL, &out));
   assert_null(out);
   /* another ordering asked for */
-  desc.operator_kind = HF_OPERATOR_INTRINSIC_DELAUNAY, desc.ordering = HF_ORDERING_MINIMUM_DEGREE;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_create(&desc, &out));
-  desc.ordering = HF_ORDERING_NESTED_DISSECTION;
-  assert_ok(hf_create(&desc, &out));
+  desc.surface.operator_kind = HF_OPERATOR_INTRINSIC_DELAUNAY, desc.surface.ordering = HF_ORDERING_MINIMUM_DEGREE;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, make(&desc, NULL, &out));
+  desc.surface.ordering = HF_ORDERING_NESTED_DISSECTION;
+  assert_ok(make(&desc, NULL, &out));
   hf_solver_destroy(out);
   saved_free(&saved);
 }
@@ -167,10 +167,10 @@ static void a_factor_of_another_surface_is_refused(void** state) {
 static void an_ordering_is_saved_with_the_factor(void** state) {
   (void)state;
   Surface tube = surface_tube(AROUND, RINGS);
-  hf_create_desc desc = surface_desc(&tube);
-  desc.ordering = HF_ORDERING_MINIMUM_DEGREE;
+  Options desc = options_of(&tube);
+  desc.surface.ordering = HF_ORDERING_MINIMUM_DEGREE;
   hf_solver solver = NULL, loaded = NULL;
-  assert_ok(hf_create(&desc, &solver));
+  assert_ok(make(&desc, NULL, &solver));
   size_t size = 0;
   assert_ok(hf_get_factor_size(solver, &size));
   unsigned char* bytes = malloc(size);
@@ -181,8 +181,8 @@ static void an_ordering_is_saved_with_the_factor(void** state) {
   hf_solver_destroy(loaded);
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.bytes = bytes, factor.byte_count = size;
-  desc.saved_factor = &factor;
-  assert_ok(hf_create(&desc, &loaded));
+  desc.surface.saved_factor = &factor;
+  assert_ok(make(&desc, NULL, &loaded));
   free(expected), free(field), free(bytes), hf_solver_destroy(solver), hf_solver_destroy(loaded), surface_free(&tube);
 }
 
@@ -274,10 +274,10 @@ static void memory_that_runs_out_while_loading_or_saving_leaves_nothing(void** s
       memory.refuse_at = n;
       hf_factor_desc factor = HF_INIT(hf_factor_desc);
       factor.bytes = saved.bytes, factor.byte_count = saved.size, factor.borrow = borrow;
-      hf_create_desc desc = surface_desc(&saved.tube);
-      desc.saved_factor = &factor, desc.allocator = counting_hooks(&memory);
+      Options desc = options_of(&saved.tube);
+      desc.surface.saved_factor = &factor, desc.surface.allocator = counting_hooks(&memory);
       hf_solver solver = NULL;
-      const hf_result result = hf_create(&desc, &solver);
+      const hf_result result = make(&desc, NULL, &solver);
       if (result == HF_OK) {
         /* saving needs a little too */
         const size_t calls = memory.calls;
@@ -320,10 +320,10 @@ static void a_preview_is_close_and_a_correction_makes_it_accurate(void** state) 
   Surface tube = surface_tube(AROUND_LARGE, RINGS_LARGE);
   double* first[3] = {NULL, NULL, NULL};
   for (uint32_t threads = 1; threads <= 4; threads *= 2) {
-    hf_create_desc desc = surface_desc(&tube);
-    desc.thread_count = threads;
+    Options desc = options_of(&tube);
+    desc.surface.thread_count = threads;
     hf_solver solver = NULL;
-    assert_ok(hf_create(&desc, &solver));
+    assert_ok(make(&desc, NULL, &solver));
     for (uint32_t i = 0; i < 40; ++i) add_site(solver, (i * 7919u) % LARGE, sin(3.0 * i));
     double* exact = field_of(solver, LARGE);
     hf_solver_statistics before, after;
@@ -397,10 +397,10 @@ static void solvers_without_a_preview_answer_with_the_exact_field(void** state) 
 #endif
   };
   for (size_t e = 0; e < COUNT_OF(engines); ++e) {
-    hf_create_desc desc = surface_desc(&tube);
-    desc.engine = engines[e];
+    Options desc = options_of(&tube);
+    desc.solver.engine = engines[e];
     hf_solver solver = NULL;
-    assert_ok(hf_create(&desc, &solver));
+    assert_ok(make(&desc, NULL, &solver));
     if (engines[e] == HF_ENGINE_GREEN) {
       /* enough sites at once to move them into the factor */
       uint32_t vertices[VERTICES / 2];
@@ -454,10 +454,10 @@ static void memory_that_runs_out_in_a_preview_changes_nothing(void** state) {
   Surface tube = surface_tube(AROUND, RINGS);
   CountingAllocator memory;
   memset(&memory, 0, sizeof memory);
-  hf_create_desc desc = surface_desc(&tube);
-  desc.allocator = counting_hooks(&memory);
+  Options desc = options_of(&tube);
+  desc.surface.allocator = counting_hooks(&memory);
   hf_solver solver = NULL;
-  assert_ok(hf_create(&desc, &solver));
+  assert_ok(make(&desc, NULL, &solver));
   double* expected = some_field(solver);
   double field[VERTICES];
   size_t failures = 0;

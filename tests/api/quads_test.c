@@ -167,11 +167,11 @@ static void progress_rises_in_small_steps_and_stops_where_it_is_cancelled(void**
   (void)state;
   Watcher watcher = {NULL, 0, 0, 2, 0, 0};
   Surface surface = surface_tube(AROUND, RINGS);
-  hf_create_desc create = surface_desc(&surface);
+  Options create = options_of(&surface);
   const hf_allocator hooks = {watch, let_go, &watcher};
-  create.allocator = hooks;
+  create.surface.allocator = hooks;
   hf_solver solver = NULL;
-  assert_ok(hf_create(&create, &solver));
+  assert_ok(make(&create, NULL, &solver));
   assert_ok(hf_progress_create(&watcher.progress));
   const uint32_t sites[2] = {5, 300};
   for (int automatic = 0; automatic < 2; ++automatic) {
@@ -258,10 +258,10 @@ static void a_non_manifold_edge_is_refused_with_its_vertex(void** state) {
   (void)state;
   const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, -1};
   const uint32_t triangles[] = {0, 1, 2, 1, 0, 3, 0, 1, 4};
-  hf_create_desc create = HF_INIT(hf_create_desc);
-  create.vertex_count = 5, create.triangle_count = 3, create.positions = positions, create.triangles = triangles;
+  Options create = HF_INIT(Options);
+  create.surface.vertex_count = 5, create.surface.triangle_count = 3, create.surface.positions = positions, create.surface.triangles = triangles;
   hf_solver solver = NULL;
-  assert_ok(hf_create(&create, &solver));
+  assert_ok(make(&create, NULL, &solver));
   hf_quads quads = NULL;
   hf_flow flow = NULL;
   assert_code(HF_ERROR_UNSUPPORTED, hf_quads_create(solver, NULL, &quads));
