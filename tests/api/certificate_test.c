@@ -192,8 +192,7 @@ static void nothing_is_changed(void** state) {
 
 #define CERTIFY(what, expected, ...)                                                         \
   do {                                                                                       \
-    hf_certificate found;                                                                    \
-    found = HF_INIT(hf_certificate);                                                                          \
+    hf_certificate found = HF_INIT(hf_certificate);                                          \
     __VA_ARGS__;                                                                             \
     check_row(__LINE__, what, "hf_solver_certify", hf_solver_certify(solver, &found), expected, NO_INDEX); \
   } while (0)
