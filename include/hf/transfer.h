@@ -92,6 +92,8 @@ typedef struct hf_transfer_info {
   uint32_t aligned_count; /* pairs whose rest alignment is applied */
   uint32_t crossed_count; /* pairs that change sides, see hf_pair_info */
   int32_t scale_found;    /* 1: from the legs or the boxes; 0: given in the desc */
+  uint32_t source_factorisation_count; /* numeric factorisations by edits of pairs; 0 unless they are very many */
+  uint32_t target_factorisation_count;
   double scale;           /* lengths of the target over those of the source, both in the units of their meshes */
 } hf_transfer_info;
 /* Writes what is known of the transfer; see hf_transfer_get_pair. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads

@@ -71,7 +71,7 @@ void append_frame(const Posable& posable, uint32_t weight_count, const std::vect
   const size_t joints = pivots.size() / 3;
   std::vector<double> rotations(4 * joints), places(3 * joints), scales(3 * joints);
   hf_skin_info info = HF_INIT(hf_skin_info);
-  info.weight_count = weight_count;
+  info.weight_count = weight_count, info.joint_capacity = static_cast<uint32_t>(joints);
   info.rotations = rotations.data(), info.translations = places.data(), info.scales = scales.data();
   expect_ok(hf_pose_get_skin(posable.pose(), &info), "the skin");
   for (size_t j = 0; j < joints; ++j) {
@@ -126,6 +126,7 @@ void run(const Command& command) {
   skin.vertex_joints.resize(mesh.flat.positions.size() * command.weights),
       skin.vertex_weights.resize(skin.vertex_joints.size());
   std::vector<double> pivots(3 * joints), axes(4 * joints);
+  info.joint_capacity = info.joint_count, info.vertex_capacity = info.vertex_count;
   info.weight_count = command.weights, info.pivots = pivots.data(), info.axes = axes.data();
   info.vertex_joints = skin.vertex_joints.data(), info.vertex_weights = skin.vertex_weights.data();
   expect_ok(hf_pose_get_skin(posable.pose(), &info), "the skin");

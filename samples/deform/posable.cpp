@@ -22,7 +22,7 @@ std::string lower_case(std::string text) {
 
 void expect_ok(hf_result result, const std::string& what) {
   if (result == HF_OK) return;
-  hf_error_detail detail = HF_INIT(hf_error_detail);
+  hf_error_detail detail;
   hf_error_get_detail(&detail);
   throw std::runtime_error(what + ": " + detail.message);
 }
@@ -48,22 +48,22 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
   for (const glm::dvec3& p : mesh.positions) lower_ = glm::min(lower_, p), upper_ = glm::max(upper_, p);
   diagonal_ = glm::length(upper_ - lower_);
   const std::vector<double> positions = double_positions(mesh.positions);
-  hf_create_desc desc = HF_INIT(hf_create_desc);
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
   desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
   desc.thread_count = options.threads;
   if (options.paper) desc.operator_kind = HF_OPERATOR_COTANGENT;
-  expect_ok(hf_create(&desc, &solver_), "the surface");
+  expect_ok(hf_surface_create(&desc, &surface_), "the surface");
   hf_pose_desc pose = HF_INIT(hf_pose_desc);
   pose.mode = options.paper ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH, pose.band_count = options.bands;
-  const hf_result result = hf_pose_create(solver_, &pose, &pose_);
+  const hf_result result = hf_pose_create(surface_, &pose, &pose_);
   if (result != HF_OK) {
-    hf_solver_destroy(solver_);
+    hf_surface_destroy(surface_);
     expect_ok(result, "the pose");
   }
 }
 
-Posable::~Posable() { hf_pose_destroy(pose_), hf_solver_destroy(solver_); }
+Posable::~Posable() { hf_pose_destroy(pose_), hf_surface_destroy(surface_); }
 
 std::vector<uint32_t> Posable::vertices_of(const HandleEntry& entry) const {
   if (!entry.has_box) return entry.vertices;

@@ -87,7 +87,7 @@ class Posable {
   HandlePlace place(const Live& live, const MotionEntry& motion, double amount) const;
 
   const FlatMesh& mesh_;
-  hf_solver solver_ = nullptr;
+  hf_surface surface_ = nullptr;
   hf_pose pose_ = nullptr;
   glm::dvec3 lower_{0}, upper_{0};
   double diagonal_ = 1;

@@ -83,8 +83,8 @@ struct Subject {
       : mesh(read_mesh_file(file)),
         positions(float_positions(mesh.positions)),
         curve(read_curve_file(curve_name, mesh)),
-        solver(make_solver(thin_plate)),
-        region(*solver, positions) {
+        surface(make_surface(thin_plate)),
+        region(*surface, positions, thin_plate ? HF_FIELD_BIHARMONIC : HF_FIELD_HARMONIC) {
     const auto begin = std::chrono::steady_clock::now();
     enclose(region, curve, 0);
     edit_seconds = seconds_of(begin);
@@ -93,14 +93,14 @@ struct Subject {
     region.grow(grow);
     grow_seconds = seconds_of(again);
   }
-  std::optional<hf::Solver> make_solver(bool thin_plate) {
+  std::optional<hf::Surface> make_surface(bool thin_plate) {
     const auto begin = std::chrono::steady_clock::now();
-    auto create = hf::make<hf_create_desc>();
+    auto create = hf::make<hf_surface_desc>();
     create.vertex_count = static_cast<uint32_t>(mesh.positions.size());
     create.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
     create.positions = positions.data(), create.triangles = mesh.triangles.data();
     create.field_kind = thin_plate ? HF_FIELD_BIHARMONIC : HF_FIELD_HARMONIC;
-    std::optional<hf::Solver> made(create);
+    std::optional<hf::Surface> made(create);
     create_seconds = seconds_of(begin);
     return made;
   }
@@ -109,17 +109,17 @@ struct Subject {
     std::printf("%-10s  %zu vertices, %zu triangles; factored in %.3f s\n", what, mesh.positions.size(),
                 mesh.triangles.size() / 3, create_seconds);
     std::printf("region      %u vertices, rim %u, sites %u; %s of area %.6g over %.6g, made in %.3f s\n",
-                info.vertex_count, info.rim_count, info.site_count, info.thin_plate ? "thin plate" : "membrane",
+                info.vertex_count, info.rim_count, info.site_count, info.field_kind != HF_FIELD_HARMONIC ? "thin plate" : "membrane",
                 info.base_area, info.area, edit_seconds);
     if (grow_seconds >= 0)
       std::printf("grown       %u sites inserted, %u removed, %u kept in %.3f s; %u factorisations\n",
                   info.inserted_count, info.removed_count, info.kept_count, grow_seconds, info.factorisation_count);
   }
-  double create_seconds = 0, edit_seconds = 0, grow_seconds = -1;  // first: set while the solver is made
+  double create_seconds = 0, edit_seconds = 0, grow_seconds = -1;  // first: set while the surface is made
   SurfaceMesh mesh;
   std::vector<float> positions;
   CurveFile curve;
-  std::optional<hf::Solver> solver;
+  std::optional<hf::Surface> surface;
   hf::Region region;
 };
 

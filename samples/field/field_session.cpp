@@ -13,7 +13,6 @@ namespace {
 // Places of a list, as the library takes them.
 struct Batch {
   explicit Batch(const std::vector<SiteArgument>& sites, bool with_values) {
-    HF_INIT(desc); /* FIXME type */
     desc.site_count = static_cast<uint32_t>(sites.size());
     const bool points = !sites.empty() && !sites[0].place.is_vertex();
     bool soft = false;
@@ -33,7 +32,7 @@ struct Batch {
   }
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
-  hf_sites_desc desc;
+  hf_sites_desc desc = HF_INIT(hf_sites_desc);
   std::vector<uint32_t> vertices;
   std::vector<double> barycentrics, values, stiffness;
 };
@@ -81,21 +80,22 @@ void check(hf_result result) {
 Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
     : vertex_count_(static_cast<uint32_t>(mesh.positions.size())),
       components_(options.kind == FieldType::vector || options.kind == FieldType::direction ? 3 : 1) {
-  hf_create_desc desc = HF_INIT(hf_create_desc);
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.vertex_count = vertex_count_;
   desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
   desc.positions_f64 = mesh.positions.empty() ? nullptr : &mesh.positions[0].x;
   desc.triangles = mesh.triangles.data();
-  desc.engine = options.engine, desc.operator_kind = options.operator_kind, desc.weld = options.weld;
+  desc.operator_kind = options.operator_kind, desc.weld = options.weld;
   desc.thread_count = options.threads;
-  desc.channel_count = options.kind == FieldType::vector ? 3 : 1;
-  if (options.kind == FieldType::biharmonic) desc.field_kind = HF_FIELD_BIHARMONIC;
-  check(hf_create(&desc, &solver_));
-  if (options.kind == FieldType::direction) {
-    const hf_result result = hf_direction_create(solver_, nullptr, &direction_);
-    if (result != HF_OK) hf_solver_destroy(solver_);
-    check(result);
-  }
+  hf_solver_desc sites = HF_INIT(hf_solver_desc);
+  sites.engine = options.engine, sites.channel_count = options.kind == FieldType::vector ? 3 : 1;
+  if (options.kind == FieldType::biharmonic) desc.field_kind = sites.field_kind = HF_FIELD_BIHARMONIC;
+  check(hf_surface_create(&desc, &surface_));
+  hf_result result = hf_create(surface_, &sites, &solver_);
+  if (result == HF_OK && options.kind == FieldType::direction)
+    result = hf_direction_create(surface_, nullptr, &direction_);
+  if (result != HF_OK) hf_solver_destroy(solver_), hf_surface_destroy(surface_);
+  check(result);
 }
 
 void Session::change_directions(const Edit& edit) {
@@ -165,7 +165,7 @@ void Session::apply(const Edit& edit) {
 
 std::vector<double> Session::solve(hf_solve_info& info) const {
   std::vector<double> field(vertex_count_ * components_);
-  info = HF_INIT(hf_solve_);
+  info = HF_INIT(hf_solve_info);
   if (direction_) {
     check(hf_direction_solve_f64(direction_, field.data(), 0, &info));
   } else if (components_ == 3) {
@@ -244,7 +244,7 @@ void Session::change(const Edit& edit) {
 
 std::vector<bool> Session::reached() const {
   std::vector<uint32_t> component(vertex_count_), served(hf_solver_get_site_count(solver_));
-  check(hf_surface_get_components(solver_, vertex_count_, component.data()));
+  check(hf_surface_get_components(surface_, vertex_count_, component.data(), nullptr));
   hf_sites_info info = HF_INIT(hf_sites_info);
   info.capacity = static_cast<uint32_t>(served.size()), info.components = served.data();
   check(hf_solver_get_sites(solver_, &info));
@@ -258,15 +258,15 @@ std::vector<hf_extremity> Session::extremities(int kind) const {
   hf_extremities_desc desc = HF_INIT(hf_extremities_desc);
   desc.kind = kind;
   uint32_t count = 0;
-  check(hf_surface_find_extremities(solver_, &desc, 0, nullptr, &count));
+  check(hf_surface_find_extremities(surface_, &desc, 0, nullptr, &count));
   std::vector<hf_extremity> found(count);
-  check(hf_surface_find_extremities(solver_, &desc, count, found.data(), &count));
+  check(hf_surface_find_extremities(surface_, &desc, count, found.data(), &count));
   return found;
 }
 
 std::vector<double> Session::distance(const std::vector<uint32_t>& sources) const {
   hf_geodesics raw = nullptr;
-  check(hf_geodesics_create(solver_, nullptr, &raw));
+  check(hf_geodesics_create(surface_, nullptr, &raw));
   const std::unique_ptr<std::remove_pointer_t<hf_geodesics>, void (*)(hf_geodesics)> geodesics(raw,
                                                                                                hf_geodesics_destroy);
   std::vector<double> distance(vertex_count_);
@@ -277,7 +277,7 @@ std::vector<double> Session::distance(const std::vector<uint32_t>& sources) cons
 std::vector<double> Session::levels(const std::vector<double>& field, int spacing, int count) const {
   std::vector<double> levels(static_cast<size_t>(count));
   const hf_scalars desc = scalars(field);
-  check(hf_surface_space_levels(solver_, &desc, spacing, static_cast<uint32_t>(count), levels.data()));
+  check(hf_surface_space_levels(surface_, &desc, spacing, static_cast<uint32_t>(count), levels.data()));
   return levels;
 }
 
@@ -285,7 +285,7 @@ std::vector<IsoLine> Session::isolines(const std::vector<double>& field, const s
   hf_isolines lines = HF_INIT(hf_isolines);
   const hf_scalars desc = scalars(field);
   const uint32_t level_count = static_cast<uint32_t>(levels.size());
-  check(hf_surface_trace_isolines(solver_, &desc, level_count, levels.data(), &lines));
+  check(hf_surface_trace_isolines(surface_, &desc, level_count, levels.data(), &lines));
   std::vector<double> positions(3 * size_t(lines.point_count));
   std::vector<uint32_t> starts(size_t(lines.line_count) + 1), of_level(lines.line_count);
   std::vector<int32_t> closed(lines.line_count);
@@ -293,7 +293,7 @@ std::vector<IsoLine> Session::isolines(const std::vector<double>& field, const s
   lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
   lines.positions = positions.data(), lines.line_starts = starts.data(), lines.line_levels = of_level.data();
   lines.line_closed = closed.data();
-  check(hf_surface_trace_isolines(solver_, &desc, level_count, levels.data(), &lines));
+  check(hf_surface_trace_isolines(surface_, &desc, level_count, levels.data(), &lines));
   std::vector<IsoLine> found(lines.line_count);
   for (size_t l = 0; l < found.size(); ++l) {
     found[l].level = of_level[l], found[l].closed = closed[l] != 0;
@@ -305,21 +305,19 @@ std::vector<IsoLine> Session::isolines(const std::vector<double>& field, const s
 
 std::vector<hf_critical_point> Session::critical_points(const std::vector<double>& field,
                                                         hf_critical_info& info) const {
-  info = HF_INIT(hf_critical_);
+  info = HF_INIT(hf_critical_info);
   const hf_scalars desc = scalars(field);
-  check(hf_surface_find_critical_points(solver_, &desc, 0, nullptr, &info));
+  check(hf_surface_find_critical_points(surface_, &desc, 0, nullptr, &info));
   std::vector<hf_critical_point> points(info.point_count);
-  check(hf_surface_find_critical_points(solver_, &desc, info.point_count, points.data(), &info));
+  check(hf_surface_find_critical_points(surface_, &desc, info.point_count, points.data(), &info));
   return points;
 }
 
 std::vector<SiteArgument> propose_sites(const SurfaceMesh& mesh, const Session& session, int extremities) {
-  // a harmonic solver of its own: the session's may be bi-harmonic
-  const Session laplacian(mesh, FieldOptions());
   std::vector<uint32_t> vertices, component(mesh.positions.size());
-  check(hf_surface_get_components(laplacian.solver(), static_cast<uint32_t>(component.size()), component.data()));
+  check(hf_surface_get_components(session.surface(), static_cast<uint32_t>(component.size()), component.data(), nullptr));
   std::map<uint32_t, int> count{{HF_NO_INDEX, 2}};
-  for (const hf_extremity& tip : laplacian.extremities(extremities)) {
+  for (const hf_extremity& tip : session.extremities(extremities)) {
     vertices.push_back(tip.vertex);
     ++count[tip.component];
   }
@@ -328,7 +326,7 @@ std::vector<SiteArgument> propose_sites(const SurfaceMesh& mesh, const Session& 
     if (there == 0) vertices.push_back(v), there = 1;
   }
   // where there is only one, the vertex farthest from it
-  const std::vector<double> distance = laplacian.distance(vertices);
+  const std::vector<double> distance = session.distance(vertices);
   std::map<uint32_t, uint32_t> farthest;
   for (uint32_t v = 0; v < component.size(); ++v) {
     if (count[component[v]] != 1) continue;

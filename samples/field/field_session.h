@@ -1,5 +1,5 @@
 // A solver and the numbers of its sites by place, and what the library finds out about a field: the C functions of
-// hf/field.h and hf/analysis.h with std::vector.
+// hf/solver.h and hf/analysis.h with std::vector.
 #ifndef HF_SAMPLES_FIELD_SESSION_H
 #define HF_SAMPLES_FIELD_SESSION_H
 
@@ -27,11 +27,12 @@ class Session {
   Session(const SurfaceMesh& mesh, const FieldOptions& options);
   ~Session() {
     hf_direction_destroy(direction_);
-    hf_solver_destroy(solver_);
+    hf_solver_destroy(solver_), hf_surface_destroy(surface_);
   }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
+  hf_surface surface() const { return surface_; }
   hf_solver solver() const { return solver_; }
   size_t components() const { return components_; }
   uint32_t site_count() const {
@@ -69,6 +70,7 @@ class Session {
   void change(const Edit& edit);
   void change_directions(const Edit& edit);
 
+  hf_surface surface_ = nullptr;
   hf_solver solver_ = nullptr;
   hf_direction direction_ = nullptr;  // of a direction field, with sites of its own
   uint32_t vertex_count_;

@@ -25,11 +25,11 @@ class Clock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-void describe(hf_solver solver, double create_ms) {
+void describe(hf_surface surface, double create_ms) {
   hf_surface_report report = HF_INIT(hf_surface_report);
-  check(hf_surface_get_report(solver, &report));
-  hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
-  check(hf_solver_get_statistics(solver, &statistics));
+  check(hf_surface_get_report(surface, &report));
+  hf_surface_statistics statistics = HF_INIT(hf_surface_statistics);
+  check(hf_surface_get_statistics(surface, &statistics));
   std::printf("mesh        %u vertices (%u welded), %u triangles, %u components\n", report.vertex_count,
               report.welded_vertex_count, report.triangle_count, report.component_count);
   const struct {
@@ -147,7 +147,7 @@ int run_one(const FieldOptions& options) {
   for (const std::string& warning : mesh.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   const Clock create_clock;
   Session session(mesh, options);
-  describe(session.solver(), create_clock.milliseconds());
+  describe(session.surface(), create_clock.milliseconds());
   if (options.extremities >= 0) list_extremities(mesh, options);
 
   std::vector<double> field;

@@ -8,12 +8,14 @@ int main(void) {
   const uint32_t vertices[] = {0, 1, 4, 5};
   const double values[] = {0, 0, 1, 1};
   float field[6];
+  hf_surface surface;
   hf_solver solver;
 
-  hf_create_desc mesh = HF_INIT(hf_create_desc);
+  hf_surface_desc mesh = HF_INIT(hf_surface_desc);
   mesh.vertex_count = 6, mesh.triangle_count = 4;
   mesh.positions = positions, mesh.triangles = triangles;
-  if (hf_create(&mesh, &solver) != HF_OK) return 1;
+  if (hf_surface_create(&mesh, &surface) != HF_OK) return 1;
+  if (hf_create(surface, NULL, &solver) != HF_OK) return 1;
 
   hf_sites_desc sites = HF_INIT(hf_sites_desc);
   sites.site_count = 4, sites.vertices = vertices, sites.values = values;
@@ -21,5 +23,6 @@ int main(void) {
   if (hf_solve(solver, field, 0, NULL) != HF_OK) return 1;
   for (int v = 0; v < 6; ++v) printf("%.3f\n", (double)field[v]);
   hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
   return 0;
 }

@@ -132,12 +132,12 @@ Picture draw(const SurfaceMesh& mesh, const std::vector<Point>& sites, const Poi
 void run(const Command& options) {
   const SurfaceMesh input = read_mesh_file(options.mesh);
   const std::vector<double> positions = double_positions(input.positions);
-  auto create = hf::make<hf_create_desc>();
+  auto create = hf::make<hf_surface_desc>();
   create.vertex_count = static_cast<uint32_t>(input.positions.size());
   create.triangle_count = static_cast<uint32_t>(input.triangles.size() / 3);
   create.positions_f64 = positions.data(), create.triangles = input.triangles.data();
-  const hf::Solver solver(create);
-  const double diagonal = solver.mesh_report().bounding_box_diagonal;
+  const hf::Surface surface(create);
+  const double diagonal = surface.report().bounding_box_diagonal;
 
   auto desc = hf::make<hf_quads_desc>();
   desc.kind = options.pure ? HF_QUADS_PURE : HF_QUADS_UNIFORM;
@@ -152,7 +152,7 @@ void run(const Command& options) {
   if (!lines.empty()) desc.site_lines = lines.data();
 
   const auto begin = std::chrono::steady_clock::now();
-  const hf::QuadMesh quads = hf::make_quads(solver, &desc);
+  const hf::QuadMesh quads = hf::make_quads(surface, &desc);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   SurfaceMesh mesh;

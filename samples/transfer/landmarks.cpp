@@ -8,7 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "transfer/surface_solver.h"
+#include "transfer/flat_surface.h"
 
 namespace samples {
 namespace {
@@ -222,13 +222,13 @@ std::vector<uint32_t> Finder::named(const std::vector<std::string>& words) const
 }
 
 void Finder::find_extremities() {
-  const SurfaceSolver solver(mesh_, model_.name, 1);
+  const FlatSurface surface(mesh_, model_.name, 1);
   hf_extremities_desc desc = HF_INIT(hf_extremities_desc);
   desc.kind = HF_EXTREMITIES_GEODESIC;
   std::vector<hf_extremity> found(256);
   uint32_t count = 0;
   const hf_result result =
-      hf_surface_find_extremities(solver.get(), &desc, static_cast<uint32_t>(found.size()), found.data(), &count);
+      hf_surface_find_extremities(surface.get(), &desc, static_cast<uint32_t>(found.size()), found.data(), &count);
   if (result != HF_OK) return;  // names and the box are left to go by
   for (uint32_t i = 0; i < count; ++i) tips_.push_back(found[i].vertex);
 }

@@ -19,7 +19,7 @@ static void tube(float* p, float length, float radius, float sway) {
     p[0] = radius * cosf(a) + sway * t * t * length, p[1] = t * length, p[2] = radius * sinf(a);
   }
 }
-static hf_solver solver_of(const float* positions) {
+static hf_surface surface_of(const float* positions) {
   static uint32_t triangles[3 * TRIANGLES];
   uint32_t* t = triangles;
   for (uint32_t r = 0; r + 1 < RINGS; ++r)
@@ -27,10 +27,10 @@ static hf_solver solver_of(const float* positions) {
       const uint32_t a = r * AROUND + k, b = r * AROUND + (k + 1) % AROUND;
       *t++ = a, *t++ = a + AROUND, *t++ = b, *t++ = b, *t++ = a + AROUND, *t++ = b + AROUND;
     }
-  hf_create_desc desc = HF_INIT(hf_create_desc);
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.vertex_count = VERTICES, desc.triangle_count = TRIANGLES, desc.positions = positions, desc.triangles = triangles;
-  hf_solver solver;
-  return ok(hf_create(&desc, &solver)), solver;
+  hf_surface surface;
+  return ok(hf_surface_create(&desc, &surface)), surface;
 }
 static void add_ring(hf_transfer transfer, uint32_t ring, uint32_t flags) {
   uint32_t vertices[AROUND];
@@ -44,7 +44,7 @@ static void add_ring(hf_transfer transfer, uint32_t ring, uint32_t flags) {
 int main(void) {
   static float rest[3 * VERTICES], posed[3 * VERTICES], shape[3 * VERTICES], out[3 * VERTICES];
   tube(rest, 1, 0.1f, 0), tube(shape, 2, 0.3f, 0);
-  hf_solver source = solver_of(rest), target = solver_of(shape);
+  hf_surface source = surface_of(rest), target = surface_of(shape);
   hf_transfer transfer;
   ok(hf_transfer_create(source, target, NULL, &transfer));
   add_ring(transfer, 0, HF_PAIR_ANCHOR), add_ring(transfer, RINGS - 1, 0);
@@ -59,5 +59,5 @@ int main(void) {
              (double)(posed[3 * VERTICES - 3] - rest[3 * VERTICES - 3]),
              (double)(out[3 * VERTICES - 3] - shape[3 * VERTICES - 3]));
   }
-  return hf_transfer_destroy(transfer), hf_solver_destroy(source), hf_solver_destroy(target), 0;
+  return hf_transfer_destroy(transfer), hf_surface_destroy(source), hf_surface_destroy(target), 0;
 }

@@ -75,10 +75,10 @@ Session::~Session() { hf_transfer_destroy(transfer_); }
 void Session::create(uint32_t threads, ProgressBar& bar) {
   const auto start = std::chrono::steady_clock::now();
   bar.begin("factorising " + source_.name);
-  source_solver_ = std::make_unique<SurfaceSolver>(source_flat_, source_.name, threads, file_.settings.paper);
+  source_surface_ = std::make_unique<FlatSurface>(source_flat_, source_.name, threads, file_.settings.paper);
   bar.end(std::to_string(source_mesh().welded_vertex_count) + " vertices after welding");
   bar.begin("factorising " + target_.name);
-  target_solver_ = std::make_unique<SurfaceSolver>(target_flat_, target_.name, threads, file_.settings.paper);
+  target_surface_ = std::make_unique<FlatSurface>(target_flat_, target_.name, threads, file_.settings.paper);
   bar.end(std::to_string(target_mesh().welded_vertex_count) + " vertices after welding");
   setup_ms_ = milliseconds_since(start);
 
@@ -89,7 +89,7 @@ void Session::create(uint32_t threads, ProgressBar& bar) {
   desc.kernel_width = static_cast<float>(settings.width), desc.scale = static_cast<float>(settings.scale);
   desc.alignment_angle = static_cast<float>(settings.alignment_degrees * 3.14159265358979323846 / 180);
   copy_axes(file_.source_axes, desc.source_axes), copy_axes(file_.target_axes, desc.target_axes);
-  check(hf_transfer_create(source_solver_->get(), target_solver_->get(), &desc, &transfer_), "the transfer");
+  check(hf_transfer_create(source_surface_->get(), target_surface_->get(), &desc, &transfer_), "the transfer");
   bar.begin("pairs, fields and clusters");
   add(file_.pairs);
   prepare();
@@ -281,6 +281,7 @@ PlayedClip Session::play(const std::string& name, const std::vector<double>& tim
   const uint32_t joints = cluster_count();
   std::vector<double> pivots(3 * joints), rotations(4 * joints), places(3 * joints), target;
   hf_skin_info info = HF_INIT(hf_skin_info);
+  info.joint_capacity = joints;
   info.pivots = pivots.data(), info.rotations = rotations.data(), info.translations = places.data();
   bar.begin("transferring \"" + name + "\"");
   double inside = 0;
@@ -357,7 +358,7 @@ SkinDescription Session::skin() {
   out.vertex_joints.resize(size_t{4} * target_flat_.vertex_count()),
       out.vertex_weights.resize(out.vertex_joints.size());
   hf_skin_info info = HF_INIT(hf_skin_info);
-  info.weight_count = 4;
+  info.weight_count = 4, info.joint_capacity = joints, info.vertex_capacity = target_flat_.vertex_count();
   info.pivots = pivots.data(), info.vertex_joints = out.vertex_joints.data(),
   info.vertex_weights = out.vertex_weights.data();
   check(hf_transfer_get_skin(transfer_, &info), "the skin");
@@ -426,15 +427,15 @@ std::vector<std::string> Session::warnings() {
   return out;
 }
 
-hf_solver_statistics Session::statistics(hf_solver solver) {
-  hf_solver_statistics out = HF_INIT(hf_solver_statistics);
-  check(hf_solver_get_statistics(solver, &out), "statistics");
+hf_transfer_info Session::info() const {
+  hf_transfer_info out = HF_INIT(hf_transfer_info);
+  check(hf_transfer_get_info(transfer_, &out), "the transfer");
   return out;
 }
 
-hf_surface_report Session::mesh_report(hf_solver solver) {
+hf_surface_report Session::mesh_report(hf_surface surface) {
   hf_surface_report out = HF_INIT(hf_surface_report);
-  check(hf_surface_get_report(solver, &out), "mesh report");
+  check(hf_surface_get_report(surface, &out), "mesh report");
   return out;
 }
 

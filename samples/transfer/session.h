@@ -1,4 +1,4 @@
-// One transfer session over the C API: two models, their solvers, a transfer whose pairs may change while it runs.
+// One transfer session over the C API: two models, their surfaces, a transfer whose pairs may change while it runs.
 //
 //   Session session(source, target, pairs, threads, bar);     // factorises both surfaces, once
 //   PlayedClip clip = session.play(source.animations[0], 30, bar);
@@ -17,7 +17,7 @@
 #include "common/skin_write.h"
 #include "hf/hf.h"
 #include "transfer/pairs_file.h"
-#include "transfer/surface_solver.h"
+#include "transfer/flat_surface.h"
 
 namespace samples {
 
@@ -73,12 +73,11 @@ class Session {
   double scale() const { return scale_; }
   uint32_t cluster_count();
 
-  // Figures of the solvers.
-  hf_solver_statistics source_statistics() const { return statistics(source_solver_->get()); }
-  hf_solver_statistics target_statistics() const { return statistics(target_solver_->get()); }
-  hf_surface_report source_mesh() const { return mesh_report(source_solver_->get()); }
-  hf_surface_report target_mesh() const { return mesh_report(target_solver_->get()); }
-  double setup_ms() const { return setup_ms_; }      // both solvers
+  // Of the surfaces and the transfer.
+  hf_transfer_info info() const;
+  hf_surface_report source_mesh() const { return mesh_report(source_surface_->get()); }
+  hf_surface_report target_mesh() const { return mesh_report(target_surface_->get()); }
+  double setup_ms() const { return setup_ms_; }      // both surfaces
   double prepare_ms() const { return prepare_ms_; }  // fields, clusters, translations after the last change of pairs
   double edit_ms() const { return edit_ms_; }        // the last edit's calls, without prepare
 
@@ -101,15 +100,14 @@ class Session {
   std::vector<PairEntry> named_contacts(const std::vector<std::string>& names) const;
   void apply(const std::vector<double>& posed, std::vector<double>& out);
   void measure_feet(const PlayedClip& played, FootReport& feet) const;
-  static hf_solver_statistics statistics(hf_solver solver);
-  static hf_surface_report mesh_report(hf_solver solver);
+  static hf_surface_report mesh_report(hf_surface surface);
 
   const Model& source_;
   const Model& target_;
   PairsFile file_;
   FlatMesh source_flat_, target_flat_;
   RegionFinder source_finder_, target_finder_;
-  std::unique_ptr<SurfaceSolver> source_solver_, target_solver_;
+  std::unique_ptr<FlatSurface> source_surface_, target_surface_;
   hf_transfer transfer_ = nullptr;
   std::vector<Live> live_;
   double scale_ = 1, setup_ms_ = 0, prepare_ms_ = 0, edit_ms_ = 0;

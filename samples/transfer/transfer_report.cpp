@@ -65,8 +65,8 @@ RunReport make_report(Session& session, const std::vector<PlayedClip>& clips, co
   }
   out.clusters = session.cluster_count(), out.scale = session.scale();
   out.setup_ms = session.setup_ms(), out.prepare_ms = session.prepare_ms(), out.edit_ms = session.edit_ms();
-  out.source_factorisations = session.source_statistics().factorisation_count,
-  out.target_factorisations = session.target_statistics().factorisation_count;
+  out.source_factorisations = session.info().source_factorisation_count,
+  out.target_factorisations = session.info().target_factorisation_count;
   return out;
 }
 

@@ -150,6 +150,9 @@ hf_result hf_transfer_get_info(hf_transfer handle, hf_transfer_info* out_info) {
       const PairInfo found = object->transfer.pair_info(pair);
       info.aligned_count += found.aligned ? 1u : 0u, info.crossed_count += found.crossed ? 1u : 0u;
     }
+    // the surface's own factor counts as the first
+    info.source_factorisation_count = object->transfer.source_counters().factorisations - 1;
+    info.target_factorisation_count = object->transfer.target_counters().factorisations - 1;
     info.scale = object->transfer.scale(), info.scale_found = object->transfer.scale_found() ? 1 : 0;
     write_struct(out_info, info);
   });

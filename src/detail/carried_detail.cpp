@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "detail/constants.h"
 #include "detail/morph.h"
 
 namespace hf_inner {
@@ -16,19 +17,19 @@ struct Frame {
 
 Vec3 across(Vec3 v, Vec3 normal) noexcept { return v - dot(v, normal) * normal; }
 
-// The frame of a normal and a direction, whatever the direction.
+// The frame of a normal and a direction; any direction will do, also 0 or one along the normal.
 Frame frame_of(Vec3 normal, Vec3 direction) noexcept {
   const Vec3 z = unit_normal(normal);
   Vec3 x = across(direction, z);
-  if (!(norm(x) > 1e-9 * norm(direction)) || !(norm(x) > 0)) {
-    const bool upright = std::fabs(z.x) > 0.9;
+  if (!(norm(x) > least_direction * norm(direction)) || !(norm(x) > 0)) {
+    const bool upright = std::fabs(z.x) > upright_cosine;
     x = across(upright ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, z);
   }
   x = (1 / norm(x)) * x;
   return {x, cross(z, x), z};
 }
 
-// Of the vertices inside.
+// Frames of the vertices inside.
 Vector<Frame> base_frames(const RegionSurface& surface, const RegionState& state, Span<const DiscPoint> disc,
                           Memory& memory) {
   const RegionShape& shape = *state.shape;
@@ -51,13 +52,13 @@ Vector<Frame> base_frames(const RegionSurface& surface, const RegionState& state
   Vector<Frame> frames(&memory);
   frames.reserve(shape.inside.size());
   for (std::size_t i = 0; i < shape.inside.size(); ++i) {
-    const bool degenerate = !(norm(normal[i]) > 1e-12 * largest);
+    const bool degenerate = !(norm(normal[i]) > least_normal * largest);
     frames.push_back(degenerate ? frame_of(whole_normal, whole_direction) : frame_of(normal[i], direction[i]));
   }
   return frames;
 }
 
-// Places of the pins along the loop, from the first pin on; each a step further than the one before.
+// Places of the pins along the loop, each further along than the one before.
 void place_pins(const Region& region, const DiscBoundary& boundary, Span<const Index> vertices, const char* name,
                 DiscPins& pins) {
   const RegionState& state = *region.state();

@@ -10,7 +10,7 @@ namespace {
 
 constexpr Index none = -1, on_curve = -2;
 
-// Shortest paths along edges (Dijkstra), one after the other in arrays that are kept.
+// Shortest paths along edges (Dijkstra); all paths use the same arrays.
 class Paths {
  public:
   Paths(const Core& core, Memory& memory)
@@ -64,7 +64,7 @@ class Paths {
   Vector<Reached> heap_;
 };
 
-// Pieces of one component once the curve is taken out.
+// Pieces of one component without the curve.
 struct Pieces {
   explicit Pieces(Memory& memory) : piece(&memory), area(&memory) {}
   Vector<Index> piece;  // by vertex; none in other components
@@ -98,7 +98,7 @@ Pieces cut(const Core& core, Span<const Index> curve, Memory& memory) {
   return pieces;
 }
 
-// Whether the curve is a whole border, or several.
+// Whether the curve consists of whole borders.
 bool along_borders(const Core& core, Span<const Index> curve, const Pieces& pieces) {
   const Topology& topology = core.topology;
   return std::all_of(curve.begin(), curve.end(), [&](Index v) {

@@ -1,8 +1,8 @@
 // Closed curves on a surface, and the pieces they cut it into.
 //
-// A curve is a ring of vertices: its points, joined by shortest paths along edges. The vertices off the curve fall into
-// pieces that hang together along edges; a curve separates when there are two at least, or when it is a
-// whole border. Cost: O(d log d) per path for the d vertices nearer than its end, O(n) for the pieces.
+// A curve is a ring of vertices: its points, joined by shortest paths along edges. Pieces are the edge-connected sets
+// of vertices off the curve. A curve separates if it leaves two pieces or more, or if it is a whole border. Cost: O(d
+// log d) per path for the d vertices nearer than its end, O(n) for the pieces.
 #pragma once
 #include <cstdint>
 
@@ -12,7 +12,7 @@ namespace hf_inner {
 
 enum class CurveSide : std::int32_t { smaller = 0, larger = 1, seed = 2 };
 
-// The vertices of the curve, in order, each once in a row. points: inner vertices of one component.
+// The vertices of the curve, in order, without repeats in a row. points: inner vertices of one component.
 Vector<std::int32_t> closed_curve(const Core& core, Span<const std::int32_t> points, Memory& memory);
 
 // The vertices of one side, ascending. seed: with CurveSide::seed, an inner vertex. Throws HF_ERROR_INVALID_ARGUMENT

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "detail/constants.h"
 #include "factor/factor.h"
 
 namespace hf_inner {
@@ -22,14 +23,14 @@ struct HalfEdge {
   fail(HF_ERROR_UNSUPPORTED, static_cast<std::uint32_t>(given), "the region is no disc: %s at vertex %d", what, given);
 }
 
-// Weights of the mesh's edges, positive.
+// Weights of the mesh's edges, made positive.
 Vector<double> positive_weights(const Core& core, Span<const Index> edges, Memory& memory) {
   Vector<double> weights(&memory), magnitude(&memory);
   for (const Index e : edges) weights.push_back(core.weights[at(e)]), magnitude.push_back(std::fabs(weights.back()));
   if (weights.empty()) return weights;
   const auto middle = magnitude.begin() + static_cast<std::ptrdiff_t>(magnitude.size() / 2);
   std::nth_element(magnitude.begin(), middle, magnitude.end());
-  const double least = *middle > 0 ? 1e-3 * *middle : 1.0;
+  const double least = *middle > 0 ? disc_least_weight * *middle : 1.0;
   for (double& w : weights) w = std::max(w, least);
   return weights;
 }
@@ -160,7 +161,7 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
     column.clear();
     for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i, ++edge) {
       const Index l = shape.local[at(topology.neighbour[at(i)])];
-      if (l < 0) continue;  // of another sheet that touches the region here
+      if (l < 0) continue;  // on another sheet that touches the region here
       const double w = weights[edge];
       diagonal += w;
       if (number[at(l)] >= 0) {
@@ -206,7 +207,7 @@ DiscSearch::DiscSearch(Span<const std::int32_t> corners, Span<const DiscPoint> p
 }
 
 DiscSearch::Box DiscSearch::box_of(std::int32_t first, std::int32_t count) const {
-  Box box{{1e300, 1e300}, {-1e300, -1e300}, first, count};
+  Box box{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, first, count};
   for (Index i = first; i < first + count; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       const DiscPoint p = points_[at(corners_[3 * at(order_[at(i)]) + k])];
@@ -219,8 +220,7 @@ DiscSearch::Box DiscSearch::box_of(std::int32_t first, std::int32_t count) const
 
 void DiscSearch::split(std::int32_t number, Vector<DiscPoint>& centre) {
   const Box box = boxes_[at(number)];
-  constexpr Index leaf = 8;
-  if (box.count <= leaf) return;
+  if (box.count <= disc_leaf) return;
   const bool wide = box.high[0] - box.low[0] > box.high[1] - box.low[1];
   const auto key = [&](Index t) { return wide ? centre[at(t)].u : centre[at(t)].v; };
   const auto begin = order_.begin() + box.first, middle = begin + box.count / 2;
@@ -241,7 +241,7 @@ std::int32_t DiscSearch::find(DiscPoint point, double weights[3]) const {
     }
     return sum;
   };
-  Index best = -1, stack[128], depth = 0;
+  Index best = -1, stack[disc_stack], depth = 0;
   double least = 0;
   stack[depth++] = 0;
   while (depth > 0) {

@@ -1,6 +1,8 @@
-// A region that is a disc, mapped to the unit disc: its boundary loop to the circle, by arc length between given
-// angles, every other vertex to the weighted mean of its neighbours. All weights are positive (cotangent weights
-// floored at 1e-3 of their median), so the map is an embedding (Tutte 1963; Floater 1997).
+// Maps a region that is a disc to the unit disc.
+//
+// Its boundary loop maps to the circle, by arc length between given angles. Every other vertex maps to the weighted
+// mean of its neighbours. All weights are positive (cotangent weights with a floor, disc_least_weight), so the map is
+// an embedding (Tutte 1963; Floater 1997).
 //
 // Cost: one factorisation of the region's own Laplacian, O(m) for the rest with m vertices of region and rim.
 #pragma once
@@ -8,7 +10,7 @@
 
 namespace hf_inner {
 
-// The triangles of a region as a disc. Numbers are local ones of its shape.
+// The boundary loop of a region that is a disc. Numbers are local ones of its shape.
 struct DiscBoundary {
   DiscBoundary(const RegionSurface& surface, const RegionState& state, Memory& memory);
   // Position along the loop of a local vertex, or -1.
@@ -23,7 +25,7 @@ struct DiscPoint {
   double u = 0, v = 0;
 };
 
-// Where a rim passes an angle, in turns: places along the loop, each once, in order from the first; angles rising from
+// Places along the loop with given angles, in turns: places in order from the first, without repeats; angles rise from
 // 0.
 struct DiscPins {
   explicit DiscPins(Memory& memory) : place(&memory), turn(&memory) {}
@@ -31,12 +33,12 @@ struct DiscPins {
   Vector<double> turn;
 };
 
-// By local number.
+// Returns disc points by local number.
 Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& state, const DiscBoundary& boundary,
                               const DiscPins& pins, Memory& memory);
 
-// Finds the triangle of a mapped region that a point lies in, or the nearest one. Holds triangles by boxes, halved at
-// the median. Cost: O(m log m) to make, about O(log m) to ask.
+// Finds the triangle of a mapped region that contains a point, or the nearest one, through a tree of boxes halved at
+// the median. Cost: O(m log m) to make, about O(log m) a search.
 class DiscSearch {
  public:
   DiscSearch(Span<const std::int32_t> corners, Span<const DiscPoint> points, Memory& memory);
@@ -46,7 +48,7 @@ class DiscSearch {
  private:
   struct Box {
     double low[2], high[2];
-    std::int32_t first, count;  // of order_, in leaves; count 0: the children stand at first and first + 1
+    std::int32_t first, count;  // of order_, in leaves; count 0: the children are first and first + 1
   };
   void split(std::int32_t box, Vector<DiscPoint>& centre);
   Box box_of(std::int32_t first, std::int32_t count) const;

@@ -1,5 +1,6 @@
-// The surface between a region and its base: x = p + weight (base - p) inside, p elsewhere; and a surface that is given
-// outright. Normals: the unit vector along the sum of the cross products of the triangles around a vertex.
+// The surface between a region and its base: x = p + weight (base - p) inside, p elsewhere.
+//
+// Its normals are unit vectors along the sum of the cross products of the triangles around a vertex.
 #pragma once
 #include "detail/region.h"
 

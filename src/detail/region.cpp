@@ -4,12 +4,11 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "detail/constants.h"
 #include "detail/morph.h"
 
 namespace hf_inner {
 namespace {
-
-constexpr std::size_t most_records = 256;
 
 Vector<Index> edited(const Core& core, Vector<Index>&& inside, const RegionEdit& edit, Memory& memory) {
   if (!edit.curve.empty()) {
@@ -28,7 +27,7 @@ Vector<Index> edited(const Core& core, Vector<Index>&& inside, const RegionEdit&
   return std::move(inside);
 }
 
-// Takes the engine of `from` to the sites of `to`.
+// Edits a clone of the engine of `from` to have the sites of `to`.
 void place_sites(const RegionState& from, RegionState& to, const Core& core, Memory& memory) {
   const std::shared_ptr<SiteSolver> engine = from.engine->clone();
   Vector<Index> leaving(&memory), coming(&memory), slots(&memory);
@@ -73,8 +72,8 @@ void solve_base(const RegionSurface& surface, RegionState& state, Memory& memory
   }
   const auto take = [&](std::size_t i, const double* u) { state.base[i] = core.mesh.to_given({u[0], u[1], u[2]}); };
   state.base.resize(shape.inside.size());
-  // a bi-harmonic field is refined, which takes the whole factor
-  state.whole_sweep = core.refinements > 0 || 8 * shape.inside.size() > at(core.size());
+  // a bi-harmonic field is refined, which needs the whole factor
+  state.whole_sweep = core.refinements > 0 || whole_sweep_share * shape.inside.size() > at(core.size());
   if (state.whole_sweep) {
     Workspace field(core.workspaces, at(core.size()) * 3);
     state.engine->solve(values.data(), 3, field.data(), nullptr);
@@ -146,7 +145,7 @@ void Region::edit(const RegionEdit& edit) {
 }
 
 void Region::record() {
-  if (undo_.size() == most_records) undo_.erase(undo_.begin());
+  if (undo_.size() == most_region_records) undo_.erase(undo_.begin());
   undo_.push_back(state_);
   redo_.clear();
 }

@@ -1,14 +1,14 @@
-// A region of a surface under edit, and its base surface: the field of the three coordinates with the surface as
+// A region of a surface under edit, with its base surface: the field of the three coordinates with the surface as
 // boundary values,
 //
 //     K_II u_I = -K_IS p_S      I inside, S sites (region_shape.h); membrane for K = L, thin plate for K = L M^-1 L
 //
-// on the factor that the core has: S stands in an engine as hard sites (K u = W lambda, W'u = p_S), all other vertices
-// of the mesh are unknowns that S parts from I. An edit compares the sites there are with those there will be; what
-// stays costs nothing. A state is immutable, so records, clones and carried detail share it.
+// on the factor of the core. S are hard sites of an engine (K u = W lambda, W'u = p_S). All other vertices of the mesh
+// are unknowns, and S separates I from the rest. An edit compares the sites before and after; sites that stay cost
+// nothing. A state is immutable, so records, clones and carried detail share it.
 //
-// Cost of an edit: paths and dense rows of the sites that come, then a backward sweep of three channels: over the
-// elimination paths of I when it is an eighth of the mesh or less, else over the whole factor. All or nothing.
+// Cost of an edit: paths and dense rows of the new sites, then a backward sweep of three channels. The sweep runs over
+// the elimination paths of I if it is small (whole_sweep_share), else over the whole factor. All or nothing.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -26,7 +26,7 @@ struct RegionSurface {
   Vec3 position(std::int32_t inner) const noexcept {
     return positions[static_cast<std::size_t>(core->mesh.given_of_inner[static_cast<std::size_t>(inner)])];
   }
-  // The same centred and scaled, as lengths, areas and normals are taken: squares of the caller's unit may overflow.
+  // The same, centred and scaled, for lengths, areas and normals: squares in the caller's unit may overflow.
   Vec3 scaled_position(std::int32_t inner) const noexcept { return core->mesh.to_inner(position(inner)); }
   std::shared_ptr<const Core> core;
   Vector<Vec3> positions;   // by vertex as given
@@ -46,13 +46,13 @@ struct RegionState {
   RegionState(const RegionSurface& surface, std::shared_ptr<const RegionShape> shape, Memory& memory);
   std::shared_ptr<const RegionShape> shape;
   std::shared_ptr<const SiteSolver> engine;
-  Vector<std::int32_t> slot;  // of shape->sites
-  Vector<Vec3> base;          // of shape->inside, in the caller's unit
-  Vector<Vec3> outer_normal;  // of shape->rim: sum of the cross products of its triangles that do not move, scaled
-  std::int32_t first = -1;    // inner vertex that rims are matched at: the first point of the curve, or none
-  std::uint32_t inserted = 0, removed = 0, kept = 0;  // sites of the edit that led here
+  Vector<std::int32_t> slot;  // By site of the shape.
+  Vector<Vec3> base;          // By vertex inside, in the caller's unit.
+  Vector<Vec3> outer_normal;  // By rim vertex: cross products of its triangles that do not move, summed, scaled.
+  std::int32_t first = -1;    // Inner vertex where rims are matched: the first point of the curve; -1: none.
+  std::uint32_t inserted = 0, removed = 0, kept = 0;  // Sites of the last edit.
   bool whole_sweep = false;
-  double area = 0, base_area = 0;  // of the scaled mesh
+  double area = 0, base_area = 0;  // On the scaled mesh.
 };
 
 class Region {
@@ -60,7 +60,7 @@ class Region {
   explicit Region(std::shared_ptr<const RegionSurface> surface);
   Region(const Region& other);  // without the undo stack
 
-  // Throws as hf_region_edit documents what concerns the region itself.
+  // Throws the errors of hf_region_edit that concern the region itself.
   void edit(const RegionEdit& edit);
   void record();
   void undo() { step(undo_, redo_, "nothing is recorded; call hf_region_record before the edits to be undone"); }

@@ -68,7 +68,7 @@ Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, st
   Vector<std::uint8_t> in(at(core.size()), 0, &memory);
   for (const Index v : inside) in[at(v)] = 1;
   Vector<Index> front(&memory), next(&memory);
-  // a front walks outwards through vertices outside, or inwards through those inside, starting next to the others
+  // a front moves outwards through vertices outside, or inwards through those inside, from the boundary between them
   const std::uint8_t joins = rings > 0;
   for (const Index v : inside) {
     if (joins) {

@@ -1,11 +1,10 @@
-// What a region is made of: the vertices inside, those next to them, those that hold its base surface, and the
-// triangles that move with it. Immutable once made.
+// The parts of a region: its vertices, its rim, the sites of its base surface, and the triangles that move with it.
+// Immutable.
 //
-//     inside   I, the vertices that the base moves
-//     rim      vertices off I with a neighbour in I
-//     sites    the rim; for fourth-order operators every vertex off I that K couples with I as well (two rings), so
-//     that
-//              K_II u_I = -K_IS p_S is the clamped plate: position and slope come from the surface around
+//     inside   I, the vertices that the base moves.
+//     rim      Vertices off I with a neighbour in I.
+//     sites    The rim. Fourth-order operators add every vertex off I that K couples with I (two rings). Then
+//              K_II u_I = -K_IS p_S is the clamped plate: position and slope come from the surface around.
 //
 // Cost: O(n) for the masks, the rest by the size of the region.
 #pragma once
@@ -17,7 +16,7 @@ namespace hf_inner {
 
 struct RegionShape {
   // inside: inner vertices, ascending, each once. Throws HF_ERROR_INVALID_ARGUMENT (index = a vertex as given) when a
-  // component lies inside as a whole.
+  // whole component lies inside.
   RegionShape(const Core& core, Span<const std::int32_t> inside, Memory& memory);
 
   std::int32_t local_count() const noexcept { return static_cast<std::int32_t>(inside.size() + rim.size()); }
@@ -33,7 +32,7 @@ struct RegionShape {
   Vector<std::int32_t> corners;             // local numbers, 3 per triangle
 };
 
-// `rings` rings of vertices more, or less when it is below 0.
+// The region with `rings` rings of vertices more, or fewer if it is below 0.
 Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, std::int32_t rings, Memory& memory);
 
 }  // namespace hf_inner

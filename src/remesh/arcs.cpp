@@ -50,7 +50,7 @@ ArcGraph::ArcGraph(const FluxField& field, Memory& memory)
   up_start.push_back(0);
   for (std::int32_t i = 0; i < critical.size(); ++i) {
     const std::int32_t v = critical[i], begin = s.out[v];
-    Table<std::int32_t> done(memory);  // edges at v that belong to loops that were taken
+    Table<std::int32_t> done(memory);  // edges at v on loops that already became arcs
     for (std::int32_t g = begin;;) {
       if (field.rises(g) && std::find(done.begin(), done.end(), g) == done.end()) {
         Arc arc;
@@ -63,7 +63,7 @@ ArcGraph::ArcGraph(const FluxField& field, Memory& memory)
           heap.push_back(field.rank(s.head(h)));
         }
         std::make_heap(heap.begin(), heap.end(), later);
-        // the loop rises over one vertex after the other, the lowest above it first
+        // the loop passes the vertices above it one by one, the lowest first
         while (arc.upper < 0) {
           if (heap.empty()) fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "an arc of level loops has no upper end");
           std::pop_heap(heap.begin(), heap.end(), later);

@@ -1,13 +1,13 @@
-// The Reeb graph of a flux field: its level loops, gathered into arcs.
+// The Reeb graph of a flux field: its level loops, grouped into arcs.
 //
-// Between two critical vertices (sites and saddles) the loop of a level changes without splitting or joining; the loops
-// of one such family are an arc, an annulus on the surface. Arcs partition the regular vertices. Every piece between
-// the last loops of the arcs that end at a critical vertex and the first loops of those that start there holds that
-// vertex alone: a disc at a site, a star of sectors at a saddle, whatever the genus. Rings on arcs therefore cut a
-// surface into pieces whose topology is known.
+// Between two critical vertices (sites and saddles) the loop of a level neither splits nor joins. The loops of one such
+// family form an arc, an annulus on the surface. Arcs partition the regular vertices.
+// Cut off the last loop of every arc below a critical vertex and the first loop of every arc above it: the piece
+// between them holds that vertex alone. It is a disc at a site and a star of sectors at a saddle, on any genus. Rings
+// on arcs therefore cut a surface into pieces of known topology.
 //
-// A loop is a threshold on ranks, so it exists between any two vertices, equal values or not: an edge crosses it when
-// its tail's rank is below the threshold and its head's is not.
+// A loop is a threshold on ranks: an edge crosses it when its tail's rank is below the threshold and its head's is not.
+// So a loop exists between any two vertices, even of equal values.
 //
 // Cost: O(n log n): every vertex passes through one heap once.
 #pragma once
@@ -22,7 +22,7 @@ struct Arc {
   double flux = 0;
 };
 
-// A loop of an arc: the threshold on ranks, and a half-edge to start from.
+// A loop of an arc: its threshold on ranks, and a half-edge that crosses it.
 struct Loop {
   std::int32_t threshold = 0, seed = -1;
 };
@@ -40,8 +40,8 @@ struct ArcGraph {
   Loop loop(const FluxField& field, const Arc& arc, std::int32_t below) const;
 };
 
-// The half-edges uphill that a loop crosses, in order: every next one through the triangle to the right, higher values
-// on the left of the walk.
+// The uphill half-edges that a loop crosses, in order. Each step passes through the triangle to the right of the last;
+// higher values lie to the left of the walk.
 void walk_loop(const FluxField& field, Loop loop, Table<std::int32_t>& out);
 
 }  // namespace hf_inner

@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "remesh/constants.h"
 
 namespace hf_inner {
 namespace {
 
-// Solves A x = b in place, A positive definite by rows, b becomes x.
+// Solves A x = b by Cholesky in place, A positive definite by rows; b becomes x. By hand: its size is known at run
+// time.
 void solve_dense(Vector<double>& a, Vector<double>& b) {
   const std::size_t n = b.size();
   for (std::size_t j = 0; j < n; ++j) {
@@ -64,7 +66,7 @@ Vector<double> solve_between_levels(const FluxSurface& s, const FluxSolver& solv
     for (std::size_t i = 0; i <= n; ++i) {
       const double flux = scale * (i == 0 ? rest : q[i - 1]);
       exact.push_back({sites[own[i]].vertex, flux});
-      const double lines = std::max(4.0, 2 * std::round(std::fabs(flux) / 2));
+      const double lines = std::max(least_lines, 2 * std::round(std::fabs(flux) / 2));
       sites[own[i]].lines = sites[own[i]].lines > 0 ? lines : -lines;
     }
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "remesh/constants.h"
+
 namespace hf_inner {
 namespace {
 
@@ -17,7 +19,7 @@ std::int32_t capture_features(const FluxSurface& s, const QuadDistance& distance
                               const CaptureOptions& options, Memory& memory) {
   Vector<QuadMiss> misses(&memory);
   const VertexFans fans(mesh, memory);
-  // corners around a vertex that are turned over, as seen from the surface at each
+  // how many corners around a vertex are turned over against the normal of the surface there
   auto turned_over = [&](std::int32_t v) {
     std::int32_t count = 0;
     for (std::int32_t i = fans.start[v]; i < fans.start[v + 1]; ++i) {
@@ -31,21 +33,21 @@ std::int32_t capture_features(const FluxSurface& s, const QuadDistance& distance
     return count;
   };
 
-  std::int32_t drawn = 0;
-  for (std::int32_t round = 0; round < options.rounds; ++round) {
-    report(options.progress, static_cast<float>(round) / static_cast<float>(options.rounds));
+  std::int32_t snapped = 0;
+  for (std::int32_t round = 0; round < capture_rounds; ++round) {
+    report(options.progress, static_cast<float>(round) / static_cast<float>(capture_rounds));
     misses.clear();
     distance.turn_quads(mesh);
-    distance.measure(mesh, options.tolerance, &misses, nullptr);
+    distance.measure(mesh, capture_tolerance, &misses, nullptr);
     std::int32_t moved = 0;
     Table<Vec3> taken(memory);
     Table<std::uint8_t> moving(mesh.position.size(), 0, memory);
     for (const QuadMiss& miss : misses) {
       if (miss.vertex < 0) continue;
       const Vec3 p = s.position[miss.vertex];
-      bool close = false;
-      for (const Vec3& q : taken) close |= norm(p - q) < options.edge_length;
-      if (close) continue;
+      bool near = false;
+      for (const Vec3& q : taken) near |= norm(p - q) < options.edge_length;
+      if (near) continue;
       std::int32_t best = -1;
       for (std::int32_t k = mesh.face_start[miss.face]; k < mesh.face_start[miss.face + 1]; ++k) {
         const std::int32_t v = mesh.corner[k];
@@ -65,16 +67,16 @@ std::int32_t capture_features(const FluxSurface& s, const QuadDistance& distance
         mesh.location[best] = old_location, mesh.position[best] = old_position;
         continue;
       }
-      mesh.pinned[best] = QuadMesh::drawn_out, taken.push_back(p), moving[best] = 1, ++moved;
+      mesh.pinned[best] = QuadMesh::snapped, taken.push_back(p), moving[best] = 1, ++moved;
     }
-    drawn += moved;
+    snapped += moved;
     if (moved == 0) break;
     RelaxOptions relax;
-    grow_marks(mesh, 3, moving);
-    relax.rounds = options.relax_rounds, relax.edge_length = options.edge_length, relax.moving = &moving;
+    grow_marks(mesh, capture_rings, moving);
+    relax.rounds = capture_relax_rounds, relax.edge_length = options.edge_length, relax.moving = &moving;
     relax_quads(s, mesh, relax, memory);
   }
-  return drawn;
+  return snapped;
 }
 
 }  // namespace hf_inner

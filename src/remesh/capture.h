@@ -1,8 +1,8 @@
-// Draws a relaxed quad mesh out to the places of the surface it misses: tips, crests, thin ends.
+// Snaps a relaxed quad mesh to the places of the surface it misses: tips, crests, thin ends.
 //
-// Vertices of the surface farther than `tolerance` from the quads, the farthest first and none within an edge length of
-// another, take the nearest free corner of the nearest face to themselves; it is pinned there and the rest relaxed
-// again. A move that would turn a corner over is not made. Cost: O(n log faces) a round.
+// Each missed vertex of the surface, the farthest first, takes the nearest free corner of its nearest face and pins it.
+// Two such vertices are at least an edge length apart. The rest is relaxed again. A move that would turn a corner over
+// is left out. Cost: O(n log faces) a round.
 #pragma once
 #include "remesh/quad_distance.h"
 #include "remesh/relax.h"
@@ -10,12 +10,11 @@
 namespace hf_inner {
 
 struct CaptureOptions {
-  double edge_length = 0.02, tolerance = 0.006;  // inner units
-  std::int32_t rounds = 5, relax_rounds = 8;
+  double edge_length = 0;  // inner units
   Progress* progress = nullptr;
 };
 
-// Returns how many vertices were drawn out.
+// Returns how many vertices were snapped.
 std::int32_t capture_features(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh,
                               const CaptureOptions& options, Memory& memory);
 

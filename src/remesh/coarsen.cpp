@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "remesh/constants.h"
 #include "remesh/relax.h"
 
 namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
-constexpr double far = 1.1;   // tolerances that may be missed beyond that, where less was before
-constexpr double judged = 2;  // edge lengths around a quad that closes within which nothing more may be missed
 
-struct Closing {
+struct Collapse {
   double length;  // of its shortest edge
   std::int32_t face, corner;
 };
@@ -22,9 +21,9 @@ double side(const QuadMesh& mesh, std::int32_t f, std::int32_t k) {
   return norm(mesh.position[c[(k + 1) % 4]] - mesh.position[c[k]]);
 }
 
-// Quads that may close and have a short edge, the shortest first; along the shorter diagonal that may.
-void list_closings(const QuadMesh& mesh, const VertexFans& fans, double shortest, bool only_refined,
-                   Vector<Closing>& out) {
+// Quads that may collapse and have a short edge, the shortest first, each along the shorter diagonal that may.
+void list_collapses(const QuadMesh& mesh, const VertexFans& fans, double shortest, bool only_refined,
+                    Vector<Collapse>& out) {
   out.clear();
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
     if (mesh.size(f) != 4) continue;
@@ -36,18 +35,18 @@ void list_closings(const QuadMesh& mesh, const VertexFans& fans, double shortest
     const bool turned =
         norm(mesh.position[c[3]] - mesh.position[c[1]]) < norm(mesh.position[c[2]] - mesh.position[c[0]]);
     const std::int32_t k = turned ? 1 : 0;
-    if (can_close(mesh, fans, f, k)) {
+    if (can_collapse(mesh, fans, f, k)) {
       out.push_back({length, f, k});
-    } else if (can_close(mesh, fans, f, 1 - k)) {
+    } else if (can_collapse(mesh, fans, f, 1 - k)) {
       out.push_back({length, f, 1 - k});
     }
   }
-  std::sort(out.begin(), out.end(), [](const Closing& a, const Closing& b) {
+  std::sort(out.begin(), out.end(), [](const Collapse& a, const Collapse& b) {
     return a.length != b.length ? a.length < b.length : a.face < b.face;
   });
 }
 
-// The neighbours of a quad that closes stay as they are in that turn.
+// Marks the neighbours of a quad that collapses: they stay unchanged in that round.
 void block_around(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, Table<std::uint8_t>& blocked) {
   for (std::int32_t k = mesh.face_start[f]; k < mesh.face_start[f + 1]; ++k) {
     const std::int32_t v = mesh.corner[k];
@@ -64,30 +63,31 @@ std::int32_t nearest(const Vector<Vec3>& points, const Vec3& to) {
   return static_cast<std::int32_t>(best);
 }
 
-// Closes them; no two share a vertex or a neighbour. merged: by vertex of the new mesh, whether it was two.
-void close_quads(const FluxSurface& surface, QuadMesh& mesh, const Vector<Closing>& closings,
-                 Table<std::uint8_t>& merged, Memory& memory) {
+// Applies the collapses, no two of which share a vertex or a neighbour. merged: by vertex of the new mesh, whether it
+// was two.
+void collapse_quads(const FluxSurface& surface, QuadMesh& mesh, const Vector<Collapse>& collapses,
+                    Table<std::uint8_t>& merged, Memory& memory) {
   Table<std::int32_t> becomes(mesh.position.size(), 0, memory);
   for (std::int32_t v = 0; v < becomes.size(); ++v) becomes[v] = v;
   Table<std::uint8_t> gone(mesh.face_count(), 0, memory);
-  for (const Closing& closing : closings) {
-    const std::int32_t* c = mesh.corner.data() + mesh.face_start[closing.face];
-    std::int32_t a = c[closing.corner], b = c[closing.corner + 2];
+  for (const Collapse& collapse : collapses) {
+    const std::int32_t* c = mesh.corner.data() + mesh.face_start[collapse.face];
+    std::int32_t a = c[collapse.corner], b = c[collapse.corner + 2];
     if (mesh.pinned[b]) std::swap(a, b);  // not both are
     if (!mesh.pinned[a]) {
       mesh.location[a] = walk_surface(surface, mesh.location[a], 0.5 * (mesh.position[b] - mesh.position[a]));
       mesh.position[a] = position_of(surface, mesh.location[a]);
     }
     mesh.scale[a] = std::max(mesh.scale[a], mesh.scale[b]);
-    becomes[b] = a, gone[closing.face] = 1;
+    becomes[b] = a, gone[collapse.face] = 1;
   }
   merged.clear();
   Table<std::int32_t> number(becomes.size(), none, memory);
   QuadMesh out(memory);
   Table<std::uint8_t> kept(becomes.size(), 0, memory);
-  for (const Closing& closing : closings) {
-    const std::int32_t* c = mesh.corner.data() + mesh.face_start[closing.face];
-    kept[becomes[c[closing.corner]]] = 1;
+  for (const Collapse& collapse : collapses) {
+    const std::int32_t* c = mesh.corner.data() + mesh.face_start[collapse.face];
+    kept[becomes[c[collapse.corner]]] = 1;
   }
   for (std::int32_t v = 0; v < becomes.size(); ++v)
     if (becomes[v] == v)
@@ -105,14 +105,14 @@ void close_quads(const FluxSurface& surface, QuadMesh& mesh, const Vector<Closin
 
 }  // namespace
 
-bool can_close(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, std::int32_t k) {
+bool can_collapse(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, std::int32_t k) {
   const std::int32_t* q = mesh.corner.data() + mesh.face_start[f];
   const std::int32_t a = q[k], b = q[(k + 1) % 4], c = q[(k + 2) % 4], d = q[(k + 3) % 4];
   for (const std::int32_t v : {a, b, c, d})
     if (mesh.border[v]) return false;
   if (mesh.pinned[a] && mesh.pinned[c]) return false;
   if (fans.valence(b) < 4 || fans.valence(d) < 4 || fans.valence(a) < 3 || fans.valence(c) < 3 ||
-      fans.valence(a) + fans.valence(c) > 8)
+      fans.valence(a) + fans.valence(c) > collapse_most_faces)
     return false;
   for (std::int32_t i = fans.start[a]; i < fans.start[a + 1]; ++i) {
     const std::int32_t g = fans.face[i], size = mesh.size(g);
@@ -136,11 +136,11 @@ bool can_close(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, std
   return true;
 }
 
-std::int32_t close_misses(const FluxSurface& surface, QuadMesh& mesh, const Vector<QuadMiss>& misses,
-                          Table<std::uint8_t>& merged, Memory& memory) {
+std::int32_t collapse_misses(const FluxSurface& surface, QuadMesh& mesh, const Vector<QuadMiss>& misses,
+                             Table<std::uint8_t>& merged, Memory& memory) {
   const VertexFans fans(mesh, memory);
   Table<std::uint8_t> blocked(mesh.position.size(), 0, memory);
-  Vector<Closing> taken(&memory);
+  Vector<Collapse> taken(&memory);
   for (const QuadMiss& miss : misses) {
     const std::int32_t f = miss.face;
     if (miss.vertex != QuadMiss::of_quads || mesh.size(f) != 4) continue;
@@ -149,73 +149,72 @@ std::int32_t close_misses(const FluxSurface& surface, QuadMesh& mesh, const Vect
     const bool turned =
         norm(mesh.position[c[3]] - mesh.position[c[1]]) < norm(mesh.position[c[2]] - mesh.position[c[0]]);
     std::int32_t k = turned ? 1 : 0;
-    if (!can_close(mesh, fans, f, k)) k = 1 - k;
-    if (!can_close(mesh, fans, f, k)) continue;
+    if (!can_collapse(mesh, fans, f, k)) k = 1 - k;
+    if (!can_collapse(mesh, fans, f, k)) continue;
     taken.push_back({0, f, k});
     block_around(mesh, fans, f, blocked);
   }
-  if (!taken.empty()) close_quads(surface, mesh, taken, merged, memory);
+  if (!taken.empty()) collapse_quads(surface, mesh, taken, merged, memory);
   return static_cast<std::int32_t>(taken.size());
 }
 
 double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, double deviation,
                      const CoarsenOptions& options, Memory& memory) {
-  Vector<Closing> list(&memory), taken(&memory);
+  Vector<Collapse> list(&memory), taken(&memory);
   Vector<QuadMiss> before(&memory), after(&memory);
   NearFaces known(memory);
   Table<std::uint8_t> moving(memory);
-  Vector<Vec3> kept(&memory), centres(&memory);  // where nothing is closed; where something was
+  Vector<Vec3> kept(&memory), centres(&memory);  // centres of collapses taken back; of those tried now
   const double length = options.edge_length;
-  // what is missed within a radius of a point
-  const double reach = judged * length;
+  // the sum of the excess distances within a radius of a point
+  const double reach = collapse_reach * length;
   auto excess = [&](const Vector<QuadMiss>& misses, const Vec3& point, double radius) {
     double sum = 0;
     for (const QuadMiss& miss : misses)
       if (norm(miss.point - point) < radius) sum += miss.distance - options.tolerance;
     return sum;
   };
-  auto look = [&](QuadMesh& at, Vector<QuadMiss>& misses) {
+  auto measure = [&](QuadMesh& at, Vector<QuadMiss>& misses) {
     distance.turn_quads(at, &known);
     misses.clear();
     distance.measure(at, options.tolerance, &misses, nullptr, &known);
   };
-  look(mesh, before);
+  measure(mesh, before);
   bool any = false;
   for (std::int32_t round = 0; round < options.rounds; ++round) {
     report(options.progress, static_cast<float>(round) / static_cast<float>(options.rounds));
     const VertexFans fans(mesh, memory);
-    list_closings(mesh, fans, options.shortest * length, options.only_refined, list);
-    if (static_cast<double>(list.size()) <= options.enough * mesh.face_count()) break;
+    list_collapses(mesh, fans, options.shortest * length, options.only_refined, list);
+    if (static_cast<double>(list.size()) <= collapse_enough * mesh.face_count()) break;
     Table<std::uint8_t> blocked(mesh.position.size(), 0, memory);
     taken.clear(), centres.clear();
-    for (const Closing& closing : list) {
-      const std::int32_t* c = mesh.corner.data() + mesh.face_start[closing.face];
+    for (const Collapse& collapse : list) {
+      const std::int32_t* c = mesh.corner.data() + mesh.face_start[collapse.face];
       bool free = true;
       for (std::int32_t k = 0; k < 4; ++k) free = free && !blocked[c[k]];
-      const Vec3 centre = 0.5 * (mesh.position[c[closing.corner]] + mesh.position[c[closing.corner + 2]]);
-      for (const Vec3& p : kept) free = free && norm(p - centre) > 0.3 * length;
+      const Vec3 centre = 0.5 * (mesh.position[c[collapse.corner]] + mesh.position[c[collapse.corner + 2]]);
+      for (const Vec3& p : kept) free = free && norm(p - centre) > collapse_same_place * length;
       if (!free) continue;
-      taken.push_back(closing), centres.push_back(centre);
-      block_around(mesh, fans, closing.face, blocked);
+      taken.push_back(collapse), centres.push_back(centre);
+      block_around(mesh, fans, collapse.face, blocked);
     }
     if (taken.empty()) break;
-    // what brings a miss about is left out, until none does
-    constexpr int most_tries = 4;
-    for (int tries = 0; tries < most_tries && !taken.empty(); ++tries) {
+    // collapses that cause a miss are left out until none does
+    for (int tries = 0; tries < collapse_tries && !taken.empty(); ++tries) {
       QuadMesh trial = mesh;
-      close_quads(surface, trial, taken, moving, memory);
-      grow_marks(trial, 2, moving);
+      collapse_quads(surface, trial, taken, moving, memory);
+      grow_marks(trial, collapse_rings, moving);
       RelaxOptions relax;
-      relax.rounds = options.relax_rounds, relax.edge_length = length, relax.moving = &moving;
+      relax.rounds = collapse_relax_rounds, relax.edge_length = length, relax.moving = &moving;
       relax_quads(surface, trial, relax, memory);
-      look(trial, after);
+      measure(trial, after);
       Table<std::uint8_t> bad(static_cast<std::int32_t>(taken.size()), 0, memory);
       for (std::int32_t i = 0; i < bad.size(); ++i) {
         const Vec3& centre = centres[static_cast<std::size_t>(i)];
         bad[i] = excess(after, centre, reach) > excess(before, centre, reach);
       }
-      // what reaches farther than that counts against the nearest
-      const double limit = std::max(before.empty() ? 0 : before[0].distance, far * options.tolerance);
+      // a miss beyond that reach counts against the nearest collapse
+      const double limit = std::max(before.empty() ? 0 : before[0].distance, collapse_far * options.tolerance);
       if (std::count(bad.begin(), bad.end(), 1) == 0)
         for (const QuadMiss& miss : after)
           if (miss.distance > limit) bad[nearest(centres, miss.point)] = 1;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "remesh/coarsen.h"
+#include "remesh/constants.h"
 #include "remesh/refine.h"
 #include "remesh/relax.h"
 
@@ -11,27 +12,22 @@ namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
-constexpr double judged = 2.2;        // edge lengths around a place within which a step is judged
-constexpr double same_place = 0.8;    // edge lengths within which a place is one that was tried before
-constexpr double least_gain = 0.97;   // of what was missed; more than that is no gain
-constexpr double folding_gain = 0.5;  // and where a corner turns over
-constexpr float finest = 0.5f;        // scale of vertices around which quads are divided no further
 
-enum Step : std::int32_t { release, draw, open, widen, divide, close, given_up };
+enum Step : std::int32_t { release, snap, split, widen, subdivide, collapse, given_up };
 
 struct Place {
   QuadMiss miss;
-  std::int32_t vertex = none;  // what the step is made at
+  std::int32_t vertex = none;  // the vertex that the step changes
   double before = 0, after = 0;
   std::int32_t folds_before = 0, folds_after = 0;
 };
 
 struct Tried {
   Vec3 point;
-  std::int32_t step;  // to be tried next
+  std::int32_t step;  // tried next
 };
 
-// By vertex, the sum of the normals around it, weighted by area: that of a triangle says little at a crease.
+// By vertex, the sum of the normals around it, weighted by area: one triangle's normal is arbitrary at a crease.
 Table<Vec3> vertex_normals(const FluxSurface& s, Memory& memory) {
   Table<Vec3> normals(s.vertex_count(), Vec3{}, memory);
   for (std::int32_t t = 0; t < s.real_triangles; ++t) {
@@ -56,23 +52,23 @@ class Fitter {
         tried_(&memory),
         normals_(vertex_normals(surface, memory)),
         known_(memory),
-        most_faces_(static_cast<std::int32_t>(options.most_faces * mesh.face_count())) {}
+        most_faces_(static_cast<std::int32_t>(fit_most_faces * mesh.face_count())) {}
 
   double run() {
-    double deviation = look(mesh_, misses_);
+    double deviation = measure(mesh_, misses_);
     Vector<Place> chosen(&memory_);
-    for (std::int32_t round = 0; round < options_.rounds && !misses_.empty(); ++round) {
-      report(options_.progress, static_cast<float>(round) / static_cast<float>(options_.rounds));
+    for (std::int32_t round = 0; round < fit_rounds && !misses_.empty(); ++round) {
+      report(options_.progress, static_cast<float>(round) / static_cast<float>(fit_rounds));
       const std::int32_t step = choose(chosen);
       if (step == given_up) break;
       if (chosen.empty()) continue;
       QuadMesh trial = mesh_;
       take(step, chosen, trial);
-      double now = look(trial, after_);
-      judge(trial, chosen);
+      double now = measure(trial, after_);
+      compare(trial, chosen);
       const auto helped = [&](const Place& place) {
         const std::int32_t more = place.folds_after - place.folds_before;
-        return place.after < (more > 0 ? folding_gain : least_gain) * place.before && more <= options_.most_folds;
+        return place.after < (more > 0 ? fit_folding_gain : fit_gain) * place.before && more <= options_.most_folds;
       };
       const auto failed = std::stable_partition(chosen.begin(), chosen.end(), helped);
       for (auto place = failed; place != chosen.end(); ++place) next_step(place->miss.point, step + 1);
@@ -82,7 +78,7 @@ class Fitter {
         chosen.erase(failed, chosen.end());
         trial = mesh_;
         take(step, chosen, trial);
-        now = look(trial, after_);
+        now = measure(trial, after_);
         if (total(after_) >= total(misses_)) {
           for (const Place& place : chosen) next_step(place.miss.point, step + 1);
           continue;
@@ -94,7 +90,7 @@ class Fitter {
   }
 
  private:
-  double look(QuadMesh& mesh, Vector<QuadMiss>& misses) {
+  double measure(QuadMesh& mesh, Vector<QuadMiss>& misses) {
     distance_.turn_quads(mesh, &known_);
     misses.clear();
     return distance_.measure(mesh, options_.tolerance, &misses, nullptr, &known_);
@@ -111,7 +107,7 @@ class Fitter {
   Tried* find_tried(const Vec3& point) {
     Tried* best = nullptr;
     for (Tried& tried : tried_)
-      if (norm(tried.point - point) < same_place * options_.edge_length &&
+      if (norm(tried.point - point) < fit_same_place * options_.edge_length &&
           (!best || norm(tried.point - point) < norm(best->point - point)))
         best = &tried;
     return best;
@@ -134,20 +130,21 @@ class Fitter {
     return false;
   }
 
-  // The vertex a step would be made at: of the quad's corners that may take part the nearest.
+  // The vertex that a step would change: the nearest corner of the quad that may take the step.
   std::int32_t vertex_for(std::int32_t step, const QuadMiss& miss, const VertexFans& fans) const {
     const std::int32_t f = miss.face, size = mesh_.size(f), *c = mesh_.corner.data() + mesh_.face_start[f];
-    if (step == close) return size == 4 && (can_close(mesh_, fans, f, 0) || can_close(mesh_, fans, f, 1)) ? c[0] : none;
-    if (step > draw && mesh_.face_count() + 12 > most_faces_) return none;
+    if (step == collapse)
+      return size == 4 && (can_collapse(mesh_, fans, f, 0) || can_collapse(mesh_, fans, f, 1)) ? c[0] : none;
+    if (step > snap && mesh_.face_count() + step_faces > most_faces_) return none;
     std::int32_t best = none;
     for (std::int32_t k = 0; k < size; ++k) {
       const std::int32_t v = c[k];
-      bool may = !mesh_.border[v] || (step == draw && miss.vertex >= 0 && on_border(miss.vertex));
-      if (step == release) may = may && mesh_.pinned[v] == QuadMesh::drawn_out && miss.vertex == QuadMiss::of_quads;
-      if (step == draw) may = may && !mesh_.pinned[v];
-      if (step == open || step == widen) may = may && fans.valence(v) >= 4;
-      if (step == divide) may = may && mesh_.scale[v] >= finest;
-      for (std::int32_t i = fans.start[v]; step > draw && may && i < fans.start[v + 1]; ++i)
+      bool may = !mesh_.border[v] || (step == snap && miss.vertex >= 0 && on_border(miss.vertex));
+      if (step == release) may = may && mesh_.pinned[v] == QuadMesh::snapped && miss.vertex == QuadMiss::of_quads;
+      if (step == snap) may = may && !mesh_.pinned[v];
+      if (step == split || step == widen) may = may && fans.valence(v) >= 4;
+      if (step == subdivide) may = may && mesh_.scale[v] >= finest_scale;
+      for (std::int32_t i = fans.start[v]; step > snap && may && i < fans.start[v + 1]; ++i)
         may = mesh_.size(fans.face[i]) == 4;
       if (may && (best == none || norm(mesh_.position[v] - miss.point) < norm(mesh_.position[best] - miss.point)))
         best = v;
@@ -155,17 +152,17 @@ class Fitter {
     return best;
   }
 
-  // The places of the gentlest step that is to be tried, no two of them near each other.
+  // The places whose next step is the first in the list of steps, no two of them near each other.
   std::int32_t choose(Vector<Place>& chosen) {
     Vector<Place> places(&memory_);
     std::int32_t step = given_up;
     for (const QuadMiss& miss : misses_) {
       const Tried* tried = find_tried(miss.point);
       if (tried && tried->step == given_up) continue;
-      const bool close_to_one = std::any_of(places.begin(), places.end(), [&](const Place& place) {
+      const bool near_one = std::any_of(places.begin(), places.end(), [&](const Place& place) {
         return norm(place.miss.point - miss.point) < options_.edge_length;
       });
-      if (close_to_one) continue;
+      if (near_one) continue;
       Place place;
       place.miss = miss;
       places.push_back(place);
@@ -186,13 +183,13 @@ class Fitter {
       chosen.push_back(place);
       around.assign(around.size(), 0);
       around[place.vertex] = 1;
-      grow_marks(mesh_, 3, around);
+      grow_marks(mesh_, fit_apart, around);
       for (std::int32_t v = 0; v < around.size(); ++v) blocked[v] = blocked[v] || around[v];
     }
     return step;
   }
 
-  // Where a vertex that goes to the missed place comes to lie.
+  // The surface point of a missed place.
   SurfacePoint target(const QuadMiss& miss) const {
     SurfacePoint at;
     if (miss.vertex < 0) return distance_.nearest(miss.point);
@@ -209,50 +206,50 @@ class Fitter {
   void relax(QuadMesh& mesh, std::int32_t rings, Table<std::uint8_t>& moving) const {
     grow_marks(mesh, rings, moving);
     RelaxOptions relax;
-    relax.rounds = options_.relax_rounds, relax.edge_length = options_.edge_length, relax.moving = &moving;
+    relax.rounds = fit_relax_rounds, relax.edge_length = options_.edge_length, relax.moving = &moving;
     relax_quads(surface_, mesh, relax, memory_);
   }
 
   void take(std::int32_t step, const Vector<Place>& places, QuadMesh& mesh) const {
     Table<std::uint8_t> moving(mesh.position.size(), 0, memory_);
-    if (step == close) {
+    if (step == collapse) {
       Vector<QuadMiss> list(&memory_);
       for (const Place& place : places) list.push_back(place.miss);
-      close_misses(surface_, mesh, list, moving, memory_);
+      collapse_misses(surface_, mesh, list, moving, memory_);
       return relax(mesh, options_.relax_rings, moving);
     }
-    if (step == divide) {
+    if (step == subdivide) {
       for (const Place& place : places) moving[place.vertex] = 1;
       refine_quads(surface_, mesh, moving, memory_);
       moving.resize(mesh.position.size(), 1);
       relax(mesh, options_.relax_rings, moving);
-      draw_nearest(places, mesh, moving);
-      return relax(mesh, 1, moving);
+      snap_nearest(places, mesh, moving);
+      return relax(mesh, fit_resnap_rings, moving);
     }
     for (const Place& place : places) {
       moving[place.vertex] = 1;
       if (step == release) {
         for (std::int32_t k = mesh.face_start[place.miss.face]; k < mesh.face_start[place.miss.face + 1]; ++k)
-          if (mesh.pinned[mesh.corner[k]] == QuadMesh::drawn_out)
+          if (mesh.pinned[mesh.corner[k]] == QuadMesh::snapped)
             mesh.pinned[mesh.corner[k]] = QuadMesh::free, moving[mesh.corner[k]] = 1;
         continue;
       }
-      if (step == draw) {
-        put(mesh, place.vertex, target(place.miss), QuadMesh::drawn_out);
+      if (step == snap) {
+        put(mesh, place.vertex, target(place.miss), QuadMesh::snapped);
         continue;
       }
-      const std::int32_t v = open_vertex(mesh, place.vertex, place.miss.point, memory_);
+      const std::int32_t v = split_vertex(mesh, place.vertex, place.miss.point, memory_);
       moving.push_back(1);
-      if (step == open) put(mesh, v, target(place.miss), QuadMesh::drawn_out);
+      if (step == split) put(mesh, v, target(place.miss), QuadMesh::snapped);
       if (step == widen)
         put(mesh, v, walk_surface(surface_, mesh.location[v], 0.5 * (place.miss.point - mesh.position[v])),
             QuadMesh::free);
     }
-    relax(mesh, options_.relax_rings + (step <= draw ? 1 : 0), moving);
+    relax(mesh, options_.relax_rings + (step <= snap ? fit_snap_rings : 0), moving);
   }
 
-  // The nearest of the vertices that moved goes to its place.
-  void draw_nearest(const Vector<Place>& places, QuadMesh& mesh, const Table<std::uint8_t>& moving) const {
+  // Snaps the nearest vertex that may move to each place.
+  void snap_nearest(const Vector<Place>& places, QuadMesh& mesh, const Table<std::uint8_t>& moving) const {
     for (const Place& place : places) {
       std::int32_t best = none;
       for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
@@ -260,14 +257,14 @@ class Fitter {
         if (best == none || norm(mesh.position[v] - place.miss.point) < norm(mesh.position[best] - place.miss.point))
           best = v;
       }
-      if (best != none) put(mesh, best, target(place.miss), QuadMesh::drawn_out);
+      if (best != none) put(mesh, best, target(place.miss), QuadMesh::snapped);
     }
   }
 
-  // Corners around `point` that are turned over, as seen from the surface at each.
+  // How many corners around `point` are turned over against the mean normal of the surface there.
   std::int32_t folds(const QuadMesh& mesh, const Vec3& point) const {
     std::int32_t count = 0;
-    const double radius = judged * options_.edge_length;
+    const double radius = fit_reach * options_.edge_length;
     for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
       const std::int32_t size = mesh.size(f), *c = mesh.corner.data() + mesh.face_start[f];
       if (norm(mesh.position[c[0]] - point) > radius) continue;
@@ -283,9 +280,9 @@ class Fitter {
     return count;
   }
 
-  void judge(const QuadMesh& trial, Vector<Place>& places) const {
+  void compare(const QuadMesh& trial, Vector<Place>& places) const {
     for (Place& place : places) {
-      const double radius = judged * options_.edge_length;
+      const double radius = fit_reach * options_.edge_length;
       for (const QuadMiss& miss : misses_)
         if (norm(miss.point - place.miss.point) < radius) place.before += excess(miss);
       for (const QuadMiss& miss : after_)
@@ -299,7 +296,7 @@ class Fitter {
   QuadMesh& mesh_;
   const FitOptions& options_;
   Memory& memory_;
-  Vector<QuadMiss> misses_, after_;  // of mesh_; of what was tried
+  Vector<QuadMiss> misses_, after_;  // of mesh_; of the trial
   Vector<Tried> tried_;
   Table<Vec3> normals_;
   NearFaces known_;

@@ -55,7 +55,7 @@ void FlowTracer::follow(const FluxField& field, FluxPoint p, bool upward, FlowLi
 FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Span<const std::int32_t> seeds) const {
   const FluxSurface& s = surface_;
   Memory& memory = *core_->memory;
-  // apexes take the value of one of their border: their edges have no weight, and they are no extrema
+  // an apex takes the value of a vertex of its border: its edges have no weight, and it is no extremum
   Vector<double> values(&memory);
   values.reserve(static_cast<std::size_t>(s.vertex_count()));
   for (std::int32_t v = 0; v < s.vertex_count(); ++v) {
@@ -84,7 +84,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
       g = s.turn_left(g);
       if (g == begin) break;
     }
-    // down first, turned round, then up from where it leaves the vertex
+    // trace down and reverse, then trace up from the seed
     std::int32_t low = v, high = v;
     const std::size_t first = out.point.size();
     FluxPoint p;
@@ -101,7 +101,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
   }
   if (!seeds.empty()) return out;
 
-  // minima, those on plateaus too, and what flows out of each
+  // minima, also those on plateaus, with their outflow
   struct Source {
     std::int32_t vertex;
     double flux;
@@ -122,7 +122,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
   }
   double given = 0, passed = 0;
   for (const Source& source : sources) {
-    // so many of all lines that the sums stay within one of their share
+    // rounding the running sum keeps every partial sum within one line of its share
     passed += source.flux;
     const std::int64_t count = std::llround(passed / total * line_count) - std::llround(given);
     given += static_cast<double>(count);
@@ -131,7 +131,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
     std::int64_t k = 0;
     for (std::int32_t g = begin; k < count;) {
       const double f = carries(field, g) ? field.flux(g) : 0.0;
-      // offsets grow clockwise around a source, as on every outflow
+      // offsets grow clockwise around a source
       for (; k < count && source.flux * (static_cast<double>(k) + 0.5) / static_cast<double>(count) <= sum + f; ++k) {
         const double offset = source.flux * (static_cast<double>(k) + 0.5) / static_cast<double>(count) - sum;
         std::int32_t high = source.vertex;

@@ -1,11 +1,11 @@
-// Flow lines of a field as curves for display and guidance: the co-gradient family beside the iso-lines of field/.
+// Flow lines of a field as curves for display and guidance; field/ has the iso-lines.
 //
-// Lines run in the flux of clamped cotangent weights (flux_field.h): they never cross, rise all the way, and end at
-// extrema. Of a harmonic field with the clamped operator the flux is balanced, and lines stand as dense as the field is
-// steep; of any other field a vertex hands on what comes in scaled to what goes out, and everything else stays true.
+// Lines run in the flux of clamped cotangent weights (flux_field.h): they never cross, always rise, and end at extrema.
+// A harmonic field of the clamped operator has a balanced flux, and its lines are as dense as the field is steep. In
+// any other field a vertex scales its inflow to its outflow; all else holds.
 //
-// A line gives one point per edge it runs in, at the middle of the edge's values: on the iso-line there, at the line's
-// share of the edge between the middles of the iso-line's two segments.
+// A line gives one point per edge it runs in. The point lies on the iso-line through the middle of the edge's values.
+// The line's share of the edge places it between the middles of the two segments of that iso-line.
 //
 // The surface is prepared once; a trace costs the ranks, O(n log n), and O(degree) per edge a line runs in.
 #pragma once
@@ -28,8 +28,8 @@ class FlowTracer {
   const Core& core() const noexcept { return *core_; }
   const FluxSurface& surface() const noexcept { return surface_; }
 
-  // line_count lines from the minima, each standing for the same flux; with seeds one line through every seed vertex
-  // instead, along the edge of the largest flux. u: by inner vertex, finite where a line can come.
+  // Traces line_count lines from the minima, each for the same flux. With seeds it traces one line through every seed
+  // vertex instead, along the edge of the largest flux. u: by inner vertex, finite wherever a line can run.
   FlowLineSet trace(Span<const double> u, std::uint32_t line_count, Span<const std::int32_t> seeds) const;
 
  private:

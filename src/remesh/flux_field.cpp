@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "remesh/constants.h"
 
 namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
-constexpr double least_flux = 1e-300;  // of an edge between equal values
 
 }  // namespace
 
@@ -70,7 +70,7 @@ void FluxField::match(std::int32_t v) {
   struct Segment {
     std::int32_t half;  // uphill
     bool in;
-    double low, high;  // what is left of it, by offset; outgoing ones in the units of the inflow
+    double low, high;  // the unmatched range of offsets; of outgoing ones in the units of the inflow
   };
   Vector<Segment> ring(memory_);
   double in = 0, out = 0;
@@ -88,7 +88,7 @@ void FluxField::match(std::int32_t v) {
     if (!s.in) s.high *= in / out;
   while (true) {
     const std::size_t size = ring.size();
-    // the most that every boundary can take at once; a segment between two boundaries gives half to each
+    // the largest amount that every boundary can match at once; a segment between two boundaries gives half to each
     double step = -1;
     for (std::size_t i = 0; i < size; ++i) {
       const Segment& s = ring[i];
@@ -97,7 +97,7 @@ void FluxField::match(std::int32_t v) {
       const double most = (s.high - s.low) / ends;
       if (step < 0 || most < step) step = most;
     }
-    if (step < 0) break;  // one kind is left, with nothing but rounding in it
+    if (step < 0) break;  // one kind is left, with rounding errors only
     for (std::size_t i = 0; i < size && step > 0; ++i) {
       Segment &a = ring[i], &b = ring[(i + 1) % size];
       if (a.in == b.in) continue;
@@ -109,12 +109,12 @@ void FluxField::match(std::int32_t v) {
         a.low += step, b.low += step;
       }
     }
-    // what is used up goes; at least one segment, so that this ends
+    // used segments are removed, one at least in every round, so that the loop ends
     std::size_t kept = 0;
     double least = 0;
     for (std::size_t i = 0; i < size; ++i)
       least = i == 0 ? ring[i].high - ring[i].low : std::min(least, ring[i].high - ring[i].low);
-    const double floor = std::max(least, 1e-15 * in);
+    const double floor = std::max(least, least_segment * in);
     for (std::size_t i = 0; i < size; ++i)
       if (ring[i].high - ring[i].low > floor) ring[kept++] = ring[i];
     ring.resize(kept);
@@ -138,7 +138,7 @@ FluxPoint FluxField::through_saddle(std::int32_t v, FluxPoint p, bool upward) co
     if (!best || miss < missed) best = &m, missed = miss;
     if (miss == 0) break;
   }
-  if (!best) return {};  // an edge without flux to speak of
+  if (!best) return {};  // an edge without flux
   const double from = upward ? best->in_offset : best->out_offset, to = upward ? best->out_offset : best->in_offset;
   const double t = std::min(std::max(offset - from, 0.0), best->length);
   return {upward ? best->out : best->in, (to + t) * (upward ? scale : 1.0)};
@@ -148,7 +148,7 @@ FluxPoint FluxField::up(FluxPoint p) const {
   const FluxSurface& s = *surface_;
   const std::int32_t v = s.head(p.half);
   if (saddle_of_[v] != none) return through_saddle(v, p, true);
-  // inflow stands counter-clockwise from left to right: sum what is left of the line, find the left end
+  // inflow runs counter-clockwise from left to right: sum the flux left of the line, find the left end
   std::int32_t g = s.twin[p.half];  // leaves v
   double left = p.offset, in = flux(p.half);
   std::int32_t a = s.turn_right(g);
@@ -158,7 +158,7 @@ FluxPoint FluxField::up(FluxPoint p) const {
     left += f, in += f;
   }
   for (std::int32_t b = s.turn_left(g); !rises(b); b = s.turn_left(b)) in += flux(s.twin[b]);
-  // the outflow clockwise from there is again from left to right
+  // clockwise from there, the outflow again runs from left to right
   double out = 0;
   for (std::int32_t b = a; rises(b); b = s.turn_right(b)) out += flux(b);
   double rest = left * (out / in);

@@ -1,18 +1,18 @@
-// A harmonic field as an exact discrete flow: what flux lines run in.
+// A harmonic field as an exact discrete flow, in which flux lines run.
 //
 //     f_ij = w_ij (u_j - u_i)     on every edge from the lower to the higher end
 //
-// is positive (w > 0) and balanced at every vertex that is no site (K u = 0): a flow on the edges. A flux line is an
-// edge with an offset in [0, f] from its left side, seen uphill; it passes a vertex by a planar, order-keeping matching
-// of the intervals that come in to those that leave. Lines so made never cross and never merge, rise strictly, come
-// back when reversed and end at sites only, on surfaces of any genus, and no geometric intersection is ever computed.
+// is positive (w > 0) and balanced at every vertex that is no site (K u = 0): a flow on the edges. A point of a flux
+// line is an edge and an offset in [0, f] from the edge's left side, seen uphill. At a vertex a planar matching that
+// keeps the order takes incoming intervals to outgoing ones. Such lines never cross or merge, rise strictly, come back
+// when reversed and end at sites only, on any genus. No geometric intersection is computed.
 //
-// At a regular vertex incoming and outgoing intervals each stand together around it and are matched in order. At a
-// saddle equal amounts are taken from both sides of every boundary between incoming and outgoing intervals at once,
-// until nothing is left: the symmetric planar matching, made once and kept.
+// Incoming intervals are contiguous around a regular vertex, and so are outgoing ones: they are matched in order. At a
+// saddle the symmetric planar matching is made once and kept. It takes equal amounts from both sides of every boundary
+// between incoming and outgoing intervals until none is left.
 //
-// Values are compared as pairs (u, vertex), so that equal ones are told apart. Cost: O(n log n) to rank, O(degree) for
-// a line to pass a vertex.
+// Values are compared as pairs (u, vertex), so equal values have an order. Cost: O(n log n) to rank, O(degree) for a
+// line to pass a vertex.
 #pragma once
 #include "base/span.h"
 #include "remesh/flux_surface.h"
@@ -34,11 +34,11 @@ class FluxField {
   std::int32_t rank(std::int32_t v) const noexcept { return rank_[v]; }
   std::int32_t by_rank(std::int32_t r) const noexcept { return order_[r]; }
   bool rises(std::int32_t h) const noexcept { return rank_[surface_->tail[h]] < rank_[surface_->head(h)]; }
-  // Of a half-edge that points uphill.
+  // The flux of a half-edge that points uphill.
   double flux(std::int32_t h) const noexcept;
   // Changes of direction around a vertex: 0 at an extremum, 2 at a regular vertex, 2 k + 2 at a saddle of index -k.
   std::int32_t sign_changes(std::int32_t v) const noexcept;
-  // Fluxes out less fluxes in, over their sum; of the flow at a vertex that is no site it is rounding.
+  // (outflow - inflow) / (outflow + inflow): rounding error at a vertex that is no site.
   double imbalance(std::int32_t v) const noexcept;
 
   // The line beyond the head (before the tail) of its edge; half = -1 where it ends, at an extremum.
@@ -48,7 +48,7 @@ class FluxField {
   const FluxSurface& surface() const noexcept { return *surface_; }
 
  private:
-  // A run of flux that comes in by one edge and leaves by another; scale: out per in.
+  // A run of flux that enters by one edge and leaves by another.
   struct Match {
     std::int32_t vertex, in, out;
     double in_offset, out_offset, length;  // in the units of the inflow

@@ -7,16 +7,13 @@
 #include "base/error.h"
 #include "factor/factor.h"
 #include "remesh/border_flux.h"
+#include "remesh/constants.h"
 
 namespace hf_inner {
 namespace {
 
-constexpr double circle_radius = 0.1;
-constexpr double border_distance = 0.08;  // of automatic sites
-constexpr std::size_t most_sites = 400;   // of a component
-
-// Lengths of shortest paths over the edges from one vertex; -1 where there is none. The rim of a border is 0 from its
-// apex.
+// Lengths of shortest paths along edges from one vertex; -1 if there is none. An apex is at distance 0 from its
+// border.
 void distances_from(const FluxSurface& s, std::int32_t source, Table<double>& distance, Memory& memory) {
   using Entry = std::pair<double, std::int32_t>;
   Vector<Entry> heap(&memory);
@@ -29,7 +26,7 @@ void distances_from(const FluxSurface& s, std::int32_t source, Table<double>& di
     heap.pop_back();
     const std::int32_t v = entry.second;
     if (entry.first > distance[v]) continue;
-    if (s.is_apex(v) && v != source) continue;  // no way across a hole
+    if (s.is_apex(v) && v != source) continue;  // paths do not cross a hole
     const std::int32_t begin = s.out[v];
     for (std::int32_t g = begin;;) {
       const std::int32_t w = s.head(g);
@@ -65,9 +62,9 @@ double border_length(const FluxSurface& s, std::int32_t apex) {
   }
 }
 
-double even(double x) { return std::max(4.0, 2 * std::round(x / 2)); }
+double even(double x) { return std::max(least_lines, 2 * std::round(x / 2)); }
 
-// One component's sites with their distances.
+// The sites of one component with their distances.
 struct Group {
   explicit Group(Memory& memory) : sites(&memory), distance(&memory) {}
   Vector<FluxSite> sites;
@@ -75,54 +72,54 @@ struct Group {
 };
 
 // sinks: one flag per site.
-double division_cost(const Group& g, const Vector<std::uint8_t>& sinks) {
+double partition_cost(const Group& g, const Vector<std::uint8_t>& sinks) {
   const std::size_t k = g.sites.size();
   double up = 0, down = 0, mean = 0, close = 0, like = 0;
   for (std::size_t i = 0; i < k; ++i) (sinks[i] ? up : down) += g.sites[i].lines;
-  if (up <= 0 || down <= 0) return 1e300;
+  if (up <= 0 || down <= 0) return HUGE_VAL;
   for (std::size_t i = 0; i < k; ++i)
     for (std::size_t j = 0; j < i; ++j) mean += g.distance[i * k + j];
-  mean = std::max(mean / (0.5 * static_cast<double>(k * (k - 1))), 1e-12);
+  mean = std::max(mean / (0.5 * static_cast<double>(k * (k - 1))), least_mean_distance);
   for (std::size_t i = 0; i < k; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (sinks[i] != sinks[j]) continue;
       close += std::exp(-g.distance[i * k + j] / mean), like += 1;
     }
   }
-  return std::fabs(up - down) / (up + down) + (like > 0 ? 0.5 * close / like : 0.0);
+  return std::fabs(up - down) / (up + down) + (like > 0 ? neighbour_cost * close / like : 0.0);
 }
 
-// Which sites are sinks: all divisions of up to 12 sites, else single and, up to 40, double exchanges.
-Vector<std::uint8_t> divide(const Group& g) {
+// Which sites are sinks: the best of all partitions of few sites, else by single or double exchanges.
+Vector<std::uint8_t> partition(const Group& g) {
   const std::size_t k = g.sites.size();
   Vector<std::uint8_t> best(k, std::uint8_t{0}, g.sites.get_allocator().resource()), trial(best, best.get_allocator());
   best[0] = 1;
-  double least = division_cost(g, best);
-  if (k <= 12) {
+  double least = partition_cost(g, best);
+  if (k <= most_tried_at_once) {
     for (std::uint32_t d = 1; d < (1u << (k - 1)); ++d) {
       for (std::size_t i = 0; i < k; ++i) trial[i] = d >> i & 1;
-      const double cost = division_cost(g, trial);
+      const double cost = partition_cost(g, trial);
       if (cost < least) least = cost, best = trial;
     }
     return best;
   }
   for (std::size_t i = 0; i < k; ++i) best[i] = i % 2 == 0;
-  least = division_cost(g, best);
+  least = partition_cost(g, best);
   for (bool better = true; better;) {
     better = false;
     for (std::size_t i = 0; i < k; ++i) {
-      for (std::size_t j = k <= 40 ? 0 : i; j <= i; ++j) {
+      for (std::size_t j = k <= most_exchanged_in_pairs ? 0 : i; j <= i; ++j) {
         trial = best, trial[i] ^= 1;
         if (i != j) trial[j] ^= 1;
-        const double cost = division_cost(g, trial);
-        if (cost < least - 1e-12) least = cost, best = trial, better = true;
+        const double cost = partition_cost(g, trial);
+        if (cost < least - least_cost_gain) least = cost, best = trial, better = true;
       }
     }
   }
   return best;
 }
 
-// Scales one side to `total` lines, in steps of two.
+// Scales the sinks or the sources to `total` lines, in steps of two.
 void share_out(Vector<FluxSite>& sites, bool sinks, double total) {
   double sum = 0;
   for (const FluxSite& site : sites)
@@ -131,7 +128,8 @@ void share_out(Vector<FluxSite>& sites, bool sinks, double total) {
   Vector<std::pair<double, std::size_t>> rest(sites.get_allocator());
   for (std::size_t i = 0; i < sites.size(); ++i) {
     if ((sites[i].lines > 0) != sinks) continue;
-    const double exact = std::fabs(sites[i].lines) * total / sum, whole = std::max(4.0, 2 * std::floor(exact / 2));
+    const double exact = std::fabs(sites[i].lines) * total / sum,
+                 whole = std::max(least_lines, 2 * std::floor(exact / 2));
     rest.push_back({whole - exact, i});
     sites[i].lines = sinks ? whole : -whole, given += whole;
   }
@@ -139,12 +137,12 @@ void share_out(Vector<FluxSite>& sites, bool sinks, double total) {
   for (std::size_t turn = 0; given != total; turn = (turn + 1) % rest.size()) {
     FluxSite& site = sites[rest[given < total ? turn : rest.size() - 1 - turn].second];
     const double step = given < total ? 2.0 : -2.0;
-    if (std::fabs(site.lines) + step < 4) continue;
+    if (std::fabs(site.lines) + step < least_lines) continue;
     site.lines += sinks ? step : -step, given += step;
   }
 }
 
-// Both sides to one even total.
+// Scales both sides to one even total.
 void even_out(Vector<FluxSite>& sites) {
   double up = 0, down = 0;
   std::size_t up_count = 0, down_count = 0;
@@ -152,7 +150,7 @@ void even_out(Vector<FluxSite>& sites) {
     (site.lines > 0 ? up : down) += std::fabs(site.lines);
     ++(site.lines > 0 ? up_count : down_count);
   }
-  const double least = 4.0 * static_cast<double>(std::max(up_count, down_count));
+  const double least = least_lines * static_cast<double>(std::max(up_count, down_count));
   const double total = std::max(2 * std::round(std::max(up, down) / 2), least);
   share_out(sites, true, total);
   share_out(sites, false, total);
@@ -162,7 +160,7 @@ void balance(Group& group) {
   bool chosen = false;
   for (const FluxSite& site : group.sites) chosen |= site.lines < 0;
   if (!chosen) {
-    const Vector<std::uint8_t> sinks = divide(group);
+    const Vector<std::uint8_t> sinks = partition(group);
     for (std::size_t i = 0; i < group.sites.size(); ++i)
       if (!sinks[i]) group.sites[i].lines = -group.sites[i].lines;
   }
@@ -192,25 +190,27 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
     for (std::int32_t v = s.first_apex; v < s.vertex_count(); ++v)
       if (s.component[v] == c) group.sites.push_back({v, 0.0});
     const std::size_t borders = group.sites.size();
-    const std::size_t wanted = euler[c] < 2 && automatic ? 4 : 2;
+    const std::size_t wanted = euler[c] < 2 && automatic ? least_sites_with_handles : least_sites;
     if (borders + given.size() > most_sites)
-      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "a component has %zu borders; with the sites at most %zu can be divided",
-           borders, most_sites);
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+           "a component has %zu borders; with the sites at most %zu can be partitioned", borders, most_sites);
     Vector<Table<double>> from(&memory);
-    nearest.assign(s.vertex_count(), 1e300);
+    nearest.assign(s.vertex_count(), HUGE_VAL);
     auto reach = [&](std::size_t i) {
-      const float part = static_cast<float>(i) / static_cast<float>(i + 4);  // how many there will be is not known
+      const float part =
+          static_cast<float>(i) / static_cast<float>(i + expected_sites);  // their number is not known yet
       report(progress, (static_cast<float>(c) + part) / static_cast<float>(s.component_count));
       distances_from(s, group.sites[i].vertex, distance, memory);
-      // the lines a site should carry: the derivative of the area of discs is the length of the circle
+      // lines from the length of the circle around the site: the derivative of the area of discs
       if (group.sites[i].lines == 0) {
         double circumference = 0;
         if (s.is_apex(group.sites[i].vertex)) {
           circumference = border_length(s, group.sites[i].vertex);
         } else {
           for (std::int32_t v = 0; v < s.first_apex; ++v)
-            if (distance[v] >= 0.8 * circle_radius && distance[v] < 1.2 * circle_radius) circumference += area[v];
-          circumference /= 0.4 * circle_radius;
+            if (distance[v] >= (1 - circle_band) * circle_radius && distance[v] < (1 + circle_band) * circle_radius)
+              circumference += area[v];
+          circumference /= 2 * circle_band * circle_radius;
         }
         group.sites[i].lines = even(circumference / edge_length);
       }
@@ -225,7 +225,7 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
       reach(group.sites.size() - 1);
     }
     while (group.sites.size() < wanted) {
-      if (group.sites.empty()) {  // the far end as seen from anywhere
+      if (group.sites.empty()) {  // the farthest vertex from any vertex
         distances_from(s, first[c], distance, memory);
         std::int32_t far = first[c];
         for (std::int32_t v = 0; v < s.first_apex; ++v)
@@ -264,7 +264,7 @@ FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs, Pr
   SymmetricMatrix k(memory);
   k.column_start.push_back(0);
   Vector<std::pair<std::int32_t, double>> column(&memory);
-  Table<std::uint8_t> grounded(s.component_count, 0, memory);
+  Table<std::uint8_t> pinned(s.component_count, 0, memory);
   Vector<float> coordinates(&memory);
   for (std::int32_t v = 0; v < n; ++v) {
     column.clear();
@@ -275,8 +275,8 @@ FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs, Pr
       g = s.turn_left(g);
       if (g == begin) break;
     }
-    if (!grounded[s.component[v]])
-      grounded[s.component[v]] = 1, column.push_back({v, 2 * diagonal});
+    if (!pinned[s.component[v]])
+      pinned[s.component[v]] = 1, column.push_back({v, pinned_diagonal * diagonal});
     else
       column.push_back({v, diagonal});
     std::sort(column.begin(), column.end());
@@ -305,7 +305,7 @@ Vector<double> FluxSolver::solve(Span<const FluxSite> sites) const {
       u(static_cast<std::size_t>(n), 0.0, memory_), r(memory_);
   for (const FluxSite& site : sites) b[static_cast<std::size_t>(site.vertex)] += site.lines;
   r = b;
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < flux_solves; ++round) {
     for (std::size_t v = 0; v < z.size(); ++v) z[static_cast<std::size_t>(position[v])] = r[v];
     factor_->forward(z.data(), 1, *jobs_);
     factor_->backward(z.data(), 1, *jobs_);
@@ -335,7 +335,6 @@ void scale_lines(const FluxSurface& surface, std::int32_t component, double fact
 }
 
 Vector<double> solve_with_borders(const FluxSurface& s, const FluxSolver& solver, Vector<FluxSite>& sites) {
-  constexpr int most_rounds = 6;
   for (int round = 0;; ++round) {
     Vector<double> u = solver.solve(sites);
     const FluxSite* crossed = nullptr;
@@ -349,10 +348,10 @@ Vector<double> solve_with_borders(const FluxSurface& s, const FluxSolver& solver
         g = s.turn_left(g);
         if (g == begin) break;
       }
-      if (wrong) site.lines *= 1.7, crossed = &site;
+      if (wrong) site.lines *= border_raise, crossed = &site;
     }
     if (!crossed) return u;
-    if (round == most_rounds) return solve_between_levels(s, solver, sites);
+    if (round == border_rounds) return solve_between_levels(s, solver, sites);
     for (std::int32_t c = 0; c < s.component_count; ++c) scale_lines(s, c, 1.0, sites);
   }
 }

@@ -44,12 +44,13 @@ struct Pairs {
   Table<std::int32_t> twin;
 };
 
-// Which triangles must be turned round so that all of a component agree with its first one.
+// Which triangles must be turned so that all of a component agree with its first one.
 Table<std::uint8_t> orient(const Mesh& mesh, const Pairs& pairs, Memory& memory) {
-  Table<std::uint8_t> turned(mesh.triangle_count(), 2, memory);
+  constexpr std::uint8_t unseen = 2;  // beside 0 and 1, the answers
+  Table<std::uint8_t> turned(mesh.triangle_count(), unseen, memory);
   Table<std::int32_t> stack(memory);
   for (std::int32_t start = 0; start < mesh.triangle_count(); ++start) {
-    if (turned[start] != 2) continue;
+    if (turned[start] != unseen) continue;
     turned[start] = 0, stack.push_back(start);
     while (!stack.empty()) {
       const std::int32_t t = stack.back();
@@ -60,7 +61,7 @@ Table<std::uint8_t> orient(const Mesh& mesh, const Pairs& pairs, Memory& memory)
         const std::int32_t a = mesh.corners[static_cast<std::size_t>(h)];
         const bool same_way = mesh.corners[static_cast<std::size_t>(other)] == a;  // both run from a: they disagree
         const std::uint8_t wanted = static_cast<std::uint8_t>(turned[t] ^ (same_way ? 1 : 0));
-        if (turned[other / 3] == 2) {
+        if (turned[other / 3] == unseen) {
           turned[other / 3] = wanted, stack.push_back(other / 3);
         } else if (turned[other / 3] != wanted) {
           fail(HF_ERROR_UNSUPPORTED, given(mesh, a), "the surface at vertex %u cannot be oriented (a Moebius band)",
@@ -92,7 +93,7 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
       if (pairs.twin[h] != none) s.twin[moved(h)] = moved(pairs.twin[h]);
   }
 
-  // one vertex per fan: the corners that turning about the vertex joins
+  // one vertex per fan: the corners reached by turning about it
   for (std::int32_t h = 0; h < real_halves; ++h) {
     if (s.tail[h] != none) continue;
     std::int32_t first = h;  // back to the right end of the fan, or once around

@@ -1,10 +1,10 @@
-// The surface as flux lines see it: an oriented half-edge mesh without borders, one positive weight per edge.
+// The surface in which flux lines run: an oriented half-edge mesh without borders, one positive weight per edge.
 //
 // Triangles are turned so that neighbours agree; a vertex where several fans meet becomes one vertex per fan. Every
-// border loop is closed by a vertex of its own, an apex, joined to all its vertices: the apex is a site like any other
-// (a source or sink of the flux through the border), and everything downstream knows only closed surfaces. Weights are
-// the cotangent ones floored at 1e-3 of their median, which keeps every flux positive uphill; edges to an apex weigh
-// `apex_weight` medians, so that the border is nearly at one level, or nothing.
+// border loop is closed by an extra vertex, an apex, joined to all its vertices. An apex is a site like any other, with
+// the flux through the border, so the code that follows knows only closed surfaces. Weights are cotangent weights with
+// a floor of 1e-3 of their median, which keeps every flux positive uphill. Edges to an apex weigh `apex_weight`
+// medians, so that the border is nearly at one level; 0 takes the apex out of the field.
 //
 // Half-edge 3 t + k of triangle t runs from its corner k to the next. Cost: O(n log n).
 #pragma once
@@ -37,12 +37,12 @@ struct FluxSurface {
   bool is_apex(std::int32_t v) const noexcept { return v >= first_apex; }
   bool is_real(std::int32_t h) const noexcept { return h < 3 * real_triangles; }  // not of a triangle at an apex
 
-  Table<std::int32_t> tail, twin;   // by half-edge
-  Table<double> weight;             // by half-edge; both of an edge carry the same
-  Table<std::int32_t> out;          // by vertex, a half-edge that leaves it; at the rim of a border any
-  Table<Vec3> position;             // by vertex, inner units; of an apex the middle of its border
-  Table<std::int32_t> mesh_vertex;  // by vertex, the inner vertex of the Mesh, none for an apex
-  Table<std::int32_t> component;    // by vertex; components of fans
+  Table<std::int32_t> tail, twin;   // By half-edge.
+  Table<double> weight;             // By half-edge; equal for both of an edge.
+  Table<std::int32_t> out;          // By vertex, any half-edge that leaves it.
+  Table<Vec3> position;             // By vertex, inner units; of an apex the middle of its border.
+  Table<std::int32_t> mesh_vertex;  // By vertex, the inner vertex of the Mesh, none for an apex.
+  Table<std::int32_t> component;    // By vertex, through its fan.
   std::int32_t real_triangles = 0, first_apex = 0, component_count = 0;
   std::int32_t euler_characteristic = 0;  // of the surface without the apexes
 };

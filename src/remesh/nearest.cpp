@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "remesh/constants.h"
+
 namespace hf_inner {
 namespace {
 
@@ -69,7 +71,7 @@ std::int32_t NearestTriangle::build(std::int32_t first, std::int32_t count) {
     }
   }
   const std::int32_t number = boxes_.push_back(box);
-  if (count <= 4) return number;
+  if (count <= triangles_a_leaf) return number;
   const Vec3 size = box.high - box.low;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const std::int32_t half = count / 2;
@@ -96,7 +98,7 @@ NearestTriangle::Found NearestTriangle::find(Vec3 p, std::int32_t hint, double e
     found = {hint, to_triangle(p, corner(hint, 0), corner(hint, 1), corner(hint, 2))};
     if (found.squared <= enough) return found;
   }
-  std::int32_t stack[128], top = 0;
+  std::int32_t stack[tree_stack], top = 0;
   if (!boxes_.empty()) stack[top++] = 0;
   while (top > 0) {
     const std::int32_t number = stack[--top];

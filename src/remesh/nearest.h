@@ -7,15 +7,14 @@ namespace hf_inner {
 
 class NearestTriangle {
  public:
-  // corners: three positions per triangle, which outlive this.
+  // corners: three indices into positions per triangle; both arrays must outlive this.
   NearestTriangle(const Table<Vec3>& positions, const Table<std::int32_t>& corners, Memory& memory);
   struct Found {
     std::int32_t triangle = -1;
     double squared = 0;
   };
-  // hint: a triangle that may be near, or -1. enough: the squared distance at which the search ends; what is found
-  // farther away is the nearest. Cost: O(log triangles) where the soup is a surface, O(1) where the hint is near
-  // enough.
+  // hint: a triangle that may be near, or -1. enough: a squared distance; the search ends at any triangle that near,
+  // else it returns the nearest. Cost: O(log triangles) on a surface, O(1) if the hint is near enough.
   Found find(Vec3 p, std::int32_t hint = -1, double enough = 0) const noexcept;
   // Weights of the corners of triangle t at its point nearest to p.
   void weights(Vec3 p, std::int32_t t, double* out) const noexcept;

@@ -4,15 +4,14 @@
 #include <cmath>
 #include <cstring>
 
+#include "remesh/constants.h"
+
 namespace hf_inner {
 namespace {
 
-constexpr std::int32_t most_samples = 60000, most_spread = 30000;
-constexpr std::int32_t samples_a_piece = 4096, faces_a_piece = 512;
 constexpr std::int32_t none = -1;
-constexpr double flat = 0.02;  // squared spacings: a diagonal as near to the surface as that is as good as any
 
-// How many corners of a quad are no convex ones in the plane of its mean normal, and the last of them.
+// How many corners of a quad are reflex in the plane of its mean normal, and the last of them.
 std::int32_t reflex_corners(const QuadMesh& mesh, const std::int32_t* c, std::int32_t& last) {
   const Vec3 normal = cross(mesh.position[c[2]] - mesh.position[c[0]], mesh.position[c[3]] - mesh.position[c[1]]);
   std::int32_t count = 0;
@@ -24,8 +23,8 @@ std::int32_t reflex_corners(const QuadMesh& mesh, const std::int32_t* c, std::in
   return count;
 }
 
-// The triangles of the quads: fans from their first corners; of quads so twisted that no diagonal is inside, both
-// pairs.
+// The triangles of the quads: fans from their first corners. A quad so twisted that no diagonal lies inside gives the
+// triangles of both diagonals.
 struct Soup {
   explicit Soup(Memory& memory) : corners(memory), face(memory) {}
   Table<std::int32_t> corners, face;
@@ -42,11 +41,11 @@ struct Soup {
   }
 };
 
-// Points of a triangle but its corners, `spacing` apart, at most 8 steps to an edge.
+// Visits points of a triangle except its corners, `spacing` apart, at most most_steps to an edge.
 template <class Visit>
 void spread(Vec3 a, Vec3 b, Vec3 c, double spacing, std::int32_t least, Visit&& visit) {
   const double longest = std::max(norm(b - a), std::max(norm(c - b), norm(a - c)));
-  const std::int32_t n = std::max(least, static_cast<std::int32_t>(std::min(std::ceil(longest / spacing), 8.0)));
+  const std::int32_t n = std::max(least, static_cast<std::int32_t>(std::min(std::ceil(longest / spacing), most_steps)));
   for (std::int32_t j = 0; j < n; ++j)
     for (std::int32_t k = j == 0 ? 1 : 0; j + k <= n && k < n; ++k)
       visit((1.0 / n) * (static_cast<double>(j) * b + static_cast<double>(k) * c + static_cast<double>(n - j - k) * a));
@@ -81,7 +80,7 @@ void QuadDistance::sample_surface() {
       samples_.push_back({s.position[c[k]], c[k], none, none});
     }
     if (s.real_triangles > most_spread) continue;
-    spread(s.position[c[0]], s.position[c[1]], s.position[c[2]], spacing_, 1, [&](const Vec3& p) {
+    spread(s.position[c[0]], s.position[c[1]], s.position[c[2]], spacing_, surface_steps, [&](const Vec3& p) {
       samples_.push_back({p, QuadMiss::of_surface, none, none});
     });
   }
@@ -93,7 +92,7 @@ Table<QuadDistance::Sample> QuadDistance::sample_quads(const QuadMesh& mesh, con
   for (std::int32_t i = 0; i < faces.size(); ++i) {
     if (known && known->has(mesh, faces[i])) continue;
     const std::int32_t* c = corners.data() + 3 * i;
-    spread(mesh.position[c[0]], mesh.position[c[1]], mesh.position[c[2]], spacing_, 2, [&](const Vec3& p) {
+    spread(mesh.position[c[0]], mesh.position[c[1]], mesh.position[c[2]], spacing_, quad_steps, [&](const Vec3& p) {
       samples.push_back({p, QuadMiss::of_quads, faces[i], mesh.location[c[0]].triangle});
     });
   }
@@ -108,13 +107,13 @@ SurfacePoint QuadDistance::nearest(Vec3 p) const noexcept {
 }
 
 std::uint64_t NearFaces::key(const QuadMesh& mesh, std::int32_t f) noexcept {
-  std::uint64_t key = 0x9e3779b97f4a7c15u;
+  std::uint64_t key = hash_start;
   for (std::int32_t k = mesh.face_start[f]; k < mesh.face_start[f + 1]; ++k) {
     const Vec3 p = mesh.position[mesh.corner[k]];
     for (const double x : {p.x, p.y, p.z}) {
       std::uint64_t bits = 0;
       std::memcpy(&bits, &x, sizeof bits);
-      key = (key ^ bits) * 0xff51afd7ed558ccdu;
+      key = (key ^ bits) * hash_factor;
       key ^= key >> 32;
     }
   }
@@ -135,8 +134,8 @@ void QuadDistance::turn_quads(QuadMesh& mesh, const NearFaces* known) const {
       }
       auto miss = [&](std::int32_t k, double enough) {
         const Vec3 a = mesh.position[c[k]], b = mesh.position[c[k + 2]];
-        double worst = flat * spacing_ * spacing_;
-        for (const double share : {0.5, 0.25, 0.75}) {
+        double worst = flat_diagonal * spacing_ * spacing_;
+        for (const double share : diagonal_shares) {
           const std::int32_t hint = mesh.location[c[share < 0.5 ? k + 2 : k]].triangle;
           worst = std::max(worst, tree_.find(share * a + (1 - share) * b, hint, worst).squared);
           if (worst > enough) break;
@@ -157,8 +156,9 @@ double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<Quad
   double worst = out_misses ? tolerance : 0;
   Table<double> distance(*memory_);
   Table<std::int32_t> nearest(*memory_);
-  // distances above `tolerance`, or larger than those before in their piece; 0 for the others
-  auto look = [&](const NearestTriangle& tree, const Table<Sample>& samples, const Table<std::int32_t>* faces) {
+  // distances above `tolerance`, or above all before in their piece; 0 for the others
+  auto measure_samples = [&](const NearestTriangle& tree, const Table<Sample>& samples,
+                             const Table<std::int32_t>* faces) {
     distance.assign(samples.size(), 0), nearest.assign(samples.size(), none);
     const std::int32_t pieces = (samples.size() + samples_a_piece - 1) / samples_a_piece;
     for_each(jobs_, static_cast<std::uint32_t>(pieces), [&](std::uint32_t piece) {
@@ -182,8 +182,8 @@ double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<Quad
           {distance[i], samples[i].point, samples[i].vertex, faces ? (*faces)[nearest[i]] : samples[i].face});
     }
   };
-  look(quads, samples_, &soup.face);
-  look(tree_, sample_quads(mesh, soup.corners, soup.face, known), nullptr);
+  measure_samples(quads, samples_, &soup.face);
+  measure_samples(tree_, sample_quads(mesh, soup.corners, soup.face, known), nullptr);
   if (known) {
     Table<std::uint8_t> off(mesh.face_count(), out_misses ? 0 : 1, *memory_);
     for (std::size_t i = 0; out_misses && i < out_misses->size(); ++i)

@@ -1,10 +1,11 @@
-// How far a quad mesh and the surface it was made from are from each other, and where.
+// Measures the distance of a quad mesh and its surface, and finds where it is large.
 //
 // Both ways, sampled: vertices of the surface to the quads (fans of triangles from their first corners), and points of
-// these triangles, `spacing` apart, to the surface. Of large surfaces some 60,000 vertices are looked at; of those of
-// up to 30,000 triangles points on the larger triangles, too. Points are taken in the order of a tree of boxes, so that
-// the triangle found last is mostly near enough for the next: O(1) a point but where something is missed, O(log) there.
-// Work is cut into fixed pieces over the threads that are granted; the result does not depend on their number.
+// these triangles, `spacing` apart, to the surface. Large surfaces are sampled at some of their vertices
+// (most_samples), small ones also at points of their larger triangles (most_spread). Points follow the order of a tree
+// of boxes, so the last triangle found is mostly near enough for the next point. That costs O(1) a point, and O(log)
+// where the distance exceeds the tolerance. Work is cut into pieces of fixed size for the threads; the result does not
+// depend on their number.
 #pragma once
 #include <unordered_set>
 
@@ -19,13 +20,13 @@ struct QuadMiss {
   static constexpr std::int32_t of_surface = -1, of_quads = -2;
   double distance;
   Vec3 point;
-  std::int32_t vertex;  // of the surface; or what the point is of
-  std::int32_t face;    // of the quads: the nearest, or its own
+  std::int32_t vertex;  // of the surface, or of_surface, of_quads
+  std::int32_t face;    // of the quads: the nearest, or the one sampled
 };
 
-// Faces known to keep within one tolerance of the surface, by a hash of where their corners are, in their order: what a
-// step did not move is not measured again. Two faces of one hash (about one in 10^7 pairs of runs) would be taken for
-// one another until the mesh is measured as a whole.
+// Faces known to lie within one tolerance of the surface, by a hash of their corners' positions in order: faces that a
+// step did not move are not measured again. If two faces have one hash (about one in 10^7 pairs of runs), the second is
+// not measured until the whole mesh is.
 struct NearFaces {
   explicit NearFaces(Memory& memory) : keys(&memory) {}
   static std::uint64_t key(const QuadMesh& mesh, std::int32_t f) noexcept;
@@ -37,12 +38,13 @@ class QuadDistance {
  public:
   // spacing: of the points on triangles, inner units.
   QuadDistance(const FluxSurface& surface, double spacing, Memory& memory, JobRunner* jobs = nullptr);
-  // Lets every quad begin at its reflex corner, or where the diagonal keeps nearer to the surface: most programs draw
-  // quads as fans. known: NULL, or faces that stay as they are.
+  // Rotates the corners of every quad: its reflex corner comes first, or else an end of the diagonal nearer to the
+  // surface, because most programs draw quads as fans.
+  // Parameter known: NULL, or faces that stay unchanged.
   void turn_quads(QuadMesh& mesh, const NearFaces* known = nullptr) const;
-  // The largest distance found. out_misses: NULL, or the places farther than `tolerance`, the farthest first; then
-  // distances below `tolerance` are not told apart, and without a miss it is `tolerance` that is returned. known: NULL,
-  // or faces found near at this tolerance, which are left out; what is found near now is added.
+  // Returns the largest distance. out_misses: NULL, or receives the places farther than `tolerance`, the farthest
+  // first; without a miss the function then returns `tolerance`. Parameter known: NULL, or faces found near at this
+  // tolerance; they are left out, and faces found near are added.
   double measure(const QuadMesh& mesh, double tolerance, Vector<QuadMiss>* out_misses, Progress* progress,
                  NearFaces* known = nullptr) const;
 
@@ -52,8 +54,8 @@ class QuadDistance {
  private:
   struct Sample {
     Vec3 point;
-    std::int32_t vertex, face;  // as in QuadMiss; face and hint of samples of the quads only
-    std::int32_t hint;          // a triangle of the surface near it
+    std::int32_t vertex, face;  // As in QuadMiss; face and hint are set for samples of the quads only.
+    std::int32_t hint;          // A triangle of the surface near it.
   };
   void sample_surface();
   Table<Sample> sample_quads(const QuadMesh& mesh, const Table<std::int32_t>& corners, const Table<std::int32_t>& faces,

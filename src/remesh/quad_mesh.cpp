@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "base/error.h"
+#include "remesh/constants.h"
 
 namespace hf_inner {
 namespace {
@@ -15,7 +16,7 @@ std::uint64_t edge_key(std::int32_t a, std::int32_t b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
 }
 
-// How far the corners of a quad are from right angles: 0 for rectangles.
+// Sum of the squared cosines of a quad's angles, with a cost for reflex corners: 0 for rectangles.
 double badness(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 p[4] = {a, b, c, d};
   const Vec3 normal = cross(c - a, d - b);
@@ -24,10 +25,10 @@ double badness(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   for (int k = 0; k < 4; ++k) {
     const Vec3 x = p[(k + 1) % 4] - p[k], y = p[(k + 3) % 4] - p[k];
     const double lengths = norm(x) * norm(y);
-    if (!(lengths > 0)) return 1e3;
+    if (!(lengths > 0)) return degenerate_cost;
     const double cosine = dot(x, y) / lengths;
     sum += cosine * cosine;
-    if (size > 0 && dot(cross(x, y), normal) <= 0) sum += 4;
+    if (size > 0 && dot(cross(x, y), normal) <= 0) sum += reflex_cost;
   }
   return sum;
 }
@@ -57,7 +58,7 @@ class Splitter {
         if (n == 6) cost += quad_cost(d, rest_[(i + 4) % n], rest_[(i + 5) % n], a);
         if (best == none || cost < least) best = i, least = cost;
       }
-      if (best == none) break;  // every chord is an edge elsewhere: the polygon stays
+      if (best == none) break;  // every chord is an edge elsewhere: the polygon stays whole
       const std::int32_t a = rest_[best], b = rest_[(best + 1) % n], c = rest_[(best + 2) % n],
                          d = rest_[(best + 3) % n];
       edges_.insert(edge_key(a, d));
@@ -174,7 +175,7 @@ QuadMesh make_polygons(const FluxField& field, const ArcGraph& graph, const Ring
       continue;
     }
     out.face_start.push_back(out.corner.size());
-    // a quad beside a saddle is a quad, and so is one that only lost or got a pair of lines
+    // polygons of 6 corners at a site and of 8 at a saddle get a centre vertex; smaller ones are split by chords
     const std::int32_t size = out.size(out.face_count() - 1);
     centre.push_back(critical != none && (one_ring ? size >= 6 : size >= 8) && !surface.is_apex(critical) ? critical
                                                                                                           : none);

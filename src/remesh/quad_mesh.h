@@ -1,11 +1,12 @@
-// Rings and lines to polygons, and polygons to quads.
+// Turns rings and lines into polygons, and polygons into quads.
 //
-// Faces are the orbits of "go along a half-edge, turn back, turn one step clockwise" over the nodes, whose half-edges
-// stand next, up, previous, down counter-clockwise. A polygon of 2 m corners around a site or saddle is split into m
-// quads by a vertex put there, joined to every second corner; others lose quads by their best chords. Faces across
-// borders (the caps of apexes) are left out.
+// Faces are the orbits of "go along a half-edge, turn back, turn one step clockwise" over the nodes. A node has the
+// half-edges next, up, previous, down, counter-clockwise. A polygon of 2 m corners around a site or saddle is split
+// into m quads by a centre vertex joined to every second corner. Other polygons are cut into quads along their best
+// chords. Faces across borders (the caps of apexes) are left out.
 //
-// check() is the oracle: every directed edge once, no corner repeated in a face, the Euler characteristic of the input.
+// check_quads() is the oracle: every directed edge once, no corner repeated in a face, the Euler characteristic of the
+// input.
 #pragma once
 #include "remesh/rings.h"
 
@@ -20,12 +21,12 @@ struct QuadMesh {
         scale(memory),
         face_start(memory),
         corner(memory) {}
-  Table<SurfacePoint> location;  // by vertex
-  Table<Vec3> position;          // inner units
-  static constexpr std::uint8_t free = 0, site = 1, drawn_out = 2;
-  Table<std::uint8_t> pinned;  // by vertex: whether it stays where it is, and why
-  Table<std::uint8_t> border;  // by vertex
-  Table<float> scale;          // by vertex, of the edge length wanted there: below 1 where the mesh was refined
+  Table<SurfacePoint> location;  // By vertex.
+  Table<Vec3> position;          // By vertex, inner units.
+  static constexpr std::uint8_t free = 0, site = 1, snapped = 2;
+  Table<std::uint8_t> pinned;  // By vertex, whether it is pinned and why.
+  Table<std::uint8_t> border;  // By vertex, whether it lies on a border.
+  Table<float> scale;          // By vertex, edge length over the one aimed at: below 1 if refined.
   Table<std::int32_t> face_start, corner;
   std::int32_t face_count() const noexcept { return face_start.size() - 1; }
   std::int32_t size(std::int32_t f) const noexcept { return face_start[f + 1] - face_start[f]; }
@@ -36,7 +37,7 @@ struct QuadMesh {
   }
 };
 
-// The faces around every vertex v: face[start[v] .. start[v + 1]), in no order.
+// The faces around every vertex v, face[start[v] .. start[v + 1]), unordered.
 struct VertexFans {
   VertexFans(const QuadMesh& mesh, Memory& memory);
   std::int32_t valence(std::int32_t v) const noexcept { return start[v + 1] - start[v]; }
@@ -54,7 +55,7 @@ QuadMesh make_polygons(const FluxField& field, const ArcGraph& graph, const Ring
 QuadMesh split_polygons(const FluxSurface& surface, const QuadMesh& polygons, const Table<std::int32_t>& centre,
                         Memory& memory);
 
-// Throws HF_ERROR_INTERNAL naming what does not hold.
+// Throws HF_ERROR_INTERNAL with a message that says what is wrong.
 void check_quads(const QuadMesh& mesh, std::int32_t euler_characteristic, Memory& memory);
 
 }  // namespace hf_inner

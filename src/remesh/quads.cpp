@@ -7,6 +7,7 @@
 #include "field/extremities.h"
 #include "remesh/capture.h"
 #include "remesh/coarsen.h"
+#include "remesh/constants.h"
 #include "remesh/fit.h"
 #include "remesh/relax.h"
 #include "remesh/ring_levels.h"
@@ -15,28 +16,8 @@ namespace hf_inner {
 
 namespace {
 
-constexpr double apex_weight = 30;
-constexpr double tip_distance = 0.06;  // of two automatic sites, in box diagonals
-constexpr std::size_t most_tips = 32;
-constexpr double least_deviation = 0.003;  // below it nothing is drawn out
-constexpr double tolerance = 0.39;         // in edge lengths: what is farther from the surface is refined
-constexpr double enough = 0.41;            // in edge lengths: the distance of a mesh as it should be
-
-// Which tips become sites decides whether limbs get rings of their own, and how much flow runs where. No threshold is
-// right for all shapes: several lists are tried, and the mesh that comes nearest to the surface is kept.
-struct TipLengths {
-  double geodesic, poisson;
-};
-constexpr TipLengths tip_lengths[] = {{0.008, 0.02}, {0.015, 0.05}, {0.03, 0.1}, {0.1, 0.3}};
-constexpr int tip_trials = 4;
-constexpr double hopeless = 1.35;  // times as far from the surface as the nearest of the meshes: not fitted
-constexpr std::size_t most_fitted = 3, most_dense = 2;
-// Where no list gives a mesh near enough of edges even enough (Maker::worth), shorter edges are tried.
-constexpr double near_enough = 1.06;
-constexpr double densities[] = {1.15, 1.3};
-
-// Scales the lines of every component so that its faces have a little less than the area of squares of the edge length
-// in the mean: rings times lines, summed over arcs, are the faces.
+// Scales the lines of every component so that the mean face is a little smaller than a square of the edge length. The
+// number of faces is rings times lines, summed over arcs.
 void fit_lines(const FluxSurface& surface, Span<const double> u, const RingOptions& options, Vector<FluxSite>& sites,
                Memory& memory) {
   const FluxField field(surface, u, memory);
@@ -51,35 +32,37 @@ void fit_lines(const FluxSurface& surface, Span<const double> u, const RingOptio
         0.5 * norm(cross(surface.position[surface.tail[3 * t + 1]] - a, surface.position[surface.tail[3 * t + 2]] - a));
   }
   for (std::int32_t c = 0; c < surface.component_count; ++c) {
-    const double wanted = 1.15 * area[c] / (options.edge_length * options.edge_length);
-    if (faces[c] > 0) scale_lines(surface, c, std::min(std::max(wanted / faces[c], 0.25), 8.0), sites);
+    const double wanted = area_share * area[c] / (options.edge_length * options.edge_length);
+    if (faces[c] > 0)
+      scale_lines(surface, c, std::min(std::max(wanted / faces[c], least_line_scale), most_line_scale), sites);
   }
 }
 
-// 0 for a mesh whose edges are `shortest` to `longest` edge lengths and whose quads are at most `narrowest` times as
-// long as wide, but for 5 in 100 of each.
+// How uneven a mesh is: 0 if edges have `shortest` to `longest` edge lengths and quads an aspect of at most
+// `narrowest`, apart from a few (outliers).
 double shape_cost(const QuadMesh& mesh, double edge_length, double shortest, double longest, double narrowest,
                   Memory& memory) {
   Vector<double> lengths(&memory), aspects(&memory);
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
-    double least = 1e300, most = 0;
+    double least = HUGE_VAL, most = 0;
     for (std::int32_t k = 0; k < mesh.size(f); ++k) {
       const std::int32_t* c = mesh.corner.data() + mesh.face_start[f];
       const double length = norm(mesh.position[c[(k + 1) % mesh.size(f)]] - mesh.position[c[k]]) / edge_length;
       lengths.push_back(length), least = std::min(least, length), most = std::max(most, length);
     }
-    aspects.push_back(least > 0 ? std::min(most / least, 1e3) : 1e3);
+    aspects.push_back(least > 0 ? std::min(most / least, most_aspect) : most_aspect);
   }
   auto at = [](Vector<double>& values, double share) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
   };
-  return 2 * std::max(0.0, shortest - at(lengths, 0.05)) + std::max(0.0, at(lengths, 0.95) - longest) +
-         std::max(0.0, std::log(at(aspects, 0.95) / narrowest));
+  return short_edge_cost * std::max(0.0, shortest - at(lengths, outliers)) +
+         std::max(0.0, at(lengths, 1 - outliers) - longest) +
+         std::max(0.0, std::log(at(aspects, 1 - outliers) / narrowest));
 }
 
-// One surface, its factor and the trees to measure against, for one or more sets of sites.
+// Makes meshes of one surface from several sets of sites, with one factor and one tree.
 class Maker {
  public:
   explicit Maker(const QuadOptions& options)
@@ -88,12 +71,12 @@ class Maker {
         memory_(*core_.memory),
         surface_(FluxSurface::make(core_.mesh, core_.topology, apex_weight, memory_)),
         solver_(surface_, memory_, *core_.jobs, options.progress),
-        distance_(surface_, 0.33 * options.edge_length, memory_, core_.jobs.get()) {}
+        distance_(surface_, sample_spacing * options.edge_length, memory_, core_.jobs.get()) {}
 
   const FluxSurface& surface() const noexcept { return surface_; }
 
-  // out_deviation: how far the mesh and the surface are from each other.
-  // density: edge lengths are 1 / density of what is aimed at.
+  // out_deviation: the distance of the mesh and the surface. density: edge lengths are 1 / density of the one asked
+  // for.
   QuadResult make(Span<const FluxSite> given, double density, double* out_deviation) const {
     Progress* const progress = options_.progress;
     QuadResult result(memory_);
@@ -101,7 +84,7 @@ class Maker {
     RingOptions ring_options;
     ring_options.edge_length = options_.edge_length / density, ring_options.uniform = options_.uniform;
     Vector<double> u = flow(given, ring_options, result);
-    report(progress, 0.3f);
+    report(progress, make_progress.solved);
 
     const FluxField field(surface_, u, memory_);
     Table<double> lines(surface_.vertex_count(), 0.0, memory_);
@@ -113,69 +96,70 @@ class Maker {
       if (changes > 2) result.saddles += changes / 2 - 1;
       result.imbalance = std::max(result.imbalance, std::fabs(field.imbalance(v)));
     }
-    report(progress, 0.35f);
+    report(progress, make_progress.counted);
     const ArcGraph graph(field, memory_);
-    report(progress, 0.4f);
+    report(progress, make_progress.arcs);
     const RingMesh rings = [&] {
-      const ProgressRange range(progress, 0.4f, 0.6f);
+      const ProgressRange range(progress, make_progress.arcs, make_progress.rings);
       return make_rings(field, graph, lines, ring_options, memory_, progress);
     }();
     Table<std::int32_t> centre(memory_);
     result.mesh = make_polygons(field, graph, rings, centre, memory_);
     check_quads(result.mesh, surface_.euler_characteristic, memory_);
     result.raw_faces = result.mesh.face_count(), result.raw_quads = result.mesh.quad_count();
-    report(progress, 0.65f);
+    report(progress, make_progress.polygons);
     if (options_.split) {
       result.mesh = split_polygons(surface_, result.mesh, centre, memory_);
       check_quads(result.mesh, surface_.euler_characteristic, memory_);
     }
-    report(progress, 0.7f);
-    const ProgressRange range(progress, 0.7f, 1.0f);
+    report(progress, make_progress.split);
+    const ProgressRange range(progress, make_progress.split, 1.0f);
     *out_deviation = even_out(result.mesh, ring_options.edge_length);
     return result;
   }
 
-  // Fits the mesh where it is farther from the surface than it may be, takes short edges out (in kind pure those that
-  // refining made), in turns that may fold more and more, and returns what the mesh is worth: less is better.
+  // Fits the mesh and collapses short edges (in kind pure only those that refining made) in turns. Each turn allows
+  // more folds than the last. Returns the cost of the mesh.
   double fit(QuadMesh& mesh, double density, double deviation) const {
-    const double allowed = tolerance * options_.edge_length, edge_length = options_.edge_length / density;
+    const double allowed = fit_tolerance * options_.edge_length, edge_length = options_.edge_length / density;
     if (options_.relax > 0) {
-      constexpr int turns = 4;
-      for (int turn = 0; turn < turns; ++turn) {
+      for (int turn = 0; turn < fit_turns; ++turn) {
         const double before = deviation;
         const std::int32_t faces = mesh.face_count();
-        constexpr float share = 1.0f / turns;
+        const float share = 1.0f / static_cast<float>(fit_turns);
         const float from = share * static_cast<float>(turn);
         {
-          const ProgressRange range(options_.progress, from, from + 0.6f * share);
+          const ProgressRange range(options_.progress, from, from + fit_progress * share);
           FitOptions fit;
           fit.edge_length = edge_length, fit.tolerance = allowed, fit.progress = options_.progress;
-          fit.most_folds = 2 * turn, fit.relax_rings = turn % 2 == 0 ? 2 : 1;
+          fit.most_folds = folds_a_turn * turn, fit.relax_rings = turn % 2 == 0 ? fit_rings : fit_rings_odd;
           deviation = fit_quads(surface_, distance_, mesh, fit, memory_);
         }
-        const ProgressRange range(options_.progress, from + 0.6f * share, from + share);
+        const ProgressRange range(options_.progress, from + fit_progress * share, from + share);
         CoarsenOptions coarsen;
-        if (!options_.uniform) coarsen.only_refined = true, coarsen.shortest = 0.3;
-        coarsen.edge_length = edge_length, coarsen.tolerance = 1.03 * allowed, coarsen.progress = options_.progress;
+        if (!options_.uniform) coarsen.only_refined = true, coarsen.shortest = short_edge_pure;
+        coarsen.edge_length = edge_length, coarsen.tolerance = collapse_tolerance * allowed,
+        coarsen.progress = options_.progress;
         deviation = coarsen_quads(surface_, distance_, mesh, deviation, coarsen, memory_);
-        if (turn > 0 && worth(mesh, deviation) <= 1) break;
+        if (turn > 0 && cost(mesh, deviation) <= 1) break;
         if (turn > 1 && deviation == before && mesh.face_count() == faces) break;
       }
       check_quads(mesh, surface_.euler_characteristic, memory_);
     }
     report(options_.progress, 1.0f);
     deviation = distance_.measure(mesh, 0, nullptr, nullptr);
-    return worth(mesh, deviation);
+    return cost(mesh, deviation);
   }
 
-  // 1 for a mesh as it should be; more is worse.
-  double worth(const QuadMesh& mesh, double deviation) const {
-    const double shape = options_.uniform ? shape_cost(mesh, options_.edge_length, 0.52, 2, 4, memory_)
-                                          : shape_cost(mesh, options_.edge_length, 0, HUGE_VAL, 12, memory_);
-    return std::max(deviation / (enough * options_.edge_length), 1.0) + shape;
+  // At most 1 for a good mesh, more for worse ones.
+  double cost(const QuadMesh& mesh, double deviation) const {
+    const double shape =
+        options_.uniform ? shape_cost(mesh, options_.edge_length, shortest_even, longest_even, narrowest_even, memory_)
+                         : shape_cost(mesh, options_.edge_length, 0, HUGE_VAL, narrowest_pure, memory_);
+    return std::max(deviation / (near_distance * options_.edge_length), 1.0) + shape;
   }
 
-  // Sites as vertices of the Mesh, weights in the order of its own triangles, which may have been turned here.
+  // Numbers sites as vertices of the Mesh, and orders weights as its triangles, which may have been turned here.
   void to_mesh(QuadResult& result) const {
     for (FluxSite& site : result.sites) site.vertex = surface_.mesh_vertex[site.vertex];
     for (SurfacePoint& point : result.mesh.location) {
@@ -191,13 +175,13 @@ class Maker {
   }
 
  private:
-  // Sites with their lines into `result`, and the field.
+  // Chooses sites with their lines and returns the field.
   Vector<double> flow(Span<const FluxSite> given, const RingOptions& rings, QuadResult& result) const {
-    const ProgressRange range(options_.progress, 0.0f, 0.2f);
+    const ProgressRange range(options_.progress, 0.0f, make_progress.flow);
     result.sites =
         choose_flux_sites(surface_, given, options_.automatic, rings.edge_length, memory_, options_.progress);
     Vector<double> u = solve_with_borders(surface_, solver_, result.sites);
-    for (int round = 0; round < 2 && !options_.uniform && options_.scale_lines; ++round) {
+    for (int round = 0; round < line_rounds && !options_.uniform && options_.scale_lines; ++round) {
       report(options_.progress, 1.0f);
       fit_lines(surface_, u, rings, result.sites, memory_);
       u = solve_with_borders(surface_, solver_, result.sites);
@@ -205,7 +189,7 @@ class Maker {
     return u;
   }
 
-  // Relaxes, and draws features out where that brings the meshes nearer to each other, not only one to the other.
+  // Relaxes, and keeps snapped features if they reduce the distance both ways.
   double even_out(QuadMesh& mesh, double edge_length) const {
     Progress* const progress = options_.progress;
     auto relax = [&](std::int32_t rounds, float from, float to) {
@@ -214,29 +198,29 @@ class Maker {
       options.rounds = rounds, options.edge_length = edge_length, options.progress = progress;
       relax_quads(surface_, mesh, options, memory_);
     };
-    auto measure = [&](QuadMesh& at, float from) {
-      const ProgressRange range(progress, from, from + 0.1f);
+    auto measure = [&](QuadMesh& at, float from, float to) {
+      const ProgressRange range(progress, from, to);
       distance_.turn_quads(at);
       return distance_.measure(at, 0, nullptr, progress);
     };
-    // vertices may slide off what is thin: in kind pure, where edges are long, a little relaxed is kept if it is nearer
-    const std::int32_t little = options_.uniform ? 0 : options_.relax / 6;
-    relax(little, 0.0f, 0.1f);
+    // vertices slide off thin parts where edges are long: in kind pure a mesh relaxed less is kept if it is nearer
+    const std::int32_t little = options_.uniform ? 0 : options_.relax / early_share;
+    relax(little, 0.0f, even_progress.early);
     QuadMesh early = mesh;
-    const double before = little > 0 ? measure(early, 0.1f) : -1;
-    relax(options_.relax - little, 0.2f, 0.5f);
-    double deviation = measure(mesh, 0.5f);
-    if (little > 0 && before < 0.9 * deviation) deviation = before, mesh = std::move(early);
-    if (options_.relax > 0 && deviation > least_deviation) {
-      QuadMesh drawn = mesh;
+    const double before = little > 0 ? measure(early, even_progress.early, even_progress.early_measured) : -1;
+    relax(options_.relax - little, even_progress.early_measured, even_progress.relaxed);
+    double deviation = measure(mesh, even_progress.relaxed, even_progress.measured);
+    if (little > 0 && before < early_gain * deviation) deviation = before, mesh = std::move(early);
+    if (options_.relax > 0 && deviation > capture_from) {
+      QuadMesh snapped = mesh;
       {
-        const ProgressRange range(progress, 0.6f, 0.9f);
+        const ProgressRange range(progress, even_progress.measured, even_progress.captured);
         CaptureOptions capture;
         capture.edge_length = edge_length, capture.progress = progress;
-        capture_features(surface_, distance_, drawn, capture, memory_);
+        capture_features(surface_, distance_, snapped, capture, memory_);
       }
-      const double after = measure(drawn, 0.9f);
-      if (after < deviation) deviation = after, mesh = std::move(drawn);
+      const double after = measure(snapped, even_progress.captured, 1.0f);
+      if (after < deviation) deviation = after, mesh = std::move(snapped);
     }
     report(progress, 1.0f);
     return deviation;
@@ -258,7 +242,7 @@ QuadResult make_quads(const QuadOptions& options) {
   Progress* const progress = options.progress;
   report(progress, 0.0f);
   const std::optional<Maker> made = [&]() -> std::optional<Maker> {
-    const ProgressRange range(progress, 0.0f, 0.15f);
+    const ProgressRange range(progress, 0.0f, quads_progress.prepared);
     return std::optional<Maker>(std::in_place, options);
   }();
   const Maker& maker = *made;
@@ -271,24 +255,24 @@ QuadResult make_quads(const QuadOptions& options) {
   if (!options.automatic) {
     for (const FluxSite& site : options.sites) given.push_back({fan[site.vertex], site.lines});
     QuadResult result = [&] {
-      const ProgressRange sub(progress, 0.15f, 0.7f);
+      const ProgressRange sub(progress, quads_progress.prepared, given_made);
       return maker.make(given, 1, &deviation);
     }();
-    const ProgressRange range(progress, 0.7f, 1.0f);
+    const ProgressRange range(progress, given_made, 1.0f);
     maker.fit(result.mesh, 1, deviation);
     maker.to_mesh(result);
     report(progress, 1.0f);
     return result;
   }
 
-  // tips by both fields: the mean distance knows limbs that the Poisson field sees as shoulders of others
-  const Geodesics geodesics(options.core, 1.0);
+  // tips by both fields: the mean distance finds limbs that the Poisson field merges into others
+  const Geodesics geodesics(options.core, geodesic_smoothing);
   const Extremities far = [&] {
-    const ProgressRange range(progress, 0.15f, 0.25f);
-    return geodesic_extremities(geodesics, 40, tip_lengths[0].geodesic, progress);
+    const ProgressRange range(progress, quads_progress.prepared, quads_progress.far_tips);
+    return geodesic_extremities(geodesics, geodesic_sources, tip_lengths[0].geodesic, progress);
   }();
   const Extremities high = [&] {
-    const ProgressRange range(progress, 0.25f, 0.3f);
+    const ProgressRange range(progress, quads_progress.far_tips, quads_progress.tips);
     return poisson_extremities(core, tip_lengths[0].poisson, progress);
   }();
   struct Trial {
@@ -310,9 +294,10 @@ QuadResult make_quads(const QuadOptions& options) {
       }
     };
     take(far, tip_lengths[trial].geodesic), take(high, tip_lengths[trial].poisson);
-    if (trial > 0 && given.size() == before) continue;  // the same list, cut at the same place
+    if (trial > 0 && given.size() == before) continue;  // the same sites as before
     before = given.size();
-    const float share = 0.3f / tip_trials, from = 0.3f + share * static_cast<float>(trial);
+    const float share = (quads_progress.tried - quads_progress.tips) / static_cast<float>(tip_trials),
+                from = quads_progress.tips + share * static_cast<float>(trial);
     const ProgressRange range(progress, from, from + share);
     try {
       QuadResult result = maker.make(given, 1, &deviation);
@@ -322,37 +307,37 @@ QuadResult make_quads(const QuadOptions& options) {
     }
   }
   if (trials.empty())
-    trials.push_back(
-        {0, maker.make(given, 1, &deviation), Vector<FluxSite>(given, &memory)});  // says why there is none
-  // the nearest first; the first that is as it should be is taken, or the best
+    trials.push_back({0, maker.make(given, 1, &deviation), Vector<FluxSite>(given, &memory)});  // throws the reason
+  // fitted in order of distance; the first good one is taken, or the best
   std::stable_sort(trials.begin(), trials.end(),
                    [](const Trial& a, const Trial& b) { return a.deviation < b.deviation; });
   double least = -1;
   std::size_t taken = 0;
   for (std::size_t i = 0; i < std::min(trials.size(), most_fitted) && (i == 0 || least > 1); ++i) {
-    if (trials[i].deviation > hopeless * trials[0].deviation) break;
-    const float share = 0.2f / most_fitted, from = 0.6f + share * static_cast<float>(i);
+    if (trials[i].deviation > trial_cutoff * trials[0].deviation) break;
+    const float share = (quads_progress.fitted - quads_progress.tried) / static_cast<float>(most_fitted),
+                from = quads_progress.tried + share * static_cast<float>(i);
     const ProgressRange range(progress, from, from + share);
     const double cost = maker.fit(trials[i].result.mesh, 1, trials[i].deviation);
     if (least < 0 || cost < least) least = cost, taken = i;
   }
   QuadResult best = std::move(trials[taken].result);
-  float from = 0.8f;
+  float from = quads_progress.fitted;
   for (const double density : densities) {
     for (std::size_t i = 0; i < std::min(trials.size(), most_dense) && options.relax > 0 && least > near_enough; ++i) {
-      constexpr float share = 0.1f / most_dense;
+      const float share = (1 - quads_progress.fitted) / static_cast<float>(density_count * most_dense);
       const ProgressRange range(progress, from, from + share);
       from += share;
       try {
         QuadResult result = [&] {
-          const ProgressRange sub(progress, 0.0f, 0.3f);
+          const ProgressRange sub(progress, 0.0f, dense_made);
           return maker.make(trials[i].given, density, &deviation);
         }();
-        const ProgressRange sub(progress, 0.3f, 1.0f);
+        const ProgressRange sub(progress, dense_made, 1.0f);
         const double cost = maker.fit(result.mesh, density, deviation);
         if (cost < least) least = cost, best = std::move(result);
       } catch (const Error& error) {
-        if (error.code() == HF_ERROR_CANCELLED) throw;  // otherwise the mesh that there is stays
+        if (error.code() == HF_ERROR_CANCELLED) throw;  // otherwise keep the best so far
       }
     }
   }

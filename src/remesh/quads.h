@@ -1,6 +1,7 @@
-// Quad meshes from harmonic fields: the room's front. Sites -> field -> arcs -> rings -> polygons -> quads -> relaxed.
+// Makes quad meshes from harmonic fields: sites, field, arcs, rings, polygons, quads, relaxed and fitted.
 #pragma once
 #include "engine/core.h"
+#include "remesh/constants.h"
 #include "remesh/flux_sites.h"
 #include "remesh/quad_mesh.h"
 
@@ -8,20 +9,20 @@ namespace hf_inner {
 
 struct QuadOptions {
   std::shared_ptr<const Core> core;
-  double edge_length = 0.022;  // inner units
+  double edge_length = default_edge_length;  // inner units
   bool uniform = false;
   bool split = true;
-  std::int32_t relax = 60;     // rounds
-  Span<const FluxSite> sites;  // FluxSite::vertex an inner vertex of the core; borders are sites of their own
+  std::int32_t relax = default_relax_rounds;  // rounds
+  Span<const FluxSite> sites;  // FluxSite::vertex is an inner vertex of the core; every border is a site as well
   bool automatic = true;
-  bool scale_lines = true;  // kind pure: fit the lines to the edge length; off: the caller's numbers stand
+  bool scale_lines = true;  // kind pure: scale the lines to the edge length; off: keep the caller's numbers
   Progress* progress = nullptr;
 };
 
 struct QuadResult {
   explicit QuadResult(Memory& memory) : mesh(memory), sites(&memory) {}
   QuadMesh mesh;
-  Vector<FluxSite> sites;  // FluxSite::vertex inner, none for a border
+  Vector<FluxSite> sites;  // FluxSite::vertex is inner, none for a border
   std::int32_t raw_faces = 0, raw_quads = 0, saddles = 0, euler_characteristic = 0;
   std::int32_t extra_extrema = 0;
   double imbalance = 0;  // the largest at a vertex that is no site

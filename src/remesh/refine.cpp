@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "remesh/constants.h"
 #include "remesh/relax.h"
 
 namespace hf_inner {
 namespace {
 
 constexpr std::int32_t none = -1;
-constexpr float finer = 0.75f, opened = 0.92f;  // scales of the edges around what was refined
-
-Vec3 unit(Vec3 a) {
-  const double length = norm(a);
-  return length > 0 ? (1 / length) * a : Vec3{};
-}
 
 }  // namespace
 
@@ -22,7 +17,7 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
   // a vertex half way from v to the point `to`
   auto half_way = [&](std::int32_t v, const Vec3& to) {
     const SurfacePoint at = walk_surface(surface, mesh.location[v], 0.5 * (to - mesh.position[v]));
-    return mesh.add_vertex(at, position_of(surface, at), QuadMesh::free, false, finer * mesh.scale[v]);
+    return mesh.add_vertex(at, position_of(surface, at), QuadMesh::free, false, subdivided_scale * mesh.scale[v]);
   };
   struct Middle {
     std::int32_t to, vertex;
@@ -61,12 +56,12 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
     quad(v, e_a, i, e_c), quad(e_a, a, b, i), quad(i, b, c, e_c);
   }
   for (std::int32_t v = 0; v < marked.size(); ++v)
-    if (marked[v]) mesh.scale[v] *= finer;
+    if (marked[v]) mesh.scale[v] *= subdivided_scale;
   mesh.face_start.swap(starts), mesh.corner.swap(corners);
 }
 
-std::int32_t open_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Memory& memory) {
-  // the faces around v and their first neighbours of v, counter-clockwise
+std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Memory& memory) {
+  // the faces around v with their first neighbour of v, counter-clockwise
   Table<std::int32_t> faces(memory), spokes(memory);
   Table<std::int32_t> first(memory), last(memory);
   for (std::int32_t f = 0; f < mesh.face_count(); ++f)
@@ -81,12 +76,12 @@ std::int32_t open_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Me
         std::swap(first[j], first[i + 1]), std::swap(last[j], last[i + 1]), std::swap(faces[j], faces[i + 1]);
         break;
       }
-  // the two spokes between which the quad opens: across the way, at least two faces on both sides
+  // the new quad lies between two spokes that run across the way, with two faces or more on both sides
   const Vec3 p = mesh.position[v], way = unit(towards - p);
   std::int32_t from = none, to = none;
   double best = 0;
   for (std::int32_t i = 0; i < n; ++i)
-    for (std::int32_t count = 2; count <= n - 2; ++count) {  // faces from spoke i on go with the new vertex
+    for (std::int32_t count = 2; count <= n - 2; ++count) {  // faces from spoke i on join the new vertex
       const std::int32_t j = (i + count) % n;
       double sum = 0;
       for (std::int32_t k = 1; k < count; ++k)
@@ -95,7 +90,7 @@ std::int32_t open_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Me
              std::fabs(dot(unit(mesh.position[first[j]] - p), way));
       if (from == none || sum > best) best = sum, from = i, to = j;
     }
-  mesh.scale[v] *= opened;
+  mesh.scale[v] *= split_scale;
   const std::int32_t added = mesh.add_vertex(mesh.location[v], p, QuadMesh::free, false, mesh.scale[v]);
   for (std::int32_t i = from; i != to; i = (i + 1) % n)
     for (std::int32_t k = mesh.face_start[faces[i]]; k < mesh.face_start[faces[i] + 1]; ++k)

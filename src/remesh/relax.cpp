@@ -4,21 +4,18 @@
 #include <cmath>
 #include <complex>
 
+#include "remesh/constants.h"
+
 namespace hf_inner {
 namespace {
-
-Vec3 unit(Vec3 a) {
-  const double length = norm(a);
-  return length > 0 ? (1 / length) * a : Vec3{};
-}
 
 Vec3 triangle_normal(const FluxSurface& s, std::int32_t t) {
   return unit(cross(s.position[s.tail[3 * t + 1]] - s.position[s.tail[3 * t]],
                     s.position[s.tail[3 * t + 2]] - s.position[s.tail[3 * t]]));
 }
 
-// Proposals of one quad. outward: the surface's normal there, summed over its corners: a quad that lies on its face is
-// turned back.
+// Proposals of one quad. outward: the surface's normals at its corners, summed; a quad turned over against it is turned
+// back.
 void propose(const QuadMesh& mesh, const std::int32_t* c, double edge_length, Vec3 outward, Vec3* out) {
   const Vec3 p[4] = {mesh.position[c[0]], mesh.position[c[1]], mesh.position[c[2]], mesh.position[c[3]]};
   const Vec3 middle = 0.25 * (p[0] + p[1] + p[2] + p[3]);
@@ -35,7 +32,7 @@ void propose(const QuadMesh& mesh, const std::int32_t* c, double edge_length, Ve
     r += 0.25 * std::complex<double>(dot(q, x), dot(q, y)) * turn;
   }
   const double size = std::abs(r);
-  if (size > 0 && edge_length > 0) r *= 0.5 + 0.5 * (edge_length / std::sqrt(2.0)) / size;
+  if (size > 0 && edge_length > 0) r *= (1 - size_step) + size_step * (edge_length / std::sqrt(2.0)) / size;
   turn = 1;
   for (int k = 0; k < 4; ++k, turn *= i) {
     const std::complex<double> z = r * turn;
@@ -48,7 +45,7 @@ void propose(const QuadMesh& mesh, const std::int32_t* c, double edge_length, Ve
 SurfacePoint walk_surface(const FluxSurface& s, SurfacePoint at, Vec3 way) noexcept {
   double rest = norm(way);
   Vec3 direction = way;
-  for (int step = 0; step < 200 && rest > 0; ++step) {
+  for (int step = 0; step < most_crossings && rest > 0; ++step) {
     const std::int32_t t = at.triangle;
     const Vec3 a = s.position[s.tail[3 * t]], b = s.position[s.tail[3 * t + 1]], c = s.position[s.tail[3 * t + 2]];
     const Vec3 n = cross(b - a, c - a);
@@ -100,14 +97,14 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
   Table<SurfacePoint> old_location(memory);
   Table<double> count(n, 0.0, memory);
   Table<std::uint8_t> was_over(mesh.corner.size(), 0, memory), back(n, 0, memory), tangled(n, 0, memory);
-  // whether corner k of face f is turned over, as seen from the surface at it
+  // whether corner k of face f is turned over against the normal of the surface there
   auto over = [&](std::int32_t f, std::int32_t k) {
     const std::int32_t size = mesh.size(f), *c = mesh.corner.data() + mesh.face_start[f];
     const Vec3 p = mesh.position[c[k]], x = mesh.position[c[(k + 1) % size]] - p,
                y = mesh.position[c[(k + size - 1) % size]] - p;
     return dot(cross(x, y), triangle_normal(s, mesh.location[c[k]].triangle)) <= 0;
   };
-  // what may move, and the faces around it
+  // the vertices that may move, and the faces around them
   Table<std::int32_t> vertices(memory), faces(memory);
   for (std::int32_t v = 0; v < n; ++v)
     if (!options.moving || (*options.moving)[v]) vertices.push_back(v);
@@ -141,12 +138,12 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
     for (const std::int32_t v : vertices) {
       old_position[v] = mesh.position[v], old_location[v] = mesh.location[v];
       if (mesh.pinned[v] || mesh.border[v] || count[v] == 0) continue;
-      const Vec3 way = 0.5 * ((1 / count[v]) * (tangled[v] ? centres[v] : sum[v]) - mesh.position[v]);
+      const Vec3 way = relax_step * ((1 / count[v]) * (tangled[v] ? centres[v] : sum[v]) - mesh.position[v]);
       mesh.location[v] = walk_surface(s, mesh.location[v], way);
       mesh.position[v] = position_of(s, mesh.location[v]);
     }
-    // corners that turned over: their faces go back, until none is left that was not before
-    for (int again = 0; again < 4; ++again) {
+    // faces with a corner newly turned over move back, until none is left
+    for (int again = 0; again < take_backs; ++again) {
       bool any = false;
       for (const std::int32_t v : vertices) back[v] = 0;
       for (const std::int32_t f : faces) {

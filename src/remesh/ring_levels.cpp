@@ -4,14 +4,11 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "remesh/constants.h"
 #include "remesh/loop_line.h"
 
 namespace hf_inner {
 namespace {
-
-constexpr double at_site = 0.8, at_saddle = 0.5;  // edge lengths from a critical vertex to the ring beside it
-constexpr std::int32_t sample_count = 64;
-constexpr double most_rings = 1e6;
 
 // The distance s over the values of one arc.
 class Scale {
@@ -24,14 +21,14 @@ class Scale {
       return k < 0 ? low : k >= m ? high : field.value(graph.vertices[arc.first + k]);
     };
     LoopLine line(memory);
-    const std::int32_t steps = std::min(m, sample_count);
+    const std::int32_t steps = std::min(m, loops_an_arc);
     std::int32_t before = -1;
     for (std::int32_t i = 0; i <= steps; ++i) {
       const std::int32_t k = steps ? static_cast<std::int32_t>(std::int64_t{m} * i / steps) : 0;
       if (k == before) continue;
       before = k;
       const double a = value_at(k - 1), b = value_at(k);
-      const std::int32_t pieces = b - a > 0.01 * span ? 8 : 1;
+      const std::int32_t pieces = b - a > long_step * span ? long_step_pieces : 1;
       for (std::int32_t p = 0; p < pieces; ++p) {
         const double c = a + (b - a) * (p + 0.5) / pieces;
         line.build(field, graph.loop(field, arc, k), c, false);
@@ -43,7 +40,7 @@ class Scale {
     };
     samples_.insert(0, {low, end_length(arc.lower, samples_[0].length), 0});
     samples_.push_back({high, end_length(arc.upper, samples_.back().length), 0});
-    const double flux = std::max(arc.flux, 1e-30);
+    const double flux = std::max(arc.flux, least_arc_flux);
     for (std::int32_t i = 1; i < samples_.size(); ++i) {
       const Sample &a = samples_[i - 1], &b = samples_[i];
       samples_[i].distance = a.distance + 0.5 * (a.length + b.length) * std::max(b.value - a.value, 0.0) / flux;
@@ -127,8 +124,8 @@ void place_rings(const FluxField& field, const ArcGraph& graph, const RingOption
     double from = 0, to = scale.total();
     if (border_below) from = std::min(scale.distance(rim_value(field, arc.lower, true)), to);
     if (border_above) to = std::max(scale.distance(rim_value(field, arc.upper, false)), from);
-    const double first = border_below ? 0 : h * (site_below ? at_site : at_saddle),
-                 last = border_above ? 0 : h * (site_above ? at_site : at_saddle);
+    const double first = border_below ? 0 : h * (site_below ? ring_at_site : ring_at_saddle),
+                 last = border_above ? 0 : h * (site_above ? ring_at_site : ring_at_saddle);
     const double room = to - from - first - last;
     if (border_below) add_border(true);
     if (room <= 0) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "remesh/constants.h"
 #include "remesh/loop_line.h"
 #include "remesh/ring_levels.h"
 
@@ -57,13 +58,13 @@ class Builder {
     const Ring& ring = out_.rings[r];
     line.build(field_, {ring.threshold, ring.seed}, ring.value, ring.border);
   }
-  // The ring everything below speaks of.
-  void open(std::int32_t r) {
+  // Makes r the current ring: its polyline and the numbers of its edges.
+  void begin_ring(std::int32_t r) {
     build(r, line_);
     for (std::int32_t i = 0; i < line_.edges().size(); ++i) index_of_edge_[line_.edges()[i]] = i;
     out_.rings[r].length = line_.length();
   }
-  void close(std::int32_t r) {
+  void finish_ring(std::int32_t r) {
     for (const std::int32_t h : line_.edges()) index_of_edge_[h] = none;
     Ring& ring = out_.rings[r];
     std::int32_t n = ring.node;
@@ -82,7 +83,7 @@ class Builder {
     return n;
   }
   void link(std::int32_t a, std::int32_t b) { out_.nodes[a].next = b, out_.nodes[b].previous = a; }
-  // A node behind `after`.
+  // Adds a node behind `after`.
   std::int32_t insert(std::int32_t after, double place) {
     const std::int32_t r = out_.nodes[after].ring, before = out_.nodes[after].next;
     const std::int32_t n = add_node(r, place, line_.at(place), none);
@@ -96,7 +97,7 @@ class Builder {
     if (out_.nodes[n].next == n) return length;
     return g < 0 ? g + length : g;
   }
-  // So many nodes evenly into the gap behind n.
+  // Adds `count` nodes evenly in the gap behind n.
   void fill(std::int32_t n, std::int32_t count) {
     const double from = out_.nodes[n].place, width = gap(n);
     for (std::int32_t k = 1; k <= count; ++k) n = insert(n, from + width * k / (count + 1));
@@ -106,10 +107,10 @@ class Builder {
     const std::int32_t v = graph_.critical[i];
     for (std::int32_t j = graph_.up_start[i]; j < graph_.up_start[i + 1]; ++j) {
       const std::int32_t r = out_.ring_start[graph_.up_arc[j]];
-      open(r);
+      begin_ring(r);
       double count = options_.uniform ? 2 * std::round(line_.length() / options_.edge_length / 2) : lines_at_[v];
-      count = std::max(count, surface_.is_apex(v) ? 4.0 : least_beside_site());
-      const std::int32_t n = static_cast<std::int32_t>(std::min(count, 1e6));
+      count = std::max(count, surface_.is_apex(v) ? least_lines : least_beside_site());
+      const std::int32_t n = static_cast<std::int32_t>(std::min(count, most_nodes));
       std::int32_t first = none, last = none;
       double sum = 0;
       std::int32_t edge = 0;
@@ -131,15 +132,15 @@ class Builder {
       }
       link(last, first);
       out_.rings[r].node = first;
-      settle(r);
+      complete_ring(r);
     }
   }
 
-  double least_beside_site() const { return options_.uniform ? 6.0 : 4.0; }
+  double least_beside_site() const { return options_.uniform ? least_nodes_at_site : least_lines; }
 
   void pass_saddle(std::int32_t i) {
     const std::int32_t v = graph_.critical[i], rank = field_.rank(v);
-    if (graph_.up_start[i] == graph_.up_start[i + 1]) return;  // a sink: the lines end
+    if (graph_.up_start[i] == graph_.up_start[i + 1]) return;  // a sink, where lines end
     Table<std::int32_t> loop(memory_);
     Table<std::int32_t> marked(memory_);
     auto mark = [&](const Loop& at, std::int32_t arc) {
@@ -156,7 +157,7 @@ class Builder {
         if (ended_[n]) continue;
         FluxPoint p = out_.nodes[n].point;
         while (p.half != none && field_.rank(surface_.head(p.half)) <= rank) p = field_.up(p);
-        if (p.half == none || arc_of_edge_[p.half] == none) lost();
+        if (p.half == none || arc_of_edge_[p.half] == none) fail_off_arc();
         by_arc_.push_back({n, p, static_cast<double>(arc_of_edge_[p.half])});
       }
     }
@@ -187,13 +188,13 @@ class Builder {
     }
   }
 
-  // Lines reach ring r: out of one ring in its order, or out of several through a saddle.
+  // Adds the nodes of ring r for the lines that reach it, from one ring in its order or from several through a saddle.
   void arrive(std::int32_t r, bool saddle, std::int32_t rank) {
-    open(r);
+    begin_ring(r);
     const std::int32_t threshold = out_.rings[r].threshold;
     for (Arrival& a : arrivals_) {
       while (a.point.half != none && field_.rank(surface_.head(a.point.half)) < threshold) a.point = field_.up(a.point);
-      if (a.point.half == none || index_of_edge_[a.point.half] == none) lost();
+      if (a.point.half == none || index_of_edge_[a.point.half] == none) fail_off_arc();
       a.place = line_.place(index_of_edge_[a.point.half], a.point.offset);
     }
     const std::int32_t count = static_cast<std::int32_t>(arrivals_.size());
@@ -201,7 +202,7 @@ class Builder {
       std::sort(arrivals_.begin(), arrivals_.end(),
                 [](const Arrival& a, const Arrival& b) { return a.place < b.place; });
     } else if (count > 1) {
-      // the order is that of the ring below; only where it begins is to be found
+      // the order is that of the ring below; find its first node
       std::size_t begin = 0;
       double drop = -1;
       for (std::size_t k = 0; k < arrivals_.size(); ++k) {
@@ -222,13 +223,13 @@ class Builder {
     if (first != none) link(last, first), out_.rings[r].node = first;
     if (saddle) {
       if (out_.rings[r].count < 2) join_down(r, rank);
-      mend_saddle_ring(r);
+      fill_saddle_ring(r);
     }
-    settle(r);
+    complete_ring(r);
   }
 
-  // Two lines side by side from ring r, half around from its only node, down to one gap of a ring below the saddle of
-  // that rank. The first is traced; the second, beside it, needs no trace: a strip between two lines is a strip.
+  // Adds two neighbouring lines from ring r, half way around from its only node, down to one gap of a ring below the
+  // saddle of that rank. Only the first is traced; the second runs beside it.
   void join_down(std::int32_t r, std::int32_t rank) {
     const std::int32_t only = out_.rings[r].node;
     const double place = only == none ? 0.0 : out_.nodes[only].place + line_.length() / 2;
@@ -241,20 +242,20 @@ class Builder {
     }
     FluxPoint p = out_.nodes[n].point;
     while (p.half != none && field_.rank(surface_.tail[p.half]) >= rank) p = field_.down(p);
-    if (p.half == none || arc_of_edge_[p.half] == none) lost();
+    if (p.half == none || arc_of_edge_[p.half] == none) fail_off_arc();
     const std::int32_t below = last_ring(arc_of_edge_[p.half]);
     while (p.half != none && field_.rank(surface_.tail[p.half]) >= out_.rings[below].threshold) p = field_.down(p);
-    if (p.half == none) lost();
+    if (p.half == none) fail_off_arc();
     build(below, lower_line_);
     const double low_place = lower_line_.place_of(p);
-    // behind the last node that stands before it, or the last of all
+    // insert behind the last node before that place, or behind the last of all
     std::int32_t after = out_.rings[below].node, best = none, m = after;
     for (std::int32_t k = 0; k < out_.rings[below].count; ++k, m = out_.nodes[m].next) {
       if (out_.nodes[m].place <= low_place && (best == none || out_.nodes[m].place >= out_.nodes[best].place)) best = m;
       if (out_.nodes[m].place >= out_.nodes[after].place) after = m;
     }
     if (best != none) after = best;
-    const std::int32_t m2 = insert(n, out_.nodes[n].place + 0.25 * gap(n));
+    const std::int32_t m2 = insert(n, out_.nodes[n].place + second_line * gap(n));
     const double from = out_.nodes[after].place, width = gap(after);
     for (int k = 1; k <= 2; ++k) {
       double at = from + width * k / 3;
@@ -268,44 +269,44 @@ class Builder {
     }
   }
 
-  // Whether the strip below the gap behind n is bounded by neighbours on one ring: if not, the saddle looks into it.
-  bool faces_saddle(std::int32_t n) const {
+  // Whether the gap behind n is adjacent to the saddle: its two lines are not neighbours on one ring below.
+  bool is_at_saddle(std::int32_t n) const {
     const std::int32_t a = out_.nodes[n].down, b = out_.nodes[out_.nodes[n].next].down;
     if (a == none || b == none) return true;
     if (a == b) return true;
     std::int32_t m = out_.nodes[a].next;
-    while (m != a && ended_[m]) m = out_.nodes[m].next;  // every other line goes up, if not to this ring
+    while (m != a && ended_[m]) m = out_.nodes[m].next;  // skip lines that end; all others go up
     return m != b;
   }
 
-  // Above a saddle: an even number of nodes, and gaps at the saddle filled as the edge length asks.
-  void mend_saddle_ring(std::int32_t r) {
+  // Above a saddle: makes the number of nodes even, and fills the widest gap at the saddle by the edge length.
+  void fill_saddle_ring(std::int32_t r) {
     std::int32_t widest = none, n = out_.rings[r].node;
     double width = -1;
     for (std::int32_t k = 0; k < out_.rings[r].count; ++k, n = out_.nodes[n].next)
-      if (faces_saddle(n) && gap(n) > width) width = gap(n), widest = n;
+      if (is_at_saddle(n) && gap(n) > width) width = gap(n), widest = n;
     if (widest == none) return;
     std::int32_t wanted = out_.rings[r].count % 2;
     if (options_.uniform) {
       const double more = width / options_.edge_length - 1 - wanted;
-      wanted += 2 * std::max(0, static_cast<std::int32_t>(std::lround(std::min(more, 1e6) / 2)));
+      wanted += 2 * std::max(0, static_cast<std::int32_t>(std::lround(std::min(more, most_nodes) / 2)));
     }
     fill(widest, wanted);
   }
 
-  // The rules every ring is left with.
-  void settle(std::int32_t r) {
+  // Applies the rules of rings.h and ends work on ring r.
+  void complete_ring(std::int32_t r) {
     const Ring& ring = out_.rings[r];
     const std::int32_t upper = graph_.arcs[ring.arc].upper;
     const bool last = r == last_ring(ring.arc);
-    const double least = last && is_extremum(upper) && !surface_.is_apex(upper) ? least_beside_site() : 4.0;
+    const double least = last && is_extremum(upper) && !surface_.is_apex(upper) ? least_beside_site() : least_lines;
     if (ring.count % 2) fill(widest_gap(r), 1);
     while (out_.rings[r].count < least) fill(widest_gap(r), 2);
     if (options_.uniform) {
       add_pairs(r);
       if (!last) end_pairs(r);
     }
-    close(r);
+    finish_ring(r);
   }
 
   std::int32_t widest_gap(std::int32_t r) const {
@@ -316,7 +317,7 @@ class Builder {
   }
 
   void add_pairs(std::int32_t r) {
-    const double widest = options_.widest * options_.edge_length;
+    const double widest = widest_gap_length * options_.edge_length;
     std::int32_t n = out_.rings[r].node;
     for (std::int32_t k = out_.rings[r].count; k > 0; --k) {
       const std::int32_t following = out_.nodes[n].next;
@@ -326,7 +327,7 @@ class Builder {
   }
 
   void end_pairs(std::int32_t r) {
-    const double narrowest = options_.narrowest * options_.edge_length;
+    const double narrowest = narrowest_gaps_length * options_.edge_length;
     struct Candidate {
       double width;
       std::int32_t node;
@@ -343,7 +344,7 @@ class Builder {
       return a.width != b.width ? a.width < b.width : a.node < b.node;
     });
     for (const Candidate& candidate : list) {
-      if (lined <= 6) return;
+      if (lined <= least_lined) return;
       const std::int32_t a = candidate.node, b = out_.nodes[a].next, c = out_.nodes[b].next, d = out_.nodes[c].next;
       if (ended_[a] || ended_[b] || ended_[c] || ended_[d]) continue;
       if (out_.nodes[b].down == none || out_.nodes[c].down == none) continue;
@@ -351,7 +352,7 @@ class Builder {
     }
   }
 
-  [[noreturn]] static void lost() {
+  [[noreturn]] static void fail_off_arc() {
     fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "a flux line left its arc; report it with the mesh");
   }
 

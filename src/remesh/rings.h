@@ -1,19 +1,20 @@
-// Rings of nodes on the level loops of a flux field and the lines between them: the combinatorial quad mesh.
+// Rings of nodes on the level loops of a flux field, and the lines between them: the combinatorial quad mesh.
 //
-// Rings. Along every arc the mean distance between loops is s(c) = integral of L(c) / F dc (L the length of the loop, F
-// the flux, since the mean slope on a loop is F / L). Rings stand edge_length apart in s, half as far from a saddle,
-// 0.8 from a site, on the border itself at an apex. There is one at least on every arc.
+// Rings. Along every arc the mean distance between loops is s(c) = integral of L(c) / F dc. L is the length of the loop
+// and F the flux; the mean slope on a loop is F / L. Rings are edge_length apart in s, ring_at_saddle from a saddle,
+// ring_at_site from a site, and on the border itself at an apex. Every arc has at least one.
 //
-// Nodes. A ring's nodes are where lines cross it. Lines come up from the ring below by the exact flux maps; at a source
-// they start evenly in the flux. Rules that keep the mesh valid and even, in both kinds:
-//   a ring has at least 4 nodes (6 beside a site), an even number of them; what is missing is put in, two at a time in
-//   one gap, the odd one in the gap that faces the saddle;
-//   a ring above a saddle has at least two lines from below: missing ones are traced down from it.
-// Kind uniform adds pairs of nodes in gaps wider than `widest` and ends pairs of neighbouring lines where three gaps
-// together are narrower than `narrowest` edge lengths. Because nodes come and go in pairs, every face has an even
-// number of corners.
+// Nodes. The nodes of a ring are the points where lines cross it. Lines come up from the ring below by the exact flux
+// maps; at a source they start evenly in the flux. These rules keep the mesh valid and even, in both kinds.
+//   A ring has an even number of nodes, 4 or more (6 beside a site). Missing nodes are added two at a time in one gap;
+//   an odd one is added in the gap adjacent to the saddle.
+//   A ring above a saddle has at least two lines from below: missing ones are traced down from it.
+// Kind uniform adds pairs of nodes in wide gaps (widest_gap_length) and ends pairs of neighbouring lines where three
+// gaps together are narrow (narrowest_gaps_length). Nodes come and go in pairs, so every face has an even number of
+// corners.
 //
-// A node: next and previous on its ring (higher values on the left), up and down along its line, -1 where it has none.
+// A node has a next and a previous on its ring, with higher values on the left, and an up and a down along its line; -1
+// if there is none.
 #pragma once
 #include "base/progress.h"
 #include "remesh/arcs.h"
@@ -21,9 +22,8 @@
 namespace hf_inner {
 
 struct RingOptions {
-  double edge_length = 0.02;  // inner units
+  double edge_length = 0;  // inner units
   bool uniform = false;
-  double widest = 1.9, narrowest = 1.7;  // edge lengths
 };
 
 struct RingNode {
@@ -54,7 +54,7 @@ struct RingMesh {
   Table<SurfacePoint> location;  // of nodes
 };
 
-// lines_at: by vertex of the surface, how many lines start at a source (0: as many as the ring's length takes).
+// lines_at: by vertex of the surface, how many lines start at a source (kind pure; kind uniform counts by length).
 RingMesh make_rings(const FluxField& field, const ArcGraph& graph, const Table<double>& lines_at,
                     const RingOptions& options, Memory& memory, Progress* progress);
 

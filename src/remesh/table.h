@@ -1,5 +1,4 @@
-// A Vector indexed by the room's own signed numbers (half-edges, nodes, arcs), so that its code reads as the
-// mathematics does.
+// A Vector indexed by signed numbers (half-edges, nodes, arcs), so that code reads like the formulas.
 #pragma once
 #include <cstdint>
 
@@ -12,7 +11,7 @@ class Table {
  public:
   explicit Table(Memory& memory) : data_(&memory) {}
   Table(std::int32_t size, const T& value, Memory& memory) : data_(static_cast<std::size_t>(size), value, &memory) {}
-  // A copy lies in the same memory; that of a std::pmr container would lie in the host's default resource.
+  // A copy uses the same memory; a copy of a std::pmr container would use the default resource.
   Table(const Table& other) : data_(other.data_, other.data_.get_allocator()) {}
   Table(Table&&) = default;
   Table& operator=(const Table&) = default;

@@ -20,7 +20,7 @@ Rows run_analysis(const Run& run, Report& report) {
       hf_geodesics geodesics = nullptr;
       const double factor = median_ms(run.repetitions, [&] {
         hf_geodesics_destroy(geodesics);
-        check(hf_geodesics_create(solver.handle(), nullptr, &geodesics));
+        check(hf_geodesics_create(solver.surface(), nullptr, &geodesics));
       });
       hf_extremities_desc desc = HF_INIT(hf_extremities_desc);
       desc.kind = HF_EXTREMITIES_GEODESIC, desc.geodesics = geodesics;
@@ -30,12 +30,12 @@ Rows run_analysis(const Run& run, Report& report) {
       auto times = take_turns(
           {{"sweep", [&] { return time_ms([&] { solver.solve(field); }); }},
            {"poisson",
-            [&] { return time_ms([&] { check(hf_surface_find_extremities(solver.handle(), nullptr, 0, nullptr, &tips)); }); }},
+            [&] { return time_ms([&] { check(hf_surface_find_extremities(solver.surface(), nullptr, 0, nullptr, &tips)); }); }},
            {"distance",
             [&] { return time_ms([&] { check(hf_geodesics_solve_f64(geodesics, 1, &vertex, field.data(), 0)); }); }},
            {"average",
             [&] {
-              return time_ms([&] { check(hf_surface_find_extremities(solver.handle(), &desc, 0, nullptr, &far_tips)); });
+              return time_ms([&] { check(hf_surface_find_extremities(solver.surface(), &desc, 0, nullptr, &far_tips)); });
             }}},
           run.repetitions);
       hf_geodesics_destroy(geodesics);

@@ -48,19 +48,30 @@ void check(hf_result result) {
 
 Solver::Solver(const Mesh& mesh, const SolverOptions& options)
     : vertex_count_(mesh.vertex_count()), channels_(options.channels) {
-  hf_create_desc desc = HF_INIT(hf_create_desc);
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.vertex_count = mesh.vertex_count();
   desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
   desc.positions_f64 = mesh.positions.data(), desc.triangles = mesh.triangles.data();
-  desc.engine = options.engine, desc.thread_count = options.threads, desc.ordering = options.ordering;
-  desc.channel_count = options.channels, desc.operator_kind = options.operator_kind;
+  desc.thread_count = options.threads, desc.ordering = options.ordering;
+  desc.operator_kind = options.operator_kind;
   desc.field_kind = options.field_kind, desc.saved_factor = options.saved_factor;
-  create_ms_ = time_ms([&] { check(hf_create(&desc, &handle_)); });
+  hf_solver_desc sites = HF_INIT(hf_solver_desc);
+  sites.engine = options.engine, sites.channel_count = options.channels, sites.field_kind = options.field_kind;
+  create_ms_ = time_ms([&] {
+    check(hf_surface_create(&desc, &surface_));
+    check(hf_create(surface_, &sites, &handle_));
+  });
 }
 
 hf_solver_statistics Solver::statistics() const {
   hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
   check(hf_solver_get_statistics(handle_, &statistics));
+  return statistics;
+}
+
+hf_surface_statistics Solver::surface_statistics() const {
+  hf_surface_statistics statistics = HF_INIT(hf_surface_statistics);
+  check(hf_surface_get_statistics(surface_, &statistics));
   return statistics;
 }
 

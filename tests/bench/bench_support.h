@@ -65,16 +65,18 @@ inline SolverOptions own_defaults(uint32_t threads) {
   return options;
 }
 
-// A solver of the C ABI that is destroyed with its scope.
+// A surface of the C ABI and a solver on it, destroyed with their scope.
 class Solver {
  public:
   Solver(const Mesh& mesh, const SolverOptions& options);
-  ~Solver() { hf_solver_destroy(handle_); }
+  ~Solver() { hf_solver_destroy(handle_), hf_surface_destroy(surface_); }
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
   hf_solver handle() const { return handle_; }
+  hf_surface surface() const { return surface_; }
   double create_ms() const { return create_ms_; }
   hf_solver_statistics statistics() const;
+  hf_surface_statistics surface_statistics() const;
   uint32_t vertex_count() const { return vertex_count_; }
   uint32_t channels() const { return channels_; }
 
@@ -83,6 +85,7 @@ class Solver {
   void solve(std::vector<double>& field) const;
 
  private:
+  hf_surface surface_ = nullptr;
   hf_solver handle_ = nullptr;
   uint32_t vertex_count_, channels_;
   double create_ms_ = 0;

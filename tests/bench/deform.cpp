@@ -50,7 +50,7 @@ class Rig {
       : positions(3 * static_cast<size_t>(mesh.vertex_count())), normals(positions.size()) {
     hf_pose_desc desc = HF_INIT(hf_pose_desc);
     desc.mode = mode;
-    check(hf_pose_create(solver.handle(), &desc, &pose));
+    check(hf_pose_create(solver.surface(), &desc, &pose));
     handles = add(regions, 0);
   }
   ~Rig() { hf_pose_destroy(pose); }

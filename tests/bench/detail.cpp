@@ -14,7 +14,7 @@ namespace {
 
 class Region {
  public:
-  explicit Region(const Solver& solver) { check(hf_region_create(solver.handle(), nullptr, &handle_)); }
+  explicit Region(const Solver& solver) { check(hf_region_create(solver.surface(), nullptr, &handle_)); }
   Region(const Region& other) { check(hf_region_clone(other.handle_, &handle_)); }
   Region& operator=(const Region&) = delete;
   ~Region() { hf_region_destroy(handle_); }

@@ -125,14 +125,14 @@ Way by_channels(const Mesh& mesh, const std::vector<uint32_t>& sites, const Run&
         }}},
       run.repetitions);
   if (solver.statistics().factorisation_count != before) throw std::runtime_error("turning a vector has factorised");
-  return {"channels", times["turn"], times["rewrite"], solver.statistics().numeric_ms,
+  return {"channels", times["turn"], times["rewrite"], solver.surface_statistics().numeric_ms,
           peer_ms(cotangent_matrix(mesh), sites, 3, run)};
 }
 
 Way by_connection(const Mesh& mesh, const std::vector<uint32_t>& sites, const Run& run) {
   const Solver solver(mesh, own_defaults(run.threads));
   hf_direction direction = nullptr;
-  check(hf_direction_create(solver.handle(), nullptr, &direction));
+  check(hf_direction_create(solver.surface(), nullptr, &direction));
   std::vector<double> vectors = vectors_of(site_count);
   std::vector<uint32_t> numbers(site_count);
   check(hf_direction_add_sites(direction, site_count, sites.data(), vectors.data(), numbers.data()));

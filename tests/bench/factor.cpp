@@ -108,21 +108,21 @@ void print_numeric(const char* what, const json& row) {
 json store_and_load(const Mesh& mesh, const Run& run) {
   const SolverOptions options{HF_ENGINE_GREEN, run.threads};
   const Solver maker(mesh, options);
-  const hf_solver_statistics made = maker.statistics();
+  const hf_surface_statistics made = maker.surface_statistics();
   const double make_ms = made.ordering_ms + made.symbolic_ms + made.numeric_ms;
   hf_factor_desc saved = HF_INIT(hf_factor_desc);
-  check(hf_get_factor_size(maker.handle(), &saved.byte_count));
+  check(hf_surface_save(maker.surface(), HF_FIELD_HARMONIC, 0, nullptr, &saved.byte_count));
   hf_inner::Memory memory;
   hf_inner::Buffer<uint8_t> bytes(memory, saved.byte_count);
   saved.bytes = bytes.data();
-  const double save = time_ms([&] { check(hf_surface_save(maker.handle(), bytes.data(), saved.byte_count)); });
+  const double save = time_ms([&] { check(hf_surface_save(maker.surface(), HF_FIELD_HARMONIC, saved.byte_count, bytes.data(), nullptr)); });
   std::vector<double> copied, borrowed;
   for (uint32_t r = 0; r < run.repetitions; ++r) {
     for (const int borrow : {0, 1}) {
       saved.borrow = borrow;
       SolverOptions loading = options;
       loading.saved_factor = &saved;
-      (borrow ? borrowed : copied).push_back(Solver(mesh, loading).statistics().load_ms);
+      (borrow ? borrowed : copied).push_back(Solver(mesh, loading).surface_statistics().load_ms);
     }
   }
   const double ratio = median(copied) / make_ms, in_place = median(borrowed) / make_ms;

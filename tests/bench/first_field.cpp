@@ -13,7 +13,7 @@ namespace {
 
 struct Ours {
   double total = 0;
-  hf_solver_statistics statistics;
+  hf_surface_statistics statistics;
 };
 
 Ours our_first_field(const Mesh& mesh, const std::vector<uint32_t>& sites, uint32_t threads) {
@@ -24,7 +24,7 @@ Ours our_first_field(const Mesh& mesh, const std::vector<uint32_t>& sites, uint3
   Sites(solver).edit(sites, {});
   solver.solve(field);
   ours.total = clock.milliseconds();
-  ours.statistics = solver.statistics();
+  ours.statistics = solver.surface_statistics();
   return ours;
 }
 
@@ -34,7 +34,7 @@ nlohmann::json run_mesh(const Mesh& mesh, const Run& run, Report& report) {
   if (peer) peer->set_sites(sites);
   std::vector<double> ours, analyse, factorise, solve, theirs;
   double cold_ours = 0, cold_theirs = 0;
-  hf_solver_statistics phases{};
+  hf_surface_statistics phases{};
   for (uint32_t r = 0; r < run.repetitions + 1; ++r) {
     const Ours own = our_first_field(mesh, sites, run.threads);
     phases = own.statistics;

@@ -13,7 +13,7 @@ namespace {
 // Flow lines into arrays that are kept.
 class Tracer {
  public:
-  explicit Tracer(const Solver& solver) { check(hf_flow_create(solver.handle(), &flow_)); }
+  explicit Tracer(const Solver& solver) { check(hf_flow_create(solver.surface(), &flow_)); }
   ~Tracer() { hf_flow_destroy(flow_); }
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;

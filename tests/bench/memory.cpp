@@ -1,5 +1,5 @@
 // Memory of a solver: the peak of hf_create, ten sites and one field over the bytes of the stored factor, 10,000 to a
-// million vertices. The library counts every allocation it makes (hf_solver_statistics); beside it stands what the operating
+// million vertices. The library counts every allocation it makes (hf_surface_statistics); beside it stands what the operating
 // system saw, the largest resident set of the process less what was there before (Linux; includes the C library).
 #include <algorithm>
 #include <cstdio>
@@ -43,7 +43,7 @@ nlohmann::json run_mesh(const Mesh& mesh, const Run& run, Report& report, bool j
   const Solver solver(mesh, {HF_ENGINE_GREEN, run.threads});
   Sites(solver).edit(scattered_vertices(mesh.vertex_count(), 10, 5), {});
   solver.solve(field);
-  const hf_solver_statistics statistics = solver.statistics();
+  const hf_surface_statistics statistics = solver.surface_statistics();
   const double resident = watched ? status_bytes("VmHWM") - before : 0;
   const double ratio = statistics.peak_memory_bytes / statistics.factor_bytes;
   std::printf("%-16s factor %8.1f MB, peak %8.1f MB = %.2fx, kept %8.1f MB = %.2fx, of the process %8.1f MB = %.2fx\n",

@@ -32,7 +32,7 @@ class FieldSource {
     sites_.set_value(vertices_[turn_ % vertices_.size()], value_of(turn_));
     return time_ms([&] { solver_.solve(field_); });
   }
-  double factor_bytes() const { return solver_.statistics().factor_bytes; }
+  double factor_bytes() const { return solver_.surface_statistics().factor_bytes; }
 
  private:
   Solver solver_;

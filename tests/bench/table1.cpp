@@ -73,7 +73,7 @@ struct Bed {
     }
     peer = CholmodPeer::make(cotangent_matrix(mesh), threads);
     if (peer) peer->analyse_ms();
-    read_ms = read_once_ms(green.statistics().factor_bytes, threads);
+    read_ms = read_once_ms(green.surface_statistics().factor_bytes, threads);
   }
   const Mesh& mesh;
   Solver green, refactor;
@@ -166,7 +166,7 @@ json run_row(const Row& row, const std::string& name, Bed& bed, const Run& run) 
   }
   std::printf("\n");
   std::fflush(stdout);
-  const hf_solver_statistics statistics = bed.green.statistics();
+  const hf_surface_statistics statistics = bed.green.surface_statistics();
   out["read_once_ms"] = bed.read_ms, out["factor_bytes"] = statistics.factor_bytes;
   out["analysis_ms"] = statistics.ordering_ms + statistics.symbolic_ms;
   out["factorisation_ms"] = statistics.numeric_ms;
@@ -217,7 +217,7 @@ Rows run_table1(const Run& run, Report& report) {
         bed.reset();
         mesh = wanted, bed = std::make_unique<Bed>(*mesh, run.threads);
         std::printf("-- %s: %u vertices, factor %.1f MB, read once %.2f ms\n", mesh->name.c_str(), mesh->vertex_count(),
-                    1e-6 * bed->green.statistics().factor_bytes, bed->read_ms);
+                    1e-6 * bed->green.surface_statistics().factor_bytes, bed->read_ms);
       }
       rows.push_back(run_row(row, name, *bed, run));
     }

@@ -68,12 +68,11 @@ std::vector<std::vector<float>> poses_of(const Mesh& mesh) {
   return out;
 }
 
-// One target of the crowd: a clone, its transfer, its positions.
+// One target of the crowd: its transfer and its positions, on the one surface.
 struct Actor {
-  hf_solver solver = nullptr;
   hf_transfer transfer = nullptr;
   std::vector<float> positions;
-  ~Actor() { hf_transfer_destroy(transfer), hf_solver_destroy(solver); }
+  ~Actor() { hf_transfer_destroy(transfer); }
   void play(const std::vector<std::vector<float>>& poses) {
     for (const std::vector<float>& posed : poses) {
       hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
@@ -92,7 +91,7 @@ Rows run_transfer(const Run& run, Report&) {
   const Solver from(*source, own_defaults(1)), to(*target, own_defaults(1));
   std::vector<hf_extremity> tips(64);
   uint32_t tip_count = 0;
-  check(hf_surface_find_extremities(from.handle(), nullptr, 64, tips.data(), &tip_count));
+  check(hf_surface_find_extremities(from.surface(), nullptr, 64, tips.data(), &tip_count));
   tips.resize(std::min<uint32_t>(tip_count, 8));
   const Places on_source = balls(*source, tips), on_target = balls(*target, tips);
   // every other place leads, as feet and trunk do
@@ -100,8 +99,7 @@ Rows run_transfer(const Run& run, Report&) {
   for (size_t i = 0; i < flags.size(); ++i) flags[i] = i % 2 == 0 ? HF_PAIR_ANCHOR : 0;
   std::vector<Actor> actors(crowd);
   for (Actor& actor : actors) {
-    check(hf_solver_clone(to.handle(), &actor.solver));
-    check(hf_transfer_create(from.handle(), actor.solver, nullptr, &actor.transfer));
+    check(hf_transfer_create(from.surface(), to.surface(), nullptr, &actor.transfer));
     hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
     pairs.pair_count = static_cast<uint32_t>(tips.size()), pairs.flags = flags.data();
     pairs.source_counts = on_source.counts.data(), pairs.source_vertices = on_source.vertices.data();

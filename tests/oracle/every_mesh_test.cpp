@@ -51,23 +51,32 @@ std::vector<Given> meshes(std::size_t most) {
   return found;
 }
 
-// A solver on the mesh with eight random sites of values in [-1, 1] and their range; null when the mesh is refused.
-hf_solver make_solver(const samples::SurfaceMesh& mesh, int field_kind, std::vector<std::uint32_t>& vertices,
-                      std::vector<double>& values) {
-  hf_create_desc desc = HF_INIT(hf_create_desc);
+// The surface of a mesh; null when the mesh is refused.
+hf_surface make_surface(const samples::SurfaceMesh& mesh, int field_kind) {
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
   desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
   desc.positions_f64 = &mesh.positions[0].x, desc.triangles = mesh.triangles.data();
   desc.operator_kind = HF_OPERATOR_INTRINSIC_DELAUNAY, desc.field_kind = field_kind;
+  hf_surface surface = nullptr;
+  const hf_result made = hf_surface_create(&desc, &surface);
+  // coordinates that are not numbers, or no triangle that is one
+  EXPECT_TRUE(made == HF_OK || made == HF_ERROR_NON_FINITE || made == HF_ERROR_EMPTY ||
+              made == HF_ERROR_OUT_OF_RANGE || made == HF_ERROR_TOO_LARGE)
+      << hf_result_get_name(made);
+  return surface;
+}
+
+// A solver on the mesh with eight random sites of values in [-1, 1] and their range; null when the mesh is refused.
+hf_solver make_solver(const samples::SurfaceMesh& mesh, int field_kind, std::vector<std::uint32_t>& vertices,
+                      std::vector<double>& values) {
+  const hf_surface surface = make_surface(mesh, field_kind);
+  if (!surface) return nullptr;
+  hf_solver_desc desc = HF_INIT(hf_solver_desc);
+  desc.field_kind = field_kind;
   hf_solver solver = nullptr;
-  const hf_result made = hf_create(&desc, &solver);
-  if (made != HF_OK) {
-    // coordinates that are no numbers, or no triangle that is one
-    EXPECT_TRUE(made == HF_ERROR_NON_FINITE || made == HF_ERROR_EMPTY || made == HF_ERROR_OUT_OF_RANGE ||
-                made == HF_ERROR_TOO_LARGE)
-        << hf_result_get_name(made);
-    return nullptr;
-  }
+  EXPECT_EQ(hf_create(surface, &desc, &solver), HF_OK);
+  hf_surface_destroy(surface);
   std::mt19937 random(7);
   for (int i = 0; i < 40 && vertices.size() < 8; ++i) {
     const std::uint32_t v = random() % desc.vertex_count;
@@ -144,8 +153,9 @@ TEST(EveryMesh, direction_fields_are_finite_and_their_singularities_sum_up) {
     std::vector<double> values;
     const hf_solver solver = make_solver(g.mesh, HF_FIELD_HARMONIC, vertices, values);
     if (!solver) continue;
+    const hf_surface surface = make_surface(g.mesh, HF_FIELD_HARMONIC);
     hf_direction direction = nullptr;
-    ASSERT_EQ(hf_direction_create(solver, nullptr, &direction), HF_OK);
+    ASSERT_EQ(hf_direction_create(surface, nullptr, &direction), HF_OK);
     for (const std::uint32_t v : vertices) {
       const double vector[3] = {1, 0.3, -0.2};
       const hf_result added = hf_direction_add_sites(direction, 1, &v, vector, nullptr);
@@ -158,10 +168,9 @@ TEST(EveryMesh, direction_fields_are_finite_and_their_singularities_sum_up) {
         ASSERT_TRUE(std::isfinite(x));
         ASSERT_LE(std::fabs(x), 2.0);
       }
-      hf_surface_report report;
-      hf_direction_statistics statistics;
-      HF_INIT(report), statistics = HF_INIT(hf_direction_statistics);
-      ASSERT_EQ(hf_surface_get_report(solver, &report), HF_OK);
+      hf_surface_report report = HF_INIT(hf_surface_report);
+      hf_direction_statistics statistics = HF_INIT(hf_direction_statistics);
+      ASSERT_EQ(hf_surface_get_report(surface, &report), HF_OK);
       ASSERT_EQ(hf_direction_get_statistics(direction, &statistics), HF_OK);
       std::uint32_t count = 0;
       ASSERT_EQ(hf_direction_get_singularities(direction, 0, nullptr, &count), HF_OK);
@@ -177,7 +186,7 @@ TEST(EveryMesh, direction_fields_are_finite_and_their_singularities_sum_up) {
       }
     }
     hf_direction_destroy(direction);
-    hf_solver_destroy(solver);
+    hf_solver_destroy(solver), hf_surface_destroy(surface);
   }
   std::printf("%d closed meshes\n", closed);
   EXPECT_GE(closed, 8);

@@ -44,13 +44,17 @@ TEST_P(ReferenceField, is_reproduced_by_every_engine) {
 #ifndef HF_WITH_GPL
     if (engine == HF_ENGINE_UPDOWN) continue;
 #endif
-    hf_create_desc desc = HF_INIT(hf_create_desc);
+    hf_surface_desc desc = HF_INIT(hf_surface_desc);
     desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size()),
     desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
     desc.positions_f64 = &mesh.positions[0].x, desc.triangles = mesh.triangles.data();
-    desc.engine = engine, desc.weld = HF_WELD_NONE, desc.operator_kind = HF_OPERATOR_COTANGENT;
+    desc.weld = HF_WELD_NONE, desc.operator_kind = HF_OPERATOR_COTANGENT;
+    hf_solver_desc with = HF_INIT(hf_solver_desc);
+    with.engine = engine;
+    hf_surface surface = nullptr;
     hf_solver solver = nullptr;
-    ASSERT_EQ(hf_create(&desc, &solver), HF_OK);
+    ASSERT_EQ(hf_surface_create(&desc, &surface), HF_OK);
+    ASSERT_EQ(hf_create(surface, &with, &solver), HF_OK);
     hf_sites_desc batch = HF_INIT(hf_sites_desc);
     batch.site_count = static_cast<std::uint32_t>(vertices.size()), batch.vertices = vertices.data(),
     batch.values = values.data();
@@ -62,7 +66,7 @@ TEST_P(ReferenceField, is_reproduced_by_every_engine) {
     // the paper's engine holds its sites by penalties of 1e8
     EXPECT_LE(worst, (engine == HF_ENGINE_UPDOWN ? 1e-6 : 1e-9) * (*high - *low)) << "engine " << engine;
     std::printf("%s engine %d: %.1e of the range\n", GetParam(), engine, worst / (*high - *low));
-    hf_solver_destroy(solver);
+    hf_solver_destroy(solver), hf_surface_destroy(surface);
   }
 }
 

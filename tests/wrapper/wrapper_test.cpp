@@ -19,33 +19,36 @@ struct Strip {
 
 TEST(Wrapper, solves_edits_and_undoes) {
   const Strip strip(8);
-  hf::Solver solver(strip.positions, strip.triangles);
+  const hf::Surface surface(strip.positions, strip.triangles);
+  hf::Solver solver(surface);
   const auto sites = solver.add_sites({0, 1, 16, 17}, {0, 0, 1, 1});
   EXPECT_FLOAT_EQ(solver.solve()[8], 0.5f);
   EXPECT_DOUBLE_EQ(solver.solve_at({8})[0], solver.solve_f64()[8]);
   solver.record();
-  solver.set_site_values({sites[2], sites[3]}, {2, 2});
+  solver.set_values({sites[2], sites[3]}, {2, 2});
   EXPECT_FLOAT_EQ(solver.solve()[8], 1.0f);
   solver.undo();
   EXPECT_FLOAT_EQ(solver.solve()[8], 0.5f);
   solver.move_sites({sites[0]}, {2});
   solver.remove_sites({sites[1]});
   EXPECT_EQ(solver.site_count(), 3u);
-  EXPECT_EQ(solver.statistics().factorisation_count, 1u);
+  EXPECT_EQ(solver.statistics().factorisation_count, 0u);
 }
 
 TEST(Wrapper, saves_and_loads_a_factor_and_previews_with_it) {
   const Strip strip(40);
-  hf::Solver made(strip.positions, strip.triangles);
-  const std::vector<uint8_t> bytes = made.save_factor();
+  const hf::Surface surface(strip.positions, strip.triangles);
+  hf::Solver made(surface);
+  const std::vector<uint8_t> bytes = surface.save();
   auto saved = hf::make<hf_factor_desc>();
   saved.bytes = bytes.data(), saved.byte_count = bytes.size();
-  auto desc = hf::make<hf_create_desc>();
+  auto desc = hf::make<hf_surface_desc>();
   desc.vertex_count = static_cast<uint32_t>(strip.positions.size() / 3), desc.positions = strip.positions.data();
   desc.triangle_count = static_cast<uint32_t>(strip.triangles.size() / 3), desc.triangles = strip.triangles.data();
   desc.saved_factor = &saved;
-  hf::Solver loaded(desc);
-  EXPECT_EQ(loaded.statistics().factor_loaded, 1u);
+  const hf::Surface again(desc);
+  EXPECT_EQ(again.statistics().factor_loaded, 1);
+  hf::Solver loaded(again);
   made.add_sites({0, 80}, {0, 1}), loaded.add_sites({0, 80}, {0, 1});
   EXPECT_EQ(made.solve_f64(), loaded.solve_f64());
   auto info = hf::make<hf_preview_info>();
@@ -56,8 +59,8 @@ TEST(Wrapper, saves_and_loads_a_factor_and_previews_with_it) {
 
 TEST(Wrapper, directions_follow_their_constraints) {
   const Strip strip(8);
-  const hf::Solver solver(strip.positions, strip.triangles);
-  hf::Direction direction(solver);
+  const hf::Surface surface(strip.positions, strip.triangles);
+  hf::Direction direction(surface);
   const auto sites = direction.add_sites({4}, {1, 2, 0});
   std::vector<float> field = direction.solve();  // flat: parallel everywhere
   EXPECT_NEAR(field[3 * 15], 1, 1e-6);
@@ -74,9 +77,23 @@ TEST(Wrapper, directions_follow_their_constraints) {
   EXPECT_EQ(direction.site_count(), 0u);
 }
 
+TEST(Wrapper, picks_and_reports) {
+  const Strip strip(8);
+  const hf::Surface surface(strip.positions, strip.triangles);
+  EXPECT_EQ(surface.report().component_count, 1u);
+  EXPECT_EQ(surface.components(), std::vector<uint32_t>(18, 0));
+  const hf_hit hit = surface.cast_ray({3.1, 0.2, 5}, {0, 0, -1});
+  EXPECT_EQ(hit.found, 1);
+  EXPECT_EQ(hit.vertex, 6u);
+  EXPECT_NEAR(hit.distance, 5, 1e-9);
+  EXPECT_EQ(surface.cast_ray({3.1, 2, 5}, {0, 0, -1}).found, 0);
+  EXPECT_EQ(surface.find_vertex({8.2, 1.1, 0.3}), 17u);
+}
+
 TEST(Wrapper, throws_with_code_and_index) {
   const Strip strip(2);
-  hf::Solver solver(strip.positions, strip.triangles);
+  const hf::Surface surface(strip.positions, strip.triangles);
+  hf::Solver solver(surface);
   try {
     solver.add_sites({0, 99}, {0, 1});
     FAIL();
@@ -91,11 +108,12 @@ TEST(Wrapper, throws_with_code_and_index) {
 
 TEST(Wrapper, handles_move_and_children_outlive_parents) {
   const Strip strip(8);
-  auto solver = std::make_unique<hf::Solver>(strip.positions, strip.triangles);
+  auto surface = std::make_unique<hf::Surface>(strip.positions, strip.triangles);
+  auto solver = std::make_unique<hf::Solver>(*surface);
   hf::Solver clone = solver->clone();
-  hf::Pose pose(*solver);
-  hf::Transfer transfer(*solver, clone);
-  solver.reset();
+  hf::Pose pose(*surface);
+  hf::Transfer transfer(*surface, *surface);
+  surface.reset(), solver.reset();
   hf::Solver moved = std::move(clone);
   moved.add_sites({0, 17}, {0, 1});
   EXPECT_EQ(moved.solve().size(), 18u);
@@ -114,23 +132,24 @@ TEST(Wrapper, handles_move_and_children_outlive_parents) {
 
 TEST(Wrapper, reads_lines_points_distances_and_tips_of_a_strip) {
   const Strip strip(8);
-  hf::Solver solver(strip.positions, strip.triangles);
+  const hf::Surface surface(strip.positions, strip.triangles);
+  hf::Solver solver(surface);
   solver.add_sites({0, 1, 16, 17}, {0, 0, 1, 1});
   const auto field = solver.solve_f64();
-  const auto levels = hf::space_levels(solver, field, HF_LEVELS_LENGTH, 3);
+  const auto levels = hf::space_levels(surface, field, HF_LEVELS_LENGTH, 3);
   ASSERT_EQ(levels.size(), 3u);
   EXPECT_NEAR(levels[1], 0.5, 1e-9);
-  const auto lines = hf::trace_isolines(solver, field, levels);
+  const auto lines = hf::trace_isolines(surface, field, levels);
   EXPECT_EQ(lines.line_levels, (std::vector<uint32_t>{0, 1, 2}));
   EXPECT_EQ(lines.line_closed, (std::vector<int32_t>{0, 0, 0}));
   EXPECT_EQ(lines.positions.size(), 3 * lines.parameters.size());
   int index = 0;
-  for (const auto& point : hf::find_critical_points(solver, field)) index += point.index;
+  for (const auto& point : hf::find_critical_points(surface, field)) index += point.index;
   EXPECT_EQ(index, 1);  // a disk
-  const hf::Geodesics geodesics(solver);
+  const hf::Geodesics geodesics(surface);
   const auto distance = geodesics.distance({0, 1});
   EXPECT_NEAR(distance[16], 8, 0.8);
-  const auto tips = hf::find_extremities(solver);
+  const auto tips = hf::find_extremities(surface);
   ASSERT_EQ(tips.size(), 2u);
   EXPECT_NEAR(std::fabs(tips[0].position[0] - tips[1].position[0]), 8, 0.01);
 }
@@ -147,8 +166,8 @@ TEST(Wrapper, regions_morph_and_hand_their_detail_on) {
       const uint32_t v = 13 * j + i;
       triangles.insert(triangles.end(), {v, v + 1, v + 14, v, v + 14, v + 13});
     }
-  const hf::Solver solver(positions, triangles);
-  hf::Region region(solver, positions);
+  const hf::Surface surface(positions, triangles);
+  hf::Region region(surface, positions);
   region.enclose({13 * 3 + 3, 13 * 3 + 9, 13 * 9 + 9, 13 * 9 + 3});
   EXPECT_EQ(region.info().vertex_count, 25u);
   EXPECT_EQ(region.vertices(HF_REGION_RIM).size(), region.info().rim_count);

@@ -1,4 +1,4 @@
-// Fitting a quad mesh to its surface: refined, coarsened, drawn out and measured, it stays a mesh of quads.
+// Fitting a quad mesh to its surface: refined, coarsened, snapped and measured, it stays a mesh of quads.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -87,20 +87,20 @@ TEST(RefineQuads, WhateverIsMarkedTheMeshStaysClosedAndOfQuads) {
 }
 
 // Vertices from a sequence that jumps over the mesh, one by one, those of four quads or more.
-TEST(OpenVertex, MakesOneQuadMoreAndTheMeshStaysClosedAndOfQuads) {
+TEST(SplitVertex, MakesOneQuadMoreAndTheMeshStaysClosedAndOfQuads) {
   const Made made(plain(samples::jittered_torus(60, 40)));
   Memory& memory = *made.core->memory;
   QuadMesh mesh = made.result.mesh;
-  std::int32_t opened = 0;
-  for (std::uint64_t i = 0; opened < 200; ++i) {
+  std::int32_t splits = 0;
+  for (std::uint64_t i = 0; splits < 200; ++i) {
     const auto v = static_cast<std::int32_t>(samples::hash_to_unit(1, i) * mesh.position.size());
     const VertexFans fans(mesh, memory);
     if (fans.valence(v) < 4) continue;
     const std::int32_t faces = mesh.face_count(), valence = fans.valence(v);
     const Vec3 towards = mesh.position[v] + Vec3{samples::hash_to_unit(2, i) - 0.5, samples::hash_to_unit(3, i) - 0.5,
                                                  samples::hash_to_unit(4, i) - 0.5};
-    const std::int32_t added = open_vertex(mesh, v, towards, memory);
-    ++opened;
+    const std::int32_t added = split_vertex(mesh, v, towards, memory);
+    ++splits;
     ASSERT_EQ(added, mesh.position.size() - 1);
     ASSERT_EQ(mesh.face_count(), faces + 1);
     const VertexFans after(mesh, memory);
@@ -112,7 +112,7 @@ TEST(OpenVertex, MakesOneQuadMoreAndTheMeshStaysClosedAndOfQuads) {
 }
 
 // The quads that go with the new vertex are those on the side it goes to.
-TEST(OpenVertex, OpensAcrossTheWay) {
+TEST(SplitVertex, SplitsAcrossTheWay) {
   const auto core = hf_test::make_core(hf_test::grid(4, 4, 1, 0));
   Memory& memory = *core->memory;
   QuadMesh mesh(memory);
@@ -124,7 +124,7 @@ TEST(OpenVertex, OpensAcrossTheWay) {
     for (const std::int32_t c : {v, v + 1, v + 4, v + 3}) mesh.corner.push_back(c);
     mesh.face_start.push_back(mesh.corner.size());
   }
-  const std::int32_t added = open_vertex(mesh, 4, {2, 1, 0}, memory);
+  const std::int32_t added = split_vertex(mesh, 4, {2, 1, 0}, memory);
   const VertexFans fans(mesh, memory);
   EXPECT_EQ(fans.valence(added), 3);
   for (const std::int32_t f : {1, 3}) {  // the right ones
@@ -141,7 +141,7 @@ TEST(FitQuads, BringsTheMeshNearAndItStaysClosedAndOfQuads) {
   Memory& memory = *made.core->memory;
   QuadMesh mesh = made.result.mesh;
   RelaxOptions relax;
-  relax.edge_length = 0.03;
+  relax.edge_length = 0.03, relax.rounds = 20;
   relax_quads(made.surface, mesh, relax, memory);
   const QuadDistance distance(made.surface, 0.01, memory);
   const double before = distance.measure(mesh, 0, nullptr, nullptr);
@@ -205,8 +205,8 @@ TEST(CoarsenQuads, TakesOutAllItMayAndTheMeshStaysClosedAndOfQuads) {
   }
 }
 
-// Three faces at every corner: closing one would leave a corner of two.
-TEST(CoarsenQuads, OfACubeNoQuadMayClose) {
+// Three faces at every corner: collapsing one would leave a corner of two.
+TEST(CoarsenQuads, OfACubeNoQuadMayCollapse) {
   const auto core = hf_test::make_core(plain(samples::sphere(6)));
   Memory& memory = *core->memory;
   // numbered around the bottom, then around the top
@@ -224,7 +224,8 @@ TEST(CoarsenQuads, OfACubeNoQuadMayClose) {
   }
   const VertexFans fans(mesh, memory);
   for (std::int32_t f = 0; f < 6; ++f)
-    for (std::int32_t k = 0; k < 2; ++k) EXPECT_FALSE(can_close(mesh, fans, f, k)) << f;  // three faces at each corner
+    for (std::int32_t k = 0; k < 2; ++k)
+      EXPECT_FALSE(can_collapse(mesh, fans, f, k)) << f;  // three faces at each corner
 }
 
 TEST(CoarsenQuads, WhatIsNeededStays) {

@@ -1,5 +1,5 @@
-// See surface_solver.h.
-#include "transfer/surface_solver.h"
+// See flat_surface.h.
+#include "transfer/flat_surface.h"
 
 #include <algorithm>
 #include <limits>
@@ -15,19 +15,19 @@ void check(hf_result result, const std::string& what) {
                            hf_result_get_name(result) + ")");
 }
 
-SurfaceSolver::SurfaceSolver(const FlatMesh& mesh, const std::string& name, uint32_t threads, bool paper) {
+FlatSurface::FlatSurface(const FlatMesh& mesh, const std::string& name, uint32_t threads, bool paper) {
   const std::vector<double> positions = double_positions(mesh.positions);
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
   for (const glm::dvec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
   const glm::dvec3 extent = high - low;
-  hf_create_desc desc = HF_INIT(hf_create_desc);
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
   desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
   desc.weld = HF_WELD_TOLERANCE,
   desc.weld_tolerance = static_cast<float>(1e-5 * std::max({extent.x, extent.y, extent.z, 1e-20}));
   desc.thread_count = threads;
   if (paper) desc.operator_kind = HF_OPERATOR_COTANGENT;
-  check(hf_create(&desc, &solver_), name);
+  check(hf_surface_create(&desc, &surface_), name);
 }
 
 }  // namespace samples

@@ -1,0 +1,31 @@
+// The surface of a flat mesh, as the programs make it: welded within 1e-5 of the largest extent, because exporters round
+// copies of a vertex differently now and then.
+#ifndef HF_SAMPLES_TRANSFER_FLAT_SURFACE_H
+#define HF_SAMPLES_TRANSFER_FLAT_SURFACE_H
+
+#include <string>
+
+#include "common/flat_mesh.h"
+#include "hf/hf.h"
+
+namespace samples {
+
+// Throws std::runtime_error "what: the library's own sentence" unless the result is HF_OK.
+void check(hf_result result, const std::string& what);
+
+class FlatSurface {
+ public:
+  // paper: plain cotangents, as the paper has them, instead of the library's default operator.
+  FlatSurface(const FlatMesh& mesh, const std::string& name, uint32_t threads, bool paper = false);
+  ~FlatSurface() { hf_surface_destroy(surface_); }
+  FlatSurface(const FlatSurface&) = delete;
+  FlatSurface& operator=(const FlatSurface&) = delete;
+  hf_surface get() const { return surface_; }
+
+ private:
+  hf_surface surface_ = nullptr;
+};
+
+}  // namespace samples
+
+#endif
