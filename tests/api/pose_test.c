@@ -320,6 +320,7 @@ static void the_skin_replays_the_transfer(void** state) {
   double *pivots = malloc(24 * (size_t)n), *rotations = malloc(32 * (size_t)n), *translations = malloc(24 * (size_t)n);
   static uint32_t joints[4 * TARGET];
   static float weights[4 * TARGET];
+  skin.joint_capacity = n, skin.vertex_capacity = TARGET;
   skin.pivots = pivots, skin.rotations = rotations, skin.translations = translations, skin.vertex_joints = joints,
   skin.vertex_weights = weights;
   assert_ok(hf_transfer_get_skin(transfer, &skin));
@@ -582,6 +583,7 @@ static void the_skin_replays_the_pose(void** state) {
     double *axes = malloc(32 * (size_t)n), *scales = malloc(24 * (size_t)n);
     static uint32_t joints[8 * VERTICES];
     static float weights[8 * VERTICES];
+    skin.joint_capacity = n, skin.vertex_capacity = VERTICES;
     skin.pivots = pivots, skin.rotations = rotations, skin.translations = places;
     skin.vertex_joints = joints, skin.vertex_weights = weights;
     if (stretching) skin.axes = axes, skin.scales = scales;
