@@ -198,7 +198,7 @@ static void a_direction_object_refuses_bad_input_and_stays_as_it_was(void** stat
             HF_ERROR_INVALID_ARGUMENT, NO_INDEX);
   desc.degree = 0, desc.reserved = 1;
   check_row(__LINE__, "reserved", "hf_direction_create", hf_direction_create(surface, &desc, &direction),
-            HF_ERROR_INVALID_ARGUMENT, NO_INDEX);
+            HF_ERROR_INVALID_DESC, NO_INDEX);
   check_row(__LINE__, "NULL", "hf_direction_create", hf_direction_create(surface, NULL, NULL), HF_ERROR_NULL_POINTER,
             NO_INDEX);
   desc.reserved = 0, desc.site_limit = 3;

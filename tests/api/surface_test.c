@@ -363,8 +363,7 @@ static void* ask(void* data) {
   a->wrong += hf_create(a->surface, &desc, &solver) != HF_OK;
   const double values[3] = {1, -2, 0.5};
   const uint32_t vertices[3] = {3, COUNT - 5, COUNT / 2};
-  const hf_sites_desc sites = sites_at(3, vertices, values);
-  a->wrong += hf_add_sites(solver, &sites, NULL) != HF_OK;
+  for (int i = 0; i < 3; ++i) a->wrong += hf_solver_add_site(solver, vertices[i], values + i, NULL) != HF_OK;
   a->wrong += hf_solver_solve_f64(solver, a->field, 0, NULL) != HF_OK;
   hf_solver_destroy(solver);
   return NULL;
