@@ -26,8 +26,8 @@ typedef struct hf_direction_desc {
 } hf_direction_desc;
 
 /* Makes a direction field without constraints: connection, operator, and one numeric factorisation of two unknowns per
- * vertex. desc: NULL for defaults. Sets *out_direction to NULL first. Errors: HF_ERROR_INVALID_ARGUMENT (degree,
- * reserved), HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
+ * vertex. desc: NULL for defaults. Sets *out_direction to NULL first. Errors: HF_ERROR_INVALID_ARGUMENT
+ * (degree), HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_direction_create(hf_surface surface, const hf_direction_desc* desc, hf_direction* out_direction);
 
 /* Makes a direction field with the same constraints, without the undo stack. Shares connection and factor; costs the

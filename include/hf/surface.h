@@ -198,7 +198,7 @@ typedef struct hf_hit {
   uint32_t struct_size;
   int32_t found;          /* 1: a triangle was hit; 0: none, and all else is 0 or HF_NO_INDEX */
   uint32_t triangle;      /* as given */
-  uint32_t vertex;        /* its corner nearest to the hit, as given */
+  uint32_t vertex;        /* its corner nearest to the hit, as given, of welded copies the first */
   double barycentrics[3]; /* weights of the corners, of sum 1: a site for hf_add_sites */
   double position[3];     /* in the unit of the positions */
   double distance;        /* from the origin, in lengths of `direction` */

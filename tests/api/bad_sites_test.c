@@ -283,10 +283,10 @@ static void nothing_to_undo_or_redo_is_said(void** state) {
 static void the_site_limit_of_the_desc_is_kept(void** state) {
   (void)state;
   Surface sheet = surface_sheet(4, 4);
-  hf_create_desc desc = surface_desc(&sheet);
-  desc.site_limit = 2;
+  Options desc = options_of(&sheet);
+  desc.solver.site_limit = 2;
   hf_solver solver = NULL;
-  assert_ok(hf_create(&desc, &solver));
+  assert_ok(make(&desc, NULL, &solver));
   add_site(solver, 0, 0);
   const uint32_t list[2] = {3, 9};
   const hf_sites_desc two = sites_at(2, list, NULL), single = sites_at(1, list, NULL);

@@ -68,9 +68,9 @@ static void a_rebase_needs_a_solver_with_hard_sites(void** state) {
   assert_code(HF_ERROR_NO_SITES, hf_solver_prepare_rebase(solver));
   assert_code(HF_ERROR_INVALID_HANDLE, hf_solver_prepare_rebase(NULL));
   hf_solver_destroy(solver);
-  hf_create_desc desc = surface_desc(&sheet);
-  desc.engine = HF_ENGINE_REFACTOR;
-  assert_ok(hf_create(&desc, &solver));
+  Options desc = options_of(&sheet);
+  desc.solver.engine = HF_ENGINE_REFACTOR;
+  assert_ok(make(&desc, NULL, &solver));
   add_site(solver, 3, 1);
   assert_code(HF_ERROR_UNSUPPORTED, hf_solver_prepare_rebase(solver));
   hf_solver_destroy(solver);

@@ -55,9 +55,9 @@ static void* own_solver(void* user) {
   Worker* w = user;
   double* field = malloc(sizeof(double) * VERTICES);
   for (int round = 0; round < 6; ++round) {
-    const hf_create_desc desc = surface_desc(&sheet);
+    const Options desc = options_of(&sheet);
     hf_solver solver = NULL;
-    w->wrong += hf_create(&desc, &solver) != HF_OK || edit_and_solve(solver, w->number, field) != HF_OK;
+    w->wrong += make(&desc, NULL, &solver) != HF_OK || edit_and_solve(solver, w->number, field) != HF_OK;
     w->wrong += !same_bits(field, w->expected + (size_t)VERTICES * w->number, sizeof(double) * VERTICES);
     hf_solver_destroy(solver);
     /* the detail belongs to the thread */
@@ -264,10 +264,10 @@ static void calls_during_a_change_are_busy_and_destroy_waits_for_it(void** state
   memset(&gate, 0, sizeof gate);
   gate.inner = counting_hooks(&gate.memory);
   pthread_mutex_init(&gate.mutex, NULL), pthread_cond_init(&gate.changed, NULL);
-  hf_create_desc desc = surface_desc(&sheet);
-  desc.allocator.allocate = gate_allocate, desc.allocator.release = gate_release, desc.allocator.user = &gate;
+  Options desc = options_of(&sheet);
+  desc.surface.allocator.allocate = gate_allocate, desc.surface.allocator.release = gate_release, desc.surface.allocator.user = &gate;
   hf_solver solver = NULL, copy = NULL;
-  assert_ok(hf_create(&desc, &solver));
+  assert_ok(make(&desc, NULL, &solver));
   const uint32_t site = add_site(solver, 0, 1);
   double* field = malloc(sizeof(double) * VERTICES);
   const double value = 1;
