@@ -87,7 +87,9 @@ class Solver(Object):
 
     def add_site(self, vertex: int, value: ArrayLike = 0.0) -> int:
         """Adds one hard site at a vertex. value: a number, or one per channel. Returns its number."""
-        given = doubles(value, "value") if np.ndim(value) else np.full(self.channel_count, value, np.float64)
+        given = doubles(value, "value")
+        if given is not None and given.size == 1:
+            given = np.full(self.channel_count, given.ravel()[0])
         if given is not None and given.size != self.channel_count:
             raise InvalidArgumentError(f"value must hold {self.channel_count} numbers, not {given.size}")
         number = ctypes.c_uint32()
