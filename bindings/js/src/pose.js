@@ -134,7 +134,11 @@ export function poseClasses(tools) {
     }
     deform(out, { normals = null, Type = Float32Array, ...options } = {}) {
       out = output(out, 3 * this.vertexCount, Type);
-      const desc = make('hf_deform_desc').options(options);
+      if (out instanceof Float32Array && !normals && !Object.keys(options).length) {
+        call('hf_deform', this._handle, written(out), null);
+        return out;
+      }
+      const desc = make('hf_deform_desc').options(options, ['first_vertex', 'vertex_count']);
       desc.set(out instanceof Float32Array ? 'positions' : 'positions_f64', written(out));
       if (normals) {
         if (!(normals instanceof Float32Array) || normals.length !== 3 * this.vertexCount)

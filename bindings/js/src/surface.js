@@ -29,7 +29,7 @@ export function surfaceClasses(tools) {
     }
     get fraction() {
       const value = new Float32Array(1);
-      call('hf_progress_get', this._handle, written(value));
+      call('hf_progress_get_fraction', this._handle, written(value));
       return value[0];
     }
     cancel() {
