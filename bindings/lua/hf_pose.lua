@@ -68,7 +68,11 @@ function Pose:set_transforms(handles, rotations, translations)
   check(C.hf_pose_set_transforms(self.raw, count, numbers, packed))
 end
 function Pose:set_transform(handle, rotation, translation)
-  self:set_transforms({ handle }, rotation, translation)
+  local turn, shift = doubles(rotation, 'rotation', 4), doubles(translation, 'translation', 3)
+  local motion = ffi.new('hf_transform')
+  for c = 0, 3 do motion.rotation[c] = turn and turn[c] or 0 end
+  for c = 0, 2 do motion.translation[c] = shift and shift[c] or 0 end
+  check(C.hf_pose_set_transform(self.raw, handle, motion))
 end
 -- 4 x 4 matrices rest to posed, column by column
 function Pose:set_matrices(handles, matrices)

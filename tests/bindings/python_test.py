@@ -248,14 +248,16 @@ class Lifetime(unittest.TestCase):
         hf.Surface(points, triangles, progress=progress).close()
         self.assertEqual(progress.fraction, 1.0)
 
-    def test_threads_on_clones(self):
+    def test_threads_on_clones_and_on_one_surface(self):
         points, triangles = mesh("torus")
-        solver = hf.Solver(hf.Surface(points, triangles))
+        surface = hf.Surface(points, triangles)
+        solver = hf.Solver(surface)
         results, failures = {}, []
 
         def run(value):
             try:
-                clone = solver.clone()
+                clone = solver.clone() if value % 2 else hf.Solver(surface)
+                surface.cast_ray([9, 0.3, 0.2], [-2, 0, 0])
                 clone.add_sites([0, 144], [0.0, float(value)])
                 results[value] = [clone.solve(dtype=np.float64) for _ in range(20)][-1]
             except Exception as error:  # noqa: BLE001

@@ -122,7 +122,11 @@ class Pose(Object):
     def set_transform(self, handle: int, rotation: Optional[ArrayLike] = None,
                       translation: Optional[ArrayLike] = None) -> None:
         """A rigid motion of one handle: a quaternion x, y, z, w and a translation; None = none."""
-        self.set_transforms([handle], rotation, translation)
+        motion = _raw.hf_transform()
+        for name, values, width in (("rotation", rotation, 4), ("translation", translation, 3)):
+            if values is not None:
+                setattr(motion, name, (ctypes.c_double * width)(*doubles(values, name, width).ravel()))
+        call("hf_pose_set_transform", self._raw_handle, index(handle, "handle"), ctypes.byref(motion))
 
     def set_matrices(self, handles: ArrayLike, matrices: ArrayLike) -> None:
         """Rigid 4 x 4 matrices rest -> posed, (k, 4, 4) in the usual row-by-row reading."""
