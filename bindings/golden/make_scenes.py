@@ -1,4 +1,4 @@
-"""Writes meshes/*.json, scenes.json and bad_input.json (see README.md). Needs numpy, the Python package and the library.
+"""Writes meshes/*.json, scenes.json and bad_input.json (see README.md). Needs numpy and the Python package.
 
 Fields come from an oracle: the cotangent Laplacian K as a dense matrix, K u = W lambda, W' u + lambda / alpha = s, solved by
 numpy. Poses and transfers are checked by rigid motions where those are exact; elsewhere the languages only have to agree with
@@ -17,49 +17,8 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "tests" / "bindings"), str(HERE
 import golden  # noqa: E402
 import hf  # noqa: E402
 from bad_scenes import bad_scenes  # noqa: E402
-
-
-# ---- meshes ----
-
-def strip(nx=12, ny=4):
-    points = [(x * 0.5, y * 0.5, 0.0) for y in range(ny + 1) for x in range(nx + 1)]
-    inside = lambda x, y: 0 < x < nx and 0 < y < ny
-    jitter = np.random.default_rng(3)
-    points = [(px + 0.1 * jitter.uniform(-1, 1), py + 0.1 * jitter.uniform(-1, 1), 0.0) if inside(i % (nx + 1),
-        i // (nx + 1)) else (px, py, 0.0)
-              for i, (px, py, _) in enumerate(points)]
-    quads = [(y * (nx + 1) + x, y * (nx + 1) + x + 1, (y + 1) * (nx + 1) + x + 1, (y + 1) * (nx + 1) + x)
-        for y in range(ny) for x in range(nx)]
-    return points, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
-
-
-def torus(nu=24, nv=12):
-    points = []
-    for i in range(nu):
-        for j in range(nv):
-            u, v = 2 * math.pi * i / nu, 2 * math.pi * j / nv
-            r = 3 + math.cos(v)
-            points.append((r * math.cos(u), r * math.sin(u), math.sin(v)))
-    at = lambda i, j: (i % nu) * nv + j % nv
-    return points, [t for i in range(nu) for j in range(nv) for t in
-                    ((at(i, j), at(i + 1, j), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i, j + 1)))]
-
-
-def bar(length, radius, rings, around):
-    """A round bar along z with closed ends, uneven so that nothing is decided by ties that platforms break differently."""
-    draw = np.random.default_rng(rings)
-    turn = lambda j: 2 * math.pi * (j + draw.uniform(-0.2, 0.2)) / around
-    uneven = lambda angle: (radius * draw.uniform(0.9, 1.1) * math.cos(angle), radius * draw.uniform(0.9, 1.1)
-        * math.sin(angle))
-    points = [(*uneven(turn(j)), length * i / (rings - 1)) for i in range(rings) for j in range(around)]
-    at = lambda i, j: i * around + j % around
-    triangles = [t for i in range(rings - 1) for j in range(around) for t in
-                 ((at(i, j), at(i, j + 1), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i + 1, j)))]
-    first, last = len(points), len(points) + 1
-    points += [(0, 0, 0), (0, 0, length)]
-    triangles += [t for j in range(around) for t in ((first, at(0, j + 1), at(0, j)),
-        (last, at(rings - 1, j), at(rings - 1, j + 1)))]
-    return points, triangles
+from oracle import agree, cast_ray, expect, expect_all, expect_rows, field, rotation  # noqa: E402
+from shapes import bar, strip, torus  # noqa: E402
 
 
 def write_meshes():
@@ -73,55 +32,6 @@ def write_meshes():
         text = {"positions": [round(float(x), 4) + 0.0 for p in points for x in p],
             "triangles": [int(i) for t in triangles for i in t]}
         (HERE / "meshes" / f"{name}.json").write_text(json.dumps(text, separators=(",", ":")) + "\n")
-
-
-# ---- the oracle ----
-
-def laplacian(mesh):
-    points, n = np.array(mesh["positions"]).reshape(-1, 3), len(mesh["positions"]) // 3
-    matrix = np.zeros((n, n))
-    for triangle in np.array(mesh["triangles"]).reshape(-1, 3):
-        for k in range(3):
-            i, j, o = triangle[k], triangle[(k + 1) % 3], triangle[(k + 2) % 3]
-            a, b = points[i] - points[o], points[j] - points[o]
-            weight = np.dot(a, b) / np.linalg.norm(np.cross(a, b)) / 2
-            matrix[i, i] += weight
-            matrix[j, j] += weight
-            matrix[i, j] -= weight
-            matrix[j, i] -= weight
-    return matrix
-
-
-def field(mesh, rows, values, stiffness=None, power=1):
-    """rows: per site a vertex or {vertex: weight}; power 2: bi-harmonic on the graph, K = L^2."""
-    matrix = np.linalg.matrix_power(laplacian(mesh), power)
-    n, k = len(matrix), len(rows)
-    system, right = np.zeros((n + k, n + k)), np.zeros(n + k)
-    system[:n, :n], right[n:] = matrix, values
-    for c, row in enumerate(rows):
-        for vertex, weight in (row if isinstance(row, dict) else {row: 1.0}).items():
-            system[n + c, vertex] = weight
-            system[vertex, n + c] = -weight
-        if stiffness is not None and stiffness[c]:
-            system[n + c, n + c] = 1 / (stiffness[c] * np.mean(np.diag(matrix)))
-    return np.linalg.solve(system, right)[:n]
-
-
-def expect(array, tolerance=1e-9):
-    flat = np.asarray(array, float).ravel()
-    places = sorted({0, flat.size // 3, flat.size // 2, flat.size - 1}) if flat.size else []
-    return {**golden.digest(flat), "at": places, "values": [float(flat[p]) for p in places], "tolerance": tolerance}
-
-
-def expect_all(array, tolerance=1e-9):
-    """Every number of a short array."""
-    return {"count": len(array), "at": list(range(len(array))), "values": [float(x) for x in array],
-        "tolerance": tolerance}
-
-
-def agree(tolerance=1e-7):
-    """Figures that the C++ run fills in (tests/bindings/golden.cpp): the languages must agree on them."""
-    return {"agree": True, "tolerance": tolerance}
 
 
 def scenes(meshes):
@@ -213,7 +123,7 @@ def scenes(meshes):
     p = np.array(mesh["positions"]).reshape(-1, 3)
     height = [float(v) for v in p[:, 0]]
     scene("analysis",
-        "Looking into a field: x on a torus has a minimum, a maximum and two saddles; its iso-lines lie at their levels (closed forms); distances and tips (agreement).",
+        "The field x on a torus has a minimum, a maximum and two saddles; its iso-lines lie at their levels (closed forms); distances and tips (agreement).",
           surface("torus"), {"do": "critical", "on": "m", "field": height, "expect": {"count": 4, "sum": 0, "min": -1,
               "max": 1}},
           {"do": "levels", "on": "m", "field": height, "count": 3, "spacing": "HF_LEVELS_VALUE",
@@ -231,7 +141,7 @@ def scenes(meshes):
 
     on_d, on_c = {"on": "d"}, {"on": "c"}
     scene("directions",
-        "Crosses on a torus: constraints come, move, turn and go; the undo stack and a clone give the bits back. Indices sum to "
+        "Crosses on a torus: constraints are added, moved, turned and removed; the undo stack and a clone give the bits back. Indices sum to "
           "degree times the Euler characteristic, 0 (closed form).", surface("torus"), {"do": "direction", "on": "m",
               "as": "d", "options": {"degree": 4}},
           {"do": "undo_vectors", "error": "HF_ERROR_NO_RECORD", **on_d},
@@ -271,7 +181,7 @@ def scenes(meshes):
     on_r, patch = {"on": "r"}, [0, 1, 2, 12, 13, 14]
     scene("regions",
         "A patch of a torus: edited, morphed (0 gives the given positions back, bit for bit), undone; onto itself its detail gives the "
-          "surface back (closed forms), doubled it goes beyond (agreement).", surface("torus"),
+          "surface back (closed forms), doubled it is exaggerated (agreement).", surface("torus"),
           {"do": "region", "on": "m", "as": "r", "positions": mesh["positions"]}, {"do": "region_edit", "add": patch,
               **on_r},
           {"do": "region_vertices", "expect": expect(np.array(patch), 0), **on_r}, {"do": "record_region", **on_r},
@@ -299,7 +209,7 @@ def scenes(meshes):
     shift = lambda region: (rotation(turn) @ p[region].mean(0) + [1, 2, 3] - p[region].mean(0)).tolist()
     pose = lambda **more: {"on": "p", **more}
     scene("pose",
-        "Two handles on a bar: rest, a rigid motion of the whole (closed forms), a bend, a third handle in mid-pose that comes and goes (agreement; bits return).",
+        "Two handles on a bar: rest, a rigid motion of the whole (closed forms), a bend, a third handle added in mid-pose and removed (agreement; the bits return).",
           surface("bar"), {"do": "pose", "on": "m", "as": "p"}, pose(do="deform", error="HF_ERROR_EMPTY"),
           pose(do="add_handles", regions=[low, high], numbers=[0, 1]), pose(do="deform", expect=expect(p)),
           pose(do="set_transforms", handles=[0, 1], rotations=turn + turn,
@@ -408,21 +318,6 @@ def kinds_of_field(scene, mesh, surface, solver):
           {**surface("torus", "o"), "factor": "f", "error": "HF_ERROR_INVALID_ARGUMENT"})
 
 
-def cast_ray(points, triangles, origin, direction):
-    """found, triangle, vertex, weights, position, distance of the first triangle on a ray (Moeller and Trumbore 1997)."""
-    best, origin, direction = None, np.array(origin), np.array(direction)
-    for t, (a, b, c) in enumerate(triangles):
-        edges = np.array([points[b] - points[a], points[c] - points[a], -direction]).T
-        if abs(np.linalg.det(edges)) < 1e-14:
-            continue
-        v, w, distance = np.linalg.solve(edges, origin - points[a])
-        if min(v, w, 1 - v - w, distance) >= 0 and (best is None or distance < best[-1]):
-            place = origin + distance * direction
-            corner = min((a, b, c), key=lambda i: np.linalg.norm(points[i] - place))
-            best = [1, t, int(corner), 1 - v - w, v, w, *place, distance]
-    return np.array(best or [0], float)
-
-
 def picking(scene, mesh, surface):
     p, triangles = np.array(mesh["positions"]).reshape(-1, 3), np.array(mesh["triangles"]).reshape(-1, 3)
     moved = p + [5, 0, 0]
@@ -441,19 +336,6 @@ def picking(scene, mesh, surface):
           ray(*inside), ray(*inside, front_only=1, expect=expect_all(np.array([0.0]))),
           point([4.2, 0.1, 0.1]), point([-3.0, 1.0, -2.0]), point([4.2, 0.1, 0.1], moved,
               positions=moved.ravel().tolist()))
-
-
-def rotation(q):
-    x, y, z, w = q
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-
-
-def expect_rows(points, rows):
-    picked = list(range(0, len(rows), 5))
-    return {"at": [3 * rows[k] + c for k in picked for c in range(3)], "values": [float(points[k][c]) for k in picked
-        for c in range(3)], "tolerance": 1e-9}
 
 
 def dump(name, scene_list):

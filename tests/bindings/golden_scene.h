@@ -1,5 +1,5 @@
-// What runs a golden scene (bindings/golden/README.md) through hf.hpp's handles and the C functions: arguments read
-// from a step, figures of a result compared with what the step expects.
+// Runs a golden scene (bindings/golden/README.md) through hf.hpp's handles and the C functions. It reads the arguments
+// of a step and compares figures of the result with those the step expects.
 #pragma once
 #include <algorithm>
 #include <cmath>
