@@ -349,53 +349,6 @@ class Scene
 
 static class Program
 {
-    static double[] positions;
-    static uint[] triangles;
-
-    static int Rounds(int count)
-    {
-        var draw = new Random(7);
-        int calls = 0;
-        for (int round = 0; round < count; ++round)
-        {
-            var surface = new Surface(positions, triangles);
-            var solver = new Solver(surface);
-            var pose = new Pose(surface);
-            pose.AddHandles(new[] { new uint[] { 0, 1, 2 }, new uint[] { 280, 281 } });
-            var things = new List<HfObject> { surface, solver, solver.Clone(), pose, pose.Clone(),
-                new Transfer(surface, surface), new Geodesics(surface), new Direction(surface), new Flow(surface),
-                new Progress() };
-            foreach (HfObject thing in things.OrderBy(x => draw.Next()).ToList())
-            {
-                if (draw.NextDouble() < 0.6)
-                {
-                    thing.Dispose();
-                    thing.Dispose();
-                    try
-                    {
-                        if (thing is Surface) { var info = ((Surface)thing).Info; }
-                        else if (thing is Solver) ((Solver)thing).Solve();
-                        else if (thing is Pose) ((Pose)thing).DeformDouble();
-                        else if (thing is Transfer) { var info = ((Transfer)thing).Info; }
-                        else if (thing is Geodesics) ((Geodesics)thing).Distance(new uint[] { 0 });
-                        else if (thing is Direction) ((Direction)thing).Record();
-                        else if (thing is Flow) ((Flow)thing).Trace(new double[positions.Length / 3], 4);
-                        else { float f = ((Progress)thing).Fraction; }
-                        throw new Exception("a call on a disposed " + thing.GetType().Name + " did not fail");
-                    }
-                    catch (HfException error) { if (error.Name != "HF_ERROR_INVALID_HANDLE") throw; ++calls; }
-                }
-                else if (thing is Pose) ((Pose)thing).Deform(new float[positions.Length], new float[positions.Length]);
-            }
-            if (round % 10 == 0) { things.Clear(); GC.Collect(); GC.WaitForPendingFinalizers(); }
-        }
-        GC.Collect();
-        GC.WaitForPendingFinalizers();
-        return calls;
-    }
-
-    static long Resident() { return long.Parse(File.ReadAllText("/proc/self/statm").Split(' ')[1]) * 4096; }
-
     static int Main(string[] arguments)
     {
         var meshes = Directory.GetFiles(arguments[0], "*.json").ToDictionary(Path.GetFileNameWithoutExtension,
@@ -419,29 +372,9 @@ static class Program
             }
         Console.WriteLine(wrongCalls + " wrong calls answered");
         if (wrongCalls < 100) throw new Exception("too few wrong calls");
-        positions = ((Items)meshes["bar"]["positions"]).Select(x => (double)x).ToArray();
-        triangles = ((Items)meshes["bar"]["triangles"]).Select(x => (uint)(double)x).ToArray();
-        if (Rounds(60) < 100) throw new Exception("too few calls on disposed objects");
-        long before = Resident();
-        Rounds(200);
-        Console.WriteLine("memory after 200 more rounds: " + (Resident() - before) / 1e6 + " MB");
-        if (Resident() - before > 40e6) throw new Exception("memory does not come back");
-        var wrong = new Action[] { () => new Surface((float[])null, triangles),
-            () => new Surface(new float[4], triangles), () => new Surface(positions, new uint[4]),
-            () => new Surface(positions, new ushort[4]), () => new Surface(positions, (uint[])null),
-            () => new Solver(null), () => new Pose(null),
-            () => new Transfer(null, null), () => new Geodesics(null), () => new Direction(null),
-                () => new Quads(null), () => new Flow(null),
-                () => new Solver(new Surface(positions, triangles)).Solve(new float[3]),
-                () => new Pose(new Surface(positions, triangles)).Deform(new float[2]),
-                () => new Pose(new Surface(positions, triangles)).AddHandleAt(new double[2], 1),
-                () => new Surface(positions, triangles).CastRay(new double[2], new double[3]) };
-        foreach (Action action in wrong)
-        {
-            try { action(); }
-            catch (HfException) { continue; }
-            throw new Exception("a wrong argument was taken");
-        }
+        Lifetime.Use(meshes["bar"]);
+        Lifetime.Run();
+        Lifetime.WrongArguments();
         return failed == 0 ? 0 : 1;
     }
 }

@@ -1,5 +1,5 @@
-// The class that scripts see, free of any engine: a surface with one solver, one pose and one of each other thing made
-// on it, and a table of methods from plain arguments to plain values. gdnative.cpp and gdextension.cpp only convert.
+// The class that scripts see, free of any engine. It holds a surface and one of each thing that is made on it.
+// A table of methods takes plain arguments to plain values. gdnative.cpp and gdextension.cpp only convert.
 #pragma once
 #include <hf/hf.hpp>
 #include <map>

@@ -15,10 +15,12 @@ Value region_create(Surface& s, const Arguments& a) {
   return done();
 }
 
-// region_edit(add = null, remove = null, rings = 0, curve = null, side = 0, seed vertex = 0): one edit, all or nothing:
-// what a closed curve through these vertices encloses, rings of vertices more (below 0: less), vertices
+// region_edit(add = null, remove = null, rings = 0, curve = null, side = 0, seed vertex = 0): a batch. The region
+// becomes what a closed curve through these vertices encloses, grows by rings (below 0 it shrinks), loses and gains
+// vertices.
 Value region_edit(Surface& s, const Arguments& a) {
-  const List add = integers(at(a, 0), "add"), remove = integers(at(a, 1), "remove"), along = integers(at(a, 3), "curve");
+  const List add = integers(at(a, 0), "add"), remove = integers(at(a, 1), "remove"),
+             along = integers(at(a, 3), "curve");
   auto edit = make<hf_region_edit_desc>();
   auto curve = make<hf_curve_desc>();
   edit.ring_count = signed_whole(at(a, 2).number, "rings");
@@ -101,11 +103,11 @@ Value detail_morph(Surface& s, const Arguments& a) { return morph(s, a, s.detail
 
 const std::vector<Entry>& region_methods() {
   static const std::vector<Entry> all = {
-      {"region_create", 0, 2, region_create}, {"region_edit", 0, 6, region_edit},
-      {"region_record", 0, 0, region_record}, {"region_undo", 0, 0, region_undo},
-      {"region_redo", 0, 0, region_redo},     {"region_info", 0, 0, region_info},
+      {"region_create", 0, 2, region_create},     {"region_edit", 0, 6, region_edit},
+      {"region_record", 0, 0, region_record},     {"region_undo", 0, 0, region_undo},
+      {"region_redo", 0, 0, region_redo},         {"region_info", 0, 0, region_info},
       {"region_vertices", 0, 1, region_vertices}, {"region_morph", 1, 1, region_morph},
-      {"detail_from", 1, 4, detail_from},     {"detail_morph", 1, 1, detail_morph},
+      {"detail_from", 1, 4, detail_from},         {"detail_morph", 1, 1, detail_morph},
   };
   return all;
 }
