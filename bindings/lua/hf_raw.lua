@@ -550,6 +550,8 @@ typedef struct hf_transfer_info {
   uint32_t aligned_count;
   uint32_t crossed_count;
   int32_t scale_found;
+  uint32_t source_factorisation_count;
+  uint32_t target_factorisation_count;
   double scale;
 } hf_transfer_info;
 typedef struct hf_transfer_frame {

@@ -777,6 +777,8 @@ namespace Hf.Native
         public uint aligned_count;
         public uint crossed_count;
         public int scale_found;
+        public uint source_factorisation_count;
+        public uint target_factorisation_count;
         public double scale;
     }
 

@@ -616,14 +616,16 @@ export const layouts = {
     aligned: ['i32', [40, 40], 0],
     crossed: ['i32', [44, 44], 0],
   } },
-  hf_transfer_info: { size: [32, 32], fields: {
+  hf_transfer_info: { size: [40, 40], fields: {
     struct_size: ['u32', [0, 0], 0],
     pair_count: ['u32', [4, 4], 0],
     cluster_count: ['u32', [8, 8], 0],
     aligned_count: ['u32', [12, 12], 0],
     crossed_count: ['u32', [16, 16], 0],
     scale_found: ['i32', [20, 20], 0],
-    scale: ['f64', [24, 24], 0],
+    source_factorisation_count: ['u32', [24, 24], 0],
+    target_factorisation_count: ['u32', [28, 28], 0],
+    scale: ['f64', [32, 32], 0],
   } },
   hf_transfer_frame: { size: [52, 80], fields: {
     struct_size: ['u32', [0, 0], 0],

@@ -1272,6 +1272,8 @@ class hf_transfer_info(Structure):
     aligned_count: int
     crossed_count: int
     scale_found: int
+    source_factorisation_count: int
+    target_factorisation_count: int
     scale: float
     _fields_ = [
         ("struct_size", c_uint32),
@@ -1280,6 +1282,8 @@ class hf_transfer_info(Structure):
         ("aligned_count", c_uint32),
         ("crossed_count", c_uint32),
         ("scale_found", c_int32),
+        ("source_factorisation_count", c_uint32),
+        ("target_factorisation_count", c_uint32),
         ("scale", c_double),
     ]
 
