@@ -130,7 +130,9 @@ static void fill_handles(void* d) {
 static hf_result pose_add_handles(void* d) { return hf_pose_add_handles(scene.pose, d, NULL); }
 static void fill_handle_info(void* d) { *(hf_handle_info*)d = HF_INIT(hf_handle_info); }
 static hf_result pose_get_handle(void* d) { return hf_pose_get_handle(scene.pose, scene.handles[0], d); }
-static void fill_deform(void* d) { *(hf_deform_desc*)d = HF_INIT(hf_deform_desc), ((hf_deform_desc*)d)->positions = floats; }
+static void fill_deform(void* d) {
+  *(hf_deform_desc*)d = HF_INIT(hf_deform_desc), ((hf_deform_desc*)d)->positions = floats;
+}
 static hf_result deform(void* d) { return hf_pose_deform(scene.pose, d, NULL); }
 static void fill_deform_info(void* d) { *(hf_deform_info*)d = HF_INIT(hf_deform_info); }
 static hf_result deform_info(void* d) {

@@ -1,4 +1,5 @@
-/* Picking: rays and nearest vertices against closed forms and brute force; rays through edges and vertices never miss. */
+/* Picking: rays and nearest vertices against closed forms and brute force; rays through edges and vertices never miss.
+ */
 #include "api_support.h"
 
 /* A closed surface: a ring of `along` x `across` vertices, radii 3 and 1, seen from outside counter-clockwise. */
@@ -46,8 +47,8 @@ static void assert_missed(hf_surface surface, const double* origin, const double
 }
 
 /* What every hit obeys: weights of sum 1 in the triangle, the place they and the ray name, the nearest corner. */
-static void assert_consistent(const hf_hit* hit, const float* positions, const uint32_t* triangles, const double* origin,
-                              const double* direction, double tolerance) {
+static void assert_consistent(const hf_hit* hit, const float* positions, const uint32_t* triangles,
+                              const double* origin, const double* direction, double tolerance) {
   assert_int_equal(hit->found, 1);
   const uint32_t* v = triangles + 3 * (size_t)hit->triangle;
   double sum = 0, least = HUGE_VAL, to_vertex = HUGE_VAL;
@@ -162,7 +163,8 @@ static void rays_through_edges_and_vertices_never_slip_through(void** state) {
   for (uint32_t v = 0; v < sheet.vertex_count; ++v) {
     const double origin[3] = {v % 5, (double)(v / 5), 8}, down[3] = {0, 0, -4};
     uint32_t first = 0;
-    while (sheet.triangles[3 * first] != v && sheet.triangles[3 * first + 1] != v && sheet.triangles[3 * first + 2] != v)
+    while (sheet.triangles[3 * first] != v && sheet.triangles[3 * first + 1] != v &&
+           sheet.triangles[3 * first + 2] != v)
       ++first;
     const hf_hit hit = cast(grid, origin, down, NULL);
     assert_int_equal(hit.vertex, v);
@@ -199,7 +201,8 @@ static void a_posed_surface_is_hit_where_it_stands(void** state) {
       origin[k] = random_in(-20, 20);
       direction[k] = (double)posed[3 * aim + (uint32_t)k] + random_in(-1, 1) - origin[k];
     }
-    const hf_hit by_floats = cast(surface, origin, direction, &floats), by_doubles = cast(surface, origin, direction, &wide);
+    const hf_hit by_floats = cast(surface, origin, direction, &floats),
+                 by_doubles = cast(surface, origin, direction, &wide);
     const hf_hit made = cast(there, origin, direction, NULL), rest = cast(surface, origin, direction, NULL);
     assert_true(same_bits(&by_floats, &by_doubles, sizeof by_floats));
     assert_int_equal(by_floats.found, made.found);
@@ -297,9 +300,9 @@ static void bad_input_is_named(void** state) {
   o[1] = 1, d[2] = HUGE_VAL;
   BAD("direction infinite", HF_ERROR_NON_FINITE, NO_INDEX, hf_surface_cast_ray(s, o, d, NULL, &hit));
   d[2] = -1;
-#define PICK(what, expected, index, change)                                                                        \
-  pick = HF_INIT(hf_pick_desc), pick.positions_f64 = doubles, change;                                              \
-  BAD(what, expected, index, hf_surface_cast_ray(s, o, d, &pick, &hit));                                           \
+#define PICK(what, expected, index, change)                              \
+  pick = HF_INIT(hf_pick_desc), pick.positions_f64 = doubles, change;    \
+  BAD(what, expected, index, hf_surface_cast_ray(s, o, d, &pick, &hit)); \
   BAD(what, expected, index, hf_surface_find_vertex(s, o, &pick, &vertex, NULL))
   PICK("both positions", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, pick.positions = cut.positions);
   PICK("stride of floats", HF_ERROR_TOO_SMALL, NO_INDEX, pick.position_stride = 12);
