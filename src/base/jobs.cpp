@@ -50,13 +50,18 @@ struct Batch {
   }
 };
 
-// Calls done() until it holds or some 40 microseconds are over. A solve is a dozen batches in a row: waking a sleeping
-// thread for each costs more than the smaller ones, while a longer spin would take a core from the host.
+// Waiting awake: a sleeping thread wakes in tens of microseconds, a longer spin takes a core from the host.
+constexpr std::chrono::microseconds spin_time{40};
+// Polls between two readings of the clock. No result depends on it.
+constexpr int polls = 64;
+
+// Calls done() until it holds or spin_time is over. A solve is a dozen batches in a row, and waking a thread for each
+// costs more than the smaller ones.
 template <class Done>
 bool spin(Done&& done) noexcept {
-  const auto until = std::chrono::steady_clock::now() + std::chrono::microseconds(40);
+  const auto until = std::chrono::steady_clock::now() + spin_time;
   for (;;) {
-    for (int i = 0; i < 64; ++i) {
+    for (int i = 0; i < polls; ++i) {
       if (done()) return true;
 #if defined(__x86_64__) || defined(__i386__)
       __builtin_ia32_pause();
@@ -77,10 +82,10 @@ struct HostJob {
 
 }  // namespace
 
-// Between batches workers spin for a moment, then sleep on a condition variable. One batch has the workers at a time: a
-// caller that comes meanwhile (another clone, or a job that has work to split itself) does its batch alone, so nobody
-// waits and nothing can lock up. A forked child inherits the pool but not its threads: it works alone, and leaves the
-// pool where it is when the runner goes (joining, or a condition variable with waiters, would never return).
+// Between batches workers spin for a moment, then sleep on a condition variable. One batch has the workers at a time.
+// Another caller (a clone, or a job that splits its own work) meanwhile does its batch alone, so nothing can lock up. A
+// forked child inherits the pool but not its threads: it works alone. It leaves the pool allocated when the runner
+// goes, since joining the threads would never return.
 struct JobRunner::Pool {
   std::atomic<bool> taken{false};
   std::mutex mutex;
@@ -137,7 +142,7 @@ struct JobRunner::Pool {
     wake.notify_all();
     work.work();
     std::unique_lock<std::mutex> lock(mutex);
-    batch = nullptr;  // nobody joins any more
+    batch = nullptr;  // no thread joins any more
     if (busy > 0) {
       lock.unlock();
       spin([&] { return busy == 0; });

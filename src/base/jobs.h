@@ -1,6 +1,6 @@
 // Work split over the threads the caller grants: a pool the library owns (thread_count from the desc), or the host's
-// own job runner. Results never depend on the number of threads: work is cut into fixed pieces, each piece writes its
-// own output, and no sum crosses a piece in an order that depends on who ran it.
+// own job runner. Results never depend on the number of threads: work is cut into fixed pieces, and each piece writes
+// its own output. No sum crosses a piece in an order that depends on threads.
 #pragma once
 #include <cstdint>
 #include <exception>

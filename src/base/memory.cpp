@@ -9,12 +9,15 @@
 namespace hf_inner {
 namespace {
 
+// Linux's large page: a factor of 130 MB read through 4 KiB pages takes several times as long.
 constexpr std::size_t huge_page = std::size_t{2} << 20;
+// Smaller blocks would waste up to half a large page.
+constexpr std::size_t least_huge = 2 * huge_page;
 
 // Large blocks are aligned to 2 MiB and offered to the kernel as huge pages: reading a factor of 130 MB through 4 KiB
 // pages costs several times its time through large ones.
 void* default_allocate(std::size_t bytes, std::size_t alignment) noexcept {
-  const bool large = bytes >= 2 * huge_page;
+  const bool large = bytes >= least_huge;
   const std::size_t align = large ? huge_page : (alignment < sizeof(void*) ? sizeof(void*) : alignment);
   if (bytes > SIZE_MAX - align) return nullptr;
   const std::size_t rounded = (bytes + align - 1) / align * align;

@@ -1,10 +1,10 @@
 // All memory of a solver passes through one Memory: the host's hooks (or malloc), live and peak bytes, and a byte
 // limit.
 //
-// Containers: hf_inner::Vector<T> (std::pmr::vector on a Memory) for small and growing arrays, hf_inner::Buffer<T> for large
-// numeric arrays (64-byte aligned, not initialised). Failure throws std::bad_alloc and leaves what was allocated before
-// intact. A Memory outlives everything allocated from it; handles share it by std::shared_ptr. Thread safety: allocate
-// and deallocate may be called from any thread if the host's hooks allow it (the default ones do).
+// Containers: hf_inner::Vector<T> (std::pmr::vector on a Memory) for small and growing arrays, hf_inner::Buffer<T> for
+// large numeric arrays (64-byte aligned, not initialised). Failure throws std::bad_alloc and leaves what was allocated
+// before intact. A Memory outlives everything allocated from it; handles share it by std::shared_ptr. Thread safety:
+// allocate and deallocate may be called from any thread if the host's hooks allow it (the default ones do).
 #pragma once
 #include <atomic>
 #include <cstddef>
@@ -54,7 +54,7 @@ std::shared_ptr<T> make_shared_in(Memory& memory, Arguments&&... arguments) {
 }
 
 // An allocator that keeps its Memory alive: for objects that are, directly or through what they hold, owners of the
-// Memory they lie in. The block of such an object is given back after its destructor, when nobody else may hold the
+// Memory they lie in. The block of such an object is given back after its destructor, when no other object holds the
 // Memory any more.
 template <class T>
 struct OwningAllocator {
@@ -100,7 +100,7 @@ class Buffer {
 
   // Replaces the contents by `size` uninitialised elements; on std::bad_alloc the old contents stand.
   void allocate(Memory& memory, std::size_t size) {
-    if (size > (std::size_t{1} << 60) / sizeof(T)) throw std::bad_alloc();
+    if (size > most_bytes / sizeof(T)) throw std::bad_alloc();
     T* fresh = size ? static_cast<T*>(memory.allocate(size * sizeof(T), alignment)) : nullptr;
     release();
     memory_ = &memory, data_ = fresh, size_ = size;
@@ -132,7 +132,10 @@ class Buffer {
   const T* begin() const noexcept { return data_; }
   const T* end() const noexcept { return data_ + size_; }
 
+  // A cache line, and the widest vector.
   static constexpr std::size_t alignment = 64;
+  // Refuses sizes whose product with the size of T would overflow.
+  static constexpr std::size_t most_bytes = std::size_t{1} << 60;
 
  private:
   Memory* memory_ = nullptr;

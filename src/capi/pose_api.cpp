@@ -9,12 +9,15 @@
 #include "capi/skin_out.h"
 #include "capi/vertex_lists.h"
 #include "capi/vertex_writer.h"
+#include "deform/constants.h"
 #include "deform/pose_stack.h"
 #include "deform/skin.h"
 #include "hf/pose.h"
 
 namespace hf_inner::capi {
 namespace {
+
+static_assert(HF_HANDLE_LIMIT == handle_limit && HF_LAYER_COUNT == layer_limit, "hf/pose.h states other limits");
 
 struct PoseObject final : Object {
   static constexpr Kind kind_of = Kind::pose;
@@ -49,10 +52,10 @@ PoseOptions read_options(const hf_pose_desc* given) {
   const hf_pose_desc desc = read_struct(given, "desc");
   check_choice(desc.mode, 2, "mode");
   options.mode = desc.mode == HF_DEFORM_PAPER ? DeformMode::paper : DeformMode::smooth;
-  options.band_count = count_of(desc.band_count, 0, 2, 64, "band_count");
-  options.iteration_count = count_of(desc.iteration_count, 0, 1, 1000, "iteration_count");
+  options.band_count = count_of(desc.band_count, 0, least_bands, most_bands, "band_count");
+  options.iteration_count = count_of(desc.iteration_count, 0, 1, most_iterations, "iteration_count");
   options.samples_per_ring = desc.samples_per_ring;
-  options.group_count = count_of(desc.group_count, 0, 1, 2000, "group_count");
+  options.group_count = count_of(desc.group_count, 0, 1, most_groups, "group_count");
   return options;
 }
 
@@ -81,13 +84,13 @@ HandleTransform read_matrix(const double* m, std::uint32_t index, Vec3 centroid)
   }
   Mat3 linear;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) linear.m[i][j] = m[4 * j + i];
+    for (int j = 0; j < 3; ++j) linear(i, j) = m[4 * j + i];
   }
   const Quaternion rotation = best_rotation(linear, Quaternion());
-  const Mat3 exact = to_matrix(rotation);
+  const Mat3 exact = rotation.toRotationMatrix();
   double off = std::fabs(m[3]) + std::fabs(m[7]) + std::fabs(m[11]) + std::fabs(m[15] - 1);
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) off = std::max(off, std::fabs(linear.m[i][j] - exact.m[i][j]));
+    for (int j = 0; j < 3; ++j) off = std::max(off, std::fabs(linear(i, j) - exact(i, j)));
   }
   if (!(off <= 1e-4))
     fail(HF_ERROR_INVALID_ARGUMENT, index, "matrix %u is no rigid motion; scale and shear are not taken", index);
@@ -150,8 +153,8 @@ void add_handles(hf_pose handle, const hf_handles_desc& desc, std::uint32_t* out
 
 HandleTransform transform_of(const hf_transform& given) noexcept {
   HandleTransform out;
-  out.rotation.x = given.rotation[0], out.rotation.y = given.rotation[1], out.rotation.z = given.rotation[2],
-  out.rotation.w = given.rotation[3];
+  const double* q = given.rotation;
+  out.rotation = {{q[0], q[1], q[2]}, q[3]};
   out.translation = {given.translation[0], given.translation[1], given.translation[2]};
   return out;
 }
@@ -181,7 +184,7 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
   const Rows normals = rows_of(desc.normals, nullptr, 3, desc.normal_stride, "normal_stride");
   DeformRequest request;
   request.normals = desc.normals != nullptr;
-  request.iteration_count = count_of(desc.iteration_count, 0, 1, 1000, "iteration_count");
+  request.iteration_count = count_of(desc.iteration_count, 0, 1, most_iterations, "iteration_count");
   request.restart = desc.restart != 0, request.refine = desc.refine == 1;
   const Changing changing(*pose);
   const Core& core = pose->pose->core();
@@ -328,8 +331,7 @@ hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* ou
     info.centroid[0] = report.centroid.x, info.centroid[1] = report.centroid.y, info.centroid[2] = report.centroid.z;
     info.leak = report.leak;
     const HandleTransform placed = pose->pose->placed(number);
-    const double q[4] = {placed.rotation.x, placed.rotation.y, placed.rotation.z, placed.rotation.w};
-    std::copy_n(q, 4, info.rotation);
+    std::copy_n(placed.rotation.coeffs().data(), 4, info.rotation);  // x y z w
     put(placed.translation, info.translation);
     info.layer = pose->pose->layer_of(number);
     write_struct(out_info, info);

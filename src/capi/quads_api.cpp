@@ -8,6 +8,7 @@
 #include "capi/vertex_lists.h"
 #include "capi/vertex_writer.h"
 #include "hf/quads.h"
+#include "remesh/constants.h"
 #include "remesh/flow_lines.h"
 #include "remesh/quads.h"
 
@@ -67,7 +68,7 @@ std::shared_ptr<QuadsObject> make_object(hf_surface handle, const hf_quads_desc*
   if (desc.relax_count > most_rounds && desc.relax_count != HF_NO_INDEX)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "relax_count is %u; it must be up to %u, or HF_NO_INDEX",
          desc.relax_count, most_rounds);
-  options.edge_length = length > 0 ? length / core.mesh.scale : 0.022;
+  options.edge_length = length > 0 ? length / core.mesh.scale : default_edge_length;
   constexpr double least = 1e-4, largest = 1.0;
   if (options.edge_length < least || options.edge_length > largest)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; on this mesh it must be %g to %g", length,

@@ -4,7 +4,7 @@
 
 #include "capi/boundary.h"
 #include "capi/vertex_writer.h"
-#include "deform/rotation.h"
+#include "base/algebra.h"
 #include "hf/pose.h"
 
 namespace hf_inner::capi {
@@ -50,8 +50,7 @@ class SkinOut {
 
  private:
   static void put_quaternion(const Quaternion& q, double* out) noexcept {
-    const double values[4] = {q.x, q.y, q.z, q.w};
-    std::copy_n(values, 4, out);
+    std::copy_n(q.coeffs().data(), 4, out);  // x y z w
   }
   hf_skin_info* inout_;
   hf_skin_info out_;

@@ -8,10 +8,6 @@
 namespace hf_inner {
 namespace {
 
-constexpr double field_prune = 0.3;     // of |phi|: fields that count at a vertex
-constexpr double piece_share = 0.02;    // of its band: smaller pieces of a band are dropped, never the largest
-constexpr double smallest_area = 2e-4;  // of its component: smaller clusters are dropped
-
 // Fields that carry bands: of two handles in a component the second's, of more all, of one none.
 Vector<FieldPart> find_parts(const Mesh& mesh, const Reach& reach, Memory& memory) {
   Vector<FieldPart> parts(&memory);
@@ -42,7 +38,7 @@ struct Partition {
 };
 
 // Cuts one field after the other into clusters and collects entries (vertex, cluster, weight) by piece of the vertices
-// (vertex_piece); pieces are worked on at once, what crosses them on one thread.
+// (vertex_piece). Threads share the pieces; edges between pieces are joined on one thread.
 class BandCutter {
  public:
   BandCutter(const Core& core, const Rest& rest, const Reach& reach, const HandleFields& fields,
@@ -287,7 +283,7 @@ void find_elastic(const Mesh& mesh, const Reach& reach, ClusterWeights& weights,
 
 std::int32_t bands_for(std::int32_t wished, std::int32_t field_count) noexcept {
   const std::int32_t fit = field_count > 0 ? free_cluster_target / field_count : wished;
-  return std::max(2, std::min(wished, fit));
+  return std::max(static_cast<std::int32_t>(least_bands), std::min(wished, fit));
 }
 
 ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Reach& reach, const HandleFields& fields,
@@ -298,7 +294,7 @@ ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Re
   used.band_count = bands_for(options.band_count, static_cast<std::int32_t>(parts.size()));
   const Vector<Levels> levels = make_levels(core, rest, fields, parts, used.spacing, memory);
   BandCutter cutter(core, rest, reach, fields, used, memory);
-  for (double area = smallest_area;; area *= 4) {
+  for (double area = smallest_area;; area *= area_growth) {
     cutter.begin(handle_count);
     for (std::size_t p = 0; p < parts.size(); ++p) {
       cutter.cut(parts[p], levels[p], area);

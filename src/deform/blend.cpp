@@ -59,9 +59,8 @@ void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transf
 #endif
 #endif
   for_vertex_pieces(jobs, mesh.vertex_count(), [&](std::int32_t first, std::int32_t last) {
-    constexpr std::int32_t close = 256;  // vertices that are in the nearest cache when they are packed
-    for (std::int32_t begin = first; begin < last; begin += close) {
-      const std::int32_t end = std::min(last, begin + close);
+    for (std::int32_t begin = first; begin < last; begin += packed_at_once) {
+      const std::int32_t end = std::min(last, begin + packed_at_once);
       if (loop) {
         loop(rows, begin, end);
       } else {

@@ -15,8 +15,7 @@ struct Affine {
 // the clusters of each. Cost: two passes over the weights. When it throws there are no blocks.
 void list_blocks(ClusterWeights& weights, JobRunner& jobs);
 
-// Blended positions in the mesh's own unit, moved to offset + scale x. columns: scratch, column_count() numbers at a
-// multiple of 64 bytes. packed: null, or three floats per vertex that get the same positions while they are at hand.
+// Writes the blended positions, moved to offset + scale x. columns: scratch of column_count() numbers, on 64 bytes. packed: null, or three floats per vertex that get the same positions.
 inline std::size_t column_count(const ClusterWeights& weights) noexcept {
   return 16 * static_cast<std::size_t>(weights.cluster_count);
 }

@@ -9,8 +9,8 @@ namespace hf_inner {
 
 namespace {
 
-// Half a block of eight vertices in the lanes: the twelve numbers of their transforms first, cluster by cluster. What a
-// vertex does not use has weight zero, which leaves its sums as they are.
+// Half a block of eight vertices in the lanes: the twelve numbers of their transforms first, cluster by cluster. A
+// cluster that a vertex does not use has weight zero there.
 void blend_half(const BlendRows& rows, std::int32_t block, std::size_t half) noexcept {
   const std::int32_t begin = rows.block_start[block], end = rows.block_start[block + 1];
   __m256d sum[12];

@@ -9,8 +9,8 @@ namespace hf_inner {
 namespace {
 
 // Masked by all ones: the plain intrinsics start from an undefined register, and GCC 12 warns of it.
-// Eight vertices in the lanes: the twelve numbers of their transforms first, cluster by cluster. What a vertex does not
-// use has weight zero, which leaves its sums as they are.
+// Eight vertices in the lanes: the twelve numbers of their transforms first, cluster by cluster. A cluster that a
+// vertex does not use has weight zero there.
 void blend_block(const BlendRows& rows, std::int32_t block) noexcept {
   const std::int32_t begin = rows.block_start[block], end = rows.block_start[block + 1];
   __m512d sum[12];

@@ -6,7 +6,7 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::int32_t lanes = 8, blocks_at_once = 512;
+constexpr std::int32_t lanes = 8;
 
 // Clusters of the block's vertices from the smallest; use(cluster, weights of the eight) for each. Returns how many, 0
 // when the block is not worth it: a vertex without clusters, or more of them than a quarter of its weights and two.
@@ -14,7 +14,7 @@ template <class Use>
 std::int32_t merge_block(const ClusterWeights& weights, std::int32_t block, Use&& use) noexcept {
   constexpr std::int32_t none = 0x10000;
   const std::int32_t* start = weights.start.data() + static_cast<std::size_t>(lanes) * static_cast<std::size_t>(block);
-  const std::int32_t limit = (start[lanes] - start[0] + lanes) / 4;
+  const std::int32_t limit = (start[lanes] - start[0] + lanes) / block_sharing;
   std::int32_t next[lanes], count = 0;
   for (std::int32_t l = 0; l < lanes; ++l) {
     next[l] = start[l];

@@ -6,8 +6,6 @@
 namespace hf_inner {
 namespace {
 
-constexpr double weight_prune = 1e-3;  // of |W|: clusters that count at a vertex
-
 // The entries of the vertices [first, last), sorted by vertex.
 class WeightTable {
  public:

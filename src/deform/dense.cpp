@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deform/constants.h"
 #include "deform/lanes.h"
 
 namespace hf_inner {
 namespace {
-
-constexpr double pivot_floor = 1e-10;  // of the diagonal
 
 // Products of row a with the four rows b0 .. b3 in a fixed order of summation.
 void dot_four(const double* a, const double* b0, const double* b1, const double* b2, const double* b3,

@@ -1,8 +1,11 @@
-// A dense symmetric positive semi-definite system, factored once and solved for three right-hand sides again and again.
+// A dense symmetric positive semi-definite system, factored once and solved for three right-hand sides many times.
 //
-// Row-oriented Cholesky L L'. Unknowns whose pivot falls below a fraction of their diagonal depend on the ones before
-// them (clusters on a mesh too coarse to tell them apart); they are set to zero, which leaves a minimiser of the same
-// quadratic. Cost size^3 / 6 multiply-adds, size^2 per solve and right-hand side. Solving allocates nothing.
+// Row-oriented Cholesky L L'. An unknown whose pivot falls below a fraction of its diagonal depends on the ones before
+// it, as clusters do on a mesh too coarse to separate them. It is set to zero, which leaves a minimiser of the same
+// quadratic. Cost: size^3 / 6 multiply-adds, size^2 per solve and right-hand side. Solving allocates nothing.
+//
+// By hand, not Eigen's: a solve takes a quarter of the time of its LLT at size 480, in every frame, and dependent
+// unknowns are dropped.
 #pragma once
 #include <cstdint>
 

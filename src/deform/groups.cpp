@@ -12,10 +12,10 @@ struct Front {
   std::int32_t vertex;
 };
 
-// Spreads group `group` from its seed over the vertices that are nearer to it than to their present group. The
-// distances are the fixed point d[u] = min over neighbours v of d[v] + |uv|, which does not depend on the order in
-// which vertices are relaxed; so no heap is needed: a front of all vertices below a limit, which rises by a mean edge
-// (Meyer and Sanders 2003, delta-stepping on one thread).
+// Spreads a group from its seed over the vertices that are nearer to it than to their present group. The distances are
+// the fixed point d[u] = min over neighbours v of d[v] + |uv|. It does not depend on the order in which vertices are
+// relaxed, so no heap is needed. The front holds all vertices below a limit, which rises by a mean edge (Meyer and
+// Sanders 2003, delta-stepping on one thread).
 class Spreading {
  public:
   Spreading(const Core& core, Memory& memory)
@@ -106,7 +106,7 @@ class Spreading {
   std::int32_t group(std::int32_t v) const noexcept { return node_[v].group; }
 
  private:
-  static constexpr std::size_t block = 256;
+  static constexpr std::size_t block = farthest_block;
   struct Arc {
     double length;
     std::int32_t vertex;
@@ -149,7 +149,7 @@ std::shared_ptr<const Groups> Groups::with(std::shared_ptr<const Groups> groups,
     if (grown->has(c)) continue;
     const Span<const std::int32_t> vertices = rest.vertices_of(c);
     const double share = total_area > 0 ? rest.component_area[c] / total_area : 1.0;
-    const std::int32_t quota = std::max((wished + 3) / 4, static_cast<std::int32_t>(std::lround(share * wished)));
+    const std::int32_t quota = std::max((wished + least_group_share - 1) / least_group_share, static_cast<std::int32_t>(std::lround(share * wished)));
     grown->component_start[c] = grown->count();
     spreading.enter(vertices);
     for (std::int32_t k = 0; k < quota; ++k) {

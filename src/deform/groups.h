@@ -8,6 +8,7 @@
 #pragma once
 #include <cstdint>
 
+#include "deform/constants.h"
 #include "deform/rest.h"
 
 namespace hf_inner {

@@ -11,13 +11,12 @@
 #include <cstdint>
 #include <memory>
 
+#include "deform/constants.h"
 #include "engine/site_solver.h"
 
 namespace hf_inner {
 
-constexpr std::uint32_t handle_limit = 256;
-
-// What never changes about a handle.
+// The part of a handle that never changes.
 struct HandleRegion {
   explicit HandleRegion(Memory& memory) : vertices(&memory), sites(&memory), slots(&memory) {}
   Vector<std::int32_t> vertices;  // inner, ascending
@@ -40,8 +39,8 @@ using Handles = Vector<Handle>;
 std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices,
                                           std::uint32_t samples_per_ring, Memory& memory);
 
-// The region of a point and a radius (in the mesh's own unit): the vertices within it that hang together, along edges
-// inside it, with the vertex nearest to the point; that vertex at least. Ascending.
+// The region of a point and a radius (in the mesh's own unit): the vertices within it that are edge-connected inside it
+// to the vertex nearest to the point; that vertex at least. Ascending.
 Vector<std::int32_t> region_near(const Core& core, Vec3 point, double radius, Memory& memory);
 
 // Which handle owns a vertex (index into handles, or -1), and which handles stand in each component.

@@ -6,10 +6,6 @@
 namespace hf_inner {
 namespace {
 
-constexpr double triangle_samples = 20000;
-
-constexpr std::uint32_t shares = 8;
-
 struct Histogram {
   double cubed[Levels::bins], squared[Levels::bins];
   void add(const Histogram& other) noexcept {
@@ -61,7 +57,7 @@ bool mean_gradients(const Histogram& histogram, double (&smooth)[Levels::bins]) 
   for (int k = last_full + 1; k < Levels::bins; ++k) mean[k] = mean[last_full];
   for (int b = 0; b < Levels::bins; ++b) {
     double sum = 0;
-    const int low = std::max(0, b - 3), high = std::min(Levels::bins - 1, b + 3);
+    const int low = std::max(0, b - smoothed_bins), high = std::min(Levels::bins - 1, b + smoothed_bins);
     for (int k = low; k <= high; ++k) sum += mean[k];
     smooth[b] = sum / (high - low + 1);
   }
@@ -74,7 +70,8 @@ void set_equal_length(const Histogram& histogram, Levels& levels) noexcept {
   double largest = 0;
   for (const double x : g) largest = std::max(largest, x);
   levels.level[0] = 0;
-  for (int b = 0; b < Levels::bins; ++b) levels.level[b + 1] = levels.level[b] + 1.0 / std::max(g[b], 1e-4 * largest);
+  for (int b = 0; b < Levels::bins; ++b)
+    levels.level[b + 1] = levels.level[b] + 1.0 / std::max(g[b], least_gradient * largest);
   const double total = levels.level[Levels::bins];
   for (double& s : levels.level) s /= total;
 }
@@ -90,10 +87,10 @@ double Levels::operator()(double phi) const noexcept {
 }
 
 Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleFields& fields,
-                           const Vector<FieldPart>& parts, LevelSpacing spacing, Memory& memory) {
+                           const Vector<FieldPart>& parts, BandSpacing spacing, Memory& memory) {
   const Mesh& mesh = core.mesh;
   Vector<Levels> levels(parts.size(), Levels(), &memory);
-  if (spacing == LevelSpacing::equal_value) {
+  if (spacing == BandSpacing::equal_value) {
     for (Levels& l : levels) set_equal_value(l);
     return levels;
   }
@@ -102,11 +99,11 @@ Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleField
   for (const FieldPart& part : parts) ++part_start[part.component + 1];
   for (std::int32_t c = 0; c < mesh.component_count(); ++c) part_start[c + 1] += part_start[c];
   // shares of the triangles, always the same, summed in their order
-  Vector<Histogram> histograms(shares * parts.size(), Histogram{}, &memory);
-  core.jobs->for_each(shares, [&](std::uint32_t share) {
+  Vector<Histogram> histograms(histogram_shares * parts.size(), Histogram{}, &memory);
+  core.jobs->for_each(histogram_shares, [&](std::uint32_t share) {
     const std::int64_t count = mesh.triangle_count();
-    const std::int32_t first = static_cast<std::int32_t>(share * count / shares),
-                       last = static_cast<std::int32_t>((share + 1) * count / shares);
+    const std::int32_t first = static_cast<std::int32_t>(share * count / histogram_shares),
+                       last = static_cast<std::int32_t>((share + 1) * count / histogram_shares);
     for (std::int32_t t = first; t < last; ++t) {
       const std::int32_t* corner = mesh.triangle(t);
       const std::int32_t c = mesh.component[corner[0]];
@@ -116,7 +113,7 @@ Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleField
         add_triangle(mesh, corner, fields.of(parts[p].handle), histograms[share * parts.size() + p]);
     }
   });
-  for (std::size_t share = 1; share < shares; ++share) {
+  for (std::size_t share = 1; share < histogram_shares; ++share) {
     for (std::size_t p = 0; p < parts.size(); ++p) histograms[p].add(histograms[share * parts.size() + p]);
   }
   for (std::size_t p = 0; p < parts.size(); ++p) set_equal_length(histograms[p], levels[p]);

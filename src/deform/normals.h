@@ -12,8 +12,8 @@ struct Normal {
 };
 inline Vec3 to_vec3(const Normal& n) noexcept { return {n.x, n.y, n.z}; }
 
-// A sum of normals of triangles times twice their area, in the mesh's own unit, in single precision: the places of
-// vertices are known to 1e-16 of the box, so triangles whose area leaves the range of a float have no direction.
+// A sum of normals of triangles times twice their area, in the mesh's own unit, in single precision. Vertices are known
+// to 1e-16 of the box, so a triangle whose area leaves the range of a float has no direction.
 struct alignas(16) NormalSum {
   float component[4];  // the last is 0
 };

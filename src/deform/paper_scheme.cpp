@@ -32,9 +32,9 @@ struct Members {
 // x = R p + t with the rotation as a matrix, as the blend takes it.
 Affine to_affine(const RigidMotion& motion) noexcept {
   Affine affine;
-  const Mat3 r = to_matrix(motion.rotation);
+  const Mat3 r = motion.rotation.toRotationMatrix();
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) affine.a[i][j] = r.m[i][j];
+    for (int j = 0; j < 3; ++j) affine.a[i][j] = r(i, j);
   }
   affine.a[0][3] = motion.translation.x, affine.a[1][3] = motion.translation.y, affine.a[2][3] = motion.translation.z;
   return affine;
@@ -126,7 +126,7 @@ SolveReport solve_paper_pose(const PaperSystem& system, const Mesh& mesh, const 
       state.motion[f] = match_shape(system, mesh, f, old.rotation, [&](std::int32_t s) { return state.position[s]; });
       transforms[system.handle_count + f] = to_affine(state.motion[f]);
       const double turned =
-          2.0 * std::sqrt(2.0) * std::sin(0.5 * angle_between(state.motion[f].rotation, old.rotation));
+          2.0 * std::sqrt(2.0) * std::sin(0.5 * state.motion[f].rotation.angularDistance(old.rotation));
       report.last_change = std::max(report.last_change, turned);
       moved = std::max(moved, norm(state.motion[f].translation - old.translation));
     }

@@ -11,10 +11,8 @@
 
 namespace hf_inner {
 
-// What stays while handles stay. Immutable once made.
+// The system of one set of handles. Immutable once made.
 struct PaperSystem {
-  static constexpr std::int32_t samples_per_cluster = 40;
-
   PaperSystem(const Core& core, const ClusterWeights& weights, Memory& memory);
   std::int32_t handle_count, free_count;
   Vector<std::int32_t> sample;         // vertices, all different

@@ -5,17 +5,11 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/number_pool.h"
 #include "base/timer.h"
 
 namespace hf_inner {
 namespace {
-
-constexpr double settled_change = 1e-6;  // of a rotation: below, a pose that is asked for again is not solved on
-// iterations spent on one target: the smooth mode unwinds twists of many turns beyond, the paper's needs hundreds to
-// arrive
-constexpr std::uint32_t idle_limit_smooth = 100, idle_limit_paper = 2000;
-constexpr double jump_turn = 1.75;            // radians in one step: beyond, start afresh from the fields
-constexpr double largest_translation = 1e15;  // box diagonals
 
 bool is_finite(Vec3 v) noexcept { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -29,14 +23,14 @@ PoseOptions checked(const PoseOptions& options) {
   if (options.mode != DeformMode::smooth && options.mode != DeformMode::paper)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "mode is %d; use HF_DEFORM_SMOOTH or HF_DEFORM_PAPER",
          static_cast<int>(options.mode));
-  require_range(options.band_count, 2, 64, "band_count");
-  require_range(options.iteration_count, 1, 1000, "iteration_count");
-  require_range(options.group_count, 1, 2000, "group_count");
+  require_range(options.band_count, least_bands, most_bands, "band_count");
+  require_range(options.iteration_count, 1, most_iterations, "iteration_count");
+  require_range(options.group_count, 1, most_groups, "group_count");
   PoseOptions filled = options;
   const bool smooth = options.mode == DeformMode::smooth;
-  if (filled.band_count == 0) filled.band_count = smooth ? 10 : 12;
-  if (filled.iteration_count == 0) filled.iteration_count = smooth ? 5 : 200;
-  if (filled.group_count == 0) filled.group_count = 250;
+  if (filled.band_count == 0) filled.band_count = smooth ? default_bands_smooth : default_bands_paper;
+  if (filled.iteration_count == 0) filled.iteration_count = smooth ? default_iterations_smooth : default_iterations_paper;
+  if (filled.group_count == 0) filled.group_count = default_groups;
   return filled;
 }
 
@@ -149,8 +143,7 @@ void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t>
   if (layout_) handles.assign(layout_->handles.begin(), layout_->handles.end());
   const std::size_t first = handles.size();
   std::shared_ptr<SiteSolver> sites = layout_ ? layout_->sites->clone() : SiteSolver::make(EngineKind::green, core_, 0);
-  std::uint32_t number = 0;
-  std::int32_t slot = 0;
+  NumberPool numbers, slot_numbers;
   Vector<std::uint8_t> slot_taken(static_cast<std::size_t>(sites->slot_count()), 0, &memory());
   for (const Handle& handle : handles) {
     for (const std::int32_t s : handle.region->slots) slot_taken[s] = 1;
@@ -161,12 +154,14 @@ void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t>
     std::shared_ptr<HandleRegion> region =
         make_region(*core_, vertices.subspan(start[r], start[r + 1] - start[r]), options_.samples_per_ring, memory());
     for (const std::int32_t v : region->sites) {
-      while (slot < static_cast<std::int32_t>(slot_taken.size()) && slot_taken[slot]) ++slot;
-      region->slots.push_back(slot), slots.push_back(slot++);
+      const std::uint32_t slot =
+          slot_numbers.take([&](std::uint32_t s) { return s < slot_taken.size() && slot_taken[s]; });
+      slots.push_back(static_cast<std::int32_t>(slot)), region->slots.push_back(slots.back());
       added.push_back(Site::at_vertex(core_->mesh, v));
     }
-    const auto taken = [&](const Handle& handle) { return handle.number == number; };
-    while (std::any_of(handles.begin(), handles.end(), taken)) ++number;
+    const std::uint32_t number = numbers.take([&](std::uint32_t candidate) {
+      return std::any_of(handles.begin(), handles.end(), [&](const Handle& h) { return h.number == candidate; });
+    });
     handles.push_back({number, std::move(region)});
   }
   std::shared_ptr<const Layout> layout = make_layout(handles, std::move(sites), {{}, slots, added});
@@ -269,7 +264,7 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, st
   }
   BandOptions bands;
   bands.band_count = static_cast<std::int32_t>(options_.band_count);
-  if (options_.mode == DeformMode::paper) bands.degree = 1, bands.spacing = LevelSpacing::equal_value;
+  if (options_.mode == DeformMode::paper) bands.degree = 1, bands.spacing = BandSpacing::equal_value;
   layout->weights = make_cluster_weights(*core_, *rest_, layout->reach, layout->fields, bands, memory());
   list_blocks(layout->weights, *core_->jobs);
   if (options_.mode == DeformMode::smooth) {
@@ -334,7 +329,7 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
 
 void Pose::check_transform(const HandleTransform& transform, std::uint32_t index, double scale) {
   const Quaternion& q = transform.rotation;
-  if (!is_finite({q.x, q.y, q.z}) || !std::isfinite(q.w) || !is_finite(transform.translation))
+  if (!q.coeffs().allFinite() || !is_finite(transform.translation))
     fail(HF_ERROR_NON_FINITE, index, "transform %u holds a number that is not finite", index);
   if (!(norm(transform.translation) <= largest_translation * scale))
     fail(HF_ERROR_NON_FINITE, index, "the translation of transform %u is beyond %g box diagonals", index,
@@ -371,7 +366,7 @@ HandleReport Pose::handle(std::uint32_t number) const {
 
 Span<const double> Pose::field(std::uint32_t number) const {
   const std::int32_t handle =
-      require(number, HF_NO_INDEX);  // before the layout is looked at: there is none without a handle
+      require(number, HF_NO_INDEX);  // first: without a handle there is no layout
   return {layout_->fields.of(handle), static_cast<std::size_t>(core_->size())};
 }
 
@@ -395,11 +390,11 @@ void Pose::place_handles() noexcept {
   for (std::size_t i = 0; i < state_->handles.size(); ++i) {
     const HandleState& handle = state_->handles[i];
     const Vec3 centroid = layout_->handles[i].region->centroid;
-    const Mat3 r = to_matrix(handle.rotation);
+    const Mat3 r = handle.rotation.toRotationMatrix();
     const Vec3 t = centroid - r * centroid + handle.translation;
     auto& a = state_->transforms[i].a;
     for (int k = 0; k < 3; ++k) {
-      for (int j = 0; j < 3; ++j) a[k][j] = r.m[k][j];
+      for (int j = 0; j < 3; ++j) a[k][j] = r(k, j);
     }
     a[0][3] = t.x, a[1][3] = t.y, a[2][3] = t.z;
   }
@@ -410,7 +405,7 @@ void Pose::solve_smooth(std::uint32_t iterations) noexcept {
   const std::size_t count = state.handles.size();
   double largest = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    turns_[i] = logarithm(state.handles[i].rotation * conjugate(state.handles[i].solved));
+    turns_[i] = logarithm(state.handles[i].rotation * state.handles[i].solved.conjugate());
     largest = std::max(largest, norm(turns_[i]));
   }
   if (!state.started || largest > jump_turn) {
@@ -420,7 +415,7 @@ void Pose::solve_smooth(std::uint32_t iterations) noexcept {
     predict_rotations(*layout_->smooth, {turns_.data(), count}, state.smooth);
   }
   for (std::size_t i = 0; i < count; ++i) turns_[i] = state.handles[i].turn;
-  set_leash(*layout_->smooth, {turns_.data(), count}, state.smooth);
+  set_turn_limit(*layout_->smooth, {turns_.data(), count}, state.smooth);
   for (HandleState& handle : state.handles) handle.solved = handle.rotation, handle.solved_turn = handle.turn;
   report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());
 }
@@ -433,7 +428,7 @@ void Pose::solve_paper(std::uint32_t iterations) noexcept {
 
 void Pose::prepare(const DeformRequest& request) {
   if (!layout_) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
-  require_range(request.iteration_count, 1, 1000, "iteration_count");
+  require_range(request.iteration_count, 1, most_iterations, "iteration_count");
   const Mesh& mesh = core_->mesh;
   if (request.normals) {
     const std::size_t n = static_cast<std::size_t>(mesh.vertex_count());
@@ -562,7 +557,7 @@ DeformReport Pose::deform_from(const Pose& start, Span<const Vec3> turns, const 
     std::copy(start.start_.rotation.begin(), start.start_.rotation.end(), state.smooth.rotation.begin());
     std::fill(state.smooth.stress.begin(), state.smooth.stress.end(), Stress());
     predict_rotations(*layout_->smooth, turns, state.smooth);
-    state.smooth.leash = 10;  // no leash: the start stands close enough
+    state.smooth.turn_limit = SmoothState::no_turn_limit;  // the start is close enough
     report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());
   } else {
     std::copy(start.start_.motion.begin(), start.start_.motion.end(), state.paper.motion.begin());

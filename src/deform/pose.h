@@ -1,8 +1,9 @@
 // A pose: handles that come and go on one surface, and the deformation that follows them. Everything behind hf_pose_*
 // and hf_deform.
 //
-// Data: regions -> sites on the shared factor -> fields -> cluster weights -> reduced system (a Layout, immutable,
-// shared by clones) and, per frame, transforms of handles -> transforms of clusters (a State) -> vertices -> normals.
+// A Layout goes from regions to sites on the shared factor, fields, cluster weights and the reduced system. It is
+// immutable and shared by clones. A State goes, every frame, from transforms of handles to transforms of clusters,
+// vertices and normals.
 //
 // Everything is transactional: on an exception the pose is as before. Repeated deform() calls allocate nothing. Results
 // do not depend on the number of threads. Adding handles and removing them again restores the layout and the solver

@@ -9,14 +9,14 @@
 namespace hf_inner {
 namespace {
 
-constexpr double over_relaxation = 1.5;
 constexpr double pi = 3.14159265358979323846;
 
-// What active group g aims at: its rotation, strained.
+// The target of active group g for the global step: its rotation, strained.
 void set_target(const SmoothSystem& system, std::size_t g, SmoothState& state) noexcept {
-  const Mat3 target = strained(system.sheet[g], state.stress[g], to_matrix(state.rotation[system.subspace.group[g]]));
+  const Mat3 target =
+      strained(system.sheet[g], state.stress[g], state.rotation[system.subspace.group[g]].toRotationMatrix());
   for (std::size_t j = 0; j < 3; ++j) {
-    for (std::size_t i = 0; i < 3; ++i) state.columns[12 * g + 4 * j + i] = target.m[i][j];
+    for (std::size_t i = 0; i < 3; ++i) state.columns[12 * g + 4 * j + i] = target(i, j);
   }
 }
 
@@ -106,11 +106,11 @@ void add_means(const SmoothSystem& system, RotationBatch& batch, const std::int3
                double* rows) noexcept {
   best_rotations_from(batch, count);
   for (int l = 0; l < count; ++l) {
-    const Mat3 mean = to_matrix(batch.rotation(l));
+    const Mat3 mean = batch.rotation(l).toRotationMatrix();
     const double stiffness = system.subspace.stiffness[cluster[l]];
     double* x = rows + 16 * static_cast<std::size_t>(cluster[l]);
     for (int a = 0; a < 3; ++a) {
-      for (int b = 0; b < 3; ++b) x[4 * a + b] += stiffness * mean.m[b][a];
+      for (int b = 0; b < 3; ++b) x[4 * a + b] += stiffness * mean(b, a);
     }
   }
 }
@@ -145,10 +145,10 @@ Mat3 rest_moments(const Subspace& s, std::size_t g) noexcept {
   Mat3 sum;
   for (std::int32_t e = s.entry_start[g]; e < s.entry_start[g + 1]; ++e) {
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) sum.m[i][j] += s.entry[e].q[i][j];
+      for (int j = 0; j < 3; ++j) sum(i, j) += s.entry[e].q[i][j];
     }
   }
-  return 0.5 * (sum + transpose(sum));
+  return 0.5 * (sum + sum.transpose());
 }
 
 void read_transforms(const SmoothSystem& system, const SmoothState& state, Affine* transforms) noexcept {
@@ -168,23 +168,23 @@ Vec3 blended_turn(const SmoothSystem& system, std::size_t g, Span<const Vec3> tu
   return turn;
 }
 
-Quaternion on_leash(const Quaternion& q, const Quaternion& anchor, double leash) noexcept {
-  const double angle = angle_between(q, anchor);
-  if (angle <= leash) return q;
-  return normalised(exponential((leash / angle) * logarithm(q * conjugate(anchor))) * anchor);
+Quaternion within_turn_limit(const Quaternion& q, const Quaternion& anchor, double turn_limit) noexcept {
+  const double angle = q.angularDistance(anchor);
+  if (angle <= turn_limit) return q;
+  return normalised(exponential((turn_limit / angle) * logarithm(q * anchor.conjugate())) * anchor);
 }
 
 // Takes the rotation of active group g to `fit`, or beyond; returns the change.
 double turn_group(const SmoothSystem& system, std::size_t g, Quaternion fit, bool relax, SmoothState& state) noexcept {
   Quaternion& q = state.rotation[system.subspace.group[g]];
-  double cosine = dot(fit, q);
-  if (cosine < 0) fit = {-fit.x, -fit.y, -fit.z, -fit.w}, cosine = -cosine;
+  double cosine = fit.dot(q);
+  if (cosine < 0) fit.coeffs() *= -1, cosine = -cosine;
   // |R - R'|_F = 2 sqrt(2) sin(angle / 2)
-  const Quaternion d{fit.x - q.x, fit.y - q.y, fit.z - q.z, fit.w - q.w};
-  const double change = 2.0 * std::sqrt(2.0 * dot(d, d) * (1.0 - 0.25 * dot(d, d)));
-  const double on = relax && cosine > 0.7 ? over_relaxation : 1.0, back = 1.0 - on;
-  q = normalised({on * fit.x + back * q.x, on * fit.y + back * q.y, on * fit.z + back * q.z, on * fit.w + back * q.w});
-  if (state.leash < pi) q = on_leash(q, state.anchor[g], state.leash);
+  const double square = (fit.coeffs() - q.coeffs()).squaredNorm();
+  const double change = 2.0 * std::sqrt(2.0 * square * (1.0 - 0.25 * square));
+  const double on = relax && cosine > over_relaxed_cosine ? over_relaxation : 1.0, back = 1.0 - on;
+  q = normalised(Quaternion(on * fit.coeffs() + back * q.coeffs()));
+  if (state.turn_limit < pi) q = within_turn_limit(q, state.anchor[g], state.turn_limit);
   return change;
 }
 
@@ -206,7 +206,7 @@ double fit_rotations(const SmoothSystem& system, bool relax, SmoothState& state)
     best_rotations_from(batch, count);
     for (int l = 0; l < count; ++l) {
       const std::size_t g = first + static_cast<std::size_t>(l);
-      const Stress wanted = stress_of(system.sheet[g], sum[l], to_matrix(batch.rotation(l)));
+      const Stress wanted = stress_of(system.sheet[g], sum[l], batch.rotation(l).toRotationMatrix());
       largest = std::max(largest, follow(system.sheet[g], wanted, state.stress[g]));
       largest = std::max(largest, turn_group(system, g, batch.rotation(l), relax, state));
       set_target(system, g, state);
@@ -236,7 +236,7 @@ SmoothSystem::SmoothSystem(const Core& core, const Rest& rest, const ClusterWeig
 void SmoothState::fit(const SmoothSystem& system, const Groups& groups) {
   rotation.resize(groups.count());
   anchor.assign(system.subspace.group.size(), Quaternion());
-  leash = 10;
+  turn_limit = no_turn_limit;
   stress.assign(system.subspace.group.size(), Stress());
   columns.assign(12 * system.subspace.group.size(), 0.0);
   rows.assign(16 * static_cast<std::size_t>(system.handle_count + system.free_count), 0.0);
@@ -262,14 +262,15 @@ void predict_rotations(const SmoothSystem& system, Span<const Vec3> increments, 
   }
 }
 
-void set_leash(const SmoothSystem& system, Span<const Vec3> turns, SmoothState& state) noexcept {
+void set_turn_limit(const SmoothSystem& system, Span<const Vec3> turns, SmoothState& state) noexcept {
   double apart = 0;
   for (std::size_t i = 0; i < turns.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) apart = std::max(apart, norm(turns[i] - turns[j]));
   }
-  constexpr double slack = 5.0, tight = 7.0, shortest = 0.3;
-  state.leash = apart <= slack ? 10.0 : std::max(shortest, pi + (shortest - pi) * (apart - slack) / (tight - slack));
-  if (state.leash >= pi) return;
+  const double share = (apart - turn_limit_from) / (turn_limit_full - turn_limit_from);
+  state.turn_limit =
+      share <= 0 ? SmoothState::no_turn_limit : std::max(least_turn_limit, pi + (least_turn_limit - pi) * share);
+  if (state.turn_limit >= pi) return;
   for (std::size_t g = 0; g < system.subspace.group.size(); ++g)
     state.anchor[g] = exponential(blended_turn(system, g, turns));
 }

@@ -1,17 +1,15 @@
-// The pose solve of the smooth mode: a few local/global iterations on the reduced elastic energy (subspace.h).
+// The pose solve of the smooth mode: a few local and global iterations on the reduced elastic energy (subspace.h).
 //
-//   predict: R_g <- exp(sum_i phi_i(seed_g) dw_i) R_g, dw_i = the turn of handle i since the last solve; turns add up,
-//            so that 450 degrees stay 450;
-//   start:   R_g = exp(sum_i phi_i(seed_g) w_i), w_i = the accumulated turn of handle i;
-//   global:  transforms of the free clusters from the prefactored dense system;
-//   local:   R_g = argmax tr(R' S_g), the step over-relaxed by 1.5 except in the last iteration, and the stress of the
-//            group where it is strained beyond its limits (strain.h), which the next global step aims at too;
-//   leash:   handles turned against each other by more than 290 degrees leave a pose that can fall back by a whole
-//            turn. R_g is then kept within an angle of exp(sum_i phi_i(seed_g) w_i) that shrinks from 180 degrees
-//            to 17 at 400 degrees of turn.
+// Predict: R_g <- exp(sum_i phi_i(seed_g) dw_i) R_g, with dw_i the turn of handle i since the last solve. Turns add up,
+// so 450 degrees stay 450.
+// Start: R_g = exp(sum_i phi_i(seed_g) w_i), with w_i the accumulated turn of handle i.
+// Global step: transforms of the free clusters from the prefactored dense system.
+// Local step: R_g = argmax tr(R' S_g), over-relaxed except in the last iteration. A group strained beyond its limits
+// (strain.h) gets a stress, which the next global step aims at too.
+// Turn limit: a pose whose handles are turned far against each other can fall back by a whole turn. R_g then stays
+// within an angle of exp(sum_i phi_i(seed_g) w_i), which shrinks as the turn grows (constants.h).
 //
-// Cost: size^2 / 2 multiply-adds on 4 lanes twice, and a rotation per group, per iteration. Allocates nothing, cannot
-// fail.
+// Cost per iteration: size^2 multiply-adds on four lanes, and a rotation per group. Allocates nothing, cannot fail.
 #pragma once
 #include "deform/blend.h"
 #include "deform/strain.h"
@@ -19,7 +17,7 @@
 
 namespace hf_inner {
 
-// What stays while handles stay. Immutable once made.
+// The system of one set of handles. Immutable once made.
 struct SmoothSystem {
   SmoothSystem(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,
                const HandleFields& fields, Memory& memory);
@@ -29,8 +27,9 @@ struct SmoothSystem {
   Vector<Sheet> sheet;        // per active group
 };
 
-// What a solve leaves for the next.
+// The state that one solve leaves for the next.
 struct SmoothState {
+  static constexpr double no_turn_limit = 10;  // beyond pi, the largest angle there is
   explicit SmoothState(Memory& memory)
       : rotation(&memory), anchor(&memory), stress(&memory), columns(&memory), rows(&memory), known(&memory) {}
   SmoothState(const SmoothState& other, Memory& memory)
@@ -40,16 +39,16 @@ struct SmoothState {
         columns(other.columns, &memory),
         rows(other.rows, &memory),
         known(other.known, &memory),
-        leash(other.leash) {}
+        turn_limit(other.turn_limit) {}
   // Makes room for a system; rotations of groups that were there stay, no group is under stress.
   void fit(const SmoothSystem& system, const Groups& groups);
   Vector<Quaternion> rotation;  // per group of Groups
-  Vector<Quaternion> anchor;    // per active group: where the leash ends, set while it is shorter than pi
+  Vector<Quaternion> anchor;    // per active group: the rotation that turn_limit is about, set while that is below pi
   Vector<Stress> stress;        // per active group
   Vector<double> columns;       // per active group what the global step aims at: three columns of four numbers each
   Vector<double> rows;          // 4 x 4 doubles per cluster, handles first: rows of X, padded
   Vector<double> known;         // the handles' part of the right-hand side
-  double leash = 10;            // radians
+  double turn_limit = no_turn_limit;  // radians
 };
 
 struct SolveReport {
@@ -62,8 +61,8 @@ struct SolveReport {
 void start_rotations(const SmoothSystem& system, const Groups& groups, std::int32_t component, Span<const Vec3> turns,
                      SmoothState& state) noexcept;
 void predict_rotations(const SmoothSystem& system, Span<const Vec3> increments, SmoothState& state) noexcept;
-// Sets leash and anchors for the accumulated turns of the handles.
-void set_leash(const SmoothSystem& system, Span<const Vec3> turns, SmoothState& state) noexcept;
+// Sets turn_limit and anchors for the accumulated turns of the handles.
+void set_turn_limit(const SmoothSystem& system, Span<const Vec3> turns, SmoothState& state) noexcept;
 // transforms: those of the handles are read, those of the free clusters written. Stops early when last_change falls
 // below `tolerance`.
 SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, double tolerance, SmoothState& state,

@@ -4,19 +4,17 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/number_pool.h"
 #include "base/timer.h"
 #include "deform/normals.h"
 
 namespace hf_inner {
 namespace {
 
-// A layer starts from the surface below whenever anything moves, and takes at least this many steps.
-constexpr std::uint32_t least_iterations = 16;
-
 Mat3 linear_part(const Affine& affine) noexcept {
   Mat3 m;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) m.m[i][j] = affine.a[i][j];
+    for (int j = 0; j < 3; ++j) m(i, j) = affine.a[i][j];
   }
   return m;
 }
@@ -102,7 +100,7 @@ std::shared_ptr<PoseStack::Layer> PoseStack::make_layer(std::shared_ptr<Pose> pl
   layer->edited = layer->plain->clone();
   layer->plain->prepare_start();
   layer->surface.allocate(memory(), static_cast<std::size_t>(core_->size()));
-  layer->relative.allocate(memory(), static_cast<std::size_t>(layer->plain->weights()->cluster_count));
+  layer->relative.assign(static_cast<std::size_t>(layer->plain->weights()->cluster_count), Quaternion());
   layer->turns.assign(layer->plain->handle_count(), Vec3());
   layer->zeros.assign(layer->plain->handle_count(), Vec3());
   return layer;
@@ -118,10 +116,11 @@ void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int
          handle_limit);
   Vector<Entry> entries(&memory());
   entries.assign(entries_.begin(), entries_.end());
-  std::uint32_t number = 0;
+  NumberPool numbers;
   for (std::size_t r = 0; r < added; ++r) {
-    const auto taken = [&](const Entry& entry) { return entry.number == number; };
-    while (std::any_of(entries.begin(), entries.end(), taken)) ++number;
+    const std::uint32_t number = numbers.take([&](std::uint32_t candidate) {
+      return std::any_of(entries.begin(), entries.end(), [&](const Entry& e) { return e.number == candidate; });
+    });
     entries.push_back({});
     entries.back().number = number, entries.back().layer = layer;
   }
@@ -252,7 +251,7 @@ bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_chang
   DeformRequest own = request;
   own.normals = false, own.restart = false, own.surface = true, own.packed_positions = nullptr;
   if (own.iteration_count == 0) own.iteration_count = base_->options().iteration_count;
-  own.iteration_count = std::max(own.iteration_count, least_iterations);
+  own.iteration_count = std::max(own.iteration_count, least_layer_iterations);
 
   const Timer place_timer;
   for (Entry& entry : entries_) {
@@ -296,18 +295,18 @@ void PoseStack::combine(Layer& layer, Span<const Vec3> below) noexcept {
   for (std::size_t c = 0; c < from.size(); ++c) {
     const Quaternion unedited = best_rotation(linear_part(from[c]), Quaternion()),
                      edited = best_rotation(linear_part(to[c]), unedited);
-    layer.relative[c] = edited * conjugate(unedited);
+    layer.relative[c] = edited * unedited.conjugate();
   }
   const ClusterWeights& weights = *layer.plain->weights();
   const Span<const Vec3> plain = layer.plain->surface(), edited = layer.edited->surface();
   for_vertex_pieces(*core_->jobs, core_->size(), [&](std::int32_t first, std::int32_t last) {
     for (std::int32_t v = first; v < last; ++v) {
       const std::int32_t row = weights.start[v], end = weights.start[v + 1];
-      Quaternion sum{0, 0, 0, row == end ? 1.0 : 0.0};
+      Quaternion sum({}, row == end ? 1.0 : 0.0);
       for (std::int32_t k = row; k < end; ++k) {
         const Quaternion& q = layer.relative[weights.cluster[k]];
-        const double w = dot(q, sum) < 0 ? -weights.weight[k] : weights.weight[k];
-        sum = {sum.x + w * q.x, sum.y + w * q.y, sum.z + w * q.z, sum.w + w * q.w};
+        const double w = q.dot(sum) < 0 ? -weights.weight[k] : weights.weight[k];
+        sum.coeffs() += w * q.coeffs();
       }
       layer.surface[v] = edited[v] + rotate(normalised(sum), below[v] - plain[v]);
     }

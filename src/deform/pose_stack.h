@@ -1,16 +1,15 @@
-// A pose with layers: coarse handles, and above them finer ones that come and go without a jump of the surface. What
-// hf_pose_* and hf_deform work on.
+// A pose with layers of handles, coarse to fine: the object behind hf_pose_* and hf_deform.
 //
-// Layer 0 is an ordinary pose (pose.h): its handles stand where their transforms put them. Layer k > 0 edits the
-// surface X_{k-1} of the layers below it (Xu, Zhang, Cohen-Or and Xiong 2009, Section 5.3, coarse to fine), always on
-// the original rest shape, with the handles of all layers up to k:
+// Layer 0 is an ordinary pose (pose.h). Layer k > 0 edits the surface X_{k-1} of the layers below it, coarse to fine
+// (Xu, Zhang, Cohen-Or and Xiong 2009, Section 5.3). It works on the original rest shape, with the handles of all layers
+// up to k:
 //   F_h   the rigid motion of handle h's region and its ring in X_{k-1};
 //   U     the pose whose handles stand at F_h: the unedited one;
 //   E     the pose whose handles stand at F_h D_h, D_h the transform the user gave h;
 //   X_k = E + q (X_{k-1} - U),   q = the rotation from U to E, blended from the clusters like positions.
-// U and E start from the same rotations, those of X_{k-1}, and take the same steps, so D_h = identity gives E = U bit
-// for bit and X_k = X_{k-1}: nothing jumps when a handle comes, and taking it away or moving it back undoes it exactly.
-// Handles of the layers below are pins of the layer. A moved handle carries the surface it found rigidly.
+// U and E start from the same rotations, those of X_{k-1}, and take the same steps. So D_h = identity gives E = U bit
+// for bit and X_k = X_{k-1}. A new handle does not change the surface, and removing it or moving it back undoes it
+// exactly. Handles of the layers below are pins of the layer. A moved handle carries the surface it found rigidly.
 //
 // X_k depends on nothing but X_{k-1} and the transforms of the layer, not on the path. While only handles of a layer
 // move, U is kept: one solve and one blend. Everything is transactional; repeated deform() calls allocate nothing;
@@ -24,8 +23,6 @@ namespace hf_inner {
 
 class PoseStack {
  public:
-  static constexpr std::uint32_t layer_limit = 8;
-
   static std::shared_ptr<PoseStack> make(std::shared_ptr<const Core> core, const PoseOptions& options);
   std::shared_ptr<PoseStack> clone() const;
 
@@ -65,10 +62,10 @@ class PoseStack {
     RigidMotion placed;                              // F_h D_h (layer 0: D_h), given frame
   };
   struct Layer {
-    explicit Layer(Memory& memory) : turns(&memory), zeros(&memory) {}
+    explicit Layer(Memory& memory) : relative(&memory), turns(&memory), zeros(&memory) {}
     std::shared_ptr<Pose> plain, edited;  // U and E
     Buffer<Vec3> surface;                 // X_k
-    Buffer<Quaternion> relative;          // by cluster, from U to E
+    Vector<Quaternion> relative;          // by cluster, from U to E
     Vector<Vec3> turns, zeros;            // by handle of the pose, in its order
     DeformReport report;                  // of the last update
     bool plain_stale = true, edited_stale = true;

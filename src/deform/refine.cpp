@@ -8,12 +8,10 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::int32_t samples_per_group = 24;
-
 Mat3 linear_part(const Affine& affine) noexcept {
   Mat3 m;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) m.m[i][j] = affine.a[i][j];
+    for (int j = 0; j < 3; ++j) m(i, j) = affine.a[i][j];
   }
   return m;
 }
@@ -30,7 +28,7 @@ void add_ring(const Core& core, const Rest& rest, const Vec3* positions, std::in
 }
 
 Refinement::Refinement(const Core& core, Memory& memory)
-    : rotation_(memory, static_cast<std::size_t>(core.size())),
+    : rotation_(static_cast<std::size_t>(core.size()), Mat3::Zero(), &memory),
       field_(memory, 3 * static_cast<std::size_t>(core.size())),
       values_(&memory),
       elastic_(core.mesh.component_count(), 0, &memory) {}
@@ -46,7 +44,7 @@ void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) 
     int count = 0;
     const auto fit = [&] {
       best_rotations_from(batch, count);
-      for (int l = 0; l < count; ++l) rotation_[vertex[l]] = to_matrix(batch.rotation(l));
+      for (int l = 0; l < count; ++l) rotation_[vertex[l]] = batch.rotation(l).toRotationMatrix();
       count = 0;
     };
     for (std::int32_t v = first; v < last; ++v) {
@@ -69,7 +67,7 @@ void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) 
         vertex[count++] = v;
         if (count == RotationBatch::lanes) fit();
       } else {
-        rotation_[v] = Mat3::identity();
+        rotation_[v] = Mat3::Identity();
       }
     }
     fit();
@@ -109,8 +107,7 @@ void Refinement::apply(const RefineInput& input, Vec3* positions) {
   const std::size_t n = static_cast<std::size_t>(core.size());
   Workspace z(core.workspaces, 3 * n);
   set_right_hand_side(input, positions, z.data());
-  core.factor->forward(z.data(), 3, *core.jobs);
-  core.factor->backward(z.data(), 3, *core.jobs);
+  core.factor->solve_in_order(z.data(), 3, *core.jobs);
 
   // the rings are where they belong: what the step did to them is taken back by its harmonic field
   const Span<const std::int32_t> position = core.factor->position();

@@ -1,19 +1,17 @@
-// What turns a pose into more than a blend of clusters, and what lets one pose start from the surface of another.
+// A full-mesh step on top of a blended pose, and the start of one pose from another's surface.
 //
-// Refinement: one as-rigid-as-possible step of the whole surface against its original rest shape (Sorkine and Alexa
-// 2007), from the blended positions x:
+// Refinement is one as-rigid-as-possible step of the whole surface against its rest shape (Sorkine and Alexa 2007).
+// From the blended positions x it solves
 //     R_v = argmax tr(R' sum_u w_vu (x_v - x_u)(p_v - p_u)'),
 //     sum_u w_vu (y_v - y_u) = sum_u w_vu / 2 (R_v + R_u)(p_v - p_u),   y = x on the handles.
-// w are the weights of the operator K the fields are solved with (u over the neighbours in the intrinsic Delaunay
-// triangulation, all w >= 0, unless it was made of other edges), so y = x + K^-1 (b - K x) with b the right side, and
-// the factor that is there does it: two sweeps, and the harmonic field that takes the rings back to their places, one
-// more. The energy of these weights never grows. With cotangents of the mesh's own edges for w, above K where triangles
-// are obtuse, the step overshoots there: it folded a scan's (smallest stretch 0.55; now 0.78). One step only: further
-// ones walk towards the collapsed minima of that energy. Cost: a rotation per vertex, three sweeps of three channels.
+// The weights w are those of the operator K, and u runs over the neighbours in its triangulation. So y = x + K^-1 (b -
+// K x) with b the right side, on the factor that is there. With these weights the energy never grows. Cotangents of the
+// mesh's own edges are larger where triangles are obtuse, and the step overshoots there. More steps walk towards the
+// collapsed minima of that energy. Cost: a rotation per vertex, three sweeps of three channels.
 //
-// GroupStart: the rotation of every rotation group of a given surface, from the edges at some of its vertices.
+// GroupStart finds the rotation of every rotation group of a given surface, from the edges at some of its vertices.
 //
-// Both keep their room from frame to frame. On failure nothing is changed.
+// Both keep their memory from frame to frame. On failure nothing is changed.
 #pragma once
 #include "deform/blend.h"
 #include "deform/groups.h"
@@ -47,7 +45,7 @@ class Refinement {
   void fit_rotations(const RefineInput& input, const Vec3* positions);
   void set_right_hand_side(const RefineInput& input, const Vec3* positions, double* z);
 
-  Buffer<Mat3> rotation_;         // by vertex
+  Vector<Mat3> rotation_;         // by vertex
   Buffer<double> field_;          // three channels
   Vector<double> values_;         // three channels by slot
   Vector<std::uint8_t> elastic_;  // by component

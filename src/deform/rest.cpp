@@ -63,7 +63,7 @@ Rest::Rest(const Core& core, Memory& memory)
       list_triangles_by_piece(core.mesh, *this);
     } else {
       sort_components(core.mesh, *this);
-      for (double& w : stiffness) w = std::clamp(w, 0.01, 25.0);
+      for (double& w : stiffness) w = std::clamp(w, least_edge_weight, largest_edge_weight);
     }
   });
 }

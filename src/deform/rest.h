@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 
+#include "deform/constants.h"
 #include "engine/core.h"
 
 namespace hf_inner {
@@ -21,7 +22,7 @@ struct Rest {
   // at a border are in the lists of all its pieces.
   Vector<std::int32_t> piece_start, piece_border;
   Vector<std::int32_t> piece_corner;
-  // Edge weights of the elastic energy: the operator's, kept in [0.01, 25]. Negative ones would reward collapse, huge
+  // Edge weights of the elastic energy: the operator's, kept in [least_edge_weight, largest_edge_weight]. Negative ones would reward collapse, huge
   // ones come from triangles without area.
   Vector<double> stiffness;
 
@@ -31,9 +32,6 @@ struct Rest {
     return {component_vertex.data() + first, last - first};
   }
 };
-
-// Vertex loops are cut into pieces of this size, whatever the number of threads.
-constexpr std::int32_t vertex_piece = 4096;
 
 // Calls loop(first, last) for every piece of 0 .. count.
 template <class Loop>

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "deform/constants.h"
 #include "deform/rotation_step.h"
 
 namespace hf_inner {
@@ -10,7 +11,6 @@ namespace {
 #include "deform/rotation_step.inl"
 
 constexpr int lanes = RotationBatch::lanes;
-constexpr double settled = 1e-14;  // square of the last step; what is left is of the order of its square
 
 struct LaneState {
   double floor;  // pivots at or below are not safely positive
@@ -24,10 +24,10 @@ bool judge(RotationStep& step, LaneState (&state)[lanes]) noexcept {
   for (int l = 0; l < lanes; ++l) {
     LaneState& lane = state[l];
     const bool good = step.pivot[0][l] > lane.floor && step.pivot[1][l] > lane.floor && step.pivot[2][l] > lane.floor &&
-                      step.square[l] <= 1.0;
+                      step.square[l] <= longest_newton_step;
     const bool moves = lane.open && good;
     lane.lost = lane.lost || (lane.open && !good);
-    lane.open = moves && step.square[l] >= settled;
+    lane.open = moves && step.square[l] >= settled_newton_step;
     open = open || lane.open;
     if (!moves) step.u[0][l] = step.u[1][l] = step.u[2][l] = 0;
   }
@@ -61,11 +61,11 @@ void best_rotations_from(RotationBatch& batch, int count) noexcept {
     double square = 0;
     for (const auto& row : batch.s) square += row[l] * row[l];
     const bool usable = square > 1e-300 && square < 1e300;
-    state[l] = {usable ? 1e-6 * std::sqrt(square) : 0.0, usable, !usable};
+    state[l] = {usable ? newton_floor * std::sqrt(square) : 0.0, usable, !usable};
   }
   const StepLoop loop = rotation_loop();
   RotationStep step;
-  for (int iteration = 0; iteration < 6; ++iteration) {
+  for (int iteration = 0; iteration < newton_steps; ++iteration) {
     loop(batch.s[0], batch.q[0], step, false);
     const bool open = judge(step, state);
     loop(batch.s[0], batch.q[0], step, true);
@@ -77,7 +77,7 @@ void best_rotations_from(RotationBatch& batch, int count) noexcept {
       continue;
     }
     Mat3 s;
-    for (int k = 0; k < 9; ++k) s.m[k / 3][k % 3] = batch.s[k][l];
+    for (int k = 0; k < 9; ++k) s(k / 3, k % 3) = batch.s[k][l];
     batch.set_rotation(l, best_rotation(s, start.rotation(l)));
   }
 }

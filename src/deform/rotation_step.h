@@ -1,4 +1,4 @@
-// What a Newton step of eight rotations came to: shared by rotation_batch.cpp and its wider builds.
+// The result of a Newton step of eight rotations, for rotation_batch.cpp and its wider builds.
 #pragma once
 
 namespace hf_inner {

@@ -6,11 +6,6 @@
 namespace hf_inner {
 namespace {
 
-constexpr double fit_vertices = 20000;
-constexpr int fit_rounds = 8;
-constexpr int stretch_rounds = 6;         // rotation and stretch of one joint in turn
-constexpr double stretch_ballast = 1e-6;  // of the moments: directions the joint hardly reaches into keep s = 1
-
 struct JointMotion {
   Quaternion rotation;
   Vec3 stretch{1, 1, 1};
@@ -19,12 +14,7 @@ struct JointMotion {
 
 // R B diag(s) B'
 Mat3 linear_part(const JointMotion& motion, const Mat3& axes) noexcept {
-  Mat3 scaled = axes;
-  const double s[3] = {motion.stretch.x, motion.stretch.y, motion.stretch.z};
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) scaled.m[i][k] *= s[k];
-  }
-  return to_matrix(motion.rotation) * (scaled * transpose(axes));
+  return motion.rotation.toRotationMatrix() * (axes * to_eigen(motion.stretch).asDiagonal() * axes.transpose());
 }
 
 // The least-squares fit of the joints, in the mesh's own unit.
@@ -43,15 +33,15 @@ class JointFit {
     const Core& core = pose.core();
     const ClusterWeights& table = *pose.weights();
     joint_count_ = static_cast<std::size_t>(table.cluster_count);
-    for (const Quaternion& q : axes) axes_.push_back(to_matrix(q));
+    for (const Quaternion& q : axes) axes_.push_back(q.toRotationMatrix());
     start_.assign(joint_count_ + 1, 0);
     Vector<std::int32_t> chosen(&memory);
     for (std::int32_t v = 0; v < core.size(); ++v) {
       if (table.start[v + 1] - table.start[v] < 2) continue;  // on one joint: nothing to fit
-      if (scattered(static_cast<std::uint32_t>(v)) * core.size() < fit_vertices) chosen.push_back(v);
+      if (scattered(static_cast<std::uint32_t>(v)) * core.size() < skin_vertices) chosen.push_back(v);
     }
-    std::uint32_t joint[8];
-    float weight[8];
+    std::uint32_t joint[most_joints];
+    float weight[most_joints];
     for (const bool count_only : {true, false}) {
       Vector<std::int32_t> next(start_, &memory);
       for (std::size_t i = 0; i < chosen.size(); ++i) {
@@ -72,7 +62,7 @@ class JointFit {
     for (const std::int32_t v : chosen) {
       rest_.push_back(core.mesh.positions[v]);
       residual_.push_back(-1.0 * blend_vertex(core.mesh, table, pose.cluster_transforms().data(), v));
-      area_.push_back(std::max(pose.rest().area[v], 1e-12));
+      area_.push_back(std::max(pose.rest().area[v], least_vertex_area));
     }
   }
 
@@ -80,7 +70,7 @@ class JointFit {
   void run(JointMotion* motion) {
     for (std::size_t j = 0; j < joint_count_; ++j) move(j, motion[j], 1);
     const std::size_t handles = static_cast<std::size_t>(pose_.weights()->handle_count);
-    for (int round = 0; round < fit_rounds; ++round) {
+    for (int round = 0; round < skin_rounds; ++round) {
       for (std::size_t j = handles; j < joint_count_; ++j) {
         move(j, motion[j], -1);
         motion[j] = fit(j, motion[j]);
@@ -136,19 +126,15 @@ class JointFit {
 
   // min |R B s B' - target rest^-1| in the norm of the rest moments, rotation and stretch in turn.
   static void fit_stretch(const Mat3& target, const Mat3& rest, const Mat3& axes, JointMotion& motion) noexcept {
-    const Mat3 seen = transpose(axes) * rest * axes;
-    const double ballast = stretch_ballast * (seen.m[0][0] + seen.m[1][1] + seen.m[2][2]);
+    const Mat3 seen = axes.transpose() * rest * axes;
+    const double ballast = stretch_ballast * seen.trace();
     for (int round = 0; round < stretch_rounds; ++round) {
-      const Mat3 along = transpose(to_matrix(motion.rotation) * axes) * target * axes;
-      double s[3];
+      const Mat3 along = (motion.rotation.toRotationMatrix() * axes).transpose() * target * axes;
+      hf_eigen::Vector3d s;
       for (int i = 0; i < 3; ++i)
-        s[i] = std::max(1e-3, (along.m[i][i] + ballast) / std::max(seen.m[i][i] + ballast, 1e-300));
-      motion.stretch = {s[0], s[1], s[2]};
-      Mat3 scaled = axes;
-      for (int i = 0; i < 3; ++i) {
-        for (int k = 0; k < 3; ++k) scaled.m[i][k] *= s[k];
-      }
-      motion.rotation = best_rotation(target * (axes * transpose(scaled)), motion.rotation);
+        s(i) = std::max(least_stretch, (along(i, i) + ballast) / std::max(seen(i, i) + ballast, 1e-300));
+      motion.stretch = to_vec3(s);
+      motion.rotation = best_rotation(target * (axes * s.asDiagonal() * axes.transpose()), motion.rotation);
     }
   }
 
@@ -166,7 +152,7 @@ class JointFit {
 
 Vec3 skinned(const Skin& skin, std::size_t j, Vec3 p) noexcept {
   const JointMotion motion{skin.rotation[j], skin.stretch[j], {}};
-  return linear_part(motion, to_matrix(skin.axes[j])) * (p - skin.pivot[j]) + skin.place[j];
+  return linear_part(motion, skin.axes[j].toRotationMatrix()) * (p - skin.pivot[j]) + skin.place[j];
 }
 
 Skin make_skin(const Pose& pose, std::uint32_t weight_count, bool stretching, Memory& memory) {
@@ -179,7 +165,7 @@ Skin make_skin(const Pose& pose, std::uint32_t weight_count, bool stretching, Me
   Vector<double> total(clusters, 0.0, &memory);
   for (std::int32_t v = 0; v < core.size(); ++v) {
     for (std::int32_t k = weights.start[v]; k < weights.start[v + 1]; ++k) {
-      const double w = weights.weight[k] * std::max(pose.rest().area[v], 1e-12);
+      const double w = weights.weight[k] * std::max(pose.rest().area[v], least_vertex_area);
       sum[weights.cluster[k]] = sum[weights.cluster[k]] + w * mesh.positions[v];
       total[weights.cluster[k]] += w;
     }
@@ -187,29 +173,29 @@ Skin make_skin(const Pose& pose, std::uint32_t weight_count, bool stretching, Me
   const Span<const Affine> transforms = pose.cluster_transforms();
   Vector<JointMotion> motion(clusters, JointMotion(), &memory);
   for (std::size_t c = 0; c < clusters; ++c) skin.pivot.push_back(total[c] > 0 ? (1.0 / total[c]) * sum[c] : Vec3());
-  Vector<Mat3> spread(clusters, Mat3(), &memory);
+  Vector<Mat3> spread(clusters, Mat3::Zero(), &memory);
   for (std::int32_t v = 0; v < core.size(); ++v) {
     for (std::int32_t k = weights.start[v]; k < weights.start[v + 1]; ++k) {
       const std::int32_t c = weights.cluster[k];
       const Vec3 arm = mesh.positions[v] - skin.pivot[c];
-      add_outer(spread[c], weights.weight[k] * std::max(pose.rest().area[v], 1e-12), arm, arm);
+      add_outer(spread[c], weights.weight[k] * std::max(pose.rest().area[v], least_vertex_area), arm, arm);
     }
   }
   for (std::size_t c = 0; c < clusters; ++c) {
     const Vec3 pivot = skin.pivot[c];
-    skin.axes.push_back(to_quaternion(principal_axes(spread[c])));
+    skin.axes.push_back(Quaternion(principal_axes(spread[c]).axes));
     if (!pose.posed()) continue;
     Mat3 linear;
     const auto& a = transforms[c].a;
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) linear.m[i][j] = a[i][j];
+      for (int j = 0; j < 3; ++j) linear(i, j) = a[i][j];
     }
     motion[c].rotation = best_rotation(linear, Quaternion());
     motion[c].translation = linear * pivot + Vec3{a[0][3], a[1][3], a[2][3]} - rotate(motion[c].rotation, pivot);
   }
   if (pose.posed()) JointFit(pose, weight_count, stretching, skin.axes, memory).run(motion.data());
   for (std::size_t c = 0; c < clusters; ++c) {
-    const Mat3 linear = linear_part(motion[c], to_matrix(skin.axes[c]));
+    const Mat3 linear = linear_part(motion[c], skin.axes[c].toRotationMatrix());
     skin.place.push_back(mesh.to_given(linear * skin.pivot[c] + motion[c].translation));
     skin.pivot[c] = mesh.to_given(skin.pivot[c]);
     skin.rotation.push_back(motion[c].rotation), skin.stretch.push_back(motion[c].stretch);
@@ -232,7 +218,7 @@ void skin_weights(const Pose& pose, std::int32_t vertex, std::uint32_t count, st
     return;
   }
   // the largest, by insertion: rows are short
-  double kept[8] = {0};
+  double kept[most_joints] = {0};
   std::uint32_t used = 0;
   for (std::int32_t k = first; k < last; ++k) {
     std::uint32_t at = used < count ? used++ : count;

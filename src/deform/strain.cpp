@@ -4,27 +4,15 @@
 #include <cmath>
 
 namespace hf_inner {
-namespace {
-
-constexpr double thinnest = 1e-2;  // m_2 / m_1 of a sheet; below it is a line
-
-Vec3 column(const Mat3& m, int j) noexcept { return {m.m[0][j], m.m[1][j], m.m[2][j]}; }
-
-}  // namespace
 
 Sheet make_sheet(const Mat3& moments, std::int32_t limits) noexcept {
   Sheet sheet;
   sheet.limits = limits;
-  const Mat3 axes = principal_axes(moments);
-  Vec3 axis[3];
-  double moment[3];
-  for (int j = 0; j < 3; ++j) axis[j] = column(axes, j), moment[j] = dot(axis[j], moments * axis[j]);
-  const int least = moment[0] <= moment[1] && moment[0] <= moment[2] ? 0 : moment[1] <= moment[2] ? 1 : 2;
-  int first = (least + 1) % 3, second = (least + 2) % 3;
-  if (moment[first] < moment[second]) std::swap(first, second);
-  sheet.axis[0] = axis[first], sheet.axis[1] = axis[second];
-  if (!(moment[second] > thinnest * moment[first]) || !(moment[first] > 0)) return sheet;
-  sheet.inverse_moment[0] = 1 / moment[first], sheet.inverse_moment[1] = 1 / moment[second];
+  const PrincipalAxes axes = principal_axes(moments);
+  const hf_eigen::Vector3d& moment = axes.moment;
+  sheet.axis[0] = to_vec3(axes.axes.col(0)), sheet.axis[1] = to_vec3(axes.axes.col(1));
+  if (!(moment(1) > thinnest_sheet * moment(0)) || !(moment(0) > 0)) return sheet;
+  sheet.inverse_moment[0] = 1 / moment(0), sheet.inverse_moment[1] = 1 / moment(1);
   return sheet;
 }
 

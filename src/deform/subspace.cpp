@@ -9,13 +9,6 @@
 namespace hf_inner {
 namespace {
 
-constexpr double rigidity = 1e-3;         // eps, relative to the mean diagonal of the cluster's linear part
-constexpr double edge_samples = 60000;    // about this many edges are used
-constexpr std::int32_t few_edges = 1500;  // clusters with fewer are never sampled
-// What edges at a handle's border gain, by the handles of the component: two, more.
-constexpr double border_stiffness[] = {0.25, 3.5};
-constexpr std::int32_t edge_piece = 16384;
-
 // Blended positions of vertices before any transform: x_v = sum_k weight[k] A_cluster[k] (p_v, 1).
 struct BlendRows {
   const std::int32_t* start;

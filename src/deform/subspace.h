@@ -2,26 +2,20 @@
 //
 //     E(A, R) = 1/2 sum_e w_e |x_i - x_j - R (p_i - p_j)|^2,   x_v = sum_c W_vc A_c (p_v, 1)
 //
-// as-rigid-as-possible (Sorkine and Alexa 2007) in a reduced subspace with one rotation per group of vertices (Jacobson
-// et al. 2012). With z_c(e) = W_ic (p_i, 1) - W_jc (p_j, 1) and X_c = A_c' (4 x 3), for fixed rotations
-//     sum_d L_cd X_d = sum_g Q_gc R_g' + eps_c Rbar_c',
-//     L_cd = sum_e w_e z_c z_d',   Q_gc = sum_{e at g} w_e/2 z_c (p_i - p_j)',
-// over the free clusters d; those of handles are given. eps_c keeps a cluster that the energy leaves free near the mean
-// rotation Rbar_c of its groups. For fixed transforms R_g = argmax tr(R' S_g), S_g = sum_c A_c Q_gc.
+// This is as-rigid-as-possible (Sorkine and Alexa 2007) in a reduced subspace with one rotation per group of vertices
+// (Jacobson et al. 2012). Let z_c(e) = W_ic (p_i, 1) - W_jc (p_j, 1) and X_c = A_c' (4 x 3). For fixed rotations
+//     sum_d L_cd X_d = sum_g Q_gc R_g' + eps_c Rbar_c'
+// over the free clusters d. Those of handles are given. The coefficients are
+//     L_cd = sum_e w_e z_c z_d',   Q_gc = sum_{e at g} w_e/2 z_c (p_i - p_j)'.
+// eps_c keeps a cluster that the energy leaves free near the mean rotation Rbar_c of its groups. For fixed transforms
+// R_g = argmax tr(R' S_g), S_g = sum_c A_c Q_gc.
 //
-// Bending ends abruptly at a handle, and the group that lies across its border turns too far for the triangles there:
-// edges gain weight towards the border, (1 + a b^4), b the handle's weight at the edge. With two handles a = 1/4;
-// measured: smallest stretch of the bent cactus 0.786 -> 0.801, of the plane's longest edge 2.7 -> 2.5, energy + 0.1
-// per cent.
-// With more handles, whose bands are eased towards them (bands.h), a = 7/2.
+// Bending ends abruptly at a handle, and the group across its border turns too far for the triangles there. So edges
+// gain weight towards the border: (1 + a b^4), with b the handle's weight at the edge and a = border_stiffness.
 //
-// What the subspace leaves out: a cross-section stays affine. Ten times the groups and twice the bands lower the energy
-// of the bent cylinder and of the twisted bar by 0.3 per cent, the full-mesh step (refine.h) by 3 and 5. Surfaces of
-// the same volume with half the energy exist, but they are folded: dihedral angles change by 25 to 35 degrees.
-//
-// On large meshes edges are sampled, with 1 / probability as weight, never those of clusters that have few.
-// Cost: edges times the square of the clusters at an edge, and one dense factorisation. On failure nothing is left
-// behind.
+// The subspace keeps cross-sections affine. On large meshes edges are sampled, with 1 / probability as weight, but
+// never those of clusters that have few. Cost: edges times the square of the clusters at an edge, and one dense
+// factorisation. On failure nothing is left behind.
 #pragma once
 #include <cstdint>
 
@@ -45,7 +39,7 @@ struct Subspace {
         stiffness(&memory),
         factor(memory) {}
 
-  // What a group says to a cluster.
+  // The coefficients between a group and a cluster.
   struct Entry {
     std::int32_t cluster;
     double area;     // sum over the group's vertices of area times weight

@@ -1,13 +1,20 @@
 #include "factor/bytes_hash.h"
 
 namespace hf_inner {
+namespace {
+
+// Independent chains of multiplications: one would wait for each. Part of the saved format.
+constexpr int chains = 8;
+// Bytes asked for ahead: the chains alone keep too few cache lines on their way.
+constexpr int bytes_ahead = 4096;
+
+}  // namespace
 
 std::uint64_t hash_piece(const std::uint8_t* bytes, std::uint64_t length) noexcept {
-  constexpr int chains = 8;
   std::uint64_t chain[chains] = {1, 2, 3, 4, 5, 6, 7, 8};
   std::uint64_t k = 0;
   for (; k + 8 * chains <= length; k += 8 * chains) {
-    __builtin_prefetch(bytes + k + 4096);  // the chains alone keep too few lines on their way
+    __builtin_prefetch(bytes + k + bytes_ahead);
     std::uint64_t word[chains];
     std::memcpy(word, bytes + k, sizeof word);
     for (int c = 0; c < chains; ++c) chain[c] = hash_step(chain[c], word[c]);

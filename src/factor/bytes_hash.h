@@ -14,6 +14,7 @@
 
 namespace hf_inner {
 
+// Bytes hashed as one job. Part of the saved format.
 constexpr std::uint64_t hash_piece_bytes = std::uint64_t{1} << 16;
 
 inline std::uint64_t hash_step(std::uint64_t state, std::uint64_t word) noexcept {

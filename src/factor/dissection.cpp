@@ -4,16 +4,24 @@
 #include <mutex>
 
 #include "factor/leaf_order.h"
+#include "factor/minimum_degree.h"
 #include "factor/multilevel.h"
-#include "factor/ordering.h"
 
 namespace hf_inner {
 namespace {
 
-constexpr std::int32_t leaf_size = 180;    // parts this small are ordered by exact minimum degree
-constexpr std::int32_t halo_limit = 1500;  // a leaf with more halo is ordered without it
-constexpr std::int32_t task_size = 4000;   // parts this small are one job to the end
-constexpr std::size_t most_parts = 64;     // parts cut one wave at a time before every one becomes a job
+// Parts this small are ordered by minimum degree. Half: fill -2 to +1 %, more time. Double: +1 to +3 %, less time.
+constexpr std::int32_t leaf_size = 180;
+// A leaf with more halo is ordered without it: bounds its bit rows. Half and double: nothing on torus and scan.
+constexpr std::int32_t halo_limit = 1500;
+// Parts this small are one job to the end: waiting against overhead. No result depends on it.
+constexpr std::int32_t task_size = 4000;
+// Parts that are cut in waves before each becomes a job. No result depends on it.
+constexpr std::size_t most_parts = 64;
+// A larger share of a part separates nothing: it is ordered whole. Half and double: nothing on torus and scan.
+constexpr double most_separator = 0.75;
+// Shares of progress: a wave, all waves, and where the leaves begin.
+constexpr float progress_step = 0.05f, progress_cut = 0.4f, progress_leaves = 0.3f;
 
 // A part of the graph with numbers of its own. Its vertices take the places [begin, begin + size) of the order.
 struct Part {
@@ -37,7 +45,7 @@ struct Range {
   std::int32_t begin, end;
 };
 
-// What one thread needs.
+// Scratch of one thread.
 struct Workspace {
   Workspace(Memory& memory, std::int32_t unknowns)
       : bisection(memory),
@@ -70,10 +78,10 @@ class Dissection {
     parts.push_back(whole());
     // wave by wave at the top, where there are few parts and each is cut by one thread
     bool cutting = true;
-    float done = 0.05f;
+    float done = progress_step;
     while (cutting && parts.size() < most_parts) {
       report(progress, done);
-      done = std::min(0.4f, done + 0.05f);
+      done = std::min(progress_cut, done + progress_step);
       const std::size_t count = parts.size();
       std::pmr::vector<Part> next(2 * count, &memory_);
       cutting = false;
@@ -94,7 +102,7 @@ class Dissection {
     }
     // the largest first: job order decides nothing but the waiting time
     std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.size > b.size; });
-    report(progress, 0.3f);
+    report(progress, progress_leaves);
     jobs_.for_each(static_cast<std::uint32_t>(parts.size()), [&](std::uint32_t k) {
       with_workspace([&](Workspace& workspace) { finish(std::move(parts[k]), workspace); });
     });
@@ -124,8 +132,8 @@ class Dissection {
     workspace.side.resize(static_cast<std::size_t>(part.size));
     std::uint8_t* side = workspace.side.data();
     const Cut cut = workspace.bisection.run(part.view(), side);
-    // a separator that is most of the part separates nothing worth having
-    if (!cut.usable() || cut.separator > part.size * 3 / 4) return order_whole(part);
+    // a separator that is most of the part separates nothing useful
+    if (!cut.usable() || cut.separator > most_separator * part.size) return order_whole(part);
     std::int32_t size[3] = {0, 0, 0};
     std::size_t edges[3] = {0, 0, 0};
     workspace.number.resize(static_cast<std::size_t>(part.size));

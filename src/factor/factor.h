@@ -1,5 +1,4 @@
-// Sparse Cholesky factorisation P A P' = G G' of a symmetric positive definite matrix, made for many cheap questions to
-// one immutable factor:
+// Factors a symmetric positive definite sparse matrix, P A P' = G G' (Cholesky). The factor is immutable:
 //   factorise   fill-reducing ordering, symbolic analysis, numeric supernodal factorisation;
 //   sweeps      z <- G^-1 z (forward), z <- G^-T z (backward), m right-hand sides at once;
 //   paths       Y = G^-1 P W for sparse columns of W (sites): non-zero only along elimination-tree paths;
@@ -19,7 +18,7 @@ namespace hf_inner {
 
 enum class Ordering : std::int32_t {
   nested_dissection = 0,  // our own multilevel nested dissection on graph and geometry
-  minimum_degree = 1,     // AMD
+  minimum_degree = 1,     // approximate, of the whole matrix
   metis = 2,              // METIS through CHOLMOD; only in builds with HF_WITH_GPL (CHOLMOD), its rand() use isolated
   natural = 3,
 };
@@ -29,7 +28,7 @@ constexpr double default_lost_share = 0x1p-46;
 
 struct FactorOptions {
   Ordering ordering = Ordering::nested_dissection;
-  double lost_share = default_lost_share;  // larger: pivots are lost that keep fewer digits than wished
+  double lost_share = default_lost_share;  // larger: pivots fail that keep fewer digits than wished
   Progress* progress = nullptr;            // reported between 0 and 1
 };
 
@@ -60,7 +59,7 @@ class PathGroup;
 class Factor {
  public:
   // Orders, analyses and factorises. Throws HF_ERROR_NOT_POSITIVE_DEFINITE (index = the column in the caller's
-  // numbering) when a pivot is lost, HF_ERROR_NON_FINITE for NaN or infinity, HF_ERROR_TOO_LARGE, std::bad_alloc, or
+  // numbering) when a pivot fails, HF_ERROR_NON_FINITE for NaN or infinity, HF_ERROR_TOO_LARGE, std::bad_alloc, or
   // HF_ERROR_CANCELLED.
   static std::shared_ptr<const Factor> make(const SymmetricMatrix& matrix, Coordinates coordinates,
                                             const FactorOptions& options, Memory& memory, JobRunner& jobs);
@@ -76,6 +75,13 @@ class Factor {
   // In place on z[row * channels + channel], rows in factor order.
   virtual void forward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
   virtual void backward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
+
+  // Both, z <- (G G')^-1 z: A^-1 with rows in factor order.
+  void solve_in_order(double* z, std::int32_t channels, JobRunner& jobs) const {
+    forward(z, channels, jobs), backward(z, channels, jobs);
+  }
+  // x <- A^-1 right in the caller's numbering, number * channels + channel; right may be x. scratch: as many numbers.
+  void solve(const double* right, double* x, std::int32_t channels, double* scratch, JobRunner& jobs) const;
 
   // The backward sweep as far as these unknowns (caller's numbering) need it: over their elimination paths. Their rows
   // of z get the bits that backward() gives; the other rows of the paths hold numbers of their own. Cost: one read of
@@ -110,6 +116,7 @@ class Factor {
 
 class PathGroup {
  public:
+  // Sites of a group. 32, 64 and 128 take equal time on one thread; on two, 180 sites take 14.6 ms, with 64 20.1 ms.
   static constexpr std::int32_t capacity = 32;
   virtual ~PathGroup() = default;
   virtual std::int32_t count() const noexcept = 0;

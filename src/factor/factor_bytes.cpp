@@ -15,7 +15,14 @@ namespace {
 
 constexpr std::uint64_t magic = 0x524F544341464648ull;  // "HFFACTOR"
 constexpr std::uint32_t version = 2;
-constexpr std::uint64_t copy_step = std::uint64_t{1} << 22;  // bytes a job copies
+// Bytes that one job copies: balance against overhead. No result depends on it.
+constexpr std::uint64_t copy_step = std::uint64_t{1} << 22;
+// Refuses damaged counts before a sum of sizes can overflow.
+constexpr std::uint64_t most_count = std::uint64_t{1} << 48;
+// Refuses damaged counts of entries and flops.
+constexpr double most_work = 1e300;
+// Supernodes that one job checks. No result depends on it.
+constexpr std::int32_t list_step = 2048;
 constexpr std::uint32_t byte_order = 0x01020304u;
 
 struct Header {
@@ -78,10 +85,9 @@ Header read_header(Span<const std::uint8_t> bytes) {
          header.version, version);
   }
   if (header.header_check != check_of(header)) refuse("its header is damaged");
-  constexpr std::uint64_t most = std::uint64_t{1} << 48;
-  if (header.unknowns < 0 || header.supernodes < 0 || header.supernodes > header.unknowns || header.row_count > most ||
-      header.value_count > most || header.ordering < 0 || header.ordering > 3 ||
-      !(header.entries >= 0 && header.entries < 1e300) || !(header.flops >= 0 && header.flops < 1e300)) {
+  if (header.unknowns < 0 || header.supernodes < 0 || header.supernodes > header.unknowns ||
+      header.row_count > most_count || header.value_count > most_count || header.ordering < 0 || header.ordering > 3 ||
+      !(header.entries >= 0 && header.entries < most_work) || !(header.flops >= 0 && header.flops < most_work)) {
     refuse("its sizes make no sense");
   }
   if (Layout(header).length != header.length || header.length != bytes.size()) {
@@ -118,12 +124,12 @@ void read_lists(const std::uint8_t* bytes, const Layout& layout, const Header& h
   out.entries = header.entries, out.flops = header.flops;
   out.order.allocate(memory, n), out.position.allocate(memory, n), out.supernode.allocate(memory, n);
   out.first.allocate(memory, count + 1), out.parent.allocate(memory, count), out.subtree.allocate(memory, count);
-  out.row_start.allocate(memory, count + 1), out.rows.allocate(memory, header.row_count + 16);
+  out.row_start.allocate(memory, count + 1), out.rows.allocate(memory, header.row_count + Symbolic::row_slack);
   out.value_start.allocate(memory, count), out.work.allocate(memory, count);
   if (n > 0) std::memcpy(out.order.data(), bytes + layout.order, 4 * n);
   std::memcpy(out.first.data(), bytes + layout.first, 4 * (count + 1));
   if (header.row_count > 0) std::memcpy(out.rows.data(), bytes + layout.rows, 4 * header.row_count);
-  std::fill(out.rows.data() + header.row_count, out.rows.data() + header.row_count + 16, 0);
+  std::fill(out.rows.data() + header.row_count, out.rows.data() + header.row_count + Symbolic::row_slack, 0);
   out.row_start[0] = 0;
   for (std::size_t s = 0; s < count; ++s) {
     std::int32_t below;
@@ -151,11 +157,11 @@ void check_columns(Symbolic& out) {
 // work(s) for every supernode, in pieces.
 template <class Work>
 void for_supernodes(const Symbolic& symbolic, JobRunner& jobs, Work&& work) {
-  constexpr std::int32_t step = 2048;
-  jobs.for_each(static_cast<std::uint32_t>((symbolic.supernodes + step - 1) / step), [&](std::uint32_t piece) {
-    const std::int32_t begin = static_cast<std::int32_t>(piece) * step;
-    for (std::int32_t s = begin; s < std::min(symbolic.supernodes, begin + step); ++s) work(s);
-  });
+  jobs.for_each(static_cast<std::uint32_t>((symbolic.supernodes + list_step - 1) / list_step),
+                [&](std::uint32_t piece) {
+                  const std::int32_t begin = static_cast<std::int32_t>(piece) * list_step;
+                  for (std::int32_t s = begin; s < std::min(symbolic.supernodes, begin + list_step); ++s) work(s);
+                });
 }
 
 // Row lists ascend, lie below their columns, and go on in the parent: its columns or its list.

@@ -1,9 +1,10 @@
 // A factor as bytes: saved by an authoring tool, loaded by a game in milliseconds instead of being made again.
 //
-// Layout, little-endian, every section on a multiple of 64 bytes, zeros between them: a header of 128 bytes (magic,
-// version, byte order, sizes, ordering, hash of the matrix, checksum of all that follows), order of the unknowns, first
-// columns, row counts and rows of the supernodes, numbers (packed triangles with inverted diagonals and row blocks,
-// supernodes last to first), 64 zeros that sweeps may read over.
+// Layout, little-endian, every section on a multiple of 64 bytes, zeros between them:
+// - a header of 128 bytes. It holds magic, version, byte order, sizes, ordering, matrix hash and checksum of the rest.
+// - the order of the unknowns. Then first columns, row counts and rows of the supernodes.
+// - the numbers, supernodes last to first: packed triangles with inverted diagonals, and row blocks.
+// - 64 zeros that sweeps may read over.
 //
 // Loading checks length and checksum, that the lists describe a supernodal factor, that every number is finite and
 // every diagonal positive; bytes that fail are refused, whatever they hold. The checksum finds damage, not forgery:
@@ -20,7 +21,7 @@
 
 namespace hf_inner {
 
-// What bytes that are read in place must be aligned to: a cache line.
+// Alignment of bytes that are read in place: a cache line.
 constexpr std::size_t saved_factor_alignment = 64;
 
 struct LoadOptions {
@@ -29,8 +30,8 @@ struct LoadOptions {
   bool borrow = false;            // read the numbers in place: the bytes outlive every factor made from them
 };
 
-// Hash of the pattern and of the numbers of a matrix and of what is added to its diagonal: another mesh, another
-// operator, or the same connectivity at other positions gives another hash.
+// Hash of the pattern and the numbers of a matrix, and of the values added to its diagonal. Another mesh, another
+// operator or other positions give another hash.
 std::uint64_t hash_matrix(const SymmetricMatrix& matrix, Span<const std::int32_t> extra_row,
                           Span<const double> extra_value, Memory& memory, JobRunner& jobs);
 

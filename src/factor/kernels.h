@@ -1,6 +1,6 @@
 // Dense kernels of the factorisation, compiled once for every instruction set (kernels_plain.cpp, kernels_avx2.cpp,
 // kernels_avx512.cpp) and chosen at run time. Each element of a result is one chain of fused multiply-adds in a fixed
-// order, so AVX2 and AVX-512 give the same bits; the plain build rounds every product and differs in the last digits.
+// order, so AVX2 and AVX-512 give the same bits. The plain build rounds every product and differs in the last digits.
 //
 // Front of a supernode with nc columns and m rows below: rows in tiles of 8, the nc triangle rows padded to a multiple
 // of 8, then the m rows padded likewise. Panel: [tile][column][8]. Update matrix: lower triangle by column tiles of 8
@@ -44,8 +44,8 @@ struct Kernels {
   const char* name;
 
   // Factors columns [begin, end) of the panel on the triangle tiles that hold them; begin is a multiple of 8, columns
-  // before begin are done. The diagonal is stored inverted. A pivot must exceed `floor` of its column. Returns the lost
-  // column or -1.
+  // before begin are done. The diagonal is stored inverted. A pivot must exceed `floor` of its column. Returns the
+  // column whose pivot failed, or -1.
   std::int32_t (*factor_triangle)(const FrontView& front, std::int32_t begin, std::int32_t end, const double* floor);
   // Columns [begin, end) on tiles [tile_begin, tile_end), all below the triangle tiles of those columns.
   void (*solve_tiles)(const FrontView& front, std::int32_t begin, std::int32_t end, std::int32_t tile_begin,

@@ -1,6 +1,6 @@
 // Front kernels: triangle, tiles, update matrix, extend-add, write-out. Included by the kernels_*.cpp files after a
-// simd_*.h; everything is in an unnamed namespace and uses no inline code of the standard library, so that no function
-// compiled for one instruction set is ever linked into another.
+// simd_*.h. Everything is in an unnamed namespace and uses no inline code of the standard library: no function compiled
+// for one instruction set is ever linked into another.
 #include <cstddef>
 #include <cstdint>
 
@@ -11,6 +11,10 @@ namespace {
 using hf_inner::ChildView;
 using hf_inner::FrontView;
 using D = Simd<double>;
+// Tiles solved at a time, so that their rows stay in the cache while all column blocks pass over them.
+constexpr std::int32_t solved_tiles = 6;
+// Columns of one pass: a column tile of them fills a quarter of a 48 KB cache.
+constexpr std::int32_t update_depth = 192;
 constexpr std::int32_t tile_vectors = 8 / D::width;  // vectors per 8-row tile
 
 // Vector-row v of a tiled array: v counts groups of D::width rows.
@@ -142,7 +146,7 @@ void solve_rows(double* panel, std::int64_t tile_stride, std::int32_t v, std::in
   }
 }
 
-// Cholesky of the 8 x 8 tile, right-looking; entries above the diagonal hold junk nobody reads.
+// Cholesky of the 8 x 8 tile, right-looking; entries above the diagonal hold junk that is never read.
 std::int32_t factor_tile(double* tile, std::int32_t width, const double* floor) noexcept {
   for (std::int32_t j = 0; j < width; ++j) {
     const double pivot = tile[9 * j];
@@ -184,10 +188,8 @@ std::int32_t factor_triangle(const FrontView& front, std::int32_t begin, std::in
 void solve_tiles(const FrontView& front, std::int32_t begin, std::int32_t end, std::int32_t tile_begin,
                  std::int32_t tile_end) {
   const std::int64_t stride = 8 * static_cast<std::int64_t>(front.columns);
-  // few tiles at a time, so that their rows stay in the cache while all column blocks pass over them
-  constexpr std::int32_t step = 6;
-  for (std::int32_t tile = tile_begin; tile < tile_end; tile += step) {
-    const std::int32_t v = tile * tile_vectors, v_end = smaller(tile + step, tile_end) * tile_vectors;
+  for (std::int32_t tile = tile_begin; tile < tile_end; tile += solved_tiles) {
+    const std::int32_t v = tile * tile_vectors, v_end = smaller(tile + solved_tiles, tile_end) * tile_vectors;
     for (std::int32_t block = begin / 8; 8 * block < end; ++block) {
       const std::int32_t width = smaller(8, end - 8 * block);
       panel_multiply(front.panel, stride, v, v_end, block, width);
@@ -229,10 +231,9 @@ void update_block(const FrontView& front, std::int32_t tile_begin, std::int32_t 
 }
 
 void form_update(const FrontView& front, std::int32_t tile_begin, std::int32_t tile_end) {
-  constexpr std::int32_t depth = 192;  // columns per pass: one column tile of them fills a quarter of a 48 KB cache
-  update_block<true>(front, tile_begin, tile_end, 0, smaller(depth, front.columns));
-  for (std::int32_t k = depth; k < front.columns; k += depth) {
-    update_block<false>(front, tile_begin, tile_end, k, smaller(depth, front.columns - k));
+  update_block<true>(front, tile_begin, tile_end, 0, smaller(update_depth, front.columns));
+  for (std::int32_t k = update_depth; k < front.columns; k += update_depth) {
+    update_block<false>(front, tile_begin, tile_end, k, smaller(update_depth, front.columns - k));
   }
 }
 

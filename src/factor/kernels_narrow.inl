@@ -1,6 +1,6 @@
 // Narrow supernodes, at most 16 columns: most of a factor's supernodes, in which a sweep's time is latency, not memory.
-// They are stored solved: with the columns (L; B) of the factor, the packed triangle holds X = L^-1 and the rows below
-// hold W = B L^-1, so that both sweeps are products without a chain from column to column:
+// They are stored solved. For columns (L; B) of the factor, the packed triangle holds X = L^-1 and the rows below hold
+// W = B L^-1. Both sweeps are then products, without a chain from column to column:
 //   backward  z <- X' z - W' y     (y: the rows below)
 //   forward   y <- y - W z, then z <- X z
 // An inverse of at most 16 columns of a Cholesky factor is as accurate as the substitution it stands for (Higham 2002,

@@ -1,8 +1,8 @@
 // Sweep kernels: one supernode on m interleaved right-hand sides. Included after a simd_*.h, see kernels_factor.inl.
 //
-// A column's sum over the rows below is one chain in row order, except for one right-hand side on at most 16 columns,
-// where 2 chains hide the latency: a rule in columns of the supernode, not in vector lengths or pieces, so all sets and
-// all numbers of threads give the same bits. Supernodes of at most 8 columns: kernels_narrow.inl.
+// A column's sum over the rows below is one chain in row order. With one right-hand side on at most 16 columns, two
+// chains hide the latency. The rule counts columns of the supernode, not vector lengths or pieces, so all sets and all
+// numbers of threads give the same bits. Supernodes of at most 8 columns: kernels_narrow.inl.
 #include <cstddef>
 #include <cstdint>
 
@@ -17,16 +17,23 @@ namespace {
 #define HF_UNROLL
 #endif
 
-constexpr std::int32_t chunk_columns = 256;    // columns summed at a time on the stack, several right-hand sides
-constexpr std::int32_t single_columns = 1024;  // and one: as many as rows have, so that a block is one stream
+// Columns summed at a time on the stack, several right-hand sides.
+constexpr std::int32_t chunk_columns = 256;
+// The same of one right-hand side: as many as rows have, so that a block is read as one stream.
+constexpr std::int32_t single_columns = 1024;
+// Numbers that stay in the second-level cache while strips of columns go over them: 64 KB of doubles.
+constexpr std::int64_t pass_numbers = 8192;
+// Rows of a pass at least, whatever their length.
+constexpr std::int64_t least_rows = 16;
+// Columns of a triangle copied at a time: 16 KB with eight lanes, inside the first-level cache.
+constexpr std::int32_t segment = 256;
 
 template <class T>
 constexpr int line = 64 / sizeof(T);  // numbers of a cache line
 
 // Rows that stay in the second-level cache while strips of columns go over them.
 inline std::int32_t rows_of_pass(std::int64_t columns) noexcept {
-  constexpr std::int64_t numbers = 8192;
-  return columns * 16 > numbers ? 16 : static_cast<std::int32_t>(numbers / columns);
+  return static_cast<std::int32_t>(columns * least_rows > pass_numbers ? least_rows : pass_numbers / columns);
 }
 
 template <int N>
@@ -90,8 +97,8 @@ inline void sum_in_registers(const T* block, std::int64_t stride, const std::int
   }
 }
 
-// One right-hand side, up to `register_vectors` vectors of columns: the sums stay in registers, and the block is read
-// as one stream, row after row, which is what the processor's own prefetch follows best.
+// One right-hand side, up to `register_vectors` vectors of columns: the sums stay in registers. The block is read as
+// one stream, row after row, which the processor's own prefetch follows best.
 constexpr int register_vectors = gemm_columns == 8 ? 16 : 12;
 
 template <class T, int NV = register_vectors>
@@ -290,8 +297,8 @@ void backward_triangle_single(const T* triangle, std::int32_t columns, T* z) noe
   }
 }
 
-// Rows [begin, end) of the packed triangle, at most 8 and solved in `x`: what they contribute to columns [left, right),
-// which lie in a copy of whole vectors, the nearest first.
+// Subtracts the contribution of rows [begin, end) of the packed triangle, at most 8 and solved in `x`. Columns
+// [left, right) lie in a copy of whole vectors, the nearest first.
 template <class T, class S>
 inline void subtract_solved(const T* const* row, const typename S::Type* x, std::int32_t left, std::int32_t right,
                             T* copy) noexcept {
@@ -304,12 +311,12 @@ inline void subtract_solved(const T* const* row, const typename S::Type* x, std:
   }
 }
 
-// Several right-hand sides along the lanes, 256 columns at a time in a copy (part vectors stored next to each other
-// would not be forwarded to the loads after them), 8 rows at a time: each target is loaded and stored once for 8 rows.
+// Several right-hand sides along the lanes, a segment of columns at a time in a copy: part vectors stored next to each
+// other would not be forwarded to the loads after them. Each target is loaded and stored once for 8 rows.
 template <class T, class S>
 inline void backward_triangle_lanes(const T* triangle, std::int32_t columns, T* z, std::int32_t channels,
                                     int count) noexcept {
-  constexpr std::int32_t block = 8, segment = 256;
+  constexpr std::int32_t block = 8;
   alignas(64) T copy[segment * S::width];
   const auto load = [&](const T* p) { return count == S::width ? S::load(p) : S::load_part(p, count); };
   const std::int64_t step = channels;

@@ -1,4 +1,4 @@
-// What the factor takes. Knows no mesh: numbers and coordinates only.
+// The matrix a factor is made of. Knows no mesh: numbers and coordinates only.
 #pragma once
 #include "base/span.h"
 #include "base/symmetric_matrix.h"

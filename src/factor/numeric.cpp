@@ -10,6 +10,19 @@
 namespace hf_inner {
 namespace {
 
+// Columns asked for ahead of the assembly. No result depends on it.
+constexpr std::int32_t assembly_ahead = 16;
+// A wave runs whole fronts while the largest is at most this over its fair share; else each front is cut.
+constexpr double even_fronts = 1.25;
+// Flops below which a wave is not cut: 0.07 ms at 27 GF/s, about two batches.
+constexpr double small_wave_flops = 2e6;
+// Tiles of one job, by the cost of a tile in that step. No result depends on it.
+constexpr std::int32_t copy_tiles = 32, solve_tiles_step = 6, update_tiles_step = 4, store_tiles_step = 16;
+// Columns factored before the tiles below them are solved by all threads. No result depends on it.
+constexpr std::int32_t column_block = 64;
+// Shares of progress: the subtrees, then the waves of the top.
+constexpr float progress_tasks = 0.8f, progress_waves = 0.19f;
+
 // Everything one thread needs to run fronts; reused from front to front.
 struct Workspace {
   Workspace(Memory& memory, std::int32_t unknowns, const Plan::Sizes& sizes)
@@ -90,7 +103,7 @@ class Factorisation {
     throw_if_lost();
     WorkspacePool pool(memory_, symbolic_.size, plan_.in_top);
     for (std::int32_t wave = 0; wave < plan_.waves; ++wave) {
-      report(progress, 0.8f + 0.19f * static_cast<float>(wave) / static_cast<float>(plan_.waves));
+      report(progress, progress_tasks + progress_waves * static_cast<float>(wave) / static_cast<float>(plan_.waves));
       run_wave(wave, pool);
       throw_if_lost();
     }
@@ -143,8 +156,8 @@ class Factorisation {
     const std::int32_t first = symbolic_.first[s];
     for (std::int32_t j = 0; j < front.columns; ++j) {
       const std::int32_t column = first + j;
-      if (column + 16 < symbolic_.size) {
-        const std::int32_t ahead = start[order[column + 16]];
+      if (column + assembly_ahead < symbolic_.size) {
+        const std::int32_t ahead = start[order[column + assembly_ahead]];
         __builtin_prefetch(row + ahead);
         __builtin_prefetch(value + ahead);
       }
@@ -176,8 +189,8 @@ class Factorisation {
     if (column == INT32_MAX) return;
     const std::int32_t unknown = symbolic_.order[column];
     fail(HF_ERROR_NOT_POSITIVE_DEFINITE, static_cast<std::uint32_t>(unknown),
-         "the matrix is not positive definite: the pivot of column %d is lost; every component needs a ground and "
-         "non-degenerate weights",
+         "the matrix is not positive definite: the pivot of column %d failed; every component needs a pinned vertex "
+         "and non-degenerate weights",
          unknown);
   }
 
@@ -233,7 +246,8 @@ class Factorisation {
     double total = 0, largest = 0;
     for (std::int32_t k = begin; k < end; ++k)
       total += symbolic_.work[plan_.top[k]], largest = std::max(largest, symbolic_.work[plan_.top[k]]);
-    const bool whole = jobs_.thread_count() == 1 || largest * jobs_.thread_count() <= 1.25 * total || total < 2e6;
+    const bool whole =
+        jobs_.thread_count() == 1 || largest * jobs_.thread_count() <= even_fronts * total || total < small_wave_flops;
     const auto update_of = [&](std::int32_t s) { return shared_.data() + plan_.shared_update[s]; };
     if (whole) {
       jobs_.for_each(static_cast<std::uint32_t>(end - begin), [&](std::uint32_t k) {
@@ -266,12 +280,12 @@ class Factorisation {
     const std::int32_t tiles = front.triangle_tiles + front.below_tiles;
     update_[s] = update;
     const std::int64_t tile_size = 8 * static_cast<std::int64_t>(front.columns);
-    in_pieces(0, tiles, 32, [&](std::int32_t begin, std::int32_t end) {
+    in_pieces(0, tiles, copy_tiles, [&](std::int32_t begin, std::int32_t end) {
       std::fill(front.panel + begin * tile_size, front.panel + end * tile_size, 0.0);
     });
     assemble(s, front, workspace);
     for (std::int32_t c = 0; c < workspace.child_count; ++c) {
-      in_pieces(0, workspace.children[c].into_panel, 32, [&](std::int32_t begin, std::int32_t end) {
+      in_pieces(0, workspace.children[c].into_panel, copy_tiles, [&](std::int32_t begin, std::int32_t end) {
         kernels_.extend_add(front, workspace.children[c], begin, end);
       });
     }
@@ -282,27 +296,25 @@ class Factorisation {
         lose(symbolic_.first[s] + lost);
         return;
       }
-      in_pieces((end + 7) / 8, tiles, 6,
+      in_pieces((end + 7) / 8, tiles, solve_tiles_step,
                 [&](std::int32_t from, std::int32_t to) { kernels_.solve_tiles(front, begin, end, from, to); });
     }
-    in_pieces(0, front.below_tiles, 4,
+    in_pieces(0, front.below_tiles, update_tiles_step,
               [&](std::int32_t begin, std::int32_t end) { kernels_.form_update(front, begin, end); });
     for (std::int32_t c = 0; c < workspace.child_count; ++c) {
       const ChildView& child = workspace.children[c];
-      in_pieces(child.into_panel, child.size, 32,
+      in_pieces(child.into_panel, child.size, copy_tiles,
                 [&](std::int32_t begin, std::int32_t end) { kernels_.extend_add(front, child, begin, end); });
     }
     if (front.columns <= narrow_columns) {
       kernels_.invert_triangle(front);
-      in_pieces(front.triangle_tiles, tiles, 32,
+      in_pieces(front.triangle_tiles, tiles, copy_tiles,
                 [&](std::int32_t begin, std::int32_t end) { kernels_.multiply_inverse(front, begin, end); });
     }
-    in_pieces(0, tiles, 16, [&](std::int32_t begin, std::int32_t end) {
+    in_pieces(0, tiles, store_tiles_step, [&](std::int32_t begin, std::int32_t end) {
       kernels_.store_tiles(front, values_ + symbolic_.value_start[s], begin, end);
     });
   }
-
-  static constexpr std::int32_t column_block = 64;
 
   const Symbolic& symbolic_;
   const Plan& plan_;

@@ -11,7 +11,10 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::int32_t lane_slack = 64;  // numbers a vector of padding lanes may touch behind the last block
+// Numbers that a vector of padding lanes may touch behind the last block.
+constexpr std::int32_t lane_slack = 64;
+// Sites of a group and what a padded range may touch behind them.
+constexpr std::int32_t gram_stride = PathGroup::capacity + 16;
 
 const PathBlocks& blocks_of(const PathGroup& group) noexcept { return static_cast<const PathBlocks&>(group); }
 
@@ -135,9 +138,8 @@ void SupernodalFactor::solve_paths(const SparseColumns& columns, Memory& memory,
 void SupernodalFactor::gram(const PathGroup& a, const PathGroup& b, double* gram, std::int32_t ld) const {
   const PathBlocks& left = blocks_of(a);
   const PathBlocks& right = blocks_of(b);
-  constexpr std::int32_t stride = 48;  // 32 sites and what a padded range may touch behind them
-  alignas(64) double tile[PathGroup::capacity * stride];
-  std::fill(tile, tile + PathGroup::capacity * stride, 0.0);
+  alignas(64) double tile[PathGroup::capacity * gram_stride];
+  std::fill(tile, tile + PathGroup::capacity * gram_stride, 0.0);
   std::size_t i = 0, j = 0;
   while (i < left.blocks.size() && j < right.blocks.size()) {
     const PathBlock& p = left.blocks[i];
@@ -148,12 +150,13 @@ void SupernodalFactor::gram(const PathGroup& a, const PathGroup& b, double* gram
       ++j;
     } else {
       kernels().gram(left.values.data() + p.at, p.lanes, p.used, right.values.data() + q.at, q.lanes, q.used,
-                     symbolic().columns(p.supernode), tile + p.low * stride + q.low, stride);
+                     symbolic().columns(p.supernode), tile + p.low * gram_stride + q.low, gram_stride);
       ++i, ++j;
     }
   }
   for (std::int32_t r = 0; r < left.sites; ++r) {
-    for (std::int32_t c = 0; c < right.sites; ++c) gram[static_cast<std::int64_t>(r) * ld + c] = tile[r * stride + c];
+    for (std::int32_t c = 0; c < right.sites; ++c)
+      gram[static_cast<std::int64_t>(r) * ld + c] = tile[r * gram_stride + c];
   }
 }
 

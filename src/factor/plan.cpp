@@ -5,9 +5,12 @@
 namespace hf_inner {
 namespace {
 
-constexpr double task_share = 1.0 / 32.0;   // a subtree this small is not cut further
-constexpr double group_share = 1.0 / 64.0;  // smaller subtrees are grouped up to this
-constexpr double whole_work = 4e6;          // flops below which the matrix is one task
+// A subtree of this share of the work is one task: eight tasks a thread on four threads, so that none waits long.
+constexpr double task_share = 1.0 / 32.0;
+// Smaller subtrees are grouped up to this share, so that a task costs more than its start.
+constexpr double group_share = 1.0 / 64.0;
+// Flops below which the matrix is one task: 0.15 ms at 27 GF/s, a few batches.
+constexpr double whole_work = 4e6;
 
 void link_children(const Symbolic& symbolic, Memory& memory, Plan& plan) {
   const std::int32_t count = symbolic.supernodes;

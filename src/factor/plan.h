@@ -1,8 +1,8 @@
-// How the work on a factor is cut into pieces: a property of the pattern alone, never of the number of threads, so that
-// every sum is formed in the same order whoever runs the pieces.
+// Cuts the work on a factor into pieces. The cut depends on the pattern alone, never on the number of threads, so that
+// every sum is formed in the same order.
 //
 // Tasks are groups of complete subtrees of the supernode tree, each a small share of the whole; they run in any order.
-// What is above them, the top, is taken in waves of equal height: a wave needs only the waves before it.
+// The supernodes above them, the top, are taken in waves of equal height: a wave needs only the waves before it.
 #pragma once
 #include <cstdint>
 

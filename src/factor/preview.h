@@ -1,9 +1,9 @@
 // Single-precision copy of a factor, half its size, for previews while a value is dragged: sweeps in half the time with
 // relative errors of about 1e-6. Paths, Gram matrices and the dense solve stay double.
 //
-// The error is removed by refinement: a residual formed in double, a forward and a backward sweep in single precision,
-// each step shrinking the error by about 1e-6 (engine/green_preview.cpp). One step costs more than a double sweep, so a
-// preview is refined when nothing moves any more, not while it is dragged.
+// Refinement removes the error: a residual in double, then a forward and a backward sweep in single precision. Each
+// step shrinks the error by about 1e-6 (engine/green_preview.cpp). One step costs more than a double sweep, so a
+// preview is refined after a drag, not during it.
 #pragma once
 #include <cstdint>
 #include <memory>

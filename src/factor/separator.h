@@ -1,9 +1,9 @@
 // Minimum vertex separators of a graph, for nested dissection.
 //
-// A bisection fixes two sides and leaves a band between them; the smallest set of band vertices that separates the
-// sides is found as a maximum set of vertex-disjoint paths (Menger; Dinic's algorithm on split vertices of capacity 1,
-// kept implicitly as predecessors and successors on the paths). Both extreme minimum cuts are read off the residual;
-// the better balanced stands. Cost: O(band edges) per phase, a handful of phases. Deterministic.
+// A bisection fixes two sides and leaves a band between them. The smallest set of band vertices that separates the
+// sides equals a maximum set of vertex-disjoint paths (Menger). Dinic's algorithm finds it on split vertices of
+// capacity 1, kept implicitly as predecessors and successors on the paths. Both extreme minimum cuts are read off the
+// residual; the better balanced stands. Cost: O(band edges) per phase, a handful of phases. Deterministic.
 #pragma once
 #include <cstdint>
 

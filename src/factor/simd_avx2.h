@@ -33,8 +33,8 @@ inline __m256d row_products(const double* row, const double* z) noexcept {
   return _mm256_add_pd(low, high);
 }
 
-constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of one accumulator block
-constexpr int lane_vectors = 2, lane_rows = 6;
+constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of an accumulator: 12 of 16 registers
+constexpr int lane_vectors = 2, lane_rows = 6;  // the same of the kernels of paths
 
 // out[r][at + c] = tile[8 c + r] for r < rows, c < columns: blocks of 4 x 4.
 inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows,

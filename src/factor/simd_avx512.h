@@ -94,8 +94,8 @@ inline __m256d row_products(const double* row, const double* z) noexcept {
   return _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xff, all, 0), _mm512_maskz_extractf64x4_pd(0xff, all, 1));
 }
 
-constexpr int gemm_rows = 3, gemm_columns = 8;  // vectors of rows x columns of one accumulator block
-constexpr int lane_vectors = 3, lane_rows = 8;
+constexpr int gemm_rows = 3, gemm_columns = 8;  // vectors of rows x columns of an accumulator: 24 of 32 registers
+constexpr int lane_vectors = 3, lane_rows = 8;  // the same of the kernels of paths
 
 // out[r][at + c] = tile[8 c + r] for r < rows, c < columns: one 8 x 8 transpose in registers.
 inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows,

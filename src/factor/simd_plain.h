@@ -59,8 +59,8 @@ struct Narrow {
 
 constexpr bool has_row_products = false;  // no four lanes: one product after the other
 
-constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of one accumulator block
-constexpr int lane_vectors = 2, lane_rows = 4;
+constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of an accumulator: 12 of 16 registers
+constexpr int lane_vectors = 2, lane_rows = 4;  // the same of the kernels of paths
 
 inline double multiply_add_scalar(double a, double b, double c) noexcept { return a * b + c; }
 inline float multiply_add_scalar(float a, float b, float c) noexcept { return a * b + c; }

@@ -2,8 +2,8 @@
 //
 // Backward, z <- G^-T z: supernodes last to first; each subtracts what its rows below contribute, then solves its
 // triangle. Top supernodes wave by wave, then the tasks, all at once: no two pieces write the same row. Forward, z <-
-// G^-1 z: supernodes first to last; a task keeps what it contributes above itself in a buffer of its own, and the
-// buffers are added in the order of the tasks. Cost: one read of the factor per call for up to 8 channels.
+// G^-1 z: supernodes first to last. A task keeps its contributions above itself in a buffer of its own; the buffers are
+// added in the order of the tasks. Cost: one read of the factor per call for up to 8 channels.
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -14,7 +14,22 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::int32_t piece_columns = 96;  // columns of a top supernode that one job sums
+// Columns of a top supernode that one job sums. No result depends on it.
+constexpr std::int32_t piece_columns = 96;
+// A wave runs whole supernodes while the largest is at most this over its fair share.
+constexpr double even_share = 1.3;
+// Entries below which a wave is not cut: some 20 microseconds at 0.6 ns an entry, less than a batch.
+constexpr double small_wave_entries = 30000;
+// Rows below a supernode that one job multiplies. No result depends on it.
+constexpr std::int32_t piece_rows = 128;
+// Entries below which the rows of a supernode are not cut: some 25 microseconds, less than a batch.
+constexpr double least_cut = 40000;
+// Numbers that one job converts. No result depends on it.
+constexpr std::size_t preview_step = std::size_t{1} << 18;
+// Numbers of a right-hand side that one job converts. No result depends on it.
+constexpr std::size_t convert_step = std::size_t{1} << 15;
+// Powers of two whose inverse is a normal double too.
+constexpr int largest_exponent = 1000;
 
 // One backward sweep on double or single-precision numbers.
 template <class T>
@@ -76,7 +91,7 @@ struct BackwardPass {
       pieces += pieces_of(top[k]);
     }
     const std::uint32_t count = static_cast<std::uint32_t>(end - begin);
-    if (largest * jobs.thread_count() <= 1.3 * total || total < 30000) {
+    if (largest * jobs.thread_count() <= even_share * total || total < small_wave_entries) {
       jobs.for_each(count, [&](std::uint32_t k) { whole(top[begin + static_cast<std::int32_t>(k)]); });
       return;
     }
@@ -108,7 +123,7 @@ struct BackwardPass {
   }
 };
 
-// What one thread needs in a forward sweep.
+// Scratch of one thread in a forward sweep.
 template <class T>
 struct ForwardScratch {
   ForwardScratch(Memory& memory, std::int32_t unknowns, std::int32_t below, std::int32_t channels)
@@ -218,15 +233,14 @@ class ForwardPass {
   // The same with the rows of a large supernode cut over the threads.
   void solve(std::int32_t s, T* product, JobRunner& jobs) const {
     const std::int32_t columns = symbolic_.columns(s), rows = symbolic_.below(s);
-    constexpr std::int32_t step = 128;
-    if (jobs.thread_count() == 1 || static_cast<double>(columns) * rows < 40000 || rows <= step ||
+    if (jobs.thread_count() == 1 || static_cast<double>(columns) * rows < least_cut || rows <= piece_rows ||
         columns <= narrow_columns)
       return solve(s, product);
     T* z = z_ + static_cast<std::int64_t>(symbolic_.first[s]) * channels_;
     solve_triangle(s, z);
-    jobs.for_each(static_cast<std::uint32_t>((rows + step - 1) / step), [&](std::uint32_t piece) {
-      const std::int32_t begin = static_cast<std::int32_t>(piece) * step;
-      multiply_rows(s, begin, std::min(rows, begin + step), z, product);
+    jobs.for_each(static_cast<std::uint32_t>((rows + piece_rows - 1) / piece_rows), [&](std::uint32_t piece) {
+      const std::int32_t begin = static_cast<std::int32_t>(piece) * piece_rows;
+      multiply_rows(s, begin, std::min(rows, begin + piece_rows), z, product);
     });
   }
 
@@ -315,11 +329,11 @@ void SupernodalFactor::forward(double* z, std::int32_t channels, JobRunner& jobs
 PreviewFactor::PreviewFactor(std::shared_ptr<const Analysis> analysis, const Kernels& kernels,
                              const Buffer<double>& values, Memory& memory, JobRunner& jobs)
     : memory_(memory), analysis_(std::move(analysis)), kernels_(&kernels), values_(memory, values.size()) {
-  constexpr std::size_t step = std::size_t{1} << 18;
-  jobs.for_each(static_cast<std::uint32_t>((values.size() + step - 1) / step), [&](std::uint32_t piece) {
-    const std::size_t begin = piece * step, end = std::min(values.size(), begin + step);
-    for (std::size_t k = begin; k < end; ++k) values_[k] = static_cast<float>(values[k]);
-  });
+  jobs.for_each(static_cast<std::uint32_t>((values.size() + preview_step - 1) / preview_step),
+                [&](std::uint32_t piece) {
+                  const std::size_t begin = piece * preview_step, end = std::min(values.size(), begin + preview_step);
+                  for (std::size_t k = begin; k < end; ++k) values_[k] = static_cast<float>(values[k]);
+                });
 }
 
 std::shared_ptr<const PreviewFactor> PreviewFactor::make(const Factor& factor, Memory& memory, JobRunner& jobs) {
@@ -337,8 +351,6 @@ void PreviewFactor::backward(float* z, std::int32_t channels, JobRunner& jobs) c
 
 namespace {
 
-constexpr std::size_t convert_step = std::size_t{1} << 15;
-
 // The largest magnitude, as a power of two: dividing by it is exact, and single precision neither overflows nor meets
 // its subnormal numbers. 1 for zero.
 double scale_of(const double* z, std::size_t count, Memory& memory, JobRunner& jobs) {
@@ -355,7 +367,7 @@ double scale_of(const double* z, std::size_t count, Memory& memory, JobRunner& j
   int exponent = 0;
   if (!(most > 0) || !std::isfinite(most)) return 1;
   std::frexp(most, &exponent);
-  return std::ldexp(1.0, std::min(std::max(exponent, -1000), 1000));
+  return std::ldexp(1.0, std::min(std::max(exponent, -largest_exponent), largest_exponent));
 }
 
 template <class Sweep>

@@ -136,7 +136,7 @@ void number_supernodes(const Merging& m, std::int32_t fundamental, Memory& memor
 void make_row_lists(const EliminationTree& tree, const std::int32_t* final_of, const std::int32_t* label_at,
                     Memory& memory, Symbolic& out) {
   const std::int32_t n = out.size;
-  out.rows.allocate(memory, static_cast<std::size_t>(out.row_start[out.supernodes]) + 16);
+  out.rows.allocate(memory, static_cast<std::size_t>(out.row_start[out.supernodes]) + Symbolic::row_slack);
   Buffer<std::int32_t> seen(memory, out.supernodes);
   Buffer<std::int64_t> fill(memory, out.supernodes);
   std::fill(seen.begin(), seen.end(), -1);
@@ -153,7 +153,7 @@ void make_row_lists(const EliminationTree& tree, const std::int32_t* final_of, c
       }
     }
   }
-  for (int k = 0; k < 16; ++k) rows[out.row_start[out.supernodes] + k] = 0;
+  for (int k = 0; k < Symbolic::row_slack; ++k) rows[out.row_start[out.supernodes] + k] = 0;
 }
 
 }  // namespace

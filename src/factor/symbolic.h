@@ -5,8 +5,8 @@
 // every supernode. Cost: O(|A| alpha(n)) for tree and counts, O(sum of row lists) for the lists; serial. On failure
 // nothing is left behind.
 //
-// Relaxation: a child c joins its parent f when the zeros it adds, nc_c (nc_f + m_f - m_c), are at most tau + m_c / 2,
-// the cost of keeping one more supernode with its own row list; children are tried in the order of those zeros.
+// Relaxation: a child c joins its parent f when the zeros it adds, nc_c (nc_f + m_f - m_c), are at most tau + m_c / 2.
+// That is the cost of one more supernode with its own row list. Children are tried in the order of those zeros.
 #pragma once
 #include <cstdint>
 
@@ -17,7 +17,10 @@
 namespace hf_inner {
 
 struct Symbolic {
-  static constexpr std::int32_t relaxation = 16;  // tau
+  // Zeros a merge may add. 304K torus, 0, 16, 48: stored 14.4, 15.4, 16.4 M; backward sweep 9.5, 9.1, 11.8 ms.
+  static constexpr std::int32_t relaxation = 16;
+  // Zeros behind the row lists, so that whole vectors of 16 may be read.
+  static constexpr std::int32_t row_slack = 16;
 
   std::int32_t size = 0;
   std::int32_t supernodes = 0;

@@ -9,7 +9,12 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::size_t piece = 8192;
+// Columns of one job. No result depends on it.
+constexpr std::size_t columns_piece = 8192;
+// Makers of columns, each with a scratch row of the mesh: memory against threads. No result depends on it.
+constexpr std::size_t most_strips = 8;
+// Least mass of a vertex, in means of its component: bounds the condition of K where triangles have no area.
+constexpr double least_mass = 1e-4;
 
 // Columns of K of one piece, kept until all lengths are known.
 struct Columns {
@@ -67,7 +72,7 @@ Vector<double> inverse_masses(const Mesh& mesh, Vector<double> areas) {
   for (std::size_t c = 0; c < components; ++c) mean[c] = mean[c] > 0 ? mean[c] / count[c] : 1.0;
   for (std::size_t v = 0; v < areas.size(); ++v) {
     const double whole = mean[at(mesh.component[v])];
-    areas[v] = whole / std::max(areas[v], 1e-4 * whole);
+    areas[v] = whole / std::max(areas[v], least_mass * whole);
   }
   return areas;
 }
@@ -109,17 +114,17 @@ std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memor
 
 SymmetricMatrix biharmonic(const SymmetricMatrix& laplacian, const Vector<double>& inverse_mass, Memory& memory,
                            JobRunner* jobs) {
-  const std::size_t n = at(laplacian.size()), pieces = (n + piece - 1) / piece;
+  const std::size_t n = at(laplacian.size()), pieces = (n + columns_piece - 1) / columns_piece;
   SymmetricMatrix matrix(memory);
   matrix.column_start.assign(n + 1, 0);
   Vector<Columns> part(&memory);
   for (std::size_t p = 0; p < pieces; ++p) part.emplace_back(memory);
   // one maker per thread would do; one per strip of pieces keeps the work deterministic and its memory small
-  const std::size_t strips = std::min<std::size_t>(pieces, 8);
+  const std::size_t strips = std::min(pieces, most_strips);
   for_each(jobs, static_cast<std::uint32_t>(strips), [&](std::uint32_t strip) {
     ColumnMaker maker(laplacian, inverse_mass, memory);
     for (std::size_t p = strip; p < pieces; p += strips) {
-      for (std::size_t v = p * piece; v < std::min(n, (p + 1) * piece); ++v)
+      for (std::size_t v = p * columns_piece; v < std::min(n, (p + 1) * columns_piece); ++v)
         matrix.column_start[v + 1] = maker.append(static_cast<Index>(v), part[p]);
     }
   });
@@ -131,7 +136,7 @@ SymmetricMatrix biharmonic(const SymmetricMatrix& laplacian, const Vector<double
   for (std::size_t v = 0; v < n; ++v) matrix.column_start[v + 1] += matrix.column_start[v];
   matrix.row.resize(total), matrix.value.resize(total);
   for_each(jobs, static_cast<std::uint32_t>(pieces), [&](std::uint32_t p) {
-    const std::ptrdiff_t start = matrix.column_start[p * piece];
+    const std::ptrdiff_t start = matrix.column_start[p * columns_piece];
     std::copy(part[p].row.begin(), part[p].row.end(), matrix.row.begin() + start);
     std::copy(part[p].value.begin(), part[p].value.end(), matrix.value.begin() + start);
   });

@@ -6,16 +6,29 @@
 
 #include "base/index.h"
 #include "mesh/laplacian.h"
+#include "mesh/mollify.h"
 
 namespace hf_inner {
 namespace {
 
-constexpr std::size_t piece = 16384;
+// Triangles or edges of one job. No result depends on it.
+constexpr std::size_t patch_piece = 16384;
+// Keeps a division by the length of a point triangle finite.
+constexpr double least_length = 1e-300;
+// Attempts before the whole mesh becomes one patch: bounds the cost. No result depends on it.
 constexpr int most_attempts = 4;
-// (cot a + cot b) / 2 below this is not Delaunay, with IntrinsicTriangulation's room for rounding
-constexpr double rounding = 0.5e-10;
+// Rings of triangles about an edge that is not Delaunay: size of patches against attempts. No result depends on it.
+constexpr int patch_rings = 2;
+// Patches above 1 / this of the mesh become the whole of it: bounds the cost. No result depends on it.
+constexpr std::size_t patch_share = 4;
+// An edge whose weight, half of a sum of cotangents, is below minus this is not Delaunay.
+constexpr double rounding = 0.5 * delaunay_rounding;
+// Twice the limits of MollifiedLengths, so that rounding never hides a triangle it would change.
+constexpr double safe_closing = 2 * mollify_closing;
 
-std::uint32_t pieces_of(std::size_t count) noexcept { return static_cast<std::uint32_t>((count + piece - 1) / piece); }
+std::uint32_t pieces_of(std::size_t count) noexcept {
+  return static_cast<std::uint32_t>((count + patch_piece - 1) / patch_piece);
+}
 
 // Whether a triangle may be so thin that the triangulation would lengthen its edges; on the safe side.
 bool may_be_thin(const Mesh& mesh, const Topology& topology, Memory& memory, JobRunner* jobs) {
@@ -26,13 +39,13 @@ bool may_be_thin(const Mesh& mesh, const Topology& topology, Memory& memory, Job
   Vector<Found> found(pieces_of(triangles), &memory);
   for_each(jobs, pieces_of(triangles), [&](std::uint32_t p) {
     Found own;
-    for (std::size_t t = p * piece; t < std::min(triangles, (p + std::size_t{1}) * piece); ++t) {
+    for (std::size_t t = p * patch_piece; t < std::min(triangles, (p + std::size_t{1}) * patch_piece); ++t) {
       const Index* v = mesh.triangle(static_cast<Index>(t));
       const Vec3 a = mesh.positions[at(v[0])], b = mesh.positions[at(v[1])], c = mesh.positions[at(v[2])];
       const double x = norm(b - a), y = norm(c - b), z = norm(a - c);
       const double longest = std::max({x, y, z}), gap = x + y + z - 2 * longest;
       own.sum += x + y + z;
-      own.gap = std::min(own.gap, gap), own.share = std::min(own.share, gap / std::max(longest, 1e-300));
+      own.gap = std::min(own.gap, gap), own.share = std::min(own.share, gap / std::max(longest, least_length));
     }
     found[p] = own;
   });
@@ -40,7 +53,7 @@ bool may_be_thin(const Mesh& mesh, const Topology& topology, Memory& memory, Job
   for (const Found& own : found)
     all.sum += own.sum, all.gap = std::min(all.gap, own.gap), all.share = std::min(all.share, own.share);
   const double mean = all.sum / std::max(1, topology.edge_count());
-  return !(all.share > 2e-8 && all.gap > 2e-8 * 1e-3 * mean);
+  return !(all.share > safe_closing && all.gap > safe_closing * mollify_floor * mean);
 }
 
 double cotangent_opposite(const Mesh& mesh, Index triangle, Index first, Index second) noexcept {
@@ -59,7 +72,7 @@ Vector<Index> broken_edges(const Mesh& mesh, const Topology& topology, const Vec
                            JobRunner* jobs) {
   Vector<Vector<Index>> lists(pieces_of(weights.size()), &memory);
   for_each(jobs, pieces_of(weights.size()), [&](std::uint32_t p) {
-    for (std::size_t e = p * piece; e < std::min(weights.size(), (p + std::size_t{1}) * piece); ++e) {
+    for (std::size_t e = p * patch_piece; e < std::min(weights.size(), (p + std::size_t{1}) * patch_piece); ++e) {
       const Index begin = topology.edge_triangle_start[e], end = topology.edge_triangle_start[e + 1];
       bool broken = weights[e] < -rounding;
       for (Index i = begin; end - begin > 2 && i < end && !broken; ++i)
@@ -91,11 +104,11 @@ class Patches {
   // Grows around the edges, two rings; false when that takes a quarter of the mesh.
   bool grow(const Vector<Index>& edges) {
     for (const Index e : edges) take_edge(e);
-    for (int ring = 0; ring < 2; ++ring) {
+    for (int ring = 0; ring < patch_rings; ++ring) {
       const std::size_t count = triangles_.size();
       for (std::size_t i = 0; i < count; ++i) {
         for (int k = 0; k < 3; ++k) take_ring(mesh_.triangle(triangles_[i])[k]);
-        if (4 * triangles_.size() > in_patch_.size()) return false;
+        if (patch_share * triangles_.size() > in_patch_.size()) return false;
       }
     }
     // edges of three and more triangles lie inside or outside, never on the border
@@ -106,7 +119,7 @@ class Patches {
         if (topology_.edge_triangle_start[at(e) + 1] - topology_.edge_triangle_start[at(e)] > 2) take_edge(e);
       }
     }
-    return 4 * triangles_.size() <= in_patch_.size();
+    return patch_share * triangles_.size() <= in_patch_.size();
   }
 
   void triangulate(JobRunner* jobs) {
@@ -293,7 +306,7 @@ SymmetricMatrix assemble(const Patches& patches, const PatchRows& rows, const To
   }
   matrix.row.resize(at(matrix.column_start[n])), matrix.value.resize(at(matrix.column_start[n]));
   for_each(jobs, pieces_of(n), [&](std::uint32_t p) {
-    for (std::size_t v = p * piece; v < std::min(n, (p + std::size_t{1}) * piece); ++v) {
+    for (std::size_t v = p * patch_piece; v < std::min(n, (p + std::size_t{1}) * patch_piece); ++v) {
       std::size_t to = at(matrix.column_start[v]), diagonal = 0;
       double sum = 0;
       bool placed = false;

@@ -1,10 +1,10 @@
-// The intrinsic Delaunay Laplacian at the price of what is not Delaunay.
+// The intrinsic Delaunay Laplacian at the cost of the edges that are not Delaunay.
 //
 // Most edges of most meshes are Delaunay as they stand, and there the operator is the cotangent one. So only patches
 // are taken into an IntrinsicTriangulation: the triangles within two rings of an edge of negative weight. The edges
 // around a patch are held; when flips inside leave one of them not Delaunay (its angle inside has grown), the patch
-// grows there and starts again. Rows of vertices outside are those of the cotangent Laplacian to the bit, rounding
-// below zero cut off; the others are summed up from the faces of the patches and the triangles beside them. The
+// grows there and starts again. Rows of vertices outside are those of the cotangent Laplacian to the bit, without
+// negative rounding. The others are summed up from the faces of the patches and the triangles beside them. The
 // Delaunay triangulation is unique up to edges of weight zero, so this is the operator of the whole triangulation.
 //
 // Where patches would hold a quarter of the mesh or more, or triangles need mollifying (intrinsic.h), everything is one

@@ -11,7 +11,12 @@
 namespace hf_inner {
 namespace {
 
-constexpr double beyond = 0.3;  // of the mean edge
+// Mean edges that a vertex may lie beyond the radius: makes discs of one radius act alike on coarse and fine meshes.
+constexpr double beyond = 0.3;
+// Mean edges that the front runs on, for distances behind obtuse corners.
+constexpr double search_further = 2;
+// Relative gain for which a vertex is spread again: above rounding, so that the front ends.
+constexpr double least_gain = 1e-13;
 
 // Distance of C from a source that is `a` from A and `b` from B, with the triangle's edge lengths.
 double across(double a, double b, double ab, double ac, double bc) noexcept {
@@ -27,8 +32,8 @@ double across(double a, double b, double ab, double ac, double bc) noexcept {
   return std::min(along_edges, hypotenuse(cx - sx, cy + sy));
 }
 
-// Distances that only fall: a vertex is spread again when a better way to it is found, since behind an obtuse corner the
-// right edge to look through may come later than the vertex itself.
+// Distances that only fall. A vertex is spread again when a shorter path to it is found: behind an obtuse corner, the
+// edge that the path crosses may be reached after the vertex.
 class Front {
  public:
   Front(const Mesh& mesh, const Topology& topology, Memory& memory)
@@ -36,7 +41,7 @@ class Front {
 
   void offer(Index v, double distance) {
     const auto [it, fresh] = distance_.try_emplace(v, distance);
-    if (!fresh && !(distance < it->second * (1 - 1e-13))) return;
+    if (!fresh && !(distance < it->second * (1 - least_gain))) return;
     it->second = distance;
     heap_.push_back({distance, v});
     std::push_heap(heap_.begin(), heap_.end(), later);
@@ -63,9 +68,7 @@ class Front {
  private:
   using Entry = std::pair<double, Index>;
   static bool later(const Entry& a, const Entry& b) noexcept { return a > b; }
-  double length(Index a, Index b) const noexcept {
-    return norm(mesh_.positions[at(a)] - mesh_.positions[at(b)]);
-  }
+  double length(Index a, Index b) const noexcept { return norm(mesh_.positions[at(a)] - mesh_.positions[at(b)]); }
 
   void spread(Index v, double own) {
     for (Index i = topology_.neighbour_start[at(v)]; i < topology_.neighbour_start[at(v) + 1]; ++i) {
@@ -106,11 +109,12 @@ Vector<DiscVertex> geodesic_disc(const Mesh& mesh, const Topology& topology, con
   const auto mean_edge = [&](Index v) {
     double sum = 0;
     const Index begin = topology.neighbour_start[at(v)], end = topology.neighbour_start[at(v) + 1];
-    for (Index i = begin; i < end; ++i) sum += norm(mesh.positions[at(topology.neighbour[at(i)])] - mesh.positions[at(v)]);
+    for (Index i = begin; i < end; ++i)
+      sum += norm(mesh.positions[at(topology.neighbour[at(i)])] - mesh.positions[at(v)]);
     return end > begin ? sum / (end - begin) : 0.0;
   };
   // two edges further than asked, for the corners behind
-  front.run([&](Index v, double distance) { return distance <= radius + 2 * mean_edge(v); });
+  front.run([&](Index v, double distance) { return distance <= radius + search_further * mean_edge(v); });
   Vector<DiscVertex> disc(&memory);
   const auto inside = [&](Index v) { return front.distance(v) <= radius + beyond * mean_edge(v); };
   for (const auto& [v, distance] : front.distances()) {

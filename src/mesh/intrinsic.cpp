@@ -11,6 +11,15 @@
 namespace hf_inner {
 namespace {
 
+// Triangles or edges of one job. No result depends on it.
+constexpr std::size_t cover_piece = 16384;
+// Flips per half-edge before giving up: ends the loop whatever rounding does.
+constexpr std::uint64_t flips_per_half = 32;
+// Keeps a division by the cotangents of a flat face finite.
+constexpr double least_sum = 1e-300;
+// Done entries before the queue is trimmed: bounds memory; no result depends on it.
+constexpr std::size_t least_trim = 65536;
+
 // A side of a triangle at an edge.
 struct Side {
   Index triangle, corner;  // from this corner to the next
@@ -49,11 +58,10 @@ void sort_by_angle(const Mesh& mesh, Index first, Index second, Vector<Side>& si
 // Components whose every edge joins two triangles that run through it in opposite directions.
 Vector<std::uint8_t> plain_components(const Mesh& mesh, const Topology& topology, const Vector<std::uint8_t>* held,
                                       Memory& memory, JobRunner* jobs) {
-  constexpr std::size_t piece = 16384;
-  const std::size_t edges = at(topology.edge_count()), pieces = (edges + piece - 1) / piece;
+  const std::size_t edges = at(topology.edge_count()), pieces = (edges + cover_piece - 1) / cover_piece;
   Vector<Vector<Index>> broken(pieces, &memory);  // components of the edges that are not so
   for_each(jobs, static_cast<std::uint32_t>(pieces), [&](std::uint32_t p) {
-    for (std::size_t e = p * piece; e < std::min(edges, (p + std::size_t{1}) * piece); ++e) {
+    for (std::size_t e = p * cover_piece; e < std::min(edges, (p + std::size_t{1}) * cover_piece); ++e) {
       const Index begin = topology.edge_triangle_start[e], end = topology.edge_triangle_start[e + 1];
       if (held && (*held)[e]) continue;
       const Index i = topology.first(static_cast<Index>(e)), j = topology.second(static_cast<Index>(e));
@@ -98,11 +106,12 @@ IntrinsicTriangulation IntrinsicTriangulation::make(const Mesh& mesh, const Topo
 // The back of a triangle (v0 v1 v2) is the face (v0 v2 v1): its half-edge on side k is 2 - k.
 void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, const Vector<Index>& back,
                                   const Vector<std::uint8_t>* held, JobRunner* jobs) {
-  constexpr std::size_t piece = 16384;
-  const auto pieces = [](std::size_t count) { return static_cast<std::uint32_t>((count + piece - 1) / piece); };
+  const auto pieces = [](std::size_t count) {
+    return static_cast<std::uint32_t>((count + cover_piece - 1) / cover_piece);
+  };
   const std::size_t triangles = back.size(), edges = at(topology.edge_count());
   for_each(jobs, pieces(triangles), [&](std::uint32_t p) {
-    for (std::size_t t = p * piece; t < std::min(triangles, (p + std::size_t{1}) * piece); ++t) {
+    for (std::size_t t = p * cover_piece; t < std::min(triangles, (p + std::size_t{1}) * cover_piece); ++t) {
       const Index* v = mesh.triangle(static_cast<Index>(t));
       for (std::size_t k = 0; k < 3; ++k) {
         tail_[3 * t + k] = v[k];
@@ -112,7 +121,7 @@ void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, co
   });
   for_each(jobs, pieces(edges), [&](std::uint32_t p) {
     Vector<Side> sides(memory_);
-    for (std::size_t e = p * piece; e < std::min(edges, (p + std::size_t{1}) * piece); ++e) {
+    for (std::size_t e = p * cover_piece; e < std::min(edges, (p + std::size_t{1}) * cover_piece); ++e) {
       const Index first = topology.first(static_cast<Index>(e)), second = topology.second(static_cast<Index>(e));
       sides.clear();
       for (Index i = topology.edge_triangle_start[e]; i < topology.edge_triangle_start[e + 1]; ++i)
@@ -146,10 +155,9 @@ void IntrinsicTriangulation::measure(const Mesh& mesh, const Topology& topology,
                                      JobRunner* jobs) {
   const MollifiedLengths lengths = MollifiedLengths::make(mesh, topology, *memory_, jobs);
   mollified_ = lengths.thin_count;
-  constexpr std::size_t piece = 16384;
   const std::size_t triangles = back.size();
-  for_each(jobs, static_cast<std::uint32_t>((triangles + piece - 1) / piece), [&](std::uint32_t p) {
-    for (std::size_t t = p * piece; t < std::min(triangles, (p + std::size_t{1}) * piece); ++t) {
+  for_each(jobs, static_cast<std::uint32_t>((triangles + cover_piece - 1) / cover_piece), [&](std::uint32_t p) {
+    for (std::size_t t = p * cover_piece; t < std::min(triangles, (p + std::size_t{1}) * cover_piece); ++t) {
       double cotangent[3], length[3];
       bool changed = false;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -180,7 +188,7 @@ void IntrinsicTriangulation::measure_face(Index face) noexcept {
 // With room for rounding: co-circular pairs, where both diagonals weigh nothing, must not flip for ever.
 bool IntrinsicTriangulation::is_delaunay(Index half) const noexcept {
   const double a = cotangent_[at(half)], b = cotangent_[at(twin_[at(half)])];
-  return a + b >= -1e-10 * (1 + std::fabs(a) + std::fabs(b));
+  return a + b >= -delaunay_rounding * (1 + std::fabs(a) + std::fabs(b));
 }
 
 // i -> j with k on its left and m on its right becomes k - m: faces (m k i) and (k m j).
@@ -219,7 +227,7 @@ void IntrinsicTriangulation::flip(Index half) noexcept {
 
 std::uint64_t IntrinsicTriangulation::flip_to_delaunay(std::uint64_t flip_limit) {
   const Index halves = static_cast<Index>(twin_.size());
-  if (flip_limit == 0) flip_limit = std::uint64_t{32} * twin_.size();
+  if (flip_limit == 0) flip_limit = flips_per_half * twin_.size();
   Vector<Index> queue(memory_);
   for (Index h = 0; h < halves; ++h) {
     if (h < twin_[at(h)] && !is_delaunay(h)) queue.push_back(h);
@@ -232,7 +240,7 @@ std::uint64_t IntrinsicTriangulation::flip_to_delaunay(std::uint64_t flip_limit)
     for (const Index outer : {next(h), next(next(h)), next(g), next(next(g))}) {
       if (!is_delaunay(outer)) queue.push_back(outer);
     }
-    if (head > 65536 && 2 * head > queue.size()) {
+    if (head > least_trim && 2 * head > queue.size()) {
       queue.erase(queue.begin(), queue.begin() + static_cast<std::ptrdiff_t>(head) + 1);
       head = static_cast<std::size_t>(-1);
     }
@@ -248,7 +256,7 @@ Vector<double> IntrinsicTriangulation::vertex_areas(Index vertex_count, Memory& 
     std::size_t k = 0;  // the longest side has the steadiest quotient
     for (std::size_t q = 1; q < 3; ++q) k = length_[h + q] > length_[h + k] ? q : k;
     const double base = length_[h + k], sum = cotangent_[h + (k + 1) % 3] + cotangent_[h + (k + 2) % 3];
-    const double third = share(f) * base * base / (6 * std::max(sum, 1e-300));
+    const double third = share(f) * base * base / (6 * std::max(sum, least_sum));
     for (std::size_t q = 0; q < 3; ++q) areas[at(tail_[h + q])] += third;
   }
   return areas;
@@ -274,10 +282,9 @@ SymmetricMatrix IntrinsicTriangulation::laplacian(Index vertex_count, Memory& me
   // rows sorted and merged in place; row_length then holds their off-diagonal entries
   Vector<Index> row_length(n, 0, &memory);
   Buffer<double> value(memory, entries.size());
-  constexpr std::size_t piece = 16384;
-  const std::uint32_t pieces = static_cast<std::uint32_t>((n + piece - 1) / piece);
+  const std::uint32_t pieces = static_cast<std::uint32_t>((n + cover_piece - 1) / cover_piece);
   for_each(jobs, pieces, [&](std::uint32_t p) {
-    for (std::size_t v = p * piece; v < std::min(n, (p + std::size_t{1}) * piece); ++v) {
+    for (std::size_t v = p * cover_piece; v < std::min(n, (p + std::size_t{1}) * cover_piece); ++v) {
       Entry* const begin = entries.data() + start[v];
       Entry* const end = entries.data() + start[v + 1];
       std::sort(begin, end);
@@ -299,7 +306,7 @@ SymmetricMatrix IntrinsicTriangulation::laplacian(Index vertex_count, Memory& me
   for (std::size_t v = 0; v < n; ++v) matrix.column_start[v + 1] = matrix.column_start[v] + row_length[v] + 1;
   matrix.row.resize(at(matrix.column_start[n])), matrix.value.resize(at(matrix.column_start[n]));
   for_each(jobs, pieces, [&](std::uint32_t p) {
-    for (std::size_t v = p * piece; v < std::min(n, (p + std::size_t{1}) * piece); ++v) {
+    for (std::size_t v = p * cover_piece; v < std::min(n, (p + std::size_t{1}) * cover_piece); ++v) {
       std::size_t to = at(matrix.column_start[v]), diagonal = to;
       bool placed = false;
       double sum = 0;

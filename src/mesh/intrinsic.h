@@ -7,13 +7,12 @@
 // Springborn 2007; Sharp, Soliman and Crane 2019 for the walk on edge lengths alone).
 //
 // Edges of one, or of three and more triangles have no pair to unfold. The tufted cover (Sharp and Crane 2020) takes
-// every triangle twice, front and back, and glues around an edge, in the order of the angles, the side of each triangle
-// to the side of the next that faces it: then every edge has two triangles, and the Laplacian of the cover, halved, is
-// that of the surface. A component where every edge joins two triangles of one orientation is its own cover and is
+// every triangle twice, front and back. Around an edge, in the order of the angles, it glues the side of each triangle
+// to the side of the next that faces it. Every edge then has two triangles. The Laplacian of the surface is half that
+// of the cover. A component where every edge joins two triangles of one orientation is its own cover and is
 // taken once, unhalved.
 //
-// Triangles that do not close by 1e-8 of their longest edge are mollified: their two shorter edges grow until they do
-// (locally; by one length everywhere, as Sharp and Crane do, if that has not settled after 64 rounds).
+// Triangles that do not close are mollified (mollify.h): their two shorter edges grow until they do.
 //
 // Cost: O(n) for gluing and angles, in parallel; the flips, a few per cent of the edges, one after the other. The same
 // result for any number of threads, and up to rounding under any numbering of vertices and triangles.
@@ -26,14 +25,16 @@
 
 namespace hf_inner {
 
+// Negative sums of cotangents that count as zero: co-circular pairs would flip for ever.
+constexpr double delaunay_rounding = 1e-10;
+
 class IntrinsicTriangulation {
  public:
-  // Of no mesh yet.
+  // Empty, without a mesh.
   explicit IntrinsicTriangulation(Memory& memory)
       : memory_(&memory), tail_(&memory), twin_(&memory), length_(&memory), cotangent_(&memory), doubled_(&memory) {}
-  // The cover of the mesh with its own edges. held: null, or by edge whether more of the surface lies beyond it: such an
-  // edge is no border, is never flipped, and its half-edges are their own twins. On failure (std::bad_alloc) nothing
-  // exists.
+  // The cover of the mesh with its own edges. held: null, or by edge whether more of the surface lies beyond it. A held
+  // edge is no border and is never flipped; its half-edges are their own twins. Throws std::bad_alloc.
   static IntrinsicTriangulation make(const Mesh& mesh, const Topology& topology, Memory& memory,
                                      JobRunner* jobs = nullptr, const Vector<std::uint8_t>* held = nullptr);
 
@@ -47,7 +48,7 @@ class IntrinsicTriangulation {
   std::int32_t head(std::int32_t half) const noexcept { return tail_[at(next(half))]; }
   std::int32_t twin(std::int32_t half) const noexcept { return twin_[at(half)]; }
   double length(std::int32_t half) const noexcept { return length_[at(half)]; }
-  // Of the angle opposite the half-edge.
+  // Cotangent of the angle opposite the half-edge.
   double cotangent(std::int32_t half) const noexcept { return cotangent_[at(half)]; }
   // (cot a + cot b) / 2 of the edge, before the halving of a cover.
   double edge_weight(std::int32_t half) const noexcept {

@@ -8,12 +8,22 @@
 namespace hf_inner {
 namespace {
 
+// Triangles or edges of one job. No result depends on it.
+constexpr std::size_t weights_piece = 32768;
+// Least gap of a triangle for Kahan's formula, in longest edges: keeps the area positive.
+constexpr double least_gap = 1e-12;
+// How far a thin triangle is opened, in longest edges: a flat one gets cotangents of 350.
+constexpr double closing_gap = 1e-6;
+// Twice the area over the longest edge squared below which a cross product keeps fewer than seven digits.
+constexpr double least_area = 1e-9;
+// Least weight of the clamped operator, in medians: keeps the maximum principle; smaller costs condition.
+constexpr double least_weight = 1e-3;
+
 // Runs work(begin, end) over [0, count) in fixed pieces.
 template <class Work>
 void in_pieces(JobRunner* jobs, std::size_t count, Work&& work) {
-  constexpr std::size_t piece = 32768;
-  for_each(jobs, static_cast<std::uint32_t>((count + piece - 1) / piece),
-           [&](std::uint32_t p) { work(p * piece, std::min(count, (p + std::size_t{1}) * piece)); });
+  for_each(jobs, static_cast<std::uint32_t>((count + weights_piece - 1) / weights_piece),
+           [&](std::uint32_t p) { work(p * weights_piece, std::min(count, (p + std::size_t{1}) * weights_piece)); });
 }
 
 }  // namespace
@@ -24,7 +34,7 @@ double quadruple_area(const double length[3]) noexcept {
   if (a < b) std::swap(a, b);
   if (b < c) std::swap(b, c);
   if (a < b) std::swap(a, b);
-  const double gap = std::max(c - (a - b), 1e-12 * a);
+  const double gap = std::max(c - (a - b), least_gap * a);
   return std::sqrt((a + (b + c)) * gap * (c + (a - b)) * (a + (b - c)));
 }
 
@@ -39,8 +49,8 @@ void cotangents_of_lengths(const double length[3], double cotangent[3]) noexcept
 namespace {
 
 // A triangle thinner than working precision has a stiffness matrix of rank 1, and the Laplacian may lose definiteness.
-// It is taken as the triangle whose edges are longer by just enough to close properly (the mollification of Sharp and
-// Crane 2020, on this triangle alone): b + c - a >= 1e-6 a.
+// Its edges are lengthened by just enough to close: b + c - a >= closing_gap a. This is the mollification of Sharp and
+// Crane 2020, on this triangle alone.
 void thin_cotangents(const double squared[3], double cotangent[3]) noexcept {
   double length[3] = {std::sqrt(squared[0]), std::sqrt(squared[1]), std::sqrt(squared[2])};
   const double longest = std::max({length[0], length[1], length[2]});
@@ -49,7 +59,7 @@ void thin_cotangents(const double squared[3], double cotangent[3]) noexcept {
     return;
   }
   const double gap = length[0] + length[1] + length[2] - 2 * longest;
-  const double more = std::max(0.0, 1e-6 * longest - gap);
+  const double more = std::max(0.0, closing_gap * longest - gap);
   for (int k = 0; k < 3; ++k) length[k] += more;
   cotangents_of_lengths(length, cotangent);
 }
@@ -63,7 +73,8 @@ void corner_cotangents(const Mesh& mesh, Index t, double cotangent[3]) noexcept 
   const Vec3 e[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]};  // opposite to corner k
   const double squared[3] = {dot(e[0], e[0]), dot(e[1], e[1]), dot(e[2], e[2])};
   const double area2 = norm(cross(e[0], e[1]));
-  if (!(area2 > 1e-9 * std::max({squared[0], squared[1], squared[2]}))) return thin_cotangents(squared, cotangent);
+  if (!(area2 > least_area * std::max({squared[0], squared[1], squared[2]})))
+    return thin_cotangents(squared, cotangent);
   for (int k = 0; k < 3; ++k) cotangent[k] = -dot(e[(k + 1) % 3], e[(k + 2) % 3]) / area2;
 }
 
@@ -102,7 +113,7 @@ Vector<double> edge_weights(const Mesh& mesh, const Topology& topology, Operator
     std::transform(weights.begin(), weights.end(), magnitude.begin(), [](double w) { return std::fabs(w); });
     const auto middle = magnitude.begin() + static_cast<std::ptrdiff_t>(magnitude.size() / 2);
     std::nth_element(magnitude.begin(), middle, magnitude.end());
-    const double floor = *middle > 0 ? 1e-3 * *middle : 1e-3;
+    const double floor = *middle > 0 ? least_weight * *middle : least_weight;
     for (double& w : weights) w = std::max(w, floor);
   }
   return weights;

@@ -35,12 +35,12 @@ std::uint32_t count_negative(const Vector<double>& weights) noexcept;
 // Lumped (barycentric) vertex areas: one third of the triangles around.
 Vector<double> vertex_areas(const Mesh& mesh, Memory& memory, JobRunner* jobs = nullptr);
 
-// Adds to every stored weight of K a share of the larger diagonal at its ends, keeping K 1 = 0: no vertex hangs on the
-// others by less than rounding. Weights stay non-negative.
+// Adds to every stored weight of K a share of the larger diagonal at its ends, keeping K 1 = 0: no vertex is tied to
+// the others by less than rounding. Weights stay non-negative.
 void tie_weakly(SymmetricMatrix& matrix, double share, Memory& memory);
 
-// The last resort where weights of one component spread over more digits than there are (needles at 1e34 beside parts
-// of size 1): every stored weight is brought within `spread` of the component's median, both ways, keeping K 1 = 0.
+// The last resort where weights of one component span more digits than a double has, as needles at 1e34 beside parts
+// of size 1. Every stored weight is brought within `spread` of the component's median, both ways, keeping K 1 = 0.
 // Fields there follow the graph more than the lengths; they stay within the values of their sites. component: by
 // vertex; confined: by component, the others stay as they are.
 void confine_weights(SymmetricMatrix& matrix, const Vector<std::int32_t>& component,

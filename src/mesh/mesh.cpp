@@ -17,14 +17,22 @@ namespace {
 
 using Index = std::int32_t;
 
+// Six half-edges or entries per vertex must fit 31 bits.
+constexpr std::uint32_t size_limit = 0x7fffffffu / 6;
+// Sums of squares in inner coordinates must not overflow.
+constexpr double largest_scale = 1e300;
+// Area over the longest edge squared that the report calls zero: a height below 2e-12 of the edge.
+constexpr double zero_area = 1e-12;
+// Triangles of one job. No result depends on it.
+constexpr std::size_t report_piece = 65536;
+
 void check_sizes(const MeshInput& input) {
   if (input.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the mesh has no vertices");
   if (input.triangle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the mesh has no triangles");
-  constexpr std::uint32_t limit = 0x7fffffffu / 6;
-  if (input.vertex_count > limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; at most %u are supported", input.vertex_count, limit);
-  if (input.triangle_count > limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; at most %u are supported", input.triangle_count, limit);
+  if (input.vertex_count > size_limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; at most %u are supported", input.vertex_count, size_limit);
+  if (input.triangle_count > size_limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; at most %u are supported", input.triangle_count, size_limit);
 }
 
 void check_triangles(const MeshInput& input) {
@@ -59,7 +67,7 @@ void find_frame(const MeshInput& input, Mesh& mesh) {
   mesh.centre = {centre[0], centre[1], centre[2]};
   mesh.scale = size > 0 ? 2 * size : 1;  // the box diagonal; may be infinite for coordinates near the limit of double
   mesh.report.bounding_box_diagonal = 2 * size;
-  if (!(mesh.scale < 1e300))
+  if (!(mesh.scale < largest_scale))
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the mesh is %g wide; scale it below 1e300", mesh.scale);
 }
 
@@ -117,12 +125,11 @@ void measure_triangles(Mesh& mesh, JobRunner* jobs, Memory& memory) {
     double cotangent = -std::numeric_limits<double>::infinity();
     std::uint32_t degenerate = 0;
   };
-  constexpr std::size_t piece = 65536;
-  const std::size_t count = at(mesh.triangle_count()), pieces = (count + piece - 1) / piece;
+  const std::size_t count = at(mesh.triangle_count()), pieces = (count + report_piece - 1) / report_piece;
   Vector<Found> found(pieces, &memory);
   const auto measure = [&](std::uint32_t p) {
     Found own;
-    for (std::size_t t = p * piece; t < std::min(count, (p + std::size_t{1}) * piece); ++t) {
+    for (std::size_t t = p * report_piece; t < std::min(count, (p + std::size_t{1}) * report_piece); ++t) {
       const Index* v = mesh.triangle(static_cast<Index>(t));
       const Vec3 e[3] = {mesh.positions[at(v[1])] - mesh.positions[at(v[0])],
                          mesh.positions[at(v[2])] - mesh.positions[at(v[1])],
@@ -136,7 +143,7 @@ void measure_triangles(Mesh& mesh, JobRunner* jobs, Memory& memory) {
             area2 > 0 ? cosine / area2 : (cosine < 0 ? -1 : 1) * std::numeric_limits<double>::infinity();
         own.cotangent = std::max(own.cotangent, cotangent);
       }
-      own.degenerate += !(0.5 * area2 > 1e-12 * longest);
+      own.degenerate += !(0.5 * area2 > zero_area * longest);
     }
     found[p] = own;
   };

@@ -15,6 +15,7 @@
 
 namespace hf_inner {
 
+// Plain storage in every header; algebra on it that is more than this goes through Eigen (base/algebra.h).
 struct Vec3 {
   double x = 0, y = 0, z = 0;
 };

@@ -8,14 +8,17 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::size_t piece = 16384;
-constexpr double closing = 1e-8, smallest = 1e-3;
+// Triangles or edges of one job. No result depends on it.
+constexpr std::size_t mollify_piece = 16384;
+// Rounds of local lengthening before every edge is lengthened.
 constexpr int most_rounds = 64;
+// Closes a little more than wanted, so that rounding does not leave it open.
+constexpr double overshoot = 1.0001;
 
 void find_lengths(const Mesh& mesh, const Topology& topology, MollifiedLengths& out, JobRunner* jobs) {
   const std::size_t edges = at(topology.edge_count());
-  for_each(jobs, static_cast<std::uint32_t>((edges + piece - 1) / piece), [&](std::uint32_t p) {
-    for (std::size_t e = p * piece; e < std::min(edges, (p + std::size_t{1}) * piece); ++e) {
+  for_each(jobs, static_cast<std::uint32_t>((edges + mollify_piece - 1) / mollify_piece), [&](std::uint32_t p) {
+    for (std::size_t e = p * mollify_piece; e < std::min(edges, (p + std::size_t{1}) * mollify_piece); ++e) {
       const Index first = topology.first(static_cast<Index>(e)), second = topology.second(static_cast<Index>(e));
       out.length[e] = norm(mesh.positions[at(second)] - mesh.positions[at(first)]);
       for (Index i = topology.edge_triangle_start[e]; i < topology.edge_triangle_start[e + 1]; ++i) {
@@ -31,13 +34,13 @@ void find_lengths(const Mesh& mesh, const Topology& topology, MollifiedLengths& 
   });
 }
 
-// What is missing for a triangle to close, 0 for a proper one; `longest` is its side of that length.
+// Length that a triangle lacks to close, 0 for a proper one. `longest` is its longest side.
 double missing(const double length[3], double floor, std::size_t& longest) noexcept {
   longest = 0;
   for (std::size_t k = 1; k < 3; ++k) longest = length[k] > length[longest] ? k : longest;
   const double a = length[longest], b = length[(longest + 1) % 3], c = length[(longest + 2) % 3];
-  const double gap = std::min(b, c) - (a - std::max(b, c)), wanted = closing * std::max(a, floor);
-  return gap < wanted ? 1.0001 * wanted - gap : 0.0;
+  const double gap = std::min(b, c) - (a - std::max(b, c)), wanted = mollify_closing * std::max(a, floor);
+  return gap < wanted ? overshoot * wanted - gap : 0.0;
 }
 
 }  // namespace
@@ -49,9 +52,9 @@ MollifiedLengths MollifiedLengths::make(const Mesh& mesh, const Topology& topolo
   find_lengths(mesh, topology, out, jobs);
   double sum = 0;
   for (const double l : out.length) sum += l;
-  const double floor = sum > 0 ? smallest * sum / static_cast<double>(edges) : 1.0;
+  const double floor = sum > 0 ? mollify_floor * sum / static_cast<double>(edges) : 1.0;
 
-  const std::uint32_t pieces = static_cast<std::uint32_t>((triangles + piece - 1) / piece);
+  const std::uint32_t pieces = static_cast<std::uint32_t>((triangles + mollify_piece - 1) / mollify_piece);
   struct Thin {
     std::uint32_t triangle;
     std::size_t longest;
@@ -63,7 +66,7 @@ MollifiedLengths MollifiedLengths::make(const Mesh& mesh, const Topology& topolo
   for (int round = 0;; ++round) {
     for_each(jobs, pieces, [&](std::uint32_t p) {
       thin[p].clear();
-      for (std::size_t t = p * piece; t < std::min(triangles, (p + std::size_t{1}) * piece); ++t) {
+      for (std::size_t t = p * mollify_piece; t < std::min(triangles, (p + std::size_t{1}) * mollify_piece); ++t) {
         double length[3];
         for (std::size_t k = 0; k < 3; ++k) length[k] = out.length[at(out.edge_of_side[3 * t + k])];
         std::size_t longest = 0;

@@ -1,12 +1,19 @@
-// Edge lengths that close every triangle: a >= b >= c, b + c - a >= 1e-8 a (and a never less than a thousandth of the
-// mean edge). Triangles that do not close have their two shorter edges lengthened by half of what is missing each;
-// their neighbours may then open, so this is repeated, all triangles at once, up to 64 rounds. What is still open then
-// is closed by one length added to every edge (Sharp and Crane 2020, Section 4.5). Independent of the numbering. Cost:
+// Edge lengths that close every triangle.
+//
+// For a >= b >= c: b + c - a >= mollify_closing a, where a counts as no less than mollify_floor of the mean edge.
+// Triangles that do not close have their two shorter edges lengthened by half of the missing length each. Their
+// neighbours may open by this, so it is repeated for all triangles at once. After the last round, one length added to
+// every edge closes the rest (Sharp and Crane 2020, Section 4.5). The result does not depend on the numbering. Cost:
 // O(n) a round; one round on a mesh without thin triangles.
 #pragma once
 #include "mesh/topology.h"
 
 namespace hf_inner {
+
+// Opening that closes a triangle, in longest edges: a flat one gets cotangents of 3,500.
+constexpr double mollify_closing = 1e-8;
+// Least longest edge, in mean edges, so that triangles of one point get a size.
+constexpr double mollify_floor = 1e-3;
 
 struct MollifiedLengths {
   explicit MollifiedLengths(Memory& memory) : length(&memory), edge_of_side(&memory), changed(&memory) {}

@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace hf_inner {
+namespace {
+
+// Vertices of one job. No result depends on it.
+constexpr std::size_t bucket_piece = 16384;
+
+}  // namespace
 
 Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
   using Index = std::int32_t;
@@ -27,17 +33,16 @@ Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
     const Index a = mesh.corners[c], b = mesh.corners[3 * t + (k + 1) % 3];
     halves[at(cursor[at(std::min(a, b))]++)] = {std::max(a, b), static_cast<Index>(t)};
   }
-  topology.edges.reserve(corner_count + 8);
-  topology.edge_triangle_start.reserve(corner_count / 2 + 8);
+  topology.edges.reserve(corner_count);
+  topology.edge_triangle_start.reserve(corner_count / 2);
   topology.edge_triangle.resize(corner_count);
   const auto sort_bucket = [&](std::size_t v) {
     std::sort(halves.begin() + start[v], halves.begin() + start[v + 1], [](const Half& a, const Half& b) {
       return a.second != b.second ? a.second < b.second : a.triangle < b.triangle;
     });
   };
-  constexpr std::size_t piece = 16384;
-  for_each(jobs, static_cast<std::uint32_t>((n + piece - 1) / piece), [&](std::uint32_t p) {
-    for (std::size_t v = p * piece; v < std::min(n, (p + std::size_t{1}) * piece); ++v) sort_bucket(v);
+  for_each(jobs, static_cast<std::uint32_t>((n + bucket_piece - 1) / bucket_piece), [&](std::uint32_t p) {
+    for (std::size_t v = p * bucket_piece; v < std::min(n, (p + std::size_t{1}) * bucket_piece); ++v) sort_bucket(v);
   });
   for (std::size_t v = 0; v < n; ++v) {
     const auto begin = halves.begin() + start[v], end = halves.begin() + start[v + 1];

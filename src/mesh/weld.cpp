@@ -12,6 +12,13 @@ namespace {
 
 using Index = std::int32_t;
 
+// Slots of the smallest table; it doubles to two per vertex.
+constexpr std::size_t first_slots = 64;
+// Probes before sorting takes over: a table that is half full takes 1.5 a vertex, made-up positions take n.
+constexpr std::uint64_t steps_per_vertex = 16, spare_steps = 1024;
+// Cells fit 64 bits: larger coordinates share the last one.
+constexpr std::int64_t largest_cell = 4000000000000000000;
+
 Vec3 position(const MeshInput& input, std::size_t v) noexcept {
   // adding zero turns -0 into +0
   return {input.positions.get(v, 0) + 0.0, input.positions.get(v, 1) + 0.0, input.positions.get(v, 2) + 0.0};
@@ -32,11 +39,11 @@ std::uint64_t mixed(Vec3 p) noexcept {
 // Vertices in ascending order into a table with open addressing: the first of a place stands for it. False when the
 // table degenerates (many places with one hash), which only made-up positions do.
 bool weld_by_hash(const MeshInput& input, Vector<Index>& representative, Memory& memory) {
-  std::size_t size = 64;
+  std::size_t size = first_slots;
   while (size < std::size_t{2} * input.vertex_count) size *= 2;
   Vector<Index> table(size, -1, &memory);
   std::uint64_t steps = 0;
-  const std::uint64_t most = std::uint64_t{16} * input.vertex_count + 1024;
+  const std::uint64_t most = steps_per_vertex * input.vertex_count + spare_steps;
   for (std::uint32_t v = 0; v < input.vertex_count; ++v) {
     const Vec3 p = position(input, v);
     std::size_t slot = static_cast<std::size_t>(mixed(p)) & (size - 1);
@@ -105,7 +112,7 @@ Vector<Index> weld_tolerance(const MeshInput& input, Memory& memory) {
   Vector<Entry> entries(input.vertex_count, &memory);
   const auto coordinate = [&](double x, double origin) {
     const double cell = std::floor((x - origin) / tolerance);
-    return cell < 4e18 ? static_cast<std::int64_t>(cell) : std::int64_t{4000000000000000000};
+    return cell < static_cast<double>(largest_cell) ? static_cast<std::int64_t>(cell) : largest_cell;
   };
   for (std::uint32_t v = 0; v < input.vertex_count; ++v) {
     const Vec3 p = position(input, v);
@@ -119,7 +126,7 @@ Vector<Index> weld_tolerance(const MeshInput& input, Memory& memory) {
       v = parent[static_cast<std::size_t>(v)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(v)])];
     return v;
   };
-  // half of the 27 cells: each pair of cells is looked at once
+  // half of the 27 cells: each pair of cells is compared once
   for (const Entry& entry : entries) {
     const Vec3 p = position(input, static_cast<std::size_t>(entry.v));
     for (int dx = -1; dx <= 1; ++dx) {

@@ -1,7 +1,7 @@
 // Joins vertices at one place: per given vertex the smallest given vertex it is joined with.
 //
 // Exact: equal coordinates (+0 = -0). Tolerance: closer than the tolerance, transitively, through a grid of cells as
-// wide as the tolerance (at most 27 cells to look into). Cost O(n log n).
+// wide as the tolerance (at most 27 cells to search). Cost O(n log n).
 #pragma once
 #include "mesh/mesh.h"
 

@@ -5,13 +5,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "transfer/constants.h"
 
 namespace hf_inner {
 namespace {
-
-struct Window {
-  double low, high;
-};
 
 std::size_t row_maximum(const double* row, std::size_t width) noexcept {
   return static_cast<std::size_t>(std::max_element(row, row + width) - row);
@@ -25,23 +22,23 @@ Mat3 checked_axes(const double (&rows)[9], const char* side) {
     if (!std::isfinite(x)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "the %s axes hold a number that is not finite", side);
     all_zero = all_zero && x == 0;
   }
-  if (all_zero) return Mat3::identity();
+  if (all_zero) return Mat3::Identity();
   Vec3 row[3];
   for (int i = 0; i < 3; ++i) row[i] = {rows[3 * i], rows[3 * i + 1], rows[3 * i + 2]};
   const Vec3 third = cross(row[0], row[1]) - row[2];
-  bool good = norm(third) < 1e-3;
-  for (const Vec3& r : row) good = good && std::abs(norm(r) - 1) < 1e-3;
+  bool good = norm(third) < axes_tolerance;
+  for (const Vec3& r : row) good = good && std::abs(norm(r) - 1) < axes_tolerance;
   if (!good)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
          "the %s axes must be three orthogonal unit rows right, up, forward with right x up = forward", side);
   // exactly orthonormal
   Mat3 axes;
-  for (int i = 0; i < 3; ++i) axes.m[i][0] = row[i].x, axes.m[i][1] = row[i].y, axes.m[i][2] = row[i].z;
-  return to_matrix(best_rotation(axes, Quaternion()));
+  for (int i = 0; i < 3; ++i) axes(i, 0) = row[i].x, axes(i, 1) = row[i].y, axes(i, 2) = row[i].z;
+  return best_rotation(axes, Quaternion()).toRotationMatrix();
 }
 
 double ground_height(const RestSide& side) noexcept {
-  double low = 1e300;
+  double low = no_height;
   for (const Vec3& p : side.mesh->positions) low = std::min(low, dot(p, side.up()));
   return low;
 }
@@ -54,7 +51,7 @@ double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns) n
   std::int32_t legs = 0;
   for (const std::int32_t column : foot_columns) {
     // coarse legs may have no vertex in the first window
-    for (const Window window : {Window{0.4, 0.6}, Window{0.3, 0.7}, Window{0.2, 0.8}}) {
+    for (const FieldWindow& window : leg_windows) {
       double height = 0, area = 0;
       for (std::size_t v = 0; v < side.area.size(); ++v) {
         const double* row = side.field.data() + v * width;
@@ -78,7 +75,8 @@ bool limb_direction(const RestSide& side, std::int32_t column, Vec3 region_centr
   for (std::size_t v = 0; v < side.area.size(); ++v) {
     const double* row = side.field.data() + v * width;
     const double u = row[column];
-    if (u <= 0.4 || u >= 0.65 || row_maximum(row, width) != static_cast<std::size_t>(column)) continue;
+    if (u <= limb_window.low || u >= limb_window.high || row_maximum(row, width) != static_cast<std::size_t>(column))
+      continue;
     centroid = centroid + side.area[v] * side.mesh->positions[v];
     area += side.area[v];
   }
@@ -91,11 +89,11 @@ Quaternion minimal_rotation(Vec3 from, Vec3 to, Vec3 axis) noexcept {
   const Vec3 a = (1 / norm(from)) * from, b = (1 / norm(to)) * to;
   const Vec3 c = cross(a, b);
   const double w = 1 + dot(a, b);
-  if (w > 1e-6) return normalised({c.x, c.y, c.z, w});
+  if (w > opposite) return normalised({c, w});
   Vec3 turn = axis - dot(axis, a) * a;
-  if (norm(turn) < 1e-6) turn = cross(a, std::abs(a.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
+  if (norm(turn) < opposite) turn = cross(a, std::abs(a.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
   turn = (1 / norm(turn)) * turn;
-  return {turn.x, turn.y, turn.z, 0};
+  return {turn, 0};
 }
 
 Quaternion power(const Quaternion& q, double w) noexcept { return exponential(w * logarithm(q)); }

@@ -1,12 +1,13 @@
-// What differs between the two rest shapes: axes, size, and where a limb points.
+// Compares the two rest shapes of a transfer: axes, size, and directions of limbs.
 //
-// Axes: A = T' S with the rows right, up, forward of target and source; a rotation R of the source becomes A R A' on
-// the target. Scale: the ratio of the legs' lengths, a leg being the mean height over the ground of the vertices with
-// largest field of a foot pair between 0.4 and 0.6; without feet the ratio of the boxes' diagonals. Rest alignment, per
-// limb: d = centroid of the region - centroid of the vertices with largest field h and 0.4 < u_h < 0.65, on both
-// surfaces. Where A d_source and d_target differ by more than the limit (40 degrees), the minimal rotation D_h from the
-// one to the other is applied before the motion, faded by w = clamp((max U - 0.35) / 0.2, 0, 1) as D_h^w. Limbs below a
-// tenth of the box have no reliable direction and are left alone, trunk pairs too.
+// Axes: A = T' S with the rows right, up, forward of target and source. A rotation R of the source becomes A R A' on
+// the target. Scale: the ratio of the lengths of the legs, or of the boxes' diagonals without feet. The length of a leg
+// is the mean height of the vertices whose largest field belongs to the foot and lies in leg_windows.
+//
+// Rest alignment works per limb. The direction d runs from the centroid of the vertices with field h in limb_window to
+// the centroid of the region, on both surfaces. Where A d_source and d_target differ by more than the limit, D_h is the
+// minimal rotation from one to the other. It is applied before the motion as D_h^w, where w fades it in along the limb.
+// Short limbs and trunk pairs are left alone.
 #pragma once
 #include <cstdint>
 
@@ -22,11 +23,11 @@ struct RestSide {
   Span<const double> field;  // n x pair count
   Span<const double> area;
   Mat3 axes;  // rows right, up, forward
-  Vec3 up() const noexcept { return {axes.m[1][0], axes.m[1][1], axes.m[1][2]}; }
+  Vec3 up() const noexcept { return {axes(1, 0), axes(1, 1), axes(1, 2)}; }
 };
 
-// Orthonormal axes of nine numbers; all zero: the identity. Throws HF_ERROR_INVALID_ARGUMENT when they are no
-// right-handed frame within 1e-3.
+// Orthonormal axes of nine numbers; all zero: the identity. Throws HF_ERROR_INVALID_ARGUMENT unless they are a
+// right-handed frame within axes_tolerance.
 Mat3 checked_axes(const double (&rows)[9], const char* side);
 
 // Lowest point along up, inner coordinates.

@@ -10,13 +10,6 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::int32_t nearest_count = 6;  // source vertices a kernel reaches at one width
-constexpr double cut = 2.5;                // kernels end at so many widths
-constexpr double broad_factor = 3;
-constexpr double flattest = 1e-3, steepest = 50;             // cotangent weights that count
-constexpr std::size_t most_narrow = 1536, most_broad = 384;  // vertices of a kernel; more are thinned evenly
-constexpr double paper_exponent = 4;
-
 double squared_distance(const double* a, const double* b, std::int32_t count) noexcept {
   double sum = 0;
   for (std::int32_t i = 0; i < count; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
@@ -36,13 +29,11 @@ struct NearestCentres {
   }
 };
 
-constexpr std::int32_t block = 2048;
-
 // Farthest-point sampling of the rows, starting at the row with the largest maximum.
 void sample_centres(const ClusterOptions& options, std::int32_t width, Span<const double> field, Clusters& out,
                     Vector<NearestCentres>& nearest, Memory& memory, JobRunner& jobs) {
   const std::size_t n = field.size() / at(width);
-  const std::int32_t wanted = options.cluster_count ? options.cluster_count : 80;
+  const std::int32_t wanted = options.cluster_count ? options.cluster_count : default_cluster_count;
   NearestCentres empty;
   std::fill(std::begin(empty.distance), std::end(empty.distance), std::numeric_limits<double>::infinity());
   std::fill(std::begin(empty.cluster), std::end(empty.cluster), -1);
@@ -53,15 +44,15 @@ void sample_centres(const ClusterOptions& options, std::int32_t width, Span<cons
     const double m = *std::max_element(field.data() + v * at(width), field.data() + (v + 1) * at(width));
     if (m > largest) largest = m, next = v;
   }
-  const auto blocks = static_cast<std::uint32_t>((n + block - 1) / block);
+  const auto blocks = static_cast<std::uint32_t>((n + vertex_block - 1) / vertex_block);
   Vector<std::size_t> farthest(blocks, std::size_t{0}, &memory);
-  const double redundant = 0.25 * options.kernel_width;  // closer centres say the same
+  const double redundant = redundant_share * options.kernel_width;
   while (out.count < wanted) {
     const std::int32_t c = out.count++;
     out.centre.insert(out.centre.end(), field.data() + next * at(width), field.data() + (next + 1) * at(width));
     const double* centre = out.centre.data() + at(c * width);
     jobs.for_each(blocks, [&](std::uint32_t b) {
-      const std::size_t first = std::size_t{b} * block, last = std::min(n, first + block);
+      const std::size_t first = std::size_t{b} * vertex_block, last = std::min(n, first + vertex_block);
       farthest[b] = first;
       for (std::size_t v = first; v < last; ++v) {
         nearest[v].insert(squared_distance(field.data() + v * at(width), centre, width), c);
@@ -97,7 +88,7 @@ void weigh_by_distance(const ClusterOptions& options, const Vector<NearestCentre
 // Hat function of band k of K over [0, 1], times u^4.
 double band_weight(double u, std::int32_t band, std::int32_t bands) noexcept {
   const double hat = 1 - std::abs(u * (bands - 1) - band);
-  return hat > 0 ? hat * std::pow(u, paper_exponent) : 0.0;
+  return hat > 0 ? hat * std::pow(u, band_exponent) : 0.0;
 }
 
 void weigh_by_bands(std::int32_t width, std::int32_t bands, Span<const double> field, Clusters& out, Memory& memory) {
@@ -177,8 +168,9 @@ void append_edges(const KernelRow& row, const Core& core, EdgeScratch& scratch, 
     for (std::int32_t e = core.topology.neighbour_start[at(v)]; e < core.topology.neighbour_start[at(v) + 1]; ++e) {
       const std::int32_t u = core.topology.neighbour[at(e)];
       if (u < v && kernel[at(u)] > 0) continue;
-      const double w = std::clamp(core.weights[at(core.topology.neighbour_edge[at(e)])], flattest, steepest) *
-                       (kernel[at(v)] + kernel[at(u)]);
+      const double w =
+          std::clamp(core.weights[at(core.topology.neighbour_edge[at(e)])], flattest_weight, steepest_weight) *
+          (kernel[at(v)] + kernel[at(u)]);
       const Vec3 d = core.mesh.positions[at(v)] - core.mesh.positions[at(u)];
       add(v, w * d), add(u, -w * d);
       trace += w * dot(d, d);
@@ -230,14 +222,14 @@ void centre_rows(const ClusterOptions& options, const double* centre, std::int32
     const double s = std::max(factor * base, sorted[m]);
     KernelRow& row = is_broad ? out.broad : out.narrow;
     for (std::size_t v = 0; v < n; ++v) {
-      if (distance[v] > cut * s) continue;
+      if (distance[v] > kernel_cut * s) continue;
       row.vertex.push_back(static_cast<std::int32_t>(v));
       row.weight.push_back(std::exp(-0.5 * distance[v] * distance[v] / (s * s)));
     }
   }
   std::int32_t nearest = 0;
   for (std::size_t v = 0; v < n; ++v) {
-    if (distance[v] <= cut * base) ++out.support;
+    if (distance[v] <= kernel_cut * base) ++out.support;
     if (distance[v] < distance[at(nearest)]) nearest = static_cast<std::int32_t>(v);
   }
   finish(out.narrow, most_narrow, nearest), finish(out.broad, most_broad, nearest);
@@ -252,19 +244,19 @@ void band_rows(std::int32_t h, std::int32_t band, std::int32_t bands, std::int32
   for (std::size_t v = 0; v < area.size(); ++v) {
     const double u = field[v * at(width) + at(h)];
     const double narrow = band_weight(u, band, bands);
-    const double around = 1 - std::abs(u * (bands - 1) - band) / 3;
+    const double around = 1 - std::abs(u * (bands - 1) - band) / broad_bands;
     if (narrow > 0)
       out.narrow.vertex.push_back(static_cast<std::int32_t>(v)), out.narrow.weight.push_back(area[v] * narrow),
           ++out.support;
     if (around > 0)
       out.broad.vertex.push_back(static_cast<std::int32_t>(v)),
-          out.broad.weight.push_back(area[v] * around * (u * u + 1e-6));
+          out.broad.weight.push_back(area[v] * around * (u * u + broad_band_floor));
     if (std::abs(u - level) < best) best = std::abs(u - level), nearest = static_cast<std::int32_t>(v);
   }
   finish(out.narrow, most_narrow, nearest), finish(out.broad, most_broad, nearest);
 }
 
-// Mass and centroid of every cluster on the target; clusters nobody uses are left out and the others renumbered.
+// Mass and centroid of every cluster on the target. Unused clusters are left out and the others renumbered.
 void measure_target(Span<const double> area, const Mesh& mesh, Clusters& out, Vector<std::int32_t>& kept,
                     Memory& memory) {
   Vector<double> mass(at(out.count), 0.0, &memory);
@@ -299,13 +291,12 @@ void write_weights(Candidate* candidates, std::int32_t count, std::int32_t* join
   if (!(sum > 0)) {  // all four at one distance with the fifth
     for (std::int32_t i = 0; i < count; ++i) candidates[i].weight = 1, sum += 1;
   }
-  constexpr double unit = 16777216.0;  // 2^24
-  double rest = unit;
+  double rest = weight_units;
   for (std::int32_t i = blend_count - 1; i >= 0; --i) {
-    const double units = i == 0 ? rest : i < count ? std::floor(unit * candidates[i].weight / sum) : 0.0;
+    const double units = i == 0 ? rest : i < count ? std::floor(weight_units * candidates[i].weight / sum) : 0.0;
     rest -= units;
     joint[i] = units > 0 ? candidates[i].cluster : count > 0 ? candidates[0].cluster : 0;
-    weight[i] = static_cast<float>(units / unit);
+    weight[i] = static_cast<float>(units / weight_units);
   }
 }
 
@@ -313,7 +304,7 @@ Vector<double> area_shares(const Mesh& mesh, Memory& memory) {
   Vector<double> area = vertex_areas(mesh, memory);
   double sum = 0;
   for (const double a : area) sum += a;
-  const double floor = sum > 0 ? 1e-6 * sum / static_cast<double>(area.size()) : 1.0;
+  const double floor = sum > 0 ? least_area_share * sum / static_cast<double>(area.size()) : 1.0;
   sum = 0;
   for (double& a : area) a = std::max(a, floor), sum += a;
   for (double& a : area) a /= sum;
@@ -329,7 +320,8 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
   out.joint.resize(n * blend_count), out.weight.resize(n * blend_count);
   std::int32_t bands = 0;
   if (options.paper_bands) {
-    bands = options.cluster_count ? std::clamp(options.cluster_count / field_count, 2, 64) : 8;
+    bands = options.cluster_count ? std::clamp(options.cluster_count / field_count, least_bands, most_bands)
+                                  : default_bands;
     out.count = bands * field_count;
     weigh_by_bands(field_count, bands, target_field, out, memory);
   } else {

@@ -1,38 +1,36 @@
-// Corresponding clusters of two surfaces with the same harmonic coordinates U (pair_fields.h).
+// Makes corresponding clusters of two surfaces with the same harmonic coordinates U (pair_fields.h).
 //
-// Default: a cluster is a kernel exp(-|U(v) - c|^2 / 2 s^2) around a centre c in the space of all fields; centres are a
+// Default: a cluster is a kernel exp(-|U(v) - c|^2 / 2 s^2) around a centre c in the space of all fields. Centres are a
 // farthest-point sample of the target's rows. The same centre on source and target is the correspondence of iso-levels
 // of Xu et al. 2009, Section 6, in all fields at once. Paper: a cluster is a level band of one field, a hat function of
-// u_h times u_h^4, the same function on both surfaces.
+// u_h times a power of u_h, the same on both surfaces.
 //
-// Target: each vertex keeps its four largest weights, brought to zero where a fifth would take over, multiples of 2^-24
-// that sum to exactly 1. Source: a kernel per cluster with the width at least the distance of the 6th nearest vertex
-// (coarse meshes), cut at 2.5 widths, and a broad one three times as wide that steadies the first. Cost: O(n C H) once
-// per change of pairs.
+// Target: each vertex keeps its four largest weights. They fall to zero where a fifth would take over. They are
+// multiples of 2^-24 that sum to exactly 1. Source: each cluster has a narrow and a broad kernel. Their widths adapt to
+// coarse meshes; the broad one decides where the narrow one is uncertain. Cost: O(n C H) once per change of pairs.
 #pragma once
 #include <cstdint>
 
 #include "base/jobs.h"
 #include "base/span.h"
 #include "engine/core.h"
+#include "transfer/constants.h"
 
 namespace hf_inner {
 
-constexpr std::int32_t blend_count = 4;  // clusters per target vertex
-
 struct ClusterOptions {
   bool paper_bands = false;
-  std::int32_t cluster_count = 0;  // 0 = 80, or eight bands per field
-  double kernel_width = 0.04;
+  std::int32_t cluster_count = 0;  // 0 = default_cluster_count, or default_bands per field
+  double kernel_width = default_kernel_width;
 };
 
-// What the rotation of a cluster is fitted to: M = sum_ij w_ij (q_i - q_j)(p_i - p_j)' over edges, or
-// M = sum_i w_i (q_i - q')(p_i - p')' over vertices about their centroid (the paper's shape matching). Edges see only
-// how the surface turns, not how its parts shift against each other: 10 to 20 % nearer to the truth on the animals
-// measured. Both are linear in q, so a kernel is kept as M = sum_v q_v g_v', one constant g_v per vertex:
-//     g_v = sum_j w_vj (p_v - p_j),     g_v = w_v (p_v - p'),      sum_v g_v = 0
-// a third as many terms as edges, and no rest position is read. Compressed rows; scaled so that the trace of M at rest
-// is 1 (g = 0 for a cluster without extent).
+// The moment that the rotation of a cluster is fitted to. The default sums over edges, the paper over vertices:
+//     M = sum_ij w_ij (q_i - q_j)(p_i - p_j)',     M = sum_i w_i (q_i - q')(p_i - p')'.
+// Edges are blind to parts that shift against each other, which helps on the animals. Both sums are linear in q.
+// A kernel is therefore stored as M = sum_v q_v g_v', with one constant g_v per vertex:
+//     g_v = sum_j w_vj (p_v - p_j),     g_v = w_v (p_v - p'),     sum_v g_v = 0.
+// That is a third of the terms, and no rest position is read. Rows are compressed and scaled so that M has trace 1 at
+// rest; g = 0 for a cluster without extent.
 struct SourceKernels {
   explicit SourceKernels(Memory& memory) : start(&memory), vertex(&memory), slope(&memory) {}
   Vector<std::int32_t> start, vertex;
@@ -55,7 +53,7 @@ struct Clusters {
   Vector<float> weight;
   Vector<double> mass;           // share of the target's area, summing to 1
   Vector<Vec3> pivot;            // rest centroid on the target, inner coordinates
-  Vector<std::int32_t> support;  // source vertices within reach of the base width: few of them make a cluster uncertain
+  Vector<std::int32_t> support;  // source vertices within the base width; few make a cluster uncertain
   SourceKernels narrow, broad;
 };
 

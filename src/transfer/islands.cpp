@@ -8,13 +8,11 @@
 #include <limits>
 
 #include "base/index.h"
+#include "transfer/constants.h"
 #include "transfer/pair_fields.h"
 
 namespace hf_inner {
 namespace {
-
-constexpr std::int32_t most_sweeps = 200;
-constexpr double rigid_share = 0.03;  // of the box: smaller islands get one row
 
 // Points sorted into the cells of a uniform grid over the unit-diagonal box of the mesh.
 class PointGrid {
@@ -22,7 +20,7 @@ class PointGrid {
   PointGrid(const Core& core, Span<const std::uint8_t> reached)
       : positions_(core.mesh.positions), start_(core.memory.get()), points_(core.memory.get()) {
     std::size_t count = 0;
-    Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+    Vec3 low{no_height, no_height, no_height}, high = -1.0 * low;
     for (std::size_t v = 0; v < positions_.size(); ++v) {
       if (!reached[at(core.mesh.component[v])]) continue;
       const Vec3 p = positions_[v];
@@ -31,8 +29,9 @@ class PointGrid {
       ++count;
     }
     low_ = low;
-    cells_ = std::clamp(static_cast<std::int32_t>(std::cbrt(static_cast<double>(count) / 2)), 1, 64);
-    const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1e-12});
+    cells_ =
+        std::clamp(static_cast<std::int32_t>(std::cbrt(static_cast<double>(count) / points_per_cell)), 1, most_cells);
+    const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z, least_extent});
     cell_size_ = extent / cells_;
     start_.assign(at(cells_ * cells_ * cells_) + 1, 0);
     for (std::size_t v = 0; v < positions_.size(); ++v) {
@@ -108,7 +107,7 @@ void relax(const Core& core, Span<const Member> free, std::int32_t channels, dou
   Vector<double> mean(width, 0.0, core.memory.get());
   double floor = 0;
   for (const double w : core.weights) floor += std::abs(w);
-  floor = 1e-3 * floor / static_cast<double>(std::max<std::size_t>(1, core.weights.size()));
+  floor = least_weight_share * floor / static_cast<double>(std::max<std::size_t>(1, core.weights.size()));
   for (std::int32_t sweep = 0; sweep < most_sweeps; ++sweep) {
     double change = 0;
     for (const Member& member : free) {
@@ -128,7 +127,7 @@ void relax(const Core& core, Span<const Member> free, std::int32_t channels, dou
         row[j] = value;
       }
     }
-    if (change < 1e-7) break;
+    if (change < still_enough) break;
   }
 }
 
@@ -153,8 +152,8 @@ void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int
     std::sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
       return a.distance != b.distance ? a.distance < b.distance : a.vertex < b.vertex;
     });
-    const std::size_t held = std::min(members.size(), std::max<std::size_t>(3, members.size() / 3));
-    Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+    const std::size_t held = std::min(members.size(), std::max(least_held, members.size() / held_divisor));
+    Vec3 low{no_height, no_height, no_height}, high = -1.0 * low;
     std::fill(mean.begin(), mean.end(), 0.0);
     for (std::size_t i = 0; i < members.size(); ++i) {
       const Vec3 p = core.mesh.positions[at(members[i].vertex)];
@@ -165,7 +164,7 @@ void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int
         mean[j] += field[at(members[i].host) * width + j] / static_cast<double>(held);
     }
     // one row for the small ones; the others start from the mean
-    const bool rigid = norm(high - low) < rigid_share;
+    const bool rigid = norm(high - low) < rigid_island;
     for (std::size_t i = 0; i < members.size(); ++i) {
       const double* from = !rigid && i < held ? field + at(members[i].host) * width : mean.data();
       std::copy(from, from + width, field + at(members[i].vertex) * width);

@@ -1,15 +1,13 @@
-// One side of a transfer: the regions of all pairs on one surface, and the harmonic coordinates they give its vertices.
+// One side of a transfer: regions of all pairs on one surface, and harmonic coordinates of its vertices.
 //
-// u_h is harmonic with u_h = 1 on region h and 0 on the other regions; the row U(v) = (u_1 .. u_H)(v) sums to 1: the
-// handle fields of a pose (deform/handles.h), with the full rings of the regions as sites, so that nothing leaks into a
-// region.
+// u_h is harmonic, 1 on region h and 0 on the other regions, as in a pose (deform/handles.h). The row
+// U(v) = (u_1 .. u_H)(v) sums to 1. The full rings of the regions are sites, so that nothing leaks into a region.
 //
-// Components that hold no region (eyes, teeth, straps) follow what they lie next to: the third of their vertices that
-// is nearest to the reached surface takes U from there, the rest is relaxed between them; a component smaller than 3 %
-// of the box gets one row.
+// A component without a region (an eye, a strap) follows the surface beside it. The third of its vertices that is
+// nearest takes the rows of that surface; the rest is relaxed between them. A small component gets one row.
 //
-// Cost: an edit is paid by the engine (paths of the rings); solve() is one sweep for H channels. No factor is touched.
-// An edit that fails leaves the object fit for destruction only: Transfer edits copies and swaps them in.
+// Cost: the engine pays for an edit by the elimination paths of the rings. solve() is one sweep for H channels. No
+// factor changes. After an edit that fails the object can only be destroyed: Transfer edits copies and swaps them in.
 #pragma once
 #include <cstdint>
 #include <memory>

@@ -1,4 +1,4 @@
-// What a transfer keeps beside its pairs (Transfer::Prepared), and what its files share.
+// Data that a transfer derives from its pairs (Transfer::Prepared), shared by its files.
 #pragma once
 #include <algorithm>
 
@@ -18,7 +18,7 @@ inline Vec3 region_mean(Span<const std::int32_t> region, const Vec3* points) noe
 }
 
 inline double lowest(Span<const std::int32_t> region, const Vec3* points, Vec3 up) noexcept {
-  double low = 1e300;
+  double low = no_height;
   for (const std::int32_t v : region) low = std::min(low, dot(points[v], up));
   return low;
 }
@@ -28,9 +28,9 @@ inline double smooth_step(double low, double high, double x) noexcept {
   return t * t * (3 - 2 * t);
 }
 
-inline Vec3 up_of(const Mat3& axes) noexcept { return {axes.m[1][0], axes.m[1][1], axes.m[1][2]}; }
+inline Vec3 up_of(const Mat3& axes) noexcept { return {axes(1, 0), axes(1, 1), axes(1, 2)}; }
 
-// What follows from the pairs, and the last frame. Made whole or not at all.
+// Everything derived from the pairs, and the last frame. It is made completely or not at all.
 struct Transfer::Prepared {
   explicit Prepared(Memory& memory)
       : source_leak(&memory),
@@ -67,7 +67,7 @@ struct Transfer::Prepared {
   struct Anchor {
     std::uint32_t number = 0, flags = 0;
     bool is_foot = false;
-    std::int32_t cluster = 0;  // that weighs most on the region
+    std::int32_t cluster = 0;  // of largest weight on the region
     Vec3 source_rest, target_rest;
   };
 
@@ -90,17 +90,17 @@ struct Transfer::Prepared {
   Vector<Quaternion> given, rotations;  // from the source, and as refitted
   Vector<Mat3> matrices;
   Vector<Vec3> shifts, cluster_goals, goals;
-  Vector<Anchor> loose;     // pairs that are no anchors: only holds move them
-  Vector<Hold> holds;       // of this round; room for one per pair and vertex row
-  Vector<Hold> given_hold;  // of the caller, per row; share 0 = none
+  Vector<Anchor> loose;     // pairs without an anchor: only holds move them.
+  Vector<Hold> holds;       // of this round; room for one per pair and vertex row.
+  Vector<Hold> given_hold;  // of the caller, per row; share 0 = none.
   // the surface over the ground
-  Vector<std::int32_t> rides;  // per target vertex: row of the region it moves with, or -1
+  Vector<std::int32_t> rides;  // per target vertex: row of the region it moves with, or -1.
   Vector<BlendColumns> columns;
-  Vector<Vec3> blended;               // posed target, inner units
-  double lift = 0;                    // of everything, along up
-  Vector<std::int32_t> source_owner;  // per source vertex: cluster whose centre is nearest
-  // per cluster: lowest height of its source vertices over the ground, scaled, at rest and now; of the target's
-  // vertices, along up; area of those that touch and do not at rest
+  Vector<Vec3> blended;               // posed target, inner units.
+  double lift = 0;                    // of everything, along up.
+  Vector<std::int32_t> source_owner;  // per source vertex: cluster whose centre is nearest.
+  // Per cluster: lowest scaled height of its source vertices over the ground, at rest and now. Lowest height of its
+  // target vertices. Area that touches the ground now and not at rest.
   Vector<double> rest_lows, source_lows, target_lows, touch;
   double source_low = 0;  // of all, along up
   struct Sunk {

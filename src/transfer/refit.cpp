@@ -4,15 +4,9 @@
 #include <algorithm>
 
 #include "base/index.h"
+#include "transfer/constants.h"
 
 namespace hf_inner {
-namespace {
-
-constexpr double keep = 0.18;         // b
-constexpr double handle_share = 0.9;  // centres beyond belong to a handle
-
-}  // namespace
-
 void Refit::prepare(const Mesh& target, Span<const double> area, const Clusters& clusters, Memory& memory) {
   count_ = clusters.count;
   const std::size_t count = at(count_), width = at(clusters.field_count);
@@ -65,7 +59,7 @@ void Refit::turn(const Quaternion* given, const Vec3* shifts, Quaternion* rotati
       const Vec3 y = 0.5 * ((matrices[c] * x + shifts[c]) + (matrices[d] * x + shifts[d]));
       add_outer(moment, weight_[at(i)] / spread_[c], y - place, x - centroid_[c]);
     }
-    rotations[c] = best_rotation_from(moment + keep * to_matrix(given[c]), rotations[c]);
+    rotations[c] = best_rotation_from(moment + keep_rotation * given[c].toRotationMatrix(), rotations[c]);
   }
 }
 

@@ -1,15 +1,15 @@
-// Clusters turn to where their neighbours went.
+// Turns clusters towards the places where their neighbours went.
 //
-// An anchored foot may stand elsewhere than the source's rotations alone would put it; translations alone would then
-// shift the clusters of the leg against each other, and the leg looks like a string of beads. So each cluster is
-// matched to the places where it overlaps its neighbours,
-//     R_c = argmax tr(R' (M_c / s_c + b R_c0)),   M_c = sum_d k_cd (y_cd - y_c)(x_cd - x_c)',   k_cd = sum_v a_v W_vc
-//     W_vd,
-// x_cd the rest centroid of the overlap of c and d, y_cd the mean of where c and d put it, s_c the rest spread, R_c0
-// the rotation that came from the source (which decides the twist, and b = 0.18 how far a cluster may turn), after
-// which the translations are solved again: the shape matching of overlapping clusters of Xu et al. 2009, Section 5.2,
-// started at the transferred rotations. Handle clusters keep theirs. A rigid motion stays as it is. Cost: O(overlaps)
-// per round. Allocates nothing.
+// An anchored foot may stand where the source's rotations alone would not put it. Translations alone then shift the
+// clusters of the leg against each other, like beads on a string. So each cluster is matched to its overlaps,
+//     R_c = argmax tr(R' (M_c / s_c + b R_c0)),   M_c = sum_d k_cd (y_cd - y_c)(x_cd - x_c)',
+//     k_cd = sum_v a_v W_vc W_vd.
+// x_cd is the rest centroid of the overlap of c and d, y_cd the mean of where both put it, s_c the rest spread. R_c0 is
+// the rotation that came from the source: it decides the twist, and b how far a cluster may turn.
+//
+// Translations are solved again afterwards. This is the shape matching of Xu et al. 2009, Section 5.2, started at the
+// transferred rotations. Clusters of handles keep theirs. A rigid motion is unchanged. Cost: O(overlaps) per round.
+// Allocates nothing.
 #pragma once
 #include <cstdint>
 
@@ -30,7 +30,7 @@ class Refit {
 
  private:
   std::int32_t count_ = 0;
-  // overlaps of each cluster, itself included (its pivot, with the vertices it shares with nobody)
+  // overlaps of each cluster, also with itself
   Vector<std::int32_t> start_, other_;
   Vector<double> weight_;
   Vector<Vec3> point_;

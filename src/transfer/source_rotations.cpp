@@ -5,13 +5,10 @@
 #include <cmath>
 
 #include "base/index.h"
+#include "transfer/constants.h"
 
 namespace hf_inner {
 namespace {
-
-constexpr double prior = 0.02;        // of the broad rotation, in spreads of the cluster
-constexpr double broad_prior = 1e-3;  // of the rotation of the whole
-constexpr std::size_t most_sampled = 4096;
 
 // M = sum_v q_v g_v'. The slopes sum to zero, so any origin will do; one near the cluster keeps the digits of far-away
 // poses.
@@ -27,7 +24,7 @@ Mat3 moment_of(const SourceKernels& kernels, std::int32_t c, const Vec3* posed) 
 
 Quaternion kernel_rotation(const SourceKernels& kernels, std::int32_t c, const Vec3* posed, double share,
                            const Quaternion& guide) noexcept {
-  return best_rotation_from(moment_of(kernels, c, posed) + share * to_matrix(guide), guide);
+  return best_rotation_from(moment_of(kernels, c, posed) + share * guide.toRotationMatrix(), guide);
 }
 
 }  // namespace
@@ -62,7 +59,7 @@ WholeMotion SourceRotations::whole(const Mesh& mesh, Span<const double> area, co
               mesh.positions[at(sample_[i])] - sample_centroid_);
   }
   if (sample_spread_ > 0) out.rotation = best_rotation((1 / sample_spread_) * moment, Quaternion());
-  const Mat3 rotation = to_matrix(out.rotation);
+  const Mat3 rotation = out.rotation.toRotationMatrix();
   double sum = 0;
   for (std::size_t i = 0; i < sample_.size(); ++i) {
     const Vec3 d = posed[sample_[i]] - out.centroid - rotation * (mesh.positions[at(sample_[i])] - out.rest_centroid);
@@ -77,7 +74,7 @@ void SourceRotations::clusters(const Clusters& clusters, const Vec3* posed, cons
   jobs.for_each(static_cast<std::uint32_t>(clusters.count), [&](std::uint32_t i) {
     const auto c = static_cast<std::int32_t>(i);
     const Quaternion broad = kernel_rotation(clusters.broad, c, posed, broad_prior, whole);
-    out[i] = kernel_rotation(clusters.narrow, c, posed, prior, broad);
+    out[i] = kernel_rotation(clusters.narrow, c, posed, narrow_prior, broad);
   });
 }
 

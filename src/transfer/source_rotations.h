@@ -1,13 +1,12 @@
-// How each cluster of the source has turned in a posed frame.
+// Finds how each cluster of the source has turned in a posed frame.
 //
-//     M_c = sum_ij w_cij (q_i - q_j)(p_i - p_j)',   R_c = argmax tr(R' (M_c + e R_b)),   R_b likewise from the broad
-//     kernel and the rotation of the whole,
+//     M_c = sum_ij w_cij (q_i - q_j)(p_i - p_j)',   R_c = argmax tr(R' (M_c + e R_b)),
+// p the rest and q the posed vertices. R_b is found likewise, from the broad kernel and the rotation of the whole. The
+// sum runs over the edges of the cluster's kernel, in paper mode over its vertices (clusters.h). This is the rotation
+// of as-rigid-as-possible cells (Sorkine and Alexa 2007), averaged over the cluster. The broad cluster decides the
+// twist of thin, flat and collinear ones. For q = R p + t every R_c is R: M_c = R S and R S + e R = R (S + e I).
 //
-// p the rest, q the posed vertices, the sum over the edges of the cluster's kernel (clusters.h; in paper mode over its
-// vertices about their centroid), e = 0.02 (the rotation of as-rigid-as-possible cells, Sorkine and Alexa 2007,
-// averaged over the cluster; the broad cluster is a prior that decides the twist of thin, flat and collinear ones). For
-// q = R p + t every R_c is R: M_c = R S and R S + e R = R (S + e I). Cost: the sum of the kernel sizes and three 4 x 4
-// eigenproblems per cluster. Allocates nothing.
+// Cost: the sum of the kernel sizes and three 4 x 4 eigenproblems per cluster. Allocates nothing.
 #pragma once
 #include "deform/rotation.h"
 #include "transfer/clusters.h"
@@ -32,7 +31,7 @@ class SourceRotations {
                 JobRunner& jobs) const;
 
  private:
-  Vector<std::int32_t> sample_;  // at most 4096 vertices for the rotation of the whole
+  Vector<std::int32_t> sample_;  // vertices for the rotation of the whole
   Vector<double> sample_weight_;
   Vec3 sample_centroid_;
   double sample_spread_ = 0;

@@ -3,21 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/index.h"
+#include "base/number_pool.h"
+#include "transfer/constants.h"
 #include "transfer/prepared.h"
 
 namespace hf_inner {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
 constexpr std::uint32_t known_flags =
     HF_PAIR_ANCHOR | HF_PAIR_FOOT | HF_PAIR_TRUNK | HF_PAIR_NO_ALIGNMENT | HF_PAIR_CONTACT;
-constexpr double shortest_limb = 0.1;  // of the box: shorter limbs have no reliable direction
-constexpr double least_side = 0.03;    // of the box: nearer to the middle a region is neither left nor right
-constexpr std::int32_t enough_support = 6;
-constexpr double rides_from = 0.75;  // share of a vertex in the clusters of a region from which it moves with it
 
 Vec3 area_mean(const Mesh& mesh, const Vector<double>& area) noexcept {
   Vec3 sum;
@@ -34,7 +32,7 @@ Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Cor
       options_(options),
       source_axes_(checked_axes(options.source_axes, "source")),
       target_axes_(checked_axes(options.target_axes, "target")),
-      axes_(to_quaternion(transpose(target_axes_) * source_axes_)),
+      axes_(Mat3(target_axes_.transpose() * source_axes_)),
       source_(source_core_),
       target_(target_core_),
       numbers_(target_core_->memory.get()),
@@ -43,24 +41,26 @@ Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Cor
       target_area_(area_shares(target_core_->mesh, *target_core_->memory)) {
   if (options.mode != HF_TRANSFER_FIELDS && options.mode != HF_TRANSFER_PAPER)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "mode %d is none of HF_TRANSFER_*", options.mode);
-  if (options.cluster_count > 512)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "cluster_count is %u; it may be 1 to 512, or 0 for the default",
-         options.cluster_count);
+  if (options.cluster_count > cluster_limit)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "cluster_count is %u; it may be 1 to %u, or 0 for the default",
+         options.cluster_count, cluster_limit);
   if (!std::isfinite(options.kernel_width) || !std::isfinite(options.scale) ||
       !std::isfinite(options.alignment_angle)) {
     fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "kernel_width, scale and alignment_angle must be finite");
   }
-  // the ABI gives floats: the bounds hold for their nearest values too
-  if (options.kernel_width != 0 && (options.kernel_width < 0.00499999 || options.kernel_width > 0.5000001)) {
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "kernel_width is %g; it may be 0.005 to 0.5, or 0 for the default",
-         options.kernel_width);
+  // the ABI gives floats, so the bounds are compared as floats
+  const auto width = static_cast<float>(options.kernel_width);
+  if (options.kernel_width != 0 &&
+      (width < static_cast<float>(least_kernel_width) || width > static_cast<float>(most_kernel_width))) {
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "kernel_width is %g; it may be %g to %g, or 0 for the default",
+         options.kernel_width, least_kernel_width, most_kernel_width);
   }
-  if (options.scale != 0 && !(options.scale >= 1e-6 && options.scale <= 1e6)) {
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it may be 1e-6 to 1e6, or 0 for the ratio of the legs",
-         options.scale);
+  if (options.scale != 0 && !(options.scale >= least_scale && options.scale <= most_scale)) {
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it may be %g to %g, or 0 for the ratio of the legs",
+         options.scale, least_scale, most_scale);
   }
-  if (options_.kernel_width == 0) options_.kernel_width = 0.04;
-  if (options_.alignment_angle == 0) options_.alignment_angle = 40 * degree;
+  if (options_.kernel_width == 0) options_.kernel_width = default_kernel_width;
+  if (options_.alignment_angle == 0) options_.alignment_angle = default_alignment_angle;
 }
 
 Transfer::~Transfer() = default;
@@ -80,12 +80,12 @@ void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs) 
   // the smallest free numbers
   Vector<std::uint32_t> fresh_numbers(&memory), numbers(numbers_, &memory), flags(flags_, &memory);
   Vector<Span<const std::int32_t>> source_regions(&memory), target_regions(&memory);
-  std::uint32_t next = 0;
+  NumberPool pool;
   for (const PairInput& pair : pairs) {
-    while (source_.in_use(next)) ++next;
+    const std::uint32_t next = pool.take([&](std::uint32_t number) { return source_.in_use(number); });
     if (flags.size() <= next) flags.resize(next + 1, 0u);
     flags[next] = pair.flags;
-    numbers.push_back(next), fresh_numbers.push_back(next++);
+    numbers.push_back(next), fresh_numbers.push_back(next);
     source_regions.push_back(pair.source), target_regions.push_back(pair.target);
   }
   std::sort(numbers.begin(), numbers.end());
@@ -137,9 +137,9 @@ void Transfer::prepare_alignment(Prepared& p) const {
         limb_direction(target, column, region_mean(target_.region(number), target.mesh->positions.data()), from);
     if (!known || norm(from) < shortest_limb || norm(to) < shortest_limb) continue;
     to = rotate(axes_, to);
-    const Vec3 right{target_axes_.m[0][0], target_axes_.m[0][1], target_axes_.m[0][2]};
+    const Vec3 right{target_axes_(0, 0), target_axes_(0, 1), target_axes_(0, 2)};
     p.limb_turn[h] = minimal_rotation(from, to, right);
-    p.limb_angle[h] = angle_between(p.limb_turn[h], Quaternion());
+    p.limb_angle[h] = p.limb_turn[h].angularDistance(Quaternion());
     p.aligned[h] = options_.mode == HF_TRANSFER_FIELDS && options_.alignment_angle > 0 &&
                    p.limb_angle[h] > options_.alignment_angle && !(flags & HF_PAIR_NO_ALIGNMENT);
   }
@@ -152,7 +152,8 @@ void Transfer::prepare_alignment(Prepared& p) const {
     const auto h = static_cast<std::size_t>(std::max_element(centre, centre + width) - centre);
     owned[h] += 1;
     if (p.clusters.support[at(c)] >= enough_support) p.confidence[h] += 1;
-    if (p.aligned[h]) p.cluster_turn[at(c)] = power(p.limb_turn[h], std::clamp((centre[h] - 0.35) / 0.2, 0.0, 1.0));
+    if (p.aligned[h])
+      p.cluster_turn[at(c)] = power(p.limb_turn[h], std::clamp((centre[h] - fade_from) / fade_width, 0.0, 1.0));
   }
   for (std::size_t h = 0; h < width; ++h) p.confidence[h] = owned[h] > 0 ? p.confidence[h] / owned[h] : 0.0;
 
@@ -163,7 +164,7 @@ void Transfer::prepare_alignment(Prepared& p) const {
   } else if (!feet.empty()) {
     const double of_source = leg_length(source, {feet.data(), feet.size()}),
                  of_target = leg_length(target, {feet.data(), feet.size()});
-    if (of_source > 1e-6 && of_target > 1e-6) p.scale = of_target / of_source;
+    if (of_source > least_leg && of_target > least_leg) p.scale = of_target / of_source;
   }
 }
 
@@ -185,7 +186,7 @@ void Transfer::prepare_anchors(Prepared& p) const {
   TranslationOptions options;
   if (options_.mode == HF_TRANSFER_PAPER) options.spread_share = 0;
   // feet alone would let the trunk float: the centroid holds it then
-  options.root = p.anchors.empty() ? 1.0 : holds_trunk ? 1e-3 : 0.1;
+  options.root = p.anchors.empty() ? root_alone : holds_trunk ? root_with_trunk : root_without_trunk;
   p.translations.prepare(*target_core_, target_area_, p.clusters, {regions.data(), regions.size()},
                          {loose.data(), loose.size()}, options);
   p.holds.reserve(numbers_.size() + vertex_rows), p.given_hold.assign(numbers_.size() + 1, Hold());
@@ -198,9 +199,9 @@ void Transfer::prepare_anchors(Prepared& p) const {
     for (std::size_t v = 0; v < p.rides.size(); ++v) {
       double share = 0;
       for (std::size_t k = v * blend_count; k < (v + 1) * blend_count; ++k)
-        if (p.translations.row_weight(row, p.clusters.joint[k]) > 0.05)
+        if (p.translations.row_weight(row, p.clusters.joint[k]) > region_cluster_share)
           share += static_cast<double>(p.clusters.weight[k]);
-      if (share > rides_from) p.rides[v] = static_cast<std::int32_t>(row);
+      if (share > region_vertex_share) p.rides[v] = static_cast<std::int32_t>(row);
     }
   }
 }
@@ -210,20 +211,23 @@ void Transfer::prepare_ground(Prepared& p) const {
   const std::size_t width = numbers_.size(), count = at(p.clusters.count);
   const Mesh& mesh = source_core_->mesh;
   p.source_owner.assign(mesh.positions.size(), 0);
-  p.rest_lows.assign(count, 1e300), p.source_lows.assign(count, 0.0), p.target_lows.assign(count, 0.0),
+  p.rest_lows.assign(count, no_height), p.source_lows.assign(count, 0.0), p.target_lows.assign(count, 0.0),
       p.touch.assign(count, 0.0);
-  target_core_->jobs->for_each(static_cast<std::uint32_t>((mesh.positions.size() + 255) / 256), [&](std::uint32_t b) {
-    for (std::size_t v = std::size_t{b} * 256; v < std::min(mesh.positions.size(), (std::size_t{b} + 1) * 256); ++v) {
-      const double* row = p.source_field.data() + v * width;
-      double nearest = 1e300;
-      for (std::size_t c = 0; c < count; ++c) {
-        const double* centre = p.clusters.centre.data() + c * width;
-        double d = 0;
-        for (std::size_t h = 0; h < width; ++h) d += (row[h] - centre[h]) * (row[h] - centre[h]);
-        if (d < nearest) nearest = d, p.source_owner[v] = static_cast<std::int32_t>(c);
-      }
-    }
-  });
+  target_core_->jobs->for_each(static_cast<std::uint32_t>((mesh.positions.size() + owner_block - 1) / owner_block),
+                               [&](std::uint32_t b) {
+                                 for (std::size_t v = std::size_t{b} * owner_block;
+                                      v < std::min(mesh.positions.size(), (std::size_t{b} + 1) * owner_block); ++v) {
+                                   const double* row = p.source_field.data() + v * width;
+                                   double nearest = std::numeric_limits<double>::infinity();
+                                   for (std::size_t c = 0; c < count; ++c) {
+                                     const double* centre = p.clusters.centre.data() + c * width;
+                                     double d = 0;
+                                     for (std::size_t h = 0; h < width; ++h)
+                                       d += (row[h] - centre[h]) * (row[h] - centre[h]);
+                                     if (d < nearest) nearest = d, p.source_owner[v] = static_cast<std::int32_t>(c);
+                                   }
+                                 }
+                               });
   const Vec3 up = up_of(source_axes_);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     double& low = p.rest_lows[at(p.source_owner[v])];
@@ -262,7 +266,7 @@ Transfer::Prepared& Transfer::prepare() {
   const std::size_t count = at(p.clusters.count);
   p.posed.resize(at(source_core_->size()));
   p.given.assign(count, Quaternion()), p.rotations.assign(count, Quaternion()),
-      p.matrices.assign(count, Mat3::identity());
+      p.matrices.assign(count, Mat3::Identity());
   p.columns.assign(count, BlendColumns()), p.blended.resize(at(target_core_->size()));
   p.deepest.assign(numbers_.size() + 1 + count, Prepared::Sunk());
   p.shifts.assign(count, Vec3()), p.cluster_goals.assign(count, Vec3()), p.goals.assign(p.anchors.size(), Vec3());
@@ -287,7 +291,7 @@ PairInfo Transfer::pair_info(std::uint32_t pair) {
 bool Transfer::is_crossed(std::uint32_t number) const {
   const auto side = [](const Core& core, const Mat3& axes, Span<const std::int32_t> region,
                        const Vector<double>& area) {
-    return dot(Vec3{axes.m[0][0], axes.m[0][1], axes.m[0][2]},
+    return dot(Vec3{axes(0, 0), axes(0, 1), axes(0, 2)},
                region_mean(region, core.mesh.positions.data()) - area_mean(core.mesh, area));
   };
   const double a = side(*source_core_, source_axes_, source_.region(number), source_area_),

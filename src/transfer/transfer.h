@@ -1,19 +1,21 @@
-// The motion of one surface played on another: what stands behind hf_transfer_*.
+// Plays the motion of one surface on another: the object behind hf_transfer_*.
 //
-// pairs of regions -> the same harmonic coordinates on both surfaces (pair_fields) -> corresponding clusters (clusters)
-// -> per frame: rotations of the source's clusters (source_rotations), axes and rest alignment (alignment),
-// translations of the target's clusters (translations), which then turn to meet each other (refit), blend of four per
-// vertex. Xu, Zhang, Cohen-Or and Xiong 2009, Section 6; departures from the paper are named in those files.
+// Pairs of regions give both surfaces the same harmonic coordinates (pair_fields) and matching clusters (clusters).
+// A frame takes the rotations of the source's clusters (source_rotations) into the target's axes and rest directions
+// (alignment). Translations of the target's clusters follow (translations), which then turn to meet each other (refit).
+// Each vertex blends four of them. Xu, Zhang, Cohen-Or and Xiong 2009, Section 6; those files name what differs.
 //
-// Pairs come and go at any time on both sides; no factor is touched. What depends on them is made again at the next
-// question (pair_info, apply, skin). Anchors: the target's region goes where the source's went, y = c + s A (q - p), s
-// the scale; when the source turns or falls as a whole (or moves rigidly) the offsets between the two rest shapes turn
-// with it, those of a standing foot only as far as the foot itself turns. Touching the ground (transfer_ground.cpp): a
-// foot follows its path exactly while its source stands; a contact (a nose that grazes) comes as near to the ground as
-// its source while that is near; no part of the surface sinks deeper than the source, and what lies, lies on the parts
-// its source lies on. These are holds: constraints solved beside the energies, at no cost in factors.
-// Everything is all or nothing. apply() allocates nothing once prepared. Results do not depend on the number of
-// threads.
+// Pairs come and go at any time; no factor changes. Derived data is recomputed at the next question.
+//
+// Anchors: the target's region goes where the source's went, y = c + s A (q - p), s the scale. When the source turns or
+// falls as a whole, the offsets between the two rest shapes turn with it. Those of a standing foot turn as far as the
+// foot itself.
+//
+// Ground (transfer_ground.cpp): a foot follows its path exactly while its source stands. A contact comes as near to the
+// ground as its source. No part sinks deeper than the source, and a lying body rests on the parts its source rests on.
+// These are holds: constraints solved beside the energies, without touching a factor.
+//
+// Edits and frames are all or nothing. apply() allocates nothing once prepared. Results do not depend on threads.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -30,10 +32,10 @@ namespace hf_inner {
 
 struct TransferOptions {
   std::int32_t mode = HF_TRANSFER_FIELDS;
-  std::uint32_t cluster_count = 0;  // 0 = 80; paper mode: 0 = eight bands per pair
-  double kernel_width = 0;          // 0 = 0.04
-  double scale = 0;                 // 0 = from the legs, or the boxes
-  double alignment_angle = 0;       // radians; 0 = 40 degrees; negative = never
+  std::uint32_t cluster_count = 0;  // 0 = default_cluster_count; paper mode: 0 = default_bands per pair
+  double kernel_width = 0;          // 0 = default_kernel_width
+  double scale = 0;                 // 0 = from the legs or the boxes
+  double alignment_angle = 0;       // radians; 0 = default_alignment_angle; negative = never
   double source_axes[9] = {0};      // rows right, up, forward; zero = x, y, z
   double target_axes[9] = {0};
 };

@@ -3,17 +3,11 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "transfer/constants.h"
 #include "transfer/prepared.h"
 
 namespace hf_inner {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
-constexpr double rigid_residual = 1e-3;  // of the box: frames much nearer to rigid are moved rigidly
-constexpr double turn_low = 20 * degree,
-                 turn_high = 50 * degree;  // between these a turn of the whole takes the anchors' offsets along
-constexpr std::int32_t refit_rounds = 4;
-constexpr std::size_t block = 2048;
 
 bool is_finite(Vec3 p) noexcept { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
@@ -23,7 +17,7 @@ double rigid_share(const WholeMotion& whole) noexcept {
   return 1 / (1 + ratio * ratio);
 }
 double turned_share(const Quaternion& turn) noexcept {
-  return smooth_step(turn_low, turn_high, angle_between(turn, Quaternion()));
+  return smooth_step(turn_low, turn_high, turn.angularDistance(Quaternion()));
 }
 
 // How far it has fallen over: turns about the vertical do not count.
@@ -33,8 +27,7 @@ double fallen_share(const Quaternion& turn, Vec3 up) noexcept {
 
 // The part of a rotation about an axis.
 Quaternion about(const Quaternion& q, Vec3 axis) noexcept {
-  const double s = q.x * axis.x + q.y * axis.y + q.z * axis.z;
-  return normalised({s * axis.x, s * axis.y, s * axis.z, q.w});
+  return normalised({dot(to_vec3(q.vec()), axis) * axis, q.w()});
 }
 
 }  // namespace
@@ -46,7 +39,7 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
   const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
   const double rigid = rigid_share(whole), share = std::max(rigid, turned_share(turn)),
                upright = 1 - std::max(rigid, fallen_share(turn, up));
-  const Mat3 carried = to_matrix(power(turn, share));
+  const Mat3 carried = power(turn, share).toRotationMatrix();
   for (std::size_t k = 0; k < p.anchors.size(); ++k) {
     const Prepared::Anchor& anchor = p.anchors[k];
     const Span<const std::int32_t> from = source_.region(anchor.number), to = target_.region(anchor.number);
@@ -56,7 +49,7 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
     Vec3 turned = carried * offset - offset;
     if (anchor.is_foot && upright > 0) {
       const auto c = static_cast<std::size_t>(anchor.cluster);
-      const Quaternion own = about(p.given[c] * conjugate(p.cluster_turn[c]), up);
+      const Quaternion own = about(p.given[c] * p.cluster_turn[c].conjugate(), up);
       turned = (1 - upright) * turned + upright * (rotate(power(own, turned_share(own)), offset) - offset);
     }
     p.goals[k] = anchor.target_rest + path + turned;
@@ -65,7 +58,7 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
     const double allowed =
         p.target_ground + std::min(0.0, p.scale * (lowest(from, p.posed.data(), source_up) - p.source_ground));
     const Mat3 rotation = p.translations.mean_rotation(k, p.matrices.data());
-    double low = 1e300;
+    double low = no_height;
     for (const std::int32_t v : to)
       low = std::min(low, dot(up, rotation * (target_core_->mesh.positions[at(v)] - anchor.target_rest)));
     const double lift = allowed - (dot(up, p.goals[k]) + low);
@@ -103,21 +96,21 @@ void Transfer::settle(Prepared& p, Vec3 centroid) const {
 
 void Transfer::turn_clusters(Prepared& p) const {
   p.refit.turn(p.given.data(), p.shifts.data(), p.rotations.data(), p.matrices.data());
-  for (std::size_t c = 0; c < p.rotations.size(); ++c) p.matrices[c] = to_matrix(p.rotations[c]);
+  for (std::size_t c = 0; c < p.rotations.size(); ++c) p.matrices[c] = p.rotations[c].toRotationMatrix();
 }
 
 void Transfer::blend(Prepared& p) const {
   for (std::size_t c = 0; c < p.columns.size(); ++c) {
     BlendColumns& to = p.columns[c];
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) to.m[j][i] = p.matrices[c].m[i][j];
+      for (int j = 0; j < 3; ++j) to.m[j][i] = p.matrices[c](i, j);
     to.m[3][0] = p.shifts[c].x, to.m[3][1] = p.shifts[c].y, to.m[3][2] = p.shifts[c].z;
   }
   const Vec3* rest = target_core_->mesh.positions.data();
   const std::size_t n = p.blended.size();
-  target_core_->jobs->for_each(static_cast<std::uint32_t>((n + block - 1) / block), [&](std::uint32_t b) {
-    const std::size_t last = std::min(n, (std::size_t{b} + 1) * block);
-    for (std::size_t v = std::size_t{b} * block; v < last; ++v) {
+  target_core_->jobs->for_each(static_cast<std::uint32_t>((n + vertex_block - 1) / vertex_block), [&](std::uint32_t b) {
+    const std::size_t last = std::min(n, (std::size_t{b} + 1) * vertex_block);
+    for (std::size_t v = std::size_t{b} * vertex_block; v < last; ++v) {
       const Vec3 x = rest[v];
       double sum[4] = {0, 0, 0, 0};
       for (std::size_t i = v * blend_count; i < (v + 1) * blend_count; ++i) {
@@ -145,11 +138,11 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   p.source_rotations.clusters(p.clusters, p.posed.data(), whole.rotation, p.given.data(), *target_core_->jobs);
 
   // into the target's axes and rest directions
-  const Quaternion turn = normalised(axes_ * whole.rotation * conjugate(axes_));
+  const Quaternion turn = normalised(axes_ * whole.rotation * axes_.conjugate());
   const Vec3 centroid = p.target_centroid + p.scale * rotate(axes_, whole.centroid - whole.rest_centroid);
   for (std::size_t c = 0; c < p.rotations.size(); ++c) {
-    p.given[c] = p.rotations[c] = normalised(axes_ * p.given[c] * conjugate(axes_) * p.cluster_turn[c]);
-    p.matrices[c] = to_matrix(p.rotations[c]);
+    p.given[c] = p.rotations[c] = normalised(axes_ * p.given[c] * axes_.conjugate() * p.cluster_turn[c]);
+    p.matrices[c] = p.rotations[c].toRotationMatrix();
     p.cluster_goals[c] = centroid + rotate(turn, p.clusters.pivot[c] - p.target_centroid);
   }
   place_anchors(p, whole, turn);
@@ -171,12 +164,11 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   if (lies > 0) lie_down(p, centroid, lies, fallen, share);
   blend(p);
   if (over_ground) keep_above_ground(p, centroid, 1 - rigid, (1 - lies) * fallen);
-  target_core_->jobs->for_each(static_cast<std::uint32_t>((p.blended.size() + block - 1) / block),
-                               [&](std::uint32_t b) {
-                                 const std::size_t last = std::min(p.blended.size(), (std::size_t{b} + 1) * block);
-                                 for (std::size_t v = std::size_t{b} * block; v < last; ++v)
-                                   out[v] = to.to_given(p.blended[v]);
-                               });
+  target_core_->jobs->for_each(
+      static_cast<std::uint32_t>((p.blended.size() + vertex_block - 1) / vertex_block), [&](std::uint32_t b) {
+        const std::size_t last = std::min(p.blended.size(), (std::size_t{b} + 1) * vertex_block);
+        for (std::size_t v = std::size_t{b} * vertex_block; v < last; ++v) out[v] = to.to_given(p.blended[v]);
+      });
 }
 
 }  // namespace hf_inner

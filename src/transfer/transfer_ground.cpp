@@ -1,34 +1,22 @@
-// Over the ground: regions that stand, touch or would sink, and the rest of the surface.
+// Keeps the target over the ground: regions that stand or touch, and the rest of the surface.
 //
-// A frame's ground is the lowest point of the rest shape. What the source allows is the scaled depth to which it sinks
-// itself. Regions are held while the translations are solved (hold_regions). The rest of the surface:
-// - A source that lies touches the ground with clusters that are far above it at rest. The same clusters of the target
-//   shall touch: the anchors go down, or up, by the mean of their heights over those of the source's, scaled
-//   (lie_down).
-// - A body that has fallen over and does not lie yet goes up as a whole by what sinks.
-// - Of what still sinks - a tail that hangs down to the ground, a toe, a hem - the deepest vertex of each cluster is
-//   held at the allowed height like a region, or, where the vertex moves with the region of a pair, that region
-//   is raised, and the clusters turn to follow.
-// Nothing is paid in frames where nothing lies or sinks but a look at every height.
+// The ground is the lowest point of the rest shape. A target may sink as deep as its source, scaled. Regions are held
+// while the translations are solved (hold_regions). The rest of the surface follows three rules:
+// - A lying source touches the ground with clusters that are far above it at rest. The same clusters of the target
+//   shall touch: lie_down moves the anchors along up by the mean difference of their heights.
+// - A body that has fallen over and does not lie yet is raised as a whole by the depth it sinks.
+// - In each cluster that still sinks, the deepest vertex is held at the allowed height. The clusters turn to follow.
+//   Where it moves with the region of a pair, that region is raised instead.
+// Frames in which nothing lies or sinks only cost a pass over the heights.
 #include <cmath>
 
 #include "base/index.h"
+#include "transfer/constants.h"
 #include "transfer/prepared.h"
 
 namespace hf_inner {
-namespace {
-
-// heights over the ground: of a foot, in boxes, that stands or flies; of a contact, in its own rest heights
-constexpr double stands = 0.01, flies = 0.05, touches = 0.1, leaves = 0.45;
-constexpr double lies_low = 0.01, lies_high = 0.06;  // share of the surface in clusters that touch and do not at rest
-constexpr double least_depth = 1e-4;                 // of the box: less is no sinking
-constexpr double firm = 0.98;                        // share of a held vertex
-constexpr std::int32_t sunk_rounds = 8, turning_rounds = 3;
-
-}  // namespace
-
-// Holds the regions that stand, touch, would sink, or that the caller places. share: how far the frame is a rigid
-// motion or the body has fallen over, where none of them hold by themselves.
+// Holds the regions that stand, touch or would sink, and those the caller places. share: how far the frame is a rigid
+// motion or the body has fallen over. At share 1 only the caller holds.
 void Transfer::hold_regions(Prepared& p, double share) const {
   const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
   const bool by_itself = options_.mode == HF_TRANSFER_FIELDS && share < 1;
@@ -51,7 +39,7 @@ void Transfer::hold_regions(Prepared& p, double share) const {
     }
     // lowest vertex of the region about its mean, as the blend turns it
     const Mat3 rotation = p.translations.mean_rotation(row, p.matrices.data());
-    double low = 1e300;
+    double low = no_height;
     for (const std::int32_t v : target_.region(pair.number))
       low = std::min(low, dot(up, rotation * (target_core_->mesh.positions[at(v)] - pair.target_rest)));
     const Vec3 now = p.translations.place(row, p.matrices.data(), p.shifts.data());
@@ -65,7 +53,7 @@ void Transfer::hold_regions(Prepared& p, double share) const {
     }
     const double allowed = std::min(0.0, p.scale * height);
     if (at_height + hold.share * (wanted - at_height) < allowed) wanted = allowed, hold.share = 1 - share;
-    if (wanted == at_height || !(hold.share > 1e-6)) continue;
+    if (wanted == at_height || !(hold.share > least_hold)) continue;
     hold.goal = now + (wanted - at_height) * up, hold.vertical = true;
     p.holds.push_back(hold);
   }
@@ -75,8 +63,8 @@ void Transfer::hold_regions(Prepared& p, double share) const {
 // Heights of the source's clusters, scaled, and how far the source lies, 0 to 1.
 double Transfer::lying_share(Prepared& p) const noexcept {
   const Vec3 up = up_of(source_axes_);
-  p.source_low = 1e300;
-  std::fill(p.source_lows.begin(), p.source_lows.end(), 1e300);
+  p.source_low = no_height;
+  std::fill(p.source_lows.begin(), p.source_lows.end(), no_height);
   for (std::size_t v = 0; v < p.posed.size(); ++v) {
     const double height = dot(p.posed[v], up);
     p.source_low = std::min(p.source_low, height);
@@ -97,14 +85,14 @@ double Transfer::lying_share(Prepared& p) const noexcept {
 void Transfer::lie_down(Prepared& p, Vec3 centroid, double lies, double fallen, double share) const {
   const Vec3 up = up_of(target_axes_);
   blend(p);
-  std::fill(p.target_lows.begin(), p.target_lows.end(), 1e300);
+  std::fill(p.target_lows.begin(), p.target_lows.end(), no_height);
   for (std::size_t v = 0; v < p.blended.size(); ++v) {
     double& low = p.target_lows[at(p.clusters.joint[v * blend_count])];
     low = std::min(low, dot(up, p.blended[v]));
   }
   double sum = 0, mass = 0;
   for (std::size_t c = 0; c < p.target_lows.size(); ++c) {
-    if (!(p.touch[c] > 0) || p.target_lows[c] > 1e299) continue;
+    if (!(p.touch[c] > 0) || p.target_lows[c] == no_height) continue;
     sum += p.touch[c] * (p.target_lows[c] - p.target_ground - p.source_lows[c]), mass += p.touch[c];
   }
   if (!(mass > 0)) return;
@@ -135,11 +123,11 @@ bool Transfer::hold_sunk(Prepared& p, Vec3 up, double share, std::size_t& held) 
   const auto raise = [&](std::size_t row, double depth) {
     any = true;
     Hold fresh;
-    fresh.row = row, fresh.share = firm * share, fresh.vertical = true;
+    fresh.row = row, fresh.share = sunk_hold * share, fresh.vertical = true;
     fresh.goal = p.translations.place(row, p.matrices.data(), p.shifts.data()) + (depth - p.lift) * up;
     for (Hold& hold : p.holds) {
       if (hold.row != row) continue;
-      if (hold.share < 0.5 * firm * share)
+      if (hold.share < weak_hold * sunk_hold * share)
         hold = fresh;  // hardly held
       else
         hold.goal = hold.goal + depth / hold.share * up;
@@ -169,11 +157,11 @@ bool Transfer::hold_sunk(Prepared& p, Vec3 up, double share, std::size_t& held) 
   }
 }
 
-// share: how far the frame is none of a rigid motion; fallen: how far the body has fallen over and does not lie.
+// share: how far the frame is from a rigid motion. fallen: how far the body has fallen over without lying.
 void Transfer::keep_above_ground(Prepared& p, Vec3 centroid, double share, double fallen) const {
-  if (!(share > 1e-3)) return;
+  if (!(share > least_share)) return;
   const Vec3 up = up_of(target_axes_);
-  double low = 1e300;
+  double low = no_height;
   for (const Vec3& point : p.blended) low = std::min(low, dot(point, up));
   const double allowed = p.target_ground + p.scale * std::min(0.0, p.source_low - p.source_ground);
   if (!(allowed - low > least_depth)) return;

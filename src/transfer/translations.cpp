@@ -10,8 +10,6 @@
 namespace hf_inner {
 namespace {
 
-constexpr double steepest = 50;  // largest cotangent weight that counts
-
 template <class Matrix>
 double trace(const Matrix& matrix, std::size_t count) noexcept {
   double sum = 0;
@@ -51,7 +49,7 @@ void Translations::add_spread(const Core& target, const Clusters& clusters, doub
   Vector<double> own_matrix(count * count, 0.0, &memory), own_table(3 * count * count, 0.0, &memory);
   double floor = 0;
   for (const double w : target.weights) floor += std::abs(w);
-  floor = 1e-3 * floor / static_cast<double>(std::max<std::size_t>(1, target.weights.size()));
+  floor = least_weight_share * floor / static_cast<double>(std::max<std::size_t>(1, target.weights.size()));
   for (std::int32_t e = 0; e < target.topology.edge_count(); ++e) {
     const std::int32_t ends[2] = {target.topology.first(e), target.topology.second(e)};
     // difference of the two rows of W over at most eight clusters
@@ -68,7 +66,7 @@ void Translations::add_spread(const Core& target, const Clusters& clusters, doub
         delta[k] += (side ? -1.0 : 1.0) * static_cast<double>(clusters.weight[i]);
       }
     }
-    const double w = std::clamp(target.weights[at(e)], floor, std::max(floor, steepest));
+    const double w = std::clamp(target.weights[at(e)], floor, std::max(floor, steepest_weight));
     const Vec3 middle = 0.5 * (target.mesh.positions[at(ends[0])] + target.mesh.positions[at(ends[1])]);
     for (std::size_t i = 0; i < used; ++i) {
       for (std::size_t j = 0; j < used; ++j) {
@@ -232,8 +230,8 @@ Vec3 Translations::place(std::size_t row, const Mat3* rotations, const Vec3* shi
   return sum;
 }
 
-// Cholesky of a small positive definite matrix in place, three right-hand sides at once. The rows of holds that take no
-// part are those of the identity.
+// Cholesky of a small positive definite matrix in place, three right-hand sides at once. By hand: Eigen's allocates at
+// sizes known at run time. The rows of holds that take no part are those of the identity.
 void Translations::solve_holds(Span<const Hold> holds, bool with_vertical) noexcept {
   const std::size_t k = holds.size(), rows = row_start_.size() - 1;
   double* m = hold_matrix_.data();
@@ -242,9 +240,9 @@ void Translations::solve_holds(Span<const Hold> holds, bool with_vertical) noexc
     if (absent(i)) hold_rhs_[i] = Vec3();
     for (std::size_t j = 0; j <= i; ++j) {
       double x = absent(i) || absent(j) ? 0.0 : gram_[holds[i].row * rows + holds[j].row];
-      if (i == j) x = absent(i) ? 1.0 : x * (1 + 1e-9 + (1 - holds[i].share) / holds[i].share);
+      if (i == j) x = absent(i) ? 1.0 : x * (1 + hold_ridge + (1 - holds[i].share) / holds[i].share);
       for (std::size_t l = 0; l < j; ++l) x -= m[i * k + l] * m[j * k + l];
-      m[i * k + j] = i == j ? std::sqrt(std::max(x, 1e-300)) : x / m[j * k + j];
+      m[i * k + j] = i == j ? std::sqrt(std::max(x, least_pivot)) : x / m[j * k + j];
     }
   }
   for (std::size_t i = 0; i < k; ++i) {

@@ -1,17 +1,19 @@
-// Where the clusters of the target go when their rotations are given.
+// Places the clusters of the target when their rotations are given.
 //
-// The posed target is v' = Y_v + sum_c W_vc t_c, Y_v = sum_c W_vc R_c x_v. The C translations t minimise
-//     E_overlap / tr + a E_spread / tr + sum_k l |row_k - y_k|^2 + r |centroid - g|^2 + e sum_c |R_c x_c + t_c -
-//     g_c|^2, E_overlap = 1/2 sum_v a_v sum_cd W_vc W_vd |R_c x_v + t_c - R_d x_v - t_d|^2        (shape matching of
-//     overlapping clusters, Xu et al. 2009) E_spread  = sum_edges w_ij |(v'_i - v'_j) - (B_i + B_j)/2 (x_i - x_j)|^2,
-//     B_v = sum_c W_vc R_c      (reduced Poisson)
-// rows k are anchored regions, the centroid is the root, and the last term keeps clusters that overlap nothing near the
-// motion of the whole. Both energies give a right-hand side that is linear in the rotations with constant coefficients,
-// rhs_c = sum_d R_d g_cd, because the blended gradients of an edge combine to its midpoint:
-//     E_spread:  g_cd = - sum_edges w_ij (W_ic - W_jc)(W_id - W_jd) (x_i + x_j)/2,      E_overlap:  g_cd = sum_v a_v
-//     W_vc W_vd x_v, row sums subtracted.
-// So a frame costs one C x C triangular solve and a product with a sparse table; no vertex is touched. The matrix is
-// constant and factored once. A rigid motion of everything is a minimiser of every term, and is returned to rounding.
+// The posed target is v' = Y_v + sum_c W_vc t_c, with Y_v = sum_c W_vc R_c x_v. The C translations t minimise
+//     E_overlap / tr + a E_spread / tr + sum_k l |row_k - y_k|^2 + r |centroid - g|^2
+//         + e sum_c |R_c x_c + t_c - g_c|^2.
+// E_overlap is the shape matching of overlapping clusters (Xu et al. 2009), E_spread a reduced Poisson energy:
+//     E_overlap = 1/2 sum_v a_v sum_cd W_vc W_vd |R_c x_v + t_c - R_d x_v - t_d|^2,
+//     E_spread  = sum_edges w_ij |(v'_i - v'_j) - (B_i + B_j)/2 (x_i - x_j)|^2,     B_v = sum_c W_vc R_c.
+// Rows k are anchored regions, and the centroid is the root. The last term keeps clusters that overlap nothing near the
+// motion of the whole.
+//
+// The right-hand side of both energies is linear in the rotations, rhs_c = sum_d R_d g_cd. For E_overlap, with row sums
+// subtracted, and for E_spread, whose blended gradients combine to the midpoint of an edge:
+//     g_cd = sum_v a_v W_vc W_vd x_v,     g_cd = - sum_edges w_ij (W_ic - W_jc)(W_id - W_jd) (x_i + x_j)/2.
+// So a frame costs one C x C triangular solve and a product with a sparse table; no vertex is read. The matrix is
+// constant and factored once. A rigid motion of everything minimises every term, and is returned to rounding.
 #pragma once
 #include <cstdint>
 
@@ -23,13 +25,11 @@
 
 namespace hf_inner {
 
-constexpr std::size_t vertex_rows = 24;  // single vertices that can be held in one frame
-
 struct TranslationOptions {
-  double spread_share = 0.5;  // a
-  double anchor = 1;          // l, relative to the mean diagonal of the energies
-  double root = 1;            // r, likewise
-  double whole = 1e-6;        // e, likewise
+  double spread_share = default_spread_share;  // a
+  double anchor = default_anchor_pull;         // l, relative to the mean diagonal of the energies
+  double root = root_alone;                    // r, likewise
+  double whole = default_whole_pull;           // e, likewise
 };
 
 // A region whose mean goes to a place whatever the energies say, wholly (share 1) or in part; vertical: only along up.
@@ -68,9 +68,9 @@ class Translations {
   void solve(const Clusters& clusters, const Mat3* rotations, Span<const Vec3> goals, Vec3 centroid,
              const Vec3* cluster_goals, Vec3* out) noexcept;
 
-  // Moves the solution so that the holds are met and the energies rise least: t += A^-1 R^T m with
-  // (R A^-1 R^T + diag(s_k (1 - share) / share)) m = goal - place, R the rows held, s the diagonal (Woodbury). At most
-  // one hold per row. Allocates nothing.
+  // Moves the solution so that the holds are met and the energies rise least (Woodbury): t += A^-1 R^T m with
+  // (R A^-1 R^T + diag(s_k (1 - share) / share)) m = goal - place.
+  // R holds the rows held, s is the diagonal. At most one hold per row. Allocates nothing.
   void hold(Span<const Hold> holds, Vec3 up, const Mat3* rotations, Vec3* shifts) noexcept;
   // Rows of single vertices, vertex_row(i) for i = first .. first + vertices.size() - 1 < vertex_rows, to be held like
   // regions: O(C^2) for four of them. Those before `first` stay, those after are void. Allocates nothing.

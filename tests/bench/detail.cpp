@@ -38,7 +38,7 @@ class Region {
     std::vector<uint32_t> found(list == HF_REGION_INSIDE ? counts.vertex_count
                                 : list == HF_REGION_RIM  ? counts.rim_count
                                                          : counts.site_count);
-    check(hf_region_get_vertices(handle_, list, static_cast<uint32_t>(found.size()), found.data()));
+    check(hf_region_get_vertices(handle_, list, static_cast<uint32_t>(found.size()), found.data(), nullptr));
     return found;
   }
   void morph(std::vector<float>& positions, std::vector<float>& normals) const {

@@ -38,7 +38,7 @@ nlohmann::json run_mesh(const Mesh& mesh, const Run& run) {
   for (uint32_t r = 0; r < std::min(run.repetitions, n > 500000 ? 3u : 5u); ++r) {
     solver.reset();
     solver = std::make_unique<Solver>(mesh, SolverOptions{HF_ENGINE_GREEN, run.threads});
-    const hf_solver_statistics s = solver->statistics();
+    const hf_surface_statistics s = solver->surface_statistics();
     create.push_back(solver->create_ms()), ordering.push_back(s.ordering_ms);
     symbolic.push_back(s.symbolic_ms), numeric.push_back(s.numeric_ms);
   }
@@ -53,7 +53,7 @@ nlohmann::json run_mesh(const Mesh& mesh, const Run& run) {
     edit.push_back(sites.edit({order[100 + r]}, {order[r]}));
     solve.push_back(time_ms([&] { solver->solve(field); }));
   }
-  const hf_solver_statistics s = solver->statistics();
+  const hf_surface_statistics s = solver->surface_statistics();
   nlohmann::json row = {{"name", mesh.name},
                         {"n", n},
                         {"create_ms", median(create)},

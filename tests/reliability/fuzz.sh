@@ -12,7 +12,7 @@ if ! command -v clang++ >/dev/null; then
   exit 77
 fi
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_C_COMPILER=clang \
-  -DCMAKE_CXX_COMPILER=clang++ -DHF_WITH_GPL=ON -DHF_BUILD_BENCH=OFF -DHF_SANITIZE=fuzzer-no-link,address,undefined \
+  -DCMAKE_CXX_COMPILER=clang++ -DHF_WITH_GPL=ON -DHF_BUILD_SAMPLES=ON -DHF_BUILD_TESTS=ON -DHF_SANITIZE=fuzzer-no-link,address,undefined \
   >"$build.log" || { cat "$build.log"; exit 1; }
 cmake --build "$build" --target fuzz_sequences fuzz_gltf
 mkdir -p "$build/inputs_sequences" "$build/inputs_gltf"

@@ -40,11 +40,11 @@ class ArapOracle {
       for (std::int32_t v = first; v < last; ++v) {
         hf_inner::Vec3 sum;
         if (!fixed_[v]) {
-          const hf_inner::Mat3 own = hf_inner::to_matrix(rotation_[v]);
+          const hf_inner::Mat3 own = rotation_[v].toRotationMatrix();
           for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
             const std::int32_t u = topology.neighbour[k];
             const double w = core_.weights[topology.neighbour_edge[k]];
-            const hf_inner::Mat3 r = own + hf_inner::to_matrix(rotation_[u]);
+            const hf_inner::Mat3 r = own + rotation_[u].toRotationMatrix();
             sum = sum + 0.5 * w * (r * (p[v] - p[u]));
             if (fixed_[u]) sum = sum + w * x[u];
           }

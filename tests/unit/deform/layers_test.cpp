@@ -113,7 +113,7 @@ TEST_P(LayerModes, AMovedHandleCarriesTheSurfaceItFoundRigidly) {
   const std::vector<Vec3> after = positions(plant.pose->deform({}));
   const HandleTransform now = plant.pose->placed(fine[0]);
   const Vec3 centroid = plant.pose->handle(fine[0]).centroid;
-  const Quaternion turn = now.rotation * conjugate(found.rotation);
+  const Quaternion turn = now.rotation * found.rotation.conjugate();
   for (const std::int32_t v : plant.arms[0]) {
     const Vec3 carried = rotate(turn, before[v] - centroid - found.translation) + centroid + now.translation;
     EXPECT_LT(norm(after[v] - carried), 1e-12 * plant.core->mesh.scale);
@@ -135,7 +135,7 @@ TEST(Layers, AnEditFollowsTheCoarseMotionAndTheWayDoesNotMatter) {
   for (int frame = 1; frame <= 10; ++frame) plant.bend_to(0.1 * frame), plant.pose->deform({});
   // seen from the arm's frame the edit is the same
   const HandleTransform placed = plant.pose->placed(fine[0]);
-  EXPECT_GT(angle_between(placed.rotation, edit.rotation), 0.3);
+  EXPECT_GT(placed.rotation.angularDistance(edit.rotation), 0.3);
   for (int frame = 9; frame >= 0; --frame) plant.bend_to(0.1 * frame), plant.pose->deform({});
   const double off = largest_distance(plant.settle(), direct) / plant.core->mesh.scale;
   std::printf("out and back under an edit: %.1e of the box\n", off);

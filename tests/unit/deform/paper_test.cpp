@@ -46,16 +46,16 @@ TEST(PaperScheme, FindsARigidMotionOfTheSurfaceAndRestsThere) {
   fit_motions(system, rig.core->mesh, moved.data(), state);
   ASSERT_GT(state.motion.size(), 8u);
   for (const RigidMotion& found : state.motion) {
-    EXPECT_LT(angle_between(found.rotation, rig.motion.rotation), 1e-9);
+    EXPECT_LT(found.rotation.angularDistance(rig.motion.rotation), 1e-9);
     EXPECT_LT(norm(found.translation - rig.motion.translation), 1e-9);
   }
   // with the handles there too, nothing moves on
   std::vector<Affine> transforms(static_cast<std::size_t>(weights.cluster_count));
-  const Mat3 r = to_matrix(rig.motion.rotation);
+  const Mat3 r = rig.motion.rotation.toRotationMatrix();
   const double t[3] = {rig.motion.translation.x, rig.motion.translation.y, rig.motion.translation.z};
   for (std::int32_t h = 0; h < weights.handle_count; ++h) {
     for (int i = 0; i < 3; ++i) {
-      for (int k = 0; k < 3; ++k) transforms[h].a[i][k] = r.m[i][k];
+      for (int k = 0; k < 3; ++k) transforms[h].a[i][k] = r(i, k);
       transforms[h].a[i][3] = t[i];
     }
   }

@@ -372,7 +372,7 @@ TEST(Pose, BadInputIsNamedAndChangesNothing) {
   const auto transform = [&](HandleTransform t) {
     return code_of([&] { pose->set_transforms(numbers, std::vector<HandleTransform>{{}, t}); }, &index);
   };
-  EXPECT_EQ(transform({{0, 0, 0, std::numeric_limits<double>::quiet_NaN()}, {}}), HF_ERROR_NON_FINITE);
+  EXPECT_EQ(transform({{Vec3(), std::numeric_limits<double>::quiet_NaN()}, {}}), HF_ERROR_NON_FINITE);
   EXPECT_EQ(index, 1u);
   EXPECT_EQ(transform({{}, {0, std::numeric_limits<double>::infinity(), 0}}), HF_ERROR_NON_FINITE);
   EXPECT_EQ(transform({{}, {1e300, 0, 0}}), HF_ERROR_NON_FINITE);
@@ -389,7 +389,7 @@ TEST(Pose, BadInputIsNamedAndChangesNothing) {
   EXPECT_EQ(pose->handle_count(), 2u);
   EXPECT_TRUE(same_bits(before, positions(pose->deform({}))));
   // an unnormalised quaternion is normalised, a zero one is the identity, a repeated vertex counts once
-  place(*pose, numbers[1], {{0, 0, 0, 0}, {}});
+  place(*pose, numbers[1], {{Vec3(), 0}, {}});
   EXPECT_LT(largest_distance(positions(pose->deform({false, 100, true})), rest(*core)), 1e-9);
   EXPECT_EQ(pose->handle(add(*pose, {{7, 7, 8, 7}})[0]).vertex_count, 2u);
 }

@@ -1,11 +1,12 @@
 // Rotations are proper, best, and exact on every degenerate input.
+#include "support/eigen.h"
+
 #include "deform/rotation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
-#include <Eigen/Dense>
 #include <limits>
 #include <random>
 
@@ -29,12 +30,10 @@ struct Random {
   std::normal_distribution<double> normal;
   double next() { return normal(engine); }
   Vec3 vector() { return {next(), next(), next()}; }
-  Quaternion rotation() { return normalised({next(), next(), next(), next()}); }
+  Quaternion rotation() { return normalised({{next(), next(), next()}, next()}); }
   Mat3 matrix() {
     Mat3 m;
-    for (auto& row : m.m) {
-      for (double& x : row) x = next();
-    }
+    for (int k = 0; k < 9; ++k) m(k / 3, k % 3) = next();
     return m;
   }
   // full, planar, collinear, mirrored, symmetric, tiny, huge, nearly degenerate, zero
@@ -47,10 +46,10 @@ struct Random {
       case 2:
         return outer(vector(), vector());
       case 3:
-        return -1.0 * to_matrix(rotation());
+        return -1.0 * rotation().toRotationMatrix();
       case 4: {
         const Mat3 m = matrix();
-        return m * transpose(m);
+        return m * m.transpose();
       }
       case 5:
         return 1e-200 * matrix();
@@ -59,30 +58,26 @@ struct Random {
       case 7:
         return outer(vector(), vector()) + 1e-9 * matrix();
       default:
-        return Mat3();
+        return Mat3::Zero();
     }
   }
 };
 
 // max tr(R'S) over rotations = s1 + s2 +- s3, the sign that of det S
 double best_value(const Mat3& s) {
-  Eigen::Matrix3d e;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) e(i, j) = s.m[i][j];
-  }
-  const double scale = e.cwiseAbs().maxCoeff();
+  const double scale = s.cwiseAbs().maxCoeff();
   if (!(scale > 0)) return 0;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(e / scale, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Mat3> svd(s / scale, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d sigma = svd.singularValues();
   return scale *
          (sigma(0) + sigma(1) + ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -sigma(2) : sigma(2)));
 }
 
 double deviation_from_rotation(const Mat3& r) {
-  const Mat3 product = transpose(r) * r;
-  double largest = std::fabs(determinant(r) - 1);
+  const Mat3 product = r.transpose() * r;
+  double largest = std::fabs(r.determinant() - 1);
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) largest = std::max(largest, std::fabs(product.m[i][j] - (i == j ? 1.0 : 0.0)));
+    for (int j = 0; j < 3; ++j) largest = std::max(largest, std::fabs(product(i, j) - (i == j ? 1.0 : 0.0)));
   }
   return largest;
 }
@@ -93,12 +88,11 @@ TEST(Rotation, IsProperAndBestOnAMillionRandomAndDegenerateMatrices) {
   for (int k = 0; k < 1000000; ++k) {
     const Mat3 s = random.any(k);
     const Quaternion near = random.rotation();
-    const Mat3 r = to_matrix(k % 2 ? best_rotation(s, near) : best_rotation_from(s, near));
+    const Mat3 r = (k % 2 ? best_rotation(s, near) : best_rotation_from(s, near)).toRotationMatrix();
     improper = std::max(improper, deviation_from_rotation(r));
     if (k % 10 < 2) {
-      const double best = best_value(s), scale = std::sqrt(trace_of_product((1e-210 * s), (1e-210 * s))) * 1e210;
-      const double norm = scale > 0 ? scale : std::sqrt(trace_of_product(1e200 * s, 1e200 * s)) * 1e-200;
-      if (norm > 0) short_of_best = std::max(short_of_best, (best - trace_of_product(r, s)) / norm);
+      const double best = best_value(s), norm = s.stableNorm();
+      if (norm > 0) short_of_best = std::max(short_of_best, (best - r.cwiseProduct(s).sum()) / norm);
     }
   }
   EXPECT_LT(improper, 1e-14);
@@ -109,9 +103,9 @@ TEST(Rotation, BeatsEveryRotationOfAFineSearch) {
   Random random;
   for (int k = 0; k < 27; ++k) {
     const Mat3 s = random.any(k);
-    const double value = trace_of_product(to_matrix(best_rotation(s, {})), s);
+    const double value = best_rotation(s, {}).toRotationMatrix().cwiseProduct(s).sum();
     double searched = -std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 20000; ++i) searched = std::max(searched, trace_of_product(to_matrix(random.rotation()), s));
+    for (int i = 0; i < 20000; ++i) searched = std::max(searched, random.rotation().toRotationMatrix().cwiseProduct(s).sum());
     EXPECT_GE(value, searched - 1e-12 * std::fabs(searched));
   }
 }
@@ -121,17 +115,17 @@ TEST(Rotation, WarmStartGivesTheSameRotationAsTheColdOne) {
   for (int k = 0; k < 20000; ++k) {
     const Quaternion truth = random.rotation();
     const Mat3 m = random.matrix();
-    const Mat3 s = to_matrix(truth) * (m * transpose(m) + 0.1 * Mat3::identity());
+    const Mat3 s = truth.toRotationMatrix() * (m * m.transpose() + 0.1 * Mat3::Identity());
     const Quaternion near = exponential(0.6 * random.vector()) * truth;
-    EXPECT_LT(angle_between(best_rotation_from(s, near), truth), 1e-12);
-    EXPECT_LT(angle_between(best_rotation(s, near), truth), 1e-12);
+    EXPECT_LT(best_rotation_from(s, near).angularDistance(truth), 1e-12);
+    EXPECT_LT(best_rotation(s, near).angularDistance(truth), 1e-12);
   }
 }
 
 void set(RotationBatch& batch, int lane, const Mat3& s, const Quaternion& near) {
   double columns[3][4] = {};
   for (int j = 0; j < 3; ++j) {
-    for (int i = 0; i < 3; ++i) columns[j][i] = s.m[i][j];
+    for (int i = 0; i < 3; ++i) columns[j][i] = s(i, j);
   }
   batch.set_columns(lane, columns), batch.set_rotation(lane, near);
 }
@@ -147,21 +141,21 @@ TEST(Rotation, EightAtATimeAreTheBestOnesAndDoNotSeeEachOther) {
     for (int l = 0; l < count; ++l) {
       // a warm start, a cold one, and whatever is degenerate side by side
       near[l] = random.rotation();
-      s[l] = (round + l) % 3 ? to_matrix(exponential(0.05 * random.vector()) * near[l]) : random.any(round + l);
+      s[l] = (round + l) % 3 ? (exponential(0.05 * random.vector()) * near[l]).toRotationMatrix() : random.any(round + l);
       set(batch, l, s[l], near[l]);
     }
     best_rotations_from(batch, count);
     for (int l = 0; l < count; ++l) {
       const Quaternion q = batch.rotation(l), cold = best_rotation(s[l], near[l]);
-      ASSERT_NEAR(dot(q, q), 1, 1e-12);
-      const double size = std::sqrt(trace_of_product(s[l], s[l]));
-      ASSERT_NEAR(trace_of_product(to_matrix(q), s[l]), trace_of_product(to_matrix(cold), s[l]), 1e-11 * size);
+      ASSERT_NEAR(q.squaredNorm(), 1, 1e-12);
+      const double size = s[l].norm();
+      ASSERT_NEAR(q.toRotationMatrix().cwiseProduct(s[l]).sum(), cold.toRotationMatrix().cwiseProduct(s[l]).sum(), 1e-11 * size);
       // alone in another lane the bits are the same
       RotationBatch alone;
       set(alone, 0, s[l], near[l]);
       best_rotations_from(alone, 1);
       const Quaternion r = alone.rotation(0);
-      ASSERT_TRUE(q.x == r.x && q.y == r.y && q.z == r.z && q.w == r.w) << round << " " << l;
+      ASSERT_EQ(q.coeffs(), r.coeffs()) << round << " " << l;
     }
   }
 }
@@ -175,7 +169,7 @@ TEST(Rotation, EightAtATimeArriveWithinRoundingInFourSteps) {
     for (int l = 0; l < lanes; ++l) {
       const Mat3 m = random.matrix();
       truth[l] = random.rotation();
-      set(batch, l, to_matrix(truth[l]) * (m * transpose(m) + Mat3::identity()),
+      set(batch, l, truth[l].toRotationMatrix() * (m * m.transpose() + Mat3::Identity()),
           exponential(0.1 * random.vector()) * truth[l]);
     }
     RotationBatch stepped = batch;
@@ -184,7 +178,7 @@ TEST(Rotation, EightAtATimeArriveWithinRoundingInFourSteps) {
     for (int iteration = 0; iteration < 5; ++iteration)
       step_rotations(stepped.s[0], stepped.q[0], step, false), step_rotations(stepped.s[0], stepped.q[0], step, true);
     for (int l = 0; l < lanes; ++l) {
-      EXPECT_LT(angle_between(batch.rotation(l), truth[l]), 1e-12);
+      EXPECT_LT(batch.rotation(l).angularDistance(truth[l]), 1e-12);
       EXPECT_LT(step.square[l], 1e-20);  // the fifth step has nothing left to do: each squares the error
     }
   }
@@ -198,9 +192,11 @@ TEST(Rotation, StepsHaveTheSameBitsOnAllLanes) {
     alignas(64) double s[9][8], q[3][4][8];
     for (int l = 0; l < 8; ++l) {
       const Quaternion near = random.rotation();
-      const Mat3 matrix = random.any(round + l) + to_matrix(near);
-      for (int k = 0; k < 9; ++k) s[k][l] = matrix.m[k / 3][k % 3];
-      for (auto& one : q) one[0][l] = near.x, one[1][l] = near.y, one[2][l] = near.z, one[3][l] = near.w;
+      const Mat3 matrix = random.any(round + l) + near.toRotationMatrix();
+      for (int k = 0; k < 9; ++k) s[k][l] = matrix(k / 3, k % 3);
+      for (auto& one : q) {
+        for (int k = 0; k < 4; ++k) one[k][l] = near.coeffs()(k);
+      }
     }
     const auto run = [&](StepLoop loop, int which) {
       RotationStep step;
@@ -226,9 +222,9 @@ TEST(Rotation, TiesGoToTheRotationNearestToTheGivenOne) {
     EXPECT_LT(norm(rotate(best, axis) - rotate(turn, axis)), 1e-12 * norm(axis));
     for (int i = 0; i < 64; ++i) {
       const Quaternion other = best * exponential((0.1 * i / norm(axis)) * axis);
-      EXPECT_LE(angle_between(best, near), angle_between(other, near) + 1e-9);
+      EXPECT_LE(best.angularDistance(near), other.angularDistance(near) + 1e-9);
     }
-    EXPECT_LT(angle_between(best_rotation(Mat3(), near), near), 1e-15);
+    EXPECT_LT(best_rotation(Mat3::Zero(), near).angularDistance(near), 1e-15);
   }
 }
 
@@ -236,10 +232,10 @@ TEST(Rotation, NonFiniteMatricesGiveTheRotationTheyWereToBeNearTo) {
   Random random;
   const Quaternion near = random.rotation();
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    Mat3 s = Mat3::identity();
-    s.m[1][2] = bad;
-    EXPECT_EQ(best_rotation(s, near).x, near.x);
-    EXPECT_EQ(best_rotation_from(s, near).w, near.w);
+    Mat3 s = Mat3::Identity();
+    s(1, 2) = bad;
+    EXPECT_EQ(best_rotation(s, near).x(), near.x());
+    EXPECT_EQ(best_rotation_from(s, near).w(), near.w());
   }
 }
 
@@ -251,13 +247,12 @@ TEST(Rotation, VectorsQuaternionsAndMatricesAgree) {
     v = (std::min(size, 0.999999) * pi / norm(v)) * v;
     EXPECT_LT(norm(logarithm(exponential(v)) - v), 1e-13 * (1 + norm(v)));
     const Quaternion q = random.rotation();
-    EXPECT_LT(angle_between(to_quaternion(to_matrix(q)), q), 1e-14);
+    EXPECT_LT(Quaternion(q.toRotationMatrix()).angularDistance(q), 1e-14);
     const Vec3 p = random.vector();
-    EXPECT_LT(norm(to_matrix(q) * p - rotate(q, p)), 1e-14 * norm(p) * 10);
+    EXPECT_LT(norm(q.toRotationMatrix() * p - rotate(q, p)), 1e-14 * norm(p) * 10);
   }
-  EXPECT_EQ(normalised({0, 0, 0, 0}).w, 1.0);
-  EXPECT_NEAR(norm(Vec3{normalised({3e-300, 4e-300, 0, 0}).x - 0.6, normalised({3e-300, 4e-300, 0, 0}).y - 0.8, 0}), 0,
-              1e-15);
+  EXPECT_EQ(normalised({Vec3(), 0}).w(), 1.0);
+  EXPECT_LT(norm(to_vec3(normalised({{3e-300, 4e-300, 0}, 0}).vec()) - Vec3{0.6, 0.8, 0}), 1e-15);
 }
 
 TEST(Rotation, TurnsAddUpBeyondHalfAndWholeTurns) {
@@ -285,7 +280,7 @@ TEST(Rotation, TurnsAreKeptWhenTheAxisTrembles) {
     turn = continued_logarithm(q, turn);
     // away from whole turns, where the axis is lost, the vector is the rotation's own
     if (std::fabs(std::remainder(angle, 2 * pi)) > 1) {
-      EXPECT_LT(angle_between(exponential(turn), q), 1e-9);
+      EXPECT_LT(exponential(turn).angularDistance(q), 1e-9);
     }
   }
   EXPECT_NEAR(turn.y, 5 * pi - 0.1, 0.3);

@@ -1,9 +1,10 @@
 // Strain limits of rotation groups: what a sheet says, and the equations of a settled pose on the whole mesh.
+#include "support/eigen.h"
+
 #include "deform/strain.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <random>
 
 #include "cases.h"
@@ -15,24 +16,6 @@ using namespace hf_inner;
 using namespace deform_test;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-Matrix3d dense(const Mat3& m) {
-  Matrix3d out;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) out(i, j) = m.m[i][j];
-  }
-  return out;
-}
-
-Mat3 own(const Matrix3d& m) {
-  Mat3 out;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) out.m[i][j] = m(i, j);
-  }
-  return out;
-}
-
-Vector3d dense(Vec3 v) { return {v.x, v.y, v.z}; }
 
 // The target R (1 + E X E') of a group from its definition: dense eigenproblems, one strain after the other.
 Matrix3d target_of(const Matrix3d& moments, const Matrix3d& s, const Matrix3d& r, const StrainLimits& limits) {
@@ -60,15 +43,17 @@ TEST(Strain, AxesOfASymmetricMatrixAreItsEigenvectors) {
   std::normal_distribution<double> normal;
   for (int i = 0; i < 20000; ++i) {
     Mat3 a;
-    for (auto& row : a.m) {
-      for (double& x : row) x = normal(random);
-    }
-    if (i % 4 == 1) a.m[2][0] = a.m[2][1] = a.m[2][2] = 0;               // flat
-    if (i % 4 == 2) a.m[1][0] = a.m[0][0], a.m[1][1] = a.m[0][1] = 0.3;  // nearly equal directions
-    const Mat3 square = a * transpose(a), v = principal_axes(square), d = transpose(v) * square * v;
-    const double size = square.m[0][0] + square.m[1][1] + square.m[2][2];
-    EXPECT_NEAR(determinant(v), 1, 1e-12);
-    EXPECT_LT(std::fabs(d.m[0][1]) + std::fabs(d.m[0][2]) + std::fabs(d.m[1][2]), 1e-13 * size) << i;
+    for (int k = 0; k < 9; ++k) a(k / 3, k % 3) = normal(random);
+    if (i % 4 == 1) a(2, 0) = a(2, 1) = a(2, 2) = 0;               // flat
+    if (i % 4 == 2) a(1, 0) = a(0, 0), a(1, 1) = a(0, 1) = 0.3;  // nearly equal directions
+    const Mat3 square = a * a.transpose();
+    const PrincipalAxes axes = principal_axes(square);
+    const Mat3 v = axes.axes, d = v.transpose() * square * v;
+    const double size = square.trace();
+    EXPECT_NEAR(v.determinant(), 1, 1e-12);
+    EXPECT_LT(std::fabs(d(0, 1)) + std::fabs(d(0, 2)) + std::fabs(d(1, 2)), 1e-13 * size) << i;
+    EXPECT_LT((d.diagonal() - axes.moment).norm(), 1e-13 * size) << i;
+    for (int k = 0; k < 2; ++k) EXPECT_GE(axes.moment(k), axes.moment(k + 1));
   }
 }
 
@@ -78,7 +63,8 @@ TEST(Strain, TheStressOfASheetIsTheOneOfItsDefinitionAndTurnsWithIt) {
   for (int i = 0; i < 4000; ++i) {
     const std::int32_t kind = i % 2;
     // rest edges in a slanted sheet, stretched, sheared and turned
-    Matrix3d frame = dense(to_matrix(normalised({normal(random), normal(random), normal(random), normal(random)})));
+    Matrix3d frame =
+        normalised({{normal(random), normal(random), normal(random)}, normal(random)}).toRotationMatrix();
     Matrix3d stretch = Matrix3d::Identity();
     for (int a = 0; a < 2; ++a) {
       for (int b = 0; b < 2; ++b) stretch(a, b) += 0.25 * normal(random);
@@ -89,8 +75,8 @@ TEST(Strain, TheStressOfASheetIsTheOneOfItsDefinitionAndTurnsWithIt) {
       moments += p * p.transpose();
     }
     const Matrix3d s = frame * stretch * frame.transpose() * moments;
-    const Mat3 r = to_matrix(best_rotation(own(s), {}));
-    const Sheet sheet = make_sheet(own(moments), kind);
+    const Mat3 r = best_rotation(s, {}).toRotationMatrix();
+    const Sheet sheet = make_sheet(moments, kind);
     double columns[3][4];
     const auto stress = [&](const Matrix3d& from, const Mat3& rotation) {
       for (int a = 0; a < 3; ++a) {
@@ -99,14 +85,15 @@ TEST(Strain, TheStressOfASheetIsTheOneOfItsDefinitionAndTurnsWithIt) {
       return stress_of(sheet, columns, rotation);
     };
     const Stress x = stress(s, r);
-    const Matrix3d target = dense(strained(sheet, x, r));
-    EXPECT_LT((target - target_of(moments, s, dense(r), strain_limits[kind])).norm(), 1e-9) << i;
+    const Matrix3d target = strained(sheet, x, r);
+    EXPECT_LT((target - target_of(moments, s, r, strain_limits[kind])).norm(), 1e-9) << i;
     // a common rotation of the surface and the group: the same stress
-    const Mat3 turn = to_matrix(normalised({normal(random), normal(random), normal(random), normal(random)}));
-    const Stress y = stress(dense(turn) * s, turn * r);
+    const Mat3 turn =
+        normalised({{normal(random), normal(random), normal(random)}, normal(random)}).toRotationMatrix();
+    const Stress y = stress(turn * s, turn * r);
     EXPECT_LT(std::fabs(x.along - y.along) + std::fabs(x.across - y.across) + std::fabs(x.beside - y.beside), 1e-11);
     // at rest: none
-    const Stress none = stress(dense(turn) * moments, turn);
+    const Stress none = stress(turn * moments, turn);
     EXPECT_LT(std::fabs(none.along) + std::fabs(none.across) + std::fabs(none.beside), 1e-12);
   }
 }
@@ -114,14 +101,14 @@ TEST(Strain, TheStressOfASheetIsTheOneOfItsDefinitionAndTurnsWithIt) {
 TEST(Strain, LinesPointsAndBadNumbersAreUnderNoStress) {
   double columns[3][4] = {{5, 1, 0, 0}, {0, 7, 0, 0}, {0, 0, 3, 0}};
   Mat3 line;
-  line.m[1][1] = 2, line.m[0][0] = 1e-3;
-  for (const Mat3& moments : {line, Mat3()}) {
-    const Stress x = stress_of(make_sheet(moments, 1), columns, Mat3::identity());
+  line(1, 1) = 2, line(0, 0) = 1e-3;
+  for (const Mat3& moments : {line, Mat3(Mat3::Zero())}) {
+    const Stress x = stress_of(make_sheet(moments, 1), columns, Mat3::Identity());
     EXPECT_EQ(std::fabs(x.along) + std::fabs(x.across) + std::fabs(x.beside), 0);
   }
   for (const double bad : {std::nan(""), 1e300, -1e300}) {
     columns[0][0] = bad;
-    const Stress x = stress_of(make_sheet(Mat3::identity(), 1), columns, Mat3::identity());
+    const Stress x = stress_of(make_sheet(Mat3::Identity(), 1), columns, Mat3::Identity());
     EXPECT_TRUE(std::isfinite(x.along) && std::isfinite(x.across) && std::isfinite(x.beside)) << bad;
   }
 }
@@ -155,13 +142,13 @@ void expect_equilibrium(const Case& c, double border_stiffness) {
     w[e] = rest.stiffness[e] * (1 + border_stiffness * std::pow(std::max(hold[i], hold[j]), 4));
     for (const std::int32_t v : {i, j}) {
       const std::int32_t g = groups->group_of[v];
-      moments[g] += 0.5 * w[e] * dense(p[i] - p[j]) * dense(p[i] - p[j]).transpose();
-      s[g] += 0.5 * w[e] * dense(x[i] - x[j]) * dense(p[i] - p[j]).transpose();
+      moments[g] += 0.5 * w[e] * to_eigen(p[i] - p[j]) * to_eigen(p[i] - p[j]).transpose();
+      s[g] += 0.5 * w[e] * to_eigen(x[i] - x[j]) * to_eigen(p[i] - p[j]).transpose();
     }
   }
   int strained_groups = 0;
   for (std::size_t g = 0; g < count; ++g) {
-    const Matrix3d r = dense(to_matrix(best_rotation(own(s[g]), {})));
+    const Matrix3d r = best_rotation(s[g], {}).toRotationMatrix();
     target[g] = target_of(moments[g], s[g], r, strain_limits[kind]);
     strained_groups += (target[g] - r).norm() > 1e-3;
   }
@@ -172,7 +159,7 @@ void expect_equilibrium(const Case& c, double border_stiffness) {
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
     const std::int32_t i = topology.first(e), j = topology.second(e);
     const Matrix3d both = 0.5 * (target[groups->group_of[i]] + target[groups->group_of[j]]);
-    const Vector3d missing = dense(x[i] - x[j]) - both * dense(p[i] - p[j]);
+    const Vector3d missing = to_eigen(x[i] - x[j]) - both * to_eigen(p[i] - p[j]);
     std::map<std::int32_t, Eigen::Vector4d> z;
     for (const auto& [v, sign] : {std::make_pair(i, 1.0), std::make_pair(j, -1.0)}) {
       for (std::int32_t k = weights.start[v]; k < weights.start[v + 1]; ++k) {
@@ -182,7 +169,7 @@ void expect_equilibrium(const Case& c, double border_stiffness) {
     }
     for (const auto& [cluster, row] : z) {
       force[cluster] += w[e] * row * missing.transpose();
-      size[cluster] += w[e] * row.norm() * dense(x[i] - x[j]).norm();
+      size[cluster] += w[e] * row.norm() * to_eigen(x[i] - x[j]).norm();
       trace[cluster] += w[e] * row.head<3>().squaredNorm();
     }
   }
@@ -196,7 +183,7 @@ void expect_equilibrium(const Case& c, double border_stiffness) {
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) a(i, j) = d.pose->cluster_transforms()[f].a[i][j];
     }
-    const Matrix3d near = dense(to_matrix(best_rotation(own(mean[f]), {})));
+    const Matrix3d near = best_rotation(mean[f], {}).toRotationMatrix();
     force[f].topRows<3>() += 1e-3 * trace[f] / 3 * (a - near).transpose();
     worst = std::max(worst, force[f].norm() / size[f]);
   }

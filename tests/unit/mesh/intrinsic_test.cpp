@@ -16,6 +16,7 @@
 
 namespace {
 
+using hf_inner::at;
 using hf_test::PlainMesh;
 
 struct Surface {

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -188,6 +189,22 @@ TEST(Rooms, WrongArrowsAreFound) {
   EXPECT_NE(fault_in_public_header({"include/hf/base.h", 1, "vector", false}), "");
   EXPECT_NE(fault_in_public_header({"include/hf/base.h", 1, "unistd.h", false}), "");
   EXPECT_EQ(fault_in_public_header({"include/hf/base.h", 1, "stdint.h", false}), "");
+}
+
+// base/algebra.h sets what keeps results the same bits; sizes are fixed, so that Eigen allocates nothing.
+TEST(Rooms, EigenComesThroughOneHeaderWithFixedSizes) {
+  for (const Include& include : includes_below("src")) {
+    if (include.file != "src/base/algebra.h") {
+      EXPECT_NE(include.name.compare(0, 6, "Eigen/"), 0) << include.file << ":" << include.line;
+    }
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(project / "src")) {
+    if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+    std::ifstream file(entry.path());
+    const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    for (const char* name : {"MatrixX", "VectorX", "ArrayX", "Matrix3X", "Dynamic", "Sparse"})
+      EXPECT_EQ(text.find("hf_eigen::" + std::string(name)), std::string::npos) << entry.path() << " names " << name;
+  }
 }
 
 TEST(Rooms, IncludeLinesAreReadAsThePreprocessorReadsThem) {

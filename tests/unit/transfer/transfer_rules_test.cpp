@@ -95,7 +95,7 @@ TEST(TransferRules, OnlyRotationsAreTransferredSoTheTargetsScaleDoesNotChangeThe
   for (const double scale : {0.5, 2.0}) {
     const auto other = rotations(scale);
     ASSERT_EQ(one.size(), other.size());
-    for (size_t c = 0; c < one.size(); ++c) EXPECT_LT(hf_inner::angle_between(one[c], other[c]), 1e-6) << c;
+    for (size_t c = 0; c < one.size(); ++c) EXPECT_LT(one[c].angularDistance(other[c]), 1e-6) << c;
   }
 }
 

@@ -269,7 +269,7 @@ TEST(TransferShapes, ALimbIsTurnedTheShortestWayAlsoWhenItPointsTheOtherWay) {
   EXPECT_LT(hf_inner::norm(opposite - Vec3{0, -1, 0}), 1e-12);
   const Vec3 along_axis = hf_inner::rotate(hf_inner::minimal_rotation({1, 0, 0}, {-1, 0, 0}, {1, 0, 0}), {1, 0, 0});
   EXPECT_LT(hf_inner::norm(along_axis - Vec3{-1, 0, 0}), 1e-12);
-  EXPECT_NEAR(hf_inner::angle_between(hf_inner::power(hf_inner::exponential({0, 1.2, 0}), 0.25), {}), 0.3, 1e-12);
+  EXPECT_NEAR(hf_inner::power(hf_inner::exponential({0, 1.2, 0}), 0.25).angularDistance(hf_inner::Quaternion()), 0.3, 1e-12);
 }
 
 }  // namespace
