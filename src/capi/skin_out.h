@@ -4,7 +4,7 @@
 
 #include "capi/boundary.h"
 #include "capi/vertex_writer.h"
-#include "base/algebra.h"
+#include "deform/rotation.h"
 #include "hf/pose.h"
 
 namespace hf_inner::capi {
