@@ -360,15 +360,16 @@ static unsigned refuse_each(size_t s, int32_t engine, int on) {
       if (result != HF_ERROR_OUT_OF_MEMORY)
         fail_msg("%s, engine %d, allocation %u: %s", scenarios[s].name, (int)engine, (unsigned)n,
                  hf_result_get_name(result));
-      if (world.made_surface || world.made_solver || world.made_pose || world.made_transfer || world.made_direction || world.made_region ||
-          world.made_detail)
+      if (world.made_surface || world.made_solver || world.made_pose || world.made_transfer || world.made_direction ||
+          world.made_region || world.made_detail)
         fail_msg("%s, allocation %u: a handle came back", scenarios[s].name, (unsigned)n);
       hf_error_detail detail;
       assert_ok(hf_error_get_detail(&detail));
       assert_int_equal(detail.code, HF_ERROR_OUT_OF_MEMORY);
       assert_string_equal(detail.function, scenarios[s].name);
       ++refused;
-      /* a cache that the call has filled or a grown workspace may stay; a failed hf_surface_create leaves nothing at all */
+      /* a cache that the call has filled or a grown workspace may stay; a failed hf_surface_create leaves nothing at
+       * all */
       if (scenarios[s].call == call_surface && (world.memory.live_blocks != live || world.memory.live_bytes != bytes))
         fail_msg("hf_surface_create leaked at allocation %u", (unsigned)n);
       take_picture(&world, &after);
@@ -475,7 +476,8 @@ static void a_callback_that_calls_back_is_refused(void** state) {
   memset(&r, 0, sizeof r);
   r.inner = counting_hooks(&r.memory);
   Options desc = options_of(&tube);
-  desc.surface.allocator.allocate = reentrant_allocate, desc.surface.allocator.release = reentrant_release, desc.surface.allocator.user = &r;
+  desc.surface.allocator.allocate = reentrant_allocate, desc.surface.allocator.release = reentrant_release,
+  desc.surface.allocator.user = &r;
   assert_ok(make(&desc, NULL, &r.solver));
   add_site(r.solver, 0, 0);
   r.armed = 1, r.expect_read = HF_ERROR_REENTRANT; /* inside a change nothing is allowed */

@@ -252,7 +252,8 @@ static void bad_input_is_named(void** state) {
   BAD("spacing 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &tube.field, 3, 2, levels));
   BAD("spacing -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &tube.field, -1, 2, levels));
   BAD("no level", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &tube.field, 0, 0, levels));
-  BAD("2^32 - 1 levels", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &tube.field, 0, UINT32_MAX, levels));
+  BAD("2^32 - 1 levels", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+      hf_surface_space_levels(s, &tube.field, 0, UINT32_MAX, levels));
   BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_space_levels(s, &tube.field, 0, 2, NULL));
   BAD("no level", HF_ERROR_EMPTY, NO_INDEX, hf_surface_trace_isolines(s, &tube.field, 0, levels, &lines));
   BAD("levels NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_trace_isolines(s, &tube.field, 2, NULL, &lines));
@@ -283,7 +284,8 @@ static void bad_input_is_named(void** state) {
   hf_extremities_desc e;
   uint32_t count = 0;
 #define EXTREMITIES(what, expected, change) \
-  e = HF_INIT(hf_extremities_desc), change, BAD(what, expected, NO_INDEX, hf_surface_find_extremities(s, &e, 0, NULL, &count))
+  e = HF_INIT(hf_extremities_desc), change, \
+  BAD(what, expected, NO_INDEX, hf_surface_find_extremities(s, &e, 0, NULL, &count))
   EXTREMITIES("kind 2", HF_ERROR_INVALID_ARGUMENT, e.kind = 2);
   EXTREMITIES("least_length NaN", HF_ERROR_INVALID_ARGUMENT, e.least_length = (float)NAN);
   EXTREMITIES("least_length -1", HF_ERROR_INVALID_ARGUMENT, e.least_length = -1);

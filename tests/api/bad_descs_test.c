@@ -130,7 +130,9 @@ static void fill_handles(void* d) {
 static hf_result pose_add_handles(void* d) { return hf_pose_add_handles(scene.pose, d, NULL); }
 static void fill_handle_info(void* d) { *(hf_handle_info*)d = HF_INIT(hf_handle_info); }
 static hf_result pose_get_handle(void* d) { return hf_pose_get_handle(scene.pose, scene.handles[0], d); }
-static void fill_deform(void* d) { *(hf_deform_desc*)d = HF_INIT(hf_deform_desc), ((hf_deform_desc*)d)->positions = floats; }
+static void fill_deform(void* d) {
+  *(hf_deform_desc*)d = HF_INIT(hf_deform_desc), ((hf_deform_desc*)d)->positions = floats;
+}
 static hf_result deform(void* d) { return hf_pose_deform(scene.pose, d, NULL); }
 static void fill_deform_info(void* d) { *(hf_deform_info*)d = HF_INIT(hf_deform_info); }
 static hf_result deform_info(void* d) {
@@ -226,6 +228,49 @@ static hf_result direction_solve_f64(void* d) { return hf_direction_solve_f64(sc
 static void fill_direction_statistics(void* d) { *(hf_direction_statistics*)d = HF_INIT(hf_direction_statistics); }
 static hf_result direction_statistics(void* d) { return hf_direction_get_statistics(scene.direction, d); }
 
+static void fill_region(void* d) { *(hf_region_desc*)d = HF_INIT(hf_region_desc); }
+static hf_result region_create(void* d) {
+  hf_region region = (hf_region)(void*)&scene;
+  const hf_result result = hf_region_create(scene.body, d, &region);
+  if (result != HF_OK && region != NULL) return HF_ERROR_INTERNAL;
+  hf_region_destroy(region);
+  return result;
+}
+static void fill_region_edit(void* d) {
+  hf_region_edit_desc* edit = d;
+  *edit = HF_INIT(hf_region_edit_desc);
+  edit->add_count = 1, edit->add_vertices = &middle;
+}
+static hf_result region_edit(void* d) { return hf_region_edit(scene.region, d); }
+static const uint32_t around[3] = {3 * TUBE_AROUND, 3 * TUBE_AROUND + 3, 3 * TUBE_AROUND + 6};
+static void fill_curve(void* d) {
+  hf_curve_desc* curve = d;
+  *curve = HF_INIT(hf_curve_desc);
+  curve->point_count = 3, curve->vertices = around;
+}
+static hf_result region_curve(void* d) {
+  hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
+  edit.curve = d;
+  edit.add_count = 1, edit.add_vertices = &middle;
+  return hf_region_edit(scene.region, &edit);
+}
+static void fill_region_info(void* d) { *(hf_region_info*)d = HF_INIT(hf_region_info); }
+static hf_result region_info(void* d) { return hf_region_get_info(scene.region, d); }
+static void fill_morph(void* d) {
+  hf_morph_desc* morph = d;
+  *morph = HF_INIT(hf_morph_desc);
+  morph->positions = floats;
+}
+static hf_result region_morph(void* d) { return hf_region_morph(scene.region, d); }
+static void fill_detail(void* d) { *(hf_detail_desc*)d = HF_INIT(hf_detail_desc); }
+static hf_result detail_create(void* d) {
+  hf_detail detail = (hf_detail)(void*)&scene;
+  const hf_result result = hf_detail_create(scene.region, scene.region, d, &detail);
+  if (result != HF_OK && detail != NULL) return HF_ERROR_INTERNAL;
+  hf_detail_destroy(detail);
+  return result;
+}
+
 static const struct {
   const char* what; /* function and argument */
   size_t size;
@@ -283,6 +328,12 @@ static const struct {
     {"hf_direction_solve_f64: out_info", sizeof(hf_solve_info), fill_solve_info, direction_solve_f64, 1},
     {"hf_direction_get_statistics: out_statistics", sizeof(hf_direction_statistics), fill_direction_statistics,
      direction_statistics, 0},
+    {"hf_region_create: desc", sizeof(hf_region_desc), fill_region, region_create, 1},
+    {"hf_region_edit: edit", sizeof(hf_region_edit_desc), fill_region_edit, region_edit, 0},
+    {"hf_region_edit: edit->curve", sizeof(hf_curve_desc), fill_curve, region_curve, 1},
+    {"hf_region_get_info: out_info", sizeof(hf_region_info), fill_region_info, region_info, 0},
+    {"hf_region_morph: desc", sizeof(hf_morph_desc), fill_morph, region_morph, 0},
+    {"hf_detail_create: desc", sizeof(hf_detail_desc), fill_detail, detail_create, 1},
     {"hf_transfer_get_skin: info", sizeof(hf_skin_info), fill_skin, transfer_get_skin, 0},
 };
 

@@ -380,28 +380,29 @@ static const struct {
 
 static int unchanged(enum Kind kind) {
   return solver_unchanged(&scene) &&
-         (kind == SURFACE || kind == SOLVER || kind == PROGRESS || kind == GEODESICS || kind == DIRECTION || (kind == POSE ? pose_unchanged(&scene) : transfer_unchanged(&scene)));
+         (kind == SURFACE || kind == SOLVER || kind == PROGRESS || kind == GEODESICS || kind == DIRECTION ||
+          (kind == POSE ? pose_unchanged(&scene) : transfer_unchanged(&scene)));
 }
 
 static void every_function_refuses_every_handle_that_is_not_its_own(void** state) {
   (void)state;
   scene_create(&scene);
   int on_the_stack = 0;
-  void* const live[KIND_COUNT] = {scene.sheet, scene.solver, scene.pose, scene.transfer,
-                                    scene.progress, scene.geodesics, scene.direction};
-  void* const stale[KIND_COUNT] = {scene.stale_surface, scene.stale_solver, scene.stale_pose,
-                                     scene.stale_transfer, scene.stale_progress, scene.stale_geodesics,
-                                     scene.stale_direction};
+  void* const live[KIND_COUNT] = {scene.sheet,    scene.solver,    scene.pose,     scene.transfer,
+                                  scene.progress, scene.geodesics, scene.direction};
+  void* const stale[KIND_COUNT] = {scene.stale_surface,  scene.stale_solver,   scene.stale_pose,
+                                   scene.stale_transfer, scene.stale_progress, scene.stale_geodesics,
+                                   scene.stale_direction};
   for (size_t f = 0; f < COUNT_OF(functions); ++f) {
     const enum Kind kind = functions[f].kind;
     struct {
       const char* what;
       void* handle;
     } bad[4 + KIND_COUNT] = {{"NULL", NULL},
-                {"destroyed", stale[kind]},
-                {"all bits set", (void*)UINTPTR_MAX},
-                {"the number 1", (void*)(uintptr_t)1},
-                {"a pointer", &on_the_stack}};
+                             {"destroyed", stale[kind]},
+                             {"all bits set", (void*)UINTPTR_MAX},
+                             {"the number 1", (void*)(uintptr_t)1},
+                             {"a pointer", &on_the_stack}};
     size_t count = 5;
     for (int other = 0; other < KIND_COUNT; ++other) {
       if ((enum Kind)other != kind)
@@ -435,8 +436,8 @@ static void destroying_what_is_no_handle_does_nothing(void** state) {
     hf_solver_destroy(bad[b]), hf_pose_destroy(bad[b]), hf_transfer_destroy(bad[b]), hf_progress_destroy(bad[b]);
     hf_geodesics_destroy(bad[b]), hf_direction_destroy(bad[b]), hf_surface_destroy(bad[b]);
   }
-  void* const live[KIND_COUNT] = {scene.sheet, scene.solver, scene.pose, scene.transfer,
-                                    scene.progress, scene.geodesics, scene.direction};
+  void* const live[KIND_COUNT] = {scene.sheet,    scene.solver,    scene.pose,     scene.transfer,
+                                  scene.progress, scene.geodesics, scene.direction};
   for (int k = 0; k < KIND_COUNT; ++k) {
     if (k != SURFACE) hf_surface_destroy(live[k]);
     if (k != SOLVER) hf_solver_destroy(live[k]);

@@ -24,8 +24,9 @@ static void good_input(void) {
   counts[0] = target_counts[0] = 2, counts[1] = target_counts[1] = 4;
   flags[0] = 0, flags[1] = HF_PAIR_ANCHOR, out_numbers[0] = 777;
   numbers[0] = scene.handles[0], numbers[1] = scene.handles[1], numbers[2] = 0;
-  handles = HF_INIT(hf_handles_desc), pairs = HF_INIT(hf_pairs_desc), pose_desc = HF_INIT(hf_pose_desc), transfer_desc = HF_INIT(hf_transfer_desc), deform = HF_INIT(hf_deform_desc), frame = HF_INIT(hf_transfer_frame),
-      skin = HF_INIT(hf_skin_info);
+  handles = HF_INIT(hf_handles_desc), pairs = HF_INIT(hf_pairs_desc), pose_desc = HF_INIT(hf_pose_desc),
+  transfer_desc = HF_INIT(hf_transfer_desc), deform = HF_INIT(hf_deform_desc), frame = HF_INIT(hf_transfer_frame),
+  skin = HF_INIT(hf_skin_info);
   handles.handle_count = 2, handles.region_counts = counts, handles.region_vertices = region;
   pairs.pair_count = 2, pairs.flags = flags;
   pairs.source_counts = counts, pairs.source_vertices = region;

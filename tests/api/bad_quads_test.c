@@ -89,8 +89,8 @@ static void quads_flow_and_regions_refuse_every_handle_that_is_not_their_own(voi
                    {"hf_region_undo", region_undo, region},
                    {"hf_region_redo", region_redo, region},
                    {"hf_detail_morph", detail_morph, &stale}};
-  void* const bad[] = {NULL,  (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &on_the_stack, stale, surface, solver, quads, flow,
-                       region};
+  void* const bad[] = {
+      NULL, (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &on_the_stack, stale, surface, solver, quads, flow, region};
   for (size_t f = 0; f < COUNT_OF(functions); ++f) {
     for (size_t b = 0; b < COUNT_OF(bad); ++b) {
       if (bad[b] == functions[f].own) continue;
@@ -143,7 +143,8 @@ static void quads_refuse_bad_descs(void** state) {
   ROW("a progress object that is none", HF_ERROR_INVALID_HANDLE, NO_INDEX,
       good_quads.progress = (hf_progress)(void*)solver, hf_quads_create(surface, &good_quads, &made));
   ROW("lines of one sign", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
-      (good_quads.kind = HF_QUADS_PURE, good_quads.site_lines = one_sign), hf_quads_create(surface, &good_quads, &made));
+      (good_quads.kind = HF_QUADS_PURE, good_quads.site_lines = one_sign),
+      hf_quads_create(surface, &good_quads, &made));
   ROW("no lines at a site", HF_ERROR_INVALID_ARGUMENT, 1,
       (good_quads.kind = HF_QUADS_PURE, good_quads.site_lines = none), hf_quads_create(surface, &good_quads, &made));
 #undef UNCHANGED
@@ -216,14 +217,14 @@ static void what_is_no_handle_is_ignored_by_every_destroy_and_counts_as_nothing(
   hf_solver gone = surface_solver(&tube);
   hf_solver_destroy(gone);
   void* const bad[] = {NULL, (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &on_the_stack, gone};
-#define NOTHING_HAPPENS(function)                                              \
-  do {                                                                         \
-    for (size_t b = 0; b < COUNT_OF(bad); ++b) {                               \
-      function(bad[b]);                                                        \
-      count_row(#function);                                                    \
-      row_holds(__LINE__, #function, "the live objects go on",                 \
+#define NOTHING_HAPPENS(function)                                                            \
+  do {                                                                                       \
+    for (size_t b = 0; b < COUNT_OF(bad); ++b) {                                             \
+      function(bad[b]);                                                                      \
+      count_row(#function);                                                                  \
+      row_holds(__LINE__, #function, "the live objects go on",                               \
                 hf_solver_get_site_count(solver) == 0 && hf_solver_record(solver) == HF_OK); \
-    }                                                                          \
+    }                                                                                        \
   } while (0)
   NOTHING_HAPPENS(hf_surface_destroy);
   NOTHING_HAPPENS(hf_solver_destroy);
@@ -250,7 +251,8 @@ static void what_is_no_handle_is_ignored_by_every_destroy_and_counts_as_nothing(
   count_row("hf_error_get_detail");
   row_holds(__LINE__, "hf_error_get_detail", "no output is named", hf_error_get_detail(NULL) == HF_ERROR_NULL_POINTER);
   count_row("hf_result_get_name");
-  row_holds(__LINE__, "hf_result_get_name", "no such code is unknown", strcmp(hf_result_get_name(12345), "unknown") == 0);
+  row_holds(__LINE__, "hf_result_get_name", "no such code is unknown",
+            strcmp(hf_result_get_name(12345), "unknown") == 0);
   finish_rows("destroys and counts");
   teardown_surface();
 }

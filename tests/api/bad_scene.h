@@ -17,9 +17,9 @@ typedef struct Scene {
   hf_pose pose;         /* on the tube, two handles, one turned */
   hf_transfer transfer; /* tube to tube, two pairs */
   hf_progress progress;
-  hf_geodesics geodesics; /* of the tube */
-  hf_direction direction; /* on the cut sheet, constraint 0 at CUT_LEFT and 1 at CUT_RIGHT */
-  hf_region region;       /* on the tube, two vertices of its middle */
+  hf_geodesics geodesics;   /* of the tube */
+  hf_direction direction;   /* on the cut sheet, constraint 0 at CUT_LEFT and 1 at CUT_RIGHT */
+  hf_region region;         /* on the tube, two vertices of its middle */
   hf_surface stale_surface; /* destroyed */
   hf_solver stale_solver;
   hf_pose stale_pose;

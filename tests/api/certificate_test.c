@@ -190,10 +190,10 @@ static void nothing_is_changed(void** state) {
   free(before), free(after), hf_solver_destroy(solver);
 }
 
-#define CERTIFY(what, expected, ...)                                                         \
-  do {                                                                                       \
-    hf_certificate found = HF_INIT(hf_certificate);                                          \
-    __VA_ARGS__;                                                                             \
+#define CERTIFY(what, expected, ...)                                                                       \
+  do {                                                                                                     \
+    hf_certificate found = HF_INIT(hf_certificate);                                                        \
+    __VA_ARGS__;                                                                                           \
     check_row(__LINE__, what, "hf_solver_certify", hf_solver_certify(solver, &found), expected, NO_INDEX); \
   } while (0)
 
@@ -210,7 +210,8 @@ static void bad_arguments_are_answered(void** state) {
   CERTIFY("reserved set", HF_ERROR_INVALID_DESC, found.reserved = 1);
   CERTIFY("struct_size 0", HF_ERROR_INVALID_DESC, found.struct_size = 0);
   CERTIFY("struct_size one short", HF_ERROR_INVALID_DESC, --found.struct_size);
-  check_row(__LINE__, "no certificate", "hf_solver_certify", hf_solver_certify(solver, NULL), HF_ERROR_NULL_POINTER, NO_INDEX);
+  check_row(__LINE__, "no certificate", "hf_solver_certify", hf_solver_certify(solver, NULL), HF_ERROR_NULL_POINTER,
+            NO_INDEX);
   hf_certificate found = HF_INIT(hf_certificate);
   found.tolerance = 1e-300;
   assert_code(HF_ERROR_INACCURATE, hf_solver_certify(solver, &found));

@@ -65,8 +65,8 @@ static void many_constraints_come_and_go_without_a_trace(void** state) {
   surface_free(&sheet), surface_free(&two);
 }
 
-/* Single triangles beside a sheet whose constraints go into the factor: each is singular but for its ground, and half of
- * them would be refused for a pivot that rounding leaves at nothing or less. */
+/* Single triangles beside a sheet whose constraints go into the factor: each is singular but for its ground, and half
+ * of them would be refused for a pivot that rounding leaves at nothing or less. */
 static void triangles_that_nothing_reaches_do_not_matter(void** state) {
   (void)state;
   enum { SIDE = 50, HALF = (SIDE + 1) * (SIDE + 1), LOOSE = 24, ALL = HALF + 3 * LOOSE, MANY = 1000 };

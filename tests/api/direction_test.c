@@ -74,12 +74,12 @@ static void vectors_are_refused_with_their_place_in_the_list(void** state) {
   add_site(flat, 3, 1);
   check_row(__LINE__, "past the end", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 2, sites, far),
             HF_ERROR_OUT_OF_RANGE, 1);
-  check_row(__LINE__, "taken", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 1, sites, taken), HF_ERROR_CONFLICT,
-            0);
+  check_row(__LINE__, "taken", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 1, sites, taken),
+            HF_ERROR_CONFLICT, 0);
   check_row(__LINE__, "absent", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 2, absent, places),
             HF_ERROR_NO_SUCH_SITE, 1);
-  check_row(__LINE__, "none", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 0, sites, places), HF_ERROR_EMPTY,
-            NO_INDEX);
+  check_row(__LINE__, "none", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 0, sites, places),
+            HF_ERROR_EMPTY, NO_INDEX);
   check_row(__LINE__, "NULL", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 1, NULL, places),
             HF_ERROR_NULL_POINTER, NO_INDEX);
   check_row(__LINE__, "NULL", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 1, sites, NULL),

@@ -1,6 +1,6 @@
 /* Prints size and offsets of every public struct and the value of every constant. CTest compares the output with
- * layout.txt, which was pinned for 64-bit hosts: what stands there must never change after a release, new fields only go
- * to the end. check_layout.sh sees that no struct and no constant of the headers is missing here. */
+ * layout.txt, which was pinned for 64-bit hosts: what stands there must never change after a release, new fields only
+ * go to the end. check_layout.sh sees that no struct and no constant of the headers is missing here. */
 #include <stddef.h>
 #include <stdio.h>
 

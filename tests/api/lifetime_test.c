@@ -30,7 +30,8 @@ static void clones_are_independent(void** state) {
   hf_solver_destroy(original), hf_solver_destroy(copy), surface_free(&tube);
 }
 
-/* A family: a surface, a solver, two clones, a pose and its clone, a transfer. Each member does its work after any other is gone.
+/* A family: a surface, a solver, two clones, a pose and its clone, a transfer. Each member does its work after any
+ * other is gone.
  */
 enum { SOLVER, CLONE, CLONE_OF_CLONE, POSE, POSE_CLONE, TRANSFER, SURFACE, MEMBERS };
 
@@ -157,7 +158,8 @@ static hf_result create_cancelled_at(size_t at, const Surface* surface, Cancelle
   c->inner = counting_hooks(&c->memory), c->at = at;
   assert_ok(hf_progress_create(&c->progress));
   Options desc = options_of(surface);
-  desc.surface.allocator.allocate = cancelling_allocate, desc.surface.allocator.release = cancelling_release, desc.surface.allocator.user = c;
+  desc.surface.allocator.allocate = cancelling_allocate, desc.surface.allocator.release = cancelling_release,
+  desc.surface.allocator.user = c;
   desc.surface.progress = c->progress;
   return make(&desc, NULL, solver);
 }

@@ -219,12 +219,14 @@ static void triangles_of_16_bits_and_any_stride_give_the_same_bits(void** state)
   (void)state;
   Surface sheet = surface_sheet(9, 7);
   enum { WIDE = 23, NARROW = 11 }; /* odd: rows are not even aligned */
-  unsigned char *wide = malloc((size_t)WIDE * sheet.triangle_count), *narrow = malloc((size_t)NARROW * sheet.triangle_count);
+  unsigned char *wide = malloc((size_t)WIDE * sheet.triangle_count),
+                *narrow = malloc((size_t)NARROW * sheet.triangle_count);
   uint16_t* packed = malloc(sizeof(uint16_t) * 3 * sheet.triangle_count);
   memset(wide, 0xEE, (size_t)WIDE * sheet.triangle_count), memset(narrow, 0xEE, (size_t)NARROW * sheet.triangle_count);
   for (uint32_t t = 0; t < sheet.triangle_count; ++t) {
     for (uint32_t k = 0; k < 3; ++k) packed[3 * t + k] = (uint16_t)sheet.triangles[3 * t + k];
-    memcpy(wide + (size_t)WIDE * t, sheet.triangles + 3 * t, 12), memcpy(narrow + (size_t)NARROW * t, packed + 3 * t, 6);
+    memcpy(wide + (size_t)WIDE * t, sheet.triangles + 3 * t, 12),
+        memcpy(narrow + (size_t)NARROW * t, packed + 3 * t, 6);
   }
   const struct {
     const void *triangles, *triangles_u16;

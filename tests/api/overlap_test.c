@@ -55,7 +55,8 @@ static void values_may_be_written_over_the_list_they_were_asked_by(void** state)
   memcpy(over, sources, sizeof sources);
   assert_ok(hf_geodesics_solve_f64(geodesics, 2, (const uint32_t*)(const void*)over, over, 0));
   assert_true(same_bits(apart, over, sizeof over));
-  hf_geodesics_destroy(geodesics), free(field), hf_solver_destroy(solver), hf_surface_destroy(surface), surface_free(&tube);
+  hf_geodesics_destroy(geodesics), free(field), hf_solver_destroy(solver), hf_surface_destroy(surface),
+      surface_free(&tube);
 }
 
 static void a_posed_source_may_become_the_target_in_place(void** state) {

@@ -41,8 +41,7 @@ static hf_result save(Call* c) {
 static hf_result find_critical_points(Call* c) {
   const hf_scalars field = heights();
   hf_critical_info info = HF_INIT(hf_critical_info);
-  const hf_result r =
-      hf_surface_find_critical_points(scene.body, &field, (uint32_t)c->capacity[0], c->array[0], &info);
+  const hf_result r = hf_surface_find_critical_points(scene.body, &field, (uint32_t)c->capacity[0], c->array[0], &info);
   c->count[0] = info.point_count;
   return r;
 }
@@ -97,15 +96,14 @@ static hf_result get_sites(Call* c) {
 }
 static hf_result direction_get_sites(Call* c) {
   uint32_t count = 777;
-  const hf_result r = hf_direction_get_sites(scene.direction, (uint32_t)c->capacity[0], c->array[0], c->array[1],
-                                             c->array[2], &count);
+  const hf_result r =
+      hf_direction_get_sites(scene.direction, (uint32_t)c->capacity[0], c->array[0], c->array[1], c->array[2], &count);
   c->count[0] = count;
   return r;
 }
 static hf_result get_singularities(Call* c) {
   uint32_t count = 777;
-  const hf_result r =
-      hf_direction_get_singularities(round_field, (uint32_t)c->capacity[0], c->array[0], &count);
+  const hf_result r = hf_direction_get_singularities(round_field, (uint32_t)c->capacity[0], c->array[0], &count);
   c->count[0] = count;
   return r;
 }
@@ -223,7 +221,8 @@ static void free_call(Call* c) {
 static int dimensions_of(size_t f) {
   int most = 0;
   for (int i = 0; i < ARRAYS; ++i)
-    if (functions[f].arrays[i].entry && functions[f].arrays[i].dimension > most) most = functions[f].arrays[i].dimension;
+    if (functions[f].arrays[i].entry && functions[f].arrays[i].dimension > most)
+      most = functions[f].arrays[i].dimension;
   return most + 1;
 }
 static int counts_are(size_t f, const Call* c, const Call* asked) {

@@ -105,7 +105,8 @@ static void a_disc_is_one_site(void** state) {
   const double negative = -1;
   sites.radii = &negative;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_add_sites(solver, &sites, NULL));
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_solver_move_sites(solver, 1, numbers, &sites)); /* a radius cannot be moved to */
+  assert_code(HF_ERROR_INVALID_ARGUMENT,
+              hf_solver_move_sites(solver, 1, numbers, &sites)); /* a radius cannot be moved to */
   const uint32_t there = vertices[0] + 2 * (COLUMNS + 1) + 2;
   sites = sites_at(1, &there, NULL);
   assert_ok(hf_solver_move_sites(solver, 1, numbers, &sites));

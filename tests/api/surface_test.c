@@ -1,8 +1,9 @@
 #define _POSIX_C_SOURCE 200809L /* pthread_barrier_t */
 /* Surfaces: what is made on one outlives it, kinds of fields share it, factors of every kind are saved and loaded, and
  * getters tell what was asked for. */
-#include "api_support.h"
 #include <pthread.h>
+
+#include "api_support.h"
 
 enum { AROUND = 12, RINGS = 16, COUNT = AROUND * RINGS };
 static const int32_t kinds[3] = {HF_FIELD_HARMONIC, HF_FIELD_BIHARMONIC, HF_FIELD_BIHARMONIC_GRAPH};
@@ -99,19 +100,33 @@ static void use_member(Household* h, int member, const Surface* tube) {
       solve_with(more), hf_solver_destroy(more);
       break;
     }
-    case SOLVER: solve_with(h->solver); break;
-    case PLATE: solve_with(h->plate); break;
-    case POSE: assert_ok(hf_deform(h->pose, positions, NULL)); break;
+    case SOLVER:
+      solve_with(h->solver);
+      break;
+    case PLATE:
+      solve_with(h->plate);
+      break;
+    case POSE:
+      assert_ok(hf_deform(h->pose, positions, NULL));
+      break;
     case TRANSFER: {
       hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
       frame.source_positions = tube->positions, frame.target_positions = positions;
       assert_ok(hf_transfer_apply(h->transfer, &frame));
       break;
     }
-    case DIRECTION: assert_ok(hf_direction_solve(h->direction, positions, 0, NULL)); break;
-    case REGION: assert_ok(hf_region_morph(h->region, &morph)); break;
-    case DETAIL: assert_ok(hf_detail_morph(h->detail, &morph)); break;
-    case GEODESICS: assert_ok(hf_geodesics_solve_f64(h->geodesics, 1, &vertex, values, 0)); break;
+    case DIRECTION:
+      assert_ok(hf_direction_solve(h->direction, positions, 0, NULL));
+      break;
+    case REGION:
+      assert_ok(hf_region_morph(h->region, &morph));
+      break;
+    case DETAIL:
+      assert_ok(hf_detail_morph(h->detail, &morph));
+      break;
+    case GEODESICS:
+      assert_ok(hf_geodesics_solve_f64(h->geodesics, 1, &vertex, values, 0));
+      break;
     case QUADS: {
       hf_quads_info info = HF_INIT(hf_quads_info);
       assert_ok(hf_quads_get_info(h->quads, &info));
@@ -129,17 +144,38 @@ static void use_member(Household* h, int member, const Surface* tube) {
 
 static void destroy_member(Household* h, int member) {
   switch (member) {
-    case SURFACE: hf_surface_destroy(h->surface); break;
-    case SOLVER: hf_solver_destroy(h->solver); break;
-    case PLATE: hf_solver_destroy(h->plate); break;
-    case POSE: hf_pose_destroy(h->pose); break;
-    case TRANSFER: hf_transfer_destroy(h->transfer); break;
-    case DIRECTION: hf_direction_destroy(h->direction); break;
-    case REGION: hf_region_destroy(h->region); break;
-    case DETAIL: hf_detail_destroy(h->detail); break;
-    case GEODESICS: hf_geodesics_destroy(h->geodesics); break;
-    case QUADS: hf_quads_destroy(h->quads); break;
-    default: hf_flow_destroy(h->flow);
+    case SURFACE:
+      hf_surface_destroy(h->surface);
+      break;
+    case SOLVER:
+      hf_solver_destroy(h->solver);
+      break;
+    case PLATE:
+      hf_solver_destroy(h->plate);
+      break;
+    case POSE:
+      hf_pose_destroy(h->pose);
+      break;
+    case TRANSFER:
+      hf_transfer_destroy(h->transfer);
+      break;
+    case DIRECTION:
+      hf_direction_destroy(h->direction);
+      break;
+    case REGION:
+      hf_region_destroy(h->region);
+      break;
+    case DETAIL:
+      hf_detail_destroy(h->detail);
+      break;
+    case GEODESICS:
+      hf_geodesics_destroy(h->geodesics);
+      break;
+    case QUADS:
+      hf_quads_destroy(h->quads);
+      break;
+    default:
+      hf_flow_destroy(h->flow);
   }
 }
 
@@ -330,7 +366,8 @@ static void getters_tell_what_was_asked_for(void** state) {
     const double top[3] = {1, RINGS - 1, 0};
     assert_ok(hf_pose_add_handle_at(pose, top, 1.1, NULL));
     assert_ok(hf_pose_get_info(pose, &posed));
-    assert_true(posed.mode == mode && posed.band_count == (mode ? 12 : 10) && posed.iteration_count == (mode ? 200 : 5));
+    assert_true(posed.mode == mode && posed.band_count == (mode ? 12 : 10) &&
+                posed.iteration_count == (mode ? 200 : 5));
     assert_true(posed.samples_per_ring == 0 && posed.handle_count == 1 && posed.vertex_count == COUNT);
     if (mode == HF_DEFORM_SMOOTH) assert_int_equal(posed.group_count, 250);
     hf_pose_destroy(pose);
