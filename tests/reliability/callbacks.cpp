@@ -118,7 +118,7 @@ int main() {
         host.wrong += !is_answer(kind, made) || (made != HF_OK && (second || host.live != before));
         thrown += made != HF_OK;
         hf_solver_destroy(second);
-        host.wrong += host.live != before;
+        host.wrong += host.live > before + (made == HF_OK);  // the block that remembers a freed factor
         if (!struck) break;
       }
       hf_solver solver = make_solver(surface);

@@ -1,5 +1,5 @@
-// The small surfaces of the sequence fuzzer and their operators, made here from the definitions and nothing of the
-// library: weld by position, components, cotangents from corner angles, K = L, L M^-1 L or L^2.
+// The small meshes of the sequence fuzzer and their operators, made from the definitions without the library: weld by
+// position, components, cotangents of corner angles, and K = L, L M^-1 L or L^2.
 #pragma once
 #include <cstdint>
 #include <Eigen/Dense>

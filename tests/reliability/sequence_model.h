@@ -1,8 +1,8 @@
-// What a solver must be, by the headers alone: its sites, its undo stack, the code every edit gets, and the field by a
-// dense solve of the saddle-point system
+// The model of a solver, made from the headers alone: its sites, its undo stack, the code of every edit, and the field by
+// a dense solve of the saddle-point system
 //     [ K  -W ] [   u    ]   [ 0 ]      W the places of the sites, D = 1 / (stiffness mean diagonal), 0 for hard ones
 //     [ W'  D ] [ lambda ] = [ s ]
-// with pivoting and one step of refinement, values centred first (constants are in the kernel of K).
+// The solve pivots and takes one step of refinement. Values are centred first, because K maps constants to 0.
 #pragma once
 #include <map>
 

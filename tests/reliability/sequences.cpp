@@ -1,5 +1,5 @@
 // Random sequences of API calls against a dense oracle. Usage: reliability_sequences [--full] [--count N] [--first I]
-// [--hex BYTES]: sequences number I and on, or one given; a failing one is made smaller and printed as hex.
+// [--hex BYTES]: plays the sequences from number I on, or a given one. A failing one is made smaller and printed as hex.
 #include <algorithm>
 #include <chrono>
 #include <cinttypes>
@@ -30,7 +30,7 @@ Input bytes_of(const std::string& hex) {
   return input;
 }
 
-// Number i of all sequences: 6 bytes of set-up and up to 60 of calls.
+// Sequence number i: 6 bytes of set-up and up to 60 bytes of calls.
 Input sequence(std::uint64_t i) {
   std::mt19937_64 random(i * 0x9E3779B97F4A7C15u + 1);
   Input input(8 + random() % 60);
@@ -38,7 +38,7 @@ Input sequence(std::uint64_t i) {
   return input;
 }
 
-// Leaves out what the failure does not need.
+// Removes the bytes that the failure does not need.
 Input smaller(Input input) {
   for (std::size_t piece = input.size() / 2; piece > 0; piece /= 2) {
     for (std::size_t at = 0; at + piece <= input.size();) {
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
     if (option == "--first") first = std::stoull(argv[i + 1]);
     if (option == "--hex") given.push_back(bytes_of(argv[i + 1])), count = 0;
   }
-  // every failing input there ever was
+  // every input that ever failed
   std::ifstream kept(HF_SOURCE_DIR "/tests/reliability/inputs/sequences.hex");
   for (std::string line; std::getline(kept, line);) {
     if (!line.empty() && line[0] != '#') given.push_back(bytes_of(line));

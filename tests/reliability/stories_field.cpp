@@ -250,24 +250,26 @@ void missing_kinds(Story& s, const Tube& tube, Allocator& memory) {
     hf_surface surface = nullptr;
     s.make("hf_surface_create", surface, [&] { return hf_surface_create(&desc, &surface); });
     if (!surface) return;
-    for (int kind = 0; kind < 3; ++kind) {
+    for (int turn = 0; turn < 6; ++turn) {
+      const int kind = turn % 3;
       const std::size_t bytes = memory.live_bytes;
-      hf_solver solver = nullptr;
-      hf_region region = nullptr;
-      hf_pose pose = nullptr;
       hf_solver_desc wanted = HF_INIT(hf_solver_desc);
       wanted.field_kind = kind;
-      hf_region_desc bare = HF_INIT(hf_region_desc);
-      bare.field_kind = kind;
+      hf_solver solver = nullptr;
       s.make("hf_create", solver, [&] { return hf_create(surface, &wanted, &solver); });
       const std::uint32_t places[3] = {2, 40, 77};
       const hf_sites_desc sites = sites_at(3, places, values + 1);
       s.call("hf_add_sites", [&] { return hf_add_sites(solver, &sites, nullptr); });
       take_field(s, solver);
       hf_solver_destroy(solver);
-      s.holds(memory.live_bytes == bytes, "a factor that no object uses is still there");
+      // the first turns leave workspaces for later ones
+      s.holds(turn < 3 || memory.live_bytes <= bytes, "a factor that no object uses is still there");
+      hf_region_desc bare = HF_INIT(hf_region_desc);
+      bare.field_kind = kind;
+      hf_region region = nullptr;
       s.make("hf_region_create", region, [&] { return hf_region_create(surface, &bare, &region); });
       hf_region_destroy(region);
+      hf_pose pose = nullptr;
       s.make("hf_pose_create", pose, [&] { return hf_pose_create(surface, nullptr, &pose); });
       hf_pose_destroy(pose);
     }
