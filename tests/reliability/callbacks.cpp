@@ -1,5 +1,5 @@
 // Faulty hooks of a host. allocate throws at each place in turn, with four types of exception. run throws before or after
-// the jobs, runs them twice, backwards or not at all, or calls the library. Every call must end with a result, leave the
+// the jobs. It runs them twice, backwards or not at all, or it calls the library. Every call must end with a result, leave the
 // object as it was, and succeed when it is repeated.
 #include <atomic>
 #include <stdexcept>

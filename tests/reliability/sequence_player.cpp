@@ -15,8 +15,11 @@ const Operator& operator_of(std::size_t surface, int operator_kind, int field_ki
   return o;
 }
 
-// Calls 0 to 18 by the rest, as in all kept inputs; the highest bytes are the calls of surfaces.
-unsigned kind_of(unsigned byte) { return byte < 247 ? byte % 19 : 19 + (byte - 247) % 4; }
+// The kind of a call. The highest bytes are calls on surfaces, so kept inputs play as when they failed.
+unsigned kind_of(unsigned byte) {
+  constexpr unsigned first = first_surface_call, highest = 13 * first;
+  return byte < highest ? byte % first : first + (byte - highest) % 4;
+}
 
 }  // namespace
 

@@ -9,6 +9,8 @@
 
 namespace sequences {
 
+constexpr std::size_t first_surface_call = 19;  // calls from this kind on use the surface itself
+
 struct Outcome {
   bool passed = true;
   std::string failure;               // one line: the expected and the actual result

@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
     if (!line.empty() && line[0] != '#') given.push_back(bytes_of(line));
   }
   double worst[3] = {0, 0, 0};
-  std::uint64_t calls = 0, edits = 0, refused = 0, failures = 0, executions = 0;
+  std::uint64_t calls = 0, on_surfaces = 0, edits = 0, refused = 0, failures = 0, executions = 0;
   const auto start = std::chrono::steady_clock::now();
   for (std::uint64_t i = 0; i < given.size() + count; ++i) {
     const Input input = i < given.size() ? given[i] : sequence(first + i - given.size());
@@ -83,6 +83,7 @@ int main(int argc, char** argv) {
     ++executions;
     for (std::size_t e = 0; e < 3; ++e) worst[e] = std::max(worst[e], outcome.worst[e]);
     for (const unsigned n : outcome.calls) calls += n;
+    for (std::size_t k = sequences::first_surface_call; k < outcome.calls.size(); ++k) on_surfaces += outcome.calls[k];
     refused += outcome.edits[0], edits += outcome.edits[1];
     if (outcome.passed) continue;
     if (i < given.size())
@@ -98,6 +99,7 @@ int main(int argc, char** argv) {
   std::printf("%" PRIu64 " calls, %" PRIu64 " edits done, %" PRIu64 " refused, %.0f s\n", calls, edits, refused,
               seconds);
   report_at_least("sequences_executed", static_cast<double>(executions), static_cast<double>(count));
+  report_at_least("sequences_calls_on_surfaces", static_cast<double>(on_surfaces), static_cast<double>(count) / 10);
   report_at_most("sequences_failed", static_cast<double>(failures), 0);
   report_at_most("sequences_error_green", worst[0], sequences::exact_tolerance);
   report_at_most("sequences_error_refactor", worst[2], sequences::baseline_tolerance);

@@ -42,10 +42,15 @@ class Story {
   void call(const char* function, Call&& make) {
     call(function, make, [] { return true; });
   }
-  // A call that makes a handle. A refused one leaves it NULL and holds no memory, but for the small block by which a
-  // surface remembers a factor that was made and freed.
+  // A call that makes a handle. A refused one leaves it NULL.
   template <class Handle, class Call>
   void make(const char* function, Handle& handle, Call&& create) {
+    call(function, create, [&] { return handle == nullptr; });
+  }
+  // A call that makes a handle, and perhaps a factor. A refused one holds no memory either, but for the small block by
+  // which a surface remembers a factor that was made and freed.
+  template <class Handle, class Call>
+  void make_factor(const char* function, Handle& handle, Call&& create) {
     const std::size_t bytes = memory_.live_bytes;
     call(function, create, [&] { return handle == nullptr && memory_.live_bytes <= bytes + remembered_bytes; });
   }

@@ -54,8 +54,8 @@ void take_field(Story& s, hf_solver solver, std::size_t channels = 1) {
 hf_solver made(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
   hf_surface surface = nullptr;
   hf_solver solver = nullptr;
-  s.make("hf_surface_create", surface, [&] { return hf_surface_create(&on, &surface); });
-  if (surface) s.make("hf_create", solver, [&] { return hf_create(surface, &desc, &solver); });
+  s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&on, &surface); });
+  if (surface) s.make_factor("hf_create", solver, [&] { return hf_create(surface, &desc, &solver); });
   hf_surface_destroy(surface);
   return solver;
 }
@@ -173,7 +173,7 @@ void bytes(Story& s, const Tube& tube, Allocator& memory) {
   hf_surface_desc desc = tube.desc(memory);
   hf_surface surface = nullptr, again = nullptr;
   hf_solver loaded = nullptr;
-  s.make("hf_surface_create", surface, [&] { return hf_surface_create(&desc, &surface); });
+  s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&desc, &surface); });
   if (!surface) return;
   std::vector<char> saved;
   for (const int kind : {HF_FIELD_BIHARMONIC_GRAPH, HF_FIELD_HARMONIC}) {
@@ -186,9 +186,9 @@ void bytes(Story& s, const Tube& tube, Allocator& memory) {
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.bytes = saved.data(), factor.byte_count = saved.size();
   desc.saved_factor = &factor;
-  s.make("hf_surface_create", again, [&] { return hf_surface_create(&desc, &again); });
+  s.make_factor("hf_surface_create", again, [&] { return hf_surface_create(&desc, &again); });
   hf_surface_destroy(surface);
-  if (again) s.make("hf_create", loaded, [&] { return hf_create(again, nullptr, &loaded); });
+  if (again) s.make_factor("hf_create", loaded, [&] { return hf_create(again, nullptr, &loaded); });
   hf_surface_destroy(again);
   if (!loaded) return;
   const std::uint32_t places[3] = {2, 40, 77};
@@ -207,7 +207,7 @@ void shared(Story& s, const Tube& tube, Allocator& memory) {
   hf_surface surface = nullptr;
   hf_solver first = nullptr, second = nullptr;
   hf_pose pose = nullptr;
-  s.make("hf_surface_create", surface, [&] { return hf_surface_create(&desc, &surface); });
+  s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&desc, &surface); });
   if (!surface) return;
   std::vector<std::uint32_t> components(Tube::vertices);
   s.call("hf_surface_get_components",
@@ -219,9 +219,9 @@ void shared(Story& s, const Tube& tube, Allocator& memory) {
   std::uint32_t vertex = HF_NO_INDEX;
   s.call("hf_surface_find_vertex",
          [&] { return hf_surface_find_vertex(surface, origin, nullptr, &vertex, nullptr); });
-  s.make("hf_create", first, [&] { return hf_create(surface, nullptr, &first); });
-  s.make("hf_create", second, [&] { return hf_create(surface, nullptr, &second); });
-  s.make("hf_pose_create", pose, [&] { return hf_pose_create(surface, nullptr, &pose); });
+  s.make_factor("hf_create", first, [&] { return hf_create(surface, nullptr, &first); });
+  s.make_factor("hf_create", second, [&] { return hf_create(surface, nullptr, &second); });
+  s.make_factor("hf_pose_create", pose, [&] { return hf_pose_create(surface, nullptr, &pose); });
   hf_surface_destroy(surface);
   s.refused("hf_surface_get_components", HF_ERROR_INVALID_HANDLE,
             [&] { return hf_surface_get_components(surface, 0, nullptr, nullptr); });
@@ -248,7 +248,7 @@ void missing_kinds(Story& s, const Tube& tube, Allocator& memory) {
     hf_surface_desc desc = tube.desc(memory);
     desc.field_kind = own;
     hf_surface surface = nullptr;
-    s.make("hf_surface_create", surface, [&] { return hf_surface_create(&desc, &surface); });
+    s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&desc, &surface); });
     if (!surface) return;
     for (int turn = 0; turn < 6; ++turn) {
       const int kind = turn % 3;
@@ -256,7 +256,7 @@ void missing_kinds(Story& s, const Tube& tube, Allocator& memory) {
       hf_solver_desc wanted = HF_INIT(hf_solver_desc);
       wanted.field_kind = kind;
       hf_solver solver = nullptr;
-      s.make("hf_create", solver, [&] { return hf_create(surface, &wanted, &solver); });
+      s.make_factor("hf_create", solver, [&] { return hf_create(surface, &wanted, &solver); });
       const std::uint32_t places[3] = {2, 40, 77};
       const hf_sites_desc sites = sites_at(3, places, values + 1);
       s.call("hf_add_sites", [&] { return hf_add_sites(solver, &sites, nullptr); });
@@ -267,10 +267,10 @@ void missing_kinds(Story& s, const Tube& tube, Allocator& memory) {
       hf_region_desc bare = HF_INIT(hf_region_desc);
       bare.field_kind = kind;
       hf_region region = nullptr;
-      s.make("hf_region_create", region, [&] { return hf_region_create(surface, &bare, &region); });
+      s.make_factor("hf_region_create", region, [&] { return hf_region_create(surface, &bare, &region); });
       hf_region_destroy(region);
       hf_pose pose = nullptr;
-      s.make("hf_pose_create", pose, [&] { return hf_pose_create(surface, nullptr, &pose); });
+      s.make_factor("hf_pose_create", pose, [&] { return hf_pose_create(surface, nullptr, &pose); });
       hf_pose_destroy(pose);
     }
     hf_surface_destroy(surface);
