@@ -1,6 +1,6 @@
-// Faulty hooks of a host. allocate throws at each place in turn, with four types of exception. run throws before or after
-// the jobs. It runs them twice, backwards or not at all, or it calls the library. Every call must end with a result, leave the
-// object as it was, and succeed when it is repeated.
+// Faulty hooks of a host. allocate throws at each place in turn, with four types of exception. run throws before or
+// after the jobs. It runs them twice, backwards or not at all, or it calls the library. Every call must end with a
+// result, leave the object as it was, and succeed when it is repeated.
 #include <atomic>
 #include <stdexcept>
 #include <thread>
@@ -166,7 +166,8 @@ int main() {
     host.runner = 0;
     host.wrong += added != HF_OK && added != HF_ERROR_INTERNAL;
     refused += added != HF_OK;
-    if (added != HF_OK) host.wrong += hf_solver_get_site_count(solver) != 0, must(add(solver, 5, 11), "hf_add_sites, again");
+    if (added != HF_OK)
+      host.wrong += hf_solver_get_site_count(solver) != 0, must(add(solver, 5, 11), "hf_add_sites, again");
     host.runner = runner;
     const hf_result solved = hf_solver_solve_f64(solver, field.data(), 0, nullptr);
     host.runner = 0, host.solver = nullptr;

@@ -1,7 +1,7 @@
-// The first use of what is made on demand, by eight threads at once. Eight threads read a transfer before its first frame:
-// its fields must be solved once. Eight threads make solvers of a kind of field that the surface lacks: the factor must
-// be made once. All threads get the answers of one thread. The host's allocator counts the allocations, and so the work:
-// eight threads make those of one first call and of seven later ones. ThreadSanitizer must report nothing.
+// The first use of what the library makes on demand, by eight threads at once. Eight threads read a transfer before its
+// first frame: its fields must be solved once. Eight threads make solvers of a kind of field that the surface lacks:
+// the factor must be made once. All threads must get the answers of one thread. An allocator counts the work: eight
+// threads may allocate as much as one first call and seven later ones. ThreadSanitizer must report nothing.
 #include <atomic>
 #include <thread>
 
@@ -152,11 +152,9 @@ void kinds(const Mesh& mesh, int rounds, unsigned& different, unsigned& repeated
     hf_solver_destroy(right.solver), hf_solver_destroy(second.solver);
     for (int round = 0; round < rounds; ++round) {
       std::vector<Made> made(thread_count);
-      const long all = count([&] {
-        on_eight([&](unsigned t) { make_and_solve(surface, mesh, kind, made[t]); });
-      });
+      const long all = count([&] { on_eight([&](unsigned t) { make_and_solve(surface, mesh, kind, made[t]); }); });
       repeated += all > first + (thread_count - 1) * later + (first - later) / 2;
-      if (round == rounds - 1) hf_surface_destroy(surface);  // the solvers go on
+      if (round == rounds - 1) hf_surface_destroy(surface);  // the solvers still work
       for (const Made& each : made) {
         std::vector<double> again(mesh.vertex_count());
         must(hf_solver_solve_f64(each.solver, again.data(), 0, nullptr), "hf_solver_solve_f64, again");

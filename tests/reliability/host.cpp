@@ -1,5 +1,6 @@
-// The library leaves the properties of its host unchanged. Each property is read before and after a run of the whole API
-// (whole_api.h). A host with floating-point traps, flush-to-zero or another rounding mode gets the same bits as any other.
+// The library leaves the properties of its host unchanged. Each property is read before and after a run of the whole
+// API (whole_api.h). A host with floating-point traps, flush-to-zero or another rounding mode gets the same bits as any
+// other.
 //
 // The runs include HF_ENGINE_UPDOWN and METIS in builds that have them. Threads are counted without these, because
 // Debian's CHOLMOD keeps OpenMP threads after its first use.
@@ -225,8 +226,8 @@ unsigned answers_from_the_default_resource(const Scene& scene, std::uint64_t exp
   return outcome.unexpected + (outcome.hash != expected);
 }
 
-// The job system of a host whose threads have floating-point settings of their own. Counts jobs that change the settings,
-// and answers with other bits. `jobs` receives the number of jobs.
+// The job system of a host whose threads have floating-point settings of their own. Counts jobs that change the
+// settings, and answers with other bits. `jobs` receives the number of jobs.
 struct HostJobs {
   std::atomic<unsigned> jobs{0}, changed{0};
 };

@@ -174,7 +174,8 @@ void Player::solve_single() {
   const std::vector<double> field = field_of(here());
   for (std::size_t v = 0; v < n; ++v) {
     for (std::size_t c = 0; c < m; ++c)
-      hold(values[v * width + c] == static_cast<float>(field[v * m + c]), "hf_solve is not hf_solver_solve_f64 rounded");
+      hold(values[v * width + c] == static_cast<float>(field[v * m + c]),
+           "hf_solve is not hf_solver_solve_f64 rounded");
     hold(values[v * width + m] == -9.0f, "hf_solve wrote between the rows");
   }
 }

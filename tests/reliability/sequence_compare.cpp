@@ -84,7 +84,8 @@ void Player::compare_sites(Branch& branch) {
                                    answer.lambda.col(column).cwiseAbs().maxCoeff());
       const double error = std::fabs(flux[i * m + c] - answer.lambda(static_cast<Eigen::Index>(i), column)) / unit;
       char text[96];
-      std::snprintf(text, sizeof text, "hf_solver_get_sites: the flux of site %u is off by %.3g of its scale", number, error);
+      std::snprintf(text, sizeof text, "hf_solver_get_sites: the flux of site %u is off by %.3g of its scale", number,
+                    error);
       hold(error <= (setting_.engine == HF_ENGINE_GREEN ? 1e-8 : 1e-6), text);
     }
     ++i;

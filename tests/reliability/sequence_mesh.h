@@ -1,5 +1,5 @@
-// The small meshes of the sequence fuzzer and their operators, made from the definitions without the library. Welding is
-// by position, weights are cotangents of corner angles, and K is L, L M^-1 L or L^2.
+// The small meshes of the sequence fuzzer and their operators, made from the definitions without the library. Welding
+// is by position, weights are cotangents of corner angles, and K is L, L M^-1 L or L^2.
 #pragma once
 #include <cstdint>
 #include <Eigen/Dense>

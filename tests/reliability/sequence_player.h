@@ -1,6 +1,6 @@
 // Plays bytes as a sequence of API calls on one small surface, and compares every code and state with the model. The
-// first bytes choose surface, operator, engine and channels. Then come one byte per call and the bytes of its arguments;
-// missing bytes read as 0. The same bytes give the same calls.
+// first bytes choose surface, operator, engine and channels. Then come one byte per call and the bytes of its
+// arguments; missing bytes read as 0. The same bytes give the same calls.
 #pragma once
 #include <array>
 #include <cstddef>

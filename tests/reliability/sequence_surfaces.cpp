@@ -1,4 +1,4 @@
-// The calls of a sequence that surfaces take: several solvers and poses on one, picking, destruction before its solvers.
+// The calls of a sequence on surfaces: several solvers and poses share one, it is picked, and destroyed before them.
 #include <cmath>
 
 #include "sequence_play.h"
@@ -17,7 +17,7 @@ void Player::share() {
   active_ = branches_.size() - 1;
 }
 
-// Destroys the surface under all its solvers. They go on; the handle is invalid.
+// Destroys the surface of all its solvers. They still work; the handle is invalid.
 void Player::drop_surface() {
   if (!here().surface) return;
   const hf_surface gone = here().surface->handle;

@@ -1,5 +1,6 @@
 // Random sequences of API calls against a dense oracle. Usage: reliability_sequences [--full] [--count N] [--first I]
-// [--hex BYTES]: plays the sequences from number I on, or a given one. A failing one is made smaller and printed as hex.
+// [--hex BYTES]: plays the sequences from number I on, or a given one. A failing one is made smaller and printed as
+// hex.
 #include <algorithm>
 #include <chrono>
 #include <cinttypes>

@@ -82,7 +82,8 @@ void edits(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
   take_field(s, solver);
   // after a refused undo there is nothing to redo
   s.call(
-      "hf_solver_undo", [&] { return hf_solver_undo(solver); }, [&] { return hf_solver_redo(solver) == HF_ERROR_NO_RECORD; });
+      "hf_solver_undo", [&] { return hf_solver_undo(solver); },
+      [&] { return hf_solver_redo(solver) == HF_ERROR_NO_RECORD; });
   take_field(s, solver);
   s.call("hf_solver_redo", [&] { return hf_solver_redo(solver); });
   s.call("hf_remove_sites", [&] { return hf_remove_sites(copy, 1, &numbers[3]); });
@@ -102,9 +103,7 @@ void edits(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
   hf_solver_destroy(solver), hf_solver_destroy(copy);
 }
 
-void green(Story& s, const Tube& tube, Allocator& memory) {
-  edits(s, tube.desc(memory), HF_INIT(hf_solver_desc));
-}
+void green(Story& s, const Tube& tube, Allocator& memory) { edits(s, tube.desc(memory), HF_INIT(hf_solver_desc)); }
 void refactor(Story& s, const Tube& tube, Allocator& memory) {
   hf_solver_desc desc = HF_INIT(hf_solver_desc);
   desc.engine = HF_ENGINE_REFACTOR;
@@ -195,7 +194,8 @@ void bytes(Story& s, const Tube& tube, Allocator& memory) {
   const hf_sites_desc sites = sites_at(3, places, values + 1);
   s.call("hf_add_sites", [&] { return hf_add_sites(loaded, &sites, nullptr); });
   std::vector<double> field(Tube::vertices);
-  s.call("hf_solver_solve_preview_f64", [&] { return hf_solver_solve_preview_f64(loaded, field.data(), 0, 2, nullptr); });
+  s.call("hf_solver_solve_preview_f64",
+         [&] { return hf_solver_solve_preview_f64(loaded, field.data(), 0, 2, nullptr); });
   s.take(field.data(), field.size());
   s.call("hf_solver_release_preview", [&] { return hf_solver_release_preview(loaded); });
   hf_solver_destroy(loaded);
@@ -217,8 +217,7 @@ void shared(Story& s, const Tube& tube, Allocator& memory) {
   s.call("hf_surface_cast_ray", [&] { return hf_surface_cast_ray(surface, origin, along, nullptr, &hit); });
   s.take(hit.triangle), s.take(hit.barycentrics, 3), s.take(hit.distance);
   std::uint32_t vertex = HF_NO_INDEX;
-  s.call("hf_surface_find_vertex",
-         [&] { return hf_surface_find_vertex(surface, origin, nullptr, &vertex, nullptr); });
+  s.call("hf_surface_find_vertex", [&] { return hf_surface_find_vertex(surface, origin, nullptr, &vertex, nullptr); });
   s.make_factor("hf_create", first, [&] { return hf_create(surface, nullptr, &first); });
   s.make_factor("hf_create", second, [&] { return hf_create(surface, nullptr, &second); });
   s.make_factor("hf_pose_create", pose, [&] { return hf_pose_create(surface, nullptr, &pose); });
@@ -241,8 +240,8 @@ void shared(Story& s, const Tube& tube, Allocator& memory) {
   hf_solver_destroy(first), hf_solver_destroy(second), hf_pose_destroy(pose);
 }
 
-// Factors that the surface lacks, made by a solver, a region and a pose. A refused making must leave the surface and its
-// memory as they were; the second try makes the factor.
+// Factors that the surface lacks, made by a solver, a region and a pose. A refused making must leave the surface and
+// its memory as they were; the second try makes the factor.
 void missing_kinds(Story& s, const Tube& tube, Allocator& memory) {
   for (const int own : {HF_FIELD_HARMONIC, HF_FIELD_BIHARMONIC}) {
     hf_surface_desc desc = tube.desc(memory);
@@ -331,13 +330,17 @@ hf_surface_desc Tube::desc(Allocator& memory) const {
 }
 
 std::vector<Chapter> field_chapters() {
-  return {{"green", green},           {"refactor", refactor},
+  return {{"green", green},
+          {"refactor", refactor},
 #ifdef HF_WITH_GPL
           {"updown", updown},
 #endif
-          {"biharmonic", biharmonic}, {"points_and_discs", points_and_discs},
-          {"rebase", rebase},         {"bytes", bytes},
-          {"vectors", vectors},       {"shared", shared},
+          {"biharmonic", biharmonic},
+          {"points_and_discs", points_and_discs},
+          {"rebase", rebase},
+          {"bytes", bytes},
+          {"vectors", vectors},
+          {"shared", shared},
           {"missing_kinds", missing_kinds}};
 }
 

@@ -16,7 +16,8 @@ void lines(Story& s, const Tube& tube, Allocator& memory) {
   hf_scalars field = HF_INIT(hf_scalars);
   field.values_f64 = tube.height.data();
   double levels[4] = {0, 0, 0, 0};
-  s.call("hf_surface_space_levels", [&] { return hf_surface_space_levels(surface, &field, HF_LEVELS_LENGTH, 4, levels); });
+  s.call("hf_surface_space_levels",
+         [&] { return hf_surface_space_levels(surface, &field, HF_LEVELS_LENGTH, 4, levels); });
   s.take(levels, 4);
   std::vector<double> positions(3 * 400);
   hf_isolines out = HF_INIT(hf_isolines);
@@ -37,15 +38,15 @@ void distances(Story& s, const Tube& tube, Allocator& memory) {
   s.make("hf_geodesics_create", geodesics, [&] { return hf_geodesics_create(surface, nullptr, &geodesics); });
   const std::uint32_t sources[2] = {3, 60};
   std::vector<double> distance(Tube::vertices);
-  s.call("hf_geodesics_solve_f64",
-         [&] { return hf_geodesics_solve_f64(geodesics, 2, sources, distance.data(), 0); });
+  s.call("hf_geodesics_solve_f64", [&] { return hf_geodesics_solve_f64(geodesics, 2, sources, distance.data(), 0); });
   s.take(distance.data(), distance.size());
   for (const int kind : {HF_EXTREMITIES_POISSON, HF_EXTREMITIES_GEODESIC}) {
     hf_extremities_desc wanted = HF_INIT(hf_extremities_desc);
     wanted.kind = kind, wanted.source_count = 8;
     hf_extremity found[16];
     std::uint32_t count = 0;
-    s.call("hf_surface_find_extremities", [&] { return hf_surface_find_extremities(surface, &wanted, 16, found, &count); });
+    s.call("hf_surface_find_extremities",
+           [&] { return hf_surface_find_extremities(surface, &wanted, 16, found, &count); });
     s.take(count);
     if (count > 0) s.take(found[0].length);
   }
