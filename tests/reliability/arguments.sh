@@ -1,5 +1,5 @@
 #!/bin/sh
-# The bad-argument tables: how many rows there are, whether any fails, and whether every exported function has one.
+# Counts the rows of the bad-argument tables, the programs that fail, and the exported functions without a row.
 # Usage: arguments.sh FOLDER_OF_THE_PROGRAMS EXPORTS_LIST
 set -eu
 programs=$1
@@ -7,7 +7,7 @@ exports=$2
 rows=$(mktemp)
 trap 'rm -f "$rows" "$rows.out"' EXIT
 failed=0
-for name in handles descs mesh sites pose quads; do set -- "$@" "bad_${name}_test"; done
+for name in handles descs mesh places sites pose quads; do set -- "$@" "bad_${name}_test"; done
 shift 2
 for name in "$@" analysis_test certificate_test detail_test direction_test picking_test protocol_test; do
   if ! HF_ROWS_LOG=$rows "$programs/api_$name" >"$rows.out" 2>&1; then

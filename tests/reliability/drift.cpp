@@ -1,5 +1,5 @@
-// Whether the field drifts away from the exact one as sites come, go and move. The test makes 30,000 random edits of about
-// 50 sites on 41,000 vertices; a tenth of the sites are soft. One channel has values in [0, 1], the other in
+// Whether the field drifts away from the exact one as sites come, go and move. The test makes 30,000 random edits of
+// about 50 sites on 41,000 vertices; a tenth of the sites are soft. One channel has values in [0, 1], the other in
 // [10,000, 10,001]. At every checkpoint a new solver eliminates the same sites (HF_ENGINE_REFACTOR), and the two fields
 // are compared. The quick form makes 2,000 edits.
 #include <algorithm>

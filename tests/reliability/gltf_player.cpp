@@ -45,8 +45,8 @@ void pick(hf_surface surface, const FlatMesh& mesh, std::uint32_t vertex, double
   hold(std::fabs(sum - 1) <= 1e-9, "barycentrics of a hit do not sum to 1");
 }
 
-// Makes a surface, or checks the documented code of a refusal. Then it adds a site at the first vertex of every component
-// and checks the field.
+// Makes a surface, or checks the documented code of a refusal. Then it adds a site at the first vertex of every
+// component and checks the field.
 bool solve(const FlatMesh& mesh) {
   const std::vector<double> positions = double_positions(mesh.positions);
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
@@ -71,7 +71,8 @@ bool solve(const FlatMesh& mesh) {
   hold(hf_create(surface, nullptr, &owner.solver) == HF_OK, "hf_create failed");
   const hf_solver solver = owner.solver;
   std::vector<std::uint32_t> component(mesh.vertex_count());
-  hold(hf_surface_get_components(surface, mesh.vertex_count(), component.data(), nullptr) == HF_OK, "hf_surface_get_components failed");
+  hold(hf_surface_get_components(surface, mesh.vertex_count(), component.data(), nullptr) == HF_OK,
+       "hf_surface_get_components failed");
   std::vector<std::uint32_t> places;
   std::vector<bool> seen(mesh.vertex_count(), false);
   for (std::uint32_t v = 0; v < mesh.vertex_count() && places.size() < 64; ++v) {

@@ -1,6 +1,7 @@
-// Compares hashes of fields with golden.txt. Hashed is every stage that uses IEEE arithmetic alone, on 1 to 8 threads and
-// on each kind of processor. All build types and compilers share the hashes.
-//   reliability_golden [--full] | --print (the lines of golden.txt)
+// Compares hashes of fields with golden.txt. Hashed is every stage that uses IEEE arithmetic alone, on 1 to 8 threads
+// and on each kind of processor. All build types and compilers share the hashes. Usage: reliability_golden [--full] |
+// --print (the lines of golden.txt)
+//
 // The program holds the static library, because it hides features of the processor from the library's dispatch.
 // __builtin_cpu_supports reads them from __cpu_model of libgcc or compiler-rt. Stages that use sin and atan2 of the C
 // library have no golden hash. They are compared between AVX2 and AVX-512.
@@ -133,7 +134,8 @@ class Stages {
         if (op == HF_OPERATOR_CLAMPED) d.ordering = HF_ORDERING_MINIMUM_DEGREE;
         const hf_solver solver = make_solver(d, wanted);
         add(solver, 9, 701, 3, nullptr);
-        must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64"), hash.take(doubles_.data(), n_);
+        must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64"),
+            hash.take(doubles_.data(), n_);
         hf_solver_destroy(solver);
       }
     }
@@ -149,7 +151,8 @@ class Stages {
     scalars.values_f64 = doubles_.data();
     std::vector<hf_critical_point> points(n_);
     hf_critical_info info = desc<hf_critical_info>();
-    must(hf_surface_find_critical_points(surface, &scalars, n_, points.data(), &info), "hf_surface_find_critical_points");
+    must(hf_surface_find_critical_points(surface, &scalars, n_, points.data(), &info),
+         "hf_surface_find_critical_points");
     for (std::uint32_t i = 0; i < info.point_count; ++i) hash.take(&points[i].vertex, 1), hash.take(&points[i].kind, 1);
     hf_geodesics geodesics = nullptr;
     must(hf_geodesics_create(surface, nullptr, &geodesics), "hf_geodesics_create");

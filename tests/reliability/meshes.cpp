@@ -1,6 +1,6 @@
 // The bad-mesh table: meshes with one fault each, with every operator and kind of field. The library refuses them with
-// the documented code, or gives a finite field. The field holds its sites and reproduces constants. With weights that are
-// not negative it keeps to the range of its sites. Then come 1,000 random meshes, 50,000 in the long form. Their
+// the documented code, or gives a finite field. The field holds its sites and reproduces constants. With weights that
+// are not negative it keeps to the range of its sites. Then come 1,000 random meshes, 50,000 in the long form. Their
 // coordinates lie anywhere in the range of a float, and their fields may leave the range by 1e-4.
 #include <cmath>
 #include <cstdint>
@@ -262,9 +262,11 @@ Mesh of_any_magnitudes(std::uint64_t seed) {
 }
 
 // Solves with two sites, at the first and the last vertex of a component. Returns what is wrong, or nothing.
-std::string check_field(hf_surface surface, hf_solver solver, const Mesh& m, double beyond, double far_value, double near_value) {
+std::string check_field(hf_surface surface, hf_solver solver, const Mesh& m, double beyond, double far_value,
+                        double near_value) {
   std::vector<std::uint32_t> component(m.count());
-  if (hf_surface_get_components(surface, m.count(), component.data(), nullptr) != HF_OK) return "hf_surface_get_components failed";
+  if (hf_surface_get_components(surface, m.count(), component.data(), nullptr) != HF_OK)
+    return "hf_surface_get_components failed";
   std::uint32_t first = HF_NO_INDEX, last = HF_NO_INDEX;
   for (std::uint32_t v = 0; v < m.count(); ++v) {
     if (component[v] == HF_NO_INDEX) continue;
@@ -332,8 +334,8 @@ std::string check(const Mesh& m, int operator_kind, int field_kind, bool any_mag
   return wrong;
 }
 
-// The field of three sites among the first `count` vertices. A surface is made and its factor saved; the field is that of
-// a surface which loads it. The saved kind is the surface's own, or one made by the saving.
+// The field of three sites among the first `count` vertices. A surface is made and its factor saved; the field is that
+// of a surface which loads it. The saved kind is the surface's own, or one made by the saving.
 std::vector<double> loaded_field(const Mesh& m, std::uint32_t count, int operator_kind, int field_kind) {
   hf_surface_desc desc = surface_desc(m, operator_kind, operator_kind % 2 ? HF_FIELD_HARMONIC : field_kind);
   hf_surface made = nullptr, loaded = nullptr;
@@ -353,7 +355,8 @@ std::vector<double> loaded_field(const Mesh& m, std::uint32_t count, int operato
     wanted.field_kind = field_kind;
     if (hf_surface_save(made, field_kind, size, bytes.data(), nullptr) != HF_OK ||
         hf_surface_create(&desc, &loaded) != HF_OK || hf_create(loaded, &wanted, &solver) != HF_OK ||
-        hf_add_sites(solver, &sites, nullptr) != HF_OK || hf_solver_solve_f64(solver, field.data(), 0, nullptr) != HF_OK)
+        hf_add_sites(solver, &sites, nullptr) != HF_OK ||
+        hf_solver_solve_f64(solver, field.data(), 0, nullptr) != HF_OK)
       field.assign(m.count(), NAN);
   }
   hf_solver_destroy(solver), hf_surface_destroy(made), hf_surface_destroy(loaded);

@@ -1,5 +1,5 @@
-// Refuses every allocation of every story, alone and with all later ones. The call must report it, nothing may leak, the
-// objects must stay usable, and the answer of the story must be the same. Usage: reliability_refuse [--story NAME]
+// Refuses every allocation of every story, alone and with all later ones. The call must report it, nothing may leak,
+// the objects must stay usable, and the answer of the story must be the same. Usage: reliability_refuse [--story NAME]
 #include <cmath>
 #include <cstdio>
 #include <string>

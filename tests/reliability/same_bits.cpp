@@ -84,8 +84,8 @@ struct Small {
   return small.hash;
 }
 
-// Eight threads run the whole API at once, each on handles of its own. Then all read one solver. At last all edit clones
-// of it.
+// Eight threads run the whole API at once, each on handles of its own. Then all read one solver. At last all edit
+// clones of it.
 unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, int rounds) {
   std::atomic<unsigned> different{0};
   const auto on_eight = [&](auto&& body) {

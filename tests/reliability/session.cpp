@@ -1,11 +1,11 @@
-// A long session on one solver, and the memory it takes: 100,000 edits on 41,000 vertices. Every twentieth edit solves a
-// field. Each tenth of the session makes 500 undo records; the library keeps 256.
+// A long session on one solver, and the memory it takes: 100,000 edits on 41,000 vertices. Every twentieth edit solves
+// a field. Each tenth of the session makes 500 undo records; the library keeps 256.
 //
-// The figures compare the memory of the library and of the process after the first tenth and at the end. malloc_trim
-// returns free memory before the process is measured, because undo records leave reusable gaps in the heap. The growth
-// with these gaps is a figure of its own. The long form also compares the time of an edit at the end with the beginning.
-// It takes the fastest of twenty stretches, because other programs share the machine. The quick form makes 40,000 edits
-// on 9,800 vertices.
+// The figures compare the memory of the library and of the process after the first tenth and at the end. Undo
+// records leave gaps in the heap that are used again; malloc_trim returns them before the process is measured. The
+// growth with these gaps is a figure of its own. The long form also compares the time of an edit at the end with the
+// beginning. It takes the fastest of twenty stretches, because other programs share the machine. The quick form makes
+// 40,000 edits on 9,800 vertices.
 #include <malloc.h>
 
 #include <algorithm>

@@ -7,7 +7,7 @@ namespace {
 hf_surface made(Story& s, const Tube& tube, Allocator& memory) {
   const hf_surface_desc desc = tube.desc(memory);
   hf_surface surface = nullptr;
-  s.make("hf_surface_create", surface, [&] { return hf_surface_create(&desc, &surface); });
+  s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&desc, &surface); });
   return surface;
 }
 
@@ -16,7 +16,8 @@ void lines(Story& s, const Tube& tube, Allocator& memory) {
   hf_scalars field = HF_INIT(hf_scalars);
   field.values_f64 = tube.height.data();
   double levels[4] = {0, 0, 0, 0};
-  s.call("hf_surface_space_levels", [&] { return hf_surface_space_levels(surface, &field, HF_LEVELS_LENGTH, 4, levels); });
+  s.call("hf_surface_space_levels",
+         [&] { return hf_surface_space_levels(surface, &field, HF_LEVELS_LENGTH, 4, levels); });
   s.take(levels, 4);
   std::vector<double> positions(3 * 400);
   hf_isolines out = HF_INIT(hf_isolines);
@@ -37,15 +38,15 @@ void distances(Story& s, const Tube& tube, Allocator& memory) {
   s.make("hf_geodesics_create", geodesics, [&] { return hf_geodesics_create(surface, nullptr, &geodesics); });
   const std::uint32_t sources[2] = {3, 60};
   std::vector<double> distance(Tube::vertices);
-  s.call("hf_geodesics_solve_f64",
-         [&] { return hf_geodesics_solve_f64(geodesics, 2, sources, distance.data(), 0); });
+  s.call("hf_geodesics_solve_f64", [&] { return hf_geodesics_solve_f64(geodesics, 2, sources, distance.data(), 0); });
   s.take(distance.data(), distance.size());
   for (const int kind : {HF_EXTREMITIES_POISSON, HF_EXTREMITIES_GEODESIC}) {
     hf_extremities_desc wanted = HF_INIT(hf_extremities_desc);
     wanted.kind = kind, wanted.source_count = 8;
     hf_extremity found[16];
     std::uint32_t count = 0;
-    s.call("hf_surface_find_extremities", [&] { return hf_surface_find_extremities(surface, &wanted, 16, found, &count); });
+    s.call("hf_surface_find_extremities",
+           [&] { return hf_surface_find_extremities(surface, &wanted, 16, found, &count); });
     s.take(count);
     if (count > 0) s.take(found[0].length);
   }
@@ -89,7 +90,7 @@ void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
   hf_pose_desc desc = HF_INIT(hf_pose_desc);
   desc.mode = mode;
   hf_pose pose = nullptr, copy = nullptr;
-  s.make("hf_pose_create", pose, [&] { return hf_pose_create(surface, &desc, &pose); });
+  s.make_factor("hf_pose_create", pose, [&] { return hf_pose_create(surface, &desc, &pose); });
   hf_surface_destroy(surface);
   const std::uint32_t counts[2] = {2 * Tube::around, 2 * Tube::around};
   hf_handles_desc handles = HF_INIT(hf_handles_desc), layer = HF_INIT(hf_handles_desc);
@@ -127,9 +128,9 @@ void transfer(Story& s, const Tube& tube, Allocator& memory) {
   bent.field_kind = HF_FIELD_BIHARMONIC;
   const hf_surface source = made(s, tube, memory);
   hf_surface target = nullptr;
-  s.make("hf_surface_create", target, [&] { return hf_surface_create(&bent, &target); });
+  s.make_factor("hf_surface_create", target, [&] { return hf_surface_create(&bent, &target); });
   hf_transfer motion = nullptr;
-  s.make("hf_transfer_create", motion, [&] { return hf_transfer_create(source, target, nullptr, &motion); });
+  s.make_factor("hf_transfer_create", motion, [&] { return hf_transfer_create(source, target, nullptr, &motion); });
   hf_surface_destroy(source), hf_surface_destroy(target);
   const std::uint32_t counts[2] = {2 * Tube::around, 2 * Tube::around};
   hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
@@ -196,7 +197,7 @@ void flow(Story& s, const Tube& tube, Allocator& memory) {
 void regions(Story& s, const Tube& tube, Allocator& memory) {
   const hf_surface surface = made(s, tube, memory);
   hf_region region = nullptr, copy = nullptr;
-  s.make("hf_region_create", region, [&] { return hf_region_create(surface, nullptr, &region); });
+  s.make_factor("hf_region_create", region, [&] { return hf_region_create(surface, nullptr, &region); });
   hf_surface_destroy(surface);
   const std::uint32_t a = 4 * Tube::around, inside[6] = {a, a + 1, a + 2, a + 8, a + 9, a + 10};
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc), grow = HF_INIT(hf_region_edit_desc);

@@ -86,8 +86,7 @@ inline hf_solver make_solver(const hf_surface_desc& on, hf_solver_desc d = desc<
 // A solver under random edits. It remembers its sites.
 class EditedSolver {
  public:
-  EditedSolver(const Mesh& mesh, std::uint32_t channels, unsigned seed)
-      : mesh_(mesh), m_(channels), random_(seed) {
+  EditedSolver(const Mesh& mesh, std::uint32_t channels, unsigned seed) : mesh_(mesh), m_(channels), random_(seed) {
     hf_solver_desc d = desc<hf_solver_desc>();
     d.channel_count = channels;
     surface_ = make_surface(surface_desc(mesh)), solver_ = make_solver(surface_, d);

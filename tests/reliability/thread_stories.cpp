@@ -112,7 +112,8 @@ Objects make_objects(const Scene& s) {
 
 Objects clones_of(const Objects& o) {
   Objects made;
-  must(hf_solver_clone(o.solver, &made.solver), "hf_solver_clone"), must(hf_solver_clone(o.refactor, &made.refactor), "hf_solver_clone");
+  must(hf_solver_clone(o.solver, &made.solver), "hf_solver_clone"),
+      must(hf_solver_clone(o.refactor, &made.refactor), "hf_solver_clone");
   must(hf_pose_clone(o.pose, &made.pose), "hf_pose_clone");
   must(hf_direction_clone(o.direction, &made.direction), "hf_direction_clone");
   must(hf_region_clone(o.region, &made.region), "hf_region_clone");
@@ -213,7 +214,8 @@ void read_analysis(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   wanted.kind = HF_EXTREMITIES_GEODESIC, wanted.geodesics = o.geodesics, wanted.source_count = 8;
   wanted.out_field = distance.data();
   std::uint32_t count = 0;
-  seen.call(hf_surface_find_extremities(o.surface, &wanted, 0, nullptr, &count)), seen.take(distance), seen.take(&count, 1);
+  seen.call(hf_surface_find_extremities(o.surface, &wanted, 0, nullptr, &count)), seen.take(distance),
+      seen.take(&count, 1);
   hf_flow_lines flow = desc<hf_flow_lines>();
   flow.wanted_count = 12;
   seen.call(hf_flow_trace(o.flow, &field, &flow)), seen.take(&flow.point_count, 1);

@@ -1,6 +1,6 @@
-// Eight threads use one object of every kind: they read it, make new objects of it, clone it and edit the clones. At last
-// they edit clones while another thread destroys the originals. Each answer must have the bits that one thread gets on
-// objects of its own. ThreadSanitizer must report nothing. (same_bits.cpp has a handle per thread, and
+// Eight threads use one object of every kind: they read it, make new objects of it, clone it and edit the clones. At
+// last they edit clones while another thread destroys the originals. Each answer must have the bits that one thread
+// gets on objects of its own. ThreadSanitizer must report nothing. (same_bits.cpp has a handle per thread, and
 // tests/api/threads_test.c has calls that overlap a change.)
 #include <array>
 #include <atomic>

@@ -208,7 +208,8 @@ void Run::analysis() {
   field.values_f64 = s.height.data();
   Numbers levels(6);
   for (int spacing = 0; spacing < 3; ++spacing)
-    call(hf_surface_space_levels(surface, &field, spacing, 6, levels.data()), "hf_surface_space_levels"), take(levels.data(), 6);
+    call(hf_surface_space_levels(surface, &field, spacing, 6, levels.data()), "hf_surface_space_levels"),
+        take(levels.data(), 6);
   hf_isolines lines = desc<hf_isolines>();
   call(hf_surface_trace_isolines(surface, &field, 7, s.levels.data(), &lines), "hf_surface_trace_isolines");
   std::vector<std::uint32_t> edges(2 * std::size_t{lines.point_count}), starts(lines.line_count + 1u);
@@ -291,7 +292,8 @@ void Run::errors() {
 Outcome run_whole_api(const Scene& scene, const Options& options) {
   Run run(scene, options);
   run.outcome.hash = 14695981039346656037u;
-  run.surface_and_picking(), run.solver_and_sites(), run.other_kinds(), run.other_engines(), run.vectors(), run.factor_and_preview(), run.analysis();
+  run.surface_and_picking(), run.solver_and_sites(), run.other_kinds(), run.other_engines(), run.vectors(),
+      run.factor_and_preview(), run.analysis();
   run.directions(), run.pose_and_transfer(), run.quads_and_flow(), run.regions(), run.errors();
   return run.outcome;
 }

@@ -1,6 +1,6 @@
-// Calls every exported function on one small surface and hashes every result. The tests of the host, of threads, of small
-// stacks and of unloading compare this hash. The Scene holds all input numbers. So the run does no arithmetic of its own
-// and works under any floating-point environment.
+// Calls every exported function on one small surface and hashes every result. The tests of the host, of threads, of
+// small stacks and of unloading compare this hash. The Scene holds all input numbers. So the run does no arithmetic of
+// its own and works under any floating-point environment.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -15,7 +15,7 @@ struct Scene {
   std::vector<double> positions_f64;
   std::vector<std::uint32_t> triangles, ends;  // the first two and the last two rings
   std::vector<double> values, vectors, height, levels, angles, barycentrics, radii, stiffness, points, matrices;
-  std::vector<double> ray;  // origin and direction of a ray that hits the tube
+  std::vector<double> ray;   // origin and direction of a ray that hits the tube
   std::vector<float> posed;  // the posed source of the transfer
 };
 
