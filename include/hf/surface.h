@@ -206,7 +206,7 @@ typedef struct hf_hit {
 
 /* Finds what a click hits: the first triangle on a ray. origin, direction: double[3] in the frame of the positions;
  * direction of any length above 0. desc: NULL for the rest positions. A ray through an edge or a vertex never slips
- * between two triangles. Of several at one distance, to 1e-12 of it, the first given triangle counts. Cost: a pass over
+ * between two triangles. Of several at one distance, the first given triangle counts. Cost: a pass over
  * the triangles, about 10 ns each on one thread. Errors: HF_ERROR_NON_FINITE (origin, direction, a position: index =
  * vertex), HF_ERROR_INVALID_ARGUMENT (direction 0). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const double* direction,

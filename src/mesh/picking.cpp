@@ -13,10 +13,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t piece = 16384;  // triangles or vertices of a job: some 0.1 ms, so that threads share evenly
 
-// Share of a distance that rounding may take: on a ring of 1,600 triangles 2 of 21,000 hits of a shared edge differ by
-// more, 13 at a tenth of it. Larger would take the farther of two sheets that lie closer than this.
-constexpr double rounding = 1e-12;
-
 std::uint32_t pieces_of(std::size_t count) { return static_cast<std::uint32_t>((count + piece - 1) / piece); }
 
 // Positions of inner vertices in the frame of the search: the inner one at rest, the caller's when posed.
@@ -62,9 +58,6 @@ struct Shear {
   double x = 0, y = 0, z = 0;
 };
 
-// Triangles that meet in an edge or a vertex are hit at one distance but for rounding: then the first given one counts.
-bool nearer(double distance, double best) noexcept { return distance < best * (1 - rounding); }
-
 struct Candidate {
   std::uint32_t triangle = HF_NO_INDEX;
   double distance = infinity;
@@ -80,7 +73,7 @@ void test_triangle(const Vec3* corner, bool front_only, std::uint32_t triangle, 
   const double determinant = u + v + w;
   if (determinant == 0 || (front_only && !front)) return;
   const double distance = (u * a.z + v * b.z + w * c.z) / determinant;
-  if (!(distance >= 0 && nearer(distance, best.distance))) return;
+  if (!(distance >= 0 && distance < best.distance)) return;
   best.triangle = triangle, best.distance = distance;
   best.weight[0] = u / determinant, best.weight[1] = v / determinant, best.weight[2] = w / determinant;
 }
@@ -108,7 +101,7 @@ RayHit cast_ray(const PickTarget& target, Vec3 origin, Vec3 direction, JobRunner
   });
   Candidate best;
   for (const Candidate& candidate : found) {
-    if (nearer(candidate.distance, best.distance)) best = candidate;
+    if (candidate.distance < best.distance) best = candidate;
   }
   RayHit hit;
   if (best.triangle == HF_NO_INDEX) return hit;

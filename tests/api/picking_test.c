@@ -194,6 +194,20 @@ static void rays_through_edges_and_vertices_never_slip_through(void** state) {
     assert_int_equal(hit.triangle, first);
     assert_true(hit.distance == 2);
   }
+  /* and where the distances of the triangles differ by rounding alone */
+  double posed[3 * 25];
+  hf_pick_desc stand = HF_INIT(hf_pick_desc);
+  stand.positions_f64 = posed;
+  for (uint32_t v = 0; v < 25; ++v)
+    posed[3 * v] = 3 * (v % 5), posed[3 * v + 1] = 7 * (v / 5), posed[3 * v + 2] = sin(v);
+  for (uint32_t v = 0; v < 25; ++v) {
+    const double origin[3] = {posed[3 * v], posed[3 * v + 1], 8}, down[3] = {0, 0, -1};
+    uint32_t first = 0;
+    while (sheet.triangles[3 * first] != v && sheet.triangles[3 * first + 1] != v &&
+           sheet.triangles[3 * first + 2] != v)
+      ++first;
+    assert_int_equal(cast(grid, origin, down, &stand).triangle, first);
+  }
   hf_surface_destroy(grid), surface_free(&sheet);
 }
 
