@@ -1,4 +1,4 @@
-# Finds SuiteSparse's CHOLMOD and AMD as Debian ships them: targets SuiteSparse::CHOLMOD and SuiteSparse::AMD.
+# Finds SuiteSparse's CHOLMOD as Debian ships it: target SuiteSparse::CHOLMOD. Only HF_WITH_GPL asks for it.
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 find_library(CHOLMOD_LIBRARY cholmod)
 find_library(AMD_LIBRARY amd)
@@ -6,13 +6,11 @@ find_library(SUITESPARSECONFIG_LIBRARY suitesparseconfig)
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(CHOLMOD
   REQUIRED_VARS CHOLMOD_LIBRARY AMD_LIBRARY SUITESPARSECONFIG_LIBRARY CHOLMOD_INCLUDE_DIR
-  REASON_FAILURE_MESSAGE "install the Debian package libsuitesparse-dev")
+  REASON_FAILURE_MESSAGE "HF_WITH_GPL needs it (Debian package libsuitesparse-dev)")
 if(CHOLMOD_FOUND AND NOT TARGET SuiteSparse::CHOLMOD)
-  add_library(SuiteSparse::AMD UNKNOWN IMPORTED)
-  set_target_properties(SuiteSparse::AMD PROPERTIES IMPORTED_LOCATION ${AMD_LIBRARY}
-    INTERFACE_INCLUDE_DIRECTORIES ${CHOLMOD_INCLUDE_DIR} INTERFACE_LINK_LIBRARIES ${SUITESPARSECONFIG_LIBRARY})
-  add_library(SuiteSparse::CHOLMOD UNKNOWN IMPORTED)
+  add_library(SuiteSparse::CHOLMOD UNKNOWN IMPORTED GLOBAL)
   set_target_properties(SuiteSparse::CHOLMOD PROPERTIES IMPORTED_LOCATION ${CHOLMOD_LIBRARY}
-    INTERFACE_INCLUDE_DIRECTORIES ${CHOLMOD_INCLUDE_DIR} INTERFACE_LINK_LIBRARIES SuiteSparse::AMD)
+    INTERFACE_INCLUDE_DIRECTORIES ${CHOLMOD_INCLUDE_DIR}
+    INTERFACE_LINK_LIBRARIES "${AMD_LIBRARY};${SUITESPARSECONFIG_LIBRARY}")
 endif()
 mark_as_advanced(CHOLMOD_INCLUDE_DIR CHOLMOD_LIBRARY AMD_LIBRARY SUITESPARSECONFIG_LIBRARY)

@@ -1,11 +1,10 @@
-# Install rules: headers, both libraries, find_package(hf) and pkg-config.
+# Install rules: headers, the library or both (BUILD_SHARED_LIBS), find_package(hf) and pkg-config.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS hf hf_static EXPORT hf_targets
+install(TARGETS ${hf_installed} EXPORT hf_targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
-  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/hf DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT hf_targets NAMESPACE hf:: FILE hfTargets.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/hf)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/hfConfig.cmake.in ${PROJECT_BINARY_DIR}/hfConfig.cmake
@@ -15,5 +14,18 @@ install(FILES ${PROJECT_BINARY_DIR}/hfConfig.cmake ${PROJECT_BINARY_DIR}/hfConfi
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/hf)
 # the prefix seen from hf.pc, so that an installation may be moved or made with cmake --install --prefix
 file(RELATIVE_PATH hf_pc_prefix "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
+# what a program that links the archive adds: behind `pkg-config --static`
+set(hf_pc_libraries ${hf_cxx_runtime} ${CMAKE_THREAD_LIBS_INIT})
+if(HF_WITH_GPL)
+  list(PREPEND hf_pc_libraries cholmod)
+endif()
+list(TRANSFORM hf_pc_libraries PREPEND -l REGEX "^[^-/]")
+list(JOIN hf_pc_libraries " " hf_pc_libraries)
+set(hf_pc_public)
+set(hf_pc_definitions)
+if(hf_preferred STREQUAL "hf_static")  # there is nothing but the archive
+  set(hf_pc_public " ${hf_pc_libraries}")
+  set(hf_pc_definitions " -DHF_STATIC")
+endif()
 configure_file(${PROJECT_SOURCE_DIR}/cmake/hf.pc.in ${PROJECT_BINARY_DIR}/hf.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/hf.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

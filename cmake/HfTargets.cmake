@@ -3,7 +3,7 @@
 # Results must not depend on the compiler's mood: no contraction of a*b+c unless the code asks for it (kernels use FMA
 # intrinsics), no -ffast-math, no -march=native.
 function(hf_target_defaults target)
-  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_compile_features(${target} PRIVATE cxx_std_17)
   set_target_properties(${target} PROPERTIES
     CXX_EXTENSIONS OFF C_STANDARD 99 C_EXTENSIONS OFF
     CXX_VISIBILITY_PRESET hidden C_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)

@@ -9,7 +9,18 @@ hf_fail() {
   exit 1
 }
 
-# Installs the packages of a list whose command or file is not there.
+hf_yes=0  # 1: packages are installed without asking
+
+# Asks a yes-or-no question on the terminal; no terminal is no.
+hf_ask() {
+  local answer=
+  { [ -t 0 ] || [ -t 1 ]; } && [ -r /dev/tty ] || return 1
+  printf '%s [y/N] ' "$1" >/dev/tty
+  read -r answer </dev/tty || return 1
+  case "$answer" in y | Y | yes | Yes) return 0 ;; *) return 1 ;; esac
+}
+
+# Installs the packages of a list whose command or file is not there. Asks first, unless it runs as root or hf_yes is 1.
 hf_install_packages() {
   local list=$1 missing=() name probe
   while read -r name probe; do
@@ -20,35 +31,59 @@ hf_install_packages() {
     esac
   done <"$list"
   [ ${#missing[@]} -eq 0 ] && return 0
-  hf_say "installing ${missing[*]}"
   command -v apt-get >/dev/null 2>&1 || hf_fail "these packages are missing and there is no apt-get to install them: ${missing[*]}"
   local sudo=
   if [ "$(id -u)" -ne 0 ]; then
     command -v sudo >/dev/null 2>&1 || hf_fail "these packages are missing; install them as root: ${missing[*]}"
     sudo=sudo
+    if [ "$hf_yes" -ne 1 ] && ! hf_ask "These Debian packages are missing: ${missing[*]}. Install them with sudo apt-get?"; then
+      hf_fail "nothing was installed. Run again with --yes, or do: sudo apt-get install ${missing[*]}"
+    fi
   fi
+  hf_say "installing ${missing[*]}"
   $sudo apt-get update -qq || hf_fail "apt-get update failed; is the machine connected to a Debian mirror?"
   DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null ||
     hf_fail "apt-get could not install: ${missing[*]}"
 }
 
-# Configures and builds a preset (release, shipped, ...), targets optional.
+# Reads what ninja prints, keeps it in LOG and shows how far it is: a bar that moves on a terminal, else a line a tenth.
+hf_progress() {
+  local log=$1 line done total tenth=0 begin=$SECONDS left bar width=30
+  while IFS= read -r line; do
+    printf '%s\n' "$line" >>"$log"
+    [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
+    done=${BASH_REMATCH[1]} total=${BASH_REMATCH[2]}
+    left=
+    [ "$done" -ge 5 ] && left=", about $(((SECONDS - begin) * (total - done) / done)) s left"
+    if [ -t 1 ]; then
+      printf -v bar '%*s' $((width * done / total)) ''
+      printf '\r   [%-*s] %d of %d%s \033[K' "$width" "${bar// /#}" "$done" "$total" "$left"
+    elif [ $((10 * done / total)) -gt "$tenth" ]; then
+      tenth=$((10 * done / total))
+      printf '   %d of %d%s\n' "$done" "$total" "$left"
+    fi
+  done
+  [ -t 1 ] && [ -n "${total:-}" ] && printf '\n'
+  return 0
+}
+
+# Configures and builds a preset (release, dev, ...), targets optional.
 hf_build() {
-  local preset=$1
+  local preset=$1 log="$hf_root/build/$1.log" targets=() begin=$SECONDS
   shift
-  local log="$hf_root/build/$preset.log"
   mkdir -p "$hf_root/build"
   hf_say "building (preset $preset)"
   (cd "$hf_root" && cmake --preset "$preset" >"$log" 2>&1) || {
     tail -30 "$log" >&2
     hf_fail "cmake could not configure preset $preset; the log is build/$preset.log"
   }
-  local targets=()
   [ $# -gt 0 ] && targets=(--target "$@")
-  (cd "$hf_root" && cmake --build --preset "$preset" -j "$(nproc)" "${targets[@]}" >>"$log" 2>&1) || {
+  (cd "$hf_root" && set -o pipefail &&
+    NINJA_STATUS='[%f/%t] ' cmake --build --preset "$preset" -j "$(nproc)" "${targets[@]}" 2>&1 | hf_progress "$log") || {
     grep -E 'error|FAILED' "$log" | head -30 >&2
     hf_fail "the build of preset $preset failed; the log is build/$preset.log"
   }
+  hf_say "built in $((SECONDS - begin)) s"
 }
 
 # What the JavaScript binding is tested with: koffi (native calls), three (the page), playwright-core (drives Chromium).

@@ -23,7 +23,10 @@ ROOT = BINDINGS.parent
 
 def files():
     api = parse_headers.read_api(ROOT / "include")
+    macros = {c["name"]: c["value"] for c in api["constants"]}
     version = re.search(r"project\(hf VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
+    if version != ".".join(str(macros[f"HF_VERSION_{part}"]) for part in ("MAJOR", "MINOR", "PATCH")):
+        raise parse_headers.HeaderError(f"base.h: HF_VERSION_* are not the version of CMakeLists.txt, {version}")
     api = {"version": version, **api}
     result = {"api.json": parse_headers.to_text(api)}
     for layer in (layer_python, layer_js, layer_csharp, layer_lua):

@@ -4,7 +4,7 @@ from layout import is_pointer
 
 TYPES = {"int32_t": "int", "uint32_t": "uint", "hf_result": "int", "float": "float", "double": "double",
     "size_t": "UIntPtr", "char": "byte",
-         "uint8_t": "byte", "void": "void"}
+         "uint8_t": "byte", "uint16_t": "ushort", "void": "void"}
 RESERVED = {"operator", "params", "ref", "out", "in", "object", "base", "fixed", "lock", "event"}
 
 

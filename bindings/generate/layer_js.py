@@ -6,7 +6,7 @@ from layout import is_pointer, lay_out
 
 TYPES = {"int32_t": "i32", "uint32_t": "u32", "hf_result": "i32", "float": "f32", "double": "f64", "size_t": "size",
     "char": "char",
-         "uint8_t": "u8"}
+         "uint8_t": "u8", "uint16_t": "u16"}
 
 
 def kind(api, item):

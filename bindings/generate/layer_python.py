@@ -3,7 +3,7 @@
 from layout import is_pointer
 
 TYPES = {"int32_t": "c_int32", "uint32_t": "c_uint32", "hf_result": "c_int32", "float": "c_float", "double": "c_double",
-         "size_t": "c_size_t", "char": "c_char", "uint8_t": "c_uint8", "int64_t": "c_int64", "uint64_t": "c_uint64"}
+         "size_t": "c_size_t", "char": "c_char", "uint8_t": "c_uint8", "uint16_t": "c_uint16", "int64_t": "c_int64", "uint64_t": "c_uint64"}
 HINTS = {"float": "float", "double": "float", "char": "bytes"}
 
 

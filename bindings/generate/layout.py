@@ -1,6 +1,6 @@
 """Sizes and offsets of the ABI's structs for a pointer size, by the natural alignment every C compiler we know uses."""
 
-SIZES = {"int32_t": 4, "uint32_t": 4, "hf_result": 4, "float": 4, "double": 8, "char": 1, "uint8_t": 1, "int64_t": 8,
+SIZES = {"int32_t": 4, "uint32_t": 4, "hf_result": 4, "float": 4, "double": 8, "char": 1, "uint8_t": 1, "uint16_t": 2, "int64_t": 8,
     "uint64_t": 8}
 
 

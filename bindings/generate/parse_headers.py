@@ -13,7 +13,7 @@ import re
 import sys
 
 SCALARS = {"int32_t", "uint32_t", "int64_t", "uint64_t", "size_t", "float", "double", "char", "void", "uint8_t",
-    "hf_result"}
+    "uint16_t", "hf_result"}
 
 
 class HeaderError(Exception):
@@ -140,7 +140,7 @@ def read_api(include):
     names = re.findall(r'#include "hf/(\w+\.h)"', (folder / "hf.h").read_text())
     api = {"constants": [], "handles": [], "structs": [], "functions": []}
     constants = {}
-    order = ["base.h", "mesh.h", "field.h"]
+    order = ["base.h", "surface.h", "solver.h"]
     for name in [n for n in order if n in names] + [n for n in names if n not in order]:
         parse_header(folder / name, api, constants)
     check(api)

@@ -25,7 +25,7 @@ api = json.load(open(sys.argv[1] + "/gdnative_api.json"))
 open(sys.argv[2], "w").write(gdnative_builders._build_gdnative_api_struct_header(api))
 PY
 c++ -std=c++17 -O2 -shared -fPIC -fvisibility=hidden -w -I"$headers/include" -I"$generated" -I"$here/../../include" \
-  "$here"/src/gdnative.cpp "$here"/src/surface.cpp "$here"/src/surface_fields.cpp "$here"/src/surface_regions.cpp \
+  "$here"/src/gdnative.cpp "$here"/src/surface*.cpp \
   -o "$out/hf/libhf_godot.so" -L"$(dirname "$library")" -l:"$(basename "$library")" -Wl,-rpath,'$ORIGIN'
 cp -L "$library" "$out/hf/$(objdump -p "$library" | awk '/SONAME/ { print $2 }')"
 cp "$here"/addon/* "$out/hf/"

@@ -2,29 +2,52 @@
 
 
 def bad_scenes():
-    solver = lambda name="s", mesh="small", **more: {"do": "solver", "as": name, "mesh": mesh, **more}
+    surface = lambda name="m", mesh="small", **more: {"do": "surface", "as": name, "mesh": mesh, **more}
+    solver = lambda name="s", on="m", **more: {"do": "solver", "as": name, "on": on, **more}
     made = []
     bad = lambda error, **step: made.append({**step, "error": "HF_ERROR_" + error})
     for place in range(18):
-        bad("NON_FINITE", **solver(positions={str(place): ["nan", "inf", "-inf"][place % 3]}), index=place // 3)
+        bad("NON_FINITE", **surface(positions={str(place): ["nan", "inf", "-inf"][place % 3]}), index=place // 3)
     for place in range(12):
-        bad("OUT_OF_RANGE", **solver(triangles={str(place): [6, 4294967295][place % 2]}), index=place // 3)
-    bad("NULL_POINTER", **solver(mesh=None))
-    bad("EMPTY", **solver(no_triangles=True))
+        bad("OUT_OF_RANGE", **surface(triangles={str(place): [6, 4294967295][place % 2]}), index=place // 3)
+    bad("OUT_OF_RANGE", **surface(triangles={"7": 6}, index_bits=16), index=2)
+    bad("OUT_OF_RANGE", **surface(triangles={"7": 65535}, index_bits=16, triangle_stride=8), index=2)
+    bad("NULL_POINTER", **surface(mesh=None))
+    bad("EMPTY", **surface(no_triangles=True))
     for option, value, error in (("weld", 9, "INVALID_ARGUMENT"), ("weld", -1, "INVALID_ARGUMENT"),
-        ("operator_kind", 9, "INVALID_ARGUMENT"),
-                                 ("engine", 7, "INVALID_ARGUMENT"), ("ordering", 7,
-                                     "INVALID_ARGUMENT"), ("channel_count", 65, "INVALID_ARGUMENT"),
-                                 ("vertex_limit", 5, "TOO_LARGE"), ("field_kind", 9, "INVALID_ARGUMENT"), ("weld", 2,
-                                     "INVALID_ARGUMENT"), ("penalty", -1.0, "INVALID_ARGUMENT")):
-        bad(error, **solver(options={option: value}))
-    for option in ("no_such_option", "positions_", "Weld"):
-        bad("INVALID_ARGUMENT", **solver(options={option: 1}))
-    creation = [*made, solver(mesh="small"), {"do": "report", "on": "s", "expect": {"vertex_count": 6}}]
+            ("operator_kind", 9, "INVALID_ARGUMENT"), ("ordering", 7, "INVALID_ARGUMENT"),
+            ("vertex_limit", 5, "TOO_LARGE"), ("triangle_limit", 3, "TOO_LARGE"),
+            ("thread_count", 257, "INVALID_ARGUMENT"), ("field_kind", 9, "INVALID_ARGUMENT"),
+            ("weld", 2, "INVALID_ARGUMENT")):
+        bad(error, **surface(options={option: value}))
+    for option in ("no_such_option", "positions_", "Weld", "engine", "channel_count"):
+        bad("INVALID_ARGUMENT", **surface(options={option: 1}))
+    made.append(surface(mesh="small"))
+    for option, value in (("engine", 7), ("engine", -1), ("channel_count", 65), ("field_kind", 9), ("penalty", -1.0),
+            ("no_such_option", 1), ("weld", 1), ("operator_kind", 1)):
+        bad("INVALID_ARGUMENT", **solver(options={option: value}))
+    bad("INVALID_ARGUMENT", do="save", on="m", field_kind=9, **{"as": "f"})
+    for direction in ([0.0, 0.0, 0.0],):
+        bad("INVALID_ARGUMENT", do="cast_ray", on="m", origin=[0.3, 0.3, 1.0], direction=direction)
+    for value in ("nan", "inf"):
+        bad("NON_FINITE", do="cast_ray", on="m", origin=[0.0, value, 1.0], direction=[0.0, 0.0, 1.0])
+        bad("NON_FINITE", do="cast_ray", on="m", origin=[0.0, 0.0, 1.0], direction=[0.0, value, 1.0])
+        bad("NON_FINITE", do="find_vertex", on="m", point=[0.0, value, 1.0])
+    posed = [0.0, 0.0, 0.0] * 5 + [0.0, 0.0, "nan"]
+    bad("NON_FINITE", index=5, do="cast_ray", on="m", origin=[0.3, 0.3, 1.0], direction=[0.0, 0.0, -1.0],
+        positions=posed)
+    bad("NON_FINITE", index=5, do="find_vertex", on="m", point=[0.3, 0.3, 1.0], positions=posed)
+    bad("INVALID_ARGUMENT", do="cast_ray", on="m", origin=[0.3, 0.3, 1.0], direction=[0.0, 0.0, -1.0],
+        positions=[0.0] * 9)
+    bad("INVALID_ARGUMENT", do="cast_ray", on="m", origin=[0.3, 0.3], direction=[0.0, 0.0, -1.0])
+    bad("INVALID_ARGUMENT", do="cast_ray", on="m", origin=[0.3, 0.3, 1.0], direction=[0.0, 0.0, -1.0], front_only=2)
+    bad("INVALID_ARGUMENT", do="find_vertex", on="m", point=[0.3, 0.3, 1.0], positions=[0.0] * 9)
+    creation = [*made, {"do": "report", "on": "m", "expect": {"vertex_count": 6}},
+        {"do": "find_vertex", "on": "m", "point": [0.0, 0.0, 0.0], "expect": {"count": 2, "sum": 0.0}}]
 
     made = []
     on = {"on": "s"}
-    start = [solver(mesh="lonely")]
+    start = [surface(mesh="lonely"), solver()]
     bad("NO_SITES", do="solve", **on)
     bad("NO_SITES", do="solve_f32", **on)
     bad("NO_SITES", do="solve_at", vertices=[0], **on)
@@ -51,7 +74,12 @@ def bad_scenes():
     bad("NON_FINITE", do="add_sites", triangles=[0], barycentrics=["nan", 0.5, 0.5], values=[1.0], **on)
     bad("DUPLICATE_SITE", do="add_sites", vertices=[1, 1], values=[1.0, 1.0], **on)
     bad("CONFLICT", do="add_sites", vertices=[1, 1], values=[1.0, 2.0], **on)
+    bad("OUT_OF_RANGE", do="add_site", vertex=7, value=1.0, **on)
+    bad("NON_FINITE", do="add_site", vertex=0, value="nan", **on)
+    bad("INVALID_ARGUMENT", do="add_site", vertex=6, value=1.0, **on)  # isolated
     made.append({"do": "add_sites", "vertices": [0, 1], "values": [0.0, 1.0], "numbers": [0, 1], **on})
+    bad("DUPLICATE_SITE", do="add_site", vertex=1, value=1.0, **on)
+    bad("CONFLICT", do="add_site", vertex=1, value=3.0, **on)
     bad("DUPLICATE_SITE", do="add_sites", vertices=[1], values=[1.0], **on)
     bad("CONFLICT", do="add_sites", vertices=[1], values=[2.0], **on)
     for site in (2, 9, 4294967295):
@@ -68,21 +96,26 @@ def bad_scenes():
     bad("OUT_OF_RANGE", do="solve_at", vertices=[7], **on)
     bad("INVALID_ARGUMENT", do="preview", correction_count=9, **on)
     line = [0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 0.0]
-    bad("INVALID_ARGUMENT", do="levels", field=line, count=0, spacing="HF_LEVELS_VALUE", **on)
-    bad("INVALID_ARGUMENT", do="levels", field=line[:3], count=2, spacing="HF_LEVELS_VALUE", **on)
-    bad("INVALID_ARGUMENT", do="levels", field=[1.0] * 7, count=2, spacing="HF_LEVELS_VALUE", **on)
-    bad("NON_FINITE", do="levels", field=["inf"] + line[1:], count=2, spacing="HF_LEVELS_VALUE", **on)
-    bad("EMPTY", do="isolines", field=line, levels=[], **on)
-    bad("NON_FINITE", do="isolines", field=line, levels=["nan"], **on)
-    bad("INVALID_ARGUMENT", do="isolines", field=line[:2], levels=[0.5], **on)
-    bad("INVALID_ARGUMENT", do="critical", field=line[:5], **on)
+    bad("INVALID_ARGUMENT", do="levels", field=line, count=0, spacing="HF_LEVELS_VALUE", on="m")
+    bad("INVALID_ARGUMENT", do="levels", field=line[:3], count=2, spacing="HF_LEVELS_VALUE", on="m")
+    bad("INVALID_ARGUMENT", do="levels", field=[1.0] * 7, count=2, spacing="HF_LEVELS_VALUE", on="m")
+    bad("NON_FINITE", do="levels", field=["inf"] + line[1:], count=2, spacing="HF_LEVELS_VALUE", on="m")
+    bad("EMPTY", do="isolines", field=line, levels=[], on="m")
+    bad("NON_FINITE", do="isolines", field=line, levels=["nan"], on="m")
+    bad("INVALID_ARGUMENT", do="isolines", field=line[:2], levels=[0.5], on="m")
+    bad("INVALID_ARGUMENT", do="critical", field=line[:5], on="m")
     made.append({"do": "solve", "expect": {"count": 7, "max": 1.0, "min": 0.0, "tolerance": 1e-12}, **on})
     sites = start + made
 
     made = []
-    start = [solver(mesh="bar"), {"do": "pose", "on": "s", "as": "p"}]
+    start = [surface(mesh="bar"), {"do": "pose", "on": "m", "as": "p"}]
     on = {"on": "p"}
     bad("EMPTY", do="deform", **on)
+    bad("EMPTY", do="deform_f32", **on)
+    bad("NON_FINITE", do="add_handle_at", point=["nan", 0.0, 0.0], radius=1.0, **on)
+    bad("NON_FINITE", do="add_handle_at", point=[0.0, 0.0, 0.0], radius="inf", **on)
+    bad("INVALID_ARGUMENT", do="add_handle_at", point=[0.0, 0.0, 0.0], radius=-1.0, **on)
+    bad("INVALID_ARGUMENT", do="add_handle_at", point=[0.0, 0.0], radius=1.0, **on)
     bad("NULL_POINTER", do="add_handles", regions=None, **on)
     bad("EMPTY", do="add_handles", regions=[], **on)
     bad("EMPTY", do="add_handles", regions=[[0], []], **on)
@@ -96,6 +129,10 @@ def bad_scenes():
     bad("INVALID_ARGUMENT", do="add_handles", points=[0.0, 0.0, 0.0], radii=[1.0, 1.0], **on)
     made.append({"do": "add_handles", "regions": [list(range(12)), list(range(276, 288))], "numbers": [0, 1], **on})
     bad("OVERLAP", do="add_handles", regions=[[5]], **on)
+    bad("OVERLAP", do="add_handle_at", point=[0.5, 0.0, 0.0], radius=0.1, **on)
+    bad("NON_FINITE", do="set_transform", handle=0, translation=[0.0, "nan", 0.0], **on)
+    bad("NO_SUCH_HANDLE", do="set_transform", handle=2, translation=[0.0, 0.0, 0.0], **on)
+    bad("INVALID_ARGUMENT", do="set_transform", handle=0, translation=[0.0, 0.0], **on)
     for handle in (2, 4294967295):
         bad("NO_SUCH_HANDLE", do="remove_handles", handles=[handle], **on)
         bad("NO_SUCH_HANDLE", do="set_transforms", handles=[handle], translations=[0.0, 0.0, 0.0], **on)
@@ -109,10 +146,10 @@ def bad_scenes():
     bad("INVALID_ARGUMENT", do="set_transforms", handles=[0], translations=[0.0, 0.0], **on)
     bad("INVALID_ARGUMENT", do="set_transforms", handles=[0], rotations=[0.0, 0.0], **on)
     bad("INVALID_ARGUMENT", do="skin", weight_count=5, **on)
-    bad("INVALID_ARGUMENT", do="pose", **{"on": "s", "as": "q"}, options={"mode": 9})
-    bad("INVALID_ARGUMENT", do="pose", **{"on": "s", "as": "q"}, options={"band_count": 1})
-    bad("INVALID_ARGUMENT", do="transfer", **{"as": "x"}, source="s", target="s", options={"mode": 9})
-    made.append({"do": "transfer", "as": "x", "source": "s", "target": "s"})
+    bad("INVALID_ARGUMENT", do="pose", **{"on": "m", "as": "q"}, options={"mode": 9})
+    bad("INVALID_ARGUMENT", do="pose", **{"on": "m", "as": "q"}, options={"band_count": 1})
+    bad("INVALID_ARGUMENT", do="transfer", **{"as": "x"}, source="m", target="m", options={"mode": 9})
+    made.append({"do": "transfer", "as": "x", "source": "m", "target": "m"})
     bad("EMPTY", do="apply", on="x", positions=[0.0] * 906)
     bad("NO_SUCH_PAIR", do="remove_pairs", on="x", pairs=[0])
     bad("EMPTY", do="add_pairs", on="x", source_regions=[], target_regions=[])
@@ -125,38 +162,38 @@ def bad_scenes():
     poses = start + made
 
     made = []
-    start = [solver(mesh="bar"), solver("r", "strip"), {"do": "pose", "on": "s", "as": "p"},
-        {"do": "transfer", "as": "x", "source": "s", "target": "s"},
-             {"do": "geodesics", "on": "s", "as": "g"}, {"do": "direction", "on": "s", "as": "d"}]
+    start = [surface(mesh="bar"), surface("r", "strip"), solver(), {"do": "pose", "on": "m", "as": "p"},
+        {"do": "transfer", "as": "x", "source": "m", "target": "m"},
+             {"do": "geodesics", "on": "m", "as": "g"}, {"do": "direction", "on": "m", "as": "d"}]
     bad("EMPTY", do="distance", on="g", sources=[])
     bad("OUT_OF_RANGE", do="distance", on="g", sources=[302])
     bad("NO_SITES", do="directions", on="d")
     bad("NON_FINITE", do="add_vectors", on="d", vertices=[0], vectors=["nan", 0.0, 0.0])
     bad("OUT_OF_RANGE", do="add_vectors", on="d", vertices=[302], vectors=[1.0, 0.0, 0.0])
     bad("INVALID_ARGUMENT", do="add_vectors", on="d", vertices=[0], vectors=[1.0, 0.0])
-    bad("INVALID_ARGUMENT", **{"do": "direction", "on": "s", "as": "e", "options": {"degree": 3}})
-    made += [{"do": "flow", "on": "s", "as": "w"}, {"do": "quads", "on": "s", "as": "k", "edge_length": 1.0}]
-    bad("NON_FINITE", **{"do": "quads", "on": "s", "as": "m", "edge_length": "nan"})
-    bad("NON_FINITE", **{"do": "quads", "on": "s", "as": "m", "edge_length": "inf"})
-    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "edge_length": -1.0})
-    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "options": {"kind": 2}})
-    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "options": {"relax_count": 1001}})
-    bad("OUT_OF_RANGE", index=1, **{"do": "quads", "on": "s", "as": "m", "site_vertices": [0, 302]})
-    bad("DUPLICATE_SITE", **{"do": "quads", "on": "s", "as": "m", "site_vertices": [7, 7]})
-    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "site_vertices": [0, 287], "site_lines": [4, 4]})
-    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "s", "as": "m", "site_vertices": [0, 287], "site_lines": [4]})
+    bad("INVALID_ARGUMENT", **{"do": "direction", "on": "m", "as": "e", "options": {"degree": 3}})
+    made += [{"do": "flow", "on": "m", "as": "w"}, {"do": "quads", "on": "m", "as": "k", "edge_length": 1.0}]
+    bad("NON_FINITE", **{"do": "quads", "on": "m", "as": "n", "edge_length": "nan"})
+    bad("NON_FINITE", **{"do": "quads", "on": "m", "as": "n", "edge_length": "inf"})
+    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "edge_length": -1.0})
+    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "options": {"kind": 2}})
+    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "options": {"relax_count": 1001}})
+    bad("OUT_OF_RANGE", index=1, **{"do": "quads", "on": "m", "as": "n", "site_vertices": [0, 302]})
+    bad("DUPLICATE_SITE", **{"do": "quads", "on": "m", "as": "n", "site_vertices": [7, 7]})
+    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "site_vertices": [0, 287], "site_lines": [4, 4]})
+    bad("INVALID_ARGUMENT", **{"do": "quads", "on": "m", "as": "n", "site_vertices": [0, 287], "site_lines": [4]})
     bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 302, count=0)
     bad("NON_FINITE", index=301, do="flow_lines", on="w", field=[0.0] * 301 + ["nan"], count=4)
     bad("INVALID_ARGUMENT", do="flow_lines", on="w", field=[0.0] * 9, count=4)
     bad("OUT_OF_RANGE", index=1, do="flow_lines", on="w", field=[0.0] * 302, seeds=[0, 302])
-    made.append(solver("z"))  # no inner vertex, no room for two sites
-    bad("UNSUPPORTED", **{"do": "quads", "on": "z", "as": "m"})
-    made += [{"do": "region", "on": "s", "as": "o"}]
-    bad("INVALID_ARGUMENT", do="region", on="s", **{"as": "m"}, positions=[0.0] * 9)
+    made.append(surface("z"))  # no inner vertex, no room for two sites
+    bad("UNSUPPORTED", **{"do": "quads", "on": "z", "as": "n"})
+    made += [{"do": "region", "on": "m", "as": "o"}]
+    bad("INVALID_ARGUMENT", do="region", on="m", **{"as": "n"}, positions=[0.0] * 9)
     bad("OUT_OF_RANGE", do="region_edit", on="o", add=[302])
     bad("NON_FINITE", do="morph", on="o", weight="nan")
     bad("NO_RECORD", do="undo_region", on="o")
-    bad("EMPTY", **{"do": "detail", "as": "m", "source": "o", "target": "o"})
+    bad("EMPTY", **{"do": "detail", "as": "n", "source": "o", "target": "o"})
     bad("NO_RECORD", do="undo_vectors", on="d")
     bad("NO_RECORD", do="redo_vectors", on="d")
     bad("NO_SUCH_SITE", do="remove_vectors", on="d", sites=[0])
@@ -164,20 +201,26 @@ def bad_scenes():
     bad("INVALID_ARGUMENT", do="move_vectors", on="d", sites=[0, 1], vertices=[1])
     bad("NO_SUCH_SITE", do="set_vectors", on="d", sites=[0], vectors=[1.0, 0.0, 0.0])
     bad("INVALID_ARGUMENT", do="set_vectors", on="d", sites=[0], vectors=[1.0])
-    calls = {"s": [{"do": "add_sites", "vertices": [0], "values": [1.0]}, {"do": "remove_sites", "sites": [0]},
-        {"do": "move_sites", "sites": [0], "vertices": [1]},
+    ramp = [0.0] * 302
+    calls = {"s": [{"do": "add_sites", "vertices": [0], "values": [1.0]}, {"do": "add_site", "vertex": 0, "value": 1.0},
+                   {"do": "remove_sites", "sites": [0]}, {"do": "move_sites", "sites": [0], "vertices": [1]},
                    {"do": "set_values", "sites": [0], "values": [1.0]}, {"do": "edit", "add": [0],
                        "add_values": [1.0]}, {"do": "record"}, {"do": "undo"},
                    {"do": "redo"}, {"do": "solve"}, {"do": "solve_f32"}, {"do": "preview"}, {"do": "solve_at",
-                       "vertices": [0]}, {"do": "report"},
-                   {"do": "statistics"}, {"do": "save_factor", "as": "f"}, {"do": "clone", "as": "c"}, {"do": "pose",
-                       "as": "q"}, {"do": "geodesics", "as": "h"},
-                   {"do": "direction", "as": "e"}, {"do": "quads", "as": "m"}, {"do": "flow",
-                       "as": "m"}, {"do": "extremities"}, {"do": "levels", "field": [0.0] * 302, "count": 2, "spacing": "HF_LEVELS_VALUE"},
-                   {"do": "isolines", "field": [0.0] * 302, "levels": [0.5]}, {"do": "critical", "field": [0.0] * 302}],
+                       "vertices": [0]}, {"do": "statistics"}, {"do": "solver_info"}, {"do": "clone", "as": "c"}],
+             "m": [{"do": "report"}, {"do": "surface_statistics"}, {"do": "surface_info"}, {"do": "components"},
+                   {"do": "save", "as": "f"}, {"do": "solver", "as": "t"}, {"do": "pose", "as": "q"},
+                   {"do": "geodesics", "as": "h"}, {"do": "direction", "as": "e"}, {"do": "region", "as": "n"},
+                   {"do": "quads", "as": "n"}, {"do": "flow", "as": "n"}, {"do": "extremities"},
+                   {"do": "levels", "field": ramp, "count": 2, "spacing": "HF_LEVELS_VALUE"},
+                   {"do": "isolines", "field": ramp, "levels": [0.5]}, {"do": "critical", "field": ramp},
+                   {"do": "cast_ray", "origin": [9.0, 0.0, 3.0], "direction": [-1.0, 0.0, 0.0]},
+                   {"do": "find_vertex", "point": [9.0, 0.0, 3.0]}],
              "p": [{"do": "add_handles", "regions": [[0]]}, {"do": "remove_handles", "handles": [0]},
                  {"do": "set_transforms", "handles": [0], "translations": [0.0, 0.0, 0.0]},
-                   {"do": "deform"}, {"do": "handle_field", "handle": 0}, {"do": "handle_info",
+                   {"do": "deform"}, {"do": "deform_f32"}, {"do": "pose_info"}, {"do": "add_handle_at", "point": [0.0, 0.0, 3.0],
+                       "radius": 0.1}, {"do": "set_transform", "handle": 0, "translation": [0.0, 0.0, 0.0]},
+                   {"do": "handle_field", "handle": 0}, {"do": "handle_info",
                        "handle": 0}, {"do": "skin", "weight_count": 4}],
              "x": [{"do": "add_pairs", "source_regions": [[0]], "target_regions": [[0]]},
                  {"do": "remove_pairs", "pairs": [0]}, {"do": "transfer_info"},
@@ -198,9 +241,9 @@ def bad_scenes():
         made += [{"do": "dispose", "on": name}, {"do": "dispose", "on": name}]
         for step in steps:
             bad("INVALID_HANDLE", **{**step, "on": name})
-    bad("INVALID_HANDLE", **{"do": "transfer", "as": "y", "source": "s", "target": "r"})
-    bad("INVALID_HANDLE", **{"do": "transfer", "as": "y", "source": "r", "target": "s"})
-    return [{"name": "bad_meshes", "about": "What hf_create must refuse.", "steps": creation},
+    bad("INVALID_HANDLE", **{"do": "transfer", "as": "y", "source": "m", "target": "r"})
+    bad("INVALID_HANDLE", **{"do": "transfer", "as": "y", "source": "r", "target": "m"})
+    return [{"name": "bad_meshes", "about": "What hf_surface_create and hf_create must refuse; picking.", "steps": creation},
         {"name": "bad_sites", "about": "Sites and fields.", "steps": sites},
             {"name": "bad_poses", "about": "Handles and pairs.", "steps": poses}, {"name": "stale_objects",
                 "about": "Calls on closed objects; closing twice.", "steps": start + made}]

@@ -1,7 +1,8 @@
 -- hf for LuaJIT: objects that close themselves, failures as error tables, plain tables or cdata arrays in and out.
 --
 --   local hf = require('hf')
---   local solver = hf.Solver(positions, triangles)       -- flat lists of numbers, or cdata with its length
+--   local surface = hf.Surface(positions, triangles)     -- flat lists of numbers, or cdata with its length
+--   local solver = hf.Solver(surface)
 --   local sites = solver:add_sites({0, 41}, {0, 1})
 --   local field = solver:solve()                          -- cdata double[vertex_count], from 0
 --
@@ -9,8 +10,9 @@
 -- library.
 local core = require('hf_core')
 
-local hf = { constants = core.constants, C = core.C, is_error = core.is_error, Solver = require('hf_solver') }
-for _, name in ipairs({ 'hf_fields', 'hf_pose', 'hf_detail' }) do
+local hf = { constants = core.constants, C = core.C, is_error = core.is_error,
+  Surface = require('hf_surface'), Solver = require('hf_solver') }
+for _, name in ipairs({ 'hf_fields', 'hf_pose', 'hf_region' }) do
   for class, new in pairs(require(name)) do hf[class] = new end
 end
 

@@ -28,16 +28,16 @@ function core.is_error(e) return getmetatable(e) == Error end
 local function check(result)
   if result == 0 then return end
   local detail = ffi.new('hf_error_detail')
-  C.hf_get_error_detail(detail)
+  C.hf_error_get_detail(detail)
   local index = detail.index ~= constants.HF_NO_INDEX and tonumber(detail.index) or nil
-  error(setmetatable({ code = tonumber(result), name = ffi.string(C.hf_result_name(result)),
+  error(setmetatable({ code = tonumber(result), name = ffi.string(C.hf_result_get_name(result)),
     message = ffi.string(detail.message), index = index,
     where = ffi.string(detail['function']) }, Error), 0)
 end
 
 local function make(type, fields)
   local desc = ffi.new(type)
-  C.hf_init_desc(desc, ffi.sizeof(type))
+  desc.struct_size = ffi.sizeof(type)
   for key, value in pairs(fields or {}) do desc[key] = value end
   return desc
 end
@@ -127,7 +127,7 @@ local function raw_of(thing, kind, name)
   return thing.raw
 end
 
--- Makes an object: create(solver..., desc, out) with the options of a desc.
+-- Makes an object: create(surface..., desc, out) with the options of a desc.
 local function create(methods, kind, fields, call, ...)
   local out = ffi.new(kind .. '[1]')
   local arguments = { ... }

@@ -1,4 +1,4 @@
--- What stands on a solver: geodesic distances, direction fields, quad meshes, flow lines.
+-- Made on a surface: geodesic distances, direction fields, quad meshes, flow lines.
 local ffi = require('ffi')
 local core = require('hf_core')
 local C, check, fail, make, array, integers, doubles, list, options_into = core.C, core.check, core.fail, core.make,
@@ -16,24 +16,24 @@ local function paired(sites, vertices)
 end
 
 local Geodesics = class('Geodesics', function(raw) C.hf_geodesics_destroy(raw) end)
-function hf.Geodesics(solver, options)
+function hf.Geodesics(surface, options)
   local desc = options_into(make('hf_geodesics_desc'), options, set('smoothing'))
   return create(Geodesics, 'hf_geodesics',
-    { vertex_count = raw_of(solver, 'Solver', 'solver') and solver.vertex_count },
-    C.hf_geodesics_create, solver.raw, desc)
+    { vertex_count = raw_of(surface, 'Surface', 'surface') and surface.vertex_count },
+    C.hf_geodesics_create, surface.raw, desc)
 end
 function Geodesics:distance(sources)
   local out = ffi.new('double[?]', self.vertex_count)
-  on_numbers(C.hf_geodesics_distance_f64, self.raw, sources, 'sources', out, 0)
+  on_numbers(C.hf_geodesics_solve_f64, self.raw, sources, 'sources', out, 0)
   return out
 end
 
 local Direction = class('Direction', function(raw) C.hf_direction_destroy(raw) end)
-function hf.Direction(solver, options)
+function hf.Direction(surface, options)
   local desc = options_into(make('hf_direction_desc'), options, set('degree site_limit'))
   return create(Direction, 'hf_direction',
-    { vertex_count = raw_of(solver, 'Solver', 'solver') and solver.vertex_count },
-    C.hf_direction_create, solver.raw, desc)
+    { vertex_count = raw_of(surface, 'Surface', 'surface') and surface.vertex_count },
+    C.hf_direction_create, surface.raw, desc)
 end
 function Direction:clone()
   return create(Direction, 'hf_direction', { vertex_count = self.vertex_count }, C.hf_direction_clone, self.raw)
@@ -63,7 +63,7 @@ function Direction:sites()
   local n = self:site_count()
   local found = { count = n, sites = ffi.new('uint32_t[?]', n + 1), vertices = ffi.new('uint32_t[?]', n + 1),
     vectors = ffi.new('double[?]', 3 * n + 1) }
-  check(C.hf_direction_get_sites(self.raw, n, found.sites, found.vertices, found.vectors))
+  check(C.hf_direction_get_sites(self.raw, n, found.sites, found.vertices, found.vectors, nil))
   return found
 end
 function Direction:statistics() return query('hf_direction_statistics', C.hf_direction_get_statistics, self.raw) end
@@ -80,7 +80,7 @@ end
 
 local Quads = class('Quads', function(raw) C.hf_quads_destroy(raw) end)
 -- options: kind, edge_length, keep_polygons, relax_count; site_vertices and site_lines: lists
-function hf.Quads(solver, options)
+function hf.Quads(surface, options)
   local plain = {}
   for key, value in pairs(options or {}) do plain[key] = value end
   local places, count = plain.site_vertices, 0
@@ -95,7 +95,7 @@ function hf.Quads(solver, options)
     lines = array(lines, 'int32_t', 'site_lines', count)
     desc.site_lines = lines
   end
-  return create(Quads, 'hf_quads', {}, C.hf_quads_create, raw_of(solver, 'Solver', 'solver'), desc)
+  return create(Quads, 'hf_quads', {}, C.hf_quads_create, raw_of(surface, 'Surface', 'surface'), desc)
 end
 function Quads:info() return query('hf_quads_info', C.hf_quads_get_info, self.raw) end
 -- Face i has the corners face_corners[face_starts[i]] to face_corners[face_starts[i + 1] - 1]; cdata from 0.
@@ -117,10 +117,10 @@ function Quads:mesh()
 end
 
 local Flow = class('Flow', function(raw) C.hf_flow_destroy(raw) end)
-function hf.Flow(solver)
-  return create(Flow, 'hf_flow', { vertex_count = raw_of(solver, 'Solver', 'solver') and solver.vertex_count,
+function hf.Flow(surface)
+  return create(Flow, 'hf_flow', { vertex_count = raw_of(surface, 'Surface', 'surface') and surface.vertex_count,
     room = { 4096, 64 } },
-    C.hf_flow_create, solver.raw)
+    C.hf_flow_create, surface.raw)
 end
 -- options: wanted_count lines of equal flux from the minima, or one through each of seeds. Line i holds the points
 -- line_starts[i] to line_starts[i + 1] - 1; values rise along it; cdata from 0.

@@ -12,6 +12,7 @@ local function skin_of(call, raw, vertex_count, weight_count)
   local info = make('hf_skin_info', { weight_count = weight_count })
   check(call(raw, info))
   local n = info.joint_count
+  info.joint_capacity, info.vertex_capacity = n, vertex_count
   local skin = { joint_count = n, pivots = ffi.new('double[?]', 3 * n), rotations = ffi.new('double[?]', 4 * n),
     translations = ffi.new('double[?]', 3 * n),
     joints = ffi.new('uint32_t[?]', vertex_count * weight_count),
@@ -23,12 +24,12 @@ local function skin_of(call, raw, vertex_count, weight_count)
 end
 
 local Pose = class('Pose', function(raw) C.hf_pose_destroy(raw) end)
-function hf.Pose(solver, options)
+function hf.Pose(surface, options)
   local desc = options_into(make('hf_pose_desc'), options,
     set('mode band_count iteration_count samples_per_ring group_count'))
-  return create(Pose, 'hf_pose', { vertex_count = raw_of(solver, 'Solver', 'solver') and solver.vertex_count },
+  return create(Pose, 'hf_pose', { vertex_count = raw_of(surface, 'Surface', 'surface') and surface.vertex_count },
     C.hf_pose_create,
-    solver.raw, desc)
+    surface.raw, desc)
 end
 function Pose:clone() return create(Pose, 'hf_pose', { vertex_count = self.vertex_count }, C.hf_pose_clone,
   self.raw) end
@@ -47,6 +48,12 @@ function Pose:add_handles(lists, more)
   check(C.hf_pose_add_handles(self.raw, desc, out))
   return list(out, desc.handle_count)
 end
+-- One handle: what is edge-connected within radius of a point at rest. Returns its number.
+function Pose:add_handle_at(point, radius)
+  local out = ffi.new('uint32_t[1]')
+  check(C.hf_pose_add_handle_at(self.raw, (doubles(point, 'point', 3)), radius, out))
+  return tonumber(out[0])
+end
 function Pose:remove_handles(handles)
   on_numbers(C.hf_pose_remove_handles, self.raw, handles, 'handles')
 end
@@ -60,11 +67,19 @@ function Pose:set_transforms(handles, rotations, translations)
   end
   check(C.hf_pose_set_transforms(self.raw, count, numbers, packed))
 end
+function Pose:set_transform(handle, rotation, translation)
+  local turn, shift = doubles(rotation, 'rotation', 4), doubles(translation, 'translation', 3)
+  local motion = ffi.new('hf_transform')
+  for c = 0, 3 do motion.rotation[c] = turn and turn[c] or 0 end
+  for c = 0, 2 do motion.translation[c] = shift and shift[c] or 0 end
+  check(C.hf_pose_set_transform(self.raw, handle, motion))
+end
 -- 4 x 4 matrices rest to posed, column by column
 function Pose:set_matrices(handles, matrices)
   local numbers, count = integers(handles, 'handles')
   check(C.hf_pose_set_matrices(self.raw, count, numbers, (doubles(matrices, 'matrices', 16 * count))))
 end
+function Pose:info() return query('hf_pose_info', C.hf_pose_get_info, self.raw) end
 function Pose:handle_info(handle)
   return query('hf_handle_info', C.hf_pose_get_handle, self.raw, handle)
 end
@@ -81,7 +96,7 @@ function Pose:deform(out, options)
     fail('out has the wrong length', 'HF_ERROR_TOO_SMALL') end
   local desc = options_into(make('hf_deform_desc'), options, set('iteration_count restart refine'))
   desc[single and 'positions' or 'positions_f64'] = out
-  check(C.hf_deform(self.raw, desc, nil))
+  check(C.hf_pose_deform(self.raw, desc, nil))
   return out
 end
 function Pose:skin(weight_count) return skin_of(C.hf_pose_get_skin, self.raw, self.vertex_count, weight_count or 4) end
@@ -90,7 +105,7 @@ local Transfer = class('Transfer', function(raw) C.hf_transfer_destroy(raw) end)
 function hf.Transfer(source, target, options)
   local desc = options_into(make('hf_transfer_desc'), options,
     set('mode cluster_count kernel_width scale alignment_angle'))
-  local from, to = raw_of(source, 'Solver', 'source'), raw_of(target, 'Solver', 'target')
+  local from, to = raw_of(source, 'Surface', 'source'), raw_of(target, 'Surface', 'target')
   return create(Transfer, 'hf_transfer', { source_vertex_count = source.vertex_count,
     vertex_count = target.vertex_count },
     C.hf_transfer_create, from, to, desc)

@@ -4,14 +4,15 @@ local ffi = require('ffi')
 ffi.cdef[[
 typedef int32_t hf_result;
 typedef struct hf_progress_object* hf_progress;
+typedef struct hf_surface_object* hf_surface;
 typedef struct hf_solver_object* hf_solver;
 typedef struct hf_geodesics_object* hf_geodesics;
-typedef struct hf_pose_object* hf_pose;
-typedef struct hf_region_object* hf_region;
-typedef struct hf_detail_object* hf_detail;
 typedef struct hf_direction_object* hf_direction;
+typedef struct hf_pose_object* hf_pose;
 typedef struct hf_quads_object* hf_quads;
 typedef struct hf_flow_object* hf_flow;
+typedef struct hf_region_object* hf_region;
+typedef struct hf_detail_object* hf_detail;
 typedef struct hf_transfer_object* hf_transfer;
 typedef struct hf_error_detail {
   hf_result code;
@@ -34,7 +35,7 @@ typedef struct hf_factor_desc {
   const void* bytes;
   size_t byte_count;
 } hf_factor_desc;
-typedef struct hf_create_desc {
+typedef struct hf_surface_desc {
   uint32_t struct_size;
   uint32_t vertex_count;
   uint32_t triangle_count;
@@ -42,25 +43,37 @@ typedef struct hf_create_desc {
   const float* positions;
   const double* positions_f64;
   const uint32_t* triangles;
+  const uint16_t* triangles_u16;
+  uint32_t triangle_stride;
   int32_t weld;
   float weld_tolerance;
   int32_t operator_kind;
-  int32_t engine;
+  int32_t field_kind;
   int32_t ordering;
-  uint32_t channel_count;
   uint32_t thread_count;
-  uint32_t site_limit;
   uint32_t vertex_limit;
+  uint32_t triangle_limit;
   uint32_t memory_limit_mb;
-  double penalty;
   hf_allocator allocator;
   hf_job_runner job_runner;
   hf_progress progress;
   const hf_factor_desc* saved_factor;
+} hf_surface_desc;
+typedef struct hf_surface_info {
+  uint32_t struct_size;
+  uint32_t vertex_count;
+  uint32_t triangle_count;
+  int32_t weld;
+  float weld_tolerance;
+  int32_t operator_kind;
   int32_t field_kind;
+  int32_t ordering;
+  uint32_t thread_count;
+  uint32_t vertex_limit;
   uint32_t triangle_limit;
-} hf_create_desc;
-typedef struct hf_mesh_report {
+  uint32_t memory_limit_mb;
+} hf_surface_info;
+typedef struct hf_surface_report {
   uint32_t struct_size;
   uint32_t vertex_count;
   uint32_t triangle_count;
@@ -76,7 +89,62 @@ typedef struct hf_mesh_report {
   uint32_t negative_edge_count;
   float smallest_angle;
   double bounding_box_diagonal;
-} hf_mesh_report;
+} hf_surface_report;
+typedef struct hf_surface_statistics {
+  uint32_t struct_size;
+  uint32_t unknown_count;
+  double weld_ms;
+  double operator_ms;
+  double ordering_ms;
+  double symbolic_ms;
+  double numeric_ms;
+  double factor_entries;
+  double factor_bytes;
+  double factor_flops;
+  double memory_bytes;
+  double peak_memory_bytes;
+  double load_ms;
+  int32_t factor_loaded;
+  int32_t factor_borrowed;
+} hf_surface_statistics;
+typedef struct hf_pick_desc {
+  uint32_t struct_size;
+  uint32_t position_stride;
+  const float* positions;
+  const double* positions_f64;
+  int32_t front_only;
+  uint32_t reserved;
+} hf_pick_desc;
+typedef struct hf_hit {
+  uint32_t struct_size;
+  int32_t found;
+  uint32_t triangle;
+  uint32_t vertex;
+  double barycentrics[3];
+  double position[3];
+  double distance;
+} hf_hit;
+typedef struct hf_solver_desc {
+  uint32_t struct_size;
+  int32_t field_kind;
+  int32_t engine;
+  uint32_t channel_count;
+  uint32_t site_limit;
+  uint32_t reserved;
+  double penalty;
+  hf_progress progress;
+} hf_solver_desc;
+typedef struct hf_solver_info {
+  uint32_t struct_size;
+  int32_t field_kind;
+  int32_t engine;
+  uint32_t channel_count;
+  uint32_t site_limit;
+  uint32_t site_count;
+  double penalty;
+  uint32_t vertex_count;
+  uint32_t reserved;
+} hf_solver_info;
 typedef struct hf_sites_desc {
   uint32_t struct_size;
   uint32_t site_count;
@@ -99,9 +167,11 @@ typedef struct hf_edit_desc {
   const double* set_values;
   const hf_sites_desc* add;
 } hf_edit_desc;
-typedef struct hf_site_info {
+typedef struct hf_sites_info {
   uint32_t struct_size;
   uint32_t capacity;
+  uint32_t count;
+  uint32_t reserved;
   uint32_t* sites;
   uint32_t* vertices;
   uint32_t* components;
@@ -109,16 +179,26 @@ typedef struct hf_site_info {
   double* stiffness;
   double* flux;
   double* radii;
-} hf_site_info;
+} hf_sites_info;
 typedef struct hf_solve_info {
   uint32_t struct_size;
   uint32_t unreached_component_count;
   uint32_t first_unreached_component;
   uint32_t unreached_vertex_count;
 } hf_solve_info;
+typedef struct hf_preview_info {
+  uint32_t struct_size;
+  int32_t exact;
+  uint32_t correction_count;
+  uint32_t unreached_component_count;
+  double value_range;
+  double largest_correction;
+  double error_estimate;
+  double preview_bytes;
+} hf_preview_info;
 typedef struct hf_certificate {
   uint32_t struct_size;
-  uint32_t overshoot_checked;
+  int32_t overshoot_checked;
   double tolerance;
   double value_range;
   double residual;
@@ -127,38 +207,23 @@ typedef struct hf_certificate {
   uint32_t worst_vertex;
   uint32_t reserved;
 } hf_certificate;
-typedef struct hf_statistics {
+typedef struct hf_solver_statistics {
   uint32_t struct_size;
-  uint32_t unknown_count;
-  double weld_ms;
-  double operator_ms;
-  double ordering_ms;
-  double symbolic_ms;
-  double numeric_ms;
-  double factor_entries;
-  double factor_bytes;
-  double factor_flops;
-  double memory_bytes;
-  double peak_memory_bytes;
-  double site_memory_bytes;
   uint32_t site_count;
   uint32_t factorisation_count;
   uint32_t path_solve_count;
   uint32_t sweep_count;
-  uint32_t engine;
-  uint32_t thread_count;
-  double load_ms;
-  uint32_t factor_loaded;
-  uint32_t factor_borrowed;
   uint32_t last_route;
   uint32_t rebase_count;
   uint32_t dense_edit_count;
   uint32_t dense_row_count;
   uint32_t eliminated_count;
-  uint32_t rebase_advised;
+  int32_t rebase_advised;
+  uint32_t reserved;
+  double site_memory_bytes;
   double predicted_dense_ms;
   double predicted_rebase_ms;
-} hf_statistics;
+} hf_solver_statistics;
 typedef struct hf_scalars {
   uint32_t struct_size;
   uint32_t value_stride;
@@ -199,6 +264,7 @@ typedef struct hf_critical_info {
 typedef struct hf_geodesics_desc {
   uint32_t struct_size;
   float smoothing;
+  hf_progress progress;
 } hf_geodesics_desc;
 typedef struct hf_extremities_desc {
   uint32_t struct_size;
@@ -215,6 +281,35 @@ typedef struct hf_extremity {
   double length;
   double position[3];
 } hf_extremity;
+typedef struct hf_direction_desc {
+  uint32_t struct_size;
+  uint32_t degree;
+  uint32_t site_limit;
+  uint32_t reserved;
+  hf_progress progress;
+} hf_direction_desc;
+typedef struct hf_singularity {
+  uint32_t triangle;
+  uint32_t vertex;
+  int32_t index;
+} hf_singularity;
+typedef struct hf_direction_statistics {
+  uint32_t struct_size;
+  uint32_t degree;
+  uint32_t site_limit;
+  uint32_t unknown_count;
+  uint32_t site_count;
+  uint32_t factorisation_count;
+  uint32_t path_solve_count;
+  uint32_t sweep_count;
+  uint32_t irregular_vertex_count;
+  uint32_t eliminated_count;
+  double operator_ms;
+  double numeric_ms;
+  double factor_entries;
+  double factor_bytes;
+  double site_memory_bytes;
+} hf_direction_statistics;
 typedef struct hf_pose_desc {
   uint32_t struct_size;
   int32_t mode;
@@ -223,6 +318,16 @@ typedef struct hf_pose_desc {
   uint32_t samples_per_ring;
   uint32_t group_count;
 } hf_pose_desc;
+typedef struct hf_pose_info {
+  uint32_t struct_size;
+  int32_t mode;
+  uint32_t band_count;
+  uint32_t iteration_count;
+  uint32_t samples_per_ring;
+  uint32_t group_count;
+  uint32_t handle_count;
+  uint32_t vertex_count;
+} hf_pose_info;
 typedef struct hf_handles_desc {
   uint32_t struct_size;
   uint32_t handle_count;
@@ -249,6 +354,17 @@ typedef struct hf_handle_info {
   uint32_t layer;
   uint32_t reserved;
 } hf_handle_info;
+typedef struct hf_deform_info {
+  uint32_t struct_size;
+  uint32_t iteration_count;
+  uint32_t cluster_count;
+  uint32_t unreached_vertex_count;
+  double last_change;
+  double solve_ms;
+  double blend_ms;
+  double normal_ms;
+  double refine_ms;
+} hf_deform_info;
 typedef struct hf_deform_desc {
   uint32_t struct_size;
   uint32_t position_stride;
@@ -262,125 +378,21 @@ typedef struct hf_deform_desc {
   uint32_t first_vertex;
   uint32_t vertex_count;
 } hf_deform_desc;
-typedef struct hf_deform_info {
-  uint32_t struct_size;
-  uint32_t iteration_count;
-  uint32_t cluster_count;
-  uint32_t unreached_vertex_count;
-  double last_change;
-  double solve_ms;
-  double blend_ms;
-  double normal_ms;
-  double refine_ms;
-} hf_deform_info;
 typedef struct hf_skin_info {
   uint32_t struct_size;
-  uint32_t joint_count;
+  uint32_t joint_capacity;
+  uint32_t vertex_capacity;
   uint32_t weight_count;
-  uint32_t reserved;
+  uint32_t joint_count;
+  uint32_t vertex_count;
   double* pivots;
   double* rotations;
   double* translations;
-  uint32_t* vertex_joints;
-  float* vertex_weights;
   double* axes;
   double* scales;
+  uint32_t* vertex_joints;
+  float* vertex_weights;
 } hf_skin_info;
-typedef struct hf_region_desc {
-  uint32_t struct_size;
-  uint32_t position_stride;
-  const float* positions;
-  const double* positions_f64;
-} hf_region_desc;
-typedef struct hf_curve_desc {
-  uint32_t struct_size;
-  uint32_t point_count;
-  const uint32_t* vertices;
-  const uint32_t* triangles;
-  const double* barycentrics;
-  int32_t side;
-  uint32_t seed_vertex;
-} hf_curve_desc;
-typedef struct hf_region_edit_desc {
-  uint32_t struct_size;
-  int32_t ring_count;
-  const hf_curve_desc* curve;
-  uint32_t remove_count;
-  uint32_t add_count;
-  const uint32_t* remove_vertices;
-  const uint32_t* add_vertices;
-  hf_progress progress;
-} hf_region_edit_desc;
-typedef struct hf_region_info {
-  uint32_t struct_size;
-  int32_t thin_plate;
-  uint32_t vertex_count;
-  uint32_t rim_count;
-  uint32_t site_count;
-  uint32_t inserted_count;
-  uint32_t removed_count;
-  uint32_t kept_count;
-  uint32_t factorisation_count;
-  uint32_t path_solve_count;
-  uint32_t last_route;
-  uint32_t whole_sweep;
-  double area;
-  double base_area;
-} hf_region_info;
-typedef struct hf_morph_desc {
-  uint32_t struct_size;
-  uint32_t position_stride;
-  double weight;
-  float* positions;
-  double* positions_f64;
-  float* normals;
-  uint32_t normal_stride;
-  uint32_t reserved;
-} hf_morph_desc;
-typedef struct hf_detail_desc {
-  uint32_t struct_size;
-  uint32_t pair_count;
-  const uint32_t* source_vertices;
-  const uint32_t* target_vertices;
-  double scale;
-  hf_progress progress;
-} hf_detail_desc;
-typedef struct hf_direction_desc {
-  uint32_t struct_size;
-  uint32_t degree;
-  uint32_t site_limit;
-  uint32_t reserved;
-} hf_direction_desc;
-typedef struct hf_singularity {
-  uint32_t triangle;
-  uint32_t vertex;
-  int32_t index;
-} hf_singularity;
-typedef struct hf_direction_statistics {
-  uint32_t struct_size;
-  uint32_t unknown_count;
-  uint32_t site_count;
-  uint32_t factorisation_count;
-  uint32_t path_solve_count;
-  uint32_t sweep_count;
-  uint32_t irregular_vertex_count;
-  uint32_t sites_eliminated;
-  double operator_ms;
-  double numeric_ms;
-  double factor_entries;
-  double factor_bytes;
-  double site_memory_bytes;
-} hf_direction_statistics;
-typedef struct hf_preview_info {
-  uint32_t struct_size;
-  uint32_t exact;
-  uint32_t correction_count;
-  uint32_t unreached_component_count;
-  double value_range;
-  double largest_correction;
-  double error_estimate;
-  double preview_bytes;
-} hf_preview_info;
 typedef struct hf_quads_desc {
   uint32_t struct_size;
   int32_t kind;
@@ -412,6 +424,10 @@ typedef struct hf_quads_mesh {
   uint32_t face_capacity;
   uint32_t corner_capacity;
   uint32_t site_capacity;
+  uint32_t vertex_count;
+  uint32_t face_count;
+  uint32_t corner_count;
+  uint32_t site_count;
   uint32_t reserved;
   double* positions;
   uint32_t* triangles;
@@ -436,6 +452,68 @@ typedef struct hf_flow_lines {
   uint32_t* line_starts;
   uint32_t* line_ends;
 } hf_flow_lines;
+typedef struct hf_region_desc {
+  uint32_t struct_size;
+  int32_t field_kind;
+  const float* positions;
+  const double* positions_f64;
+  uint32_t position_stride;
+  uint32_t reserved;
+  hf_progress progress;
+} hf_region_desc;
+typedef struct hf_curve_desc {
+  uint32_t struct_size;
+  uint32_t point_count;
+  const uint32_t* vertices;
+  const uint32_t* triangles;
+  const double* barycentrics;
+  int32_t side;
+  uint32_t seed_vertex;
+} hf_curve_desc;
+typedef struct hf_region_edit_desc {
+  uint32_t struct_size;
+  int32_t ring_count;
+  const hf_curve_desc* curve;
+  uint32_t remove_count;
+  uint32_t add_count;
+  const uint32_t* remove_vertices;
+  const uint32_t* add_vertices;
+  hf_progress progress;
+} hf_region_edit_desc;
+typedef struct hf_region_info {
+  uint32_t struct_size;
+  int32_t field_kind;
+  uint32_t vertex_count;
+  uint32_t rim_count;
+  uint32_t site_count;
+  uint32_t inserted_count;
+  uint32_t removed_count;
+  uint32_t kept_count;
+  uint32_t factorisation_count;
+  uint32_t path_solve_count;
+  uint32_t last_route;
+  int32_t whole_sweep;
+  double area;
+  double base_area;
+} hf_region_info;
+typedef struct hf_morph_desc {
+  uint32_t struct_size;
+  uint32_t position_stride;
+  double weight;
+  float* positions;
+  double* positions_f64;
+  float* normals;
+  uint32_t normal_stride;
+  uint32_t reserved;
+} hf_morph_desc;
+typedef struct hf_detail_desc {
+  uint32_t struct_size;
+  uint32_t pair_count;
+  const uint32_t* source_vertices;
+  const uint32_t* target_vertices;
+  double scale;
+  hf_progress progress;
+} hf_detail_desc;
 typedef struct hf_transfer_desc {
   uint32_t struct_size;
   int32_t mode;
@@ -472,6 +550,8 @@ typedef struct hf_transfer_info {
   uint32_t aligned_count;
   uint32_t crossed_count;
   int32_t scale_found;
+  uint32_t source_factorisation_count;
+  uint32_t target_factorisation_count;
   double scale;
 } hf_transfer_info;
 typedef struct hf_transfer_frame {
@@ -489,73 +569,59 @@ typedef struct hf_transfer_frame {
   const uint32_t* hold_pairs;
   const double* hold_positions;
 } hf_transfer_frame;
-void hf_init_desc(void* desc, uint32_t struct_size);
-hf_result hf_get_error_detail(hf_error_detail* out_detail);
-const char* hf_result_name(hf_result result);
-uint32_t hf_get_version(void);
+hf_result hf_error_get_detail(hf_error_detail* out_detail);
+const char* hf_result_get_name(hf_result result);
+uint32_t hf_version_get(void);
 hf_result hf_progress_create(hf_progress* out_progress);
 void hf_progress_destroy(hf_progress progress);
-hf_result hf_progress_get(hf_progress progress, float* out_fraction);
+hf_result hf_progress_get_fraction(hf_progress progress, float* out_fraction);
 hf_result hf_progress_cancel(hf_progress progress);
-hf_result hf_create(const hf_create_desc* desc, hf_solver* out_solver);
-hf_result hf_clone(hf_solver solver, hf_solver* out_solver);
-void hf_destroy(hf_solver solver);
-hf_result hf_get_mesh_report(hf_solver solver, hf_mesh_report* out_report);
-hf_result hf_get_components(hf_solver solver, uint32_t vertex_count, uint32_t* out_components);
+hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_surface);
+void hf_surface_destroy(hf_surface surface);
+hf_result hf_surface_get_info(hf_surface surface, hf_surface_info* out_info);
+hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_report);
+hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity, uint32_t* out_components, uint32_t* out_count);
+hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statistics* out_statistics);
+hf_result hf_surface_save(hf_surface surface, int32_t field_kind, size_t capacity, void* out_bytes, size_t* out_size);
+hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const double* direction, const hf_pick_desc* desc, hf_hit* out_hit);
+hf_result hf_surface_find_vertex(hf_surface surface, const double* point, const hf_pick_desc* desc, uint32_t* out_vertex, double* out_distance);
+hf_result hf_create(hf_surface surface, const hf_solver_desc* desc, hf_solver* out_solver);
+hf_result hf_solver_clone(hf_solver solver, hf_solver* out_solver);
+void hf_solver_destroy(hf_solver solver);
+hf_result hf_solver_get_info(hf_solver solver, hf_solver_info* out_info);
 hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint32_t* out_sites);
+hf_result hf_solver_add_site(hf_solver solver, uint32_t vertex, const double* values, uint32_t* out_site);
 hf_result hf_remove_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites);
-hf_result hf_move_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const hf_sites_desc* to);
-hf_result hf_set_site_values(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* values);
-hf_result hf_edit_sites(hf_solver solver, const hf_edit_desc* edit, uint32_t* out_sites);
-uint32_t hf_get_site_count(hf_solver solver);
-hf_result hf_get_sites(hf_solver solver, hf_site_info* out_info);
+hf_result hf_solver_move_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const hf_sites_desc* to);
+hf_result hf_solver_set_values(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* values);
+hf_result hf_solver_edit_sites(hf_solver solver, const hf_edit_desc* edit, uint32_t* out_sites);
+uint32_t hf_solver_get_site_count(hf_solver solver);
+hf_result hf_solver_get_sites(hf_solver solver, hf_sites_info* inout_info);
 hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
-hf_result hf_solve_f64(hf_solver solver, double* out_values, uint32_t value_stride, hf_solve_info* out_info);
-hf_result hf_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info);
-hf_result hf_solve_vectors_f64(hf_solver solver, double* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info);
-hf_result hf_solve_at(hf_solver solver, uint32_t vertex_count, const uint32_t* vertices, double* out_values);
-hf_result hf_certify(hf_solver solver, hf_certificate* inout_certificate);
-hf_result hf_record(hf_solver solver);
-hf_result hf_undo(hf_solver solver);
-hf_result hf_redo(hf_solver solver);
-hf_result hf_prepare_rebase(hf_solver solver);
-hf_result hf_get_statistics(hf_solver solver, hf_statistics* out_statistics);
-hf_result hf_space_levels(hf_solver solver, const hf_scalars* field, int32_t spacing, uint32_t level_count, double* out_levels);
-hf_result hf_trace_isolines(hf_solver solver, const hf_scalars* field, uint32_t level_count, const double* levels, hf_isolines* out_lines);
-hf_result hf_find_critical_points(hf_solver solver, const hf_scalars* field, uint32_t capacity, hf_critical_point* out_points, hf_critical_info* out_info);
-hf_result hf_geodesics_create(hf_solver solver, const hf_geodesics_desc* desc, hf_geodesics* out_geodesics);
+hf_result hf_solver_solve_f64(hf_solver solver, double* out_values, uint32_t value_stride, hf_solve_info* out_info);
+hf_result hf_solver_solve_at(hf_solver solver, uint32_t vertex_count, const uint32_t* vertices, double* out_values);
+hf_result hf_solver_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info);
+hf_result hf_solver_solve_vectors_f64(hf_solver solver, double* out_vectors, uint32_t vector_stride, double* out_normals, hf_solve_info* out_info);
+hf_result hf_solver_solve_preview(hf_solver solver, float* out_values, uint32_t value_stride, uint32_t correction_count, hf_preview_info* out_info);
+hf_result hf_solver_solve_preview_f64(hf_solver solver, double* out_values, uint32_t value_stride, uint32_t correction_count, hf_preview_info* out_info);
+hf_result hf_solver_release_preview(hf_solver solver);
+hf_result hf_solver_move_vectors(hf_solver solver, uint32_t site_count, const uint32_t* sites, const uint32_t* vertices);
+hf_result hf_solver_rotate_vectors(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* angles);
+hf_result hf_solver_certify(hf_solver solver, hf_certificate* inout_certificate);
+hf_result hf_solver_record(hf_solver solver);
+hf_result hf_solver_undo(hf_solver solver);
+hf_result hf_solver_redo(hf_solver solver);
+hf_result hf_solver_prepare_rebase(hf_solver solver);
+hf_result hf_solver_get_statistics(hf_solver solver, hf_solver_statistics* out_statistics);
+hf_result hf_surface_space_levels(hf_surface surface, const hf_scalars* field, int32_t spacing, uint32_t level_count, double* out_levels);
+hf_result hf_surface_trace_isolines(hf_surface surface, const hf_scalars* field, uint32_t level_count, const double* levels, hf_isolines* inout_lines);
+hf_result hf_surface_find_critical_points(hf_surface surface, const hf_scalars* field, uint32_t capacity, hf_critical_point* out_points, hf_critical_info* out_info);
+hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* desc, hf_geodesics* out_geodesics);
 void hf_geodesics_destroy(hf_geodesics geodesics);
-hf_result hf_geodesics_distance(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources, float* out_distances, uint32_t value_stride);
-hf_result hf_geodesics_distance_f64(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources, double* out_distances, uint32_t value_stride);
-hf_result hf_find_extremities(hf_solver solver, const hf_extremities_desc* desc, uint32_t capacity, hf_extremity* out_extremities, uint32_t* out_count);
-hf_result hf_pose_create(hf_solver solver, const hf_pose_desc* desc, hf_pose* out_pose);
-hf_result hf_pose_clone(hf_pose pose, hf_pose* out_pose);
-void hf_pose_destroy(hf_pose pose);
-hf_result hf_pose_add_handles(hf_pose pose, const hf_handles_desc* handles, uint32_t* out_handles);
-hf_result hf_pose_remove_handles(hf_pose pose, uint32_t handle_count, const uint32_t* handles);
-hf_result hf_pose_set_transforms(hf_pose pose, uint32_t handle_count, const uint32_t* handles, const hf_transform* transforms);
-hf_result hf_pose_set_matrices(hf_pose pose, uint32_t handle_count, const uint32_t* handles, const double* matrices);
-hf_result hf_pose_get_handle(hf_pose pose, uint32_t handle, hf_handle_info* out_info);
-uint32_t hf_pose_get_handle_count(hf_pose pose);
-hf_result hf_pose_get_field(hf_pose pose, uint32_t handle, float* out_values, uint32_t value_stride);
-hf_result hf_deform(hf_pose pose, const hf_deform_desc* desc, hf_deform_info* out_info);
-hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* info);
-hf_result hf_region_create(hf_solver solver, const hf_region_desc* desc, hf_region* out_region);
-hf_result hf_region_clone(hf_region region, hf_region* out_region);
-void hf_region_destroy(hf_region region);
-hf_result hf_region_edit(hf_region region, const hf_region_edit_desc* edit);
-hf_result hf_region_record(hf_region region);
-hf_result hf_region_undo(hf_region region);
-hf_result hf_region_redo(hf_region region);
-hf_result hf_region_get_info(hf_region region, hf_region_info* out_info);
-hf_result hf_region_get_vertices(hf_region region, int32_t list, uint32_t capacity, uint32_t* out_vertices);
-hf_result hf_region_morph(hf_region region, const hf_morph_desc* desc);
-hf_result hf_detail_create(hf_region source, hf_region target, const hf_detail_desc* desc, hf_detail* out_detail);
-void hf_detail_destroy(hf_detail detail);
-hf_result hf_detail_morph(hf_detail detail, const hf_morph_desc* desc);
-hf_result hf_move_vector_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const uint32_t* vertices);
-hf_result hf_rotate_vector_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* angles);
-hf_result hf_direction_create(hf_solver solver, const hf_direction_desc* desc, hf_direction* out_direction);
+hf_result hf_geodesics_solve(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources, float* out_distances, uint32_t value_stride);
+hf_result hf_geodesics_solve_f64(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources, double* out_distances, uint32_t value_stride);
+hf_result hf_surface_find_extremities(hf_surface surface, const hf_extremities_desc* desc, uint32_t capacity, hf_extremity* out_extremities, uint32_t* out_count);
+hf_result hf_direction_create(hf_surface surface, const hf_direction_desc* desc, hf_direction* out_direction);
 hf_result hf_direction_clone(hf_direction direction, hf_direction* out_direction);
 void hf_direction_destroy(hf_direction direction);
 hf_result hf_direction_add_sites(hf_direction direction, uint32_t site_count, const uint32_t* vertices, const double* vectors, uint32_t* out_sites);
@@ -567,34 +633,61 @@ hf_result hf_direction_record(hf_direction direction);
 hf_result hf_direction_undo(hf_direction direction);
 hf_result hf_direction_redo(hf_direction direction);
 uint32_t hf_direction_get_site_count(hf_direction direction);
-hf_result hf_direction_get_sites(hf_direction direction, uint32_t capacity, uint32_t* out_sites, uint32_t* out_vertices, double* out_vectors);
+hf_result hf_direction_get_sites(hf_direction direction, uint32_t capacity, uint32_t* out_sites, uint32_t* out_vertices, double* out_vectors, uint32_t* out_count);
 hf_result hf_direction_solve(hf_direction direction, float* out_vectors, uint32_t vector_stride, hf_solve_info* out_info);
 hf_result hf_direction_solve_f64(hf_direction direction, double* out_vectors, uint32_t vector_stride, hf_solve_info* out_info);
 hf_result hf_direction_get_singularities(hf_direction direction, uint32_t capacity, hf_singularity* out_singularities, uint32_t* out_count);
 hf_result hf_direction_get_statistics(hf_direction direction, hf_direction_statistics* out_statistics);
-hf_result hf_get_factor_size(hf_solver solver, size_t* out_size);
-hf_result hf_save_factor(hf_solver solver, void* out_bytes, size_t size);
-hf_result hf_solve_preview(hf_solver solver, float* out_values, uint32_t value_stride, uint32_t correction_count, hf_preview_info* out_info);
-hf_result hf_solve_preview_f64(hf_solver solver, double* out_values, uint32_t value_stride, uint32_t correction_count, hf_preview_info* out_info);
-hf_result hf_release_preview(hf_solver solver);
-hf_result hf_quads_create(hf_solver solver, const hf_quads_desc* desc, hf_quads* out_quads);
+hf_result hf_pose_create(hf_surface surface, const hf_pose_desc* desc, hf_pose* out_pose);
+hf_result hf_pose_clone(hf_pose pose, hf_pose* out_pose);
+void hf_pose_destroy(hf_pose pose);
+hf_result hf_pose_get_info(hf_pose pose, hf_pose_info* out_info);
+hf_result hf_pose_add_handles(hf_pose pose, const hf_handles_desc* handles, uint32_t* out_handles);
+hf_result hf_pose_add_handle_at(hf_pose pose, const double* point, double radius, uint32_t* out_handle);
+hf_result hf_pose_remove_handles(hf_pose pose, uint32_t handle_count, const uint32_t* handles);
+hf_result hf_pose_set_transforms(hf_pose pose, uint32_t handle_count, const uint32_t* handles, const hf_transform* transforms);
+hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_transform* transform);
+hf_result hf_pose_set_matrices(hf_pose pose, uint32_t handle_count, const uint32_t* handles, const double* matrices);
+hf_result hf_pose_get_handle(hf_pose pose, uint32_t handle, hf_handle_info* out_info);
+uint32_t hf_pose_get_handle_count(hf_pose pose);
+hf_result hf_pose_get_field(hf_pose pose, uint32_t handle, float* out_values, uint32_t value_stride);
+hf_result hf_deform(hf_pose pose, float* out_positions, hf_deform_info* out_info);
+hf_result hf_pose_deform(hf_pose pose, const hf_deform_desc* desc, hf_deform_info* out_info);
+hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* inout_skin);
+hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
 void hf_quads_destroy(hf_quads quads);
 hf_result hf_quads_get_info(hf_quads quads, hf_quads_info* out_info);
-hf_result hf_quads_get_mesh(hf_quads quads, const hf_quads_mesh* out_mesh);
-hf_result hf_flow_create(hf_solver solver, hf_flow* out_flow);
+hf_result hf_quads_get_mesh(hf_quads quads, hf_quads_mesh* inout_mesh);
+hf_result hf_flow_create(hf_surface surface, hf_flow* out_flow);
 void hf_flow_destroy(hf_flow flow);
 hf_result hf_flow_trace(hf_flow flow, const hf_scalars* field, hf_flow_lines* inout_lines);
-hf_result hf_transfer_create(hf_solver source, hf_solver target, const hf_transfer_desc* desc, hf_transfer* out_transfer);
+hf_result hf_region_create(hf_surface surface, const hf_region_desc* desc, hf_region* out_region);
+hf_result hf_region_clone(hf_region region, hf_region* out_region);
+void hf_region_destroy(hf_region region);
+hf_result hf_region_edit(hf_region region, const hf_region_edit_desc* edit);
+hf_result hf_region_record(hf_region region);
+hf_result hf_region_undo(hf_region region);
+hf_result hf_region_redo(hf_region region);
+hf_result hf_region_get_info(hf_region region, hf_region_info* out_info);
+hf_result hf_region_get_vertices(hf_region region, int32_t list, uint32_t capacity, uint32_t* out_vertices, uint32_t* out_count);
+hf_result hf_region_morph(hf_region region, const hf_morph_desc* desc);
+hf_result hf_detail_create(hf_region source, hf_region target, const hf_detail_desc* desc, hf_detail* out_detail);
+void hf_detail_destroy(hf_detail detail);
+hf_result hf_detail_morph(hf_detail detail, const hf_morph_desc* desc);
+hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_transfer_desc* desc, hf_transfer* out_transfer);
 void hf_transfer_destroy(hf_transfer transfer);
 hf_result hf_transfer_add_pairs(hf_transfer transfer, const hf_pairs_desc* pairs, uint32_t* out_pairs);
 hf_result hf_transfer_remove_pairs(hf_transfer transfer, uint32_t pair_count, const uint32_t* pairs);
 hf_result hf_transfer_get_pair(hf_transfer transfer, uint32_t pair, hf_pair_info* out_info);
 hf_result hf_transfer_get_info(hf_transfer transfer, hf_transfer_info* out_info);
 hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
-hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* info);
+hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* inout_skin);
 ]]
 
 local constants = { header_version = '0.1.0',
+  HF_VERSION_MAJOR = 0,
+  HF_VERSION_MINOR = 1,
+  HF_VERSION_PATCH = 0,
   HF_NO_INDEX = 4294967295,
   HF_MESSAGE_SIZE = 256,
   HF_OK = 0,
@@ -633,13 +726,13 @@ local constants = { header_version = '0.1.0',
   HF_FIELD_HARMONIC = 0,
   HF_FIELD_BIHARMONIC = 1,
   HF_FIELD_BIHARMONIC_GRAPH = 2,
-  HF_ENGINE_GREEN = 0,
-  HF_ENGINE_UPDOWN = 1,
-  HF_ENGINE_REFACTOR = 2,
   HF_ORDERING_NESTED_DISSECTION = 0,
   HF_ORDERING_MINIMUM_DEGREE = 1,
   HF_ORDERING_METIS = 2,
   HF_FACTOR_ALIGNMENT = 64,
+  HF_ENGINE_GREEN = 0,
+  HF_ENGINE_UPDOWN = 1,
+  HF_ENGINE_REFACTOR = 2,
   HF_ROUTE_NONE = 0,
   HF_ROUTE_DENSE = 1,
   HF_ROUTE_FRESH = 2,
@@ -655,14 +748,15 @@ local constants = { header_version = '0.1.0',
   HF_DEFORM_SMOOTH = 0,
   HF_DEFORM_PAPER = 1,
   HF_LAYER_COUNT = 8,
+  HF_HANDLE_LIMIT = 256,
+  HF_QUADS_UNIFORM = 0,
+  HF_QUADS_PURE = 1,
   HF_SIDE_SMALLER = 0,
   HF_SIDE_LARGER = 1,
   HF_SIDE_SEED = 2,
   HF_REGION_INSIDE = 0,
   HF_REGION_RIM = 1,
   HF_REGION_SITES = 2,
-  HF_QUADS_UNIFORM = 0,
-  HF_QUADS_PURE = 1,
   HF_TRANSFER_FIELDS = 0,
   HF_TRANSFER_PAPER = 1,
   HF_PAIR_ANCHOR = 1,
@@ -670,6 +764,7 @@ local constants = { header_version = '0.1.0',
   HF_PAIR_TRUNK = 4,
   HF_PAIR_NO_ALIGNMENT = 8,
   HF_PAIR_CONTACT = 16,
+  HF_PAIR_LIMIT = 256,
 }
 
 return constants

@@ -93,7 +93,7 @@ enum {
 #ifdef __cplusplus
 #define HF_INIT(type)                                        \
   ([] {                                                      \
-    type hf_made = type();                                   \
+    type hf_made{};                                          \
     hf_made.struct_size = static_cast<uint32_t>(sizeof(type)); \
     return hf_made;                                          \
   }())

@@ -26,8 +26,8 @@ typedef struct hf_direction_desc {
 } hf_direction_desc;
 
 /* Makes a direction field without constraints: connection, operator, and one numeric factorisation of two unknowns per
- * vertex. desc: NULL for defaults. Sets *out_direction to NULL first. Errors: HF_ERROR_INVALID_ARGUMENT (degree,
- * reserved), HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
+ * vertex. desc: NULL for defaults. Sets *out_direction to NULL first. Errors: HF_ERROR_INVALID_ARGUMENT
+ * (degree), HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_direction_create(hf_surface surface, const hf_direction_desc* desc, hf_direction* out_direction);
 
 /* Makes a direction field with the same constraints, without the undo stack. Shares connection and factor; costs the
@@ -39,11 +39,11 @@ HF_API hf_result hf_direction_clone(hf_direction direction, hf_direction* out_di
 HF_API void hf_direction_destroy(hf_direction direction);
 
 /* Adds constraints: vectors at vertices, projected on the tangent planes. Costs two elimination paths and two dense rows
- * each; very many are moved into the factor when that is quicker. vertices: [site_count] as given. vectors:
- * [site_count][3], zero for a constraint of no length. out_sites: NULL, or [site_count] numbers; a constraint keeps its
- * number until it is removed. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (an isolated
- * vertex, a vector normal to the surface), HF_ERROR_DUPLICATE_SITE, HF_ERROR_TOO_LARGE (site_limit). Thread safety:
- * changes `direction`. Since 0.1. */
+ * each. Very many at once go into the factor instead, by one factorisation; later changes cost paths and rows again.
+ * vertices: [site_count] as given. vectors: [site_count][3], zero for a constraint of no length. out_sites: NULL, or
+ * [site_count] numbers; a constraint keeps its number until it is removed. Errors: HF_ERROR_OUT_OF_RANGE,
+ * HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (an isolated vertex, a vector normal to the surface),
+ * HF_ERROR_DUPLICATE_SITE, HF_ERROR_TOO_LARGE (site_limit). Thread safety: changes `direction`. Since 0.1. */
 HF_API hf_result hf_direction_add_sites(hf_direction direction, uint32_t site_count, const uint32_t* vertices,
                                         const double* vectors, uint32_t* out_sites);
 
@@ -114,7 +114,7 @@ typedef struct hf_direction_statistics {
   uint32_t site_limit;
   uint32_t unknown_count; /* two per vertex */
   uint32_t site_count;
-  uint32_t factorisation_count;    /* numeric factorisations, the first included */
+  uint32_t factorisation_count;    /* the first included; grows when very many constraints go into the factor */
   uint32_t path_solve_count;       /* two per constraint added or moved */
   uint32_t sweep_count;
   uint32_t irregular_vertex_count; /* vertices whose triangles are not one fan of one orientation */

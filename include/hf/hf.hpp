@@ -107,6 +107,11 @@ class Surface {
 
   hf_surface get() const noexcept { return handle_.get(); }
   uint32_t vertex_count() const noexcept { return vertices_; }
+  hf_surface_info info() const {
+    auto info = make<hf_surface_info>();
+    check(hf_surface_get_info(get(), &info));
+    return info;
+  }
   hf_surface_report report() const {
     auto report = make<hf_surface_report>();
     check(hf_surface_get_report(get(), &report));
@@ -186,6 +191,13 @@ class Solver {
     check(hf_add_sites(get(), &desc, numbers.data()));
     return numbers;
   }
+  // One hard site at a vertex, of the same value in every channel. Returns its number.
+  uint32_t add_site(uint32_t vertex, double value = 0) {
+    const std::vector<double> values(channels_, value);
+    uint32_t number = HF_NO_INDEX;
+    check(hf_solver_add_site(get(), vertex, values.data(), &number));
+    return number;
+  }
   void remove_sites(const std::vector<uint32_t>& sites) { check(hf_remove_sites(get(), size(sites), sites.data())); }
   void move_sites(const std::vector<uint32_t>& sites, const std::vector<uint32_t>& vertices) {
     auto to = make<hf_sites_desc>();
@@ -197,6 +209,11 @@ class Solver {
     check(hf_solver_set_values(get(), size(sites), sites.data(), values.data()));
   }
   uint32_t site_count() const noexcept { return hf_solver_get_site_count(get()); }
+  hf_solver_info info() const {
+    auto info = make<hf_solver_info>();
+    check(hf_solver_get_info(get(), &info));
+    return info;
+  }
   void record() { check(hf_solver_record(get())); }
   void undo() { check(hf_solver_undo(get())); }
   void redo() { check(hf_solver_redo(get())); }
@@ -617,7 +634,7 @@ class Pose {
     check(hf_pose_remove_handles(get(), static_cast<uint32_t>(handles.size()), handles.data()));
   }
   void set_transform(uint32_t handle, const hf_transform& transform) {
-    check(hf_pose_set_transforms(get(), 1, &handle, &transform));
+    check(hf_pose_set_transform(get(), handle, &transform));
   }
   // The vertex nearest to a point at rest, and what is edge-connected to it within a radius of the point.
   uint32_t add_handle(const double (&point)[3], double radius, uint32_t layer = 0) {
@@ -632,6 +649,11 @@ class Pose {
     check(hf_pose_set_matrices(get(), 1, &handle, matrix));
   }
   uint32_t handle_count() const noexcept { return hf_pose_get_handle_count(get()); }
+  hf_pose_info info() const {
+    auto info = make<hf_pose_info>();
+    check(hf_pose_get_info(get(), &info));
+    return info;
+  }
   hf_handle_info handle(uint32_t number) const {
     auto info = make<hf_handle_info>();
     check(hf_pose_get_handle(get(), number, &info));

@@ -198,7 +198,7 @@ typedef struct hf_hit {
   uint32_t struct_size;
   int32_t found;          /* 1: a triangle was hit; 0: none, and all else is 0 or HF_NO_INDEX */
   uint32_t triangle;      /* as given */
-  uint32_t vertex;        /* its corner nearest to the hit, as given */
+  uint32_t vertex;        /* its corner nearest to the hit, as given, of welded copies the first */
   double barycentrics[3]; /* weights of the corners, of sum 1: a site for hf_add_sites */
   double position[3];     /* in the unit of the positions */
   double distance;        /* from the origin, in lengths of `direction` */
@@ -206,9 +206,9 @@ typedef struct hf_hit {
 
 /* Finds what a click hits: the first triangle on a ray. origin, direction: double[3] in the frame of the positions;
  * direction of any length above 0. desc: NULL for the rest positions. A ray through an edge or a vertex never slips
- * between two triangles; of several at one distance the first given triangle counts. Cost: a pass over the triangles,
- * about 10 ns each on one thread. Errors: HF_ERROR_NON_FINITE (origin, direction, a position: index = vertex),
- * HF_ERROR_INVALID_ARGUMENT (direction 0). Thread safety: reads `surface`. Since 0.1. */
+ * between two triangles. Of several at one distance, the first given triangle counts. Cost: a pass over
+ * the triangles, about 10 ns each on one thread. Errors: HF_ERROR_NON_FINITE (origin, direction, a position: index =
+ * vertex), HF_ERROR_INVALID_ARGUMENT (direction 0). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const double* direction,
                                      const hf_pick_desc* desc, hf_hit* out_hit);
 

@@ -12,7 +12,7 @@
 
 namespace hf_inner::capi {
 
-// Stores the detail of a failure for hf_get_error_detail and returns the code.
+// Stores the detail of a failure for hf_error_get_detail and returns the code.
 hf_result record_failure(hf_result code, std::uint32_t index, const char* function, const char* message) noexcept;
 
 template <class Work>

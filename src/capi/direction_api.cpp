@@ -250,7 +250,7 @@ hf_result hf_direction_get_statistics(hf_direction handle, hf_direction_statisti
     statistics.sweep_count = counters.sweeps;
     statistics.irregular_vertex_count = solver.connection().irregular_count;
     statistics.degree = direction->degree, statistics.site_limit = direction->site_limit;
-    statistics.eliminated_count = solver.eliminates() ? direction->field.count() : 0;
+    statistics.eliminated_count = static_cast<std::uint32_t>(solver.eliminated_count());
     statistics.operator_ms = solver.operator_ms();
     statistics.numeric_ms = solver.statistics().numeric_ms;
     statistics.factor_entries = solver.statistics().entries;

@@ -18,7 +18,7 @@ namespace hf_inner {
 
 struct BandOptions {
   int degree = 2;
-  LevelSpacing spacing = LevelSpacing::equal_length;
+  BandSpacing spacing = BandSpacing::equal_length;
   std::int32_t band_count = static_cast<std::int32_t>(default_bands_smooth);  // K wished for; see bands_for
 };
 

@@ -87,10 +87,10 @@ double Levels::operator()(double phi) const noexcept {
 }
 
 Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleFields& fields,
-                           const Vector<FieldPart>& parts, LevelSpacing spacing, Memory& memory) {
+                           const Vector<FieldPart>& parts, BandSpacing spacing, Memory& memory) {
   const Mesh& mesh = core.mesh;
   Vector<Levels> levels(parts.size(), Levels(), &memory);
-  if (spacing == LevelSpacing::equal_value) {
+  if (spacing == BandSpacing::equal_value) {
     for (Levels& l : levels) set_equal_value(l);
     return levels;
   }

@@ -13,7 +13,7 @@
 
 namespace hf_inner {
 
-enum class LevelSpacing : std::int32_t { equal_value, equal_length };
+enum class BandSpacing : std::int32_t { equal_value, equal_length };
 
 // One field on one component.
 struct FieldPart {
@@ -29,7 +29,7 @@ struct Levels {
 
 // The levels of several fields in one pass over the triangles; parts ordered by component.
 Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleFields& fields,
-                           const Vector<FieldPart>& parts, LevelSpacing spacing, Memory& memory);
+                           const Vector<FieldPart>& parts, BandSpacing spacing, Memory& memory);
 
 // The clamped uniform B-spline basis B_0 .. B_{K+1} of degree 1 or 2 on [0, 1]: at most degree + 1 values are not zero.
 struct BandValues {

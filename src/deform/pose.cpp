@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/number_pool.h"
 #include "base/timer.h"
 
 namespace hf_inner {
@@ -142,8 +143,7 @@ void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t>
   if (layout_) handles.assign(layout_->handles.begin(), layout_->handles.end());
   const std::size_t first = handles.size();
   std::shared_ptr<SiteSolver> sites = layout_ ? layout_->sites->clone() : SiteSolver::make(EngineKind::green, core_, 0);
-  std::uint32_t number = 0;
-  std::int32_t slot = 0;
+  NumberPool numbers, slot_numbers;
   Vector<std::uint8_t> slot_taken(static_cast<std::size_t>(sites->slot_count()), 0, &memory());
   for (const Handle& handle : handles) {
     for (const std::int32_t s : handle.region->slots) slot_taken[s] = 1;
@@ -154,12 +154,14 @@ void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t>
     std::shared_ptr<HandleRegion> region =
         make_region(*core_, vertices.subspan(start[r], start[r + 1] - start[r]), options_.samples_per_ring, memory());
     for (const std::int32_t v : region->sites) {
-      while (slot < static_cast<std::int32_t>(slot_taken.size()) && slot_taken[slot]) ++slot;
-      region->slots.push_back(slot), slots.push_back(slot++);
+      const std::uint32_t slot =
+          slot_numbers.take([&](std::uint32_t s) { return s < slot_taken.size() && slot_taken[s]; });
+      slots.push_back(static_cast<std::int32_t>(slot)), region->slots.push_back(slots.back());
       added.push_back(Site::at_vertex(core_->mesh, v));
     }
-    const auto taken = [&](const Handle& handle) { return handle.number == number; };
-    while (std::any_of(handles.begin(), handles.end(), taken)) ++number;
+    const std::uint32_t number = numbers.take([&](std::uint32_t candidate) {
+      return std::any_of(handles.begin(), handles.end(), [&](const Handle& h) { return h.number == candidate; });
+    });
     handles.push_back({number, std::move(region)});
   }
   std::shared_ptr<const Layout> layout = make_layout(handles, std::move(sites), {{}, slots, added});
@@ -262,7 +264,7 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, st
   }
   BandOptions bands;
   bands.band_count = static_cast<std::int32_t>(options_.band_count);
-  if (options_.mode == DeformMode::paper) bands.degree = 1, bands.spacing = LevelSpacing::equal_value;
+  if (options_.mode == DeformMode::paper) bands.degree = 1, bands.spacing = BandSpacing::equal_value;
   layout->weights = make_cluster_weights(*core_, *rest_, layout->reach, layout->fields, bands, memory());
   list_blocks(layout->weights, *core_->jobs);
   if (options_.mode == DeformMode::smooth) {

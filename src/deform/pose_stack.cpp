@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/number_pool.h"
 #include "base/timer.h"
 #include "deform/normals.h"
 
@@ -115,10 +116,11 @@ void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int
          handle_limit);
   Vector<Entry> entries(&memory());
   entries.assign(entries_.begin(), entries_.end());
-  std::uint32_t number = 0;
+  NumberPool numbers;
   for (std::size_t r = 0; r < added; ++r) {
-    const auto taken = [&](const Entry& entry) { return entry.number == number; };
-    while (std::any_of(entries.begin(), entries.end(), taken)) ++number;
+    const std::uint32_t number = numbers.take([&](std::uint32_t candidate) {
+      return std::any_of(entries.begin(), entries.end(), [&](const Entry& e) { return e.number == candidate; });
+    });
     entries.push_back({});
     entries.back().number = number, entries.back().layer = layer;
   }

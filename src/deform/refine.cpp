@@ -107,8 +107,7 @@ void Refinement::apply(const RefineInput& input, Vec3* positions) {
   const std::size_t n = static_cast<std::size_t>(core.size());
   Workspace z(core.workspaces, 3 * n);
   set_right_hand_side(input, positions, z.data());
-  core.factor->forward(z.data(), 3, *core.jobs);
-  core.factor->backward(z.data(), 3, *core.jobs);
+  core.factor->solve_in_order(z.data(), 3, *core.jobs);
 
   // the rings are where they belong: what the step did to them is taken back by its harmonic field
   const Span<const std::int32_t> position = core.factor->position();

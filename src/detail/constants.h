@@ -6,8 +6,6 @@
 namespace hf_inner {
 
 // --- region.cpp ---
-// Undo records of a region: memory, since a record keeps its engine. The oldest is dropped.
-constexpr std::size_t most_region_records = 256;
 // Regions of more than 1 in 8 vertices are solved over the whole factor. The result does not depend on it.
 constexpr std::size_t whole_sweep_share = 8;
 

@@ -181,12 +181,8 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
   options.ordering = core.ordering;
   const std::shared_ptr<const Factor> factor = Factor::make(matrix, coordinates, options, memory, *core.jobs);
   Vector<double> z(right.size(), &memory);
-  const Span<const Index> position = factor->position();
-  for (std::size_t c = 0; c < unknown.size(); ++c)
-    for (std::size_t q = 0; q < 2; ++q) z[2 * at(position[c]) + q] = right[2 * c + q];
-  factor->forward(z.data(), 2, *core.jobs), factor->backward(z.data(), 2, *core.jobs);
-  for (std::size_t c = 0; c < unknown.size(); ++c)
-    points[at(unknown[c])] = {z[2 * at(position[c])], z[2 * at(position[c]) + 1]};
+  factor->solve(right.data(), right.data(), 2, z.data(), *core.jobs);
+  for (std::size_t c = 0; c < unknown.size(); ++c) points[at(unknown[c])] = {right[2 * c], right[2 * c + 1]};
   return points;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "base/number_pool.h"
 #include "detail/constants.h"
 #include "detail/morph.h"
 
@@ -33,6 +34,7 @@ void place_sites(const RegionState& from, RegionState& to, const Core& core, Mem
   Vector<Index> leaving(&memory), coming(&memory), slots(&memory);
   Vector<Site> places(&memory);
   Vector<std::uint8_t> used(at(engine->slot_count()), 0, &memory);
+  NumberPool numbers;
   const Vector<Index>&old = from.shape->sites, &now = to.shape->sites;
   to.slot.assign(now.size(), -1);
   std::size_t i = 0, k = 0;
@@ -45,11 +47,10 @@ void place_sites(const RegionState& from, RegionState& to, const Core& core, Mem
       used[at(from.slot[i])] = 1, to.slot[k++] = from.slot[i++];
     }
   }
-  Index next = 0;
   for (const Index c : coming) {
-    while (at(next) < used.size() && used[at(next)]) ++next;
-    to.slot[at(c)] = next;
-    slots.push_back(next++), places.push_back(Site::at_vertex(core.mesh, now[at(c)]));
+    const auto next = numbers.take([&](std::uint32_t slot) { return slot < used.size() && used[slot]; });
+    to.slot[at(c)] = static_cast<Index>(next);
+    slots.push_back(to.slot[at(c)]), places.push_back(Site::at_vertex(core.mesh, now[at(c)]));
   }
   if (!leaving.empty() || !coming.empty()) {
     SiteEdit edit;
@@ -114,16 +115,14 @@ RegionState::RegionState(const RegionSurface& surface, std::shared_ptr<const Reg
   }
 }
 
-Region::Region(std::shared_ptr<const RegionSurface> surface)
-    : surface_(std::move(surface)), undo_(&memory()), redo_(&memory()) {
+Region::Region(std::shared_ptr<const RegionSurface> surface) : surface_(std::move(surface)), history_(memory()) {
   const auto shape = make_shared_in<RegionShape>(memory(), core(), Span<const Index>(), memory());
   const auto state = make_shared_in<RegionState>(memory(), *surface_, shape, memory());
   state->engine = SiteSolver::make(EngineKind::green, surface_->core, 0);
   state_ = state;
 }
 
-Region::Region(const Region& other)
-    : surface_(other.surface_), state_(other.state_), undo_(&memory()), redo_(&memory()) {}
+Region::Region(const Region& other) : surface_(other.surface_), state_(other.state_), history_(memory()) {}
 
 void Region::edit(const RegionEdit& edit) {
   report(edit.progress, 0.0f);
@@ -140,21 +139,20 @@ void Region::edit(const RegionEdit& edit) {
   next->base_area = morphed_area(*surface_, *next, 1.0, memory());
   next->first = edit.curve.empty() ? state_->first : edit.curve[0];
   report(edit.progress, 1.0f);
-  redo_.clear();
+  history_.clear_redo();
   state_ = next;
 }
 
-void Region::record() {
-  if (undo_.size() == most_region_records) undo_.erase(undo_.begin());
-  undo_.push_back(state_);
-  redo_.clear();
+void Region::undo() {
+  history_.undo(
+      "nothing is recorded; call hf_region_record before the edits to be undone", [&] { return state_; },
+      [&](auto& state) { state_ = std::move(state); });
 }
 
-void Region::step(Stack& from, Stack& to, const char* nothing) {
-  if (from.empty()) fail(HF_ERROR_NO_RECORD, HF_NO_INDEX, "%s", nothing);
-  to.push_back(state_);
-  state_ = std::move(from.back());
-  from.pop_back();
+void Region::redo() {
+  history_.redo(
+      "nothing was undone since the last edit", [&] { return state_; },
+      [&](auto& state) { state_ = std::move(state); });
 }
 
 }  // namespace hf_inner

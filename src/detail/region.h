@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "base/history.h"
 #include "base/progress.h"
 #include "detail/curve.h"
 #include "detail/region_shape.h"
@@ -62,22 +63,20 @@ class Region {
 
   // Throws the errors of hf_region_edit that concern the region itself.
   void edit(const RegionEdit& edit);
-  void record();
-  void undo() { step(undo_, redo_, "nothing is recorded; call hf_region_record before the edits to be undone"); }
-  void redo() { step(redo_, undo_, "nothing was undone since the last edit"); }
+  void record() { history_.record(std::shared_ptr<const RegionState>(state_)); }
+  void undo();
+  void redo();
 
   const std::shared_ptr<const RegionSurface>& surface() const noexcept { return surface_; }
   const std::shared_ptr<const RegionState>& state() const noexcept { return state_; }
   const Core& core() const noexcept { return *surface_->core; }
 
  private:
-  using Stack = Vector<std::shared_ptr<const RegionState>>;
-  void step(Stack& from, Stack& to, const char* nothing);
   Memory& memory() const noexcept { return *surface_->core->memory; }
 
   std::shared_ptr<const RegionSurface> surface_;
   std::shared_ptr<const RegionState> state_;
-  Stack undo_, redo_;
+  History<std::shared_ptr<const RegionState>> history_;
 };
 
 }  // namespace hf_inner

@@ -9,17 +9,18 @@
 //
 // Where K maps constants to zero, N_ic = 1 if site i lies in component c, C = 0, and the answer is
 //     u = P' G^-T (Y lambda) + sum_c nu_c 1_c.
-// Elsewhere N = Y'Y_g and C = Y_g'Y_g - I / beta, with the paths Y_g of the pins, and
+// Elsewhere N = Y'Y_g and C = Y_g'Y_g - I / beta, with the paths Y_g of the pins, and the answer is
 //     u = P' G^-T (Y lambda + Y_g nu).
 // Both ways pinning a vertex does not change the solution: K u = W lambda and W'u + D lambda = s hold exactly. Insert:
 // path solves and rows of S. Remove: rows of S. Solve: one backward sweep.
 //
 // Very many sites: a rebase (eliminated_base.h) takes the hard vertex sites E into the factor. Later sites are rows as
-// above. A site r of E that goes leaves a free value t_r, with the column y_r = G^-1 P (-K_Fr) and the equation
-// (K u)_r = (W lambda)_r, a negative row of the same system:
+// above. Removing a site r of E frees the value t_r. Its column is y_r = G^-1 P (-K_Fr). Its equation
+// (K u)_r = (W lambda)_r is a negative row of the same system:
 //
 //     [ Y_w'Y_w + D     Y_w'Y_r + W_R   ] [lambda]   [ s - Y_w'g - W_E' s_E       ]
 //     [ (...)'          Y_r'Y_r - K_RR  ] [  t   ] = [ K_RE s_E - Y_r'g           ],   g = G^-1 P (-K_FE s_E)
+//
 //     u_F = P' G^-T (g + Y_w lambda + Y_r t),   u_E = s_E,   u_R = t
 //
 // site_cost.h decides how an edit is made; the choice is counted. Edits are all or nothing. Const functions may run at
@@ -30,6 +31,8 @@
 #include "engine/constraint_system_state.h"
 
 namespace hf_inner {
+
+struct SiteCost;
 
 struct ConstraintCounts {
   std::uint32_t path_solves = 0, sweeps = 0, rebases = 0, dense_edits = 0;
@@ -70,12 +73,13 @@ class ConstraintSystem {
       return row >= 0 ? slot.data() + at(row) * m : freed.data() + at(ConstraintState::base_index(row)) * m;
     }
     const double* of(Index row, std::size_t m) const noexcept { return const_cast<Answer*>(this)->of(row, m); }
-    Vector<double> slot, freed;  // lambda by slot, t by base index
-    Vector<double> centre;       // by component, mean value of its sites: a large common offset must not cost digits
-    Vector<double> constant;     // by component, centre + nu; zeros where K does not keep constants
-    Vector<double> nu;           // by component and pin, where pins have paths
-    Vector<double> total;        // by component, for a refinement: 1'lambda = -total; empty: 0
-    Vector<double> x;            // scratch
+    Vector<double> slot;      // lambda
+    Vector<double> freed;     // t, by base index
+    Vector<double> centre;    // mean site value by component: a large common offset must not cost digits
+    Vector<double> constant;  // centre + nu by component; zeros where K does not keep constants
+    Vector<double> nu;        // by component and pin, where pins have paths
+    Vector<double> total;     // by component, for a refinement: 1'lambda = -total; empty: 0
+    Vector<double> x;         // scratch
   };
   // All of these take channels [first, first + count) of values[slot * channels + c].
   //
@@ -95,6 +99,7 @@ class ConstraintSystem {
 
  private:
   ConstraintState::Decision decide(const SiteEdit& edit) const;
+  double again_ns(const SiteEdit& edit, const SiteCost& cost) const;
   bool try_route(EditRoute route, const SiteEdit& edit, JobRunner& jobs, const ConstraintState::Decision& decision);
   void base_forward(const double* values, Index channels, Index first, Index count, const Answer& answer,
                     double* z) const;

@@ -11,12 +11,9 @@ namespace {
 
 constexpr auto no_row = ConstraintState::no_row;
 
-// Groups are packed again when they store more than this many times the rows in use, and so many more: packing solves
-// paths again, waiting costs memory and time in every sweep.
-constexpr std::int64_t stored_share = 2, stored_slack = 64;
-// A pivot below this share of its diagonal entry makes its site a suspect of linear dependence: crowded points lie at
-// d^2 for a distance d, dependent ones below 1e-11 (dense_block.cpp). A larger share examines more crowded points.
-constexpr double suspect_share = 1e-6;
+// Groups are packed again when they store more than this many times the rows in use, and two groups more. Less packs
+// sooner, which solves paths again; more keeps paths without a row in memory and in every sweep.
+constexpr std::int64_t stored_share = 2, stored_slack = 2 * PathGroup::capacity;
 
 }  // namespace
 
@@ -252,21 +249,22 @@ void ConstraintEdit::add_rows(Span<const Row> rows) {
 // Rows of N for the sites of the groups from the first on.
 void ConstraintEdit::project_pins(std::size_t first_group) {
   const PinPaths& pins = *operator_.paths;
-  double tile[PathGroup::capacity * PathGroup::capacity];
-  for (std::size_t g = first_group; g < state_.groups.size(); ++g) {
-    const auto& group = state_.groups[g];
+  const std::size_t border = operator_.border();
+  jobs_.for_each(static_cast<std::uint32_t>(state_.groups.size() - first_group), [&](std::uint32_t fresh) {
+    const auto& group = state_.groups[first_group + fresh];
+    double tile[PathGroup::capacity * PathGroup::capacity];
     for (std::size_t b = 0; b < pins.groups.size(); ++b) {
       factor().gram(*group.paths, *pins.groups[b], tile, PathGroup::capacity);
       for (Index i = 0; i < group.paths->count(); ++i) {
         if (group.row[i] < 0) continue;
         auto& entry = state_.entries[at(group.row[i])];
-        for (std::size_t p = 0; p < operator_.border(); ++p) {
-          const std::size_t pin = at(entry.site.component) * operator_.border() + p;
+        for (std::size_t p = 0; p < border; ++p) {
+          const std::size_t pin = at(entry.site.component) * border + p;
           if (at(pins.group[pin]) == b) entry.border[p] = tile[i * PathGroup::capacity + pins.column[pin]];
         }
       }
     }
-  }
+  });
 }
 
 // Gram of every new group with itself and every group before it: one piece a pair of groups, one entry a pair of rows.
@@ -368,9 +366,9 @@ void ConstraintEdit::refuse_dependent(const DenseBlock& block, Index component, 
        position);
 }
 
-// The slot of a hard site of the component that depends on others though its pivot kept some rounding, or -1. Constraints
-// of this edit are reported before older ones. Among eliminated sites the diagonal itself may be rounding (a point whose
-// corners are eliminated has none), so pivots say nothing and every new site is examined.
+// The slot of a hard site of the component that depends on others though its pivot kept some rounding, or -1.
+// Constraints of this edit are reported before older ones. Among eliminated sites the diagonal itself may be rounding
+// (a point whose corners are eliminated has none), so pivots say nothing and every new site is examined.
 Index ConstraintEdit::dependent_slot(const DenseBlock& block, Index component) const {
   if (!state_.base && block.least_pivot() >= suspect_share) return -1;
   Vector<HardSite> sites(&memory());

@@ -6,8 +6,8 @@ namespace hf_inner {
 
 class ConstraintEdit {
  public:
-  // Thrown when the edit cannot go on from the present layout: a component lost its last eliminated site, or a pivot
-  // failed where the order of the rows may be the reason.
+  // Thrown when the edit cannot go on from the present layout. Either a component has no eliminated site left, or a
+  // pivot failed and the order of the rows may be the reason.
   struct NeedsNewLayout {};
 
   // state: edited in place; of no use after an exception.

@@ -6,7 +6,8 @@
 namespace hf_inner {
 namespace {
 
-// Numbers that one job clears: half of it gives more jobs than threads need, double leaves threads idle on small meshes.
+// Numbers that one job clears: half of it gives more jobs than threads need, double leaves threads idle on small
+// meshes.
 constexpr std::size_t clear_piece = 16384;
 
 }  // namespace

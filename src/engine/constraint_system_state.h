@@ -24,9 +24,9 @@ struct ConstraintState {
     Index used = 0;
   };
   struct Entry {
-    Site site;              // component -1: the slot is free
-    Path path;              // of a row
-    Index eliminated = -1;  // base index of a site in the factor
+    Site site;                                        // component -1: the slot is free
+    Path path;                                        // of a row
+    Index eliminated = -1;                            // base index of a site in the factor
     double border[PinnedOperator::most_border] = {};  // its row of N: only where pins have paths
     bool used() const noexcept { return site.component >= 0; }
   };
@@ -63,9 +63,9 @@ struct ConstraintState {
   bool floating(std::size_t component) const noexcept { return !base || base->floating[component]; }
   void put(Index slot, const Site& site);  // into a free slot
 
-  Vector<Entry> entries;                             // by slot
-  std::shared_ptr<const EliminatedBase> base;        // null: the operator's own factor
-  Vector<Free> freed;                                // by base index
+  Vector<Entry> entries;                       // by slot
+  std::shared_ptr<const EliminatedBase> base;  // null: the operator's own factor
+  Vector<Free> freed;                          // by base index
   Vector<Group> groups;
   Vector<std::shared_ptr<const DenseBlock>> blocks;  // by component; null without a row
   Vector<Index> sites_of;                            // sites by component

@@ -13,12 +13,19 @@ namespace {
 
 constexpr std::int32_t tile = 4;
 
-// A pivot this far below its diagonal means linear dependence: independent sites stay above 1e-9 even on bi-harmonic
-// patches, and a point that depends on three crowded ones in its triangle is left with up to 1e-12 of rounding.
+// A pivot this far below its diagonal means linear dependence. Independent sites stay above 1e-9 even on bi-harmonic
+// patches; a point that depends on three crowded ones in its triangle keeps up to 1e-12 of rounding.
 constexpr double pivot_floor = 1e-11;
 
-// dots[i * tile + j] = a_i . b_j over `count` entries, four running sums each, in one fixed order for every instruction
-// set. clones need the dynamic linker's help (glibc), and sanitizers cannot run before it
+// Rates of a removal: nanoseconds that a rotation spends on a number behind the row, flops of a factorisation in one
+// nanosecond. They decide between two routes with the same result, so an error costs time alone.
+constexpr double rotation_ns = 2, factor_rate = 15;
+// Rows below which a factorisation runs on one thread, and tiles of eight rows that a job takes above: a smaller job
+// costs more to hand out than to do.
+constexpr std::int32_t least_parallel = 400, tiles_per_job = 12;
+
+// dots[i * tile + j] = a_i . b_j over `count` entries. Each has four running sums in one fixed order for every
+// instruction set. Clones need the dynamic linker of glibc, and sanitizers cannot run before it.
 #if defined(__GLIBC__) && defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__SANITIZE_ADDRESS__)
 __attribute__((target_clones("avx2", "default")))
@@ -71,8 +78,8 @@ DenseBlock::DenseBlock(const DenseBlock& other)
   std::copy(std::begin(other.schur_), std::end(other.schur_), schur_);
 }
 
-// What column r leaves over below row r is rotated into the columns that follow. Row by row: a row takes the rotations
-// of the rows above it, then makes its own; four rows at once, because each is one chain of dependent operations.
+// Rotates the rest of column r below row r into the columns that follow. Row by row: a row takes the rotations of the
+// rows above it, then makes its own. Four rows at once, because each is one chain of dependent operations.
 void DenseBlock::update_without(std::int32_t r) {
   struct Rotation {
     double c, s, inverse_c;
@@ -138,9 +145,8 @@ void DenseBlock::remove(Span<const std::int32_t> ids) {
   for (std::int32_t i = count() - 1; i >= 0; --i) {
     if (leaves(ids_[static_cast<std::size_t>(i)])) first = i;
   }
-  // rotations touch every number behind the row once, at about two nanoseconds; a factorisation runs at 15 flops in one
-  const double fresh = (left * left * left - std::pow(static_cast<double>(first), 3)) / 3 / 15;
-  if (negative_ == 0 && d * 2 * (k - first) * k < fresh) {
+  const double fresh = (left * left * left - std::pow(static_cast<double>(first), 3)) / 3 / factor_rate;
+  if (negative_ == 0 && d * rotation_ns * (k - first) * k < fresh) {
     // from the last row to the first: later rows move least
     for (std::int32_t r = count() - 1; r >= 0; --r) {
       if (!leaves(ids_[static_cast<std::size_t>(r)])) continue;
@@ -226,7 +232,7 @@ std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
       work(from, std::min(end, from + step));
     });
   };
-  const std::int32_t step = k < 400 ? tiles : 12;  // below that a job costs more than it does
+  const std::int32_t step = k < least_parallel ? tiles : tiles_per_job;
   pieces(0, tiles, step, [&](std::int32_t from, std::int32_t to) {
     for (std::int32_t t = from; t < to; ++t) {
       double* tile = panel.data() + static_cast<std::size_t>(t) * stride;
@@ -249,10 +255,10 @@ std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
   for (std::int32_t begin = 0; begin < k;) {
     const std::int32_t end = std::min(begin < done ? done : k, begin + block);
     if (begin >= done) {
-      const std::int32_t lost = kernels.factor_triangle(front, begin, end, floor.data());
-      if (lost >= 0) {
-        // rows above the lost one stay to be found again
-        return lost;
+      const std::int32_t failed = kernels.factor_triangle(front, begin, end, floor.data());
+      if (failed >= 0) {
+        // the next call finds the same row: those above it stay as they are
+        return failed;
       }
     }
     pieces(begin < done ? done / 8 : (end + 7) / 8, tiles, step,
@@ -282,9 +288,9 @@ double DenseBlock::least_pivot() const noexcept {
 }
 
 std::int32_t DenseBlock::factorise(JobRunner& jobs) {
-  const std::int32_t lost = negative_ > 0 ? factorise_signed() : factorise_positive(jobs);
-  if (lost < 0 && negative_ == 0 && border_ > 0) factorise_border();
-  return lost;
+  const std::int32_t failed = negative_ > 0 ? factorise_signed() : factorise_positive(jobs);
+  if (failed < 0 && negative_ == 0 && border_ > 0) factorise_border();
+  return failed;
 }
 
 void DenseBlock::factorise_border() {
@@ -299,9 +305,11 @@ void DenseBlock::factorise_border() {
   }
 }
 
-void DenseBlock::solve(double* x, std::int32_t channels) const noexcept {
+// fixed: the number of channels where it is known when compiled, else 0.
+template <std::size_t fixed>
+void DenseBlock::solve_channels(double* x, std::size_t channels) const noexcept {
   const std::int32_t k = count();
-  const std::size_t m = static_cast<std::size_t>(channels);
+  const std::size_t m = fixed > 0 ? fixed : channels;
   for (std::int32_t i = 0; i < k; ++i) {
     const double* l = l_.data() + row(i);
     double* xi = x + static_cast<std::size_t>(i) * m;
@@ -320,6 +328,19 @@ void DenseBlock::solve(double* x, std::int32_t channels) const noexcept {
     for (std::int32_t j = 0; j < i; ++j) {
       for (std::size_t c = 0; c < m; ++c) x[static_cast<std::size_t>(j) * m + c] -= l[j] * xi[c];
     }
+  }
+}
+
+void DenseBlock::solve(double* x, std::int32_t channels) const noexcept {
+  switch (channels) {
+    case 1:
+      return solve_channels<1>(x, 1);
+    case 2:
+      return solve_channels<2>(x, 2);
+    case 3:
+      return solve_channels<3>(x, 3);
+    default:
+      return solve_channels<0>(x, at(channels));
   }
 }
 

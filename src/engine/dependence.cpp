@@ -9,7 +9,9 @@
 namespace hf_inner {
 namespace {
 
-constexpr double dependence = 1e-9;  // what is left of a row that others make up, over its length
+// Share of its length that a row keeps beside the rows it depends on: rounding leaves 1e-15. Larger: refuses points
+// that are closer to a line of others.
+constexpr double dependence = 1e-9;
 
 struct Corner {
   Index vertex, row;

@@ -1,7 +1,9 @@
-// Hard points that say the same of the surface. A hard site asks w'u = s, w its barycentric weights; asked for are rows
-// w that depend linearly on others: four points of a triangle, three on a line of it, a point on an edge with both
-// ends. The dense system W G W' shows that only by a pivot of rounding size, and crowded but independent points
-// (distance d) have pivots of d^2; the rows themselves tell the two apart to 1e-9 of a triangle.
+// Finds hard sites whose conditions depend linearly on those of others.
+//
+// A hard site demands w'u = s with its barycentric weights w. Rows w depend on others at four points of a triangle, at
+// three points on a line of it, and at a point on an edge with both ends. The dense system W G W' shows that only by a
+// pivot of rounding size, and independent points at a distance d have pivots of d^2. The rows themselves tell the two
+// apart to 1e-9 of a triangle.
 #pragma once
 #include <cstdint>
 
@@ -11,15 +13,19 @@
 
 namespace hf_inner {
 
+// A pivot below this share of its diagonal entry makes its site a suspect: crowded points lie at d^2 for a distance d,
+// dependent ones below 1e-11. Larger: examines more crowded points, in time only.
+constexpr double suspect_share = 1e-6;
+
 struct HardSite {
   const Site* site = nullptr;
   std::int32_t slot = -1;
-  bool suspect = false;  // has a small pivot: only its group is looked at
+  bool suspect = false;  // has a small pivot: only groups with one are examined
 };
 
-// The slot of the first site whose row depends on those before it, or -1. sites: all hard sites of one component; order
-// decides who is named. Orthogonalises the rows of one group of sites with common vertices at a time: O(sites^2
-// vertices) of the group.
+// The slot of the first site whose row depends on those before it, or -1. sites: all hard sites of one component; their
+// order decides which one is reported. Orthogonalises the rows of one group of sites with common vertices at a time:
+// O(sites^2 vertices) of the group.
 std::int32_t dependent_site(Span<const HardSite> sites, Memory& memory);
 
 }  // namespace hf_inner

@@ -5,10 +5,11 @@
 namespace hf_inner {
 namespace {
 
-// Rows a job takes: half of it costs more calls than it spreads, double leaves threads idle on meshes of 50,000 vertices.
+// Rows a job takes: half of it costs more calls than it spreads, double leaves threads idle on meshes of 50,000
+// vertices.
 constexpr std::size_t piece = 16384;
-// Points whose least pivot share is below this may lose more than six of sixteen digits in the dense solve, so a field
-// takes one step with the true operator, for two sweeps more. Larger: steps that change nothing.
+// Points whose least pivot share is below this may keep fewer than ten digits in the dense solve. Their field takes one
+// step with the true operator, for two sweeps more. Larger: steps that change nothing.
 constexpr double crowded_share = 1e-4;
 
 PinnedOperator operator_of(const Core& core) {

@@ -1,5 +1,5 @@
-// Engine green: factor once, never touch the factor again. Its machine is constraint_system.h, here on the operator K of
-// a surface, which maps constants to zero; this file adds channels, refinement, partial fields, previews and fluxes.
+// Engine green: factor once, never touch the factor again. Its machine is constraint_system.h, here on the operator K
+// of a surface, which maps constants to zero; this file adds channels, refinement, partial fields, previews and fluxes.
 #pragma once
 #include "engine/constraint_system.h"
 #include "engine/site_solver.h"

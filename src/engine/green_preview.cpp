@@ -1,13 +1,14 @@
-// The field by the single-precision copy of the factor: the dense part and the paths in double, the backward sweep in
-// single precision, the error about 1e-6 of the range of the site values. A correction (green_refine.cpp) forms the
-// residual in double and takes it through both single-precision sweeps:
+// Previews: the field by the single-precision copy of the factor, at half the bytes of a sweep.
+//
+// The dense part and the paths are in double, the backward sweep in single precision. The error is about 1e-6 of the
+// range of the site values. A correction (green_refine.cpp) forms the residual in double and takes it through both
+// single-precision sweeps:
 //
 //     K du - W dlambda = r,  W'du + D dlambda = g,     r, g of the present field and flux
 //
-// Each shrinks the error by the relative error of the two sweeps on a rough right-hand side (3e-4 at worst on 304K
-// vertices), so the size of the last one tells the error: what is left is about that times the factor. Sites inside the
-// factor (after a rebase) are answered by the exact field. Cost: a sweep over half the bytes; a correction is a product
-// with K and two such sweeps.
+// Each shrinks the error by the relative error of the two sweeps on a rough right-hand side. So the size of the last
+// correction times that factor is about the error that remains. Sites inside the factor (after a rebase) are answered
+// by the exact field. A correction costs a product with K and two such sweeps.
 #include <algorithm>
 #include <cmath>
 
@@ -17,8 +18,13 @@
 namespace hf_inner {
 namespace {
 
-constexpr double sweep_error = 1e-5;   // of a single-precision sweep, at most seen on hard site sets
-constexpr double first_shrink = 2e-3;  // of the error by the first correction, at most seen; later ones are measured
+// Error of a single-precision sweep over the range of the values: the largest seen on difficult site sets. Smaller
+// would promise too much there, larger asks hosts for corrections they do not need.
+constexpr double sweep_error = 1e-5;
+// Share of the error that the first correction leaves: above the 3e-4 seen on 304,000 vertices. Later ones are
+// measured.
+constexpr double first_shrink = 2e-3;
+// Share of the range that rounding in double leaves: no estimate goes below.
 constexpr double least_error = 1e-13;
 
 }  // namespace

@@ -3,10 +3,13 @@
 //     r_v = (W lambda)_v - sum_j K_vj (u_j - u_v),    g_i = s_i - w_i'u - D_i lambda_i
 //     K du - W dlambda = r,    W'du + D dlambda = g
 //
-// The residual is formed in differences, which loses nothing to the constants that K annihilates. The correction takes
-// the way of a field with y = G^-1 P r as an extra source: S dlambda + a 1 = g - Y'y, 1'dlambda = -1'r, du = P' G^-T (y +
-// Y dlambda) + a. A free value t_r of a rebase obeys the same equation in its row: right-hand side -r_r - Y_r'y. Cost: a
-// product with K, a forward and a backward sweep.
+// The residual is formed in differences, which loses nothing to the constants that K maps to zero. The correction is
+// solved as a field with the extra source y = G^-1 P r:
+//
+//     S dlambda + a 1 = g - Y'y,   1'dlambda = -1'r,   du = P' G^-T (y + Y dlambda) + a
+//
+// A free value t_r of a rebase obeys the same equation in its row: right-hand side -r_r - Y_r'y. Cost: a product with
+// K, a forward and a backward sweep.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +19,7 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::size_t piece = 16384;
+constexpr std::size_t piece = 16384;  // rows a job takes, as in green.cpp
 
 }  // namespace
 

@@ -6,7 +6,9 @@
 namespace hf_inner {
 namespace {
 
-constexpr double margin = 16;  // of the share of the diagonal that a pivot must keep
+// Times the share of its diagonal that a pivot must keep in the whole, which factors in another order: components near
+// to failing count too. Larger: confines components that would factor.
+constexpr double margin = 16;
 
 }  // namespace
 

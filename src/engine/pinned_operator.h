@@ -1,9 +1,9 @@
 // The operator that a ConstraintSystem constrains, as a view of what its owner keeps alive.
 //
-// K is semi-definite: it maps to zero what every component can do on its own. So one vertex of every component is
-// pinned, A = K + sum_c beta_c E_c E_c', and A is factorised. The answer must not show the pins. Two ways:
-//   K maps constants to zero (fields): sum over the lambda of a component = 0, and a constant is added to it;
-//   anything else (direction fields): the pins are taken away again by their own paths Y_g = G^-1 P E_g.
+// K is semi-definite: it may map to zero a constant, or a parallel field, on every component. So one vertex of every
+// component is pinned, A = K + sum_c beta_c E_c E_c', and A is factorised. Pinning must not change the answer:
+//   - K maps constants to zero (fields): the lambda of a component sum to 0, and the component gets a constant;
+//   - any other K (direction fields): the paths of the pins, Y_g = G^-1 P E_g, take the pins away again.
 #pragma once
 #include "base/index.h"
 #include "base/jobs.h"

@@ -1,5 +1,6 @@
-// The single-precision copy of a core's factor: made at the first preview, shared by all that share the core, dropped
-// on demand. Any number of threads may ask for it at once.
+// The single-precision copy of a core's factor, shared by all that share the core.
+//
+// The first preview makes it, the host drops it. Any number of threads may ask for it at once.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -10,8 +11,8 @@ namespace hf_inner {
 
 class PreviewCache {
  public:
-  // The copy, made when there is none. Two threads that come first at the same time both make one, and share the one
-  // that was ready first: nothing waits on a lock while the threads of the host work.
+  // The copy, made when there is none. Two threads that ask first at the same time both make one and share the one that
+  // was ready first. So no thread holds a lock while the threads of the host work.
   std::shared_ptr<const PreviewFactor> get(const Factor& factor, Memory& memory, JobRunner& jobs);
   // Calls that use it keep it until they are done.
   void release() noexcept;

@@ -46,14 +46,13 @@ void RefactorSolver::edit(const SiteEdit& edit) {
   std::swap(state_.path, next.path);
 }
 
-// Whether a hard site depends on others though its pivot was left with some rounding.
+// Whether a hard site depends on others though its pivot kept some rounding.
 bool RefactorSolver::crowded_out(const State& state, const DenseBlock& block) const {
-  constexpr double small = 1e-6;
-  if (block.least_pivot() >= small) return false;
+  if (block.least_pivot() >= suspect_share) return false;
   Vector<HardSite> sites(core_->memory.get());
   Vector<std::uint8_t> suspect(state.sites.size(), 0, core_->memory.get());
   for (Index i = 0; i < block.count(); ++i) {
-    if (block.pivot_share(i) < small) suspect[at(state.points[at(block.ids()[at(i)])])] = 1;
+    if (block.pivot_share(i) < suspect_share) suspect[at(state.points[at(block.ids()[at(i)])])] = 1;
   }
   for (std::size_t slot = 0; slot < state.sites.size(); ++slot) {
     const Site& site = state.sites[slot];
@@ -107,8 +106,7 @@ void RefactorSolver::factorise(State& state) const {
       if (site.vertex[k] >= 0 && !eliminated[at(site.vertex[k])])
         x[at(core_->factor->position()[at(site.vertex[k])])] += site.weight[k];
     }
-    state.factor->forward(x, 1, *core_->jobs);
-    state.factor->backward(x, 1, *core_->jobs);
+    state.factor->solve_in_order(x, 1, *core_->jobs);
     auto& block = open[at(site.component)];
     if (!block) block = make_shared_in<DenseBlock>(memory, memory, std::size_t{state.floating[at(site.component)]});
     row.clear();
@@ -136,8 +134,7 @@ void RefactorSolver::factorise(State& state) const {
 // u <- A^-1 right, both in factor order.
 void RefactorSolver::solve_linear(const State& state, const Vector<double>& right, Index channels, double* u) const {
   std::copy(right.begin(), right.end(), u);
-  state.factor->forward(u, channels, *core_->jobs);
-  state.factor->backward(u, channels, *core_->jobs);
+  state.factor->solve_in_order(u, channels, *core_->jobs);
   sweeps_ += 2;
 }
 

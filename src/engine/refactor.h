@@ -1,12 +1,13 @@
-// Engine refactor: the baseline and the oracle. Every edit factorises K anew with the hard vertex sites eliminated
-// (their rows and columns are the identity, so ordering and symbolic analysis stand) and the soft vertex sites on the
-// diagonal:
+// Engine refactor: the baseline that other engines are measured against, and the oracle of tests.
+//
+// Every edit factorises K again with the hard vertex sites eliminated: their rows and columns are the identity, so
+// ordering and symbolic analysis stand. The soft vertex sites go on the diagonal:
 //
 //     u_h = s_h,   (K_ff + diag(alpha)) u_f = alpha s - K_fh s_h
 //
-// Points inside triangles (W_p) are bordered: S = W_p' A^-1 W_p + D, and in a component without any vertex site, whose
-// A is grounded, with the row 1'lambda = 0, as in engine green. An edit costs a numeric factorisation, a field a
-// forward and a backward sweep.
+// Points inside triangles (W_p) are bordered: S = W_p' A^-1 W_p + D. A component without any vertex site is pinned, and
+// the row 1'lambda = 0 joins the border, as in engine green. An edit costs a numeric factorisation, a field a forward
+// and a backward sweep.
 #pragma once
 #include <atomic>
 
@@ -49,7 +50,7 @@ class RefactorSolver final : public SiteSolver {
           path(other.path) {}
     Vector<Site> sites;                               // by slot; component -1: free
     Vector<std::int32_t> count;                       // sites by component
-    Vector<std::uint8_t> floating;                    // by component: no vertex site, so A is grounded there
+    Vector<std::uint8_t> floating;                    // by component: no vertex site, so A is pinned there
     Vector<std::int32_t> points;                      // slots of the point sites
     Vector<std::shared_ptr<const DenseBlock>> dense;  // by component, of its point sites
     std::shared_ptr<const Factor> factor;

@@ -1,6 +1,7 @@
-// The rim of a region: the vertices that hold its inside apart from the rest once they are sites. On the mesh's own edges
-// these are the vertices with a neighbour outside; an intrinsic operator has edges of its own, a bi-harmonic one reaches
-// two rings far, so what K couples counts as well.
+// The rim of a region: the vertices that part its inside from the rest once they are sites.
+//
+// On the mesh's own edges these are the vertices with a neighbour outside. An intrinsic operator has edges of its own,
+// and a bi-harmonic one reaches two rings far, so couplings of K count as well.
 #pragma once
 #include "engine/core.h"
 

@@ -11,6 +11,15 @@
 namespace hf_inner {
 namespace {
 
+// Largest value of a site: beyond it, values times weights of up to 1e12 give fluxes that are not finite.
+constexpr double most = 1e200;
+// Barycentric weights may sum to 1 within this. Single-precision ones do; a larger bound would hide wrong ones.
+constexpr double weight_sum_error = 1e-6;
+// A weight this close to 1 makes a point its corner. A larger share would move points that the host placed.
+constexpr double corner_share = 1e-12;
+// A stiffness is clamped to this range of mean diagonals, as field.h says: beyond it the system loses digits.
+constexpr double least_stiffness = 1e-12, most_stiffness = 1e12;
+
 bool same_site(const Site& a, const Site& b) noexcept {
   return a.component == b.component && a.compliance == b.compliance && std::equal(a.vertex, a.vertex + 3, b.vertex) &&
          std::equal(a.weight, a.weight + 3, b.weight);
@@ -21,7 +30,7 @@ bool same_site(const Site& a, const Site& b) noexcept {
 void SiteSet::swap(SiteSet& other) noexcept {
   slots_.swap(other.slots_), values_.swap(other.values_), by_vertex_.swap(other.by_vertex_);
   std::swap(channels_, other.channels_), std::swap(count_, other.count_), std::swap(hidden_, other.hidden_);
-  std::swap(first_free_, other.first_free_);
+  std::swap(numbers_, other.numbers_);
 }
 
 void SiteSet::check_site(std::uint32_t position, std::uint32_t site) const {
@@ -60,12 +69,12 @@ Site SiteSet::locate(const Mesh& mesh, const Places& places, std::uint32_t i) co
            "site %u of the batch: barycentric weight %d is %g; weights must not be negative", i, k, w);
     site.weight[k] = w, sum += w;
   }
-  if (!(std::fabs(sum - 1) <= 1e-6))
+  if (!(std::fabs(sum - 1) <= weight_sum_error))
     fail(HF_ERROR_INVALID_ARGUMENT, i, "site %u of the batch: barycentric weights sum to %.9g; they must sum to 1", i,
          sum);
   for (int k = 0; k < 3; ++k) {
     site.vertex[k] = mesh.triangle(triangle)[k], site.weight[k] /= sum;
-    if (site.weight[k] > 1 - 1e-12) return Site::at_vertex(mesh, site.vertex[k]);  // a corner is a vertex site
+    if (site.weight[k] > 1 - corner_share) return Site::at_vertex(mesh, site.vertex[k]);  // a corner is a vertex site
   }
   site.component = mesh.component[at(site.vertex[0])];
   return site;
@@ -109,7 +118,7 @@ void SiteSet::release(std::int32_t slot) noexcept {
       if (slots_[s].owner != slot) continue;
       slots_[s] = Slot{};
       std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(s) * channels_, channels_, 0.0);
-      first_free_ = std::min(first_free_, static_cast<std::int32_t>(s));
+      numbers_.give_back(static_cast<std::uint32_t>(s));
       --hidden_;
     }
     return;
@@ -120,20 +129,20 @@ void SiteSet::release(std::int32_t slot) noexcept {
 }
 
 std::int32_t SiteSet::free_slot() {
-  while (at(first_free_) < slots_.size() && slots_[at(first_free_)].used()) ++first_free_;
-  if (at(first_free_) == slots_.size()) {
+  const std::uint32_t slot = numbers_.take([&](std::uint32_t s) { return s < slots_.size() && slots_[s].used(); });
+  if (slot == slots_.size()) {
     slots_.push_back(Slot{});
     values_.resize(slots_.size() * at(channels_), 0.0);
   }
-  return first_free_;
+  return static_cast<std::int32_t>(slot);
 }
 
 void SiteSet::set_value(std::int32_t slot, const double* values) noexcept {
   for (std::int32_t c = 0; c < channels_; ++c) values_[at(slot * channels_ + c)] = values ? values[c] : 0.0;
 }
 
-// Puts an arrival into a slot; a disc takes more of them.
-void SiteSet::settle(const Core& core, const Arrival& arrival, std::int32_t slot, std::uint32_t limit) {
+// Puts an arrival into a slot; a disc uses more of them.
+void SiteSet::place(const Core& core, const Arrival& arrival, std::int32_t slot, std::uint32_t limit) {
   Slot own;
   own.site = arrival.site, own.given_vertex = arrival.given_vertex;
   own.stiffness = arrival.stiffness, own.radius = arrival.radius;
@@ -187,7 +196,7 @@ void SiteSet::remove(std::uint32_t count, const std::uint32_t* sites) {
     release(slot);
     slots_[sites[i]] = Slot{};
     set_value(slot, nullptr);
-    first_free_ = std::min(first_free_, slot);
+    numbers_.give_back(sites[i]);
     --count_;
   }
 }
@@ -210,18 +219,16 @@ void SiteSet::move(const Core& core, std::uint32_t count, const std::uint32_t* s
     if (slot.given_vertex != HF_NO_INDEX - 1)
       fail(HF_ERROR_NO_SUCH_SITE, i, "entry %u of the list: site %u is named twice", i, sites[i]);
     std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(sites[i]) * channels_, channels_, values.begin());
-    settle(core,
-           {i, to.vertices ? to.vertices[i] : HF_NO_INDEX, locate(core.mesh, to, i), slot.radius, slot.stiffness,
-            values.data()},
-           static_cast<std::int32_t>(sites[i]), limit);
+    place(core,
+          {i, to.vertices ? to.vertices[i] : HF_NO_INDEX, locate(core.mesh, to, i), slot.radius, slot.stiffness,
+           values.data()},
+          static_cast<std::int32_t>(sites[i]), limit);
   }
 }
 
 namespace {
 
-// Beyond the limit the fluxes, values times weights of up to 1e12, would not be finite, nor the field.
 void check_value(double value, std::uint32_t position, std::int32_t channel) {
-  constexpr double most = 1e200;
   if (!std::isfinite(value))
     fail(HF_ERROR_NON_FINITE, position, "entry %u of the list: value of channel %d is not a finite number", position,
          channel);
@@ -265,7 +272,8 @@ void SiteSet::add(const Core& core, const Places& places, const double* values, 
     if (arrival.stiffness < 0)
       fail(HF_ERROR_INVALID_ARGUMENT, i,
            "site %u of the batch: stiffness is %g; use 0 for a hard site or a number above 0", i, arrival.stiffness);
-    if (arrival.stiffness > 0) arrival.stiffness = std::min(std::max(arrival.stiffness, 1e-12), 1e12);
+    if (arrival.stiffness > 0)
+      arrival.stiffness = std::min(std::max(arrival.stiffness, least_stiffness), most_stiffness);
     arrival.radius = places.radii ? places.radii[i] : 0.0;
     if (!std::isfinite(arrival.radius))
       fail(HF_ERROR_NON_FINITE, i, "site %u of the batch: radius is not a finite number", i);
@@ -276,7 +284,7 @@ void SiteSet::add(const Core& core, const Places& places, const double* values, 
     for (std::int32_t c = 0; arrival.values && c < channels_; ++c) check_value(arrival.values[c], i, c);
     const std::int32_t slot = free_slot();
     ++count_;
-    settle(core, arrival, slot, limit);
+    place(core, arrival, slot, limit);
     if (out_sites) out_sites[i] = static_cast<std::uint32_t>(slot);
   }
 }

@@ -1,13 +1,16 @@
-// The sites of one solver as its user sees them: numbers, places, values, stiffness; and what the engine must be told
-// to follow an edit. A plain value: copied before an edit, swapped in after the engine has taken it, kept on the undo
-// stack.
+// The sites of one solver as its user sees them: numbers, places, values and stiffness.
 //
-// A site of finite radius is the condition u = s on a geodesic disc. For a second-order operator its rim decides (inside
-// it the field is constant by itself), for a fourth-order one all its vertices are held. The first such vertex stands in
-// the site's own slot, the others in slots that only the engine sees; every vertex of the disc is taken.
+// It also tells the engine the change that an edit makes. A plain value: copied before an edit, swapped in after the
+// engine has taken the change, kept on the undo stack.
+//
+// A site of finite radius is the condition u = s on a geodesic disc. For a second-order operator the vertices of its
+// rim are held, because the field inside is constant then; for a fourth-order one all its vertices. The first of them
+// stands in the site's own slot, the others in slots that only the engine knows. No other site may use a vertex of the
+// disc.
 #pragma once
 #include <cstdint>
 
+#include "base/number_pool.h"
 #include "engine/site_solver.h"
 
 namespace hf_inner {
@@ -52,8 +55,8 @@ class SiteSet {
   const double* values() const noexcept { return values_.data(); }
   std::int32_t channels() const noexcept { return channels_; }
 
-  // Each throws as the C functions document, with the position in the batch as index, and may leave *this half edited:
-  // work on a copy.
+  // Each throws as the C functions document, with the position in the batch as index. It may leave *this half edited,
+  // so work on a copy.
   void remove(std::uint32_t count, const std::uint32_t* sites);
   void move(const Core& core, std::uint32_t count, const std::uint32_t* sites, const Places& to, std::uint32_t limit);
   void set_values(std::uint32_t count, const std::uint32_t* sites, const double* values);
@@ -64,7 +67,7 @@ class SiteSet {
   struct AtVertex {
     std::int32_t vertex, slot;
   };
-  // A site on its way in: the point, and for a disc the vertices it holds and takes.
+  // A site to be placed.
   struct Arrival {
     std::uint32_t position;  // in the batch
     std::uint32_t given_vertex;
@@ -77,7 +80,7 @@ class SiteSet {
   const AtVertex* find_vertex(std::int32_t vertex) const noexcept;
   void claim_vertex(const Arrival& arrival, std::int32_t vertex, std::int32_t slot);
   void release(std::int32_t slot) noexcept;
-  void settle(const Core& core, const Arrival& arrival, std::int32_t slot, std::uint32_t limit);
+  void place(const Core& core, const Arrival& arrival, std::int32_t slot, std::uint32_t limit);
   std::int32_t free_slot();
   void set_value(std::int32_t slot, const double* values) noexcept;
 
@@ -87,7 +90,7 @@ class SiteSet {
   std::int32_t channels_;
   std::uint32_t count_ = 0;   // sites
   std::uint32_t hidden_ = 0;  // slots of discs besides their own
-  std::int32_t first_free_ = 0;
+  NumberPool numbers_;
 };
 
 // The engine edit that leads from one set to another.

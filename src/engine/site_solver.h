@@ -2,8 +2,8 @@
 //
 //     K u = W lambda,   w_i' u + lambda_i / alpha_i = s_i     (alpha = infinity: a hard site)
 //
-// A Site is a linear functional w on the vertices (a vertex, or three barycentric weights). Sites live in slots; the
-// caller (SiteSet, a pose) decides the slots. Edits are all or nothing: on an exception the engine is as before.
+// A Site is a linear functional w on the vertices (a vertex, or three barycentric weights). Sites stand in slots that
+// the caller (SiteSet, a pose) chooses. Edits are all or nothing: on an exception the engine is as before.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -25,14 +25,14 @@ struct EngineCounters {
   double bytes = 0;
 };
 
-// What a preview reached.
+// Accuracy of a preview.
 struct PreviewInfo {
-  bool exact = false;            // answered by solve: no single precision in it
-  std::int32_t corrections = 0;  // made
-  double value_range = 0;        // of the site values, the widest over components and channels
+  bool exact = false;             // solve gave the answer, without single precision
+  std::int32_t corrections = 0;   // made
+  double value_range = 0;         // widest range of the site values of a component and channel
   double largest_correction = 0;  // largest change of a value by the last correction
-  double error_estimate = 0;      // of the field; 0 when exact
-  double bytes = 0;               // of the single-precision copy
+  double error_estimate = 0;      // largest error of the field; 0 when exact
+  double bytes = 0;               // size of the single-precision copy
 };
 
 // Takes channels [first, first + count) of a field where they lie: inner vertex v at z[row[v] * count], or at z[v *
@@ -58,7 +58,7 @@ class SiteSolver {
   // slot_count() rows, written for free slots too. Const functions may run at the same time on one engine.
   virtual void solve(const double* values, std::int32_t channels, double* field, double* flux) const = 0;
 
-  // The same field, handed on without a copy in between.
+  // The same field, given to the sink without a copy in between.
   virtual void solve_into(const double* values, std::int32_t channels, FieldSink& sink) const = 0;
 
   // The field at chosen inner vertices: for engine green at the cost of their elimination paths.
@@ -77,7 +77,7 @@ class SiteSolver {
   // A copy that shares what is immutable.
   virtual std::shared_ptr<SiteSolver> clone() const = 0;
 
-  // Moves the hard vertex sites there are into the factor, on these threads. Throws HF_ERROR_UNSUPPORTED (engines other
+  // Moves the present hard vertex sites into the factor, on these threads. Throws HF_ERROR_UNSUPPORTED (engines other
   // than green), HF_ERROR_NO_SITES (none is hard). All or nothing.
   virtual void rebase(JobRunner& jobs);
   // Takes over the counts that `predecessor`, of which this is a clone, has made since.

@@ -15,7 +15,8 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::uint32_t refine_after = 256;  // edited sites since the factor was made
+// Edited sites since the factorisation after which a solve takes a refinement step: a sweep more in every field.
+constexpr std::uint32_t refine_after = 256;
 
 // CHOLMOD's workspace, silent.
 struct Common {
@@ -87,7 +88,7 @@ class UpdownSolver final : public SiteSolver {
       sites[at(edit.add[i])] = edit.sites[i];
       ++count[at(edit.sites[i].component)];
     }
-    // the ground comes before the last site leaves and goes after the first has come
+    // the pin comes before the last site leaves and goes after the first has come
     for (std::size_t c = 0; c < count.size(); ++c) {
       if (count_[c] > 0 && count[c] == 0) coming.push_back(ground(static_cast<Index>(c)));
       if (count_[c] == 0 && count[c] > 0) leaving.push_back(ground(static_cast<Index>(c)));
@@ -228,7 +229,7 @@ class UpdownSolver final : public SiteSolver {
     return done;
   }
 
-  // Factorises K + R R' of the present sites and grounds.
+  // Factorises K + R R' of the present sites and pins.
   void rebuild() {
     cholmod_free_factor(&factor_, &common_.c);
     const Index n = core_->size();
@@ -243,7 +244,7 @@ class UpdownSolver final : public SiteSolver {
         static_cast<int*>(a->i)[used] = k.row[at(i)];
         double value = k.value[at(i)];
         const Index c = core_->mesh.component[at(v)];
-        // before any site: every component stands on its ground
+        // before any site: every component is pinned
         if (k.row[at(i)] == v && v == core_->ground[at(c)]) value += core_->mean_diagonal[at(c)];
         static_cast<double*>(a->x)[used++] = value;
       }
@@ -290,8 +291,8 @@ class UpdownSolver final : public SiteSolver {
     return static_cast<double*>(work_.x->x);
   }
 
-  // residual = R R' s - (K + R R' + grounds) u by channel, K in difference form. What a site misses is formed first:
-  // formed by vertex, its rounding, alpha times the last digit, would not point along w, where the penalty makes it
+  // residual = R R' s - (K + R R' + pins) u by channel, K in difference form. The error of a site is formed first.
+  // Formed by vertex, its rounding (alpha times the last digit) would not point along w, where the penalty makes it
   // harmless.
   void residual_of(const double* wanted, const double* u, Index channels, double* residual) const {
     const SymmetricMatrix& k = core_->laplacian;

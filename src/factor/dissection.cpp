@@ -4,8 +4,8 @@
 #include <mutex>
 
 #include "factor/leaf_order.h"
+#include "factor/minimum_degree.h"
 #include "factor/multilevel.h"
-#include "factor/ordering.h"
 
 namespace hf_inner {
 namespace {

@@ -195,4 +195,14 @@ std::shared_ptr<const Factor> SupernodalFactor::refactor(const SymmetricMatrix& 
   return factor;
 }
 
+void Factor::solve(const double* right, double* x, std::int32_t channels, double* scratch, JobRunner& jobs) const {
+  const std::size_t m = static_cast<std::size_t>(channels);
+  const Span<const std::int32_t> row = position();
+  for (std::size_t i = 0; i < row.size(); ++i)
+    std::copy_n(right + i * m, m, scratch + static_cast<std::size_t>(row[i]) * m);
+  solve_in_order(scratch, channels, jobs);
+  for (std::size_t i = 0; i < row.size(); ++i)
+    std::copy_n(scratch + static_cast<std::size_t>(row[i]) * m, m, x + i * m);
+}
+
 }  // namespace hf_inner

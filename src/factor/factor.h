@@ -18,7 +18,7 @@ namespace hf_inner {
 
 enum class Ordering : std::int32_t {
   nested_dissection = 0,  // our own multilevel nested dissection on graph and geometry
-  minimum_degree = 1,     // AMD
+  minimum_degree = 1,     // approximate, of the whole matrix
   metis = 2,              // METIS through CHOLMOD; only in builds with HF_WITH_GPL (CHOLMOD), its rand() use isolated
   natural = 3,
 };
@@ -75,6 +75,13 @@ class Factor {
   // In place on z[row * channels + channel], rows in factor order.
   virtual void forward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
   virtual void backward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
+
+  // Both, z <- (G G')^-1 z: A^-1 with rows in factor order.
+  void solve_in_order(double* z, std::int32_t channels, JobRunner& jobs) const {
+    forward(z, channels, jobs), backward(z, channels, jobs);
+  }
+  // x <- A^-1 right in the caller's numbering, number * channels + channel; right may be x. scratch: as many numbers.
+  void solve(const double* right, double* x, std::int32_t channels, double* scratch, JobRunner& jobs) const;
 
   // The backward sweep as far as these unknowns (caller's numbering) need it: over their elimination paths. Their rows
   // of z get the bits that backward() gives; the other rows of the paths hold numbers of their own. Cost: one read of

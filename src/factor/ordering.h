@@ -15,10 +15,8 @@ namespace hf_inner {
 void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering ordering, Memory& memory,
                 JobRunner& jobs, Progress* progress, Buffer<std::int32_t>& order);
 
-// Approximate minimum degree (Amestoy, Davis & Duff 1996) by libamd, on workspace of ours.
+// Approximate minimum degree of the whole matrix (minimum_degree.h).
 void order_by_minimum_degree(const SymmetricMatrix& matrix, Memory& memory, Buffer<std::int32_t>& order);
-void order_graph_by_minimum_degree(std::int32_t size, const std::int32_t* start, const std::int32_t* neighbour,
-                                   Memory& memory, Buffer<std::int32_t>& order);
 
 #if defined(HF_WITH_GPL)
 // METIS through CHOLMOD. It draws from rand(): the host's sequence is set aside and put back.

@@ -1,16 +1,16 @@
-// The certificate of a field: what is left of the equations when the computed u and lambda are put in.
+// The certificate of a field: the residual of the equations at the computed u and lambda.
 //
 //     residual     max_v |sum_j K_vj (u_j - u_v) - (W lambda)_v| / (K_vv r)
 //     site error   max_i |w_i'u + lambda_i / alpha_i - s_i| / r
 //     overshoot    max_v max(u_v - max s, min s - u_v) / r
 //
 // r is the range of the site values of the component and channel. The sums are formed in differences, which lose
-// nothing to the constants that K annihilates, from K itself: neither the factor nor the dense system is looked at, so
-// a fault in either shows. A small residual alone does not bound the error by itself on bad meshes, but a damaged
-// factor, a lost site or a number that is not finite cannot pass it.
+// nothing to the constants that K maps to zero. They use K itself, neither the factor nor the dense system, so a fault
+// in either shows. A small residual does not bound the error on bad meshes. But a damaged factor, a missing site or a
+// number that is not finite cannot pass.
 //
 // Overshoot: where K has no positive entry off its diagonal (an M-matrix) and every site is a vertex, the maximum
-// principle holds and the field lies within the site values of its component. Elsewhere (plain cotangents with obtuse
+// principle holds. The field lies within the site values of its component then. Elsewhere (plain cotangents with obtuse
 // triangles, bi-harmonic fields, points inside triangles) it need not, and is not checked.
 //
 // Cost: a solve and a product with K. Nothing is changed.
@@ -39,7 +39,7 @@ struct Ranges {
     }
   }
   double range(std::size_t i) const noexcept { return high[i] - low[i]; }
-  // What errors are measured in.
+  // The unit of errors.
   double unit(std::size_t i) const noexcept {
     const double size = std::max(std::fabs(low[i]), std::fabs(high[i]));
     return range(i) > 0 ? range(i) : size > 0 ? size : 1.0;

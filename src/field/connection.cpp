@@ -10,6 +10,11 @@ namespace hf_inner {
 namespace {
 
 constexpr double pi = 3.141592653589793238462643383279502884;
+// A fan whose angles sum to less has no direction that rounding leaves (1e-9 of a radian is 1e-7 of its digits), nor
+// has a sum of directions shorter than this. Larger: more vertices count as irregular.
+constexpr double least_angle = 1e-9, least_sum = 1e-9;
+// Normals this close to opposite have no smallest rotation between them: 1 + cosine is rounding.
+constexpr double opposite = 1e-12;
 
 double wrapped(double angle) noexcept {
   const double turns = std::nearbyint(angle / (2 * pi));
@@ -28,7 +33,7 @@ struct Corner {
   double angle;
 };
 
-// What the fan of a vertex tells: the angle of every neighbour, by its place among the neighbours.
+// The fan of a vertex.
 struct Fan {
   bool regular = false, closed = false;
   double scale = 1;
@@ -61,7 +66,7 @@ class FanMaker {
     Fan fan;
     const auto repeated = [](const Corner& a, const Corner& b) { return a.first == b.first; };
     if (std::adjacent_find(corners_.begin(), corners_.end(), repeated) != corners_.end()) return fan;
-    // an open fan starts at the neighbour that no triangle ends at; more than one are more fans than one
+    // an open fan starts at the neighbour where no triangle ends; two such neighbours make two fans
     const std::size_t neighbours = at(topology_.neighbour_start[at(v) + 1] - topology_.neighbour_start[at(v)]);
     if (neighbours != corners_.size() && neighbours != corners_.size() + 1) return fan;
     fan.closed = neighbours == corners_.size();
@@ -84,7 +89,7 @@ class FanMaker {
       angles[place_of(v, here)] = angle;
       angle += corner->angle, here = corner->second;
     }
-    if (fan.closed != (here == start) || !(angle > 1e-9)) return fan;
+    if (fan.closed != (here == start) || !(angle > least_angle)) return fan;
     if (!fan.closed) angles[place_of(v, here)] = angle;
     fan.scale = fan.closed ? 2 * pi / angle : 1.0;
     for (std::size_t i = 0; i < neighbours; ++i) angles[i] *= fan.scale;
@@ -123,7 +128,7 @@ void fit_frame(const Mesh& mesh, const Topology& topology, Index v, const double
     const double length = std::abs(seen);
     if (length > 0) sum += seen / length * std::polar(1.0, -angles[i - topology.neighbour_start[at(v)]]);
   }
-  if (!(std::abs(sum) > 1e-9)) return;
+  if (!(std::abs(sum) > least_sum)) return;
   sum /= std::abs(sum);
   const Vec3 turned = sum.real() * x + sum.imag() * y;
   y = sum.real() * y - sum.imag() * x;
@@ -134,7 +139,7 @@ void fit_frame(const Mesh& mesh, const Topology& topology, Index v, const double
 
 Vec3 carry(Vec3 vector, Vec3 from, Vec3 to) noexcept {
   const double cosine = dot(from, to);
-  if (cosine < -1 + 1e-12) return -1.0 * vector;  // opposite planes: any half turn about a tangent axis
+  if (cosine < -1 + opposite) return -1.0 * vector;  // opposite planes: any half turn about a tangent axis
   const Vec3 axis = cross(from, to);
   return cosine * vector + cross(axis, vector) + (dot(axis, vector) / (1 + cosine)) * axis;
 }

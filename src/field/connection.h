@@ -1,14 +1,15 @@
-// The discrete Levi-Civita connection of a surface: a frame in the tangent plane of every vertex and, for every edge,
-// the angle by which a direction turns in these frames when it is carried along (Knoeppel, Crane, Pinkall and Schroeder
-// 2013, Section 6).
+// The discrete Levi-Civita connection of a surface (Knoeppel, Crane, Pinkall and Schroeder 2013, Section 6).
 //
-// At a vertex whose triangles form one fan of one orientation, a regular one, directions are told by the angles between
-// the edges, summed around the vertex and, when the fan is closed, scaled to a full turn of 2 pi. An edge is the same
-// straight line seen from both ends, so carrying turns by angle_j(j -> i) + pi - angle_i(i -> j). The curvature of a
-// triangle is the sum of its scaled angles less pi; over a closed surface it sums to 2 pi times the Euler
-// characteristic. Frames lie in space so that these angles fit the projected edges best, whatever their numbering.
-// Where a vertex is not regular (non-manifold, flipped), directions along its edges are carried in space by the
-// smallest rotation from normal to normal.
+// It has a frame in the tangent plane of every vertex. For every edge it has the angle by which a direction turns in
+// these frames when it is carried along.
+//
+// A vertex is regular when its triangles form one fan of one orientation. Directions there are measured by the angles
+// between the edges, summed around the vertex and, when the fan is closed, scaled to a full turn of 2 pi. An edge is
+// the same straight line seen from both ends, so carrying turns by angle_j(j -> i) + pi - angle_i(i -> j). The
+// curvature of a triangle is the sum of its scaled angles less pi. Over a closed surface it sums to 2 pi times the
+// Euler characteristic. Frames lie in space so that these angles fit the projected edges best, whatever their
+// numbering. At other vertices (non-manifold, flipped) directions are carried along edges in space, by the smallest
+// rotation from normal to normal.
 //
 // Cost: O(n log valence).
 #pragma once
@@ -44,11 +45,11 @@ struct Connection {
     return to == topology.second(e) ? angle : -angle;
   }
 
-  Vector<Vec3> normal, x, y;     // by vertex: orthonormal, counter-clockwise seen from the normal
-  Vector<double> rotation;       // by edge, from its first vertex to its second; in (-pi, pi]
-  Vector<double> curvature;      // by triangle; at irregular corners the turn of a round trip, in (-pi, pi]
+  Vector<Vec3> normal, x, y;     // orthonormal at every vertex, counter-clockwise seen from the normal
+  Vector<double> rotation;       // along an edge from its first vertex to its second; in (-pi, pi]
+  Vector<double> curvature;      // of a triangle; at irregular corners a round trip, in (-pi, pi]
   Vector<std::uint8_t> regular;  // by vertex
-  Vector<std::uint8_t> closed;   // by component: regular throughout and without border
+  Vector<std::uint8_t> closed;   // by component: every vertex is regular and inside
   std::uint32_t irregular_count = 0;
 };
 

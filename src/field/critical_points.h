@@ -2,10 +2,11 @@
 //
 // Vertices are totally ordered by (u, number), so that equal values are told apart. The lower link of v is the part of
 // the ring around v below it; index(v) = 1 - chi(lower link), chi = its vertices minus its edges. Inside a manifold:
-//   minimum +1 (empty), maximum +1 (the whole ring), regular 0 (one arc), saddle of k + 1 arcs -k.
-// Each simplex is counted at its highest vertex, so the indices sum to the Euler characteristic on any complex, with
-// borders (a maximum on a border has index 0) and non-manifold edges, of each component and of the whole. The upper
-// link gives the index of -u, which tells saddles on borders whose lower link is one arc.
+//     minimum +1 (empty), maximum +1 (the whole ring), regular 0 (one arc), saddle of k + 1 arcs -k.
+//
+// Each simplex is counted at its highest vertex. So the indices of a component sum to its Euler characteristic on any
+// complex, with borders (a maximum on a border has index 0) and non-manifold edges. The upper link gives the index of
+// -u, which finds saddles on borders whose lower link is one arc.
 // Cost: one pass over edges and triangles.
 #pragma once
 #include "base/span.h"

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "base/number_pool.h"
 
 namespace hf_inner {
 namespace {
@@ -12,8 +13,11 @@ namespace {
 using Index = std::int32_t;
 using Complex = std::complex<double>;
 
-constexpr std::size_t most_records = 256;
 constexpr double two_pi = 6.283185307179586476925286766559;
+// Largest coordinate of a vector: the square of its length must stay finite.
+constexpr double most_coordinate = 1e150;
+// Part of a unit vector along the surface below which its direction is rounding. Larger: refuses steeper vectors.
+constexpr double least_tangent = 1e-9;
 
 // |z| e^{i n phi}
 Complex raised(Complex z, Index degree) noexcept {
@@ -38,45 +42,38 @@ DirectionField::DirectionField(std::shared_ptr<const Core> core, std::int32_t de
     : solver_(std::move(core), degree),
       site_limit_(site_limit),
       constraints_(solver_.core().memory.get()),
-      undo_(solver_.core().memory.get()),
-      redo_(solver_.core().memory.get()) {}
+      history_(memory()) {}
 
 DirectionField::DirectionField(const DirectionField& other)
     : solver_(other.solver_),
       site_limit_(other.site_limit_),
       constraints_(other.constraints_, &other.memory()),
       count_(other.count_),
-      undo_(&other.memory()),
-      redo_(&other.memory()) {}
+      history_(other.memory()) {}
 
-void DirectionField::record() {
-  if (undo_.size() == most_records) undo_.erase(undo_.begin());
-  undo_.emplace_back(*this);
-  redo_.clear();
+void DirectionField::restore(Record& record) {
+  solver_.restore(*record.state);
+  constraints_.swap(record.constraints);
+  count_ = record.count;
 }
 
-void DirectionField::step(Vector<Record>& from, Vector<Record>& to, const char* nothing) {
-  if (from.empty()) fail(HF_ERROR_NO_RECORD, HF_NO_INDEX, "%s", nothing);
-  to.emplace_back(*this);
-  try {
-    solver_.restore(*from.back().state);
-  } catch (...) {
-    to.pop_back();
-    throw;
-  }
-  constraints_.swap(from.back().constraints);
-  count_ = from.back().count;
-  from.pop_back();
-}
+void DirectionField::record() { history_.record(Record(*this)); }
 
 void DirectionField::undo() {
-  step(undo_, redo_, "nothing is recorded; call hf_direction_record before the edits to be undone");
+  history_.undo(
+      "nothing is recorded; call hf_direction_record before the edits to be undone", [&] { return Record(*this); },
+      [&](Record& record) { restore(record); });
 }
-void DirectionField::redo() { step(redo_, undo_, "nothing was undone since the last edit"); }
+
+void DirectionField::redo() {
+  history_.redo(
+      "nothing was undone since the last edit", [&] { return Record(*this); },
+      [&](Record& record) { restore(record); });
+}
 
 void DirectionField::accept(Vector<DirectionConstraint>& next) noexcept {
   constraints_.swap(next);
-  redo_.clear();
+  history_.clear_redo();
 }
 
 void DirectionField::check_site(const Vector<DirectionConstraint>& list, std::uint32_t position,
@@ -106,11 +103,11 @@ Complex DirectionField::projected(std::uint32_t position, Index vertex, const do
          position);
   const double most = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
   if (!(most > 0)) return 0;
-  if (!(most < 1e150))
+  if (!(most < most_coordinate))
     fail(HF_ERROR_TOO_LARGE, position, "entry %u of the list: the vector has coordinate %g; scale it below 1e150",
          position, most);
   const Complex z = solver_.connection().to_frame(vertex, (1 / most) * v);
-  if (!(std::abs(z) > 1e-9))
+  if (!(std::abs(z) > least_tangent))
     fail(HF_ERROR_INVALID_ARGUMENT, position,
          "entry %u of the list: the vector stands on the surface and has no part along it; give a direction in the "
          "tangent plane",
@@ -139,13 +136,13 @@ void DirectionField::add(std::uint32_t count, const std::uint32_t* vertices, con
   for (const DirectionConstraint& c : next) {
     if (c.vertex >= 0) taken[at(c.vertex)] = 1;
   }
-  std::size_t free = 0;
+  NumberPool numbers;
   for (std::uint32_t i = 0; i < count; ++i) {
-    while (free < next.size() && next[free].vertex >= 0) ++free;
+    const std::uint32_t free = numbers.take([&](std::uint32_t s) { return s < next.size() && next[s].vertex >= 0; });
     if (free == next.size()) next.emplace_back();
     const Index v = locate(i, vertices[i]);
     next[free] = {v, vertices[i], projected(i, v, vectors + std::size_t{3} * i)};
-    if (taken[at(v)]) check_free(next, i, static_cast<std::uint32_t>(free));
+    if (taken[at(v)]) check_free(next, i, free);
     taken[at(v)] = 1, slots.push_back(static_cast<Index>(free)), inner.push_back(v);
   }
   DirectionSolver::Edit edit;

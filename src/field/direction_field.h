@@ -1,17 +1,19 @@
-// A smooth tangent direction field whose constraint vectors are added, removed, moved, turned and rewritten: what
-// hf_direction is made of. Constraints are vectors at vertices, projected on their tangent planes; the field between
-// them is that of DirectionSolver.
+// A smooth tangent direction field under edit, with its undo stack: the object behind hf_direction.
 //
-// A vector v = |v| e^{i phi} in its frame stands in the solver as |v| e^{i n phi}, n the degree; the field answers with
-// the root whose angle is nearest to that of the x axis. Moving a constraint carries its vector along the shortest way
+// Constraints are vectors at vertices, projected on their tangent planes. They are added, removed, moved, turned and
+// rewritten; the field between them is that of DirectionSolver.
+//
+// A vector v = |v| e^{i phi} in its frame stands in the solver as |v| e^{i n phi}, n the degree. The field answers with
+// the root whose angle is nearest to that of the x axis. Moving a constraint carries its vector along the shortest path
 // of edges. Every edit works on a copy of the constraints and swaps it in after the solver has taken the change.
 //
-// Singularities: a triangle ijk has index I = (1 / 2 pi)(sum of omega + n Omega), omega_ij = arg(z_j / r_ij z_i) the
-// turn of the field along an edge beyond that of the connection, Omega the curvature of the triangle (Crane, Desbrun
-// and Schroeder 2010, Section 5). I / n sums to the Euler characteristic over a closed component.
+// Singularities: a triangle ijk has the index I = (1 / 2 pi)(sum of omega + n Omega) (Crane, Desbrun and Schroeder
+// 2010, Section 5). omega_ij = arg(z_j / r_ij z_i) is the turn of the field along an edge beyond that of the
+// connection, Omega the curvature of the triangle. I / n sums to the Euler characteristic over a closed component.
 #pragma once
 #include <memory>
 
+#include "base/history.h"
 #include "field/direction_solver.h"
 
 namespace hf_inner {
@@ -63,7 +65,7 @@ class DirectionField {
     std::uint32_t count;
     std::shared_ptr<const ConstraintState> state;
   };
-  void step(Vector<Record>& from, Vector<Record>& to, const char* nothing);
+  void restore(Record& record);
   void accept(Vector<DirectionConstraint>& next) noexcept;
   void check_site(const Vector<DirectionConstraint>& list, std::uint32_t position, std::uint32_t site) const;
   std::int32_t locate(std::uint32_t position, std::uint32_t vertex) const;
@@ -76,7 +78,7 @@ class DirectionField {
   std::uint32_t site_limit_;
   Vector<DirectionConstraint> constraints_;  // by slot
   std::uint32_t count_ = 0;
-  Vector<Record> undo_, redo_;
+  History<Record> history_;
 };
 
 }  // namespace hf_inner

@@ -6,6 +6,12 @@
 
 namespace hf_inner {
 
+Index DirectionSolver::eliminated_count() const noexcept {
+  Index parts = 0;
+  for (const ConstraintState::Entry& entry : constraints_.state().entries) parts += entry.eliminated >= 0;
+  return parts / 2;
+}
+
 DirectionCounters DirectionSolver::counters() const noexcept {
   const ConstraintCounts counts = constraints_.counts();
   DirectionCounters counters;

@@ -5,8 +5,8 @@
 //
 // One complex unknown per vertex (two real ones), n the degree of the field, w the cotangent weights floored at 1e-3 of
 // their median. K = the matrix of E is definite on curved surfaces and singular where every round trip comes back
-// unturned (a flat patch, a cylinder). So one vertex of every component is pinned, and the machine takes the pins out of
-// the answer by their paths. A constraint is two sites, one a real unknown. A new value costs a dense solve and a
+// unturned (a flat patch, a cylinder). So one vertex of every component is pinned, and the machine takes the pins out
+// of the answer by their paths. A constraint is two sites, one a real unknown. A new value costs a dense solve and a
 // backward sweep.
 #pragma once
 #include "engine/constraint_system.h"
@@ -27,7 +27,8 @@ class DirectionSolver {
   // Without constraints, on a system that others may share.
   explicit DirectionSolver(std::shared_ptr<const DirectionSystem> system)
       : system_(std::move(system)), constraints_(system_->pinned_operator()) {}
-  // Shares the system and, until they are edited, paths and dense blocks; with the same constraints, counts start again.
+  // Shares the system and, until they are edited, paths and dense blocks; with the same constraints, counts start
+  // again.
   DirectionSolver(const DirectionSolver& other) : DirectionSolver(other.system_) {
     constraints_.restore(other.constraints_.state());
   }
@@ -51,6 +52,7 @@ class DirectionSolver {
   Index degree() const noexcept { return system_->degree; }
   Index constraint_count(Index component) const noexcept { return constraints_.state().sites_of[at(component)] / 2; }
   bool eliminates() const noexcept { return constraints_.state().base != nullptr; }
+  Index eliminated_count() const noexcept;  // constraints in the factor at present
   const FactorStatistics& statistics() const noexcept { return system_->factor->statistics(); }
   double operator_ms() const noexcept { return system_->operator_ms; }
   DirectionCounters counters() const noexcept;

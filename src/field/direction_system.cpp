@@ -1,9 +1,10 @@
+#include "field/direction_system.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "base/timer.h"
 #include "factor/ordering.h"
-#include "field/direction_system.h"
 
 namespace hf_inner {
 namespace {

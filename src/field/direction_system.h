@@ -2,8 +2,8 @@
 // Immutable; every field on the surface shares it.
 //
 // Unknowns are numbered in the order of the surface's own factor where that is one of the same graph. Where the
-// surface's operator has many edges of its own (intrinsic Delaunay on meshes that are not), the mesh's edges are ordered
-// for themselves.
+// surface's operator has many edges of its own (intrinsic Delaunay on meshes that are not), the mesh's edges are
+// ordered for themselves.
 #pragma once
 #include "engine/core.h"
 #include "engine/pinned_operator.h"

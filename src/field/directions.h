@@ -1,6 +1,7 @@
-// Unit directions of the heat's fall on every triangle, weighted and summed over the channels (Crane, Weischedel and
-// Wardetzky 2013): most of the time of an average distance, so the loop is compiled for four and for eight lanes too.
-// Nothing is contracted and the channels are summed in one order: the bits are the same.
+// Unit directions of the falling heat on every triangle, weighted and summed over the channels.
+//
+// This is most of the time of an average distance (Crane, Weischedel and Wardetzky 2013), so the loop is compiled for
+// four and for eight lanes too. Nothing is contracted and the channels are summed in one order: the bits are the same.
 #pragma once
 #include <cstdint>
 

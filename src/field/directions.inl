@@ -32,8 +32,7 @@ inline void add_lanes(const hf_inner::TriangleFrame& frame, const double* u0, co
   Number a, d1, d2, weight;
   get(u0, a), get(u1, d1), get(u2, d2), get(weights, weight);
   d1 -= a, d2 -= a;
-  // times the power of two that brings |d1| + |d2| to [1, 2): far from the source the heat is 1e-200 and its square
-  // nothing; no heat at all stays none
+  // times the power of two that brings |d1| + |d2| to [1, 2): far from the source the square of the heat is zero
   Bits bits, other;
   Number scale, second;
   __builtin_memcpy(&bits, &d1, sizeof(bits));
@@ -48,8 +47,8 @@ inline void add_lanes(const hf_inner::TriangleFrame& frame, const double* u0, co
   d1 *= scale, d2 *= scale;
   // grad v times twice the area: d1 n x (p0 - p2) + d2 n x (p1 - p0), and n x (x, y) = (-y, x)
   Number x = d1 * frame.py, y = d2 * frame.along - d1 * frame.px;
-  // 1 / sqrt to 1e-10, without a division or a root: half the exponent and a straight line for the mantissa, 3 % off,
-  // then three steps of Newton's method, e -> 3/2 e^2; the 1e-200 keeps them finite where the heat does not fall at all
+  // 1 / sqrt to 1e-10, without a division or a root: half the exponent and a straight line for the mantissa, 3 % off.
+  // Then three steps of Newton's method, e -> 3/2 e^2. The 1e-200 keeps them finite where the heat does not fall.
   const Number squared = x * x + y * y + 1e-200, half = 0.5 * squared;
   __builtin_memcpy(&bits, &squared, sizeof(bits));
   bits = 0x5fe6eb50c7b537a9 - (bits >> 1);

@@ -61,8 +61,8 @@ Vector<Index> farthest_vertices(const Core& core, const Vector<double>& total) {
 
 constexpr Index unseen = std::numeric_limits<Index>::max();
 
-// Breadth-first search: numbers of edges from a vertex, of what is unseen; the vertices reached, in order. Returns how
-// many they are. queue has room for one more.
+// Breadth-first search: numbers of edges from a vertex to those not visited, and these in order. Returns their count.
+// queue has room for one more.
 std::size_t search_levels(const Topology& topology, Index from, Index* level, Index* queue) {
   const Index *const start = topology.neighbour_start.data(), *const neighbour = topology.neighbour.data();
   std::size_t head = 0, tail = 0;
@@ -79,9 +79,8 @@ std::size_t search_levels(const Topology& topology, Index from, Index* level, In
   return tail;
 }
 
-// A ring of vertices around the middle of each component: those at one number of edges from the farthest vertex, half
-// as many as to the end that a breadth-first search from there comes to, as far as they hang together with the vertex
-// half way.
+// A ring of vertices around the middle of each component. They lie half as many edges from the farthest vertex as the
+// end of a breadth-first search from there, and are edge-connected with the vertex half way.
 void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uint8_t>& middle) {
   const Topology& topology = core.topology;
   const std::size_t n = middle.size();
@@ -97,7 +96,7 @@ void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uin
       while (level[at(neighbour[at(i)])] + 1 != level[at(v)]) ++i;
       v = neighbour[at(i)];
     }
-    // two levels, because one alone need not hang together
+    // two levels, because one alone need not be edge-connected
     head = tail = 0;
     queue[tail++] = v, middle[at(v)] = 1;
     while (head < tail) {
@@ -113,7 +112,6 @@ void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uin
 
 // u of the unit source density with all of a component's area taken in evenly by its middle.
 void solve_poisson(const Core& core, const Vector<double>& total, Vector<double>& u) {
-  const Index* position = core.factor->position().data();
   Vector<std::uint8_t> middle(u.size(), 0, core.memory.get());
   mark_middles(core, total, middle);
   Vector<double> taken(total.size(), 0.0, core.memory.get());
@@ -122,13 +120,11 @@ void solve_poisson(const Core& core, const Vector<double>& total, Vector<double>
   }
   Workspace z(core.workspaces, u.size());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {
-    // a middle without area takes nothing in: its component has no field, and no flow into the ground
+    // a middle without area takes nothing in: its component has no field, and no flow into the pinned vertex
     const double outside = taken[c] > 0 ? 1 : 0, inside = taken[c] > 0 ? 1 - total[c] / taken[c] : 0.0;
-    for (std::size_t v = begin; v < end; ++v) z[at(position[v])] = core.areas[v] * (middle[v] ? inside : outside);
+    for (std::size_t v = begin; v < end; ++v) u[v] = core.areas[v] * (middle[v] ? inside : outside);
   });
-  core.factor->forward(z.data(), 1, *core.jobs);
-  core.factor->backward(z.data(), 1, *core.jobs);
-  for (std::size_t v = 0; v < u.size(); ++v) u[v] = z[at(position[v])];
+  core.factor->solve(u.data(), u.data(), 1, z.data(), *core.jobs);
 }
 
 double length_of(double fall, bool poisson) noexcept {
@@ -140,7 +136,7 @@ double length_of(double fall, bool poisson) noexcept {
 void propose(const Core& core, const Vector<double>& total, double least_length, bool poisson, Extremities& found) {
   const Vector<double>& u = found.field;
   const Vector<Peak> peaks = find_peaks(core.topology, u, *core.memory);
-  // what the highest point of a component falls to
+  // the level that the highest point of a component falls to
   Vector<double> base(total.size(), 0.0, core.memory.get());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {
     double sum = base[c];

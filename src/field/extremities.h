@@ -1,19 +1,18 @@
 // Extremities of a surface: the tips of what protrudes, as proposals for sites and handles.
 //
-// Poisson      K u = M (1 - s): every point is a source of its own area, a ring s around the middle of the component
-// takes
-//              it all in. The flow out of a limb makes u a maximum at its tip. Down a limb of any constant girth u
-//              falls by (length)^2 / 2, wherever the ring is, so sqrt(2 persistence) is the length of the limb, and the
-//              list does not depend on numbering, remeshing or pose. One solve. The ring is half way, in edges, from
-//              the vertex farthest from the centroid to the end of the shape as seen from there; no tip lies on it. A
-//              point instead of a ring would raise the field behind it and blur the lengths.
-// geodesic     the mean geodesic distance to the rest of the component (Hilaga, Shinagawa, Kohmura and Kunii 2001), by
-//              the heat method; a tip's persistence is the length of its limb times the share of the surface that
-//              lies behind it, less the share at the tip.
+// Poisson: K u = M (1 - s). Every point is a source of its own area, and a ring s around the middle of the component
+// takes it all in. The flow out of a limb makes u a maximum at its tip. Down a limb of any constant girth u falls by
+// (length)^2 / 2, wherever the ring is. So sqrt(2 persistence) is the length of the limb, and numbering, remeshing and
+// pose do not change the list. The ring is half way, in edges, from the vertex farthest from the centroid to the other
+// end of the shape. A point instead of a ring would raise the field behind it and blur the lengths. Cost: one solve.
 //
-// Persistence (peaks.h) is how far u falls before it rises to something higher: of the fingers of a hand one stands for
-// the arm, the others for themselves. Proposals are sorted by the length that it stands for, the longest first. The
-// highest point of a component falls to the mean level, or to the deepest saddle between proposals.
+// Geodesic: the mean geodesic distance to the rest of the component (Hilaga, Shinagawa, Kohmura and Kunii 2001), by the
+// heat method. A tip's persistence is the length of its limb times the share of the surface behind it, less the share
+// at the tip.
+//
+// Persistence (peaks.h) is how far u falls before it rises to something higher. One finger of a hand counts as the arm,
+// the others as fingers. Proposals are sorted by that length, the longest first. The highest point of a component falls
+// to the mean level, or to the deepest saddle between proposals.
 #pragma once
 #include <memory>
 

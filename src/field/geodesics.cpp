@@ -12,6 +12,12 @@ namespace {
 
 constexpr Index group_size = 8;
 constexpr std::int64_t piece = 8192;  // triangles of one job
+// Least time step as a length over the box diagonal: below it the heat at the far end is less than a double holds.
+constexpr double least_step = 1.0 / 250;
+// Least mass of a vertex over that of the mean: a vertex without area needs a positive diagonal, and no more.
+constexpr double least_mass = 1e-12;
+// Triangles with less area over their squared length have no direction that rounding leaves.
+constexpr double least_height = 1e-9;
 
 double mean_edge(const Core& core) noexcept {
   double sum = 0;
@@ -33,11 +39,11 @@ Geodesics::Geodesics(std::shared_ptr<const Core> core, double smoothing)
     : core_(std::move(core)), frames_(core_->memory.get()) {
   const Core& c = *core_;
   require_laplacian(c);
-  const double h = mean_edge(c), least = 1.0 / 250;
+  const double h = mean_edge(c), least = least_step;
   step_ = std::max(smoothing * h * h, least * least);
   SymmetricMatrix matrix = grounded(c);
   // a vertex without area still needs a positive diagonal
-  const double floor = 1e-12 / std::max(1, c.size());
+  const double floor = least_mass / std::max(1, c.size());
   for (std::size_t v = 0; v < at(c.size()); ++v) {
     for (Index i = c.laplacian.column_start[v]; i < c.laplacian.column_start[v + 1]; ++i) {
       matrix.value[at(i)] = step_ * c.laplacian.value[at(i)];
@@ -67,7 +73,7 @@ void Geodesics::make_frames() {
     const Vec3 a = mesh.positions[at(v[0])], e1 = mesh.positions[at(v[1])] - a, e2 = mesh.positions[at(v[2])] - a;
     const Vec3 n = cross(e1, e2);
     const double along = std::sqrt(dot(e1, e1)), area2 = std::sqrt(dot(n, n));
-    if (!(area2 > 1e-9 * along * along)) continue;
+    if (!(area2 > least_height * along * along)) continue;
     frames_.push_back({along,
                        dot(e1, e2) / along,
                        area2 / along,
@@ -100,8 +106,7 @@ void Geodesics::integrate(const Vector<double>& sums, double* out) const {
     z[at(f.row[1])] += f.py * x - f.px * y;
     z[at(f.row[2])] += f.along * y;
   }
-  factor.forward(z.data(), 1, *core_->jobs);
-  factor.backward(z.data(), 1, *core_->jobs);
+  factor.solve_in_order(z.data(), 1, *core_->jobs);
   for (Index v = 0; v < core_->size(); ++v) out[v] = z[at(position[at(v)])];
 }
 
@@ -115,8 +120,7 @@ void Geodesics::distance(Span<const Index> sources, double* out) const {
     Workspace heat(core.workspaces, n);
     std::fill_n(heat.data(), n, 0.0);
     for (const Index s : sources) heat[at(position[at(s)])] = 1;
-    heat_->forward(heat.data(), 1, *core.jobs);
-    heat_->backward(heat.data(), 1, *core.jobs);
+    heat_->solve_in_order(heat.data(), 1, *core.jobs);
     add_directions(heat.data(), 1, ones.data(), sums);
   }
   integrate(sums, out);

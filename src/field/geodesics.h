@@ -1,14 +1,14 @@
-// Geodesic distance by the heat method (Crane, Weischedel and Wardetzky 2013) on two factors of one ordering:
+// Geodesic distance by the heat method (Crane, Weischedel and Wardetzky 2013) on two factors of one ordering.
 //
-//   (M + t K) v = sources       heat after a short time, t = smoothing h^2, h the mean length of the edges
-//   X = -grad v / |grad v|      per triangle
-//   K d = integral of X . grad  the distance, up to a constant per component
+//     (M + t K) v = sources         the heat after a short time, t = smoothing h^2
+//     X = -grad v / |grad v|        by triangle
+//     K d = integral of X . grad    the distance, up to a constant by component
 //
-// K's factor is the core's own, that of M + t K shares its ordering and analysis. t is at least (box diagonal / 250)^2,
-// so that the heat does not fall below what a double can hold at the far end of a large mesh.
+// h is the mean length of the edges. K's factor is the core's own; that of M + t K shares its ordering and analysis. t
+// is at least (box diagonal / 250)^2, so that a double can hold the heat at the far end of a large mesh.
 //
-// The average over many sources needs one solve for d only, because X adds up; the heat of eight sources goes through
-// the factor at once, and only backward, the forward part being short paths.
+// The average over many sources needs one solve for d only, because X adds up. The heat of eight sources takes one
+// backward sweep; their forward part is short paths.
 #pragma once
 #include <memory>
 
@@ -30,7 +30,7 @@ class Geodesics {
   // at the sources, never negative; -1 in components without a source.
   void distance(Span<const std::int32_t> sources, double* out) const;
 
-  // Mean over each component of the distance to a point of it, up to a constant per component: `count` sources per
+  // Mean over each component of the distance to its points, up to a constant by component. Takes `count` sources per
   // component by farthest point sampling, each weighted with the area nearest to it. progress: null, or told the share
   // done between `from` and `to`.
   void average(std::int32_t count, double* out, Progress* progress, float from, float to) const;

@@ -1,13 +1,12 @@
-// Iso-lines of a piecewise linear field: for each level c the set { u = c } as polylines over the edges of the mesh.
+// Iso-lines of a piecewise linear field: the set { u = c } of each level c as polylines over the edges of the mesh.
 //
 // A vertex with u = c exactly counts as just above c (Edelsbrunner and Muecke 1990, "simulation of simplicity", for one
-// comparison), so every triangle is crossed by a line in exactly two edges or not at all, whatever the values, and
-// lines have no gaps: they are closed, or end at a border edge (or at the odd triangle of a non-manifold edge, whose
-// triangles are taken in pairs). Points that fall on one vertex are written once; lines that shrink to fewer than three
-// places (two for open ones) have no extent and are left out. On consistently oriented surfaces higher values lie on
-// the left.
+// comparison). So a line crosses a triangle in exactly two edges or not at all, whatever the values, and has no gaps.
+// It is closed, or ends at a border edge, or at the odd triangle of a non-manifold edge, whose triangles are paired.
+// Points that fall on one vertex are written once. Lines that shrink to fewer than three places (two for open ones) are
+// left out. On consistently oriented surfaces higher values lie on the left.
 //
-// Cost: O(E log levels + length of the lines). On failure the output is as far as it got.
+// Cost: O(E log levels + length of the lines). On failure the output is incomplete.
 #pragma once
 #include <cstdint>
 
@@ -24,9 +23,9 @@ struct Isolines {
     std::int32_t a, b;  // an edge, inner vertices
     double t;           // (1 - t) a + t b, in [0, 1]
   };
-  Vector<Point> points;         // of all lines, one after the other; a closed line does not repeat its first point
-  Vector<std::uint32_t> start;  // line i: points start[i] .. start[i + 1]
-  Vector<std::uint32_t> level;  // of line i, its position in the caller's list
+  Vector<Point> points;         // all lines in order; a closed line does not repeat its first point
+  Vector<std::uint32_t> start;  // first point of a line, and the end
+  Vector<std::uint32_t> level;  // position of a line's level in the caller's list
   Vector<std::uint8_t> closed;
 };
 

@@ -56,6 +56,9 @@ Vector<Part> parts_of(const Mesh& mesh, Span<const double> field, double& low, d
   return parts;
 }
 
+// Halvings of [0, 1]: one a bit of a double. Fewer leave levels inexact, more change nothing.
+constexpr int bisections = 52;
+
 // All targets are bisected at once; trial levels stay in order because the targets do.
 void equal_areas(const Vector<Part>& parts, Span<double> out, Memory& memory) {
   const std::size_t count = out.size();
@@ -63,7 +66,7 @@ void equal_areas(const Vector<Part>& parts, Span<double> out, Memory& memory) {
   for (const Part& part : parts) total += part.area;
   Vector<double> below(count, 0.0, &memory), above(count, 1.0, &memory), partial(count, &memory),
       whole(count + 1, &memory);
-  for (int pass = 0; pass < 52; ++pass) {
+  for (int pass = 0; pass < bisections; ++pass) {
     for (std::size_t k = 0; k < count; ++k) out[k] = 0.5 * (below[k] + above[k]);
     std::fill(partial.begin(), partial.end(), 0.0), std::fill(whole.begin(), whole.end(), 0.0);
     for (const Part& part : parts) {
@@ -83,10 +86,13 @@ void equal_areas(const Vector<Part>& parts, Span<double> out, Memory& memory) {
 
 // A triangle that rises by less of the range has no lines and no width: whole components may be constant.
 constexpr double flat = 1e-9;
+// Cells of each kind, equal values and quantiles. More cost time in proportion.
+constexpr std::size_t most = 2048;
+// Cells thinner than this would only collect rounding errors: the numbers are exact to 1e-16 of the range.
+constexpr double least_cell = 1e-9;
 
 void equal_widths(const Vector<Part>& parts, Span<double> out, Memory& memory) {
   // cells: equal values, and quantiles of the triangles' middle values where most of the surface is
-  constexpr std::size_t most = 2048;
   Vector<double> middle(&memory), edge(&memory);
   middle.reserve(parts.size());
   for (const Part& part : parts) {
@@ -103,10 +109,9 @@ void equal_widths(const Vector<Part>& parts, Span<double> out, Memory& memory) {
     edge.push_back(middle[(middle.size() - 1) * k / most]);
   }
   std::sort(edge.begin(), edge.end());
-  // cells far thinner than the numbers are exact to would only collect rounding errors
   Vector<double> kept(&memory);
   for (const double c : edge) {
-    if (kept.empty() || c - kept.back() > 1e-9) kept.push_back(c);
+    if (kept.empty() || c - kept.back() > least_cell) kept.push_back(c);
   }
   kept.back() = 1;
   edge.swap(kept);

@@ -1,14 +1,14 @@
-// Where to put N levels of a field, so that the N + 1 strips between them are even.
+// Chooses N levels of a field so that the N + 1 strips between them are even.
 //
-// With A(c) the area where u < c and L(c) the length of the line u = c, both exact for a piecewise linear field:
-//   value    equal steps of u;
-//   area     equal steps of A(c): every strip covers the same area;
-//   length   equal steps of W(c) = integral of A'(s) / L(s) ds: every strip has the same mean width, the width of a
-//            strip being its area over the mean length of its lines. On a cylinder W is the height, on a sphere the
-//            distance from the pole, whatever the values in between; point sites, around which equal values crowd, get
-//            evenly spaced rings.
-// The integral is taken over 4096 cells between equal values and quantiles of the vertices, inside which
-// integral of L = sum over the triangles of |grad u| times the area in the cell (coarea formula).
+// A(c) is the area where u < c and L(c) the length of the line u = c, both exact for a piecewise linear field.
+//   - value: equal steps of u.
+//   - area: equal steps of A(c). Every strip covers the same area.
+//   - length: equal steps of W(c), the integral of A'(s) / L(s) ds. Every strip has the same mean width: its area over
+//     the mean length of its lines. W is the height on a cylinder and the distance from the pole on a sphere, whatever
+//     the values in between. So point sites, where equal values crowd, get evenly spaced rings.
+//
+// The integral is taken over 4096 cells between equal values and quantiles of the vertices. In a cell the integral of L
+// is the sum over the triangles of |grad u| times the area in it (coarea formula).
 // Cost: O(n log n) for the sort; area and length: about 50 and 2 passes over the triangles.
 #pragma once
 #include "base/span.h"

@@ -1,9 +1,9 @@
-// Local maxima of a field with their persistence: how deep one must go down to get to a higher one.
+// Local maxima of a field with their persistence: how far one must go down to reach a higher one.
 //
-// Every vertex belongs to a peak that some ascent over the edges leads to; edges between the basins of two peaks, taken
-// from the highest down, join them, and the lower peak dies there (the merge tree of the superlevel sets; Edelsbrunner,
-// Letscher and Zomorodian 2002). Which ascent does not matter: a vertex and its peak hang together above the vertex.
-// Ties are broken by vertex number.
+// Every vertex belongs to a peak that some ascent over the edges leads to. Edges between the basins of two peaks, taken
+// from the highest down, join them; the lower peak ends there (the merge tree of the superlevel sets; Edelsbrunner,
+// Letscher and Zomorodian 2002). The choice of ascent does not matter: a vertex and its peak are edge-connected above
+// the vertex. Vertex numbers break ties.
 // Cost: O(E), a pass over the vertices for each doubling of the longest way up, and a sort of the edges between basins.
 #pragma once
 #include "base/span.h"

@@ -5,9 +5,6 @@
 #include "base/error.h"
 
 namespace hf_inner {
-namespace {
-constexpr std::size_t most_records = 256;
-}
 
 ScalarField::ScalarField(std::shared_ptr<const Core> core, EngineKind engine, double penalty, std::int32_t channels,
                          std::uint32_t site_limit)
@@ -15,16 +12,14 @@ ScalarField::ScalarField(std::shared_ptr<const Core> core, EngineKind engine, do
       site_limit_(site_limit),
       sites_(*core_->memory, channels),
       engine_(SiteSolver::make(engine, core_, penalty)),
-      undo_(core_->memory.get()),
-      redo_(core_->memory.get()) {}
+      history_(*core_->memory) {}
 
 ScalarField::ScalarField(const ScalarField& other)
     : core_(other.core_),
       site_limit_(other.site_limit_),
       sites_(other.sites_, *core_->memory),
       engine_(other.engine_->clone()),
-      undo_(core_->memory.get()),
-      redo_(core_->memory.get()) {}
+      history_(*core_->memory) {}
 
 void ScalarField::prepare_rebase() {
   if (preparing_.exchange(true))
@@ -47,7 +42,7 @@ void ScalarField::prepare_rebase() {
   preparing_ = false;
 }
 
-// Whatever fails here, the present engine stands and is right.
+// On any failure here the present engine stays; it is correct.
 void ScalarField::adopt() noexcept {
   if (!prepared_) return;
   try {
@@ -98,7 +93,7 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
     }
   }
   sites_.swap(next);
-  redo_.clear();
+  history_.clear_redo();
   for (std::uint32_t i = 0; out_sites && i < edit.add.count; ++i) out_sites[i] = numbers[i];
 }
 
@@ -106,7 +101,7 @@ ScalarField::Record ScalarField::present() const {
   return Record(sites_, engine_->kind() == EngineKind::green ? engine_->clone() : nullptr, memory());
 }
 
-void ScalarField::restore(Record&& record) {
+void ScalarField::restore(Record& record) {
   if (record.engine) {
     engine_ = std::move(record.engine);
   } else {
@@ -118,26 +113,21 @@ void ScalarField::restore(Record&& record) {
 
 void ScalarField::record() {
   const std::lock_guard<std::mutex> lock(guard_);
-  if (undo_.size() == most_records) undo_.erase(undo_.begin());
-  undo_.push_back(present());
-  redo_.clear();
+  history_.record(present());
 }
 
-void ScalarField::step(Vector<Record>& from, Vector<Record>& to, const char* nothing) {
+void ScalarField::undo() {
   const std::lock_guard<std::mutex> lock(guard_);
-  if (from.empty()) fail(HF_ERROR_NO_RECORD, HF_NO_INDEX, "%s", nothing);
-  to.push_back(present());
-  try {
-    restore(std::move(from.back()));
-  } catch (...) {
-    to.pop_back();
-    throw;
-  }
-  from.pop_back();
+  history_.undo(
+      "nothing is recorded; call hf_record before the edits to be undone", [&] { return present(); },
+      [&](Record& record) { restore(record); });
 }
 
-void ScalarField::undo() { step(undo_, redo_, "nothing is recorded; call hf_record before the edits to be undone"); }
-void ScalarField::redo() { step(redo_, undo_, "nothing was undone since the last edit"); }
+void ScalarField::redo() {
+  const std::lock_guard<std::mutex> lock(guard_);
+  history_.redo(
+      "nothing was undone since the last edit", [&] { return present(); }, [&](Record& record) { restore(record); });
+}
 
 void ScalarField::require_sites() const {
   if (sites_.count() == 0)

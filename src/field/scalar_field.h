@@ -1,4 +1,4 @@
-// A harmonic field under edit: the site set, the engine that follows it, and the undo stack. What hf_solver is made of.
+// A harmonic field under edit: the site set, its engine and the undo stack. The object behind hf_solver.
 //
 // Every edit works on a copy of the site set and swaps it in after the engine has taken the change, so an exception
 // leaves everything as it was. Records share the engine's immutable parts (paths, dense blocks), so undo restores the
@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 
+#include "base/history.h"
 #include "engine/site_set.h"
 
 namespace hf_inner {
@@ -67,15 +68,14 @@ class ScalarField {
   void adopt() noexcept;
   Record present() const;
   void require_sites() const;
-  void restore(Record&& record);
-  void step(Vector<Record>& from, Vector<Record>& to, const char* nothing);
+  void restore(Record& record);
   Memory& memory() const noexcept { return *core_->memory; }
 
   std::shared_ptr<const Core> core_;
   std::uint32_t site_limit_;
   SiteSet sites_;
   std::shared_ptr<SiteSolver> engine_;
-  Vector<Record> undo_, redo_;
+  History<Record> history_;
   std::mutex guard_;  // sites_, engine_ and prepared_, between prepare_rebase and the functions that change them
   std::atomic<bool> preparing_{false};
   std::optional<Record> prepared_;  // a rebased engine and the sites it was made for

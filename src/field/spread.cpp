@@ -20,6 +20,8 @@ struct Patches {
   Vector<double> length;           // to each neighbour
 };
 
+// Most vertices of a patch, and patches a sample needs before components are sampled by patches. Larger patches: fewer
+// searches, coarser samples. More patches a sample: finer samples, and more components searched vertex by vertex.
 constexpr Index patch_size = 24, patches_per_sample = 16;
 
 // Grows the patch of the vertex `list[begin]`, two edges far, over vertices that have none; they are appended.
@@ -80,9 +82,9 @@ Patches make_patches(const Mesh& mesh, const Topology& topology, const Vector<do
   return patches;
 }
 
-// Shortest edge paths by corrections in steps of the distance: patches nearer than the limit are worked off first come
-// first served, those beyond it wait for the limit to rise (delta-stepping; Meyer and Sanders 2003, on one thread). The
-// distances are the same as by a heap, at a third of the time.
+// Shortest edge paths by corrections in steps of the distance (delta-stepping; Meyer and Sanders 2003, on one thread).
+// Patches nearer than the limit are processed in the order they were found; those beyond it wait for the limit to rise.
+// The distances are the same as by a heap, at a third of the time.
 class Search {
  public:
   Search(const Patches& patches, Memory& memory)

@@ -1,11 +1,13 @@
 // Farthest point sampling over the edge graph, in every component at once.
 //
-// The first sample of a component is the vertex farthest from its first vertex, each next one the vertex farthest from
-// those before (Gonzalez 1985). Distances are lengths of edge paths, each search cut off where an earlier sample
-// is nearer. A component with more than 384 vertices for every sample is sampled by patches: vertices within two edges
-// of a middle, at most 24 of them, joined to the patches beside them by the distance of the middles; the samples are
-// middles then, and the whole of a patch counts to one sample. Cost: O(n) for the patches, and about as many searches
-// of the patches as the harmonic number of the count.
+// The first sample of a component is the vertex farthest from its first vertex. Each next one is the vertex farthest
+// from those before (Gonzalez 1985). Distances are lengths of edge paths; a search stops where an earlier sample is
+// nearer.
+//
+// A component with more than 384 vertices for every sample is sampled by patches: vertices within two edges of a
+// middle, at most 24 of them. Neighbouring patches are joined by the distance of their middles. Samples are middles
+// then, and a patch counts to one sample as a whole. Cost: O(n) for the patches, and about as many searches of the
+// patches as the harmonic number of the count.
 #pragma once
 #include "mesh/topology.h"
 

@@ -300,16 +300,13 @@ FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs, Pr
 Vector<double> FluxSolver::solve(Span<const FluxSite> sites) const {
   const FluxSurface& s = *surface_;
   const std::int32_t n = s.vertex_count();
-  const Span<const std::int32_t> position = factor_->position();
   Vector<double> b(static_cast<std::size_t>(n), 0.0, memory_), z(static_cast<std::size_t>(n), 0.0, memory_),
       u(static_cast<std::size_t>(n), 0.0, memory_), r(memory_);
   for (const FluxSite& site : sites) b[static_cast<std::size_t>(site.vertex)] += site.lines;
   r = b;
   for (int round = 0; round < flux_solves; ++round) {
-    for (std::size_t v = 0; v < z.size(); ++v) z[static_cast<std::size_t>(position[v])] = r[v];
-    factor_->forward(z.data(), 1, *jobs_);
-    factor_->backward(z.data(), 1, *jobs_);
-    for (std::size_t v = 0; v < z.size(); ++v) u[v] += z[static_cast<std::size_t>(position[v])];
+    factor_->solve(r.data(), r.data(), 1, z.data(), *jobs_);
+    for (std::size_t v = 0; v < u.size(); ++v) u[v] += r[v];
     for (std::int32_t v = 0; v < n; ++v) {
       double sum = b[static_cast<std::size_t>(v)];
       const std::int32_t begin = s.out[v];

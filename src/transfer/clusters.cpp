@@ -320,7 +320,7 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
   out.joint.resize(n * blend_count), out.weight.resize(n * blend_count);
   std::int32_t bands = 0;
   if (options.paper_bands) {
-    bands = options.cluster_count ? std::clamp(options.cluster_count / field_count, least_field_bands, most_field_bands)
+    bands = options.cluster_count ? std::clamp(options.cluster_count / field_count, least_paper_bands, most_paper_bands)
                                   : default_bands;
     out.count = bands * field_count;
     weigh_by_bands(field_count, bands, target_field, out, memory);

@@ -70,7 +70,7 @@ constexpr double redundant_share = 0.25;
 // Paper mode. Half: self 0.018 for 0.021, feet twice as far. Double: self 0.031, feet a sixth.
 constexpr std::int32_t default_bands = 8;
 // A hat function needs two bands; the upper bound keeps the dense matrix small.
-constexpr std::int32_t least_field_bands = 2, most_field_bands = 64;
+constexpr std::int32_t least_paper_bands = 2, most_paper_bands = 64;
 // Paper mode: shrinks clusters to their handle. Half: self 0.024 for 0.021. Double: 0.020, feet 1.1 times as far.
 constexpr double band_exponent = 4;
 // Paper mode: half the width of the broad kernel, in bands. Half and double: same, vertices within 0.005.

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "base/number_pool.h"
 
 namespace hf_inner {
 namespace {
@@ -52,11 +53,11 @@ void PairFields::add(Span<const std::uint32_t> numbers, Span<const Span<const st
   owner_.swap(claimed);
   Vector<std::int32_t> slots(&memory);
   Vector<Site> sites(&memory);
-  std::size_t slot = 0;
+  NumberPool pool;
   for (std::size_t i = 0; i < regions.size(); ++i) {
     std::shared_ptr<HandleRegion> region = make_region(*core_, regions[i], 0, memory);
     for (const std::int32_t v : region->sites) {
-      while (slot < slot_used_.size() && slot_used_[slot]) ++slot;
+      const std::uint32_t slot = pool.take([&](std::uint32_t s) { return s < slot_used_.size() && slot_used_[s]; });
       if (slot == slot_used_.size()) slot_used_.push_back(0);
       slot_used_[slot] = 1;
       region->slots.push_back(static_cast<std::int32_t>(slot));

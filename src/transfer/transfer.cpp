@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "base/number_pool.h"
 #include "transfer/constants.h"
 #include "transfer/prepared.h"
 
@@ -79,12 +80,12 @@ void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs) 
   // the smallest free numbers
   Vector<std::uint32_t> fresh_numbers(&memory), numbers(numbers_, &memory), flags(flags_, &memory);
   Vector<Span<const std::int32_t>> source_regions(&memory), target_regions(&memory);
-  std::uint32_t next = 0;
+  NumberPool pool;
   for (const PairInput& pair : pairs) {
-    while (source_.in_use(next)) ++next;
+    const std::uint32_t next = pool.take([&](std::uint32_t number) { return source_.in_use(number); });
     if (flags.size() <= next) flags.resize(next + 1, 0u);
     flags[next] = pair.flags;
-    numbers.push_back(next), fresh_numbers.push_back(next++);
+    numbers.push_back(next), fresh_numbers.push_back(next);
     source_regions.push_back(pair.source), target_regions.push_back(pair.target);
   }
   std::sort(numbers.begin(), numbers.end());

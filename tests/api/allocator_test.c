@@ -9,6 +9,7 @@ typedef struct World {
   Surface tube;
   int32_t engine;
   uint32_t threads;
+  hf_surface surface, made_surface;
   hf_solver solver, made_solver;
   hf_pose pose, made_pose;
   hf_transfer transfer, made_transfer;
@@ -21,10 +22,47 @@ typedef struct World {
 } World;
 
 /* The scenarios: a call each, from a world that is fully set up. */
+static hf_result call_surface(World* w) {
+  hf_surface_desc desc = options_of(&w->tube).surface;
+  desc.allocator = counting_hooks(&w->memory);
+  return hf_surface_create(&desc, &w->made_surface);
+}
+static hf_result call_surface_save(World* w) { /* makes the factor of another kind */
+  size_t size;
+  return hf_surface_save(w->surface, HF_FIELD_BIHARMONIC, 0, NULL, &size);
+}
 static hf_result call_create(World* w) {
-  hf_create_desc desc = surface_desc(&w->tube);
-  desc.allocator = counting_hooks(&w->memory), desc.engine = w->engine, desc.channel_count = 2;
-  return hf_create(&desc, &w->made_solver);
+  hf_solver_desc desc = HF_INIT(hf_solver_desc);
+  desc.engine = w->engine, desc.channel_count = 2;
+  return hf_create(w->surface, &desc, &w->made_solver);
+}
+static hf_result call_create_plate(World* w) {
+  hf_solver_desc desc = HF_INIT(hf_solver_desc);
+  desc.engine = w->engine, desc.field_kind = HF_FIELD_BIHARMONIC;
+  return hf_create(w->surface, &desc, &w->made_solver);
+}
+static hf_result call_add_site(World* w) {
+  const double one = 1;
+  return hf_solver_add_site(w->solver, 33, &one, NULL);
+}
+static hf_result call_add_handle_at(World* w) {
+  const double point[3] = {1, 4, 0};
+  return hf_pose_add_handle_at(w->pose, point, 0.5, NULL);
+}
+static hf_result call_set_transform(World* w) {
+  const hf_transform rest = {{0, 0, 0, 1}, {0, 0, 0}};
+  return hf_pose_set_transform(w->pose, w->handles[0], &rest);
+}
+static hf_result call_plain_deform(World* w) { return hf_deform(w->pose, w->result, NULL); }
+static hf_result call_cast_ray(World* w) {
+  const double origin[3] = {5, 4.3, 0.1}, direction[3] = {-1, 0, 0};
+  hf_hit hit = HF_INIT(hf_hit);
+  return hf_surface_cast_ray(w->surface, origin, direction, NULL, &hit);
+}
+static hf_result call_find_vertex(World* w) {
+  const double point[3] = {1, 4, 0};
+  uint32_t vertex;
+  return hf_surface_find_vertex(w->surface, point, NULL, &vertex, NULL);
 }
 static hf_result call_clone(World* w) { return hf_solver_clone(w->solver, &w->made_solver); }
 static hf_result call_add(World* w) {
@@ -65,7 +103,7 @@ static hf_result call_get_sites(World* w) {
 }
 static hf_result call_record(World* w) { return hf_solver_record(w->solver); }
 static hf_result call_undo(World* w) { return hf_solver_undo(w->solver); }
-static hf_result call_pose_create(World* w) { return hf_pose_create(w->solver, NULL, &w->made_pose); }
+static hf_result call_pose_create(World* w) { return hf_pose_create(w->surface, NULL, &w->made_pose); }
 static hf_result call_pose_clone(World* w) { return hf_pose_clone(w->pose, &w->made_pose); }
 static hf_result call_add_handles(World* w) {
   const uint32_t count = 2, region[2] = {5 * AROUND, 5 * AROUND + 1};
@@ -93,7 +131,7 @@ static hf_result deform_to(World* w, float* positions) {
 }
 static hf_result call_deform(World* w) { return deform_to(w, w->result); }
 static hf_result call_transfer_create(World* w) {
-  return hf_transfer_create(w->solver, w->solver, NULL, &w->made_transfer);
+  return hf_transfer_create(w->surface, w->surface, NULL, &w->made_transfer);
 }
 static hf_result call_add_pairs(World* w) {
   const uint32_t count = 2, region[2] = {5 * AROUND, 5 * AROUND + 1};
@@ -117,7 +155,7 @@ static hf_result call_get_skin(World* w) {
   return hf_transfer_get_skin(w->transfer, &info);
 }
 
-static hf_result call_direction_create(World* w) { return hf_direction_create(w->solver, NULL, &w->made_direction); }
+static hf_result call_direction_create(World* w) { return hf_direction_create(w->surface, NULL, &w->made_direction); }
 static hf_result call_direction_add(World* w) {
   const uint32_t vertices[2] = {30, 50};
   const double vectors[6] = {0, 1, 0, 0, -1, 0};
@@ -142,7 +180,7 @@ static hf_result call_singularities(World* w) {
   return hf_direction_get_singularities(w->direction, 0, NULL, &count);
 }
 
-static hf_result call_region_create(World* w) { return hf_region_create(w->solver, NULL, &w->made_region); }
+static hf_result call_region_create(World* w) { return hf_region_create(w->surface, NULL, &w->made_region); }
 static hf_result call_region_clone(World* w) { return hf_region_clone(w->region, &w->made_region); }
 static hf_result call_region_edit(World* w) {
   const uint32_t points[3] = {2 * AROUND, 2 * AROUND + 3, 2 * AROUND + 6};
@@ -174,7 +212,16 @@ static const struct {
   hf_result (*call)(World*);
   int green_only;
 } scenarios[] = {
+    {"hf_surface_create", call_surface, 0},
+    {"hf_surface_save", call_surface_save, 0},
     {"hf_create", call_create, 0},
+    {"hf_create", call_create_plate, 0},
+    {"hf_solver_add_site", call_add_site, 0},
+    {"hf_surface_cast_ray", call_cast_ray, 1},
+    {"hf_surface_find_vertex", call_find_vertex, 1},
+    {"hf_pose_add_handle_at", call_add_handle_at, 1},
+    {"hf_pose_set_transform", call_set_transform, 1},
+    {"hf_deform", call_plain_deform, 1},
     {"hf_solver_clone", call_clone, 0},
     {"hf_add_sites", call_add, 0},
     {"hf_remove_sites", call_remove, 0},
@@ -219,25 +266,25 @@ static const struct {
 static void create_world(World* w, int32_t engine) {
   memset(w, 0, sizeof *w);
   w->tube = surface_tube(AROUND, RINGS), w->engine = engine;
-  hf_create_desc desc = surface_desc(&w->tube);
-  desc.allocator = counting_hooks(&w->memory), desc.engine = engine;
-  assert_ok(hf_create(&desc, &w->solver));
+  Options desc = options_of(&w->tube);
+  desc.surface.allocator = counting_hooks(&w->memory), desc.solver.engine = engine;
+  assert_ok(make(&desc, &w->surface, &w->solver));
   w->sites[0] = add_site(w->solver, 0, 0);
   assert_ok(hf_solver_record(w->solver));
   w->sites[1] = add_site(w->solver, VERTICES - 1, 1);
   if (engine != HF_ENGINE_GREEN) return;
   const uint32_t constrained[2] = {9, 70};
   const double vectors[6] = {0, 1, 0, 0, 2, 0};
-  assert_ok(hf_direction_create(w->solver, NULL, &w->direction));
+  assert_ok(hf_direction_create(w->surface, NULL, &w->direction));
   assert_ok(hf_direction_add_sites(w->direction, 2, constrained, vectors, w->constraints));
   const uint32_t inside[6] = {4 * AROUND, 4 * AROUND + 1, 4 * AROUND + 2, 5 * AROUND, 5 * AROUND + 1, 5 * AROUND + 2};
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
   edit.add_count = 6, edit.add_vertices = inside;
-  assert_ok(hf_region_create(w->solver, NULL, &w->region));
+  assert_ok(hf_region_create(w->surface, NULL, &w->region));
   assert_ok(hf_region_record(w->region));
   assert_ok(hf_region_edit(w->region, &edit));
   assert_ok(hf_detail_create(w->region, w->region, NULL, &w->detail));
-  w->pose = tube_pose(w->solver, AROUND, RINGS, w->handles);
+  w->pose = tube_pose(w->surface, AROUND, RINGS, w->handles);
   const hf_transform turned = {{0.5, 0, 0, 0.8660254}, {0, 1, 2}};
   assert_ok(hf_pose_set_transforms(w->pose, 1, &w->handles[1], &turned));
   assert_ok(deform_to(w, w->posed));
@@ -246,12 +293,13 @@ static void create_world(World* w, int32_t engine) {
   hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
   pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts,
   pairs.source_vertices = pairs.target_vertices = w->ends;
-  assert_ok(hf_transfer_create(w->solver, w->solver, NULL, &w->transfer));
+  assert_ok(hf_transfer_create(w->surface, w->surface, NULL, &w->transfer));
   assert_ok(hf_transfer_add_pairs(w->transfer, &pairs, w->pairs));
 }
 
 static void destroy_world(World* w) {
   w->memory.refuse_at = 0;
+  hf_surface_destroy(w->surface), hf_surface_destroy(w->made_surface);
   hf_solver_destroy(w->solver), hf_pose_destroy(w->pose), hf_transfer_destroy(w->transfer);
   hf_direction_destroy(w->direction), hf_direction_destroy(w->made_direction);
   hf_region_destroy(w->region), hf_region_destroy(w->made_region);
@@ -312,17 +360,18 @@ static unsigned refuse_each(size_t s, int32_t engine, int on) {
       if (result != HF_ERROR_OUT_OF_MEMORY)
         fail_msg("%s, engine %d, allocation %u: %s", scenarios[s].name, (int)engine, (unsigned)n,
                  hf_result_get_name(result));
-      if (world.made_solver || world.made_pose || world.made_transfer || world.made_direction || world.made_region ||
-          world.made_detail)
+      if (world.made_surface || world.made_solver || world.made_pose || world.made_transfer || world.made_direction ||
+          world.made_region || world.made_detail)
         fail_msg("%s, allocation %u: a handle came back", scenarios[s].name, (unsigned)n);
       hf_error_detail detail;
       assert_ok(hf_error_get_detail(&detail));
       assert_int_equal(detail.code, HF_ERROR_OUT_OF_MEMORY);
       assert_string_equal(detail.function, scenarios[s].name);
       ++refused;
-      /* a cache that the call has filled or a grown workspace may stay; a failed hf_create leaves nothing at all */
-      if (scenarios[s].call == call_create && (world.memory.live_blocks != live || world.memory.live_bytes != bytes))
-        fail_msg("hf_create leaked at allocation %u", (unsigned)n);
+      /* a cache that the call has filled or a grown workspace may stay; a failed hf_surface_create leaves nothing at
+       * all */
+      if (scenarios[s].call == call_surface && (world.memory.live_blocks != live || world.memory.live_bytes != bytes))
+        fail_msg("hf_surface_create leaked at allocation %u", (unsigned)n);
       take_picture(&world, &after);
       if (!same_picture(&before, &after))
         fail_msg("%s, engine %d, allocation %u: the state has changed", scenarios[s].name, (int)engine, (unsigned)n);
@@ -426,9 +475,10 @@ static void a_callback_that_calls_back_is_refused(void** state) {
   Reentrant r;
   memset(&r, 0, sizeof r);
   r.inner = counting_hooks(&r.memory);
-  hf_create_desc desc = surface_desc(&tube);
-  desc.allocator.allocate = reentrant_allocate, desc.allocator.release = reentrant_release, desc.allocator.user = &r;
-  assert_ok(hf_create(&desc, &r.solver));
+  Options desc = options_of(&tube);
+  desc.surface.allocator.allocate = reentrant_allocate, desc.surface.allocator.release = reentrant_release,
+  desc.surface.allocator.user = &r;
+  assert_ok(make(&desc, NULL, &r.solver));
   add_site(r.solver, 0, 0);
   r.armed = 1, r.expect_read = HF_ERROR_REENTRANT; /* inside a change nothing is allowed */
   add_site(r.solver, 50, 1);

@@ -75,19 +75,55 @@ void surface_free(Surface* surface) {
   free(surface->triangles);
 }
 
-hf_create_desc surface_desc(const Surface* surface) {
-  hf_create_desc desc = HF_INIT(hf_create_desc);
-  desc.vertex_count = surface->vertex_count, desc.triangle_count = surface->triangle_count;
-  desc.positions = surface->positions, desc.triangles = surface->triangles;
-  return desc;
+Options options_of(const Surface* surface) {
+  Options o = {HF_INIT(hf_surface_desc), HF_INIT(hf_solver_desc)};
+  o.surface.vertex_count = surface->vertex_count, o.surface.triangle_count = surface->triangle_count;
+  o.surface.positions = surface->positions, o.surface.triangles = surface->triangles;
+  return o;
+}
+
+hf_result make(const Options* options, hf_surface* out_surface, hf_solver* out_solver) {
+  hf_surface surface = NULL;
+  hf_solver_desc solver = options->solver;
+  if (solver.field_kind == 0) solver.field_kind = options->surface.field_kind;
+  *out_solver = NULL;
+  if (out_surface) *out_surface = NULL;
+  hf_result result = hf_surface_create(&options->surface, &surface);
+  if (result == HF_OK) result = hf_create(surface, &solver, out_solver);
+  if (result == HF_OK && out_surface)
+    *out_surface = surface;
+  else
+    hf_surface_destroy(surface);
+  return result;
+}
+
+hf_surface surface_on(const Surface* surface) {
+  const Options options = options_of(surface);
+  hf_surface made = NULL;
+  assert_ok(hf_surface_create(&options.surface, &made));
+  assert_non_null(made);
+  return made;
+}
+
+hf_solver solver_on(hf_surface surface) {
+  hf_solver solver = NULL;
+  assert_ok(hf_create(surface, NULL, &solver));
+  assert_non_null(solver);
+  return solver;
 }
 
 hf_solver surface_solver(const Surface* surface) {
-  const hf_create_desc desc = surface_desc(surface);
-  hf_solver solver = NULL;
-  assert_ok(hf_create(&desc, &solver));
-  assert_non_null(solver);
+  const hf_surface made = surface_on(surface);
+  const hf_solver solver = solver_on(made);
+  hf_surface_destroy(made); /* the solver keeps alive what it needs */
   return solver;
+}
+
+unsigned char* saved_bytes(hf_surface surface, int32_t field_kind, size_t* out_size) {
+  assert_ok(hf_surface_save(surface, field_kind, 0, NULL, out_size));
+  unsigned char* bytes = checked_malloc(*out_size);
+  assert_ok(hf_surface_save(surface, field_kind, *out_size, bytes, NULL));
+  return bytes;
 }
 
 hf_sites_desc sites_at(uint32_t count, const uint32_t* vertices, const double* values) {
@@ -120,9 +156,9 @@ uint32_t* tube_ends(uint32_t around, uint32_t rings) {
   return vertices;
 }
 
-hf_pose tube_pose(hf_solver solver, uint32_t around, uint32_t rings, uint32_t out_handles[2]) {
+hf_pose tube_pose(hf_surface surface, uint32_t around, uint32_t rings, uint32_t out_handles[2]) {
   hf_pose pose = NULL;
-  assert_ok(hf_pose_create(solver, NULL, &pose));
+  assert_ok(hf_pose_create(surface, NULL, &pose));
   uint32_t* vertices = tube_ends(around, rings);
   const uint32_t counts[2] = {2 * around, 2 * around};
   hf_handles_desc desc = HF_INIT(hf_handles_desc);

@@ -51,8 +51,22 @@ enum {
 };
 void surface_free(Surface* surface);
 
-hf_create_desc surface_desc(const Surface* surface);
+/* How a test makes a surface and a solver on it. */
+typedef struct Options {
+  hf_surface_desc surface;
+  hf_solver_desc solver;
+} Options;
+Options options_of(const Surface* surface);
+/* Makes both, the solver of the surface's kind of field if its own is 0. out_surface: NULL to destroy the surface at
+ * once, which the solver outlives. Both are NULL on failure. */
+hf_result make(const Options* options, hf_surface* out_surface, hf_solver* out_solver);
+/* A surface with the defaults, and a solver on it. */
+hf_surface surface_on(const Surface* surface);
 hf_solver surface_solver(const Surface* surface);
+/* A solver with the defaults on a surface. */
+hf_solver solver_on(hf_surface surface);
+/* The factor of a surface as bytes, freed by the test. */
+unsigned char* saved_bytes(hf_surface surface, int32_t field_kind, size_t* out_size);
 /* Adds one hard site to a solver of one channel and returns its number. */
 uint32_t add_site(hf_solver solver, uint32_t vertex, double value);
 hf_sites_desc sites_at(uint32_t count, const uint32_t* vertices, const double* values);
@@ -61,7 +75,7 @@ double* field_of(hf_solver solver, uint32_t vertex_count);
 int same_bits(const void* a, const void* b, size_t size);
 
 /* A pose on a tube with a handle of two rings at either end. */
-hf_pose tube_pose(hf_solver solver, uint32_t around, uint32_t rings, uint32_t out_handles[2]);
+hf_pose tube_pose(hf_surface surface, uint32_t around, uint32_t rings, uint32_t out_handles[2]);
 /* The indices of the first and the last two rings of a tube, one list after the other. */
 uint32_t* tube_ends(uint32_t around, uint32_t rings);
 

@@ -17,16 +17,63 @@ static hf_result get_mesh_report(void* h) {
   hf_surface_report r = HF_INIT(hf_surface_report);
   return hf_surface_get_report(h, &r);
 }
-static hf_result get_components(void* h) { return hf_surface_get_components(h, CUT_VERTICES, numbers); }
+static hf_result get_components(void* h) { return hf_surface_get_components(h, CUT_VERTICES, numbers, NULL); }
 static hf_result get_statistics(void* h) {
   hf_solver_statistics s = HF_INIT(hf_solver_statistics);
   return hf_solver_get_statistics(h, &s);
 }
-static hf_result get_factor_size(void* h) {
-  size_t size;
-  return hf_get_factor_size(h, &size);
+static hf_result create(void* h) {
+  hf_solver out;
+  return hf_create(h, NULL, &out);
 }
-static hf_result save_factor(void* h) { return hf_surface_save(h, doubles, sizeof doubles); }
+static hf_result surface_get_info(void* h) {
+  hf_surface_info i = HF_INIT(hf_surface_info);
+  return hf_surface_get_info(h, &i);
+}
+static hf_result surface_get_statistics(void* h) {
+  hf_surface_statistics s = HF_INIT(hf_surface_statistics);
+  return hf_surface_get_statistics(h, &s);
+}
+static hf_result surface_save(void* h) {
+  size_t size;
+  return hf_surface_save(h, HF_FIELD_HARMONIC, sizeof doubles, doubles, &size);
+}
+static hf_result cast_ray(void* h) {
+  const double origin[3] = {0, 0, 9}, direction[3] = {0, 0, -1};
+  hf_hit hit = HF_INIT(hf_hit);
+  return hf_surface_cast_ray(h, origin, direction, NULL, &hit);
+}
+static hf_result find_vertex(void* h) {
+  const double point[3] = {1, 1, 1};
+  uint32_t vertex;
+  return hf_surface_find_vertex(h, point, NULL, &vertex, NULL);
+}
+static hf_result solver_get_info(void* h) {
+  hf_solver_info i = HF_INIT(hf_solver_info);
+  return hf_solver_get_info(h, &i);
+}
+static hf_result solver_add_site(void* h) { return hf_solver_add_site(h, 7, NULL, NULL); }
+static hf_result solver_certify(void* h) {
+  hf_certificate c = HF_INIT(hf_certificate);
+  return hf_solver_certify(h, &c);
+}
+static hf_result pose_get_info(void* h) {
+  hf_pose_info i = HF_INIT(hf_pose_info);
+  return hf_pose_get_info(h, &i);
+}
+static hf_result pose_add_handle_at(void* h) {
+  const double point[3] = {1, 6, 0};
+  return hf_pose_add_handle_at(h, point, 0.1, NULL);
+}
+static hf_result pose_set_transform(void* h) {
+  const hf_transform rest = {{0, 0, 0, 1}, {0, 0, 0}};
+  return hf_pose_set_transform(h, scene.handles[0], &rest);
+}
+static hf_result plain_deform(void* h) { return hf_deform(h, floats, NULL); }
+static hf_result region_create(void* h) {
+  hf_region out;
+  return hf_region_create(h, NULL, &out);
+}
 static hf_result solve_preview(void* h) { return hf_solver_solve_preview(h, floats, 0, 0, NULL); }
 static hf_result solve_preview_f64(void* h) { return hf_solver_solve_preview_f64(h, doubles, 0, 1, NULL); }
 static hf_result release_preview(void* h) { return hf_solver_release_preview(h); }
@@ -163,7 +210,7 @@ static hf_result direction_clone(void* h) {
 static hf_result direction_record(void* h) { return hf_direction_record(h); }
 static hf_result direction_undo(void* h) { return hf_direction_undo(h); }
 static hf_result direction_redo(void* h) { return hf_direction_redo(h); }
-static hf_result direction_get_sites(void* h) { return hf_direction_get_sites(h, 2, numbers, NULL, NULL); }
+static hf_result direction_get_sites(void* h) { return hf_direction_get_sites(h, 2, numbers, NULL, NULL, NULL); }
 static hf_result direction_solve(void* h) { return hf_direction_solve(h, floats, 0, NULL); }
 static hf_result direction_solve_f64(void* h) { return hf_direction_solve_f64(h, doubles, 0, NULL); }
 static hf_result direction_get_singularities(void* h) {
@@ -240,7 +287,7 @@ static hf_result progress_get(void* h) {
 }
 static hf_result progress_cancel(void* h) { return hf_progress_cancel(h); }
 
-enum Kind { SOLVER, POSE, TRANSFER, PROGRESS, GEODESICS, DIRECTION, KIND_COUNT };
+enum Kind { SURFACE, SOLVER, POSE, TRANSFER, PROGRESS, GEODESICS, DIRECTION, KIND_COUNT };
 
 static const struct {
   const char* function;
@@ -248,12 +295,24 @@ static const struct {
   hf_result (*call)(void* handle);
   uint32_t index;
 } functions[] = {
+    {"hf_create", SURFACE, create, NO_INDEX},
+    {"hf_surface_get_info", SURFACE, surface_get_info, NO_INDEX},
+    {"hf_surface_get_statistics", SURFACE, surface_get_statistics, NO_INDEX},
+    {"hf_surface_cast_ray", SURFACE, cast_ray, NO_INDEX},
+    {"hf_surface_find_vertex", SURFACE, find_vertex, NO_INDEX},
+    {"hf_region_create", SURFACE, region_create, NO_INDEX},
+    {"hf_solver_get_info", SOLVER, solver_get_info, NO_INDEX},
+    {"hf_solver_add_site", SOLVER, solver_add_site, NO_INDEX},
+    {"hf_solver_certify", SOLVER, solver_certify, NO_INDEX},
+    {"hf_pose_get_info", POSE, pose_get_info, NO_INDEX},
+    {"hf_pose_add_handle_at", POSE, pose_add_handle_at, NO_INDEX},
+    {"hf_pose_set_transform", POSE, pose_set_transform, NO_INDEX},
+    {"hf_deform", POSE, plain_deform, NO_INDEX},
     {"hf_solver_clone", SOLVER, clone, NO_INDEX},
-    {"hf_surface_get_report", SOLVER, get_mesh_report, NO_INDEX},
-    {"hf_surface_get_components", SOLVER, get_components, NO_INDEX},
+    {"hf_surface_get_report", SURFACE, get_mesh_report, NO_INDEX},
+    {"hf_surface_get_components", SURFACE, get_components, NO_INDEX},
     {"hf_solver_get_statistics", SOLVER, get_statistics, NO_INDEX},
-    {"hf_get_factor_size", SOLVER, get_factor_size, NO_INDEX},
-    {"hf_surface_save", SOLVER, save_factor, NO_INDEX},
+    {"hf_surface_save", SURFACE, surface_save, NO_INDEX},
     {"hf_solver_solve_preview", SOLVER, solve_preview, NO_INDEX},
     {"hf_solver_solve_preview_f64", SOLVER, solve_preview_f64, NO_INDEX},
     {"hf_solver_release_preview", SOLVER, release_preview, NO_INDEX},
@@ -272,9 +331,9 @@ static const struct {
     {"hf_solver_prepare_rebase", SOLVER, prepare_rebase, NO_INDEX},
     {"hf_solver_undo", SOLVER, undo, NO_INDEX},
     {"hf_solver_redo", SOLVER, redo, NO_INDEX},
-    {"hf_pose_create", SOLVER, pose_create, NO_INDEX},
-    {"hf_transfer_create", SOLVER, transfer_from, 0},
-    {"hf_transfer_create", SOLVER, transfer_to, 1},
+    {"hf_pose_create", SURFACE, pose_create, NO_INDEX},
+    {"hf_transfer_create", SURFACE, transfer_from, 0},
+    {"hf_transfer_create", SURFACE, transfer_to, 1},
     {"hf_pose_clone", POSE, pose_clone, NO_INDEX},
     {"hf_pose_add_handles", POSE, pose_add_handles, NO_INDEX},
     {"hf_pose_remove_handles", POSE, pose_remove_handles, NO_INDEX},
@@ -290,17 +349,17 @@ static const struct {
     {"hf_transfer_get_info", TRANSFER, transfer_get_info, NO_INDEX},
     {"hf_transfer_apply", TRANSFER, transfer_apply, NO_INDEX},
     {"hf_transfer_get_skin", TRANSFER, transfer_get_skin, NO_INDEX},
-    {"hf_surface_space_levels", SOLVER, space_levels, NO_INDEX},
-    {"hf_surface_trace_isolines", SOLVER, trace_isolines, NO_INDEX},
-    {"hf_surface_find_critical_points", SOLVER, find_critical_points, NO_INDEX},
-    {"hf_geodesics_create", SOLVER, geodesics_create, NO_INDEX},
-    {"hf_surface_find_extremities", SOLVER, find_extremities, NO_INDEX},
+    {"hf_surface_space_levels", SURFACE, space_levels, NO_INDEX},
+    {"hf_surface_trace_isolines", SURFACE, trace_isolines, NO_INDEX},
+    {"hf_surface_find_critical_points", SURFACE, find_critical_points, NO_INDEX},
+    {"hf_geodesics_create", SURFACE, geodesics_create, NO_INDEX},
+    {"hf_surface_find_extremities", SURFACE, find_extremities, NO_INDEX},
     {"hf_geodesics_solve", GEODESICS, geodesics_distance, NO_INDEX},
     {"hf_geodesics_solve_f64", GEODESICS, geodesics_distance_f64, NO_INDEX},
     {"hf_surface_find_extremities", GEODESICS, find_extremities_with, NO_INDEX},
     {"hf_solver_move_vectors", SOLVER, move_vector_sites, NO_INDEX},
     {"hf_solver_rotate_vectors", SOLVER, rotate_vector_sites, NO_INDEX},
-    {"hf_direction_create", SOLVER, direction_create, NO_INDEX},
+    {"hf_direction_create", SURFACE, direction_create, NO_INDEX},
     {"hf_direction_add_sites", DIRECTION, direction_add_sites, NO_INDEX},
     {"hf_direction_remove_sites", DIRECTION, direction_remove_sites, NO_INDEX},
     {"hf_direction_move_sites", DIRECTION, direction_move_sites, NO_INDEX},
@@ -321,25 +380,29 @@ static const struct {
 
 static int unchanged(enum Kind kind) {
   return solver_unchanged(&scene) &&
-         (kind == SOLVER || kind == PROGRESS || kind == GEODESICS || kind == DIRECTION || (kind == POSE ? pose_unchanged(&scene) : transfer_unchanged(&scene)));
+         (kind == SURFACE || kind == SOLVER || kind == PROGRESS || kind == GEODESICS || kind == DIRECTION ||
+          (kind == POSE ? pose_unchanged(&scene) : transfer_unchanged(&scene)));
 }
 
 static void every_function_refuses_every_handle_that_is_not_its_own(void** state) {
   (void)state;
   scene_create(&scene);
   int on_the_stack = 0;
-  void* const live[KIND_COUNT] = {scene.solver, scene.pose, scene.transfer, scene.progress, scene.geodesics, scene.direction};
-  void* const stale[KIND_COUNT] = {scene.stale_solver, scene.stale_pose, scene.stale_transfer, scene.stale_progress, scene.stale_geodesics, scene.stale_direction};
+  void* const live[KIND_COUNT] = {scene.sheet,    scene.solver,    scene.pose,     scene.transfer,
+                                  scene.progress, scene.geodesics, scene.direction};
+  void* const stale[KIND_COUNT] = {scene.stale_surface,  scene.stale_solver,   scene.stale_pose,
+                                   scene.stale_transfer, scene.stale_progress, scene.stale_geodesics,
+                                   scene.stale_direction};
   for (size_t f = 0; f < COUNT_OF(functions); ++f) {
     const enum Kind kind = functions[f].kind;
     struct {
       const char* what;
       void* handle;
     } bad[4 + KIND_COUNT] = {{"NULL", NULL},
-                {"destroyed", stale[kind]},
-                {"all bits set", (void*)UINTPTR_MAX},
-                {"the number 1", (void*)(uintptr_t)1},
-                {"a pointer", &on_the_stack}};
+                             {"destroyed", stale[kind]},
+                             {"all bits set", (void*)UINTPTR_MAX},
+                             {"the number 1", (void*)(uintptr_t)1},
+                             {"a pointer", &on_the_stack}};
     size_t count = 5;
     for (int other = 0; other < KIND_COUNT; ++other) {
       if ((enum Kind)other != kind)
@@ -362,6 +425,7 @@ static void destroying_what_is_no_handle_does_nothing(void** state) {
                        (void*)UINTPTR_MAX,
                        (void*)(uintptr_t)1,
                        &scene,
+                       scene.stale_surface,
                        scene.stale_solver,
                        scene.stale_pose,
                        scene.stale_transfer,
@@ -370,10 +434,12 @@ static void destroying_what_is_no_handle_does_nothing(void** state) {
                        scene.stale_direction};
   for (size_t b = 0; b < COUNT_OF(bad); ++b) {
     hf_solver_destroy(bad[b]), hf_pose_destroy(bad[b]), hf_transfer_destroy(bad[b]), hf_progress_destroy(bad[b]);
-    hf_geodesics_destroy(bad[b]), hf_direction_destroy(bad[b]);
+    hf_geodesics_destroy(bad[b]), hf_direction_destroy(bad[b]), hf_surface_destroy(bad[b]);
   }
-  void* const live[KIND_COUNT] = {scene.solver, scene.pose, scene.transfer, scene.progress, scene.geodesics, scene.direction};
+  void* const live[KIND_COUNT] = {scene.sheet,    scene.solver,    scene.pose,     scene.transfer,
+                                  scene.progress, scene.geodesics, scene.direction};
   for (int k = 0; k < KIND_COUNT; ++k) {
+    if (k != SURFACE) hf_surface_destroy(live[k]);
     if (k != SOLVER) hf_solver_destroy(live[k]);
     if (k != POSE) hf_pose_destroy(live[k]);
     if (k != TRANSFER) hf_transfer_destroy(live[k]);
@@ -383,6 +449,7 @@ static void destroying_what_is_no_handle_does_nothing(void** state) {
   }
   float fraction;
   assert_ok(geodesics_distance(scene.geodesics));
+  assert_ok(surface_get_info(scene.sheet));
   assert_true(solver_unchanged(&scene) && pose_unchanged(&scene) && transfer_unchanged(&scene));
   assert_ok(hf_progress_get_fraction(scene.progress, &fraction));
   scene_destroy(&scene);
@@ -396,6 +463,7 @@ static void counts_of_what_is_no_handle_are_zero(void** state) {
   assert_int_equal(hf_direction_get_site_count(NULL), 0);
   assert_int_equal(hf_direction_get_site_count(scene.stale_direction), 0);
   assert_int_equal(hf_direction_get_site_count(scene.direction), 2);
+  assert_int_equal(hf_solver_get_site_count((hf_solver)(void*)scene.sheet), 0);
   assert_int_equal(hf_solver_get_site_count(scene.stale_solver), 0);
   assert_int_equal(hf_solver_get_site_count((hf_solver)(void*)scene.pose), 0);
   assert_int_equal(hf_pose_get_handle_count(NULL), 0);

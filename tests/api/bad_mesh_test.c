@@ -1,24 +1,28 @@
-/* Bad input to hf/base.h and hf/mesh.h: one thing wrong per row. After a failed hf_create nothing exists. */
+/* Bad input to hf/base.h and hf/surface.h: one thing wrong per row. After a failed hf_surface_create nothing exists. */
 #include "bad_scene.h"
 
 static Scene scene;
 static CountingAllocator counter;
 
 /* The good input: a copy of the cut sheet that a row may spoil. */
-static hf_create_desc desc;
+static hf_surface_desc desc;
+static hf_solver_desc solver_desc;
 static float positions[3 * CUT_VERTICES];
 static double positions_f64[3 * CUT_VERTICES];
 static uint32_t triangles[3 * CUT_TRIANGLES];
-static hf_solver out;
+static uint16_t triangles_u16[3 * CUT_TRIANGLES];
+static hf_surface out;
+static hf_solver out_solver;
 
 static void good_input(void) {
   memcpy(positions, scene.cut.positions, sizeof positions);
   memcpy(triangles, scene.cut.triangles, sizeof triangles);
   for (size_t i = 0; i < 3 * CUT_VERTICES; ++i) positions_f64[i] = (double)positions[i];
-  desc = surface_desc(&scene.cut);
+  desc = options_of(&scene.cut).surface, solver_desc = HF_INIT(hf_solver_desc);
   desc.positions = positions, desc.triangles = triangles;
   desc.allocator = counting_hooks(&counter);
-  out = scene.solver; /* must become NULL */
+  for (size_t i = 0; i < 3 * CUT_TRIANGLES; ++i) triangles_u16[i] = (uint16_t)triangles[i];
+  out = scene.sheet, out_solver = scene.solver; /* must become NULL */
 }
 static int nothing_exists(void) {
   return out == NULL && counter.live_blocks == 0 && counter.mismatches == 0 && solver_unchanged(&scene);
@@ -26,17 +30,19 @@ static int nothing_exists(void) {
 
 #define GOOD good_input
 #define UNCHANGED nothing_exists
-#define CREATE(what, expected, index, change) ROW(what, expected, index, change, hf_create(&desc, &out))
+#define CREATE(what, expected, index, change) ROW(what, expected, index, change, hf_surface_create(&desc, &out))
 
 static void no_position_array(void) { desc.positions = NULL; }
 static void in_double(void) { desc.positions = NULL, desc.positions_f64 = positions_f64; }
 
-static void hf_create_refuses_bad_meshes(void** state) {
+static void in_16_bits(void) { desc.triangles = NULL, desc.triangles_u16 = triangles_u16; }
+
+static void hf_surface_create_refuses_bad_meshes(void** state) {
   (void)state;
   scene_create(&scene);
   good_input();
-  assert_ok(hf_create(&desc, &out)); /* the good input is good */
-  hf_solver_destroy(out), out = NULL;
+  assert_ok(hf_surface_create(&desc, &out)); /* the good input is good */
+  hf_surface_destroy(out), out = NULL;
   assert_true(nothing_exists());
 
   CREATE("no vertices", HF_ERROR_EMPTY, NO_INDEX, desc.vertex_count = 0);
@@ -47,6 +53,13 @@ static void hf_create_refuses_bad_meshes(void** state) {
   CREATE("stride below a row", HF_ERROR_TOO_SMALL, NO_INDEX, desc.position_stride = 11);
   CREATE("stride of one byte", HF_ERROR_TOO_SMALL, NO_INDEX, desc.position_stride = 1);
   CREATE("stride of floats for doubles", HF_ERROR_TOO_SMALL, NO_INDEX, (in_double(), desc.position_stride = 12));
+
+  CREATE("both triangle arrays", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.triangles_u16 = triangles_u16);
+  CREATE("triangle stride below a row", HF_ERROR_TOO_SMALL, NO_INDEX, desc.triangle_stride = 11);
+  CREATE("triangle stride of one byte", HF_ERROR_TOO_SMALL, NO_INDEX, desc.triangle_stride = 1);
+  CREATE("16-bit triangle stride below a row", HF_ERROR_TOO_SMALL, NO_INDEX, (in_16_bits(), desc.triangle_stride = 5));
+  CREATE("16-bit corner = vertex_count", HF_ERROR_OUT_OF_RANGE, 5, (in_16_bits(), triangles_u16[16] = CUT_VERTICES));
+  CREATE("16-bit corner 2^16 - 1", HF_ERROR_OUT_OF_RANGE, 72, (in_16_bits(), triangles_u16[3 * 72] = UINT16_MAX));
 
   CREATE("corner = vertex_count", HF_ERROR_OUT_OF_RANGE, 0, triangles[0] = CUT_VERTICES);
   CREATE("corner UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 7, triangles[3 * 7 + 2] = UINT32_MAX);
@@ -85,7 +98,7 @@ static void host_run(void* user, uint32_t count, void (*job)(void*, uint32_t), v
   for (uint32_t i = 0; i < count; ++i) job(data, i);
 }
 
-static void hf_create_refuses_bad_options(void** state) {
+static void hf_surface_create_refuses_bad_options(void** state) {
   (void)state;
   scene_create(&scene);
   CREATE("weld -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.weld = -1);
@@ -97,9 +110,6 @@ static void hf_create_refuses_bad_options(void** state) {
   CREATE("field kind 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.field_kind = 3);
   CREATE("a triangle more than the limit", HF_ERROR_TOO_LARGE, NO_INDEX, desc.triangle_limit = desc.triangle_count - 1);
   CREATE("triangles of a limit of 1", HF_ERROR_TOO_LARGE, NO_INDEX, desc.triangle_limit = 1);
-  CREATE("engine -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.engine = -1);
-  CREATE("engine 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.engine = 3);
-  CREATE("engine INT32_MIN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.engine = INT32_MIN);
   CREATE("ordering -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.ordering = -1);
   CREATE("ordering 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.ordering = 3);
   CREATE("weld tolerance 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.weld = HF_WELD_TOLERANCE);
@@ -109,14 +119,10 @@ static void hf_create_refuses_bad_options(void** state) {
          (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = (float)NAN));
   CREATE("weld tolerance infinite", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
          (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = (float)INFINITY));
-  CREATE("65 channels", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.channel_count = 65);
-  CREATE("2^32 - 1 channels", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.channel_count = UINT32_MAX);
   CREATE("257 threads", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.thread_count = 257);
   CREATE("2^32 - 1 threads", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.thread_count = UINT32_MAX);
   CREATE("257 threads of the host", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
          (desc.thread_count = 257, desc.job_runner.run = host_run));
-  CREATE("penalty negative", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.penalty = -1.0);
-  CREATE("penalty NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.penalty = (double)NAN);
   CREATE("allocator without release", HF_ERROR_NULL_POINTER, NO_INDEX, desc.allocator.release = NULL);
   CREATE("allocator without allocate", HF_ERROR_NULL_POINTER, NO_INDEX, desc.allocator.allocate = NULL);
   CREATE("allocator that refuses at once", HF_ERROR_OUT_OF_MEMORY, NO_INDEX, counter.refuse_at = counter.calls + 1);
@@ -127,55 +133,95 @@ static void hf_create_refuses_bad_options(void** state) {
   CREATE("progress cancelled before", HF_ERROR_CANCELLED, NO_INDEX,
          (desc.progress = scene.progress, hf_progress_cancel(scene.progress)));
 #ifndef HF_WITH_GPL
-  CREATE("updown in a build without it", HF_ERROR_UNSUPPORTED, NO_INDEX, desc.engine = HF_ENGINE_UPDOWN);
   CREATE("METIS in a build without it", HF_ERROR_UNSUPPORTED, NO_INDEX, desc.ordering = HF_ORDERING_METIS);
 #endif
-  ROW("desc NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_create(NULL, &out));
+  ROW("desc NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_create(NULL, &out));
   out = NULL;
 #undef GOOD
 #define GOOD() (void)0
-  ROW("out_solver NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_create(&desc, NULL));
-  ROW("both NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_create(NULL, NULL));
+  ROW("out_surface NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_create(&desc, NULL));
+  ROW("both NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_create(NULL, NULL));
   scene_destroy(&scene);
-  finish_rows("options");
+  finish_rows("options of surfaces");
+}
+
+static int solver_holds(void) { return solver_unchanged(&scene); }
+static int no_solver(void) { return out_solver == NULL && solver_unchanged(&scene); }
+#undef GOOD
+#define GOOD good_input
+#undef UNCHANGED
+#define UNCHANGED no_solver
+#define SOLVER(what, expected, index, change) \
+  ROW(what, expected, index, change, hf_create(scene.sheet, &solver_desc, &out_solver))
+
+static void hf_create_refuses_bad_options(void** state) {
+  (void)state;
+  scene_create(&scene);
+  SOLVER("field kind -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.field_kind = -1);
+  SOLVER("field kind 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.field_kind = 3);
+  SOLVER("engine -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.engine = -1);
+  SOLVER("engine 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.engine = 3);
+  SOLVER("engine INT32_MIN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.engine = INT32_MIN);
+  SOLVER("65 channels", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.channel_count = 65);
+  SOLVER("2^32 - 1 channels", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.channel_count = UINT32_MAX);
+  SOLVER("penalty negative", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.penalty = -1.0);
+  SOLVER("penalty NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.penalty = (double)NAN);
+  SOLVER("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, solver_desc.reserved = 1);
+  SOLVER("progress destroyed", HF_ERROR_INVALID_HANDLE, NO_INDEX, solver_desc.progress = scene.stale_progress);
+  SOLVER("progress of another kind", HF_ERROR_INVALID_HANDLE, NO_INDEX,
+         solver_desc.progress = (hf_progress)(void*)scene.solver);
+#ifndef HF_WITH_GPL
+  SOLVER("updown in a build without it", HF_ERROR_UNSUPPORTED, NO_INDEX, solver_desc.engine = HF_ENGINE_UPDOWN);
+#endif
+  ROW("surface destroyed", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0,
+      hf_create(scene.stale_surface, &solver_desc, &out_solver));
+  ROW("no surface", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_create(NULL, &solver_desc, &out_solver));
+#undef UNCHANGED
+#define UNCHANGED solver_holds
+  ROW("out_solver NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_create(scene.sheet, &solver_desc, NULL));
+  ROW("all NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_create(NULL, NULL, NULL));
+#undef GOOD
+#define GOOD() (void)0
+  scene_destroy(&scene);
+  finish_rows("options of solvers");
 }
 
 static void a_memory_limit_is_kept(void** state) {
   (void)state;
   Surface sheet = surface_sheet(150, 150);
-  hf_create_desc wide = surface_desc(&sheet);
-  hf_solver solver = NULL;
+  hf_surface_desc wide = options_of(&sheet).surface;
+  hf_surface surface = NULL;
   wide.memory_limit_mb = 1;
-  assert_code(HF_ERROR_OUT_OF_MEMORY, hf_create(&wide, &solver));
-  assert_null(solver);
+  assert_code(HF_ERROR_OUT_OF_MEMORY, hf_surface_create(&wide, &surface));
+  assert_null(surface);
   wide.memory_limit_mb = 1000;
-  assert_ok(hf_create(&wide, &solver));
-  hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
-  assert_ok(hf_solver_get_statistics(solver, &statistics));
+  assert_ok(hf_surface_create(&wide, &surface));
+  hf_surface_statistics statistics = HF_INIT(hf_surface_statistics);
+  assert_ok(hf_surface_get_statistics(surface, &statistics));
   assert_true(statistics.peak_memory_bytes < 1000.0 * 1048576.0);
-  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
   surface_free(&sheet);
 }
 
-static int solver_holds(void) { return solver_unchanged(&scene); }
-#undef UNCHANGED
-#define UNCHANGED solver_holds
-
-static void readers_of_base_and_mesh_refuse_null_and_small_arrays(void** state) {
+static void readers_of_base_and_surface_refuse_null_and_small_arrays(void** state) {
   (void)state;
   scene_create(&scene);
   uint32_t components[CUT_VERTICES + 1];
   float fraction;
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_clone(scene.solver, NULL));
   ROW("out NULL and no handle", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_clone(NULL, NULL));
-  ROW("array NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_get_components(scene.solver, CUT_VERTICES, NULL));
+  uint32_t count;
   ROW("array too small", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
-      hf_surface_get_components(scene.solver, CUT_VERTICES - 1, components));
-  ROW("array too large", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
-      hf_surface_get_components(scene.solver, CUT_VERTICES + 1, components));
-  ROW("array of 0", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_surface_get_components(scene.solver, 0, components));
-  ROW("array of 2^32 - 1", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
-      hf_surface_get_components(scene.solver, UINT32_MAX, components));
+      hf_surface_get_components(scene.sheet, CUT_VERTICES - 1, components, &count));
+  ROW("array of 0", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
+      hf_surface_get_components(scene.sheet, 0, components, &count));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_get_components(scene.sheet, 0, NULL, NULL));
+  unsigned char byte;
+  size_t size;
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_save(scene.sheet, 0, 0, NULL, NULL));
+  ROW("one byte", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_surface_save(scene.sheet, 0, 1, &byte, &size));
+  ROW("field kind -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, hf_surface_save(scene.sheet, -1, 1, &byte, &size));
+  ROW("field kind 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, hf_surface_save(scene.sheet, 3, 1, &byte, &size));
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_progress_create(NULL));
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_progress_get_fraction(scene.progress, NULL));
   ROW("handle NULL", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_progress_get_fraction(NULL, &fraction));
@@ -225,10 +271,11 @@ int main(void) {
   const int clean = hf_error_get_detail(&detail) == HF_OK && memcmp(&detail, &zero, sizeof zero) == 0;
   if (!clean) return printf("before the first failure the detail must be all zero\n"), 1;
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(hf_create_refuses_bad_meshes),
+      cmocka_unit_test(hf_surface_create_refuses_bad_meshes),
+      cmocka_unit_test(hf_surface_create_refuses_bad_options),
       cmocka_unit_test(hf_create_refuses_bad_options),
       cmocka_unit_test(a_memory_limit_is_kept),
-      cmocka_unit_test(readers_of_base_and_mesh_refuse_null_and_small_arrays),
+      cmocka_unit_test(readers_of_base_and_surface_refuse_null_and_small_arrays),
       cmocka_unit_test(every_code_has_its_name_and_others_are_unknown),
       cmocka_unit_test(a_success_leaves_the_detail_of_the_last_failure),
       cmocka_unit_test(the_version_is_that_of_the_project),

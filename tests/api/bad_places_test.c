@@ -8,9 +8,9 @@
 static void regions_name_points_that_are_no_surface(void** state) {
   (void)state;
   Surface cut = surface_cut();
-  const hf_solver solver = surface_solver(&cut);
+  const hf_surface surface = surface_on(&cut);
   hf_region region = NULL;
-  assert_ok(hf_region_create(solver, NULL, &region));
+  assert_ok(hf_region_create(surface, NULL, &region));
   hf_curve_desc curve = HF_INIT(hf_curve_desc);
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
   edit.curve = &curve;
@@ -27,7 +27,7 @@ static void regions_name_points_that_are_no_surface(void** state) {
   curve = HF_INIT(hf_curve_desc);
   curve.point_count = 3, curve.triangles = triangles, curve.barycentrics = corners;
   REFUSED("a triangle of equal corners", HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
-  edit = HF_INIT(hf_region_);
+  edit = HF_INIT(hf_region_edit_desc);
   edit.add_count = 4, edit.add_vertices = points, points[3] = CUT_ISOLATED;
   REFUSED("added in no triangle", HF_ERROR_INVALID_ARGUMENT, 3, hf_region_edit(region, &edit));
 
@@ -43,7 +43,7 @@ static void regions_name_points_that_are_no_surface(void** state) {
   REFUSED("a source pin in no triangle", HF_ERROR_INVALID_ARGUMENT, 0,
           hf_detail_create(region, region, &pins, &detail));
   assert_null(detail);
-  hf_region_destroy(region), hf_solver_destroy(solver);
+  hf_region_destroy(region), hf_surface_destroy(surface);
   surface_free(&cut);
   finish_rows("regions");
 }
@@ -51,9 +51,9 @@ static void regions_name_points_that_are_no_surface(void** state) {
 static void pairs_name_vertices_that_are_no_surface(void** state) {
   (void)state;
   Surface cut = surface_cut();
-  const hf_solver solver = surface_solver(&cut);
+  const hf_surface surface = surface_on(&cut);
   hf_transfer transfer = NULL;
-  assert_ok(hf_transfer_create(solver, solver, NULL, &transfer));
+  assert_ok(hf_transfer_create(surface, surface, NULL, &transfer));
   const uint32_t counts[1] = {3}, good[3] = {0, 1, 2}, bad[3] = {0, CUT_ISOLATED, 2};
   hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
   pairs.pair_count = 1, pairs.source_counts = pairs.target_counts = counts;
@@ -63,7 +63,7 @@ static void pairs_name_vertices_that_are_no_surface(void** state) {
   pairs.source_vertices = good, pairs.target_vertices = bad;
   REFUSED("a target vertex in no triangle", HF_ERROR_INVALID_ARGUMENT, 1,
           hf_transfer_add_pairs(transfer, &pairs, NULL));
-  hf_transfer_destroy(transfer), hf_solver_destroy(solver);
+  hf_transfer_destroy(transfer), hf_surface_destroy(surface);
   surface_free(&cut);
   finish_rows("pairs");
 }
@@ -71,10 +71,11 @@ static void pairs_name_vertices_that_are_no_surface(void** state) {
 static void vectors_stay_on_their_component(void** state) {
   (void)state;
   Surface cut = surface_cut();
-  hf_create_desc desc = surface_desc(&cut);
-  desc.channel_count = 3;
+  Options desc = options_of(&cut);
+  desc.solver.channel_count = 3;
+  hf_surface surface = NULL;
   hf_solver solver = NULL;
-  assert_ok(hf_create(&desc, &solver));
+  assert_ok(make(&desc, &surface, &solver));
   const uint32_t place[1] = {7}, isolated[1] = {CUT_ISOLATED}, island[1] = {CUT_ISLAND};
   const double vector[3] = {1, 0, 0};
   const hf_sites_desc sites = sites_at(1, place, vector);
@@ -82,17 +83,18 @@ static void vectors_stay_on_their_component(void** state) {
   assert_ok(hf_add_sites(solver, &sites, &site));
   double before[3 * CUT_VERTICES], after[3 * CUT_VERTICES];
   assert_ok(hf_solver_solve_vectors_f64(solver, before, 0, NULL, NULL));
-  REFUSED("to a vertex in no triangle", HF_ERROR_INVALID_ARGUMENT, 0, hf_solver_move_vectors(solver, 1, &site, isolated));
+  REFUSED("to a vertex in no triangle", HF_ERROR_INVALID_ARGUMENT, 0,
+          hf_solver_move_vectors(solver, 1, &site, isolated));
   REFUSED("to another component", HF_ERROR_INVALID_ARGUMENT, 0, hf_solver_move_vectors(solver, 1, &site, island));
   assert_ok(hf_solver_solve_vectors_f64(solver, after, 0, NULL, NULL));
   assert_true(same_bits(before, after, sizeof before));
 
   hf_direction direction = NULL;
-  assert_ok(hf_direction_create(solver, NULL, &direction));
+  assert_ok(hf_direction_create(surface, NULL, &direction));
   const double huge[3] = {0, 1e150, 0};
   REFUSED("1e150 long", HF_ERROR_TOO_LARGE, 0, hf_direction_add_sites(direction, 1, place, huge, NULL));
   assert_int_equal(hf_direction_get_site_count(direction), 0);
-  hf_direction_destroy(direction), hf_solver_destroy(solver);
+  hf_direction_destroy(direction), hf_solver_destroy(solver), hf_surface_destroy(surface);
   surface_free(&cut);
   finish_rows("vectors");
 }
@@ -153,9 +155,9 @@ static void singularities_need_their_room(void** state) {
     memcpy(triangles + 3 * count, four, sizeof four), count += 4;
   }
   const Surface ball = {vertices, count, positions, triangles};
-  const hf_solver solver = surface_solver(&ball);
+  const hf_surface surface = surface_on(&ball);
   hf_direction direction = NULL;
-  assert_ok(hf_direction_create(solver, NULL, &direction));
+  assert_ok(hf_direction_create(surface, NULL, &direction));
   const uint32_t place[1] = {0};
   const double vector[3] = {0, 1, 0};
   assert_ok(hf_direction_add_sites(direction, 1, place, vector, NULL));
@@ -169,7 +171,7 @@ static void singularities_need_their_room(void** state) {
   double sum = 0;
   for (uint32_t i = 0; i < found; ++i) sum += list[i].index;
   assert_true(fabs(sum - 2) < 1e-12);
-  hf_direction_destroy(direction), hf_solver_destroy(solver);
+  hf_direction_destroy(direction), hf_surface_destroy(surface);
   finish_rows("singularities");
 }
 

@@ -1,4 +1,4 @@
-/* Bad input to hf/deform.h and hf/transfer.h: one thing wrong per row; pose, transfer and outputs stay as they were. */
+/* Bad input to hf/pose.h and hf/transfer.h: one thing wrong per row; pose, transfer and outputs stay as they were. */
 #include "bad_scene.h"
 
 static Scene scene;
@@ -24,8 +24,9 @@ static void good_input(void) {
   counts[0] = target_counts[0] = 2, counts[1] = target_counts[1] = 4;
   flags[0] = 0, flags[1] = HF_PAIR_ANCHOR, out_numbers[0] = 777;
   numbers[0] = scene.handles[0], numbers[1] = scene.handles[1], numbers[2] = 0;
-  HF_INIT(handles), HF_INIT(pairs), HF_INIT(pose_desc), HF_INIT(transfer_desc), HF_INIT(deform), HF_INIT(frame),
-      skin = HF_INIT(hf_skin_info);
+  handles = HF_INIT(hf_handles_desc), pairs = HF_INIT(hf_pairs_desc), pose_desc = HF_INIT(hf_pose_desc),
+  transfer_desc = HF_INIT(hf_transfer_desc), deform = HF_INIT(hf_deform_desc), frame = HF_INIT(hf_transfer_frame),
+  skin = HF_INIT(hf_skin_info);
   handles.handle_count = 2, handles.region_counts = counts, handles.region_vertices = region;
   pairs.pair_count = 2, pairs.flags = flags;
   pairs.source_counts = counts, pairs.source_vertices = region;
@@ -56,20 +57,9 @@ static int no_transfer(void) { return out_transfer == NULL && transfer_as_before
 #define CREATE_POSE(what, expected, change) \
   ROW(what, expected, NO_INDEX, change, hf_pose_create(scene.body, &pose_desc, &out_pose))
 
-static hf_solver solver_of(int32_t engine, int32_t field_kind) {
-  hf_create_desc desc = surface_desc(&scene.tube);
-  desc.engine = engine, desc.field_kind = field_kind;
-  hf_solver solver = NULL;
-  assert_ok(hf_create(&desc, &solver));
-  return solver;
-}
-
 static void bad_poses_are_not_made(void** state) {
   (void)state;
   scene_create(&scene);
-  hf_solver refactor = solver_of(HF_ENGINE_REFACTOR, HF_FIELD_HARMONIC);
-  hf_solver plates[2] = {solver_of(HF_ENGINE_GREEN, HF_FIELD_BIHARMONIC),
-                         solver_of(HF_ENGINE_GREEN, HF_FIELD_BIHARMONIC_GRAPH)};
   CREATE_POSE("mode -1", HF_ERROR_INVALID_ARGUMENT, pose_desc.mode = -1);
   CREATE_POSE("mode 2", HF_ERROR_INVALID_ARGUMENT, pose_desc.mode = 2);
   CREATE_POSE("1 band", HF_ERROR_INVALID_ARGUMENT, pose_desc.band_count = 1);
@@ -79,16 +69,12 @@ static void bad_poses_are_not_made(void** state) {
   CREATE_POSE("2^31 iterations", HF_ERROR_INVALID_ARGUMENT, pose_desc.iteration_count = 0x80000000u);
   CREATE_POSE("2001 groups", HF_ERROR_INVALID_ARGUMENT, pose_desc.group_count = 2001);
   CREATE_POSE("2^32 - 1 groups", HF_ERROR_INVALID_ARGUMENT, pose_desc.group_count = UINT32_MAX);
-  ROW("another engine", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0, hf_pose_create(refactor, NULL, &out_pose));
-  ROW("bi-harmonic", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0, hf_pose_create(plates[0], NULL, &out_pose));
-  ROW("bi-harmonic graph", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0, hf_pose_create(plates[1], NULL, &out_pose));
-  ROW("no solver", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_pose_create(NULL, NULL, &out_pose));
+  ROW("no surface", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_pose_create(NULL, NULL, &out_pose));
   ROW("no pose to clone", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_pose_clone(scene.stale_pose, &out_pose));
 #undef UNCHANGED
 #define UNCHANGED pose_as_before
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_create(scene.body, NULL, NULL));
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_clone(scene.pose, NULL));
-  hf_solver_destroy(refactor), hf_solver_destroy(plates[0]), hf_solver_destroy(plates[1]);
   scene_destroy(&scene);
   finish_rows("making poses");
 }
@@ -132,6 +118,13 @@ static void bad_handles_are_not_added(void** state) {
               (double[3]){(double)scene.tube.positions[0], (double)scene.tube.positions[1],
                           (double)scene.tube.positions[2]},
               24));
+#define NEAR_ONE(what, expected, index, change) \
+  ROW(what, expected, index, change, hf_pose_add_handle_at(scene.pose, points, radii[0], out_numbers))
+  NEAR_ONE("point NaN", HF_ERROR_NON_FINITE, 0, points[1] = (double)NAN);
+  NEAR_ONE("radius NaN", HF_ERROR_NON_FINITE, 0, radii[0] = (double)NAN);
+  NEAR_ONE("radius negative", HF_ERROR_INVALID_ARGUMENT, 0, radii[0] = -1);
+  NEAR_ONE("a radius that reaches a handle", HF_ERROR_OVERLAP, 0, radii[0] = 1000);
+  ROW("point NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_add_handle_at(scene.pose, NULL, 0, out_numbers));
   scene_destroy(&scene);
   finish_rows("adding handles");
 }
@@ -140,7 +133,7 @@ static void isolated_vertices_and_welded_copies_in_regions_are_found(void** stat
   (void)state;
   scene_create(&scene);
   hf_pose pose = NULL;
-  assert_ok(hf_pose_create(scene.solver, NULL, &pose));
+  assert_ok(hf_pose_create(scene.sheet, NULL, &pose));
   uint32_t sizes[2] = {2, 2}, vertices[4] = {0, 1, CUT_SEAM_LEFT, CUT_SEAM_RIGHT};
   hf_handles_desc d = HF_INIT(hf_handles_desc);
   d.handle_count = 2, d.region_counts = sizes, d.region_vertices = vertices;
@@ -165,9 +158,9 @@ static void isolated_vertices_and_welded_copies_in_regions_are_found(void** stat
 static void a_pose_takes_256_handles_and_no_more(void** state) {
   (void)state;
   Surface tube = surface_tube(16, 40);
-  hf_solver solver = surface_solver(&tube);
+  hf_surface surface = surface_on(&tube);
   hf_pose pose = NULL;
-  assert_ok(hf_pose_create(solver, NULL, &pose));
+  assert_ok(hf_pose_create(surface, NULL, &pose));
   uint32_t sizes[200], vertices[200];
   for (uint32_t i = 0; i < 200; ++i) sizes[i] = 1, vertices[i] = 3 * i;
   hf_handles_desc d = HF_INIT(hf_handles_desc);
@@ -177,7 +170,7 @@ static void a_pose_takes_256_handles_and_no_more(void** state) {
   d.handle_count = 57;
   assert_code(HF_ERROR_TOO_LARGE, hf_pose_add_handles(pose, &d, NULL));
   assert_int_equal(hf_pose_get_handle_count(pose), 200);
-  hf_pose_destroy(pose), hf_solver_destroy(solver);
+  hf_pose_destroy(pose), hf_surface_destroy(surface);
   surface_free(&tube);
 }
 
@@ -202,6 +195,14 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   ROW("2^32 - 1 of them", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0,
       hf_pose_set_transforms(scene.pose, UINT32_MAX, numbers, transforms));
   PLACE("no such handle", HF_ERROR_NO_SUCH_HANDLE, 1, numbers[1] = 9);
+#define PLACE_ONE(what, expected, change) \
+  ROW(what, expected, 0, change, hf_pose_set_transform(scene.pose, numbers[0], transforms))
+  ROW("transform NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_set_transform(scene.pose, 0, NULL));
+  PLACE_ONE("no such handle", HF_ERROR_NO_SUCH_HANDLE, numbers[0] = 9);
+  PLACE_ONE("handle UINT32_MAX", HF_ERROR_NO_SUCH_HANDLE, numbers[0] = UINT32_MAX);
+  PLACE_ONE("rotation NaN", HF_ERROR_NON_FINITE, transforms[0].rotation[1] = (double)NAN);
+  PLACE_ONE("translation infinite", HF_ERROR_NON_FINITE, transforms[0].translation[2] = HUGE_VAL);
+  ROW("output NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_deform(scene.pose, NULL, NULL));
   PLACE("rotation NaN", HF_ERROR_NON_FINITE, 1, transforms[1].rotation[0] = (double)NAN);
   PLACE("rotation w infinite", HF_ERROR_NON_FINITE, 0, transforms[0].rotation[3] = HUGE_VAL);
   PLACE("translation NaN", HF_ERROR_NON_FINITE, 1, transforms[1].translation[2] = (double)NAN);
@@ -246,11 +247,13 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
 
 #define POSE_SKIN(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_pose_get_skin(scene.pose, &skin))
   POSE_SKIN("5 weights", HF_ERROR_INVALID_ARGUMENT, skin.weight_count = 5);
+  POSE_SKIN("no room for the joints", HF_ERROR_TOO_SMALL, skin.pivots = doubles);
+  POSE_SKIN("no room for the vertices", HF_ERROR_TOO_SMALL, (skin.joint_capacity = 1000, skin.vertex_weights = floats));
   POSE_SKIN("2^32 - 1 weights", HF_ERROR_INVALID_ARGUMENT, skin.weight_count = UINT32_MAX);
-  POSE_SKIN("reserved set", HF_ERROR_INVALID_DESC, skin.reserved = 1);
   GOOD();
   assert_ok(hf_pose_create(scene.body, NULL, &out_pose));
   check_row(__LINE__, "no handle", "hf_pose_deform", hf_pose_deform(out_pose, &deform, NULL), HF_ERROR_EMPTY, NO_INDEX);
+  check_row(__LINE__, "no handle", "hf_deform", hf_deform(out_pose, floats, NULL), HF_ERROR_EMPTY, NO_INDEX);
   check_row(__LINE__, "no handle", "hf_pose_get_skin", hf_pose_get_skin(out_pose, &skin), HF_ERROR_EMPTY, NO_INDEX);
   check_row(__LINE__, "no handle", "hf_pose_get_handle", hf_pose_get_handle(out_pose, 0, &info),
             HF_ERROR_NO_SUCH_HANDLE, NO_INDEX);
@@ -271,7 +274,6 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
 static void bad_transfers_are_not_made(void** state) {
   (void)state;
   scene_create(&scene);
-  hf_solver refactor = solver_of(HF_ENGINE_REFACTOR, HF_FIELD_HARMONIC);
   CREATE_TRANSFER("mode -1", HF_ERROR_INVALID_ARGUMENT, transfer_desc.mode = -1);
   CREATE_TRANSFER("mode 2", HF_ERROR_INVALID_ARGUMENT, transfer_desc.mode = 2);
   CREATE_TRANSFER("513 clusters", HF_ERROR_INVALID_ARGUMENT, transfer_desc.cluster_count = 513);
@@ -291,27 +293,15 @@ static void bad_transfers_are_not_made(void** state) {
   CREATE_TRANSFER("source axes incomplete", HF_ERROR_INVALID_ARGUMENT, transfer_desc.source_axes[0] = 1.0f);
   CREATE_TRANSFER("target axes no frame", HF_ERROR_INVALID_ARGUMENT,
                   (transfer_desc.target_axes[0] = transfer_desc.target_axes[3] = transfer_desc.target_axes[8] = 1.0f));
-  ROW("source engine", HF_ERROR_UNSUPPORTED, 0, (void)0, hf_transfer_create(refactor, scene.body, NULL, &out_transfer));
-  ROW("target engine", HF_ERROR_UNSUPPORTED, 1, (void)0, hf_transfer_create(scene.body, refactor, NULL, &out_transfer));
-  for (int32_t kind = HF_FIELD_BIHARMONIC; kind <= HF_FIELD_BIHARMONIC_GRAPH; ++kind) {
-    hf_solver plate = solver_of(HF_ENGINE_GREEN, kind);
-    ROW("bi-harmonic source", HF_ERROR_UNSUPPORTED, 0, (void)0,
-        hf_transfer_create(plate, scene.body, NULL, &out_transfer));
-    ROW("bi-harmonic target", HF_ERROR_UNSUPPORTED, 1, (void)0,
-        hf_transfer_create(scene.body, plate, NULL, &out_transfer));
-    hf_direction direction = NULL;
-    assert_ok(hf_direction_create(scene.body, NULL, &direction));
-    ROW("direction source", HF_ERROR_INVALID_HANDLE, 0, (void)0,
-        hf_transfer_create((hf_solver)direction, scene.body, NULL, &out_transfer));
-    ROW("direction target", HF_ERROR_INVALID_HANDLE, 1, (void)0,
-        hf_transfer_create(scene.body, (hf_solver)direction, NULL, &out_transfer));
-    hf_direction_destroy(direction);
-    hf_solver_destroy(plate);
-  }
+  ROW("no source", HF_ERROR_INVALID_HANDLE, 0, (void)0, hf_transfer_create(NULL, scene.body, NULL, &out_transfer));
+  ROW("no target", HF_ERROR_INVALID_HANDLE, 1, (void)0, hf_transfer_create(scene.body, NULL, NULL, &out_transfer));
+  ROW("a solver as source", HF_ERROR_INVALID_HANDLE, 0, (void)0,
+      hf_transfer_create((hf_surface)(void*)scene.solver, scene.body, NULL, &out_transfer));
+  ROW("a direction field as target", HF_ERROR_INVALID_HANDLE, 1, (void)0,
+      hf_transfer_create(scene.body, (hf_surface)(void*)scene.direction, NULL, &out_transfer));
 #undef UNCHANGED
 #define UNCHANGED transfer_as_before
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_transfer_create(scene.body, scene.body, NULL, NULL));
-  hf_solver_destroy(refactor);
   scene_destroy(&scene);
   finish_rows("making transfers");
 }
@@ -375,8 +365,9 @@ static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
   APPLY("source infinite", HF_ERROR_NON_FINITE, TUBE_VERTICES - 1, source[3 * TUBE_VERTICES - 1] = (float)INFINITY);
 
   SKIN("5 weights", HF_ERROR_INVALID_ARGUMENT, skin.weight_count = 5);
+  SKIN("no room for the joints", HF_ERROR_TOO_SMALL, skin.pivots = doubles);
+  SKIN("no room for the vertices", HF_ERROR_TOO_SMALL, (skin.joint_capacity = 1000, skin.vertex_weights = floats));
   SKIN("2^32 - 1 weights", HF_ERROR_INVALID_ARGUMENT, skin.weight_count = UINT32_MAX);
-  SKIN("reserved set", HF_ERROR_INVALID_DESC, skin.reserved = 1);
 
   GOOD();
   assert_ok(hf_transfer_create(scene.body, scene.body, NULL, &out_transfer));

@@ -3,6 +3,7 @@
 #include "bad_scene.h"
 
 static Surface tube;
+static hf_surface surface;
 static hf_solver solver;
 static hf_quads quads;
 static hf_flow flow;
@@ -12,17 +13,18 @@ static uint32_t numbers[TUBE_VERTICES];
 
 static void setup_surface(void) {
   tube = surface_tube(TUBE_AROUND, TUBE_RINGS);
-  solver = surface_solver(&tube);
+  surface = surface_on(&tube), solver = solver_on(surface);
   for (int v = 0; v < TUBE_VERTICES; ++v) height[v] = (double)tube.positions[3 * v + 1] + 0.01 * sin(2.3 * v);
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
   desc.edge_length = 2, desc.relax_count = 2;
-  assert_ok(hf_quads_create(solver, &desc, &quads));
-  assert_ok(hf_flow_create(solver, &flow));
-  assert_ok(hf_region_create(solver, NULL, &region));
+  assert_ok(hf_quads_create(surface, &desc, &quads));
+  assert_ok(hf_flow_create(surface, &flow));
+  assert_ok(hf_region_create(surface, NULL, &region));
 }
 
 static void teardown_surface(void) {
   hf_quads_destroy(quads), hf_flow_destroy(flow), hf_region_destroy(region), hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
   surface_free(&tube);
 }
 
@@ -56,7 +58,7 @@ static hf_result region_get_info(void* h) {
   return hf_region_get_info(h, &info);
 }
 static hf_result region_get_vertices(void* h) {
-  return hf_region_get_vertices(h, HF_REGION_INSIDE, TUBE_VERTICES, numbers);
+  return hf_region_get_vertices(h, HF_REGION_INSIDE, TUBE_VERTICES, numbers, NULL);
 }
 static hf_result region_undo(void* h) { return hf_region_undo(h); }
 static hf_result region_redo(void* h) { return hf_region_redo(h); }
@@ -70,25 +72,25 @@ static void quads_flow_and_regions_refuse_every_handle_that_is_not_their_own(voi
   (void)state;
   setup_surface();
   hf_quads stale = NULL;
-  assert_ok(hf_quads_create(solver, NULL, &stale));
+  assert_ok(hf_quads_create(surface, NULL, &stale));
   hf_quads_destroy(stale);
   int on_the_stack = 0;
   const struct {
     const char* function;
     hf_result (*call)(void*);
     void* own;
-  } functions[] = {{"hf_quads_create", quads_create, solver},
+  } functions[] = {{"hf_quads_create", quads_create, surface},
                    {"hf_quads_get_info", quads_get_info, quads},
                    {"hf_quads_get_mesh", quads_get_mesh, quads},
-                   {"hf_flow_create", flow_create, solver},
+                   {"hf_flow_create", flow_create, surface},
                    {"hf_flow_trace", flow_trace, flow},
                    {"hf_region_get_info", region_get_info, region},
                    {"hf_region_get_vertices", region_get_vertices, region},
                    {"hf_region_undo", region_undo, region},
                    {"hf_region_redo", region_redo, region},
                    {"hf_detail_morph", detail_morph, &stale}};
-  void* const bad[] = {NULL,  (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &on_the_stack, stale, solver, quads, flow,
-                       region};
+  void* const bad[] = {
+      NULL, (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &on_the_stack, stale, surface, solver, quads, flow, region};
   for (size_t f = 0; f < COUNT_OF(functions); ++f) {
     for (size_t b = 0; b < COUNT_OF(bad); ++b) {
       if (bad[b] == functions[f].own) continue;
@@ -117,36 +119,37 @@ static void quads_refuse_bad_descs(void** state) {
   setup_surface();
   const uint32_t outside[2] = {3, TUBE_VERTICES}, twice[2] = {9, 9};
   const int32_t one_sign[2] = {4, 4}, none[2] = {4, 0};
-  ROW("kind", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.kind = 7, hf_quads_create(solver, &good_quads, &made));
+  ROW("kind", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.kind = 7, hf_quads_create(surface, &good_quads, &made));
   ROW("kind below 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.kind = -1,
-      hf_quads_create(solver, &good_quads, &made));
+      hf_quads_create(surface, &good_quads, &made));
   ROW("edge length below 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.edge_length = -1,
-      hf_quads_create(solver, &good_quads, &made));
+      hf_quads_create(surface, &good_quads, &made));
   ROW("edge length NaN", HF_ERROR_NON_FINITE, NO_INDEX, good_quads.edge_length = NAN,
-      hf_quads_create(solver, &good_quads, &made));
+      hf_quads_create(surface, &good_quads, &made));
   ROW("edge length infinite", HF_ERROR_NON_FINITE, NO_INDEX, good_quads.edge_length = INFINITY,
-      hf_quads_create(solver, &good_quads, &made));
+      hf_quads_create(surface, &good_quads, &made));
   ROW("rounds of relaxation", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_quads.relax_count = 1001,
-      hf_quads_create(solver, &good_quads, &made));
+      hf_quads_create(surface, &good_quads, &made));
   ROW("sites without a list", HF_ERROR_NULL_POINTER, NO_INDEX, good_quads.site_vertices = NULL,
-      hf_quads_create(solver, &good_quads, &made));
+      hf_quads_create(surface, &good_quads, &made));
   ROW("a site outside", HF_ERROR_OUT_OF_RANGE, 1, good_quads.site_vertices = outside,
-      hf_quads_create(solver, &good_quads, &made));
+      hf_quads_create(surface, &good_quads, &made));
   ROW("a site twice", HF_ERROR_DUPLICATE_SITE, 1, good_quads.site_vertices = twice,
-      hf_quads_create(solver, &good_quads, &made));
+      hf_quads_create(surface, &good_quads, &made));
   ROW("struct_size 0", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.struct_size = 0,
-      hf_quads_create(solver, &good_quads, &made));
+      hf_quads_create(surface, &good_quads, &made));
   ROW("struct_size 3", HF_ERROR_INVALID_DESC, NO_INDEX, good_quads.struct_size = 3,
-      hf_quads_create(solver, &good_quads, &made));
+      hf_quads_create(surface, &good_quads, &made));
   ROW("a progress object that is none", HF_ERROR_INVALID_HANDLE, NO_INDEX,
-      good_quads.progress = (hf_progress)(void*)solver, hf_quads_create(solver, &good_quads, &made));
+      good_quads.progress = (hf_progress)(void*)solver, hf_quads_create(surface, &good_quads, &made));
   ROW("lines of one sign", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
-      (good_quads.kind = HF_QUADS_PURE, good_quads.site_lines = one_sign), hf_quads_create(solver, &good_quads, &made));
+      (good_quads.kind = HF_QUADS_PURE, good_quads.site_lines = one_sign),
+      hf_quads_create(surface, &good_quads, &made));
   ROW("no lines at a site", HF_ERROR_INVALID_ARGUMENT, 1,
-      (good_quads.kind = HF_QUADS_PURE, good_quads.site_lines = none), hf_quads_create(solver, &good_quads, &made));
+      (good_quads.kind = HF_QUADS_PURE, good_quads.site_lines = none), hf_quads_create(surface, &good_quads, &made));
 #undef UNCHANGED
 #define UNCHANGED() 1
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_create(solver, &good_quads, NULL));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_create(surface, &good_quads, NULL));
   hf_quads_info info = HF_INIT(hf_quads_info);
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_quads_get_info(quads, NULL));
   ROW("struct_size 0", HF_ERROR_INVALID_DESC, NO_INDEX, info.struct_size = 0, hf_quads_get_info(quads, &info));
@@ -177,7 +180,7 @@ static void flow_lines_refuse_bad_input(void** state) {
   memcpy(broken, height, sizeof broken);
   broken[33] = NAN;
   const uint32_t outside[2] = {3, TUBE_VERTICES};
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_flow_create(solver, NULL));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_flow_create(surface, NULL));
   ROW("no lines wanted", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_lines.wanted_count = 0,
       hf_flow_trace(flow, &good_field, &good_lines));
   ROW("too many lines wanted", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_lines.wanted_count = 1000001,
@@ -214,15 +217,16 @@ static void what_is_no_handle_is_ignored_by_every_destroy_and_counts_as_nothing(
   hf_solver gone = surface_solver(&tube);
   hf_solver_destroy(gone);
   void* const bad[] = {NULL, (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &on_the_stack, gone};
-#define NOTHING_HAPPENS(function)                                              \
-  do {                                                                         \
-    for (size_t b = 0; b < COUNT_OF(bad); ++b) {                               \
-      function(bad[b]);                                                        \
-      count_row(#function);                                                    \
-      row_holds(__LINE__, #function, "the live objects go on",                 \
+#define NOTHING_HAPPENS(function)                                                            \
+  do {                                                                                       \
+    for (size_t b = 0; b < COUNT_OF(bad); ++b) {                                             \
+      function(bad[b]);                                                                      \
+      count_row(#function);                                                                  \
+      row_holds(__LINE__, #function, "the live objects go on",                               \
                 hf_solver_get_site_count(solver) == 0 && hf_solver_record(solver) == HF_OK); \
-    }                                                                          \
+    }                                                                                        \
   } while (0)
+  NOTHING_HAPPENS(hf_surface_destroy);
   NOTHING_HAPPENS(hf_solver_destroy);
   NOTHING_HAPPENS(hf_pose_destroy);
   NOTHING_HAPPENS(hf_transfer_destroy);
@@ -247,10 +251,8 @@ static void what_is_no_handle_is_ignored_by_every_destroy_and_counts_as_nothing(
   count_row("hf_error_get_detail");
   row_holds(__LINE__, "hf_error_get_detail", "no output is named", hf_error_get_detail(NULL) == HF_ERROR_NULL_POINTER);
   count_row("hf_result_get_name");
-  row_holds(__LINE__, "hf_result_get_name", "no such code is unknown", strcmp(hf_result_get_name(12345), "unknown") == 0);
-  count_row("hf_init_desc");
-  hf_init_desc(NULL, 16);
-  row_holds(__LINE__, "hf_init_desc", "nothing is written to nowhere", 1);
+  row_holds(__LINE__, "hf_result_get_name", "no such code is unknown",
+            strcmp(hf_result_get_name(12345), "unknown") == 0);
   finish_rows("destroys and counts");
   teardown_surface();
 }

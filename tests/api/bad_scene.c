@@ -45,20 +45,22 @@ void scene_create(Scene* s) {
   s->cut = surface_cut(), s->tube = surface_tube(TUBE_AROUND, TUBE_RINGS);
   s->ends = tube_ends(TUBE_AROUND, TUBE_RINGS);
 
-  s->solver = surface_solver(&s->cut);
+  s->sheet = surface_on(&s->cut), s->body = surface_on(&s->tube);
+  s->solver = solver_on(s->sheet);
   s->sites[0] = add_site(s->solver, CUT_LEFT, 0.0);
   s->sites[1] = add_site(s->solver, CUT_RIGHT, 1.0);
   s->sites[2] = add_site(s->solver, CUT_SEAM_LEFT, 5.0);
   s->field = field_of(s->solver, CUT_VERTICES);
-  hf_create_desc desc = surface_desc(&s->cut);
+  hf_solver_desc desc = HF_INIT(hf_solver_desc);
   desc.channel_count = 3;
-  assert_ok(hf_create(&desc, &s->three));
-  s->body = surface_solver(&s->tube);
+  assert_ok(hf_create(s->sheet, &desc, &s->three));
   create_pose(s);
   create_transfer(s);
   assert_ok(hf_progress_create(&s->progress));
   assert_ok(hf_geodesics_create(s->body, NULL, &s->geodesics));
 
+  s->stale_surface = surface_on(&s->cut);
+  hf_surface_destroy(s->stale_surface);
   assert_ok(hf_solver_clone(s->solver, &s->stale_solver));
   assert_ok(hf_pose_clone(s->pose, &s->stale_pose));
   assert_ok(hf_transfer_create(s->body, s->body, NULL, &s->stale_transfer));
@@ -67,16 +69,24 @@ void scene_create(Scene* s) {
   hf_geodesics_destroy(s->stale_geodesics);
   const uint32_t corners[2] = {CUT_LEFT, CUT_RIGHT};
   const double vectors[6] = {1, 0, 0, 0, 1, 0};
-  assert_ok(hf_direction_create(s->solver, NULL, &s->direction));
+  assert_ok(hf_direction_create(s->sheet, NULL, &s->direction));
   assert_ok(hf_direction_add_sites(s->direction, 2, corners, vectors, NULL));
-  assert_ok(hf_direction_create(s->solver, NULL, &s->stale_direction));
+  assert_ok(hf_direction_create(s->sheet, NULL, &s->stale_direction));
   hf_direction_destroy(s->stale_direction);
+  const uint32_t middle[2] = {5 * TUBE_AROUND, 5 * TUBE_AROUND + 1};
+  hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
+  edit.add_count = 2, edit.add_vertices = middle;
+  assert_ok(hf_region_create(s->body, NULL, &s->region));
+  assert_ok(hf_region_edit(s->region, &edit));
+  assert_ok(hf_region_clone(s->region, &s->stale_region));
+  hf_region_destroy(s->stale_region);
   hf_solver_destroy(s->stale_solver), hf_pose_destroy(s->stale_pose);
   hf_transfer_destroy(s->stale_transfer), hf_progress_destroy(s->stale_progress);
 }
 
 void scene_destroy(Scene* s) {
-  hf_solver_destroy(s->solver), hf_solver_destroy(s->three), hf_solver_destroy(s->body);
+  hf_solver_destroy(s->solver), hf_solver_destroy(s->three);
+  hf_surface_destroy(s->sheet), hf_surface_destroy(s->body), hf_region_destroy(s->region);
   hf_pose_destroy(s->pose), hf_transfer_destroy(s->transfer), hf_progress_destroy(s->progress);
   hf_geodesics_destroy(s->geodesics), hf_direction_destroy(s->direction);
   surface_free(&s->cut), surface_free(&s->tube);

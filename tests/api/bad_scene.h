@@ -9,21 +9,25 @@ enum { TUBE_AROUND = 10, TUBE_RINGS = 14, TUBE_VERTICES = TUBE_AROUND * TUBE_RIN
 
 typedef struct Scene {
   Surface cut, tube;
+  hf_surface sheet; /* the cut sheet */
+  hf_surface body;  /* the tube */
   hf_solver
       solver; /* on the cut sheet, one channel, sites at CUT_LEFT = 0, CUT_RIGHT = 1, CUT_SEAM_LEFT = 5; undo record */
   hf_solver three;      /* on the cut sheet, three channels, no site */
-  hf_solver body;       /* on the tube, no site */
   hf_pose pose;         /* on the tube, two handles, one turned */
   hf_transfer transfer; /* tube to tube, two pairs */
   hf_progress progress;
-  hf_geodesics geodesics; /* of the tube */
-  hf_direction direction; /* on the cut sheet, constraint 0 at CUT_LEFT and 1 at CUT_RIGHT */
-  hf_solver stale_solver; /* destroyed */
+  hf_geodesics geodesics;   /* of the tube */
+  hf_direction direction;   /* on the cut sheet, constraint 0 at CUT_LEFT and 1 at CUT_RIGHT */
+  hf_region region;         /* on the tube, two vertices of its middle */
+  hf_surface stale_surface; /* destroyed */
+  hf_solver stale_solver;
   hf_pose stale_pose;
   hf_transfer stale_transfer;
   hf_progress stale_progress;
   hf_geodesics stale_geodesics;
   hf_direction stale_direction;
+  hf_region stale_region;
   uint32_t sites[3], handles[2], pairs[2];
   uint32_t* ends; /* the regions of both handles */
   float* posed;   /* a posed tube, the source of the transfer */

@@ -120,8 +120,8 @@ static void linearly_dependent_points_are_refused(void** state) {
             1);
   hf_sites_desc there = sites;
   there.values = NULL, there.site_count = 1, there.triangles = corners + 1;
-  check_row(__LINE__, "a move to such a point", "hf_solver_move_sites", hf_solver_move_sites(solver, 1, scene.sites, &there),
-            HF_ERROR_CONFLICT, 0);
+  check_row(__LINE__, "a move to such a point", "hf_solver_move_sites",
+            hf_solver_move_sites(solver, 1, scene.sites, &there), HF_ERROR_CONFLICT, 0);
   assert_ok(hf_solver_solve_f64(solver, after, 0, NULL));
   assert_true(same_bits(before, after, sizeof before));
   const double soft = 3;
@@ -241,22 +241,28 @@ static void reading_with_bad_arguments_is_refused(void** state) {
   ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solver_solve_f64(scene.three, doubles, 0, NULL));
   ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solver_solve_at(scene.three, 1, list, points));
   ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, floats, 0, NULL, NULL));
-  ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0, hf_solver_solve_vectors_f64(scene.three, doubles, 0, NULL, NULL));
+  ROW("no sites", HF_ERROR_NO_SITES, NO_INDEX, (void)0,
+      hf_solver_solve_vectors_f64(scene.three, doubles, 0, NULL, NULL));
   ROW("one channel", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0,
       hf_solver_solve_vectors(scene.solver, floats, 0, NULL, NULL));
   ROW("one channel", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0,
       hf_solver_solve_vectors_f64(scene.solver, doubles, 0, NULL, NULL));
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, NULL, 0, doubles, NULL));
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_vectors_f64(scene.three, NULL, 0, doubles, NULL));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
+      hf_solver_solve_vectors(scene.three, NULL, 0, doubles, NULL));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
+      hf_solver_solve_vectors_f64(scene.three, NULL, 0, doubles, NULL));
   ROW("stride 11", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, floats, 11, NULL, NULL));
-  ROW("stride 23", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solver_solve_vectors_f64(scene.three, doubles, 23, NULL, NULL));
+  ROW("stride 23", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
+      hf_solver_solve_vectors_f64(scene.three, doubles, 23, NULL, NULL));
   ROW("no vertex", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solver_solve_at(scene.solver, 0, list, points));
   ROW("no list", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_at(scene.solver, 2, NULL, points));
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_at(scene.solver, 2, list, NULL));
   ROW("vertex = vertex_count", HF_ERROR_OUT_OF_RANGE, 1, list[1] = CUT_VERTICES,
       hf_solver_solve_at(scene.solver, 2, list, points));
-  ROW("vertex UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 0, list[0] = UINT32_MAX, hf_solver_solve_at(scene.solver, 2, list, points));
-  ROW("2^31 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0, hf_solver_solve_at(scene.solver, 0x80000000u, list, points));
+  ROW("vertex UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 0, list[0] = UINT32_MAX,
+      hf_solver_solve_at(scene.solver, 2, list, points));
+  ROW("2^31 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0,
+      hf_solver_solve_at(scene.solver, 0x80000000u, list, points));
   scene_destroy(&scene);
   finish_rows("reading");
 }
@@ -283,10 +289,10 @@ static void nothing_to_undo_or_redo_is_said(void** state) {
 static void the_site_limit_of_the_desc_is_kept(void** state) {
   (void)state;
   Surface sheet = surface_sheet(4, 4);
-  hf_create_desc desc = surface_desc(&sheet);
-  desc.site_limit = 2;
+  Options desc = options_of(&sheet);
+  desc.solver.site_limit = 2;
   hf_solver solver = NULL;
-  assert_ok(hf_create(&desc, &solver));
+  assert_ok(make(&desc, NULL, &solver));
   add_site(solver, 0, 0);
   const uint32_t list[2] = {3, 9};
   const hf_sites_desc two = sites_at(2, list, NULL), single = sites_at(1, list, NULL);

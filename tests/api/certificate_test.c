@@ -27,10 +27,10 @@ static void every_engine_and_operator_passes_with_its_own_tolerance(void** state
   for (int32_t engine = 0; engine < 3; ++engine) {
     for (int32_t operator_kind = 0; operator_kind < 4; ++operator_kind) {
       for (int32_t field_kind = 0; field_kind < 3; ++field_kind) {
-        hf_create_desc desc = surface_desc(&tube);
-        desc.engine = engine, desc.operator_kind = operator_kind, desc.field_kind = field_kind;
+        Options desc = options_of(&tube);
+        desc.solver.engine = engine, desc.surface.operator_kind = operator_kind, desc.surface.field_kind = field_kind;
         hf_solver solver = NULL;
-        if (hf_create(&desc, &solver) == HF_ERROR_UNSUPPORTED) continue; /* updown without HF_WITH_GPL */
+        if (make(&desc, NULL, &solver) == HF_ERROR_UNSUPPORTED) continue; /* updown without HF_WITH_GPL */
         add_sites(solver, 9);
         hf_certificate found = HF_INIT(hf_certificate);
         assert_ok(hf_solver_certify(solver, &found));
@@ -68,7 +68,7 @@ static void points_soft_sites_discs_and_a_single_site_pass(void** state) {
   sites = sites_at(2, more, values), sites.radii = radii;
   assert_ok(hf_add_sites(solver, &sites, NULL));
   assert_ok(hf_solver_certify(solver, &found));
-  sites = HF_INIT(hf_add_);
+  sites = HF_INIT(hf_sites_desc);
   sites.site_count = 1, sites.triangles = &triangle, sites.barycentrics = weights, sites.values = values;
   assert_ok(hf_add_sites(solver, &sites, NULL));
   assert_ok(hf_solver_certify(solver, &found));
@@ -79,10 +79,10 @@ static void points_soft_sites_discs_and_a_single_site_pass(void** state) {
 
 static void sites_in_the_factor_and_several_channels_pass(void** state) {
   (void)state;
-  hf_create_desc desc = surface_desc(&tube);
-  desc.channel_count = 3;
+  Options desc = options_of(&tube);
+  desc.solver.channel_count = 3;
   hf_solver solver = NULL;
-  assert_ok(hf_create(&desc, &solver));
+  assert_ok(make(&desc, NULL, &solver));
   uint32_t vertices[60], sites[60];
   double values[180];
   for (uint32_t i = 0; i < 60; ++i) vertices[i] = i * 6;
@@ -101,18 +101,20 @@ static void sites_in_the_factor_and_several_channels_pass(void** state) {
  * certificate can tell. */
 static void a_factor_that_changed_behind_the_library_is_found_out(void** state) {
   (void)state;
-  hf_solver solver = surface_solver(&tube), loaded = NULL;
+  hf_surface surface = surface_on(&tube);
+  hf_solver solver = solver_on(surface), loaded = NULL;
   size_t size = 0;
-  assert_ok(hf_get_factor_size(solver, &size));
+  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, 0, NULL, &size));
   unsigned char* block = malloc(size + HF_FACTOR_ALIGNMENT);
   assert_non_null(block);
   unsigned char* bytes = block + HF_FACTOR_ALIGNMENT - (uintptr_t)block % HF_FACTOR_ALIGNMENT;
-  assert_ok(hf_surface_save(solver, bytes, size));
+  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, size, bytes, NULL));
+  hf_surface_destroy(surface);
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.borrow = 1, factor.bytes = bytes, factor.byte_count = size;
-  hf_create_desc desc = surface_desc(&tube);
-  desc.saved_factor = &factor;
-  assert_ok(hf_create(&desc, &loaded));
+  Options desc = options_of(&tube);
+  desc.surface.saved_factor = &factor;
+  assert_ok(make(&desc, NULL, &loaded));
   add_sites(solver, 6), add_sites(loaded, 6);
   double* right = field_of(solver, VERTICES);
   hf_certificate found = HF_INIT(hf_certificate);
@@ -162,10 +164,10 @@ static void the_largest_values_stay_finite_on_needles(void** state) {
       for (int c = 0; c < 3; ++c)
         needles.positions[3 * v + c] = needles.positions[3 * v + 3 + c] + (c == 1 ? 1e-6f : 0);
   for (int32_t operator_kind = 0; operator_kind < 4; ++operator_kind) {
-    hf_create_desc desc = surface_desc(&needles);
-    desc.operator_kind = operator_kind;
+    Options desc = options_of(&needles);
+    desc.surface.operator_kind = operator_kind;
     hf_solver solver = NULL;
-    assert_ok(hf_create(&desc, &solver));
+    assert_ok(make(&desc, NULL, &solver));
     add_site(solver, 0, 1e200), add_site(solver, 9, -1e200), add_site(solver, VERTICES - 1, 1e200);
     double* field = field_of(solver, VERTICES);
     for (int v = 0; v < VERTICES; ++v) assert_true(isfinite(field[v]));
@@ -188,11 +190,10 @@ static void nothing_is_changed(void** state) {
   free(before), free(after), hf_solver_destroy(solver);
 }
 
-#define CERTIFY(what, expected, ...)                                                         \
-  do {                                                                                       \
-    hf_certificate found;                                                                    \
-    found = HF_INIT(hf_certificate);                                                                          \
-    __VA_ARGS__;                                                                             \
+#define CERTIFY(what, expected, ...)                                                                       \
+  do {                                                                                                     \
+    hf_certificate found = HF_INIT(hf_certificate);                                                        \
+    __VA_ARGS__;                                                                                           \
     check_row(__LINE__, what, "hf_solver_certify", hf_solver_certify(solver, &found), expected, NO_INDEX); \
   } while (0)
 
@@ -209,7 +210,8 @@ static void bad_arguments_are_answered(void** state) {
   CERTIFY("reserved set", HF_ERROR_INVALID_DESC, found.reserved = 1);
   CERTIFY("struct_size 0", HF_ERROR_INVALID_DESC, found.struct_size = 0);
   CERTIFY("struct_size one short", HF_ERROR_INVALID_DESC, --found.struct_size);
-  check_row(__LINE__, "no certificate", "hf_solver_certify", hf_solver_certify(solver, NULL), HF_ERROR_NULL_POINTER, NO_INDEX);
+  check_row(__LINE__, "no certificate", "hf_solver_certify", hf_solver_certify(solver, NULL), HF_ERROR_NULL_POINTER,
+            NO_INDEX);
   hf_certificate found = HF_INIT(hf_certificate);
   found.tolerance = 1e-300;
   assert_code(HF_ERROR_INACCURATE, hf_solver_certify(solver, &found));

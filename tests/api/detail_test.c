@@ -27,11 +27,12 @@ static hf_region_info info_of(hf_region region) {
 }
 
 /* A region of 8 x 8 vertices on a bumpy sheet. */
-static hf_region sheet_region(hf_solver solver, const Surface* sheet) {
+static hf_region sheet_region(hf_surface surface, const Surface* sheet, int32_t field_kind) {
   hf_region_desc desc = HF_INIT(hf_region_desc);
+  desc.field_kind = field_kind;
   desc.positions = sheet->positions;
   hf_region region = NULL;
-  assert_ok(hf_region_create(solver, &desc, &region));
+  assert_ok(hf_region_create(surface, &desc, &region));
   const hf_curve_desc curve = curve_of(4, square);
   const hf_region_edit_desc edit = edit_of(&curve, 0);
   assert_ok(hf_region_edit(region, &edit));
@@ -50,8 +51,8 @@ static void weight_0_gives_the_bits_and_1_the_base(void** state) {
   sheet.positions[3 * at(6, 6)] += 1e-6f; /* a place that doubles in units of the box do not hit */
   sheet.positions[3 * at(7, 7)] = -0.0f;  /* p + 0 (base - p) would be +0 */
   sheet.positions[3 * at(0, 0)] = 1e-30f;
-  const hf_solver solver = surface_solver(&sheet);
-  const hf_region region = sheet_region(solver, &sheet);
+  const hf_surface surface = surface_on(&sheet);
+  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_HARMONIC);
   float p[3 * COUNT], q[3 * COUNT], normals[3 * COUNT];
   double base[3 * COUNT], half[3 * COUNT], other[3 * COUNT];
   morph_to(region, 0, p, NULL, NULL);
@@ -70,7 +71,7 @@ static void weight_0_gives_the_bits_and_1_the_base(void** state) {
   assert_true(moved > 0.01);
   uint32_t inside[64];
   assert_int_equal(info_of(region).vertex_count, 64);
-  assert_ok(hf_region_get_vertices(region, HF_REGION_INSIDE, 64, inside));
+  assert_ok(hf_region_get_vertices(region, HF_REGION_INSIDE, 64, inside, NULL));
   assert_int_equal(inside[0], at(4, 4));
   assert_int_equal(inside[63], at(11, 11));
   for (uint32_t v = 0; v < COUNT; ++v) {
@@ -93,14 +94,14 @@ static void weight_0_gives_the_bits_and_1_the_base(void** state) {
     assert_true(same_bits(rows_of_four[v].p, q + 3 * v, 3 * sizeof(float)));
     assert_true(same_bits(&rows_of_four[v].guard, &rows_of_four[0].guard, sizeof(float)));
   }
-  hf_region_destroy(region), hf_solver_destroy(solver), surface_free(&sheet);
+  hf_region_destroy(region), hf_surface_destroy(surface), surface_free(&sheet);
 }
 
 static void edits_keep_the_factor_and_undo_brings_back_the_bits(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
-  const hf_solver solver = surface_solver(&sheet);
-  const hf_region region = sheet_region(solver, &sheet);
+  const hf_surface surface = surface_on(&sheet);
+  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_HARMONIC);
   hf_region copy = NULL;
   double first[3 * COUNT], now[3 * COUNT];
   morph_to(region, 1, NULL, first, NULL);
@@ -114,9 +115,9 @@ static void edits_keep_the_factor_and_undo_brings_back_the_bits(void** state) {
   assert_int_equal(info.kept_count + info.inserted_count, info.site_count);
   assert_true(info.vertex_count > 64 && info.inserted_count > 0 && info.removed_count > 0);
   assert_true(info.base_area > 0 && info.area > info.base_area);
-  assert_int_equal(info.thin_plate, 0);
+  assert_int_equal(info.field_kind, HF_FIELD_HARMONIC);
   const uint32_t out = at(7, 7);
-  edit = HF_INIT(hf_region_);
+  edit = HF_INIT(hf_region_edit_desc);
   edit.remove_count = 1, edit.remove_vertices = &out;
   assert_ok(hf_region_edit(region, &edit));
   assert_int_equal(info_of(region).vertex_count, info.vertex_count - 1);
@@ -132,16 +133,14 @@ static void edits_keep_the_factor_and_undo_brings_back_the_bits(void** state) {
   assert_code(HF_ERROR_NO_RECORD, hf_region_undo(copy));
   assert_ok(hf_region_redo(region));
   assert_int_equal(info_of(region).vertex_count, info.vertex_count - 1);
-  /* the solver knows nothing of it */
-  assert_int_equal(hf_solver_get_site_count(solver), 0);
-  hf_region_destroy(copy), hf_region_destroy(region), hf_solver_destroy(solver), surface_free(&sheet);
+  hf_region_destroy(copy), hf_region_destroy(region), hf_surface_destroy(surface), surface_free(&sheet);
 }
 
 static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
-  const hf_solver solver = surface_solver(&sheet);
-  const hf_region region = sheet_region(solver, &sheet);
+  const hf_surface surface = surface_on(&sheet);
+  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_HARMONIC);
   uint32_t triangles[4];
   double weights[12];
   for (uint32_t k = 0; k < 4; ++k) {
@@ -156,7 +155,7 @@ static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
   hf_region other = NULL;
   hf_region_desc desc = HF_INIT(hf_region_desc);
   desc.positions = sheet.positions;
-  assert_ok(hf_region_create(solver, &desc, &other));
+  assert_ok(hf_region_create(surface, &desc, &other));
   hf_curve_desc curve = HF_INIT(hf_curve_desc);
   curve.point_count = 4, curve.triangles = triangles, curve.barycentrics = weights;
   const hf_region_edit_desc edit = edit_of(&curve, 0);
@@ -164,44 +163,41 @@ static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
   double a[3 * COUNT], b[3 * COUNT];
   morph_to(region, 1, NULL, a, NULL), morph_to(other, 1, NULL, b, NULL);
   assert_true(same_bits(a, b, sizeof a));
-  hf_region_destroy(region), hf_region_destroy(other), hf_solver_destroy(solver), surface_free(&sheet);
+  hf_region_destroy(region), hf_region_destroy(other), hf_surface_destroy(surface), surface_free(&sheet);
 }
 
-static void a_thin_plate_comes_from_a_biharmonic_solver(void** state) {
+static void a_thin_plate_is_a_region_of_a_biharmonic_kind(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
-  hf_create_desc create = surface_desc(&sheet);
-  create.field_kind = HF_FIELD_BIHARMONIC;
-  hf_solver solver = NULL;
-  assert_ok(hf_create(&create, &solver));
-  const hf_region region = sheet_region(solver, &sheet);
+  const hf_surface surface = surface_on(&sheet);
+  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_BIHARMONIC);
   const hf_region_info info = info_of(region);
-  assert_int_equal(info.thin_plate, 1);
+  assert_int_equal(info.field_kind, HF_FIELD_BIHARMONIC);
   assert_true(info.site_count > info.rim_count);
   uint32_t sites[COUNT], rim[COUNT];
-  assert_ok(hf_region_get_vertices(region, HF_REGION_SITES, COUNT, sites));
-  assert_ok(hf_region_get_vertices(region, HF_REGION_RIM, COUNT, rim));
+  assert_ok(hf_region_get_vertices(region, HF_REGION_SITES, COUNT, sites, NULL));
+  assert_ok(hf_region_get_vertices(region, HF_REGION_RIM, COUNT, rim, NULL));
   for (uint32_t i = 0, k = 0; i < info.rim_count; ++i) {
     const uint32_t column = rim[i] % ROW, row = rim[i] / ROW;
     assert_true(column == 3 || column == 12 || row == 3 || row == 12); /* on the curve */
     while (k < info.site_count && sites[k] < rim[i]) ++k;
     assert_true(k < info.site_count && sites[k] == rim[i]);
   }
-  hf_region_destroy(region), hf_solver_destroy(solver), surface_free(&sheet);
+  hf_region_destroy(region), hf_surface_destroy(surface), surface_free(&sheet);
 }
 
 static void detail_onto_itself_is_the_surface_and_outlives_all_else(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
-  const hf_solver solver = surface_solver(&sheet);
-  const hf_region region = sheet_region(solver, &sheet);
+  const hf_surface surface = surface_on(&sheet);
+  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_HARMONIC);
   double base[3 * COUNT], carried[3 * COUNT];
   morph_to(region, 1, NULL, base, NULL);
   hf_detail detail = NULL;
   assert_ok(hf_detail_create(region, region, NULL, &detail));
   const hf_region_edit_desc edit = edit_of(NULL, 1);
   assert_ok(hf_region_edit(region, &edit)); /* a later edit changes nothing */
-  hf_region_destroy(region), hf_solver_destroy(solver);
+  hf_region_destroy(region), hf_surface_destroy(surface);
   hf_morph_desc desc = HF_INIT(hf_morph_desc);
   desc.positions_f64 = carried;
   assert_ok(hf_detail_morph(detail, &desc));
@@ -221,15 +217,15 @@ static void detail_onto_itself_is_the_surface_and_outlives_all_else(void** state
 static void an_empty_region_gives_the_surface(void** state) {
   (void)state;
   Surface sheet = surface_cut(); /* with an isolated vertex and welded copies */
-  const hf_solver solver = surface_solver(&sheet);
+  const hf_surface surface = surface_on(&sheet);
   hf_region region = NULL;
-  assert_ok(hf_region_create(solver, NULL, &region));
+  assert_ok(hf_region_create(surface, NULL, &region));
   float p[3 * CUT_VERTICES];
   morph_to(region, 0.7, p, NULL, NULL);
   for (int i = 0; i < 3 * CUT_VERTICES; ++i) assert_true(fabsf(p[i] - sheet.positions[i]) < 1e-6f);
   assert_int_equal(info_of(region).vertex_count, 0);
   uint32_t none;
-  assert_ok(hf_region_get_vertices(region, HF_REGION_INSIDE, 0, &none));
+  assert_ok(hf_region_get_vertices(region, HF_REGION_INSIDE, 0, &none, NULL));
   /* both copies of a seam vertex go to one base */
   const uint32_t seam = CUT_SEAM_RIGHT;
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
@@ -242,14 +238,14 @@ static void an_empty_region_gives_the_surface(void** state) {
   const uint32_t isolated = CUT_ISOLATED;
   edit.add_vertices = &isolated;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_region_edit(region, &edit));
-  hf_region_destroy(region), hf_solver_destroy(solver), surface_free(&sheet);
+  hf_region_destroy(region), hf_surface_destroy(surface), surface_free(&sheet);
 }
 
 static void cancelling_leaves_all_as_it_was_and_stops_one_call(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
-  const hf_solver solver = surface_solver(&sheet);
-  const hf_region region = sheet_region(solver, &sheet);
+  const hf_surface surface = surface_on(&sheet);
+  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_HARMONIC);
   hf_progress progress = NULL;
   assert_ok(hf_progress_create(&progress));
   assert_ok(hf_progress_cancel(progress));
@@ -268,7 +264,7 @@ static void cancelling_leaves_all_as_it_was_and_stops_one_call(void** state) {
   assert_code(HF_ERROR_CANCELLED, hf_detail_create(region, region, &desc, &detail));
   assert_null(detail);
   assert_ok(hf_detail_create(region, region, &desc, &detail));
-  hf_detail_destroy(detail), hf_progress_destroy(progress), hf_region_destroy(region), hf_solver_destroy(solver);
+  hf_detail_destroy(detail), hf_progress_destroy(progress), hf_region_destroy(region), hf_surface_destroy(surface);
   surface_free(&sheet);
 }
 
@@ -281,36 +277,35 @@ static void bad(int line, hf_result got, const char* call, hf_result expected, u
 static void bad_regions_are_named(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
-  const hf_solver solver = surface_solver(&sheet);
-  const hf_region region = sheet_region(solver, &sheet);
+  const hf_surface surface = surface_on(&sheet);
+  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_HARMONIC);
   double before[3 * COUNT], after[3 * COUNT];
   morph_to(region, 1, NULL, before, NULL);
   hf_region made = NULL;
   hf_region_desc desc = HF_INIT(hf_region_desc);
-  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_create(solver, NULL, NULL));
+  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_create(surface, NULL, NULL));
   BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_region_create(NULL, NULL, &made));
   desc.struct_size = 4;
-  BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_create(solver, &desc, &made));
-  desc = HF_INIT(hf_region_);
+  BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_create(surface, &desc, &made));
+  desc = HF_INIT(hf_region_desc);
   desc.positions = sheet.positions, desc.positions_f64 = before;
-  BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_create(solver, &desc, &made));
+  BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_create(surface, &desc, &made));
   desc.positions = NULL, desc.position_stride = 8;
-  BAD(HF_ERROR_TOO_SMALL, NO_INDEX, hf_region_create(solver, &desc, &made));
+  BAD(HF_ERROR_TOO_SMALL, NO_INDEX, hf_region_create(surface, &desc, &made));
   desc.position_stride = 0, before[3 * 40 + 1] = NAN;
-  BAD(HF_ERROR_NON_FINITE, 40, hf_region_create(solver, &desc, &made));
-  hf_create_desc create = surface_desc(&sheet);
-  create.engine = HF_ENGINE_REFACTOR;
-  hf_solver slow = NULL;
-  assert_ok(hf_create(&create, &slow));
-  BAD(HF_ERROR_UNSUPPORTED, NO_INDEX, hf_region_create(slow, NULL, &made));
-  hf_solver_destroy(slow);
+  BAD(HF_ERROR_NON_FINITE, 40, hf_region_create(surface, &desc, &made));
+  desc = HF_INIT(hf_region_desc);
+  desc.field_kind = 3;
+  BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_create(surface, &desc, &made));
+  desc.field_kind = 0, desc.reserved = 1;
+  BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_create(surface, &desc, &made));
   assert_null(made);
   morph_to(region, 1, NULL, before, NULL);
 
   hf_region_edit_desc edit;
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_edit(region, NULL));
   edit = edit_of(NULL, 1);
-  BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_region_edit((hf_region)solver, &edit));
+  BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_region_edit((hf_region)surface, &edit));
   edit.struct_size = 8;
   BAD(HF_ERROR_INVALID_DESC, NO_INDEX, hf_region_edit(region, &edit));
   edit = edit_of(NULL, 1), edit.progress = (hf_progress)region;
@@ -354,19 +349,19 @@ static void bad_regions_are_named(void** state) {
   BAD(HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
   curve.vertices = square;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_edit(region, &edit));
-  edit = HF_INIT(hf_region_);
+  edit = HF_INIT(hf_region_edit_desc);
   edit.add_count = 3;
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_edit(region, &edit));
   edit.add_vertices = beyond;
   BAD(HF_ERROR_OUT_OF_RANGE, 2, hf_region_edit(region, &edit));
-  edit = HF_INIT(hf_region_);
+  edit = HF_INIT(hf_region_edit_desc);
   edit.remove_count = COUNT + 1, edit.remove_vertices = beyond;
   BAD(HF_ERROR_TOO_LARGE, NO_INDEX, hf_region_edit(region, &edit));
 
   uint32_t found[64] = {7};
-  BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_get_vertices(region, 3, 64, found));
-  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_get_vertices(region, 0, 64, NULL));
-  BAD(HF_ERROR_TOO_SMALL, NO_INDEX, hf_region_get_vertices(region, 0, 63, found));
+  BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_get_vertices(region, 3, 64, found, NULL));
+  BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_get_vertices(region, 0, 64, NULL, NULL));
+  BAD(HF_ERROR_TOO_SMALL, NO_INDEX, hf_region_get_vertices(region, 0, 63, found, NULL));
   assert_int_equal(found[0], 7);
   hf_morph_desc morph = HF_INIT(hf_morph_desc);
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_morph(region, &morph));
@@ -387,28 +382,28 @@ static void bad_regions_are_named(void** state) {
   morph_to(region, 1, NULL, after, NULL);
   assert_true(same_bits(before, after, sizeof before)); /* whatever failed, the region is as it was */
   finish_rows("regions");
-  hf_region_destroy(region), hf_solver_destroy(solver), surface_free(&sheet);
+  hf_region_destroy(region), hf_surface_destroy(surface), surface_free(&sheet);
 }
 
 static void bad_details_are_named(void** state) {
   (void)state;
   Surface sheet = surface_sheet(SIDE, SIDE);
-  const hf_solver solver = surface_solver(&sheet);
-  const hf_region region = sheet_region(solver, &sheet);
+  const hf_surface surface = surface_on(&sheet);
+  const hf_region region = sheet_region(surface, &sheet, HF_FIELD_HARMONIC);
   hf_region empty = NULL;
-  assert_ok(hf_region_create(solver, NULL, &empty));
+  assert_ok(hf_region_create(surface, NULL, &empty));
   hf_detail detail = NULL;
   hf_detail_desc desc = HF_INIT(hf_detail_desc);
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_detail_create(region, region, NULL, NULL));
   BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_detail_create(NULL, region, NULL, &detail));
-  BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_detail_create(region, (hf_region)solver, NULL, &detail));
+  BAD(HF_ERROR_INVALID_HANDLE, NO_INDEX, hf_detail_create(region, (hf_region)surface, NULL, &detail));
   BAD(HF_ERROR_EMPTY, NO_INDEX, hf_detail_create(empty, region, NULL, &detail));
   BAD(HF_ERROR_EMPTY, NO_INDEX, hf_detail_create(region, empty, NULL, &detail));
   desc.scale = -1;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
   desc.scale = NAN;
   BAD(HF_ERROR_NON_FINITE, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
-  desc = HF_INIT(hf_detail_);
+  desc = HF_INIT(hf_detail_desc);
   desc.pair_count = 2, desc.source_vertices = square;
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_detail_create(region, region, &desc, &detail));
   const uint32_t off[2] = {square[0], at(8, 8)}, beyond[2] = {square[0], COUNT}, twice[2] = {square[0], square[0]};
@@ -428,7 +423,7 @@ static void bad_details_are_named(void** state) {
   assert_code(HF_ERROR_UNSUPPORTED, hf_detail_create(region, region, NULL, &detail));
   assert_null(detail);
   finish_rows("details");
-  hf_region_destroy(empty), hf_region_destroy(region), hf_solver_destroy(solver), surface_free(&sheet);
+  hf_region_destroy(empty), hf_region_destroy(region), hf_surface_destroy(surface), surface_free(&sheet);
 }
 
 int main(void) {
@@ -436,7 +431,7 @@ int main(void) {
       cmocka_unit_test(weight_0_gives_the_bits_and_1_the_base),
       cmocka_unit_test(edits_keep_the_factor_and_undo_brings_back_the_bits),
       cmocka_unit_test(a_point_in_a_triangle_stands_for_its_nearest_corner),
-      cmocka_unit_test(a_thin_plate_comes_from_a_biharmonic_solver),
+      cmocka_unit_test(a_thin_plate_is_a_region_of_a_biharmonic_kind),
       cmocka_unit_test(detail_onto_itself_is_the_surface_and_outlives_all_else),
       cmocka_unit_test(an_empty_region_gives_the_surface),
       cmocka_unit_test(cancelling_leaves_all_as_it_was_and_stops_one_call),

@@ -10,10 +10,10 @@ static double dot3(const double* a, const double* b) { return a[0] * b[0] + a[1]
  * triangles run; only lengths and heights are asked for. */
 static hf_solver tube_solver(Surface* tube, uint32_t channels) {
   *tube = surface_tube(AROUND, RINGS);
-  hf_create_desc desc = surface_desc(tube);
-  desc.channel_count = channels;
+  Options desc = options_of(tube);
+  desc.solver.channel_count = channels;
   hf_solver solver;
-  assert_ok(hf_create(&desc, &solver));
+  assert_ok(make(&desc, NULL, &solver));
   return solver;
 }
 
@@ -36,7 +36,7 @@ static void a_vector_of_three_channels_is_carried_and_turned_without_touching_th
   }
 
   hf_solver_statistics before, after;
-  HF_INIT(before), after = HF_INIT(hf_solver_statistics);
+  before = HF_INIT(hf_solver_statistics), after = HF_INIT(hf_solver_statistics);
   assert_ok(hf_solver_get_statistics(solver, &before));
   const double quarter = acos(0.0);
   assert_ok(hf_solver_rotate_vectors(solver, 1, sites + 1, &quarter));
@@ -74,12 +74,12 @@ static void vectors_are_refused_with_their_place_in_the_list(void** state) {
   add_site(flat, 3, 1);
   check_row(__LINE__, "past the end", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 2, sites, far),
             HF_ERROR_OUT_OF_RANGE, 1);
-  check_row(__LINE__, "taken", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 1, sites, taken), HF_ERROR_CONFLICT,
-            0);
+  check_row(__LINE__, "taken", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 1, sites, taken),
+            HF_ERROR_CONFLICT, 0);
   check_row(__LINE__, "absent", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 2, absent, places),
             HF_ERROR_NO_SUCH_SITE, 1);
-  check_row(__LINE__, "none", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 0, sites, places), HF_ERROR_EMPTY,
-            NO_INDEX);
+  check_row(__LINE__, "none", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 0, sites, places),
+            HF_ERROR_EMPTY, NO_INDEX);
   check_row(__LINE__, "NULL", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 1, NULL, places),
             HF_ERROR_NULL_POINTER, NO_INDEX);
   check_row(__LINE__, "NULL", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 1, sites, NULL),
@@ -107,12 +107,13 @@ static void vectors_are_refused_with_their_place_in_the_list(void** state) {
 static void a_direction_field_follows_its_constraints(void** state) {
   (void)state;
   Surface tube;
-  const hf_solver solver = tube_solver(&tube, 1);
+  tube = surface_tube(AROUND, RINGS);
+  const hf_surface surface = surface_on(&tube);
   for (uint32_t degree = 1; degree <= 4; degree *= 2) {
     hf_direction_desc desc = HF_INIT(hf_direction_desc);
     desc.degree = degree;
     hf_direction direction;
-    assert_ok(hf_direction_create(solver, &desc, &direction));
+    assert_ok(hf_direction_create(surface, &desc, &direction));
     const uint32_t places[2] = {3 * AROUND, 9 * AROUND + 5};
     const double up[6] = {0, 1, 0, 0, 2, 0};
     uint32_t sites[2], numbers[2], vertices[2];
@@ -135,14 +136,14 @@ static void a_direction_field_follows_its_constraints(void** state) {
     assert_ok(hf_direction_solve_f64(direction, exact, 0, &info));
     assert_int_equal(info.unreached_component_count, 0);
     double vectors[6];
-    assert_ok(hf_direction_get_sites(direction, 2, numbers, vertices, vectors));
+    assert_ok(hf_direction_get_sites(direction, 2, numbers, vertices, vectors, NULL));
     for (int i = 0; i < 2; ++i) {
       assert_int_equal(numbers[i], sites[i]);
       assert_int_equal(vertices[i], places[i]);
       for (int k = 0; k < 3; ++k) assert_true(exact[3 * places[i] + (uint32_t)k] == vectors[3 * i + k]);
     }
     hf_direction_statistics before, after;
-    HF_INIT(before), after = HF_INIT(hf_direction_statistics);
+    before = HF_INIT(hf_direction_statistics), after = HF_INIT(hf_direction_statistics);
     assert_ok(hf_direction_get_statistics(direction, &before));
     assert_int_equal(before.unknown_count, 2 * VERTICES);
     assert_int_equal(before.path_solve_count, 4);
@@ -157,7 +158,7 @@ static void a_direction_field_follows_its_constraints(void** state) {
     assert_true(fabs(exact[3 * places[0] + 1] + 1) <= 1e-12 && fabs(exact[3 * places[1] + 1] + 3) <= 1e-12);
     const uint32_t there = 12 * AROUND + 7;
     assert_ok(hf_direction_move_sites(direction, 1, sites, &there));
-    assert_ok(hf_direction_get_sites(direction, 2, NULL, vertices, vectors));
+    assert_ok(hf_direction_get_sites(direction, 2, NULL, vertices, vectors, NULL));
     assert_int_equal(vertices[0], there);
     assert_true(fabs(dot3(vectors, vectors) - 1) <= 1e-12 && vectors[1] <= -0.99);
     uint32_t count = 99;
@@ -175,8 +176,8 @@ static void a_direction_field_follows_its_constraints(void** state) {
   finish_rows("direction");
   /* children keep what they share */
   hf_direction direction;
-  assert_ok(hf_direction_create(solver, NULL, &direction));
-  hf_solver_destroy(solver);
+  assert_ok(hf_direction_create(surface, NULL, &direction));
+  hf_surface_destroy(surface);
   const uint32_t vertex = 5;
   const double vector[3] = {0, 1, 0};
   assert_ok(hf_direction_add_sites(direction, 1, &vertex, vector, NULL));
@@ -189,19 +190,19 @@ static void a_direction_field_follows_its_constraints(void** state) {
 static void a_direction_object_refuses_bad_input_and_stays_as_it_was(void** state) {
   (void)state;
   Surface cut = surface_cut();
-  const hf_solver solver = surface_solver(&cut);
+  const hf_surface surface = surface_on(&cut);
   hf_direction_desc desc = HF_INIT(hf_direction_desc);
   hf_direction direction;
   desc.degree = 3;
-  check_row(__LINE__, "degree 3", "hf_direction_create", hf_direction_create(solver, &desc, &direction),
+  check_row(__LINE__, "degree 3", "hf_direction_create", hf_direction_create(surface, &desc, &direction),
             HF_ERROR_INVALID_ARGUMENT, NO_INDEX);
   desc.degree = 0, desc.reserved = 1;
-  check_row(__LINE__, "reserved", "hf_direction_create", hf_direction_create(solver, &desc, &direction),
-            HF_ERROR_INVALID_ARGUMENT, NO_INDEX);
-  check_row(__LINE__, "NULL", "hf_direction_create", hf_direction_create(solver, NULL, NULL), HF_ERROR_NULL_POINTER,
+  check_row(__LINE__, "reserved", "hf_direction_create", hf_direction_create(surface, &desc, &direction),
+            HF_ERROR_INVALID_DESC, NO_INDEX);
+  check_row(__LINE__, "NULL", "hf_direction_create", hf_direction_create(surface, NULL, NULL), HF_ERROR_NULL_POINTER,
             NO_INDEX);
   desc.reserved = 0, desc.site_limit = 3;
-  assert_ok(hf_direction_create(solver, &desc, &direction));
+  assert_ok(hf_direction_create(surface, &desc, &direction));
   const uint32_t places[2] = {CUT_LEFT, CUT_SEAM_LEFT};
   const double vectors[12] = {1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 1, 0};
   uint32_t sites[2];
@@ -235,7 +236,7 @@ static void a_direction_object_refuses_bad_input_and_stays_as_it_was(void** stat
   REFUSED("absent", HF_ERROR_NO_SUCH_SITE, 0, hf_direction_remove_sites(direction, 1, absent));
   REFUSED("twice", HF_ERROR_NO_SUCH_SITE, 1, hf_direction_remove_sites(direction, 2, twice));
   REFUSED("too many", HF_ERROR_NO_SUCH_SITE, 2, hf_direction_remove_sites(direction, 3000000000u, twice));
-  REFUSED("room for one", HF_ERROR_TOO_SMALL, NO_INDEX, hf_direction_get_sites(direction, 1, sites, NULL, NULL));
+  REFUSED("room for one", HF_ERROR_TOO_SMALL, NO_INDEX, hf_direction_get_sites(direction, 1, sites, NULL, NULL, NULL));
   REFUSED("narrow", HF_ERROR_TOO_SMALL, NO_INDEX, hf_direction_solve_f64(direction, now, 16, NULL));
   REFUSED("NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_direction_solve(direction, NULL, 0, NULL));
   REFUSED("NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_direction_get_singularities(direction, 0, NULL, NULL));
@@ -243,7 +244,7 @@ static void a_direction_object_refuses_bad_input_and_stays_as_it_was(void** stat
   row_holds(__LINE__, "the field", "is as it was", same_bits(before, now, sizeof now));
   finish_rows("direction input");
   hf_direction_destroy(direction);
-  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
   surface_free(&cut);
 }
 
@@ -252,12 +253,13 @@ static void constraints_come_back_to_the_same_bits(void** state) {
   (void)state;
   enum { STEPS = 12, KEPT = 3 * VERTICES };
   Surface tube;
-  const hf_solver solver = tube_solver(&tube, 1);
+  tube = surface_tube(AROUND, RINGS);
+  const hf_surface surface = surface_on(&tube);
   for (uint32_t degree = 1; degree <= 4; degree *= 2) {
     hf_direction_desc desc = HF_INIT(hf_direction_desc);
     desc.degree = degree;
     hf_direction direction, clone;
-    assert_ok(hf_direction_create(solver, &desc, &direction));
+    assert_ok(hf_direction_create(surface, &desc, &direction));
     assert_code(HF_ERROR_NO_RECORD, hf_direction_undo(direction));
     assert_code(HF_ERROR_NO_RECORD, hf_direction_redo(direction));
     double* fields[STEPS + 1];
@@ -268,7 +270,7 @@ static void constraints_come_back_to_the_same_bits(void** state) {
       const double vector[3] = {sin(step), cos(step), 0.4}, angle = 0.7;
       if (step > 0) assert_ok(hf_direction_record(direction));
       uint32_t numbers[STEPS + 2];
-      assert_ok(hf_direction_get_sites(direction, STEPS + 2, numbers, NULL, NULL));
+      assert_ok(hf_direction_get_sites(direction, STEPS + 2, numbers, NULL, NULL, NULL));
       const uint32_t there = hf_direction_get_site_count(direction);
       const uint32_t some = there ? (uint32_t)rand() % there : 0;
       if (there < 3 || step % 4 == 0) {
@@ -287,7 +289,7 @@ static void constraints_come_back_to_the_same_bits(void** state) {
       counts[step] = hf_direction_get_site_count(direction);
     }
     hf_direction_statistics before, after;
-    HF_INIT(before), after = HF_INIT(hf_direction_statistics);
+    before = HF_INIT(hf_direction_statistics), after = HF_INIT(hf_direction_statistics);
     assert_ok(hf_direction_get_statistics(direction, &before));
     static double field[KEPT];
     int here = STEPS;
@@ -319,7 +321,7 @@ static void constraints_come_back_to_the_same_bits(void** state) {
     const double angle = 0.2;
     uint32_t first;
     uint32_t of_clone[STEPS];
-    assert_ok(hf_direction_get_sites(clone, STEPS, of_clone, NULL, NULL));
+    assert_ok(hf_direction_get_sites(clone, STEPS, of_clone, NULL, NULL, NULL));
     first = of_clone[0];
     assert_ok(hf_direction_record(clone));
     assert_ok(hf_direction_rotate_sites(clone, 1, &first, &angle));
@@ -331,7 +333,7 @@ static void constraints_come_back_to_the_same_bits(void** state) {
     hf_direction_destroy(clone);
     for (int step = 0; step <= STEPS; ++step) free(fields[step]);
   }
-  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
   surface_free(&tube);
 }
 
@@ -339,9 +341,10 @@ static void the_oldest_of_257_records_of_a_direction_is_dropped(void** state) {
   (void)state;
   enum { RECORDS = 257, AT = 17 };
   Surface tube;
-  const hf_solver solver = tube_solver(&tube, 1);
+  tube = surface_tube(AROUND, RINGS);
+  const hf_surface surface = surface_on(&tube);
   hf_direction direction;
-  assert_ok(hf_direction_create(solver, NULL, &direction));
+  assert_ok(hf_direction_create(surface, NULL, &direction));
   const uint32_t vertex = AT;
   uint32_t site;
   static double field[3 * VERTICES], expected[RECORDS][3];
@@ -365,7 +368,7 @@ static void the_oldest_of_257_records_of_a_direction_is_dropped(void** state) {
   assert_ok(hf_direction_record(direction));
   assert_code(HF_ERROR_NO_RECORD, hf_direction_redo(direction));
   hf_direction_destroy(direction);
-  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
   surface_free(&tube);
 }
 
@@ -376,10 +379,10 @@ static void a_biharmonic_solver_takes_the_same_edits_and_overshoots(void** state
     static const int32_t engines[] = {HF_ENGINE_GREEN, HF_ENGINE_REFACTOR};
     double* fields[2];
     for (int e = 0; e < 2; ++e) {
-      hf_create_desc desc = surface_desc(&sheet);
-      desc.field_kind = kind, desc.engine = engines[e];
+      Options desc = options_of(&sheet);
+      desc.surface.field_kind = kind, desc.solver.engine = engines[e];
       hf_solver solver;
-      assert_ok(hf_create(&desc, &solver));
+      assert_ok(make(&desc, NULL, &solver));
       const uint32_t row = 10 * 21;
       add_site(solver, row + 2, 0), add_site(solver, row + 6, 1);
       const uint32_t gone = add_site(solver, 5, 9);

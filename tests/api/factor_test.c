@@ -20,21 +20,21 @@ static unsigned char* aligned_bytes(size_t size, unsigned char** block) {
 static Saved saved_tube(void) {
   Saved saved;
   saved.tube = surface_tube(AROUND, RINGS);
-  hf_solver solver = surface_solver(&saved.tube);
-  assert_ok(hf_get_factor_size(solver, &saved.size));
+  hf_surface surface = surface_on(&saved.tube);
+  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, 0, NULL, &saved.size));
   saved.bytes = aligned_bytes(saved.size, &saved.block);
-  assert_ok(hf_surface_save(solver, saved.bytes, saved.size));
-  hf_solver_destroy(solver);
+  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, saved.size, saved.bytes, NULL));
+  hf_surface_destroy(surface);
   return saved;
 }
 static void saved_free(Saved* saved) { free(saved->block), surface_free(&saved->tube); }
 
-static hf_result load(const Surface* surface, const void* bytes, size_t size, int borrow, hf_solver* out) {
+static hf_result load(const Surface* surface, const void* bytes, size_t size, int borrow, hf_surface* out) {
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.bytes = bytes, factor.byte_count = size, factor.borrow = borrow;
-  hf_create_desc desc = surface_desc(surface);
+  hf_surface_desc desc = options_of(surface).surface;
   desc.saved_factor = &factor;
-  return hf_create(&desc, out);
+  return hf_surface_create(&desc, out);
 }
 
 static double* some_field(hf_solver solver) {
@@ -45,10 +45,11 @@ static double* some_field(hf_solver solver) {
 static void a_loaded_factor_gives_the_same_bits_as_a_made_one(void** state) {
   (void)state;
   Saved saved = saved_tube();
-  hf_solver made = surface_solver(&saved.tube);
+  hf_surface made_surface = surface_on(&saved.tube);
+  hf_solver made = solver_on(made_surface);
   double* expected = some_field(made);
-  hf_solver_statistics made_statistics = HF_INIT(hf_solver_statistics);
-  assert_ok(hf_solver_get_statistics(made, &made_statistics));
+  hf_surface_statistics made_statistics = HF_INIT(hf_surface_statistics);
+  assert_ok(hf_surface_get_statistics(made_surface, &made_statistics));
   assert_int_equal(made_statistics.factor_loaded, 0);
   assert_true(made_statistics.load_ms == 0);
   unsigned char* untouched = malloc(saved.size);
@@ -57,45 +58,43 @@ static void a_loaded_factor_gives_the_same_bits_as_a_made_one(void** state) {
     for (uint32_t threads = 1; threads <= 4; threads *= 2) {
       hf_factor_desc factor = HF_INIT(hf_factor_desc);
       factor.bytes = saved.bytes, factor.byte_count = saved.size, factor.borrow = borrow;
-      hf_create_desc desc = surface_desc(&saved.tube);
-      desc.saved_factor = &factor, desc.thread_count = threads;
+      Options desc = options_of(&saved.tube);
+      desc.surface.saved_factor = &factor, desc.surface.thread_count = threads;
+      hf_surface surface = NULL;
       hf_solver loaded = NULL;
-      assert_ok(hf_create(&desc, &loaded));
+      assert_ok(make(&desc, &surface, &loaded));
       double* field = some_field(loaded);
       assert_true(same_bits(field, expected, sizeof(double) * VERTICES));
-      hf_solver_statistics s = HF_INIT(hf_solver_statistics);
-      assert_ok(hf_solver_get_statistics(loaded, &s));
+      hf_surface_statistics s = HF_INIT(hf_surface_statistics);
+      assert_ok(hf_surface_get_statistics(surface, &s));
       assert_int_equal(s.factor_loaded, 1);
       assert_int_equal(s.factor_borrowed, borrow);
       assert_true(s.ordering_ms == 0 && s.symbolic_ms == 0 && s.numeric_ms == 0 && s.load_ms > 0);
-      assert_int_equal(s.factorisation_count, 0);
-      assert_int_equal(made_statistics.factorisation_count, 1);
       assert_true(s.factor_entries == made_statistics.factor_entries);
       assert_true(s.factor_bytes == made_statistics.factor_bytes);
       if (borrow) assert_true(s.memory_bytes < made_statistics.memory_bytes - 0.5 * s.factor_bytes);
-      /* what a loaded solver saves is what it was given */
+      /* what a loaded surface saves is what it was given */
       size_t size = 0;
-      assert_ok(hf_get_factor_size(loaded, &size));
+      unsigned char* again = saved_bytes(surface, HF_FIELD_HARMONIC, &size);
       assert_int_equal(size, saved.size);
-      unsigned char* again = malloc(size);
-      assert_ok(hf_surface_save(loaded, again, size));
       assert_true(same_bits(again, saved.bytes, size));
-      free(again), free(field), hf_solver_destroy(loaded);
+      free(again), free(field), hf_solver_destroy(loaded), hf_surface_destroy(surface);
     }
   }
   assert_true(same_bits(untouched, saved.bytes, saved.size));
-  free(untouched), free(expected), hf_solver_destroy(made), saved_free(&saved);
+  free(untouched), free(expected), hf_solver_destroy(made), hf_surface_destroy(made_surface), saved_free(&saved);
 }
 
 static void borrowed_bytes_serve_clones_and_poses_until_the_last_is_gone(void** state) {
   (void)state;
   Saved saved = saved_tube();
-  hf_solver first = NULL, copy = NULL;
-  assert_ok(load(&saved.tube, saved.bytes, saved.size, 1, &first));
+  hf_surface surface = NULL;
+  assert_ok(load(&saved.tube, saved.bytes, saved.size, 1, &surface));
+  hf_solver first = solver_on(surface), copy = NULL;
   assert_ok(hf_solver_clone(first, &copy));
   uint32_t handles[2];
-  hf_pose pose = tube_pose(first, AROUND, RINGS, handles);
-  hf_solver_destroy(first);
+  hf_pose pose = tube_pose(surface, AROUND, RINGS, handles);
+  hf_solver_destroy(first), hf_surface_destroy(surface);
   double* field = some_field(copy);
   hf_solver made = surface_solver(&saved.tube);
   double* expected = some_field(made);
@@ -106,7 +105,7 @@ static void borrowed_bytes_serve_clones_and_poses_until_the_last_is_gone(void** 
   deform.positions = positions;
   assert_ok(hf_pose_deform(pose, &deform, NULL));
   hf_pose_destroy(pose);
-  memset(saved.bytes, 0xFF, saved.size); /* nobody reads them any more */
+  memset(saved.bytes, 0xFF, saved.size); /* no object reads them now */
   hf_solver_destroy(made), free(field), free(expected), saved_free(&saved);
 }
 
@@ -116,11 +115,13 @@ static void copied_bytes_may_go_at_once_and_need_no_alignment(void** state) {
   unsigned char* block;
   unsigned char* odd = aligned_bytes(saved.size + 1, &block) + 1;
   memcpy(odd, saved.bytes, saved.size);
-  hf_solver made = surface_solver(&saved.tube), loaded = NULL;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, load(&saved.tube, odd, saved.size, 1, &loaded));
-  assert_null(loaded);
-  assert_ok(load(&saved.tube, odd, saved.size, 0, &loaded));
+  hf_surface surface = NULL;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, load(&saved.tube, odd, saved.size, 1, &surface));
+  assert_null(surface);
+  assert_ok(load(&saved.tube, odd, saved.size, 0, &surface));
   memset(odd, 0xFF, saved.size);
+  hf_solver made = surface_solver(&saved.tube), loaded = solver_on(surface);
+  hf_surface_destroy(surface);
   double *expected = some_field(made), *field = some_field(loaded);
   assert_true(same_bits(field, expected, sizeof(double) * VERTICES));
   free(expected), free(field), free(block), hf_solver_destroy(made), hf_solver_destroy(loaded), saved_free(&saved);
@@ -129,7 +130,7 @@ static void copied_bytes_may_go_at_once_and_need_no_alignment(void** state) {
 static void a_factor_of_another_surface_is_refused(void** state) {
   (void)state;
   Saved saved = saved_tube();
-  hf_solver out = NULL;
+  hf_surface out = NULL;
   hf_error_detail detail;
   /* another size */
   Surface other = surface_tube(AROUND, RINGS + 1);
@@ -151,76 +152,79 @@ static void a_factor_of_another_surface_is_refused(void** state) {
   /* another operator */
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.bytes = saved.bytes, factor.byte_count = saved.size;
-  hf_create_desc desc = surface_desc(&saved.tube);
+  hf_surface_desc desc = options_of(&saved.tube).surface;
   desc.saved_factor = &factor, desc.operator_kind = HF_OPERATOR_UNIFORM;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_create(&desc, &out));
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_surface_create(&desc, &out));
   assert_null(out);
   /* another ordering asked for */
   desc.operator_kind = HF_OPERATOR_INTRINSIC_DELAUNAY, desc.ordering = HF_ORDERING_MINIMUM_DEGREE;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_create(&desc, &out));
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_surface_create(&desc, &out));
   desc.ordering = HF_ORDERING_NESTED_DISSECTION;
-  assert_ok(hf_create(&desc, &out));
-  hf_solver_destroy(out);
+  assert_ok(hf_surface_create(&desc, &out));
+  hf_surface_destroy(out);
   saved_free(&saved);
 }
 
 static void an_ordering_is_saved_with_the_factor(void** state) {
   (void)state;
   Surface tube = surface_tube(AROUND, RINGS);
-  hf_create_desc desc = surface_desc(&tube);
-  desc.ordering = HF_ORDERING_MINIMUM_DEGREE;
-  hf_solver solver = NULL, loaded = NULL;
-  assert_ok(hf_create(&desc, &solver));
+  Options desc = options_of(&tube);
+  desc.surface.ordering = HF_ORDERING_MINIMUM_DEGREE;
+  hf_surface surface = NULL, again = NULL;
+  hf_solver solver = NULL;
+  assert_ok(make(&desc, &surface, &solver));
   size_t size = 0;
-  assert_ok(hf_get_factor_size(solver, &size));
-  unsigned char* bytes = malloc(size);
-  assert_ok(hf_surface_save(solver, bytes, size));
-  assert_ok(load(&tube, bytes, size, 0, &loaded)); /* ordering 0: the factor's own */
+  unsigned char* bytes = saved_bytes(surface, HF_FIELD_HARMONIC, &size);
+  assert_ok(load(&tube, bytes, size, 0, &again)); /* ordering 0: the factor's own */
+  hf_surface_info info = HF_INIT(hf_surface_info);
+  assert_ok(hf_surface_get_info(again, &info));
+  assert_int_equal(info.ordering, HF_ORDERING_MINIMUM_DEGREE);
+  hf_solver loaded = solver_on(again);
   double *expected = some_field(solver), *field = some_field(loaded);
   assert_true(same_bits(field, expected, sizeof(double) * VERTICES));
-  hf_solver_destroy(loaded);
+  hf_solver_destroy(loaded), hf_surface_destroy(again), hf_surface_destroy(surface);
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.bytes = bytes, factor.byte_count = size;
-  desc.saved_factor = &factor;
-  assert_ok(hf_create(&desc, &loaded));
+  desc.surface.saved_factor = &factor;
+  assert_ok(make(&desc, NULL, &loaded));
   free(expected), free(field), free(bytes), hf_solver_destroy(solver), hf_solver_destroy(loaded), surface_free(&tube);
 }
 
 static void bad_arguments_are_answered(void** state) {
   (void)state;
   Saved saved = saved_tube();
-  hf_solver solver = surface_solver(&saved.tube), out = NULL;
+  hf_surface surface = surface_on(&saved.tube), out = NULL;
   size_t size = 7;
-  assert_code(HF_ERROR_NULL_POINTER, hf_get_factor_size(solver, NULL));
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_get_factor_size(NULL, &size));
+  assert_code(HF_ERROR_NULL_POINTER, hf_surface_save(surface, HF_FIELD_HARMONIC, 0, NULL, NULL));
+  assert_code(HF_ERROR_INVALID_HANDLE, hf_surface_save(NULL, HF_FIELD_HARMONIC, 0, NULL, &size));
   assert_int_equal(size, 7);
-  assert_code(HF_ERROR_NULL_POINTER, hf_surface_save(solver, NULL, saved.size));
   unsigned char* small = malloc(saved.size + 16);
   memset(small, 0x5A, saved.size + 16);
-  assert_code(HF_ERROR_TOO_SMALL, hf_surface_save(solver, small, saved.size - 1));
-  assert_code(HF_ERROR_TOO_SMALL, hf_surface_save(solver, small, 0));
+  assert_code(HF_ERROR_TOO_SMALL, hf_surface_save(surface, HF_FIELD_HARMONIC, saved.size - 1, small, &size));
+  assert_int_equal(size, saved.size); /* the size is written with the error */
+  assert_code(HF_ERROR_TOO_SMALL, hf_surface_save(surface, HF_FIELD_HARMONIC, 0, small, NULL));
   for (size_t i = 0; i < saved.size + 16; ++i) assert_int_equal(small[i], 0x5A);
-  assert_ok(hf_surface_save(solver, small, saved.size + 16));
+  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, saved.size + 16, small, NULL));
   for (size_t i = saved.size; i < saved.size + 16; ++i) assert_int_equal(small[i], 0x5A);
   assert_code(HF_ERROR_NULL_POINTER, load(&saved.tube, NULL, saved.size, 0, &out));
   assert_code(HF_ERROR_EMPTY, load(&saved.tube, saved.bytes, 0, 0, &out));
   assert_code(HF_ERROR_INVALID_ARGUMENT, load(&saved.tube, saved.bytes, saved.size - 1, 0, &out));
   assert_code(HF_ERROR_INVALID_ARGUMENT, load(&saved.tube, saved.bytes, 1, 0, &out));
   assert_null(out);
-  free(small), hf_solver_destroy(solver), saved_free(&saved);
+  free(small), hf_surface_destroy(surface), saved_free(&saved);
 }
 
 /* Thousands of damaged copies through the front door: flips, truncations, splices, bytes of another factor. */
 static void damaged_bytes_are_refused_and_never_crash(void** state) {
   (void)state;
   Surface sheet = surface_sheet(5, 4);
-  hf_solver solver = surface_solver(&sheet);
+  hf_surface surface = surface_on(&sheet);
   size_t size = 0;
-  assert_ok(hf_get_factor_size(solver, &size));
+  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, 0, NULL, &size));
   unsigned char *bytes_block, *damaged_block;
   unsigned char* bytes = aligned_bytes(size, &bytes_block);
   unsigned char* damaged = aligned_bytes(size, &damaged_block);
-  assert_ok(hf_surface_save(solver, bytes, size));
+  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, size, bytes, NULL));
   uint64_t random = 88172645463325252ull;
   unsigned refused = 0, unsupported = 0;
   for (int round = 0; round < 6000; ++round) {
@@ -249,7 +253,7 @@ static void damaged_bytes_are_refused_and_never_crash(void** state) {
       }
     }
     if (length == size && same_bits(damaged, bytes, size)) continue;
-    hf_solver out = (hf_solver)(void*)&sheet;
+    hf_surface out = (hf_surface)(void*)&sheet;
     const hf_result result = load(&sheet, damaged, length, round % 2, &out);
     assert_null(out);
     if (length == 0) {
@@ -260,7 +264,7 @@ static void damaged_bytes_are_refused_and_never_crash(void** state) {
     }
   }
   assert_true(refused > 3000 && unsupported > 50);
-  free(bytes_block), free(damaged_block), hf_solver_destroy(solver), surface_free(&sheet);
+  free(bytes_block), free(damaged_block), hf_surface_destroy(surface), surface_free(&sheet);
 }
 
 static void memory_that_runs_out_while_loading_or_saving_leaves_nothing(void** state) {
@@ -274,17 +278,17 @@ static void memory_that_runs_out_while_loading_or_saving_leaves_nothing(void** s
       memory.refuse_at = n;
       hf_factor_desc factor = HF_INIT(hf_factor_desc);
       factor.bytes = saved.bytes, factor.byte_count = saved.size, factor.borrow = borrow;
-      hf_create_desc desc = surface_desc(&saved.tube);
+      hf_surface_desc desc = options_of(&saved.tube).surface;
       desc.saved_factor = &factor, desc.allocator = counting_hooks(&memory);
-      hf_solver solver = NULL;
-      const hf_result result = hf_create(&desc, &solver);
+      hf_surface surface = NULL;
+      const hf_result result = hf_surface_create(&desc, &surface);
       if (result == HF_OK) {
         /* saving needs a little too */
         const size_t calls = memory.calls;
         unsigned char* again = malloc(saved.size);
         for (size_t m = 1;; ++m) {
           memory.refuse_at = memory.calls + m;
-          const hf_result save = hf_surface_save(solver, again, saved.size);
+          const hf_result save = hf_surface_save(surface, HF_FIELD_HARMONIC, saved.size, again, NULL);
           if (save == HF_OK) break;
           assert_string_equal(hf_result_get_name(save), "HF_ERROR_OUT_OF_MEMORY");
           assert_true(m < 100);
@@ -294,10 +298,10 @@ static void memory_that_runs_out_while_loading_or_saving_leaves_nothing(void** s
         free(again);
       } else {
         assert_string_equal(hf_result_get_name(result), "HF_ERROR_OUT_OF_MEMORY");
-        assert_null(solver);
+        assert_null(surface);
         ++failures;
       }
-      hf_solver_destroy(solver);
+      hf_surface_destroy(surface);
       assert_int_equal(memory.live_blocks, 0);
       assert_int_equal(memory.live_bytes, 0);
       assert_int_equal(memory.mismatches, 0);
@@ -320,16 +324,17 @@ static void a_preview_is_close_and_a_correction_makes_it_accurate(void** state) 
   Surface tube = surface_tube(AROUND_LARGE, RINGS_LARGE);
   double* first[3] = {NULL, NULL, NULL};
   for (uint32_t threads = 1; threads <= 4; threads *= 2) {
-    hf_create_desc desc = surface_desc(&tube);
-    desc.thread_count = threads;
+    Options desc = options_of(&tube);
+    desc.surface.thread_count = threads;
+    hf_surface surface = NULL;
     hf_solver solver = NULL;
-    assert_ok(hf_create(&desc, &solver));
+    assert_ok(make(&desc, &surface, &solver));
     for (uint32_t i = 0; i < 40; ++i) add_site(solver, (i * 7919u) % LARGE, sin(3.0 * i));
     double* exact = field_of(solver, LARGE);
-    hf_solver_statistics before, after;
-    before = HF_INIT(hf_solver_statistics);
-    after = HF_INIT(hf_solver_statistics);
-    assert_ok(hf_solver_get_statistics(solver, &before));
+    hf_surface_statistics before, after;
+    before = HF_INIT(hf_surface_statistics);
+    after = HF_INIT(hf_surface_statistics);
+    assert_ok(hf_surface_get_statistics(surface, &before));
     for (uint32_t corrections = 0; corrections < 3; ++corrections) {
       double* field = malloc(sizeof(double) * LARGE);
       hf_preview_info info = HF_INIT(hf_preview_info);
@@ -353,17 +358,17 @@ static void a_preview_is_close_and_a_correction_makes_it_accurate(void** state) 
       free(values);
       if (threads != 1) free(field);
     }
-    assert_ok(hf_solver_get_statistics(solver, &after));
+    assert_ok(hf_surface_get_statistics(surface, &after));
     assert_true(after.memory_bytes >= before.memory_bytes + 0.3 * before.factor_bytes);
     assert_ok(hf_solver_release_preview(solver));
     assert_ok(hf_solver_release_preview(solver));
     const double with = after.memory_bytes;
-    assert_ok(hf_solver_get_statistics(solver, &after));
+    assert_ok(hf_surface_get_statistics(surface, &after));
     assert_true(after.memory_bytes <= with - 0.3 * before.factor_bytes);
     double* again = malloc(sizeof(double) * LARGE);
     assert_ok(hf_solver_solve_preview_f64(solver, again, 0, 0, NULL));
     assert_true(same_bits(again, first[0], sizeof(double) * LARGE));
-    free(again), free(exact), hf_solver_destroy(solver);
+    free(again), free(exact), hf_solver_destroy(solver), hf_surface_destroy(surface);
   }
   for (int i = 0; i < 3; ++i) free(first[i]);
   surface_free(&tube);
@@ -397,10 +402,10 @@ static void solvers_without_a_preview_answer_with_the_exact_field(void** state) 
 #endif
   };
   for (size_t e = 0; e < COUNT_OF(engines); ++e) {
-    hf_create_desc desc = surface_desc(&tube);
-    desc.engine = engines[e];
+    Options desc = options_of(&tube);
+    desc.solver.engine = engines[e];
     hf_solver solver = NULL;
-    assert_ok(hf_create(&desc, &solver));
+    assert_ok(make(&desc, NULL, &solver));
     if (engines[e] == HF_ENGINE_GREEN) {
       /* enough sites at once to move them into the factor */
       uint32_t vertices[VERTICES / 2];
@@ -454,10 +459,10 @@ static void memory_that_runs_out_in_a_preview_changes_nothing(void** state) {
   Surface tube = surface_tube(AROUND, RINGS);
   CountingAllocator memory;
   memset(&memory, 0, sizeof memory);
-  hf_create_desc desc = surface_desc(&tube);
-  desc.allocator = counting_hooks(&memory);
+  Options desc = options_of(&tube);
+  desc.surface.allocator = counting_hooks(&memory);
   hf_solver solver = NULL;
-  assert_ok(hf_create(&desc, &solver));
+  assert_ok(make(&desc, NULL, &solver));
   double* expected = some_field(solver);
   double field[VERTICES];
   size_t failures = 0;

@@ -30,11 +30,12 @@ static void note(Work* w, hf_result result) {
 /* Everything once, without assertions, so that it may run on any thread and under any host state. */
 static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t threads, const hf_job_runner* runner) {
   Surface tube = surface_tube(AROUND, RINGS);
-  hf_create_desc desc = surface_desc(&tube);
-  desc.engine = engine, desc.ordering = ordering, desc.thread_count = threads;
-  if (runner) desc.job_runner = *runner;
+  Options desc = options_of(&tube);
+  desc.solver.engine = engine, desc.surface.ordering = ordering, desc.surface.thread_count = threads;
+  if (runner) desc.surface.job_runner = *runner;
+  hf_surface surface = NULL;
   hf_solver solver = NULL, copy = NULL;
-  note(w, hf_create(&desc, &solver));
+  note(w, make(&desc, &surface, &solver));
   const uint32_t vertices[3] = {0, 100, VERTICES - 1};
   const double values[3] = {0, 0.3, 1};
   uint32_t sites[3], handles[2];
@@ -51,7 +52,7 @@ static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t thread
     const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
     hf_handles_desc regions = HF_INIT(hf_handles_desc);
     regions.handle_count = 2, regions.region_counts = counts, regions.region_vertices = ends;
-    note(w, hf_pose_create(solver, NULL, &pose));
+    note(w, hf_pose_create(surface, NULL, &pose));
     note(w, hf_pose_add_handles(pose, &regions, handles));
     const hf_transform turned = {{0, 0.5, 0, 0.8660254}, {1, 2, 3}};
     note(w, hf_pose_set_transforms(pose, 1, &handles[1], &turned));
@@ -61,7 +62,7 @@ static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t thread
     hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
     pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts,
     pairs.source_vertices = pairs.target_vertices = ends;
-    note(w, hf_transfer_create(solver, copy, NULL, &transfer));
+    note(w, hf_transfer_create(surface, surface, NULL, &transfer));
     note(w, hf_transfer_add_pairs(transfer, &pairs, NULL));
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
     frame.source_positions = w->posed, frame.target_positions = w->transferred;
@@ -69,7 +70,7 @@ static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t thread
     free(ends);
   }
   hf_pose_destroy(pose), hf_transfer_destroy(transfer);
-  hf_solver_destroy(copy), hf_solver_destroy(solver);
+  hf_solver_destroy(copy), hf_solver_destroy(solver), hf_surface_destroy(surface);
   surface_free(&tube);
 }
 
@@ -112,7 +113,7 @@ static void rounding_modes_are_kept_and_do_not_matter(void** state) {
   Surface tube = surface_tube(AROUND, RINGS);
   double fields[COUNT_OF(modes)][VERTICES];
   for (size_t m = 0; m < COUNT_OF(modes); ++m) {
-    const hf_create_desc desc = surface_desc(&tube);
+    const Options desc = options_of(&tube);
     const uint32_t vertices[2] = {0, VERTICES - 1};
     const double values[2] = {0.1, 1};
     const hf_sites_desc sites = sites_at(2, vertices, values);
@@ -120,7 +121,7 @@ static void rounding_modes_are_kept_and_do_not_matter(void** state) {
     hf_result results[3];
     int after[4];
     assert_int_equal(fesetround(modes[m]), 0);
-    results[0] = hf_create(&desc, &solver), after[0] = fegetround();
+    results[0] = make(&desc, NULL, &solver), after[0] = fegetround();
     results[1] = hf_add_sites(solver, &sites, NULL), after[1] = fegetround();
     results[2] = hf_solver_solve_f64(solver, fields[m], 0, NULL), after[2] = fegetround();
     hf_solver_destroy(solver), after[3] = fegetround();
@@ -165,13 +166,13 @@ static void sticky_flags_are_kept(void** state) {
   (void)state;
   skip_where_float_settings_are_not_kept();
   Surface tube = surface_tube(4, 4);
-  hf_create_desc desc = surface_desc(&tube);
+  Options desc = options_of(&tube);
   hf_solver solver = NULL;
   for (int raised = 0; raised < 2; ++raised) {
     feclearexcept(FE_ALL_EXCEPT);
     if (raised) feraiseexcept(FE_INVALID);
     const unsigned before = _mm_getcsr();
-    assert_ok(hf_create(&desc, &solver));
+    assert_ok(make(&desc, NULL, &solver));
     const unsigned after = _mm_getcsr();
     assert_int_equal(before, after);
     assert_int_equal(fetestexcept(FE_ALL_EXCEPT) & FE_INVALID, raised ? FE_INVALID : 0);
@@ -188,7 +189,7 @@ static void floating_point_traps_of_the_host_do_not_strike(void** state) {
   /* needles and points: zero areas divide by zero inside */
   for (int i = 0; i < 30; ++i)
     tube.positions[3 * i + 90] = 0, tube.positions[3 * i + 91] = 1e-30f * (float)i, tube.positions[3 * i + 92] = 0;
-  hf_create_desc desc = surface_desc(&tube);
+  Options desc = options_of(&tube);
   hf_solver solver = NULL;
   static double field[VERTICES];
   const uint32_t vertices[2] = {0, VERTICES - 1};
@@ -197,7 +198,7 @@ static void floating_point_traps_of_the_host_do_not_strike(void** state) {
   feclearexcept(FE_ALL_EXCEPT);
   const int traps = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW | FE_UNDERFLOW | FE_INEXACT;
   feenableexcept(traps);
-  const hf_result made = hf_create(&desc, &solver), added = hf_add_sites(solver, &sites, NULL),
+  const hf_result made = make(&desc, NULL, &solver), added = hf_add_sites(solver, &sites, NULL),
                   solved = hf_solver_solve_f64(solver, field, 0, NULL);
   const int still = fegetexcept();
   fedisableexcept(traps);
@@ -257,10 +258,10 @@ static void granted_threads_end_with_their_solver(void** state) {
   (void)state;
   const unsigned threads = entries("/proc/self/task");
   Surface tube = surface_tube(AROUND, RINGS);
-  hf_create_desc desc = surface_desc(&tube);
-  desc.thread_count = 4;
+  Options desc = options_of(&tube);
+  desc.surface.thread_count = 4;
   hf_solver solver = NULL;
-  assert_ok(hf_create(&desc, &solver));
+  assert_ok(make(&desc, NULL, &solver));
   assert_true(entries("/proc/self/task") <= threads + 3);
   hf_solver_destroy(solver), surface_free(&tube);
   for (int wait = 0; wait < 200 && entries("/proc/self/task") != threads; ++wait)
@@ -279,7 +280,7 @@ static void nothing_is_printed(void** state) {
   dup2(file, 1), dup2(file, 2);
   work(&done);
   for (hf_result code = -400; code <= 0; ++code) hf_result_get_name(code);
-  hf_create(NULL, NULL), hf_solve(NULL, NULL, 0, NULL), hf_solver_destroy(NULL);
+  hf_create(NULL, NULL, NULL), hf_surface_create(NULL, NULL), hf_solve(NULL, NULL, 0, NULL), hf_solver_destroy(NULL);
   fflush(stdout), fflush(stderr);
   dup2(out, 1), dup2(err, 2);
   const off_t printed = lseek(file, 0, SEEK_END);
@@ -354,11 +355,11 @@ static void a_large_surface_gives_the_same_bits_on_any_threads(void** state) {
   double* reference = NULL;
   HostJobs jobs = {0, 0};
   for (int variant = 0; variant < 4; ++variant) {
-    hf_create_desc desc = surface_desc(&sheet);
-    desc.thread_count = variant == 0 ? 1 : variant == 1 ? 2 : 5;
-    if (variant == 3) desc.job_runner.run = host_run, desc.job_runner.user = &jobs;
+    Options desc = options_of(&sheet);
+    desc.surface.thread_count = variant == 0 ? 1 : variant == 1 ? 2 : 5;
+    if (variant == 3) desc.surface.job_runner.run = host_run, desc.surface.job_runner.user = &jobs;
     hf_solver solver = NULL;
-    assert_ok(hf_create(&desc, &solver));
+    assert_ok(make(&desc, NULL, &solver));
     for (uint32_t i = 0; i < 25; ++i) add_site(solver, i * 1500, (double)(i % 6));
     double* field = field_of(solver, sheet.vertex_count);
     if (reference)

@@ -1,9 +1,9 @@
 /* Surfaces as they come: seams, islands, isolated vertices, any unit and offset. */
 #include "api_support.h"
 
-static hf_surface_report report_of(hf_solver solver) {
+static hf_surface_report report_of(hf_surface surface) {
   hf_surface_report report = HF_INIT(hf_surface_report);
-  assert_ok(hf_surface_get_report(solver, &report));
+  assert_ok(hf_surface_get_report(surface, &report));
   return report;
 }
 
@@ -29,8 +29,8 @@ static void welded_copies_get_the_same_value(void** state) {
 static void the_report_counts_what_was_found(void** state) {
   (void)state;
   Surface cut = surface_cut();
-  hf_solver solver = surface_solver(&cut);
-  const hf_surface_report r = report_of(solver);
+  hf_surface surface = surface_on(&cut);
+  const hf_surface_report r = report_of(surface);
   assert_int_equal(r.vertex_count, CUT_VERTICES);
   assert_int_equal(r.triangle_count, CUT_TRIANGLES);
   assert_int_equal(r.welded_vertex_count, CUT_VERTICES - 5);
@@ -44,7 +44,7 @@ static void the_report_counts_what_was_found(void** state) {
   assert_int_equal(r.boundary_edge_count, 2 * (8 + 4) + 2 * (2 + 2));
   assert_true(r.smallest_angle > 0.1f && r.smallest_angle < 1.0472f);
   assert_true(r.bounding_box_diagonal > 30 && r.bounding_box_diagonal < 31);
-  hf_solver_destroy(solver), surface_free(&cut);
+  hf_surface_destroy(surface), surface_free(&cut);
 }
 
 static void dirty_triangles_are_counted_and_the_field_is_finite(void** state) {
@@ -58,29 +58,30 @@ static void dirty_triangles_are_counted_and_the_field_is_finite(void** state) {
       0,        1,        2,        /* three vertices on the border: an edge of three triangles, zero area when flat */
       0,        24,       12};      /* a flap across the sheet */
   memcpy(dirty + 96, more, sizeof more);
-  hf_create_desc desc = surface_desc(&sheet);
-  desc.triangles = dirty, desc.triangle_count = 36;
+  Options desc = options_of(&sheet);
+  desc.surface.triangles = dirty, desc.surface.triangle_count = 36;
+  hf_surface surface = NULL;
   hf_solver solver = NULL;
-  assert_ok(hf_create(&desc, &solver));
-  const hf_surface_report r = report_of(solver);
+  assert_ok(make(&desc, &surface, &solver));
+  const hf_surface_report r = report_of(surface);
   assert_int_equal(r.duplicate_triangle_count, 2);
   assert_true(r.non_manifold_edge_count > 0);
   assert_true(r.flipped_edge_count > 0);
   add_site(solver, 0, 0), add_site(solver, 24, 1);
   double* field = field_of(solver, 25);
   for (int v = 0; v < 25; ++v) assert_true(isfinite(field[v]));
-  free(field), hf_solver_destroy(solver), surface_free(&sheet);
+  free(field), hf_solver_destroy(solver), hf_surface_destroy(surface), surface_free(&sheet);
 }
 
 static void components_are_numbered_by_their_smallest_vertex(void** state) {
   (void)state;
   Surface cut = surface_cut();
-  hf_solver solver = surface_solver(&cut);
+  hf_surface surface = surface_on(&cut);
   uint32_t component[CUT_VERTICES];
-  assert_ok(hf_surface_get_components(solver, CUT_VERTICES, component));
+  assert_ok(hf_surface_get_components(surface, CUT_VERTICES, component, NULL));
   for (uint32_t v = 0; v < CUT_VERTICES; ++v)
     assert_int_equal(component[v], v == CUT_ISOLATED ? HF_NO_INDEX : v >= CUT_ISLAND);
-  hf_solver_destroy(solver), surface_free(&cut);
+  hf_surface_destroy(surface), surface_free(&cut);
 }
 
 static void what_no_site_reaches_is_zero_and_counted(void** state) {
@@ -123,23 +124,23 @@ static void what_no_site_reaches_is_zero_and_counted(void** state) {
 static void weld_none_keeps_the_cut_and_a_tolerance_closes_a_gap(void** state) {
   (void)state;
   Surface cut = surface_cut();
-  hf_create_desc desc = surface_desc(&cut);
-  hf_solver solver = NULL;
+  hf_surface_desc desc = options_of(&cut).surface;
+  hf_surface surface = NULL;
   desc.weld = HF_WELD_NONE;
-  assert_ok(hf_create(&desc, &solver));
-  assert_int_equal(report_of(solver).component_count, 3);
-  hf_solver_destroy(solver);
+  assert_ok(hf_surface_create(&desc, &surface));
+  assert_int_equal(report_of(surface).component_count, 3);
+  hf_surface_destroy(surface);
   /* the right sheet a thousandth away: cut for exact welding, closed within a tolerance */
   for (uint32_t v = CUT_SEAM_RIGHT; v < CUT_ISLAND; ++v) cut.positions[3 * v] += 0.001f;
   desc.weld = HF_WELD_EXACT;
-  assert_ok(hf_create(&desc, &solver));
-  assert_int_equal(report_of(solver).component_count, 3);
-  hf_solver_destroy(solver);
+  assert_ok(hf_surface_create(&desc, &surface));
+  assert_int_equal(report_of(surface).component_count, 3);
+  hf_surface_destroy(surface);
   desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = 0.002f;
-  assert_ok(hf_create(&desc, &solver));
-  assert_int_equal(report_of(solver).component_count, 2);
-  assert_int_equal(report_of(solver).welded_vertex_count, CUT_VERTICES - 5);
-  hf_solver_destroy(solver);
+  assert_ok(hf_surface_create(&desc, &surface));
+  assert_int_equal(report_of(surface).component_count, 2);
+  assert_int_equal(report_of(surface).welded_vertex_count, CUT_VERTICES - 5);
+  hf_surface_destroy(surface);
   surface_free(&cut);
 }
 
@@ -148,9 +149,9 @@ static void minus_zero_and_zero_are_one_place(void** state) {
   Surface cut = surface_cut();
   for (uint32_t v = 0; v < CUT_ISLAND; ++v) cut.positions[3 * v] -= 4.0f; /* the seam at x = 0 */
   for (uint32_t j = 0; j < 5; ++j) cut.positions[3 * (CUT_SEAM_RIGHT + 5 * j)] = -0.0f;
-  hf_solver solver = surface_solver(&cut);
-  assert_int_equal(report_of(solver).component_count, 2);
-  hf_solver_destroy(solver), surface_free(&cut);
+  hf_surface surface = surface_on(&cut);
+  assert_int_equal(report_of(surface).component_count, 2);
+  hf_surface_destroy(surface), surface_free(&cut);
 }
 
 /* The field of the sheet at p -> scale p + offset, in double. */
@@ -160,10 +161,10 @@ static double* moved_field(const Surface* sheet, double scale, double offset, in
   float* floats = malloc(sizeof(float) * n);
   for (size_t i = 0; i < n; ++i)
     doubles[i] = scale * (double)sheet->positions[i] + offset, floats[i] = (float)doubles[i];
-  hf_create_desc desc = surface_desc(sheet);
-  desc.positions = as_float ? floats : NULL, desc.positions_f64 = as_float ? NULL : doubles;
+  Options desc = options_of(sheet);
+  desc.surface.positions = as_float ? floats : NULL, desc.surface.positions_f64 = as_float ? NULL : doubles;
   hf_solver solver = NULL;
-  assert_ok(hf_create(&desc, &solver));
+  assert_ok(make(&desc, NULL, &solver));
   add_site(solver, 0, -1e6), add_site(solver, sheet->vertex_count - 1, 1e6),
       add_site(solver, sheet->vertex_count / 2, 5e5);
   double* field = field_of(solver, sheet->vertex_count);
@@ -201,10 +202,10 @@ static void interleaved_vertices_are_read_by_their_stride(void** state) {
   unsigned char* records = malloc((size_t)RECORD * sheet.vertex_count);
   memset(records, 0xEE, (size_t)RECORD * sheet.vertex_count);
   for (uint32_t v = 0; v < sheet.vertex_count; ++v) memcpy(records + (size_t)RECORD * v, sheet.positions + 3 * v, 12);
-  hf_create_desc desc = surface_desc(&sheet);
+  Options desc = options_of(&sheet);
   hf_solver plain = surface_solver(&sheet), strided = NULL;
-  desc.positions = (const float*)(const void*)records, desc.position_stride = RECORD;
-  assert_ok(hf_create(&desc, &strided));
+  desc.surface.positions = (const float*)(const void*)records, desc.surface.position_stride = RECORD;
+  assert_ok(make(&desc, NULL, &strided));
   hf_solver both[2] = {plain, strided};
   double* field[2];
   for (int i = 0; i < 2; ++i)
@@ -212,6 +213,43 @@ static void interleaved_vertices_are_read_by_their_stride(void** state) {
   assert_true(same_bits(field[0], field[1], sizeof(double) * sheet.vertex_count));
   free(field[0]), free(field[1]), free(records);
   hf_solver_destroy(plain), hf_solver_destroy(strided), surface_free(&sheet);
+}
+
+static void triangles_of_16_bits_and_any_stride_give_the_same_bits(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(9, 7);
+  enum { WIDE = 23, NARROW = 11 }; /* odd: rows are not even aligned */
+  unsigned char *wide = malloc((size_t)WIDE * sheet.triangle_count),
+                *narrow = malloc((size_t)NARROW * sheet.triangle_count);
+  uint16_t* packed = malloc(sizeof(uint16_t) * 3 * sheet.triangle_count);
+  memset(wide, 0xEE, (size_t)WIDE * sheet.triangle_count), memset(narrow, 0xEE, (size_t)NARROW * sheet.triangle_count);
+  for (uint32_t t = 0; t < sheet.triangle_count; ++t) {
+    for (uint32_t k = 0; k < 3; ++k) packed[3 * t + k] = (uint16_t)sheet.triangles[3 * t + k];
+    memcpy(wide + (size_t)WIDE * t, sheet.triangles + 3 * t, 12),
+        memcpy(narrow + (size_t)NARROW * t, packed + 3 * t, 6);
+  }
+  const struct {
+    const void *triangles, *triangles_u16;
+    uint32_t stride;
+  } forms[4] = {{sheet.triangles, NULL, 0}, {wide, NULL, WIDE}, {NULL, packed, 0}, {NULL, narrow, NARROW}};
+  double* fields[4];
+  unsigned char* factors[4];
+  size_t sizes[4];
+  for (int i = 0; i < 4; ++i) {
+    Options desc = options_of(&sheet);
+    desc.surface.triangles = forms[i].triangles, desc.surface.triangles_u16 = forms[i].triangles_u16;
+    desc.surface.triangle_stride = forms[i].stride;
+    hf_surface surface = NULL;
+    hf_solver solver = NULL;
+    assert_ok(make(&desc, &surface, &solver));
+    add_site(solver, 0, 0), add_site(solver, 40, 1);
+    fields[i] = field_of(solver, sheet.vertex_count), factors[i] = saved_bytes(surface, HF_FIELD_HARMONIC, &sizes[i]);
+    assert_true(same_bits(fields[i], fields[0], sizeof(double) * sheet.vertex_count));
+    assert_true(sizes[i] == sizes[0] && same_bits(factors[i], factors[0], sizes[0]));
+    hf_solver_destroy(solver), hf_surface_destroy(surface);
+  }
+  for (int i = 0; i < 4; ++i) free(fields[i]), free(factors[i]);
+  free(wide), free(narrow), free(packed), surface_free(&sheet);
 }
 
 static void the_mesh_is_copied(void** state) {
@@ -234,10 +272,11 @@ static void the_mesh_is_copied(void** state) {
 static void limits_that_are_just_met_are_no_obstacle(void** state) {
   (void)state;
   Surface cut = surface_cut();
-  hf_create_desc desc = surface_desc(&cut);
-  desc.vertex_limit = CUT_VERTICES, desc.triangle_limit = CUT_TRIANGLES, desc.site_limit = 2, desc.memory_limit_mb = 64;
+  Options desc = options_of(&cut);
+  desc.surface.vertex_limit = CUT_VERTICES, desc.surface.triangle_limit = CUT_TRIANGLES;
+  desc.surface.memory_limit_mb = 64, desc.solver.site_limit = 2;
   hf_solver solver = NULL;
-  assert_ok(hf_create(&desc, &solver));
+  assert_ok(make(&desc, NULL, &solver));
   add_site(solver, CUT_LEFT, 0), add_site(solver, CUT_RIGHT, 1);
   const uint32_t vertex = CUT_ISLAND;
   const double value = 2;
@@ -258,6 +297,7 @@ int main(void) {
       cmocka_unit_test(minus_zero_and_zero_are_one_place),
       cmocka_unit_test(unit_and_offset_do_not_matter),
       cmocka_unit_test(interleaved_vertices_are_read_by_their_stride),
+      cmocka_unit_test(triangles_of_16_bits_and_any_stride_give_the_same_bits),
       cmocka_unit_test(the_mesh_is_copied),
       cmocka_unit_test(limits_that_are_just_met_are_no_obstacle),
   };

@@ -35,7 +35,8 @@ static void new_sites_may_be_written_over_the_list_of_vertices(void** state) {
 static void values_may_be_written_over_the_list_they_were_asked_by(void** state) {
   (void)state;
   tube = surface_tube(AROUND, RINGS);
-  hf_solver solver = surface_solver(&tube);
+  hf_surface surface = surface_on(&tube);
+  hf_solver solver = solver_on(surface);
   add_site(solver, 0, 0), add_site(solver, VERTICES - 1, 1);
   double* field = field_of(solver, VERTICES);
   union {
@@ -47,22 +48,23 @@ static void values_may_be_written_over_the_list_they_were_asked_by(void** state)
   for (uint32_t i = 0; i < 6; ++i) assert_true(shared.values[i] == field[13 * i + 2]);
 
   hf_geodesics geodesics = NULL;
-  assert_ok(hf_geodesics_create(solver, NULL, &geodesics));
+  assert_ok(hf_geodesics_create(surface, NULL, &geodesics));
   double apart[VERTICES], over[VERTICES];
   const uint32_t sources[2] = {5, 66};
   assert_ok(hf_geodesics_solve_f64(geodesics, 2, sources, apart, 0));
   memcpy(over, sources, sizeof sources);
   assert_ok(hf_geodesics_solve_f64(geodesics, 2, (const uint32_t*)(const void*)over, over, 0));
   assert_true(same_bits(apart, over, sizeof over));
-  hf_geodesics_destroy(geodesics), free(field), hf_solver_destroy(solver), surface_free(&tube);
+  hf_geodesics_destroy(geodesics), free(field), hf_solver_destroy(solver), hf_surface_destroy(surface),
+      surface_free(&tube);
 }
 
 static void a_posed_source_may_become_the_target_in_place(void** state) {
   (void)state;
   tube = surface_tube(AROUND, RINGS);
-  hf_solver solver = surface_solver(&tube);
+  hf_surface surface = surface_on(&tube);
   hf_transfer transfer = NULL;
-  assert_ok(hf_transfer_create(solver, solver, NULL, &transfer));
+  assert_ok(hf_transfer_create(surface, surface, NULL, &transfer));
   uint32_t* ends = tube_ends(AROUND, RINGS);
   const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
   hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
@@ -81,7 +83,7 @@ static void a_posed_source_may_become_the_target_in_place(void** state) {
   frame.target_positions = posed;
   assert_ok(hf_transfer_apply(transfer, &frame));
   assert_true(same_bits(posed, apart, sizeof apart));
-  hf_transfer_destroy(transfer), hf_solver_destroy(solver), free(ends), surface_free(&tube);
+  hf_transfer_destroy(transfer), hf_surface_destroy(surface), free(ends), surface_free(&tube);
 }
 
 static void absurd_stiffness_is_clamped_and_the_field_stays_finite(void** state) {
@@ -91,10 +93,10 @@ static void absurd_stiffness_is_clamped_and_the_field_stays_finite(void** state)
     for (int engine = 0; engine <= HF_ENGINE_REFACTOR; ++engine) {
       if (engine == HF_ENGINE_UPDOWN) continue; /* its penalties have a limit of their own */
       tube = surface_tube(AROUND, RINGS);
-      hf_create_desc desc = surface_desc(&tube);
-      desc.engine = engine;
+      Options desc = options_of(&tube);
+      desc.solver.engine = engine;
       hf_solver solver = NULL;
-      assert_ok(hf_create(&desc, &solver));
+      assert_ok(make(&desc, NULL, &solver));
       const uint32_t vertices[2] = {4, 71};
       const double values[2] = {0, 1}, stiffness[2] = {absurd[i], absurd[COUNT_OF(absurd) - 1 - i]};
       hf_sites_desc sites = sites_at(2, vertices, values);

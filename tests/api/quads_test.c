@@ -4,9 +4,9 @@
 
 enum { AROUND = 24, RINGS = 21, COUNT = AROUND * RINGS };
 
-static hf_solver tube_solver(Surface* surface) {
-  *surface = surface_tube(AROUND, RINGS);
-  return surface_solver(surface);
+static hf_surface tube_on(Surface* mesh) {
+  *mesh = surface_tube(AROUND, RINGS);
+  return surface_on(mesh);
 }
 
 static hf_quads_desc quads_desc(void) {
@@ -17,13 +17,13 @@ static hf_quads_desc quads_desc(void) {
 
 static void a_tube_becomes_a_closed_net_of_quads(void** state) {
   (void)state;
-  Surface surface;
-  const hf_solver solver = tube_solver(&surface);
+  Surface mesh;
+  const hf_surface surface = tube_on(&mesh);
   for (int32_t kind = HF_QUADS_UNIFORM; kind <= HF_QUADS_PURE; ++kind) {
     hf_quads_desc desc = quads_desc();
     desc.kind = kind;
     hf_quads quads = NULL;
-    assert_ok(hf_quads_create(solver, &desc, &quads));
+    assert_ok(hf_quads_create(surface, &desc, &quads));
     hf_quads_info info = HF_INIT(hf_quads_info);
     assert_ok(hf_quads_get_info(quads, &info));
     assert_int_equal(info.euler_characteristic, 0);
@@ -38,46 +38,46 @@ static void a_tube_becomes_a_closed_net_of_quads(void** state) {
     uint32_t* corners = calloc(info.corner_count, sizeof *corners);
     uint32_t sites[2];
     int32_t lines[2];
-    hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
-    mesh.vertex_capacity = info.vertex_count, mesh.face_capacity = info.face_count;
-    mesh.corner_capacity = info.corner_count, mesh.site_capacity = 2;
-    mesh.positions = positions, mesh.triangles = triangles, mesh.barycentrics = weights;
-    mesh.face_starts = starts, mesh.face_corners = corners, mesh.site_vertices = sites, mesh.site_lines = lines;
-    assert_ok(hf_quads_get_mesh(quads, &mesh));
+    hf_quads_mesh net = HF_INIT(hf_quads_mesh);
+    net.vertex_capacity = info.vertex_count, net.face_capacity = info.face_count;
+    net.corner_capacity = info.corner_count, net.site_capacity = 2;
+    net.positions = positions, net.triangles = triangles, net.barycentrics = weights;
+    net.face_starts = starts, net.face_corners = corners, net.site_vertices = sites, net.site_lines = lines;
+    assert_ok(hf_quads_get_mesh(quads, &net));
     assert_int_equal(starts[0], 0);
     assert_int_equal(starts[info.face_count], info.corner_count);
     assert_true(sites[0] == HF_NO_INDEX && sites[1] == HF_NO_INDEX);
     assert_int_equal(lines[0] + lines[1], 0);
     for (uint32_t i = 0; i < info.corner_count; ++i) assert_true(corners[i] < info.vertex_count);
     for (uint32_t v = 0; v < info.vertex_count; ++v) {
-      assert_true(triangles[v] < surface.triangle_count);
+      assert_true(triangles[v] < mesh.triangle_count);
       for (uint32_t k = 0; k < 3; ++k) { /* the vertex is where its weights say */
         double p = 0;
         for (uint32_t c = 0; c < 3; ++c)
-          p += weights[3 * v + c] * (double)surface.positions[3 * surface.triangles[3 * triangles[v] + c] + k];
+          p += weights[3 * v + c] * (double)mesh.positions[3 * mesh.triangles[3 * triangles[v] + c] + k];
         assert_true(fabs(p - positions[3 * v + k]) < 1e-6);
       }
     }
     /* too small: nothing is written */
-    mesh.face_capacity = info.face_count - 1, starts[0] = 77;
-    assert_code(HF_ERROR_TOO_SMALL, hf_quads_get_mesh(quads, &mesh));
+    net.face_capacity = info.face_count - 1, starts[0] = 77;
+    assert_code(HF_ERROR_TOO_SMALL, hf_quads_get_mesh(quads, &net));
     assert_int_equal(starts[0], 77);
     free(positions), free(weights), free(triangles), free(starts), free(corners);
     hf_quads_destroy(quads);
     assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_get_info(quads, &info));
   }
-  hf_solver_destroy(solver), surface_free(&surface);
+  hf_surface_destroy(surface), surface_free(&mesh);
 }
 
-static void flow_lines_rise_and_outlive_the_solver(void** state) {
+static void flow_lines_rise_and_outlive_the_surface(void** state) {
   (void)state;
-  Surface surface;
-  const hf_solver solver = tube_solver(&surface);
+  Surface mesh;
+  const hf_surface surface = tube_on(&mesh);
   double height[COUNT];
-  for (uint32_t v = 0; v < COUNT; ++v) height[v] = (double)surface.positions[3 * v + 1] + 1e-3 * (v % AROUND);
+  for (uint32_t v = 0; v < COUNT; ++v) height[v] = (double)mesh.positions[3 * v + 1] + 1e-3 * (v % AROUND);
   hf_flow flow = NULL;
-  assert_ok(hf_flow_create(solver, &flow));
-  hf_solver_destroy(solver);
+  assert_ok(hf_flow_create(surface, &flow));
+  hf_surface_destroy(surface);
   hf_scalars field = HF_INIT(hf_scalars);
   field.values_f64 = height;
   const uint32_t seed = 10 * AROUND + 3;
@@ -108,26 +108,26 @@ static void flow_lines_rise_and_outlive_the_solver(void** state) {
   lines.wanted_count = 3;
   assert_code(HF_ERROR_NON_FINITE, hf_flow_trace(flow, &field, &lines));
   hf_flow_destroy(flow), hf_flow_destroy(flow);
-  surface_free(&surface);
+  surface_free(&mesh);
 }
 
 static void cancelling_leaves_nothing_and_stops_one_call(void** state) {
   (void)state;
-  Surface surface;
-  const hf_solver solver = tube_solver(&surface);
+  Surface mesh;
+  const hf_surface surface = tube_on(&mesh);
   hf_progress progress = NULL;
   assert_ok(hf_progress_create(&progress));
   assert_ok(hf_progress_cancel(progress));
   hf_quads_desc desc = quads_desc();
   desc.progress = progress;
   hf_quads quads = (hf_quads)(uintptr_t)1;
-  assert_code(HF_ERROR_CANCELLED, hf_quads_create(solver, &desc, &quads));
+  assert_code(HF_ERROR_CANCELLED, hf_quads_create(surface, &desc, &quads));
   assert_null(quads);
-  assert_ok(hf_quads_create(solver, &desc, &quads));
+  assert_ok(hf_quads_create(surface, &desc, &quads));
   float done = 0;
   assert_ok(hf_progress_get_fraction(progress, &done));
   assert_true(done == 1.0f);
-  hf_quads_destroy(quads), hf_progress_destroy(progress), hf_solver_destroy(solver), surface_free(&surface);
+  hf_quads_destroy(quads), hf_progress_destroy(progress), hf_surface_destroy(surface), surface_free(&mesh);
 }
 
 /* A host's allocator that looks at the progress whenever the library asks for memory. */
@@ -166,12 +166,12 @@ static void let_go(void* user, void* block, size_t size, size_t alignment) {
 static void progress_rises_in_small_steps_and_stops_where_it_is_cancelled(void** state) {
   (void)state;
   Watcher watcher = {NULL, 0, 0, 2, 0, 0};
-  Surface surface = surface_tube(AROUND, RINGS);
-  hf_create_desc create = surface_desc(&surface);
+  Surface mesh = surface_tube(AROUND, RINGS);
+  hf_surface_desc create = options_of(&mesh).surface;
   const hf_allocator hooks = {watch, let_go, &watcher};
   create.allocator = hooks;
-  hf_solver solver = NULL;
-  assert_ok(hf_create(&create, &solver));
+  hf_surface surface = NULL;
+  assert_ok(hf_surface_create(&create, &surface));
   assert_ok(hf_progress_create(&watcher.progress));
   const uint32_t sites[2] = {5, 300};
   for (int automatic = 0; automatic < 2; ++automatic) {
@@ -180,64 +180,64 @@ static void progress_rises_in_small_steps_and_stops_where_it_is_cancelled(void**
     if (!automatic) desc.site_count = 2, desc.site_vertices = sites;
     watcher.last = watcher.largest_step = 0, watcher.values = watcher.falls = 0, watcher.cancel_at = 2;
     hf_quads quads = NULL;
-    assert_ok(hf_quads_create(solver, &desc, &quads));
+    assert_ok(hf_quads_create(surface, &desc, &quads));
     assert_int_equal(watcher.falls, 0);
     assert_true(watcher.values >= 10);
     assert_true(watcher.largest_step <= 0.4f); /* trials that are not needed are passed over */
     hf_quads_destroy(quads), quads = NULL;
     for (float at = 0.05f; at < 0.5f; at += 0.2f) { /* it passes 0.6 in one step where nothing is left to fit */
       watcher.last = 0, watcher.cancel_at = at;
-      assert_code(HF_ERROR_CANCELLED, hf_quads_create(solver, &desc, &quads));
+      assert_code(HF_ERROR_CANCELLED, hf_quads_create(surface, &desc, &quads));
       assert_null(quads);
       assert_true(watcher.last >= at);
     }
   }
   hf_progress_destroy(watcher.progress), watcher.progress = NULL;
-  hf_solver_destroy(solver), surface_free(&surface);
+  hf_surface_destroy(surface), surface_free(&mesh);
 }
 
 static void bad_input_is_named(void** state) {
   (void)state;
-  Surface surface;
-  const hf_solver solver = tube_solver(&surface);
+  Surface mesh;
+  const hf_surface surface = tube_on(&mesh);
   hf_quads quads = NULL;
   const uint32_t vertices[] = {5, 300, 5}, beyond[] = {COUNT};
   const int32_t lines[] = {4, 0}, one_sign[] = {4, 4};
   hf_quads_desc desc = quads_desc();
-  assert_code(HF_ERROR_NULL_POINTER, hf_quads_create(solver, &desc, NULL));
+  assert_code(HF_ERROR_NULL_POINTER, hf_quads_create(surface, &desc, NULL));
   assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_create(NULL, &desc, &quads));
   desc.struct_size = 4;
-  assert_code(HF_ERROR_INVALID_DESC, hf_quads_create(solver, &desc, &quads));
+  assert_code(HF_ERROR_INVALID_DESC, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.kind = 2;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.edge_length = -1;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.edge_length = NAN;
-  assert_code(HF_ERROR_NON_FINITE, hf_quads_create(solver, &desc, &quads));
+  assert_code(HF_ERROR_NON_FINITE, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.edge_length = 1e9f;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.relax_count = 1001;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.site_count = 2;
-  assert_code(HF_ERROR_NULL_POINTER, hf_quads_create(solver, &desc, &quads));
+  assert_code(HF_ERROR_NULL_POINTER, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.site_vertices = vertices;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.site_count = 1, desc.site_vertices = beyond;
-  assert_code(HF_ERROR_OUT_OF_RANGE, hf_quads_create(solver, &desc, &quads));
+  assert_code(HF_ERROR_OUT_OF_RANGE, hf_quads_create(surface, &desc, &quads));
   desc = quads_desc(), desc.site_count = 3, desc.site_vertices = vertices;
-  assert_code(HF_ERROR_DUPLICATE_SITE, hf_quads_create(solver, &desc, &quads));
+  assert_code(HF_ERROR_DUPLICATE_SITE, hf_quads_create(surface, &desc, &quads));
   hf_error_detail detail;
   assert_ok(hf_error_get_detail(&detail));
   assert_int_equal(detail.index, 2);
   desc = quads_desc(), desc.site_count = 2, desc.site_vertices = vertices, desc.site_lines = lines;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
   desc.site_lines = one_sign;
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(solver, &desc, &quads));
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_quads_create(surface, &desc, &quads));
   assert_null(quads);
   hf_flow flow = NULL;
-  assert_code(HF_ERROR_NULL_POINTER, hf_flow_create(solver, NULL));
+  assert_code(HF_ERROR_NULL_POINTER, hf_flow_create(surface, NULL));
   assert_code(HF_ERROR_INVALID_HANDLE, hf_flow_create(NULL, &flow));
-  assert_ok(hf_flow_create(solver, &flow));
+  assert_ok(hf_flow_create(surface, &flow));
   assert_code(HF_ERROR_INVALID_HANDLE, hf_quads_get_info((hf_quads)flow, NULL));
   double values[COUNT] = {0};
   hf_scalars field = HF_INIT(hf_scalars);
@@ -251,31 +251,31 @@ static void bad_input_is_named(void** state) {
   assert_code(HF_ERROR_OUT_OF_RANGE, hf_flow_trace(flow, &field, &out));
   out.reserved = 1;
   assert_code(HF_ERROR_INVALID_DESC, hf_flow_trace(flow, &field, &out));
-  hf_flow_destroy(flow), hf_solver_destroy(solver), surface_free(&surface);
+  hf_flow_destroy(flow), hf_surface_destroy(surface), surface_free(&mesh);
 }
 
 static void a_non_manifold_edge_is_refused_with_its_vertex(void** state) {
   (void)state;
   const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, -1};
   const uint32_t triangles[] = {0, 1, 2, 1, 0, 3, 0, 1, 4};
-  hf_create_desc create = HF_INIT(hf_create_desc);
+  hf_surface_desc create = HF_INIT(hf_surface_desc);
   create.vertex_count = 5, create.triangle_count = 3, create.positions = positions, create.triangles = triangles;
-  hf_solver solver = NULL;
-  assert_ok(hf_create(&create, &solver));
+  hf_surface surface = NULL;
+  assert_ok(hf_surface_create(&create, &surface));
   hf_quads quads = NULL;
   hf_flow flow = NULL;
-  assert_code(HF_ERROR_UNSUPPORTED, hf_quads_create(solver, NULL, &quads));
-  assert_code(HF_ERROR_UNSUPPORTED, hf_flow_create(solver, &flow));
+  assert_code(HF_ERROR_UNSUPPORTED, hf_quads_create(surface, NULL, &quads));
+  assert_code(HF_ERROR_UNSUPPORTED, hf_flow_create(surface, &flow));
   hf_error_detail detail;
   assert_ok(hf_error_get_detail(&detail));
   assert_true(detail.index == 0 || detail.index == 1);
-  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_tube_becomes_a_closed_net_of_quads),
-      cmocka_unit_test(flow_lines_rise_and_outlive_the_solver),
+      cmocka_unit_test(flow_lines_rise_and_outlive_the_surface),
       cmocka_unit_test(cancelling_leaves_nothing_and_stops_one_call),
       cmocka_unit_test(progress_rises_in_small_steps_and_stops_where_it_is_cancelled),
       cmocka_unit_test(bad_input_is_named),

@@ -68,9 +68,9 @@ static void a_rebase_needs_a_solver_with_hard_sites(void** state) {
   assert_code(HF_ERROR_NO_SITES, hf_solver_prepare_rebase(solver));
   assert_code(HF_ERROR_INVALID_HANDLE, hf_solver_prepare_rebase(NULL));
   hf_solver_destroy(solver);
-  hf_create_desc desc = surface_desc(&sheet);
-  desc.engine = HF_ENGINE_REFACTOR;
-  assert_ok(hf_create(&desc, &solver));
+  Options desc = options_of(&sheet);
+  desc.solver.engine = HF_ENGINE_REFACTOR;
+  assert_ok(make(&desc, NULL, &solver));
   add_site(solver, 3, 1);
   assert_code(HF_ERROR_UNSUPPORTED, hf_solver_prepare_rebase(solver));
   hf_solver_destroy(solver);
@@ -105,7 +105,8 @@ static void a_disc_is_one_site(void** state) {
   const double negative = -1;
   sites.radii = &negative;
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_add_sites(solver, &sites, NULL));
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_solver_move_sites(solver, 1, numbers, &sites)); /* a radius cannot be moved to */
+  assert_code(HF_ERROR_INVALID_ARGUMENT,
+              hf_solver_move_sites(solver, 1, numbers, &sites)); /* a radius cannot be moved to */
   const uint32_t there = vertices[0] + 2 * (COLUMNS + 1) + 2;
   sites = sites_at(1, &there, NULL);
   assert_ok(hf_solver_move_sites(solver, 1, numbers, &sites));

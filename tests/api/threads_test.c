@@ -55,9 +55,9 @@ static void* own_solver(void* user) {
   Worker* w = user;
   double* field = malloc(sizeof(double) * VERTICES);
   for (int round = 0; round < 6; ++round) {
-    const hf_create_desc desc = surface_desc(&sheet);
+    const Options desc = options_of(&sheet);
     hf_solver solver = NULL;
-    w->wrong += hf_create(&desc, &solver) != HF_OK || edit_and_solve(solver, w->number, field) != HF_OK;
+    w->wrong += make(&desc, NULL, &solver) != HF_OK || edit_and_solve(solver, w->number, field) != HF_OK;
     w->wrong += !same_bits(field, w->expected + (size_t)VERTICES * w->number, sizeof(double) * VERTICES);
     hf_solver_destroy(solver);
     /* the detail belongs to the thread */
@@ -115,8 +115,8 @@ static void* reader(void* user) {
     const uint32_t vertices[2] = {5, 300};
     double at[2];
     hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
-    w->wrong +=
-        hf_solver_solve_f64(w->solver, field, 0, NULL) != HF_OK || !same_bits(field, w->expected, sizeof(double) * VERTICES);
+    w->wrong += hf_solver_solve_f64(w->solver, field, 0, NULL) != HF_OK ||
+                !same_bits(field, w->expected, sizeof(double) * VERTICES);
     w->wrong += hf_solver_solve_at(w->solver, 2, vertices, at) != HF_OK || fabs(at[1] - w->expected[300]) > 1e-11;
     w->wrong += hf_solver_get_statistics(w->solver, &statistics) != HF_OK || hf_solver_get_site_count(w->solver) != 2;
   }
@@ -264,10 +264,11 @@ static void calls_during_a_change_are_busy_and_destroy_waits_for_it(void** state
   memset(&gate, 0, sizeof gate);
   gate.inner = counting_hooks(&gate.memory);
   pthread_mutex_init(&gate.mutex, NULL), pthread_cond_init(&gate.changed, NULL);
-  hf_create_desc desc = surface_desc(&sheet);
-  desc.allocator.allocate = gate_allocate, desc.allocator.release = gate_release, desc.allocator.user = &gate;
+  Options desc = options_of(&sheet);
+  desc.surface.allocator.allocate = gate_allocate, desc.surface.allocator.release = gate_release,
+  desc.surface.allocator.user = &gate;
   hf_solver solver = NULL, copy = NULL;
-  assert_ok(hf_create(&desc, &solver));
+  assert_ok(make(&desc, NULL, &solver));
   const uint32_t site = add_site(solver, 0, 1);
   double* field = malloc(sizeof(double) * VERTICES);
   const double value = 1;
@@ -310,7 +311,8 @@ static void* maker(void* user) {
     w->wrong += hf_solver_clone(w->solver, &copy) != HF_OK || hf_progress_create(&progress) != HF_OK;
     w->wrong += hf_solver_get_site_count(copy) != 1 || hf_progress_get_fraction(progress, &fraction) != HF_OK;
     hf_solver_destroy(copy), hf_progress_destroy(progress);
-    w->wrong += hf_solver_record(copy) != HF_ERROR_INVALID_HANDLE || hf_progress_cancel(progress) != HF_ERROR_INVALID_HANDLE;
+    w->wrong +=
+        hf_solver_record(copy) != HF_ERROR_INVALID_HANDLE || hf_progress_cancel(progress) != HF_ERROR_INVALID_HANDLE;
   }
   return NULL;
 }

@@ -69,11 +69,11 @@ void print_usage() {
   for (const Command& command : commands) std::printf("  %-14s %s\n", command.name, command.help);
   std::fputs(
       "  all            every command, one after the other\n"
-      "  issue3         first-field to scaling: the factor and the engines only\n"
+      "  engines        first-field to scaling: the factor and the engines only\n"
       "\n"
       "options\n"
       "  --threads N[,M]   threads for us and for the peer's BLAS; with a list, one run each (default 1; for all and "
-      "issue3: 1,2)\n"
+      "engines: 1,2)\n"
       "  --repeat N        repetitions of every measurement (default 5)\n"
       "  --rows TEXT       only rows whose names contain TEXT, such as creature, 304K or +1/-1\n"
       "  --json FILE       everything measured, with the machine and the figures\n"
@@ -111,10 +111,10 @@ std::vector<uint32_t> read_thread_list(const std::string& text) {
 
 Arguments read_arguments(const std::vector<std::string>& words) {
   Arguments arguments;
-  const bool all = words[0] == "all" || words[0] == "issue3";
+  const bool all = words[0] == "all" || words[0] == "engines";
   const size_t count = std::size(commands);
   for (size_t i = 0; i < count; ++i) {
-    if (words[0] == "all" || words[0] == commands[i].name || (words[0] == "issue3" && i < engine_commands))
+    if (words[0] == "all" || words[0] == commands[i].name || (words[0] == "engines" && i < engine_commands))
       arguments.commands.push_back(&commands[i]);
   }
   if (arguments.commands.empty()) throw std::runtime_error("unknown command " + words[0] + "; see --help");

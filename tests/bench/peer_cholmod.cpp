@@ -106,6 +106,10 @@ class Peer final : public CholmodPeer {
     order.resize(n_);
     return time_ms([&] { require(cholmod_metis(&view_, nullptr, 0, 0, order.data(), &c_), "cholmod_metis"); });
   }
+  double amd_ms(std::vector<int>& order) override {
+    order.resize(n_);
+    return time_ms([&] { require(cholmod_amd(&view_, nullptr, 0, order.data(), &c_), "cholmod_amd"); });
+  }
   double analyse_given_ms(const std::vector<int>& order) override {
     cholmod_free_factor(&factor_, &c_);
     c_.method[0].ordering = CHOLMOD_GIVEN;

@@ -33,6 +33,8 @@ class CholmodPeer {
   virtual ~CholmodPeer() = default;
   // METIS alone, without symbolic analysis; the permutation goes to `order`.
   virtual double metis_ms(std::vector<int>& order) = 0;
+  // CHOLMOD's copy of AMD alone, in the same way.
+  virtual double amd_ms(std::vector<int>& order) = 0;
   // Symbolic analysis under a given permutation; replaces the factor.
   virtual double analyse_given_ms(const std::vector<int>& order) = 0;
   // METIS and symbolic analysis; replaces the factor.

@@ -43,6 +43,13 @@ class Scene
         return list == null ? null : ((Items)list).Select(x => (uint)(double)x).ToArray();
     }
 
+    /// The fields of a struct that are single numbers.
+    static Map Fields(object row)
+    {
+        return row.GetType().GetFields().Where(f => f.FieldType.IsPrimitive)
+            .ToDictionary(f => f.Name, f => (object)Convert.ToDouble(f.GetValue(row)));
+    }
+
     static uint[][] Lists(object lists) { return lists == null ? null : ((Items)lists).Select(Numbers).ToArray(); }
     static uint Whole(Map step, string key)
     {
@@ -99,16 +106,17 @@ class Scene
         string what = (string)step["do"], name = (string)Get(step, "as");
         HfObject on = null;
         if (step.ContainsKey("on")) objects.TryGetValue((string)step["on"], out on);
+        Surface surface = on as Surface;
         Solver solver = on as Solver;
         Pose pose = on as Pose;
         Transfer transfer = on as Transfer;
         uint[] sites = Numbers(Get(step, "sites")), vertices = Numbers(Get(step, "vertices"));
         switch (what)
         {
-            case "solver":
+            case "surface":
                 {
-                    var o = Options(step, "weld", "operator_kind", "engine", "ordering", "channel_count",
-                        "vertex_limit", "field_kind", "penalty");
+                    var o = Options(step, "weld", "weld_tolerance", "operator_kind", "field_kind", "ordering",
+                        "thread_count", "vertex_limit", "triangle_limit", "memory_limit_mb");
                     double[] positions = null;
                     uint[] triangles = null;
                     if (step["mesh"] != null)
@@ -125,20 +133,34 @@ class Scene
                     byte[] factor = step.ContainsKey("factor") ? (byte[])((byte[])kept[(string)step["factor"]]).Clone()
                         : null;
                     if (step.ContainsKey("damage")) factor[Whole(step, "damage")] ^= 1;
-                    objects[name] = new Solver(positions, triangles, new SolverOptions { Weld = (int)o["weld"],
-                        OperatorKind = (int)o["operator_kind"], Engine = (int)o["engine"],
-                        Ordering = (int)o["ordering"],
-                        ChannelCount = (uint)o["channel_count"], VertexLimit = (uint)o["vertex_limit"],
-                            FieldKind = (int)o["field_kind"], Penalty = o["penalty"], SavedFactor = factor });
+                    var options = new SurfaceOptions { Weld = (int)o["weld"],
+                        WeldTolerance = (float)o["weld_tolerance"], OperatorKind = (int)o["operator_kind"],
+                        FieldKind = (int)o["field_kind"], Ordering = (int)o["ordering"],
+                        ThreadCount = (uint)o["thread_count"], VertexLimit = (uint)o["vertex_limit"],
+                        TriangleLimit = (uint)o["triangle_limit"], MemoryLimitMb = (uint)o["memory_limit_mb"],
+                        SavedFactor = factor };
+                    objects[name] = Whole(step, "index_bits") == 16
+                        ? new Surface(positions, triangles.Select(v => (ushort)v).ToArray(), options)
+                        : new Surface(positions, triangles, options);
+                    return null;
+                }
+            case "solver":
+                {
+                    var o = Options(step, "field_kind", "engine", "channel_count", "site_limit", "penalty");
+                    objects[name] = new Solver(surface, new SolverOptions { FieldKind = (int)o["field_kind"],
+                        Engine = (int)o["engine"], ChannelCount = (uint)o["channel_count"],
+                        SiteLimit = (uint)o["site_limit"], Penalty = o["penalty"] });
                     return null;
                 }
             case "clone": objects[name] = solver.Clone(); return null;
             case "dispose": on.Dispose(); return null;
             case "add_sites": return solver.AddSites(vertices, Doubles(step, "values"), Doubles(step, "stiffness"),
                 Doubles(step, "radii"), Numbers(Get(step, "triangles")), Doubles(step, "barycentrics"));
+            case "add_site": return new[] { step.ContainsKey("value")
+                ? solver.AddSite(Whole(step, "vertex"), Number(step["value"])) : solver.AddSite(Whole(step, "vertex")) };
             case "remove_sites": solver.RemoveSites(sites); return null;
             case "move_sites": solver.MoveSites(sites, vertices); return null;
-            case "set_values": solver.SetSiteValues(sites, Doubles(step, "values")); return null;
+            case "set_values": solver.SetValues(sites, Doubles(step, "values")); return null;
             case "edit": return solver.EditSites(Numbers(Get(step, "remove")), Numbers(Get(step, "move")),
                 Numbers(Get(step, "move_to")), Numbers(Get(step, "set")), Doubles(step, "set_values"),
                 Numbers(Get(step, "add")), Doubles(step, "add_values"));
@@ -149,24 +171,37 @@ class Scene
             case "solve_f32": return solver.Solve().Select(x => (double)x).ToArray();
             case "preview": return solver.SolvePreview(Whole(step, "correction_count"));
             case "solve_at": return solver.SolveAt(vertices);
-            case "report": { var r = solver.Report; return new Map { { "vertex_count", (double)r.vertex_count },
-                { "component_count", (double)r.component_count },
-                { "boundary_edge_count", (double)r.boundary_edge_count } }; }
-            case "statistics": { var s = solver.Statistics;
-                return new Map { { "factorisation_count", (double)s.factorisation_count },
-                { "site_count", (double)s.site_count }, { "factor_loaded", (double)s.factor_loaded } }; }
-            case "certify":
+            case "report": return Fields(surface.Report);
+            case "surface_statistics": return Fields(surface.Statistics);
+            case "surface_info": return Fields(surface.Info);
+            case "solver_info": return Fields(solver.Info);
+            case "pose_info": return Fields(pose.Info);
+            case "statistics": return Fields(solver.Statistics);
+            case "components": return surface.Components().Select(c => (double)c).ToArray();
+            case "cast_ray":
                 {
-                    var c = solver.Certify(step.ContainsKey("tolerance") ? Number(step["tolerance"]) : 0);
-                    return new Map { { "residual", c.residual }, { "site_error", c.site_error },
-                        { "overshoot_checked", (double)c.overshoot_checked } };
+                    double front = Get(step, "front_only") == null ? 0 : Number(step["front_only"]);
+                    if (front != 0 && front != 1) throw new HfException("front_only is a bool in C#");
+                    Hit hit = surface.CastRay(Doubles(step, "origin"), Doubles(step, "direction"),
+                        Doubles(step, "positions"), front == 1);
+                    if (hit == null) return new double[] { 0 };
+                    return new double[] { 1, hit.Triangle, hit.Vertex }.Concat(hit.Barycentrics).Concat(hit.Position)
+                        .Concat(new[] { hit.Distance }).ToArray();
                 }
-            case "save_factor": kept[name] = solver.SaveFactor(); return null;
-            case "levels": return solver.SpaceLevels(Doubles(step, "field"), (int)Whole(step, "count"),
+            case "find_vertex":
+                {
+                    double distance;
+                    uint vertex = surface.FindVertex(Doubles(step, "point"), out distance, Doubles(step, "positions"));
+                    return new[] { vertex, distance };
+                }
+            case "certify":
+                return Fields(solver.Certify(step.ContainsKey("tolerance") ? Number(step["tolerance"]) : 0));
+            case "save": kept[name] = surface.Save((int)Whole(step, "field_kind")); return null;
+            case "levels": return surface.SpaceLevels(Doubles(step, "field"), (int)Whole(step, "count"),
                 (string)step["spacing"] == "HF_LEVELS_AREA" ? Constants.HF_LEVELS_AREA : Constants.HF_LEVELS_VALUE);
             case "isolines":
                 {
-                    Isolines lines = solver.TraceIsolines(Doubles(step, "field"), Doubles(step, "levels"));
+                    Isolines lines = surface.TraceIsolines(Doubles(step, "field"), Doubles(step, "levels"));
                     if (step.ContainsKey("lines"))
                         {
                         int closed = lines.LineClosed.Sum();
@@ -175,12 +210,12 @@ class Scene
                     }
                     return lines.Positions;
                 }
-            case "critical": return solver.FindCriticalPoints(Doubles(step, "field")).Select(p =>
+            case "critical": return surface.FindCriticalPoints(Doubles(step, "field")).Select(p =>
                 (double)p.index).ToArray();
-            case "extremities": return solver.FindExtremities().Select(p => (double)p.vertex).OrderBy(x => x).ToArray();
-            case "geodesics": objects[name] = new Geodesics(solver); return null;
+            case "extremities": return surface.FindExtremities().Select(p => (double)p.vertex).OrderBy(x => x).ToArray();
+            case "geodesics": objects[name] = new Geodesics(surface); return null;
             case "distance": return ((Geodesics)on).Distance(Numbers(Get(step, "sources")));
-            case "direction": objects[name] = new Direction(solver, (uint)Options(step, "degree")["degree"]);
+            case "direction": objects[name] = new Direction(surface, (uint)Options(step, "degree")["degree"]);
                 return null;
             case "add_vectors": return ((Direction)on).AddSites(vertices, Doubles(step, "vectors"));
             case "rotate": ((Direction)on).RotateSites(sites, Doubles(step, "angles")); return null;
@@ -195,7 +230,7 @@ class Scene
                 {
                     var o = Options(step, "kind", "keep_polygons", "relax_count");
                     double[] lines = Doubles(step, "site_lines");
-                    objects[name] = new Quads(solver, new QuadOptions { Kind = (int)o["kind"],
+                    objects[name] = new Quads(surface, new QuadOptions { Kind = (int)o["kind"],
                         KeepPolygons = (int)o["keep_polygons"], RelaxCount = (uint)o["relax_count"],
                         EdgeLength = step.ContainsKey("edge_length") ? (float)Number(step["edge_length"]) : 0,
                             SiteVertices = Numbers(Get(step, "site_vertices")),
@@ -210,7 +245,7 @@ class Scene
                         { "other_faces", (double)info.face_count - info.quad_count } };
                 }
             case "quad_mesh": return ((Quads)on).Mesh().Positions;
-            case "flow": objects[name] = new Flow(solver); return null;
+            case "flow": objects[name] = new Flow(surface); return null;
             case "flow_lines":
                 {
                     FlowLines lines = ((Flow)on).Trace(Doubles(step, "field"), Whole(step, "count"),
@@ -219,19 +254,15 @@ class Scene
                         (lines.LineStarts.Length - 1) + " lines");
                     return lines.Positions;
                 }
-            case "region": objects[name] = new Region(solver, Doubles(step, "positions")); return null;
+            case "region": objects[name] = new Region(surface, Doubles(step, "positions"),
+                (int)Options(step, "field_kind")["field_kind"]); return null;
             case "region_edit":
                 ((Region)on).Edit(new RegionEdit { Curve = Numbers(Get(step, "curve")), Add = Numbers(Get(step, "add")),
                     Remove = Numbers(Get(step, "remove")), Rings = Get(step, "rings") == null ? 0
                         : (int)(double)step["rings"] });
                 return null;
             case "region_info":
-                {
-                    var info = ((Region)on).Info;
-                    return new Map { { "vertex_count", (double)info.vertex_count },
-                        { "rim_count", (double)info.rim_count },
-                        { "factorisation_count", (double)info.factorisation_count } };
-                }
+                return Fields(((Region)on).Info);
             case "region_vertices":
                 return ((Region)on).Vertices((int)Whole(step, "list")).Select(x => (double)x).ToArray();
             case "record_region": ((Region)on).Record(); return null;
@@ -247,26 +278,36 @@ class Scene
             case "directions": return ((Direction)on).Solve();
             case "singularities": return ((Direction)on).Singularities().Select(p => (double)p.index).ToArray();
             case "pose": { var o = Options(step, "mode", "band_count");
-                objects[name] = new Pose(solver, (int)o["mode"], (uint)o["band_count"]); return null; }
+                objects[name] = new Pose(surface, (int)o["mode"], (uint)o["band_count"]); return null; }
             case "add_handles": return step.ContainsKey("points") ? pose.AddHandles(Doubles(step, "points"),
                 Doubles(step, "radii"), Whole(step, "layer")) : pose.AddHandles(Lists(Get(step, "regions")),
                 Whole(step, "layer"));
+            case "add_handle_at":
+                return new[] { pose.AddHandleAt(Doubles(step, "point"), Number(step["radius"])) };
+            case "set_transform":
+                pose.SetTransform(Whole(step, "handle"), Doubles(step, "rotation"), Doubles(step, "translation"));
+                return null;
+            case "deform_f32":
+                {
+                    var posed = new float[3 * pose.VertexCount];
+                    pose.Deform(posed);
+                    return posed.Select(x => (double)x).ToArray();
+                }
             case "remove_handles": pose.RemoveHandles(Numbers(Get(step, "handles"))); return null;
             case "set_transforms": pose.SetTransforms(Numbers(Get(step, "handles")), Doubles(step, "rotations"),
                 Doubles(step, "translations")); return null;
             case "deform": { var o = Options(step, "restart", "iteration_count", "refine");
                 return pose.DeformDouble((uint)o["iteration_count"], o["restart"] != 0, o["refine"] != 0); }
             case "handle_field": return pose.HandleField(Whole(step, "handle")).Select(x => (double)x).ToArray();
-            case "handle_info": return new Map { { "layer", (double)pose.HandleInfo(Whole(step, "handle")).layer } };
+            case "handle_info": return Fields(pose.HandleInfo(Whole(step, "handle")));
             case "skin": return pose.Skin(Whole(step, "weight_count")).Weights.Select(x => (double)x).ToArray();
             case "transfer": { var o = Options(step, "mode", "scale");
-                objects[name] = new Transfer((Solver)objects[(string)step["source"]],
-                (Solver)objects[(string)step["target"]], (int)o["mode"], (float)o["scale"]); return null; }
+                objects[name] = new Transfer((Surface)objects[(string)step["source"]],
+                (Surface)objects[(string)step["target"]], (int)o["mode"], (float)o["scale"]); return null; }
             case "add_pairs": return transfer.AddPairs(Lists(Get(step, "source_regions")),
                 Lists(Get(step, "target_regions")), Numbers(Get(step, "flags")));
             case "remove_pairs": transfer.RemovePairs(Numbers(Get(step, "pairs"))); return null;
-            case "transfer_info": { var i = transfer.Info; return new Map { { "pair_count", (double)i.pair_count },
-                { "scale", i.scale } }; }
+            case "transfer_info": return Fields(transfer.Info);
             case "apply": return transfer.Apply(Doubles(step, "positions"));
             default: throw new InvalidOperationException("unknown step " + what);
         }
@@ -308,50 +349,6 @@ class Scene
 
 static class Program
 {
-    static double[] positions;
-    static uint[] triangles;
-
-    static int Rounds(int count)
-    {
-        var draw = new Random(7);
-        int calls = 0;
-        for (int round = 0; round < count; ++round)
-        {
-            var solver = new Solver(positions, triangles);
-            var pose = new Pose(solver);
-            pose.AddHandles(new[] { new uint[] { 0, 1, 2 }, new uint[] { 280, 281 } });
-            var things = new List<HfObject> { solver, solver.Clone(), pose, pose.Clone(), new Transfer(solver, solver),
-                new Geodesics(solver), new Direction(solver), new Flow(solver), new Progress() };
-            foreach (HfObject thing in things.OrderBy(x => draw.Next()).ToList())
-            {
-                if (draw.NextDouble() < 0.6)
-                {
-                    thing.Dispose();
-                    thing.Dispose();
-                    try
-                    {
-                        if (thing is Solver) ((Solver)thing).Solve();
-                        else if (thing is Pose) ((Pose)thing).DeformDouble();
-                        else if (thing is Transfer) { var info = ((Transfer)thing).Info; }
-                        else if (thing is Geodesics) ((Geodesics)thing).Distance(new uint[] { 0 });
-                        else if (thing is Direction) ((Direction)thing).Record();
-                        else if (thing is Flow) ((Flow)thing).Trace(new double[positions.Length / 3], 4);
-                        else { float f = ((Progress)thing).Fraction; }
-                        throw new Exception("a call on a disposed " + thing.GetType().Name + " did not fail");
-                    }
-                    catch (HfException error) { if (error.Name != "HF_ERROR_INVALID_HANDLE") throw; ++calls; }
-                }
-                else if (thing is Pose) ((Pose)thing).Deform(new float[positions.Length], new float[positions.Length]);
-            }
-            if (round % 10 == 0) { things.Clear(); GC.Collect(); GC.WaitForPendingFinalizers(); }
-        }
-        GC.Collect();
-        GC.WaitForPendingFinalizers();
-        return calls;
-    }
-
-    static long Resident() { return long.Parse(File.ReadAllText("/proc/self/statm").Split(' ')[1]) * 4096; }
-
     static int Main(string[] arguments)
     {
         var meshes = Directory.GetFiles(arguments[0], "*.json").ToDictionary(Path.GetFileNameWithoutExtension,
@@ -375,26 +372,9 @@ static class Program
             }
         Console.WriteLine(wrongCalls + " wrong calls answered");
         if (wrongCalls < 100) throw new Exception("too few wrong calls");
-        positions = ((Items)meshes["bar"]["positions"]).Select(x => (double)x).ToArray();
-        triangles = ((Items)meshes["bar"]["triangles"]).Select(x => (uint)(double)x).ToArray();
-        if (Rounds(60) < 100) throw new Exception("too few calls on disposed objects");
-        long before = Resident();
-        Rounds(200);
-        Console.WriteLine("memory after 200 more rounds: " + (Resident() - before) / 1e6 + " MB");
-        if (Resident() - before > 40e6) throw new Exception("memory does not come back");
-        var wrong = new Action[] { () => new Solver((float[])null, triangles),
-            () => new Solver(new float[4], triangles), () => new Solver(positions, new uint[4]),
-            () => new Solver(positions, null), () => new Pose(null),
-            () => new Transfer(null, null), () => new Geodesics(null), () => new Direction(null),
-                () => new Quads(null), () => new Flow(null),
-                () => new Solver(positions, triangles).Solve(new float[3]),
-                () => new Pose(new Solver(positions, triangles)).Deform(new float[2]) };
-        foreach (Action action in wrong)
-        {
-            try { action(); }
-            catch (HfException) { continue; }
-            throw new Exception("a wrong argument was taken");
-        }
+        Lifetime.Use(meshes["bar"]);
+        Lifetime.Run();
+        Lifetime.WrongArguments();
         return failed == 0 ? 0 : 1;
     }
 }

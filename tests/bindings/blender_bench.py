@@ -135,8 +135,8 @@ def bench(size, frames=21, binds=5, peer_binds=3):
 
     floor = np.median([timed(touch) for _ in range(frames)])
     add = timed(lambda: bpy.ops.hf.add_handle(group="middle"))
-    found = session.session_of(obj)
-    assert found.solver.statistics.factorisation_count == 1
+    found = session.session_of(obj, bind=False)
+    assert found is not None and not found.surface.closed
     assert found.pose.handle_count == 3
     hook_at = found.rest[mesh_data.group_vertices(obj, "hf high")].mean(0)
 

@@ -52,11 +52,14 @@ class Packed {
 using PackedByteArray = Packed<uint8_t>;
 using PackedInt32Array = Packed<int32_t>;
 using PackedFloat32Array = Packed<float>;
+struct Quaternion {
+  float x, y, z, w;
+};
 using PackedVector3Array = Packed<Vector3>;
 
 class Variant {
  public:
-  enum Type { NIL, BOOL, INT, FLOAT, STRING, VECTOR3, OBJECT, DICTIONARY, ARRAY, PACKED_BYTE_ARRAY, PACKED_INT32_ARRAY };
+  enum Type { NIL, BOOL, INT, FLOAT, STRING, VECTOR3, QUATERNION, OBJECT, DICTIONARY, ARRAY, PACKED_BYTE_ARRAY, PACKED_INT32_ARRAY };
   Variant();
   Variant(bool);
   Variant(int64_t);
@@ -82,6 +85,7 @@ class Variant {
   operator String() const;
   operator StringName() const;
   operator Vector3() const;
+  operator Quaternion() const;
   operator Object*() const;
   operator Dictionary() const;
   operator Array() const;

@@ -1,9 +1,9 @@
 // The golden scenes (bindings/golden/README.md) through hf.hpp's handles and the C functions.
 //
 //   golden MESHES FILE...            runs the scenes of each file
-//   golden MESHES FILE --fill OUT    also writes the scenes to OUT with the figures of every "agree" filled in: those
-//   are what
-//                                    the other languages, run on the same library, must agree with
+//   golden MESHES FILE --fill OUT    also fills in the figures of every "agree" and writes the scenes to OUT
+//
+// Other languages, run on the same library, must come to the figures in OUT.
 #include <filesystem>
 #include <fstream>
 #include <iostream>

@@ -76,6 +76,17 @@ local function compare(a, n, wanted)
     'value at ' .. place) end
 end
 
+-- Triangles in the layout a step asks for; what lies between them is all ones.
+local function lay_out(triangles, bits, stride)
+  local width = bits / 8
+  if stride == 0 then stride = 3 * width end
+  local row, count = stride / width, #triangles / 3
+  local out = ffi.new(bits == 16 and 'uint16_t[?]' or 'uint32_t[?]', row * count)
+  ffi.fill(out, ffi.sizeof(out), 255)
+  for i = 0, #triangles - 1 do out[math.floor(i / 3) * row + i % 3] = triangles[i + 1] end
+  return out, stride
+end
+
 local function new_scene(meshes)
   local objects, kept = {}, {}
   local function run(step)
@@ -91,7 +102,7 @@ local function new_scene(meshes)
     local options = {}
     for key, v in pairs(step.options or {}) do options[key] = type(v) == 'string' and hf.constants[v] or v end
     local n = on and on.vertex_count
-    if what == 'solver' then
+    if what == 'surface' then
       local mesh = step.mesh and meshes[step.mesh] or {}
       local positions, triangles
       if mesh.positions then positions, triangles = { unpack(mesh.positions) }, { unpack(mesh.triangles) } end
@@ -104,15 +115,20 @@ local function new_scene(meshes)
         factor = factor:sub(1, place - 1) .. string.char(bit.bxor(factor:byte(place), 1)) .. factor:sub(place + 1)
       end
       options.saved_factor = factor
-      objects[step.as] = hf.Solver(positions, triangles, options)
+      if triangles and (step.index_bits or step.triangle_stride) then
+        triangles, options.triangle_stride = lay_out(triangles, step.index_bits or 32, step.triangle_stride or 0)
+      end
+      objects[step.as] = hf.Surface(positions, triangles, options)
+    elseif what == 'solver' then objects[step.as] = hf.Solver(on, options)
     elseif what == 'clone' then objects[step.as] = on:clone()
     elseif what == 'dispose' then on:close()
     elseif what == 'add_sites' then return 'numbers', on:add_sites(get('vertices'), get('values'),
       { stiffness = get('stiffness'), radii = get('radii'), triangles = get('triangles'),
       barycentrics = get('barycentrics') })
+    elseif what == 'add_site' then return 'numbers', { on:add_site(step.vertex, step.value and number(step.value)) }
     elseif what == 'remove_sites' then on:remove_sites(get('sites'))
     elseif what == 'move_sites' then on:move_sites(get('sites'), get('vertices'))
-    elseif what == 'set_values' then on:set_site_values(get('sites'), get('values'))
+    elseif what == 'set_values' then on:set_values(get('sites'), get('values'))
     elseif what == 'edit' then return 'numbers', on:edit_sites(step)
     elseif what == 'record' then on:record()
     elseif what == 'undo' then on:undo()
@@ -122,9 +138,21 @@ local function new_scene(meshes)
     elseif what == 'preview' then return 'array', on:solve_preview(step.correction_count), n
     elseif what == 'solve_at' then return 'array', on:solve_at(get('vertices'))
     elseif what == 'report' then return 'struct', on:report()
-    elseif what == 'statistics' then return 'struct', on:statistics()
+    elseif what == 'surface_info' or what == 'solver_info' or what == 'pose_info' then return 'struct', on:info()
+    elseif what == 'components' then return 'array', on:components(), n
+    elseif what == 'cast_ray' then
+      local hit = on:cast_ray(get('origin'), get('direction'),
+        { positions = get('positions'), front_only = step.front_only })
+      if not hit then return 'array', ffi.new('double[1]'), 1 end
+      local w, at = hit.barycentrics, hit.position
+      return 'array', ffi.new('double[10]', { 1, hit.triangle, hit.vertex, w[0], w[1], w[2], at[0], at[1], at[2],
+        hit.distance }), 10
+    elseif what == 'find_vertex' then
+      local vertex, distance = on:find_vertex(get('point'), { positions = get('positions') })
+      return 'array', ffi.new('double[2]', { vertex, distance }), 2
+    elseif what == 'statistics' or what == 'surface_statistics' then return 'struct', on:statistics()
     elseif what == 'certify' then return 'struct', on:certify(step.tolerance and number(step.tolerance))
-    elseif what == 'save_factor' then kept[step.as] = on:save_factor()
+    elseif what == 'save' then kept[step.as] = on:save(step.field_kind)
     elseif what == 'levels' then return 'array', on:space_levels(get('field'), step.count, hf.constants[step.spacing]),
       step.count
     elseif what == 'isolines' then
@@ -176,7 +204,7 @@ local function new_scene(meshes)
       local lines = on:trace(get('field'), { wanted_count = step.count, seeds = get('seeds') })
       expect(step.lines == nil or step.lines == lines.line_count, lines.line_count .. ' lines')
       return 'array', lines.positions, 3 * lines.point_count
-    elseif what == 'region' then objects[step.as] = hf.Region(on, get('positions'))
+    elseif what == 'region' then objects[step.as] = hf.Region(on, get('positions'), options)
     elseif what == 'region_edit' then
       on:edit({ curve = step.curve, rings = step.rings, add = step.add, remove = step.remove })
     elseif what == 'region_info' then return 'struct', on:info()
@@ -194,8 +222,11 @@ local function new_scene(meshes)
     elseif what == 'pose' then objects[step.as] = hf.Pose(on, options)
     elseif what == 'add_handles' then return 'numbers',
       on:add_handles(step.regions, { points = get('points'), radii = get('radii'), layer = step.layer })
+    elseif what == 'add_handle_at' then return 'numbers', { on:add_handle_at(get('point'), number(step.radius)) }
     elseif what == 'remove_handles' then on:remove_handles(get('handles'))
     elseif what == 'set_transforms' then on:set_transforms(get('handles'), get('rotations'), get('translations'))
+    elseif what == 'set_transform' then on:set_transform(step.handle, get('rotation'), get('translation'))
+    elseif what == 'deform_f32' then return 'array', on:deform(ffi.new('float[?]', 3 * n)), 3 * n
     elseif what == 'deform' then return 'array', on:deform(nil, options), 3 * n
     elseif what == 'handle_field' then return 'array', on:handle_field(step.handle), n
     elseif what == 'handle_info' then return 'struct', on:handle_info(step.handle)
@@ -261,16 +292,17 @@ local calls = 0
 local zeros = {}
 for i = 1, #meshes.bar.positions / 3 do zeros[i] = 0 end
 for _ = 1, 120 do
-  local solver = hf.Solver(meshes.bar.positions, meshes.bar.triangles)
-  local things = { solver, solver:clone(), hf.Pose(solver), hf.Transfer(solver, solver), hf.Geodesics(solver),
-    hf.Direction(solver), hf.Flow(solver) }
+  local surface = hf.Surface(meshes.bar.positions, meshes.bar.triangles)
+  local solver = hf.Solver(surface)
+  local things = { solver, solver:clone(), hf.Pose(surface), hf.Transfer(surface, surface), hf.Geodesics(surface),
+    hf.Direction(surface), hf.Flow(surface), surface }
   things[3]:add_handles({ { 0, 1, 2 }, { 280, 281 } })
   while #things > 0 do
     local thing = table.remove(things, math.random(#things))
     if math.random() < 0.6 then
       thing:close()
       thing:close()
-      local ok, e = pcall(thing.solve or thing.deform or thing.info or function()
+      local ok, e = pcall(thing.solve or thing.deform or thing.report or thing.info or function()
         return thing.distance and thing:distance({ 0 }) or thing:trace(zeros, { wanted_count = 4 })
       end, thing)
       assert(not ok and e.name == 'HF_ERROR_INVALID_HANDLE', tostring(e))
@@ -278,7 +310,7 @@ for _ = 1, 120 do
     elseif thing.class == 'Pose' then thing:deform() end
     if math.random() < 0.1 then collectgarbage() end
   end
-  solver = nil
+  surface, solver = nil, nil
 end
 assert(calls > 100)
 local function resident()
@@ -291,8 +323,7 @@ local function resident()
 end
 local function work(count)
   for _ = 1, count do
-    local solver = hf.Solver(meshes.torus.positions, meshes.torus.triangles)
-    local pose = hf.Pose(solver)
+    local pose = hf.Pose(hf.Surface(meshes.torus.positions, meshes.torus.triangles))
     pose:add_handles({ { 0, 1 }, { 140, 141 } })
     pose:deform()
     if _ % 10 == 0 then collectgarbage() end
@@ -302,10 +333,11 @@ work(30)
 local before = resident()
 work(150)
 assert(resident() - before < 16e6, 'memory does not come back')
-for number, wrong in ipairs({ function() hf.Solver('text', {}) end, function() hf.Solver({ 0, 1 }, { 0, 1, 2 }) end,
-  function() hf.Solver({ 'a', 1, 2 }, { 0, 1, 2 }) end, function() hf.Pose(nil) end,
-  function() hf.Pose(3) end, function() hf.Transfer({}, {}) end, function() hf.Solver(meshes.torus.positions,
-    { 0.5, 1, 2 }) end, function() hf.Solver(meshes.torus.positions, { -1, 1, 2 }) end }) do
+for number, wrong in ipairs({ function() hf.Surface('text', {}) end, function() hf.Surface({ 0, 1 }, { 0, 1, 2 }) end,
+  function() hf.Surface({ 'a', 1, 2 }, { 0, 1, 2 }) end, function() hf.Pose(nil) end,
+  function() hf.Pose(3) end,
+  function() hf.Solver(nil) end, function() hf.Solver({}) end, function() hf.Transfer({}, {}) end, function() hf.Surface(meshes.torus.positions,
+    { 0.5, 1, 2 }) end, function() hf.Surface(meshes.torus.positions, { -1, 1, 2 }) end }) do
   local ok, e = pcall(wrong)
   assert(not ok and hf.is_error(e), 'case ' .. number .. ': ' .. tostring(e))
 end

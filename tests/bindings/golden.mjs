@@ -1,6 +1,5 @@
 // The golden scenes (bindings/golden/README.md) through the JavaScript package. run(hf, meshes, scenes) works in node
-// and
-// in the browser and returns a list of failures.
+// and in the browser and returns a list of failures.
 const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
 
 class Failure extends Error {}
@@ -70,10 +69,11 @@ function runStep(hf, step, meshes, objects, kept) {
   );
   const array = (value) => ({ array: value });
   switch (step.do) {
-    case 'solver': {
+    case 'surface': {
       const mesh = step.mesh ? meshes[step.mesh] : { positions: null, triangles: null };
       const positions = mesh.positions && Float64Array.from(mesh.positions);
-      const triangles = step.no_triangles ? [] : mesh.triangles && Uint32Array.from(mesh.triangles);
+      const Corners = step.index_bits === 16 ? Uint16Array : Uint32Array;
+      const triangles = step.no_triangles ? [] : mesh.triangles && Corners.from(mesh.triangles);
       for (const [key, value] of Object.entries(step.positions ?? {})) positions[key] = numbers(value);
       for (const [key, value] of Object.entries(step.triangles ?? {})) triangles[key] = value;
       let factor = step.factor ? kept[step.factor] : null;
@@ -81,9 +81,12 @@ function runStep(hf, step, meshes, objects, kept) {
         factor = factor.slice();
         factor[step.damage] ^= 1;
       }
-      objects[step.as] = new hf.Solver(positions, triangles, { ...options, savedFactor: factor });
+      objects[step.as] = new hf.Surface(positions, triangles, { ...options, savedFactor: factor });
       return {};
     }
+    case 'solver':
+      objects[step.as] = new hf.Solver(on, options);
+      return {};
     case 'clone':
       objects[step.as] = on.clone();
       return {};
@@ -99,6 +102,8 @@ function runStep(hf, step, meshes, objects, kept) {
           barycentrics: get('barycentrics'),
         }),
       };
+    case 'add_site':
+      return { numbers: [on.addSite(step.vertex, 'value' in step ? numbers(step.value) : null)] };
     case 'remove_sites':
       on.removeSites(get('sites'));
       return {};
@@ -106,7 +111,7 @@ function runStep(hf, step, meshes, objects, kept) {
       on.moveSites(get('sites'), get('vertices'));
       return {};
     case 'set_values':
-      on.setSiteValues(get('sites'), get('values'));
+      on.setValues(get('sites'), get('values'));
       return {};
     case 'edit':
       return {
@@ -136,11 +141,29 @@ function runStep(hf, step, meshes, objects, kept) {
     case 'report':
       return { struct: on.report };
     case 'statistics':
+    case 'surface_statistics':
       return { struct: on.statistics };
+    case 'components':
+      return array(Float64Array.from(on.components));
+    case 'cast_ray': {
+      const hit = on.castRay(get('origin'), get('direction'), {
+        positions: get('positions'),
+        frontOnly: step.front_only ?? 0,
+      });
+      return array(
+        Float64Array.from(
+          hit ? [1, hit.triangle, hit.vertex, ...hit.barycentrics, ...hit.position, hit.distance] : [0],
+        ),
+      );
+    }
+    case 'find_vertex': {
+      const { vertex, distance } = on.findVertex(get('point'), { positions: get('positions') });
+      return array(Float64Array.of(vertex, distance));
+    }
     case 'certify':
       return { struct: on.certify({ tolerance: numbers(step.tolerance ?? 0) }) };
-    case 'save_factor':
-      kept[step.as] = on.saveFactor();
+    case 'save':
+      kept[step.as] = on.save(step.field_kind ?? 0);
       return {};
     case 'levels':
       return array(on.spaceLevels(get('field'), step.count, hf.constants[step.spacing]));
@@ -215,11 +238,15 @@ function runStep(hf, step, meshes, objects, kept) {
       return array(lines.positions);
     }
     case 'region':
-      objects[step.as] = new hf.Region(on, get('positions'));
+      objects[step.as] = new hf.Region(on, { positions: get('positions'), ...options });
       return {};
     case 'region_edit':
       on.edit({ curve: get('curve'), rings: step.rings ?? 0, add: get('add'), remove: get('remove') });
       return {};
+    case 'surface_info':
+    case 'solver_info':
+    case 'pose_info':
+    case 'transfer_info':
     case 'region_info':
       return { struct: on.info };
     case 'region_vertices':
@@ -245,12 +272,19 @@ function runStep(hf, step, meshes, objects, kept) {
       return {
         numbers: on.addHandles(get('regions'), { points: get('points'), radii: get('radii'), layer: step.layer ?? 0 }),
       };
+    case 'add_handle_at':
+      return { numbers: [on.addHandleAt(get('point'), numbers(step.radius))] };
     case 'remove_handles':
       on.removeHandles(get('handles'));
       return {};
     case 'set_transforms':
       on.setTransforms(get('handles'), { rotations: get('rotations'), translations: get('translations') });
       return {};
+    case 'set_transform':
+      on.setTransform(step.handle, { rotation: get('rotation'), translation: get('translation') });
+      return {};
+    case 'deform_f32':
+      return array(on.deform());
     case 'deform':
       return array(on.deform(null, { Type: Float64Array, ...options }));
     case 'handle_field':
@@ -270,8 +304,6 @@ function runStep(hf, step, meshes, objects, kept) {
     case 'remove_pairs':
       on.removePairs(get('pairs'));
       return {};
-    case 'transfer_info':
-      return { struct: on.info };
     case 'apply':
       return array(on.apply(get('positions'), null, { Type: Float64Array }));
     default:

@@ -53,6 +53,15 @@ def check_struct(info, expect):
             assert abs(found - value) <= expect.get("tolerance", 0), f"{key} is {found!r}, not {value!r}"
 
 
+def lay_out(triangles, bits, stride):
+    """Rows of corners as a step asks for them; what lies between them is 255 in every byte."""
+    kind = np.dtype(np.uint16 if bits == 16 else np.uint32)
+    stride = stride or 3 * kind.itemsize
+    rows = np.full((len(triangles) // 3, stride // kind.itemsize), -1, np.int64).astype(kind)
+    rows[:, :3] = np.array(triangles, np.uint32).reshape(-1, 3)
+    return rows[:, :3]
+
+
 class Scene:
     def __init__(self, meshes):
         self.meshes, self.objects, self.kept = meshes, {}, {}
@@ -65,7 +74,7 @@ class Scene:
         do, on = step["do"], self.objects.get(step.get("on"))
         get = lambda key, default=None: self.array(step, key, default)
         options = {k: getattr(hf.constants, v) if isinstance(v, str) else v for k, v in step.get("options", {}).items()}
-        if do == "solver":
+        if do == "surface":
             mesh = self.meshes[step["mesh"]] if step["mesh"] else {"positions": None, "triangles": None}
             positions, triangles = (mesh[k] and list(mesh[k]) for k in ("positions", "triangles"))
             for key, value in step.get("positions", {}).items():
@@ -74,11 +83,15 @@ class Scene:
                 triangles[int(key)] = value
             if step.get("no_triangles"):
                 triangles = []
+            if triangles and ("index_bits" in step or "triangle_stride" in step):
+                triangles = lay_out(triangles, step.get("index_bits", 32), step.get("triangle_stride", 0))
             factor = self.kept[step["factor"]] if "factor" in step else None
             if factor is not None and "damage" in step:
                 factor = bytes(b ^ (1 if i == step["damage"] else 0) for i, b in enumerate(factor))
-            self.objects[step["as"]] = hf.Solver(None if positions is None else np.array(positions, np.float64),
+            self.objects[step["as"]] = hf.Surface(None if positions is None else np.array(positions, np.float64),
                 triangles, saved_factor=factor, **options)
+        elif do == "solver":
+            self.objects[step["as"]] = hf.Solver(on, **options)
         elif do == "clone":
             self.objects[step["as"]] = on.clone()
         elif do == "dispose":
@@ -87,12 +100,14 @@ class Scene:
             return "numbers", on.add_sites(get("vertices"), get("values"), stiffness=get("stiffness"),
                 radii=get("radii"),
                                            triangles=get("triangles"), barycentrics=get("barycentrics"))
+        elif do == "add_site":
+            return "numbers", [on.add_site(step["vertex"], numbers(step.get("value", 0.0)))]
         elif do == "remove_sites":
             on.remove_sites(get("sites"))
         elif do == "move_sites":
             on.move_sites(get("sites"), get("vertices"))
         elif do == "set_values":
-            on.set_site_values(get("sites"), get("values"))
+            on.set_values(get("sites"), get("values"))
         elif do == "edit":
             return "numbers", on.edit_sites(remove=get("remove", []), move=get("move", []), move_to=get("move_to"),
                 set=get("set", []),
@@ -109,12 +124,23 @@ class Scene:
             return "array", on.solve_at(get("vertices"))
         elif do == "report":
             return "struct", on.report
-        elif do == "statistics":
+        elif do in ("surface_info", "solver_info", "pose_info"):
+            return "struct", on.info
+        elif do == "components":
+            return "array", on.components.astype(np.float64)
+        elif do == "cast_ray":
+            hit = on.cast_ray(get("origin"), get("direction"), positions=get("positions"),
+                front_only=step.get("front_only", 0))
+            return "array", np.array([0.0] if hit is None else [1, hit.triangle, hit.vertex, *hit.barycentrics,
+                *hit.position, hit.distance])
+        elif do == "find_vertex":
+            return "array", np.array(on.find_vertex(get("point"), positions=get("positions")))
+        elif do in ("statistics", "surface_statistics"):
             return "struct", on.statistics
         elif do == "certify":
             return "struct", on.certify(numbers(step.get("tolerance", 0)))
-        elif do == "save_factor":
-            self.kept[step["as"]] = on.save_factor()
+        elif do == "save":
+            self.kept[step["as"]] = on.save(step.get("field_kind", 0))
         elif do == "levels":
             return "array", on.space_levels(get("field"), step["count"], getattr(hf.constants, step["spacing"]))
         elif do == "isolines":
@@ -172,7 +198,7 @@ class Scene:
             assert len(lines.line_ends) == step.get("lines", len(lines.line_ends)), f"{len(lines.line_ends)} lines"
             return "array", lines.positions
         elif do == "region":
-            self.objects[step["as"]] = hf.Region(on, get("positions"))
+            self.objects[step["as"]] = hf.Region(on, get("positions"), **options)
         elif do == "region_edit":
             on.edit(curve=get("curve"), rings=step.get("rings", 0), add=get("add"), remove=get("remove"))
         elif do == "region_info":
@@ -190,10 +216,16 @@ class Scene:
         elif do == "add_handles":
             return "numbers", on.add_handles(get("regions"), points=get("points"), radii=get("radii"),
                 layer=step.get("layer", 0))
+        elif do == "add_handle_at":
+            return "numbers", [on.add_handle_at(get("point"), numbers(step["radius"]))]
         elif do == "remove_handles":
             on.remove_handles(get("handles"))
         elif do == "set_transforms":
             on.set_transforms(get("handles"), get("rotations"), get("translations"))
+        elif do == "set_transform":
+            on.set_transform(step["handle"], get("rotation"), get("translation"))
+        elif do == "deform_f32":
+            return "array", on.deform()
         elif do == "deform":
             return "array", on.deform(dtype=np.float64, **options)
         elif do == "handle_field":

@@ -1,4 +1,4 @@
-// Steps of what is made from a solver: direction fields, quad meshes, flow lines.
+// Steps of direction fields, quad meshes and flow lines, and of everything that is made on a surface.
 #include "golden_scene.h"
 
 namespace golden {
@@ -7,7 +7,7 @@ using hf::check;
 using hf::make;
 
 void Scene::make_object(const Json& step, const std::string& what) {
-  hf_solver solver = objects_[step["on"]].solver.get();
+  hf_surface surface = objects_[step["on"]].surface.get();
   const size_t n = objects_[step["on"]].vertex_count;
   Object object;
   object.vertex_count = n;
@@ -15,17 +15,17 @@ void Scene::make_object(const Json& step, const std::string& what) {
     auto desc = make<hf_pose_desc>();
     set_options(step, desc, {{"mode", &desc.mode}, {"band_count", &desc.band_count}}, {});
     hf_pose raw = nullptr;
-    check(hf_pose_create(solver, &desc, &raw));
+    check(hf_pose_create(surface, &desc, &raw));
     object.pose = hf::Handle<hf_pose, hf_pose_destroy>(raw);
   } else if (what == "geodesics") {
     hf_geodesics raw = nullptr;
-    check(hf_geodesics_create(solver, nullptr, &raw));
+    check(hf_geodesics_create(surface, nullptr, &raw));
     object.geodesics = hf::Handle<hf_geodesics, hf_geodesics_destroy>(raw);
   } else if (what == "direction") {
     auto desc = make<hf_direction_desc>();
     set_options(step, desc, {{"degree", &desc.degree}}, {});
     hf_direction raw = nullptr;
-    check(hf_direction_create(solver, &desc, &raw));
+    check(hf_direction_create(surface, &desc, &raw));
     object.direction = hf::Handle<hf_direction, hf_direction_destroy>(raw);
   } else if (what == "quads") {
     auto desc = make<hf_quads_desc>();
@@ -39,11 +39,11 @@ void Scene::make_object(const Json& step, const std::string& what) {
     if (places) desc.site_count = count(places), desc.site_vertices = data(places);
     if (!lines.empty()) desc.site_lines = lines.data();
     hf_quads raw = nullptr;
-    check(hf_quads_create(solver, &desc, &raw));
+    check(hf_quads_create(surface, &desc, &raw));
     object.quads = hf::Handle<hf_quads, hf_quads_destroy>(raw);
   } else {
     hf_flow raw = nullptr;
-    check(hf_flow_create(solver, &raw));
+    check(hf_flow_create(surface, &raw));
     object.flow = hf::Handle<hf_flow, hf_flow_destroy>(raw);
   }
   objects_[step["as"]] = std::move(object);
@@ -84,7 +84,7 @@ Result Scene::run_direction(const Json& step, const std::string& what) {
   } else if (what == "vectors") {
     const uint32_t k = hf_direction_get_site_count(direction);
     result.array.emplace(3 * size_t{k});
-    check(hf_direction_get_sites(direction, k, nullptr, nullptr, result.array->data()));
+    check(hf_direction_get_sites(direction, k, nullptr, nullptr, result.array->data(), nullptr));
   } else if (what == "directions") {
     result.array.emplace(3 * on.vertex_count);
     check(hf_direction_solve_f64(direction, result.array->data(), 0, nullptr));

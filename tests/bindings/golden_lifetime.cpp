@@ -32,23 +32,24 @@ void check_lifetime(const Json& mesh, int rounds) {
   std::mt19937 draw(7);
   long long most = 0;
   for (int round = 0; round < rounds; ++round) {
-    auto desc = hf::make<hf_create_desc>();
+    auto desc = hf::make<hf_surface_desc>();
     desc.vertex_count = last + 1, desc.positions = positions.data();
     desc.triangle_count = static_cast<uint32_t>(triangles.size() / 3), desc.triangles = triangles.data();
     desc.allocator.allocate = allocate, desc.allocator.release = release;
-    auto solver = std::make_shared<hf::Solver>(desc);
+    auto surface = std::make_shared<hf::Surface>(desc);
+    auto solver = std::make_shared<hf::Solver>(*surface);
     solver->add_sites({0, last}, {0.0, 1.0});
     auto clone = std::make_shared<hf::Solver>(solver->clone());
-    auto pose = std::make_shared<hf::Pose>(*solver);
+    auto pose = std::make_shared<hf::Pose>(*surface);
     pose->add_handles({{0, 1, 2}, {last - 1, last}});
-    auto transfer = std::make_shared<hf::Transfer>(*solver, *clone);
-    auto geodesics = std::make_shared<hf::Geodesics>(*solver);
-    auto direction = std::make_shared<hf::Direction>(*solver);
+    auto transfer = std::make_shared<hf::Transfer>(*surface, *surface);
+    auto geodesics = std::make_shared<hf::Geodesics>(*surface);
+    auto direction = std::make_shared<hf::Direction>(*surface);
     direction->add_sites({0}, {1.0, 0.0, 0.0});
-    auto flow = std::make_shared<hf::Flow>(*solver);
+    auto flow = std::make_shared<hf::Flow>(*surface);
     std::vector<std::function<void()>> ends = {
         [&] { solver.reset(); },    [&] { clone.reset(); },     [&] { pose.reset(); }, [&] { transfer.reset(); },
-        [&] { geodesics.reset(); }, [&] { direction.reset(); }, [&] { flow.reset(); }};
+        [&] { geodesics.reset(); }, [&] { direction.reset(); }, [&] { flow.reset(); }, [&] { surface.reset(); }};
     std::shuffle(ends.begin(), ends.end(), draw);
     most = std::max(most, held.load());
     for (const auto& end : ends) {
@@ -60,7 +61,7 @@ void check_lifetime(const Json& mesh, int rounds) {
     }
     expect(held == 0 && blocks == 0, std::to_string(held) + " bytes have not come back");
   }
-  expect(most > 100000, "the allocator is not the solver's");
+  expect(most > 100000, "the allocator is not the surface's");
 }
 
 }  // namespace golden

@@ -38,6 +38,28 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
       for (size_t c = 0; shifts && c < 3; ++c) transforms[i].translation[c] = (*shifts)[3 * i + c];
     }
     check(hf_pose_set_transforms(pose, count(handles), data(handles), transforms.data()));
+  } else if (what == "add_handle_at") {
+    const auto point = doubles(step, "point", 3);
+    result.numbers.emplace(1);
+    check(hf_pose_add_handle_at(pose, data(point), number(step["radius"]), result.numbers->data()));
+  } else if (what == "set_transform") {
+    const auto turn = doubles(step, "rotation", 4), shift = doubles(step, "translation", 3);
+    hf_transform transform{};
+    if (turn) std::copy_n(turn->data(), 4, transform.rotation);
+    if (shift) std::copy_n(shift->data(), 3, transform.translation);
+    check(hf_pose_set_transform(pose, step["handle"], &transform));
+  } else if (what == "pose_info") {
+    auto info = make<hf_pose_info>();
+    check(hf_pose_get_info(pose, &info));
+    result.fields = {{"band_count", info.band_count},
+                     {"iteration_count", info.iteration_count},
+                     {"group_count", info.group_count},
+                     {"handle_count", info.handle_count},
+                     {"vertex_count", info.vertex_count}};
+  } else if (what == "deform_f32") {
+    std::vector<float> positions(3 * on.vertex_count);
+    check(hf_deform(pose, positions.data(), nullptr));
+    result.array.emplace(positions.begin(), positions.end());
   } else if (what == "deform") {
     auto desc = make<hf_deform_desc>();
     set_options(step, desc,
@@ -57,7 +79,7 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
     auto info = make<hf_skin_info>();
     info.weight_count = step["weight_count"];
     std::vector<float> weights(on.vertex_count * info.weight_count);
-    info.vertex_weights = weights.data();
+    info.vertex_capacity = static_cast<uint32_t>(on.vertex_count), info.vertex_weights = weights.data();
     check(hf_pose_get_skin(pose, &info));
     result.array.emplace(weights.begin(), weights.end());
   } else if (what == "add_pairs") {

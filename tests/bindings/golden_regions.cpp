@@ -23,10 +23,11 @@ Result Scene::run_region(const Json& step, const std::string& what) {
   hf_region region = on.region.get();
   if (what == "region") {
     auto desc = make<hf_region_desc>();
+    set_options(step, desc, {{"field_kind", &desc.field_kind}}, {});
     const auto positions = doubles(step, "positions", 3 * on.vertex_count);
     desc.positions_f64 = data(positions);
     hf_region raw = nullptr;
-    check(hf_region_create(on.solver.get(), &desc, &raw));
+    check(hf_region_create(on.surface.get(), &desc, &raw));
     const size_t n = on.vertex_count;
     Object& made = objects_[step["as"]];
     made.region = hf::Handle<hf_region, hf_region_destroy>(raw), made.vertex_count = n;
@@ -42,19 +43,17 @@ Result Scene::run_region(const Json& step, const std::string& what) {
   } else if (what == "region_info") {
     auto info = make<hf_region_info>();
     check(hf_region_get_info(region, &info));
-    result.fields = {{"vertex_count", info.vertex_count},
+    result.fields = {{"field_kind", info.field_kind},
+                     {"vertex_count", info.vertex_count},
                      {"rim_count", info.rim_count},
                      {"factorisation_count", info.factorisation_count}};
   } else if (what == "region_vertices") {
-    auto info = make<hf_region_info>();
-    check(hf_region_get_info(region, &info));
     const int32_t list = step.value("list", 0);
-    const uint32_t size = list == HF_REGION_INSIDE ? info.vertex_count
-                          : list == HF_REGION_RIM  ? info.rim_count
-                                                   : info.site_count;
-    Numbers found(size + 1);
-    check(hf_region_get_vertices(region, list, size, found.data()));
-    result.array.emplace(found.begin(), found.end() - 1);
+    uint32_t size = 0;
+    check(hf_region_get_vertices(region, list, 0, nullptr, &size));
+    Numbers found(size);
+    check(hf_region_get_vertices(region, list, size, found.data(), &size));
+    result.array.emplace(found.begin(), found.end());
   } else if (what == "record_region") {
     check(hf_region_record(region));
   } else if (what == "undo_region") {

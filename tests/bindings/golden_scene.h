@@ -1,5 +1,5 @@
-// What runs a golden scene (bindings/golden/README.md) through hf.hpp's handles and the C functions: arguments read
-// from a step, figures of a result compared with what the step expects.
+// Runs a golden scene (bindings/golden/README.md) through hf.hpp's handles and the C functions. It reads the arguments
+// of a step and compares figures of the result with those the step expects.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -42,6 +42,7 @@ inline double number(const Json& value) {
 }
 
 struct Object {
+  hf::Handle<hf_surface, hf_surface_destroy> surface;
   hf::Handle<hf_solver, hf_solver_destroy> solver;
   hf::Handle<hf_pose, hf_pose_destroy> pose;
   hf::Handle<hf_transfer, hf_transfer_destroy> transfer;
@@ -70,9 +71,7 @@ void set_options(const Json& step, Desc& desc, const std::map<std::string, void*
     if (found == places.end()) fail("no option " + key);
     const auto kind = is_float.find(key);
     if (kind == is_float.end()) {
-      if (value.is_string() && value != "HF_OPERATOR_COTANGENT")
-        throw std::runtime_error("unknown constant " + value.dump());
-      const int32_t whole = value.is_string() ? HF_OPERATOR_COTANGENT : value.template get<int32_t>();
+      const int32_t whole = value.template get<int32_t>();
       std::memcpy(found->second, &whole, sizeof whole);
     } else if (kind->second) {
       const double real = value.template get<double>();
@@ -184,7 +183,10 @@ class Scene {
 
   Result run(const Json& step);
   Result run_solver(const Json& step);
-  Result run_looking(const Json& step, const std::string& what, hf_solver solver, size_t n);
+  Result run_surface(const Json& step);
+  Result run_mesh(const Json& step, const std::string& what, hf_surface surface);
+  Result run_picking(const Json& step, const std::string& what, hf_surface surface, size_t n);
+  Result run_looking(const Json& step, const std::string& what, hf_surface surface, size_t n);
   Result run_posing(const Json& step, const std::string& what);
   Result run_direction(const Json& step, const std::string& what);
   Result run_region(const Json& step, const std::string& what);

@@ -83,20 +83,22 @@ if (kind === 'native') {
 // ---- wrong arguments
 const { positions, triangles } = meshes.torus;
 const n = positions.length / 3;
-const solver = new hf.Solver(Float32Array.from(positions), triangles);
+const surface = new hf.Surface(Float32Array.from(positions), triangles);
+const solver = new hf.Solver(surface);
+const pose = new hf.Pose(surface);
 solver.addSites([0], [1]);
 const wrong = [
-  () => new hf.Solver('text', triangles),
-  () => new hf.Solver([1, 2], triangles),
-  () => new hf.Solver(positions, 'text'),
-  () => new hf.Solver(positions, [0.5, 1, 2]),
-  () => new hf.Solver(positions, [-1, 1, 2]),
-  () => new hf.Solver(positions, [0, 1]),
-  () => new hf.Solver(undefined, triangles),
-  () => new hf.Solver(positions, triangles, { threads: 2 }),
-  () => new hf.Solver(positions, triangles, { threadCount: 'many' }),
-  () => new hf.Solver(positions, triangles, { savedFactor: 'x' }),
-  () => new hf.Solver(positions, triangles, { savedFactor: new Uint8Array(7) }),
+  () => new hf.Surface('text', triangles),
+  () => new hf.Surface([1, 2], triangles),
+  () => new hf.Surface(positions, 'text'),
+  () => new hf.Surface(positions, [0.5, 1, 2]),
+  () => new hf.Surface(positions, [-1, 1, 2]),
+  () => new hf.Surface(positions, [0, 1]),
+  () => new hf.Surface(undefined, triangles),
+  () => new hf.Surface(positions, triangles, { threads: 2 }),
+  () => new hf.Surface(positions, triangles, { threadCount: 'many' }),
+  () => new hf.Surface(positions, triangles, { savedFactor: 'x' }),
+  () => new hf.Surface(positions, triangles, { savedFactor: new Uint8Array(7) }),
   () => solver.solve(new Float32Array(3)),
   () => solver.solve([]),
   () => solver.solve(new Int32Array(n)),
@@ -108,13 +110,29 @@ const wrong = [
   () => new hf.Pose(null),
   () => new hf.Pose(3),
   () => new hf.Pose(new hf.Progress()),
-  () => new hf.Transfer(solver, {}),
+  () => new hf.Pose(solver),
+  () => new hf.Solver(solver),
+  () => new hf.Solver(surface, { operatorKind: 0 }),
+  () => new hf.Transfer(surface, {}),
+  () => new hf.Transfer(solver, solver),
   () => new hf.Geodesics(undefined),
-  () => new hf.Direction(solver, { degree: 3 }),
-  () => new hf.Pose(solver, { mode: 8 }),
-  () => new hf.Pose(solver).deform(),
+  () => new hf.Direction(surface, { degree: 3 }),
+  () => new hf.Pose(surface, { mode: 8 }),
+  () => pose.deform(),
+  () => pose.addHandles([[0]], { layer: -1 }),
+  () => surface.castRay([0, 0], [0, 0, 1]),
+  () => surface.findVertex('x'),
 ];
 for (const [i, call] of wrong.entries()) assert.throws(call, hf.HfError, `case ${i}`);
+
+// ---- fields of a desc that an array already answers are no options: they would read or write beyond it
+const posed = new hf.Pose(surface);
+posed.addHandleAt([0, 0, 0], 1);
+for (const option of ['positionStride', 'normalStride', 'firstVertex', 'vertexCount'])
+  assert.throws(() => posed.deform(null, { [option]: 400 }), /no option/, option);
+for (const option of ['positionStride', 'triangleStride', 'vertexCount', 'triangleCount'])
+  assert.throws(() => new hf.Surface(positions, triangles, { [option]: 400 }), /no option/, option);
+assert.throws(() => new hf.Quads(surface, { siteCount: 2 }), /no option/);
 assert.ok(Math.abs(solver.solve()[5] - 1) < 1e-6);
 
 // ---- the caller's arrays, also views into larger buffers
@@ -128,14 +146,16 @@ let seed = 1;
 const draw = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
 let calls = 0;
 for (let round = 0; round < 120; ++round) {
-  const own = new hf.Solver(Float64Array.from(meshes.bar.positions), meshes.bar.triangles);
+  const own = new hf.Surface(Float64Array.from(meshes.bar.positions), meshes.bar.triangles);
+  const field = new hf.Solver(own);
   const things = [
     own,
-    own.clone(),
+    field,
     new hf.Pose(own),
     new hf.Transfer(own, own),
     new hf.Geodesics(own),
     new hf.Progress(),
+    field.clone(),
   ];
   things[2].addHandles([
     [0, 1, 2],
@@ -149,15 +169,17 @@ for (let round = 0; round < 120; ++round) {
       thing.close();
       assert.throws(
         () =>
-          thing.solve
-            ? thing.solve()
-            : thing.deform
-              ? thing.deform()
-              : thing.distance
-                ? thing.distance([0])
-                : thing.apply
-                  ? thing.info
-                  : thing.fraction,
+          thing.castRay
+            ? thing.report
+            : thing.addSites
+              ? thing.solve()
+              : thing.deform
+                ? thing.deform()
+                : thing.distance
+                  ? thing.distance([0])
+                  : thing.apply
+                    ? thing.info
+                    : thing.fraction,
         (error) => error.codeName === 'HF_ERROR_INVALID_HANDLE',
       );
       ++calls;
@@ -175,7 +197,7 @@ assert.ok(calls > 100);
 // ---- memory comes back
 const work = async (count) => {
   for (let i = 0; i < count; ++i) {
-    const own = new hf.Solver(Float32Array.from(positions), triangles);
+    const own = new hf.Surface(Float32Array.from(positions), triangles);
     const pose = new hf.Pose(own);
     pose.addHandles([
       [0, 1],
@@ -196,6 +218,6 @@ if (global.gc) {
   const before = process.memoryUsage().rss;
   await work(200);
   const grown = process.memoryUsage().rss - before;
-  console.log(`memory after 200 more solvers and poses: ${(grown / 1e6).toFixed(1)} MB`);
+  console.log(`memory after 200 more surfaces and poses: ${(grown / 1e6).toFixed(1)} MB`);
   assert.ok(grown < 30e6, 'memory does not come back'); // 200 of them hold more than 100 MB
 }

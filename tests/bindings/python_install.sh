@@ -26,7 +26,7 @@ cd "$scratch"
 PYTHONPATH="$scratch/site" exec "$user" -c '
 import hf, sys
 assert hf.__file__.startswith(sys.argv[1]), hf.__file__
-s = hf.Solver([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+s = hf.Solver(hf.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
 s.add_sites([0], [1.0])
 assert abs(s.solve() - 1).max() < 1e-6
 print("installed", hf.__file__, hf.version())' "$scratch/site"

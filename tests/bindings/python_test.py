@@ -41,14 +41,15 @@ class Arrays(unittest.TestCase):
         points, triangles = mesh("torus")
         rows = np.zeros((len(points), 8), np.float32)  # interleaved: xyz, normal, field, one spare
         rows[:, :3] = points
-        with hf.Solver(rows[:, :3], triangles) as solver, hf.Solver(points, triangles) as packed:
+        surface = hf.Surface(rows[:, :3], triangles)
+        with hf.Solver(surface) as solver, hf.Solver(hf.Surface(points, triangles)) as packed:
             for s in (solver, packed):
                 s.add_sites([0, 100], [0.0, 1.0])
             out = rows[:, 6]
             self.assertIs(solver.solve(out), out)
             np.testing.assert_array_equal(rows[:, 6], packed.solve())
             np.testing.assert_array_equal(rows[:, 7], 0)
-            with hf.Pose(solver) as pose:
+            with hf.Pose(surface) as pose:
                 pose.add_handles([[0, 1], [140, 141]])
                 posed, normals = rows[:, :3], rows[:, 3:6]
                 pose.deform(posed, normals=normals)
@@ -58,39 +59,64 @@ class Arrays(unittest.TestCase):
 
     def test_channels(self):
         points, triangles = mesh("torus")
-        with hf.Solver(points, triangles, channel_count=3) as solver:
+        with hf.Solver(hf.Surface(points, triangles), channel_count=3) as solver:
             solver.add_sites([0, 100], [[0, 1, 2], [1, 1, 0]])
             field = solver.solve()
             self.assertEqual(field.shape, (len(points), 3))
             np.testing.assert_allclose(field[:, 1], 1, atol=1e-6)
             np.testing.assert_allclose(field[:, 2], 2 - 2 * field[:, 0], atol=1e-5)
             self.assertEqual(solver.solve_vectors().shape, (len(points), 3))
-            solver.rotate_vector_sites([0], [np.pi])
+            solver.rotate_vectors([0], [np.pi])
+            solver.move_vectors([0], [20])
+            self.assertEqual(solver.add_site(200, [1, 2, 3]), 2)
+            np.testing.assert_array_equal(solver.sites()["values"][2], [1, 2, 3])
+            with self.assertRaises(hf.InvalidArgumentError):
+                solver.add_site(201, [1, 2])
+
+    def test_triangles_of_16_bits_are_used_in_place(self):
+        points, triangles = mesh("torus")
+        rows = np.full((len(triangles), 5), 0xFFFF, np.uint16)
+        rows[:, :3] = triangles
+        packed, held = hf._library.corners(rows[:, :3], "triangles")
+        self.assertTrue(np.shares_memory(packed, rows))
+        self.assertEqual(held, 10)
+        fields = []
+        for given in (triangles, triangles.astype(np.int64), triangles.astype(np.uint16), rows[:, :3]):
+            solver = hf.Solver(hf.Surface(points, given))
+            solver.add_sites([0, 100], [0.0, 1.0])
+            fields.append(solver.solve(dtype=np.float64))
+            np.testing.assert_array_equal(fields[0], fields[-1])
 
     def test_wrong_arrays_are_refused(self):
         points, triangles = mesh("torus")
-        solver = hf.Solver(points, triangles)
+        surface = hf.Surface(points, triangles)
+        solver = hf.Solver(surface)
         solver.add_sites([0], [1.0])
         frozen = np.zeros(len(points), np.float32)
         frozen.flags.writeable = False
-        cases = [lambda: hf.Solver(points[:, :2], triangles), lambda: hf.Solver("text", triangles),
-            lambda: hf.Solver(points, "text"),
-                 lambda: hf.Solver(points, triangles + 0.5), lambda: hf.Solver(points,
-                     triangles[:, :2]), lambda: hf.Solver(points, [-1, 0, 1]),
-                 lambda: hf.Solver(points, triangles, thread_count="many"), lambda: hf.Solver(points, triangles,
-                     threads=2),
-                 lambda: solver.solve(np.zeros(3, np.float32)), lambda: solver.solve(np.zeros(len(points),
-                     np.int32)), lambda: solver.solve(frozen),
-                 lambda: solver.solve([0.0] * len(points)), lambda: solver.solve(np.zeros(len(points),
-                     np.float32)[::-1]),
-                 lambda: solver.add_sites([1.5], [0.0]), lambda: solver.add_sites([-1],
-                     [0.0]), lambda: solver.add_sites([1], ["x"]),
-                 lambda: solver.add_sites([1],
-                     [object()]), lambda: hf.Pose(None), lambda: hf.Pose(3), lambda: hf.Pose(hf.Progress()),
-                 lambda: hf.Transfer(solver,
-                     None), lambda: hf.Geodesics("s"), lambda: hf.Direction(None), lambda: solver.save_factor()[:0] or hf.Solver(points, triangles, saved_factor=b""),
-                 lambda: hf.Solver(points, triangles, saved_factor=b"short"), lambda: hf.Solver(points * np.nan,
-                     triangles)]
+        cases = [lambda: hf.Surface(points[:, :2], triangles), lambda: hf.Surface("text", triangles),
+                 lambda: hf.Surface(points, "text"), lambda: hf.Surface(points, triangles + 0.5),
+                 lambda: hf.Surface(points, triangles[:, :2]), lambda: hf.Surface(points, [-1, 0, 1]),
+                 lambda: hf.Surface(points, triangles, thread_count="many"),
+                 lambda: hf.Surface(points, triangles, threads=2), lambda: hf.Surface(points * np.nan, triangles),
+                 lambda: hf.Surface(points, triangles, saved_factor=b""),
+                 lambda: hf.Surface(points, triangles, saved_factor=b"short"),
+                 lambda: surface.save(9), lambda: surface.cast_ray([0, 0], [0, 0, 1]),
+                 lambda: surface.cast_ray([0, 0, 9], [0, 0, 0]), lambda: surface.cast_ray(None, [0, 0, 1]),
+                 lambda: surface.cast_ray([0, 0, 9], [0, 0, -1], positions=points[:5]),
+                 lambda: surface.find_vertex("abc"), lambda: surface.find_vertex([np.nan, 0, 0]),
+                 lambda: hf.Solver(None), lambda: hf.Solver(solver), lambda: hf.Solver(points),
+                 lambda: hf.Solver(surface, weld=1), lambda: hf.Solver(surface, engine=7),
+                 lambda: solver.solve(np.zeros(3, np.float32)),
+                 lambda: solver.solve(np.zeros(len(points), np.int32)), lambda: solver.solve(frozen),
+                 lambda: solver.solve([0.0] * len(points)),
+                 lambda: solver.solve(np.zeros(len(points), np.float32)[::-1]),
+                 lambda: solver.add_sites([1.5], [0.0]), lambda: solver.add_sites([-1], [0.0]),
+                 lambda: solver.add_sites([1], ["x"]), lambda: solver.add_sites([1], [object()]),
+                 lambda: solver.add_site(-1), lambda: solver.add_site(1.5), lambda: solver.add_site(1, "x"),
+                 lambda: hf.Pose(None), lambda: hf.Pose(3), lambda: hf.Pose(solver), lambda: hf.Pose(hf.Progress()),
+                 lambda: hf.Transfer(surface, None), lambda: hf.Geodesics("s"), lambda: hf.Direction(None),
+                 lambda: hf.Region(surface, field_kind=9)]
         for number, case in enumerate(cases):
             with self.assertRaises(hf.HfError, msg=f"case {number}") as caught:
                 case()
@@ -101,8 +127,8 @@ class Arrays(unittest.TestCase):
 class Regions(unittest.TestCase):
     def test_a_region_is_edited_morphed_and_undone(self):
         points, triangles = mesh("torus", np.float64)
-        solver = hf.Solver(points, triangles)
-        with hf.Region(solver, points) as region:
+        surface = hf.Surface(points, triangles)
+        with hf.Region(surface, points) as region:
             region.edit(add=[0, 1, 2, 12, 13, 14])
             np.testing.assert_array_equal(region.vertices(), [0, 1, 2, 12, 13, 14])
             region.record()
@@ -127,12 +153,36 @@ class Regions(unittest.TestCase):
             region.edit(curve=[int(v) for v in (0, 1, 2, 3, 15, 27, 39, 38, 37, 36, 24, 12)])
             self.assertTrue({13, 14, 25, 26} <= set(region.vertices()))
             for wrong in (lambda: region.edit(add=[288]), lambda: region.edit(curve=[0]), lambda: region.morph(np.nan),
-                          lambda: hf.Region(None), lambda: hf.Region(solver, points[:5]), lambda: hf.Detail(region, None),
+                          lambda: hf.Region(None), lambda: hf.Region(surface, points[:5]), lambda: hf.Detail(region, None),
                           lambda: region.vertices(9), lambda: region.morph(1.0, np.zeros(3, np.float32))):
                 with self.assertRaises(hf.HfError):
                     wrong()
         with self.assertRaises(hf.InvalidHandleError):
             region.edit(rings=1)
+
+
+class Picking(unittest.TestCase):
+    def test_a_click_becomes_a_site_and_a_handle(self):
+        points, triangles = mesh("torus")
+        surface = hf.Surface(points, triangles)
+        hit = surface.cast_ray([9, 0.3, 0.2], [-2, 0, 0])
+        np.testing.assert_allclose(np.dot(hit.barycentrics, points[triangles[hit.triangle]]), hit.position, atol=1e-12)
+        self.assertIn(hit.vertex, triangles[hit.triangle])
+        np.testing.assert_allclose(9 - 2 * hit.distance, hit.position[0], atol=1e-12)
+        self.assertIsNone(surface.cast_ray([9, 0, 0], [1, 0, 0]))
+        solver = hf.Solver(surface)
+        solver.add_sites(triangles=[hit.triangle], barycentrics=[list(hit.barycentrics)], values=[2.0])
+        solver.add_site(150)
+        np.testing.assert_allclose(np.dot(hit.barycentrics, solver.solve(dtype=np.float64)[triangles[hit.triangle]]), 2)
+        pose = hf.Pose(surface)
+        self.assertEqual([pose.add_handle_at(hit.position, 0.5), pose.add_handle_at([-4, 0, 0], 0.5)], [0, 1])
+        pose.set_transform(0, translation=[1, 0, 0])
+        posed = pose.deform()
+        moved = surface.cast_ray([9, 0.3, 0.2], [-2, 0, 0], positions=posed)
+        self.assertLess(moved.distance, hit.distance)
+        vertex, distance = surface.find_vertex(posed[hit.vertex], positions=posed)
+        self.assertEqual((vertex, distance), (hit.vertex, 0.0))
+        self.assertEqual(pose.info.handle_count, 2)
 
 
 class Lifetime(unittest.TestCase):
@@ -141,13 +191,14 @@ class Lifetime(unittest.TestCase):
         calls = 0
         for seed in range(120):
             draw = random.Random(seed)
-            solver = hf.Solver(points, triangles)
+            surface = hf.Surface(points, triangles)
+            solver = hf.Solver(surface)
             solver.add_sites([0, 287], [0.0, 1.0])
-            things = [solver, solver.clone(), hf.Pose(solver), hf.Transfer(solver, solver), hf.Geodesics(solver),
-                hf.Progress()]
+            things = [solver, solver.clone(), hf.Pose(surface), hf.Transfer(surface, surface), hf.Geodesics(surface),
+                hf.Progress(), surface]
             things[2].add_handles([range(12), range(276, 288)])
             things.append(things[2].clone())
-            del solver
+            del solver, surface
             draw.shuffle(things)
             while things:
                 thing = things.pop()
@@ -155,7 +206,7 @@ class Lifetime(unittest.TestCase):
                     thing.close()
                     thing.close()
                     with self.assertRaises(hf.InvalidHandleError):
-                        {hf.Solver: lambda: thing.solve(), hf.Pose: lambda: thing.deform(),
+                        {hf.Surface: lambda: thing.report, hf.Solver: lambda: thing.solve(), hf.Pose: lambda: thing.deform(),
                             hf.Transfer: lambda: thing.info,
                          hf.Geodesics: lambda: thing.distance([0]), hf.Progress: lambda: thing.fraction}[type(thing)]()
                     calls += 1
@@ -175,9 +226,10 @@ class Lifetime(unittest.TestCase):
 
         def work(count):
             for _ in range(count):
-                solver = hf.Solver(points, triangles)
+                surface = hf.Surface(points, triangles)
+                solver = hf.Solver(surface)
                 solver.add_sites([0, 100], [0.0, 1.0])
-                pose = hf.Pose(solver)
+                pose = hf.Pose(surface)
                 pose.add_handles([[0, 1], [140, 141]])
                 pose.deform()
         if not pathlib.Path("/proc/self/statm").exists():
@@ -192,18 +244,20 @@ class Lifetime(unittest.TestCase):
         progress = hf.Progress()
         progress.cancel()
         with self.assertRaises(hf.CancelledError):
-            hf.Solver(points, triangles, progress=progress)
-        hf.Solver(points, triangles, progress=progress).close()
+            hf.Surface(points, triangles, progress=progress)
+        hf.Surface(points, triangles, progress=progress).close()
         self.assertEqual(progress.fraction, 1.0)
 
-    def test_threads_on_clones(self):
+    def test_threads_on_clones_and_on_one_surface(self):
         points, triangles = mesh("torus")
-        solver = hf.Solver(points, triangles)
+        surface = hf.Surface(points, triangles)
+        solver = hf.Solver(surface)
         results, failures = {}, []
 
         def run(value):
             try:
-                clone = solver.clone()
+                clone = solver.clone() if value % 2 else hf.Solver(surface)
+                surface.cast_ray([9, 0.3, 0.2], [-2, 0, 0])
                 clone.add_sites([0, 144], [0.0, float(value)])
                 results[value] = [clone.solve(dtype=np.float64) for _ in range(20)][-1]
             except Exception as error:  # noqa: BLE001

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# run_mono.sh LIBRARY SCRATCH PROGRAM.cs ARGS...: compiles the C# classes and a program and runs it under Mono;
+# run_mono.sh LIBRARY SCRATCH PROGRAM.cs ARGS...: compiles the C# classes and PROGRAM*.cs and runs it under Mono;
 # 77 (skipped) without Mono.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -11,7 +11,7 @@ command -v mcs >/dev/null && command -v mono >/dev/null || {
 }
 mkdir -p "$scratch"
 mcs -langversion:latest -unsafe -target:library -out:"$scratch/Hf.dll" "$root"/bindings/csharp/Hf/*.cs
-mcs -langversion:latest -unsafe -r:"$scratch/Hf.dll" -r:System.Core -out:"$scratch/program.exe" "$program" \
-  "$root/tests/bindings/Json.cs"
+mcs -langversion:latest -unsafe -r:"$scratch/Hf.dll" -r:System.Core -out:"$scratch/program.exe" \
+  "${program%.cs}"*.cs "$root/tests/bindings/Json.cs"
 ln -sf "$library" "$scratch/libhf.so"
 LD_LIBRARY_PATH="$scratch" exec mono "$scratch/program.exe" "$@"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds and runs one consumer project the way its author would.
-# usage: run_consumer.sh find_package|add_subdirectory|pkg_config SOURCE_DIR BUILD_DIR
+# usage: run_consumer.sh find_package|pkg_config|add_subdirectory|fetch_content SOURCE_DIR BUILD_DIR
 set -eu
 kind=$1 source=$2 build=$3
 work="$build/consumer/$kind"
@@ -8,6 +8,7 @@ rm -rf "$work"
 mkdir -p "$work"
 here="$source/tests/consumer"
 quiet() { "$@" >"$work/log" 2>&1 || { cat "$work/log"; echo "failed: $*"; exit 1; }; }
+gpl=$(sed -n 's/^HF_WITH_GPL:BOOL=//p' "$build/CMakeCache.txt")
 
 case "$kind" in
   find_package)
@@ -18,16 +19,26 @@ case "$kind" in
     "$work/build/shared_consumer"
     "$work/build/static_consumer"
     ;;
-  add_subdirectory)
-    quiet cmake -S "$here/add_subdirectory" -B "$work/build" -G Ninja -DHF_SOURCE_DIR="$source" -DCMAKE_BUILD_TYPE=Release
-    quiet cmake --build "$work/build" -j 2 --target shared_consumer
-    "$work/build/shared_consumer"
-    ;;
   pkg_config)
     quiet cmake --install "$build" --prefix "$work/prefix"
     pc=$(find "$work/prefix" -name hf.pc)
-    PKG_CONFIG_PATH=$(dirname "$pc") quiet make -C "$here/pkg_config" OUT="$work/consumer"
-    "$work/consumer"
+    # CHOLMOD's own needs (BLAS, METIS) are not in hf.pc: a static program is made of what ships
+    targets=("$work/consumer")
+    [ "$gpl" = ON ] || targets+=("$work/consumer_static")
+    PKG_CONFIG_PATH=$(dirname "$pc") quiet make -C "$here/pkg_config" OUT="$work/consumer" "${targets[@]}"
+    for program in "${targets[@]}"; do "$program"; done
+    ;;
+  add_subdirectory)
+    # the files of a room compiled together: names of two files must not meet
+    quiet cmake -S "$here/add_subdirectory" -B "$work/build" -G Ninja -DHF_SOURCE_DIR="$source" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_UNITY_BUILD=ON
+    quiet cmake --build "$work/build" -j 2 --target shared_consumer
+    "$work/build/shared_consumer"
+    ;;
+  fetch_content)
+    quiet cmake -S "$here/fetch_content" -B "$work/build" -G Ninja -DHF_SOURCE_DIR="$source" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_UNITY_BUILD=ON
+    quiet cmake --build "$work/build" -j 2 --target static_consumer shared_consumer
+    "$work/build/static_consumer"
+    "$work/build/shared_consumer"
     ;;
   *) echo "unknown kind $kind"; exit 1 ;;
 esac

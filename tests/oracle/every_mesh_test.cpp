@@ -79,7 +79,7 @@ hf_solver make_solver(const samples::SurfaceMesh& mesh, int field_kind, std::vec
   hf_surface_destroy(surface);
   std::mt19937 random(7);
   for (int i = 0; i < 40 && vertices.size() < 8; ++i) {
-    const std::uint32_t v = random() % desc.vertex_count;
+    const std::uint32_t v = random() % static_cast<std::uint32_t>(mesh.positions.size());
     const double value = std::uniform_real_distribution<double>(-1, 1)(random);
     hf_sites_desc batch = HF_INIT(hf_sites_desc);
     batch.site_count = 1, batch.vertices = &v, batch.values = &value;

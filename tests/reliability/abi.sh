@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# The binary interface against the one that was accepted last: abi.sh INCLUDE_FOLDER [--accept]
-#   The interface is what the headers say: every function of hf/hf.h gets an empty body, and abidiff (Debian package
-#   abigail-tools) compares functions and structs of the result with abi/libhf.abi (constants: bindings/api.json). (Dumps of the whole library
-#   hold its inner types: 10 MB, and abidiff 2.2 cannot read them back.) New functions are no change, anything else is.
-#   That the library exports these functions is api_exports. --accept writes the present interface. Skipped (77) without abidiff.
+# Compares the binary interface with the accepted one: abi.sh INCLUDE_FOLDER [--accept]
+#   The interface is that of the headers. Every function of hf/hf.h gets an empty body, and abidiff (Debian package
+#   abigail-tools) compares functions and structs of the result with abi/libhf.abi. bindings/api.json pins constants.
+#   Dumps of the whole library do not work: they hold its inner types, and abidiff 2.2 cannot read them. New functions
+#   are no change; anything else is. The test api_exports checks that the library exports the functions. --accept
+#   writes the present interface. Exits with 77 (skipped) without abidiff.
 set -u
 include=$1 accept=${2:-}
 here=$(cd "$(dirname "$0")" && pwd)

@@ -1,6 +1,6 @@
-// Hooks of a careless host. Whatever allocate and run do, short of what base.h forbids, the call ends with a result,
-// the object is as it was before, and afterwards it works: allocate throws (this and that, anywhere), run throws before
-// or after the jobs, runs them twice, backwards, not at all, or comes back into the library.
+// Faulty hooks of a host. allocate throws at each place in turn, with four types of exception. run throws before or
+// after the jobs. It runs them twice, backwards or not at all, or it calls the library. Every call must end with a
+// result, leave the object as it was, and succeed when it is repeated.
 #include <atomic>
 #include <stdexcept>
 #include <thread>
@@ -12,7 +12,7 @@ using namespace reliability;
 
 namespace {
 
-struct Foreign {};  // no std::exception
+struct Foreign {};  // not a std::exception
 
 struct Host {
   std::atomic<long> until_throw{-1};  // allocations until one throws; negative: never
@@ -71,50 +71,65 @@ bool is_answer(int kind, hf_result result) {
   return result == HF_OK || result == (kind == 1 ? HF_ERROR_OUT_OF_MEMORY : HF_ERROR_INTERNAL);
 }
 
-double live_bytes(hf_solver solver) {
-  hf_solver_statistics statistics = desc<hf_solver_statistics>();
-  must(hf_solver_get_statistics(solver, &statistics), "hf_solver_get_statistics");
+double live_bytes(hf_surface surface) {
+  hf_surface_statistics statistics = desc<hf_surface_statistics>();
+  must(hf_surface_get_statistics(surface, &statistics), "hf_surface_get_statistics");
   return statistics.memory_bytes;
 }
 
 }  // namespace
 
 int main() {
-  Surface surface;
-  add_torus(surface, 60, 50);
+  Mesh mesh;
+  add_torus(mesh, 60, 50);
   Host host;
-  hf_create_desc d = create_desc(surface);
+  hf_surface_desc d = surface_desc(mesh);
   d.allocator = {allocate, release, &host};
   unsigned thrown = 0;
 
-  // allocate throws at each place in turn: while a solver is made, and while sites come; with threads of the library's
-  // own
+  // allocate throws at each place in turn: while a surface is made, a second factor, and sites; on 1 and 3 threads
   for (const std::uint32_t threads : {1u, 3u}) {
     d.thread_count = threads;
     for (int kind = 0; kind < 4; ++kind) {
       host.kind = kind;
       for (long at = 0;; at += 1 + at / 3) {
         const long before = host.live;
-        hf_solver solver = nullptr;
+        hf_surface surface = nullptr;
         host.until_throw = at;
-        const hf_result made = hf_create(&d, &solver);
+        const hf_result made = hf_surface_create(&d, &surface);
         const bool struck = host.until_throw < 0;
         host.until_throw = -1;
-        host.wrong += !is_answer(kind, made) || (made != HF_OK && (solver || host.live != before));
+        host.wrong += !is_answer(kind, made) || (made != HF_OK && (surface || host.live != before));
         thrown += made != HF_OK;
-        hf_solver_destroy(solver);
+        hf_surface_destroy(surface);
         host.wrong += host.live != before;
         if (!struck) break;
       }
-      hf_solver solver = make_solver(d);
+      const hf_surface surface = make_surface(d);
+      hf_solver_desc bent = desc<hf_solver_desc>();
+      bent.field_kind = HF_FIELD_BIHARMONIC;
+      for (long at = 0;; at += 1 + at / 3) {  // the factor that the surface lacks
+        const long before = host.live;
+        hf_solver second = nullptr;
+        host.until_throw = at;
+        const hf_result made = hf_create(surface, &bent, &second);
+        const bool struck = host.until_throw < 0;
+        host.until_throw = -1;
+        host.wrong += !is_answer(kind, made) || (made != HF_OK && (second || host.live != before));
+        thrown += made != HF_OK;
+        hf_solver_destroy(second);
+        host.wrong += host.live > before + (made == HF_OK);  // the block that remembers a freed factor
+        if (!struck) break;
+      }
+      hf_solver solver = make_solver(surface);
       must(add(solver, 5, 11), "hf_add_sites");
-      std::vector<double> right(surface.vertex_count()), field(right), before(right);
+      std::vector<double> right(mesh.vertex_count()), field(right), before(right);
       must(hf_solver_solve_f64(solver, before.data(), 0, nullptr), "hf_solver_solve_f64");
       hf_solver other = nullptr;
       must(hf_solver_clone(solver, &other), "hf_solver_clone"), must(add(other, 40, 3), "hf_add_sites");
       must(hf_solver_solve_f64(other, right.data(), 0, nullptr), "hf_solver_solve_f64");
       hf_solver_destroy(other);
-      const double bytes = live_bytes(solver);
+      const double bytes = live_bytes(surface);
       for (long at = 0;; at += 1 + at / 8) {
         host.until_throw = at;
         const hf_result added = add(solver, 40, 3);
@@ -122,20 +137,20 @@ int main() {
         host.wrong += !is_answer(kind, added);
         if (added == HF_OK) break;
         ++thrown;
-        host.wrong += hf_solver_get_site_count(solver) != 5 || live_bytes(solver) != bytes;
+        host.wrong += hf_solver_get_site_count(solver) != 5 || live_bytes(surface) != bytes;
         must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
         host.wrong += field != before;
       }
       must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
       host.wrong += field != right;
-      hf_solver_destroy(solver);
+      hf_surface_destroy(surface), hf_solver_destroy(solver);
     }
   }
 
-  // the runner, on a surface large enough for it to be asked
-  Surface large;
+  // the runner, on a mesh large enough to use it
+  Mesh large;
   add_torus(large, 205, 200);
-  d = create_desc(large), d.allocator = {allocate, release, &host}, d.thread_count = 2;
+  d = surface_desc(large), d.allocator = {allocate, release, &host}, d.thread_count = 2;
   hf_solver plain = make_solver(d);
   must(add(plain, 5, 11), "hf_add_sites");
   std::vector<double> right(large.vertex_count()), field(right);
@@ -151,7 +166,8 @@ int main() {
     host.runner = 0;
     host.wrong += added != HF_OK && added != HF_ERROR_INTERNAL;
     refused += added != HF_OK;
-    if (added != HF_OK) host.wrong += hf_solver_get_site_count(solver) != 0, must(add(solver, 5, 11), "hf_add_sites, again");
+    if (added != HF_OK)
+      host.wrong += hf_solver_get_site_count(solver) != 0, must(add(solver, 5, 11), "hf_add_sites, again");
     host.runner = runner;
     const hf_result solved = hf_solver_solve_f64(solver, field.data(), 0, nullptr);
     host.runner = 0, host.solver = nullptr;

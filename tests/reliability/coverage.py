@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Lines of the library that the tests reach: coverage.py BUILD_FOLDER SOURCE_FOLDER
+"""Counts the lines of the library that the tests reach: coverage.py BUILD_FOLDER SOURCE_FOLDER
 
-Reads what a build with --coverage (tests/run --full makes one) has counted, by gcov's JSON output. A line counts as reached
-when any object file that holds it was there. Prints COVERAGE_LINES of all rooms together and that of every room, each with
-its target, before them the files with the most missed lines.
+Reads the counts of a build with --coverage (tests/run --full makes one) from gcov's JSON output. A line is reached when
+any object file reached it. Prints the files with the most missed lines, then COVERAGE_LINES of all rooms together and of
+each room with its target.
 """
 
 import collections

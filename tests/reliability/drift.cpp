@@ -1,7 +1,7 @@
-// Does the field drift away from the exact one as sites come, go and move? 41,000 vertices, about 50 sites (a tenth of
-// them soft), 30,000 random edits; two channels, whose values lie in [0, 1] and [10,000, 10,001]. At every checkpoint
-// the field is compared with that of a new solver which eliminates the same sites (HF_ENGINE_REFACTOR). The quick form
-// makes 2,000 edits.
+// Whether the field drifts away from the exact one as sites come, go and move. The test makes 30,000 random edits of
+// about 50 sites on 41,000 vertices; a tenth of the sites are soft. One channel has values in [0, 1], the other in
+// [10,000, 10,001]. At every checkpoint a new solver eliminates the same sites (HF_ENGINE_REFACTOR), and the two fields
+// are compared. The quick form makes 2,000 edits.
 #include <algorithm>
 
 #include "report.h"
@@ -11,10 +11,10 @@ using namespace reliability;
 
 int main(int argc, char** argv) {
   const int edits = report_full(argc, argv) ? 30000 : 2000, checkpoints = 5;
-  Surface surface;
-  add_torus(surface, 205, 200);
+  Mesh mesh;
+  add_torus(mesh, 205, 200);
   const std::vector<double> offsets = {0, 1e4};
-  EditedSolver solver(surface, 2, 17);
+  EditedSolver solver(mesh, 2, 17);
   solver.add(50, offsets);
   double worst[2] = {0, 0};
   for (int done = 1; done <= edits; ++done) {

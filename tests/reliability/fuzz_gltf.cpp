@@ -1,6 +1,5 @@
-// libFuzzer's entry to glTF: a file's bytes to mesh, solver and field (gltf_player.h). The library's own mutations are
-// mixed in, so that the text of a container is changed with its lengths made right. At the end it tells how many files
-// came as far as a field.
+// libFuzzer's entry to glTF: plays a file's bytes (gltf_player.h). Besides libFuzzer's mutations it uses those of
+// gltf_mutate.h, which correct the lengths of a container. At the end it prints how many files gave a field.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -34,7 +33,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* bytes, std::size_t 
   static const std::vector<hostile::File> seeds = hostile::made_seeds();
   hostile::Random random(seed);
   const hostile::File& from = seeds[random() % seeds.size()];
-  // what is too short to be a container is forgotten, one in eight starts from a sound file
+  // inputs too short for a container, and one in eight others, start from a valid file
   const bool fresh = size < 20 || seed % 8 == 1;
   const hostile::File file = hostile::mutate(fresh ? from : hostile::File(bytes, bytes + size), from, random);
   const std::size_t kept = std::min(file.size(), most);

@@ -1,4 +1,4 @@
-// libFuzzer's entry to sequences of API calls: any bytes are one (sequence_player.h).
+// libFuzzer's entry to sequences of API calls. Any bytes are a sequence (sequence_player.h).
 #include <cstdio>
 #include <cstdlib>
 

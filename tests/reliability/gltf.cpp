@@ -9,7 +9,7 @@
 #include "report.h"
 
 #if defined(__SANITIZE_ADDRESS__)
-// refuses what the row forbids, keeps the sanitizer's own memory small
+// forbids large allocations, and keeps the sanitizer's quarantine small
 extern "C" const char* __asan_default_options(void);
 extern "C" const char* __asan_default_options(void) { return "quarantine_size_mb=8:max_allocation_size_mb=512"; }
 constexpr bool sanitized = true;
@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   double slowest = 0;
   for (std::uint64_t i = first; i < first + count; ++i) {
     hostile::Random random(i * 0x9E3779B97F4A7C15u + 7);
-    // three in four from the sound files made here
+    // three in four mutate the valid files made here
     const hostile::File& seed = seeds[random() % 4 ? random() % own : random() % seeds.size()];
     const hostile::File file = hostile::mutate(seed, seeds[random() % seeds.size()], random);
     const double start = hostile::processor_seconds();
@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
   report_at_least("gltf_solved", static_cast<double>(solved), 0.1 * static_cast<double>(count));
   report_at_most("gltf_wrong", static_cast<double>(wrong), 0);
   report_at_most("gltf_slowest_s", slowest, 1);
-  // AddressSanitizer has some 450 MB of its own; there the limit is that of a single allocation, above
+  // AddressSanitizer takes some 450 MB; its builds limit single allocations instead (above)
   if (!sanitized) report_at_most("gltf_memory_mb", hostile::peak_memory(), 512);
   return report_status();
 }

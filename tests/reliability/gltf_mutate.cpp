@@ -21,7 +21,7 @@ std::uint32_t word_at(const File& file, std::size_t at) {
   return word;
 }
 
-// The text and what follows it. A file that is no GLB is text as a whole.
+// The JSON text and the bytes after it. A file that is not a GLB is all text.
 struct Parts {
   bool container = false;
   std::string text;
@@ -53,7 +53,7 @@ File join(Parts parts) {
   return out;
 }
 
-// Runs of digits, of letters and quotes, or single marks.
+// Words: runs of digits, runs of letters and quotes, single marks.
 struct Word {
   std::size_t first, size;
 };
@@ -185,7 +185,7 @@ void mutate_bytes(File& file, Random& random) {
   }
 }
 
-// A bumpy sheet of two primitives along a seam, an island, on two nodes of which one is turned and scaled.
+// A bumpy sheet of two primitives with a seam, and an island. There are two nodes; one is turned and scaled.
 File sheet_file() {
   GlbBuilder b;
   const auto sheet = [&](float x0, std::uint16_t width) {
@@ -228,7 +228,7 @@ File quantised_file() {
   return b.glb();
 }
 
-// Text with its buffer inside.
+// Text with an embedded buffer.
 File text_file() {
   const std::string text =
       R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}],)"
@@ -266,7 +266,7 @@ std::vector<File> shared_seeds(std::size_t most) {
 
 File mutate(const File& file, const File& other, Random& random) {
   File out = file;
-  const bool only_numbers = random() % 2 == 0;  // these pass the checks of the text and reach the surface
+  const bool only_numbers = random() % 2 == 0;  // these pass the checks of the text and reach the library
   for (unsigned n = 1 + random() % 6; n > 0; --n) {
     const unsigned way = only_numbers ? 7 : random() % 8;
     if (way == 0) {

@@ -1,5 +1,5 @@
-// Damage done to files: bytes, lengths, the words of the JSON text with the container's lengths made right again, and
-// the numbers of the binary chunk. Deterministic for one state of the generator.
+// Damages files: bytes, lengths, words of the JSON text, and numbers of the binary chunk. After a change of the text
+// the container's lengths are corrected. One state of the generator gives one result.
 #pragma once
 #include <cstdint>
 #include <random>
@@ -10,12 +10,12 @@ namespace hostile {
 using File = std::vector<std::uint8_t>;
 using Random = std::mt19937_64;
 
-// Small sound files of every kind the reader knows: skinned, animated, sparse, seams, islands, text, several nodes.
+// Small valid files with every feature of the reader: skinned, animated, sparse, seams, islands, text, several nodes.
 std::vector<File> made_seeds();
 // Files below `most` bytes of the optional shared data; none without it.
 std::vector<File> shared_seeds(std::size_t most);
 
-// One to six changes. other: a second file to take words from.
+// Makes one to six changes. other: a second file, whose words may be inserted.
 File mutate(const File& file, const File& other, Random& random);
 
 }  // namespace hostile

@@ -28,30 +28,51 @@ void hold(bool condition, const char* what) {
   if (!condition) throw Wrong(what);
 }
 
-// The surface in the library: created or refused with a documented code; a site at the first vertex of every component,
-// other values; a finite field between them.
+// Picks a used vertex by its own position, and casts a ray at it. The vertex found must be there; a hit must be finite.
+void pick(hf_surface surface, const FlatMesh& mesh, std::uint32_t vertex, double box) {
+  const glm::dvec3& p = mesh.positions[vertex];
+  const double point[3] = {p.x, p.y, p.z}, along[3] = {1, 2, 3};
+  std::uint32_t nearest = HF_NO_INDEX;
+  double distance = -1;
+  hold(hf_surface_find_vertex(surface, point, nullptr, &nearest, &distance) == HF_OK, "hf_surface_find_vertex failed");
+  hold(nearest < mesh.vertex_count() && distance >= 0 && distance <= 1e-9 * box, "the nearest vertex is elsewhere");
+  hf_hit hit = HF_INIT(hf_hit);
+  hold(hf_surface_cast_ray(surface, point, along, nullptr, &hit) == HF_OK, "hf_surface_cast_ray failed");
+  hold(hit.found == (hit.triangle != HF_NO_INDEX), "a hit without a triangle");
+  if (!hit.found) return;
+  hold(hit.triangle < mesh.triangle_count() && std::isfinite(hit.distance), "a hit is nowhere");
+  const double sum = hit.barycentrics[0] + hit.barycentrics[1] + hit.barycentrics[2];
+  hold(std::fabs(sum - 1) <= 1e-9, "barycentrics of a hit do not sum to 1");
+}
+
+// Makes a surface, or checks the documented code of a refusal. Then it adds a site at the first vertex of every
+// component and checks the field.
 bool solve(const FlatMesh& mesh) {
   const std::vector<double> positions = double_positions(mesh.positions);
-  hf_create_desc desc = HF_INIT(hf_create_desc);
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.vertex_count = mesh.vertex_count(), desc.triangle_count = mesh.triangle_count();
   desc.positions_f64 = positions.data(), desc.triangles = mesh.triangles.data();
   desc.vertex_limit = 200000, desc.memory_limit_mb = 256;
-  hf_solver solver = nullptr;
-  const hf_result made = hf_create(&desc, &solver);
+  struct Owner {
+    hf_surface surface = nullptr;
+    hf_solver solver = nullptr;
+    ~Owner() { hf_solver_destroy(solver), hf_surface_destroy(surface); }
+  } owner;
+  const hf_result made = hf_surface_create(&desc, &owner.surface);
+  const hf_surface surface = owner.surface;
   if (made != HF_OK) {
-    hold(solver == nullptr, "a refused hf_create gave a handle");
-    // a file may be empty, far too large, or hold numbers that overflow a double when squared
+    hold(surface == nullptr, "a refused hf_surface_create gave a handle");
+    // a mesh may be empty, far too large, or hold numbers that overflow a double when squared
     hold(made == HF_ERROR_EMPTY || made == HF_ERROR_TOO_LARGE || made == HF_ERROR_OUT_OF_MEMORY ||
              made == HF_ERROR_NON_FINITE,
          hf_result_get_name(made));
     return false;
   }
-  struct Owner {
-    hf_solver solver;
-    ~Owner() { hf_solver_destroy(solver); }
-  } owner{solver};
+  hold(hf_create(surface, nullptr, &owner.solver) == HF_OK, "hf_create failed");
+  const hf_solver solver = owner.solver;
   std::vector<std::uint32_t> component(mesh.vertex_count());
-  hold(hf_surface_get_components(solver, mesh.vertex_count(), component.data()) == HF_OK, "hf_surface_get_components failed");
+  hold(hf_surface_get_components(surface, mesh.vertex_count(), component.data(), nullptr) == HF_OK,
+       "hf_surface_get_components failed");
   std::vector<std::uint32_t> places;
   std::vector<bool> seen(mesh.vertex_count(), false);
   for (std::uint32_t v = 0; v < mesh.vertex_count() && places.size() < 64; ++v) {
@@ -66,7 +87,7 @@ bool solve(const FlatMesh& mesh) {
   sites.site_count = static_cast<std::uint32_t>(places.size()), sites.vertices = places.data(),
   sites.values = values.data();
   hold(hf_add_sites(solver, &sites, nullptr) == HF_OK, "hf_add_sites refused first vertices of components");
-  // one more at the far end of the first component, so that there is a field
+  // one more site on the last vertex of the first component makes the field vary
   for (std::uint32_t v = mesh.vertex_count(); v-- > 0;) {
     if (component[v] != component[places[0]] || mesh.positions[v] == mesh.positions[places[0]]) continue;
     const double value = 10;
@@ -76,14 +97,15 @@ bool solve(const FlatMesh& mesh) {
     break;
   }
   hold(hf_solver_solve_f64(solver, field.data(), 0, nullptr) == HF_OK, "hf_solver_solve_f64 failed");
-  // where triangles have no area to working precision (a vertex at 1e30, say) only finite values are promised
+  // with degenerate triangles (a vertex at 1e30, say) only finite values are promised
   hf_surface_report report = HF_INIT(hf_surface_report);
-  hold(hf_surface_get_report(solver, &report) == HF_OK, "hf_surface_get_report failed");
+  hold(hf_surface_get_report(surface, &report) == HF_OK, "hf_surface_get_report failed");
   const bool sound = report.degenerate_triangle_count == 0;
   for (const double u : field) {
     hold(std::isfinite(u), "a field value is not finite");
     hold(!sound || (u >= -1e-6 && u <= 10 + 1e-6), "a field value lies outside the values of its sites");
   }
+  pick(surface, mesh, places[0], report.bounding_box_diagonal);
   return true;
 }
 

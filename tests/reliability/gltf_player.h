@@ -1,4 +1,4 @@
-// A file's bytes as a program would use them: read, flattened, posed, solved, written. Every failure must be a
+// Uses a file's bytes as a program would: reads, flattens, poses, solves, picks and writes. Every failure must be a
 // sentence, every result finite.
 #pragma once
 #include <cstdint>

@@ -1,10 +1,10 @@
-// The bits of fields as they were: every stage that uses nothing but IEEE arithmetic, on 1 to 8 threads, as each kind
-// of processor computes it, against golden.txt. Debug and Release builds, GCC and Clang share the hashes; see there.
-//   reliability_golden [--full] | --print (the lines of golden.txt)
-// A kind of processor is chosen in one process by hiding from the library's dispatch (__builtin_cpu_supports reads
-// __cpu_model of libgcc or compiler-rt, part of the compilers' ABI) what a lesser one has not; therefore this program
-// holds the static library. What uses the C library's sin and atan2 has no golden hash: there AVX2 and AVX-512 are
-// compared with one another.
+// Compares hashes of fields with golden.txt. Hashed is every stage that uses IEEE arithmetic alone, on 1 to 8 threads
+// and on each kind of processor. All build types and compilers share the hashes. Usage: reliability_golden [--full] |
+// --print (the lines of golden.txt)
+//
+// The program holds the static library, because it hides features of the processor from the library's dispatch.
+// __builtin_cpu_supports reads them from __cpu_model of libgcc or compiler-rt. Stages that use sin and atan2 of the C
+// library have no golden hash. They are compared between AVX2 and AVX-512.
 #include <cinttypes>
 #include <cstring>
 #include <fstream>
@@ -28,11 +28,11 @@ namespace {
 
 constexpr unsigned avx2 = 1u << 10, fma = 1u << 14, avx512f = 1u << 15;
 
-// What the library sees of a processor: one that has `needs`, without what is hidden.
+// A kind of processor as the library sees it. It needs the features `needs`; those in `hidden` are hidden.
 struct Processor {
   const char* name;
   unsigned needs, hidden;
-  const char* kind;  // those of one kind give the same bits
+  const char* kind;  // processors of one kind give the same bits
 };
 constexpr Processor processors[] = {{"avx512", avx512f | avx2 | fma, 0, "fma"},
                                     {"avx2", avx2 | fma, avx512f, "fma"},
@@ -48,9 +48,9 @@ struct Hash {
   }
 };
 
-// The bumpy walls of a square tower of coordinates that are multiples of 1/64: the same on every machine.
-Surface make_sheet(std::uint32_t nu, std::uint32_t nv) {
-  Surface sheet;
+// The bumpy walls of a square tower. Coordinates are multiples of 1/64, so every machine makes the same mesh.
+Mesh make_sheet(std::uint32_t nu, std::uint32_t nv) {
+  Mesh sheet;
   std::uint32_t state = 12345;
   const auto random = [&] { return state = state * 1664525u + 1013904223u, state >> 24; };  // 0 to 255
   for (std::uint32_t i = 0; i < nu; ++i) {
@@ -85,17 +85,17 @@ Surface make_sheet(std::uint32_t nu, std::uint32_t nv) {
 
 class Stages {
  public:
-  Stages(const Surface& surface, std::uint32_t threads) : surface_(surface), n_(surface.vertex_count()) {
+  Stages(const Mesh& mesh, std::uint32_t threads) : mesh_(mesh), n_(mesh.vertex_count()) {
     doubles_.resize(2 * std::size_t{n_}), floats_.resize(doubles_.size());
-    base_ = create_desc(surface);
+    base_ = surface_desc(mesh);
     base_.thread_count = threads;
   }
 
-  // Sites of every kind, edits, a rebase, values alone.
+  // Adds sites of every kind, edits them, rebases and changes a value.
   void field(Hash& hash) {
-    hf_create_desc d = base_;
+    hf_solver_desc d = desc<hf_solver_desc>();
     d.channel_count = 2;
-    const hf_solver solver = make_solver(d);
+    const hf_solver solver = make_solver(base_, d);
     std::uint32_t sites[40];
     add(solver, 12, 977, 5, sites);
     take(solver, hash);
@@ -122,40 +122,44 @@ class Stages {
     hf_solver_destroy(solver);
   }
 
-  // Every operator, every kind of field, minimum degree and the engine that factors anew.
+  // Solves with every operator and kind of field, with minimum degree and HF_ENGINE_REFACTOR among them.
   void operators(Hash& hash) {
     for (const int kind : {HF_FIELD_HARMONIC, HF_FIELD_BIHARMONIC, HF_FIELD_BIHARMONIC_GRAPH}) {
       for (const int op :
            {HF_OPERATOR_INTRINSIC_DELAUNAY, HF_OPERATOR_CLAMPED, HF_OPERATOR_UNIFORM, HF_OPERATOR_COTANGENT}) {
-        hf_create_desc d = base_;
+        hf_surface_desc d = base_;
+        hf_solver_desc wanted = desc<hf_solver_desc>();
         d.field_kind = kind, d.operator_kind = op;
-        d.engine = op == HF_OPERATOR_UNIFORM ? HF_ENGINE_REFACTOR : HF_ENGINE_GREEN;
+        wanted.engine = op == HF_OPERATOR_UNIFORM ? HF_ENGINE_REFACTOR : HF_ENGINE_GREEN;
         if (op == HF_OPERATOR_CLAMPED) d.ordering = HF_ORDERING_MINIMUM_DEGREE;
-        const hf_solver solver = make_solver(d);
+        const hf_solver solver = make_solver(d, wanted);
         add(solver, 9, 701, 3, nullptr);
-        must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64"), hash.take(doubles_.data(), n_);
+        must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64"),
+            hash.take(doubles_.data(), n_);
         hf_solver_destroy(solver);
       }
     }
   }
 
-  // What is read from a field, and distances.
+  // Finds critical points of a field, and geodesic distances.
   void analysis(Hash& hash) {
-    const hf_solver solver = make_solver(base_);
+    const hf_surface surface = make_surface(base_);
+    const hf_solver solver = make_solver(surface);
     add(solver, 7, 811, 29, nullptr);
     must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64");
     hf_scalars scalars = desc<hf_scalars>();
     scalars.values_f64 = doubles_.data();
     std::vector<hf_critical_point> points(n_);
     hf_critical_info info = desc<hf_critical_info>();
-    must(hf_surface_find_critical_points(solver, &scalars, n_, points.data(), &info), "hf_surface_find_critical_points");
+    must(hf_surface_find_critical_points(surface, &scalars, n_, points.data(), &info),
+         "hf_surface_find_critical_points");
     for (std::uint32_t i = 0; i < info.point_count; ++i) hash.take(&points[i].vertex, 1), hash.take(&points[i].kind, 1);
     hf_geodesics geodesics = nullptr;
-    must(hf_geodesics_create(solver, nullptr, &geodesics), "hf_geodesics_create");
+    must(hf_geodesics_create(surface, nullptr, &geodesics), "hf_geodesics_create");
     const std::uint32_t sources[2] = {3, 2000};
     must(hf_geodesics_solve_f64(geodesics, 2, sources, doubles_.data(), 0), "hf_geodesics_solve_f64");
     hash.take(doubles_.data(), n_);
-    hf_geodesics_destroy(geodesics), hf_solver_destroy(solver);
+    hf_geodesics_destroy(geodesics), hf_solver_destroy(solver), hf_surface_destroy(surface);
   }
 
  private:
@@ -178,15 +182,15 @@ class Stages {
         hash.take(doubles_.data(), doubles_.size());
   }
 
-  const Surface& surface_;
+  const Mesh& mesh_;
   std::uint32_t n_;
-  hf_create_desc base_;
+  hf_surface_desc base_;
   std::vector<double> doubles_, values_;
   std::vector<float> floats_;
   std::vector<std::uint32_t> vertices_;
 };
 
-// Hashes by "stage kind", and how many did not agree.
+// The right hash of each stage and kind of processor, and how many hashes differ from it.
 struct Hashes {
   std::map<std::string, std::uint64_t> right;
   unsigned compared = 0, different = 0;
@@ -215,7 +219,7 @@ Hashes read_golden() {
 
 int main(int argc, char** argv) {
   const bool print = argc > 1 && std::strcmp(argv[1], "--print") == 0, full = report_full(argc, argv);
-  const Surface sheet = make_sheet(120, 100), small = make_sheet(60, 50);
+  const Mesh sheet = make_sheet(120, 100), small = make_sheet(60, 50);
   const Scene scene = make_scene();
   Hashes golden = print ? Hashes() : read_golden(), library;
   const std::size_t listed = golden.right.size();

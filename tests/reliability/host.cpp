@@ -1,9 +1,9 @@
-// What belongs to the host and must be as it was after everything the library does: each property is read before and
-// after a run of the whole API (whole_api.h). And the other way round: a host with floating-point traps, flush-to-zero
-// or another rounding mode gets the same bits as any other.
+// The library leaves the properties of its host unchanged. Each property is read before and after a run of the whole
+// API (whole_api.h). A host with floating-point traps, flush-to-zero or another rounding mode gets the same bits as any
+// other.
 //
-// HF_ENGINE_UPDOWN and METIS, in builds that have them, run too, except where threads are counted: Debian's CHOLMOD
-// keeps OpenMP threads of its own once it has worked.
+// The runs include HF_ENGINE_UPDOWN and METIS in builds that have them. Threads are counted without these, because
+// Debian's CHOLMOD keeps OpenMP threads after its first use.
 #include <fcntl.h>
 #include <sched.h>
 #include <signal.h>
@@ -139,7 +139,7 @@ unsigned changed_properties(const Scene& scene, bool paper_engine) {
   return changed;
 }
 
-// Numbers the host draws with the library at work in between, against those without it.
+// Compares random numbers of the host with and without a run of the library in between.
 unsigned changed_draws(const Scene& scene) {
   int plain[6];
   long wide[6], own[6];
@@ -177,7 +177,7 @@ double printed_bytes(const Scene& scene) {
   return bytes;
 }
 
-// Runs of a host with its own ideas about floating point that end with other bits, or with other settings.
+// Runs under other floating-point settings. Counts those that give other bits or change the settings.
 unsigned different_runs(const Scene& scene, std::uint64_t expected) {
   unsigned different = 0;
   const auto check = [&](const char* name, void (*set)()) {
@@ -217,7 +217,7 @@ unsigned different_runs(const Scene& scene, std::uint64_t expected) {
   return different;
 }
 
-// Answers that change when the C++ host's default memory resource has nothing to give.
+// Counts the answers that change when the default memory resource of a C++ host refuses everything.
 unsigned answers_from_the_default_resource(const Scene& scene, std::uint64_t expected) {
   std::pmr::memory_resource* before = std::pmr::set_default_resource(std::pmr::null_memory_resource());
   const Outcome outcome = run_whole_api(scene);
@@ -226,8 +226,8 @@ unsigned answers_from_the_default_resource(const Scene& scene, std::uint64_t exp
   return outcome.unexpected + (outcome.hash != expected);
 }
 
-// The host's job system on threads with settings of their own: jobs with other settings afterwards, and answers with
-// other bits. `jobs` counts them.
+// The job system of a host whose threads have floating-point settings of their own. Counts jobs that change the
+// settings, and answers with other bits. `jobs` receives the number of jobs.
 struct HostJobs {
   std::atomic<unsigned> jobs{0}, changed{0};
 };

@@ -1,6 +1,6 @@
-// A corpus of hostile files: written into a folder, read from there, solved, and every name the process opens watched.
-// Truncations, flipped bytes and nonsense in the JSON of files made here; URIs that point out of the folder; surfaces
-// as text and binary; the optional shared corpus. Usage: reliability_hostile [--full]
+// Reads and solves a corpus of hostile files, and watches every name that the process opens. The files are truncated,
+// have flipped bytes or nonsense in their JSON, or hold URIs that point out of their folder. Damaged meshes in other
+// formats and the optional shared corpus follow. Usage: reliability_hostile [--full]
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct Tally {
   double slowest = 0;
   std::size_t seen = 0;  // opened names
 
-  // folder: where everything opened must lie.
+  // folder: all opened files must be in it.
   void count(const fs::path& file, const fs::path& folder) {
     hostile::opened();
     const double start = hostile::processor_seconds();
@@ -53,7 +53,7 @@ void write(const fs::path& file, const hostile::File& bytes) {
 
 const char* extension_of(const hostile::File& file) { return !file.empty() && file[0] == 'g' ? ".glb" : ".gltf"; }
 
-// Every truncation (at most `most` a seed) and a flipped bit at as many places.
+// Truncates each seed at up to `most` places, and flips a bit at each of them.
 void damage(const fs::path& folder, std::size_t most, Tally& tally) {
   for (const hostile::File& seed : hostile::made_seeds()) {
     const fs::path file = folder / (std::string("damaged") + extension_of(seed));
@@ -81,7 +81,7 @@ void nonsense(const fs::path& folder, std::size_t count, Tally& tally) {
   }
 }
 
-// Surfaces in the other formats, damaged.
+// Damaged meshes in the other formats.
 void surfaces(const fs::path& folder, std::size_t count, Tally& tally) {
   samples::SurfaceMesh mesh;
   for (int v = 0; v < 16; ++v) mesh.positions.emplace_back(v % 4, v / 4, 0.25 * (v * 5 % 3));
@@ -107,7 +107,7 @@ void surfaces(const fs::path& folder, std::size_t count, Tally& tally) {
   }
 }
 
-// The text file with its buffer in a file of another name. Everything a URI can be but a file below the folder.
+// Text files whose buffer is a URI. No URI is a file below the folder, but the last.
 void uris(const fs::path& root, const fs::path& folder, Tally& tally) {
   const hostile::File secret(60, 1);
   write(root / "secret.bin", secret);
@@ -170,7 +170,7 @@ void uris(const fs::path& root, const fs::path& folder, Tally& tally) {
       }
     }
   }
-  // and one that is below it, which must be read
+  // this one is below the folder and must be read
   std::string good = text;
   good.replace(first, end - first, "sub/fine.bin");
   write(folder / "uri.gltf", hostile::File(good.begin(), good.end()));
@@ -221,7 +221,7 @@ int main(int argc, char** argv) {
   report_at_most("hostile_wrong", static_cast<double>(tally.wrong), 0);
   report_at_most("hostile_reads_outside", static_cast<double>(tally.outside), 0);
   report_at_most("hostile_slowest_s", tally.slowest, 1);
-#if !defined(__SANITIZE_ADDRESS__)  // it keeps its shadow and what was given back
+#if !defined(__SANITIZE_ADDRESS__)  // its shadow memory and quarantine count too
   report_at_most("hostile_memory_mb", hostile::peak_memory(), 512);
 #endif
   return report_status();

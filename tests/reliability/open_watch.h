@@ -1,12 +1,12 @@
-// Every file the process opens by name, seen from inside: open, openat and fopen of the C library are stood in for
-// here, in the program itself, and passed on.
+// Lists the files that the process opens by name. The program replaces open, openat and fopen of the C library by
+// functions that note the name and pass the call on.
 #pragma once
 #include <string>
 #include <vector>
 
 namespace hostile {
 
-// Names opened since the last call, links resolved, in order. Watching is off until the first call.
+// The names opened since the last call, in order, with links resolved. The first call starts the list.
 std::vector<std::string> opened();
 
 }  // namespace hostile

@@ -1,4 +1,4 @@
-// A host's plug-in that brings the library along: loaded, used and unloaded again by unload.cpp.
+// A plug-in of a host that uses the library. unload.cpp loads, runs and unloads it.
 #include "whole_api.h"
 
 extern "C" __attribute__((visibility("default"))) int hf_plugin_run(const void* scene, std::uint64_t* hash) {

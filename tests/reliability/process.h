@@ -1,4 +1,4 @@
-// What the kernel says of this process.
+// Counts of the kernel for this process.
 #ifndef HF_TESTS_RELIABILITY_PROCESS_H
 #define HF_TESTS_RELIABILITY_PROCESS_H
 

@@ -1,5 +1,5 @@
-// Every allocation of every story refused, alone and with all that follow: the call reports it, nothing leaks, the
-// objects go on, and what comes out at the end is what comes out without. Usage: reliability_refuse [--story NAME]
+// Refuses every allocation of every story, alone and with all later ones. The call must report it, nothing may leak,
+// the objects must stay usable, and the answer of the story must be the same. Usage: reliability_refuse [--story NAME]
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -45,7 +45,7 @@ void tell(const Chapter& chapter, const Tube& tube, Tally& tally) {
       memory.refuse_at = n, memory.refuse_on = on;
       Story story(memory);
       chapter.tell(story, tube, memory);
-      if (memory.refused == 0) break;  // every allocation had its turn
+      if (memory.refused == 0) break;  // the story makes fewer allocations
       ++tally.faults;
       tally.reported += story.reported;
       for (const std::string& problem : story.problems) complain(tally, chapter, n, on, problem);
@@ -77,10 +77,10 @@ int main(int argc, char** argv) {
       std::printf("%s: %u faults\n", chapter.name, tally.faults - before);
     }
   }
-  // what a call may leave out for want of memory and be right without it, it need not report (a rebase given up)
+  // a call need not report memory that it can do without (a rebase that is not made)
   std::printf("%u faults reported, %u done without\n", tally.reported, tally.faults - tally.reported);
   if (!only.empty()) return tally.problems > 0;
-  report_at_least("refuse_stories", tally.stories, 12);
+  report_at_least("refuse_stories", tally.stories, 16);
   report_at_least("refuse_faults", tally.faults, 5000);
   report_at_most("refuse_problems", tally.problems, 0);
   report_at_most("refuse_leaks", tally.leaks, 0);

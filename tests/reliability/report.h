@@ -1,5 +1,5 @@
-/* One line per figure of reliability, `NAME value target`, as every command of this folder prints it; the command exits
- * with what report_status() gives, 1 when any figure missed its target. C99 and C++; one thread. */
+/* Prints the figures of reliability, one line each: `NAME value target`. Every command of this folder uses it and exits
+ * with report_status(), which is 1 when any figure missed its target. C99 and C++; one thread. */
 #ifndef HF_RELIABILITY_REPORT_H
 #define HF_RELIABILITY_REPORT_H
 
@@ -23,10 +23,10 @@ static inline void report_at_most(const char* name, double value, double target)
   fflush(stdout);
 }
 
-/* What the command returns from main. */
+/* The exit code of the command. */
 static inline int report_status(void) { return report_missed_; }
 
-/* Whether the long form is asked for: --full, or HF_FULL_TESTS in the environment, as tests/run --full sets it. */
+/* Whether to run the long form: with --full, or HF_FULL_TESTS in the environment (tests/run --full sets it). */
 static inline int report_full(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (strcmp(argv[i], "--full") == 0) return 1;

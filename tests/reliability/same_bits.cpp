@@ -1,6 +1,6 @@
-// The same bits: whatever the number of threads, whoever runs the jobs, on a stack of 256 KiB, on eight threads at once
-// (own solvers, clones of one, readers of one), before and after a fork. The hash of everything is printed, so that
-// builds can be compared (same_builds.sh). With --hash nothing else is done.
+// The same bits in every case: any number of threads, any job runner, a stack of 256 KiB, eight threads at once, before
+// and after a fork. Eight threads use solvers of their own, clones of one, and one solver that they read. The program
+// prints the hash of everything, so that builds can be compared (same_builds.sh). With --hash it does nothing else.
 #include <pthread.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -33,7 +33,7 @@ Options with_threads(std::uint32_t threads) {
   return options;
 }
 
-// A host's job system: indices from last to first, every other one on a thread of its own.
+// A host's job system. It counts down, and runs every other index on a second thread.
 void run_backwards(void*, std::uint32_t count, void (*job)(void*, std::uint32_t), void* data) {
   std::thread odd([=] {
     for (std::uint32_t i = 1; i < count; i += 2) job(data, i);
@@ -42,14 +42,14 @@ void run_backwards(void*, std::uint32_t count, void (*job)(void*, std::uint32_t)
   odd.join();
 }
 
-// A surface large enough to be cut into pieces everywhere: field, flux-free, of 60 sites.
-std::uint64_t large_hash(const Surface& surface, std::uint32_t threads, const hf_job_runner* runner) {
-  hf_create_desc d = create_desc(surface);
+// The hash of a field of 60 sites, on a mesh large enough for every parallel path.
+std::uint64_t large_hash(const Mesh& mesh, std::uint32_t threads, const hf_job_runner* runner) {
+  hf_surface_desc d = surface_desc(mesh);
   d.thread_count = threads;
   if (runner) d.job_runner = *runner;
   const hf_solver solver = make_solver(d);
   std::vector<std::uint32_t> vertices;
-  std::vector<double> values, field(surface.vertex_count());
+  std::vector<double> values, field(mesh.vertex_count());
   for (std::uint32_t i = 0; i < 60; ++i) vertices.push_back(i * 331), values.push_back(i % 7);
   hf_sites_desc sites = desc<hf_sites_desc>();
   sites.site_count = 60, sites.vertices = vertices.data(), sites.values = values.data();
@@ -67,7 +67,7 @@ struct Small {
   std::uint64_t hash;
 };
 
-// On a thread with this much stack.
+// The hash of the whole API on a thread with this much stack.
 [[maybe_unused]] std::uint64_t hash_on_stack(const Scene& scene, std::size_t bytes) {
   Small small{&scene, 0};
   pthread_attr_t attributes;
@@ -75,7 +75,7 @@ struct Small {
   pthread_attr_init(&attributes), pthread_attr_setstacksize(&attributes, bytes);
   const auto body = [](void* user) -> void* {
     Small* s = static_cast<Small*>(user);
-    Options options;  // the paper's engine too
+    Options options;  // with the paper's engine
     s->hash = hash_of(*s->scene, options);
     return nullptr;
   };
@@ -84,8 +84,8 @@ struct Small {
   return small.hash;
 }
 
-// Eight threads do everything at once, each on handles of its own; then all read one solver; then all edit clones of
-// it.
+// Eight threads run the whole API at once, each on handles of its own. Then all read one solver. At last all edit
+// clones of it.
 unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, int rounds) {
   std::atomic<unsigned> different{0};
   const auto on_eight = [&](auto&& body) {
@@ -100,20 +100,20 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
     }
   });
 
-  Surface surface;
-  add_torus(surface, 40, 30);
-  hf_create_desc d = create_desc(surface);
-  d.thread_count = 3;  // the solver's own threads, asked for by eight callers at once
+  Mesh mesh;
+  add_torus(mesh, 40, 30);
+  hf_surface_desc d = surface_desc(mesh);
+  d.thread_count = 3;  // the threads of the surface; eight callers ask for them at once
   const hf_solver shared = make_solver(d);
   const std::uint32_t vertices[3] = {5, 500, 1100};
   const double values[3] = {0, 1, 5};
   hf_sites_desc sites = desc<hf_sites_desc>();
   sites.site_count = 3, sites.vertices = vertices, sites.values = values;
   must(hf_add_sites(shared, &sites, nullptr), "hf_add_sites");
-  std::vector<double> right(surface.vertex_count());
+  std::vector<double> right(mesh.vertex_count());
   must(hf_solver_solve_f64(shared, right.data(), 0, nullptr), "hf_solver_solve_f64");
   on_eight([&](unsigned) {
-    std::vector<double> field(surface.vertex_count());
+    std::vector<double> field(mesh.vertex_count());
     for (int i = 0; i < 20 * rounds; ++i) {
       different += hf_solver_solve_f64(shared, field.data(), 0, nullptr) != HF_OK || field != right;
       double at = 0;
@@ -136,7 +136,7 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
       hf_sites_desc more = desc<hf_sites_desc>(), to = desc<hf_sites_desc>();
       more.site_count = to.site_count = 1, more.vertices = &vertex, more.values = &value, to.vertices = &moved;
       different += hf_add_sites(copy, &more, &site) != HF_OK || hf_solver_move_sites(copy, 1, &site, &to) != HF_OK;
-      std::vector<double> field(surface.vertex_count());
+      std::vector<double> field(mesh.vertex_count());
       different += hf_solver_solve_f64(copy, field.data(), 0, nullptr) != HF_OK;
       if (edited[t].empty()) edited[t] = field;
       different += field != edited[t];
@@ -148,14 +148,14 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
   return different;
 }
 
-// A child process: what it inherited still answers, what it makes is its own, and it ends in good order.
+// A child process uses inherited handles, makes objects of its own, and exits.
 [[maybe_unused]] unsigned wrong_in_a_child(const Scene& scene, std::uint64_t expected) {
-  Surface surface;
-  add_torus(surface, 150, 120);
+  Mesh mesh;
+  add_torus(mesh, 150, 120);
   hf_solver inherited[2];
-  std::vector<double> field(surface.vertex_count()), right;
+  std::vector<double> field(mesh.vertex_count()), right;
   for (int i = 0; i < 2; ++i) {
-    hf_create_desc d = create_desc(surface);
+    hf_surface_desc d = surface_desc(mesh);
     d.thread_count = i == 0 ? 1 : 4;
     inherited[i] = make_solver(d);
     const std::uint32_t vertices[2] = {1, 5000};
@@ -172,7 +172,7 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
     const pid_t child = fork();
     if (child < 0) return 100;
     if (child == 0) {
-      alarm(60);  // a child that hangs is ended by the signal
+      alarm(60);  // the signal ends a child that hangs
       unsigned bad = 0;
       for (const hf_solver solver : inherited) {
         bad += hf_solver_solve_f64(solver, field.data(), 0, nullptr) != HF_OK || field != right;
@@ -193,12 +193,11 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
   return wrong;
 }
 
-// Forks right after a call, while workers that came too late for it may hold a lock for a moment: the child works alone
-// and must not wait for them.
+// Forks right after a call. A late worker of the parent may hold a lock then; the child must not wait for it.
 [[maybe_unused]] unsigned wrong_in_many_children(int count) {
-  Surface surface;
-  add_torus(surface, 120, 100);  // large enough for sweeps on all threads
-  hf_create_desc d = create_desc(surface);
+  Mesh mesh;
+  add_torus(mesh, 120, 100);  // large enough for sweeps on all threads
+  hf_surface_desc d = surface_desc(mesh);
   d.thread_count = 16;
   const hf_solver solver = make_solver(d);
   const std::uint32_t vertices[2] = {1, 500};
@@ -206,7 +205,7 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
   hf_sites_desc sites = desc<hf_sites_desc>();
   sites.site_count = 2, sites.vertices = vertices, sites.values = values;
   must(hf_add_sites(solver, &sites, nullptr), "hf_add_sites");
-  std::vector<double> field(surface.vertex_count()), right = field;
+  std::vector<double> field(mesh.vertex_count()), right = field;
   must(hf_solver_solve_f64(solver, right.data(), 0, nullptr), "hf_solver_solve_f64");
   fflush(stdout), fflush(stderr);
   unsigned wrong = 0;
@@ -232,7 +231,7 @@ int main(int argc, char** argv) {
   const bool full = report_full(argc, argv);
   const Scene scene = make_scene();
   const std::uint64_t expected = hash_of(scene, with_threads(1));
-  Surface large;
+  Mesh large;
   add_torus(large, 205, 200);
   const std::uint64_t expected_large = large_hash(large, 1, nullptr);
   printf("hash %016" PRIx64 " %016" PRIx64 "\n", expected, expected_large);

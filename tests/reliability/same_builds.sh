@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The same bits from every build of one compiler: same_builds.sh PROGRAM PROGRAM... (reliability_same_bits of each build)
-#   Compares what each prints with --hash. The promise holds on one kind of processor: the kernels for AVX2 and AVX-512 give
-#   the same bits, those for processors without round differently (docs/promises.md).
+# Compares the bits of builds: same_builds.sh PROGRAM PROGRAM... (reliability_same_bits of each build)
+#   Every program must print the same with --hash. The promise is for one kind of processor. Kernels for AVX2 and AVX-512
+#   give the same bits; plain kernels round differently (docs/promises.md).
 set -u
 different=0 first=
 for program in "$@"; do

@@ -32,6 +32,7 @@ Scene make_scene(std::uint32_t around, std::uint32_t rings) {
   for (const std::size_t v : {std::size_t{0}, std::size_t{s.vertex_count - 1}})
     s.points.insert(s.points.end(), s.positions_f64.begin() + static_cast<std::ptrdiff_t>(3 * v),
                     s.positions_f64.begin() + static_cast<std::ptrdiff_t>(3 * v + 3));
+  s.ray = {4, 0.4 * (rings / 2) + 0.1, 0.05, -1, 0, 0};
   s.matrices = {0.8, 0.6, 0, 0, -0.6, 0.8, 0, 0, 0, 0, 1, 0, 0.5, 0.25, -0.125, 1};
   return s;
 }

@@ -1,4 +1,4 @@
-// The calls of a sequence, each against the code the model gives it.
+// The calls of a sequence. Each result is compared with the code of the model.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -8,7 +8,7 @@
 namespace sequences {
 namespace {
 
-// Places as hf_sites_desc wants them; borrows from itself.
+// Places in the form of hf_sites_desc. The desc borrows from this object.
 struct PlaceLists {
   std::vector<std::uint32_t> vertices, triangles;
   std::vector<double> weights;
@@ -32,7 +32,7 @@ struct PlaceLists {
 
 }  // namespace
 
-// how: 0 hf_solver_edit_sites, otherwise the single call the batch has.
+// how: 0 for hf_solver_edit_sites, otherwise the single call for the only part of the batch.
 void Player::edit_sites(const Edit& edit, unsigned how) {
   const hf_result expected = here().model.judge(edit);
   const PlaceLists to(edit.move_to, nullptr, nullptr), add(edit.add, &edit.add_values, &edit.add_stiffness);
@@ -78,18 +78,18 @@ void Player::step(bool back) {
   expect(possible ? HF_OK : HF_ERROR_NO_RECORD, back ? hf_solver_undo(b.solver) : hf_solver_redo(b.solver),
          back ? "hf_solver_undo" : "hf_solver_redo");
   if (!possible || b.model.recorded_field.empty() || b.model.sites().empty()) return;
-  if (setting_.engine != HF_ENGINE_GREEN) return;  // the others follow by an edit: equal to rounding, see compare()
+  if (setting_.engine != HF_ENGINE_GREEN) return;  // other engines step by an edit, equal to rounding: see compare()
   const std::vector<double> field = field_of(b);
   hold(std::memcmp(field.data(), b.model.recorded_field.data(), sizeof(double) * field.size()) == 0,
        "the field after going back has other bits than at the record");
 }
 
-// Goes to another branch: an old one, or a clone.
+// Clones this branch, removes it, or switches to another.
 void Player::branch_off() {
   const unsigned b = bytes_.take();
   if (branches_.size() < 3 && b % 2 == 0) {
     auto made = std::make_unique<Branch>(setting_);
-    made->model = here().model;
+    made->model = here().model, made->surface = here().surface;
     made->model.forget_records();
     expect(HF_OK, hf_solver_clone(here().solver, &made->solver), "hf_solver_clone");
     branches_.push_back(std::move(made));
@@ -104,32 +104,35 @@ void Player::branch_off() {
   }
 }
 
-// The factor saved, loaded by a new solver, and the sites put there again.
+// Saves the factor, loads it into a new surface, and adds the sites to a new solver there.
 void Player::reload() {
+  const hf_surface surface = surface_of(here()).handle;
   std::size_t size = 0;
-  expect(HF_OK, hf_get_factor_size(here().solver, &size), "hf_get_factor_size");
+  expect(HF_OK, hf_surface_save(surface, field_kind_, 0, nullptr, &size), "hf_surface_save, size");
   std::vector<std::uint8_t> bytes(size + 1, 0x5A);
-  expect(HF_OK, hf_surface_save(here().solver, bytes.data(), size), "hf_surface_save");
-  hold(bytes[size] == 0x5A, "hf_surface_save wrote behind its size");
+  expect(HF_ERROR_TOO_SMALL, hf_surface_save(surface, field_kind_, size - 1, bytes.data(), &size), "hf_surface_save");
+  expect(HF_OK, hf_surface_save(surface, field_kind_, size, bytes.data(), nullptr), "hf_surface_save");
+  hold(bytes[size] == 0x5A, "hf_surface_save wrote beyond its size");
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.bytes = bytes.data(), factor.byte_count = size;
-  hf_create_desc d = desc();
-  d.saved_factor = &factor;
-  hf_solver made = nullptr;
   const unsigned b = bytes_.take();
-  if (b % 4 == 3) {  // damaged: refused, nothing made
+  if (b % 4 == 3) {  // damaged bytes are refused
     bytes[bytes_.take() * 257u % size] ^= static_cast<std::uint8_t>(1u << (b / 4 % 8));
-    const hf_result got = hf_create(&d, &made);
-    hold(got != HF_OK && made == nullptr, "hf_create took a damaged factor");
+    hf_surface_desc d = surface_desc(field_kind_);
+    d.saved_factor = &factor;
+    hf_surface made = nullptr;
+    const hf_result got = hf_surface_create(&d, &made);
+    hold(got != HF_OK && made == nullptr, "hf_surface_create took a damaged factor");
     return;
   }
-  expect(HF_OK, hf_create(&d, &made), "hf_create with saved_factor");
   auto fresh = std::make_unique<Branch>(setting_);
-  fresh->solver = made;
+  fresh->surface = make_surface(field_kind_, &factor);
+  const hf_solver_desc d = solver_desc();
+  expect(HF_OK, hf_create(fresh->surface->handle, &d, &fresh->solver), "hf_create");
   const Model::Sites sites = here().model.sites();
   branches_[active_] = std::move(fresh);
   for (const auto& entry : sites) {
-    if (entry.second.at_vertex < 0) continue;  // vertices only: points lose their triangle in the model
+    if (entry.second.at_vertex < 0) continue;  // the model does not keep the triangle of a point
     Edit edit;
     edit.add.resize(1);
     edit.add[0].vertex = static_cast<std::uint32_t>(
@@ -171,7 +174,8 @@ void Player::solve_single() {
   const std::vector<double> field = field_of(here());
   for (std::size_t v = 0; v < n; ++v) {
     for (std::size_t c = 0; c < m; ++c)
-      hold(values[v * width + c] == static_cast<float>(field[v * m + c]), "hf_solve is not hf_solver_solve_f64 rounded");
+      hold(values[v * width + c] == static_cast<float>(field[v * m + c]),
+           "hf_solve is not hf_solver_solve_f64 rounded");
     hold(values[v * width + m] == -9.0f, "hf_solve wrote between the rows");
   }
 }

@@ -1,4 +1,4 @@
-// A branch of a sequence against its model: sites, fluxes, field.
+// Compares a branch of a sequence with its model: sites, fluxes, field.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -78,13 +78,14 @@ void Player::compare_sites(Branch& branch) {
     hold(same, "hf_solver_get_sites: site " + std::to_string(number) + " is not what was set");
     for (std::size_t c = 0; c < m && setting_.engine != HF_ENGINE_UPDOWN; ++c) {
       const Eigen::Index column = static_cast<Eigen::Index>(c);
-      // crowded points have fluxes far beyond the field's own
+      // the fluxes of crowded points are far larger than those of the field
       const double unit = std::max(setting_.operation->mean_diagonal[static_cast<std::size_t>(site.component)] *
                                        answer.scale(site.component, column),
                                    answer.lambda.col(column).cwiseAbs().maxCoeff());
       const double error = std::fabs(flux[i * m + c] - answer.lambda(static_cast<Eigen::Index>(i), column)) / unit;
       char text[96];
-      std::snprintf(text, sizeof text, "hf_solver_get_sites: the flux of site %u is off by %.3g of its scale", number, error);
+      std::snprintf(text, sizeof text, "hf_solver_get_sites: the flux of site %u is off by %.3g of its scale", number,
+                    error);
       hold(error <= (setting_.engine == HF_ENGINE_GREEN ? 1e-8 : 1e-6), text);
     }
     ++i;

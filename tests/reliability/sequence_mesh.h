@@ -1,5 +1,5 @@
-// The small surfaces of the sequence fuzzer and their operators, made here from the definitions and nothing of the
-// library: weld by position, components, cotangents from corner angles, K = L, L M^-1 L or L^2.
+// The small meshes of the sequence fuzzer and their operators, made from the definitions without the library. Welding
+// is by position, weights are cotangents of corner angles, and K is L, L M^-1 L or L^2.
 #pragma once
 #include <cstdint>
 #include <Eigen/Dense>
@@ -25,7 +25,7 @@ struct Surface {
 // All of them; the first four are acute.
 const std::vector<Surface>& surfaces();
 
-// Of HF_OPERATOR_* and HF_FIELD_*, with the mean of |K_vv| per component, which stiffness is relative to.
+// The matrix K of an HF_OPERATOR_* and HF_FIELD_*. Stiffness is relative to the mean of |K_vv| of a component.
 struct Operator {
   Eigen::MatrixXd matrix;
   std::vector<double> mean_diagonal;

@@ -8,7 +8,7 @@ namespace sequences {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr double updown_penalty = 1e8;  // hf_create_desc.penalty by default
+constexpr double updown_penalty = 1e8;  // the default of hf_solver_desc.penalty
 
 bool all_finite(const double* values, std::size_t count) {
   return std::all_of(values, values + count, [](double x) { return std::isfinite(x); });
@@ -70,7 +70,7 @@ bool Model::dependent(const Sites& sites, const std::vector<Site>& more) const {
   };
   for (const auto& site : sites) take(site.second);
   for (const Site& site : more) take(site);
-  if (!points) return false;  // different vertices are independent
+  if (!points) return false;  // sites at different vertices are independent
   Eigen::MatrixXd w = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(hard.size()), setting_.surface->inner_count);
   for (std::size_t i = 0; i < hard.size(); ++i) {
     for (const auto& [vertex, weight] : hard[i]->row) w(static_cast<Eigen::Index>(i), vertex) = weight;

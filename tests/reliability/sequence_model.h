@@ -1,8 +1,8 @@
-// What a solver must be, by the headers alone: its sites, its undo stack, the code every edit gets, and the field by a
-// dense solve of the saddle-point system
+// The model of a solver, made from the headers alone. It holds the sites and the undo stack, and knows the code of
+// every edit. The field is a dense solve of the saddle-point system
 //     [ K  -W ] [   u    ]   [ 0 ]      W the places of the sites, D = 1 / (stiffness mean diagonal), 0 for hard ones
 //     [ W'  D ] [ lambda ] = [ s ]
-// with pivoting and one step of refinement, values centred first (constants are in the kernel of K).
+// The solve pivots and takes one step of refinement. Values are centred first, because K maps constants to 0.
 #pragma once
 #include <map>
 
@@ -59,8 +59,9 @@ class Model {
   bool redo() { return step(redo_, undo_); }
   void forget_records() { undo_.clear(), redo_.clear(); }
 
-  // u by inner vertex and channel, scale by component and channel: the range of the values, or of the field where that
-  // overshoots them, and of equal values 1e-5 of their size; lambda by site in the order of the numbers.
+  // u has a row per inner vertex, scale one per component, lambda one per site by ascending number; columns are
+  // channels. The scale is the range of the values, or of a field that overshoots it. For equal values it is 1e-5 of
+  // their size.
   struct Answer {
     Eigen::MatrixXd field, scale, lambda;
     std::vector<int> sites_of_component;

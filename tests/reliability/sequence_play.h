@@ -1,5 +1,4 @@
-// What plays a sequence (sequence_player.h): the calls are in sequence_calls.cpp, the comparisons in
-// sequence_compare.cpp.
+// The player of a sequence (sequence_player.h). sequence_calls.cpp makes the calls, sequence_compare.cpp compares.
 #pragma once
 #include <memory>
 #include <stdexcept>
@@ -28,6 +27,16 @@ inline void hold(bool condition, const std::string& what) {
   if (!condition) fail(what);
 }
 
+// A surface that is destroyed with the last branch that names it.
+struct Owned {
+  hf_surface handle = nullptr;
+  int field_kind = 0;  // of the factor it was made with
+  Owned() = default;
+  Owned(const Owned&) = delete;
+  Owned& operator=(const Owned&) = delete;
+  ~Owned() { hf_surface_destroy(handle); }
+};
+
 class Bytes {
  public:
   Bytes(const std::uint8_t* bytes, std::size_t size) : next_(bytes), end_(bytes + size) {}
@@ -38,8 +47,9 @@ class Bytes {
   const std::uint8_t *next_, *end_;
 };
 
-// A handle and what it must be.
+// A solver, its surface and the model of both. Branches share surfaces; a surface may be destroyed before its solvers.
 struct Branch {
+  std::shared_ptr<Owned> surface;  // empty: destroyed already
   hf_solver solver = nullptr;
   Model model;
   explicit Branch(const Setting& setting) : model(setting) {}
@@ -55,9 +65,12 @@ class Player {
 
  private:
   void begin();
-  hf_create_desc desc() const;
+  hf_surface_desc surface_desc(int field_kind) const;
+  hf_solver_desc solver_desc() const;
+  std::shared_ptr<Owned> make_surface(int field_kind, const hf_factor_desc* saved = nullptr);
+  Owned& surface_of(Branch& branch);
   Branch& here() { return *branches_[active_]; }
-  // what bytes stand for
+  // the meaning of bytes
   Place take_place(bool points);
   double take_value();
   double take_stiffness();
@@ -74,6 +87,10 @@ class Player {
   void solve_single();
   void preview();
   void rebase();
+  void share();
+  void drop_surface();
+  void pick();
+  void pose();
   // comparisons
   void compare(Branch& branch);
   void compare_sites(Branch& branch);

@@ -15,16 +15,43 @@ const Operator& operator_of(std::size_t surface, int operator_kind, int field_ki
   return o;
 }
 
+// The kind of a call. The highest bytes are calls on surfaces, so kept inputs play as when they failed.
+unsigned kind_of(unsigned byte) {
+  constexpr unsigned first = first_surface_call, highest = 13 * first;
+  return byte < highest ? byte % first : first + (byte - highest) % 4;
+}
+
 }  // namespace
 
-hf_create_desc Player::desc() const {
-  hf_create_desc d = HF_INIT(hf_create_desc);
+hf_surface_desc Player::surface_desc(int field_kind) const {
+  hf_surface_desc d = HF_INIT(hf_surface_desc);
   d.vertex_count = surface_->vertex_count(), d.triangle_count = surface_->triangle_count();
   d.positions = surface_->positions.data(), d.triangles = surface_->triangles.data();
-  d.operator_kind = operator_kind_, d.field_kind = field_kind_, d.engine = setting_.engine, d.ordering = ordering_;
+  d.operator_kind = operator_kind_, d.field_kind = field_kind, d.ordering = ordering_;
+  return d;
+}
+
+hf_solver_desc Player::solver_desc() const {
+  hf_solver_desc d = HF_INIT(hf_solver_desc);
+  d.field_kind = field_kind_, d.engine = setting_.engine;
   d.channel_count = static_cast<std::uint32_t>(setting_.channels),
   d.site_limit = static_cast<std::uint32_t>(setting_.site_limit);
   return d;
+}
+
+std::shared_ptr<Owned> Player::make_surface(int field_kind, const hf_factor_desc* saved) {
+  hf_surface_desc d = surface_desc(field_kind);
+  d.saved_factor = saved;
+  auto made = std::make_shared<Owned>();
+  made->field_kind = field_kind;
+  expect(HF_OK, hf_surface_create(&d, &made->handle), "hf_surface_create");
+  return made;
+}
+
+// The surface of a branch. One that was destroyed is made again.
+Owned& Player::surface_of(Branch& branch) {
+  if (!branch.surface) branch.surface = make_surface(field_kind_);
+  return *branch.surface;
 }
 
 void Player::begin() {
@@ -44,8 +71,10 @@ void Player::begin() {
   setting_.surface = surface_;
   setting_.operation = &operator_of(surface_number_, operator_kind_, field_kind_);
   branches_.push_back(std::make_unique<Branch>(setting_));
-  const hf_create_desc d = desc();
-  expect(HF_OK, hf_create(&d, &here().solver), "hf_create");
+  // one surface in two lacks the factor of the solver
+  here().surface = make_surface(ordering_ == 0 ? field_kind_ : HF_FIELD_HARMONIC);
+  const hf_solver_desc d = solver_desc();
+  expect(HF_OK, hf_create(here().surface->handle, &d, &here().solver), "hf_create");
 }
 
 Place Player::take_place(bool points) {
@@ -80,7 +109,7 @@ double Player::take_stiffness() {
   return b == 254 ? -1.0 : stiffness[b % 8];
 }
 
-// Mostly one that is there.
+// Mostly the number of a site that exists.
 std::uint32_t Player::take_site() {
   const unsigned b = bytes_.take();
   const Model::Sites& sites = here().model.sites();
@@ -162,6 +191,14 @@ void Player::call(unsigned kind) {
       return preview();
     case 18:
       return rebase();
+    case 19:
+      return share();
+    case 20:
+      return drop_surface();
+    case 21:
+      return pick();
+    case 22:
+      return pose();
   }
 }
 
@@ -169,10 +206,10 @@ void Player::run() {
   begin();
   compare(here());
   for (int calls = 0; !bytes_.done() && calls < 64; ++calls) {
-    call(bytes_.take() % 19);
+    call(kind_of(bytes_.take()));
     compare(here());
   }
-  for (const auto& branch : branches_) compare(*branch);  // what happened to one did not touch the others
+  for (const auto& branch : branches_) compare(*branch);  // calls on one branch leave the others alone
 }
 
 Outcome play(const std::uint8_t* bytes, std::size_t size) {

@@ -1,5 +1,6 @@
 // Random sequences of API calls against a dense oracle. Usage: reliability_sequences [--full] [--count N] [--first I]
-// [--hex BYTES]: sequences number I and on, or one given; a failing one is made smaller and printed as hex.
+// [--hex BYTES]: plays the sequences from number I on, or a given one. A failing one is made smaller and printed as
+// hex.
 #include <algorithm>
 #include <chrono>
 #include <cinttypes>
@@ -30,7 +31,7 @@ Input bytes_of(const std::string& hex) {
   return input;
 }
 
-// Number i of all sequences: 6 bytes of set-up and up to 60 of calls.
+// Sequence number i: 6 bytes of set-up and up to 60 bytes of calls.
 Input sequence(std::uint64_t i) {
   std::mt19937_64 random(i * 0x9E3779B97F4A7C15u + 1);
   Input input(8 + random() % 60);
@@ -38,7 +39,7 @@ Input sequence(std::uint64_t i) {
   return input;
 }
 
-// Leaves out what the failure does not need.
+// Removes the bytes that the failure does not need.
 Input smaller(Input input) {
   for (std::size_t piece = input.size() / 2; piece > 0; piece /= 2) {
     for (std::size_t at = 0; at + piece <= input.size();) {
@@ -69,13 +70,13 @@ int main(int argc, char** argv) {
     if (option == "--first") first = std::stoull(argv[i + 1]);
     if (option == "--hex") given.push_back(bytes_of(argv[i + 1])), count = 0;
   }
-  // every failing input there ever was
+  // every input that ever failed
   std::ifstream kept(HF_SOURCE_DIR "/tests/reliability/inputs/sequences.hex");
   for (std::string line; std::getline(kept, line);) {
     if (!line.empty() && line[0] != '#') given.push_back(bytes_of(line));
   }
   double worst[3] = {0, 0, 0};
-  std::uint64_t calls = 0, edits = 0, refused = 0, failures = 0, executions = 0;
+  std::uint64_t calls = 0, on_surfaces = 0, edits = 0, refused = 0, failures = 0, executions = 0;
   const auto start = std::chrono::steady_clock::now();
   for (std::uint64_t i = 0; i < given.size() + count; ++i) {
     const Input input = i < given.size() ? given[i] : sequence(first + i - given.size());
@@ -83,6 +84,7 @@ int main(int argc, char** argv) {
     ++executions;
     for (std::size_t e = 0; e < 3; ++e) worst[e] = std::max(worst[e], outcome.worst[e]);
     for (const unsigned n : outcome.calls) calls += n;
+    for (std::size_t k = sequences::first_surface_call; k < outcome.calls.size(); ++k) on_surfaces += outcome.calls[k];
     refused += outcome.edits[0], edits += outcome.edits[1];
     if (outcome.passed) continue;
     if (i < given.size())
@@ -98,6 +100,7 @@ int main(int argc, char** argv) {
   std::printf("%" PRIu64 " calls, %" PRIu64 " edits done, %" PRIu64 " refused, %.0f s\n", calls, edits, refused,
               seconds);
   report_at_least("sequences_executed", static_cast<double>(executions), static_cast<double>(count));
+  report_at_least("sequences_calls_on_surfaces", static_cast<double>(on_surfaces), static_cast<double>(count) / 10);
   report_at_most("sequences_failed", static_cast<double>(failures), 0);
   report_at_most("sequences_error_green", worst[0], sequences::exact_tolerance);
   report_at_most("sequences_error_refactor", worst[2], sequences::baseline_tolerance);

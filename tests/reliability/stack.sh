@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The tests of the public ABI with every stack at 256 KiB, that of the main thread and of all others: stack.sh BIN_FOLDER.
-#   Prints STACK_PROGRAMS_THAT_FAIL. (Programs of the tests themselves keep large arrays off the stack.)
+# Runs the tests of the public ABI with every stack at 256 KiB, the main thread's too: stack.sh BIN_FOLDER
+#   Prints STACK_PROGRAMS_THAT_FAIL. The test programs keep large arrays off the stack.
 set -u
 failed=0 count=0
 for program in "$1"/api_*_test; do

@@ -1,5 +1,5 @@
-// Short stories over the whole API on one small tube, for refused allocations: every call may answer
-// HF_ERROR_OUT_OF_MEMORY once and is then made again; what the story works out at its end must not depend on it.
+// Short stories over the whole API on one small tube, for refused allocations. A call may return
+// HF_ERROR_OUT_OF_MEMORY once and is then repeated. The answer of a story must not depend on that.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -10,19 +10,22 @@
 
 namespace refusal {
 
-// An allocator that counts, and refuses number refuse_at (1-based; 0: none), and all later ones when refuse_on.
+// An allocator that counts. It refuses allocation number refuse_at (from 1; 0: none), with refuse_on all later ones
+// too.
 struct Allocator {
   std::size_t live_blocks = 0, live_bytes = 0, calls = 0, refuse_at = 0, refused = 0, mismatches = 0;
   bool refuse_on = false;
   hf_allocator hooks();
 };
 
+constexpr std::size_t remembered_bytes = 2048;  // a freed factor's block is below 1 KiB
+
 class Story {
  public:
   explicit Story(Allocator& memory) : memory_(memory) {}
 
-  // One call, made again when memory ran out: the refusal must have happened inside it, the detail must say so, and the
-  // second try must succeed. on_failure: what must hold in between, an output that is still NULL, say.
+  // Makes a call, and repeats it when memory ran out. The refusal must have happened inside the call, the error detail
+  // must name it, and the repeated call must succeed. holds: what must be true after a refusal.
   template <class Call, class Check>
   void call(const char* function, Call&& make, Check&& holds) {
     const std::size_t refused = memory_.refused;
@@ -40,13 +43,23 @@ class Story {
   void call(const char* function, Call&& make) {
     call(function, make, [] { return true; });
   }
-  // A call that makes a handle.
+  // A call that makes a handle. A refused one leaves it NULL.
   template <class Handle, class Call>
   void make(const char* function, Handle& handle, Call&& create) {
     call(function, create, [&] { return handle == nullptr; });
   }
+  // A call that makes a handle, and perhaps a factor. A refused one holds no memory either, but for the small block by
+  // which a surface remembers a factor that was made and freed.
+  template <class Handle, class Call>
+  void make_factor(const char* function, Handle& handle, Call&& create) {
+    const std::size_t bytes = memory_.live_bytes;
+    call(function, create, [&] { return handle == nullptr && memory_.live_bytes <= bytes + remembered_bytes; });
+  }
+  void holds(bool condition, const char* otherwise) {
+    if (!condition) wrong(otherwise);
+  }
 
-  // A call that must be refused for another reason, which takes no memory to find.
+  // A call that must be refused for another reason. Finding that reason takes no memory.
   template <class Call>
   void refused(const char* function, hf_result expected, Call&& make) {
     const hf_result result = make();
@@ -68,20 +81,20 @@ class Story {
   Allocator& memory_;
 };
 
-// The tube: `around` vertices on each of `rings` rings.
+// A tube of `rings` rings with `around` vertices each.
 struct Tube {
   static constexpr std::uint32_t around = 8, rings = 10, vertices = around * rings;
   std::vector<double> positions, height;
   std::vector<std::uint32_t> triangles, ends;
   Tube();
-  hf_create_desc desc(Allocator& memory) const;
+  hf_surface_desc desc(Allocator& memory) const;
 };
 
 struct Chapter {
   const char* name;
   void (*tell)(Story& story, const Tube& tube, Allocator& memory);
 };
-std::vector<Chapter> field_chapters();  // solvers, sites, fields, factors
+std::vector<Chapter> field_chapters();  // surfaces, solvers, sites, fields, factors
 std::vector<Chapter> shape_chapters();  // analysis, directions, poses, transfers, quads, regions
 
 }  // namespace refusal

@@ -1,4 +1,4 @@
-// Solvers, sites, fields, factors.
+// Stories of surfaces, solvers, sites, fields and saved factors.
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -50,10 +50,20 @@ void take_field(Story& s, hf_solver solver, std::size_t channels = 1) {
   s.take(field.data(), field.size());
 }
 
+// A solver on a surface of its own, which is destroyed at once.
+hf_solver made(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
+  hf_surface surface = nullptr;
+  hf_solver solver = nullptr;
+  s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&on, &surface); });
+  if (surface) s.make_factor("hf_create", solver, [&] { return hf_create(surface, &desc, &solver); });
+  hf_surface_destroy(surface);
+  return solver;
+}
+
 // Edits of every kind, undo, redo and a clone.
-void edits(Story& s, hf_create_desc desc) {
-  hf_solver solver = nullptr, copy = nullptr;
-  s.make("hf_create", solver, [&] { return hf_create(&desc, &solver); });
+void edits(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
+  const hf_solver solver = made(s, on, desc);
+  hf_solver copy = nullptr;
   if (!solver) return;
   const std::uint32_t places[4] = {0, 30, 51, 79}, others[3] = {5, 44, 62};
   std::uint32_t numbers[4] = {0, 0, 0, 0};
@@ -70,9 +80,10 @@ void edits(Story& s, hf_create_desc desc) {
   s.call("hf_solver_edit_sites", [&] { return hf_solver_edit_sites(solver, &edit, nullptr); });
   s.make("hf_solver_clone", copy, [&] { return hf_solver_clone(solver, &copy); });
   take_field(s, solver);
-  // a refused undo leaves nothing to redo
+  // after a refused undo there is nothing to redo
   s.call(
-      "hf_solver_undo", [&] { return hf_solver_undo(solver); }, [&] { return hf_solver_redo(solver) == HF_ERROR_NO_RECORD; });
+      "hf_solver_undo", [&] { return hf_solver_undo(solver); },
+      [&] { return hf_solver_redo(solver) == HF_ERROR_NO_RECORD; });
   take_field(s, solver);
   s.call("hf_solver_redo", [&] { return hf_solver_redo(solver); });
   s.call("hf_remove_sites", [&] { return hf_remove_sites(copy, 1, &numbers[3]); });
@@ -92,31 +103,32 @@ void edits(Story& s, hf_create_desc desc) {
   hf_solver_destroy(solver), hf_solver_destroy(copy);
 }
 
-void green(Story& s, const Tube& tube, Allocator& memory) { edits(s, tube.desc(memory)); }
+void green(Story& s, const Tube& tube, Allocator& memory) { edits(s, tube.desc(memory), HF_INIT(hf_solver_desc)); }
 void refactor(Story& s, const Tube& tube, Allocator& memory) {
-  hf_create_desc desc = tube.desc(memory);
+  hf_solver_desc desc = HF_INIT(hf_solver_desc);
   desc.engine = HF_ENGINE_REFACTOR;
-  edits(s, desc);
+  edits(s, tube.desc(memory), desc);
 }
 #ifdef HF_WITH_GPL
 void updown(Story& s, const Tube& tube, Allocator& memory) {
-  hf_create_desc desc = tube.desc(memory);
+  hf_solver_desc desc = HF_INIT(hf_solver_desc);
   desc.engine = HF_ENGINE_UPDOWN;
-  edits(s, desc);
+  edits(s, tube.desc(memory), desc);
 }
 #endif
 void biharmonic(Story& s, const Tube& tube, Allocator& memory) {
-  hf_create_desc desc = tube.desc(memory);
-  desc.field_kind = HF_FIELD_BIHARMONIC, desc.ordering = HF_ORDERING_MINIMUM_DEGREE;
-  edits(s, desc);
+  hf_surface_desc on = tube.desc(memory);
+  hf_solver_desc desc = HF_INIT(hf_solver_desc);
+  on.field_kind = desc.field_kind = HF_FIELD_BIHARMONIC, on.ordering = HF_ORDERING_MINIMUM_DEGREE;
+  edits(s, on, desc);
 }
 
-// Points, soft sites, discs, two channels.
+// Points in triangles, soft sites and discs, with two channels.
 void points_and_discs(Story& s, const Tube& tube, Allocator& memory) {
-  hf_create_desc desc = tube.desc(memory);
-  desc.channel_count = 2, desc.operator_kind = HF_OPERATOR_CLAMPED;
-  hf_solver solver = nullptr;
-  s.make("hf_create", solver, [&] { return hf_create(&desc, &solver); });
+  hf_surface_desc on = tube.desc(memory);
+  hf_solver_desc desc = HF_INIT(hf_solver_desc);
+  desc.channel_count = 2, on.operator_kind = HF_OPERATOR_CLAMPED;
+  const hf_solver solver = made(s, on, desc);
   if (!solver) return;
   const std::uint32_t triangles[2] = {10, 90}, places[2] = {36, 3};
   const double weights[6] = {0.25, 0.25, 0.5, 0.5, 0.25, 0.25}, stiffness[2] = {0, 40}, radii[2] = {1.2, 0};
@@ -136,11 +148,9 @@ void points_and_discs(Story& s, const Tube& tube, Allocator& memory) {
   hf_solver_destroy(solver);
 }
 
-// Sites moved into the factor.
+// A rebase, and edits after it.
 void rebase(Story& s, const Tube& tube, Allocator& memory) {
-  const hf_create_desc desc = tube.desc(memory);
-  hf_solver solver = nullptr;
-  s.make("hf_create", solver, [&] { return hf_create(&desc, &solver); });
+  const hf_solver solver = made(s, tube.desc(memory), HF_INIT(hf_solver_desc));
   if (!solver) return;
   std::uint32_t places[12], numbers[12];
   for (std::uint32_t i = 0; i < 12; ++i) places[i] = 6 * i;
@@ -157,38 +167,121 @@ void rebase(Story& s, const Tube& tube, Allocator& memory) {
   hf_solver_destroy(solver);
 }
 
-// The factor as bytes, previews.
+// Factors of two kinds saved, one loaded, and previews. The surface lacks the first kind, so saving makes it.
 void bytes(Story& s, const Tube& tube, Allocator& memory) {
-  hf_create_desc desc = tube.desc(memory);
-  hf_solver solver = nullptr, loaded = nullptr;
-  s.make("hf_create", solver, [&] { return hf_create(&desc, &solver); });
-  if (!solver) return;
-  std::size_t size = 0;
-  s.call("hf_get_factor_size", [&] { return hf_get_factor_size(solver, &size); });
-  std::vector<char> saved(size);
-  s.call("hf_surface_save", [&] { return hf_surface_save(solver, saved.data(), size); });
+  hf_surface_desc desc = tube.desc(memory);
+  hf_surface surface = nullptr, again = nullptr;
+  hf_solver loaded = nullptr;
+  s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&desc, &surface); });
+  if (!surface) return;
+  std::vector<char> saved;
+  for (const int kind : {HF_FIELD_BIHARMONIC_GRAPH, HF_FIELD_HARMONIC}) {
+    std::size_t size = 0;
+    s.call("hf_surface_save", [&] { return hf_surface_save(surface, kind, 0, nullptr, &size); });
+    saved.resize(size);
+    s.call("hf_surface_save", [&] { return hf_surface_save(surface, kind, size, saved.data(), nullptr); });
+    s.take(static_cast<double>(size));
+  }
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
-  factor.bytes = saved.data(), factor.byte_count = size;
+  factor.bytes = saved.data(), factor.byte_count = saved.size();
   desc.saved_factor = &factor;
-  s.make("hf_create", loaded, [&] { return hf_create(&desc, &loaded); });
-  hf_solver_destroy(solver);
+  s.make_factor("hf_surface_create", again, [&] { return hf_surface_create(&desc, &again); });
+  hf_surface_destroy(surface);
+  if (again) s.make_factor("hf_create", loaded, [&] { return hf_create(again, nullptr, &loaded); });
+  hf_surface_destroy(again);
   if (!loaded) return;
   const std::uint32_t places[3] = {2, 40, 77};
   const hf_sites_desc sites = sites_at(3, places, values + 1);
   s.call("hf_add_sites", [&] { return hf_add_sites(loaded, &sites, nullptr); });
   std::vector<double> field(Tube::vertices);
-  s.call("hf_solver_solve_preview_f64", [&] { return hf_solver_solve_preview_f64(loaded, field.data(), 0, 2, nullptr); });
+  s.call("hf_solver_solve_preview_f64",
+         [&] { return hf_solver_solve_preview_f64(loaded, field.data(), 0, 2, nullptr); });
   s.take(field.data(), field.size());
   s.call("hf_solver_release_preview", [&] { return hf_solver_release_preview(loaded); });
   hf_solver_destroy(loaded);
 }
 
+// A surface that two solvers and a pose share, picked, and destroyed before they are used.
+void shared(Story& s, const Tube& tube, Allocator& memory) {
+  const hf_surface_desc desc = tube.desc(memory);
+  hf_surface surface = nullptr;
+  hf_solver first = nullptr, second = nullptr;
+  hf_pose pose = nullptr;
+  s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&desc, &surface); });
+  if (!surface) return;
+  std::vector<std::uint32_t> components(Tube::vertices);
+  s.call("hf_surface_get_components",
+         [&] { return hf_surface_get_components(surface, Tube::vertices, components.data(), nullptr); });
+  const double origin[3] = {5, 2.1, 0.1}, along[3] = {-1, 0, 0};
+  hf_hit hit = HF_INIT(hf_hit);
+  s.call("hf_surface_cast_ray", [&] { return hf_surface_cast_ray(surface, origin, along, nullptr, &hit); });
+  s.take(hit.triangle), s.take(hit.barycentrics, 3), s.take(hit.distance);
+  std::uint32_t vertex = HF_NO_INDEX;
+  s.call("hf_surface_find_vertex", [&] { return hf_surface_find_vertex(surface, origin, nullptr, &vertex, nullptr); });
+  s.make_factor("hf_create", first, [&] { return hf_create(surface, nullptr, &first); });
+  s.make_factor("hf_create", second, [&] { return hf_create(surface, nullptr, &second); });
+  s.make_factor("hf_pose_create", pose, [&] { return hf_pose_create(surface, nullptr, &pose); });
+  hf_surface_destroy(surface);
+  s.refused("hf_surface_get_components", HF_ERROR_INVALID_HANDLE,
+            [&] { return hf_surface_get_components(surface, 0, nullptr, nullptr); });
+  for (const hf_solver solver : {first, second}) {
+    const double value = solver == first ? 1 : -1;
+    s.call("hf_solver_add_site", [&] { return hf_solver_add_site(solver, vertex, &value, nullptr); });
+    s.call("hf_solver_add_site", [&] { return hf_solver_add_site(solver, 3, nullptr, nullptr); });
+    take_field(s, solver);
+  }
+  std::uint32_t handle = 0;
+  s.call("hf_pose_add_handle_at", [&] { return hf_pose_add_handle_at(pose, tube.positions.data(), 1, &handle); });
+  const hf_transform moved = {{0, 0, 0, 1}, {0.5, 1, 0}};
+  s.call("hf_pose_set_transform", [&] { return hf_pose_set_transform(pose, handle, &moved); });
+  std::vector<float> posed(3 * Tube::vertices);
+  s.call("hf_deform", [&] { return hf_deform(pose, posed.data(), nullptr); });
+  s.take(posed.data(), posed.size());
+  hf_solver_destroy(first), hf_solver_destroy(second), hf_pose_destroy(pose);
+}
+
+// Factors that the surface lacks, made by a solver, a region and a pose. A refused making must leave the surface and
+// its memory as they were; the second try makes the factor.
+void missing_kinds(Story& s, const Tube& tube, Allocator& memory) {
+  const int turns = memory.refuse_at ? 3 : 6;  // the second time round, memory must not grow
+  for (const int own : {HF_FIELD_HARMONIC, HF_FIELD_BIHARMONIC}) {
+    hf_surface_desc desc = tube.desc(memory);
+    desc.field_kind = own;
+    hf_surface surface = nullptr;
+    s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&desc, &surface); });
+    if (!surface) return;
+    for (int turn = 0; turn < turns; ++turn) {
+      const int kind = turn % 3;
+      const std::size_t bytes = memory.live_bytes;
+      hf_solver_desc wanted = HF_INIT(hf_solver_desc);
+      wanted.field_kind = kind;
+      hf_solver solver = nullptr;
+      s.make_factor("hf_create", solver, [&] { return hf_create(surface, &wanted, &solver); });
+      const std::uint32_t places[3] = {2, 40, 77};
+      const hf_sites_desc sites = sites_at(3, places, values + 1);
+      s.call("hf_add_sites", [&] { return hf_add_sites(solver, &sites, nullptr); });
+      if (turn < 3) take_field(s, solver);
+      hf_solver_destroy(solver);
+      // the first turns leave workspaces for later ones
+      s.holds(turn < 3 || memory.live_bytes <= bytes, "a factor that no object uses is still there");
+      hf_region_desc bare = HF_INIT(hf_region_desc);
+      bare.field_kind = kind;
+      hf_region region = nullptr;
+      s.make_factor("hf_region_create", region, [&] { return hf_region_create(surface, &bare, &region); });
+      hf_region_destroy(region);
+      hf_pose pose = nullptr;
+      s.make_factor("hf_pose_create", pose, [&] { return hf_pose_create(surface, nullptr, &pose); });
+      hf_pose_destroy(pose);
+    }
+    hf_surface_destroy(surface);
+  }
+}
+
 // Tangent vectors by three channels.
 void vectors(Story& s, const Tube& tube, Allocator& memory) {
-  hf_create_desc desc = tube.desc(memory);
+  hf_solver_desc desc = HF_INIT(hf_solver_desc);
   desc.channel_count = 3;
-  hf_solver solver = nullptr;
-  s.make("hf_create", solver, [&] { return hf_create(&desc, &solver); });
+  const hf_solver solver = made(s, tube.desc(memory), desc);
   if (!solver) return;
   const std::uint32_t places[3] = {1, 35, 78}, to = 50;
   std::uint32_t numbers[3] = {0, 0, 0};
@@ -230,21 +323,26 @@ Tube::Tube() {
   for (std::uint32_t i = 0; i < 2 * around; ++i) ends.push_back((rings - 2) * around + i);
 }
 
-hf_create_desc Tube::desc(Allocator& memory) const {
-  hf_create_desc d = HF_INIT(hf_create_desc);
+hf_surface_desc Tube::desc(Allocator& memory) const {
+  hf_surface_desc d = HF_INIT(hf_surface_desc);
   d.vertex_count = vertices, d.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
   d.positions_f64 = positions.data(), d.triangles = triangles.data(), d.allocator = memory.hooks();
   return d;
 }
 
 std::vector<Chapter> field_chapters() {
-  return {{"green", green},           {"refactor", refactor},
+  return {{"green", green},
+          {"refactor", refactor},
 #ifdef HF_WITH_GPL
           {"updown", updown},
 #endif
-          {"biharmonic", biharmonic}, {"points_and_discs", points_and_discs},
-          {"rebase", rebase},         {"bytes", bytes},
-          {"vectors", vectors}};
+          {"biharmonic", biharmonic},
+          {"points_and_discs", points_and_discs},
+          {"rebase", rebase},
+          {"bytes", bytes},
+          {"vectors", vectors},
+          {"shared", shared},
+          {"missing_kinds", missing_kinds}};
 }
 
 }  // namespace refusal

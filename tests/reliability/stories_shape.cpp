@@ -1,71 +1,65 @@
-// Analysis, directions, poses, transfers, quads, regions.
+// Stories of analysis, directions, poses, transfers, quads and regions.
 #include "stories.h"
 
 namespace refusal {
 namespace {
 
-hf_solver made(Story& s, const Tube& tube, Allocator& memory) {
-  const hf_create_desc desc = tube.desc(memory);
-  hf_solver solver = nullptr;
-  s.make("hf_create", solver, [&] { return hf_create(&desc, &solver); });
-  return solver;
-}
-
-template <class T>
-T init() {
-  T desc;
-  desc = HF_INIT(hf_create_desc);
-  return desc;
+hf_surface made(Story& s, const Tube& tube, Allocator& memory) {
+  const hf_surface_desc desc = tube.desc(memory);
+  hf_surface surface = nullptr;
+  s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&desc, &surface); });
+  return surface;
 }
 
 void lines(Story& s, const Tube& tube, Allocator& memory) {
-  const hf_solver solver = made(s, tube, memory);
-  hf_scalars field = init<hf_scalars>();
+  const hf_surface surface = made(s, tube, memory);
+  hf_scalars field = HF_INIT(hf_scalars);
   field.values_f64 = tube.height.data();
   double levels[4] = {0, 0, 0, 0};
-  s.call("hf_surface_space_levels", [&] { return hf_surface_space_levels(solver, &field, HF_LEVELS_LENGTH, 4, levels); });
+  s.call("hf_surface_space_levels",
+         [&] { return hf_surface_space_levels(surface, &field, HF_LEVELS_LENGTH, 4, levels); });
   s.take(levels, 4);
   std::vector<double> positions(3 * 400);
-  hf_isolines out = init<hf_isolines>();
+  hf_isolines out = HF_INIT(hf_isolines);
   out.point_capacity = 400, out.line_capacity = 40, out.positions = positions.data();
-  s.call("hf_surface_trace_isolines", [&] { return hf_surface_trace_isolines(solver, &field, 4, levels, &out); });
+  s.call("hf_surface_trace_isolines", [&] { return hf_surface_trace_isolines(surface, &field, 4, levels, &out); });
   s.take(positions.data(), positions.size());
   std::vector<hf_critical_point> points(Tube::vertices);
-  hf_critical_info info = init<hf_critical_info>();
+  hf_critical_info info = HF_INIT(hf_critical_info);
   s.call("hf_surface_find_critical_points",
-         [&] { return hf_surface_find_critical_points(solver, &field, Tube::vertices, points.data(), &info); });
+         [&] { return hf_surface_find_critical_points(surface, &field, Tube::vertices, points.data(), &info); });
   s.take(info.point_count);
-  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
 }
 
 void distances(Story& s, const Tube& tube, Allocator& memory) {
-  const hf_solver solver = made(s, tube, memory);
+  const hf_surface surface = made(s, tube, memory);
   hf_geodesics geodesics = nullptr;
-  s.make("hf_geodesics_create", geodesics, [&] { return hf_geodesics_create(solver, nullptr, &geodesics); });
+  s.make("hf_geodesics_create", geodesics, [&] { return hf_geodesics_create(surface, nullptr, &geodesics); });
   const std::uint32_t sources[2] = {3, 60};
   std::vector<double> distance(Tube::vertices);
-  s.call("hf_geodesics_solve_f64",
-         [&] { return hf_geodesics_solve_f64(geodesics, 2, sources, distance.data(), 0); });
+  s.call("hf_geodesics_solve_f64", [&] { return hf_geodesics_solve_f64(geodesics, 2, sources, distance.data(), 0); });
   s.take(distance.data(), distance.size());
   for (const int kind : {HF_EXTREMITIES_POISSON, HF_EXTREMITIES_GEODESIC}) {
-    hf_extremities_desc wanted = init<hf_extremities_desc>();
+    hf_extremities_desc wanted = HF_INIT(hf_extremities_desc);
     wanted.kind = kind, wanted.source_count = 8;
     hf_extremity found[16];
     std::uint32_t count = 0;
-    s.call("hf_surface_find_extremities", [&] { return hf_surface_find_extremities(solver, &wanted, 16, found, &count); });
+    s.call("hf_surface_find_extremities",
+           [&] { return hf_surface_find_extremities(surface, &wanted, 16, found, &count); });
     s.take(count);
     if (count > 0) s.take(found[0].length);
   }
-  hf_geodesics_destroy(geodesics), hf_solver_destroy(solver);
+  hf_geodesics_destroy(geodesics), hf_surface_destroy(surface);
 }
 
 void directions(Story& s, const Tube& tube, Allocator& memory) {
-  const hf_solver solver = made(s, tube, memory);
+  const hf_surface surface = made(s, tube, memory);
   hf_direction direction = nullptr, copy = nullptr;
-  hf_direction_desc desc = init<hf_direction_desc>();
+  hf_direction_desc desc = HF_INIT(hf_direction_desc);
   desc.degree = 2;
-  s.make("hf_direction_create", direction, [&] { return hf_direction_create(solver, &desc, &direction); });
-  hf_solver_destroy(solver);
+  s.make("hf_direction_create", direction, [&] { return hf_direction_create(surface, &desc, &direction); });
+  hf_surface_destroy(surface);
   const std::uint32_t places[3] = {9, 40, 70}, to = 22;
   const double vectors[9] = {0, 1, 0, 0, -1, 0.5, 0.3, 2, 0}, angle = 1;
   std::uint32_t numbers[3] = {0, 0, 0};
@@ -92,14 +86,14 @@ void directions(Story& s, const Tube& tube, Allocator& memory) {
 }
 
 void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
-  const hf_solver solver = made(s, tube, memory);
-  hf_pose_desc desc = init<hf_pose_desc>();
+  const hf_surface surface = made(s, tube, memory);
+  hf_pose_desc desc = HF_INIT(hf_pose_desc);
   desc.mode = mode;
   hf_pose pose = nullptr, copy = nullptr;
-  s.make("hf_pose_create", pose, [&] { return hf_pose_create(solver, &desc, &pose); });
-  hf_solver_destroy(solver);
+  s.make_factor("hf_pose_create", pose, [&] { return hf_pose_create(surface, &desc, &pose); });
+  hf_surface_destroy(surface);
   const std::uint32_t counts[2] = {2 * Tube::around, 2 * Tube::around};
-  hf_handles_desc handles = init<hf_handles_desc>(), layer = init<hf_handles_desc>();
+  hf_handles_desc handles = HF_INIT(hf_handles_desc), layer = HF_INIT(hf_handles_desc);
   handles.handle_count = 2, handles.region_counts = counts, handles.region_vertices = tube.ends.data();
   std::uint32_t numbers[2] = {0, 0}, above = 0;
   s.call("hf_pose_add_handles", [&] { return hf_pose_add_handles(pose, &handles, numbers); });
@@ -107,7 +101,7 @@ void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
   s.call("hf_pose_set_transforms", [&] { return hf_pose_set_transforms(pose, 1, &numbers[1], &turned); });
   std::vector<double> posed(3 * Tube::vertices);
   std::vector<float> normals(3 * Tube::vertices);
-  hf_deform_desc deform = init<hf_deform_desc>();
+  hf_deform_desc deform = HF_INIT(hf_deform_desc);
   deform.positions_f64 = posed.data(), deform.normals = normals.data(), deform.restart = 1;
   deform.refine = mode == HF_DEFORM_SMOOTH;
   s.call("hf_pose_deform", [&] { return hf_pose_deform(pose, &deform, nullptr); });
@@ -120,7 +114,7 @@ void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
   s.call("hf_pose_deform", [&] { return hf_pose_deform(copy, &deform, nullptr); });
   s.take(posed.data(), posed.size());
   s.call("hf_pose_remove_handles", [&] { return hf_pose_remove_handles(copy, 1, &above); });
-  hf_skin_info skin = init<hf_skin_info>();
+  hf_skin_info skin = HF_INIT(hf_skin_info);
   s.call("hf_pose_get_skin", [&] { return hf_pose_get_skin(pose, &skin); });
   s.take(skin.joint_count);
   hf_pose_destroy(pose), hf_pose_destroy(copy);
@@ -129,27 +123,39 @@ void smooth_pose(Story& s, const Tube& tube, Allocator& memory) { poses(s, tube,
 void paper_pose(Story& s, const Tube& tube, Allocator& memory) { poses(s, tube, memory, HF_DEFORM_PAPER); }
 
 void transfer(Story& s, const Tube& tube, Allocator& memory) {
-  const hf_solver solver = made(s, tube, memory);
+  // the target lacks the harmonic factor that transfers use
+  hf_surface_desc bent = tube.desc(memory);
+  bent.field_kind = HF_FIELD_BIHARMONIC;
+  const hf_surface source = made(s, tube, memory);
+  hf_surface target = nullptr;
+  s.make_factor("hf_surface_create", target, [&] { return hf_surface_create(&bent, &target); });
   hf_transfer motion = nullptr;
-  s.make("hf_transfer_create", motion, [&] { return hf_transfer_create(solver, solver, nullptr, &motion); });
-  hf_solver_destroy(solver);
+  s.make_factor("hf_transfer_create", motion, [&] { return hf_transfer_create(source, target, nullptr, &motion); });
+  hf_surface_destroy(source), hf_surface_destroy(target);
   const std::uint32_t counts[2] = {2 * Tube::around, 2 * Tube::around};
-  hf_pairs_desc pairs = init<hf_pairs_desc>();
+  hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
   pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts;
   pairs.source_vertices = pairs.target_vertices = tube.ends.data();
   std::uint32_t numbers[2] = {0, 0};
   s.call("hf_transfer_add_pairs", [&] { return hf_transfer_add_pairs(motion, &pairs, numbers); });
-  std::vector<double> bent(tube.positions), out(3 * Tube::vertices);
-  for (std::size_t v = 0; v < Tube::vertices; ++v) bent[3 * v] += 0.03 * bent[3 * v + 1] * bent[3 * v + 1];
-  hf_transfer_frame frame = init<hf_transfer_frame>();
-  frame.source_positions_f64 = bent.data(), frame.target_positions_f64 = out.data();
+  hf_pair_info pair = HF_INIT(hf_pair_info);  // solves the fields of the pairs
+  s.call("hf_transfer_get_pair", [&] { return hf_transfer_get_pair(motion, numbers[1], &pair); });
+  s.take(pair.confidence);
+  std::vector<double> posed(tube.positions), out(3 * Tube::vertices);
+  for (std::size_t v = 0; v < Tube::vertices; ++v) posed[3 * v] += 0.03 * posed[3 * v + 1] * posed[3 * v + 1];
+  hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
+  frame.source_positions_f64 = posed.data(), frame.target_positions_f64 = out.data();
   s.call("hf_transfer_apply", [&] { return hf_transfer_apply(motion, &frame); });
   s.take(out.data(), out.size());
-  hf_transfer_info info = init<hf_transfer_info>();
+  hf_transfer_info info = HF_INIT(hf_transfer_info);
   s.call("hf_transfer_get_info", [&] { return hf_transfer_get_info(motion, &info); });
-  hf_skin_info skin = init<hf_skin_info>();
+  hf_skin_info skin = HF_INIT(hf_skin_info);
   s.call("hf_transfer_get_skin", [&] { return hf_transfer_get_skin(motion, &skin); });
   s.take(skin.joint_count);
+  std::vector<double> pivots(3 * std::size_t{skin.joint_count});
+  skin.joint_capacity = skin.joint_count, skin.pivots = pivots.data();
+  s.call("hf_transfer_get_skin", [&] { return hf_transfer_get_skin(motion, &skin); });
+  s.take(pivots.data(), pivots.size());
   s.call("hf_transfer_remove_pairs", [&] { return hf_transfer_remove_pairs(motion, 1, numbers); });
   s.call("hf_transfer_apply", [&] { return hf_transfer_apply(motion, &frame); });
   s.take(out.data(), out.size());
@@ -157,31 +163,31 @@ void transfer(Story& s, const Tube& tube, Allocator& memory) {
 }
 
 void quads(Story& s, const Tube& tube, Allocator& memory) {
-  const hf_solver solver = made(s, tube, memory);
-  hf_quads_desc desc = init<hf_quads_desc>();
+  const hf_surface surface = made(s, tube, memory);
+  hf_quads_desc desc = HF_INIT(hf_quads_desc);
   desc.edge_length = 2, desc.relax_count = 3;
   hf_quads mesh = nullptr;
-  s.make("hf_quads_create", mesh, [&] { return hf_quads_create(solver, &desc, &mesh); });
-  hf_quads_info info = init<hf_quads_info>();
+  s.make("hf_quads_create", mesh, [&] { return hf_quads_create(surface, &desc, &mesh); });
+  hf_quads_info info = HF_INIT(hf_quads_info);
   s.call("hf_quads_get_info", [&] { return hf_quads_get_info(mesh, &info); });
   s.take(info.vertex_count), s.take(info.face_count);
   std::vector<double> positions(3 * std::size_t{info.vertex_count});
-  hf_quads_mesh out = init<hf_quads_mesh>();
+  hf_quads_mesh out = HF_INIT(hf_quads_mesh);
   out.vertex_capacity = info.vertex_count, out.positions = positions.data();
   s.call("hf_quads_get_mesh", [&] { return hf_quads_get_mesh(mesh, &out); });
   s.take(positions.data(), positions.size());
-  hf_quads_destroy(mesh), hf_solver_destroy(solver);
+  hf_quads_destroy(mesh), hf_surface_destroy(surface);
 }
 
 void flow(Story& s, const Tube& tube, Allocator& memory) {
-  const hf_solver solver = made(s, tube, memory);
+  const hf_surface surface = made(s, tube, memory);
   hf_flow flow = nullptr;
-  s.make("hf_flow_create", flow, [&] { return hf_flow_create(solver, &flow); });
-  hf_solver_destroy(solver);
-  hf_scalars field = init<hf_scalars>();
+  s.make("hf_flow_create", flow, [&] { return hf_flow_create(surface, &flow); });
+  hf_surface_destroy(surface);
+  hf_scalars field = HF_INIT(hf_scalars);
   field.values_f64 = tube.height.data();
   std::vector<double> positions(3 * 2000);
-  hf_flow_lines lines = init<hf_flow_lines>();
+  hf_flow_lines lines = HF_INIT(hf_flow_lines);
   lines.wanted_count = 6, lines.point_capacity = 2000, lines.line_capacity = 100, lines.positions = positions.data();
   s.call("hf_flow_trace", [&] { return hf_flow_trace(flow, &field, &lines); });
   s.take(lines.point_count), s.take(positions.data(), positions.size());
@@ -189,19 +195,19 @@ void flow(Story& s, const Tube& tube, Allocator& memory) {
 }
 
 void regions(Story& s, const Tube& tube, Allocator& memory) {
-  const hf_solver solver = made(s, tube, memory);
+  const hf_surface surface = made(s, tube, memory);
   hf_region region = nullptr, copy = nullptr;
-  s.make("hf_region_create", region, [&] { return hf_region_create(solver, nullptr, &region); });
-  hf_solver_destroy(solver);
+  s.make_factor("hf_region_create", region, [&] { return hf_region_create(surface, nullptr, &region); });
+  hf_surface_destroy(surface);
   const std::uint32_t a = 4 * Tube::around, inside[6] = {a, a + 1, a + 2, a + 8, a + 9, a + 10};
-  hf_region_edit_desc edit = init<hf_region_edit_desc>(), grow = init<hf_region_edit_desc>();
+  hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc), grow = HF_INIT(hf_region_edit_desc);
   edit.add_count = 6, edit.add_vertices = inside, grow.ring_count = 1;
   s.call("hf_region_edit", [&] { return hf_region_edit(region, &edit); });
   s.call("hf_region_record", [&] { return hf_region_record(region); });
   s.make("hf_region_clone", copy, [&] { return hf_region_clone(region, &copy); });
   s.call("hf_region_edit", [&] { return hf_region_edit(region, &grow); });
   std::vector<double> out(3 * Tube::vertices);
-  hf_morph_desc morph = init<hf_morph_desc>();
+  hf_morph_desc morph = HF_INIT(hf_morph_desc);
   morph.weight = 0.5, morph.positions_f64 = out.data();
   s.call("hf_region_morph", [&] { return hf_region_morph(region, &morph); });
   s.take(out.data(), out.size());

@@ -1,4 +1,4 @@
-// Surfaces for the long tests, and solvers on them.
+// Meshes for the long tests, with surfaces and solvers on them.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -11,17 +11,17 @@
 
 namespace reliability {
 
-struct Surface {
+struct Mesh {
   std::vector<float> positions;
   std::vector<std::uint32_t> triangles;
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size() / 3); }
 };
 
-// Appends a bumpy torus of nu x nv vertices, moved by dx.
-inline void add_torus(Surface& surface, std::uint32_t nu, std::uint32_t nv, double dx = 0, unsigned seed = 1) {
+// Appends a bumpy torus of nu x nv vertices, shifted by dx along x.
+inline void add_torus(Mesh& mesh, std::uint32_t nu, std::uint32_t nv, double dx = 0, unsigned seed = 1) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> jitter(-0.2, 0.2);
-  const std::uint32_t base = surface.vertex_count();
+  const std::uint32_t base = mesh.vertex_count();
   const double turn = 6.283185307179586;
   for (std::uint32_t i = 0; i < nu; ++i) {
     for (std::uint32_t j = 0; j < nv; ++j) {
@@ -29,26 +29,24 @@ inline void add_torus(Surface& surface, std::uint32_t nu, std::uint32_t nv, doub
       const double r = 1 + 0.2 * std::sin(5 * u);
       for (const double p :
            {dx + (3 + r * std::cos(v)) * std::cos(u), (3 + r * std::cos(v)) * std::sin(u), r * std::sin(v)})
-        surface.positions.push_back(static_cast<float>(p));
+        mesh.positions.push_back(static_cast<float>(p));
     }
   }
   for (std::uint32_t i = 0; i < nu; ++i) {
     for (std::uint32_t j = 0; j < nv; ++j) {
       const std::uint32_t a = base + i * nv + j, b = base + (i + 1) % nu * nv + j,
                           c = base + (i + 1) % nu * nv + (j + 1) % nv, d = base + i * nv + (j + 1) % nv;
-      surface.triangles.insert(surface.triangles.end(), {a, b, c, a, c, d});
+      mesh.triangles.insert(mesh.triangles.end(), {a, b, c, a, c, d});
     }
   }
 }
 
 template <class T>
 T desc() {
-  T made;
-  hf_init_desc(&made, static_cast<std::uint32_t>(sizeof(T)));
-  return made;
+  return HF_INIT(T);
 }
 
-// A call that must succeed; ends the program with what the library says otherwise.
+// Checks a call that must succeed. On failure it prints the library's message and ends the program.
 inline void must(hf_result result, const char* what) {
   if (result == HF_OK) return;
   hf_error_detail detail;
@@ -57,29 +55,43 @@ inline void must(hf_result result, const char* what) {
   std::exit(1);
 }
 
-inline hf_create_desc create_desc(const Surface& surface) {
-  hf_create_desc d = desc<hf_create_desc>();
-  d.vertex_count = surface.vertex_count(), d.triangle_count = static_cast<std::uint32_t>(surface.triangles.size() / 3);
-  d.positions = surface.positions.data(), d.triangles = surface.triangles.data();
+inline hf_surface_desc surface_desc(const Mesh& mesh) {
+  hf_surface_desc d = desc<hf_surface_desc>();
+  d.vertex_count = mesh.vertex_count(), d.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
+  d.positions = mesh.positions.data(), d.triangles = mesh.triangles.data();
   return d;
 }
 
-inline hf_solver make_solver(const hf_create_desc& d) {
+inline hf_surface make_surface(const hf_surface_desc& d) {
+  hf_surface surface = nullptr;
+  must(hf_surface_create(&d, &surface), "hf_surface_create");
+  return surface;
+}
+
+inline hf_solver make_solver(hf_surface surface, const hf_solver_desc& d = desc<hf_solver_desc>()) {
   hf_solver solver = nullptr;
-  must(hf_create(&d, &solver), "hf_create");
+  must(hf_create(surface, &d, &solver), "hf_create");
   return solver;
 }
 
-// A solver under random edits that remembers what it holds.
+// A solver on a surface that is destroyed at once: the solver keeps what it needs.
+inline hf_solver make_solver(const hf_surface_desc& on, hf_solver_desc d = desc<hf_solver_desc>()) {
+  const hf_surface surface = make_surface(on);
+  d.field_kind = on.field_kind;
+  const hf_solver solver = make_solver(surface, d);
+  hf_surface_destroy(surface);
+  return solver;
+}
+
+// A solver under random edits. It remembers its sites.
 class EditedSolver {
  public:
-  EditedSolver(const Surface& surface, std::uint32_t channels, unsigned seed)
-      : surface_(surface), m_(channels), random_(seed) {
-    hf_create_desc d = create_desc(surface);
+  EditedSolver(const Mesh& mesh, std::uint32_t channels, unsigned seed) : mesh_(mesh), m_(channels), random_(seed) {
+    hf_solver_desc d = desc<hf_solver_desc>();
     d.channel_count = channels;
-    solver_ = make_solver(d);
+    surface_ = make_surface(surface_desc(mesh)), solver_ = make_solver(surface_, d);
   }
-  ~EditedSolver() { hf_solver_destroy(solver_); }
+  ~EditedSolver() { hf_surface_destroy(surface_), hf_solver_destroy(solver_); }
   EditedSolver(const EditedSolver&) = delete;
   EditedSolver& operator=(const EditedSolver&) = delete;
 
@@ -103,7 +115,7 @@ class EditedSolver {
     must(hf_remove_sites(solver_, 1, &held[at].site), "hf_remove_sites");
     taken_[held[at].vertex] = 0, held[at] = held.back(), held.pop_back();
   }
-  // One random edit: most move or set, some add and remove; `wanted` sites on average.
+  // Makes one random edit. Most move or set a site, some add or remove one. The count stays near `wanted`.
   void edit(std::size_t wanted, const std::vector<double>& offsets) {
     const unsigned kind = random_() % 10;
     Held& h = held[random_() % held.size()];
@@ -124,18 +136,19 @@ class EditedSolver {
   }
 
   hf_solver get() const { return solver_; }
+  hf_surface surface() const { return surface_; }
   std::vector<double> field() const {
-    std::vector<double> values(std::size_t{surface_.vertex_count()} * m_);
+    std::vector<double> values(std::size_t{mesh_.vertex_count()} * m_);
     must(hf_solver_solve_f64(solver_, values.data(), 0, nullptr), "hf_solver_solve_f64");
     return values;
   }
-  // The same sites on a solver of their own.
+  // The field of a new solver with the same sites, on the same surface.
   std::vector<double> fresh_field(std::int32_t engine) const {
-    hf_create_desc d = create_desc(surface_);
+    hf_solver_desc d = desc<hf_solver_desc>();
     d.channel_count = m_, d.engine = engine;
-    const hf_solver solver = make_solver(d);
+    const hf_solver solver = make_solver(surface_, d);
     std::vector<std::uint32_t> vertices;
-    std::vector<double> values, stiffness, out(std::size_t{surface_.vertex_count()} * m_);
+    std::vector<double> values, stiffness, out(std::size_t{mesh_.vertex_count()} * m_);
     for (const Held& h : held) {
       vertices.push_back(h.vertex), stiffness.push_back(h.stiffness);
       values.insert(values.end(), h.values.begin(), h.values.end());
@@ -153,13 +166,13 @@ class EditedSolver {
 
  private:
   std::uint32_t free_vertex() {
-    if (taken_.empty()) taken_.resize(surface_.vertex_count(), 0);
+    if (taken_.empty()) taken_.resize(mesh_.vertex_count(), 0);
     for (;;) {
-      const std::uint32_t v = static_cast<std::uint32_t>(random_() % surface_.vertex_count());
+      const std::uint32_t v = static_cast<std::uint32_t>(random_() % mesh_.vertex_count());
       if (!taken_[v]) return v;
     }
   }
-  // In [offset, offset + 1], one for each channel.
+  // One value per channel, each in [offset, offset + 1].
   std::vector<double> fresh_values(const std::vector<double>& offsets) {
     std::vector<double> values;
     for (std::uint32_t c = 0; c < m_; ++c)
@@ -167,10 +180,11 @@ class EditedSolver {
     return values;
   }
 
-  const Surface& surface_;
+  const Mesh& mesh_;
   std::uint32_t m_;
   std::mt19937 random_;
   std::vector<char> taken_;
+  hf_surface surface_ = nullptr;
   hf_solver solver_ = nullptr;
 };
 

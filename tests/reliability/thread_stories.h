@@ -1,5 +1,5 @@
-// What eight threads do with one object of every kind (threads.cpp): stories that read the objects, make things of
-// them, clone them and edit the clones. What a story sees depends on its number alone, not on who else is at work.
+// Stories that eight threads tell about one object of every kind (threads.cpp): they read the objects, make new ones of
+// them, clone them and edit the clones. The answer of a story depends on its number alone, never on other threads.
 #pragma once
 #include "surfaces.h"
 #include "whole_api.h"
@@ -7,6 +7,8 @@
 namespace reliability {
 
 struct Objects {
+  hf_surface surface = nullptr, bent = nullptr;    // of a harmonic and of a bi-harmonic factor
+  hf_transfer transfer = nullptr;                  // with pairs, not applied yet
   hf_solver solver = nullptr, refactor = nullptr;  // of HF_ENGINE_GREEN and HF_ENGINE_REFACTOR
   hf_geodesics geodesics = nullptr;
   hf_flow flow = nullptr;
@@ -17,7 +19,7 @@ struct Objects {
   hf_detail detail = nullptr;
 };
 
-// What one story saw: codes and numbers in one hash, and how many calls failed.
+// The answer of one story: a hash of all codes and numbers, and the number of calls that failed.
 class Seen {
  public:
   template <class T>
@@ -42,10 +44,10 @@ class Seen {
 };
 
 Objects make_objects(const Scene& scene);
-Objects clones_of(const Objects& objects);  // of the solvers, the pose, the directions and the region
+Objects clones_of(const Objects& objects);  // clones of the solvers, the pose, the directions and the region
 void destroy(const Objects& objects);
 
-// Edits of everything that clones_of makes, and the hash of what is seen.
+// Edits everything that clones_of makes. Returns the hash of the answers.
 std::uint64_t edit_all(const Scene& scene, const Objects& clones, unsigned number);
 
 struct Story {

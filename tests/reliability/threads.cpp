@@ -1,7 +1,7 @@
-// Eight threads on one object of every kind: they read it, make things of it, clone it and edit the clones, and at last
-// edit clones whose originals another thread destroys meanwhile. Each answer must be the bits that one thread alone
-// gets on objects of its own. Under ThreadSanitizer nothing of this may be reported. (Handles of one's own:
-// same_bits.cpp; calls that overlap a change: tests/api/threads_test.c.)
+// Eight threads use one object of every kind: they read it, make new objects of it, clone it and edit the clones. At
+// last they edit clones while another thread destroys the originals. Each answer must have the bits that one thread
+// gets on objects of its own. ThreadSanitizer must report nothing. (same_bits.cpp has a handle per thread, and
+// tests/api/threads_test.c has calls that overlap a change.)
 #include <array>
 #include <atomic>
 #include <thread>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr unsigned thread_count = 8;
 
-// Goes on when all have come here for the n-th time.
+// Waits until all threads came here for the n-th time.
 void meet(std::atomic<unsigned>& come, unsigned n) {
   for (++come; come < n * thread_count;) std::this_thread::yield();
 }
@@ -38,7 +38,7 @@ void on_eight(Body&& body) {
 int main(int argc, char** argv) {
   const int rounds = report_full(argc, argv) ? 20 : 2;
   const Scene scene = make_scene(32, 40);
-  // alone: one thread, objects of its own
+  // one thread with objects of its own
   const std::size_t story_count = thread_stories.size();
   std::vector<std::array<std::uint64_t, thread_count>> alone(story_count);
   std::array<std::uint64_t, thread_count> edited{};
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
   destroy(own);
   report_at_most("THREADS_CALLS_THAT_FAIL_ALONE", failed, 0);
 
-  // the first round in step, so that what is made at the first call is asked for by all at once; then mixed
+  // All tell the stories of the first round in step, so they ask at once for what a first call makes. Then they mix.
   std::atomic<unsigned> come{0};
   const Objects shared = make_objects(scene);
   std::vector<std::atomic<unsigned>> different(story_count);

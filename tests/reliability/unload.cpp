@@ -1,6 +1,6 @@
-// Loaded, used and unloaded, over and over, as an editor does with its plug-ins: unload PLUGIN LIBRARY. After each
-// round the library is really gone, with its threads and descriptors; the hash of what it computed is the same each
-// time; and the heap does not grow.
+// Loads, uses and unloads the library over and over, as an editor does with its plug-ins: unload PLUGIN LIBRARY. After
+// each round the library, its threads and its descriptors must be gone. The hash of the results stays the same, and the
+// heap does not grow.
 #include <dlfcn.h>
 #include <malloc.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@ namespace {
 
 using reliability::entries;
 
-// Threads of the process, once the kernel no longer lists those that were joined.
+// Threads of the process. The kernel may list joined threads for a moment.
 unsigned settled_threads(unsigned expected) {
   unsigned count = entries("/proc/self/task");
   for (int wait = 0; wait < 200 && count != expected; ++wait) usleep(5000), count = entries("/proc/self/task");
@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
     wrong += hash != first;
     dlclose(plugin);
     if (void* left = dlopen(argv[2], RTLD_NOW | RTLD_NOLOAD)) ++still_there, dlclose(left);
-    // what the loader and the heap keep for themselves is there after some rounds
+    // after ten rounds the loader and the heap hold what they keep
     if (round == 9) heap = static_cast<double>(mallinfo2().uordblks), descriptors = entries("/proc/self/fd");
   }
   report_at_least("UNLOAD_ROUNDS", rounds, 100);

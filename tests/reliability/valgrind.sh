@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# The tests of the public ABI under valgrind: valgrind.sh BIN_FOLDER [NAME...]
-#   Every api_*_test there (or those named), each block given back, nothing read that was not written. The
-#   processor that valgrind shows has AVX2 and no AVX-512, so the kernels are those of AVX2. Skipped (77) without valgrind.
-#   Prints VALGRIND_ERRORS; a test that fails is one.
+# Runs the tests of the public ABI under valgrind: valgrind.sh BIN_FOLDER [NAME...]
+#   Runs every api_*_test there, or those named. Leaks and reads of uninitialised memory are errors. valgrind's processor
+#   has AVX2 and no AVX-512, so the AVX2 kernels run. Prints VALGRIND_ERRORS; a failed test counts as one. Exits with 77
+#   (skipped) without valgrind.
 set -u
 bin=$1
 shift
@@ -12,7 +12,7 @@ command -v valgrind >/dev/null || {
 }
 log=$(mktemp) || exit 1
 trap 'rm -f "$log"' EXIT
-# CHOLMOD's OpenMP threads stay for good once it has worked (docs/promises.md), which valgrind takes for a leak
+# CHOLMOD keeps its OpenMP threads (docs/promises.md), which valgrind reports as a leak
 export OMP_THREAD_LIMIT=1
 programs=("$@")
 [ ${#programs[@]} -gt 0 ] || programs=("$bin"/api_*_test)

@@ -1,7 +1,7 @@
-// Walks through zero sites. A surface of one to five components; in each walk sites come to some of them, go again one
-// by one in any order until none is left, and come back: the field is then that of a solver which never lost them. On
-// the way, what no site reaches is named: by the counts of hf_solve_info, by values of 0, and by HF_ERROR_NO_SITES.
-// 1,000 walks, shared among the engines.
+// Walks that remove every site and add them again. A surface has one to five components. Each walk adds sites to some
+// of them and removes them one by one in any order. Then it adds them again: the field must equal that of a new solver.
+// On the way, three things report what no site reaches: the counts of hf_solve_info, values of 0, and
+// HF_ERROR_NO_SITES. The engines share 1,000 walks and the surface.
 #include <algorithm>
 
 #include "report.h"
@@ -13,7 +13,7 @@ namespace {
 
 struct Walk {
   hf_solver solver;
-  const Surface& surface;
+  const Mesh& mesh;
   std::uint32_t components, size;  // vertices of a component
   std::mt19937& random;
   std::vector<std::uint32_t> vertices, sites;
@@ -38,7 +38,7 @@ struct Walk {
     must(hf_add_sites(solver, &d, sites.data()), "hf_add_sites");
   }
   std::vector<double> field() {
-    std::vector<double> u(surface.vertex_count(), 7e77);
+    std::vector<double> u(mesh.vertex_count(), 7e77);
     hf_solve_info info = desc<hf_solve_info>();
     const hf_result result = hf_solver_solve_f64(solver, u.data(), 0, &info);
     if (sites.empty()) {
@@ -58,7 +58,7 @@ struct Walk {
     wrong += info.unreached_vertex_count != unreached * size;
     return u;
   }
-  // Sites go one by one; returns with none left.
+  // Removes all sites, one by one.
   void empty() {
     const std::vector<std::uint32_t> kept = vertices;
     while (!sites.empty()) {
@@ -81,35 +81,35 @@ int main(int argc, char** argv) {
   double worst[3] = {0, 0, 0};
   unsigned wrong = 0, walks = 0;
   for (std::uint32_t components = 1; components <= 5; ++components) {
-    Surface surface;
-    for (std::uint32_t c = 0; c < components; ++c) add_torus(surface, 14, 10, 20.0 * c, c + 1);
+    Mesh mesh;
+    for (std::uint32_t c = 0; c < components; ++c) add_torus(mesh, 14, 10, 20.0 * c, c + 1);
+    const hf_surface surface = make_surface(surface_desc(mesh));
     for (std::int32_t engine = 0; engine < 3; ++engine) {
-      hf_create_desc d = create_desc(surface);
+      hf_solver_desc d = desc<hf_solver_desc>();
       d.engine = engine;
       hf_solver solver = nullptr;
-      const hf_result made = hf_create(&d, &solver);
+      const hf_result made = hf_create(surface, &d, &solver);
       if (made == HF_ERROR_UNSUPPORTED) continue;  // updown, without HF_WITH_GPL
       must(made, "hf_create");
       const int count = engine == HF_ENGINE_GREEN ? (full ? 1000 : 200) : 20;
-      Walk walk{solver, surface, components, 140, random, {}, {}, {}};
+      Walk walk{solver, mesh, components, 140, random, {}, {}, {}};
       for (int i = 0; i < count; ++i, ++walks) {
         walk.choose(), walk.add_all(), walk.empty(), walk.add_all();
         const std::vector<double> back = walk.field();
-        hf_create_desc other = create_desc(surface);
-        const hf_solver fresh = make_solver(other);
-        Walk straight{fresh, surface, components, 140, random, walk.vertices, {}, walk.values};
+        const hf_solver fresh = make_solver(surface);
+        Walk straight{fresh, mesh, components, 140, random, walk.vertices, {}, walk.values};
         straight.add_all();
         const std::vector<double> never_lost = straight.field();
         for (std::size_t v = 0; v < back.size(); ++v)
           worst[engine] =
               std::max(worst[engine], std::isfinite(back[v]) ? std::fabs(back[v] - never_lost[v]) : HUGE_VAL);
         hf_solver_destroy(fresh);
-        // and away, for the next walk
         walk.empty();
       }
       wrong += walk.wrong;
       hf_solver_destroy(solver);
     }
+    hf_surface_destroy(surface);
   }
   report_at_least("WALKS", walks, 1000);
   report_at_most("WALKS_WRONG_ANSWERS", wrong, 0);

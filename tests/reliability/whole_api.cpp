@@ -2,24 +2,49 @@
 
 namespace reliability {
 
-void Run::solver_and_sites() {
+void Run::surface_and_picking() {
   hf_progress progress = nullptr;
   call(hf_progress_create(&progress), "hf_progress_create");
-  hf_create_desc d = create_desc();
+  hf_surface_desc d = surface_desc();
   d.progress = progress;
-  const hf_solver solver = make(d);
+  const hf_surface surface = make(d);
   float fraction = 0;
   call(hf_progress_get_fraction(progress, &fraction), "hf_progress_get_fraction"), take(&fraction, 1);
-  hf_solver none = nullptr;
+  hf_surface none = nullptr;
   call(hf_progress_cancel(progress), "hf_progress_cancel");
-  call(hf_create(&d, &none), "hf_create, cancelled", HF_ERROR_CANCELLED);
+  call(hf_surface_create(&d, &none), "hf_surface_create, cancelled", HF_ERROR_CANCELLED);
   hf_progress_destroy(progress);
 
+  hf_surface_info info = desc<hf_surface_info>();
+  call(hf_surface_get_info(surface, &info), "hf_surface_get_info"), info.thread_count = 0, take(&info, 1);
   hf_surface_report report = desc<hf_surface_report>();
-  call(hf_surface_get_report(solver, &report), "hf_surface_get_report"), take(&report, 1);
-  std::vector<std::uint32_t> components(n), numbers(8);
-  call(hf_surface_get_components(solver, n, components.data()), "hf_surface_get_components"), take(components.data(), n);
+  call(hf_surface_get_report(surface, &report), "hf_surface_get_report"), take(&report, 1);
+  std::vector<std::uint32_t> components(n);
+  std::uint32_t count = 0;
+  call(hf_surface_get_components(surface, n, components.data(), &count), "hf_surface_get_components");
+  take(components.data(), count);
+  hf_surface_statistics statistics = desc<hf_surface_statistics>();
+  call(hf_surface_get_statistics(surface, &statistics), "hf_surface_get_statistics");
+  take(&statistics.unknown_count, 1), take(&statistics.factor_entries, 1);
 
+  const double* const origin = s.points.data();
+  hf_hit hit = desc<hf_hit>();
+  call(hf_surface_cast_ray(surface, s.ray.data(), s.ray.data() + 3, nullptr, &hit), "hf_surface_cast_ray");
+  take(&hit, 1);
+  hf_pick_desc posed = desc<hf_pick_desc>();
+  posed.positions = s.posed.data();
+  std::uint32_t vertex = 0;
+  double distance = 0;
+  call(hf_surface_find_vertex(surface, origin, &posed, &vertex, &distance), "hf_surface_find_vertex");
+  take(&vertex, 1), take(&distance, 1);
+  hf_surface_destroy(surface);
+}
+
+void Run::solver_and_sites() {
+  const hf_surface surface = make(surface_desc());
+  const hf_solver solver = make_solver(surface);
+  hf_surface_destroy(surface);
+  std::vector<std::uint32_t> numbers(8);
   hf_sites_desc sites = sites_at(6, 50);
   sites.stiffness = s.stiffness.data();
   call(hf_add_sites(solver, &sites, numbers.data()), "hf_add_sites"), take(numbers.data(), 6);
@@ -32,6 +57,7 @@ void Run::solver_and_sites() {
   take_field(solver);
   call(hf_solve(solver, floats.data(), 12, nullptr), "hf_solve"), take_floats();
 
+  call(hf_solver_add_site(solver, 311, s.values.data() + 17, nullptr), "hf_solver_add_site");
   call(hf_solver_record(solver), "hf_solver_record");
   sites = sites_at(1, 1, 0, 111), sites.values = nullptr;
   call(hf_solver_move_sites(solver, 1, &numbers[1], &sites), "hf_solver_move_sites");
@@ -67,22 +93,57 @@ void Run::solver_and_sites() {
   take(site.data(), count), take(vertex.data(), count), take(value.data(), count), take(flux.data(), count);
   hf_solver_statistics statistics = desc<hf_solver_statistics>();
   call(hf_solver_get_statistics(solver, &statistics), "hf_solver_get_statistics");
-  take(&statistics.unknown_count, 1), take(&statistics.factor_entries, 1), take(&statistics.eliminated_count, 1);
+  take(&statistics.site_count, 1), take(&statistics.eliminated_count, 1);
+  hf_solver_info made = desc<hf_solver_info>();
+  call(hf_solver_get_info(solver, &made), "hf_solver_get_info"), take(&made, 1);
   hf_solver_destroy(solver);
+}
+
+// One surface: solvers of three kinds of field, a pose and a region share it and outlive it.
+void Run::other_kinds() {
+  hf_surface_desc d = surface_desc();
+  d.field_kind = HF_FIELD_BIHARMONIC;
+  const hf_surface surface = make(d);
+  hf_solver solvers[3];
+  for (int kind = 0; kind < 3; ++kind) {
+    hf_solver_desc wanted = desc<hf_solver_desc>();
+    wanted.field_kind = kind;
+    call(hf_create(surface, &wanted, &solvers[kind]), "hf_create, kinds");
+  }
+  hf_pose pose = nullptr;
+  call(hf_pose_create(surface, nullptr, &pose), "hf_pose_create, bi-harmonic surface");
+  hf_surface_destroy(surface);
+  for (const hf_solver solver : solvers) {
+    const hf_sites_desc sites = sites_at(5, 60);
+    call(hf_add_sites(solver, &sites, nullptr), "hf_add_sites, kinds"), take_field(solver), hf_solver_destroy(solver);
+  }
+  std::uint32_t handle = 0;
+  call(hf_pose_add_handle_at(pose, s.points.data(), 0.5, &handle), "hf_pose_add_handle_at");
+  const hf_transform turned = {{0, 0.5, 0, 0.8660254037844386}, {1, 2, 0.5}};
+  call(hf_pose_set_transform(pose, handle, &turned), "hf_pose_set_transform");
+  call(hf_deform(pose, floats.data(), nullptr), "hf_deform"), take_floats();
+  hf_pose_info info = desc<hf_pose_info>();
+  call(hf_pose_get_info(pose, &info), "hf_pose_get_info"), take(&info, 1);
+  hf_pose_destroy(pose);
 }
 
 void Run::other_engines() {
   for (int engine = 0; engine < 3; ++engine) {
     for (int field = 0; field < 3; ++field) {
-      hf_create_desc d = create_desc(2);
-      d.engine = engine, d.field_kind = field, d.operator_kind = (engine + field) % 4;
+      hf_surface_desc d = surface_desc();
+      hf_solver_desc wanted = desc<hf_solver_desc>();
+      wanted.channel_count = 2, wanted.engine = engine;
+      d.field_kind = wanted.field_kind = field, d.operator_kind = (engine + field) % 4;
       d.ordering = engine == HF_ENGINE_REFACTOR ? HF_ORDERING_MINIMUM_DEGREE : HF_ORDERING_NESTED_DISSECTION;
       if (engine == HF_ENGINE_UPDOWN) {
         if (!options_.paper_engine) continue;
         d.ordering = HF_ORDERING_METIS;
       }
+      hf_surface surface = nullptr;
       hf_solver solver = nullptr, copy = nullptr;
-      const hf_result made = hf_create(&d, &solver);
+      hf_result made = hf_surface_create(&d, &surface);
+      if (made == HF_OK) made = hf_create(surface, &wanted, &solver);
+      hf_surface_destroy(surface);
       if (made == HF_ERROR_UNSUPPORTED) continue;
       call(made, "hf_create, engines");
       const hf_sites_desc sites = sites_at(5, 60);
@@ -97,7 +158,9 @@ void Run::other_engines() {
 }
 
 void Run::vectors() {
-  const hf_solver solver = make(create_desc(3));
+  const hf_surface surface = make(surface_desc());
+  const hf_solver solver = make_solver(surface, 3);
+  hf_surface_destroy(surface);
   hf_sites_desc sites = sites_at(4, 70);
   std::uint32_t numbers[4];
   call(hf_add_sites(solver, &sites, numbers), "hf_add_sites, vectors");
@@ -112,17 +175,22 @@ void Run::vectors() {
 }
 
 void Run::factor_and_preview() {
-  const hf_solver solver = make(create_desc());
-  std::size_t size = 0;
-  call(hf_get_factor_size(solver, &size), "hf_get_factor_size");
-  std::vector<unsigned char> bytes(size);
-  call(hf_surface_save(solver, bytes.data(), size), "hf_surface_save"), take(bytes.data(), size);
+  const hf_surface surface = make(surface_desc());
+  hf_surface_desc d = surface_desc();
+  std::vector<unsigned char> bytes;
+  for (const int kind : {HF_FIELD_BIHARMONIC, HF_FIELD_HARMONIC}) {
+    std::size_t size = 0;
+    call(hf_surface_save(surface, kind, 0, nullptr, &size), "hf_surface_save, size");
+    bytes.resize(size);
+    call(hf_surface_save(surface, kind, size, bytes.data(), nullptr), "hf_surface_save"), take(bytes.data(), size);
+  }
+  hf_surface_destroy(surface);
   hf_factor_desc saved = desc<hf_factor_desc>();
-  saved.bytes = bytes.data(), saved.byte_count = size;
-  hf_create_desc d = create_desc();
+  saved.bytes = bytes.data(), saved.byte_count = bytes.size();
   d.saved_factor = &saved;
-  const hf_solver loaded = make(d);
-  hf_solver_destroy(solver);
+  const hf_surface again = make(d);
+  const hf_solver loaded = make_solver(again);
+  hf_surface_destroy(again);
   const hf_sites_desc sites = sites_at(5, 55);
   call(hf_add_sites(loaded, &sites, nullptr), "hf_add_sites, loaded"), take_field(loaded);
   hf_preview_info info = desc<hf_preview_info>();
@@ -133,29 +201,30 @@ void Run::factor_and_preview() {
 }
 
 void Run::analysis() {
-  hf_create_desc d = create_desc();
+  hf_surface_desc d = surface_desc();
   d.positions = nullptr, d.positions_f64 = s.positions_f64.data();
-  const hf_solver solver = make(d);
+  const hf_surface surface = make(d);
   hf_scalars field = desc<hf_scalars>();
   field.values_f64 = s.height.data();
   Numbers levels(6);
   for (int spacing = 0; spacing < 3; ++spacing)
-    call(hf_surface_space_levels(solver, &field, spacing, 6, levels.data()), "hf_surface_space_levels"), take(levels.data(), 6);
+    call(hf_surface_space_levels(surface, &field, spacing, 6, levels.data()), "hf_surface_space_levels"),
+        take(levels.data(), 6);
   hf_isolines lines = desc<hf_isolines>();
-  call(hf_surface_trace_isolines(solver, &field, 7, s.levels.data(), &lines), "hf_surface_trace_isolines");
+  call(hf_surface_trace_isolines(surface, &field, 7, s.levels.data(), &lines), "hf_surface_trace_isolines");
   std::vector<std::uint32_t> edges(2 * std::size_t{lines.point_count}), starts(lines.line_count + 1u);
   Numbers parameters(lines.point_count), positions(3 * std::size_t{lines.point_count});
   lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
   lines.point_edges = edges.data(), lines.parameters = parameters.data(), lines.positions = positions.data();
   lines.line_starts = starts.data();
-  call(hf_surface_trace_isolines(solver, &field, 7, s.levels.data(), &lines), "hf_surface_trace_isolines, written");
+  call(hf_surface_trace_isolines(surface, &field, 7, s.levels.data(), &lines), "hf_surface_trace_isolines, written");
   take(edges.data(), edges.size()), take(positions.data(), positions.size()), take(starts.data(), starts.size());
   std::vector<hf_critical_point> points(n);
   hf_critical_info info = desc<hf_critical_info>();
-  call(hf_surface_find_critical_points(solver, &field, n, points.data(), &info), "hf_surface_find_critical_points");
+  call(hf_surface_find_critical_points(surface, &field, n, points.data(), &info), "hf_surface_find_critical_points");
   take(points.data(), info.point_count), take(&info, 1);
   hf_geodesics geodesics = nullptr;
-  call(hf_geodesics_create(solver, nullptr, &geodesics), "hf_geodesics_create");
+  call(hf_geodesics_create(surface, nullptr, &geodesics), "hf_geodesics_create");
   const std::uint32_t sources[2] = {3, 200};
   Numbers distance(n);
   call(hf_geodesics_solve_f64(geodesics, 2, sources, distance.data(), 0), "hf_geodesics_solve_f64");
@@ -167,19 +236,19 @@ void Run::analysis() {
     wanted.out_field = distance.data();
     std::vector<hf_extremity> found(n);
     std::uint32_t count = 0;
-    call(hf_surface_find_extremities(solver, &wanted, n, found.data(), &count), "hf_surface_find_extremities");
+    call(hf_surface_find_extremities(surface, &wanted, n, found.data(), &count), "hf_surface_find_extremities");
     take(distance.data(), n), take(found.data(), count);
   }
-  hf_geodesics_destroy(geodesics), hf_solver_destroy(solver);
+  hf_geodesics_destroy(geodesics), hf_surface_destroy(surface);
 }
 
 void Run::directions() {
-  const hf_solver solver = make(create_desc());
+  const hf_surface surface = make(surface_desc());
   hf_direction_desc wanted = desc<hf_direction_desc>();
   wanted.degree = 4;
   hf_direction direction = nullptr, copy = nullptr;
-  call(hf_direction_create(solver, &wanted, &direction), "hf_direction_create");
-  hf_solver_destroy(solver);
+  call(hf_direction_create(surface, &wanted, &direction), "hf_direction_create");
+  hf_surface_destroy(surface);
   const std::uint32_t vertices[4] = {20, 90, 150, 250}, to[1] = {40};
   std::uint32_t sites[4], count = 0;
   call(hf_direction_add_sites(direction, 4, vertices, s.vectors.data(), sites), "hf_direction_add_sites");
@@ -198,7 +267,7 @@ void Run::directions() {
   take(found.data(), count);
   count = hf_direction_get_site_count(direction);
   Numbers held(3 * std::size_t{count});
-  call(hf_direction_get_sites(direction, count, sites, places.data(), held.data()), "hf_direction_get_sites");
+  call(hf_direction_get_sites(direction, count, sites, places.data(), held.data(), nullptr), "hf_direction_get_sites");
   take(held.data(), held.size());
   hf_direction_statistics statistics = desc<hf_direction_statistics>();
   call(hf_direction_get_statistics(direction, &statistics), "hf_direction_get_statistics");
@@ -213,7 +282,8 @@ void Run::errors() {
     const char* name = hf_result_get_name(code);
     take(name, std::strlen(name));
   }
-  call(hf_create(nullptr, nullptr), "hf_create, nothing", HF_ERROR_NULL_POINTER);
+  call(hf_surface_create(nullptr, nullptr), "hf_surface_create, nothing", HF_ERROR_NULL_POINTER);
+  call(hf_create(nullptr, nullptr, nullptr), "hf_create, nothing", HF_ERROR_NULL_POINTER);
   call(hf_solve(nullptr, nullptr, 0, nullptr), "hf_solve, nothing", HF_ERROR_INVALID_HANDLE);
   hf_error_detail detail;
   call(hf_error_get_detail(&detail), "hf_error_get_detail"), take(&detail.code, 1), take(&detail.index, 1);
@@ -222,7 +292,8 @@ void Run::errors() {
 Outcome run_whole_api(const Scene& scene, const Options& options) {
   Run run(scene, options);
   run.outcome.hash = 14695981039346656037u;
-  run.solver_and_sites(), run.other_engines(), run.vectors(), run.factor_and_preview(), run.analysis();
+  run.surface_and_picking(), run.solver_and_sites(), run.other_kinds(), run.other_engines(), run.vectors(),
+      run.factor_and_preview(), run.analysis();
   run.directions(), run.pose_and_transfer(), run.quads_and_flow(), run.regions(), run.errors();
   return run.outcome;
 }

@@ -1,7 +1,6 @@
-// Everything the library does, once: every exported function is called on one small surface, and every number it gives
-// back goes into one hash. What a host's state, a thread, a small stack or an unloaded library must not change is then
-// one comparison. All numbers that go in are made beforehand (Scene), so the run itself does no arithmetic of its own
-// and may be done under any floating-point environment.
+// Calls every exported function on one small surface and hashes every result. The tests of the host, of threads, of
+// small stacks and of unloading compare this hash. The Scene holds all input numbers. So the run does no arithmetic of
+// its own and works under any floating-point environment.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -14,9 +13,10 @@ struct Scene {
   std::uint32_t around = 0, rings = 0, vertex_count = 0, triangle_count = 0;
   std::vector<float> positions;
   std::vector<double> positions_f64;
-  std::vector<std::uint32_t> triangles, ends;  // ends: first and last two rings
+  std::vector<std::uint32_t> triangles, ends;  // the first two and the last two rings
   std::vector<double> values, vectors, height, levels, angles, barycentrics, radii, stiffness, points, matrices;
-  std::vector<float> posed;  // a posed source for the transfer
+  std::vector<double> ray;   // origin and direction of a ray that hits the tube
+  std::vector<float> posed;  // the posed source of the transfer
 };
 
 // A bumpy tube of around x rings vertices.
@@ -30,9 +30,9 @@ struct Options {
 };
 
 struct Outcome {
-  std::uint64_t hash = 0;  // of every result
+  std::uint64_t hash = 0;  // FNV-1a of every result
   unsigned calls = 0;
-  unsigned unexpected = 0;  // calls that did not answer what they should
+  unsigned unexpected = 0;  // calls with another result than expected
   const char* first = "";   // the first of them
   hf_result got = HF_OK;
 };

@@ -1,4 +1,4 @@
-// The run behind run_whole_api, part by part (whole_api.cpp, whole_api_shapes.cpp).
+// The parts of run_whole_api (whole_api.cpp, whole_api_shapes.cpp).
 #pragma once
 #include <cstring>
 
@@ -15,7 +15,9 @@ class Run {
   }
   Outcome outcome;
 
+  void surface_and_picking();
   void solver_and_sites();
+  void other_kinds();
   void other_engines();
   void vectors();
   void factor_and_preview();
@@ -41,25 +43,30 @@ class Run {
   void take_doubles() { take(doubles.data(), doubles.size()); }
   template <class T>
   static T desc() {
-    T made;
-    HF_INIT(made); /* FIXME type */
-    return made;
+    return HF_INIT(T);
   }
-  hf_create_desc create_desc(std::uint32_t channels = 1) const {
-    hf_create_desc d = desc<hf_create_desc>();
+  hf_surface_desc surface_desc() const {
+    hf_surface_desc d = desc<hf_surface_desc>();
     d.vertex_count = n, d.triangle_count = s.triangle_count;
     d.positions = s.positions.data(), d.triangles = s.triangles.data();
-    d.channel_count = channels, d.thread_count = options_.threads;
+    d.thread_count = options_.threads;
     if (options_.runner) d.job_runner = *options_.runner;
     if (options_.allocator) d.allocator = *options_.allocator;
     return d;
   }
-  hf_solver make(const hf_create_desc& d) {
+  hf_surface make(const hf_surface_desc& d) {
+    hf_surface surface = nullptr;
+    call(hf_surface_create(&d, &surface), "hf_surface_create");
+    return surface;
+  }
+  hf_solver make_solver(hf_surface surface, std::uint32_t channels = 1) {
+    hf_solver_desc d = desc<hf_solver_desc>();
+    d.channel_count = channels;
     hf_solver solver = nullptr;
-    call(hf_create(&d, &solver), "hf_create");
+    call(hf_create(surface, &d, &solver), "hf_create");
     return solver;
   }
-  // Sites 0, step, 2 step ... with values from `first` on.
+  // Sites at start, start + step, ... with the scene's values from `first` on.
   hf_sites_desc sites_at(std::uint32_t count, std::uint32_t step, std::size_t first = 0, std::uint32_t start = 0) {
     places.clear();
     for (std::uint32_t i = 0; i < count; ++i) places.push_back(start + i * step);

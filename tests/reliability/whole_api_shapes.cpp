@@ -4,12 +4,12 @@
 namespace reliability {
 
 void Run::pose_and_transfer() {
-  const hf_solver solver = make(create_desc());
+  const hf_surface surface = make(surface_desc());
   for (int mode = 0; mode < 2; ++mode) {
     hf_pose_desc wanted = desc<hf_pose_desc>();
     wanted.mode = mode;
     hf_pose pose = nullptr, copy = nullptr;
-    call(hf_pose_create(solver, &wanted, &pose), "hf_pose_create");
+    call(hf_pose_create(surface, &wanted, &pose), "hf_pose_create");
     const std::uint32_t counts[2] = {2 * s.around, 2 * s.around};
     hf_handles_desc regions = desc<hf_handles_desc>();
     regions.handle_count = 2, regions.region_counts = counts, regions.region_vertices = s.ends.data();
@@ -29,6 +29,7 @@ void Run::pose_and_transfer() {
     call(hf_pose_get_skin(pose, &skin), "hf_pose_get_skin");
     std::vector<float> weights(4 * std::size_t{n});
     Numbers rotations(4 * std::size_t{skin.joint_count});
+    skin.joint_capacity = skin.joint_count, skin.vertex_capacity = skin.vertex_count;
     skin.vertex_weights = weights.data(), skin.rotations = rotations.data();
     call(hf_pose_get_skin(pose, &skin), "hf_pose_get_skin, written");
     take(weights.data(), weights.size()), take(rotations.data(), rotations.size());
@@ -48,7 +49,7 @@ void Run::pose_and_transfer() {
     hf_transfer_desc wanted = desc<hf_transfer_desc>();
     wanted.mode = mode;
     hf_transfer transfer = nullptr;
-    call(hf_transfer_create(solver, solver, &wanted, &transfer), "hf_transfer_create");
+    call(hf_transfer_create(surface, surface, &wanted, &transfer), "hf_transfer_create");
     const std::uint32_t counts[2] = {2 * s.around, 2 * s.around};
     hf_pairs_desc pairs = desc<hf_pairs_desc>();
     pairs.pair_count = 2, pairs.source_counts = pairs.target_counts = counts;
@@ -67,15 +68,15 @@ void Run::pose_and_transfer() {
     call(hf_transfer_remove_pairs(transfer, 1, numbers), "hf_transfer_remove_pairs");
     hf_transfer_destroy(transfer);
   }
-  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
 }
 
 void Run::quads_and_flow() {
-  const hf_solver solver = make(create_desc());
+  const hf_surface surface = make(surface_desc());
   hf_quads_desc wanted = desc<hf_quads_desc>();
   wanted.edge_length = 0.5f;
   hf_quads quads = nullptr;
-  call(hf_quads_create(solver, &wanted, &quads), "hf_quads_create");
+  call(hf_quads_create(surface, &wanted, &quads), "hf_quads_create");
   hf_quads_info info = desc<hf_quads_info>();
   call(hf_quads_get_info(quads, &info), "hf_quads_get_info"), take(&info, 1);
   Numbers positions(3 * std::size_t{info.vertex_count});
@@ -87,8 +88,8 @@ void Run::quads_and_flow() {
   take(positions.data(), positions.size()), take(corners.data(), corners.size());
   hf_quads_destroy(quads);
   hf_flow flow = nullptr;
-  call(hf_flow_create(solver, &flow), "hf_flow_create");
-  hf_solver_destroy(solver);
+  call(hf_flow_create(surface, &flow), "hf_flow_create");
+  hf_surface_destroy(surface);
   hf_scalars field = desc<hf_scalars>();
   field.values_f64 = s.height.data();
   hf_flow_lines lines = desc<hf_flow_lines>();
@@ -101,19 +102,19 @@ void Run::quads_and_flow() {
 }
 
 void Run::regions() {
-  const hf_solver solver = make(create_desc());
+  const hf_surface surface = make(surface_desc());
   hf_region_desc wanted = desc<hf_region_desc>();
   wanted.positions = s.positions.data();
   hf_region source = nullptr, target = nullptr;
-  call(hf_region_create(solver, &wanted, &source), "hf_region_create");
-  // a patch of four by five vertices, and one further up
+  call(hf_region_create(surface, &wanted, &source), "hf_region_create");
+  // A patch of four by five vertices, and one seven rings higher.
   std::vector<std::uint32_t> patch, list(n);
   for (std::uint32_t ring = 5; ring < 9; ++ring)
     for (std::uint32_t i = 3; i < 8; ++i) patch.push_back(ring * s.around + i);
   hf_region_edit_desc edit = desc<hf_region_edit_desc>();
   edit.add_count = static_cast<std::uint32_t>(patch.size()), edit.add_vertices = patch.data();
   call(hf_region_edit(source, &edit), "hf_region_edit");
-  hf_solver_destroy(solver);
+  hf_surface_destroy(surface);
   call(hf_region_record(source), "hf_region_record");
   call(hf_region_clone(source, &target), "hf_region_clone");
   hf_region_edit_desc grow = desc<hf_region_edit_desc>();
@@ -129,7 +130,7 @@ void Run::regions() {
   call(hf_region_edit(target, &there), "hf_region_edit, moved");
   hf_region_info info = desc<hf_region_info>();
   call(hf_region_get_info(target, &info), "hf_region_get_info"), take(&info, 1);
-  call(hf_region_get_vertices(target, HF_REGION_RIM, n, list.data()), "hf_region_get_vertices");
+  call(hf_region_get_vertices(target, HF_REGION_RIM, n, list.data(), nullptr), "hf_region_get_vertices");
   take(list.data(), info.rim_count);
   hf_morph_desc morph = desc<hf_morph_desc>();
   morph.weight = 0.5, morph.positions_f64 = doubles.data(), morph.normals = floats.data();

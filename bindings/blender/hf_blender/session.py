@@ -1,4 +1,4 @@
-"""What a bound mesh keeps while Blender runs: its solver, its pose, and which carrier stands for which handle.
+"""What a bound mesh keeps while Blender runs: its surface, its pose, and which carrier stands for which handle.
 
 The scene is the truth (carriers.py); sync() brings the pose in line with it. Nothing here factorises twice: handles
 come and go on the factor made at bind.
@@ -23,22 +23,22 @@ ORDERING_LIMIT = 300000  # vertices; above it nested dissection, the library's d
 
 IDENTITY = np.eye(4)
 
-# One thread makes all solvers: what one gave back of its memory the next one finds.
+# One thread makes all surfaces, so that one finds the memory that another gave back.
 WORKER = ThreadPoolExecutor(1, "hf")
 
 sessions = {}
 figures = {"bind_ms": 0.0, "update_ms": 0.0, "sync_ms": 0.0}
 
 
-def make_solver(positions, triangles, window_manager=None, meanwhile=None, **options):
-    """A solver made on a thread of its own, so that Blender's progress bar moves; options as hf.Solver. `meanwhile` is
-    called on this thread."""
+def make_surface(positions, triangles, window_manager=None, meanwhile=None, **options):
+    """A surface made on a thread of its own, so that Blender's progress bar moves; options as hf.Surface. `meanwhile`
+    is called on this thread."""
     progress, made = hf.Progress(), {}
 
     def work():
         try:
             order = ORDERING if len(positions) <= ORDERING_LIMIT else hf.constants.HF_ORDERING_NESTED_DISSECTION
-            made["solver"] = hf.Solver(positions, triangles, progress=progress, thread_count=2, ordering=order,
+            made["surface"] = hf.Surface(positions, triangles, progress=progress, thread_count=2, ordering=order,
                 **options)
         except BaseException as error:  # noqa: BLE001 - raised again below
             made["error"] = error
@@ -57,7 +57,7 @@ def make_solver(positions, triangles, window_manager=None, meanwhile=None, **opt
             window_manager.progress_end()
     if "error" in made:
         raise made["error"]
-    return made["solver"]
+    return made["surface"]
 
 
 class Session:
@@ -65,8 +65,8 @@ class Session:
         mesh = obj.data
         begin = time.perf_counter()
         self.rest = rest_of(mesh)
-        self.solver = make_solver(self.rest, triangles_of(mesh), window_manager, meanwhile)
-        self.pose = hf.Pose(self.solver)
+        self.surface = make_surface(self.rest, triangles_of(mesh), window_manager, meanwhile)
+        self.pose = hf.Pose(self.surface)
         self.numbers = {}  # hf_id -> handle
         self.placed = {}  # hf_id -> matrix of the last update
         self.posed = self.rest.copy()
@@ -75,7 +75,7 @@ class Session:
 
     def close(self):
         self.pose.close()
-        self.solver.close()
+        self.surface.close()
 
     def sync(self, obj):
         """Handles for new carriers, none for those that have gone."""
@@ -109,7 +109,7 @@ class Session:
         else:
             self.posed[:] = self.rest
             moved = True
-        # a mesh that is as it should be stays untouched: Blender would compute its normals and its box anew
+        # a mesh that is as it should be stays untouched: Blender would recompute its normals and its box
         if write and (moved or not np.array_equal(mesh_data.positions_of(obj.data), self.posed)):
             mesh_data.keep_rest(obj.data, self.rest)  # until now the mesh itself holds it
             obj.data.vertices.foreach_set("co", self.posed.ravel())
@@ -118,7 +118,7 @@ class Session:
 
 
 def forget_removed():
-    """What was kept for objects that are no more; should one come back by undo, its next use binds it again."""
+    """Drops what was kept for removed objects. If undo brings one back, its next use binds it again."""
     there = {obj.get("hf_key") for obj in bpy.data.objects if obj.type == "MESH"}
     for key in sessions.keys() - there:
         sessions.pop(key).close()
@@ -179,7 +179,7 @@ def add_handles(obj, regions, names, layer=0):
     for vertices, name in zip(regions, names):
         if not len(vertices):
             raise hf.EmptyError(f"no vertex in {name}")
-    diagonal = session.solver.report.bounding_box_diagonal
+    diagonal = session.surface.report.bounding_box_diagonal
     return take_up(obj, [carriers.make_empty(obj, name, vertices, session.rest, diagonal, layer) for vertices,
         name in zip(regions, names)])
 
@@ -203,6 +203,6 @@ def field_between(obj, high, low):
     both = [v for v in ones if v in there]
     if both:
         raise hf.ConflictError(f"vertex {both[0]} is in both groups", index=both[0])
-    with session.solver.clone() as clone:
-        clone.add_sites(ones + zeros, [1.0] * len(ones) + [0.0] * len(zeros))
-        return clone.solve()
+    with hf.Solver(session.surface) as solver:
+        solver.add_sites(ones + zeros, [1.0] * len(ones) + [0.0] * len(zeros))
+        return solver.solve()

@@ -1,6 +1,5 @@
-// hf for .NET, Mono and Unity: what all classes share. Handles are SafeHandles, failures HfExceptions, arrays are
-// pinned for
-// the call and never copied.
+// hf for .NET, Mono and Unity: the base of all classes. Handles are SafeHandles, failures are HfExceptions. Arrays are
+// pinned for the call and never copied.
 using System;
 using System.Collections.Generic;
 using System.Runtime.InteropServices;
@@ -30,14 +29,14 @@ namespace Hf
 
         static string NameOf(int code)
         {
-            return Marshal.PtrToStringAnsi(Functions.hf_result_name(code)) ?? "unknown";
+            return Marshal.PtrToStringAnsi(Functions.hf_result_get_name(code)) ?? "unknown";
         }
 
         internal static unsafe void Check(int result)
         {
             if (result == Constants.HF_OK) return;
             hf_error_detail detail;
-            Functions.hf_get_error_detail(&detail);
+            Functions.hf_error_get_detail(&detail);
             uint? index = null;
             if (detail.index != Constants.HF_NO_INDEX) index = detail.index;
             throw new HfException(Text(detail.message, 256), result, index, Text(detail.function, 48));
@@ -98,7 +97,7 @@ namespace Hf
         internal unsafe delegate int Table(IntPtr handle, uint capacity, void* rows, void* count);
         internal unsafe delegate int Query(IntPtr handle, void* info);
 
-        /// <summary>Makes the object from a solver with the library's function and desc.</summary>
+        /// <summary>Makes the object on a surface with the library's function and desc.</summary>
         internal unsafe void Make(Maker create, HfObject parent, string name, void* desc, Action<IntPtr> destroy)
         {
             IntPtr raw;

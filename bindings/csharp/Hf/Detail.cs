@@ -1,4 +1,4 @@
-// Region and Detail over the C ABI (include/hf/detail.h).
+// Region and Detail over the C ABI (include/hf/region.h).
 using System;
 using System.Runtime.InteropServices;
 using Hf.Native;
@@ -17,26 +17,26 @@ namespace Hf
         public uint[] Add, Remove;
     }
 
-    /// <summary>A region of a solver's surface; its base is a membrane, or a thin plate with a bi-harmonic
-    /// solver.</summary>
+    /// <summary>A region of a surface and its smooth base: a membrane, or a thin plate for a bi-harmonic
+    /// kind.</summary>
     public sealed unsafe class Region : HfObject
     {
         public int VertexCount { get; private set; }
 
         Region() { }
 
-        /// <summary>positions: a pose of the surface to work on, xyz per vertex; null: the solver's own.</summary>
-        public Region(Solver solver, double[] positions = null)
+        /// <summary>positions: a pose of the surface to work on, xyz per vertex; null: its rest positions.</summary>
+        public Region(Surface surface, double[] positions = null, int fieldKind = Constants.HF_FIELD_HARMONIC)
         {
-            HandleOf(solver, "solver");
+            HandleOf(surface, "surface");
             using (var pins = new Pins())
             {
-                hf_region_desc desc;
-                Functions.hf_init_desc(&desc, (uint)sizeof(hf_region_desc));
-                desc.positions_f64 = pins.Add(positions, 3 * solver.VertexCount, "positions");
-                Make(Functions.hf_region_create, solver, "solver", &desc, Functions.hf_region_destroy);
+                var desc = new hf_region_desc { struct_size = (uint)sizeof(hf_region_desc) };
+                desc.field_kind = fieldKind;
+                desc.positions_f64 = pins.Add(positions, 3 * surface.VertexCount, "positions");
+                Make(Functions.hf_region_create, surface, "surface", &desc, Functions.hf_region_destroy);
             }
-            VertexCount = solver.VertexCount;
+            VertexCount = surface.VertexCount;
         }
 
         public Region Clone()
@@ -52,10 +52,8 @@ namespace Hf
             if (edit == null) throw new HfException("edit is null", Constants.HF_ERROR_NULL_POINTER);
             using (var pins = new Pins())
             {
-                hf_region_edit_desc desc;
-                Functions.hf_init_desc(&desc, (uint)sizeof(hf_region_edit_desc));
-                hf_curve_desc curve;
-                Functions.hf_init_desc(&curve, (uint)sizeof(hf_curve_desc));
+                var desc = new hf_region_edit_desc { struct_size = (uint)sizeof(hf_region_edit_desc) };
+                var curve = new hf_curve_desc { struct_size = (uint)sizeof(hf_curve_desc) };
                 desc.ring_count = edit.Rings;
                 if (edit.Curve != null)
                 {
@@ -81,8 +79,7 @@ namespace Hf
         {
             get
             {
-                hf_region_info info;
-                Functions.hf_init_desc(&info, (uint)sizeof(hf_region_info));
+                var info = new hf_region_info { struct_size = (uint)sizeof(hf_region_info) };
                 Check(Functions.hf_region_get_info(Handle, &info));
                 return info;
             }
@@ -91,16 +88,11 @@ namespace Hf
         /// <summary>list: HF_REGION_INSIDE, HF_REGION_RIM, HF_REGION_SITES.</summary>
         public uint[] Vertices(int list = Constants.HF_REGION_INSIDE)
         {
-            hf_region_info info = Info;
-            uint size = list == Constants.HF_REGION_INSIDE ? info.vertex_count
-                : list == Constants.HF_REGION_RIM ? info.rim_count : info.site_count;
-            var found = new uint[Math.Max(1, size)];
-            fixed (uint* place = found) Check(Functions.hf_region_get_vertices(Handle, list, size, place));
-            Array.Resize(ref found, (int)size);
-            return found;
+            return Rows<uint>((handle, capacity, rows, count) => Functions.hf_region_get_vertices(handle, list, capacity,
+                rows, count));
         }
 
-        /// <summary>0: the surface, 1: its base without detail, between and beyond in proportion.</summary>
+        /// <summary>Weight 0: the surface, 1: its smooth base; between and beyond in proportion.</summary>
         public double[] Morph(double weight) { return Morphed(Functions.hf_region_morph, this, VertexCount, weight); }
 
         internal static double[] Morphed(Query call, HfObject thing, int vertexCount, double weight)
@@ -108,8 +100,7 @@ namespace Hf
             var positions = new double[3 * vertexCount];
             fixed (double* place = positions)
             {
-                hf_morph_desc desc;
-                Functions.hf_init_desc(&desc, (uint)sizeof(hf_morph_desc));
+                var desc = new hf_morph_desc { struct_size = (uint)sizeof(hf_morph_desc) };
                 desc.weight = weight;
                 desc.positions_f64 = (IntPtr)place;
                 thing.Check(call(thing.Handle, &desc));
@@ -131,8 +122,7 @@ namespace Hf
             int count = sourceVertices == null ? 0 : sourceVertices.Length;
             using (var pins = new Pins())
             {
-                hf_detail_desc desc;
-                Functions.hf_init_desc(&desc, (uint)sizeof(hf_detail_desc));
+                var desc = new hf_detail_desc { struct_size = (uint)sizeof(hf_detail_desc) };
                 desc.pair_count = (uint)count;
                 desc.source_vertices = pins.Add(sourceVertices);
                 desc.target_vertices = pins.Add(targetVertices, count, "targetVertices");
@@ -145,7 +135,7 @@ namespace Hf
             vertexCount = target.VertexCount;
         }
 
-        /// <summary>0: the target's smooth base, 1: with the source's detail, more exaggerates.</summary>
+        /// <summary>Weight 0: the target's smooth base, 1: with the source's detail; more exaggerates.</summary>
         public double[] Morph(double weight) { return Region.Morphed(Functions.hf_detail_morph, this, vertexCount,
             weight); }
     }

@@ -5,19 +5,18 @@ using Hf.Native;
 
 namespace Hf
 {
-    /// <summary>Distances along a solver's surface.</summary>
+    /// <summary>Distances along a surface.</summary>
     public sealed unsafe class Geodesics : HfObject
     {
         readonly int vertexCount;
 
-        public Geodesics(Solver solver, float smoothing = 0)
+        public Geodesics(Surface surface, float smoothing = 0)
         {
-            hf_geodesics_desc desc;
-            Functions.hf_init_desc(&desc, (uint)sizeof(hf_geodesics_desc));
+            var desc = new hf_geodesics_desc { struct_size = (uint)sizeof(hf_geodesics_desc) };
             desc.smoothing = smoothing;
-            Make((parent, given, raw) => Functions.hf_geodesics_create(parent, given, raw), solver, "solver", &desc,
+            Make((parent, given, raw) => Functions.hf_geodesics_create(parent, given, raw), surface, "surface", &desc,
                 Functions.hf_geodesics_destroy);
-            vertexCount = solver.VertexCount;
+            vertexCount = surface.VertexCount;
         }
 
         /// <summary>From every vertex to the nearest source; -1 where none can be reached.</summary>
@@ -27,7 +26,7 @@ namespace Hf
             fixed (double* place = distances)
             {
                 double* at = place;
-                OnList((handle, count, numbers) => Functions.hf_geodesics_distance_f64(handle, count, numbers, at, 0),
+                OnList((handle, count, numbers) => Functions.hf_geodesics_solve_f64(handle, count, numbers, at, 0),
                     sources);
             }
             return distances;
@@ -48,17 +47,16 @@ namespace Hf
 
         Direction() { }
 
-        public Direction(Solver solver, uint degree = 1, uint siteLimit = 0)
+        public Direction(Surface surface, uint degree = 1, uint siteLimit = 0)
         {
-            hf_direction_desc desc;
-            Functions.hf_init_desc(&desc, (uint)sizeof(hf_direction_desc));
+            var desc = new hf_direction_desc { struct_size = (uint)sizeof(hf_direction_desc) };
             desc.degree = degree;
             desc.site_limit = siteLimit;
-            Make(Functions.hf_direction_create, solver, "solver", &desc, Functions.hf_direction_destroy);
-            vertexCount = solver.VertexCount;
+            Make(Functions.hf_direction_create, surface, "surface", &desc, Functions.hf_direction_destroy);
+            vertexCount = surface.VertexCount;
         }
 
-        /// <summary>One that shares connection and factor and has a copy of the constraints.</summary>
+        /// <summary>A direction field with the same constraints; shares connection and factor.</summary>
         public Direction Clone()
         {
             var copy = new Direction { vertexCount = vertexCount };
@@ -112,7 +110,7 @@ namespace Hf
             var found = new DirectionSites { Sites = new uint[n], Vertices = new uint[n], Vectors = new double[3 * n] };
             using (var pins = new Pins())
                 Check(Functions.hf_direction_get_sites(Handle, (uint)n, (void*)pins.Add(found.Sites),
-                    (void*)pins.Add(found.Vertices), (void*)pins.Add(found.Vectors)));
+                    (void*)pins.Add(found.Vertices), (void*)pins.Add(found.Vectors), null));
             return found;
         }
 
@@ -120,8 +118,7 @@ namespace Hf
         {
             get
             {
-                hf_direction_statistics statistics;
-                Functions.hf_init_desc(&statistics, (uint)sizeof(hf_direction_statistics));
+                var statistics = new hf_direction_statistics { struct_size = (uint)sizeof(hf_direction_statistics) };
                 Check(Functions.hf_direction_get_statistics(Handle, &statistics));
                 return statistics;
             }

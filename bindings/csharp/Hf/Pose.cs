@@ -1,4 +1,4 @@
-// Pose over the C ABI (include/hf/deform.h).
+// Pose over the C ABI (include/hf/pose.h).
 using System;
 using System.Runtime.InteropServices;
 using Hf.Native;
@@ -18,8 +18,7 @@ namespace Hf
 
         internal static unsafe Skin Get(HfObject owner, Call call, int vertexCount, uint weightCount)
         {
-            hf_skin_info info;
-            Functions.hf_init_desc(&info, (uint)sizeof(hf_skin_info));
+            var info = new hf_skin_info { struct_size = (uint)sizeof(hf_skin_info) };
             info.weight_count = weightCount;
             owner.Check(call(owner.Handle, &info));
             uint n = info.joint_count;
@@ -28,6 +27,8 @@ namespace Hf
                 Weights = new float[vertexCount * weightCount] };
             using (var pins = new Pins())
             {
+                info.joint_capacity = n;
+                info.vertex_capacity = (uint)vertexCount;
                 info.pivots = pins.Add(skin.Pivots);
                 info.rotations = pins.Add(skin.Rotations);
                 info.translations = pins.Add(skin.Translations);
@@ -39,25 +40,35 @@ namespace Hf
         }
     }
 
-    /// <summary>Handles on a solver's surface that come and go; every vertex follows.</summary>
+    /// <summary>Handles on a surface that come and go; every vertex follows.</summary>
     public sealed unsafe class Pose : HfObject
     {
         public int VertexCount { get; private set; }
 
         Pose() { }
 
-        public Pose(Solver solver, int mode = Constants.HF_DEFORM_SMOOTH, uint bandCount = 0, uint iterationCount = 0,
+        public Pose(Surface surface, int mode = Constants.HF_DEFORM_SMOOTH, uint bandCount = 0, uint iterationCount = 0,
             uint samplesPerRing = 0, uint groupCount = 0)
         {
-            hf_pose_desc desc;
-            Functions.hf_init_desc(&desc, (uint)sizeof(hf_pose_desc));
+            var desc = new hf_pose_desc { struct_size = (uint)sizeof(hf_pose_desc) };
             desc.mode = mode;
             desc.band_count = bandCount;
             desc.iteration_count = iterationCount;
             desc.samples_per_ring = samplesPerRing;
             desc.group_count = groupCount;
-            Make(Functions.hf_pose_create, solver, "solver", &desc, Functions.hf_pose_destroy);
-            VertexCount = solver.VertexCount;
+            Make(Functions.hf_pose_create, surface, "surface", &desc, Functions.hf_pose_destroy);
+            VertexCount = surface.VertexCount;
+        }
+
+        /// <summary>The options it was made with, defaults filled in, and the number of its handles.</summary>
+        public hf_pose_info Info
+        {
+            get
+            {
+                var info = new hf_pose_info { struct_size = (uint)sizeof(hf_pose_info) };
+                Check(Functions.hf_pose_get_info(Handle, &info));
+                return info;
+            }
         }
 
         public Pose Clone()
@@ -67,14 +78,13 @@ namespace Hf
             return copy;
         }
 
-        /// <summary>A handle per region of vertices; no factorisation. Returns their numbers.</summary>
+        /// <summary>A handle for each region of vertices; no factorisation. Returns their numbers.</summary>
         public uint[] AddHandles(uint[][] regions, uint layer = 0)
         {
             var lists = new Regions(regions, "regions");
             using (var pins = new Pins())
             {
-                hf_handles_desc desc;
-                Functions.hf_init_desc(&desc, (uint)sizeof(hf_handles_desc));
+                var desc = new hf_handles_desc { struct_size = (uint)sizeof(hf_handles_desc) };
                 desc.handle_count = (uint)Pins.Count(lists.Counts);
                 desc.region_counts = pins.Add(lists.Counts);
                 desc.region_vertices = pins.Add(lists.Vertices);
@@ -85,14 +95,13 @@ namespace Hf
             }
         }
 
-        /// <summary>A handle per point: what hangs together with the nearest vertex within the radius.</summary>
+        /// <summary>A handle for each point: what is edge-connected to the nearest vertex within the radius.</summary>
         public uint[] AddHandles(double[] points, double[] radii, uint layer = 0)
         {
             if (points == null || points.Length % 3 != 0) throw new HfException("points must hold three numbers each");
             using (var pins = new Pins())
             {
-                hf_handles_desc desc;
-                Functions.hf_init_desc(&desc, (uint)sizeof(hf_handles_desc));
+                var desc = new hf_handles_desc { struct_size = (uint)sizeof(hf_handles_desc) };
                 desc.handle_count = (uint)(points.Length / 3);
                 desc.points = pins.Add(points);
                 desc.radii = pins.Add(radii, points.Length / 3, "radii");
@@ -101,6 +110,16 @@ namespace Hf
                 Check(Functions.hf_pose_add_handles(Handle, &desc, (void*)pins.Add(numbers)));
                 return numbers;
             }
+        }
+
+        /// <summary>One handle on layer 0: what is edge-connected within the radius of a point at rest. Returns its
+        /// number.</summary>
+        public uint AddHandleAt(double[] point, double radius)
+        {
+            uint number;
+            using (var pins = new Pins())
+                Check(Functions.hf_pose_add_handle_at(Handle, (void*)pins.Add(point, 3, "point"), radius, &number));
+            return number;
         }
 
         public void RemoveHandles(uint[] handles)
@@ -126,14 +145,24 @@ namespace Hf
                 (void*)pins.Add(packed)));
         }
 
+        /// <summary>One handle: a quaternion x, y, z, w and a translation; null for none.</summary>
+        public void SetTransform(uint handle, double[] rotation, double[] translation)
+        {
+            if (rotation != null) Pins.Need(rotation.Length, 4, "rotation");
+            if (translation != null) Pins.Need(translation.Length, 3, "translation");
+            hf_transform transform;
+            for (int i = 0; i < 4; ++i) transform.rotation[i] = rotation == null ? 0 : rotation[i];
+            for (int i = 0; i < 3; ++i) transform.translation[i] = translation == null ? 0 : translation[i];
+            Check(Functions.hf_pose_set_transform(Handle, handle, &transform));
+        }
+
         /// <summary>4 x 4 matrices rest to posed, column by column (as Unity's Matrix4x4 stores them).</summary>
         public void SetMatrices(uint[] handles, double[] matrices) { OnList(Functions.hf_pose_set_matrices, handles,
             matrices, 16, "matrices"); }
 
         public hf_handle_info HandleInfo(uint handle)
         {
-            hf_handle_info info;
-            Functions.hf_init_desc(&info, (uint)sizeof(hf_handle_info));
+            var info = new hf_handle_info { struct_size = (uint)sizeof(hf_handle_info) };
             Check(Functions.hf_pose_get_handle(Handle, handle, &info));
             return info;
         }
@@ -148,8 +177,15 @@ namespace Hf
             return field;
         }
 
-        /// <summary>Solves the pose into the caller's memory: xyz per vertex; normals the same, or empty.</summary>
-        public void Deform(Span<float> positions, Span<float> normals = default(Span<float>), uint iterationCount = 0,
+        /// <summary>Solves the pose into the caller's memory, xyz for each vertex (hf_deform).</summary>
+        public void Deform(Span<float> positions)
+        {
+            Pins.Need(positions.Length, 3 * VertexCount, "positions");
+            fixed (float* place = &MemoryMarshal.GetReference(positions)) Check(Functions.hf_deform(Handle, place, null));
+        }
+
+        /// <summary>The same with normals (or an empty span) and options.</summary>
+        public void Deform(Span<float> positions, Span<float> normals, uint iterationCount = 0,
             bool restart = false, bool refine = false)
         {
             Pins.Need(positions.Length, 3 * VertexCount, "positions");
@@ -157,14 +193,13 @@ namespace Hf
             fixed (float* place = &MemoryMarshal.GetReference(positions))
             fixed (float* upright = &MemoryMarshal.GetReference(normals))
             {
-                hf_deform_desc desc;
-                Functions.hf_init_desc(&desc, (uint)sizeof(hf_deform_desc));
+                var desc = new hf_deform_desc { struct_size = (uint)sizeof(hf_deform_desc) };
                 desc.positions = (IntPtr)place;
                 if (normals.Length > 0) desc.normals = (IntPtr)upright;
                 desc.iteration_count = iterationCount;
                 desc.restart = restart ? 1 : 0;
                 desc.refine = refine ? 1 : 0;
-                Check(Functions.hf_deform(Handle, &desc, null));
+                Check(Functions.hf_pose_deform(Handle, &desc, null));
             }
         }
 
@@ -173,13 +208,12 @@ namespace Hf
             var positions = new double[3 * VertexCount];
             fixed (double* place = positions)
             {
-                hf_deform_desc desc;
-                Functions.hf_init_desc(&desc, (uint)sizeof(hf_deform_desc));
+                var desc = new hf_deform_desc { struct_size = (uint)sizeof(hf_deform_desc) };
                 desc.positions_f64 = (IntPtr)place;
                 desc.iteration_count = iterationCount;
                 desc.restart = restart ? 1 : 0;
                 desc.refine = refine ? 1 : 0;
-                Check(Functions.hf_deform(Handle, &desc, null));
+                Check(Functions.hf_pose_deform(Handle, &desc, null));
             }
             return positions;
         }

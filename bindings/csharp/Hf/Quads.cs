@@ -25,16 +25,15 @@ namespace Hf
         public int[] SiteLines;
     }
 
-    /// <summary>A quad mesh of a solver's surface.</summary>
+    /// <summary>A quad mesh of a surface.</summary>
     public sealed unsafe class Quads : HfObject
     {
-        public Quads(Solver solver, QuadOptions options = null)
+        public Quads(Surface surface, QuadOptions options = null)
         {
             options = options ?? new QuadOptions();
             using (var pins = new Pins())
             {
-                hf_quads_desc desc;
-                Functions.hf_init_desc(&desc, (uint)sizeof(hf_quads_desc));
+                var desc = new hf_quads_desc { struct_size = (uint)sizeof(hf_quads_desc) };
                 desc.kind = options.Kind;
                 desc.edge_length = options.EdgeLength;
                 desc.keep_polygons = options.KeepPolygons;
@@ -43,7 +42,7 @@ namespace Hf
                 desc.site_vertices = pins.Add(options.SiteVertices);
                 desc.site_lines = pins.Add(options.SiteLines, (int)desc.site_count, "SiteLines");
                 if (options.Progress != null) desc.progress = options.Progress.Handle;
-                Make(Functions.hf_quads_create, solver, "solver", &desc, Functions.hf_quads_destroy);
+                Make(Functions.hf_quads_create, surface, "surface", &desc, Functions.hf_quads_destroy);
                 GC.KeepAlive(options.Progress);
             }
         }
@@ -52,8 +51,7 @@ namespace Hf
         {
             get
             {
-                hf_quads_info info;
-                Functions.hf_init_desc(&info, (uint)sizeof(hf_quads_info));
+                var info = new hf_quads_info { struct_size = (uint)sizeof(hf_quads_info) };
                 Check(Functions.hf_quads_get_info(Handle, &info));
                 return info;
             }
@@ -71,8 +69,7 @@ namespace Hf
             };
             using (var pins = new Pins())
             {
-                hf_quads_mesh place;
-                Functions.hf_init_desc(&place, (uint)sizeof(hf_quads_mesh));
+                var place = new hf_quads_mesh { struct_size = (uint)sizeof(hf_quads_mesh) };
                 place.vertex_capacity = v;
                 place.face_capacity = info.face_count;
                 place.corner_capacity = info.corner_count;
@@ -103,11 +100,11 @@ namespace Hf
         readonly int vertexCount;
         uint points = 4096, lines = 64; // room for what the last trace needed
 
-        public Flow(Solver solver)
+        public Flow(Surface surface)
         {
-            Make((parent, none, raw) => Functions.hf_flow_create(parent, raw), solver, "solver", null,
+            Make((parent, none, raw) => Functions.hf_flow_create(parent, raw), surface, "surface", null,
                 Functions.hf_flow_destroy);
-            vertexCount = solver.VertexCount;
+            vertexCount = surface.VertexCount;
         }
 
         /// <summary>Lines of equal flux from the minima of a field, wantedCount of them, or one through every seed
@@ -120,11 +117,9 @@ namespace Hf
                     LineStarts = new uint[lines + 1], LineEnds = new uint[2 * lines] };
                 using (var pins = new Pins())
                 {
-                    hf_scalars scalars;
-                    Functions.hf_init_desc(&scalars, (uint)sizeof(hf_scalars));
+                    var scalars = new hf_scalars { struct_size = (uint)sizeof(hf_scalars) };
                     scalars.values_f64 = pins.Add(field, vertexCount, "field");
-                    hf_flow_lines place;
-                    Functions.hf_init_desc(&place, (uint)sizeof(hf_flow_lines));
+                    var place = new hf_flow_lines { struct_size = (uint)sizeof(hf_flow_lines) };
                     place.wanted_count = wantedCount;
                     place.seed_count = seeds == null ? 0 : (uint)seeds.Length;
                     place.seeds = pins.Add(seeds);

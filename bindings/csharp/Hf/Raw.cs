@@ -7,6 +7,9 @@ namespace Hf.Native
     public static class Constants
     {
         public const string HeaderVersion = "0.1.0";
+        public const int HF_VERSION_MAJOR = 0;
+        public const int HF_VERSION_MINOR = 1;
+        public const int HF_VERSION_PATCH = 0;
         public const uint HF_NO_INDEX = 4294967295u;
         public const int HF_MESSAGE_SIZE = 256;
         public const int HF_OK = 0;
@@ -45,13 +48,13 @@ namespace Hf.Native
         public const int HF_FIELD_HARMONIC = 0;
         public const int HF_FIELD_BIHARMONIC = 1;
         public const int HF_FIELD_BIHARMONIC_GRAPH = 2;
-        public const int HF_ENGINE_GREEN = 0;
-        public const int HF_ENGINE_UPDOWN = 1;
-        public const int HF_ENGINE_REFACTOR = 2;
         public const int HF_ORDERING_NESTED_DISSECTION = 0;
         public const int HF_ORDERING_MINIMUM_DEGREE = 1;
         public const int HF_ORDERING_METIS = 2;
         public const int HF_FACTOR_ALIGNMENT = 64;
+        public const int HF_ENGINE_GREEN = 0;
+        public const int HF_ENGINE_UPDOWN = 1;
+        public const int HF_ENGINE_REFACTOR = 2;
         public const int HF_ROUTE_NONE = 0;
         public const int HF_ROUTE_DENSE = 1;
         public const int HF_ROUTE_FRESH = 2;
@@ -67,14 +70,15 @@ namespace Hf.Native
         public const int HF_DEFORM_SMOOTH = 0;
         public const int HF_DEFORM_PAPER = 1;
         public const int HF_LAYER_COUNT = 8;
+        public const int HF_HANDLE_LIMIT = 256;
+        public const int HF_QUADS_UNIFORM = 0;
+        public const int HF_QUADS_PURE = 1;
         public const int HF_SIDE_SMALLER = 0;
         public const int HF_SIDE_LARGER = 1;
         public const int HF_SIDE_SEED = 2;
         public const int HF_REGION_INSIDE = 0;
         public const int HF_REGION_RIM = 1;
         public const int HF_REGION_SITES = 2;
-        public const int HF_QUADS_UNIFORM = 0;
-        public const int HF_QUADS_PURE = 1;
         public const int HF_TRANSFER_FIELDS = 0;
         public const int HF_TRANSFER_PAPER = 1;
         public const int HF_PAIR_ANCHOR = 1;
@@ -82,6 +86,7 @@ namespace Hf.Native
         public const int HF_PAIR_TRUNK = 4;
         public const int HF_PAIR_NO_ALIGNMENT = 8;
         public const int HF_PAIR_CONTACT = 16;
+        public const int HF_PAIR_LIMIT = 256;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -118,7 +123,7 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_create_desc
+    public unsafe struct hf_surface_desc
     {
         public uint struct_size;
         public uint vertex_count;
@@ -127,27 +132,42 @@ namespace Hf.Native
         public IntPtr positions;
         public IntPtr positions_f64;
         public IntPtr triangles;
+        public IntPtr triangles_u16;
+        public uint triangle_stride;
         public int weld;
         public float weld_tolerance;
         public int operator_kind;
-        public int engine;
+        public int field_kind;
         public int ordering;
-        public uint channel_count;
         public uint thread_count;
-        public uint site_limit;
         public uint vertex_limit;
+        public uint triangle_limit;
         public uint memory_limit_mb;
-        public double penalty;
         public hf_allocator allocator;
         public hf_job_runner job_runner;
         public IntPtr progress;
         public IntPtr saved_factor;
-        public int field_kind;
-        public uint triangle_limit;
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_mesh_report
+    public unsafe struct hf_surface_info
+    {
+        public uint struct_size;
+        public uint vertex_count;
+        public uint triangle_count;
+        public int weld;
+        public float weld_tolerance;
+        public int operator_kind;
+        public int field_kind;
+        public int ordering;
+        public uint thread_count;
+        public uint vertex_limit;
+        public uint triangle_limit;
+        public uint memory_limit_mb;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_surface_report
     {
         public uint struct_size;
         public uint vertex_count;
@@ -164,6 +184,76 @@ namespace Hf.Native
         public uint negative_edge_count;
         public float smallest_angle;
         public double bounding_box_diagonal;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_surface_statistics
+    {
+        public uint struct_size;
+        public uint unknown_count;
+        public double weld_ms;
+        public double operator_ms;
+        public double ordering_ms;
+        public double symbolic_ms;
+        public double numeric_ms;
+        public double factor_entries;
+        public double factor_bytes;
+        public double factor_flops;
+        public double memory_bytes;
+        public double peak_memory_bytes;
+        public double load_ms;
+        public int factor_loaded;
+        public int factor_borrowed;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_pick_desc
+    {
+        public uint struct_size;
+        public uint position_stride;
+        public IntPtr positions;
+        public IntPtr positions_f64;
+        public int front_only;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_hit
+    {
+        public uint struct_size;
+        public int found;
+        public uint triangle;
+        public uint vertex;
+        public fixed double barycentrics[3];
+        public fixed double position[3];
+        public double distance;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_solver_desc
+    {
+        public uint struct_size;
+        public int field_kind;
+        public int engine;
+        public uint channel_count;
+        public uint site_limit;
+        public uint reserved;
+        public double penalty;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_solver_info
+    {
+        public uint struct_size;
+        public int field_kind;
+        public int engine;
+        public uint channel_count;
+        public uint site_limit;
+        public uint site_count;
+        public double penalty;
+        public uint vertex_count;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -195,10 +285,12 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_site_info
+    public unsafe struct hf_sites_info
     {
         public uint struct_size;
         public uint capacity;
+        public uint count;
+        public uint reserved;
         public IntPtr sites;
         public IntPtr vertices;
         public IntPtr components;
@@ -218,10 +310,23 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_preview_info
+    {
+        public uint struct_size;
+        public int exact;
+        public uint correction_count;
+        public uint unreached_component_count;
+        public double value_range;
+        public double largest_correction;
+        public double error_estimate;
+        public double preview_bytes;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_certificate
     {
         public uint struct_size;
-        public uint overshoot_checked;
+        public int overshoot_checked;
         public double tolerance;
         public double value_range;
         public double residual;
@@ -232,36 +337,21 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_statistics
+    public unsafe struct hf_solver_statistics
     {
         public uint struct_size;
-        public uint unknown_count;
-        public double weld_ms;
-        public double operator_ms;
-        public double ordering_ms;
-        public double symbolic_ms;
-        public double numeric_ms;
-        public double factor_entries;
-        public double factor_bytes;
-        public double factor_flops;
-        public double memory_bytes;
-        public double peak_memory_bytes;
-        public double site_memory_bytes;
         public uint site_count;
         public uint factorisation_count;
         public uint path_solve_count;
         public uint sweep_count;
-        public uint engine;
-        public uint thread_count;
-        public double load_ms;
-        public uint factor_loaded;
-        public uint factor_borrowed;
         public uint last_route;
         public uint rebase_count;
         public uint dense_edit_count;
         public uint dense_row_count;
         public uint eliminated_count;
-        public uint rebase_advised;
+        public int rebase_advised;
+        public uint reserved;
+        public double site_memory_bytes;
         public double predicted_dense_ms;
         public double predicted_rebase_ms;
     }
@@ -320,6 +410,7 @@ namespace Hf.Native
     {
         public uint struct_size;
         public float smoothing;
+        public IntPtr progress;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -344,6 +435,44 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_direction_desc
+    {
+        public uint struct_size;
+        public uint degree;
+        public uint site_limit;
+        public uint reserved;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_singularity
+    {
+        public uint triangle;
+        public uint vertex;
+        public int index;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_direction_statistics
+    {
+        public uint struct_size;
+        public uint degree;
+        public uint site_limit;
+        public uint unknown_count;
+        public uint site_count;
+        public uint factorisation_count;
+        public uint path_solve_count;
+        public uint sweep_count;
+        public uint irregular_vertex_count;
+        public uint eliminated_count;
+        public double operator_ms;
+        public double numeric_ms;
+        public double factor_entries;
+        public double factor_bytes;
+        public double site_memory_bytes;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_pose_desc
     {
         public uint struct_size;
@@ -352,6 +481,19 @@ namespace Hf.Native
         public uint iteration_count;
         public uint samples_per_ring;
         public uint group_count;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_pose_info
+    {
+        public uint struct_size;
+        public int mode;
+        public uint band_count;
+        public uint iteration_count;
+        public uint samples_per_ring;
+        public uint group_count;
+        public uint handle_count;
+        public uint vertex_count;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -390,6 +532,20 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_deform_info
+    {
+        public uint struct_size;
+        public uint iteration_count;
+        public uint cluster_count;
+        public uint unreached_vertex_count;
+        public double last_change;
+        public double solve_ms;
+        public double blend_ms;
+        public double normal_ms;
+        public double refine_ms;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_deform_desc
     {
         public uint struct_size;
@@ -406,158 +562,21 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_deform_info
-    {
-        public uint struct_size;
-        public uint iteration_count;
-        public uint cluster_count;
-        public uint unreached_vertex_count;
-        public double last_change;
-        public double solve_ms;
-        public double blend_ms;
-        public double normal_ms;
-        public double refine_ms;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_skin_info
     {
         public uint struct_size;
-        public uint joint_count;
+        public uint joint_capacity;
+        public uint vertex_capacity;
         public uint weight_count;
-        public uint reserved;
+        public uint joint_count;
+        public uint vertex_count;
         public IntPtr pivots;
         public IntPtr rotations;
         public IntPtr translations;
-        public IntPtr vertex_joints;
-        public IntPtr vertex_weights;
         public IntPtr axes;
         public IntPtr scales;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_region_desc
-    {
-        public uint struct_size;
-        public uint position_stride;
-        public IntPtr positions;
-        public IntPtr positions_f64;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_curve_desc
-    {
-        public uint struct_size;
-        public uint point_count;
-        public IntPtr vertices;
-        public IntPtr triangles;
-        public IntPtr barycentrics;
-        public int side;
-        public uint seed_vertex;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_region_edit_desc
-    {
-        public uint struct_size;
-        public int ring_count;
-        public IntPtr curve;
-        public uint remove_count;
-        public uint add_count;
-        public IntPtr remove_vertices;
-        public IntPtr add_vertices;
-        public IntPtr progress;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_region_info
-    {
-        public uint struct_size;
-        public int thin_plate;
-        public uint vertex_count;
-        public uint rim_count;
-        public uint site_count;
-        public uint inserted_count;
-        public uint removed_count;
-        public uint kept_count;
-        public uint factorisation_count;
-        public uint path_solve_count;
-        public uint last_route;
-        public uint whole_sweep;
-        public double area;
-        public double base_area;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_morph_desc
-    {
-        public uint struct_size;
-        public uint position_stride;
-        public double weight;
-        public IntPtr positions;
-        public IntPtr positions_f64;
-        public IntPtr normals;
-        public uint normal_stride;
-        public uint reserved;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_detail_desc
-    {
-        public uint struct_size;
-        public uint pair_count;
-        public IntPtr source_vertices;
-        public IntPtr target_vertices;
-        public double scale;
-        public IntPtr progress;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_direction_desc
-    {
-        public uint struct_size;
-        public uint degree;
-        public uint site_limit;
-        public uint reserved;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_singularity
-    {
-        public uint triangle;
-        public uint vertex;
-        public int index;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_direction_statistics
-    {
-        public uint struct_size;
-        public uint unknown_count;
-        public uint site_count;
-        public uint factorisation_count;
-        public uint path_solve_count;
-        public uint sweep_count;
-        public uint irregular_vertex_count;
-        public uint sites_eliminated;
-        public double operator_ms;
-        public double numeric_ms;
-        public double factor_entries;
-        public double factor_bytes;
-        public double site_memory_bytes;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_preview_info
-    {
-        public uint struct_size;
-        public uint exact;
-        public uint correction_count;
-        public uint unreached_component_count;
-        public double value_range;
-        public double largest_correction;
-        public double error_estimate;
-        public double preview_bytes;
+        public IntPtr vertex_joints;
+        public IntPtr vertex_weights;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -599,6 +618,10 @@ namespace Hf.Native
         public uint face_capacity;
         public uint corner_capacity;
         public uint site_capacity;
+        public uint vertex_count;
+        public uint face_count;
+        public uint corner_count;
+        public uint site_count;
         public uint reserved;
         public IntPtr positions;
         public IntPtr triangles;
@@ -625,6 +648,86 @@ namespace Hf.Native
         public IntPtr values;
         public IntPtr line_starts;
         public IntPtr line_ends;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_region_desc
+    {
+        public uint struct_size;
+        public int field_kind;
+        public IntPtr positions;
+        public IntPtr positions_f64;
+        public uint position_stride;
+        public uint reserved;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_curve_desc
+    {
+        public uint struct_size;
+        public uint point_count;
+        public IntPtr vertices;
+        public IntPtr triangles;
+        public IntPtr barycentrics;
+        public int side;
+        public uint seed_vertex;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_region_edit_desc
+    {
+        public uint struct_size;
+        public int ring_count;
+        public IntPtr curve;
+        public uint remove_count;
+        public uint add_count;
+        public IntPtr remove_vertices;
+        public IntPtr add_vertices;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_region_info
+    {
+        public uint struct_size;
+        public int field_kind;
+        public uint vertex_count;
+        public uint rim_count;
+        public uint site_count;
+        public uint inserted_count;
+        public uint removed_count;
+        public uint kept_count;
+        public uint factorisation_count;
+        public uint path_solve_count;
+        public uint last_route;
+        public int whole_sweep;
+        public double area;
+        public double base_area;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_morph_desc
+    {
+        public uint struct_size;
+        public uint position_stride;
+        public double weight;
+        public IntPtr positions;
+        public IntPtr positions_f64;
+        public IntPtr normals;
+        public uint normal_stride;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_detail_desc
+    {
+        public uint struct_size;
+        public uint pair_count;
+        public IntPtr source_vertices;
+        public IntPtr target_vertices;
+        public double scale;
+        public IntPtr progress;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -674,6 +777,8 @@ namespace Hf.Native
         public uint aligned_count;
         public uint crossed_count;
         public int scale_found;
+        public uint source_factorisation_count;
+        public uint target_factorisation_count;
         public double scale;
     }
 
@@ -703,73 +808,59 @@ namespace Hf.Native
         const string Library = "hf";
 #endif
 
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_init_desc(void* desc, uint struct_size);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_get_error_detail(void* out_detail);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern IntPtr hf_result_name(int result);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_get_version();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_error_get_detail(void* out_detail);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern IntPtr hf_result_get_name(int result);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_version_get();
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_progress_create(void* out_progress);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_progress_destroy(IntPtr progress);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_progress_get(IntPtr progress, void* out_fraction);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_progress_get_fraction(IntPtr progress, void* out_fraction);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_progress_cancel(IntPtr progress);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_create(void* desc, void* out_solver);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_clone(IntPtr solver, void* out_solver);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_destroy(IntPtr solver);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_get_mesh_report(IntPtr solver, void* out_report);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_get_components(IntPtr solver, uint vertex_count, void* out_components);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_create(void* desc, void* out_surface);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_surface_destroy(IntPtr surface);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_info(IntPtr surface, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_report(IntPtr surface, void* out_report);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_components(IntPtr surface, uint capacity, void* out_components, void* out_count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_statistics(IntPtr surface, void* out_statistics);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_save(IntPtr surface, int field_kind, UIntPtr capacity, void* out_bytes, void* out_size);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_cast_ray(IntPtr surface, void* origin, void* direction, void* desc, void* out_hit);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_find_vertex(IntPtr surface, void* point, void* desc, void* out_vertex, void* out_distance);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_create(IntPtr surface, void* desc, void* out_solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_clone(IntPtr solver, void* out_solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_solver_destroy(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_get_info(IntPtr solver, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_add_sites(IntPtr solver, void* sites, void* out_sites);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_add_site(IntPtr solver, uint vertex, void* values, void* out_site);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_remove_sites(IntPtr solver, uint site_count, void* sites);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_move_sites(IntPtr solver, uint site_count, void* sites, void* to);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_set_site_values(IntPtr solver, uint site_count, void* sites, void* values);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_edit_sites(IntPtr solver, void* edit, void* out_sites);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_get_site_count(IntPtr solver);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_get_sites(IntPtr solver, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_move_sites(IntPtr solver, uint site_count, void* sites, void* to);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_set_values(IntPtr solver, uint site_count, void* sites, void* values);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_edit_sites(IntPtr solver, void* edit, void* out_sites);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_solver_get_site_count(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_get_sites(IntPtr solver, void* inout_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve(IntPtr solver, void* out_values, uint value_stride, void* out_info);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_f64(IntPtr solver, void* out_values, uint value_stride, void* out_info);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_vectors(IntPtr solver, void* out_vectors, uint vector_stride, void* out_normals, void* out_info);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_vectors_f64(IntPtr solver, void* out_vectors, uint vector_stride, void* out_normals, void* out_info);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_at(IntPtr solver, uint vertex_count, void* vertices, void* out_values);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_certify(IntPtr solver, void* inout_certificate);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_record(IntPtr solver);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_undo(IntPtr solver);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_redo(IntPtr solver);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_prepare_rebase(IntPtr solver);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_get_statistics(IntPtr solver, void* out_statistics);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_space_levels(IntPtr solver, void* field, int spacing, uint level_count, void* out_levels);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_trace_isolines(IntPtr solver, void* field, uint level_count, void* levels, void* out_lines);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_find_critical_points(IntPtr solver, void* field, uint capacity, void* out_points, void* out_info);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_create(IntPtr solver, void* desc, void* out_geodesics);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_f64(IntPtr solver, void* out_values, uint value_stride, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_at(IntPtr solver, uint vertex_count, void* vertices, void* out_values);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_vectors(IntPtr solver, void* out_vectors, uint vector_stride, void* out_normals, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_vectors_f64(IntPtr solver, void* out_vectors, uint vector_stride, void* out_normals, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_preview(IntPtr solver, void* out_values, uint value_stride, uint correction_count, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_preview_f64(IntPtr solver, void* out_values, uint value_stride, uint correction_count, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_release_preview(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_move_vectors(IntPtr solver, uint site_count, void* sites, void* vertices);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_rotate_vectors(IntPtr solver, uint site_count, void* sites, void* angles);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_certify(IntPtr solver, void* inout_certificate);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_record(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_undo(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_redo(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_prepare_rebase(IntPtr solver);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_get_statistics(IntPtr solver, void* out_statistics);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_space_levels(IntPtr surface, void* field, int spacing, uint level_count, void* out_levels);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_trace_isolines(IntPtr surface, void* field, uint level_count, void* levels, void* inout_lines);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_find_critical_points(IntPtr surface, void* field, uint capacity, void* out_points, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_create(IntPtr surface, void* desc, void* out_geodesics);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_geodesics_destroy(IntPtr geodesics);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_distance(IntPtr geodesics, uint source_count, void* sources, void* out_distances, uint value_stride);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_distance_f64(IntPtr geodesics, uint source_count, void* sources, void* out_distances, uint value_stride);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_find_extremities(IntPtr solver, void* desc, uint capacity, void* out_extremities, void* out_count);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_create(IntPtr solver, void* desc, void* out_pose);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_clone(IntPtr pose, void* out_pose);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_pose_destroy(IntPtr pose);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_add_handles(IntPtr pose, void* handles, void* out_handles);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_remove_handles(IntPtr pose, uint handle_count, void* handles);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_transforms(IntPtr pose, uint handle_count, void* handles, void* transforms);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_matrices(IntPtr pose, uint handle_count, void* handles, void* matrices);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_handle(IntPtr pose, uint handle, void* out_info);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_pose_get_handle_count(IntPtr pose);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_field(IntPtr pose, uint handle, void* out_values, uint value_stride);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_deform(IntPtr pose, void* desc, void* out_info);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_skin(IntPtr pose, void* info);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_create(IntPtr solver, void* desc, void* out_region);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_clone(IntPtr region, void* out_region);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_region_destroy(IntPtr region);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_edit(IntPtr region, void* edit);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_record(IntPtr region);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_undo(IntPtr region);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_redo(IntPtr region);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_info(IntPtr region, void* out_info);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_vertices(IntPtr region, int list, uint capacity, void* out_vertices);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_morph(IntPtr region, void* desc);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_detail_create(IntPtr source, IntPtr target, void* desc, void* out_detail);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_detail_destroy(IntPtr detail);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_detail_morph(IntPtr detail, void* desc);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_move_vector_sites(IntPtr solver, uint site_count, void* sites, void* vertices);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_rotate_vector_sites(IntPtr solver, uint site_count, void* sites, void* angles);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_create(IntPtr solver, void* desc, void* out_direction);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_solve(IntPtr geodesics, uint source_count, void* sources, void* out_distances, uint value_stride);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_solve_f64(IntPtr geodesics, uint source_count, void* sources, void* out_distances, uint value_stride);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_find_extremities(IntPtr surface, void* desc, uint capacity, void* out_extremities, void* out_count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_create(IntPtr surface, void* desc, void* out_direction);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_clone(IntPtr direction, void* out_direction);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_direction_destroy(IntPtr direction);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_add_sites(IntPtr direction, uint site_count, void* vertices, void* vectors, void* out_sites);
@@ -781,23 +872,47 @@ namespace Hf.Native
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_undo(IntPtr direction);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_redo(IntPtr direction);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_direction_get_site_count(IntPtr direction);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_get_sites(IntPtr direction, uint capacity, void* out_sites, void* out_vertices, void* out_vectors);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_get_sites(IntPtr direction, uint capacity, void* out_sites, void* out_vertices, void* out_vectors, void* out_count);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_solve(IntPtr direction, void* out_vectors, uint vector_stride, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_solve_f64(IntPtr direction, void* out_vectors, uint vector_stride, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_get_singularities(IntPtr direction, uint capacity, void* out_singularities, void* out_count);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_get_statistics(IntPtr direction, void* out_statistics);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_get_factor_size(IntPtr solver, void* out_size);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_save_factor(IntPtr solver, void* out_bytes, UIntPtr size);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_preview(IntPtr solver, void* out_values, uint value_stride, uint correction_count, void* out_info);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve_preview_f64(IntPtr solver, void* out_values, uint value_stride, uint correction_count, void* out_info);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_release_preview(IntPtr solver);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_create(IntPtr solver, void* desc, void* out_quads);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_create(IntPtr surface, void* desc, void* out_pose);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_clone(IntPtr pose, void* out_pose);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_pose_destroy(IntPtr pose);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_info(IntPtr pose, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_add_handles(IntPtr pose, void* handles, void* out_handles);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_add_handle_at(IntPtr pose, void* point, double radius, void* out_handle);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_remove_handles(IntPtr pose, uint handle_count, void* handles);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_transforms(IntPtr pose, uint handle_count, void* handles, void* transforms);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_transform(IntPtr pose, uint handle, void* transform);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_matrices(IntPtr pose, uint handle_count, void* handles, void* matrices);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_handle(IntPtr pose, uint handle, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_pose_get_handle_count(IntPtr pose);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_field(IntPtr pose, uint handle, void* out_values, uint value_stride);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_deform(IntPtr pose, void* out_positions, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_deform(IntPtr pose, void* desc, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_skin(IntPtr pose, void* inout_skin);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_create(IntPtr surface, void* desc, void* out_quads);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_quads_destroy(IntPtr quads);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_get_info(IntPtr quads, void* out_info);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_get_mesh(IntPtr quads, void* out_mesh);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_flow_create(IntPtr solver, void* out_flow);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_get_mesh(IntPtr quads, void* inout_mesh);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_flow_create(IntPtr surface, void* out_flow);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_flow_destroy(IntPtr flow);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_flow_trace(IntPtr flow, void* field, void* inout_lines);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_create(IntPtr surface, void* desc, void* out_region);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_clone(IntPtr region, void* out_region);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_region_destroy(IntPtr region);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_edit(IntPtr region, void* edit);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_record(IntPtr region);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_undo(IntPtr region);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_redo(IntPtr region);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_info(IntPtr region, void* out_info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_vertices(IntPtr region, int list, uint capacity, void* out_vertices, void* out_count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_morph(IntPtr region, void* desc);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_detail_create(IntPtr source, IntPtr target, void* desc, void* out_detail);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_detail_destroy(IntPtr detail);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_detail_morph(IntPtr detail, void* desc);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_create(IntPtr source, IntPtr target, void* desc, void* out_transfer);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_transfer_destroy(IntPtr transfer);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_add_pairs(IntPtr transfer, void* pairs, void* out_pairs);
@@ -805,6 +920,6 @@ namespace Hf.Native
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_pair(IntPtr transfer, uint pair, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_info(IntPtr transfer, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_apply(IntPtr transfer, void* frame);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_skin(IntPtr transfer, void* info);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_skin(IntPtr transfer, void* inout_skin);
     }
 }

@@ -10,10 +10,9 @@ namespace Hf
     {
         readonly int sourceCount, targetCount;
 
-        public Transfer(Solver source, Solver target, int mode = Constants.HF_TRANSFER_FIELDS, float scale = 0)
+        public Transfer(Surface source, Surface target, int mode = Constants.HF_TRANSFER_FIELDS, float scale = 0)
         {
-            hf_transfer_desc desc;
-            Functions.hf_init_desc(&desc, (uint)sizeof(hf_transfer_desc));
+            var desc = new hf_transfer_desc { struct_size = (uint)sizeof(hf_transfer_desc) };
             desc.mode = mode;
             desc.scale = scale;
             IntPtr raw;
@@ -34,8 +33,7 @@ namespace Hf
                 throw new HfException("sourceRegions and targetRegions must be of one length");
             using (var pins = new Pins())
             {
-                hf_pairs_desc desc;
-                Functions.hf_init_desc(&desc, (uint)sizeof(hf_pairs_desc));
+                var desc = new hf_pairs_desc { struct_size = (uint)sizeof(hf_pairs_desc) };
                 desc.pair_count = (uint)source.Counts.Length;
                 desc.source_counts = pins.Add(source.Counts);
                 desc.source_vertices = pins.Add(source.Vertices);
@@ -55,8 +53,7 @@ namespace Hf
 
         public hf_pair_info PairInfo(uint pair)
         {
-            hf_pair_info info;
-            Functions.hf_init_desc(&info, (uint)sizeof(hf_pair_info));
+            var info = new hf_pair_info { struct_size = (uint)sizeof(hf_pair_info) };
             Check(Functions.hf_transfer_get_pair(Handle, pair, &info));
             return info;
         }
@@ -65,8 +62,7 @@ namespace Hf
         {
             get
             {
-                hf_transfer_info info;
-                Functions.hf_init_desc(&info, (uint)sizeof(hf_transfer_info));
+                var info = new hf_transfer_info { struct_size = (uint)sizeof(hf_transfer_info) };
                 Check(Functions.hf_transfer_get_info(Handle, &info));
                 return info;
             }
@@ -78,8 +74,7 @@ namespace Hf
             var positions = new double[3 * targetCount];
             using (var pins = new Pins())
             {
-                hf_transfer_frame frame;
-                Functions.hf_init_desc(&frame, (uint)sizeof(hf_transfer_frame));
+                var frame = new hf_transfer_frame { struct_size = (uint)sizeof(hf_transfer_frame) };
                 frame.source_positions_f64 = pins.Add(sourcePositions, 3 * sourceCount, "sourcePositions");
                 frame.target_positions_f64 = pins.Add(positions);
                 Check(Functions.hf_transfer_apply(Handle, &frame));
@@ -94,8 +89,7 @@ namespace Hf
             fixed (float* from = &MemoryMarshal.GetReference(sourcePositions))
             fixed (float* to = &MemoryMarshal.GetReference(positions))
             {
-                hf_transfer_frame frame;
-                Functions.hf_init_desc(&frame, (uint)sizeof(hf_transfer_frame));
+                var frame = new hf_transfer_frame { struct_size = (uint)sizeof(hf_transfer_frame) };
                 frame.source_positions = (IntPtr)from;
                 frame.target_positions = (IntPtr)to;
                 Check(Functions.hf_transfer_apply(Handle, &frame));

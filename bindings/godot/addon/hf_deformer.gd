@@ -24,7 +24,7 @@ static func mesh_in(node):
 			return found
 	return null
 
-# Factorises once. Returns true, or false with a warning that says why not.
+# Makes the surface, which factorises once. Returns true, or false with a warning that says why not.
 func bind(options = {}):
 	surface = HfSurface.new()
 	arrays = mesh.surface_get_arrays(0)
@@ -45,8 +45,7 @@ func said(result):
 		return false
 	return true
 
-# A handle from what hangs together with the vertex nearest to a point of the rest mesh, within a radius. Null when
-# refused.
+# A handle from the vertices that are edge-connected to a point of the rest mesh within a radius. Null when refused.
 func add_handle(point, radius, layer = 0):
 	var numbers = surface.add_handles_at([point], [radius], layer)
 	if not said(numbers):

@@ -1,5 +1,8 @@
 // Reading a script's arguments, for surface*.cpp.
 #pragma once
+#include <utility>
+#include <variant>
+
 #include "surface.h"
 
 namespace hf_godot {
@@ -24,6 +27,28 @@ inline uint32_t whole(double value, const char* name) {
     fail(std::string(name) + " must be whole numbers from 0", HF_ERROR_OUT_OF_RANGE);
   if (value != static_cast<uint32_t>(value)) fail(std::string(name) + " must be whole numbers");
   return static_cast<uint32_t>(value);
+}
+
+inline int32_t signed_whole(double value, const char* name) {
+  if (!(value >= -2147483648.0 && value <= 2147483647.0) || value != static_cast<int32_t>(value))
+    fail(std::string(name) + " must be a whole number");
+  return static_cast<int32_t>(value);
+}
+
+using Option = std::pair<const char*, std::variant<int32_t*, uint32_t*, float*, double*>>;
+
+// Writes a script's named numbers to the fields of a desc; an unknown name is an error.
+inline void read_options(const Argument& argument, const std::vector<Option>& known) {
+  for (const auto& [name, value] : argument.named) {
+    const Option* found = nullptr;
+    for (const Option& option : known)
+      if (name == option.first) found = &option;
+    if (!found) fail("no option '" + name + "'");
+    if (auto* const* i = std::get_if<int32_t*>(&found->second)) **i = signed_whole(value, found->first);
+    if (auto* const* u = std::get_if<uint32_t*>(&found->second)) **u = whole(value, found->first);
+    if (auto* const* f = std::get_if<float*>(&found->second)) **f = static_cast<float>(value);
+    if (auto* const* d = std::get_if<double*>(&found->second)) **d = value;
+  }
 }
 
 inline List integers(const Argument& argument, const char* name) {
@@ -59,6 +84,11 @@ inline Value numbers(Numbers list) {
   value.kind = Value::integers, value.whole = std::move(list);
   return value;
 }
+inline Value number(double real) {
+  Value value;
+  value.kind = Value::number, value.real = real;
+  return value;
+}
 inline Value done() {
   Value value;
   value.kind = Value::truth, value.real = 1;
@@ -69,6 +99,25 @@ inline Value named(std::map<std::string, double> fields) {
   Value value;
   value.kind = Value::named, value.fields = std::move(fields);
   return value;
+}
+
+// Makes a handle by `create` when the slot is empty.
+template <class Raw, void (*destroy)(Raw), class Create>
+Raw make_once(hf::Handle<Raw, destroy>& slot, Create&& create) {
+  if (!slot) {
+    Raw raw = nullptr;
+    check(create(&raw));
+    slot = hf::Handle<Raw, destroy>(raw);
+  }
+  return slot.get();
+}
+
+// Replaces a handle by a new one; the old one stays when `create` fails.
+template <class Raw, void (*destroy)(Raw), class Create>
+void make_again(hf::Handle<Raw, destroy>& slot, Create&& create) {
+  Raw raw = nullptr;
+  check(create(&raw));
+  slot = hf::Handle<Raw, destroy>(raw);
 }
 
 // xyz in double precision as Godot's vectors.

@@ -1,5 +1,5 @@
-// Godot 4: HfSurface as a GDExtension class by godot-cpp, over the same surface.cpp. No Godot 4 was to be had: compiled
-// against stand-ins for godot-cpp (tests/bindings/godot_cpp_stubs.h), never run. Entry symbol: hf_godot_init.
+// Godot 4: HfSurface as a GDExtension class by godot-cpp, over the same surface*.cpp. It compiles against stand-ins for
+// godot-cpp (tests/bindings/godot_cpp_stubs.h) and has never run. Entry symbol: hf_godot_init.
 #include <godot_cpp/classes/ref_counted.hpp>
 #include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/godot.hpp>
@@ -23,7 +23,7 @@ class HfSurface : public RefCounted {
   GDCLASS(HfSurface, RefCounted)
 
  public:
-  // call(name, [arguments...]): every method of surface.cpp by its name, as HfSurface of Godot 3 has them.
+  // invoke(name, [arguments...]): every method by its name, as HfSurface of Godot 3 has them.
   Variant invoke(const String& name, const Array& values) {
     const std::string wanted = name.utf8().get_data();
     for (const hf_godot::Entry& entry : hf_godot::methods()) {
@@ -69,6 +69,12 @@ class HfSurface : public RefCounted {
     if (argument.null) return argument;
     if (is_number(value)) {
       argument.number = value;
+    } else if (value.get_type() == Variant::VECTOR3) {
+      const Vector3 v = value;
+      argument.list = {v.x, v.y, v.z};
+    } else if (value.get_type() == Variant::QUATERNION) {
+      const Quaternion q = value;
+      argument.list = {q.x, q.y, q.z, q.w};
     } else if (value.get_type() == Variant::OBJECT) {
       if (HfSurface* other = Object::cast_to<HfSurface>(value)) argument.surface = other->surface_;
     } else if (value.get_type() == Variant::DICTIONARY) {

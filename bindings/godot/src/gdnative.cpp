@@ -54,7 +54,7 @@ void numbers_of(const godot_variant* value, Doubles& out) {
       const godot_vector3 v = api->godot_variant_as_vector3(item);
       for (int c = 0; c < 3; ++c) out.push_back(api->godot_vector3_get_axis(&v, static_cast<godot_vector3_axis>(c)));
     } else {
-      // what is no number becomes NaN, which the library refuses by its place
+      // other items become NaN, which the library refuses by their place
       out.push_back(is_number(item) ? api->godot_variant_as_real(item) : std::numeric_limits<double>::quiet_NaN());
     }
   }
@@ -68,6 +68,14 @@ Argument argument_of(const godot_variant* value) {
   if (argument.null) return argument;
   if (is_number(value)) {
     argument.number = api->godot_variant_as_real(value);
+  } else if (type == GODOT_VARIANT_TYPE_VECTOR3) {
+    const godot_vector3 v = api->godot_variant_as_vector3(value);
+    for (int c = 0; c < 3; ++c)
+      argument.list.push_back(api->godot_vector3_get_axis(&v, static_cast<godot_vector3_axis>(c)));
+  } else if (type == GODOT_VARIANT_TYPE_QUAT) {
+    const godot_quat q = api->godot_variant_as_quat(value);
+    argument.list = {api->godot_quat_get_x(&q), api->godot_quat_get_y(&q), api->godot_quat_get_z(&q),
+                     api->godot_quat_get_w(&q)};
   } else if (type == GODOT_VARIANT_TYPE_OBJECT) {
     godot_object* object = api->godot_variant_as_object(value);
     auto* instance = object ? static_cast<Instance*>(script->godot_nativescript_get_userdata(object)) : nullptr;

@@ -1,5 +1,5 @@
-// What scripts see, free of any engine: one object with a solver, a pose and (when made with transfer_to) a transfer,
-// and a table of methods from plain arguments to plain values. gdnative.cpp and gdextension.cpp only convert.
+// The class that scripts see, free of any engine. It holds a surface and one of each thing that is made on it.
+// A table of methods takes plain arguments to plain values. gdnative.cpp and gdextension.cpp only convert.
 #pragma once
 #include <hf/hf.hpp>
 #include <map>
@@ -45,6 +45,8 @@ struct Value {
 }
 
 struct Surface {
+  // Several may share one mesh and factor (share_from).
+  std::shared_ptr<hf::Handle<hf_surface, hf_surface_destroy>> mesh;
   hf::Handle<hf_solver, hf_solver_destroy> solver;
   hf::Handle<hf_pose, hf_pose_destroy> pose;
   hf::Handle<hf_transfer, hf_transfer_destroy> transfer;
@@ -54,11 +56,14 @@ struct Surface {
   hf::Handle<hf_flow, hf_flow_destroy> flow;
   hf::Handle<hf_region, hf_region_destroy> region;
   hf::Handle<hf_detail, hf_detail_destroy> detail;
-  // Everything made from the solver.
+  hf_surface get() const { return mesh ? mesh->get() : nullptr; }
+  // Forgets everything made on the mesh.
   void forget() {
-    pose = {}, transfer = {}, geodesics = {}, direction = {}, quads = {}, flow = {}, region = {}, detail = {};
+    solver = {}, pose = {}, transfer = {}, geodesics = {}, direction = {}, quads = {}, flow = {}, region = {},
+    detail = {};
   }
-  size_t vertex_count = 0, target_count = 0;
+  size_t vertex_count = 0;
+  size_t target_count = 0;     // vertices of the transfer's target
   std::vector<float> normals;  // of the last deform
   // the last failure, for scripts that have no exceptions
   std::string error_name, error_message;
@@ -72,10 +77,12 @@ struct Entry {
   Method method;
 };
 const std::vector<Entry>& methods();         // all of them
+const std::vector<Entry>& solver_methods();  // those of surface_solver.cpp
+const std::vector<Entry>& pose_methods();    // those of surface_pose.cpp
 const std::vector<Entry>& field_methods();   // those of surface_fields.cpp
 const std::vector<Entry>& region_methods();  // those of surface_regions.cpp
 
-hf_pose pose_of(Surface& surface);  // made when there is none
+hf_solver solver_of(Surface& surface);  // made when there is none
 
 // Calls a method; a failure is kept in the surface and gives Value::nothing.
 Value call(Surface& surface, const Entry& entry, const Arguments& arguments) noexcept;

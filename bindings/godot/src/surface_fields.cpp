@@ -1,5 +1,4 @@
-// Methods of what is made from a field or a surface: distances, levels and iso-lines, critical points, tips, direction
-// fields, quad meshes, flow lines.
+// Methods for distances, levels and iso-lines, critical points, tips, direction fields, quad meshes and flow lines.
 #include <algorithm>
 
 #include "arguments.h"
@@ -24,22 +23,11 @@ Value lines_of(const Doubles& positions, const Numbers& starts) {
   return value;
 }
 
-// Creates into a slot of the surface; what was there before stays when it fails.
-template <class Raw, void (*destroy)(Raw), class Create>
-Raw make_once(hf::Handle<Raw, destroy>& slot, Create&& create) {
-  if (!slot) {
-    Raw raw = nullptr;
-    check(create(&raw));
-    slot = hf::Handle<Raw, destroy>(raw);
-  }
-  return slot.get();
-}
-
 // distance(sources): along the surface, -1 where none can be reached
 Value distance(Surface& s, const Arguments& a) {
   const List sources = integers(at(a, 0), "sources");
   hf_geodesics geodesics =
-      make_once(s.geodesics, [&](hf_geodesics* out) { return hf_geodesics_create(s.solver.get(), nullptr, out); });
+      make_once(s.geodesics, [&](hf_geodesics* out) { return hf_geodesics_create(s.get(), nullptr, out); });
   Value value;
   value.kind = Value::reals, value.floats.resize(s.vertex_count + 1);
   check(hf_geodesics_solve(geodesics, sources.count(), sources.data(), value.floats.data(), 0));
@@ -52,7 +40,7 @@ Value space_levels(Surface& s, const Arguments& a) {
   const hf_scalars field = scalars_of(s, at(a, 0));
   const uint32_t count = whole(at(a, 1).number, "count");
   Doubles levels(std::min(count, 1000000u) + 1);
-  check(hf_surface_space_levels(s.solver.get(), &field, static_cast<int32_t>(at(a, 2).number), count, levels.data()));
+  check(hf_surface_space_levels(s.get(), &field, signed_whole(at(a, 2).number, "spacing"), count, levels.data()));
   Value value;
   value.kind = Value::reals, value.floats.assign(levels.begin(), levels.end() - 1);
   return value;
@@ -65,12 +53,12 @@ Value trace_isolines(Surface& s, const Arguments& a) {
   const uint32_t count = at(a, 1).null ? 1u : static_cast<uint32_t>(levels.size());
   const double* given = levels.empty() ? nullptr : levels.data();
   auto lines = make<hf_isolines>();
-  check(hf_surface_trace_isolines(s.solver.get(), &field, count, given, &lines));
+  check(hf_surface_trace_isolines(s.get(), &field, count, given, &lines));
   Doubles positions(3 * size_t{lines.point_count});
   Numbers starts(size_t{lines.line_count} + 1);
   lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
   lines.positions = positions.data(), lines.line_starts = starts.data();
-  if (lines.line_count) check(hf_surface_trace_isolines(s.solver.get(), &field, count, given, &lines));
+  if (lines.line_count) check(hf_surface_trace_isolines(s.get(), &field, count, given, &lines));
   return lines_of(positions, starts);
 }
 
@@ -78,9 +66,9 @@ Value trace_isolines(Surface& s, const Arguments& a) {
 Value find_critical_points(Surface& s, const Arguments& a) {
   const hf_scalars field = scalars_of(s, at(a, 0));
   auto info = make<hf_critical_info>();
-  check(hf_surface_find_critical_points(s.solver.get(), &field, 0, nullptr, &info));
+  check(hf_surface_find_critical_points(s.get(), &field, 0, nullptr, &info));
   std::vector<hf_critical_point> points(info.point_count);
-  if (!points.empty()) check(hf_surface_find_critical_points(s.solver.get(), &field, info.point_count, points.data(), &info));
+  if (!points.empty()) check(hf_surface_find_critical_points(s.get(), &field, info.point_count, points.data(), &info));
   Value value;
   value.kind = Value::rows;
   for (const hf_critical_point& p : points)
@@ -91,23 +79,21 @@ Value find_critical_points(Surface& s, const Arguments& a) {
 // find_extremities(): { vertex, length } each, the longest first
 Value find_extremities(Surface& s, const Arguments&) {
   uint32_t count = 0;
-  check(hf_surface_find_extremities(s.solver.get(), nullptr, 0, nullptr, &count));
+  check(hf_surface_find_extremities(s.get(), nullptr, 0, nullptr, &count));
   std::vector<hf_extremity> found(count);
-  if (count) check(hf_surface_find_extremities(s.solver.get(), nullptr, count, found.data(), &count));
+  if (count) check(hf_surface_find_extremities(s.get(), nullptr, count, found.data(), &count));
   Value value;
   value.kind = Value::rows;
   for (const hf_extremity& tip : found) value.table.push_back({{"vertex", tip.vertex}, {"length", tip.length}});
   return value;
 }
 
-// ---- the direction field of a surface: direction_create(degree = 1) makes it anew
+// ---- the direction field of a surface: direction_create(degree = 1) replaces it
 
 Value direction_create(Surface& s, const Arguments& a) {
   auto desc = make<hf_direction_desc>();
   desc.degree = whole(at(a, 0).number, "degree");
-  hf_direction raw = nullptr;
-  check(hf_direction_create(s.solver.get(), &desc, &raw));
-  s.direction = hf::Handle<hf_direction, hf_direction_destroy>(raw);
+  make_again(s.direction, [&](hf_direction* out) { return hf_direction_create(s.get(), &desc, out); });
   return done();
 }
 
@@ -159,7 +145,7 @@ Value direction_redo(Surface& s, const Arguments&) { return check(hf_direction_r
 Value direction_vectors(Surface& s, const Arguments&) {
   const uint32_t count = hf_direction_get_site_count(s.direction.get());
   Doubles found(3 * size_t{count});
-  check(hf_direction_get_sites(s.direction.get(), count, nullptr, nullptr, found.data()));
+  check(hf_direction_get_sites(s.direction.get(), count, nullptr, nullptr, found.data(), nullptr));
   return vectors(found);
 }
 
@@ -189,31 +175,19 @@ Value direction_singularities(Surface& s, const Arguments&) {
 
 Value quads_create(Surface& s, const Arguments& a) {
   auto desc = make<hf_quads_desc>();
-  for (const auto& [name, number] : at(a, 0).named) {
-    if (name == "kind")
-      desc.kind = static_cast<int32_t>(number);
-    else if (name == "edge_length")
-      desc.edge_length = static_cast<float>(number);
-    else if (name == "keep_polygons")
-      desc.keep_polygons = number != 0;
-    else if (name == "relax_count")
-      desc.relax_count = whole(number, "relax_count");
-    else
-      fail("no option '" + name + "'");
-  }
+  read_options(at(a, 0), {{"kind", &desc.kind},
+                          {"edge_length", &desc.edge_length},
+                          {"keep_polygons", &desc.keep_polygons},
+                          {"relax_count", &desc.relax_count}});
   const List places = integers(at(a, 1), "site vertices");
   desc.site_count = static_cast<uint32_t>(places.values.size()), desc.site_vertices = places.data();
-  const Doubles& lines = at(a, 2).list;
-  const std::vector<int32_t> line_counts(lines.begin(), lines.end());
+  std::vector<int32_t> line_counts;
   if (!at(a, 2).null) {
-    if (lines.size() != places.values.size()) fail("site lines must be as many as site vertices");
-    for (size_t i = 0; i < lines.size(); ++i)
-      if (lines[i] != line_counts[i]) fail("site lines must be whole numbers");
+    for (double lines : at(a, 2).list) line_counts.push_back(signed_whole(lines, "site lines"));
+    if (line_counts.size() != places.values.size()) fail("site lines must be as many as site vertices");
     desc.site_lines = line_counts.data();
   }
-  hf_quads raw = nullptr;
-  check(hf_quads_create(s.solver.get(), &desc, &raw));
-  s.quads = hf::Handle<hf_quads, hf_quads_destroy>(raw);
+  make_again(s.quads, [&](hf_quads* out) { return hf_quads_create(s.get(), &desc, out); });
   return done();
 }
 
@@ -261,7 +235,7 @@ Value quads_faces(Surface& s, const Arguments&) {
 Value flow_lines(Surface& s, const Arguments& a) {
   const hf_scalars field = scalars_of(s, at(a, 0));
   const List seeds = integers(at(a, 2), "seeds");
-  hf_flow flow = make_once(s.flow, [&](hf_flow* out) { return hf_flow_create(s.solver.get(), out); });
+  hf_flow flow = make_once(s.flow, [&](hf_flow* out) { return hf_flow_create(s.get(), out); });
   auto lines = make<hf_flow_lines>();
   lines.wanted_count = at(a, 1).null ? 0u : whole(at(a, 1).number, "count");
   lines.seed_count = seeds.null ? 0u : seeds.count(), lines.seeds = seeds.data();

@@ -1,34 +1,34 @@
-// Methods of detail modelling (hf/detail.h): a region of the surface, its smooth base, the morph between them, and the
-// detail of another surface's region carried to it.
+// Methods of regions (hf/region.h): a region of the surface, its smooth base, the morph between them, and the detail of
+// another surface's region carried to it.
 #include "arguments.h"
 
 namespace hf_godot {
 namespace {
 
-// region_create(positions = null): an empty region, of a pose of the surface or of the surface itself
+// region_create(positions = null, field_kind = 0): an empty region, of a pose of the surface or of its rest positions
 Value region_create(Surface& s, const Arguments& a) {
   auto desc = make<hf_region_desc>();
   desc.positions_f64 = doubles(at(a, 0), 3 * s.vertex_count, "positions");
-  hf_region raw = nullptr;
-  check(hf_region_create(s.solver.get(), &desc, &raw));
-  s.region = hf::Handle<hf_region, hf_region_destroy>(raw), s.detail = {};
+  desc.field_kind = signed_whole(at(a, 1).number, "field_kind");
+  make_again(s.region, [&](hf_region* out) { return hf_region_create(s.get(), &desc, out); });
+  s.detail = {};
   return done();
 }
 
-// region_edit(add = null, remove = null, rings = 0, curve = null, side = 0, seed vertex = 0): one edit, all or nothing:
-// what a closed curve through these vertices encloses, rings of vertices more (below 0: less), vertices
+// region_edit(add = null, remove = null, rings = 0, curve = null, side = 0, seed vertex = 0): a batch. The region
+// becomes what a closed curve through these vertices encloses, grows by rings (below 0 it shrinks), loses and gains
+// vertices.
 Value region_edit(Surface& s, const Arguments& a) {
-  const List add = integers(at(a, 0), "add"), remove = integers(at(a, 1), "remove"), along = integers(at(a, 3), "curve");
-  const double rings = at(a, 2).number;
-  if (!(rings >= -1e9 && rings <= 1e9) || rings != static_cast<int32_t>(rings)) fail("rings must be a whole number");
+  const List add = integers(at(a, 0), "add"), remove = integers(at(a, 1), "remove"),
+             along = integers(at(a, 3), "curve");
   auto edit = make<hf_region_edit_desc>();
   auto curve = make<hf_curve_desc>();
-  edit.ring_count = static_cast<int32_t>(rings);
+  edit.ring_count = signed_whole(at(a, 2).number, "rings");
   edit.add_count = static_cast<uint32_t>(add.values.size()), edit.add_vertices = add.data();
   edit.remove_count = static_cast<uint32_t>(remove.values.size()), edit.remove_vertices = remove.data();
   if (!along.null) {
     curve.point_count = along.count(), curve.vertices = along.data();
-    curve.side = static_cast<int32_t>(whole(at(a, 4).number, "side"));
+    curve.side = signed_whole(at(a, 4).number, "side");
     curve.seed_vertex = whole(at(a, 5).number, "seed vertex");
     edit.curve = &curve;
   }
@@ -54,21 +54,19 @@ Value region_info(Surface& s, const Arguments&) {
                 {"inserted_count", info.inserted_count},
                 {"removed_count", info.removed_count},
                 {"factorisation_count", info.factorisation_count},
-                {"thin_plate", info.thin_plate},
+                {"field_kind", info.field_kind},
                 {"area", info.area},
                 {"base_area", info.base_area}});
 }
 
 // region_vertices(list = 0): HF_REGION_INSIDE, _RIM or _SITES
 Value region_vertices(Surface& s, const Arguments& a) {
-  const hf_region_info info = info_of(s);
-  const int32_t list = static_cast<int32_t>(whole(at(a, 0).number, "list"));
-  const uint32_t count = list == HF_REGION_INSIDE ? info.vertex_count : list == HF_REGION_RIM ? info.rim_count
-                                                                                               : info.site_count;
-  Numbers found(size_t{count} + 1);
-  check(hf_region_get_vertices(s.region.get(), list, count, found.data()));
-  found.pop_back();
-  return numbers(found);
+  const int32_t list = signed_whole(at(a, 0).number, "list");
+  uint32_t count = 0;
+  check(hf_region_get_vertices(s.region.get(), list, 0, nullptr, &count));
+  Numbers found(count);
+  check(hf_region_get_vertices(s.region.get(), list, count, found.data(), nullptr));
+  return numbers(std::move(found));
 }
 
 template <class Raw>
@@ -93,9 +91,8 @@ Value detail_from(Surface& s, const Arguments& a) {
   auto desc = make<hf_detail_desc>();
   desc.pair_count = static_cast<uint32_t>(source.values.size()), desc.scale = at(a, 3).number;
   desc.source_vertices = source.data(), desc.target_vertices = target.data();
-  hf_detail raw = nullptr;
-  check(hf_detail_create(a[0].surface->region.get(), s.region.get(), &desc, &raw));
-  s.detail = hf::Handle<hf_detail, hf_detail_destroy>(raw);
+  const hf_region from = a[0].surface->region.get();
+  make_again(s.detail, [&](hf_detail* out) { return hf_detail_create(from, s.region.get(), &desc, out); });
   return done();
 }
 
@@ -106,11 +103,11 @@ Value detail_morph(Surface& s, const Arguments& a) { return morph(s, a, s.detail
 
 const std::vector<Entry>& region_methods() {
   static const std::vector<Entry> all = {
-      {"region_create", 0, 1, region_create}, {"region_edit", 0, 6, region_edit},
-      {"region_record", 0, 0, region_record}, {"region_undo", 0, 0, region_undo},
-      {"region_redo", 0, 0, region_redo},     {"region_info", 0, 0, region_info},
+      {"region_create", 0, 2, region_create},     {"region_edit", 0, 6, region_edit},
+      {"region_record", 0, 0, region_record},     {"region_undo", 0, 0, region_undo},
+      {"region_redo", 0, 0, region_redo},         {"region_info", 0, 0, region_info},
       {"region_vertices", 0, 1, region_vertices}, {"region_morph", 1, 1, region_morph},
-      {"detail_from", 1, 4, detail_from},     {"detail_morph", 1, 1, detail_morph},
+      {"detail_from", 1, 4, detail_from},         {"detail_morph", 1, 1, detail_morph},
   };
   return all;
 }

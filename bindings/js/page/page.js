@@ -69,8 +69,9 @@ const hf = await load({
 });
 const rest = await readModel(params.get('model') ?? 'model.glb');
 let begin = performance.now();
-const solver = new hf.Solver(rest.positions, rest.triangles);
-const pose = new hf.Pose(solver);
+const surface = new hf.Surface(rest.positions, rest.triangles);
+const solver = new hf.Solver(surface);
+const pose = new hf.Pose(surface);
 figures.createMs = performance.now() - begin;
 figures.vertices = solver.vertexCount;
 
@@ -154,7 +155,7 @@ function refreshPose() {
 
 function addSite(vertex, value) {
   begin = performance.now();
-  const [number] = solver.addSites([vertex], [value]);
+  const number = solver.addSite(vertex, value);
   figures.editMs = performance.now() - begin;
   const site = { number, vertex, ball: ball(value ? 0xffd060 : 0x4060ff, 0.018) };
   sites.push(site);
@@ -164,7 +165,7 @@ function addSite(vertex, value) {
 
 function addHandle(vertex) {
   const at = Array.from(rest.positions.subarray(3 * vertex, 3 * vertex + 3));
-  const [number] = pose.addHandles(null, { points: at, radii: [Number(document.getElementById('radius').value)] });
+  const number = pose.addHandleAt(at, Number(document.getElementById('radius').value));
   const handle = {
     number,
     centroid: new THREE.Vector3().fromArray(pose.handleInfo(number).centroid),
@@ -180,7 +181,7 @@ function addHandle(vertex) {
 function moveHandle(handle, place) {
   handle.move.copy(place).sub(handle.centroid);
   handle.ball.position.copy(place);
-  pose.setTransforms([handle.number], { translations: handle.move.toArray() });
+  pose.setTransform(handle.number, { translation: handle.move.toArray() });
   refreshPose();
 }
 
@@ -193,15 +194,9 @@ function cast(event) {
 }
 function vertexUnder(event) {
   cast(event);
-  const [hit] = caster.intersectObject(mesh);
-  if (!hit) return null;
-  const place = new THREE.Vector3();
-  const corners = [hit.face.a, hit.face.b, hit.face.c];
-  return corners.reduce(
-    (best, v) =>
-      place.fromArray(positions, 3 * v).distanceTo(hit.point) < best[1] ? [v, place.distanceTo(hit.point)] : best,
-    [null, Infinity],
-  )[0];
+  const { origin, direction } = caster.ray;
+  const hit = surface.castRay(origin.toArray(), direction.toArray(), { positions });
+  return hit && hit.vertex;
 }
 
 let mode = 'high';
@@ -287,6 +282,7 @@ const onScreen = (place) => {
 window.hfPage = {
   hf,
   figures,
+  surface,
   solver,
   pose,
   field,

@@ -1,6 +1,6 @@
-// Regions of a surface, their smooth base, the detail on it, and detail carried to another region (hf/detail.h).
+// Regions of a surface, their smooth base, and detail carried to another region (hf/region.h).
 export function detailClasses(tools) {
-  const { make, call, handleOf, query, Handle, OnSolver, fail, integers, output, points, read, written, classes } =
+  const { make, call, handleOf, query, watched, Handle, OnSurface, fail, integers, output, points, read, written } =
     tools;
 
   const morph = (name, thing, weight, out, { normals = null, Type = Float32Array } = {}) => {
@@ -18,14 +18,14 @@ export function detailClasses(tools) {
     return out;
   };
 
-  /** A region of a solver's surface; `positions`: a pose of the surface to work on, null: the solver's own. */
-  class Region extends OnSolver {
+  /** A region of a surface. `positions`: a pose of the surface to work on, null for its rest positions. */
+  class Region extends OnSurface {
     static prefix = 'hf_region';
-    constructor(solver, positions = null) {
-      super(solver, () => {
-        const desc = make('hf_region_desc');
+    constructor(surface, { positions = null, fieldKind = 0, progress = null } = {}) {
+      super(surface, () => {
+        const desc = watched(make('hf_region_desc').options({ fieldKind }), progress);
         if (!positions) return desc;
-        const given = points(positions, 'positions', 3 * solver.vertexCount);
+        const given = points(positions, 'positions', 3 * surface.vertexCount);
         return desc.set(given instanceof Float32Array ? 'positions' : 'positions_f64', read(given));
       });
     }
@@ -43,7 +43,7 @@ export function detailClasses(tools) {
       const [added, removed] = [integers(add, 'add'), integers(remove, 'remove')];
       if (added) desc.set('add_count', added.length).set('add_vertices', read(added));
       if (removed) desc.set('remove_count', removed.length).set('remove_vertices', read(removed));
-      if (progress) desc.set('progress', handleOf(progress, classes.Progress, 'progress'));
+      watched(desc, progress);
       call('hf_region_edit', this._handle, desc);
     }
     record() {
@@ -60,13 +60,13 @@ export function detailClasses(tools) {
     }
     /** Vertices inside (0), on the rim (1), or the sites that hold the base (2). */
     vertices(list = 0) {
-      const { vertexCount, rimCount, siteCount } = this.info;
-      const size = [vertexCount, rimCount, siteCount][list] ?? 0;
-      const out = new Uint32Array(Math.max(1, size));
-      call('hf_region_get_vertices', this._handle, list, size, written(out));
-      return out.subarray(0, size);
+      const size = new Uint32Array(1);
+      call('hf_region_get_vertices', this._handle, list, 0, null, written(size));
+      const out = new Uint32Array(size[0]);
+      call('hf_region_get_vertices', this._handle, list, out.length, written(out), null);
+      return out;
     }
-    /** 0: the surface, 1: its base without detail, between and beyond in proportion. */
+    /** Weight 0: the surface, 1: its smooth base; between and beyond in proportion. */
     morph(weight, out, options) {
       return morph('hf_region_morph', this, weight, out, options);
     }
@@ -84,12 +84,12 @@ export function detailClasses(tools) {
       if (starts) {
         desc.set('pair_count', starts.length).set('source_vertices', read(starts)).set('target_vertices', read(ends));
       }
-      if (progress) desc.set('progress', handleOf(progress, classes.Progress, 'progress'));
+      watched(desc, progress);
       const [from, to] = [handleOf(source, Region, 'source'), handleOf(target, Region, 'target')];
       this._make('create', from, to, desc);
       this.vertexCount = target.vertexCount;
     }
-    /** 0: the target's smooth base, 1: with the source's detail, more exaggerates. */
+    /** Weight 0: the target's smooth base, 1: with the source's detail; more exaggerates. */
     morph(weight, out, options) {
       return morph('hf_detail_morph', this, weight, out, options);
     }

@@ -1,13 +1,14 @@
-// What stands on a solver: geodesic distances and direction fields.
+// Geodesic distances and direction fields on a surface (hf/analysis.h, hf/direction.h).
 export function fieldClasses(tools) {
   const {
     make,
     call,
     direct,
     query,
+    watched,
     table,
     rowSize,
-    OnSolver,
+    OnSurface,
     doubles,
     integers,
     output,
@@ -18,25 +19,25 @@ export function fieldClasses(tools) {
     solveName,
   } = tools;
 
-  class Geodesics extends OnSolver {
+  class Geodesics extends OnSurface {
     static prefix = 'hf_geodesics';
-    constructor(solver, { smoothing = 0 } = {}) {
-      super(solver, () => make('hf_geodesics_desc').options({ smoothing }));
+    constructor(surface, { progress = null, ...options } = {}) {
+      super(surface, () => watched(make('hf_geodesics_desc').options(options), progress));
     }
     distance(sources, out, Type = Float32Array) {
       const at = integers(sources, 'sources');
       out = output(out, this.vertexCount, Type);
-      call(solveName('hf_geodesics_distance', out), this._handle, counted(at), at && read(at), written(out), 0);
+      call(solveName('hf_geodesics_solve', out), this._handle, counted(at), at && read(at), written(out), 0);
       return out;
     }
   }
 
-  class Direction extends OnSolver {
+  class Direction extends OnSurface {
     static prefix = 'hf_direction';
-    constructor(solver, options = {}) {
-      super(solver, () => make('hf_direction_desc').options(options));
+    constructor(surface, { progress = null, ...options } = {}) {
+      super(surface, () => watched(make('hf_direction_desc').options(options), progress));
     }
-    /** One that shares connection and factor and has a copy of the constraints. */
+    /** A direction field with the same constraints; shares connection and factor. */
     clone() {
       return this._copy();
     }
@@ -77,7 +78,7 @@ export function fieldClasses(tools) {
     sites() {
       const n = this.siteCount;
       const found = { sites: new Uint32Array(n), vertices: new Uint32Array(n), vectors: new Float64Array(3 * n) };
-      call('hf_direction_get_sites', this._handle, n, ...Object.values(found).map(written));
+      call('hf_direction_get_sites', this._handle, n, ...Object.values(found).map(written), null);
       return found;
     }
     get siteCount() {

@@ -22,23 +22,35 @@ export interface Handle {
   close(): void;
 }
 
-export interface SolverOptions {
+export interface SurfaceOptions {
   weld?: number;
   weldTolerance?: number;
   operatorKind?: number;
+  /** The factor made at once; others are made when a solver or region asks. */
   fieldKind?: number;
-  engine?: number;
   ordering?: number;
-  channelCount?: number;
   threadCount?: number;
-  siteLimit?: number;
   vertexLimit?: number;
   triangleLimit?: number;
   memoryLimitMb?: number;
-  penalty?: number;
-  positionStride?: number;
   savedFactor?: Uint8Array | null;
   progress?: Progress | null;
+}
+export interface SolverOptions {
+  fieldKind?: number;
+  engine?: number;
+  channelCount?: number;
+  siteLimit?: number;
+  penalty?: number;
+  progress?: Progress | null;
+}
+/** The first triangle on a ray: its weights are a site, its vertex the corner nearest to the hit. */
+export interface Hit {
+  triangle: number;
+  vertex: number;
+  barycentrics: [number, number, number];
+  position: [number, number, number];
+  distance: number;
 }
 export interface SiteOptions {
   stiffness?: Numbers | null;
@@ -77,18 +89,51 @@ export interface Progress extends Handle {
   cancel(): void;
 }
 
-export interface Solver extends Handle {
+/** A mesh, welded, checked, ordered and factorised once. Solvers, poses and the rest are made on it. */
+export interface Surface extends Handle {
   readonly vertexCount: number;
-  readonly channelCount: number;
+  readonly info: Record<string, number>;
   readonly report: Record<string, number>;
   readonly statistics: Record<string, number>;
   readonly components: Uint32Array;
+  /** The factor of one kind of field as bytes, for the option savedFactor. */
+  save(fieldKind?: number): Uint8Array;
+  /** The first triangle on a ray, or null. `positions`: a pose of the surface, null for the rest positions. */
+  castRay(
+    origin: Numbers,
+    direction: Numbers,
+    options?: { positions?: Numbers | null; frontOnly?: boolean },
+  ): Hit | null;
+  /** The vertex nearest to a point, and its distance. */
+  findVertex(point: Numbers, options?: { positions?: Numbers | null }): { vertex: number; distance: number };
+  spaceLevels(field: Numbers, levelCount: number, spacing?: number): Float64Array;
+  traceIsolines(field: Numbers, levels: Numbers): Isolines;
+  findCriticalPoints(
+    field: Numbers,
+  ): { vertex: number; kind: number; index: number; component: number; value: number }[];
+  findExtremities(options?: {
+    kind?: number;
+    leastLength?: number;
+    sourceCount?: number;
+    geodesics?: Geodesics | null;
+    progress?: Progress | null;
+  }): { vertex: number; component: number; length: number; position: number[] }[];
+}
+
+/** Sites on a surface, and the smooth field through them. */
+export interface Solver extends Handle {
+  readonly vertexCount: number;
+  readonly channelCount: number;
+  readonly info: Record<string, number>;
+  readonly statistics: Record<string, number>;
   readonly siteCount: number;
   clone(): Solver;
   addSites(vertices: Numbers | null, values: Rows | null, options?: SiteOptions): Uint32Array;
+  /** One hard site; values: a number, or one for each channel. */
+  addSite(vertex: number, values?: number | Numbers | null): number;
   removeSites(sites: Numbers): void;
   moveSites(sites: Numbers, vertices: Numbers | null, options?: SiteOptions): void;
-  setSiteValues(sites: Numbers, values: Rows): void;
+  setValues(sites: Numbers, values: Rows): void;
   editSites(edit: Edit): Uint32Array;
   sites(): {
     sites: Uint32Array;
@@ -113,21 +158,8 @@ export interface Solver extends Handle {
   solveVectors<T extends Floats = Float32Array>(out?: T | null, Type?: FloatsType): T;
   certify(options?: { tolerance?: number }): Record<string, number>;
   releasePreview(): void;
-  saveFactor(): Uint8Array;
-  spaceLevels(field: Numbers, levelCount: number, spacing?: number): Float64Array;
-  traceIsolines(field: Numbers, levels: Numbers): Isolines;
-  findCriticalPoints(
-    field: Numbers,
-  ): { vertex: number; kind: number; index: number; component: number; value: number }[];
-  findExtremities(options?: {
-    kind?: number;
-    leastLength?: number;
-    sourceCount?: number;
-    geodesics?: Geodesics | null;
-    progress?: Progress | null;
-  }): { vertex: number; component: number; length: number; position: number[] }[];
-  moveVectorSites(sites: Numbers, vertices: Numbers): void;
-  rotateVectorSites(sites: Numbers, angles: Numbers): void;
+  moveVectors(sites: Numbers, vertices: Numbers): void;
+  rotateVectors(sites: Numbers, angles: Numbers): void;
 }
 
 export interface Geodesics extends Handle {
@@ -217,15 +249,21 @@ export interface Direction extends Handle {
 }
 
 export interface Pose extends Handle {
+  readonly vertexCount: number;
+  readonly info: Record<string, number>;
   readonly handleCount: number;
   clone(): Pose;
   addHandles(
     regions: ReadonlyArray<Numbers> | null,
     options?: { points?: Rows | null; radii?: Numbers | null; layer?: number },
   ): Uint32Array;
+  /** One handle on layer 0: what is edge-connected within `radius` of a point at rest. */
+  addHandleAt(point: Numbers, radius: number): number;
   removeHandles(handles: Numbers): void;
   /** Quaternions x, y, z, w and translations, flat; about the handles' centroids. */
   setTransforms(handles: Numbers, motion: { rotations?: Rows | null; translations?: Rows | null }): void;
+  /** One handle: a quaternion x, y, z, w and a translation. */
+  setTransform(handle: number, motion: { rotation?: Numbers | null; translation?: Numbers | null }): void;
   /** 4 x 4, column by column. */
   setMatrices(handles: Numbers, matrices: Rows): void;
   handleInfo(handle: number): Record<string, any>;
@@ -261,9 +299,11 @@ export interface Transfer extends Handle {
 }
 
 export interface Hf {
-  readonly Solver: new (positions: Floats | Numbers, triangles: Numbers, options?: SolverOptions) => Solver;
+  /** `triangles` as Uint16Array or Uint32Array are read in place. */
+  readonly Surface: new (positions: Floats | Numbers, triangles: Numbers, options?: SurfaceOptions) => Surface;
+  readonly Solver: new (surface: Surface, options?: SolverOptions) => Solver;
   readonly Pose: new (
-    solver: Solver,
+    surface: Surface,
     options?: {
       mode?: number;
       bandCount?: number;
@@ -273,8 +313,8 @@ export interface Hf {
     },
   ) => Pose;
   readonly Transfer: new (
-    source: Solver,
-    target: Solver,
+    source: Surface,
+    target: Surface,
     options?: {
       mode?: number;
       clusterCount?: number;
@@ -285,10 +325,13 @@ export interface Hf {
       targetAxes?: Numbers;
     },
   ) => Transfer;
-  readonly Geodesics: new (solver: Solver, options?: { smoothing?: number }) => Geodesics;
-  readonly Direction: new (solver: Solver, options?: { degree?: number; siteLimit?: number }) => Direction;
+  readonly Geodesics: new (surface: Surface, options?: { smoothing?: number; progress?: Progress | null }) => Geodesics;
+  readonly Direction: new (
+    surface: Surface,
+    options?: { degree?: number; siteLimit?: number; progress?: Progress | null },
+  ) => Direction;
   readonly Quads: new (
-    solver: Solver,
+    surface: Surface,
     options?: {
       kind?: number;
       edgeLength?: number;
@@ -299,8 +342,12 @@ export interface Hf {
       progress?: Progress | null;
     },
   ) => Quads;
-  readonly Flow: new (solver: Solver) => Flow;
-  readonly Region: new (solver: Solver, positions?: Floats | Numbers | null) => Region;
+  readonly Flow: new (surface: Surface) => Flow;
+  /** `positions`: a pose of the surface to work on, null for its rest positions. */
+  readonly Region: new (
+    surface: Surface,
+    options?: { positions?: Floats | Numbers | null; fieldKind?: number; progress?: Progress | null },
+  ) => Region;
   readonly Detail: new (
     source: Region,
     target: Region,

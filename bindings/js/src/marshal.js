@@ -159,16 +159,16 @@ export class Struct {
     return getters[kind](this.view, at);
   }
 
-  /** Sets scalar options by their camelCase names; an unknown one is an error that names it. */
-  options(options = {}) {
+  /** Sets scalar options by their camelCase names; an unknown one is an error that names it. Arrays are packed and
+   * their lengths known, so strides and the fields of `own` are no options. */
+  options(options = {}, own = []) {
     const map = fieldsOf(this.type);
+    const taken = (name) => ['struct_size', 'reserved', ...own].includes(name) || name.endsWith('_stride');
     for (const [key, value] of Object.entries(options)) {
       const name = map.get(key);
       const kind = name && this.layout.fields[name][0];
-      if (!setters[kind] || name === 'struct_size' || name === 'reserved') {
-        const allowed = [...map].filter(
-          ([, field]) => setters[this.layout.fields[field][0]] && !['struct_size', 'reserved'].includes(field),
-        );
+      if (!setters[kind] || taken(name)) {
+        const allowed = [...map].filter(([, field]) => setters[this.layout.fields[field][0]] && !taken(field));
         fail(`no option '${key}'; there are: ${allowed.map(([shown]) => shown).join(', ')}`);
       }
       const count = this.layout.fields[name][2];

@@ -7,6 +7,7 @@ const kinds = {
   i32: 'int32_t',
   u32: 'uint32_t',
   size: 'size_t',
+  f64: 'double',
   string: 'str',
   void: 'void',
   handle: 'uintptr_t',

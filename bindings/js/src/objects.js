@@ -2,6 +2,7 @@
 import { constants, headerVersion } from './raw.js';
 import { HfError, Struct, doubles, fail, integers, output, points, read, regions, rows, written } from './marshal.js';
 import { solverClasses } from './solver.js';
+import { surfaceClasses } from './surface.js';
 import { detailClasses } from './detail.js';
 import { fieldClasses } from './fields.js';
 import { poseClasses } from './pose.js';
@@ -13,7 +14,7 @@ export function makeApi(backend) {
     const code = backend.call(name, args);
     if (code === 0) return;
     const detail = make('hf_error_detail');
-    backend.call('hf_get_error_detail', [detail]);
+    backend.call('hf_error_get_detail', [detail]);
     const index = detail.get('index');
     throw new HfError(
       detail.get('message'),
@@ -30,11 +31,11 @@ export function makeApi(backend) {
   /** Owns one handle. Objects may be closed in any order and more than once; a call on a closed one throws. */
   class Handle {
     #open = false;
-    /** Takes the handle that PREFIX_verb(...args, out) makes, PREFIX the class's own; PREFIX_destroy ends it. */
+    /** Takes the handle that PREFIX_verb(...args, out) makes (or the function the class names); PREFIX_destroy ends it. */
     _make(verb, ...args) {
-      const { prefix } = this.constructor;
+      const { prefix, [verb]: name = `${prefix}_${verb}` } = this.constructor;
       const handle = backend.newHandle();
-      call(`${prefix}_${verb}`, ...args, written(handle));
+      call(name, ...args, written(handle));
       this._handle = handle[0];
       this.#open = true;
       registry.register(this, { destroy: `${prefix}_destroy`, handle: this._handle }, this);
@@ -57,14 +58,14 @@ export function makeApi(backend) {
   }
   if (Symbol.dispose) Handle.prototype[Symbol.dispose] = Handle.prototype.close;
 
-  /** What is made from one solver by PREFIX_create(solver, describe(), out), or without a desc, and has its vertices. */
-  class OnSolver extends Handle {
-    constructor(solver, describe = null) {
+  /** An object made on one surface by PREFIX_create(surface, describe(), out), or without a desc. */
+  class OnSurface extends Handle {
+    constructor(surface, describe = null) {
       super();
-      if (solver === bare) return;
-      const parent = handleOf(solver, classes.Solver, 'solver');
+      if (surface === bare) return;
+      const parent = handleOf(surface, classes.Surface, 'surface');
       this._make('create', parent, ...(describe ? [describe()] : []));
-      this.vertexCount = solver.vertexCount;
+      this.vertexCount = surface.vertexCount;
     }
   }
 
@@ -79,6 +80,8 @@ export function makeApi(backend) {
     call(name, ...args, info);
     return info.toObject();
   };
+  const watched = (desc, progress) =>
+    progress ? desc.set('progress', handleOf(progress, classes.Progress, 'progress')) : desc;
   const table = (type, bytes, count) => rows(backend.width, type, bytes, count);
   const rowSize = (type) => make(type).bytes.length;
   const direct = (name, ...args) => backend.call(name, args);
@@ -106,10 +109,11 @@ export function makeApi(backend) {
     direct,
     handleOf,
     query,
+    watched,
     table,
     rowSize,
     Handle,
-    OnSolver,
+    OnSurface,
     doubles,
     fail,
     integers,
@@ -125,14 +129,13 @@ export function makeApi(backend) {
     scalarsOf,
     solveName,
   };
-  const number = direct('hf_get_version');
+  const number = direct('hf_version_get');
   const [major, minor] = headerVersion.split('.').map(Number);
   if (Math.floor(number / 1000000) !== major || number < major * 1000000 + minor * 1000) {
     throw new Error(`the hf library is of version ${number}, this package of ${headerVersion}; use matching ones`);
   }
-  Object.assign(classes, solverClasses(tools));
-  for (const more of [fieldClasses, quadClasses, detailClasses, poseClasses])
-    Object.assign(classes, more(tools, classes.Solver));
+  for (const more of [surfaceClasses, solverClasses, fieldClasses, quadClasses, detailClasses, poseClasses])
+    Object.assign(classes, more(tools));
   return Object.freeze({
     ...classes,
     HfError,

@@ -1,5 +1,5 @@
-// Pose and Transfer.
-export function poseClasses(tools, Solver) {
+// Poses and motion transfer (hf/pose.h, hf/transfer.h).
+export function poseClasses(tools) {
   const {
     make,
     call,
@@ -7,7 +7,7 @@ export function poseClasses(tools, Solver) {
     handleOf,
     query,
     Handle,
-    OnSolver,
+    OnSurface,
     doubles,
     fail,
     integers,
@@ -17,6 +17,7 @@ export function poseClasses(tools, Solver) {
     regions,
     written,
     counted,
+    classes,
   } = tools;
 
   const skinOf = (name, handle, vertexCount, weightCount) => {
@@ -35,6 +36,8 @@ export function poseClasses(tools, Solver) {
       handle,
       make('hf_skin_info', {
         weight_count: weightCount,
+        joint_capacity: n,
+        vertex_capacity: vertexCount,
         pivots: written(skin.pivots),
         rotations: written(skin.rotations),
         translations: written(skin.translations),
@@ -45,13 +48,17 @@ export function poseClasses(tools, Solver) {
     return { jointCount: n, ...skin };
   };
 
-  class Pose extends OnSolver {
+  class Pose extends OnSurface {
     static prefix = 'hf_pose';
-    constructor(solver, options = {}) {
-      super(solver, () => make('hf_pose_desc').options(options));
+    constructor(surface, options = {}) {
+      super(surface, () => make('hf_pose_desc').options(options));
     }
     clone() {
       return this._copy();
+    }
+    /** The options it was made with, defaults filled in, and the number of its handles. */
+    get info() {
+      return query('hf_pose_info', 'hf_pose_get_info', this._handle);
     }
     addHandles(lists, { points: centres = null, radii = null, layer = 0 } = {}) {
       const desc = make('hf_handles_desc');
@@ -75,6 +82,14 @@ export function poseClasses(tools, Solver) {
       call('hf_pose_add_handles', this._handle, desc, written(out));
       return out;
     }
+    /** One handle on layer 0: what is edge-connected within `radius` of a point at rest. Returns its number. */
+    addHandleAt(point, radius) {
+      if (typeof radius !== 'number') fail('radius must be a number');
+      const at = doubles(point, 'point', 3);
+      const out = new Uint32Array(1);
+      call('hf_pose_add_handle_at', this._handle, at && read(at), radius, written(out));
+      return out[0];
+    }
     removeHandles(handles) {
       const numbers = integers(handles, 'handles');
       call('hf_pose_remove_handles', this._handle, counted(numbers), numbers && read(numbers));
@@ -91,6 +106,13 @@ export function poseClasses(tools, Solver) {
         if (shifts) packed.set(shifts.subarray(3 * i, 3 * i + 3), 7 * i + 4);
       }
       call('hf_pose_set_transforms', this._handle, count, numbers && read(numbers), read(packed));
+    }
+    /** Places one handle; see setTransforms. */
+    setTransform(handle, { rotation = null, translation = null } = {}) {
+      const turn = doubles(rotation, 'rotation', 4) ?? [0, 0, 0, 0];
+      const shift = doubles(translation, 'translation', 3) ?? [0, 0, 0];
+      const transform = make('hf_transform', { rotation: turn, translation: shift });
+      call('hf_pose_set_transform', this._handle, integers([handle], 'handle')[0], transform);
     }
     /** 4 x 4 matrices rest -> posed, column by column as WebGL and three.js have them. */
     setMatrices(handles, matrices) {
@@ -112,14 +134,18 @@ export function poseClasses(tools, Solver) {
     }
     deform(out, { normals = null, Type = Float32Array, ...options } = {}) {
       out = output(out, 3 * this.vertexCount, Type);
-      const desc = make('hf_deform_desc').options(options);
+      if (out instanceof Float32Array && !normals && !Object.keys(options).length) {
+        call('hf_deform', this._handle, written(out), null);
+        return out;
+      }
+      const desc = make('hf_deform_desc').options(options, ['first_vertex', 'vertex_count']);
       desc.set(out instanceof Float32Array ? 'positions' : 'positions_f64', written(out));
       if (normals) {
         if (!(normals instanceof Float32Array) || normals.length !== 3 * this.vertexCount)
           fail(`normals must be a Float32Array of ${3 * this.vertexCount} numbers`);
         desc.set('normals', written(normals));
       }
-      call('hf_deform', this._handle, desc, null);
+      call('hf_pose_deform', this._handle, desc, null);
       return out;
     }
     skin(weightCount = 4) {
@@ -133,8 +159,8 @@ export function poseClasses(tools, Solver) {
       super();
       this._make(
         'create',
-        handleOf(source, Solver, 'source'),
-        handleOf(target, Solver, 'target'),
+        handleOf(source, classes.Surface, 'source'),
+        handleOf(target, classes.Surface, 'target'),
         make('hf_transfer_desc').options(options),
       );
       this.sourceVertexCount = source.vertexCount;

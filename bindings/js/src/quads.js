@@ -1,13 +1,27 @@
-// Quad meshes and flow lines from harmonic fields (hf/quads.h).
-export function quadClasses(tools, Solver) {
-  const { make, call, handleOf, query, Handle, OnSolver, fail, integers, read, written, classes, scalarsOf } = tools;
+// Quad meshes and flow lines (hf/quads.h).
+export function quadClasses(tools) {
+  const {
+    make,
+    call,
+    handleOf,
+    query,
+    watched,
+    Handle,
+    OnSurface,
+    fail,
+    integers,
+    read,
+    written,
+    classes,
+    scalarsOf,
+  } = tools;
   const tooSmall = 'HF_ERROR_TOO_SMALL';
 
   class Quads extends Handle {
     static prefix = 'hf_quads';
-    constructor(solver, { siteVertices = null, siteLines = null, progress = null, ...options } = {}) {
+    constructor(surface, { siteVertices = null, siteLines = null, progress = null, ...options } = {}) {
       super();
-      const desc = make('hf_quads_desc').options(options);
+      const desc = make('hf_quads_desc').options(options, ['site_count']);
       const places = integers(siteVertices, 'siteVertices');
       if (places) desc.set('site_count', places.length).set('site_vertices', read(places));
       if (siteLines) {
@@ -17,8 +31,8 @@ export function quadClasses(tools, Solver) {
         }
         desc.set('site_lines', read(Int32Array.from(lines)));
       }
-      if (progress) desc.set('progress', handleOf(progress, classes.Progress, 'progress'));
-      this._make('create', handleOf(solver, Solver, 'solver'), desc);
+      watched(desc, progress);
+      this._make('create', handleOf(surface, classes.Surface, 'surface'), desc);
     }
     get info() {
       return query('hf_quads_info', 'hf_quads_get_info', this._handle);
@@ -57,7 +71,7 @@ export function quadClasses(tools, Solver) {
   }
 
   /** A surface prepared for tracing flow lines, again and again. */
-  class Flow extends OnSolver {
+  class Flow extends OnSurface {
     static prefix = 'hf_flow';
     #points = 4096;
     #lines = 64;

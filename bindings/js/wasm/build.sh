@@ -1,19 +1,14 @@
 #!/usr/bin/env bash
-# build.sh OUTDIR [SUITESPARSE_SOURCE]: hf.mjs and hf.wasm in OUTDIR (bindings/js/dist for the package).
-# Needs emscripten, cmake, ninja, Eigen; AMD's source comes from Debian's source package when no folder is given.
+# build.sh OUTDIR: hf.mjs and hf.wasm in OUTDIR (bindings/js/dist for the package).
+# Needs emscripten, cmake, ninja, Eigen.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
-[ $# -ge 1 ] || { echo "usage: build.sh OUTDIR [SUITESPARSE_SOURCE]" >&2; exit 2; }
+[ $# -ge 1 ] || { echo "usage: build.sh OUTDIR" >&2; exit 2; }
 command -v emcmake >/dev/null || { echo "skipped: no emscripten here (Debian: emscripten)"; exit 77; }
 mkdir -p "$1"
 out=$(cd "$1" && pwd)
-. "$here/../../debian_source.sh"
-source=${2:-}
-if [ -z "$source" ]; then
-  source=$(hf_debian_source suitesparse "$out/suitesparse" SuiteSparse '*/AMD/*' '*/SuiteSparse_config/*') || exit $?
-fi
 export NODE_PATH=${NODE_PATH:-/usr/share/nodejs}
-emcmake cmake -S "$here" -B "$out" -G Ninja -DCMAKE_BUILD_TYPE=None -DSUITESPARSE_SOURCE="$source" \
+emcmake cmake -S "$here" -B "$out" -G Ninja -DCMAKE_BUILD_TYPE=None \
   >"$out/cmake.log" 2>&1 || {
   tail -20 "$out/cmake.log"
   exit 1

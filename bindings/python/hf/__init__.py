@@ -1,9 +1,10 @@
 """hf: dynamic harmonic fields. Sites come and go on a factored surface; handles pose it; motion plays on another.
 
     import numpy as np, hf
-    with hf.Solver(positions, triangles) as solver:
-        solver.add_sites([0, 41], [0.0, 1.0])
-        field = solver.solve()
+    surface = hf.Surface(positions, triangles)
+    solver = hf.Solver(surface)
+    solver.add_sites([0, 41], [0.0, 1.0])
+    field = solver.solve()
 
 The C headers (include/hf) are the reference. Objects close themselves, in any order; failures are exceptions with the
 library's own message, HfError and its subclasses.
@@ -17,19 +18,22 @@ from ._library import (BusyError, CancelledError, ConflictError, DuplicateSiteEr
                        ReentrantError, TooLargeError, TooSmallError, UnsupportedError)
 from ._library import EXCEPTIONS, NO_INDEX, HfError, library
 from ._raw import (hf_deform_info as DeformInfo, hf_direction_statistics as DirectionStatistics,
-                   hf_handle_info as HandleInfo, hf_mesh_report as MeshReport, hf_pair_info as PairInfo,
+                   hf_handle_info as HandleInfo, hf_hit as Hit, hf_pair_info as PairInfo, hf_pose_info as PoseInfo,
                    hf_quads_info as QuadsInfo, hf_region_info as RegionInfo, hf_solve_info as SolveInfo,
-                   hf_statistics as Statistics, hf_transfer_info as TransferInfo)
-from .detail import Detail, Region, RegionList, Side
+                   hf_solver_info as SolverInfo, hf_solver_statistics as SolverStatistics,
+                   hf_surface_info as SurfaceInfo, hf_surface_report as SurfaceReport,
+                   hf_surface_statistics as SurfaceStatistics, hf_transfer_info as TransferInfo)
 from .direction import Direction
 from .pose import DeformMode, Pair, Pose, Skin, Transfer, TransferMode
 from .quads import Flow, FlowLines, QuadKind, QuadMesh, Quads
-from .solver import (Engine, Extremities, FieldKind, Geodesics, Isolines, Levels, Operator, Progress, Solver, Weld)
+from .region import Detail, Region, RegionList, Side
+from .solver import Engine, Solver
+from .surface import Extremities, FieldKind, Geodesics, Isolines, Levels, Operator, Progress, Surface, Weld
 
 __version__ = constants.HEADER_VERSION
 
 
 def version() -> tuple:
     """Version of the loaded library: (major, minor, patch)."""
-    number = library().hf_get_version()
+    number = library().hf_version_get()
     return number // 1000000, number // 1000 % 1000, number % 1000

@@ -87,7 +87,7 @@ def library() -> ctypes.CDLL:
         if _loaded is None:
             raise ImportError("the hf library was not found; set HF_LIBRARY to libhf.so, or put it beside the package. "
                               + "; ".join(tried))
-        _check_version(_loaded.hf_get_version())
+        _check_version(_loaded.hf_version_get())
     return _loaded
 
 
@@ -104,7 +104,7 @@ def call(name: str, *arguments: Any) -> None:
     code = getattr(lib, name)(*arguments)
     if code != _raw.HF_OK:
         detail = _raw.hf_error_detail()
-        lib.hf_get_error_detail(ctypes.byref(detail))
+        lib.hf_error_get_detail(ctypes.byref(detail))
         index = None if detail.index == NO_INDEX else detail.index
         raise EXCEPTIONS.get(code, HfError)(detail.message.decode("utf-8", "replace"), code, index,
             detail.function.decode())
@@ -151,6 +151,25 @@ def integers(values: Optional[ArrayLike], name: str) -> Optional[np.ndarray]:
             raise OutOfRangeError(f"{name} holds {array.ravel()[bad[0]]}", index=int(bad[0]))
         array = array.astype(np.uint32)
     return np.ascontiguousarray(array)
+
+
+def corners(values: Optional[ArrayLike], name: str) -> tuple:
+    """Rows of three corners in uint32 or uint16 with any stride between rows, without a copy. Returns (array, stride)."""
+    if values is None:
+        return None, 0
+    array = np.asarray(values)
+    rows = array.ndim == 2 and array.shape[1] == 3
+    if array.size % 3 or (array.ndim == 2 and not rows):
+        raise InvalidArgumentError(f"{name} must have the shape (m, 3), not {array.shape}")
+    in_place = rows and array.dtype in (np.uint16, np.uint32) and array.strides[1] == array.itemsize
+    if not in_place or not 3 * array.itemsize <= array.strides[0] < 1 << 31:
+        array = (np.ascontiguousarray(array) if array.dtype == np.uint16 else integers(array, name)).reshape(-1, 3)
+    return array, array.strides[0] if len(array) > 1 else 0
+
+
+def index(value: Any, name: str) -> int:
+    """One whole number for a uint32 parameter."""
+    return int(integers([value], name)[0])
 
 
 def count_of(array: Optional[np.ndarray]) -> int:

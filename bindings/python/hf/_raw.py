@@ -4,6 +4,9 @@ from ctypes import (CDLL, Structure, c_char, c_char_p, c_double, c_float, c_int3
 
 HEADER_VERSION = "0.1.0"
 
+HF_VERSION_MAJOR = 0
+HF_VERSION_MINOR = 1
+HF_VERSION_PATCH = 0
 HF_NO_INDEX = 4294967295
 HF_MESSAGE_SIZE = 256
 HF_OK = 0
@@ -42,13 +45,13 @@ HF_OPERATOR_COTANGENT = 3
 HF_FIELD_HARMONIC = 0
 HF_FIELD_BIHARMONIC = 1
 HF_FIELD_BIHARMONIC_GRAPH = 2
-HF_ENGINE_GREEN = 0
-HF_ENGINE_UPDOWN = 1
-HF_ENGINE_REFACTOR = 2
 HF_ORDERING_NESTED_DISSECTION = 0
 HF_ORDERING_MINIMUM_DEGREE = 1
 HF_ORDERING_METIS = 2
 HF_FACTOR_ALIGNMENT = 64
+HF_ENGINE_GREEN = 0
+HF_ENGINE_UPDOWN = 1
+HF_ENGINE_REFACTOR = 2
 HF_ROUTE_NONE = 0
 HF_ROUTE_DENSE = 1
 HF_ROUTE_FRESH = 2
@@ -64,14 +67,15 @@ HF_EXTREMITIES_GEODESIC = 1
 HF_DEFORM_SMOOTH = 0
 HF_DEFORM_PAPER = 1
 HF_LAYER_COUNT = 8
+HF_HANDLE_LIMIT = 256
+HF_QUADS_UNIFORM = 0
+HF_QUADS_PURE = 1
 HF_SIDE_SMALLER = 0
 HF_SIDE_LARGER = 1
 HF_SIDE_SEED = 2
 HF_REGION_INSIDE = 0
 HF_REGION_RIM = 1
 HF_REGION_SITES = 2
-HF_QUADS_UNIFORM = 0
-HF_QUADS_PURE = 1
 HF_TRANSFER_FIELDS = 0
 HF_TRANSFER_PAPER = 1
 HF_PAIR_ANCHOR = 1
@@ -79,6 +83,7 @@ HF_PAIR_FOOT = 2
 HF_PAIR_TRUNK = 4
 HF_PAIR_NO_ALIGNMENT = 8
 HF_PAIR_CONTACT = 16
+HF_PAIR_LIMIT = 256
 
 RESULT_NAMES = {
     0: "HF_OK",
@@ -111,7 +116,7 @@ RESULT_NAMES = {
 
 
 class hf_error_detail(Structure):
-    """What the last failing call on this thread was about."""
+    """Details of the last failed call on this thread."""
     code: int
     index: int
     function: bytes
@@ -125,7 +130,7 @@ class hf_error_detail(Structure):
 
 
 class hf_allocator(Structure):
-    """Memory of a solver and all that is made from it."""
+    """Your allocator, for a surface and everything made from it."""
     allocate: int
     release: int
     user: int
@@ -137,7 +142,7 @@ class hf_allocator(Structure):
 
 
 class hf_job_runner(Structure):
-    """The host's own job system."""
+    """Your job system."""
     run: int
     user: int
     _fields_ = [
@@ -147,7 +152,7 @@ class hf_job_runner(Structure):
 
 
 class hf_factor_desc(Structure):
-    """A factor saved by hf_save_factor (hf/factor.h), to be loaded instead of made."""
+    """A factor that hf_surface_save wrote, to be loaded instead of made."""
     struct_size: int
     borrow: int
     bytes: int
@@ -160,8 +165,8 @@ class hf_factor_desc(Structure):
     ]
 
 
-class hf_create_desc(Structure):
-    """What hf_create is given."""
+class hf_surface_desc(Structure):
+    """Set positions or positions_f64, and triangles or triangles_u16."""
     struct_size: int
     vertex_count: int
     triangle_count: int
@@ -169,23 +174,21 @@ class hf_create_desc(Structure):
     positions: int
     positions_f64: int
     triangles: int
+    triangles_u16: int
+    triangle_stride: int
     weld: int
     weld_tolerance: float
     operator_kind: int
-    engine: int
+    field_kind: int
     ordering: int
-    channel_count: int
     thread_count: int
-    site_limit: int
     vertex_limit: int
+    triangle_limit: int
     memory_limit_mb: int
-    penalty: float
     allocator: object
     job_runner: object
     progress: int
     saved_factor: int
-    field_kind: int
-    triangle_limit: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -194,27 +197,55 @@ class hf_create_desc(Structure):
         ("positions", c_void_p),
         ("positions_f64", c_void_p),
         ("triangles", c_void_p),
+        ("triangles_u16", c_void_p),
+        ("triangle_stride", c_uint32),
         ("weld", c_int32),
         ("weld_tolerance", c_float),
         ("operator_kind", c_int32),
-        ("engine", c_int32),
+        ("field_kind", c_int32),
         ("ordering", c_int32),
-        ("channel_count", c_uint32),
         ("thread_count", c_uint32),
-        ("site_limit", c_uint32),
         ("vertex_limit", c_uint32),
+        ("triangle_limit", c_uint32),
         ("memory_limit_mb", c_uint32),
-        ("penalty", c_double),
         ("allocator", hf_allocator),
         ("job_runner", hf_job_runner),
         ("progress", c_void_p),
         ("saved_factor", c_void_p),
-        ("field_kind", c_int32),
-        ("triangle_limit", c_uint32),
     ]
 
 
-class hf_mesh_report(Structure):
+class hf_surface_info(Structure):
+    """The options a surface was made with, defaults filled in."""
+    struct_size: int
+    vertex_count: int
+    triangle_count: int
+    weld: int
+    weld_tolerance: float
+    operator_kind: int
+    field_kind: int
+    ordering: int
+    thread_count: int
+    vertex_limit: int
+    triangle_limit: int
+    memory_limit_mb: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("vertex_count", c_uint32),
+        ("triangle_count", c_uint32),
+        ("weld", c_int32),
+        ("weld_tolerance", c_float),
+        ("operator_kind", c_int32),
+        ("field_kind", c_int32),
+        ("ordering", c_int32),
+        ("thread_count", c_uint32),
+        ("vertex_limit", c_uint32),
+        ("triangle_limit", c_uint32),
+        ("memory_limit_mb", c_uint32),
+    ]
+
+
+class hf_surface_report(Structure):
     """What was found in the mesh."""
     struct_size: int
     vertex_count: int
@@ -250,8 +281,128 @@ class hf_mesh_report(Structure):
     ]
 
 
+class hf_surface_statistics(Structure):
+    """Times in milliseconds, bytes as double (exact to 2^53)."""
+    struct_size: int
+    unknown_count: int
+    weld_ms: float
+    operator_ms: float
+    ordering_ms: float
+    symbolic_ms: float
+    numeric_ms: float
+    factor_entries: float
+    factor_bytes: float
+    factor_flops: float
+    memory_bytes: float
+    peak_memory_bytes: float
+    load_ms: float
+    factor_loaded: int
+    factor_borrowed: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("unknown_count", c_uint32),
+        ("weld_ms", c_double),
+        ("operator_ms", c_double),
+        ("ordering_ms", c_double),
+        ("symbolic_ms", c_double),
+        ("numeric_ms", c_double),
+        ("factor_entries", c_double),
+        ("factor_bytes", c_double),
+        ("factor_flops", c_double),
+        ("memory_bytes", c_double),
+        ("peak_memory_bytes", c_double),
+        ("load_ms", c_double),
+        ("factor_loaded", c_int32),
+        ("factor_borrowed", c_int32),
+    ]
+
+
+class hf_pick_desc(Structure):
+    """Where the surface stands when it is picked, if not at rest."""
+    struct_size: int
+    position_stride: int
+    positions: int
+    positions_f64: int
+    front_only: int
+    reserved: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("position_stride", c_uint32),
+        ("positions", c_void_p),
+        ("positions_f64", c_void_p),
+        ("front_only", c_int32),
+        ("reserved", c_uint32),
+    ]
+
+
+class hf_hit(Structure):
+    """The first triangle on a ray."""
+    struct_size: int
+    found: int
+    triangle: int
+    vertex: int
+    barycentrics: object
+    position: object
+    distance: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("found", c_int32),
+        ("triangle", c_uint32),
+        ("vertex", c_uint32),
+        ("barycentrics", c_double * 3),
+        ("position", c_double * 3),
+        ("distance", c_double),
+    ]
+
+
+class hf_solver_desc(Structure):
+    """How sites act on the factor."""
+    struct_size: int
+    field_kind: int
+    engine: int
+    channel_count: int
+    site_limit: int
+    reserved: int
+    penalty: float
+    progress: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("field_kind", c_int32),
+        ("engine", c_int32),
+        ("channel_count", c_uint32),
+        ("site_limit", c_uint32),
+        ("reserved", c_uint32),
+        ("penalty", c_double),
+        ("progress", c_void_p),
+    ]
+
+
+class hf_solver_info(Structure):
+    """What a solver was made with, defaults filled in, and what it holds."""
+    struct_size: int
+    field_kind: int
+    engine: int
+    channel_count: int
+    site_limit: int
+    site_count: int
+    penalty: float
+    vertex_count: int
+    reserved: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("field_kind", c_int32),
+        ("engine", c_int32),
+        ("channel_count", c_uint32),
+        ("site_limit", c_uint32),
+        ("site_count", c_uint32),
+        ("penalty", c_double),
+        ("vertex_count", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
 class hf_sites_desc(Structure):
-    """A batch of new sites."""
+    """Places and values of sites."""
     struct_size: int
     site_count: int
     vertices: int
@@ -273,7 +424,7 @@ class hf_sites_desc(Structure):
 
 
 class hf_edit_desc(Structure):
-    """One batch of all of these, in the order remove, move, set, add; all or nothing."""
+    """One batch of edits, in the order remove, move, set, add."""
     struct_size: int
     remove_count: int
     remove_sites: int
@@ -298,10 +449,12 @@ class hf_edit_desc(Structure):
     ]
 
 
-class hf_site_info(Structure):
+class hf_sites_info(Structure):
     """Where sites are and what they hold."""
     struct_size: int
     capacity: int
+    count: int
+    reserved: int
     sites: int
     vertices: int
     components: int
@@ -312,6 +465,8 @@ class hf_site_info(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
         ("capacity", c_uint32),
+        ("count", c_uint32),
+        ("reserved", c_uint32),
         ("sites", c_void_p),
         ("vertices", c_void_p),
         ("components", c_void_p),
@@ -323,7 +478,7 @@ class hf_site_info(Structure):
 
 
 class hf_solve_info(Structure):
-    """What a solve reached."""
+    """What the sites of a solve did not reach."""
     struct_size: int
     unreached_component_count: int
     first_unreached_component: int
@@ -336,8 +491,30 @@ class hf_solve_info(Structure):
     ]
 
 
+class hf_preview_info(Structure):
+    """What a preview reached."""
+    struct_size: int
+    exact: int
+    correction_count: int
+    unreached_component_count: int
+    value_range: float
+    largest_correction: float
+    error_estimate: float
+    preview_bytes: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("exact", c_int32),
+        ("correction_count", c_uint32),
+        ("unreached_component_count", c_uint32),
+        ("value_range", c_double),
+        ("largest_correction", c_double),
+        ("error_estimate", c_double),
+        ("preview_bytes", c_double),
+    ]
+
+
 class hf_certificate(Structure):
-    """How right a field is; struct_size must be set."""
+    """Errors are relative to the range of the site values of the component and channel (to their size where all are equal)."""
     struct_size: int
     overshoot_checked: int
     tolerance: float
@@ -349,7 +526,7 @@ class hf_certificate(Structure):
     reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("overshoot_checked", c_uint32),
+        ("overshoot_checked", c_int32),
         ("tolerance", c_double),
         ("value_range", c_double),
         ("residual", c_double),
@@ -360,74 +537,44 @@ class hf_certificate(Structure):
     ]
 
 
-class hf_statistics(Structure):
-    """Figures of a solver."""
+class hf_solver_statistics(Structure):
+    """What a solver holds and has done."""
     struct_size: int
-    unknown_count: int
-    weld_ms: float
-    operator_ms: float
-    ordering_ms: float
-    symbolic_ms: float
-    numeric_ms: float
-    factor_entries: float
-    factor_bytes: float
-    factor_flops: float
-    memory_bytes: float
-    peak_memory_bytes: float
-    site_memory_bytes: float
     site_count: int
     factorisation_count: int
     path_solve_count: int
     sweep_count: int
-    engine: int
-    thread_count: int
-    load_ms: float
-    factor_loaded: int
-    factor_borrowed: int
     last_route: int
     rebase_count: int
     dense_edit_count: int
     dense_row_count: int
     eliminated_count: int
     rebase_advised: int
+    reserved: int
+    site_memory_bytes: float
     predicted_dense_ms: float
     predicted_rebase_ms: float
     _fields_ = [
         ("struct_size", c_uint32),
-        ("unknown_count", c_uint32),
-        ("weld_ms", c_double),
-        ("operator_ms", c_double),
-        ("ordering_ms", c_double),
-        ("symbolic_ms", c_double),
-        ("numeric_ms", c_double),
-        ("factor_entries", c_double),
-        ("factor_bytes", c_double),
-        ("factor_flops", c_double),
-        ("memory_bytes", c_double),
-        ("peak_memory_bytes", c_double),
-        ("site_memory_bytes", c_double),
         ("site_count", c_uint32),
         ("factorisation_count", c_uint32),
         ("path_solve_count", c_uint32),
         ("sweep_count", c_uint32),
-        ("engine", c_uint32),
-        ("thread_count", c_uint32),
-        ("load_ms", c_double),
-        ("factor_loaded", c_uint32),
-        ("factor_borrowed", c_uint32),
         ("last_route", c_uint32),
         ("rebase_count", c_uint32),
         ("dense_edit_count", c_uint32),
         ("dense_row_count", c_uint32),
         ("eliminated_count", c_uint32),
-        ("rebase_advised", c_uint32),
+        ("rebase_advised", c_int32),
+        ("reserved", c_uint32),
+        ("site_memory_bytes", c_double),
         ("predicted_dense_ms", c_double),
         ("predicted_rebase_ms", c_double),
     ]
 
 
 class hf_scalars(Structure):
-    """A field with one value per vertex of the mesh as given."""
+    """A field with one value per vertex as given."""
     struct_size: int
     value_stride: int
     values: int
@@ -510,14 +657,16 @@ class hf_critical_info(Structure):
 class hf_geodesics_desc(Structure):
     struct_size: int
     smoothing: float
+    progress: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("smoothing", c_float),
+        ("progress", c_void_p),
     ]
 
 
 class hf_extremities_desc(Structure):
-    """What makes a vertex an extremity"""
+    """How tips are found"""
     struct_size: int
     kind: int
     least_length: float
@@ -549,6 +698,69 @@ class hf_extremity(Structure):
     ]
 
 
+class hf_direction_desc(Structure):
+    struct_size: int
+    degree: int
+    site_limit: int
+    reserved: int
+    progress: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("degree", c_uint32),
+        ("site_limit", c_uint32),
+        ("reserved", c_uint32),
+        ("progress", c_void_p),
+    ]
+
+
+class hf_singularity(Structure):
+    """A triangle around which the field turns against the surface."""
+    triangle: int
+    vertex: int
+    index: int
+    _fields_ = [
+        ("triangle", c_uint32),
+        ("vertex", c_uint32),
+        ("index", c_int32),
+    ]
+
+
+class hf_direction_statistics(Structure):
+    """What a direction field was made with, and what it holds and has done."""
+    struct_size: int
+    degree: int
+    site_limit: int
+    unknown_count: int
+    site_count: int
+    factorisation_count: int
+    path_solve_count: int
+    sweep_count: int
+    irregular_vertex_count: int
+    eliminated_count: int
+    operator_ms: float
+    numeric_ms: float
+    factor_entries: float
+    factor_bytes: float
+    site_memory_bytes: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("degree", c_uint32),
+        ("site_limit", c_uint32),
+        ("unknown_count", c_uint32),
+        ("site_count", c_uint32),
+        ("factorisation_count", c_uint32),
+        ("path_solve_count", c_uint32),
+        ("sweep_count", c_uint32),
+        ("irregular_vertex_count", c_uint32),
+        ("eliminated_count", c_uint32),
+        ("operator_ms", c_double),
+        ("numeric_ms", c_double),
+        ("factor_entries", c_double),
+        ("factor_bytes", c_double),
+        ("site_memory_bytes", c_double),
+    ]
+
+
 class hf_pose_desc(Structure):
     """How vertices follow the handles."""
     struct_size: int
@@ -564,6 +776,28 @@ class hf_pose_desc(Structure):
         ("iteration_count", c_uint32),
         ("samples_per_ring", c_uint32),
         ("group_count", c_uint32),
+    ]
+
+
+class hf_pose_info(Structure):
+    """The options a pose was made with, defaults filled in, and what it holds."""
+    struct_size: int
+    mode: int
+    band_count: int
+    iteration_count: int
+    samples_per_ring: int
+    group_count: int
+    handle_count: int
+    vertex_count: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("mode", c_int32),
+        ("band_count", c_uint32),
+        ("iteration_count", c_uint32),
+        ("samples_per_ring", c_uint32),
+        ("group_count", c_uint32),
+        ("handle_count", c_uint32),
+        ("vertex_count", c_uint32),
     ]
 
 
@@ -600,7 +834,7 @@ class hf_transform(Structure):
 
 
 class hf_handle_info(Structure):
-    """What is known of a handle."""
+    """What a handle is and where it stands."""
     struct_size: int
     vertex_count: int
     site_count: int
@@ -625,8 +859,32 @@ class hf_handle_info(Structure):
     ]
 
 
+class hf_deform_info(Structure):
+    """What a deform did."""
+    struct_size: int
+    iteration_count: int
+    cluster_count: int
+    unreached_vertex_count: int
+    last_change: float
+    solve_ms: float
+    blend_ms: float
+    normal_ms: float
+    refine_ms: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("iteration_count", c_uint32),
+        ("cluster_count", c_uint32),
+        ("unreached_vertex_count", c_uint32),
+        ("last_change", c_double),
+        ("solve_ms", c_double),
+        ("blend_ms", c_double),
+        ("normal_ms", c_double),
+        ("refine_ms", c_double),
+    ]
+
+
 class hf_deform_desc(Structure):
-    """Where hf_deform writes, and what it found."""
+    """More ways to write a pose."""
     struct_size: int
     position_stride: int
     positions: int
@@ -653,263 +911,35 @@ class hf_deform_desc(Structure):
     ]
 
 
-class hf_deform_info(Structure):
-    struct_size: int
-    iteration_count: int
-    cluster_count: int
-    unreached_vertex_count: int
-    last_change: float
-    solve_ms: float
-    blend_ms: float
-    normal_ms: float
-    refine_ms: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("iteration_count", c_uint32),
-        ("cluster_count", c_uint32),
-        ("unreached_vertex_count", c_uint32),
-        ("last_change", c_double),
-        ("solve_ms", c_double),
-        ("blend_ms", c_double),
-        ("normal_ms", c_double),
-        ("refine_ms", c_double),
-    ]
-
-
 class hf_skin_info(Structure):
-    """A pose or a transfer (hf/transfer.h) as a skin for linear blend skinning"""
+    """A pose or a transfer as a skin for linear blend skinning"""
     struct_size: int
-    joint_count: int
+    joint_capacity: int
+    vertex_capacity: int
     weight_count: int
-    reserved: int
+    joint_count: int
+    vertex_count: int
     pivots: int
     rotations: int
     translations: int
-    vertex_joints: int
-    vertex_weights: int
     axes: int
     scales: int
+    vertex_joints: int
+    vertex_weights: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("joint_count", c_uint32),
+        ("joint_capacity", c_uint32),
+        ("vertex_capacity", c_uint32),
         ("weight_count", c_uint32),
-        ("reserved", c_uint32),
+        ("joint_count", c_uint32),
+        ("vertex_count", c_uint32),
         ("pivots", c_void_p),
         ("rotations", c_void_p),
         ("translations", c_void_p),
-        ("vertex_joints", c_void_p),
-        ("vertex_weights", c_void_p),
         ("axes", c_void_p),
         ("scales", c_void_p),
-    ]
-
-
-class hf_region_desc(Structure):
-    """Zero every field that is not needed (HF_INIT)."""
-    struct_size: int
-    position_stride: int
-    positions: int
-    positions_f64: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("position_stride", c_uint32),
-        ("positions", c_void_p),
-        ("positions_f64", c_void_p),
-    ]
-
-
-class hf_curve_desc(Structure):
-    """A closed curve on the surface"""
-    struct_size: int
-    point_count: int
-    vertices: int
-    triangles: int
-    barycentrics: int
-    side: int
-    seed_vertex: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("point_count", c_uint32),
-        ("vertices", c_void_p),
-        ("triangles", c_void_p),
-        ("barycentrics", c_void_p),
-        ("side", c_int32),
-        ("seed_vertex", c_uint32),
-    ]
-
-
-class hf_region_edit_desc(Structure):
-    """A change of a region, in the order curve, rings, remove, add; parts that are 0 or NULL are left out."""
-    struct_size: int
-    ring_count: int
-    curve: int
-    remove_count: int
-    add_count: int
-    remove_vertices: int
-    add_vertices: int
-    progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("ring_count", c_int32),
-        ("curve", c_void_p),
-        ("remove_count", c_uint32),
-        ("add_count", c_uint32),
-        ("remove_vertices", c_void_p),
-        ("add_vertices", c_void_p),
-        ("progress", c_void_p),
-    ]
-
-
-class hf_region_info(Structure):
-    """What a region is, and what its last edit did."""
-    struct_size: int
-    thin_plate: int
-    vertex_count: int
-    rim_count: int
-    site_count: int
-    inserted_count: int
-    removed_count: int
-    kept_count: int
-    factorisation_count: int
-    path_solve_count: int
-    last_route: int
-    whole_sweep: int
-    area: float
-    base_area: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("thin_plate", c_int32),
-        ("vertex_count", c_uint32),
-        ("rim_count", c_uint32),
-        ("site_count", c_uint32),
-        ("inserted_count", c_uint32),
-        ("removed_count", c_uint32),
-        ("kept_count", c_uint32),
-        ("factorisation_count", c_uint32),
-        ("path_solve_count", c_uint32),
-        ("last_route", c_uint32),
-        ("whole_sweep", c_uint32),
-        ("area", c_double),
-        ("base_area", c_double),
-    ]
-
-
-class hf_morph_desc(Structure):
-    """Where hf_region_morph and hf_detail_morph write."""
-    struct_size: int
-    position_stride: int
-    weight: float
-    positions: int
-    positions_f64: int
-    normals: int
-    normal_stride: int
-    reserved: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("position_stride", c_uint32),
-        ("weight", c_double),
-        ("positions", c_void_p),
-        ("positions_f64", c_void_p),
-        ("normals", c_void_p),
-        ("normal_stride", c_uint32),
-        ("reserved", c_uint32),
-    ]
-
-
-class hf_detail_desc(Structure):
-    struct_size: int
-    pair_count: int
-    source_vertices: int
-    target_vertices: int
-    scale: float
-    progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("pair_count", c_uint32),
-        ("source_vertices", c_void_p),
-        ("target_vertices", c_void_p),
-        ("scale", c_double),
-        ("progress", c_void_p),
-    ]
-
-
-class hf_direction_desc(Structure):
-    """Zero every field that is not needed (HF_INIT)."""
-    struct_size: int
-    degree: int
-    site_limit: int
-    reserved: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("degree", c_uint32),
-        ("site_limit", c_uint32),
-        ("reserved", c_uint32),
-    ]
-
-
-class hf_singularity(Structure):
-    """A triangle around which the field turns against the surface."""
-    triangle: int
-    vertex: int
-    index: int
-    _fields_ = [
-        ("triangle", c_uint32),
-        ("vertex", c_uint32),
-        ("index", c_int32),
-    ]
-
-
-class hf_direction_statistics(Structure):
-    """What the object has done and holds."""
-    struct_size: int
-    unknown_count: int
-    site_count: int
-    factorisation_count: int
-    path_solve_count: int
-    sweep_count: int
-    irregular_vertex_count: int
-    sites_eliminated: int
-    operator_ms: float
-    numeric_ms: float
-    factor_entries: float
-    factor_bytes: float
-    site_memory_bytes: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("unknown_count", c_uint32),
-        ("site_count", c_uint32),
-        ("factorisation_count", c_uint32),
-        ("path_solve_count", c_uint32),
-        ("sweep_count", c_uint32),
-        ("irregular_vertex_count", c_uint32),
-        ("sites_eliminated", c_uint32),
-        ("operator_ms", c_double),
-        ("numeric_ms", c_double),
-        ("factor_entries", c_double),
-        ("factor_bytes", c_double),
-        ("site_memory_bytes", c_double),
-    ]
-
-
-class hf_preview_info(Structure):
-    """What a preview reached; struct_size must be set."""
-    struct_size: int
-    exact: int
-    correction_count: int
-    unreached_component_count: int
-    value_range: float
-    largest_correction: float
-    error_estimate: float
-    preview_bytes: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("exact", c_uint32),
-        ("correction_count", c_uint32),
-        ("unreached_component_count", c_uint32),
-        ("value_range", c_double),
-        ("largest_correction", c_double),
-        ("error_estimate", c_double),
-        ("preview_bytes", c_double),
+        ("vertex_joints", c_void_p),
+        ("vertex_weights", c_void_p),
     ]
 
 
@@ -967,12 +997,16 @@ class hf_quads_info(Structure):
 
 
 class hf_quads_mesh(Structure):
-    """Arrays of the caller, each NULL or as large as hf_quads_get_info says."""
+    """Arrays are yours, NULL or as large as the capacities."""
     struct_size: int
     vertex_capacity: int
     face_capacity: int
     corner_capacity: int
     site_capacity: int
+    vertex_count: int
+    face_count: int
+    corner_count: int
+    site_count: int
     reserved: int
     positions: int
     triangles: int
@@ -987,6 +1021,10 @@ class hf_quads_mesh(Structure):
         ("face_capacity", c_uint32),
         ("corner_capacity", c_uint32),
         ("site_capacity", c_uint32),
+        ("vertex_count", c_uint32),
+        ("face_count", c_uint32),
+        ("corner_count", c_uint32),
+        ("site_count", c_uint32),
         ("reserved", c_uint32),
         ("positions", c_void_p),
         ("triangles", c_void_p),
@@ -1029,8 +1067,142 @@ class hf_flow_lines(Structure):
     ]
 
 
+class hf_region_desc(Structure):
+    struct_size: int
+    field_kind: int
+    positions: int
+    positions_f64: int
+    position_stride: int
+    reserved: int
+    progress: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("field_kind", c_int32),
+        ("positions", c_void_p),
+        ("positions_f64", c_void_p),
+        ("position_stride", c_uint32),
+        ("reserved", c_uint32),
+        ("progress", c_void_p),
+    ]
+
+
+class hf_curve_desc(Structure):
+    """A closed curve"""
+    struct_size: int
+    point_count: int
+    vertices: int
+    triangles: int
+    barycentrics: int
+    side: int
+    seed_vertex: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("point_count", c_uint32),
+        ("vertices", c_void_p),
+        ("triangles", c_void_p),
+        ("barycentrics", c_void_p),
+        ("side", c_int32),
+        ("seed_vertex", c_uint32),
+    ]
+
+
+class hf_region_edit_desc(Structure):
+    """A change of a region, in the order curve, rings, remove, add."""
+    struct_size: int
+    ring_count: int
+    curve: int
+    remove_count: int
+    add_count: int
+    remove_vertices: int
+    add_vertices: int
+    progress: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("ring_count", c_int32),
+        ("curve", c_void_p),
+        ("remove_count", c_uint32),
+        ("add_count", c_uint32),
+        ("remove_vertices", c_void_p),
+        ("add_vertices", c_void_p),
+        ("progress", c_void_p),
+    ]
+
+
+class hf_region_info(Structure):
+    """What a region is, and what its last edit did."""
+    struct_size: int
+    field_kind: int
+    vertex_count: int
+    rim_count: int
+    site_count: int
+    inserted_count: int
+    removed_count: int
+    kept_count: int
+    factorisation_count: int
+    path_solve_count: int
+    last_route: int
+    whole_sweep: int
+    area: float
+    base_area: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("field_kind", c_int32),
+        ("vertex_count", c_uint32),
+        ("rim_count", c_uint32),
+        ("site_count", c_uint32),
+        ("inserted_count", c_uint32),
+        ("removed_count", c_uint32),
+        ("kept_count", c_uint32),
+        ("factorisation_count", c_uint32),
+        ("path_solve_count", c_uint32),
+        ("last_route", c_uint32),
+        ("whole_sweep", c_int32),
+        ("area", c_double),
+        ("base_area", c_double),
+    ]
+
+
+class hf_morph_desc(Structure):
+    """Where hf_region_morph and hf_detail_morph write."""
+    struct_size: int
+    position_stride: int
+    weight: float
+    positions: int
+    positions_f64: int
+    normals: int
+    normal_stride: int
+    reserved: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("position_stride", c_uint32),
+        ("weight", c_double),
+        ("positions", c_void_p),
+        ("positions_f64", c_void_p),
+        ("normals", c_void_p),
+        ("normal_stride", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class hf_detail_desc(Structure):
+    struct_size: int
+    pair_count: int
+    source_vertices: int
+    target_vertices: int
+    scale: float
+    progress: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("pair_count", c_uint32),
+        ("source_vertices", c_void_p),
+        ("target_vertices", c_void_p),
+        ("scale", c_double),
+        ("progress", c_void_p),
+    ]
+
+
 class hf_transfer_desc(Structure):
-    """What a pair is, beside two regions."""
+    """most pairs of a transfer"""
     struct_size: int
     mode: int
     cluster_count: int
@@ -1100,6 +1272,8 @@ class hf_transfer_info(Structure):
     aligned_count: int
     crossed_count: int
     scale_found: int
+    source_factorisation_count: int
+    target_factorisation_count: int
     scale: float
     _fields_ = [
         ("struct_size", c_uint32),
@@ -1108,6 +1282,8 @@ class hf_transfer_info(Structure):
         ("aligned_count", c_uint32),
         ("crossed_count", c_uint32),
         ("scale_found", c_int32),
+        ("source_factorisation_count", c_uint32),
+        ("target_factorisation_count", c_uint32),
         ("scale", c_double),
     ]
 
@@ -1144,76 +1320,62 @@ class hf_transfer_frame(Structure):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_create_desc, hf_mesh_report, hf_sites_desc, hf_edit_desc, hf_site_info, hf_solve_info, hf_certificate, hf_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_pose_desc, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_desc, hf_deform_info, hf_skin_info, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_preview_info, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame]
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_surface_desc, hf_surface_info, hf_surface_report, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
-    "hf_init_desc": (None, [c_void_p, c_uint32]),
-    "hf_get_error_detail": (c_int32, [c_void_p]),
-    "hf_result_name": (c_char_p, [c_int32]),
-    "hf_get_version": (c_uint32, []),
+    "hf_error_get_detail": (c_int32, [c_void_p]),
+    "hf_result_get_name": (c_char_p, [c_int32]),
+    "hf_version_get": (c_uint32, []),
     "hf_progress_create": (c_int32, [c_void_p]),
     "hf_progress_destroy": (None, [c_void_p]),
-    "hf_progress_get": (c_int32, [c_void_p, c_void_p]),
+    "hf_progress_get_fraction": (c_int32, [c_void_p, c_void_p]),
     "hf_progress_cancel": (c_int32, [c_void_p]),
-    "hf_create": (c_int32, [c_void_p, c_void_p]),
-    "hf_clone": (c_int32, [c_void_p, c_void_p]),
-    "hf_destroy": (None, [c_void_p]),
-    "hf_get_mesh_report": (c_int32, [c_void_p, c_void_p]),
-    "hf_get_components": (c_int32, [c_void_p, c_uint32, c_void_p]),
+    "hf_surface_create": (c_int32, [c_void_p, c_void_p]),
+    "hf_surface_destroy": (None, [c_void_p]),
+    "hf_surface_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_surface_get_report": (c_int32, [c_void_p, c_void_p]),
+    "hf_surface_get_components": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_surface_get_statistics": (c_int32, [c_void_p, c_void_p]),
+    "hf_surface_save": (c_int32, [c_void_p, c_int32, c_size_t, c_void_p, c_void_p]),
+    "hf_surface_cast_ray": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
+    "hf_surface_find_vertex": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
+    "hf_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_solver_clone": (c_int32, [c_void_p, c_void_p]),
+    "hf_solver_destroy": (None, [c_void_p]),
+    "hf_solver_get_info": (c_int32, [c_void_p, c_void_p]),
     "hf_add_sites": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_solver_add_site": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_remove_sites": (c_int32, [c_void_p, c_uint32, c_void_p]),
-    "hf_move_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_set_site_values": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_edit_sites": (c_int32, [c_void_p, c_void_p, c_void_p]),
-    "hf_get_site_count": (c_uint32, [c_void_p]),
-    "hf_get_sites": (c_int32, [c_void_p, c_void_p]),
+    "hf_solver_move_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_solver_set_values": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_solver_edit_sites": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_solver_get_site_count": (c_uint32, [c_void_p]),
+    "hf_solver_get_sites": (c_int32, [c_void_p, c_void_p]),
     "hf_solve": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
-    "hf_solve_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
-    "hf_solve_vectors": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_solve_vectors_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_solve_at": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_certify": (c_int32, [c_void_p, c_void_p]),
-    "hf_record": (c_int32, [c_void_p]),
-    "hf_undo": (c_int32, [c_void_p]),
-    "hf_redo": (c_int32, [c_void_p]),
-    "hf_prepare_rebase": (c_int32, [c_void_p]),
-    "hf_get_statistics": (c_int32, [c_void_p, c_void_p]),
-    "hf_space_levels": (c_int32, [c_void_p, c_void_p, c_int32, c_uint32, c_void_p]),
-    "hf_trace_isolines": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_find_critical_points": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_solver_solve_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
+    "hf_solver_solve_at": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_solver_solve_vectors": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_solver_solve_vectors_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_solver_solve_preview": (c_int32, [c_void_p, c_void_p, c_uint32, c_uint32, c_void_p]),
+    "hf_solver_solve_preview_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_uint32, c_void_p]),
+    "hf_solver_release_preview": (c_int32, [c_void_p]),
+    "hf_solver_move_vectors": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_solver_rotate_vectors": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_solver_certify": (c_int32, [c_void_p, c_void_p]),
+    "hf_solver_record": (c_int32, [c_void_p]),
+    "hf_solver_undo": (c_int32, [c_void_p]),
+    "hf_solver_redo": (c_int32, [c_void_p]),
+    "hf_solver_prepare_rebase": (c_int32, [c_void_p]),
+    "hf_solver_get_statistics": (c_int32, [c_void_p, c_void_p]),
+    "hf_surface_space_levels": (c_int32, [c_void_p, c_void_p, c_int32, c_uint32, c_void_p]),
+    "hf_surface_trace_isolines": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_surface_find_critical_points": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_geodesics_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_geodesics_destroy": (None, [c_void_p]),
-    "hf_geodesics_distance": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_uint32]),
-    "hf_geodesics_distance_f64": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_uint32]),
-    "hf_find_extremities": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_pose_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
-    "hf_pose_clone": (c_int32, [c_void_p, c_void_p]),
-    "hf_pose_destroy": (None, [c_void_p]),
-    "hf_pose_add_handles": (c_int32, [c_void_p, c_void_p, c_void_p]),
-    "hf_pose_remove_handles": (c_int32, [c_void_p, c_uint32, c_void_p]),
-    "hf_pose_set_transforms": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_pose_set_matrices": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_pose_get_handle": (c_int32, [c_void_p, c_uint32, c_void_p]),
-    "hf_pose_get_handle_count": (c_uint32, [c_void_p]),
-    "hf_pose_get_field": (c_int32, [c_void_p, c_uint32, c_void_p, c_uint32]),
-    "hf_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
-    "hf_pose_get_skin": (c_int32, [c_void_p, c_void_p]),
-    "hf_region_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
-    "hf_region_clone": (c_int32, [c_void_p, c_void_p]),
-    "hf_region_destroy": (None, [c_void_p]),
-    "hf_region_edit": (c_int32, [c_void_p, c_void_p]),
-    "hf_region_record": (c_int32, [c_void_p]),
-    "hf_region_undo": (c_int32, [c_void_p]),
-    "hf_region_redo": (c_int32, [c_void_p]),
-    "hf_region_get_info": (c_int32, [c_void_p, c_void_p]),
-    "hf_region_get_vertices": (c_int32, [c_void_p, c_int32, c_uint32, c_void_p]),
-    "hf_region_morph": (c_int32, [c_void_p, c_void_p]),
-    "hf_detail_create": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
-    "hf_detail_destroy": (None, [c_void_p]),
-    "hf_detail_morph": (c_int32, [c_void_p, c_void_p]),
-    "hf_move_vector_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_rotate_vector_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_geodesics_solve": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_uint32]),
+    "hf_geodesics_solve_f64": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_uint32]),
+    "hf_surface_find_extremities": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_direction_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_direction_clone": (c_int32, [c_void_p, c_void_p]),
     "hf_direction_destroy": (None, [c_void_p]),
@@ -1226,16 +1388,27 @@ PROTOTYPES = {
     "hf_direction_undo": (c_int32, [c_void_p]),
     "hf_direction_redo": (c_int32, [c_void_p]),
     "hf_direction_get_site_count": (c_uint32, [c_void_p]),
-    "hf_direction_get_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p]),
+    "hf_direction_get_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p, c_void_p]),
     "hf_direction_solve": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
     "hf_direction_solve_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
     "hf_direction_get_singularities": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_direction_get_statistics": (c_int32, [c_void_p, c_void_p]),
-    "hf_get_factor_size": (c_int32, [c_void_p, c_void_p]),
-    "hf_save_factor": (c_int32, [c_void_p, c_void_p, c_size_t]),
-    "hf_solve_preview": (c_int32, [c_void_p, c_void_p, c_uint32, c_uint32, c_void_p]),
-    "hf_solve_preview_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_uint32, c_void_p]),
-    "hf_release_preview": (c_int32, [c_void_p]),
+    "hf_pose_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_pose_clone": (c_int32, [c_void_p, c_void_p]),
+    "hf_pose_destroy": (None, [c_void_p]),
+    "hf_pose_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_pose_add_handles": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_pose_add_handle_at": (c_int32, [c_void_p, c_void_p, c_double, c_void_p]),
+    "hf_pose_remove_handles": (c_int32, [c_void_p, c_uint32, c_void_p]),
+    "hf_pose_set_transforms": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_pose_set_transform": (c_int32, [c_void_p, c_uint32, c_void_p]),
+    "hf_pose_set_matrices": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_pose_get_handle": (c_int32, [c_void_p, c_uint32, c_void_p]),
+    "hf_pose_get_handle_count": (c_uint32, [c_void_p]),
+    "hf_pose_get_field": (c_int32, [c_void_p, c_uint32, c_void_p, c_uint32]),
+    "hf_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_pose_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_pose_get_skin": (c_int32, [c_void_p, c_void_p]),
     "hf_quads_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_quads_destroy": (None, [c_void_p]),
     "hf_quads_get_info": (c_int32, [c_void_p, c_void_p]),
@@ -1243,6 +1416,19 @@ PROTOTYPES = {
     "hf_flow_create": (c_int32, [c_void_p, c_void_p]),
     "hf_flow_destroy": (None, [c_void_p]),
     "hf_flow_trace": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_region_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_region_clone": (c_int32, [c_void_p, c_void_p]),
+    "hf_region_destroy": (None, [c_void_p]),
+    "hf_region_edit": (c_int32, [c_void_p, c_void_p]),
+    "hf_region_record": (c_int32, [c_void_p]),
+    "hf_region_undo": (c_int32, [c_void_p]),
+    "hf_region_redo": (c_int32, [c_void_p]),
+    "hf_region_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_region_get_vertices": (c_int32, [c_void_p, c_int32, c_uint32, c_void_p, c_void_p]),
+    "hf_region_morph": (c_int32, [c_void_p, c_void_p]),
+    "hf_detail_create": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
+    "hf_detail_destroy": (None, [c_void_p]),
+    "hf_detail_morph": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_create": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
     "hf_transfer_destroy": (None, [c_void_p]),
     "hf_transfer_add_pairs": (c_int32, [c_void_p, c_void_p, c_void_p]),

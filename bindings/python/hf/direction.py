@@ -1,4 +1,4 @@
-"""Direction fields on a solver's surface, with constraints and singularities (hf/direction.h)."""
+"""Direction fields on a surface, with constraints and singularities (hf/direction.h)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from . import _raw
 from ._library import (ArrayLike, Object, address, call, count_of, doubles, handle_of, integers, library, make, output,
                        paired)
-from .solver import Solver
+from .surface import Progress, Surface
 
 
 class Direction(Object):
@@ -18,11 +18,13 @@ class Direction(Object):
 
     _destroy = "hf_direction_destroy"
 
-    def __init__(self, solver: Solver, *, degree: int = 1, site_limit: int = 0) -> None:
+    def __init__(self, surface: Surface, *, degree: int = 1, site_limit: int = 0,
+                 progress: Optional[Progress] = None) -> None:
         desc, handle = make(_raw.hf_direction_desc, degree=degree, site_limit=site_limit), ctypes.c_void_p()
-        call("hf_direction_create", handle_of(solver, Solver, "solver"), ctypes.byref(desc), ctypes.byref(handle))
+        desc.progress = handle_of(progress, Progress, "progress")
+        call("hf_direction_create", handle_of(surface, Surface, "surface"), ctypes.byref(desc), ctypes.byref(handle))
         self._own(handle)
-        self.vertex_count = solver.vertex_count
+        self.vertex_count = surface.vertex_count
 
     def clone(self) -> "Direction":
         """One that shares connection and factor and has a copy of the constraints."""
@@ -79,7 +81,8 @@ class Direction(Object):
         count = self.site_count
         found = {"sites": np.empty(count, np.uint32), "vertices": np.empty(count, np.uint32),
             "vectors": np.empty((count, 3))}
-        call("hf_direction_get_sites", self._raw_handle, count, *(address(array) for array in found.values()))
+        call("hf_direction_get_sites", self._raw_handle, count, *(address(array) for array in found.values()),
+             None)
         return found
 
     @property

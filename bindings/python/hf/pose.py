@@ -1,4 +1,4 @@
-"""Posing with handles that come and go; the motion of one surface played on another (hf/deform.h, hf/transfer.h)."""
+"""Posing with handles that come and go; the motion of one surface played on another (hf/pose.h, hf/transfer.h)."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from typing import Any, NamedTuple, Optional, Sequence
 import numpy as np
 
 from . import _raw
-from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, count_of, doubles, handle_of, integers,
+from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, count_of, doubles, handle_of, index, integers,
     library, make, options_into, output,
                        points, regions)
-from .solver import Solver
+from .surface import Surface
 
 
 class DeformMode(IntEnum):
@@ -46,6 +46,7 @@ def _skin(function: str, handle: Optional[int], vertex_count: int, weight_count:
     skin = Skin(np.empty((joints, 3)), np.empty((joints, 4)), np.empty((joints, 3)),
         np.empty((vertex_count, weight_count), np.uint32),
                 np.empty((vertex_count, weight_count), np.float32))
+    info.joint_capacity, info.vertex_capacity = joints, vertex_count
     info.pivots, info.rotations = address(skin.pivots), address(skin.rotations)
     info.translations = address(skin.translations)
     info.vertex_joints, info.vertex_weights = address(skin.joints), address(skin.weights)
@@ -54,19 +55,19 @@ def _skin(function: str, handle: Optional[int], vertex_count: int, weight_count:
 
 
 class Pose(Object):
-    """Handles on a solver's surface; every vertex follows.
+    """Handles on a surface; every vertex follows.
 
     Options: mode, band_count, iteration_count, samples_per_ring, group_count.
     """
 
     _destroy = "hf_pose_destroy"
 
-    def __init__(self, solver: Solver, **options: Any) -> None:
+    def __init__(self, surface: Surface, **options: Any) -> None:
         desc, handle = make(_raw.hf_pose_desc), ctypes.c_void_p()
         options_into(desc, options)
-        call("hf_pose_create", handle_of(solver, Solver, "solver"), ctypes.byref(desc), ctypes.byref(handle))
+        call("hf_pose_create", handle_of(surface, Surface, "surface"), ctypes.byref(desc), ctypes.byref(handle))
         self._own(handle)
-        self.vertex_count = solver.vertex_count
+        self.vertex_count = surface.vertex_count
 
     def clone(self) -> "Pose":
         handle = ctypes.c_void_p()
@@ -95,6 +96,12 @@ class Pose(Object):
         call("hf_pose_add_handles", self._raw_handle, ctypes.byref(desc), address(out))
         return out
 
+    def add_handle_at(self, point: ArrayLike, radius: float) -> int:
+        """Adds one handle: what is edge-connected within radius of a point at rest. Returns its number."""
+        place, number = doubles(point, "point", 3), ctypes.c_uint32()
+        call("hf_pose_add_handle_at", self._raw_handle, address(place), float(radius), ctypes.byref(number))
+        return number.value
+
     def remove_handles(self, handles: ArrayLike) -> None:
         numbers = integers(handles, "handles")
         call("hf_pose_remove_handles", self._raw_handle, count_of(numbers), address(numbers))
@@ -112,6 +119,15 @@ class Pose(Object):
                 packed[:, columns] = doubles(values, name, count * width).reshape(count, width)
         call("hf_pose_set_transforms", self._raw_handle, count, address(numbers), address(packed))
 
+    def set_transform(self, handle: int, rotation: Optional[ArrayLike] = None,
+                      translation: Optional[ArrayLike] = None) -> None:
+        """A rigid motion of one handle: a quaternion x, y, z, w and a translation; None = none."""
+        motion = _raw.hf_transform()
+        for name, values, width in (("rotation", rotation, 4), ("translation", translation, 3)):
+            if values is not None:
+                setattr(motion, name, (ctypes.c_double * width)(*doubles(values, name, width).ravel()))
+        call("hf_pose_set_transform", self._raw_handle, index(handle, "handle"), ctypes.byref(motion))
+
     def set_matrices(self, handles: ArrayLike, matrices: ArrayLike) -> None:
         """Rigid 4 x 4 matrices rest -> posed, (k, 4, 4) in the usual row-by-row reading."""
         numbers = integers(handles, "handles")
@@ -120,9 +136,16 @@ class Pose(Object):
         columns = None if given is None else np.ascontiguousarray(given.reshape(count, 4, 4).transpose(0, 2, 1))
         call("hf_pose_set_matrices", self._raw_handle, count, address(numbers), address(columns))
 
+    @property
+    def info(self) -> _raw.hf_pose_info:
+        """The options the pose was made with, defaults filled in."""
+        info = make(_raw.hf_pose_info)
+        call("hf_pose_get_info", self._raw_handle, ctypes.byref(info))
+        return info
+
     def handle_info(self, handle: int) -> _raw.hf_handle_info:
         info = make(_raw.hf_handle_info)
-        call("hf_pose_get_handle", self._raw_handle, int(integers([handle], "handle")[0]), ctypes.byref(info))
+        call("hf_pose_get_handle", self._raw_handle, index(handle, "handle"), ctypes.byref(info))
         return info
 
     @property
@@ -132,7 +155,7 @@ class Pose(Object):
     def handle_field(self, handle: int, out: Optional[np.ndarray] = None) -> np.ndarray:
         """How much each vertex belongs to a handle, (n,) float32."""
         out, stride = output(out, (self.vertex_count,), np.float32)
-        call("hf_pose_get_field", self._raw_handle, int(integers([handle], "handle")[0]), address(out), stride)
+        call("hf_pose_get_field", self._raw_handle, index(handle, "handle"), address(out), stride)
         return out
 
     def deform(self, out: Optional[np.ndarray] = None, *, normals: Optional[np.ndarray] = None, dtype: Any = np.float32,
@@ -150,7 +173,7 @@ class Pose(Object):
             desc.normals = address(normals)
         if info is not None:
             info.struct_size = ctypes.sizeof(info)
-        call("hf_deform", self._raw_handle, ctypes.byref(desc), None if info is None else ctypes.byref(info))
+        call("hf_pose_deform", self._raw_handle, ctypes.byref(desc), None if info is None else ctypes.byref(info))
         return out
 
     def skin(self, weight_count: int = 4) -> Skin:
@@ -163,7 +186,7 @@ class Transfer(Object):
 
     _destroy = "hf_transfer_destroy"
 
-    def __init__(self, source: Solver, target: Solver, *, source_axes: Optional[ArrayLike] = None,
+    def __init__(self, source: Surface, target: Surface, *, source_axes: Optional[ArrayLike] = None,
         target_axes: Optional[ArrayLike] = None,
                  **options: Any) -> None:
         desc, handle = make(_raw.hf_transfer_desc), ctypes.c_void_p()
@@ -171,7 +194,7 @@ class Transfer(Object):
         for name, axes in (("source_axes", source_axes), ("target_axes", target_axes)):
             if axes is not None:
                 setattr(desc, name, (ctypes.c_float * 9)(*doubles(axes, name, 9).ravel()))
-        call("hf_transfer_create", handle_of(source, Solver, "source"), handle_of(target, Solver, "target"),
+        call("hf_transfer_create", handle_of(source, Surface, "source"), handle_of(target, Surface, "target"),
             ctypes.byref(desc), ctypes.byref(handle))
         self._own(handle)
         self.source_vertex_count, self.vertex_count = source.vertex_count, target.vertex_count
@@ -199,7 +222,7 @@ class Transfer(Object):
 
     def pair_info(self, pair: int) -> _raw.hf_pair_info:
         info = make(_raw.hf_pair_info)
-        call("hf_transfer_get_pair", self._raw_handle, int(integers([pair], "pair")[0]), ctypes.byref(info))
+        call("hf_transfer_get_pair", self._raw_handle, index(pair, "pair"), ctypes.byref(info))
         return info
 
     @property

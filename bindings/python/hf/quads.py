@@ -11,7 +11,7 @@ import numpy as np
 from . import _raw
 from ._library import (ArrayLike, InvalidArgumentError, Object, TooSmallError, address, call, handle_of, integers, make,
                        options_into, scalars)
-from .solver import Progress, Solver
+from .surface import Progress, Surface
 
 
 class QuadKind(IntEnum):
@@ -35,11 +35,11 @@ class QuadMesh(NamedTuple):
 
 
 class Quads(Object):
-    """A quad mesh of a solver's surface. Options: kind, edge_length, keep_polygons, relax_count."""
+    """A quad mesh of a surface. Options: kind, edge_length, keep_polygons, relax_count."""
 
     _destroy = "hf_quads_destroy"
 
-    def __init__(self, solver: Solver, *, site_vertices: Optional[ArrayLike] = None,
+    def __init__(self, surface: Surface, *, site_vertices: Optional[ArrayLike] = None,
         site_lines: Optional[ArrayLike] = None,
                  progress: Optional[Progress] = None, **options: Any) -> None:
         desc, handle = make(_raw.hf_quads_desc), ctypes.c_void_p()
@@ -52,7 +52,7 @@ class Quads(Object):
         lines = None if lines is None else lines.astype(np.int32)
         desc.site_lines = address(lines)
         desc.progress = handle_of(progress, Progress, "progress")
-        call("hf_quads_create", handle_of(solver, Solver, "solver"), ctypes.byref(desc), ctypes.byref(handle))
+        call("hf_quads_create", handle_of(surface, Surface, "surface"), ctypes.byref(desc), ctypes.byref(handle))
         self._own(handle)
 
     @property
@@ -91,11 +91,11 @@ class Flow(Object):
 
     _destroy = "hf_flow_destroy"
 
-    def __init__(self, solver: Solver) -> None:
+    def __init__(self, surface: Surface) -> None:
         handle = ctypes.c_void_p()
-        call("hf_flow_create", handle_of(solver, Solver, "solver"), ctypes.byref(handle))
+        call("hf_flow_create", handle_of(surface, Surface, "surface"), ctypes.byref(handle))
         self._own(handle)
-        self.vertex_count = solver.vertex_count
+        self.vertex_count = surface.vertex_count
         self._room = (4096, 64)  # points and lines that the last trace needed
 
     def trace(self, field: ArrayLike, wanted_count: int = 0, *, seeds: Optional[ArrayLike] = None) -> FlowLines:

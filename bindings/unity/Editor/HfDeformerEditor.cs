@@ -1,5 +1,4 @@
-// The inspector: handles added with a click, figures of the solver, the factor saved as an asset; handles moved in the
-// scene view.
+// The inspector: adds handles with a click and saves the factor as an asset. Handles move in the scene view.
 using System.IO;
 using UnityEditor;
 using UnityEngine;
@@ -31,7 +30,7 @@ namespace Hf.Unity.Editor
                     "The factor for the saved-factor slot");
                 if (!string.IsNullOrEmpty(path))
                 {
-                    File.WriteAllBytes(path, deformer.Solver.SaveFactor());
+                    File.WriteAllBytes(path, deformer.Surface.Save());
                     AssetDatabase.ImportAsset(path);
                     Undo.RecordObject(deformer, "Save factor");
                     deformer.savedFactor = AssetDatabase.LoadAssetAtPath<TextAsset>(path);

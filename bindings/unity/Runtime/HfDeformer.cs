@@ -1,6 +1,5 @@
-// Deforms the mesh of a MeshFilter so that the regions of its HfHandle children follow them. The factor is made once,
-// at
-// the first use; handles come and go on it.
+// Deforms the mesh of a MeshFilter so that the regions of its HfHandle children follow them. The surface is made once,
+// at the first use; handles come and go on it.
 using System.Collections.Generic;
 using UnityEngine;
 
@@ -19,14 +18,14 @@ namespace Hf.Unity
         public TextAsset savedFactor;
 
         Mesh rest, posed;
-        Solver solver;
+        Surface surface;
         Pose pose;
         float[] positions, normals;
         Vector3[] vertices, directions;
         readonly List<HfHandle> bound = new List<HfHandle>();
         bool changed = true;
 
-        public Solver Solver { get { Bind(); return solver; } }
+        public Surface Surface { get { Bind(); return surface; } }
         public Pose Pose { get { Bind(); return pose; } }
         public string LastError { get; private set; }
         public int HandleCount { get { return bound.Count; } }
@@ -39,9 +38,9 @@ namespace Hf.Unity
         public void Release()
         {
             if (pose != null) pose.Dispose();
-            if (solver != null) solver.Dispose();
+            if (surface != null) surface.Dispose();
             pose = null;
-            solver = null;
+            surface = null;
             foreach (HfHandle handle in bound) if (handle != null) handle.bound = false;
             bound.Clear();
             changed = true;
@@ -51,7 +50,7 @@ namespace Hf.Unity
 
         void Bind()
         {
-            if (solver != null) return;
+            if (surface != null) return;
             var filter = GetComponent<MeshFilter>();
             rest = filter.sharedMesh;
             if (rest == null) throw new HfException("the MeshFilter has no mesh");
@@ -74,9 +73,9 @@ namespace Hf.Unity
                 triangles[i + 1] = (uint)corners[i + 2];
                 triangles[i + 2] = (uint)corners[i + 1];
             }
-            solver = new Solver(positions, triangles, new SolverOptions { ThreadCount = (uint)threads,
+            surface = new Surface(positions, triangles, new SurfaceOptions { ThreadCount = (uint)threads,
                 SavedFactor = savedFactor != null ? savedFactor.bytes : null });
-            pose = new Pose(solver);
+            pose = new Pose(surface);
             posed = Instantiate(rest);
             posed.MarkDynamic();
             filter.sharedMesh = posed;
@@ -149,16 +148,16 @@ namespace Hf.Unity
         public float[] Field(uint[] ones, uint[] zeros)
         {
             Bind();
-            using (Solver clone = solver.Clone())
+            using (var field = new Solver(surface))
             {
                 if (ones.Length > 0)
                 {
                     var high = new double[ones.Length];
                     for (int i = 0; i < high.Length; ++i) high[i] = 1;
-                    clone.AddSites(ones, high);
+                    field.AddSites(ones, high);
                 }
-                if (zeros.Length > 0) clone.AddSites(zeros, new double[zeros.Length]);
-                return clone.Solve();
+                if (zeros.Length > 0) field.AddSites(zeros, new double[zeros.Length]);
+                return field.Solve();
             }
         }
     }

@@ -23,11 +23,11 @@ for row in "42K +150/-160" "84K +150/-160" "173K +40/-30" "173K +200/-0" "173K +
   done
 done
 commands=$("$program" --help | sed -n '/^commands/,/^options/p' | awk '/^  [a-z]/ { print $1 }')
-for command in first-field sweep large-sites memory scaling all issue3; do
+for command in first-field sweep large-sites memory scaling all engines; do
   printf '%s\n' "$commands" | grep -qx "$command" || complain "--help does not name $command"
 done
 for command in $commands; do
-  [ "$command" = all ] || [ "$command" = issue3 ] || grep -q "</svg>" "$folder/plots/$command.svg" 2>/dev/null || complain "no picture of $command"
+  [ "$command" = all ] || [ "$command" = engines ] || grep -q "</svg>" "$folder/plots/$command.svg" 2>/dev/null || complain "no picture of $command"
 done
 grep -q "^| figure | mesh | measured | must | aim | reached |" "$folder/all.md" || complain "no table in the Markdown file"
 grep -q "nan" "$folder/all.md" && complain "a figure is not a number"

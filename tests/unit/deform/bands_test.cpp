@@ -175,8 +175,8 @@ TEST(Bands, EqualLengthLevelsFollowTheLengthOfATubeOfChangingWidth) {
   HandleFields fields(core->size(), 2, memory);
   for (int i = 0; i < 2; ++i) std::copy(pose->field(numbers[i]).begin(), pose->field(numbers[i]).end(), fields.of(i));
   const Vector<FieldPart> parts({{0, 1}}, &memory);
-  const Vector<Levels> length = make_levels(*core, rest_surface, fields, parts, LevelSpacing::equal_length, memory);
-  const Vector<Levels> value = make_levels(*core, rest_surface, fields, parts, LevelSpacing::equal_value, memory);
+  const Vector<Levels> length = make_levels(*core, rest_surface, fields, parts, BandSpacing::equal_length, memory);
+  const Vector<Levels> value = make_levels(*core, rest_surface, fields, parts, BandSpacing::equal_value, memory);
   double largest = 0, largest_by_value = 0;
   for (std::int32_t v = 0; v < core->size(); ++v) {
     const double y = core->mesh.to_given(core->mesh.positions[v]).y;

@@ -1,6 +1,5 @@
 // Critical points: indices sum to the Euler characteristic; extrema of a field lie at its sites; and the open question
 // of the paper, the number of critical points under penalty against exact constraints.
-#include "base/index.h"
 #include "field/critical_points.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +8,7 @@
 #include <map>
 
 #include "analysis_support.h"
+#include "base/index.h"
 #include "field/scalar_field.h"
 
 namespace {

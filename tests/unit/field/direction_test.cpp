@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <Eigen/Dense>
 #include <random>
 
 #include "base/error.h"
 #include "base/index.h"
+#include "direction_support.h"
 #include "field/direction_field.h"
 #include "support/dirty_meshes.h"
 #include "support/meshes.h"
@@ -15,8 +15,9 @@
 namespace {
 
 using hf_inner::at;
+using hf_test::Complex;
+using hf_test::dense_field;
 using hf_test::PlainMesh;
-using Complex = std::complex<double>;
 constexpr double pi = 3.14159265358979323846;
 
 std::vector<hf_inner::Vec3> solved(const hf_inner::DirectionField& field) {
@@ -160,40 +161,6 @@ TEST(Direction, one_constraint_on_a_flat_patch_or_a_tube_gives_a_parallel_field)
       EXPECT_NEAR(u[v].z, 1, 0.05);
     }
   }
-}
-
-// minimise z' K z under the constraints, densely
-std::vector<Complex> dense_field(const hf_inner::DirectionSolver& solver, const std::vector<std::int32_t>& vertices,
-                                 const std::vector<Complex>& values) {
-  const hf_inner::SymmetricMatrix& k = solver.matrix();
-  const hf_inner::Core& core = solver.core();
-  const int n = k.size(), m = 2 * static_cast<int>(vertices.size());
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + m, n + m);
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(n + m);
-  std::vector<int> reached(at(core.mesh.component_count()), 0);
-  for (const std::int32_t v : vertices) reached[at(core.mesh.component[at(v)])] = 1;
-  const auto unknown = [&](std::int32_t v, int part) { return solver.system().unknown(v, part); };
-  for (std::int32_t v = 0; v < core.size(); ++v) {
-    for (int part = 0; part < 2; ++part) {
-      const int u = unknown(v, part);
-      if (!reached[at(core.mesh.component[at(v)])]) a(u, u) = 1;
-      for (std::int32_t i = k.column_start[at(u)]; i < k.column_start[at(u) + 1]; ++i) {
-        if (reached[at(core.mesh.component[at(v)])]) a(k.row[at(i)], u) = k.value[at(i)];
-      }
-    }
-  }
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    for (int part = 0; part < 2; ++part) {
-      const int row = n + 2 * static_cast<int>(i) + part, u = unknown(vertices[i], part);
-      a(row, u) = 1, a(u, row) = -1, b(row) = part ? values[i].imag() : values[i].real();
-    }
-  }
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(a);
-  Eigen::VectorXd x = lu.solve(b);
-  x += lu.solve(b - a * x);
-  std::vector<Complex> field;
-  for (std::int32_t v = 0; v < core.size(); ++v) field.emplace_back(x(unknown(v, 0)), x(unknown(v, 1)));
-  return field;
 }
 
 struct Script {

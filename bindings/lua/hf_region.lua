@@ -14,12 +14,12 @@ local function morph(call, thing, weight)
 end
 
 local Region = class('Region', function(raw) C.hf_region_destroy(raw) end)
--- positions: a pose of the surface to work on; nil: the solver's own
-function hf.Region(solver, positions)
-  local parent = raw_of(solver, 'Solver', 'solver')
-  local xyz = doubles(positions, 'positions', 3 * solver.vertex_count)
-  local desc = make('hf_region_desc', { positions_f64 = xyz })
-  return create(Region, 'hf_region', { vertex_count = solver.vertex_count }, C.hf_region_create, parent, desc)
+-- positions: a pose of the surface to work on; nil: at rest. options: field_kind (0 a membrane, others a thin plate)
+function hf.Region(surface, positions, options)
+  local parent = raw_of(surface, 'Surface', 'surface')
+  local xyz = doubles(positions, 'positions', 3 * surface.vertex_count)
+  local desc = core.options_into(make('hf_region_desc', { positions_f64 = xyz }), options, core.set('field_kind'))
+  return create(Region, 'hf_region', { vertex_count = surface.vertex_count }, C.hf_region_create, parent, desc)
 end
 function Region:clone()
   return create(Region, 'hf_region', { vertex_count = self.vertex_count }, C.hf_region_clone, self.raw)
@@ -47,11 +47,9 @@ function Region:redo() check(C.hf_region_redo(self.raw)) end
 function Region:info() return query('hf_region_info', C.hf_region_get_info, self.raw) end
 -- Vertices inside (0), on the rim (1), or the sites that hold the base (2): cdata from 0, and how many.
 function Region:vertices(which)
-  local counts = self:info()
-  local size = ({ [0] = counts.vertex_count, counts.rim_count, counts.site_count })[which or 0] or 0
-  local out = ffi.new('uint32_t[?]', size + 1)
-  check(C.hf_region_get_vertices(self.raw, which or 0, size, out))
-  return out, size
+  return core.rows('uint32_t', function(capacity, out, count)
+    return C.hf_region_get_vertices(self.raw, which or 0, capacity, out, count)
+  end)
 end
 -- 0: the surface, 1: its base without detail, between and beyond in proportion
 function Region:morph(weight) return morph(C.hf_region_morph, self, weight) end

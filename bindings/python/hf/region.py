@@ -1,4 +1,4 @@
-"""Regions of a surface, their smooth base, the detail on it, and detail carried to another region (hf/detail.h)."""
+"""Regions of a surface, their smooth base, the detail on it, and detail carried to another region (hf/region.h)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from . import _raw
 from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, handle_of, integers, make, output,
                        points)
-from .solver import Progress, Solver
+from .surface import FieldKind, Progress, Surface
 
 
 class Side(IntEnum):
@@ -35,22 +35,27 @@ def _morph(function: str, thing: Any, weight: float, out: Optional[np.ndarray], 
 
 
 class Region(Object):
-    """A region of a solver's surface that grows, shrinks and is drawn by closed curves; its base is a membrane, or a thin
-    plate with a bi-harmonic solver. positions: a pose of the surface to work on; None: the solver's own."""
+    """A region of a surface that grows, shrinks and is drawn by closed curves.
+
+    positions: a pose of the surface to work on; None: at rest. field_kind: the base is a membrane (HARMONIC) or a thin
+    plate (the others).
+    """
 
     _destroy = "hf_region_destroy"
 
-    def __init__(self, solver: Solver, positions: Optional[ArrayLike] = None) -> None:
-        desc, handle = make(_raw.hf_region_desc), ctypes.c_void_p()
-        parent = handle_of(solver, Solver, "solver")
+    def __init__(self, surface: Surface, positions: Optional[ArrayLike] = None, *,
+                 field_kind: int = FieldKind.HARMONIC, progress: Optional[Progress] = None) -> None:
+        desc, handle = make(_raw.hf_region_desc, field_kind=int(field_kind)), ctypes.c_void_p()
+        desc.progress = handle_of(progress, Progress, "progress")
+        parent = handle_of(surface, Surface, "surface")
         if positions is not None:
             xyz, desc.position_stride = points(positions, "positions")
-            if len(xyz) != solver.vertex_count:
-                raise InvalidArgumentError(f"positions must have the shape ({solver.vertex_count}, 3), not {xyz.shape}")
+            if len(xyz) != surface.vertex_count:
+                raise InvalidArgumentError(f"positions must have the shape ({surface.vertex_count}, 3), not {xyz.shape}")
             setattr(desc, "positions" if xyz.dtype == np.float32 else "positions_f64", address(xyz))
         call("hf_region_create", parent, ctypes.byref(desc), ctypes.byref(handle))
         self._own(handle)
-        self.vertex_count = solver.vertex_count
+        self.vertex_count = surface.vertex_count
 
     def clone(self) -> "Region":
         handle = ctypes.c_void_p()
@@ -95,11 +100,11 @@ class Region(Object):
 
     def vertices(self, which: int = RegionList.INSIDE) -> np.ndarray:
         """Vertices inside, on the rim, or the sites that hold the base, (k,) uint32."""
-        counts = self.info
-        size = {RegionList.INSIDE: counts.vertex_count, RegionList.RIM: counts.rim_count}.get(int(which), counts.site_count)
-        out = np.empty(max(1, size), np.uint32)
-        call("hf_region_get_vertices", self._raw_handle, int(which), size, address(out))
-        return out[:size]
+        size = ctypes.c_uint32()
+        call("hf_region_get_vertices", self._raw_handle, int(which), 0, None, ctypes.byref(size))
+        out = np.empty(size.value, np.uint32)
+        call("hf_region_get_vertices", self._raw_handle, int(which), out.size, address(out), ctypes.byref(size))
+        return out
 
     def morph(self, weight: float, out: Optional[np.ndarray] = None, *, normals: Optional[np.ndarray] = None,
               dtype: Any = np.float32) -> np.ndarray:

@@ -1,0 +1,279 @@
+// Surface and Progress over the C ABI (include/hf/surface.h, analysis.h).
+using System;
+using Hf.Native;
+
+namespace Hf
+{
+    /// <summary>Fields of hf_surface_desc that are not arrays; 0 is the default of each.</summary>
+    public sealed class SurfaceOptions
+    {
+        public int Weld, OperatorKind, FieldKind, Ordering;
+        public float WeldTolerance;
+        public uint ThreadCount, VertexLimit, TriangleLimit, MemoryLimitMb;
+        public byte[] SavedFactor;
+        public Progress Progress;
+    }
+
+    /// <summary>Watches and cancels a long call from another thread.</summary>
+    public sealed unsafe class Progress : HfObject
+    {
+        public Progress()
+        {
+            IntPtr raw;
+            HfException.Check(Functions.hf_progress_create(&raw));
+            Own(raw, Functions.hf_progress_destroy);
+        }
+
+        public float Fraction { get { float value; Check(Functions.hf_progress_get_fraction(Handle, &value)); return value; } }
+        public void Cancel() { Check(Functions.hf_progress_cancel(Handle)); }
+    }
+
+    /// <summary>Polylines of iso-lines: line i holds the points LineStarts[i] to LineStarts[i + 1] - 1.</summary>
+    public sealed class Isolines
+    {
+        public double[] Positions, Parameters;
+        public uint[] PointEdges, LineStarts, LineLevels;
+        public int[] LineClosed;
+    }
+
+    /// <summary>The first triangle on a ray; Barycentrics are the weights of its corners, Vertex the corner nearest to
+    /// the hit.</summary>
+    public sealed class Hit
+    {
+        public uint Triangle, Vertex;
+        public double[] Barycentrics, Position;
+        public double Distance;
+    }
+
+    /// <summary>A mesh, welded, checked, ordered and factorised once. Solvers, poses and the rest are made on
+    /// it.</summary>
+    public sealed unsafe class Surface : HfObject
+    {
+        public int VertexCount { get; private set; }
+
+        /// <summary>positions: xyz per vertex; triangles: three vertices each. Borrowed for the call.</summary>
+        public Surface(float[] positions, uint[] triangles, SurfaceOptions options = null)
+        {
+            Create(positions, triangles, options);
+        }
+
+        /// <summary>The same from doubles.</summary>
+        public Surface(double[] positions, uint[] triangles, SurfaceOptions options = null)
+        {
+            Create(positions, triangles, options);
+        }
+
+        /// <summary>The same with 16-bit triangles.</summary>
+        public Surface(float[] positions, ushort[] triangles, SurfaceOptions options = null)
+        {
+            Create(positions, triangles, options);
+        }
+
+        /// <summary>The same from doubles with 16-bit triangles.</summary>
+        public Surface(double[] positions, ushort[] triangles, SurfaceOptions options = null)
+        {
+            Create(positions, triangles, options);
+        }
+
+        void Create(Array positions, Array triangles, SurfaceOptions options)
+        {
+            if (positions == null) throw new HfException("positions is null", Constants.HF_ERROR_NULL_POINTER);
+            if (positions.Length % 3 != 0) throw new HfException("positions must hold three numbers a vertex, not "
+                + positions.Length);
+            if (triangles != null && triangles.Length % 3 != 0)
+                throw new HfException("triangles must hold three numbers each, not " + triangles.Length);
+            options = options ?? new SurfaceOptions();
+            using (var pins = new Pins())
+            {
+                var desc = new hf_surface_desc { struct_size = (uint)sizeof(hf_surface_desc) };
+                desc.vertex_count = (uint)(positions.Length / 3);
+                desc.triangle_count = triangles == null ? 0 : (uint)(triangles.Length / 3);
+                if (positions is double[]) desc.positions_f64 = pins.Add(positions);
+                else desc.positions = pins.Add(positions);
+                if (triangles is ushort[]) desc.triangles_u16 = pins.Add(triangles);
+                else desc.triangles = pins.Add(triangles);
+                desc.weld = options.Weld;
+                desc.weld_tolerance = options.WeldTolerance;
+                desc.operator_kind = options.OperatorKind;
+                desc.ordering = options.Ordering;
+                desc.field_kind = options.FieldKind;
+                desc.thread_count = options.ThreadCount;
+                desc.vertex_limit = options.VertexLimit;
+                desc.triangle_limit = options.TriangleLimit;
+                desc.memory_limit_mb = options.MemoryLimitMb;
+                if (options.Progress != null) desc.progress = options.Progress.Handle;
+                hf_factor_desc factor;
+                if (options.SavedFactor != null)
+                {
+                    factor = new hf_factor_desc { struct_size = (uint)sizeof(hf_factor_desc) };
+                    factor.bytes = pins.Add(options.SavedFactor);
+                    factor.byte_count = (UIntPtr)options.SavedFactor.Length;
+                    desc.saved_factor = (IntPtr)(&factor);
+                }
+                IntPtr raw;
+                HfException.Check(Functions.hf_surface_create(&desc, &raw));
+                GC.KeepAlive(options.Progress);
+                Own(raw, Functions.hf_surface_destroy);
+            }
+            VertexCount = positions.Length / 3;
+        }
+
+        /// <summary>The options it was made with, defaults filled in.</summary>
+        public hf_surface_info Info
+        {
+            get
+            {
+                var info = new hf_surface_info { struct_size = (uint)sizeof(hf_surface_info) };
+                Check(Functions.hf_surface_get_info(Handle, &info));
+                return info;
+            }
+        }
+
+        public hf_surface_report Report
+        {
+            get
+            {
+                var report = new hf_surface_report { struct_size = (uint)sizeof(hf_surface_report) };
+                Check(Functions.hf_surface_get_report(Handle, &report));
+                return report;
+            }
+        }
+
+        public hf_surface_statistics Statistics
+        {
+            get
+            {
+                var statistics = new hf_surface_statistics { struct_size = (uint)sizeof(hf_surface_statistics) };
+                Check(Functions.hf_surface_get_statistics(Handle, &statistics));
+                return statistics;
+            }
+        }
+
+        /// <summary>The component of every vertex; HF_NO_INDEX for isolated ones.</summary>
+        public uint[] Components()
+        {
+            var components = new uint[VertexCount];
+            fixed (uint* place = components) Check(Functions.hf_surface_get_components(Handle, (uint)VertexCount, place, null));
+            return components;
+        }
+
+        /// <summary>The factor of one kind of field as bytes, for SurfaceOptions.SavedFactor.</summary>
+        public byte[] Save(int fieldKind = Constants.HF_FIELD_HARMONIC)
+        {
+            UIntPtr size;
+            Check(Functions.hf_surface_save(Handle, fieldKind, UIntPtr.Zero, null, &size));
+            var bytes = new byte[(long)size];
+            fixed (byte* place = bytes) Check(Functions.hf_surface_save(Handle, fieldKind, size, place, null));
+            return bytes;
+        }
+
+        hf_pick_desc Picked(Pins pins, double[] positions, bool frontOnly)
+        {
+            var desc = new hf_pick_desc { struct_size = (uint)sizeof(hf_pick_desc) };
+            desc.positions_f64 = pins.Add(positions, 3 * VertexCount, "positions");
+            desc.front_only = frontOnly ? 1 : 0;
+            return desc;
+        }
+
+        /// <summary>The first triangle on a ray, or null. positions: a pose of the surface, null for the rest
+        /// positions.</summary>
+        public Hit CastRay(double[] origin, double[] direction, double[] positions = null, bool frontOnly = false)
+        {
+            using (var pins = new Pins())
+            {
+                hf_pick_desc desc = Picked(pins, positions, frontOnly);
+                var hit = new hf_hit { struct_size = (uint)sizeof(hf_hit) };
+                Check(Functions.hf_surface_cast_ray(Handle, (void*)pins.Add(origin, 3, "origin"),
+                    (void*)pins.Add(direction, 3, "direction"), &desc, &hit));
+                if (hit.found == 0) return null;
+                return new Hit { Triangle = hit.triangle, Vertex = hit.vertex, Distance = hit.distance,
+                    Barycentrics = new[] { hit.barycentrics[0], hit.barycentrics[1], hit.barycentrics[2] },
+                    Position = new[] { hit.position[0], hit.position[1], hit.position[2] } };
+            }
+        }
+
+        /// <summary>The vertex nearest to a point.</summary>
+        public uint FindVertex(double[] point, out double distance, double[] positions = null)
+        {
+            using (var pins = new Pins())
+            {
+                hf_pick_desc desc = Picked(pins, positions, false);
+                uint vertex;
+                double apart;
+                Check(Functions.hf_surface_find_vertex(Handle, (void*)pins.Add(point, 3, "point"), &desc, &vertex,
+                    &apart));
+                distance = apart;
+                return vertex;
+            }
+        }
+
+        hf_scalars Scalars(Pins pins, double[] field)
+        {
+            var scalars = new hf_scalars { struct_size = (uint)sizeof(hf_scalars) };
+            scalars.values_f64 = pins.Add(field, VertexCount, "field");
+            return scalars;
+        }
+
+        public double[] SpaceLevels(double[] field, int levelCount, int spacing = Constants.HF_LEVELS_VALUE)
+        {
+            using (var pins = new Pins())
+            {
+                hf_scalars scalars = Scalars(pins, field);
+                var levels = new double[Math.Max(0, Math.Min(levelCount, 1000000))];
+                Check(Functions.hf_surface_space_levels(Handle, &scalars, spacing, (uint)Math.Max(0, levelCount),
+                    (void*)pins.Add(levels)));
+                return levels;
+            }
+        }
+
+        public Isolines TraceIsolines(double[] field, double[] levels)
+        {
+            using (var pins = new Pins())
+            {
+                hf_scalars scalars = Scalars(pins, field);
+                uint count = (uint)Pins.Count(levels);
+                void* wanted = (void*)pins.Add(levels);
+                var lines = new hf_isolines { struct_size = (uint)sizeof(hf_isolines) };
+                Check(Functions.hf_surface_trace_isolines(Handle, &scalars, count, wanted, &lines));
+                uint p = lines.point_count, k = lines.line_count;
+                var result = new Isolines { Positions = new double[3 * p], Parameters = new double[p],
+                    PointEdges = new uint[2 * p], LineStarts = new uint[k + 1], LineLevels = new uint[k],
+                    LineClosed = new int[k] };
+                if (k == 0) return result;
+                lines.point_capacity = p;
+                lines.line_capacity = k;
+                lines.positions = pins.Add(result.Positions);
+                lines.parameters = pins.Add(result.Parameters);
+                lines.point_edges = pins.Add(result.PointEdges);
+                lines.line_starts = pins.Add(result.LineStarts);
+                lines.line_levels = pins.Add(result.LineLevels);
+                lines.line_closed = pins.Add(result.LineClosed);
+                Check(Functions.hf_surface_trace_isolines(Handle, &scalars, count, wanted, &lines));
+                return result;
+            }
+        }
+
+        public hf_critical_point[] FindCriticalPoints(double[] field)
+        {
+            using (var pins = new Pins())
+            {
+                hf_scalars scalars = Scalars(pins, field);
+                var info = new hf_critical_info { struct_size = (uint)sizeof(hf_critical_info) };
+                Check(Functions.hf_surface_find_critical_points(Handle, &scalars, 0, null, &info));
+                var points = new hf_critical_point[info.point_count];
+                if (points.Length > 0) fixed (hf_critical_point* place = points)
+                    Check(Functions.hf_surface_find_critical_points(Handle, &scalars, info.point_count, place, &info));
+                return points;
+            }
+        }
+
+        public hf_extremity[] FindExtremities(int kind = Constants.HF_EXTREMITIES_POISSON)
+        {
+            var desc = new hf_extremities_desc { struct_size = (uint)sizeof(hf_extremities_desc) };
+            desc.kind = kind;
+            hf_extremities_desc* place = &desc;
+            return Rows<hf_extremity>((handle, capacity, rows, count) => Functions.hf_surface_find_extremities(handle, place,
+                capacity, rows, count));
+        }
+    }
+}

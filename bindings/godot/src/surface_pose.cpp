@@ -1,0 +1,242 @@
+// Methods of the pose and of the transfer: handles, deform, skins, motion on another surface (hf/pose.h, transfer.h).
+#include "arguments.h"
+
+namespace hf_godot {
+namespace {
+
+hf_pose pose_of(Surface& s) {
+  return make_once(s.pose, [&](hf_pose* out) { return hf_pose_create(s.get(), nullptr, out); });
+}
+
+// pose_create(options = {}): replaces the pose; without it the first call makes one of defaults
+Value pose_create(Surface& s, const Arguments& a) {
+  auto desc = make<hf_pose_desc>();
+  read_options(at(a, 0), {{"mode", &desc.mode},
+                          {"band_count", &desc.band_count},
+                          {"iteration_count", &desc.iteration_count},
+                          {"samples_per_ring", &desc.samples_per_ring},
+                          {"group_count", &desc.group_count}});
+  make_again(s.pose, [&](hf_pose* out) { return hf_pose_create(s.get(), &desc, out); });
+  return done();
+}
+
+Value pose_info(Surface& s, const Arguments&) {
+  auto info = make<hf_pose_info>();
+  check(hf_pose_get_info(pose_of(s), &info));
+  return named({{"mode", info.mode},
+                {"band_count", info.band_count},
+                {"iteration_count", info.iteration_count},
+                {"samples_per_ring", info.samples_per_ring},
+                {"group_count", info.group_count},
+                {"handle_count", info.handle_count},
+                {"vertex_count", info.vertex_count}});
+}
+
+Value add_handles(Surface& s, const Arguments& a) {
+  const Regions regions(at(a, 0), "regions");
+  auto desc = make<hf_handles_desc>();
+  desc.handle_count = regions.count(), desc.layer = whole(at(a, 1).number, "layer");
+  if (!regions.counts.empty())
+    desc.region_counts = regions.counts.data(), desc.region_vertices = regions.vertices.data();
+  Numbers made(desc.handle_count + 1);
+  check(hf_pose_add_handles(pose_of(s), &desc, made.data()));
+  made.resize(desc.handle_count);
+  return numbers(made);
+}
+
+Value add_handles_at(Surface& s, const Arguments& a) {
+  const size_t count = at(a, 0).list.size() / 3;
+  auto desc = make<hf_handles_desc>();
+  desc.handle_count = static_cast<uint32_t>(count), desc.points = doubles(at(a, 0), 3 * count, "points"),
+  desc.radii = doubles(at(a, 1), count, "radii");
+  desc.layer = whole(at(a, 2).number, "layer");
+  Numbers made(count + 1);
+  check(hf_pose_add_handles(pose_of(s), &desc, made.data()));
+  made.resize(count);
+  return numbers(made);
+}
+
+// add_handle_at(point, radius): one handle on layer 0; returns its number
+Value add_handle_at(Surface& s, const Arguments& a) {
+  uint32_t made = 0;
+  check(hf_pose_add_handle_at(pose_of(s), doubles(at(a, 0), 3, "point"), at(a, 1).number, &made));
+  return number(made);
+}
+
+Value remove_handles(Surface& s, const Arguments& a) {
+  const List handles = integers(at(a, 0), "handles");
+  check(hf_pose_remove_handles(pose_of(s), handles.count(), handles.data()));
+  return done();
+}
+
+// handles, quaternions x y z w flat or null, translations flat or null
+Value set_transforms(Surface& s, const Arguments& a) {
+  const List handles = integers(at(a, 0), "handles");
+  const size_t count = handles.count();
+  const double *turns = doubles(at(a, 1), 4 * count, "rotations"),
+               *shifts = doubles(at(a, 2), 3 * count, "translations");
+  std::vector<hf_transform> transforms(count + 1);
+  for (size_t i = 0; i < count; ++i) {
+    for (size_t c = 0; turns && c < 4; ++c) transforms[i].rotation[c] = turns[4 * i + c];
+    for (size_t c = 0; shifts && c < 3; ++c) transforms[i].translation[c] = shifts[3 * i + c];
+  }
+  check(hf_pose_set_transforms(pose_of(s), handles.count(), handles.data(), transforms.data()));
+  return done();
+}
+
+// set_transform(handle, Quat or null, Vector3 or null)
+Value set_transform(Surface& s, const Arguments& a) {
+  hf_transform transform{};
+  const double *turn = doubles(at(a, 1), 4, "rotation"), *shift = doubles(at(a, 2), 3, "translation");
+  for (size_t c = 0; turn && c < 4; ++c) transform.rotation[c] = turn[c];
+  for (size_t c = 0; shift && c < 3; ++c) transform.translation[c] = shift[c];
+  check(hf_pose_set_transform(pose_of(s), whole(at(a, 0).number, "handle"), &transform));
+  return done();
+}
+
+Value handle_centroid(Surface& s, const Arguments& a) {
+  auto info = make<hf_handle_info>();
+  check(hf_pose_get_handle(pose_of(s), whole(at(a, 0).number, "handle"), &info));
+  Value value;
+  value.kind = Value::named;
+  value.fields = {{"x", info.centroid[0]}, {"y", info.centroid[1]}, {"z", info.centroid[2]}, {"layer", info.layer}};
+  return value;
+}
+
+Value handle_field(Surface& s, const Arguments& a) {
+  Value value;
+  value.kind = Value::reals, value.floats.resize(s.vertex_count + 1);
+  check(hf_pose_get_field(pose_of(s), whole(at(a, 0).number, "handle"), value.floats.data(), 0));
+  value.floats.resize(s.vertex_count);
+  return value;
+}
+
+Value deform(Surface& s, const Arguments& a) {
+  auto desc = make<hf_deform_desc>();
+  read_options(at(a, 0),
+               {{"iteration_count", &desc.iteration_count}, {"restart", &desc.restart}, {"refine", &desc.refine}});
+  Value value;
+  value.kind = Value::vectors, value.floats.resize(3 * s.vertex_count + 1);
+  std::vector<float> normals(3 * s.vertex_count + 1);
+  desc.positions = value.floats.data(), desc.normals = normals.data();
+  check(hf_pose_deform(pose_of(s), &desc, nullptr));
+  value.floats.resize(3 * s.vertex_count), normals.resize(3 * s.vertex_count);
+  s.normals = std::move(normals);
+  return value;
+}
+
+Value normals_of(Surface& s, const Arguments&) {
+  if (s.normals.empty()) fail("deform first", HF_ERROR_EMPTY);
+  Value value;
+  value.kind = Value::vectors, value.floats = s.normals;
+  return value;
+}
+
+// The pose as a skin. skin_joints(): a row for every joint; p goes to rotation (p - pivot) + translation.
+Value skin_joints(Surface& s, const Arguments&) {
+  auto info = make<hf_skin_info>();
+  check(hf_pose_get_skin(pose_of(s), &info));
+  info.joint_capacity = info.joint_count;
+  Doubles pivots(3 * size_t{info.joint_count}), rotations(4 * size_t{info.joint_count}), places(pivots.size());
+  info.pivots = pivots.data(), info.rotations = rotations.data(), info.translations = places.data();
+  check(hf_pose_get_skin(pose_of(s), &info));
+  Value value;
+  value.kind = Value::rows;
+  for (size_t j = 0; j < info.joint_count; ++j) {
+    const double *p = &pivots[3 * j], *q = &rotations[4 * j], *t = &places[3 * j];
+    value.table.push_back({{"pivot_x", p[0]},
+                           {"pivot_y", p[1]},
+                           {"pivot_z", p[2]},
+                           {"x", q[0]},
+                           {"y", q[1]},
+                           {"z", q[2]},
+                           {"w", q[3]},
+                           {"translation_x", t[0]},
+                           {"translation_y", t[1]},
+                           {"translation_z", t[2]}});
+  }
+  return value;
+}
+
+// The joints and weights of the vertices as Mesh.ARRAY_BONES and ARRAY_WEIGHTS want them: weight_count (4 or 8; 0 = 4)
+// a vertex, the heaviest first.
+void skin_of(Surface& s, const Arguments& a, Numbers* joints, std::vector<float>* weights) {
+  auto info = make<hf_skin_info>();
+  info.weight_count = whole(at(a, 0).number, "weight_count");
+  info.vertex_capacity = static_cast<uint32_t>(s.vertex_count);
+  const size_t count = s.vertex_count * (info.weight_count == 8 ? 8 : 4);
+  if (joints) joints->resize(count), info.vertex_joints = joints->data();
+  if (weights) weights->resize(count), info.vertex_weights = weights->data();
+  check(hf_pose_get_skin(pose_of(s), &info));
+}
+Value skin_bones(Surface& s, const Arguments& a) {
+  Numbers joints;
+  skin_of(s, a, &joints, nullptr);
+  return numbers(joints);
+}
+Value skin_weights(Surface& s, const Arguments& a) {
+  Value value;
+  value.kind = Value::reals;
+  skin_of(s, a, nullptr, &value.floats);
+  return value;
+}
+
+// transfer_to(target, source regions, target regions, flags = null, scale = 0): plays the motion of this surface on
+// another
+Value transfer_to(Surface& s, const Arguments& a) {
+  if (!at(a, 0).surface) fail("transfer_to needs a target surface");
+  auto desc = make<hf_transfer_desc>();
+  desc.scale = static_cast<float>(at(a, 4).number);
+  hf_transfer raw = nullptr;
+  check(hf_transfer_create(s.get(), a[0].surface->get(), &desc, &raw));
+  hf::Handle<hf_transfer, hf_transfer_destroy> made(raw);
+  const Regions source(at(a, 1), "source regions"), target(at(a, 2), "target regions");
+  if (source.counts.size() != target.counts.size()) fail("source and target regions must be of one length");
+  const List flags = integers(at(a, 3), "flags");
+  if (!flags.null && flags.values.size() != source.counts.size()) fail("flags must be as many as regions");
+  auto pairs = make<hf_pairs_desc>();
+  pairs.pair_count = static_cast<uint32_t>(source.counts.size()), pairs.flags = flags.data();
+  pairs.source_counts = source.counts.data(), pairs.source_vertices = source.vertices.data();
+  pairs.target_counts = target.counts.data(), pairs.target_vertices = target.vertices.data();
+  check(hf_transfer_add_pairs(raw, &pairs, nullptr));
+  s.transfer = std::move(made), s.target_count = a[0].surface->vertex_count;
+  return done();
+}
+
+Value transfer_apply(Surface& s, const Arguments& a) {
+  auto frame = make<hf_transfer_frame>();
+  frame.source_positions_f64 = doubles(at(a, 0), 3 * s.vertex_count, "positions");
+  Value value;
+  value.kind = Value::vectors, value.floats.resize(3 * s.target_count + 1);
+  frame.target_positions = value.floats.data();
+  check(hf_transfer_apply(s.transfer.get(), &frame));
+  value.floats.resize(3 * s.target_count);
+  return value;
+}
+
+}  // namespace
+
+const std::vector<Entry>& pose_methods() {
+  static const std::vector<Entry> all = {
+      {"pose_create", 0, 1, pose_create},
+      {"pose_info", 0, 0, pose_info},
+      {"add_handles", 1, 2, add_handles},
+      {"add_handles_at", 2, 3, add_handles_at},
+      {"add_handle_at", 2, 2, add_handle_at},
+      {"remove_handles", 1, 1, remove_handles},
+      {"set_transforms", 3, 3, set_transforms},
+      {"set_transform", 2, 3, set_transform},
+      {"handle_info", 1, 1, handle_centroid},
+      {"handle_field", 1, 1, handle_field},
+      {"deform", 0, 1, deform},
+      {"normals", 0, 0, normals_of},
+      {"skin_joints", 0, 0, skin_joints},
+      {"skin_bones", 0, 1, skin_bones},
+      {"skin_weights", 0, 1, skin_weights},
+      {"transfer_to", 3, 5, transfer_to},
+      {"transfer_apply", 1, 1, transfer_apply},
+  };
+  return all;
+}
+
+}  // namespace hf_godot

@@ -1,0 +1,80 @@
+"""Expected figures of the golden scenes: fields by a dense solve, rays by brute force, digests of arrays. Needs numpy."""
+
+import numpy as np
+
+import golden
+
+
+def laplacian(mesh):
+    points, n = np.array(mesh["positions"]).reshape(-1, 3), len(mesh["positions"]) // 3
+    matrix = np.zeros((n, n))
+    for triangle in np.array(mesh["triangles"]).reshape(-1, 3):
+        for k in range(3):
+            i, j, o = triangle[k], triangle[(k + 1) % 3], triangle[(k + 2) % 3]
+            a, b = points[i] - points[o], points[j] - points[o]
+            weight = np.dot(a, b) / np.linalg.norm(np.cross(a, b)) / 2
+            matrix[i, i] += weight
+            matrix[j, j] += weight
+            matrix[i, j] -= weight
+            matrix[j, i] -= weight
+    return matrix
+
+
+def field(mesh, rows, values, stiffness=None, power=1):
+    """rows: per site a vertex or {vertex: weight}; power 2: bi-harmonic on the graph, K = L^2."""
+    matrix = np.linalg.matrix_power(laplacian(mesh), power)
+    n, k = len(matrix), len(rows)
+    system, right = np.zeros((n + k, n + k)), np.zeros(n + k)
+    system[:n, :n], right[n:] = matrix, values
+    for c, row in enumerate(rows):
+        for vertex, weight in (row if isinstance(row, dict) else {row: 1.0}).items():
+            system[n + c, vertex] = weight
+            system[vertex, n + c] = -weight
+        if stiffness is not None and stiffness[c]:
+            system[n + c, n + c] = 1 / (stiffness[c] * np.mean(np.diag(matrix)))
+    return np.linalg.solve(system, right)[:n]
+
+
+def expect(array, tolerance=1e-9):
+    flat = np.asarray(array, float).ravel()
+    places = sorted({0, flat.size // 3, flat.size // 2, flat.size - 1}) if flat.size else []
+    return {**golden.digest(flat), "at": places, "values": [float(flat[p]) for p in places], "tolerance": tolerance}
+
+
+def expect_all(array, tolerance=1e-9):
+    """Every number of a short array."""
+    return {"count": len(array), "at": list(range(len(array))), "values": [float(x) for x in array],
+        "tolerance": tolerance}
+
+
+def agree(tolerance=1e-7):
+    """Figures that the C++ run fills in (tests/bindings/golden.cpp): the languages must agree on them."""
+    return {"agree": True, "tolerance": tolerance}
+
+
+def cast_ray(points, triangles, origin, direction):
+    """found, triangle, vertex, weights, position, distance of the first triangle on a ray (Moeller and Trumbore 1997)."""
+    best, origin, direction = None, np.array(origin), np.array(direction)
+    for t, (a, b, c) in enumerate(triangles):
+        edges = np.array([points[b] - points[a], points[c] - points[a], -direction]).T
+        if abs(np.linalg.det(edges)) < 1e-14:
+            continue
+        v, w, distance = np.linalg.solve(edges, origin - points[a])
+        if min(v, w, 1 - v - w, distance) >= 0 and (best is None or distance < best[-1]):
+            place = origin + distance * direction
+            corner = min((a, b, c), key=lambda i: np.linalg.norm(points[i] - place))
+            best = [1, t, int(corner), 1 - v - w, v, w, *place, distance]
+    return np.array(best or [0], float)
+
+
+def rotation(q):
+    x, y, z, w = q
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+def expect_rows(points, rows):
+    picked = list(range(0, len(rows), 5))
+    return {"at": [3 * rows[k] + c for k in picked for c in range(3)], "values": [float(points[k][c]) for k in picked
+        for c in range(3)], "tolerance": 1e-9}

@@ -1,0 +1,114 @@
+-- Surface: a mesh, its Laplacian and its factor; picking; what is read from a field or from the shape alone.
+local ffi = require('ffi')
+local core = require('hf_core')
+local C, check, fail, make, array, doubles = core.C, core.check, core.fail, core.make, core.array, core.doubles
+local options_into, set, class, create, rows, query, scalars = core.options_into, core.set, core.class,
+  core.create, core.rows, core.query, core.scalars
+
+local Surface = class('Surface', function(raw) C.hf_surface_destroy(raw) end)
+local create_options = set('weld weld_tolerance operator_kind field_kind ordering thread_count vertex_limit ' ..
+  'triangle_limit memory_limit_mb position_stride triangle_stride')
+
+-- triangles: a list, or cdata uint32_t[?] or uint16_t[?]; triangle_count: for cdata with a stride
+local function new(positions, triangles, options)
+  options = options or {}
+  if positions == nil then fail('positions is nil', 'HF_ERROR_NULL_POINTER') end
+  local single = type(positions) == 'cdata' and ffi.istype('float[?]', positions)
+  local xyz, count = array(positions, single and 'float' or 'double', 'positions')
+  local half = type(triangles) == 'cdata' and ffi.istype('uint16_t[?]', triangles)
+  local corners, corner_count = array(triangles, half and 'uint16_t' or 'uint32_t', 'triangles')
+  local row = (options.triangle_stride or 0) > 0 and options.triangle_stride / (half and 2 or 4) or 3
+  if count % 3 ~= 0 then fail('positions must hold three numbers a vertex') end
+  if corners and corner_count % row ~= 0 then fail('triangles must hold three numbers each, or whole strides') end
+  local desc = make('hf_surface_desc', { vertex_count = count / 3,
+    triangle_count = corners and corner_count / row or 0 })
+  desc[single and 'positions' or 'positions_f64'] = xyz
+  if corner_count > 0 then desc[half and 'triangles_u16' or 'triangles'] = corners end
+  local plain = {}
+  for key, value in pairs(options) do if key ~= 'saved_factor' then plain[key] = value end end
+  options_into(desc, plain, create_options)
+  local factor
+  if options.saved_factor then
+    if type(options.saved_factor) ~= 'string' then fail('saved_factor must be a string of bytes') end
+    factor = make('hf_factor_desc', { byte_count = #options.saved_factor })
+    factor.bytes = ffi.cast('const char*', options.saved_factor)
+    desc.saved_factor = factor
+  end
+  return create(Surface, 'hf_surface', { vertex_count = count / 3 }, C.hf_surface_create, desc)
+end
+function Surface:info() return query('hf_surface_info', C.hf_surface_get_info, self.raw) end
+function Surface:report() return query('hf_surface_report', C.hf_surface_get_report, self.raw) end
+function Surface:statistics() return query('hf_surface_statistics', C.hf_surface_get_statistics, self.raw) end
+function Surface:components()
+  local out = ffi.new('uint32_t[?]', self.vertex_count)
+  check(C.hf_surface_get_components(self.raw, self.vertex_count, out, nil))
+  return out
+end
+-- The factor of a kind of field (nil: harmonic) as a string of bytes, for the option saved_factor.
+function Surface:save(field_kind)
+  local size = ffi.new('size_t[1]')
+  check(C.hf_surface_save(self.raw, field_kind or 0, 0, nil, size))
+  local bytes = ffi.new('char[?]', size[0])
+  check(C.hf_surface_save(self.raw, field_kind or 0, size[0], bytes, size))
+  return ffi.string(bytes, size[0])
+end
+
+-- ---- picking; options: positions (posed; nil: at rest), front_only (1: pass triangles seen from behind)
+local function pick(self, options)
+  options = options or {}
+  local xyz = doubles(options.positions, 'positions', 3 * self.vertex_count)
+  return make('hf_pick_desc', { positions_f64 = xyz, front_only = options.front_only or 0 }), xyz
+end
+-- The first triangle on a ray, hf_hit, or nil.
+function Surface:cast_ray(origin, direction, options)
+  local desc, held = pick(self, options)
+  local hit = make('hf_hit')
+  local start, along = doubles(origin, 'origin', 3), doubles(direction, 'direction', 3)
+  check(C.hf_surface_cast_ray(self.raw, start, along, desc, hit))
+  return hit.found == 1 and hit or nil, held
+end
+-- The vertex nearest to a point, and its distance.
+function Surface:find_vertex(point, options)
+  local desc, held = pick(self, options)
+  local vertex, distance = ffi.new('uint32_t[1]'), ffi.new('double[1]')
+  check(C.hf_surface_find_vertex(self.raw, (doubles(point, 'point', 3)), desc, vertex, distance))
+  return tonumber(vertex[0]), distance[0], held
+end
+
+-- ---- fields over the surface
+function Surface:space_levels(field, count, spacing)
+  local desc, held = scalars(field, self.vertex_count)
+  local out = ffi.new('double[?]', math.max(1, count))
+  check(C.hf_surface_space_levels(self.raw, desc, spacing or 0, count, out))
+  held = nil
+  return out
+end
+function Surface:trace_isolines(field, levels)
+  local desc, held = scalars(field, self.vertex_count)
+  local wanted, count = doubles(levels, 'levels')
+  local lines = make('hf_isolines')
+  check(C.hf_surface_trace_isolines(self.raw, desc, count, wanted, lines))
+  local p, k = lines.point_count, lines.line_count
+  local out = { point_count = p, line_count = k, positions = ffi.new('double[?]', 3 * p + 1),
+    line_starts = ffi.new('uint32_t[?]', k + 1),
+    line_levels = ffi.new('uint32_t[?]', k + 1), line_closed = ffi.new('int32_t[?]', k + 1) }
+  lines.point_capacity, lines.line_capacity = p, k
+  lines.positions, lines.line_starts, lines.line_levels, lines.line_closed = out.positions, out.line_starts,
+    out.line_levels, out.line_closed
+  if k > 0 then check(C.hf_surface_trace_isolines(self.raw, desc, count, wanted, lines)) end
+  return out
+end
+function Surface:find_critical_points(field)
+  local desc, held = scalars(field, self.vertex_count)
+  local info = make('hf_critical_info')
+  check(C.hf_surface_find_critical_points(self.raw, desc, 0, nil, info))
+  local out = ffi.new('hf_critical_point[?]', info.point_count + 1)
+  if info.point_count > 0 then check(C.hf_surface_find_critical_points(self.raw, desc, info.point_count, out, info)) end
+  return out, info.point_count
+end
+function Surface:find_extremities()
+  return rows('hf_extremity', function(capacity, out, count) return C.hf_surface_find_extremities(self.raw, nil, capacity, out,
+    count) end)
+end
+
+return new

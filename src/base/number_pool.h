@@ -1,0 +1,23 @@
+// Hands out the smallest numbers not in use: of sites, handles, pairs and slots.
+#pragma once
+#include <cstdint>
+
+namespace hf_inner {
+
+class NumberPool {
+ public:
+  // The smallest number that is not in use; it counts as taken at once. in_use(number): asked for rising numbers only.
+  template <class InUse>
+  std::uint32_t take(InUse&& in_use) {
+    while (in_use(next_)) ++next_;
+    return next_++;
+  }
+  void give_back(std::uint32_t number) noexcept {
+    if (number < next_) next_ = number;
+  }
+
+ private:
+  std::uint32_t next_ = 0;  // every smaller number is in use
+};
+
+}  // namespace hf_inner

@@ -1,0 +1,332 @@
+/* Arrays out, one protocol for all: NULL arrays ask for the counts; a capacity too small writes the counts and nothing
+ * else; the exact size works; what an array has more than the count stays as it was. check_protocol.sh sees that no
+ * function with a capacity is missing here. */
+#include "bad_scene.h"
+
+static Scene scene;
+static hf_quads quads;
+static hf_flow flow;
+static double height[TUBE_VERTICES];
+static hf_direction round_field; /* on a closed surface, where the field has singularities */
+
+enum { DIMENSIONS = 4, ARRAYS = 7 };
+
+/* One array: which capacity it follows, the bytes of an entry, and how many entries more than that it has. */
+typedef struct Array {
+  int dimension;
+  size_t entry, more;
+} Array;
+
+/* One call: arrays may be NULL; counts are what the function wrote. */
+typedef struct Call {
+  size_t capacity[DIMENSIONS], count[DIMENSIONS];
+  void* array[ARRAYS];
+} Call;
+
+static hf_scalars heights(void) {
+  hf_scalars field = HF_INIT(hf_scalars);
+  field.values_f64 = height;
+  return field;
+}
+
+static hf_result get_components(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_surface_get_components(scene.sheet, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
+static hf_result save(Call* c) {
+  return hf_surface_save(scene.sheet, HF_FIELD_HARMONIC, c->capacity[0], c->array[0], &c->count[0]);
+}
+static hf_result find_critical_points(Call* c) {
+  const hf_scalars field = heights();
+  hf_critical_info info = HF_INIT(hf_critical_info);
+  const hf_result r = hf_surface_find_critical_points(scene.body, &field, (uint32_t)c->capacity[0], c->array[0], &info);
+  c->count[0] = info.point_count;
+  return r;
+}
+static hf_result find_extremities(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_surface_find_extremities(scene.body, NULL, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
+static hf_result trace_isolines(Call* c) {
+  const hf_scalars field = heights();
+  const double levels[2] = {3.5, 8.25};
+  hf_isolines lines = HF_INIT(hf_isolines);
+  lines.point_capacity = (uint32_t)c->capacity[0], lines.line_capacity = (uint32_t)c->capacity[1];
+  lines.point_edges = c->array[0], lines.parameters = c->array[1], lines.positions = c->array[2];
+  lines.line_starts = c->array[3], lines.line_levels = c->array[4], lines.line_closed = c->array[5];
+  const hf_result r = hf_surface_trace_isolines(scene.body, &field, 2, levels, &lines);
+  c->count[0] = lines.point_count, c->count[1] = lines.line_count;
+  return r;
+}
+static hf_result flow_trace(Call* c) {
+  const hf_scalars field = heights();
+  hf_flow_lines lines = HF_INIT(hf_flow_lines);
+  lines.wanted_count = 5;
+  lines.point_capacity = (uint32_t)c->capacity[0], lines.line_capacity = (uint32_t)c->capacity[1];
+  lines.positions = c->array[0], lines.values = c->array[1];
+  lines.line_starts = c->array[2], lines.line_ends = c->array[3];
+  const hf_result r = hf_flow_trace(flow, &field, &lines);
+  c->count[0] = lines.point_count, c->count[1] = lines.line_count;
+  return r;
+}
+static hf_result quads_get_mesh(Call* c) {
+  hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
+  mesh.vertex_capacity = (uint32_t)c->capacity[0], mesh.face_capacity = (uint32_t)c->capacity[1];
+  mesh.corner_capacity = (uint32_t)c->capacity[2], mesh.site_capacity = (uint32_t)c->capacity[3];
+  mesh.positions = c->array[0], mesh.triangles = c->array[1], mesh.barycentrics = c->array[2];
+  mesh.face_starts = c->array[3], mesh.face_corners = c->array[4];
+  mesh.site_vertices = c->array[5], mesh.site_lines = c->array[6];
+  const hf_result r = hf_quads_get_mesh(quads, &mesh);
+  c->count[0] = mesh.vertex_count, c->count[1] = mesh.face_count;
+  c->count[2] = mesh.corner_count, c->count[3] = mesh.site_count;
+  return r;
+}
+static hf_result get_sites(Call* c) {
+  hf_sites_info info = HF_INIT(hf_sites_info);
+  info.capacity = (uint32_t)c->capacity[0];
+  info.sites = c->array[0], info.vertices = c->array[1], info.components = c->array[2], info.values = c->array[3];
+  info.stiffness = c->array[4], info.flux = c->array[5], info.radii = c->array[6];
+  const hf_result r = hf_solver_get_sites(scene.solver, &info);
+  c->count[0] = info.count;
+  return r;
+}
+static hf_result direction_get_sites(Call* c) {
+  uint32_t count = 777;
+  const hf_result r =
+      hf_direction_get_sites(scene.direction, (uint32_t)c->capacity[0], c->array[0], c->array[1], c->array[2], &count);
+  c->count[0] = count;
+  return r;
+}
+static hf_result get_singularities(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_direction_get_singularities(round_field, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
+static hf_result region_get_vertices(Call* c) {
+  uint32_t count = 777;
+  const hf_result r =
+      hf_region_get_vertices(scene.region, HF_REGION_RIM, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
+static void to_skin(const Call* c, hf_skin_info* skin) {
+  skin->joint_capacity = (uint32_t)c->capacity[0], skin->vertex_capacity = (uint32_t)c->capacity[1];
+  skin->pivots = c->array[0], skin->rotations = c->array[1], skin->translations = c->array[2];
+  skin->axes = c->array[3], skin->scales = c->array[4];
+  skin->vertex_joints = c->array[5], skin->vertex_weights = c->array[6];
+}
+static hf_result pose_get_skin(Call* c) {
+  hf_skin_info skin = HF_INIT(hf_skin_info);
+  to_skin(c, &skin);
+  const hf_result r = hf_pose_get_skin(scene.pose, &skin);
+  c->count[0] = skin.joint_count, c->count[1] = skin.vertex_count;
+  return r;
+}
+static hf_result transfer_get_skin(Call* c) {
+  hf_skin_info skin = HF_INIT(hf_skin_info);
+  to_skin(c, &skin);
+  const hf_result r = hf_transfer_get_skin(scene.transfer, &skin);
+  c->count[0] = skin.joint_count, c->count[1] = skin.vertex_count;
+  return r;
+}
+
+static const struct {
+  const char* function;
+  hf_result (*call)(Call*);
+  Array arrays[ARRAYS]; /* up to an entry of 0 bytes */
+  int together;         /* what an array holds depends on which others are asked for */
+} functions[] = {
+    {"hf_surface_get_components", get_components, {{0, 4, 0}}, 0},
+    {"hf_surface_save", save, {{0, 1, 0}}, 0},
+    {"hf_surface_find_critical_points", find_critical_points, {{0, sizeof(hf_critical_point), 0}}, 0},
+    {"hf_surface_find_extremities", find_extremities, {{0, sizeof(hf_extremity), 0}}, 0},
+    {"hf_surface_trace_isolines",
+     trace_isolines,
+     {{0, 8, 0}, {0, 8, 0}, {0, 24, 0}, {1, 4, 1}, {1, 4, 0}, {1, 4, 0}},
+     0},
+    {"hf_flow_trace", flow_trace, {{0, 24, 0}, {0, 8, 0}, {1, 4, 1}, {1, 8, 0}}, 0},
+    {"hf_quads_get_mesh",
+     quads_get_mesh,
+     {{0, 24, 0}, {0, 4, 0}, {0, 24, 0}, {1, 4, 1}, {2, 4, 0}, {3, 4, 0}, {3, 4, 0}},
+     0},
+    {"hf_solver_get_sites",
+     get_sites,
+     {{0, 4, 0}, {0, 4, 0}, {0, 4, 0}, {0, 8, 0}, {0, 8, 0}, {0, 8, 0}, {0, 8, 0}},
+     0},
+    {"hf_direction_get_sites", direction_get_sites, {{0, 4, 0}, {0, 4, 0}, {0, 24, 0}}, 0},
+    {"hf_direction_get_singularities", get_singularities, {{0, sizeof(hf_singularity), 0}}, 0},
+    {"hf_region_get_vertices", region_get_vertices, {{0, 4, 0}}, 0},
+    {"hf_pose_get_skin",
+     pose_get_skin,
+     {{0, 24, 0}, {0, 32, 0}, {0, 24, 0}, {0, 32, 0}, {0, 24, 0}, {1, 16, 0}, {1, 16, 0}},
+     1},
+    {"hf_transfer_get_skin",
+     transfer_get_skin,
+     {{0, 24, 0}, {0, 32, 0}, {0, 24, 0}, {0, 32, 0}, {0, 24, 0}, {1, 16, 0}, {1, 16, 0}},
+     1},
+};
+
+static void round_field_create(void) {
+  static float corners[18] = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
+  static uint32_t faces[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+  const Surface octahedron = {6, 8, corners, faces};
+  const hf_surface surface = surface_on(&octahedron);
+  const uint32_t vertex = 0;
+  const double up[3] = {0, 0, 1};
+  assert_ok(hf_direction_create(surface, NULL, &round_field));
+  assert_ok(hf_direction_add_sites(round_field, 1, &vertex, up, NULL));
+  hf_surface_destroy(surface);
+}
+
+static void scene_with_quads_create(void) {
+  scene_create(&scene);
+  for (int v = 0; v < TUBE_VERTICES; ++v) height[v] = (double)scene.tube.positions[3 * v + 1] + 0.01 * sin(2.3 * v);
+  hf_quads_desc desc = HF_INIT(hf_quads_desc);
+  desc.edge_length = 2, desc.relax_count = 2;
+  assert_ok(hf_quads_create(scene.body, &desc, &quads));
+  assert_ok(hf_flow_create(scene.body, &flow));
+  round_field_create();
+}
+
+/* Two entries behind what is needed, so that what is written there is seen. */
+static size_t bytes_of(const Array* a, const Call* asked) { return (asked->count[a->dimension] + a->more) * a->entry; }
+static size_t room_of(const Array* a, const Call* asked) { return bytes_of(a, asked) + 2 * a->entry; }
+static int all_bytes(const unsigned char* bytes, size_t first, size_t last) {
+  for (size_t i = first; i < last; ++i)
+    if (bytes[i] != 0x5A) return 0;
+  return 1;
+}
+
+/* Calls with the arrays of `only` (all: -1), in new memory of 0x5A. */
+static hf_result call_with(size_t f, Call* c, const Call* asked, int only) {
+  for (int i = 0; i < ARRAYS; ++i) {
+    const Array* a = &functions[f].arrays[i];
+    c->array[i] = NULL;
+    if (a->entry == 0 || (only >= 0 && i != only)) continue;
+    c->array[i] = malloc(room_of(a, asked));
+    assert_non_null(c->array[i]);
+    memset(c->array[i], 0x5A, room_of(a, asked));
+  }
+  for (int d = 0; d < DIMENSIONS; ++d) c->count[d] = 777777;
+  return functions[f].call(c);
+}
+static void free_call(Call* c) {
+  for (int i = 0; i < ARRAYS; ++i) free(c->array[i]), c->array[i] = NULL;
+}
+static int dimensions_of(size_t f) {
+  int most = 0;
+  for (int i = 0; i < ARRAYS; ++i)
+    if (functions[f].arrays[i].entry && functions[f].arrays[i].dimension > most)
+      most = functions[f].arrays[i].dimension;
+  return most + 1;
+}
+static int counts_are(size_t f, const Call* c, const Call* asked) {
+  return memcmp(c->count, asked->count, sizeof(size_t) * (size_t)dimensions_of(f)) == 0;
+}
+
+#define HOLDS(what, condition) row_holds(__LINE__, functions[f].function, what, condition), ++rows.count
+
+static void null_arrays_ask(size_t f, Call* asked) {
+  const char* name = functions[f].function;
+  memset(asked, 0, sizeof *asked);
+  check_row(__LINE__, "capacity 0, no arrays", name, functions[f].call(asked), HF_OK, NO_INDEX);
+  for (int d = 0; d < dimensions_of(f); ++d) HOLDS("there is something to write", asked->count[d] > 0);
+  Call large;
+  memset(&large, 0, sizeof large);
+  for (int d = 0; d < DIMENSIONS; ++d) large.capacity[d] = 1000000;
+  check_row(__LINE__, "a capacity, no arrays", name, functions[f].call(&large), HF_OK, NO_INDEX);
+  HOLDS("the counts do not depend on the capacity", counts_are(f, &large, asked));
+}
+
+static void too_small_writes_counts_alone(size_t f, const Call* asked) {
+  for (int d = 0; d < dimensions_of(f); ++d) {
+    for (int zero = 0; zero < 2; ++zero) {
+      Call c;
+      memcpy(c.capacity, asked->count, sizeof c.capacity);
+      c.capacity[d] = zero ? 0 : asked->count[d] - 1;
+      check_row(__LINE__, "one too few", functions[f].function, call_with(f, &c, asked, -1), HF_ERROR_TOO_SMALL,
+                NO_INDEX);
+      HOLDS("the counts are written with the error", counts_are(f, &c, asked));
+      for (int i = 0; i < ARRAYS; ++i)
+        if (c.array[i]) HOLDS("nothing is written", all_bytes(c.array[i], 0, room_of(&functions[f].arrays[i], asked)));
+      free_call(&c);
+    }
+  }
+}
+
+static void enough_writes_what_is_there_and_no_more(size_t f, const Call* asked) {
+  Call exact;
+  memcpy(exact.capacity, asked->count, sizeof exact.capacity);
+  check_row(__LINE__, "the exact size", functions[f].function, call_with(f, &exact, asked, -1), HF_OK, NO_INDEX);
+  HOLDS("the counts are the same", counts_are(f, &exact, asked));
+  Call more;
+  for (int d = 0; d < DIMENSIONS; ++d) more.capacity[d] = asked->count[d] + 1;
+  check_row(__LINE__, "one more than needed", functions[f].function, call_with(f, &more, asked, -1), HF_OK, NO_INDEX);
+  HOLDS("the counts are the same", counts_are(f, &more, asked));
+  for (int i = 0; i < ARRAYS; ++i) {
+    const Array* a = &functions[f].arrays[i];
+    if (a->entry == 0) continue;
+    const size_t bytes = bytes_of(a, asked);
+    HOLDS("something is written", !all_bytes(exact.array[i], 0, bytes));
+    HOLDS("nothing behind", all_bytes(exact.array[i], bytes, room_of(a, asked)));
+    HOLDS("the same bits with more room", same_bits(exact.array[i], more.array[i], bytes));
+    HOLDS("the room that is left stays as it was", all_bytes(more.array[i], bytes, room_of(a, asked)));
+    /* alone, with no capacity for the arrays that are not asked for */
+    Call alone;
+    memset(&alone, 0, sizeof alone);
+    alone.capacity[a->dimension] = asked->count[a->dimension];
+    check_row(__LINE__, "one array alone", functions[f].function, call_with(f, &alone, asked, i), HF_OK, NO_INDEX);
+    HOLDS("the counts are the same", counts_are(f, &alone, asked));
+    if (!functions[f].together) HOLDS("the same bits alone", same_bits(exact.array[i], alone.array[i], bytes));
+    HOLDS("nothing behind", all_bytes(alone.array[i], bytes, room_of(a, asked)));
+    free_call(&alone);
+  }
+  free_call(&exact), free_call(&more);
+}
+
+static void every_function_with_a_capacity_keeps_the_protocol(void** state) {
+  (void)state;
+  scene_with_quads_create();
+  for (size_t f = 0; f < COUNT_OF(functions); ++f) {
+    Call asked;
+    null_arrays_ask(f, &asked);
+    too_small_writes_counts_alone(f, &asked);
+    enough_writes_what_is_there_and_no_more(f, &asked);
+  }
+  finish_rows("arrays out");
+  hf_quads_destroy(quads), hf_flow_destroy(flow), hf_direction_destroy(round_field);
+  scene_destroy(&scene);
+}
+
+static void nothing_to_write_is_a_count_of_zero(void** state) {
+  (void)state;
+  scene_create(&scene);
+  uint32_t count = 777, vertices[1] = {777};
+  hf_region empty = NULL;
+  assert_ok(hf_region_create(scene.body, NULL, &empty));
+  assert_ok(hf_region_get_vertices(empty, HF_REGION_INSIDE, 0, NULL, &count));
+  assert_int_equal(count, 0);
+  count = 777;
+  assert_ok(hf_region_get_vertices(empty, HF_REGION_INSIDE, 0, vertices, &count));
+  assert_int_equal(count, 0);
+  hf_sites_info info = HF_INIT(hf_sites_info);
+  info.sites = vertices, info.count = 777;
+  assert_ok(hf_solver_get_sites(scene.three, &info));
+  assert_int_equal(info.count, 0);
+  assert_int_equal(vertices[0], 777);
+  hf_region_destroy(empty);
+  scene_destroy(&scene);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_function_with_a_capacity_keeps_the_protocol),
+      cmocka_unit_test(nothing_to_write_is_a_count_of_zero),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,93 @@
+// Lifetime, memory and wrong arguments of the C# classes, for Golden.cs.
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using Hf;
+using Map = System.Collections.Generic.Dictionary<string, object>;
+using Items = System.Collections.Generic.List<object>;
+
+static class Lifetime
+{
+    static double[] positions;
+    static uint[] triangles;
+
+    public static void Use(Map mesh)
+    {
+        positions = ((Items)mesh["positions"]).Select(x => (double)x).ToArray();
+        triangles = ((Items)mesh["triangles"]).Select(x => (uint)(double)x).ToArray();
+    }
+
+    static int Rounds(int count)
+    {
+        var draw = new Random(7);
+        int calls = 0;
+        for (int round = 0; round < count; ++round)
+        {
+            var surface = new Surface(positions, triangles);
+            var solver = new Solver(surface);
+            var pose = new Pose(surface);
+            pose.AddHandles(new[] { new uint[] { 0, 1, 2 }, new uint[] { 280, 281 } });
+            var things = new List<HfObject> { surface, solver, solver.Clone(), pose, pose.Clone(),
+                new Transfer(surface, surface), new Geodesics(surface), new Direction(surface), new Flow(surface),
+                new Progress() };
+            foreach (HfObject thing in things.OrderBy(x => draw.Next()).ToList())
+            {
+                if (draw.NextDouble() < 0.6)
+                {
+                    thing.Dispose();
+                    thing.Dispose();
+                    try
+                    {
+                        if (thing is Surface) { var info = ((Surface)thing).Info; }
+                        else if (thing is Solver) ((Solver)thing).Solve();
+                        else if (thing is Pose) ((Pose)thing).DeformDouble();
+                        else if (thing is Transfer) { var info = ((Transfer)thing).Info; }
+                        else if (thing is Geodesics) ((Geodesics)thing).Distance(new uint[] { 0 });
+                        else if (thing is Direction) ((Direction)thing).Record();
+                        else if (thing is Flow) ((Flow)thing).Trace(new double[positions.Length / 3], 4);
+                        else { float f = ((Progress)thing).Fraction; }
+                        throw new Exception("a call on a disposed " + thing.GetType().Name + " did not fail");
+                    }
+                    catch (HfException error) { if (error.Name != "HF_ERROR_INVALID_HANDLE") throw; ++calls; }
+                }
+                else if (thing is Pose) ((Pose)thing).Deform(new float[positions.Length], new float[positions.Length]);
+            }
+            if (round % 10 == 0) { things.Clear(); GC.Collect(); GC.WaitForPendingFinalizers(); }
+        }
+        GC.Collect();
+        GC.WaitForPendingFinalizers();
+        return calls;
+    }
+
+    static long Resident() { return long.Parse(File.ReadAllText("/proc/self/statm").Split(' ')[1]) * 4096; }
+
+    public static void Run()
+    {
+        if (Rounds(60) < 100) throw new Exception("too few calls on disposed objects");
+        long before = Resident();
+        Rounds(200);
+        Console.WriteLine("memory after 200 more rounds: " + (Resident() - before) / 1e6 + " MB");
+        if (Resident() - before > 40e6) throw new Exception("memory does not come back");
+    }
+
+    public static void WrongArguments()
+    {
+        var wrong = new Action[] { () => new Surface((float[])null, triangles),
+            () => new Surface(new float[4], triangles), () => new Surface(positions, new uint[4]),
+            () => new Surface(positions, new ushort[4]), () => new Surface(positions, (uint[])null),
+            () => new Solver(null), () => new Pose(null),
+            () => new Transfer(null, null), () => new Geodesics(null), () => new Direction(null),
+                () => new Quads(null), () => new Flow(null),
+                () => new Solver(new Surface(positions, triangles)).Solve(new float[3]),
+                () => new Pose(new Surface(positions, triangles)).Deform(new float[2]),
+                () => new Pose(new Surface(positions, triangles)).AddHandleAt(new double[2], 1),
+                () => new Surface(positions, triangles).CastRay(new double[2], new double[3]) };
+        foreach (Action action in wrong)
+        {
+            try { action(); }
+            catch (HfException) { continue; }
+            throw new Exception("a wrong argument was taken");
+        }
+    }
+}

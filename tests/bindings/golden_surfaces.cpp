@@ -1,0 +1,174 @@
+// Steps of surfaces: made from a mesh, asked about it, picked, and looked at with a field.
+#include "golden_scene.h"
+
+namespace golden {
+
+using hf::check;
+using hf::make;
+
+namespace {
+
+// Triangles in the layout that a step asks for; what lies between them is 255 in every byte.
+std::vector<uint8_t> lay_out(const Numbers& corners, size_t width, size_t stride) {
+  std::vector<uint8_t> bytes(corners.size() / 3 * stride + 4, 255);
+  for (size_t i = 0; i < corners.size(); ++i) {
+    uint8_t* place = &bytes[i / 3 * stride + i % 3 * width];
+    const auto half = static_cast<uint16_t>(corners[i]);
+    if (width == sizeof half)
+      std::memcpy(place, &half, width);
+    else
+      std::memcpy(place, &corners[i], width);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+Result Scene::run_surface(const Json& step) {
+  auto desc = make<hf_surface_desc>();
+  set_options(step, desc,
+              {{"weld", &desc.weld},
+               {"operator_kind", &desc.operator_kind},
+               {"field_kind", &desc.field_kind},
+               {"ordering", &desc.ordering},
+               {"thread_count", &desc.thread_count},
+               {"vertex_limit", &desc.vertex_limit},
+               {"triangle_limit", &desc.triangle_limit}},
+              {});
+  if (step["mesh"].is_null()) fail("no positions", HF_ERROR_NULL_POINTER);
+  const Json& mesh = meshes_.at(step["mesh"]);
+  Doubles positions = mesh["positions"].get<Doubles>();
+  Numbers triangles = mesh["triangles"].get<Numbers>();
+  if (step.contains("positions"))
+    for (const auto& [key, value] : step["positions"].items()) positions[std::stoul(key)] = number(value);
+  if (step.contains("triangles"))
+    for (const auto& [key, value] : step["triangles"].items()) triangles[std::stoul(key)] = value.get<uint32_t>();
+  desc.vertex_count = static_cast<uint32_t>(positions.size() / 3), desc.positions_f64 = positions.data();
+  desc.triangle_count = step.contains("no_triangles") ? 0 : static_cast<uint32_t>(triangles.size() / 3);
+  const size_t width = step.value("index_bits", 32u) / 8;
+  desc.triangle_stride = step.value("triangle_stride", 0u);
+  const auto laid = lay_out(triangles, width, desc.triangle_stride ? desc.triangle_stride : 3 * width);
+  if (desc.triangle_count && width == sizeof(uint16_t))
+    desc.triangles_u16 = reinterpret_cast<const uint16_t*>(laid.data());
+  else if (desc.triangle_count)
+    desc.triangles = reinterpret_cast<const uint32_t*>(laid.data());
+  auto factor = make<hf_factor_desc>();
+  std::vector<uint8_t> bytes;
+  if (step.contains("factor")) {
+    bytes = bytes_.at(step["factor"]);
+    if (step.contains("damage")) bytes[step["damage"].get<size_t>()] ^= 1;
+    factor.bytes = bytes.data(), factor.byte_count = bytes.size(), desc.saved_factor = &factor;
+  }
+  hf_surface raw = nullptr;
+  check(hf_surface_create(&desc, &raw));
+  Object& object = objects_[step["as"]];
+  object.surface = hf::Handle<hf_surface, hf_surface_destroy>(raw), object.vertex_count = desc.vertex_count;
+  return {};
+}
+
+Result Scene::run_picking(const Json& step, const std::string& what, hf_surface surface, size_t n) {
+  Result result;
+  auto desc = make<hf_pick_desc>();
+  const auto positions = doubles(step, "positions", 3 * n);
+  desc.positions_f64 = data(positions), desc.front_only = step.value("front_only", 0);
+  if (what == "find_vertex") {
+    const auto point = doubles(step, "point", 3);
+    uint32_t vertex = 0;
+    double distance = 0;
+    check(hf_surface_find_vertex(surface, data(point), &desc, &vertex, &distance));
+    result.array = Doubles{static_cast<double>(vertex), distance};
+    return result;
+  }
+  const auto origin = doubles(step, "origin", 3), direction = doubles(step, "direction", 3);
+  auto hit = make<hf_hit>();
+  check(hf_surface_cast_ray(surface, data(origin), data(direction), &desc, &hit));
+  result.array = Doubles{static_cast<double>(hit.found)};
+  if (!hit.found) return result;
+  result.array->push_back(hit.triangle), result.array->push_back(hit.vertex);
+  result.array->insert(result.array->end(), hit.barycentrics, hit.barycentrics + 3);
+  result.array->insert(result.array->end(), hit.position, hit.position + 3);
+  result.array->push_back(hit.distance);
+  return result;
+}
+
+Result Scene::run_mesh(const Json& step, const std::string& what, hf_surface surface) {
+  Result result;
+  if (what == "report") {
+    auto report = make<hf_surface_report>();
+    check(hf_surface_get_report(surface, &report));
+    result.fields = {{"vertex_count", report.vertex_count},
+                     {"component_count", report.component_count},
+                     {"boundary_edge_count", report.boundary_edge_count}};
+  } else if (what == "surface_statistics") {
+    auto figures = make<hf_surface_statistics>();
+    check(hf_surface_get_statistics(surface, &figures));
+    result.fields = {{"factor_loaded", figures.factor_loaded}, {"unknown_count", figures.unknown_count}};
+  } else if (what == "surface_info") {
+    auto info = make<hf_surface_info>();
+    check(hf_surface_get_info(surface, &info));
+    result.fields = {{"vertex_count", info.vertex_count},   {"triangle_count", info.triangle_count},
+                     {"operator_kind", info.operator_kind}, {"field_kind", info.field_kind},
+                     {"thread_count", info.thread_count},   {"vertex_limit", info.vertex_limit}};
+  } else if (what == "components") {
+    uint32_t size = 0;
+    check(hf_surface_get_components(surface, 0, nullptr, &size));
+    Numbers components(size);
+    check(hf_surface_get_components(surface, size, components.data(), &size));
+    result.array.emplace(components.begin(), components.end());
+  } else {  // save
+    const int32_t kind = step.value("field_kind", 0);
+    size_t size = 0;
+    check(hf_surface_save(surface, kind, 0, nullptr, &size));
+    auto& bytes = bytes_[step["as"]];
+    bytes.resize(size);
+    check(hf_surface_save(surface, kind, size, bytes.data(), &size));
+  }
+  return result;
+}
+
+Result Scene::run_looking(const Json& step, const std::string& what, hf_surface surface, size_t n) {
+  Result result;
+  if (what == "extremities") {
+    std::vector<hf_extremity> found(64);
+    uint32_t size = 0;
+    check(hf_surface_find_extremities(surface, nullptr, 64, found.data(), &size));
+    result.array.emplace();
+    for (uint32_t i = 0; i < size; ++i) result.array->push_back(found[i].vertex);
+    std::sort(result.array->begin(), result.array->end());
+    return result;
+  }
+  const auto field = doubles(step, "field", n);
+  auto scalars = make<hf_scalars>();
+  scalars.values_f64 = data(field);
+  if (what == "levels") {
+    const uint32_t wanted = step["count"];
+    const int32_t spacing = step["spacing"] == "HF_LEVELS_AREA"     ? HF_LEVELS_AREA
+                            : step["spacing"] == "HF_LEVELS_LENGTH" ? HF_LEVELS_LENGTH
+                                                                    : HF_LEVELS_VALUE;
+    result.array.emplace(std::max(1u, wanted));
+    check(hf_surface_space_levels(surface, &scalars, spacing, wanted, result.array->data()));
+  } else if (what == "isolines") {
+    const auto levels = doubles(step, "levels");
+    auto lines = make<hf_isolines>();
+    check(hf_surface_trace_isolines(surface, &scalars, count(levels), data(levels), &lines));
+    result.array.emplace(3 * size_t{lines.point_count});
+    std::vector<int32_t> closed(lines.line_count);
+    lines.point_capacity = lines.point_count, lines.line_capacity = lines.line_count;
+    lines.positions = result.array->data(), lines.line_closed = closed.data();
+    check(hf_surface_trace_isolines(surface, &scalars, count(levels), data(levels), &lines));
+    if (step.contains("lines")) {
+      int32_t sum = 0;
+      for (int32_t one : closed) sum += one;
+      expect(step["lines"] == lines.line_count && step["closed"] == sum, "lines");
+    }
+  } else {
+    std::vector<hf_critical_point> points(1000);
+    auto info = make<hf_critical_info>();
+    check(hf_surface_find_critical_points(surface, &scalars, 1000, points.data(), &info));
+    result.array.emplace();
+    for (uint32_t i = 0; i < info.point_count; ++i) result.array->push_back(points[i].index);
+  }
+  return result;
+}
+
+}  // namespace golden

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# What a plain configure asks for and what it would make; nothing is compiled.
+# usage: run_configure.sh bare|shared_only|static_only SOURCE_DIR BUILD_DIR
+set -eu
+kind=$1 source=$2 build=$3
+work="$build/consumer/$kind"
+rm -rf "$work"
+mkdir -p "$work"
+configure() { cmake -S "$source" -B "$work/build" -G Ninja "$@" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }; }
+# the libraries that `cmake --build` would make, and those an installation would hold
+made() { ninja -C "$work/build" -n | sed -n 's/.*Linking .* library .*\(libhf\.[a-z]*\).*/\1/p' | sort -u | paste -sd' '; }
+installed() { grep -oE 'libhf\.(so|a)"' "$work/build/src/cmake_install.cmake" | sed 's/.*://' | tr -d '"' | sort -u | paste -sd' '; }
+expect() { [ "$2" = "$3" ] || { echo "$1: expected \"$3\", got \"$2\""; exit 1; }; }
+
+case "$kind" in
+  bare)  # a compiler and Eigen's headers are all it takes
+    eigen=$(sed -n 's/^EIGEN3_INCLUDE_DIR:PATH=//p' "$build/CMakeCache.txt")
+    [ -n "$eigen" ] || eigen=$(pkg-config --variable=includedir eigen3 2>/dev/null || true)
+    [ -d "$eigen/Eigen" ] || eigen=/usr/include/eigen3
+    mkdir -p "$work/include"
+    ln -s "$eigen/Eigen" "$work/include/Eigen"
+    hidden=()
+    for package in CHOLMOD GTest benchmark TinyGLTF nlohmann_json glm Eigen3; do hidden+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON"); done
+    configure "${hidden[@]}" -DEIGEN3_INCLUDE_DIR="$work/include"
+    expect "libraries" "$(made)" "libhf.a libhf.so"
+    if grep -iE 'cholmod|suitesparse|cmocka|gtest|tinygltf|glm' "$work/build/build.ninja"; then
+      echo "a plain configure names what only samples, tests or HF_WITH_GPL use"
+      exit 1
+    fi
+    ;;
+  shared_only)
+    configure -DBUILD_SHARED_LIBS=ON
+    expect "libraries" "$(made)" "libhf.so"
+    expect "installed" "$(installed)" "libhf.so"
+    ;;
+  static_only)
+    configure -DBUILD_SHARED_LIBS=OFF
+    expect "libraries" "$(made)" "libhf.a"
+    expect "installed" "$(installed)" "libhf.a"
+    grep -q -- '-lhf .*-lstdc++' "$work/build/hf.pc" || { echo "hf.pc does not name what the archive needs"; exit 1; }
+    ;;
+  *) echo "unknown kind $kind"; exit 1 ;;
+esac
