@@ -13,6 +13,29 @@ constexpr std::uint32_t most_channels = 64, default_site_limit = 100000;
 constexpr double default_penalty = 1e8;   // the paper's
 constexpr double largest_penalty = 1e10;  // beyond it the other equations of a penalised row drown in rounding
 
+std::shared_ptr<SolverObject> make_solver(hf_surface handle, const hf_solver_desc* given) {
+  const auto surface = get<SurfaceObject>(handle, "surface");
+  const hf_solver_desc desc = read_optional(given, "desc");
+  check_choice(desc.field_kind, 3, "field_kind");
+  check_choice(desc.engine, 3, "engine");
+  require_zero(desc.reserved);
+#ifndef HF_WITH_GPL
+  if (desc.engine == HF_ENGINE_UPDOWN)
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+         "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
+#endif
+  const std::uint32_t channels = count_of(desc.channel_count, 1, 1, most_channels, "channel_count");
+  if (desc.penalty != 0 && !(desc.penalty > 0))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
+  const double penalty = desc.penalty > 0 ? std::min(desc.penalty, largest_penalty) : default_penalty;
+  return with_progress(desc.progress, [&](Progress* progress) {
+    return make_owner_in<SolverObject>(surface->memory,
+                                       surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress),
+                                       static_cast<EngineKind>(desc.engine), penalty, channels,
+                                       desc.site_limit ? desc.site_limit : default_site_limit);
+  });
+}
+
 hf_solver_info info_of(const SolverObject& solver) {
   hf_solver_info info{};
   info.field_kind = static_cast<std::int32_t>(solver.field.core().field_kind);
@@ -174,31 +197,8 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_create(hf_surface handle, const hf_solver_desc* given, hf_solver* out_solver) {
-  return guarded("hf_create", [&] {
-    create(out_solver, "out_solver", [&] {
-      const auto surface = get<SurfaceObject>(handle, "surface");
-      const hf_solver_desc desc = read_optional(given, "desc");
-      check_choice(desc.field_kind, 3, "field_kind");
-      check_choice(desc.engine, 3, "engine");
-      require_zero(desc.reserved);
-#ifndef HF_WITH_GPL
-      if (desc.engine == HF_ENGINE_UPDOWN)
-        fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-             "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
-#endif
-      const std::uint32_t channels = count_of(desc.channel_count, 1, 1, most_channels, "channel_count");
-      if (desc.penalty != 0 && !(desc.penalty > 0))
-        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
-      const double penalty = desc.penalty > 0 ? std::min(desc.penalty, largest_penalty) : default_penalty;
-      return with_progress(desc.progress, [&](Progress* progress) {
-        return make_owner_in<SolverObject>(surface->memory,
-                                           surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress),
-                                           static_cast<EngineKind>(desc.engine), penalty, channels,
-                                           desc.site_limit ? desc.site_limit : default_site_limit);
-      });
-    });
-  });
+hf_result hf_create(hf_surface surface, const hf_solver_desc* desc, hf_solver* out_solver) {
+  return guarded("hf_create", [&] { create(out_solver, "out_solver", [&] { return make_solver(surface, desc); }); });
 }
 
 hf_result hf_solver_clone(hf_solver handle, hf_solver* out_solver) {

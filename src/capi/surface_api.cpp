@@ -83,6 +83,30 @@ void read_saved_factor(const hf_surface_desc& desc, CoreOptions& options) {
   options.ordering = ordering;
 }
 
+std::shared_ptr<SurfaceObject> make_surface(const hf_surface_desc* given) {
+  const hf_surface_desc desc = read_struct(given, "desc");
+  hf_surface_info info = read_info(desc);
+  check_counts(info);
+  const MeshInput input = read_mesh(desc);
+  if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
+  CoreOptions options;
+  options.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
+  options.field_kind = static_cast<FieldKind>(desc.field_kind);
+  options.ordering = desc.ordering == HF_ORDERING_METIS            ? Ordering::metis
+                     : desc.ordering == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree
+                                                                   : Ordering::nested_dissection;
+  if (desc.saved_factor) read_saved_factor(desc, options);
+  info.ordering = static_cast<std::int32_t>(options.ordering);
+  return with_progress(desc.progress, [&](Progress* progress) {
+    options.progress = progress;
+    auto memory = make_memory(desc.allocator, std::uint64_t{desc.memory_limit_mb} << 20);
+    auto jobs = make_shared_in<JobRunner>(*memory, info.thread_count, desc.job_runner);
+    auto geometry = Geometry::make(input, options.operator_kind, memory, std::move(jobs), progress);
+    return make_owner_in<SurfaceObject>(memory, std::move(geometry), options, info);
+  });
+}
+
 hf_surface_report report_of(const MeshReport& found) {
   hf_surface_report report{};
   report.vertex_count = found.vertex_count;
@@ -116,6 +140,19 @@ hf_surface_statistics statistics_of(const SurfaceObject& object) {
   statistics.peak_memory_bytes = static_cast<double>(object.memory->peak_bytes());
   statistics.factor_loaded = factor.loaded, statistics.factor_borrowed = factor.borrowed;
   return statistics;
+}
+
+void save(const Surface& surface, std::int32_t field_kind, std::size_t capacity, void* out_bytes,
+          std::size_t* out_size) {
+  check_choice(field_kind, 3, "field_kind");
+  const std::shared_ptr<const Core> core = surface.core(static_cast<FieldKind>(field_kind));
+  const std::size_t size = static_cast<std::size_t>(saved_factor_size(*core->factor));
+  if (out_size) *out_size = size;
+  if (!out_bytes && !out_size) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_bytes and out_size are both NULL");
+  if (!out_bytes) return;
+  check_capacity(true, capacity, size, "capacity");
+  save_factor(*core->factor, grounded_hash(*core), {static_cast<std::uint8_t*>(out_bytes), size}, *core->memory,
+              *core->jobs);
 }
 
 // ---- picking ----
@@ -155,32 +192,8 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surface) {
-  return guarded("hf_surface_create", [&] {
-    create(out_surface, "out_surface", [&] {
-      const hf_surface_desc desc = read_struct(given, "desc");
-      hf_surface_info info = read_info(desc);
-      check_counts(info);
-      const MeshInput input = read_mesh(desc);
-      if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
-        fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
-      CoreOptions options;
-      options.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
-      options.field_kind = static_cast<FieldKind>(desc.field_kind);
-      options.ordering = desc.ordering == HF_ORDERING_METIS            ? Ordering::metis
-                         : desc.ordering == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree
-                                                                       : Ordering::nested_dissection;
-      if (desc.saved_factor) read_saved_factor(desc, options);
-      info.ordering = static_cast<std::int32_t>(options.ordering);
-      return with_progress(desc.progress, [&](Progress* progress) {
-        options.progress = progress;
-        auto memory = make_memory(desc.allocator, std::uint64_t{desc.memory_limit_mb} << 20);
-        auto jobs = make_shared_in<JobRunner>(*memory, info.thread_count, desc.job_runner);
-        auto geometry = Geometry::make(input, options.operator_kind, memory, std::move(jobs), progress);
-        return make_owner_in<SurfaceObject>(memory, std::move(geometry), options, info);
-      });
-    });
-  });
+hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_surface) {
+  return guarded("hf_surface_create", [&] { create(out_surface, "out_surface", [&] { return make_surface(desc); }); });
 }
 
 void hf_surface_destroy(hf_surface surface) { destroy<SurfaceObject>(surface); }
@@ -229,16 +242,7 @@ hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statistics* o
 
 hf_result hf_surface_save(hf_surface surface, int32_t field_kind, size_t capacity, void* out_bytes, size_t* out_size) {
   return guarded("hf_surface_save", [&] {
-    const auto& surface = get<SurfaceObject>(surface, "surface")->surface;
-    check_choice(field_kind, 3, "field_kind");
-    const std::shared_ptr<const Core> core = surface.core(static_cast<FieldKind>(field_kind));
-    const std::size_t size = static_cast<std::size_t>(saved_factor_size(*core->factor));
-    if (out_size) *out_size = size;
-    if (!out_bytes && !out_size) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_bytes and out_size are both NULL");
-    if (!out_bytes) return;
-    check_capacity(true, capacity, size, "capacity");
-    save_factor(*core->factor, grounded_hash(*core), {static_cast<std::uint8_t*>(out_bytes), size}, *core->memory,
-                *core->jobs);
+    save(get<SurfaceObject>(surface, "surface")->surface, field_kind, capacity, out_bytes, out_size);
   });
 }
 
