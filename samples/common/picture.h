@@ -142,7 +142,10 @@ Picture render(const Surface& surface, const View& view, const SurfaceLook& look
 // Palette colour for t in 0..1.
 Color palette_color(Palette palette, double t);
 
-// ASCII text, its top left corner at (x, y); scale 1 is about 7 pixels tall. Returns the width in pixels.
+// Puts a tile on a page that is large enough, its top left corner at (x, y).
+void paste(Picture& page, const Picture& tile, int x, int y);
+
+// ASCII text, its top left corner at (x, y); a line is 13 pixels tall at scale 1. Returns the width in pixels.
 int draw_text(Picture& picture, int x, int y, const std::string& text, int scale = 1, Color color = {0.12, 0.13, 0.16});
 int text_width(const std::string& text, int scale = 1);
 

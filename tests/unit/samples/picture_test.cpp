@@ -218,6 +218,14 @@ TEST(Picture, ContactSheetsPlaceEveryTileAndItsLabel) {
   }
 }
 
+TEST(Picture, LabelsAreLargeWhereTheyFit) {
+  const Picture tile{300, 20, std::vector<uint8_t>(3 * 300 * 20, 128)};
+  const Picture bare = contact_sheet({tile}, 1), fits = contact_sheet({tile}, 1, {"rest"});
+  const Picture narrow = contact_sheet({tile}, 1, {"a label that is too long to be drawn at twice the size"});
+  EXPECT_GT(fits.height - bare.height, narrow.height - bare.height);
+  EXPECT_EQ(narrow.width, bare.width);
+}
+
 TEST(Picture, TextHasTheWidthItSays) {
   Picture picture{200, 20, std::vector<uint8_t>(3 * 200 * 20, 255)};
   const int width = draw_text(picture, 0, 0, "Iso 42%", 2, {0, 0, 0});

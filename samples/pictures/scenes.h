@@ -1,0 +1,95 @@
+// The scenes that hf_pictures draws: generated creatures posed, in strips, as quads, and playing another's walk.
+//
+// A scene keeps what it made once (surface, factor, handles); draw() gives one picture of it. Phases run from 0 to 1
+// and every scene looks the same at both ends.
+#ifndef HF_SAMPLES_PICTURES_SCENES_H
+#define HF_SAMPLES_PICTURES_SCENES_H
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "assets/creature.h"
+#include "common/picture.h"
+#include "hf/hf.hpp"
+
+namespace samples {
+
+// A linear colour as a display shows it, a little lighter so that shading is seen.
+float displayed(float linear);
+
+// A creature's closed surface, one vertex per place, with its coat.
+struct Body {
+  Body(const std::string& name, uint32_t vertices);
+  // The vertex nearest to a point.
+  uint32_t vertex_at(double x, double y, double z) const;
+  Surface drawn() const;
+  Surface drawn(const std::vector<float>& posed) const;
+
+  Creature creature;
+  ShapeMesh mesh;
+  std::vector<float> positions, coat;
+  hf::Surface surface;
+};
+
+// Looking at a creature's right side from a little ahead and above.
+View side_view(int width, int height);
+
+// The head is pulled until the creature rears, and eases back; the hind hooves stay. Handles are coloured.
+class PoseScene {
+ public:
+  explicit PoseScene(const Body& body);
+  // pull: 0 at rest, 1 farthest.
+  Picture draw(int width, int height, double pull);
+
+ private:
+  const Body& body_;
+  hf::Pose pose_;
+  uint32_t head_ = 0;
+  std::vector<uint8_t> handle_of_;  // 0 none, 1 stays, 2 is dragged
+  Box box_;
+};
+
+// A field in strips: 0 at nose, tail and hooves, 1 at a site dragged around the flank.
+class FieldScene {
+ public:
+  explicit FieldScene(const Body& body);
+  Picture draw(int width, int height, double phase);
+
+ private:
+  const Body& body_;
+  hf::Solver solver_;
+  std::vector<uint32_t> still_;
+  uint32_t dragged_ = 0;
+};
+
+// The walk of one creature on another.
+class WalkScene {
+ public:
+  // One frame per phase 0, 1 / frames, ...; pairs: a file as hf_transfer takes it.
+  WalkScene(const std::string& source, const std::string& target, uint32_t vertices, const std::filesystem::path& pairs,
+            uint32_t frames);
+  Picture draw(int width, int height, uint32_t frame, bool target) const;
+  // The source behind, the target before it.
+  Picture draw_both(int width, int height, uint32_t frame) const;
+
+ private:
+  struct Side {
+    std::vector<std::vector<double>> frames;
+    std::vector<uint32_t> triangles;
+    std::vector<float> coat;
+    Box box;
+  };
+  static Layer layer(const Side& side, uint32_t frame, const Point& move);
+  Side sides_[2];
+};
+
+// Pictures that do not move.
+Picture draw_quads(const Body& body, int width, int height);
+Picture draw_detail(const Body& body, int width, int height);
+Picture draw_direction(const Body& body, int width, int height);
+
+}  // namespace samples
+
+#endif

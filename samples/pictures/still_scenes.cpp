@@ -1,0 +1,106 @@
+// See scenes.h: quads, detail and directions.
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "common/mesh_file.h"
+#include "pictures/scenes.h"
+
+namespace samples {
+namespace {
+
+Point point_of(const std::vector<double>& xyz, size_t v) { return {xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]}; }
+
+}  // namespace
+
+Picture draw_quads(const Body& body, int width, int height) {
+  auto desc = hf::make<hf_quads_desc>();
+  const hf::QuadMesh quads = hf::make_quads(body.surface, &desc);
+  Surface drawn;
+  drawn.positions = quads.positions;
+  Marks marks;
+  const std::vector<glm::dvec3> places = to_points(quads.positions);
+  for (uint32_t f = 0; f < quads.info.face_count; ++f) {
+    const uint32_t first = quads.face_starts[f], size = quads.face_starts[f + 1] - first;
+    triangulate(places, &quads.face_corners[first], size, drawn.triangles);
+    Polyline outline;
+    outline.width = 0.7, outline.color = {0.16, 0.22, 0.36};
+    for (uint32_t k = 0; k <= size; ++k)
+      outline.points.push_back(point_of(quads.positions, quads.face_corners[first + k % size]));
+    marks.lines.push_back(outline);
+  }
+  View view = side_view(width, height);
+  view.fixed_box = false;
+  SurfaceLook look;
+  look.color = {0.72, 0.80, 0.92};
+  return render(drawn, view, look, marks);
+}
+
+Picture draw_detail(const Body& body, int width, int height) {
+  // the head, in front of a slanted plane through the neck
+  std::vector<uint32_t> head;
+  Box box;
+  bool empty = true;
+  std::vector<double> seen;
+  const double neck[3] = {0, 1.62, 0.92}, normal[3] = {0, 0.35, 1};
+  for (uint32_t v = 0; v < body.surface.vertex_count(); ++v) {
+    const double* p = &body.mesh.positions[3 * size_t{v}];
+    if ((p[1] - neck[1]) * normal[1] + (p[2] - neck[2]) * normal[2] <= 0) continue;
+    head.push_back(v);
+    seen.insert(seen.end(), p, p + 3);
+  }
+  extend(box, empty, seen);
+  hf::Region region(body.surface, {}, HF_FIELD_BIHARMONIC);
+  region.add_vertices(head);
+  std::vector<uint8_t> in(body.surface.vertex_count(), 0);
+  for (const uint32_t v : head) in[v] = 1;
+  Picture page{width, height, std::vector<uint8_t>(3 * size_t(width) * size_t(height), 246)};
+  const double weights[2] = {0, 0.5};
+  for (int column = 0; column < 2; ++column) {
+    Surface drawn = body.drawn(region.morph(weights[column]));
+    for (size_t v = 0; v < in.size(); ++v) {
+      const float plain[3] = {0.80f, 0.78f, 0.74f}, blue[3] = {0.52f, 0.66f, 0.80f};
+      for (size_t c = 0; c < 3; ++c) drawn.colors[3 * v + c] = in[v] ? blue[c] : plain[c];
+    }
+    View view = side_view(width / 2, height);
+    view.box = box, view.margin = 0.08, view.ground = false;
+    SurfaceLook look;
+    look.fill = Fill::colors;
+    paste(page, render(drawn, view, look), column * (width / 2), 0);
+  }
+  return page;
+}
+
+Picture draw_direction(const Body& body, int width, int height) {
+  hf::Direction direction(body.surface);
+  const std::vector<uint32_t> sites = {body.vertex_at(-0.4, 1.25, -0.5), body.vertex_at(-0.4, 1.15, 0.5)};
+  const std::vector<double> vectors = {0, 0, 1, 0, 0.8, 0.6};
+  direction.add_sites(sites, vectors);
+  const std::vector<float> field = direction.solve();
+  // strokes at vertices about equally far apart
+  const double spacing = 0.11;
+  std::vector<glm::dvec3> taken;
+  Marks marks;
+  for (size_t v = 0; v < field.size() / 3; ++v) {
+    const Point at = point_of(body.mesh.positions, v);
+    const glm::dvec3 p{at[0], at[1], at[2]};
+    glm::dvec3 along{double(field[3 * v]), double(field[3 * v + 1]), double(field[3 * v + 2])};
+    bool near = false;
+    for (const glm::dvec3& other : taken) near = near || glm::distance(p, other) < spacing;
+    if (near || !(glm::length(along) > 0)) continue;
+    taken.push_back(p);
+    along = 0.45 * spacing * glm::normalize(along);
+    Arrow arrow;
+    arrow.from = {p.x - along.x, p.y - along.y, p.z - along.z},
+    arrow.to = {p.x + along.x, p.y + along.y, p.z + along.z};
+    arrow.width = 1.5, arrow.color = {0.10, 0.22, 0.45};
+    marks.arrows.push_back(arrow);
+  }
+  for (const uint32_t site : sites) marks.dots.push_back({point_of(body.mesh.positions, site), 0.013});
+  View view = side_view(width, height);
+  view.fixed_box = false;
+  SurfaceLook look;
+  look.color = {0.86, 0.85, 0.82};
+  return render(body.drawn(), view, look, marks);
+}
+
+}  // namespace samples
