@@ -12,10 +12,9 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr float orange[3] = {0.93f, 0.52f, 0.12f}, blue[3] = {0.30f, 0.50f, 0.78f};
 
-// Linear colour as a display shows it, a little lighter so that shading is seen.
-float displayed(float linear) { return std::pow(std::clamp(1.15f * linear + 0.02f, 0.0f, 1.0f), 1 / 2.2f); }
-
 }  // namespace
+
+float displayed(float linear) { return std::pow(std::clamp(1.15f * linear + 0.02f, 0.0f, 1.0f), 1 / 2.2f); }
 
 Body::Body(const std::string& name, uint32_t vertices)
     : creature(make_creature(name, vertices)),

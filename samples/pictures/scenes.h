@@ -16,6 +16,9 @@
 
 namespace samples {
 
+// A linear colour as a display shows it, a little lighter so that shading is seen.
+float displayed(float linear);
+
 // A creature's closed surface, one vertex per place, with its coat.
 struct Body {
   Body(const std::string& name, uint32_t vertices);

@@ -1,6 +1,5 @@
 // See scenes.h: a walk on another body.
 #include <algorithm>
-#include <cmath>
 
 #include "assets/creature_gltf.h"
 #include "common/animate.h"
@@ -13,8 +12,7 @@ namespace {
 std::vector<float> coat_of(const Creature& creature) {
   std::vector<float> out;
   for (size_t i = 0; i < creature.colors.size(); ++i)
-    out.push_back(
-        std::pow(std::clamp(1.15f * creature.base_color[i % 3] * creature.colors[i] + 0.02f, 0.0f, 1.0f), 1 / 2.2f));
+    out.push_back(displayed(creature.base_color[i % 3] * creature.colors[i]));
   return out;
 }
 
