@@ -135,7 +135,7 @@ class Buffer {
   // A cache line, and the widest vector.
   static constexpr std::size_t alignment = 64;
   // Refuses sizes whose product with the size of T would overflow.
-  static constexpr std::size_t most_bytes = std::size_t{1} << 60;
+  static constexpr std::size_t most_bytes = static_cast<std::size_t>(-1) / 16;
 
  private:
   Memory* memory_ = nullptr;
