@@ -96,7 +96,7 @@ typedef struct hf_region_info {
   uint32_t struct_size;
   int32_t field_kind;      /* HF_FIELD_* */
   uint32_t vertex_count;   /* of the region, without its rim */
-  uint32_t rim_count;      /* vertices next to it */
+  uint32_t rim_count;      /* vertices next to the region */
   uint32_t site_count;     /* that hold the base: the rim, for thin plates two rings and more */
   uint32_t inserted_count; /* sites of the last edit ... */
   uint32_t removed_count;

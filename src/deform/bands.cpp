@@ -96,13 +96,13 @@ class BandCutter {
   Memory& memory_;
   Vector<Vector<ClusterEntry>> entries_;
   std::int32_t next_cluster_ = 0;
-  // of the field at hand, per vertex or per vertex and band
+  // Scratch for the field in work, per vertex or per vertex and band.
   Partition partition_;
   Buffer<BandValues> values_;
   Buffer<double> share_;        // beta
-  Buffer<double> floor_;        // below, a field does not count at a vertex
-  std::int32_t floor_of_ = -1;  // the component floor_ was made for
-  Buffer<double> piece_area_;   // of roots, like the next
+  Buffer<double> floor_;        // smallest field value that counts at a vertex
+  std::int32_t floor_of_ = -1;  // the component that floor_ belongs to
+  Buffer<double> piece_area_;   // by root of the union-find partition
   Buffer<std::int32_t> piece_cluster_;
   Vector<Root> roots_;     // ascending
   Vector<double> others_;  // sum over the fields of beta_i B_0 / (1 - phi_i)

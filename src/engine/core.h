@@ -1,5 +1,5 @@
-// Geometry, operator and factor: what all fields of one kind on one surface share. Immutable once made, so any number of
-// threads may read it; only the workspace pools inside have a lock.
+// Geometry, operator and factor: what all fields of one kind on one surface share. Immutable once made, so any number
+// of threads may read it; only the workspace pools inside have a lock.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -51,8 +51,8 @@ struct Core {
   // Corrections with the true operator, in difference form, that a field takes after its sweep: 0 for second-order
   // operators, 1 for bi-harmonic ones, whose condition is squared.
   std::int32_t refinements = 0;
-  // Where components had to be confined (lost_components.h): one more than the hash of A before, by which bytes of a
-  // saved factor tell that before the components are looked for; else 0.
+  // 0, or the weights of some components were limited because they did not factor (lost_components.h). Then it is the
+  // hash of A before that, plus one. A saved factor stores it, so loading knows early that weights must be limited.
   std::uint64_t confined_hash = 0;
   Ordering ordering = Ordering::nested_dissection;
   std::shared_ptr<const Factor> factor;  // of A; null when the options asked for none

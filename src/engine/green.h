@@ -34,7 +34,7 @@ class GreenSolver final : public SiteSolver {
   // Copies channels [first, first + count) of the hard vertex sites, to the bit: row_of(vertex) is where.
   template <class RowOf>
   void copy_hard_values(const double* values, Index channels, Index first, Index count, RowOf&& row_of) const;
-  // field <- z with the constants, in the order of the vertices.
+  // Writes the field by vertex: z, the sweep's result in the order of the factor, plus the constant of each component.
   void write_field(const double* z, Index channels, Index first, Index count, const Answer& answer,
                    double* field) const;
   void base_flux(Index channels, const double* field, double* flux) const;

@@ -19,8 +19,8 @@
 namespace hf_inner {
 
 struct DirectionConstraint {
-  std::int32_t vertex = -1;                  // inner; -1: the slot is free
-  std::uint32_t given_vertex = HF_NO_INDEX;  // as named by the caller
+  std::int32_t vertex = -1;                  // inner vertex; -1 marks a free slot
+  std::uint32_t given_vertex = HF_NO_INDEX;  // the vertex as the caller named it
   std::complex<double> vector;               // in the frame of the vertex
 };
 

@@ -61,8 +61,8 @@ Vector<Index> farthest_vertices(const Core& core, const Vector<double>& total) {
 
 constexpr Index unseen = std::numeric_limits<Index>::max();
 
-// Breadth-first search: numbers of edges from a vertex to those not visited, and these in order. Returns their count.
-// queue has room for one more.
+// Breadth-first search from a vertex over vertices whose level is `unseen`. Writes their level (edges from the start) and
+// lists them in `queue`. Returns how many were found. queue needs room for the vertices plus one.
 std::size_t search_levels(const Topology& topology, Index from, Index* level, Index* queue) {
   const Index *const start = topology.neighbour_start.data(), *const neighbour = topology.neighbour.data();
   std::size_t head = 0, tail = 0;

@@ -131,7 +131,7 @@ class Search {
     const double next = nearest + step_;
     std::size_t kept = 0;
     for (const Index v : waiting_) {
-      if (distance[at(v)] < limit) continue;  // was worked off after a nearer way was found
+      if (distance[at(v)] < limit) continue;  // done already: a shorter path reached it first
       if (distance[at(v)] < next)
         near_.push_back(v);
       else

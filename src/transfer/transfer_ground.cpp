@@ -157,7 +157,8 @@ bool Transfer::hold_sunk(Prepared& p, Vec3 up, double share, std::size_t& held) 
   }
 }
 
-// share: how far the frame is from a rigid motion. fallen: how far the body has fallen over without lying.
+// Bends up what would sink below the ground. share, 0 to 1: 0 for a rigid motion of the whole source, which is copied
+// unchanged. fallen, 0 to 1: how far the body tilts over before it lies on the ground.
 void Transfer::keep_above_ground(Prepared& p, Vec3 centroid, double share, double fallen) const {
   if (!(share > least_share)) return;
   const Vec3 up = up_of(target_axes_);
