@@ -91,24 +91,6 @@ void read_list(const Mesh& mesh, std::uint32_t count, const std::uint32_t* verti
   append_usable(mesh, count, vertices, name, out);
 }
 
-void edit_region(hf_region handle, const hf_region_edit_desc* given) {
-  const auto object = get<RegionObject>(handle, "region");
-  const hf_region_edit_desc desc = read_struct(given, "edit");
-  const Changing changing(*object);
-  const Mesh& mesh = object->region.core().mesh;
-  Memory* const memory = object->memory.get();
-  Vector<std::int32_t> points(memory), remove(memory), add(memory);
-  RegionEdit edit;
-  if (desc.curve) read_curve(mesh, desc.curve, points, edit);
-  read_list(mesh, desc.remove_count, desc.remove_vertices, "remove_vertices", remove);
-  read_list(mesh, desc.add_count, desc.add_vertices, "add_vertices", add);
-  edit.rings = desc.ring_count, edit.remove = remove, edit.add = add;
-  with_progress(desc.progress, [&](Progress* progress) {
-    edit.progress = progress;
-    object->region.edit(edit);
-  });
-}
-
 hf_region_info info_of(const Region& region) {
   const RegionState& state = *region.state();
   const EngineCounters counters = state.engine->counters();
@@ -125,35 +107,6 @@ hf_region_info info_of(const Region& region) {
   const double scale = region.core().mesh.scale;
   info.area = state.area * scale * scale, info.base_area = state.base_area * scale * scale;
   return info;
-}
-
-void get_vertices(hf_region handle, std::int32_t list, std::uint32_t capacity, std::uint32_t* out_vertices,
-                  std::uint32_t* out_count) {
-  const auto object = get<RegionObject>(handle, "region");
-  check_choice(list, 3, "list");
-  if (!out_vertices && !out_count) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_vertices and out_count are both NULL");
-  const Reading reading(*object);
-  const RegionShape& shape = *object->region.state()->shape;
-  const Vector<std::int32_t>& vertices = list == HF_REGION_INSIDE ? shape.inside
-                                         : list == HF_REGION_RIM  ? shape.rim
-                                                                  : shape.sites;
-  write_count(out_count, vertices.size());
-  check_capacity(out_vertices, capacity, vertices.size(), "capacity");
-  if (!out_vertices) return;
-  const Mesh& mesh = object->region.core().mesh;
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    out_vertices[i] = static_cast<std::uint32_t>(mesh.given_of_inner[static_cast<std::size_t>(vertices[i])]);
-  std::sort(out_vertices, out_vertices + vertices.size());
-}
-
-void morph(hf_region handle, const hf_morph_desc* given) {
-  const auto object = get<RegionObject>(handle, "region");
-  const MorphOut out = read_morph(given);
-  const Reading reading(*object);
-  const RegionSurface& surface = *object->region.surface();
-  const RegionState& state = *object->region.state();
-  write_morph(surface, state, out,
-              [&](std::size_t v, std::size_t i) { return morphed(surface.positions[v], state.base[i], out.weight); });
 }
 
 template <class Work>
@@ -201,8 +154,24 @@ hf_result hf_region_clone(hf_region handle, hf_region* out_region) {
 
 void hf_region_destroy(hf_region region) { destroy<RegionObject>(region); }
 
-hf_result hf_region_edit(hf_region region, const hf_region_edit_desc* edit) {
-  return guarded("hf_region_edit", [&] { edit_region(region, edit); });
+hf_result hf_region_edit(hf_region handle, const hf_region_edit_desc* given) {
+  return guarded("hf_region_edit", [&] {
+    const auto object = get<RegionObject>(handle, "region");
+    const hf_region_edit_desc desc = read_struct(given, "edit");
+    const Changing changing(*object);
+    const Mesh& mesh = object->region.core().mesh;
+    Memory* const memory = object->memory.get();
+    Vector<std::int32_t> points(memory), remove(memory), add(memory);
+    RegionEdit edit;
+    if (desc.curve) read_curve(mesh, desc.curve, points, edit);
+    read_list(mesh, desc.remove_count, desc.remove_vertices, "remove_vertices", remove);
+    read_list(mesh, desc.add_count, desc.add_vertices, "add_vertices", add);
+    edit.rings = desc.ring_count, edit.remove = remove, edit.add = add;
+    with_progress(desc.progress, [&](Progress* progress) {
+      edit.progress = progress;
+      object->region.edit(edit);
+    });
+  });
 }
 
 hf_result hf_region_record(hf_region region) {
@@ -226,13 +195,38 @@ hf_result hf_region_get_info(hf_region region, hf_region_info* out_info) {
   });
 }
 
-hf_result hf_region_get_vertices(hf_region region, int32_t list, uint32_t capacity, uint32_t* out_vertices,
+hf_result hf_region_get_vertices(hf_region handle, int32_t list, uint32_t capacity, uint32_t* out_vertices,
                                  uint32_t* out_count) {
-  return guarded("hf_region_get_vertices", [&] { get_vertices(region, list, capacity, out_vertices, out_count); });
+  return guarded("hf_region_get_vertices", [&] {
+    const auto object = get<RegionObject>(handle, "region");
+    check_choice(list, 3, "list");
+    if (!out_vertices && !out_count)
+      fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_vertices and out_count are both NULL");
+    const Reading reading(*object);
+    const RegionShape& shape = *object->region.state()->shape;
+    const Vector<std::int32_t>& vertices = list == HF_REGION_INSIDE ? shape.inside
+                                           : list == HF_REGION_RIM  ? shape.rim
+                                                                    : shape.sites;
+    write_count(out_count, vertices.size());
+    check_capacity(out_vertices, capacity, vertices.size(), "capacity");
+    if (!out_vertices) return;
+    const Mesh& mesh = object->region.core().mesh;
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      out_vertices[i] = static_cast<std::uint32_t>(mesh.given_of_inner[static_cast<std::size_t>(vertices[i])]);
+    std::sort(out_vertices, out_vertices + vertices.size());
+  });
 }
 
-hf_result hf_region_morph(hf_region region, const hf_morph_desc* desc) {
-  return guarded("hf_region_morph", [&] { morph(region, desc); });
+hf_result hf_region_morph(hf_region handle, const hf_morph_desc* given) {
+  return guarded("hf_region_morph", [&] {
+    const auto object = get<RegionObject>(handle, "region");
+    const MorphOut out = read_morph(given);
+    const Reading reading(*object);
+    const RegionSurface& surface = *object->region.surface();
+    const RegionState& state = *object->region.state();
+    write_morph(surface, state, out,
+                [&](std::size_t v, std::size_t i) { return morphed(surface.positions[v], state.base[i], out.weight); });
+  });
 }
 
 }  // extern "C"
