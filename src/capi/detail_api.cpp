@@ -16,14 +16,6 @@ struct DetailObject final : Object {
   CarriedDetail detail;
 };
 
-// Pins of one side, as inner vertices.
-void read_pins(const Mesh& mesh, std::uint32_t count, const std::uint32_t* vertices, const char* name,
-               Vector<std::int32_t>& out) {
-  require(vertices, name);
-  check_vertex_count(mesh, count, "pair_count");
-  append_usable(mesh, count, vertices, name, out);
-}
-
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -46,8 +38,10 @@ hf_result hf_detail_create(hf_region source_handle, hf_region target_handle, con
       Memory* const memory = target->memory.get();
       Vector<std::int32_t> source_pins(memory), target_pins(memory);
       if (desc.pair_count) {
-        read_pins(source->region.core().mesh, desc.pair_count, desc.source_vertices, "source_vertices", source_pins);
-        read_pins(target->region.core().mesh, desc.pair_count, desc.target_vertices, "target_vertices", target_pins);
+        read_list(source->region.core().mesh, desc.pair_count, desc.source_vertices, "pair_count", "source_vertices",
+                  source_pins);
+        read_list(target->region.core().mesh, desc.pair_count, desc.target_vertices, "pair_count", "target_vertices",
+                  target_pins);
       }
       CarryOptions options;
       options.source_pins = source_pins, options.target_pins = target_pins, options.scale = desc.scale;
