@@ -25,28 +25,6 @@ struct GeodesicsObject final : Object {
   Geodesics geodesics;
 };
 
-void write_isolines(const Mesh& mesh, const Isolines& lines, const hf_isolines& out) {
-  for (std::size_t i = 0; i < lines.points.size(); ++i) {
-    const Isolines::Point& point = lines.points[i];
-    if (out.point_edges) {
-      out.point_edges[2 * i] = given_vertex(mesh, point.a);
-      out.point_edges[2 * i + 1] = given_vertex(mesh, point.b);
-    }
-    if (out.parameters) out.parameters[i] = point.t;
-    if (out.positions) {
-      const Vec3 p = (1 - point.t) * mesh.positions[static_cast<std::size_t>(point.a)] +
-                     point.t * mesh.positions[static_cast<std::size_t>(point.b)];
-      put(mesh.to_given(p), out.positions + 3 * i);
-    }
-  }
-  for (std::size_t l = 0; l < lines.level.size(); ++l) {
-    if (out.line_starts) out.line_starts[l] = lines.start[l];
-    if (out.line_levels) out.line_levels[l] = lines.level[l];
-    if (out.line_closed) out.line_closed[l] = lines.closed[l];
-  }
-  if (out.line_starts) out.line_starts[lines.level.size()] = lines.start.back();
-}
-
 void distance(hf_geodesics handle, std::uint32_t count, const std::uint32_t* vertices, float* f32, double* f64,
               std::uint32_t value_stride) {
   const auto object = get<GeodesicsObject>(handle, "geodesics");
@@ -143,7 +121,23 @@ hf_result hf_surface_trace_isolines(hf_surface handle, const hf_scalars* given, 
     const bool per_line = out.line_starts || out.line_levels || out.line_closed;
     check_capacity(points, out.point_capacity, out.point_count, "point_capacity");
     check_capacity(per_line, out.line_capacity, out.line_count, "line_capacity");
-    write_isolines(shape.mesh, lines, out);
+    for (std::size_t i = 0; i < lines.points.size(); ++i) {
+      const Isolines::Point& point = lines.points[i];
+      if (out.point_edges) {
+        out.point_edges[2 * i] = given_vertex(shape.mesh, point.a);
+        out.point_edges[2 * i + 1] = given_vertex(shape.mesh, point.b);
+      }
+      if (out.parameters) out.parameters[i] = point.t;
+      if (out.positions) {
+        put(position_of(shape.mesh, point), out.positions + 3 * i);
+      }
+    }
+    for (std::size_t l = 0; l < lines.level.size(); ++l) {
+      if (out.line_starts) out.line_starts[l] = lines.start[l];
+      if (out.line_levels) out.line_levels[l] = lines.level[l];
+      if (out.line_closed) out.line_closed[l] = lines.closed[l];
+    }
+    if (out.line_starts) out.line_starts[lines.level.size()] = lines.start.back();
   });
 }
 

@@ -14,8 +14,6 @@ namespace hf_inner::capi {
 namespace {
 
 constexpr std::uint32_t most_corrections = 8;  // two leave nothing of a well-posed system; more only for hard cases
-// What the engines reach with room to spare; the sites of updown are penalties, which hold to about 1 / penalty.
-constexpr double exact_tolerance = 1e-8, penalty_tolerance = 1e-5;
 
 hf_solve_info unreached(const SolverObject& solver) {
   const SiteSolver& engine = solver.field.engine();
@@ -80,14 +78,6 @@ void solve_preview(hf_solver handle, float* f32, double* f64, std::uint32_t valu
   info.value_range = found.value_range, info.largest_correction = found.largest_correction;
   info.error_estimate = found.error_estimate, info.preview_bytes = found.bytes;
   write_struct(out_info, info);
-}
-
-double tolerance_of(const hf_certificate& asked, EngineKind engine) {
-  if (asked.tolerance == 0) return engine == EngineKind::updown ? penalty_tolerance : exact_tolerance;
-  if (!(asked.tolerance > 0) || !std::isfinite(asked.tolerance))
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "tolerance is %g; it must be above 0 and finite, or 0 for the engine's own", asked.tolerance);
-  return asked.tolerance;
 }
 
 }  // namespace
@@ -170,7 +160,7 @@ hf_result hf_solver_certify(hf_solver handle, hf_certificate* inout_certificate)
     hf_certificate report = read_struct(inout_certificate, "inout_certificate");
     require_zero(report.reserved);
     const Reading reading(*solver);
-    const double tolerance = tolerance_of(report, solver->field.engine().kind());
+    const double tolerance = certificate_tolerance(report.tolerance, solver->field.engine().kind());
     const Certificate found = certify(solver->field);
     report.overshoot_checked = found.overshoot_checked, report.tolerance = tolerance;
     report.value_range = found.value_range, report.residual = found.residual;
