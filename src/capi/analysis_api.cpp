@@ -25,72 +25,6 @@ struct GeodesicsObject final : Object {
   Geodesics geodesics;
 };
 
-void write_isolines(const Mesh& mesh, const Isolines& lines, const hf_isolines& out) {
-  for (std::size_t i = 0; i < lines.points.size(); ++i) {
-    const Isolines::Point& point = lines.points[i];
-    if (out.point_edges) {
-      out.point_edges[2 * i] = given_vertex(mesh, point.a);
-      out.point_edges[2 * i + 1] = given_vertex(mesh, point.b);
-    }
-    if (out.parameters) out.parameters[i] = point.t;
-    if (out.positions) {
-      const Vec3 p = (1 - point.t) * mesh.positions[static_cast<std::size_t>(point.a)] +
-                     point.t * mesh.positions[static_cast<std::size_t>(point.b)];
-      put(mesh.to_given(p), out.positions + 3 * i);
-    }
-  }
-  for (std::size_t l = 0; l < lines.level.size(); ++l) {
-    if (out.line_starts) out.line_starts[l] = lines.start[l];
-    if (out.line_levels) out.line_levels[l] = lines.level[l];
-    if (out.line_closed) out.line_closed[l] = lines.closed[l];
-  }
-  if (out.line_starts) out.line_starts[lines.level.size()] = lines.start.back();
-}
-
-void trace(hf_surface handle, const hf_scalars* given, std::uint32_t level_count, const double* levels,
-           hf_isolines* inout_lines) {
-  const auto surface = get<SurfaceObject>(handle, "surface");
-  hf_isolines out = read_struct(inout_lines, "inout_lines");
-  require_zero(out.reserved);
-  require_list(level_count, levels, "level_count", "levels");
-  const Geometry& shape = surface->surface.geometry();
-  const Vector<double> field = read_scalars(shape, given);
-  for (std::uint32_t k = 0; k < level_count; ++k) {
-    if (!std::isfinite(levels[k])) fail(HF_ERROR_NON_FINITE, k, "levels[%u] is not finite", k);
-  }
-  const Isolines lines =
-      trace_isolines(shape.mesh, shape.topology, field, Span<const double>(levels, level_count), *shape.memory);
-  out.point_count = static_cast<std::uint32_t>(lines.points.size()), out.line_count = lines.line_count();
-  write_struct(inout_lines, out);
-  const bool points = out.point_edges || out.parameters || out.positions;
-  const bool per_line = out.line_starts || out.line_levels || out.line_closed;
-  check_capacity(points, out.point_capacity, out.point_count, "point_capacity");
-  check_capacity(per_line, out.line_capacity, out.line_count, "line_capacity");
-  write_isolines(shape.mesh, lines, out);
-}
-
-void find_critical(hf_surface handle, const hf_scalars* given, std::uint32_t capacity, hf_critical_point* out_points,
-                   hf_critical_info* out_info) {
-  const auto surface = get<SurfaceObject>(handle, "surface");
-  if (!out_points && !out_info) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_points and out_info are both NULL");
-  if (out_info) check_struct(out_info, "out_info");
-  const Geometry& shape = surface->surface.geometry();
-  const Vector<double> field = read_scalars(shape, given);
-  const CriticalPoints found = find_critical_points(shape.mesh, shape.topology, field, *shape.memory);
-  hf_critical_info info{};
-  info.point_count = static_cast<std::uint32_t>(found.points.size());
-  info.minimum_count = found.minima, info.maximum_count = found.maxima, info.saddle_count = found.saddles;
-  info.index_sum = found.index_sum, info.euler_characteristic = found.euler_characteristic;
-  if (out_info) write_struct(out_info, info);
-  check_capacity(out_points, capacity, info.point_count, "capacity");
-  for (std::size_t i = 0; out_points && i < found.points.size(); ++i) {
-    const CriticalPoint& point = found.points[i];
-    const std::size_t v = static_cast<std::size_t>(point.vertex);
-    out_points[i] = {given_vertex(shape.mesh, point.vertex), static_cast<std::int32_t>(point.kind), point.index,
-                     static_cast<std::uint32_t>(shape.mesh.component[v]), field[v]};
-  }
-}
-
 void distance(hf_geodesics handle, std::uint32_t count, const std::uint32_t* vertices, float* f32, double* f64,
               std::uint32_t value_stride) {
   const auto object = get<GeodesicsObject>(handle, "geodesics");
@@ -142,33 +76,6 @@ Extremities search(const std::shared_ptr<const Core>& core, const hf_extremities
   return geodesic_extremities(object->geodesics, sources, least, progress);
 }
 
-void find_extremities(hf_surface handle, const hf_extremities_desc* given, std::uint32_t capacity,
-                      hf_extremity* out_extremities, std::uint32_t* out_count) {
-  const std::shared_ptr<const Core> shared = harmonic_core(handle);
-  const hf_extremities_desc desc = read_extremities(given);
-  if (!out_extremities && !out_count)
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_extremities and out_count are both NULL");
-  const Core& core = *shared;
-  const Extremities found =
-      with_progress(desc.progress, [&](Progress* progress) { return search(shared, desc, progress); });
-  const std::uint32_t count = static_cast<std::uint32_t>(found.points.size());
-  write_count(out_count, count);
-  check_capacity(out_extremities, capacity, count, "capacity");
-  const double scale = core.mesh.scale;
-  for (std::uint32_t i = 0; out_extremities && i < count; ++i) {
-    const Extremity& point = found.points[i];
-    hf_extremity& out = out_extremities[i];
-    out.vertex = given_vertex(core.mesh, point.vertex), out.component = static_cast<std::uint32_t>(point.component);
-    out.length = scale * point.length;
-    put(core.mesh.to_given(core.mesh.positions[static_cast<std::size_t>(point.vertex)]), out.position);
-  }
-  if (desc.out_field) {
-    const double unit = desc.kind == HF_EXTREMITIES_POISSON ? scale * scale : scale;
-    write_vertices(core, 1, Rows(desc.out_field, sizeof(double)), nullptr,
-                   [&](std::size_t v, double* values) { values[0] = unit * found.field[v]; });
-  }
-}
-
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -194,15 +101,68 @@ hf_result hf_surface_space_levels(hf_surface handle, const hf_scalars* field, in
   });
 }
 
-hf_result hf_surface_trace_isolines(hf_surface surface, const hf_scalars* field, uint32_t level_count,
+hf_result hf_surface_trace_isolines(hf_surface handle, const hf_scalars* given, uint32_t level_count,
                                     const double* levels, hf_isolines* inout_lines) {
-  return guarded("hf_surface_trace_isolines", [&] { trace(surface, field, level_count, levels, inout_lines); });
+  return guarded("hf_surface_trace_isolines", [&] {
+    const auto surface = get<SurfaceObject>(handle, "surface");
+    hf_isolines out = read_struct(inout_lines, "inout_lines");
+    require_zero(out.reserved);
+    require_list(level_count, levels, "level_count", "levels");
+    const Geometry& shape = surface->surface.geometry();
+    const Vector<double> field = read_scalars(shape, given);
+    for (std::uint32_t k = 0; k < level_count; ++k) {
+      if (!std::isfinite(levels[k])) fail(HF_ERROR_NON_FINITE, k, "levels[%u] is not finite", k);
+    }
+    const Isolines lines =
+        trace_isolines(shape.mesh, shape.topology, field, Span<const double>(levels, level_count), *shape.memory);
+    out.point_count = static_cast<std::uint32_t>(lines.points.size()), out.line_count = lines.line_count();
+    write_struct(inout_lines, out);
+    const bool points = out.point_edges || out.parameters || out.positions;
+    const bool per_line = out.line_starts || out.line_levels || out.line_closed;
+    check_capacity(points, out.point_capacity, out.point_count, "point_capacity");
+    check_capacity(per_line, out.line_capacity, out.line_count, "line_capacity");
+    for (std::size_t i = 0; i < lines.points.size(); ++i) {
+      const Isolines::Point& point = lines.points[i];
+      if (out.point_edges) {
+        out.point_edges[2 * i] = given_vertex(shape.mesh, point.a);
+        out.point_edges[2 * i + 1] = given_vertex(shape.mesh, point.b);
+      }
+      if (out.parameters) out.parameters[i] = point.t;
+      if (out.positions) {
+        put(position_of(shape.mesh, point), out.positions + 3 * i);
+      }
+    }
+    for (std::size_t l = 0; l < lines.level.size(); ++l) {
+      if (out.line_starts) out.line_starts[l] = lines.start[l];
+      if (out.line_levels) out.line_levels[l] = lines.level[l];
+      if (out.line_closed) out.line_closed[l] = lines.closed[l];
+    }
+    if (out.line_starts) out.line_starts[lines.level.size()] = lines.start.back();
+  });
 }
 
-hf_result hf_surface_find_critical_points(hf_surface surface, const hf_scalars* field, uint32_t capacity,
+hf_result hf_surface_find_critical_points(hf_surface handle, const hf_scalars* given, uint32_t capacity,
                                           hf_critical_point* out_points, hf_critical_info* out_info) {
-  return guarded("hf_surface_find_critical_points",
-                 [&] { find_critical(surface, field, capacity, out_points, out_info); });
+  return guarded("hf_surface_find_critical_points", [&] {
+    const auto surface = get<SurfaceObject>(handle, "surface");
+    if (!out_points && !out_info) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_points and out_info are both NULL");
+    if (out_info) check_struct(out_info, "out_info");
+    const Geometry& shape = surface->surface.geometry();
+    const Vector<double> field = read_scalars(shape, given);
+    const CriticalPoints found = find_critical_points(shape.mesh, shape.topology, field, *shape.memory);
+    hf_critical_info info{};
+    info.point_count = static_cast<std::uint32_t>(found.points.size());
+    info.minimum_count = found.minima, info.maximum_count = found.maxima, info.saddle_count = found.saddles;
+    info.index_sum = found.index_sum, info.euler_characteristic = found.euler_characteristic;
+    if (out_info) write_struct(out_info, info);
+    check_capacity(out_points, capacity, info.point_count, "capacity");
+    for (std::size_t i = 0; out_points && i < found.points.size(); ++i) {
+      const CriticalPoint& point = found.points[i];
+      const std::size_t v = static_cast<std::size_t>(point.vertex);
+      out_points[i] = {given_vertex(shape.mesh, point.vertex), static_cast<std::int32_t>(point.kind), point.index,
+                       static_cast<std::uint32_t>(shape.mesh.component[v]), field[v]};
+    }
+  });
 }
 
 hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* given, hf_geodesics* out_geodesics) {
@@ -237,10 +197,33 @@ hf_result hf_geodesics_solve_f64(hf_geodesics geodesics, uint32_t source_count, 
                  [&] { distance(geodesics, source_count, sources, nullptr, out_distances, value_stride); });
 }
 
-hf_result hf_surface_find_extremities(hf_surface surface, const hf_extremities_desc* desc, uint32_t capacity,
+hf_result hf_surface_find_extremities(hf_surface handle, const hf_extremities_desc* given, uint32_t capacity,
                                       hf_extremity* out_extremities, uint32_t* out_count) {
-  return guarded("hf_surface_find_extremities",
-                 [&] { find_extremities(surface, desc, capacity, out_extremities, out_count); });
+  return guarded("hf_surface_find_extremities", [&] {
+    const std::shared_ptr<const Core> shared = harmonic_core(handle);
+    const hf_extremities_desc desc = read_extremities(given);
+    if (!out_extremities && !out_count)
+      fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_extremities and out_count are both NULL");
+    const Core& core = *shared;
+    const Extremities found =
+        with_progress(desc.progress, [&](Progress* progress) { return search(shared, desc, progress); });
+    const std::uint32_t count = static_cast<std::uint32_t>(found.points.size());
+    write_count(out_count, count);
+    check_capacity(out_extremities, capacity, count, "capacity");
+    const double scale = core.mesh.scale;
+    for (std::uint32_t i = 0; out_extremities && i < count; ++i) {
+      const Extremity& point = found.points[i];
+      hf_extremity& out = out_extremities[i];
+      out.vertex = given_vertex(core.mesh, point.vertex), out.component = static_cast<std::uint32_t>(point.component);
+      out.length = scale * point.length;
+      put(core.mesh.to_given(core.mesh.positions[static_cast<std::size_t>(point.vertex)]), out.position);
+    }
+    if (desc.out_field) {
+      const double unit = desc.kind == HF_EXTREMITIES_POISSON ? scale * scale : scale;
+      write_vertices(core, 1, Rows(desc.out_field, sizeof(double)), nullptr,
+                     [&](std::size_t v, double* values) { values[0] = unit * found.field[v]; });
+    }
+  });
 }
 
 }  // extern "C"

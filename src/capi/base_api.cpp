@@ -11,39 +11,6 @@ namespace {
 // The detail of this thread's last failure. Plain data: no constructor, no destructor, nothing to allocate.
 thread_local hf_error_detail last_failure;
 
-struct Name {
-  hf_result code;
-  const char* name;
-};
-constexpr Name names[] = {
-    {HF_OK, "HF_OK"},
-    {HF_ERROR_INVALID_ARGUMENT, "HF_ERROR_INVALID_ARGUMENT"},
-    {HF_ERROR_NULL_POINTER, "HF_ERROR_NULL_POINTER"},
-    {HF_ERROR_INVALID_HANDLE, "HF_ERROR_INVALID_HANDLE"},
-    {HF_ERROR_INVALID_DESC, "HF_ERROR_INVALID_DESC"},
-    {HF_ERROR_OUT_OF_RANGE, "HF_ERROR_OUT_OF_RANGE"},
-    {HF_ERROR_NON_FINITE, "HF_ERROR_NON_FINITE"},
-    {HF_ERROR_EMPTY, "HF_ERROR_EMPTY"},
-    {HF_ERROR_DUPLICATE_SITE, "HF_ERROR_DUPLICATE_SITE"},
-    {HF_ERROR_NO_SUCH_SITE, "HF_ERROR_NO_SUCH_SITE"},
-    {HF_ERROR_CONFLICT, "HF_ERROR_CONFLICT"},
-    {HF_ERROR_NO_SITES, "HF_ERROR_NO_SITES"},
-    {HF_ERROR_NO_SUCH_HANDLE, "HF_ERROR_NO_SUCH_HANDLE"},
-    {HF_ERROR_NO_SUCH_PAIR, "HF_ERROR_NO_SUCH_PAIR"},
-    {HF_ERROR_OVERLAP, "HF_ERROR_OVERLAP"},
-    {HF_ERROR_UNSUPPORTED, "HF_ERROR_UNSUPPORTED"},
-    {HF_ERROR_BUSY, "HF_ERROR_BUSY"},
-    {HF_ERROR_REENTRANT, "HF_ERROR_REENTRANT"},
-    {HF_ERROR_TOO_SMALL, "HF_ERROR_TOO_SMALL"},
-    {HF_ERROR_NO_RECORD, "HF_ERROR_NO_RECORD"},
-    {HF_ERROR_OUT_OF_MEMORY, "HF_ERROR_OUT_OF_MEMORY"},
-    {HF_ERROR_TOO_LARGE, "HF_ERROR_TOO_LARGE"},
-    {HF_ERROR_CANCELLED, "HF_ERROR_CANCELLED"},
-    {HF_ERROR_NOT_POSITIVE_DEFINITE, "HF_ERROR_NOT_POSITIVE_DEFINITE"},
-    {HF_ERROR_INACCURATE, "HF_ERROR_INACCURATE"},
-    {HF_ERROR_INTERNAL, "HF_ERROR_INTERNAL"},
-};
-
 }  // namespace
 
 hf_result record_failure(hf_result code, std::uint32_t index, const char* function, const char* message) noexcept {
@@ -67,6 +34,39 @@ hf_result hf_error_get_detail(hf_error_detail* out_detail) {
 }
 
 const char* hf_result_get_name(hf_result result) {
+  struct Name {
+    hf_result code;
+    const char* name;
+  };
+  constexpr Name names[] = {
+      {HF_OK, "HF_OK"},
+      {HF_ERROR_INVALID_ARGUMENT, "HF_ERROR_INVALID_ARGUMENT"},
+      {HF_ERROR_NULL_POINTER, "HF_ERROR_NULL_POINTER"},
+      {HF_ERROR_INVALID_HANDLE, "HF_ERROR_INVALID_HANDLE"},
+      {HF_ERROR_INVALID_DESC, "HF_ERROR_INVALID_DESC"},
+      {HF_ERROR_OUT_OF_RANGE, "HF_ERROR_OUT_OF_RANGE"},
+      {HF_ERROR_NON_FINITE, "HF_ERROR_NON_FINITE"},
+      {HF_ERROR_EMPTY, "HF_ERROR_EMPTY"},
+      {HF_ERROR_DUPLICATE_SITE, "HF_ERROR_DUPLICATE_SITE"},
+      {HF_ERROR_NO_SUCH_SITE, "HF_ERROR_NO_SUCH_SITE"},
+      {HF_ERROR_CONFLICT, "HF_ERROR_CONFLICT"},
+      {HF_ERROR_NO_SITES, "HF_ERROR_NO_SITES"},
+      {HF_ERROR_NO_SUCH_HANDLE, "HF_ERROR_NO_SUCH_HANDLE"},
+      {HF_ERROR_NO_SUCH_PAIR, "HF_ERROR_NO_SUCH_PAIR"},
+      {HF_ERROR_OVERLAP, "HF_ERROR_OVERLAP"},
+      {HF_ERROR_UNSUPPORTED, "HF_ERROR_UNSUPPORTED"},
+      {HF_ERROR_BUSY, "HF_ERROR_BUSY"},
+      {HF_ERROR_REENTRANT, "HF_ERROR_REENTRANT"},
+      {HF_ERROR_TOO_SMALL, "HF_ERROR_TOO_SMALL"},
+      {HF_ERROR_NO_RECORD, "HF_ERROR_NO_RECORD"},
+      {HF_ERROR_OUT_OF_MEMORY, "HF_ERROR_OUT_OF_MEMORY"},
+      {HF_ERROR_TOO_LARGE, "HF_ERROR_TOO_LARGE"},
+      {HF_ERROR_CANCELLED, "HF_ERROR_CANCELLED"},
+      {HF_ERROR_NOT_POSITIVE_DEFINITE, "HF_ERROR_NOT_POSITIVE_DEFINITE"},
+      {HF_ERROR_INACCURATE, "HF_ERROR_INACCURATE"},
+      {HF_ERROR_INTERNAL, "HF_ERROR_INTERNAL"},
+  };
+
   for (const Name& entry : names) {
     if (entry.code == result) return entry.name;
   }

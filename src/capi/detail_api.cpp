@@ -16,47 +16,6 @@ struct DetailObject final : Object {
   CarriedDetail detail;
 };
 
-// Pins of one side, as inner vertices.
-void read_pins(const Mesh& mesh, std::uint32_t count, const std::uint32_t* vertices, const char* name,
-               Vector<std::int32_t>& out) {
-  require(vertices, name);
-  check_vertex_count(mesh, count, "pair_count");
-  append_usable(mesh, count, vertices, name, out);
-}
-
-std::shared_ptr<DetailObject> make_detail(hf_region source_handle, hf_region target_handle,
-                                          const hf_detail_desc* given) {
-  const auto source = get<RegionObject>(source_handle, "source");
-  const auto target = get<RegionObject>(target_handle, "target");
-  const hf_detail_desc desc = read_optional(given, "desc");
-  if (!std::isfinite(desc.scale)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "scale is not finite");
-  if (desc.scale < 0) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it must be above 0, or 0", desc.scale);
-  const Reading reading_source(*source), reading_target(*target);
-  Memory* const memory = target->memory.get();
-  Vector<std::int32_t> source_pins(memory), target_pins(memory);
-  if (desc.pair_count) {
-    read_pins(source->region.core().mesh, desc.pair_count, desc.source_vertices, "source_vertices", source_pins);
-    read_pins(target->region.core().mesh, desc.pair_count, desc.target_vertices, "target_vertices", target_pins);
-  }
-  CarryOptions options;
-  options.source_pins = source_pins, options.target_pins = target_pins, options.scale = desc.scale;
-  return with_progress(desc.progress, [&](Progress* progress) {
-    options.progress = progress;
-    return make_owner_in<DetailObject>(target->memory, carry_detail(source->region, target->region, options, *memory));
-  });
-}
-
-void morph(hf_detail handle, const hf_morph_desc* given) {
-  const auto object = get<DetailObject>(handle, "detail");
-  const MorphOut out = read_morph(given);
-  const Reading reading(*object);
-  const CarriedDetail& carried = object->detail;
-  write_morph(*carried.surface, *carried.state, out, [&](std::size_t, std::size_t i) {
-    const Vec3 base = carried.state->base[i];
-    return out.weight == 0 ? base : base + out.weight * carried.offset[i];
-  });
-}
-
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -65,15 +24,49 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_detail_create(hf_region source, hf_region target, const hf_detail_desc* desc, hf_detail* out_detail) {
-  return guarded("hf_detail_create",
-                 [&] { create(out_detail, "out_detail", [&] { return make_detail(source, target, desc); }); });
+hf_result hf_detail_create(hf_region source_handle, hf_region target_handle, const hf_detail_desc* given,
+                           hf_detail* out_detail) {
+  return guarded("hf_detail_create", [&] {
+    create(out_detail, "out_detail", [&] {
+      const auto source = get<RegionObject>(source_handle, "source");
+      const auto target = get<RegionObject>(target_handle, "target");
+      const hf_detail_desc desc = read_optional(given, "desc");
+      if (!std::isfinite(desc.scale)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "scale is not finite");
+      if (desc.scale < 0)
+        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it must be above 0, or 0", desc.scale);
+      const Reading reading_source(*source), reading_target(*target);
+      Memory* const memory = target->memory.get();
+      Vector<std::int32_t> source_pins(memory), target_pins(memory);
+      if (desc.pair_count) {
+        read_list(source->region.core().mesh, desc.pair_count, desc.source_vertices, "pair_count", "source_vertices",
+                  source_pins);
+        read_list(target->region.core().mesh, desc.pair_count, desc.target_vertices, "pair_count", "target_vertices",
+                  target_pins);
+      }
+      CarryOptions options;
+      options.source_pins = source_pins, options.target_pins = target_pins, options.scale = desc.scale;
+      return with_progress(desc.progress, [&](Progress* progress) {
+        options.progress = progress;
+        return make_owner_in<DetailObject>(target->memory,
+                                           carry_detail(source->region, target->region, options, *memory));
+      });
+    });
+  });
 }
 
 void hf_detail_destroy(hf_detail detail) { destroy<DetailObject>(detail); }
 
-hf_result hf_detail_morph(hf_detail detail, const hf_morph_desc* desc) {
-  return guarded("hf_detail_morph", [&] { morph(detail, desc); });
+hf_result hf_detail_morph(hf_detail handle, const hf_morph_desc* given) {
+  return guarded("hf_detail_morph", [&] {
+    const auto object = get<DetailObject>(handle, "detail");
+    const MorphOut out = read_morph(given);
+    const Reading reading(*object);
+    const CarriedDetail& carried = object->detail;
+    write_morph(*carried.surface, *carried.state, out, [&](std::size_t, std::size_t i) {
+      const Vec3 base = carried.state->base[i];
+      return out.weight == 0 ? base : base + out.weight * carried.offset[i];
+    });
+  });
 }
 
 }  // extern "C"

@@ -14,8 +14,6 @@ namespace hf_inner::capi {
 namespace {
 
 constexpr std::uint32_t most_corrections = 8;  // two leave nothing of a well-posed system; more only for hard cases
-// What the engines reach with room to spare; the sites of updown are penalties, which hold to about 1 / penalty.
-constexpr double exact_tolerance = 1e-8, penalty_tolerance = 1e-5;
 
 hf_solve_info unreached(const SolverObject& solver) {
   const SiteSolver& engine = solver.field.engine();
@@ -57,33 +55,6 @@ void solve_vectors(hf_solver handle, float* f32, double* f64, std::uint32_t stri
   if (out_info) write_struct(out_info, unreached(*solver));
 }
 
-void solve_at(hf_solver handle, std::uint32_t count, const std::uint32_t* vertices, double* out_values) {
-  const auto solver = get<SolverObject>(handle, "solver");
-  require_list(count, vertices, "vertex_count", "vertices"), require(out_values, "out_values");
-  const Reading reading(*solver);
-  const Mesh& mesh = solver->field.core().mesh;
-  const std::size_t m = static_cast<std::size_t>(solver->field.sites().channels());
-  if (count > mesh.report.vertex_count)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices asked for; the mesh has %u", count, mesh.report.vertex_count);
-  Vector<std::int32_t> inner(solver->memory.get());
-  Vector<std::uint32_t> place(solver->memory.get());  // in `inner`, of every vertex of the list
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (vertices[i] >= mesh.report.vertex_count)
-      fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of the list: vertex %u, but there are %u vertices", i, vertices[i],
-           mesh.report.vertex_count);
-    const std::int32_t v = mesh.inner_of_given[vertices[i]];
-    place.push_back(v == Mesh::none ? HF_NO_INDEX : static_cast<std::uint32_t>(inner.size()));
-    if (v != Mesh::none) inner.push_back(v);
-  }
-  Vector<double> values(inner.size() * m, solver->memory.get());
-  solver->field.solve_at(inner, values.data());
-  // the list is not read again: the caller may have it overwritten by the output
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t c = 0; c < m; ++c)
-      out_values[i * m + c] = place[i] == HF_NO_INDEX ? 0.0 : values[place[i] * m + c];
-  }
-}
-
 void solve_preview(hf_solver handle, float* f32, double* f64, std::uint32_t value_stride,
                    std::uint32_t correction_count, hf_preview_info* out_info) {
   const auto solver = get<SolverObject>(handle, "solver");
@@ -109,34 +80,6 @@ void solve_preview(hf_solver handle, float* f32, double* f64, std::uint32_t valu
   write_struct(out_info, info);
 }
 
-double tolerance_of(const hf_certificate& asked, EngineKind engine) {
-  if (asked.tolerance == 0) return engine == EngineKind::updown ? penalty_tolerance : exact_tolerance;
-  if (!(asked.tolerance > 0) || !std::isfinite(asked.tolerance))
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "tolerance is %g; it must be above 0 and finite, or 0 for the engine's own", asked.tolerance);
-  return asked.tolerance;
-}
-
-void certify_field(hf_solver handle, hf_certificate* inout_certificate) {
-  const auto solver = get<SolverObject>(handle, "solver");
-  hf_certificate report = read_struct(inout_certificate, "inout_certificate");
-  require_zero(report.reserved);
-  const Reading reading(*solver);
-  const double tolerance = tolerance_of(report, solver->field.engine().kind());
-  const Certificate found = certify(solver->field);
-  report.overshoot_checked = found.overshoot_checked, report.tolerance = tolerance;
-  report.value_range = found.value_range, report.residual = found.residual;
-  report.site_error = found.site_error, report.overshoot = found.overshoot;
-  report.worst_vertex = given_vertex(solver->field.core().mesh, found.vertex);
-  write_struct(inout_certificate, report);
-  const double worst = std::max({found.residual, found.site_error, found.overshoot});
-  if (!(worst <= tolerance))
-    fail(HF_ERROR_INACCURATE, report.worst_vertex,
-         "the field is wrong by %.3g of the range of its values at vertex %u, more than the tolerance %.3g; make a new "
-         "surface of the mesh",
-         worst, report.worst_vertex, tolerance);
-}
-
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -153,8 +96,33 @@ hf_result hf_solver_solve_f64(hf_solver solver, double* out_values, uint32_t val
   return guarded("hf_solver_solve_f64", [&] { solve(solver, nullptr, out_values, value_stride, out_info); });
 }
 
-hf_result hf_solver_solve_at(hf_solver solver, uint32_t vertex_count, const uint32_t* vertices, double* out_values) {
-  return guarded("hf_solver_solve_at", [&] { solve_at(solver, vertex_count, vertices, out_values); });
+hf_result hf_solver_solve_at(hf_solver handle, uint32_t count, const uint32_t* vertices, double* out_values) {
+  return guarded("hf_solver_solve_at", [&] {
+    const auto solver = get<SolverObject>(handle, "solver");
+    require_list(count, vertices, "vertex_count", "vertices"), require(out_values, "out_values");
+    const Reading reading(*solver);
+    const Mesh& mesh = solver->field.core().mesh;
+    const std::size_t m = static_cast<std::size_t>(solver->field.sites().channels());
+    if (count > mesh.report.vertex_count)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices asked for; the mesh has %u", count, mesh.report.vertex_count);
+    Vector<std::int32_t> inner(solver->memory.get());
+    Vector<std::uint32_t> place(solver->memory.get());  // in `inner`, of every vertex of the list
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (vertices[i] >= mesh.report.vertex_count)
+        fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of the list: vertex %u, but there are %u vertices", i, vertices[i],
+             mesh.report.vertex_count);
+      const std::int32_t v = mesh.inner_of_given[vertices[i]];
+      place.push_back(v == Mesh::none ? HF_NO_INDEX : static_cast<std::uint32_t>(inner.size()));
+      if (v != Mesh::none) inner.push_back(v);
+    }
+    Vector<double> values(inner.size() * m, solver->memory.get());
+    solver->field.solve_at(inner, values.data());
+    // the list is not read again: the caller may have it overwritten by the output
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t c = 0; c < m; ++c)
+        out_values[i * m + c] = place[i] == HF_NO_INDEX ? 0.0 : values[place[i] * m + c];
+    }
+  });
 }
 
 hf_result hf_solver_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride, double* out_normals,
@@ -186,8 +154,27 @@ hf_result hf_solver_release_preview(hf_solver solver) {
                  [&] { get<SolverObject>(solver, "solver")->field.core().preview.release(); });
 }
 
-hf_result hf_solver_certify(hf_solver solver, hf_certificate* inout_certificate) {
-  return guarded("hf_solver_certify", [&] { certify_field(solver, inout_certificate); });
+hf_result hf_solver_certify(hf_solver handle, hf_certificate* inout_certificate) {
+  return guarded("hf_solver_certify", [&] {
+    const auto solver = get<SolverObject>(handle, "solver");
+    hf_certificate report = read_struct(inout_certificate, "inout_certificate");
+    require_zero(report.reserved);
+    const Reading reading(*solver);
+    const double tolerance = certificate_tolerance(report.tolerance, solver->field.engine().kind());
+    const Certificate found = certify(solver->field);
+    report.overshoot_checked = found.overshoot_checked, report.tolerance = tolerance;
+    report.value_range = found.value_range, report.residual = found.residual;
+    report.site_error = found.site_error, report.overshoot = found.overshoot;
+    report.worst_vertex = given_vertex(solver->field.core().mesh, found.vertex);
+    write_struct(inout_certificate, report);
+    const double worst = std::max({found.residual, found.site_error, found.overshoot});
+    if (!(worst <= tolerance))
+      fail(HF_ERROR_INACCURATE, report.worst_vertex,
+           "the field is wrong by %.3g of the range of its values at vertex %u, more than the tolerance %.3g; make a "
+           "new "
+           "surface of the mesh",
+           worst, report.worst_vertex, tolerance);
+  });
 }
 
 }  // extern "C"

@@ -27,7 +27,7 @@ enum class Kind : std::uint32_t {
   surface = 11
 };
 
-// What a handle stands for. Readers share, a writer is alone; nobody waits: a call that overlaps answers HF_ERROR_BUSY,
+// The object that a handle stands for. Readers share, a writer is alone; nobody waits: a call that overlaps answers HF_ERROR_BUSY,
 // or HF_ERROR_REENTRANT when it comes from a callback of the very call it overlaps.
 class Object {
  public:

@@ -1,4 +1,4 @@
-// What stands behind the handles.
+// The objects behind the handles.
 #pragma once
 #include <atomic>
 #include <memory>
@@ -39,7 +39,7 @@ struct SurfaceObject final : Object {
   const hf_surface_info info;
 };
 
-// What poses, transfers, directions, distances and quads are made of.
+// Poses, transfers, directions, distances and quads stand on this core.
 inline std::shared_ptr<const Core> harmonic_core(hf_surface handle, const char* name = "surface",
                                                  std::uint32_t index = HF_NO_INDEX) {
   return get<SurfaceObject>(handle, name, index)->surface.core(FieldKind::harmonic);

@@ -46,57 +46,6 @@ std::shared_ptr<PoseObject> make_object(std::shared_ptr<PoseStack> pose) {
   return make_owner_in<PoseObject>(memory, memory, std::move(pose));
 }
 
-PoseOptions read_options(const hf_pose_desc* given) {
-  PoseOptions options;
-  if (!given) return options;
-  const hf_pose_desc desc = read_struct(given, "desc");
-  check_choice(desc.mode, 2, "mode");
-  options.mode = desc.mode == HF_DEFORM_PAPER ? DeformMode::paper : DeformMode::smooth;
-  options.band_count = count_of(desc.band_count, 0, least_bands, most_bands, "band_count");
-  options.iteration_count = count_of(desc.iteration_count, 0, 1, most_iterations, "iteration_count");
-  options.samples_per_ring = desc.samples_per_ring;
-  options.group_count = count_of(desc.group_count, 0, 1, most_groups, "group_count");
-  return options;
-}
-
-// Regions of points and radii, as regions of inner vertices.
-void append_near(const Core& core, const hf_handles_desc& desc, Vector<std::uint32_t>& start,
-                 Vector<std::int32_t>& vertices) {
-  start.push_back(0);
-  for (std::uint32_t r = 0; r < desc.handle_count; ++r) {
-    const double* p = desc.points + 3 * std::size_t{r};
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-      fail(HF_ERROR_NON_FINITE, r, "point %u is not finite", r);
-    if (!std::isfinite(desc.radii[r])) fail(HF_ERROR_NON_FINITE, r, "radius %u is not finite", r);
-    if (desc.radii[r] < 0)
-      fail(HF_ERROR_INVALID_ARGUMENT, r, "radius %u is %g; it must not be negative", r, desc.radii[r]);
-    const Vector<std::int32_t> region =
-        region_near(core, core.mesh.to_inner({p[0], p[1], p[2]}), desc.radii[r] / core.mesh.scale, *core.memory);
-    vertices.insert(vertices.end(), region.begin(), region.end());
-    start.push_back(static_cast<std::uint32_t>(vertices.size()));
-  }
-}
-
-// p -> M p as a rotation about the centroid and a translation.
-HandleTransform read_matrix(const double* m, std::uint32_t index, Vec3 centroid) {
-  for (int i = 0; i < 16; ++i) {
-    if (!std::isfinite(m[i])) fail(HF_ERROR_NON_FINITE, index, "matrix %u holds a number that is not finite", index);
-  }
-  Mat3 linear;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) linear(i, j) = m[4 * j + i];
-  }
-  const Quaternion rotation = best_rotation(linear, Quaternion());
-  const Mat3 exact = rotation.toRotationMatrix();
-  double off = std::fabs(m[3]) + std::fabs(m[7]) + std::fabs(m[11]) + std::fabs(m[15] - 1);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) off = std::max(off, std::fabs(linear(i, j) - exact(i, j)));
-  }
-  if (!(off <= 1e-4))
-    fail(HF_ERROR_INVALID_ARGUMENT, index, "matrix %u is no rigid motion; scale and shear are not taken", index);
-  return {rotation, rotate(rotation, centroid) + Vec3{m[12], m[13], m[14]} - centroid};
-}
-
 // The vertices hf_deform writes.
 struct Range {
   std::uint32_t first, count;
@@ -123,8 +72,6 @@ void add_handles(hf_pose handle, const hf_handles_desc& desc, std::uint32_t* out
   } else {
     require(desc.region_counts, "region_counts"), require(desc.region_vertices, "region_vertices");
   }
-  if (desc.layer >= HF_LAYER_COUNT)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "layer is %u; it must be 0 to %d", desc.layer, HF_LAYER_COUNT - 1);
   if (desc.handle_count > HF_HANDLE_LIMIT)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles in one batch; a pose takes at most %d", desc.handle_count,
          HF_HANDLE_LIMIT);
@@ -133,7 +80,8 @@ void add_handles(hf_pose handle, const hf_handles_desc& desc, std::uint32_t* out
   Vector<std::uint32_t> start(pose->memory.get());
   Vector<std::int32_t> vertices(pose->memory.get());
   if (near) {
-    append_near(pose->pose->core(), desc, start, vertices);
+    const std::size_t count = desc.handle_count;
+    regions_near(pose->pose->core(), {desc.points, 3 * count}, {desc.radii, count}, start, vertices);
   } else {
     append_starts(desc.handle_count, desc.region_counts, mesh.report.vertex_count, "region_counts", start);
     append_inner(mesh, start.back(), desc.region_vertices, "region_vertices", vertices);
@@ -184,7 +132,7 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
   const Rows normals = rows_of(desc.normals, nullptr, 3, desc.normal_stride, "normal_stride");
   DeformRequest request;
   request.normals = desc.normals != nullptr;
-  request.iteration_count = count_of(desc.iteration_count, 0, 1, most_iterations, "iteration_count");
+  request.iteration_count = desc.iteration_count;
   request.restart = desc.restart != 0, request.refine = desc.refine == 1;
   const Changing changing(*pose);
   const Core& core = pose->pose->core();
@@ -232,11 +180,16 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_pose_create(hf_surface surface, const hf_pose_desc* desc, hf_pose* out_pose) {
+hf_result hf_pose_create(hf_surface surface, const hf_pose_desc* given, hf_pose* out_pose) {
   return guarded("hf_pose_create", [&] {
     create(out_pose, "out_pose", [&] {
       const std::shared_ptr<const Core> core = harmonic_core(surface);
-      return make_object(PoseStack::make(core, read_options(desc)));
+      const hf_pose_desc desc = read_optional(given, "desc");
+      PoseOptions options;
+      options.mode = static_cast<DeformMode>(desc.mode), options.band_count = desc.band_count;
+      options.iteration_count = desc.iteration_count, options.samples_per_ring = desc.samples_per_ring;
+      options.group_count = desc.group_count;
+      return make_object(PoseStack::make(core, options));
     });
   });
 }
@@ -315,7 +268,7 @@ hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_transfor
 hf_result hf_pose_set_matrices(hf_pose pose, uint32_t handle_count, const uint32_t* handles, const double* matrices) {
   return guarded("hf_pose_set_matrices", [&] {
     place_handles(pose, handle_count, handles, matrices, "matrices", [&](const PoseStack& stack, std::uint32_t i) {
-      return read_matrix(matrices + 16 * std::size_t{i}, i, stack.handle_at(handles[i], i).centroid);
+      return rigid_transform(matrices + 16 * std::size_t{i}, stack.handle_at(handles[i], i).centroid, i);
     });
   });
 }

@@ -54,38 +54,6 @@ void read_sites(const Core& core, const hf_quads_desc& desc, Vector<FluxSite>& s
   }
 }
 
-std::shared_ptr<QuadsObject> make_object(hf_surface handle, const hf_quads_desc* given) {
-  QuadOptions options;
-  options.core = harmonic_core(handle);
-  const Core& core = *options.core;
-  const hf_quads_desc desc = read_optional(given, "desc");
-  check_choice(desc.kind, 2, "kind");
-  check_flag(desc.keep_polygons, "keep_polygons");
-  const double length = static_cast<double>(desc.edge_length);
-  if (!std::isfinite(length)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "edge_length is not finite");
-  if (length < 0) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; it must be above 0, or 0", length);
-  constexpr std::uint32_t most_rounds = 1000;
-  if (desc.relax_count > most_rounds && desc.relax_count != HF_NO_INDEX)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "relax_count is %u; it must be up to %u, or HF_NO_INDEX",
-         desc.relax_count, most_rounds);
-  options.edge_length = length > 0 ? length / core.mesh.scale : default_edge_length;
-  constexpr double least = 1e-4, largest = 1.0;
-  if (options.edge_length < least || options.edge_length > largest)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; on this mesh it must be %g to %g", length,
-         least * core.mesh.scale, largest * core.mesh.scale);
-  options.uniform = desc.kind == HF_QUADS_UNIFORM, options.split = desc.keep_polygons == 0;
-  if (desc.relax_count)
-    options.relax = desc.relax_count == HF_NO_INDEX ? 0 : static_cast<std::int32_t>(desc.relax_count);
-  Vector<FluxSite> sites(core.memory.get());
-  read_sites(core, desc, sites);
-  options.sites = sites, options.automatic = sites.empty(), options.scale_lines = !desc.site_lines;
-  return with_progress(desc.progress, [&](Progress* progress) {
-    options.progress = progress;
-    return make_owner_in<QuadsObject>(core.memory, options.core, make_quads(options),
-                                      options.edge_length * core.mesh.scale);
-  });
-}
-
 hf_quads_info info_of(const QuadsObject& object) {
   const QuadResult& result = object.result;
   hf_quads_info info{};
@@ -102,83 +70,6 @@ hf_quads_info info_of(const QuadsObject& object) {
   return info;
 }
 
-void get_mesh(hf_quads handle, hf_quads_mesh* inout_mesh) {
-  const auto object = get<QuadsObject>(handle, "quads");
-  hf_quads_mesh out = read_struct(inout_mesh, "inout_mesh");
-  require_zero(out.reserved);
-  const Reading reading(*object);
-  const hf_quads_info info = info_of(*object);
-  out.vertex_count = info.vertex_count, out.face_count = info.face_count, out.corner_count = info.corner_count;
-  out.site_count = info.site_count;
-  write_struct(inout_mesh, out);
-  check_capacity(out.positions || out.triangles || out.barycentrics, out.vertex_capacity, out.vertex_count,
-                 "vertex_capacity");
-  check_capacity(out.face_starts, out.face_capacity, out.face_count, "face_capacity");
-  check_capacity(out.face_corners, out.corner_capacity, out.corner_count, "corner_capacity");
-  check_capacity(out.site_vertices || out.site_lines, out.site_capacity, out.site_count, "site_capacity");
-  const Mesh& mesh = object->core->mesh;
-  const QuadResult& result = object->result;
-  Vector<std::uint32_t> given_triangle(out.triangles || out.barycentrics ? mesh.triangle_count() : 0, HF_NO_INDEX,
-                                       object->core->memory.get());
-  if (!given_triangle.empty()) {
-    for (std::size_t t = mesh.triangle_of_given.size(); t-- > 0;)
-      if (mesh.triangle_of_given[t] != Mesh::none)
-        given_triangle[static_cast<std::size_t>(mesh.triangle_of_given[t])] = static_cast<std::uint32_t>(t);
-  }
-  for (std::int32_t v = 0; v < result.mesh.position.size(); ++v) {
-    const SurfacePoint& point = result.mesh.location[v];
-    const std::size_t i = static_cast<std::size_t>(v);
-    if (out.positions) put(mesh.to_given(result.mesh.position[v]), out.positions + 3 * i);
-    if (out.triangles) out.triangles[i] = given_triangle[static_cast<std::size_t>(point.triangle)];
-    if (out.barycentrics) std::copy(point.weight, point.weight + 3, out.barycentrics + 3 * i);
-  }
-  if (out.face_starts) std::copy(result.mesh.face_start.begin(), result.mesh.face_start.end(), out.face_starts);
-  if (out.face_corners) std::copy(result.mesh.corner.begin(), result.mesh.corner.end(), out.face_corners);
-  for (std::size_t i = 0; i < result.sites.size(); ++i) {
-    if (out.site_vertices) out.site_vertices[i] = given_vertex(mesh, result.sites[i].vertex);
-    if (out.site_lines) out.site_lines[i] = static_cast<std::int32_t>(std::lround(result.sites[i].lines));
-  }
-}
-
-void trace(hf_flow handle, const hf_scalars* given, hf_flow_lines* inout_lines) {
-  const auto object = get<FlowObject>(handle, "flow");
-  hf_flow_lines out = read_struct(inout_lines, "inout_lines");
-  require_zero(out.reserved);
-  constexpr std::uint32_t most = 1000000;
-  if (out.seed_count > most)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "seed_count is %u; it must be up to %u", out.seed_count, most);
-  if (out.seed_count == 0 && (out.wanted_count < 1 || out.wanted_count > most))
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "wanted_count is %u; it must be 1 to %u", out.wanted_count, most);
-  const Reading reading(*object);
-  const Core& core = object->tracer.core();
-  const Mesh& mesh = core.mesh;
-  Vector<std::int32_t> seeds(core.memory.get());
-  if (out.seed_count) {
-    require(out.seeds, "inout_lines->seeds");
-    append_usable(mesh, out.seed_count, out.seeds, "seeds", seeds);
-  }
-  const Vector<double> field = read_scalars(*core.geometry, given);
-  for (std::size_t v = 0; v < field.size(); ++v)
-    if (std::isnan(field[v]))
-      fail(HF_ERROR_NON_FINITE, given_vertex(mesh, static_cast<std::int32_t>(v)), "the value of vertex %u is NaN",
-           given_vertex(mesh, static_cast<std::int32_t>(v)));
-  const FlowLineSet lines = object->tracer.trace(field, out.wanted_count, seeds);
-  if (lines.point.size() >= HF_NO_INDEX) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the lines have 2^32 points or more");
-  out.point_count = static_cast<std::uint32_t>(lines.point.size());
-  out.line_count = static_cast<std::uint32_t>(lines.from.size());
-  write_struct(inout_lines, out);
-  check_capacity(out.positions || out.values, out.point_capacity, out.point_count, "point_capacity");
-  check_capacity(out.line_starts || out.line_ends, out.line_capacity, out.line_count, "line_capacity");
-  for (std::size_t i = 0; out.positions && i < lines.point.size(); ++i)
-    put(mesh.to_given(lines.point[i]), out.positions + 3 * i);
-  if (out.values) std::copy(lines.value.begin(), lines.value.end(), out.values);
-  if (out.line_starts) std::copy(lines.start.begin(), lines.start.end(), out.line_starts);
-  for (std::size_t l = 0; out.line_ends && l < lines.from.size(); ++l) {
-    out.line_ends[2 * l] = given_vertex(mesh, lines.from[l]);
-    out.line_ends[2 * l + 1] = given_vertex(mesh, lines.to[l]);
-  }
-}
-
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -187,9 +78,41 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads) {
-  return guarded("hf_quads_create",
-                 [&] { create(out_quads, "out_quads", [&] { return make_object(surface, desc); }); });
+hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quads* out_quads) {
+  return guarded("hf_quads_create", [&] {
+    create(out_quads, "out_quads", [&] {
+      QuadOptions options;
+      options.core = harmonic_core(handle);
+      const Core& core = *options.core;
+      const hf_quads_desc desc = read_optional(given, "desc");
+      check_choice(desc.kind, 2, "kind");
+      check_flag(desc.keep_polygons, "keep_polygons");
+      const double length = static_cast<double>(desc.edge_length);
+      if (!std::isfinite(length)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "edge_length is not finite");
+      if (length < 0)
+        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; it must be above 0, or 0", length);
+      constexpr std::uint32_t most_rounds = 1000;
+      if (desc.relax_count > most_rounds && desc.relax_count != HF_NO_INDEX)
+        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "relax_count is %u; it must be up to %u, or HF_NO_INDEX",
+             desc.relax_count, most_rounds);
+      options.edge_length = length > 0 ? length / core.mesh.scale : default_edge_length;
+      constexpr double least = 1e-4, largest = 1.0;
+      if (options.edge_length < least || options.edge_length > largest)
+        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; on this mesh it must be %g to %g", length,
+             least * core.mesh.scale, largest * core.mesh.scale);
+      options.uniform = desc.kind == HF_QUADS_UNIFORM, options.split = desc.keep_polygons == 0;
+      if (desc.relax_count)
+        options.relax = desc.relax_count == HF_NO_INDEX ? 0 : static_cast<std::int32_t>(desc.relax_count);
+      Vector<FluxSite> sites(core.memory.get());
+      read_sites(core, desc, sites);
+      options.sites = sites, options.automatic = sites.empty(), options.scale_lines = !desc.site_lines;
+      return with_progress(desc.progress, [&](Progress* progress) {
+        options.progress = progress;
+        return make_owner_in<QuadsObject>(core.memory, options.core, make_quads(options),
+                                          options.edge_length * core.mesh.scale);
+      });
+    });
+  });
 }
 
 void hf_quads_destroy(hf_quads quads) { destroy<QuadsObject>(quads); }
@@ -203,8 +126,44 @@ hf_result hf_quads_get_info(hf_quads quads, hf_quads_info* out_info) {
   });
 }
 
-hf_result hf_quads_get_mesh(hf_quads quads, hf_quads_mesh* inout_mesh) {
-  return guarded("hf_quads_get_mesh", [&] { get_mesh(quads, inout_mesh); });
+hf_result hf_quads_get_mesh(hf_quads handle, hf_quads_mesh* inout_mesh) {
+  return guarded("hf_quads_get_mesh", [&] {
+    const auto object = get<QuadsObject>(handle, "quads");
+    hf_quads_mesh out = read_struct(inout_mesh, "inout_mesh");
+    require_zero(out.reserved);
+    const Reading reading(*object);
+    const hf_quads_info info = info_of(*object);
+    out.vertex_count = info.vertex_count, out.face_count = info.face_count, out.corner_count = info.corner_count;
+    out.site_count = info.site_count;
+    write_struct(inout_mesh, out);
+    check_capacity(out.positions || out.triangles || out.barycentrics, out.vertex_capacity, out.vertex_count,
+                   "vertex_capacity");
+    check_capacity(out.face_starts, out.face_capacity, out.face_count, "face_capacity");
+    check_capacity(out.face_corners, out.corner_capacity, out.corner_count, "corner_capacity");
+    check_capacity(out.site_vertices || out.site_lines, out.site_capacity, out.site_count, "site_capacity");
+    const Mesh& mesh = object->core->mesh;
+    const QuadResult& result = object->result;
+    Vector<std::uint32_t> given_triangle(out.triangles || out.barycentrics ? mesh.triangle_count() : 0, HF_NO_INDEX,
+                                         object->core->memory.get());
+    if (!given_triangle.empty()) {
+      for (std::size_t t = mesh.triangle_of_given.size(); t-- > 0;)
+        if (mesh.triangle_of_given[t] != Mesh::none)
+          given_triangle[static_cast<std::size_t>(mesh.triangle_of_given[t])] = static_cast<std::uint32_t>(t);
+    }
+    for (std::int32_t v = 0; v < result.mesh.position.size(); ++v) {
+      const SurfacePoint& point = result.mesh.location[v];
+      const std::size_t i = static_cast<std::size_t>(v);
+      if (out.positions) put(mesh.to_given(result.mesh.position[v]), out.positions + 3 * i);
+      if (out.triangles) out.triangles[i] = given_triangle[static_cast<std::size_t>(point.triangle)];
+      if (out.barycentrics) std::copy(point.weight, point.weight + 3, out.barycentrics + 3 * i);
+    }
+    if (out.face_starts) std::copy(result.mesh.face_start.begin(), result.mesh.face_start.end(), out.face_starts);
+    if (out.face_corners) std::copy(result.mesh.corner.begin(), result.mesh.corner.end(), out.face_corners);
+    for (std::size_t i = 0; i < result.sites.size(); ++i) {
+      if (out.site_vertices) out.site_vertices[i] = given_vertex(mesh, result.sites[i].vertex);
+      if (out.site_lines) out.site_lines[i] = static_cast<std::int32_t>(std::lround(result.sites[i].lines));
+    }
+  });
 }
 
 hf_result hf_flow_create(hf_surface surface, hf_flow* out_flow) {
@@ -218,8 +177,45 @@ hf_result hf_flow_create(hf_surface surface, hf_flow* out_flow) {
 
 void hf_flow_destroy(hf_flow flow) { destroy<FlowObject>(flow); }
 
-hf_result hf_flow_trace(hf_flow flow, const hf_scalars* field, hf_flow_lines* inout_lines) {
-  return guarded("hf_flow_trace", [&] { trace(flow, field, inout_lines); });
+hf_result hf_flow_trace(hf_flow handle, const hf_scalars* given, hf_flow_lines* inout_lines) {
+  return guarded("hf_flow_trace", [&] {
+    const auto object = get<FlowObject>(handle, "flow");
+    hf_flow_lines out = read_struct(inout_lines, "inout_lines");
+    require_zero(out.reserved);
+    constexpr std::uint32_t most = 1000000;
+    if (out.seed_count > most)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "seed_count is %u; it must be up to %u", out.seed_count, most);
+    if (out.seed_count == 0 && (out.wanted_count < 1 || out.wanted_count > most))
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "wanted_count is %u; it must be 1 to %u", out.wanted_count, most);
+    const Reading reading(*object);
+    const Core& core = object->tracer.core();
+    const Mesh& mesh = core.mesh;
+    Vector<std::int32_t> seeds(core.memory.get());
+    if (out.seed_count) {
+      require(out.seeds, "inout_lines->seeds");
+      append_usable(mesh, out.seed_count, out.seeds, "seeds", seeds);
+    }
+    const Vector<double> field = read_scalars(*core.geometry, given);
+    for (std::size_t v = 0; v < field.size(); ++v)
+      if (std::isnan(field[v]))
+        fail(HF_ERROR_NON_FINITE, given_vertex(mesh, static_cast<std::int32_t>(v)), "the value of vertex %u is NaN",
+             given_vertex(mesh, static_cast<std::int32_t>(v)));
+    const FlowLineSet lines = object->tracer.trace(field, out.wanted_count, seeds);
+    if (lines.point.size() >= HF_NO_INDEX) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the lines have 2^32 points or more");
+    out.point_count = static_cast<std::uint32_t>(lines.point.size());
+    out.line_count = static_cast<std::uint32_t>(lines.from.size());
+    write_struct(inout_lines, out);
+    check_capacity(out.positions || out.values, out.point_capacity, out.point_count, "point_capacity");
+    check_capacity(out.line_starts || out.line_ends, out.line_capacity, out.line_count, "line_capacity");
+    for (std::size_t i = 0; out.positions && i < lines.point.size(); ++i)
+      put(mesh.to_given(lines.point[i]), out.positions + 3 * i);
+    if (out.values) std::copy(lines.value.begin(), lines.value.end(), out.values);
+    if (out.line_starts) std::copy(lines.start.begin(), lines.start.end(), out.line_starts);
+    for (std::size_t l = 0; out.line_ends && l < lines.from.size(); ++l) {
+      out.line_ends[2 * l] = given_vertex(mesh, lines.from[l]);
+      out.line_ends[2 * l + 1] = given_vertex(mesh, lines.to[l]);
+    }
+  });
 }
 
 }  // extern "C"

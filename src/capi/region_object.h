@@ -1,4 +1,4 @@
-// What stands behind a region handle.
+// The object behind a region handle.
 #pragma once
 #include "capi/objects.h"
 #include "detail/region.h"

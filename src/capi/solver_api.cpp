@@ -13,56 +13,6 @@ constexpr std::uint32_t most_channels = 64, default_site_limit = 100000;
 constexpr double default_penalty = 1e8;   // the paper's
 constexpr double largest_penalty = 1e10;  // beyond it the other equations of a penalised row drown in rounding
 
-std::shared_ptr<SolverObject> make_solver(hf_surface handle, const hf_solver_desc* given) {
-  const auto surface = get<SurfaceObject>(handle, "surface");
-  const hf_solver_desc desc = read_optional(given, "desc");
-  check_choice(desc.field_kind, 3, "field_kind");
-  check_choice(desc.engine, 3, "engine");
-  require_zero(desc.reserved);
-#ifndef HF_WITH_GPL
-  if (desc.engine == HF_ENGINE_UPDOWN)
-    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-         "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
-#endif
-  const std::uint32_t channels = count_of(desc.channel_count, 1, 1, most_channels, "channel_count");
-  if (desc.penalty != 0 && !(desc.penalty > 0))
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
-  const double penalty = desc.penalty > 0 ? std::min(desc.penalty, largest_penalty) : default_penalty;
-  return with_progress(desc.progress, [&](Progress* progress) {
-    return make_owner_in<SolverObject>(surface->memory,
-                                       surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress),
-                                       static_cast<EngineKind>(desc.engine), penalty, channels,
-                                       desc.site_limit ? desc.site_limit : default_site_limit);
-  });
-}
-
-hf_solver_info info_of(const SolverObject& solver) {
-  hf_solver_info info{};
-  info.field_kind = static_cast<std::int32_t>(solver.field.core().field_kind);
-  info.engine = static_cast<std::int32_t>(solver.field.engine().kind());
-  info.channel_count = static_cast<std::uint32_t>(solver.field.sites().channels());
-  info.site_limit = solver.site_limit, info.site_count = solver.field.sites().count();
-  info.penalty = solver.penalty, info.vertex_count = solver.field.core().mesh.report.vertex_count;
-  return info;
-}
-
-hf_solver_statistics statistics_of(const SolverObject& solver) {
-  const EngineCounters counters = solver.field.engine().counters();
-  hf_solver_statistics statistics{};
-  statistics.site_count = solver.field.sites().count();
-  statistics.factorisation_count = counters.factorisations;
-  // engine green counts the factor of the surface as its first
-  if (solver.field.engine().kind() == EngineKind::green) --statistics.factorisation_count;
-  statistics.path_solve_count = counters.path_solves, statistics.sweep_count = counters.sweeps;
-  statistics.last_route = static_cast<std::uint32_t>(counters.last_route);
-  statistics.rebase_count = counters.rebases, statistics.dense_edit_count = counters.dense_edits;
-  statistics.dense_row_count = counters.dense_rows, statistics.eliminated_count = counters.eliminated;
-  statistics.rebase_advised = counters.rebase_advised;
-  statistics.site_memory_bytes = counters.bytes;
-  statistics.predicted_dense_ms = counters.dense_ms, statistics.predicted_rebase_ms = counters.rebase_ms;
-  return statistics;
-}
-
 // ---- edits ----
 
 Places read_places(const hf_sites_desc& desc) {
@@ -152,43 +102,6 @@ hf_result change_vectors(const char* function, hf_solver handle, std::uint32_t c
   });
 }
 
-// ---- reading ----
-
-void get_sites(const SolverObject& solver, hf_sites_info* inout) {
-  hf_sites_info info = read_struct(inout, "inout_info");
-  require_zero(info.reserved);
-  const Reading reading(const_cast<SolverObject&>(solver));
-  const SiteSet& sites = solver.field.sites();
-  info.count = sites.count();
-  write_struct(inout, info);
-  const bool given =
-      info.sites || info.vertices || info.components || info.values || info.stiffness || info.flux || info.radii;
-  check_capacity(given, info.capacity, info.count, "capacity");
-  const std::size_t m = static_cast<std::size_t>(sites.channels());
-  Vector<double> flux(solver.memory.get());
-  if (info.flux) {
-    solver.field.flux(flux);
-    for (std::size_t s = 0; s < sites.slots().size(); ++s) {
-      const std::int32_t owner = sites.slots()[s].owner;
-      for (std::size_t c = 0; owner >= 0 && c < m; ++c)
-        flux[static_cast<std::size_t>(owner) * m + c] += flux[s * m + c];
-    }
-  }
-  std::size_t at = 0;
-  for (std::size_t s = 0; s < sites.slots().size(); ++s) {
-    const SiteSet::Slot& slot = sites.slots()[s];
-    if (!slot.is_site()) continue;
-    if (info.sites) info.sites[at] = static_cast<std::uint32_t>(s);
-    if (info.vertices) info.vertices[at] = slot.given_vertex;
-    if (info.components) info.components[at] = static_cast<std::uint32_t>(slot.site.component);
-    if (info.stiffness) info.stiffness[at] = slot.stiffness;
-    if (info.radii) info.radii[at] = slot.radius;
-    if (info.values) std::copy_n(sites.values() + s * m, m, info.values + at * m);
-    if (info.flux) std::copy_n(flux.data() + s * m, m, info.flux + at * m);
-    ++at;
-  }
-}
-
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -197,8 +110,31 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_create(hf_surface surface, const hf_solver_desc* desc, hf_solver* out_solver) {
-  return guarded("hf_create", [&] { create(out_solver, "out_solver", [&] { return make_solver(surface, desc); }); });
+hf_result hf_create(hf_surface handle, const hf_solver_desc* given, hf_solver* out_solver) {
+  return guarded("hf_create", [&] {
+    create(out_solver, "out_solver", [&] {
+      const auto surface = get<SurfaceObject>(handle, "surface");
+      const hf_solver_desc desc = read_optional(given, "desc");
+      check_choice(desc.field_kind, 3, "field_kind");
+      check_choice(desc.engine, 3, "engine");
+      require_zero(desc.reserved);
+#ifndef HF_WITH_GPL
+      if (desc.engine == HF_ENGINE_UPDOWN)
+        fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+             "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
+#endif
+      const std::uint32_t channels = count_of(desc.channel_count, 1, 1, most_channels, "channel_count");
+      if (desc.penalty != 0 && !(desc.penalty > 0))
+        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
+      const double penalty = desc.penalty > 0 ? std::min(desc.penalty, largest_penalty) : default_penalty;
+      return with_progress(desc.progress, [&](Progress* progress) {
+        return make_owner_in<SolverObject>(surface->memory,
+                                           surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress),
+                                           static_cast<EngineKind>(desc.engine), penalty, channels,
+                                           desc.site_limit ? desc.site_limit : default_site_limit);
+      });
+    });
+  });
 }
 
 hf_result hf_solver_clone(hf_solver handle, hf_solver* out_solver) {
@@ -218,7 +154,13 @@ hf_result hf_solver_get_info(hf_solver handle, hf_solver_info* out_info) {
     const auto solver = get<SolverObject>(handle, "solver");
     check_struct(out_info, "out_info");
     const Reading reading(*solver);
-    write_struct(out_info, info_of(*solver));
+    hf_solver_info info{};
+    info.field_kind = static_cast<std::int32_t>(solver->field.core().field_kind);
+    info.engine = static_cast<std::int32_t>(solver->field.engine().kind());
+    info.channel_count = static_cast<std::uint32_t>(solver->field.sites().channels());
+    info.site_limit = solver->site_limit, info.site_count = solver->field.sites().count();
+    info.penalty = solver->penalty, info.vertex_count = solver->field.core().mesh.report.vertex_count;
+    write_struct(out_info, info);
   });
 }
 
@@ -278,8 +220,42 @@ uint32_t hf_solver_get_site_count(hf_solver solver) {
   return object ? static_cast<SolverObject&>(*object).site_count.load() : 0;
 }
 
-hf_result hf_solver_get_sites(hf_solver solver, hf_sites_info* inout_info) {
-  return guarded("hf_solver_get_sites", [&] { get_sites(*get<SolverObject>(solver, "solver"), inout_info); });
+hf_result hf_solver_get_sites(hf_solver handle, hf_sites_info* inout) {
+  return guarded("hf_solver_get_sites", [&] {
+    const auto solver = get<SolverObject>(handle, "solver");
+    hf_sites_info info = read_struct(inout, "inout_info");
+    require_zero(info.reserved);
+    const Reading reading(*solver);
+    const SiteSet& sites = solver->field.sites();
+    info.count = sites.count();
+    write_struct(inout, info);
+    const bool given =
+        info.sites || info.vertices || info.components || info.values || info.stiffness || info.flux || info.radii;
+    check_capacity(given, info.capacity, info.count, "capacity");
+    const std::size_t m = static_cast<std::size_t>(sites.channels());
+    Vector<double> flux(solver->memory.get());
+    if (info.flux) {
+      solver->field.flux(flux);
+      for (std::size_t s = 0; s < sites.slots().size(); ++s) {
+        const std::int32_t owner = sites.slots()[s].owner;
+        for (std::size_t c = 0; owner >= 0 && c < m; ++c)
+          flux[static_cast<std::size_t>(owner) * m + c] += flux[s * m + c];
+      }
+    }
+    std::size_t at = 0;
+    for (std::size_t s = 0; s < sites.slots().size(); ++s) {
+      const SiteSet::Slot& slot = sites.slots()[s];
+      if (!slot.is_site()) continue;
+      if (info.sites) info.sites[at] = static_cast<std::uint32_t>(s);
+      if (info.vertices) info.vertices[at] = slot.given_vertex;
+      if (info.components) info.components[at] = static_cast<std::uint32_t>(slot.site.component);
+      if (info.stiffness) info.stiffness[at] = slot.stiffness;
+      if (info.radii) info.radii[at] = slot.radius;
+      if (info.values) std::copy_n(sites.values() + s * m, m, info.values + at * m);
+      if (info.flux) std::copy_n(flux.data() + s * m, m, info.flux + at * m);
+      ++at;
+    }
+  });
 }
 
 hf_result hf_solver_prepare_rebase(hf_solver solver) {
@@ -306,7 +282,20 @@ hf_result hf_solver_get_statistics(hf_solver handle, hf_solver_statistics* out_s
     const auto solver = get<SolverObject>(handle, "solver");
     check_struct(out_statistics, "out_statistics");
     const Reading reading(*solver);
-    write_struct(out_statistics, statistics_of(*solver));
+    const EngineCounters counters = solver->field.engine().counters();
+    hf_solver_statistics statistics{};
+    statistics.site_count = solver->field.sites().count();
+    statistics.factorisation_count = counters.factorisations;
+    // engine green counts the factor of the surface as its first
+    if (solver->field.engine().kind() == EngineKind::green) --statistics.factorisation_count;
+    statistics.path_solve_count = counters.path_solves, statistics.sweep_count = counters.sweeps;
+    statistics.last_route = static_cast<std::uint32_t>(counters.last_route);
+    statistics.rebase_count = counters.rebases, statistics.dense_edit_count = counters.dense_edits;
+    statistics.dense_row_count = counters.dense_rows, statistics.eliminated_count = counters.eliminated;
+    statistics.rebase_advised = counters.rebase_advised;
+    statistics.site_memory_bytes = counters.bytes;
+    statistics.predicted_dense_ms = counters.dense_ms, statistics.predicted_rebase_ms = counters.rebase_ms;
+    write_struct(out_statistics, statistics);
   });
 }
 

@@ -33,20 +33,6 @@ hf_surface_info read_info(const hf_surface_desc& desc) {
   return info;
 }
 
-void check_counts(const hf_surface_info& info) {
-  if (info.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "vertex_count is 0");
-  if (info.triangle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "triangle_count is 0");
-  if (info.vertex_count > info.vertex_limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; the vertex_limit is %u", info.vertex_count, info.vertex_limit);
-  if (info.triangle_limit != 0 && info.triangle_count > info.triangle_limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; the triangle_limit is %u", info.triangle_count,
-         info.triangle_limit);
-  if (info.triangle_limit == 0 && info.triangle_count / triangles_per_vertex > info.vertex_limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
-         "%u triangles; without a triangle_limit at most eight per vertex of the vertex_limit %u are taken",
-         info.triangle_count, info.vertex_limit);
-}
-
 MeshInput read_mesh(const hf_surface_desc& desc) {
   check_one(desc.positions, desc.positions_f64, "positions");
   if (!desc.positions && !desc.positions_f64)
@@ -83,78 +69,6 @@ void read_saved_factor(const hf_surface_desc& desc, CoreOptions& options) {
   options.ordering = ordering;
 }
 
-std::shared_ptr<SurfaceObject> make_surface(const hf_surface_desc* given) {
-  const hf_surface_desc desc = read_struct(given, "desc");
-  hf_surface_info info = read_info(desc);
-  check_counts(info);
-  const MeshInput input = read_mesh(desc);
-  if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
-  CoreOptions options;
-  options.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
-  options.field_kind = static_cast<FieldKind>(desc.field_kind);
-  options.ordering = desc.ordering == HF_ORDERING_METIS            ? Ordering::metis
-                     : desc.ordering == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree
-                                                                   : Ordering::nested_dissection;
-  if (desc.saved_factor) read_saved_factor(desc, options);
-  info.ordering = static_cast<std::int32_t>(options.ordering);
-  return with_progress(desc.progress, [&](Progress* progress) {
-    options.progress = progress;
-    auto memory = make_memory(desc.allocator, std::uint64_t{desc.memory_limit_mb} << 20);
-    auto jobs = make_shared_in<JobRunner>(*memory, info.thread_count, desc.job_runner);
-    auto geometry = Geometry::make(input, options.operator_kind, memory, std::move(jobs), progress);
-    return make_owner_in<SurfaceObject>(memory, std::move(geometry), options, info);
-  });
-}
-
-hf_surface_report report_of(const MeshReport& found) {
-  hf_surface_report report{};
-  report.vertex_count = found.vertex_count;
-  report.triangle_count = found.triangle_count;
-  report.welded_vertex_count = found.welded_vertex_count;
-  report.component_count = found.component_count;
-  report.isolated_vertex_count = found.isolated_vertex_count;
-  report.degenerate_triangle_count = found.degenerate_triangle_count;
-  report.collapsed_triangle_count = found.collapsed_triangle_count;
-  report.duplicate_triangle_count = found.duplicate_triangle_count;
-  report.non_manifold_edge_count = found.non_manifold_edge_count;
-  report.flipped_edge_count = found.flipped_edge_count;
-  report.boundary_edge_count = found.boundary_edge_count;
-  report.negative_edge_count = found.negative_edge_count;
-  report.smallest_angle = static_cast<float>(found.smallest_angle);
-  report.bounding_box_diagonal = found.bounding_box_diagonal;
-  return report;
-}
-
-hf_surface_statistics statistics_of(const SurfaceObject& object) {
-  const Core& core = object.surface.own();
-  const FactorStatistics& factor = core.factor->statistics();
-  hf_surface_statistics statistics{};
-  statistics.unknown_count = static_cast<std::uint32_t>(core.size());
-  statistics.weld_ms = core.times.weld_ms, statistics.operator_ms = core.times.operator_ms;
-  statistics.ordering_ms = factor.ordering_ms, statistics.symbolic_ms = factor.symbolic_ms;
-  statistics.numeric_ms = factor.numeric_ms, statistics.load_ms = factor.load_ms;
-  statistics.factor_entries = factor.entries, statistics.factor_bytes = factor.bytes;
-  statistics.factor_flops = factor.flops;
-  statistics.memory_bytes = static_cast<double>(object.memory->live_bytes());
-  statistics.peak_memory_bytes = static_cast<double>(object.memory->peak_bytes());
-  statistics.factor_loaded = factor.loaded, statistics.factor_borrowed = factor.borrowed;
-  return statistics;
-}
-
-void save(const Surface& surface, std::int32_t field_kind, std::size_t capacity, void* out_bytes,
-          std::size_t* out_size) {
-  check_choice(field_kind, 3, "field_kind");
-  const std::shared_ptr<const Core> core = surface.core(static_cast<FieldKind>(field_kind));
-  const std::size_t size = static_cast<std::size_t>(saved_factor_size(*core->factor));
-  if (out_size) *out_size = size;
-  if (!out_bytes && !out_size) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_bytes and out_size are both NULL");
-  if (!out_bytes) return;
-  check_capacity(true, capacity, size, "capacity");
-  save_factor(*core->factor, grounded_hash(*core), {static_cast<std::uint8_t*>(out_bytes), size}, *core->memory,
-              *core->jobs);
-}
-
 // ---- picking ----
 
 Vec3 read_point(const double* p, const char* name) {
@@ -173,17 +87,6 @@ PickTarget read_target(const Mesh& mesh, const hf_pick_desc* given) {
           desc.front_only == 1};
 }
 
-hf_hit hit_of(const Mesh& mesh, const RayHit& found) {
-  hf_hit hit{};
-  hit.found = found.triangle != HF_NO_INDEX;
-  hit.triangle = found.triangle, hit.vertex = given_vertex(mesh, found.vertex);
-  std::copy_n(found.weight, 3, hit.barycentrics);
-  if (hit.found)
-    hit.position[0] = found.position.x, hit.position[1] = found.position.y, hit.position[2] = found.position.z;
-  hit.distance = found.distance;
-  return hit;
-}
-
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -192,8 +95,43 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_surface) {
-  return guarded("hf_surface_create", [&] { create(out_surface, "out_surface", [&] { return make_surface(desc); }); });
+hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surface) {
+  return guarded("hf_surface_create", [&] {
+    create(out_surface, "out_surface", [&] {
+      const hf_surface_desc desc = read_struct(given, "desc");
+      hf_surface_info info = read_info(desc);
+      if (info.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "vertex_count is 0");
+      if (info.triangle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "triangle_count is 0");
+      if (info.vertex_count > info.vertex_limit)
+        fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; the vertex_limit is %u", info.vertex_count,
+             info.vertex_limit);
+      if (info.triangle_limit != 0 && info.triangle_count > info.triangle_limit)
+        fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; the triangle_limit is %u", info.triangle_count,
+             info.triangle_limit);
+      if (info.triangle_limit == 0 && info.triangle_count / triangles_per_vertex > info.vertex_limit)
+        fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+             "%u triangles; without a triangle_limit at most eight per vertex of the vertex_limit %u are taken",
+             info.triangle_count, info.vertex_limit);
+      const MeshInput input = read_mesh(desc);
+      if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
+        fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
+      CoreOptions options;
+      options.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
+      options.field_kind = static_cast<FieldKind>(desc.field_kind);
+      options.ordering = desc.ordering == HF_ORDERING_METIS            ? Ordering::metis
+                         : desc.ordering == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree
+                                                                       : Ordering::nested_dissection;
+      if (desc.saved_factor) read_saved_factor(desc, options);
+      info.ordering = static_cast<std::int32_t>(options.ordering);
+      return with_progress(desc.progress, [&](Progress* progress) {
+        options.progress = progress;
+        auto memory = make_memory(desc.allocator, std::uint64_t{desc.memory_limit_mb} << 20);
+        auto jobs = make_shared_in<JobRunner>(*memory, info.thread_count, desc.job_runner);
+        auto geometry = Geometry::make(input, options.operator_kind, memory, std::move(jobs), progress);
+        return make_owner_in<SurfaceObject>(memory, std::move(geometry), options, info);
+      });
+    });
+  });
 }
 
 void hf_surface_destroy(hf_surface surface) { destroy<SurfaceObject>(surface); }
@@ -210,7 +148,23 @@ hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_repor
   return guarded("hf_surface_get_report", [&] {
     const auto object = get<SurfaceObject>(surface, "surface");
     check_struct(out_report, "out_report");
-    write_struct(out_report, report_of(object->surface.geometry().mesh.report));
+    const MeshReport& found = object->surface.geometry().mesh.report;
+    hf_surface_report report{};
+    report.vertex_count = found.vertex_count;
+    report.triangle_count = found.triangle_count;
+    report.welded_vertex_count = found.welded_vertex_count;
+    report.component_count = found.component_count;
+    report.isolated_vertex_count = found.isolated_vertex_count;
+    report.degenerate_triangle_count = found.degenerate_triangle_count;
+    report.collapsed_triangle_count = found.collapsed_triangle_count;
+    report.duplicate_triangle_count = found.duplicate_triangle_count;
+    report.non_manifold_edge_count = found.non_manifold_edge_count;
+    report.flipped_edge_count = found.flipped_edge_count;
+    report.boundary_edge_count = found.boundary_edge_count;
+    report.negative_edge_count = found.negative_edge_count;
+    report.smallest_angle = static_cast<float>(found.smallest_angle);
+    report.bounding_box_diagonal = found.bounding_box_diagonal;
+    write_struct(out_report, report);
   });
 }
 
@@ -236,13 +190,34 @@ hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statistics* o
   return guarded("hf_surface_get_statistics", [&] {
     const auto object = get<SurfaceObject>(surface, "surface");
     check_struct(out_statistics, "out_statistics");
-    write_struct(out_statistics, statistics_of(*object));
+    const Core& core = object->surface.own();
+    const FactorStatistics& factor = core.factor->statistics();
+    hf_surface_statistics statistics{};
+    statistics.unknown_count = static_cast<std::uint32_t>(core.size());
+    statistics.weld_ms = core.times.weld_ms, statistics.operator_ms = core.times.operator_ms;
+    statistics.ordering_ms = factor.ordering_ms, statistics.symbolic_ms = factor.symbolic_ms;
+    statistics.numeric_ms = factor.numeric_ms, statistics.load_ms = factor.load_ms;
+    statistics.factor_entries = factor.entries, statistics.factor_bytes = factor.bytes;
+    statistics.factor_flops = factor.flops;
+    statistics.memory_bytes = static_cast<double>(object->memory->live_bytes());
+    statistics.peak_memory_bytes = static_cast<double>(object->memory->peak_bytes());
+    statistics.factor_loaded = factor.loaded, statistics.factor_borrowed = factor.borrowed;
+    write_struct(out_statistics, statistics);
   });
 }
 
-hf_result hf_surface_save(hf_surface surface, int32_t field_kind, size_t capacity, void* out_bytes, size_t* out_size) {
+hf_result hf_surface_save(hf_surface handle, int32_t field_kind, size_t capacity, void* out_bytes, size_t* out_size) {
   return guarded("hf_surface_save", [&] {
-    save(get<SurfaceObject>(surface, "surface")->surface, field_kind, capacity, out_bytes, out_size);
+    const auto object = get<SurfaceObject>(handle, "surface");
+    check_choice(field_kind, 3, "field_kind");
+    const std::shared_ptr<const Core> core = object->surface.core(static_cast<FieldKind>(field_kind));
+    const std::size_t size = static_cast<std::size_t>(saved_factor_size(*core->factor));
+    if (out_size) *out_size = size;
+    if (!out_bytes && !out_size) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_bytes and out_size are both NULL");
+    if (!out_bytes) return;
+    check_capacity(true, capacity, size, "capacity");
+    save_factor(*core->factor, grounded_hash(*core), {static_cast<std::uint8_t*>(out_bytes), size}, *core->memory,
+                *core->jobs);
   });
 }
 
@@ -256,7 +231,15 @@ hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const do
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "direction is 0; a ray needs one");
     check_struct(out_hit, "out_hit");
     const PickTarget target = read_target(shape.mesh, desc);
-    write_struct(out_hit, hit_of(shape.mesh, cast_ray(target, from, along, *shape.jobs, *shape.memory)));
+    const RayHit found = cast_ray(target, from, along, *shape.jobs, *shape.memory);
+    hf_hit hit{};
+    hit.found = found.triangle != HF_NO_INDEX;
+    hit.triangle = found.triangle, hit.vertex = given_vertex(shape.mesh, found.vertex);
+    std::copy_n(found.weight, 3, hit.barycentrics);
+    if (hit.found)
+      hit.position[0] = found.position.x, hit.position[1] = found.position.y, hit.position[2] = found.position.z;
+    hit.distance = found.distance;
+    write_struct(out_hit, hit);
   });
 }
 

@@ -1,4 +1,4 @@
-// What the sites of a field do not reach.
+// Counts the vertices and components that no site of a field reaches.
 #pragma once
 #include "engine/geometry.h"
 #include "hf/solver.h"

@@ -35,6 +35,14 @@ inline void check_vertex_count(const Mesh& mesh, std::uint32_t count, const char
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%s is %u; the mesh has %u vertices", name, count, mesh.report.vertex_count);
 }
 
+// A list that may not be NULL and names no more vertices than the mesh has.
+inline void read_list(const Mesh& mesh, std::uint32_t count, const std::uint32_t* vertices, const char* count_name,
+                      const char* name, Vector<std::int32_t>& out) {
+  require(vertices, name);
+  check_vertex_count(mesh, count, count_name);
+  append_usable(mesh, count, vertices, name, out);
+}
+
 // Sums region sizes, each at least 1; start gets count + 1 entries.
 inline void append_starts(std::uint32_t count, const std::uint32_t* sizes, std::uint32_t limit, const char* name,
                           Vector<std::uint32_t>& start) {

@@ -22,7 +22,7 @@ void for_each_given(const Core& core, std::size_t first, std::size_t count, Visi
 
 inline void put(Vec3 p, double* values) noexcept { values[0] = p.x, values[1] = p.y, values[2] = p.z; }
 
-// What isolated vertices get; a null function gives zeros.
+// The row of an isolated vertex; a null function gives zeros.
 using IsolatedRow = void (*)(const Mesh::Isolated& entry, double* values);
 inline void put_rest(const Mesh::Isolated& entry, double* values) { put(entry.position, values); }
 inline void put_up(const Mesh::Isolated&, double* values) { put({0, 0, 1}, values); }

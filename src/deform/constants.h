@@ -37,6 +37,9 @@ constexpr double jump_turn = 1.75;
 // Steps of a layer, which starts from the surface below at every change; more than the default of a pose that goes on.
 constexpr std::uint32_t least_layer_iterations = 16;
 
+// Largest error of a number of a rigid matrix: rounded to floats it is off by 6e-8. What passes is made rigid.
+constexpr double rigid_tolerance = 1e-4;
+
 // ---- pose_solver.cpp ----
 
 // Step of the local rotations over the fitted one; 1 is plain alternation. 1.25 and 1.75 move energies by 0.2 % at

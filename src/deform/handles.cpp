@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/error.h"
 #include "deform/rest.h"
 #include "engine/rim.h"
 
@@ -117,6 +118,22 @@ Vector<std::int32_t> region_near(const Core& core, Vec3 point, double radius, Me
   }
   std::sort(region.begin(), region.end());
   return region;
+}
+
+void regions_near(const Core& core, Span<const double> points, Span<const double> radii, Vector<std::uint32_t>& start,
+                  Vector<std::int32_t>& vertices) {
+  start.push_back(0);
+  for (std::uint32_t r = 0; r < radii.size(); ++r) {
+    const double* p = points.data() + 3 * std::size_t{r};
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+      fail(HF_ERROR_NON_FINITE, r, "point %u is not finite", r);
+    if (!std::isfinite(radii[r])) fail(HF_ERROR_NON_FINITE, r, "radius %u is not finite", r);
+    if (radii[r] < 0) fail(HF_ERROR_INVALID_ARGUMENT, r, "radius %u is %g; it must not be negative", r, radii[r]);
+    const Vector<std::int32_t> region =
+        region_near(core, core.mesh.to_inner({p[0], p[1], p[2]}), radii[r] / core.mesh.scale, *core.memory);
+    vertices.insert(vertices.end(), region.begin(), region.end());
+    start.push_back(static_cast<std::uint32_t>(vertices.size()));
+  }
 }
 
 Reach::Reach(const Mesh& mesh, const Handles& handles, Memory& memory)

@@ -43,6 +43,11 @@ std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int3
 // to the vertex nearest to the point; that vertex at least. Ascending.
 Vector<std::int32_t> region_near(const Core& core, Vec3 point, double radius, Memory& memory);
 
+// The same for a list of points (xyz) and radii in the unit of the mesh as given: region r is vertices[start[r] ..
+// start[r + 1]). Throws HF_ERROR_NON_FINITE, and HF_ERROR_INVALID_ARGUMENT for a negative radius; index = r.
+void regions_near(const Core& core, Span<const double> points, Span<const double> radii, Vector<std::uint32_t>& start,
+                  Vector<std::int32_t>& vertices);
+
 // Which handle owns a vertex (index into handles, or -1), and which handles stand in each component.
 struct Reach {
   Reach(const Mesh& mesh, const Handles& handles, Memory& memory);

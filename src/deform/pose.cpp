@@ -29,12 +29,36 @@ PoseOptions checked(const PoseOptions& options) {
   PoseOptions filled = options;
   const bool smooth = options.mode == DeformMode::smooth;
   if (filled.band_count == 0) filled.band_count = smooth ? default_bands_smooth : default_bands_paper;
-  if (filled.iteration_count == 0) filled.iteration_count = smooth ? default_iterations_smooth : default_iterations_paper;
+  if (filled.iteration_count == 0)
+    filled.iteration_count = smooth ? default_iterations_smooth : default_iterations_paper;
   if (filled.group_count == 0) filled.group_count = default_groups;
   return filled;
 }
 
 }  // namespace
+
+void check_request(const DeformRequest& request) {
+  require_range(request.iteration_count, 1, most_iterations, "iteration_count");
+}
+
+HandleTransform rigid_transform(const double* m, Vec3 centroid, std::uint32_t index) {
+  for (int i = 0; i < 16; ++i) {
+    if (!std::isfinite(m[i])) fail(HF_ERROR_NON_FINITE, index, "matrix %u holds a number that is not finite", index);
+  }
+  Mat3 linear;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) linear(i, j) = m[4 * j + i];
+  }
+  const Quaternion rotation = best_rotation(linear, Quaternion());
+  const Mat3 exact = rotation.toRotationMatrix();
+  double off = std::fabs(m[3]) + std::fabs(m[7]) + std::fabs(m[11]) + std::fabs(m[15] - 1);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) off = std::max(off, std::fabs(linear(i, j) - exact(i, j)));
+  }
+  if (!(off <= rigid_tolerance))
+    fail(HF_ERROR_INVALID_ARGUMENT, index, "matrix %u is no rigid motion; scale and shear are not taken", index);
+  return {rotation, rotate(rotation, centroid) + Vec3{m[12], m[13], m[14]} - centroid};
+}
 
 struct Pose::Layout {
   explicit Layout(const Handles& list, std::shared_ptr<SiteSolver> solver, const Core& core, Memory& memory)
@@ -365,8 +389,7 @@ HandleReport Pose::handle(std::uint32_t number) const {
 }
 
 Span<const double> Pose::field(std::uint32_t number) const {
-  const std::int32_t handle =
-      require(number, HF_NO_INDEX);  // first: without a handle there is no layout
+  const std::int32_t handle = require(number, HF_NO_INDEX);  // first: without a handle there is no layout
   return {layout_->fields.of(handle), static_cast<std::size_t>(core_->size())};
 }
 
@@ -428,7 +451,7 @@ void Pose::solve_paper(std::uint32_t iterations) noexcept {
 
 void Pose::prepare(const DeformRequest& request) {
   if (!layout_) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
-  require_range(request.iteration_count, 1, most_iterations, "iteration_count");
+  check_request(request);
   const Mesh& mesh = core_->mesh;
   if (request.normals) {
     const std::size_t n = static_cast<std::size_t>(mesh.vertex_count());

@@ -37,6 +37,10 @@ struct HandleTransform {
   Vec3 translation;
 };
 
+// p -> M p as a HandleTransform about the centroid. matrix: 16 numbers by columns. Throws HF_ERROR_NON_FINITE, and
+// HF_ERROR_INVALID_ARGUMENT for anything but a rigid motion (rigid_tolerance); index = position.
+HandleTransform rigid_transform(const double* matrix, Vec3 centroid, std::uint32_t position);
+
 struct HandleReport {
   std::uint32_t vertex_count = 0, site_count = 0, component = 0;
   Vec3 centroid;  // in the unit of the mesh as given
@@ -52,6 +56,9 @@ struct DeformRequest {
   float* packed_positions = nullptr;  // three per inner vertex: written on the way where that is possible
   Normal* packed_normals = nullptr;   // per inner vertex: normals go there instead of the pose's own memory
 };
+
+// Throws HF_ERROR_INVALID_ARGUMENT for an iteration_count beyond most_iterations.
+void check_request(const DeformRequest& request);
 
 struct DeformReport {
   Span<const Vec3> positions;  // per inner vertex, in the unit and frame of the mesh as given

@@ -314,6 +314,7 @@ void PoseStack::combine(Layer& layer, Span<const Vec3> below) noexcept {
 }
 
 DeformReport PoseStack::deform(const DeformRequest& request) {
+  check_request(request);
   if (entries_.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
   if (!has_layers()) {
     base_stale_ = true;  // layers that come find nothing to go on from

@@ -12,6 +12,15 @@ namespace hf_inner {
 
 enum class CurveSide : std::int32_t { smaller = 0, larger = 1, seed = 2 };
 
+// The corner that stands for a point on a triangle as given: the one of the largest weight. Throws
+// HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (unusable triangle, weights below 0 or of another sum than 1),
+// HF_ERROR_NON_FINITE; index = position.
+std::int32_t nearest_corner(const Mesh& mesh, std::uint32_t triangle, const double* barycentrics,
+                            std::uint32_t position);
+
+// Throws HF_ERROR_INVALID_ARGUMENT (index = position) for a point in another component than the first.
+void require_one_component(const Mesh& mesh, Span<const std::int32_t> points);
+
 // The vertices of the curve, in order, without repeats in a row. points: inner vertices of one component.
 Vector<std::int32_t> closed_curve(const Core& core, Span<const std::int32_t> points, Memory& memory);
 

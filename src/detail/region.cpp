@@ -1,6 +1,7 @@
 #include "detail/region.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/index.h"
@@ -87,6 +88,24 @@ void solve_base(const RegionSurface& surface, RegionState& state, Memory& memory
 }
 
 }  // namespace
+
+Vector<Vec3> positions_of(const Core& core, const ConstRows& given) {
+  const Mesh& mesh = core.mesh;
+  Vector<Vec3> positions(mesh.report.vertex_count, core.memory.get());
+  for (std::size_t v = 0; given && v < positions.size(); ++v) {
+    const Vec3 p{given.get(v, 0), given.get(v, 1), given.get(v, 2)};
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(v), "the position of vertex %zu is not finite", v);
+    positions[v] = p;
+  }
+  if (given) return positions;
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const Index inner = mesh.inner_of_given[v];
+    if (inner != Mesh::none) positions[v] = mesh.to_given(mesh.positions[at(inner)]);
+  }
+  for (const Mesh::Isolated& entry : mesh.isolated) positions[at(entry.given)] = entry.position;
+  return positions;
+}
 
 RegionSurface::RegionSurface(std::shared_ptr<const Core> shared, Vector<Vec3>&& given)
     : core(std::move(shared)),

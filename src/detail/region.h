@@ -34,6 +34,10 @@ struct RegionSurface {
   Vector<Vec3> normal_sum;  // by inner vertex: sum of the cross products of its triangles, scaled
 };
 
+// Positions by vertex as given: `given`, or where it is empty those of the mesh. Throws HF_ERROR_NON_FINITE (index =
+// vertex as given).
+Vector<Vec3> positions_of(const Core& core, const ConstRows& given);
+
 struct RegionEdit {
   Span<const std::int32_t> curve;  // points, inner vertices; empty: none
   CurveSide side = CurveSide::smaller;

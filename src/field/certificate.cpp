@@ -25,6 +25,9 @@
 namespace hf_inner {
 namespace {
 
+// The engines reach this with room to spare. The sites of updown are penalties, which hold to about 1 / penalty.
+constexpr double exact_tolerance = 1e-8, penalty_tolerance = 1e-5;
+
 // Smallest and largest site value by component and channel.
 struct Ranges {
   Ranges(const SiteSet& sites, std::size_t components, std::size_t channels, Memory& memory)
@@ -71,14 +74,21 @@ bool row_of(const SymmetricMatrix& k, std::size_t v, const double* u, std::size_
 
 }  // namespace
 
+double certificate_tolerance(double asked, EngineKind engine) {
+  if (asked == 0) return engine == EngineKind::updown ? penalty_tolerance : exact_tolerance;
+  if (!(asked > 0) || !std::isfinite(asked))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "tolerance is %g; it must be above 0 and finite, or 0 for the engine's own", asked);
+  return asked;
+}
+
 Certificate certify(const ScalarField& field) {
   const Core& core = field.core();
   Memory& memory = *core.memory;
   const SiteSet& sites = field.sites();
   const SymmetricMatrix& k = core.laplacian;
   const std::size_t n = at(core.size()), m = at(sites.channels()), components = at(core.mesh.component_count());
-  if (sites.count() == 0)
-    fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; there is no field to certify");
+  if (sites.count() == 0) fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; there is no field to certify");
   Workspace u(core.workspaces, n * m), right(core.workspaces, n * m);
   Vector<double> flux(&memory), row(m, &memory);
   field.flux(flux, u.data());

@@ -16,6 +16,9 @@ struct Certificate {
   std::int32_t vertex = Mesh::none;  // inner vertex of the largest of the three
 };
 
+// The tolerance asked for; for 0 that of the engine. Throws HF_ERROR_INVALID_ARGUMENT unless it is above 0 and finite.
+double certificate_tolerance(double asked, EngineKind engine);
+
 // Solves the field and checks it; a number that is not finite has an infinite error. Throws HF_ERROR_NO_SITES.
 Certificate certify(const ScalarField& field);
 

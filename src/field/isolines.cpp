@@ -152,6 +152,10 @@ class Tracer {
 
 }  // namespace
 
+Vec3 position_of(const Mesh& mesh, const Isolines::Point& point) noexcept {
+  return mesh.to_given((1 - point.t) * mesh.positions[at(point.a)] + point.t * mesh.positions[at(point.b)]);
+}
+
 Isolines trace_isolines(const Mesh& mesh, const Topology& topology, Span<const double> field, Span<const double> levels,
                         Memory& memory) {
   Isolines out(memory);

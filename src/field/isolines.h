@@ -29,6 +29,9 @@ struct Isolines {
   Vector<std::uint8_t> closed;
 };
 
+// Where a point lies, in the unit of the mesh as given.
+Vec3 position_of(const Mesh& mesh, const Isolines::Point& point) noexcept;
+
 // field: one value per inner vertex; NaN = none, triangles at such a vertex are left out. levels: finite, any order.
 // Lines come in the order of the list.
 Isolines trace_isolines(const Mesh& mesh, const Topology& topology, Span<const double> field, Span<const double> levels,

@@ -2,6 +2,8 @@
 // coarse handles pull the whole surface where fine ones hold it. And the full-mesh step, a part of the surface, skins.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <thread>
 
@@ -387,6 +389,76 @@ TEST(Regions, APointAndARadiusTakeWhatHangsTogether) {
   const Vector<std::int32_t> disc =
       region_near(*core, core->mesh.to_inner({0, 0, 0}), 0.3 / core->mesh.scale, *core->memory);
   EXPECT_EQ(std::vector<std::int32_t>(disc.begin(), disc.end()), select(*core, [](Vec3 p) { return norm(p) <= 0.3; }));
+}
+
+// Columns of a rotation and a translation.
+std::array<double, 16> matrix_of(const Quaternion& q, Vec3 t) {
+  const Mat3 m = q.toRotationMatrix();
+  return {m(0, 0), m(1, 0), m(2, 0), 0, m(0, 1), m(1, 1), m(2, 1), 0, m(0, 2), m(1, 2), m(2, 2), 0, t.x, t.y, t.z, 1};
+}
+
+TEST(RigidTransform, MovesPointsAsTheMatrixDoes) {
+  const Quaternion q = exponential({0.3, -1.1, 0.7});
+  const Vec3 t{2, -3, 4}, centroid{0.5, 1.5, -2}, p{-1, 0.25, 3};
+  std::array<double, 16> matrix = matrix_of(q, t);
+  for (const bool rounded : {false, true}) {
+    for (double& x : matrix) x = rounded ? static_cast<double>(static_cast<float>(x)) : x;
+    const HandleTransform found = rigid_transform(matrix.data(), centroid, 0);
+    const Vec3 moved = rotate(found.rotation, p - centroid) + centroid + found.translation;
+    EXPECT_LT(norm(moved - (rotate(q, p) + t)), rounded ? 1e-6 : 1e-13);
+  }
+}
+
+TEST(RigidTransform, RefusesWhatIsNotRigidWithItsPosition) {
+  const auto refused = [](hf_result code, std::size_t entry, double value) {
+    std::array<double, 16> matrix = matrix_of(Quaternion(), {});
+    matrix[entry] = value;
+    try {
+      rigid_transform(matrix.data(), {}, 3);
+      ADD_FAILURE() << "entry " << entry;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), code) << entry;
+      EXPECT_EQ(error.index(), 3u);
+    }
+  };
+  refused(HF_ERROR_NON_FINITE, 13, std::nan(""));
+  refused(HF_ERROR_INVALID_ARGUMENT, 5, 1.01);
+  refused(HF_ERROR_INVALID_ARGUMENT, 4, 0.01);
+  refused(HF_ERROR_INVALID_ARGUMENT, 10, -1.0);
+  refused(HF_ERROR_INVALID_ARGUMENT, 3, 0.01);
+  refused(HF_ERROR_INVALID_ARGUMENT, 15, 2.0);
+}
+
+TEST(RegionsNear, ListsARegionForEachPoint) {
+  const auto core = hf_test::make_core(hf_test::grid(10, 10));
+  const double points[] = {0, 0, 0, 5, 5, 0.2}, radii[] = {0, 1.1};
+  Vector<std::uint32_t> start(core->memory.get());
+  Vector<std::int32_t> vertices(core->memory.get());
+  regions_near(*core, {points, 6}, {radii, 2}, start, vertices);
+  ASSERT_EQ(start.size(), 3u);
+  EXPECT_EQ(start[1], 1u);
+  EXPECT_EQ(start[2], 6u);  // the middle and its four neighbours
+  EXPECT_EQ(core->mesh.given_of_inner[vertices[0]], 0);
+  const double bad[] = {0, -1};
+  try {
+    regions_near(*core, {points, 6}, {bad, 2}, start, vertices);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), HF_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(error.index(), 1u);
+  }
+}
+
+TEST(PoseStack, ChecksIterationsBeforeAnythingChanges) {
+  Plant plant;
+  DeformRequest request;
+  request.iteration_count = most_iterations + 1, request.restart = true;
+  try {
+    plant.pose->deform(request);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), HF_ERROR_INVALID_ARGUMENT);
+  }
 }
 
 }  // namespace

@@ -114,4 +114,64 @@ TEST(Curve, SeedsOnItOrElsewhereAreNamed) {
   EXPECT_EQ(with_seed(445), 445u);
 }
 
+template <class Work>
+void expect_error(hf_result code, std::uint32_t index, Work&& work) {
+  try {
+    work();
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), code);
+    EXPECT_EQ(error.index(), index);
+  }
+}
+
+TEST(Curve, APointStandsForTheCornerOfItsLargestWeight) {
+  const Sheet sheet;
+  const Mesh& mesh = sheet.surface->core->mesh;
+  const double weights[3][3] = {{0.5, 0.3, 0.2}, {0.2, 0.5, 0.3}, {0.3, 0.2, 0.5}};
+  for (int k = 0; k < 3; ++k)
+    EXPECT_EQ(nearest_corner(mesh, 7, weights[k], 0), mesh.triangle(mesh.triangle_of_given[7])[k]);
+  const double rounded[3] = {0.2f, 0.3f, 0.5f};  // floats do not sum to 1 exactly
+  EXPECT_EQ(nearest_corner(mesh, 7, rounded, 0), mesh.triangle(mesh.triangle_of_given[7])[2]);
+}
+
+TEST(Curve, BadPointsAreRefusedWithTheirPosition) {
+  const Sheet sheet;
+  const Mesh& mesh = sheet.surface->core->mesh;
+  const auto refused = [&](hf_result code, std::uint32_t triangle, double a, double b, double c) {
+    const double weights[3] = {a, b, c};
+    expect_error(code, 5, [&] { nearest_corner(mesh, triangle, weights, 5); });
+  };
+  refused(HF_ERROR_OUT_OF_RANGE, mesh.report.triangle_count, 1, 0, 0);
+  refused(HF_ERROR_NON_FINITE, 0, 1, std::nan(""), 0);
+  refused(HF_ERROR_INVALID_ARGUMENT, 0, 1.5, -0.5, 0);
+  refused(HF_ERROR_INVALID_ARGUMENT, 0, 0.5, 0.5, 1e-5);
+}
+
+TEST(Curve, PointsOfTwoComponentsAreRefused) {
+  PlainMesh two = grid(4, 4);
+  append(two, grid(4, 4), 10);
+  const auto core = make_core(two);
+  const std::int32_t second = core->mesh.inner_of_given[25];
+  const Numbers one{0, 1, 2}, mixed{0, 1, second};
+  require_one_component(core->mesh, {one.data(), one.size()});
+  expect_error(HF_ERROR_INVALID_ARGUMENT, 2, [&] { require_one_component(core->mesh, {mixed.data(), mixed.size()}); });
+}
+
+TEST(Region, PositionsAreTheCallersOrTheMeshs) {
+  const PlainMesh mesh = grid(3, 3);
+  const auto core = make_core(mesh);
+  const auto rest = positions_of(*core, {});
+  std::vector<double> moved = mesh.positions;
+  for (double& x : moved) x += 5;
+  const auto given = positions_of(*core, ConstRows(moved.data(), 3 * sizeof(double)));
+  ASSERT_EQ(rest.size(), 16u);
+  for (std::size_t v = 0; v < rest.size(); ++v) {
+    EXPECT_NEAR(rest[v].x, mesh.positions[3 * v], 1e-12);
+    EXPECT_EQ(given[v].y, moved[3 * v + 1]);
+  }
+  moved[3 * 9 + 2] = std::nan("");
+  expect_error(HF_ERROR_NON_FINITE, 9, [&] { positions_of(*core, ConstRows(moved.data(), 3 * sizeof(double))); });
+}
+
 }  // namespace

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
 #include "analysis_support.h"
 #include "base/error.h"
+#include "field/certificate.h"
 #include "field/levels.h"
 
 namespace {
@@ -215,7 +217,8 @@ TEST(Isolines, come_in_the_order_of_the_list_and_repeats_give_repeats) {
 
 // ---- levels
 
-std::vector<double> space(const Surface& s, const std::vector<double>& u, hf_inner::LevelSpacing spacing, std::size_t count) {
+std::vector<double> space(const Surface& s, const std::vector<double>& u, hf_inner::LevelSpacing spacing,
+                          std::size_t count) {
   std::vector<double> levels(count);
   hf_inner::space_levels(s.core->mesh, u, spacing, levels, memory());
   return levels;
@@ -299,6 +302,27 @@ TEST(Levels, of_a_constant_field_are_refused) {
   const Surface s(hf_test::grid(3, 3));
   EXPECT_THROW(space(s, std::vector<double>(16, 2.0), hf_inner::LevelSpacing::area, 3), hf_inner::Error);
   EXPECT_THROW(space(s, std::vector<double>(16, std::nan("")), hf_inner::LevelSpacing::value, 3), hf_inner::Error);
+}
+
+TEST(Isolines, PointsLieOnTheirEdgesInTheUnitOfTheMesh) {
+  const Surface surface(hf_test::grid(4, 4, 3.0));
+  const hf_inner::Mesh& mesh = surface.core->mesh;
+  const std::int32_t a = mesh.inner_of_given[1], b = mesh.inner_of_given[2];
+  for (const double t : {0.0, 0.25, 1.0}) {
+    const hf_inner::Vec3 p = hf_inner::position_of(mesh, {a, b, t});
+    EXPECT_NEAR(p.x, 3 + 3 * t, 1e-12);
+    EXPECT_NEAR(p.y, 0, 1e-12);
+  }
+}
+
+TEST(Certificate, ToleranceIsTheOneAskedForOrTheEngines) {
+  using hf_inner::certificate_tolerance;
+  using hf_inner::EngineKind;
+  EXPECT_EQ(certificate_tolerance(0.25, EngineKind::updown), 0.25);
+  EXPECT_EQ(certificate_tolerance(0, EngineKind::green), 1e-8);
+  EXPECT_EQ(certificate_tolerance(0, EngineKind::updown), 1e-5);
+  for (const double bad : {-1.0, HUGE_VAL, std::nan("")})
+    EXPECT_THROW(certificate_tolerance(bad, EngineKind::green), hf_inner::Error);
 }
 
 }  // namespace
