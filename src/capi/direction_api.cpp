@@ -12,7 +12,7 @@
 namespace hf_inner::capi {
 namespace {
 
-constexpr std::uint32_t default_site_limit = 100000;  // bounds the memory of a runaway host
+constexpr std::uint32_t default_constraint_limit = 100000;  // bounds the memory of a runaway host
 
 struct DirectionObject final : Object {
   static constexpr Kind kind_of = Kind::direction;
@@ -84,7 +84,7 @@ hf_result hf_direction_create(hf_surface surface, const hf_direction_desc* given
       return with_progress(desc.progress, [&](Progress* progress) {
         report(progress, 0);
         auto made = make_owner_in<DirectionObject>(core->memory, core, desc.degree ? desc.degree : 1u,
-                                                   desc.site_limit ? desc.site_limit : default_site_limit);
+                                                   desc.site_limit ? desc.site_limit : default_constraint_limit);
         report(progress, 1);
         return made;
       });
