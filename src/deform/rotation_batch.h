@@ -1,8 +1,8 @@
 // argmax tr(R' S) for eight matrices at once: the local steps of poses and of the full-mesh refinement.
 //
 // The lanes take the Newton steps of best_rotation_from() (rotation.h) and do not depend on each other. So a lane gives
-// the same bits beside any neighbours and on every machine. By hand, not Eigen's: one matrix at a time costs 117 ns
-// for 25.
+// the same bits beside any neighbours and on every machine. By hand, not with Eigen: eight
+// lanes take 25 ns a matrix, one matrix at a time takes 117 ns.
 //
 // Cost: about 40 ns a matrix on 256-bit lanes when it starts nearby. Allocates nothing, cannot fail.
 #pragma once

@@ -59,7 +59,7 @@ struct Sample {
   double weight;
 };
 
-// Where the blocks of L go: rows are the free clusters.
+// Places of the blocks of the system matrix: one block row per free cluster.
 struct Blocks {
   double *lower, *coupling;
   std::size_t handles, free;

@@ -6,7 +6,8 @@
 // nothing is left behind.
 //
 // Relaxation: a child c joins its parent f when the zeros it adds, nc_c (nc_f + m_f - m_c), are at most tau + m_c / 2.
-// That is the cost of one more supernode with its own row list. Children are tried in the order of those zeros.
+// That is the cost of one more supernode with its own row list. Merging tries the children that add the fewest zeros
+// first.
 #pragma once
 #include <cstdint>
 

@@ -10,8 +10,8 @@ namespace hf_inner {
 namespace {
 
 constexpr double pi = 3.141592653589793238462643383279502884;
-// A fan whose angles sum to less has no direction that rounding leaves (1e-9 of a radian is 1e-7 of its digits), nor
-// has a sum of directions shorter than this. Larger: more vertices count as irregular.
+// A fan whose angles sum to less (radians) is all rounding and has no direction. Neither has a sum of unit directions
+// that is shorter than this. Larger: more vertices count as irregular.
 constexpr double least_angle = 1e-9, least_sum = 1e-9;
 // Normals this close to opposite have no smallest rotation between them: 1 + cosine is rounding.
 constexpr double opposite = 1e-12;

@@ -199,7 +199,7 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
       block_around(mesh, fans, collapse.face, blocked);
     }
     if (taken.empty()) break;
-    // collapses that cause a miss are left out until none does
+    // a collapse that takes the mesh too far from the surface is taken back, until no collapse does
     for (int tries = 0; tries < collapse_tries && !taken.empty(); ++tries) {
       QuadMesh trial = mesh;
       collapse_quads(surface, trial, taken, moving, memory);

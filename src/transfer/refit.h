@@ -25,7 +25,8 @@ class Refit {
       : start_(&memory), other_(&memory), weight_(&memory), point_(&memory), spread_(&memory), centroid_(&memory) {}
   void prepare(const Mesh& target, Span<const double> area, const Clusters& clusters, Memory& memory);
 
-  // One round. given: rotations from the source; rotations, matrices: present ones, overwritten.
+  // One round of rotations. given: those from the source. rotations: the present ones, replaced. matrices: the present
+  // ones as matrices.
   void turn(const Quaternion* given, const Vec3* shifts, Quaternion* rotations, const Mat3* matrices) const noexcept;
 
  private:
