@@ -85,8 +85,8 @@ class ConstraintSystem {
   //
   // z <- P u without the constants, freed values included; count numbers an unknown in the factor's order.
   void sweep(const double* values, Index channels, Index first, Index count, Answer& answer, double* z) const;
-  // The mean site value of every component and channel, which a solve subtracts first so that a large common offset costs
-  // no digits. Zero where constants are not in the kernel of K (direction fields).
+  // The mean site value of every component and channel. A solve subtracts it first, so that a large common offset costs
+  // no digits. It is zero where constants are not in the kernel of K (direction fields).
   void find_centres(const double* values, Index channels, Index first, Index count, Answer& answer) const;
   // The answer of the dense system; centres come first. z: g of the eliminated sites; null without a base.
   void solve_dense(const double* values, Index channels, Index first, Index count, const double* z,
