@@ -1,8 +1,7 @@
-/* hf/analysis.h - iso-lines, critical points, geodesic distance and the tips of a shape.
+/* hf/analysis.h - trace iso-lines, find critical points, measure geodesic distances, find the tips of a shape.
  *
- * Iso-lines, levels and critical points take any field over the vertices of a surface. Distances and tips use the
- * harmonic factor of the surface.
- */
+ * Iso-lines, levels and critical points work on any field with one value per vertex. Distances and tips use the
+ * harmonic factor of the surface. */
 #ifndef HF_ANALYSIS_H
 #define HF_ANALYSIS_H
 
@@ -12,9 +11,9 @@
 extern "C" {
 #endif
 
-/* A field with one value per vertex as given. Set values or values_f64. NaN marks a vertex without a value: the triangles
- * and edges at it are left out. Infinity is refused. The value of the first welded copy counts; vertices in no usable
- * triangle are ignored. */
+/* A field with one value per vertex of your mesh. Set either values or values_f64. NaN marks a vertex without a value:
+ * functions leave out the triangles and edges at that vertex. They refuse infinity. Where vertices were welded, the
+ * value of the first copy counts. Functions ignore vertices that lie in no usable triangle. */
 typedef struct hf_scalars {
   uint32_t struct_size;
   uint32_t value_stride;    /* bytes between vertices; 0 = packed */
@@ -24,24 +23,31 @@ typedef struct hf_scalars {
 
 /* ---- levels and iso-lines ---- */
 
-/* How N levels divide a field into N + 1 strips. */
+/* How the level_count levels divide a field into strips. N levels give N + 1 strips. */
 enum {
   HF_LEVELS_VALUE = 0, /* equal steps of the value */
   HF_LEVELS_AREA = 1,  /* equal areas: the strips cover the same area each */
   HF_LEVELS_LENGTH = 2 /* equal mean widths: the width of a strip is its area over the mean length of its lines */
 };
 
-/* Writes level_count levels (1 to 1,000,000), ascending. A(c) is the area where the field is below c, L(c) the length of
- * the line of level c, both exact for the piecewise linear field. AREA takes equal steps of A. LENGTH takes equal steps of
- * the integral of A'(c) / L(c) dc: on a cylinder of the height, on a sphere of the distance from the pole. So rings around
- * point sites are evenly spaced where equal values crowd. LENGTH leaves out where the field is flat to 1e-9 of its range.
+/* Writes level_count levels (1 to 1,000,000), ascending. HF_LEVELS_AREA makes all strips between two levels equal in
+ * area. HF_LEVELS_LENGTH makes the mean widths of the strips equal. So rings around point sites are evenly spaced,
+ * where equal steps of the value would crowd them. HF_LEVELS_LENGTH leaves out the parts where the field is flat to
+ * 1e-9 of its range.
+ *
+ * In formulas, A(c) is the area where the field is below c, and L(c) is the length of the iso-line of level c. Both are
+ * exact for the piecewise linear field. HF_LEVELS_AREA takes equal steps of A. HF_LEVELS_LENGTH takes equal steps of
+ * the integral of A'(c) / L(c) dc. That integral is the height on a cylinder and the distance from the pole on a
+ * sphere.
+ *
  * Errors: HF_ERROR_INVALID_ARGUMENT (spacing, level_count, a constant field), HF_ERROR_NON_FINITE (index = vertex),
  * HF_ERROR_EMPTY (no triangle has three values). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_space_levels(hf_surface surface, const hf_scalars* field, int32_t spacing,
                                          uint32_t level_count, double* out_levels);
 
-/* Iso-lines as polylines. A point lies on an edge of the mesh, at (1 - parameter) a + parameter b, so that anything
- * stored at vertices can be interpolated there. Arrays are yours, NULL or as large as the capacities. */
+/* Iso-lines as polylines. Each point lies on a mesh edge with the end vertices a and b, at the position (1 - parameter)
+ * a + parameter b. So you can interpolate any vertex attribute at the point. The arrays are yours: each is NULL or as
+ * large as its capacity. */
 typedef struct hf_isolines {
   uint32_t struct_size;
   uint32_t point_capacity; /* in: points the arrays can take */
@@ -57,10 +63,11 @@ typedef struct hf_isolines {
   int32_t* line_closed;    /* [line_capacity] 1: closed, the first point is not repeated; 0: ends at borders */
 } hf_isolines;
 
-/* Traces the lines of level_count levels: finite, in any order; lines come in the order of the list. A vertex at a level
- * counts as just above it, so lines have no gaps. They close, or end at a border, at a triangle without values, or at a
- * non-manifold edge (whose triangles are taken in pairs). Lines without extent are left out. Higher values lie on the left
- * of a line, seen from outside, where the mesh is consistently oriented. Cost: O(edges log levels + points). Errors:
+/* Traces the iso-lines of level_count levels. The levels must be finite and can have any order; the lines come in the
+ * order of the levels. A vertex whose value equals a level counts as just above it, so lines have no gaps. A line
+ * either closes or ends. It ends at a border, at a triangle without values or at a non-manifold edge. At a non-manifold
+ * edge the triangles are taken in pairs. The function leaves out lines of length zero. Seen from outside a consistently
+ * oriented mesh, the field is higher on the left of a line. Cost: O(edges log levels + points). Errors:
  * HF_ERROR_NON_FINITE (index = vertex, or position in levels), HF_ERROR_TOO_LARGE (2^32 points). Thread safety: reads
  * `surface`. Since 0.1. */
 HF_API hf_result hf_surface_trace_isolines(hf_surface surface, const hf_scalars* field, uint32_t level_count,
@@ -89,18 +96,19 @@ typedef struct hf_critical_info {
   uint32_t reserved;            /* 0 */
 } hf_critical_info;
 
-/* Lists the critical points of the piecewise linear field, by the signs around each vertex (Banchoff 1970): index =
- * 1 - chi(part of the ring below the vertex). The vertex number breaks ties, so a flat area has critical points of its
- * own. Indices sum to the Euler characteristic on every component. On a mesh that is not Delaunay a harmonic field can
- * seem to have an extremum off its sites, because its operator has other edges (HF_OPERATOR_CLAMPED has the mesh's own).
- * out_points: NULL, or room for `capacity` points, ordered by welded vertex. out_info: NULL, or the counts. Errors:
- * HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
+/* Lists the minima, maxima and saddles of the piecewise linear field. The signs of the field around each vertex decide
+ * (Banchoff 1970): the index of a vertex is 1 minus the Euler characteristic of the part of its ring with lower values.
+ * The vertex number breaks ties, so a flat area has critical points too. The indices sum to the Euler characteristic on
+ * every component. On a mesh that is not Delaunay a harmonic field can show an extremum away from its sites, because
+ * the default operator uses other edges than the mesh. HF_OPERATOR_CLAMPED uses the edges of the mesh and avoids this.
+ * out_points: NULL, or room for `capacity` points, ordered by welded vertex. out_info: NULL, or receives the counts.
+ * Errors: HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_find_critical_points(hf_surface surface, const hf_scalars* field, uint32_t capacity,
                                                  hf_critical_point* out_points, hf_critical_info* out_info);
 
 /* ---- geodesic distance ---- */
 
-/* Distances along a surface, with a second factor. */
+/* Computes geodesic distances on one surface. The object holds a factor of its own beside the surface's. */
 typedef struct hf_geodesics_object* hf_geodesics;
 
 typedef struct hf_geodesics_desc {
@@ -109,41 +117,43 @@ typedef struct hf_geodesics_desc {
   hf_progress progress; /* NULL, or an object to poll and cancel through */
 } hf_geodesics_desc;
 
-/* Makes the second factor of the heat method (Crane, Weischedel and Wardetzky 2013): one numeric factorisation. desc: NULL
- * for defaults. Sets *out_geodesics to NULL first. Errors: HF_ERROR_INVALID_ARGUMENT (smoothing),
- * HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
+/* Creates the object and makes its factor, the second factor of the heat method (Crane, Weischedel and Wardetzky 2013).
+ * This costs one numeric factorisation. desc: NULL for defaults. Sets *out_geodesics to NULL first. Errors:
+ * HF_ERROR_INVALID_ARGUMENT (smoothing), HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_CANCELLED. Thread safety: reads
+ * `surface`. Since 0.1. */
 HF_API hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* desc, hf_geodesics* out_geodesics);
 
-/* Destroys it. Ignores NULL and destroyed handles. Since 0.1. */
+/* Destroys the object. Ignores NULL and destroyed handles. Since 0.1. */
 HF_API void hf_geodesics_destroy(hf_geodesics geodesics);
 
-/* Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh:
- * float[vertex_count], value_stride bytes apart (0 = packed). It is 0 at the sources, -1 where no source can be reached.
- * sources: uint32_t[source_count] vertices as given; repeats are allowed. The error falls with the edge length; corners,
- * and places where two shortest paths meet, are rounded off. Cost: two solves. Errors: HF_ERROR_OUT_OF_RANGE,
- * HF_ERROR_INVALID_ARGUMENT (isolated vertex), HF_ERROR_TOO_LARGE (more sources than vertices). Thread safety: reads
- * `geodesics`. Since 0.1. */
+/* Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
+ * out_distances: float[vertex_count], value_stride bytes apart (0 = packed). The distance is 0 at the sources, and -1
+ * at vertices that no source can reach. sources: uint32_t[source_count] vertices of your mesh; repeats are allowed. The
+ * error falls with the edge length. The distance is rounded off at corners and where two shortest paths meet. Cost: two
+ * solves. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (isolated vertex), HF_ERROR_TOO_LARGE (more sources
+ * than vertices). Thread safety: reads `geodesics`. Since 0.1. */
 HF_API hf_result hf_geodesics_solve(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources,
                                     float* out_distances, uint32_t value_stride);
 
-/* The same in double. Thread safety: reads `geodesics`. Since 0.1. */
+/* Does the same as hf_geodesics_solve, in double. Thread safety: reads `geodesics`. Since 0.1. */
 HF_API hf_result hf_geodesics_solve_f64(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources,
                                         double* out_distances, uint32_t value_stride);
 
 /* ---- extremities ---- */
 
-/* How tips are found: the peaks of a field that rises towards what protrudes. */
+/* How hf_surface_find_extremities finds tips. Both kinds take the peaks of a field that rises towards protruding parts.
+ */
 enum {
-  HF_EXTREMITIES_POISSON = 0, /* every point a source, a sink in the middle: one solve */
+  HF_EXTREMITIES_POISSON = 0, /* a field with a source at every vertex: one solve */
   HF_EXTREMITIES_GEODESIC = 1 /* mean geodesic distance to the rest of the component (Hilaga et al. 2001) */
 };
 
 typedef struct hf_extremities_desc {
   uint32_t struct_size;
   int32_t kind;           /* HF_EXTREMITIES_* */
-  float least_length;     /* leave out what protrudes less, as a share of the box diagonal; 0 = 0.05; up to 10 */
+  float least_length;     /* tips that protrude less are left out: share of the box diagonal; 0 = 0.05; up to 10 */
   uint32_t source_count;  /* sources of the mean distance per component, 1 to 1,000; 0 = 40 */
-  hf_geodesics geodesics; /* for HF_EXTREMITIES_GEODESIC: one made of this surface, or NULL to make one */
+  hf_geodesics geodesics; /* for HF_EXTREMITIES_GEODESIC: an object made of this surface, or NULL to make one */
   hf_progress progress;   /* NULL, or an object to poll and cancel through */
   double* out_field; /* NULL, or [vertex_count], packed: the field whose peaks are proposed, 0 at isolated vertices.
                         Unit: length^2 (Poisson), length (geodesic), each up to a constant per component */
@@ -152,16 +162,17 @@ typedef struct hf_extremities_desc {
 typedef struct hf_extremity {
   uint32_t vertex;    /* as given, of welded copies the first */
   uint32_t component; /* as hf_surface_get_components */
-  double length;      /* how far it protrudes, in the unit of the mesh, from the persistence p of the peak: sqrt(2 p) for
-                         Poisson, p for geodesic */
+  double length;      /* how far the tip protrudes, in the unit of the mesh. With p the persistence of the peak of the
+                         field: sqrt(2 p) for POISSON, p for GEODESIC */
   double position[3];
 } hf_extremity;
 
-/* Proposes the tips of the surface as places for sites and handles, the longest first. The list does not depend on the
- * order of the vertices, nor on pose or meshing, up to the resolution. desc: NULL for defaults. out_extremities: NULL, or
- * room for `capacity`. out_count: NULL, or receives their number. A component no larger than least_length has none. Cost:
- * Poisson one solve and a few passes over the mesh; geodesic two solves per eight sources, and a numeric factorisation
- * without desc->geodesics. Errors: HF_ERROR_INVALID_ARGUMENT (kind, counts, geodesics of another surface),
+/* Proposes the tips of the surface as places for sites and handles, the longest tip first. The list does not depend on
+ * the order of the vertices. Pose and meshing change it only within the resolution of the mesh. desc: NULL for
+ * defaults. out_extremities: NULL, or room for `capacity`. out_count: NULL, or receives the number of tips. A component
+ * that is no larger than least_length has no tips. Cost: HF_EXTREMITIES_POISSON takes one solve and a few passes over
+ * the mesh. HF_EXTREMITIES_GEODESIC takes two solves per eight sources, and one numeric factorisation if
+ * desc->geodesics is NULL. Errors: HF_ERROR_INVALID_ARGUMENT (kind, counts, geodesics of another surface),
  * HF_ERROR_CANCELLED. Thread safety: reads `surface` and desc->geodesics. Since 0.1. */
 HF_API hf_result hf_surface_find_extremities(hf_surface surface, const hf_extremities_desc* desc, uint32_t capacity,
                                              hf_extremity* out_extremities, uint32_t* out_count);

@@ -2,25 +2,27 @@
  *
  * Rules for every function of hf:
  * - It returns an hf_result: HF_OK (0) or a negative code. Functions that cannot fail return their value.
- * - It borrows its inputs for the call. It writes outputs to memory of the caller, and hands out nothing to be freed.
- * - A failed call changes nothing. A batch is done whole or not at all.
+ * - It uses your input arrays only during the call. It writes outputs to your memory, so you never free memory of the
+ *   library.
+ * - A failed call changes nothing. A call with a batch of edits does all of them or none.
  * - Structs start with struct_size. HF_INIT(type) is a struct of defaults: every field but the size is zero.
- * - Arrays out: you pass a capacity and read a count. The count is also written with HF_ERROR_TOO_SMALL. Pass NULL
- *   arrays to ask for the count alone; that succeeds.
+ * - Output arrays: you pass a capacity and read a count. A call that fails with HF_ERROR_TOO_SMALL writes the count
+ *   too. To ask for the count alone, pass NULL arrays; such a call succeeds.
  * - Flags are int32_t: 0 is no, 1 is yes.
- * - Different handles can be used from different threads at once. Functions that "read" one handle can run on it at the
- *   same time. A call that overlaps a "change" of the same handle returns HF_ERROR_BUSY.
+ * - Threads can use different handles at once. Functions that "read" a handle can run on that handle at the same time.
+ *   A call on a handle that another thread is just changing returns HF_ERROR_BUSY.
  *
- * Codes that every function with such an argument can return are not repeated at the functions:
+ * Some error codes are not repeated at each function. Every function with such an argument can return them:
  * HF_ERROR_INVALID_HANDLE, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_BUSY, HF_ERROR_REENTRANT,
  * HF_ERROR_OUT_OF_MEMORY, HF_ERROR_TOO_SMALL (a stride below the size of a row, a capacity below the count),
- * HF_ERROR_EMPTY (a list of no entries). `index` of the error detail is the position in the list, if not said otherwise.
+ * HF_ERROR_EMPTY (a list of no entries). The `index` of the error detail is the position in the list, unless the
+ * function says otherwise.
  *
- * The library prints nothing and keeps no global state but its handle table. It starts only the threads you grant. It
- * leaves the floating-point environment, locale, signals and rand() of the host as they were.
- * - fork: a child can use the handles it inherited, if no other thread was inside a call. Library threads stay with the
- *   parent; calls of the child work without them.
- * - Unloading: when all handles are destroyed the library holds no memory, no thread and no hook, and can be unloaded.
+ * The library prints nothing and keeps no global state but its handle table. It starts no more threads than
+ * thread_count allows. It leaves the floating-point environment, locale, signals and rand() of the host as they were.
+ * - fork: a child process can use the handles it inherited if no other thread was inside a call. The library's threads
+ *   exist in the parent only; calls of the child work without them.
+ * - Unloading: you can unload the library when all handles are destroyed. It then holds no memory, thread or callback.
  */
 #ifndef HF_BASE_H
 #define HF_BASE_H
@@ -46,12 +48,13 @@
 extern "C" {
 #endif
 
-/* Version of these headers; hf_version_get answers that of the loaded library. */
+/* Version of these headers. hf_version_get returns the version of the loaded library. */
 #define HF_VERSION_MAJOR 0
 #define HF_VERSION_MINOR 1
 #define HF_VERSION_PATCH 0
 
-/* Result of a call. Blocks: 1..99 arguments and state, 100..199 resources, 200..299 numerical, 300.. internal. */
+/* Result of a call. The codes -1 to -99 report arguments and state, -100 to -199 resources, -200 to -299 numerical
+ * failures, and codes from -300 down internal faults. */
 typedef int32_t hf_result;
 enum {
   HF_OK = 0,
@@ -89,13 +92,13 @@ enum {
 #define HF_NO_INDEX 0xFFFFFFFFu
 #define HF_MESSAGE_SIZE 256
 
-/* A struct of defaults: hf_surface_desc desc = HF_INIT(hf_surface_desc); */
+/* HF_INIT makes a struct of defaults: hf_surface_desc desc = HF_INIT(hf_surface_desc); */
 #ifdef __cplusplus
-#define HF_INIT(type)                                        \
-  ([] {                                                      \
-    type hf_made{};                                          \
+#define HF_INIT(type)                                          \
+  ([] {                                                        \
+    type hf_made{};                                            \
     hf_made.struct_size = static_cast<uint32_t>(sizeof(type)); \
-    return hf_made;                                          \
+    return hf_made;                                            \
   }())
 #else
 #define HF_INIT(type) ((type){.struct_size = (uint32_t)sizeof(type)})
@@ -104,55 +107,58 @@ enum {
 /* Details of the last failed call on this thread. */
 typedef struct hf_error_detail {
   hf_result code;
-  uint32_t index;    /* vertex, triangle, site, handle or position in a list; HF_NO_INDEX for none */
-  char function[48]; /* the public function that failed */
+  uint32_t index;                /* vertex, triangle, site, handle or position in a list; HF_NO_INDEX for none */
+  char function[48];             /* the public function that failed */
   char message[HF_MESSAGE_SIZE]; /* one line: what is wrong and what to do; UTF-8, zero-terminated */
 } hf_error_detail;
 
-/* Copies the detail of the last failed call of this thread; all zero before the first failure. A successful call leaves
- * it as it was. The detail lies in memory of its own, so it also reports that memory ran out. Thread safety: any
- * thread. Since 0.1. */
+/* Copies the detail of the last failed call of this thread. It is all zero before the first failure, and successful
+ * calls do not change it. The library never allocates memory for the detail, so it can also report that memory ran out.
+ * Thread safety: any thread. Since 0.1. */
 HF_API hf_result hf_error_get_detail(hf_error_detail* out_detail);
 
-/* A constant English name of a code, such as "HF_ERROR_BUSY"; "unknown" for others. Never NULL. Thread safety: any
- * thread. Since 0.1. */
+/* Returns the constant English name of a code, such as "HF_ERROR_BUSY", or "unknown" for a number that is no code.
+ * Never returns NULL. Thread safety: any thread. Since 0.1. */
 HF_API const char* hf_result_get_name(hf_result result);
 
-/* Version of the loaded library: major * 1000000 + minor * 1000 + patch. Thread safety: any thread. Since 0.1. */
+/* Returns the version of the loaded library: major * 1000000 + minor * 1000 + patch. Thread safety: any thread. Since
+ * 0.1. */
 HF_API uint32_t hf_version_get(void);
 
-/* Your allocator, for a surface and everything made from it. Set both functions, or neither (then malloc).
- * allocate returns `size` bytes aligned to `alignment`, or NULL to refuse. `alignment` is a power of two; `size` need
- * not be a multiple of it. release takes back a block with the same size and alignment, and must not throw.
- * Both are called from the thread of the call, and from worker threads if the desc grants any. A C++ exception out of
- * allocate ends the call with HF_ERROR_INTERNAL (std::bad_alloc: HF_ERROR_OUT_OF_MEMORY); the object is as before. */
+/* Your allocator, which serves a surface and everything made from it. Set both functions, or neither; then the library
+ * uses malloc. allocate returns `size` bytes aligned to `alignment`, or NULL to refuse. `alignment` is a power of two;
+ * `size` need not be a multiple of it. release gets a block back with the size and alignment it was allocated with, and
+ * must not throw. The library calls both from the thread of the API call, and from worker threads if thread_count
+ * allows any. If allocate throws a C++ exception, the API call returns HF_ERROR_INTERNAL, or HF_ERROR_OUT_OF_MEMORY for
+ * std::bad_alloc. The object is then as before. */
 typedef struct hf_allocator {
   void* (*allocate)(void* user, size_t size, size_t alignment);
   void (*release)(void* user, void* block, size_t size, size_t alignment);
   void* user;
 } hf_allocator;
 
-/* Your job system. run calls job(job_data, i) for i = 0 .. count - 1, on any threads, in any order, and returns when all
- * have returned. Leave run NULL and the library makes thread_count - 1 threads of its own. The library does the jobs
- * that run leaves out, and does a repeated job once. A C++ exception may leave run after all started jobs have returned;
- * the call then ends with HF_ERROR_INTERNAL. */
+/* Your job system. run must call job(job_data, i) for i = 0 .. count - 1, on any threads and in any order. It returns
+ * when all these calls have returned. If run is NULL, the library makes thread_count - 1 threads of its own. The
+ * library itself does the jobs that run leaves out, and does a repeated job only once. run may throw a C++ exception
+ * after all started jobs have returned; the API call then returns HF_ERROR_INTERNAL. */
 typedef struct hf_job_runner {
   void (*run)(void* user, uint32_t count, void (*job)(void* job_data, uint32_t index), void* job_data);
   void* user;
 } hf_job_runner;
 
-/* Progress of a long call. Any thread can poll and cancel it. Use one object for one call at a time. */
+/* Reports the progress of a long call. Any thread can poll the object and cancel the call through it. Use one object
+ * for one call at a time. */
 typedef struct hf_progress_object* hf_progress;
 
 /* Creates a progress object. Sets *out_progress to NULL first. Thread safety: any thread. Since 0.1. */
 HF_API hf_result hf_progress_create(hf_progress* out_progress);
-/* Destroys it. Ignores NULL and destroyed handles. A call that still uses it keeps it alive. Thread safety: any thread.
- * Since 0.1. */
+/* Destroys a progress object. Ignores NULL and destroyed handles. The object stays valid for a call that still uses it.
+ * Thread safety: any thread. Since 0.1. */
 HF_API void hf_progress_destroy(hf_progress progress);
-/* Writes the fraction done of the running call, 0 to 1. Thread safety: any thread. Since 0.1. */
+/* Writes how much of the running call is done, 0 to 1. Thread safety: any thread. Since 0.1. */
 HF_API hf_result hf_progress_get_fraction(hf_progress progress, float* out_fraction);
-/* Stops the running call, or the next one given this object, with HF_ERROR_CANCELLED. Thread safety: any thread.
- * Since 0.1. */
+/* Stops the call that uses this object, or the next one that does. That call returns HF_ERROR_CANCELLED. Thread safety:
+ * any thread. Since 0.1. */
 HF_API hf_result hf_progress_cancel(hf_progress progress);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* hf/hf.h - dynamic harmonic fields for games and DCC tools: everything. See base.h for the rules of all functions. */
+/* hf/hf.h - include this to get all of hf: dynamic harmonic fields. hf/base.h has the rules of all functions. */
 #ifndef HF_HF_H
 #define HF_HF_H
 

@@ -1,6 +1,6 @@
-// hf/hf.hpp - C++17 over hf.h: handles that destroy themselves, failures as exceptions, vectors for arrays.
+// hf/hf.hpp - C++17 wrapper of hf.h: handles destroy themselves, failures are exceptions, arrays are vectors.
 //
-// Header only. Every function forwards to the C function of the same name; nothing else happens here.
+// It is header only. Every function only forwards to the C function of the same name.
 //
 //   hf::Surface surface(positions, triangles);
 //   hf::Solver solver(surface);
@@ -19,7 +19,7 @@
 
 namespace hf {
 
-// What a failing call reported. what() is "function: message (HF_ERROR_...)".
+// Thrown when a call of hf fails. what() returns "function: message (HF_ERROR_...)".
 class Error : public std::runtime_error {
  public:
   explicit Error(const hf_error_detail& detail)
@@ -42,7 +42,7 @@ inline void check(hf_result result) {
   throw Error(detail);
 }
 
-// A struct of defaults.
+// Makes a struct of defaults: every field is zero except struct_size.
 template <class Desc>
 Desc make() {
   Desc desc = Desc();
@@ -50,7 +50,7 @@ Desc make() {
   return desc;
 }
 
-// Owns one handle; moves, never copies.
+// Owns one handle. It can be moved but not copied.
 template <class Raw, void (*destroy)(Raw)>
 class Handle {
  public:
@@ -93,7 +93,7 @@ class Progress {
   Handle<hf_progress, hf_progress_destroy> handle_;
 };
 
-// The mesh, welded and factorised once. Everything below is made on it, and may outlive it.
+// The mesh, welded and factorised once. All classes below are made on a surface; their objects may outlive it.
 class Surface {
  public:
   explicit Surface(const hf_surface_desc& desc) : vertices_(desc.vertex_count) {
@@ -101,7 +101,7 @@ class Surface {
     check(hf_surface_create(&desc, &raw));
     handle_ = Handle<hf_surface, hf_surface_destroy>(raw);
   }
-  // xyz per vertex, three vertices per triangle.
+  // positions: x, y, z of each vertex. triangles: three vertices each.
   Surface(const std::vector<float>& positions, const std::vector<uint32_t>& triangles)
       : Surface(mesh(positions, triangles)) {}
 
@@ -127,7 +127,7 @@ class Surface {
     check(hf_surface_get_components(get(), vertices_, components.data(), nullptr));
     return components;
   }
-  // The bytes of a factor; hand them to hf_surface_create through hf_surface_desc::saved_factor.
+  // Returns the factor as bytes. Pass them to hf_surface_create in hf_surface_desc::saved_factor.
   std::vector<uint8_t> save(int32_t field_kind = HF_FIELD_HARMONIC) const {
     size_t size = 0;
     check(hf_surface_save(get(), field_kind, 0, nullptr, &size));
@@ -135,7 +135,7 @@ class Surface {
     check(hf_surface_save(get(), field_kind, size, bytes.data(), &size));
     return bytes;
   }
-  // The first triangle on a ray; desc: null for the rest positions.
+  // Finds the first triangle on a ray. desc: null for the rest positions.
   hf_hit cast_ray(const double (&origin)[3], const double (&direction)[3], const hf_pick_desc* desc = nullptr) const {
     auto hit = make<hf_hit>();
     check(hf_surface_cast_ray(get(), origin, direction, desc, &hit));
@@ -161,7 +161,7 @@ class Surface {
   uint32_t vertices_ = 0;
 };
 
-// Sites on a surface, and their field.
+// A set of sites on a surface. It solves the field through them.
 class Solver {
  public:
   explicit Solver(const Surface& surface, uint32_t channel_count = 1) : Solver(surface, channels(channel_count)) {}
@@ -179,7 +179,7 @@ class Solver {
     return Solver(raw, channels_, vertices_);
   }
 
-  // Hard sites at vertices; values: channel_count per site. Returns their numbers.
+  // Adds hard sites at vertices. values: channel_count per site. Returns the numbers of the sites.
   std::vector<uint32_t> add_sites(const std::vector<uint32_t>& vertices, const std::vector<double>& values) {
     need(values.size(), vertices.size() * channels_, "values");
     auto desc = make<hf_sites_desc>();
@@ -191,7 +191,7 @@ class Solver {
     check(hf_add_sites(get(), &desc, numbers.data()));
     return numbers;
   }
-  // One hard site at a vertex, of the same value in every channel. Returns its number.
+  // Adds one hard site at a vertex, with the same value in every channel. Returns its number.
   uint32_t add_site(uint32_t vertex, double value = 0) {
     const std::vector<double> values(channels_, value);
     uint32_t number = HF_NO_INDEX;
@@ -233,16 +233,16 @@ class Solver {
     check(hf_solver_solve_at(get(), size(vertices), vertices.data(), values.data()));
     return values;
   }
-  // On a thread of the host's, beside edits and solves on others; see hf_solver_prepare_rebase.
+  // Call this on a thread of your own while other threads edit and solve; see hf_solver_prepare_rebase.
   void prepare_rebase() { check(hf_solver_prepare_rebase(get())); }
-  // Single precision, for previews; see hf_solver_solve_preview.
+  // Solves quickly in single precision; see hf_solver_solve_preview.
   std::vector<float> solve_preview(uint32_t correction_count = 0, hf_preview_info* info = nullptr) const {
     std::vector<float> field(size_t{vertices_} * channels_);
     check(hf_solver_solve_preview(get(), field.data(), 0, correction_count, info));
     return field;
   }
   void release_preview() { check(hf_solver_release_preview(get())); }
-  // Throws when the field is wrong by more than the tolerance (0 = the engine's own).
+  // Throws when the error of the field exceeds the tolerance. 0 means the default of the engine.
   hf_certificate certify(double tolerance = 0) const {
     auto certificate = make<hf_certificate>();
     certificate.tolerance = tolerance;
@@ -274,7 +274,7 @@ class Solver {
   uint32_t channels_ = 1, vertices_ = 0;
 };
 
-// A direction field; vectors are three numbers each.
+// A direction field on a surface. All vectors are three numbers each.
 class Direction {
  public:
   explicit Direction(const Surface& surface, uint32_t degree = 1) : vertices_(surface.vertex_count()) {
@@ -284,7 +284,7 @@ class Direction {
     check(hf_direction_create(surface.get(), &desc, &raw));
     handle_ = Handle<hf_direction, hf_direction_destroy>(raw);
   }
-  // Shares the factor; with the same constraints.
+  // Makes a copy with the same constraints. The copy shares the factor.
   Direction clone() const {
     hf_direction raw = nullptr;
     check(hf_direction_clone(get(), &raw));
@@ -335,7 +335,7 @@ class Direction {
   uint32_t vertices_ = 0;
 };
 
-// hf/analysis.h: what can be read from a field or from the shape alone. A field holds one value per vertex.
+// The functions of hf/analysis.h follow. A field holds one value per vertex.
 inline hf_scalars scalars(const Surface& surface, const std::vector<double>& field) {
   if (field.size() != surface.vertex_count())
     throw std::invalid_argument("field: one value for each vertex of the mesh is needed");
@@ -387,9 +387,9 @@ inline std::vector<hf_critical_point> find_critical_points(const Surface& surfac
   return points;
 }
 
-// The longest first. desc: null for the defaults.
+// Finds the tips of a shape, the longest tip first. desc: null for the defaults.
 inline std::vector<hf_extremity> find_extremities(const Surface& surface, const hf_extremities_desc* desc = nullptr) {
-  // room for as many as one search can propose in practice; a second search when that is not enough
+  // 256 tips are enough in practice; with more, the search runs a second time
   std::vector<hf_extremity> found(256);
   uint32_t count = 0;
   hf_result result =
@@ -423,7 +423,7 @@ class Geodesics {
   uint32_t vertices_ = 0;
 };
 
-// hf/quads.h: a quad mesh of a surface, read out whole.
+// A quad mesh (hf/quads.h) with all its arrays.
 struct QuadMesh {
   std::vector<double> positions, barycentrics;  // three numbers per vertex
   std::vector<uint32_t> triangles;              // by vertex, of the mesh as given
@@ -454,7 +454,7 @@ inline QuadMesh make_quads(const Surface& surface, const hf_quads_desc* desc = n
   return mesh;
 }
 
-// Flow lines of any field, traced again and again on one surface.
+// Flow lines of a field. One Flow can trace many fields on its surface.
 struct FlowLines {
   std::vector<double> positions, values;  // three numbers and one per point
   std::vector<uint32_t> line_starts, line_ends;
@@ -467,7 +467,8 @@ class Flow {
     handle_ = Handle<hf_flow, hf_flow_destroy>(raw);
   }
   hf_flow get() const noexcept { return handle_.get(); }
-  // wanted lines, or one through every seed. A second trace only when the arrays of the last one are too small.
+  // Traces `wanted` lines, or one line through every seed. It traces a second time only when the lines need more room
+  // than those of the last call.
   FlowLines trace(const Surface& surface, const std::vector<double>& field, uint32_t wanted,
                   const std::vector<uint32_t>& seeds = {}) {
     const hf_scalars values = scalars(surface, field);
@@ -497,11 +498,11 @@ class Flow {
   uint32_t points_ = 4096, lines_ = 64;
 };
 
-// hf/region.h: a region of a surface, its smooth base, and the morph between the two.
+// A region of a surface (hf/region.h), its smooth base, and the morph between surface and base.
 class Region {
  public:
-  // positions: what weight 0 gives back; empty: those of the mesh.
-  // field_kind: HF_FIELD_HARMONIC a membrane, the others thin plates.
+  // positions: the surface of weight 0, or empty for the positions of the mesh. field_kind: HF_FIELD_HARMONIC makes a
+  // membrane, the other kinds make thin plates.
   explicit Region(const Surface& surface, const std::vector<float>& positions = {},
                   int32_t field_kind = HF_FIELD_HARMONIC)
       : vertices_(surface.vertex_count()) {
@@ -521,7 +522,7 @@ class Region {
     return Region(raw, vertices_);
   }
   void edit(const hf_region_edit_desc& desc) { check(hf_region_edit(get(), &desc)); }
-  // What a closed curve through these vertices encloses.
+  // Makes the region what a closed curve through these vertices encloses.
   void enclose(const std::vector<uint32_t>& points, int32_t side = HF_SIDE_SMALLER, uint32_t seed_vertex = 0) {
     auto curve = make<hf_curve_desc>();
     curve.point_count = static_cast<uint32_t>(points.size()), curve.vertices = points.data();
@@ -530,7 +531,7 @@ class Region {
     desc.curve = &curve;
     edit(desc);
   }
-  // Rings of vertices more, or less when below 0.
+  // Grows the region by rings of vertices, or shrinks it if `rings` is negative.
   void grow(int32_t rings) {
     auto desc = make<hf_region_edit_desc>();
     desc.ring_count = rings;
@@ -562,7 +563,7 @@ class Region {
     check(hf_region_get_vertices(get(), list, count, found.data(), &count));
     return found;
   }
-  // out_normals: null, or what it points to gets the normals.
+  // out_normals: null, or a vector that receives the normals.
   std::vector<float> morph(double weight, std::vector<float>* out_normals = nullptr) const {
     return morphed(vertices_, weight, out_normals,
                    [&](const hf_morph_desc* desc) { return hf_region_morph(get(), desc); });
@@ -584,7 +585,7 @@ class Region {
   uint32_t vertices_ = 0;
 };
 
-// The detail of one region on another.
+// The detail of one region, carried to another region.
 class Detail {
  public:
   Detail(const Region& source, const Region& target, const hf_detail_desc* desc = nullptr)
@@ -617,7 +618,7 @@ class Pose {
     check(hf_pose_clone(get(), &raw));
     return Pose(raw, vertices_);
   }
-  // One region of vertices per handle.
+  // Adds one handle for each region of vertices.
   std::vector<uint32_t> add_handles(const std::vector<std::vector<uint32_t>>& regions, uint32_t layer = 0) {
     std::vector<uint32_t> counts, vertices, numbers(regions.size());
     for (const auto& region : regions) {
@@ -636,7 +637,8 @@ class Pose {
   void set_transform(uint32_t handle, const hf_transform& transform) {
     check(hf_pose_set_transform(get(), handle, &transform));
   }
-  // The vertex nearest to a point at rest, and what is edge-connected to it within a radius of the point.
+  // Adds a handle: the vertex nearest to a point at rest, and all vertices edge-connected to it within a radius of the
+  // point.
   uint32_t add_handle(const double (&point)[3], double radius, uint32_t layer = 0) {
     auto desc = make<hf_handles_desc>();
     desc.handle_count = 1, desc.points = point, desc.radii = &radius, desc.layer = layer;
@@ -644,7 +646,7 @@ class Pose {
     check(hf_pose_add_handles(get(), &desc, &number));
     return number;
   }
-  // Rest place to posed place, column by column.
+  // The matrix takes rest positions to posed positions; it is stored column by column.
   void set_matrix(uint32_t handle, const double (&matrix)[16]) {
     check(hf_pose_set_matrices(get(), 1, &handle, matrix));
   }
@@ -697,7 +699,7 @@ class Transfer {
     check(hf_transfer_get_info(get(), &out));
     return out;
   }
-  // One posed frame of the source, in its own vertex order.
+  // Poses the target after one posed frame of the source. The positions are in the source's vertex order.
   std::vector<float> apply(const std::vector<float>& source_positions) {
     if (source_positions.size() != size_t{source_vertices_} * 3)
       throw std::invalid_argument("source_positions: three numbers for each vertex of the source are needed");

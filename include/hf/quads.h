@@ -1,10 +1,10 @@
-/* hf/quads.h - quad meshes and flow lines.
+/* hf/quads.h - make quad meshes and trace flow lines of a field.
  *
- * Both rest on the exact discrete flux f_ij = w_ij (u_j - u_i) of a field with positive weights w: a flow on the edges,
- * balanced at every vertex that is not a site. A flow line is an edge with an offset in its flux. It passes a vertex by a
- * planar matching of what comes in to what goes out. So lines never cross, never merge, and rise all the way, on surfaces
- * of any genus. The weights are those of HF_OPERATOR_CLAMPED, whatever operator the surface has.
- */
+ * Both use the flux f_ij = w_ij (u_j - u_i) of a field u along the mesh edge ij. The weights w are positive: they are
+ * those of HF_OPERATOR_CLAMPED, whatever operator the surface has. At a vertex that is not a site, the flux that comes
+ * in equals the flux that goes out. A flow line runs along edges, at an offset inside the flux of each edge. At every
+ * vertex a planar matching connects the incoming flux to the outgoing flux. So flow lines never cross or merge, and
+ * their value always rises, on surfaces of any genus. */
 #ifndef HF_QUADS_H
 #define HF_QUADS_H
 
@@ -27,18 +27,18 @@ enum {
 typedef struct hf_quads_desc {
   uint32_t struct_size;
   int32_t kind;                  /* HF_QUADS_* */
-  float edge_length;             /* aimed at, in the unit of the mesh; 0 = 0.022 of the box diagonal */
+  float edge_length;             /* wanted length, in the unit of the mesh; 0 = 0.022 of the box diagonal */
   uint32_t site_count;           /* 0 = sites are proposed: tips, and points far from them */
   const uint32_t* site_vertices; /* [site_count] as given; where lines start or end. Borders are sites of their own */
   const int32_t* site_lines;     /* NULL = chosen, or [site_count]: how many lines end (> 0) or start (< 0) there. Every
                                     component needs both signs; numbers are made even, at least 4, and of equal sum */
   int32_t keep_polygons;         /* 1: polygons at sites and saddles stay whole; 0: all faces are split into quads */
-  uint32_t relax_count;          /* rounds of tangential relaxation, up to 1,000; 0 = 60; HF_NO_INDEX = none, and the mesh
-                                    stays as the lines make it */
-  hf_progress progress;          /* NULL, or an object to poll and cancel through */
+  uint32_t relax_count; /* rounds of tangential relaxation, up to 1,000; 0 = 60; HF_NO_INDEX = none, and the mesh
+                           stays as the lines make it */
+  hf_progress progress; /* NULL, or an object to poll and cancel through */
 } hf_quads_desc;
 
-/* What came out. */
+/* Counts of a quad mesh. */
 typedef struct hf_quads_info {
   uint32_t struct_size;
   uint32_t vertex_count;
@@ -50,45 +50,47 @@ typedef struct hf_quads_info {
   uint32_t site_count;          /* borders included */
   uint32_t saddle_count;        /* a saddle of k + 1 valleys counts k times */
   int32_t euler_characteristic; /* vertices - edges + faces, that of the usable surface */
-  float edge_length;            /* that was aimed at, in the unit of the mesh */
+  float edge_length;            /* wanted length, in the unit of the mesh */
   uint32_t reserved;            /* 0 */
 } hf_quads_info;
 
-/* Makes a quad mesh of a surface. Sources and sinks carry the same number of lines. A Neumann problem with these numbers
- * as fluxes gives the field. Rings of nodes stand on its level loops, edge_length apart, arc by arc of its Reeb graph; the
- * lines between them make the faces. Where mesh and surface are farther apart than 0.39 edge lengths, vertices snap to the
- * surface and quads are added; HF_QUADS_UNIFORM also collapses short edges. A quad starts at the corner whose diagonal
- * keeps nearer to the surface, so a renderer should draw fans from first corners. Every result is checked before it is
- * handed out: each directed edge once, no corner repeated in a face, the Euler characteristic of the surface.
+/* Makes a quad mesh of a surface. Lines run over the surface from sources to sinks, and as many start as end. A Neumann
+ * problem with the line numbers of the sites as fluxes gives the field. Rings of nodes follow its level loops,
+ * edge_length apart, one arc of the field's Reeb graph after the other. The lines between neighbouring rings make the
+ * faces. Where mesh and surface are farther apart than 0.39 edge lengths, the function snaps vertices to the surface
+ * and adds quads. HF_QUADS_UNIFORM also collapses short edges. Each quad starts at the corner whose diagonal keeps
+ * nearer to the surface, so a renderer should split quads into triangles from the first corner. The function checks
+ * every result: each directed edge occurs once, no face repeats a corner, and the Euler characteristic is that of the
+ * surface.
  *
- * Works on manifold surfaces with or without borders, of any genus, in several components; triangles that disagree in
- * orientation are turned. edge_length cannot coarsen below four nodes around a feature. If the flux of other sites would
- * cross a border, all sites of its component are held at one of two levels instead, and site_lines are the even numbers
- * nearest to the fluxes.
+ * The surface must be manifold. It may have borders, any genus and several components; the function turns triangles
+ * that disagree in orientation. The edge_length cannot coarsen the mesh below four nodes around a feature. Sites that
+ * you give may force flux across a border. Then the function holds all sites of that component at one of two levels
+ * instead, and site_lines are the even numbers nearest to the fluxes.
  *
- * Sets *out_quads to NULL first. Cost: a factorisation of the mesh and O(n log n + faces). Proposed sites: up to four
- * meshes, the best is kept; where none is within 0.43 edge lengths of the surface, up to four more with edges down to
- * edge_length / 1.3. Progress rises through factorisations, sites, critical points, relaxation and fitting; cancelled at
- * each of them.
- * Errors: HF_ERROR_INVALID_ARGUMENT (kind, edge_length, relax_count, lines of one sign or 0, an isolated vertex as site),
- * HF_ERROR_NON_FINITE (edge_length), HF_ERROR_OUT_OF_RANGE, HF_ERROR_DUPLICATE_SITE, HF_ERROR_UNSUPPORTED (non-manifold
- * edge or surface that cannot be oriented, index = a vertex; sites that no flux can separate), HF_ERROR_TOO_LARGE (more
- * than 400 sites and borders in a component, a million rings), HF_ERROR_CANCELLED, HF_ERROR_INTERNAL when the check
- * fails. Thread safety: reads `surface`. Since 0.1. */
+ * Sets *out_quads to NULL first. Cost: a factorisation of the mesh and O(n log n + faces). If the sites are proposed,
+ * the function makes up to four meshes and keeps the best. If none is within 0.43 edge lengths of the surface, it makes
+ * up to four more, with edges as short as edge_length / 1.3. Progress covers factorisations, sites, critical points,
+ * relaxation and fitting; each of these can be cancelled. Errors: HF_ERROR_INVALID_ARGUMENT (kind, edge_length,
+ * relax_count, lines of one sign or 0, an isolated vertex as site), HF_ERROR_NON_FINITE (edge_length),
+ * HF_ERROR_OUT_OF_RANGE, HF_ERROR_DUPLICATE_SITE, HF_ERROR_UNSUPPORTED (non-manifold edge or surface that cannot be
+ * oriented, index = a vertex; sites that no flux can separate), HF_ERROR_TOO_LARGE (more than 400 sites and borders in
+ * a component, a million rings), HF_ERROR_CANCELLED, HF_ERROR_INTERNAL when the check fails. Thread safety: reads
+ * `surface`. Since 0.1. */
 HF_API hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
 
-/* Destroys it. Ignores NULL and destroyed handles. Since 0.1. */
+/* Destroys a quad mesh. Ignores NULL and destroyed handles. Since 0.1. */
 HF_API void hf_quads_destroy(hf_quads quads);
 
 /* Writes the counts. Thread safety: reads `quads`. Since 0.1. */
 HF_API hf_result hf_quads_get_info(hf_quads quads, hf_quads_info* out_info);
 
-/* Arrays are yours, NULL or as large as the capacities. */
+/* The arrays of a quad mesh. They are yours: each is NULL or as large as its capacity. */
 typedef struct hf_quads_mesh {
   uint32_t struct_size;
   uint32_t vertex_capacity, face_capacity, corner_capacity, site_capacity; /* in */
   uint32_t vertex_count, face_count, corner_count, site_count;             /* out */
-  uint32_t reserved;       /* 0 */
+  uint32_t reserved;                                                       /* 0 */
   double* positions;       /* [vertex_capacity][3] in the unit and frame of the mesh as given */
   uint32_t* triangles;     /* [vertex_capacity] triangle as given that the vertex lies in */
   double* barycentrics;    /* [vertex_capacity][3] weights of that triangle's corners, in its own order, of sum 1 */
@@ -98,26 +100,27 @@ typedef struct hf_quads_mesh {
   int32_t* site_lines;     /* [site_capacity] lines that end (> 0) or start (< 0) there in kind pure */
 } hf_quads_mesh;
 
-/* Writes the arrays that are given. Thread safety: reads `quads`. Since 0.1. */
+/* Writes every array that is not NULL. Thread safety: reads `quads`. Since 0.1. */
 HF_API hf_result hf_quads_get_mesh(hf_quads quads, hf_quads_mesh* inout_mesh);
 
 /* ---- flow lines ---- */
 
-/* A surface prepared for tracing. */
+/* A surface that is prepared for tracing flow lines. */
 typedef struct hf_flow_object* hf_flow;
 
-/* Prepares a surface: half-edges and weights. Sets *out_flow to NULL first. Cost: O(n log n), no factorisation. Errors:
- * HF_ERROR_UNSUPPORTED (non-manifold edge or surface that cannot be oriented; index = a vertex). Thread safety: reads
- * `surface`. Since 0.1. */
+/* Prepares a surface for tracing: computes half-edges and weights. Sets *out_flow to NULL first. Cost: O(n log n), no
+ * factorisation. Errors: HF_ERROR_UNSUPPORTED (non-manifold edge or surface that cannot be oriented; index = a vertex).
+ * Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_flow_create(hf_surface surface, hf_flow* out_flow);
 
-/* Destroys it. Ignores NULL and destroyed handles. Since 0.1. */
+/* Destroys the object. Ignores NULL and destroyed handles. Since 0.1. */
 HF_API void hf_flow_destroy(hf_flow flow);
 
 typedef struct hf_flow_lines {
   uint32_t struct_size;
-  uint32_t wanted_count; /* in: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds */
-  uint32_t seed_count;   /* in: lines through chosen vertices instead; 0 = none */
+  uint32_t
+      wanted_count; /* in: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds */
+  uint32_t seed_count;                    /* in: lines through chosen vertices instead; 0 = none */
   uint32_t point_capacity, line_capacity; /* in */
   uint32_t point_count, line_count;       /* out */
   uint32_t reserved;                      /* 0 */
@@ -128,11 +131,11 @@ typedef struct hf_flow_lines {
   uint32_t* line_ends;   /* [line_capacity][2] vertices where it starts and ends, of welded copies the first */
 } hf_flow_lines;
 
-/* Traces flow lines of any field over the vertices: finite at every vertex in a triangle. For a harmonic field of the
- * clamped operator lines are as dense as the field is steep. hf_surface_trace_isolines gives the lines across them. Cost:
- * O(n log n), and O(degree) for every edge a line runs in: quick enough to follow a dragged site. Errors:
- * HF_ERROR_INVALID_ARGUMENT (wanted_count, isolated seed), HF_ERROR_OUT_OF_RANGE (seed), HF_ERROR_NON_FINITE (index =
- * vertex). Thread safety: reads `flow`. Since 0.1. */
+/* Traces flow lines of any field that is finite at every vertex in a triangle. For a harmonic field of
+ * HF_OPERATOR_CLAMPED the lines are denser where the field is steeper. hf_surface_trace_isolines gives the lines that
+ * cross the flow lines. Cost: O(n log n), and O(degree) for every edge that a line runs along. This is quick enough to
+ * redraw the lines while the user drags a site. Errors: HF_ERROR_INVALID_ARGUMENT (wanted_count, isolated seed),
+ * HF_ERROR_OUT_OF_RANGE (seed), HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads `flow`. Since 0.1. */
 HF_API hf_result hf_flow_trace(hf_flow flow, const hf_scalars* field, hf_flow_lines* inout_lines);
 
 #ifdef __cplusplus

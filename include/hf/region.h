@@ -1,10 +1,10 @@
 /* hf/region.h - smooth a region of the surface, morph its detail, carry the detail to another region.
  *
- * The smooth base of a region is the field of its three coordinates, with the surface around it as boundary values (Xu,
- * Zhang, Cohen-Or and Xiong 2009): a membrane (harmonic), or a thin plate that leaves its rim smoothly (bi-harmonic). It
- * has the connectivity of the surface, so a weight morphs between the two. Only the rim holds sites: a region grows and
- * shrinks without a factorisation. Detail is what the surface has more than the base.
- */
+ * The smooth base of a region is a surface of the same connectivity without the detail (Xu, Zhang, Cohen-Or and Xiong
+ * 2009). Each of its three coordinates is a field whose boundary values are the positions around the region. A harmonic
+ * base is a membrane. A bi-harmonic base is a thin plate, which leaves the surrounding surface smoothly. A weight
+ * morphs between surface and base. Only vertices around the region hold sites, so a region grows and shrinks without a
+ * factorisation. The detail is the difference between the surface and the base. */
 #ifndef HF_REGION_H
 #define HF_REGION_H
 
@@ -21,50 +21,52 @@ typedef struct hf_region_object* hf_region;
 
 typedef struct hf_region_desc {
   uint32_t struct_size;
-  int32_t field_kind;          /* HF_FIELD_*: HARMONIC a membrane, the others thin plates; a missing factor is made now */
-  const float* positions;      /* [vertex_count][3] the surface of weight 0, bit for bit: the positions of the mesh or any */
+  int32_t field_kind;     /* HF_FIELD_*: HARMONIC a membrane, the others thin plates; a missing factor is made now */
+  const float* positions; /* [vertex_count][3] the surface of weight 0, bit for bit: the positions of the mesh or any */
   const double* positions_f64; /* pose of them. Both NULL: the mesh's own to 1e-15 of the box. Copied */
   uint32_t position_stride;    /* bytes between vertices; 0 = packed */
   uint32_t reserved;           /* 0 */
   hf_progress progress;        /* NULL, or an object to poll and cancel through */
 } hf_region_desc;
 
-/* Creates a region without vertices. desc: NULL for defaults. Sets *out_region to NULL first. Cost: O(n), and the factor
- * that may be missing. Errors: HF_ERROR_INVALID_ARGUMENT (field_kind, both positions set), HF_ERROR_NON_FINITE (index =
- * vertex), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
+/* Creates a region without vertices. desc: NULL for defaults. Sets *out_region to NULL first. Cost: O(n), and the
+ * factor that may be missing. Errors: HF_ERROR_INVALID_ARGUMENT (field_kind, both positions set), HF_ERROR_NON_FINITE
+ * (index = vertex), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_region_create(hf_surface surface, const hf_region_desc* desc, hf_region* out_region);
 
-/* Copies a region as it is, without the undo stack. Shares the factor. Sets *out_region to NULL first. Thread safety:
+/* Copies a region, without the undo stack. The copy shares the factor. Sets *out_region to NULL first. Thread safety:
  * reads `region`. Since 0.1. */
 HF_API hf_result hf_region_clone(hf_region region, hf_region* out_region);
 
 /* Destroys a region. Ignores NULL and destroyed handles. Since 0.1. */
 HF_API void hf_region_destroy(hf_region region);
 
-/* Which of the pieces that a closed curve cuts the surface into is the region. */
+/* A closed curve cuts the surface into pieces. The side says which of the pieces becomes the region. */
 enum {
   HF_SIDE_SMALLER = 0, /* all but the piece of largest area */
   HF_SIDE_LARGER = 1,  /* the piece of largest area */
   HF_SIDE_SEED = 2     /* the piece that seed_vertex lies in */
 };
 
-/* A closed curve: at least 3 points in order, each joined to the next by a shortest path along edges, the last to the
- * first. Vertices on the curve are its rim, not part of the region. A whole border is a curve too; it has one side. */
+/* A closed curve through at least 3 points. Shortest paths along edges join each point to the next and the last to the
+ * first. The vertices on the curve are the rim of the region; they are not part of the region. A whole border of the
+ * surface is a curve too; it has only one side. */
 typedef struct hf_curve_desc {
   uint32_t struct_size;
   uint32_t point_count;
   const uint32_t* vertices;   /* [point_count] vertices as given, or NULL */
   const uint32_t* triangles;  /* [point_count] triangles as given, or NULL */
-  const double* barycentrics; /* [point_count][3] with triangles: weights of the corners, >= 0, of sum 1 within 1e-6; the
-                                 curve passes through the corner of largest weight */
+  const double* barycentrics; /* [point_count][3] with triangles: weights of the corners, >= 0, of sum 1 within 1e-6;
+                                 the curve passes through the corner of largest weight */
   int32_t side;               /* HF_SIDE_* */
   uint32_t seed_vertex;       /* with HF_SIDE_SEED */
 } hf_curve_desc;
 
-/* A change of a region, in the order curve, rings, remove, add. A part that is 0 or NULL is left out. */
+/* A change of a region. The parts are applied in the order curve, rings, remove, add. A part that is 0 or NULL is
+ * skipped. */
 typedef struct hf_region_edit_desc {
   uint32_t struct_size;
-  int32_t ring_count;         /* grows by so many rings of vertices; below 0 it shrinks */
+  int32_t ring_count;         /* rings of vertices by which the region grows; below 0 it shrinks */
   const hf_curve_desc* curve; /* the region becomes what this curve encloses */
   uint32_t remove_count;
   uint32_t add_count;
@@ -73,9 +75,10 @@ typedef struct hf_region_edit_desc {
   hf_progress progress;            /* NULL, or an object to poll and cancel through */
 } hf_region_edit_desc;
 
-/* Changes the region and makes its base. Compares the old and the new rim: sites that stay cost nothing, the rest is one
- * batch as in hf_solver_edit_sites. The base follows by one backward sweep, for small regions over the elimination paths
- * of their vertices only. A region may be in several pieces and components. Progress: curve, sites, base; cancelled
+/* Changes the region and computes its new base. The function compares the old and the new rim, which is the vertices
+ * next to the region. Sites that stay cost nothing; the others are one batch as in hf_solver_edit_sites. One backward
+ * sweep over the factor then gives the base; a small region needs only the elimination paths of its vertices. A region
+ * may have several pieces, in several components. Progress covers curve, sites and base; the call can be cancelled
  * between them. Errors: HF_ERROR_EMPTY (fewer than 3 points, index = how many; no vertex would be left),
  * HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (lists longer than the mesh has vertices),
  * HF_ERROR_CANCELLED, and HF_ERROR_INVALID_ARGUMENT: side, weights, isolated vertex, points of different components; a
@@ -83,15 +86,15 @@ typedef struct hf_region_edit_desc {
  * without a rim (index = a vertex of it). Thread safety: changes `region`. Since 0.1. */
 HF_API hf_result hf_region_edit(hf_region region, const hf_region_edit_desc* edit);
 
-/* Records the region for undo. The last 256 records are kept, and share what was made. Thread safety: changes `region`.
- * Since 0.1. */
+/* Records the region for undo. The library keeps the last 256 records; they share memory. Thread safety: changes
+ * `region`. Since 0.1. */
 HF_API hf_result hf_region_record(hf_region region);
-/* Goes back to the last record, bit for bit. Errors: HF_ERROR_NO_RECORD. Thread safety: changes `region`. Since 0.1. */
+/* Restores the last record, bit for bit. Errors: HF_ERROR_NO_RECORD. Thread safety: changes `region`. Since 0.1. */
 HF_API hf_result hf_region_undo(hf_region region);
-/* Takes the last undo back. Errors: HF_ERROR_NO_RECORD. Thread safety: changes `region`. Since 0.1. */
+/* Reverts the last undo. Errors: HF_ERROR_NO_RECORD. Thread safety: changes `region`. Since 0.1. */
 HF_API hf_result hf_region_redo(hf_region region);
 
-/* What a region is, and what its last edit did. Welded copies count as one vertex. */
+/* Counts and areas of a region and of its last edit. Welded copies count as one vertex. */
 typedef struct hf_region_info {
   uint32_t struct_size;
   int32_t field_kind;      /* HF_FIELD_* */
@@ -109,7 +112,7 @@ typedef struct hf_region_info {
   double base_area;             /* the same on the base */
 } hf_region_info;
 
-/* Writes what is known of a region. Thread safety: reads `region`. Since 0.1. */
+/* Writes the info of a region. Thread safety: reads `region`. Since 0.1. */
 HF_API hf_result hf_region_get_info(hf_region region, hf_region_info* out_info);
 
 /* Lists of vertices of a region. */
@@ -119,13 +122,13 @@ enum {
   HF_REGION_SITES = 2   /* those that hold the base */
 };
 
-/* Writes one list, ascending: vertices as given, of welded copies the first. list: HF_REGION_*. out_vertices: NULL, or
- * uint32_t[capacity]. out_count: NULL, or receives the length. Errors: HF_ERROR_INVALID_ARGUMENT (list). Thread safety:
- * reads `region`. Since 0.1. */
+/* Writes one list of vertices of your mesh, ascending. Of welded copies the list has the first. list: HF_REGION_*.
+ * out_vertices: NULL, or uint32_t[capacity]. out_count: NULL, or receives the length. Errors: HF_ERROR_INVALID_ARGUMENT
+ * (list). Thread safety: reads `region`. Since 0.1. */
 HF_API hf_result hf_region_get_vertices(hf_region region, int32_t list, uint32_t capacity, uint32_t* out_vertices,
                                         uint32_t* out_count);
 
-/* Where hf_region_morph and hf_detail_morph write. Set at least one output. */
+/* Weight and outputs of hf_region_morph and hf_detail_morph. Set at least one output. */
 typedef struct hf_morph_desc {
   uint32_t struct_size;
   uint32_t position_stride; /* bytes between vertices; 0 = packed */
@@ -137,15 +140,16 @@ typedef struct hf_morph_desc {
   uint32_t reserved;        /* 0 */
 } hf_morph_desc;
 
-/* Morphs the region: p + weight (base - p) for its vertices, p for all others. p are the positions of hf_region_desc.
- * Weight 0 gives p bit for bit, 1 the base. Below 0 exaggerates detail, above 1 turns it inside out. An empty region
- * gives p. Solves nothing. Errors: HF_ERROR_INVALID_ARGUMENT (both positions set), HF_ERROR_NON_FINITE (weight). Thread
- * safety: reads `region`. Since 0.1. */
+/* Morphs the region. A vertex of the region moves from p to p + weight (base - p), with p its position in
+ * hf_region_desc. All other vertices stay at p. Weight 0 gives p bit for bit, and weight 1 gives the base. A weight
+ * below 0 exaggerates detail, and a weight above 1 turns it inside out. An empty region gives p. The call solves
+ * nothing. Errors: HF_ERROR_INVALID_ARGUMENT (both positions set), HF_ERROR_NON_FINITE (weight). Thread safety: reads
+ * `region`. Since 0.1. */
 HF_API hf_result hf_region_morph(hf_region region, const hf_morph_desc* desc);
 
 /* ---- detail carried to another region ---- */
 
-/* The detail of one region on another one, of the same surface or of another. */
+/* The detail of a source region, carried to a target region. Both may be on one surface or on two. */
 typedef struct hf_detail_object* hf_detail;
 
 typedef struct hf_detail_desc {
@@ -158,27 +162,30 @@ typedef struct hf_detail_desc {
   hf_progress progress;            /* NULL, or an object to poll and cancel through */
 } hf_detail_desc;
 
-/* Carries detail by local frames. A harmonic map of positive weights takes both regions to the unit disc (an embedding:
- * Tutte 1963, Floater 1997), their rims by arc length between the pairs. The offset from base to surface is read in frames
- * of the source (normal of the base, and the direction in which the first disc coordinate grows), interpolated in its
- * triangles, and set up in frames of the target. It fades to nothing at the rim. Onto the region itself it gives the
- * surface back. Later edits of the regions change nothing.
+/* Carries the detail of the source region to the target region. A harmonic map with positive weights takes each region
+ * to the unit disc (an embedding: Tutte 1963, Floater 1997). It places the rims by arc length between the pairs. Points
+ * at the same place in the disc correspond. The function stores the offset from base to surface in a local frame of the
+ * source: the normal of the base, and the direction in which the first disc coordinate grows. It interpolates the
+ * offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades to
+ * nothing at the rim. If source and target are the same region, the result is the surface itself. Later edits of the
+ * regions do not change the object.
  *
- * Both regions must be discs: in one piece, one rim loop, no hole, manifold, of one orientation. desc: NULL for defaults.
- * Sets *out_detail to NULL first. Cost: a factorisation of each region's own Laplacian. Progress: source, target, frames;
- * cancelled between them. Errors: HF_ERROR_NON_FINITE (scale), HF_ERROR_INVALID_ARGUMENT (scale below 0; pairs off the
- * rims or out of order), HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_EMPTY (a region without vertices),
- * HF_ERROR_UNSUPPORTED (not a disc; index = a vertex), HF_ERROR_CANCELLED. Thread safety: reads both regions. Since 0.1.
- */
+ * Both regions must be discs: in one piece, one rim loop, no hole, manifold, of one orientation. desc: NULL for
+ * defaults. Sets *out_detail to NULL first. Cost: a factorisation of each region's own Laplacian. Progress covers
+ * source, target and frames; the call can be cancelled between them. Errors: HF_ERROR_NON_FINITE (scale),
+ * HF_ERROR_INVALID_ARGUMENT (scale below 0; pairs off the rims or out of order), HF_ERROR_OUT_OF_RANGE,
+ * HF_ERROR_TOO_LARGE, HF_ERROR_EMPTY (a region without vertices), HF_ERROR_UNSUPPORTED (not a disc; index = a vertex),
+ * HF_ERROR_CANCELLED. Thread safety: reads both regions. Since 0.1. */
 HF_API hf_result hf_detail_create(hf_region source, hf_region target, const hf_detail_desc* desc,
                                   hf_detail* out_detail);
 
-/* Destroys it. Ignores NULL and destroyed handles. Since 0.1. */
+/* Destroys the object. Ignores NULL and destroyed handles. Since 0.1. */
 HF_API void hf_detail_destroy(hf_detail detail);
 
-/* Writes the target's surface with its detail replaced: base + weight (carried detail) for the vertices of the target
- * region, the target's positions for all others. Weight 0 is the smooth base, 1 the detail as it was on the source; more
- * exaggerates, below 0 turns it inside out. Errors: as hf_region_morph. Thread safety: reads `detail`. Since 0.1. */
+/* Writes the target's surface with its detail replaced. A vertex of the target region gets base + weight (carried
+ * detail); all others keep their positions. Weight 0 gives the smooth base, and weight 1 the detail as it was on the
+ * source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out. Errors: as
+ * hf_region_morph. Thread safety: reads `detail`. Since 0.1. */
 HF_API hf_result hf_detail_morph(hf_detail detail, const hf_morph_desc* desc);
 
 #ifdef __cplusplus

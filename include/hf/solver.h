@@ -1,12 +1,12 @@
-/* hf/solver.h - sites that come and go, and the smooth field through them.
+/* hf/solver.h - add, move and remove sites on a surface, and solve the smooth field through them.
  *
- * A site holds the field at a value: at a vertex, at a point of a triangle, or on a disc. Between sites the field u is
- * harmonic: K u = W lambda, W' u = s. K is the Laplacian of the surface, W has one column w_i per site (three barycentric
- * weights, say), s holds the values, lambda the flux into each site. A soft site of stiffness alpha obeys
- * w_i' u + lambda_i / alpha = s_i, the penalty method of Xu, Zhang, Cohen-Or and Xiong (2009). Open borders have zero
- * flux. Edits do not factorise: only very many sites at once are moved into the factor, when that is quicker
- * (hf_solver_statistics.factorisation_count counts it).
- */
+ * A site holds the field at a value: at a vertex, at a point of a triangle, or on a disc. Elsewhere the field is
+ * harmonic. The equations are K u = W lambda and W' u = s. u is the field and K is the Laplacian of the surface. W has
+ * one column w_i per site, such as the three barycentric weights of a point. s holds the values, and lambda is the flux
+ * into each site. A soft site of stiffness alpha obeys w_i' u + lambda_i / alpha = s_i. This is the penalty method of
+ * Xu, Zhang, Cohen-Or and Xiong (2009). At open borders the flux is zero. Edits do not factorise, with one exception:
+ * very many sites at once move into the factor when that is quicker. hf_solver_statistics.factorisation_count counts
+ * these factorisations. */
 #ifndef HF_SOLVER_H
 #define HF_SOLVER_H
 
@@ -19,11 +19,12 @@ extern "C" {
 /* A set of sites on a surface, and their field. */
 typedef struct hf_solver_object* hf_solver;
 
-/* How sites act on the factor. All engines give the same field. */
+/* How a solver applies its sites to the factor. All engines give the same field. */
 enum {
-  HF_ENGINE_GREEN = 0,  /* sites live in a small dense system beside the factor: the default */
-  HF_ENGINE_UPDOWN = 1, /* the paper's: penalties on the diagonal, sparse update and downdate; builds with HF_WITH_GPL.
-                           Sites hold to about 1e-8 of the value range, bi-harmonic fields to 2e-7 */
+  HF_ENGINE_GREEN = 0,   /* sites are rows of a small dense system beside the factor: the default */
+  HF_ENGINE_UPDOWN = 1,  /* as in Xu et al. 2009: penalties on the diagonal, sparse update and downdate; only in builds
+                            with HF_WITH_GPL. The field meets its sites to about 1e-8 of the value range, a bi-harmonic
+                            one to 2e-7 */
   HF_ENGINE_REFACTOR = 2 /* eliminates the sites and factorises again at every change: the baseline */
 };
 
@@ -34,24 +35,26 @@ typedef struct hf_solver_desc {
   uint32_t channel_count; /* fields solved at once, 1 to 64; 0 = 1 */
   uint32_t site_limit;    /* most sites the solver may hold; 0 = 100,000 */
   uint32_t reserved;      /* 0 */
-  double penalty;         /* HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10 */
-  hf_progress progress;   /* NULL, or an object to poll and cancel through */
+  double penalty; /* HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10 */
+  hf_progress progress; /* NULL, or an object to poll and cancel through */
 } hf_solver_desc;
 
-/* Creates a solver without sites. desc: NULL for defaults. Sets *out_solver to NULL first. Cost: nothing but the factor
- * that may be missing. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED (engine not in this build),
- * HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE. Thread safety: reads `surface`. Since 0.1. */
+/* Creates a solver without sites. desc: NULL for defaults. Sets *out_solver to NULL first. Cost: none, unless the
+ * surface has no factor of that field kind and makes one. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED
+ * (engine not in this build), HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE. Thread safety: reads `surface`. Since
+ * 0.1. */
 HF_API hf_result hf_create(hf_surface surface, const hf_solver_desc* desc, hf_solver* out_solver);
 
-/* Creates a solver with the same sites, without the undo stack. Costs the sites only: many sets of sites and many
- * threads can share one factor. Sets *out_solver to NULL first. Thread safety: reads `solver`. Since 0.1. */
+/* Creates a solver with the same sites, without the undo stack. Both share the factor, so a copy costs its sites only.
+ * Use one copy per thread or per set of sites. Sets *out_solver to NULL first. Thread safety: reads `solver`. Since
+ * 0.1. */
 HF_API hf_result hf_solver_clone(hf_solver solver, hf_solver* out_solver);
 
-/* Destroys a solver. Ignores NULL and destroyed handles. Thread safety: a call under way on another thread ends first.
+/* Destroys a solver. Ignores NULL and destroyed handles. Thread safety: waits for a call under way on another thread.
  * Since 0.1. */
 HF_API void hf_solver_destroy(hf_solver solver);
 
-/* What a solver was made with, defaults filled in, and what it holds. */
+/* The options of a solver, with defaults filled in, and the number of its sites. */
 typedef struct hf_solver_info {
   uint32_t struct_size;
   int32_t field_kind;
@@ -64,15 +67,15 @@ typedef struct hf_solver_info {
   uint32_t reserved;
 } hf_solver_info;
 
-/* Writes what a solver was made with. Thread safety: reads `solver`. Since 0.1. */
+/* Writes the options of a solver. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_get_info(hf_solver solver, hf_solver_info* out_info);
 
 /* ---- sites ---- */
 
-/* Places and values of sites. Set vertices, or triangles with barycentrics. A point site loses influence as the mesh is
- * refined. A radius makes it independent of the mesh: the site then holds a geodesic disc, and is a point below the mesh
- * spacing. A soft disc shares its stiffness among its vertices. Vertices on the rim of a disc (all of it for bi-harmonic
- * fields) count towards site_limit. */
+/* Places and values of sites. Set vertices, or triangles with barycentrics. The finer the mesh, the less influence a
+ * point site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the
+ * mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the
+ * boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do. */
 typedef struct hf_sites_desc {
   uint32_t struct_size;
   uint32_t site_count;        /* >= 1 */
@@ -85,33 +88,35 @@ typedef struct hf_sites_desc {
   const double* radii;        /* [site_count] geodesic radius in the unit of the mesh; 0 = a point; NULL = all points */
 } hf_sites_desc;
 
-/* Adds sites. out_sites: NULL, or uint32_t[site_count] for their numbers. A site keeps its number until it is removed;
- * free numbers are used again. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (weights,
- * stiffness, isolated vertex), HF_ERROR_DUPLICATE_SITE (the vertex, or a welded copy, has a site of the same values),
- * HF_ERROR_CONFLICT (of other values, or the point depends linearly on hard sites), HF_ERROR_TOO_LARGE (site_limit, a
- * value). Thread safety: changes `solver`. Since 0.1. */
+/* Adds sites. out_sites: NULL, or receives their numbers in uint32_t[site_count]. A site keeps its number until it is
+ * removed; later sites reuse free numbers. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE,
+ * HF_ERROR_INVALID_ARGUMENT (weights, stiffness, isolated vertex), HF_ERROR_DUPLICATE_SITE (the vertex, or a welded
+ * copy, has a site of the same values), HF_ERROR_CONFLICT (of other values, or the point depends linearly on hard
+ * sites), HF_ERROR_TOO_LARGE (site_limit, a value). Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint32_t* out_sites);
 
-/* Adds one hard site at a vertex. values: double[channel_count], or NULL for 0. out_site: NULL, or its number. Errors: as
- * hf_add_sites. Thread safety: changes `solver`. Since 0.1. */
+/* Adds one hard site at a vertex. values: double[channel_count], or NULL for 0. out_site: NULL, or receives the number
+ * of the site. Errors: as hf_add_sites. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_add_site(hf_solver solver, uint32_t vertex, const double* values, uint32_t* out_site);
 
-/* Removes sites by number: uint32_t[site_count]. A component without sites is not reached; adding one again is exact.
- * Errors: HF_ERROR_NO_SUCH_SITE (also for a number named twice). Thread safety: changes `solver`. Since 0.1. */
+/* Removes sites by number: uint32_t[site_count]. The field is 0 on a component that has no site left. If you add a site
+ * there again, the field is exact. Errors: HF_ERROR_NO_SUCH_SITE (also for a number named twice). Thread safety:
+ * changes `solver`. Since 0.1. */
 HF_API hf_result hf_remove_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites);
 
-/* Moves sites to new places. They keep number, value, stiffness and radius. to: the places, as many as sites; its values,
- * stiffness and radii are NULL. Errors: as hf_add_sites and hf_remove_sites. Thread safety: changes `solver`. Since 0.1.
- */
+/* Moves sites to new places. Each site keeps its number, value, stiffness and radius. to: one place for each site; its
+ * values, stiffness and radii are NULL. Errors: as hf_add_sites and hf_remove_sites. Thread safety: changes `solver`.
+ * Since 0.1. */
 HF_API hf_result hf_solver_move_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites,
                                       const hf_sites_desc* to);
 
-/* Gives sites new values: double[site_count][channel_count]. Costs nothing until the next solve. Errors:
- * HF_ERROR_NO_SUCH_SITE, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (a value). Thread safety: changes `solver`. Since 0.1. */
+/* Gives sites new values: double[site_count][channel_count]. The call costs nothing until the next solve. Errors:
+ * HF_ERROR_NO_SUCH_SITE, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (a value). Thread safety: changes `solver`. Since 0.1.
+ */
 HF_API hf_result hf_solver_set_values(hf_solver solver, uint32_t site_count, const uint32_t* sites,
                                       const double* values);
 
-/* One batch of edits, in the order remove, move, set, add. A count of 0 leaves a part out. */
+/* One batch of edits, applied in the order remove, move, set, add. A count of 0 skips its part. */
 typedef struct hf_edit_desc {
   uint32_t struct_size;
   uint32_t remove_count;
@@ -129,23 +134,24 @@ typedef struct hf_edit_desc {
  * is the position inside the failing part. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_edit_sites(hf_solver solver, const hf_edit_desc* edit, uint32_t* out_sites);
 
-/* Number of sites; 0 for an invalid handle. Thread safety: any thread. Since 0.1. */
+/* Returns the number of sites, or 0 for an invalid handle. Thread safety: any thread. Since 0.1. */
 HF_API uint32_t hf_solver_get_site_count(hf_solver solver);
 
-/* Where sites are and what they hold. Arrays are yours, NULL or of `capacity` entries, by ascending site number. */
+/* Places, values and fluxes of the sites. The arrays are yours; each is NULL or has `capacity` entries. The entries are
+ * ordered by site number. */
 typedef struct hf_sites_info {
   uint32_t struct_size;
-  uint32_t capacity;    /* in: entries of each array */
-  uint32_t count;       /* out: number of sites */
-  uint32_t reserved;    /* 0 */
-  uint32_t* sites;      /* numbers */
-  uint32_t* vertices;   /* the vertex given, HF_NO_INDEX for a point in a triangle */
+  uint32_t capacity;  /* in: entries of each array */
+  uint32_t count;     /* out: number of sites */
+  uint32_t reserved;  /* 0 */
+  uint32_t* sites;    /* numbers */
+  uint32_t* vertices; /* the vertex given, HF_NO_INDEX for a point in a triangle */
   uint32_t* components;
-  double* values;       /* [capacity][channel_count] */
-  double* stiffness;    /* 0 = hard */
-  double* flux;         /* [capacity][channel_count] lambda: what flows into the surface at the site, in value x weight;
-                           the sum over a disc */
-  double* radii;        /* 0 = a point */
+  double* values;    /* [capacity][channel_count] */
+  double* stiffness; /* 0 = hard */
+  double* flux;      /* [capacity][channel_count] lambda: what flows into the surface at the site, in value x weight;
+                        the sum over a disc */
+  double* radii;     /* 0 = a point */
 } hf_sites_info;
 
 /* Writes all sites. Thread safety: reads `solver`. Since 0.1. */
@@ -153,7 +159,7 @@ HF_API hf_result hf_solver_get_sites(hf_solver solver, hf_sites_info* inout_info
 
 /* ---- fields ---- */
 
-/* What the sites of a solve did not reach. */
+/* The components that the sites of a solve did not reach. */
 typedef struct hf_solve_info {
   uint32_t struct_size;
   uint32_t unreached_component_count; /* components without a site */
@@ -162,28 +168,30 @@ typedef struct hf_solve_info {
 } hf_solve_info;
 
 /* Solves for the field at every vertex as given. out_values: float[vertex_count] rows of channel_count values,
- * value_stride bytes apart (0 = packed). out_info: NULL, or what was not reached; the field is 0 there. Hard sites hold
- * their values exactly. Cost: one backward sweep through the factor; bi-harmonic fields three sweeps. Errors:
- * HF_ERROR_NO_SITES. Thread safety: reads `solver`. Since 0.1. */
+ * value_stride bytes apart (0 = packed). The field is 0 on components without a site; out_info counts them, or is NULL.
+ * Hard sites hold their values exactly. Cost: one backward sweep through the factor, or three sweeps for bi-harmonic
+ * fields. Errors: HF_ERROR_NO_SITES. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
 
-/* The same in double. Thread safety: reads `solver`. Since 0.1. */
+/* Does the same as hf_solve, in double. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_f64(hf_solver solver, double* out_values, uint32_t value_stride,
                                      hf_solve_info* out_info);
 
-/* The field at chosen vertices only, with the same bits as hf_solver_solve_f64: double[vertex_count][channel_count] for
- * uint32_t[vertex_count] vertices. Sweeps the union of their elimination paths only, on the calling thread. One path is
- * up to a sixth of the factor; many share most of it. Costs a whole solve for bi-harmonic fields, and after very many
- * sites were moved into the factor. Unreached vertices get 0. Errors: HF_ERROR_NO_SITES, HF_ERROR_TOO_LARGE (more
- * vertices than the mesh has), HF_ERROR_OUT_OF_RANGE. Thread safety: reads `solver`. Since 0.1. */
+/* Solves for the field at chosen vertices only, with the same bits as hf_solver_solve_f64. out_values:
+ * double[vertex_count][channel_count] for uint32_t[vertex_count] vertices. The call sweeps only the elimination paths
+ * of these vertices, on the calling thread. One path is up to a sixth of the factor, but the paths of many vertices
+ * share most of their parts. The call costs a whole solve for bi-harmonic fields, and while very many sites are in the
+ * factor. A vertex of a component without a site gets 0. Errors: HF_ERROR_NO_SITES, HF_ERROR_TOO_LARGE (more vertices
+ * than the mesh has), HF_ERROR_OUT_OF_RANGE. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_at(hf_solver solver, uint32_t vertex_count, const uint32_t* vertices,
                                     double* out_values);
 
-/* A tangent vector field the paper's way (Section 3.3), for solvers of 3 channels. Channels are the components of the
- * constraint vectors. Each is solved as a field; the result is projected on the tangent plane of the vertex,
- * v - (n . v) n, n the area-weighted normal. out_vectors: float[vertex_count][3], vector_stride bytes apart (0 = packed),
- * not normalised. out_normals: NULL, or double[vertex_count][3], packed: the normals used. Errors: as hf_solve,
- * HF_ERROR_INVALID_ARGUMENT (not 3 channels). Thread safety: reads `solver`. Since 0.1. */
+/* Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009, Section 3.3). The
+ * channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then projects the
+ * vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal. out_vectors:
+ * float[vertex_count][3], vector_stride bytes apart (0 = packed), not normalised. out_normals: NULL, or
+ * double[vertex_count][3], packed: the normals used. Errors: as hf_solve, HF_ERROR_INVALID_ARGUMENT (not 3 channels).
+ * Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride,
                                          double* out_normals, hf_solve_info* out_info);
 
@@ -193,7 +201,7 @@ HF_API hf_result hf_solver_solve_vectors_f64(hf_solver solver, double* out_vecto
 
 /* ---- previews in single precision ---- */
 
-/* What a preview reached. */
+/* Counts and errors of a preview. */
 typedef struct hf_preview_info {
   uint32_t struct_size;
   int32_t exact;                      /* 1: solved in double, as hf_solve does */
@@ -206,26 +214,29 @@ typedef struct hf_preview_info {
   double preview_bytes;  /* memory of the single-precision copy, shared by the surface */
 } hf_preview_info;
 
-/* Solves with the factor in single precision: half the bytes of hf_solve, for a value or a site that is being dragged.
- * The error is about 1e-6 of the value range for harmonic fields, up to 1e-5 for bi-harmonic ones and crowded sites.
- * Hard sites at vertices are exact. A correction (iterative refinement, Wilkinson 1963) takes the error below 1e-9,
- * a second below 1e-12; each costs two to three calls of hf_solve.
+/* Solves with a single-precision copy of the factor. This reads half the bytes of hf_solve; use it while the user drags
+ * a value or a site. The error is about 1e-6 of the value range for harmonic fields. It is up to 1e-5 for bi-harmonic
+ * fields and for crowded sites. Hard sites at vertices are exact. One correction (iterative refinement, Wilkinson 1963)
+ * takes the error below 1e-9, a second one below 1e-12. Each correction costs as much as two to three calls of
+ * hf_solve.
  *
- * The single-precision copy is made at the first call (about two solves), shared by all solvers of that kind on the
- * surface, and freed with the last of them or by hf_solver_release_preview. Other engines, and solvers whose sites were
- * moved into the factor, answer with the exact field and say so in out_info.
+ * The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind on the
+ * surface share the copy. It is freed with the last of these solvers, or by hf_solver_release_preview. Engines other
+ * than HF_ENGINE_GREEN give the exact field, and so do solvers whose sites were moved into the factor. out_info->exact
+ * is then 1.
  *
  * out_values: as hf_solve. correction_count: 0 to 8. out_info: NULL, or a struct. Errors: HF_ERROR_INVALID_ARGUMENT
  * (correction_count), HF_ERROR_NO_SITES. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_preview(hf_solver solver, float* out_values, uint32_t value_stride,
                                          uint32_t correction_count, hf_preview_info* out_info);
 
-/* The same into double, where corrections show. Thread safety: reads `solver`. Since 0.1. */
+/* Does the same as hf_solver_solve_preview, in double. Single precision would round most corrections away. Thread
+ * safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_preview_f64(hf_solver solver, double* out_values, uint32_t value_stride,
                                              uint32_t correction_count, hf_preview_info* out_info);
 
-/* Frees the single-precision copy, for all solvers that share it, after calls that use it. The next preview makes it
- * again. Thread safety: any thread, beside any function. Since 0.1. */
+/* Frees the single-precision copy for all solvers that share it, as soon as no running call uses it. The next preview
+ * makes the copy again. Thread safety: any thread, during any other call. Since 0.1. */
 HF_API hf_result hf_solver_release_preview(hf_solver solver);
 
 /* ---- vectors of a 3-channel solver ---- */
@@ -237,58 +248,58 @@ HF_API hf_result hf_solver_release_preview(hf_solver solver);
 HF_API hf_result hf_solver_move_vectors(hf_solver solver, uint32_t site_count, const uint32_t* sites,
                                         const uint32_t* vertices);
 
-/* Turns vectors of sites about their vertex normals, counter-clockwise by angles[i] radians. Touches no factor. Errors:
- * HF_ERROR_INVALID_ARGUMENT (not 3 channels), HF_ERROR_NO_SUCH_SITE, HF_ERROR_NON_FINITE. Thread safety: changes
- * `solver`. Since 0.1. */
+/* Turns the vector of site i about its vertex normal, counter-clockwise by angles[i] radians. Does not factorise.
+ * Errors: HF_ERROR_INVALID_ARGUMENT (not 3 channels), HF_ERROR_NO_SUCH_SITE, HF_ERROR_NON_FINITE. Thread safety:
+ * changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_rotate_vectors(hf_solver solver, uint32_t site_count, const uint32_t* sites,
                                           const double* angles);
 
 /* ---- how right a field is ---- */
 
-/* Errors are relative to the range of the site values of the component and channel (to their size where all are equal).
- * A value that is not finite counts as infinitely wrong. */
+/* How accurate a field is. Each error is relative to the range of the site values of its component and channel. Where
+ * all site values are equal, it is relative to their size. A value that is not finite counts as infinitely wrong. */
 typedef struct hf_certificate {
   uint32_t struct_size;
-  int32_t overshoot_checked; /* out: 1 where a field must keep to the range of its sites: harmonic, intrinsic Delaunay or
-                                clamped operator, all sites at vertices */
-  double tolerance;   /* in: largest error to accept, > 0; 0 = 1e-8, HF_ENGINE_UPDOWN 1e-5; out: the one used */
-  double value_range; /* out: largest less smallest site value, the widest over components and channels */
-  double residual;    /* out: largest |(K u - W lambda)_v| / K_vv, how far a value is from the mean of its neighbours */
-  double site_error;  /* out: largest |w_i' u + lambda_i / alpha_i - s_i|, what a site misses its value by */
-  double overshoot;   /* out: how far the field leaves the range of its sites; 0 when not checked */
+  int32_t overshoot_checked; /* out: 1 where a field must keep to the range of its sites: harmonic, intrinsic Delaunay
+                                or clamped operator, all sites at vertices */
+  double tolerance;          /* in: largest error to accept, > 0; 0 = 1e-8, HF_ENGINE_UPDOWN 1e-5; out: the one used */
+  double value_range;        /* out: largest less smallest site value, the widest over components and channels */
+  double residual;   /* out: largest |(K u - W lambda)_v| / K_vv, how far a value is from the mean of its neighbours */
+  double site_error; /* out: largest |w_i' u + lambda_i / alpha_i - s_i|, what a site misses its value by */
+  double overshoot;  /* out: how far the field leaves the range of its sites; 0 when not checked */
   uint32_t worst_vertex; /* out: as given, where the largest of the three is */
   uint32_t reserved;     /* 0 */
 } hf_certificate;
 
-/* Solves the field and puts it back into its equations. It trusts only K and the site values, so it finds a damaged
- * factor, borrowed bytes that changed, or a fault of the machine. inout_certificate is also written with
- * HF_ERROR_INACCURATE (index = worst vertex): do not use fields of this solver then, make the surface again. Cost: a
- * solve and a product with K. Errors: HF_ERROR_INACCURATE, HF_ERROR_INVALID_ARGUMENT (tolerance), HF_ERROR_NO_SITES.
- * Thread safety: reads `solver`. Since 0.1. */
+/* Solves the field and checks it against its equations. The check uses only the operator K and the site values. So it
+ * finds a damaged factor, borrowed bytes that changed, or a fault of the machine. The call returns HF_ERROR_INACCURATE
+ * (index = worst vertex) if the check fails, and writes inout_certificate then too. Do not use fields of that solver;
+ * make the surface again. Cost: a solve and a product with K. Errors: HF_ERROR_INACCURATE, HF_ERROR_INVALID_ARGUMENT
+ * (tolerance), HF_ERROR_NO_SITES. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_certify(hf_solver solver, hf_certificate* inout_certificate);
 
 /* ---- undo ---- */
 
-/* Records the sites for undo. The last 256 records are kept. Costs the site list; the rest is shared. Thread safety:
- * changes `solver`. Since 0.1. */
+/* Records the sites for undo. The library keeps the last 256 records. A record costs the memory of a list of sites;
+ * records share the rest. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_record(hf_solver solver);
-/* Goes back to the last record; the field then has the same bits as at the record. Errors: HF_ERROR_NO_RECORD. Thread
+/* Restores the last record; the field then has the same bits as at the record. Errors: HF_ERROR_NO_RECORD. Thread
  * safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_undo(hf_solver solver);
-/* Takes the last undo back. Errors: HF_ERROR_NO_RECORD. Thread safety: changes `solver`. Since 0.1. */
+/* Reverts the last undo. Errors: HF_ERROR_NO_RECORD. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_redo(hf_solver solver);
 
 /* ---- very many sites ---- */
 
-/* Moves the hard vertex sites into the factor without a pause. It factorises once on the calling thread, one of yours,
- * while other threads edit and solve this solver. The next edit takes the result over. Fields are the same before and
- * after, to rounding. Call it when hf_solver_statistics.rebase_advised is 1. An edit of very many sites does it by itself
- * when that is quicker. Memory: one more factor while sites stay in it. Errors: HF_ERROR_NO_SITES (no hard site at a
- * vertex), HF_ERROR_UNSUPPORTED (other engines), HF_ERROR_BUSY (another thread prepares). Thread safety: beside any
- * function of the same solver. Since 0.1. */
+/* Moves the hard vertex sites into the factor in the background. It factorises once on the calling thread, while other
+ * threads edit and solve with this solver. The next edit switches to the new factor. Fields before and after are the
+ * same up to rounding. Call it on a thread of yours when hf_solver_statistics.rebase_advised is 1. An edit of very many
+ * sites moves them by itself when that is quicker. Memory: one more factor while sites stay in it. Errors:
+ * HF_ERROR_NO_SITES (no hard site at a vertex), HF_ERROR_UNSUPPORTED (other engines), HF_ERROR_BUSY (another thread is
+ * in this call). Thread safety: can run during any other call on the same solver. Since 0.1. */
 HF_API hf_result hf_solver_prepare_rebase(hf_solver solver);
 
-/* How the last edit of places was done (hf_solver_statistics.last_route). */
+/* How the solver carried out the last edit of places (hf_solver_statistics.last_route). */
 enum {
   HF_ROUTE_NONE = 0,  /* no place was edited yet, or the engine is not green */
   HF_ROUTE_DENSE = 1, /* rows of the dense system came and went */
@@ -296,7 +307,7 @@ enum {
   HF_ROUTE_REBASE = 3 /* hard vertex sites were moved into the factor */
 };
 
-/* What a solver holds and has done. Bytes are doubles (exact to 2^53). */
+/* Counts, memory and cost estimates of a solver. Bytes are doubles (exact to 2^53). */
 typedef struct hf_solver_statistics {
   uint32_t struct_size;
   uint32_t site_count;
@@ -308,7 +319,7 @@ typedef struct hf_solver_statistics {
   uint32_t dense_edit_count;    /* edits by rows of the dense system */
   uint32_t dense_row_count;     /* sites in the dense system at present */
   uint32_t eliminated_count;    /* sites in the factor at present */
-  int32_t rebase_advised;       /* 1: elimination paths outweigh the factor, fields get slower: hf_solver_prepare_rebase */
+  int32_t rebase_advised; /* 1: elimination paths outweigh the factor, fields get slower: hf_solver_prepare_rebase */
   uint32_t reserved;
   double site_memory_bytes;   /* paths and dense part of the sites */
   double predicted_dense_ms;  /* the cost model's estimate for the last edit by rows of the dense system ... */

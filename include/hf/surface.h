@@ -1,9 +1,8 @@
-/* hf/surface.h - the mesh, ready for work: welded, checked, ordered and factorised once.
+/* hf/surface.h - prepare a mesh once: weld it, check it and factorise its Laplacian.
  *
- * Make one surface per mesh. Solvers, poses, direction fields, regions, transfers and quads are made on it and share
- * its factor. A surface never changes, so any number of threads may use it. What is made on it keeps alive what it
- * needs, so handles can be destroyed in any order.
- */
+ * Make one surface per mesh. Solvers, poses, direction fields, regions, transfers and quads are made on a surface and
+ * share its factor. A surface never changes, so any number of threads may use it. An object made on a surface keeps the
+ * data it needs, so you can destroy handles in any order. */
 #ifndef HF_SURFACE_H
 #define HF_SURFACE_H
 
@@ -15,8 +14,8 @@ extern "C" {
 
 typedef struct hf_surface_object* hf_surface;
 
-/* How vertices at one place are joined. Game assets are cut at texture seams: a horse can be 1,109 pieces as stored and
- * one when welded. Results are written to every copy. */
+/* How the surface joins vertices at one place. Modelling tools split vertices at texture seams: a horse model can have
+ * 1,109 separate pieces as stored and be one piece when welded. Functions write results to every copy of a vertex. */
 enum {
   HF_WELD_EXACT = 0,    /* bit-equal positions (+0 and -0 are equal) */
   HF_WELD_NONE = 1,     /* vertices as stored */
@@ -29,28 +28,28 @@ enum {
                                          where edges are open or non-manifold (Bobenko and Springborn 2007; Sharp and
                                          Crane 2020). Weights are never negative: a field keeps to the range of its
                                          sites on any mesh */
-  HF_OPERATOR_CLAMPED = 1,  /* cotangents, at least 1e-3 of the median weight: keeps to the range too */
-  HF_OPERATOR_UNIFORM = 2,  /* w_ij = 1 */
+  HF_OPERATOR_CLAMPED = 1,            /* cotangents, at least 1e-3 of the median weight: keeps to the range too */
+  HF_OPERATOR_UNIFORM = 2,            /* w_ij = 1 */
   HF_OPERATOR_COTANGENT = 3 /* w_ij = (cot a_ij + cot b_ij) / 2, the paper's; can be negative at obtuse triangles */
 };
 
-/* What a field minimises. A bi-harmonic field is smooth at its sites and overshoots their values. Its factor is 3 to 4
- * times larger, and its solve takes one correction. */
+/* Which matrix K a field solves with. A bi-harmonic field is smooth at its sites and overshoots their values. Its
+ * factor is 3 to 4 times larger than a harmonic one, and its solve adds one correction step. */
 enum {
-  HF_FIELD_HARMONIC = 0,        /* K = L */
-  HF_FIELD_BIHARMONIC = 1,      /* K = L M^-1 L, M the vertex areas scaled to mean 1 by component: does not depend on the
-                                   scale of the mesh */
+  HF_FIELD_HARMONIC = 0,   /* K = L */
+  HF_FIELD_BIHARMONIC = 1, /* K = L M^-1 L, M the vertex areas scaled to mean 1 by component: does not depend on the
+                              scale of the mesh */
   HF_FIELD_BIHARMONIC_GRAPH = 2 /* K = L^2, the paper's: depends on how densely the surface is sampled */
 };
 
-/* Fill-reducing ordering of the factor. */
+/* How the unknowns are ordered to keep the factor small. */
 enum {
   HF_ORDERING_NESTED_DISSECTION = 0, /* our own; the least fill */
   HF_ORDERING_MINIMUM_DEGREE = 1,    /* quicker to compute, more fill on large meshes */
   HF_ORDERING_METIS = 2              /* builds with HF_WITH_GPL only */
 };
 
-/* A factor that hf_surface_save wrote, to be loaded instead of made. */
+/* A factor that hf_surface_save wrote. The surface loads it instead of computing it. */
 typedef struct hf_factor_desc {
   uint32_t struct_size;
   int32_t borrow;    /* 0: the bytes are copied. 1: numbers are read in place (a mapped file, say). Then the bytes stay
@@ -61,7 +60,8 @@ typedef struct hf_factor_desc {
 } hf_factor_desc;
 enum { HF_FACTOR_ALIGNMENT = 64 };
 
-/* Set positions or positions_f64, and triangles or triangles_u16. Strides are in bytes; 0 means packed. */
+/* The mesh and the options of a surface. Set positions or positions_f64, and triangles or triangles_u16. Strides are in
+ * bytes; 0 means packed. */
 typedef struct hf_surface_desc {
   uint32_t struct_size;
   uint32_t vertex_count;         /* >= 1 */
@@ -87,20 +87,22 @@ typedef struct hf_surface_desc {
   const hf_factor_desc* saved_factor; /* NULL, or the saved factor of this mesh; ordering is then 0 or the factor's */
 } hf_surface_desc;
 
-/* Makes a surface: welds, checks, builds the operator, orders and factorises it. Copies the mesh; keeps only the hooks of
- * the desc. Takes dirty meshes and counts what it finds (hf_surface_get_report): non-manifold edges, flipped, duplicate
- * and zero-area triangles, isolated vertices, islands.
+/* Makes a surface: welds and checks the mesh, builds the operator, orders and factorises it. The call copies the mesh.
+ * Afterwards the surface uses only the allocator and the job runner of the desc. The mesh may be dirty: the surface
+ * counts non-manifold edges, flipped, duplicate and zero-area triangles, isolated vertices and components.
+ * hf_surface_get_report gives these counts.
  *
- * out_surface: set to NULL first, to the new handle on success. Cost: about 2 us a vertex for 300,000 vertices, one
- * thread. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_EMPTY (no vertex or no triangle), HF_ERROR_OUT_OF_RANGE (index =
- * triangle), HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_TOO_LARGE (a limit), HF_ERROR_UNSUPPORTED (ordering not in
- * this build), HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE. With saved_factor also HF_ERROR_INVALID_ARGUMENT
- * (damaged bytes, or bytes of another mesh, operator or field_kind; borrowed bytes that are not aligned) and
- * HF_ERROR_UNSUPPORTED (another format version or byte order). Thread safety: any thread. Since 0.1. */
+ * out_surface: receives NULL at the start of the call and the new handle on success. Cost: about 2 us a vertex for
+ * 300,000 vertices, one thread. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_EMPTY (no vertex or no triangle),
+ * HF_ERROR_OUT_OF_RANGE (index = triangle), HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_TOO_LARGE (a limit),
+ * HF_ERROR_UNSUPPORTED (ordering not in this build), HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE. With
+ * saved_factor also HF_ERROR_INVALID_ARGUMENT (damaged bytes, or bytes of another mesh, operator or field_kind;
+ * borrowed bytes that are not aligned) and HF_ERROR_UNSUPPORTED (another format version or byte order). Thread safety:
+ * any thread. Since 0.1. */
 HF_API hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_surface);
 
-/* Destroys a surface. Ignores NULL and destroyed handles. What was made on it goes on working. Thread safety: any
- * thread. Since 0.1. */
+/* Destroys a surface. Ignores NULL and destroyed handles. Objects that were made on the surface stay valid. Thread
+ * safety: any thread. Since 0.1. */
 HF_API void hf_surface_destroy(hf_surface surface);
 
 /* The options a surface was made with, defaults filled in. */
@@ -122,14 +124,14 @@ typedef struct hf_surface_info {
 /* Writes the options of a surface. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_info(hf_surface surface, hf_surface_info* out_info);
 
-/* What was found in the mesh. */
+/* Counts of what the surface found in the mesh. */
 typedef struct hf_surface_report {
   uint32_t struct_size;
-  uint32_t vertex_count;          /* as given */
-  uint32_t triangle_count;        /* as given */
-  uint32_t welded_vertex_count;   /* after welding */
-  uint32_t component_count;       /* connected components with at least one triangle, after welding */
-  uint32_t isolated_vertex_count; /* given vertices in no usable triangle; fields are 0 there */
+  uint32_t vertex_count;              /* as given */
+  uint32_t triangle_count;            /* as given */
+  uint32_t welded_vertex_count;       /* after welding */
+  uint32_t component_count;           /* connected components with at least one triangle, after welding */
+  uint32_t isolated_vertex_count;     /* given vertices in no usable triangle; fields are 0 there */
   uint32_t degenerate_triangle_count; /* zero area to working precision */
   uint32_t collapsed_triangle_count;  /* two or three equal corners after welding; left out */
   uint32_t duplicate_triangle_count;  /* the same three corners again */
@@ -144,13 +146,13 @@ typedef struct hf_surface_report {
 /* Writes the report of the mesh. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_report);
 
-/* Writes the component of every given vertex; HF_NO_INDEX for isolated vertices. Components are numbered by their
- * smallest vertex. out_components: NULL, or uint32_t[capacity]. out_count: NULL, or receives vertex_count. Thread
- * safety: reads `surface`. Since 0.1. */
+/* Writes the component of every vertex of your mesh, and HF_NO_INDEX for isolated vertices. Components are numbered in
+ * the order of their smallest vertices. out_components: NULL, or uint32_t[capacity]. out_count: NULL, or receives
+ * vertex_count. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity, uint32_t* out_components,
                                            uint32_t* out_count);
 
-/* Times in milliseconds, bytes as double (exact to 2^53). */
+/* Sizes and times of a surface. Times are in milliseconds. Bytes are doubles (exact to 2^53). */
 typedef struct hf_surface_statistics {
   uint32_t struct_size;
   uint32_t unknown_count; /* size of the factored matrix */
@@ -171,19 +173,19 @@ HF_API hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statis
 /* ---- the factor as bytes ---- */
 
 /* Saves the factor of one kind of field. An authoring tool saves it once. A game ships the bytes beside the mesh and
- * gives them to hf_surface_create, which then starts in a fraction of the time. The bytes are the same for the same mesh,
- * options and library version, whatever the number of threads. They are little-endian and hold a format version, a hash
- * of the matrix and a checksum. Sites are not part of them.
+ * gives them to hf_surface_create, which then starts in a fraction of the time. The bytes are the same for the same
+ * mesh, options and library version, whatever the number of threads. The bytes are little-endian and hold a format
+ * version, a hash of the matrix and a checksum. They hold no sites.
  *
- * field_kind: HF_FIELD_*; a factor that does not exist yet is made first. out_bytes: NULL, or `capacity` bytes, any
- * alignment. out_size: NULL, or receives the size. Cost: one copy of the factor. On failure out_bytes is undefined.
- * Thread safety: reads `surface`. Since 0.1. */
+ * field_kind: HF_FIELD_*; if the surface has no factor of that kind yet, the call makes it first. out_bytes: NULL, or
+ * `capacity` bytes, any alignment. out_size: NULL, or receives the size. Cost: one copy of the factor. On failure
+ * out_bytes is undefined. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_save(hf_surface surface, int32_t field_kind, size_t capacity, void* out_bytes,
                                  size_t* out_size);
 
 /* ---- picking ---- */
 
-/* Where the surface stands when it is picked, if not at rest. */
+/* Options of picking: posed positions, if the surface is not at rest, and which triangles count. */
 typedef struct hf_pick_desc {
   uint32_t struct_size;
   uint32_t position_stride;    /* bytes between vertices; 0 = packed */
@@ -193,7 +195,7 @@ typedef struct hf_pick_desc {
   uint32_t reserved;           /* 0 */
 } hf_pick_desc;
 
-/* The first triangle on a ray. */
+/* The first triangle that a ray hits. */
 typedef struct hf_hit {
   uint32_t struct_size;
   int32_t found;          /* 1: a triangle was hit; 0: none, and all else is 0 or HF_NO_INDEX */
@@ -204,18 +206,19 @@ typedef struct hf_hit {
   double distance;        /* from the origin, in lengths of `direction` */
 } hf_hit;
 
-/* Finds what a click hits: the first triangle on a ray. origin, direction: double[3] in the frame of the positions;
- * direction of any length above 0. desc: NULL for the rest positions. A ray through an edge or a vertex never slips
- * between two triangles. Of several at one distance, the first given triangle counts. Cost: a pass over
- * the triangles, about 10 ns each on one thread. Errors: HF_ERROR_NON_FINITE (origin, direction, a position: index =
- * vertex), HF_ERROR_INVALID_ARGUMENT (direction 0). Thread safety: reads `surface`. Since 0.1. */
+/* Finds what a mouse click hits: the first triangle on a ray. origin, direction: double[3] in the frame of the
+ * positions; the direction can have any length above 0. desc: NULL for the rest positions. A ray through an edge or a
+ * vertex never misses both triangles. If several triangles are at the same distance, the one with the lowest index
+ * counts. Cost: a pass over the triangles, about 10 ns each on one thread. Errors: HF_ERROR_NON_FINITE (origin,
+ * direction, a position: index = vertex), HF_ERROR_INVALID_ARGUMENT (direction 0). Thread safety: reads `surface`.
+ * Since 0.1. */
 HF_API hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const double* direction,
                                      const hf_pick_desc* desc, hf_hit* out_hit);
 
-/* Finds the vertex nearest to a point: double[3] in the frame of the positions. desc: NULL for the rest positions.
- * Isolated vertices are passed over; of several at one distance, welded copies among them, the first counts.
- * out_distance: NULL, or receives the distance. Cost: a pass over the vertices. Errors: HF_ERROR_NON_FINITE (point, or a
- * position: index = vertex). Thread safety: reads `surface`. Since 0.1. */
+/* Finds the vertex nearest to a point. point: double[3] in the frame of the positions. desc: NULL for the rest
+ * positions. The call ignores isolated vertices. If several vertices are at the same distance, such as welded copies,
+ * the one with the lowest index counts. out_distance: NULL, or receives the distance. Cost: a pass over the vertices.
+ * Errors: HF_ERROR_NON_FINITE (point, or a position: index = vertex). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_find_vertex(hf_surface surface, const double* point, const hf_pick_desc* desc,
                                         uint32_t* out_vertex, double* out_distance);
 

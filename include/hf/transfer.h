@@ -1,9 +1,8 @@
 /* hf/transfer.h - play the motion of one surface on another.
  *
- * Pairs of regions, one on the source and one on the target, give both surfaces the same harmonic coordinates. Places of
- * equal coordinates correspond. The rotations of the source's clusters are carried over; the translations of the target
- * follow from its own shape (Xu, Zhang, Cohen-Or and Xiong 2009, Section 6).
- */
+ * You pair regions of the source surface with regions of the target surface. From the pairs both surfaces get the same
+ * harmonic coordinates, and places of equal coordinates correspond. The target takes over the rotations of the source's
+ * clusters. Its translations follow from its own shape (Xu, Zhang, Cohen-Or and Xiong 2009, Section 6). */
 #ifndef HF_TRANSFER_H
 #define HF_TRANSFER_H
 
@@ -20,7 +19,7 @@ enum {
   HF_TRANSFER_PAPER = 1   /* clusters are level bands of single fields, the paper's */
 };
 
-/* What a pair is, beside two regions. */
+/* Flags of a pair of regions. They can be combined. */
 enum {
   HF_PAIR_ANCHOR = 1,       /* the target's region follows the scaled path of the source's (feet, trunk) */
   HF_PAIR_FOOT = 2,         /* an anchor that also stands on the ground, and whose leg gives the scale */
@@ -37,22 +36,23 @@ typedef struct hf_transfer_desc {
   int32_t mode;           /* HF_TRANSFER_* */
   uint32_t cluster_count; /* 1 to 512; 0 = 80 */
   float kernel_width;     /* of a cluster in field space, 0.005 to 0.5; 0 = 0.04 */
-  float scale;            /* lengths of the target over those of the source; 0 = from the legs, or from the boxes when no
-                             pair is a foot */
-  float alignment_angle;  /* rest directions that differ by more are aligned, radians; 0 = 40 degrees; negative = never */
-  float source_axes[9];   /* rows right, up, forward of the source; all zero = x, y, z (glTF: up +y, forward +z) */
+  float scale; /* lengths of the target over those of the source; 0 = from the legs, or from the boxes when no
+                  pair is a foot */
+  float
+      alignment_angle;  /* rest directions that differ by more are aligned, radians; 0 = 40 degrees; negative = never */
+  float source_axes[9]; /* rows right, up, forward of the source; all zero = x, y, z (glTF: up +y, forward +z) */
   float target_axes[9];
 } hf_transfer_desc;
 
-/* Creates a transfer between two surfaces, which may be one. Sets *out_transfer to NULL first. desc: NULL for defaults.
- * Errors: HF_ERROR_INVALID_HANDLE (index 0 source, 1 target), HF_ERROR_INVALID_ARGUMENT. Thread safety: reads the
- * surfaces. Since 0.1. */
+/* Creates a transfer between two surfaces; both may be the same. Sets *out_transfer to NULL first. desc: NULL for
+ * defaults. Errors: HF_ERROR_INVALID_HANDLE (index 0 source, 1 target), HF_ERROR_INVALID_ARGUMENT. Thread safety: reads
+ * the surfaces. Since 0.1. */
 HF_API hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_transfer_desc* desc,
                                     hf_transfer* out_transfer);
 /* Destroys a transfer. Ignores NULL and destroyed handles. Since 0.1. */
 HF_API void hf_transfer_destroy(hf_transfer transfer);
 
-/* Pairs to add: regions of both surfaces, as lists one after the other. */
+/* The pairs to add. The regions of each surface are vertex lists, one after the other. */
 typedef struct hf_pairs_desc {
   uint32_t struct_size;
   uint32_t pair_count;             /* >= 1 */
@@ -63,7 +63,7 @@ typedef struct hf_pairs_desc {
   const uint32_t* flags; /* [pair_count] HF_PAIR_*, or NULL for none */
 } hf_pairs_desc;
 
-/* Adds pairs. out_pairs: NULL, or uint32_t[pair_count] for their numbers. Does not factorise. Errors: as
+/* Adds pairs. out_pairs: NULL, or receives their numbers in uint32_t[pair_count]. Does not factorise. Errors: as
  * hf_pose_add_handles, HF_ERROR_TOO_LARGE (HF_PAIR_LIMIT). Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_add_pairs(hf_transfer transfer, const hf_pairs_desc* pairs, uint32_t* out_pairs);
 /* Removes pairs by number. Errors: HF_ERROR_NO_SUCH_PAIR. Thread safety: changes `transfer`. Since 0.1. */
@@ -74,14 +74,16 @@ typedef struct hf_pair_info {
   uint32_t flags;
   double source_leak; /* of the pair's fields, see hf_handle_info */
   double target_leak;
-  double alignment_angle; /* between the rest directions of the limb, radians; negative when unknown (trunk, short limb) */
-  double confidence;      /* 0..1: share of the pair's clusters that rest on enough source vertices */
-  int32_t aligned;        /* 1: the rest alignment is applied */
-  int32_t crossed;        /* 1: the region lies on one side of the source and on the other of the target, by the axes:
-                             left and right may be exchanged */
+  double
+      alignment_angle; /* between the rest directions of the limb, radians; negative when unknown (trunk, short limb) */
+  double confidence;   /* 0..1: share of the pair's clusters that rest on enough source vertices */
+  int32_t aligned;     /* 1: the rest alignment is applied */
+  int32_t crossed;     /* 1: the region lies on one side of the source and on the other of the target, by the axes:
+                          left and right may be exchanged */
 } hf_pair_info;
-/* Writes what is known of a pair. The first call after a change of pairs solves their fields, unless hf_transfer_apply
- * did; nothing that can be seen changes. Errors: HF_ERROR_NO_SUCH_PAIR. Thread safety: reads `transfer`. Since 0.1. */
+/* Writes the info of a pair. The first call after a change of pairs solves the fields of all pairs, unless
+ * hf_transfer_apply has done so. This changes no result. Errors: HF_ERROR_NO_SUCH_PAIR. Thread safety: reads
+ * `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_pair(hf_transfer transfer, uint32_t pair, hf_pair_info* out_info);
 
 /* The transfer as a whole. */
@@ -89,18 +91,19 @@ typedef struct hf_transfer_info {
   uint32_t struct_size;
   uint32_t pair_count;
   uint32_t cluster_count;
-  uint32_t aligned_count; /* pairs whose rest alignment is applied */
-  uint32_t crossed_count; /* pairs that change sides, see hf_pair_info */
-  int32_t scale_found;    /* 1: from the legs or the boxes; 0: given in the desc */
+  uint32_t aligned_count;              /* pairs whose rest alignment is applied */
+  uint32_t crossed_count;              /* pairs that change sides, see hf_pair_info */
+  int32_t scale_found;                 /* 1: from the legs or the boxes; 0: given in the desc */
   uint32_t source_factorisation_count; /* numeric factorisations by edits of pairs; 0 unless they are very many */
   uint32_t target_factorisation_count;
-  double scale;           /* lengths of the target over those of the source, both in the units of their meshes */
+  double scale; /* lengths of the target over those of the source, both in the units of their meshes */
 } hf_transfer_info;
-/* Writes what is known of the transfer; see hf_transfer_get_pair. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads
- * `transfer`. Since 0.1. */
+/* Writes the info of the whole transfer. The first call after a change of pairs solves fields, as hf_transfer_get_pair
+ * does. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_info(hf_transfer transfer, hf_transfer_info* out_info);
 
-/* One frame. Set one of the source positions, and at least one output. Strides are in bytes; 0 = packed. */
+/* One frame: the posed source in, the posed target out. Set source_positions or source_positions_f64, and at least one
+ * output. Strides are in bytes; 0 = packed. */
 typedef struct hf_transfer_frame {
   uint32_t struct_size;
   uint32_t source_stride;
@@ -110,28 +113,30 @@ typedef struct hf_transfer_frame {
   uint32_t normal_stride;
   float* target_positions; /* [target vertex_count][3], or NULL */
   double* target_positions_f64;
-  float* target_normals;   /* [target vertex_count][3], or NULL */
-  /* Holds: the mean of the target's region of a pair (welded copies count once) goes exactly where you say: a foot on a
-     step, a hand on a rail. The rest follows. */
+  float* target_normals; /* [target vertex_count][3], or NULL */
+  /* A hold puts the target region of a pair exactly at a position of yours, such as a foot on a step or a hand on a
+   * rail. The mean of the region's vertices lands there; welded copies count once. The rest of the surface follows. */
   uint32_t hold_count;
   uint32_t reserved;            /* 0 */
   const uint32_t* hold_pairs;   /* [hold_count] each pair at most once */
   const double* hold_positions; /* [hold_count][3] in the target's unit and frame */
 } hf_transfer_frame;
 
-/* Transfers one posed frame. The rest pose of the source gives the rest pose of the target. Limbs whose rest alignment is
- * applied (hf_pair_info) take the direction of the source's instead.
- * In HF_TRANSFER_FIELDS with anchors, the ground counts too. A foot follows its scaled path exactly while the source's foot
- * stands. No part sinks deeper than the source's does, scaled; held regions are left where they are. A lying body rests on
- * the parts its source rests on. A rigid motion of the whole source is copied unchanged. Errors: HF_ERROR_EMPTY (no pair),
+/* Transfers one posed frame. If the source is at rest, the target is at rest too. A limb whose rest alignment is
+ * applied (hf_pair_info) instead takes the direction of the source's limb.
+ *
+ * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors. While a foot of the source stands
+ * on the ground, the target's foot follows its scaled path exactly. No part of the target sinks deeper into the ground
+ * than the same part of the source, scaled. The ground does not move held regions. A lying target rests on the parts
+ * that the source rests on. A rigid motion of the whole source is copied unchanged. Errors: HF_ERROR_EMPTY (no pair),
  * HF_ERROR_NON_FINITE (index = source vertex, or position in the holds), HF_ERROR_NO_SUCH_PAIR,
- * HF_ERROR_INVALID_ARGUMENT (a pair held twice), HF_ERROR_TOO_LARGE (holds). Thread safety: changes `transfer`. Since 0.1.
- */
+ * HF_ERROR_INVALID_ARGUMENT (a pair held twice), HF_ERROR_TOO_LARGE (holds). Thread safety: changes `transfer`. Since
+ * 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
 /* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With weight_count 4 the skin replays
- * hf_transfer_apply exactly, which uses the four largest weights itself. Errors: HF_ERROR_INVALID_ARGUMENT
- * (weight_count), HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */
+ * hf_transfer_apply exactly, because that function also uses the four largest weights. Errors:
+ * HF_ERROR_INVALID_ARGUMENT (weight_count), HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* inout_skin);
 
 #ifdef __cplusplus
