@@ -1,11 +1,12 @@
-// Eigen for small dense algebra: the only header of src that includes it.
+// Includes Eigen for small dense algebra. No other header of src includes Eigen directly.
 //
-// What is set here makes results the same bits everywhere: no vectorisation (the order of a sum would follow the
-// lanes), no threads; the build forbids contraction. Sizes are fixed, so nothing is allocated (a test of the rooms
-// reads that). Matrices start at zero.
+// The macros below make results the same bits on every machine. Vectorisation is off, because the lane count would
+// change the order of sums. Threads are off, and the build forbids contraction (a * b + c in one rounding). All sizes
+// are fixed, so Eigen never allocates; the test tests/unit/rooms checks this. Matrices start at zero.
 //
-// The namespace is renamed while Eigen is read: a host may compile Eigen with other flags and link hf_static, and the
-// linker would keep one of two functions of the same name. Include this before any header that includes Eigen itself.
+// The macro `Eigen` renames Eigen's namespace to hf_eigen. A host may compile Eigen with other flags and link
+// hf_static. With one name the linker would keep only one of two different functions. Include this header before any
+// header that includes Eigen itself.
 #pragma once
 #ifdef EIGEN_CORE_H
 #error "base/algebra.h must come before any other header that includes Eigen"

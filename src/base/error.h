@@ -1,5 +1,6 @@
-// The one exception of the library. Rooms throw it; capi catches it at the boundary, stores code, index and message in
-// the thread's error detail and returns the code. The message is built into a fixed buffer: failing never allocates.
+// The one exception type of the library. Code in src throws it. src/capi catches it at the C boundary, stores code,
+// index and message in the thread's error detail, and returns the code. The message is in a fixed buffer, so throwing
+// needs no memory for it.
 #pragma once
 #include <cstdint>
 #include <exception>
@@ -23,8 +24,8 @@ class Error final : public std::exception {
   char message_[message_size];
 };
 
-// Throws Error. `index` is the vertex, triangle, site, handle or component the message is about, or HF_NO_INDEX.
-// The message is one line and says what to do.
+// Throws Error. `index` is the vertex, triangle, site, handle or component that the message is about, or HF_NO_INDEX.
+// The message has one line and tells the caller what to do.
 [[noreturn]] void fail(hf_result code, std::uint32_t index, const char* format, ...)
     __attribute__((format(printf, 3, 4)));
 

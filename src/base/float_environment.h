@@ -1,6 +1,6 @@
-// The host may run with floating-point traps, flush-to-zero or another rounding mode. Every entry point constructs a
-// FloatEnvironment: it saves the host's, sets round-to-nearest, no traps, subnormals on, and restores it at scope end,
-// sticky flags included.
+// Gives the library its own floating-point settings during a call. The host may use traps, flush-to-zero or another
+// rounding mode. Every entry point constructs a FloatEnvironment. The constructor saves the host's settings and sets
+// round-to-nearest, no traps and subnormal numbers. The destructor restores the host's settings and exception flags.
 #pragma once
 #include <cfenv>
 #include <cstdint>
@@ -17,14 +17,15 @@ class FloatEnvironment {
     std::feholdexcept(&host_);
 #if defined(__SSE2__)
     control_ = _mm_getcsr();
-    _mm_setcsr(0x1f80u);  // all exceptions masked, round to nearest, neither FTZ nor DAZ
+    _mm_setcsr(0x1f80u);  // all exceptions masked, round to nearest, denormals kept
 #endif
     std::fesetround(FE_TONEAREST);
   }
   ~FloatEnvironment() {
     std::fesetenv(&host_);
 #if defined(__SSE2__)
-    // feholdexcept has saved the sticky flags and traps of the host in host_; DAZ is in the control word only
+    // fesetenv restored the exception flags and traps of the host. control_ restores flush-to-zero and
+    // denormals-are-zero.
     _mm_setcsr((_mm_getcsr() & ~0x8040u) | (control_ & 0x8040u));
 #endif
   }

@@ -1,4 +1,4 @@
-// Undo and redo of an object whose states are values.
+// Undo and redo for an object whose states can be copied or moved.
 #pragma once
 #include <utility>
 
@@ -10,8 +10,8 @@ namespace hf_inner {
 template <class State>
 class History {
  public:
-  // States kept for undo; a further one drops the oldest. More costs memory: a state shares paths and dense blocks with
-  // its neighbours, but not its list of sites. The headers promise this number.
+  // Number of states kept for undo; recording one more drops the oldest. A larger number costs memory, because every
+  // state has its own list of sites. The public headers promise this number.
   static constexpr std::size_t most_states = 256;
   explicit History(Memory& memory) : undo_(&memory), redo_(&memory) {}
 
@@ -20,12 +20,12 @@ class History {
     undo_.push_back(std::move(present));
     redo_.clear();
   }
-  // After an edit there is nothing to redo.
+  // Call this after an edit: the undone states no longer apply.
   void clear_redo() noexcept { redo_.clear(); }
 
-  // Go back to the last recorded state, or forward to the last one undone. present() makes the present state, which the
-  // other stack takes. restore(state) installs the old one and may move from it. All or nothing when restore is. Throw
-  // HF_ERROR_NO_RECORD with the message `nothing`.
+  // undo restores the last recorded state; redo restores the last undone state. present() returns the present state,
+  // which goes on the other stack. restore(state) installs the old state and may move from it. If restore throws,
+  // nothing changes. If there is no state to restore, both throw HF_ERROR_NO_RECORD with the message `nothing`.
   template <class Present, class Restore>
   void undo(const char* nothing, Present&& present, Restore&& restore) {
     step(undo_, redo_, nothing, present, restore);

@@ -1,15 +1,16 @@
-// sqrt(a^2 + b^2) of IEEE operations alone: the bits of a field must not depend on the C library, whose hypot may round
-// either way.
+// Computes sqrt(a^2 + b^2) with IEEE operations alone. std::hypot may round either way, depending on the C library, and
+// the bits of a field must not depend on it.
 #pragma once
 #include <algorithm>
 #include <cmath>
 
 namespace hf_inner {
 
-// Squares outside may have lost digits to underflow, or overflowed in the sum.
+// Outside this range, a sum of squares may have lost digits to underflow or may have overflowed.
 constexpr double least_square = 1e-280, largest_square = 1e300;
 
-// Without overflow or underflow on the way, to two units in the last place. a and b are numbers, infinite ones too.
+// Returns sqrt(a^2 + b^2), accurate to two units in the last place. No intermediate result overflows or underflows. a
+// and b may be infinite but not NaN.
 inline double hypotenuse(double a, double b) noexcept {
   const double sum = a * a + b * b;
   if (sum > least_square && sum < largest_square) return std::sqrt(sum);

@@ -1,4 +1,4 @@
-// Numbers of vertices, edges, triangles, rows and columns, and their conversion to positions in arrays.
+// The integer type for numbers of vertices, edges, triangles, rows and columns. at() converts it to an array position.
 #pragma once
 #include <cstddef>
 #include <cstdint>

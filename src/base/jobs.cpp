@@ -24,7 +24,7 @@ long this_process() noexcept {
 #endif
 }
 
-// One batch of jobs: an atomic counter deals the indices, the first exception is kept.
+// One batch of jobs. An atomic counter hands out the indices. The batch keeps the first exception.
 struct Batch {
   std::uint32_t count;
   void (*call)(void*, std::uint32_t);
@@ -50,13 +50,14 @@ struct Batch {
   }
 };
 
-// Waiting awake: a sleeping thread wakes in tens of microseconds, a longer spin takes a core from the host.
+// How long a thread polls before it sleeps. A sleeping thread needs tens of microseconds to wake. A longer time would
+// keep a core from the host.
 constexpr std::chrono::microseconds spin_time{40};
-// Polls between two readings of the clock. No result depends on it.
+// Polls between two readings of the clock. No result depends on this number.
 constexpr int polls = 64;
 
-// Calls done() until it holds or spin_time is over. A solve is a dozen batches in a row, and waking a thread for each
-// costs more than the smaller ones.
+// Calls done() until it returns true or spin_time is over. A solve runs about a dozen batches in a row. Waking a
+// sleeping thread for each batch would cost more than the smaller batches take.
 template <class Done>
 bool spin(Done&& done) noexcept {
   const auto until = std::chrono::steady_clock::now() + spin_time;
@@ -71,7 +72,8 @@ bool spin(Done&& done) noexcept {
   }
 }
 
-// Whether this thread is in a job of a host's runner: hosts need not take batches from within a job, so it works alone.
+// True while this thread runs a job of a host's runner. A host's runner need not accept batches from within a job, so a
+// nested batch runs on this thread alone.
 thread_local bool in_host_job = false;
 
 struct HostJob {
@@ -82,10 +84,10 @@ struct HostJob {
 
 }  // namespace
 
-// Between batches workers spin for a moment, then sleep on a condition variable. One batch has the workers at a time.
-// Another caller (a clone, or a job that splits its own work) meanwhile does its batch alone, so nothing can lock up. A
-// forked child inherits the pool but not its threads: it works alone. It leaves the pool allocated when the runner
-// goes, since joining the threads would never return.
+// The library's own threads. Between batches the workers poll for a moment, then sleep on a condition variable. The
+// workers serve one batch at a time. Another caller, such as a clone or a job with jobs of its own, meanwhile runs its
+// batch alone, so the pool cannot deadlock. A forked child process inherits the pool but not its threads, so it works
+// alone. The child never frees the pool, because joining the missing threads would never return.
 struct JobRunner::Pool {
   std::atomic<bool> taken{false};
   std::mutex mutex;
@@ -102,7 +104,8 @@ struct JobRunner::Pool {
     try {
       for (std::uint32_t i = 0; i < count; ++i) workers.emplace_back([this] { loop(); });
     } catch (...) {
-      // fewer threads than asked for: results are the same, so go on with those there are
+      // The pool got fewer threads than it asked for. Results do not depend on the number, so it uses the threads it
+      // has.
     }
   }
   ~Pool() {
@@ -168,8 +171,8 @@ void JobRunner::run(std::uint32_t count, Call call, void* context) {
   if (host_.run && in_host_job) {
     batch.work();
   } else if (host_.run) {
-    // the host calls us back once per index; anything it leaves out is done here, so a careless runner costs time, not
-    // truth
+    // The host should call us once per index. The library runs the jobs that the host leaves out, so a faulty runner
+    // costs time but changes no result.
     host_.run(
         host_.user, count,
         [](void* data, std::uint32_t) {

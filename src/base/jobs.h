@@ -1,6 +1,6 @@
-// Work split over the threads the caller grants: a pool the library owns (thread_count from the desc), or the host's
-// own job runner. Results never depend on the number of threads: work is cut into fixed pieces, and each piece writes
-// its own output. No sum crosses a piece in an order that depends on threads.
+// Splits work over the threads that the caller allows: a thread pool of the library, or the host's own job runner.
+// Results never depend on the number of threads. The work is cut into fixed pieces, and each piece writes its own
+// output. The order of a sum over several pieces never depends on threads.
 #pragma once
 #include <cstdint>
 #include <exception>
@@ -13,7 +13,7 @@ namespace hf_inner {
 
 class JobRunner {
  public:
-  // thread_count: threads that may work at once, the caller's own included; 1 runs everything on the caller.
+  // thread_count: threads that may work at once, including the calling thread; 1 runs every job on the calling thread.
   explicit JobRunner(std::uint32_t thread_count, const hf_job_runner& host = {});
   ~JobRunner();
   JobRunner(const JobRunner&) = delete;
@@ -21,9 +21,8 @@ class JobRunner {
 
   std::uint32_t thread_count() const noexcept { return thread_count_; }
 
-  // Calls job(index) for index = 0 .. count-1, on any of the threads, in any order, each once; returns when all are
-  // done. The first exception of a job is rethrown on the calling thread; the remaining jobs are still called or
-  // skipped.
+  // Calls job(index) once for each index = 0 .. count - 1, on any thread and in any order. Returns when all jobs are
+  // done. If a job throws, the first exception is rethrown on the calling thread, and remaining jobs may be skipped.
   template <class Job>
   void for_each(std::uint32_t count, Job&& job) {
     if (count == 0) return;
@@ -47,14 +46,14 @@ class JobRunner {
   std::unique_ptr<Pool> pool_;
 };
 
-// The same on a runner that may be absent: then on the calling thread.
+// Same as JobRunner::for_each, but `jobs` may be null. Then the calling thread runs all jobs.
 template <class Job>
 void for_each(JobRunner* jobs, std::uint32_t count, Job&& job) {
   if (jobs) return jobs->for_each(count, job);
   for (std::uint32_t i = 0; i < count; ++i) job(i);
 }
 
-// Calls work(begin, end) for the pieces of 0 .. count, `piece` numbers each.
+// Cuts the range 0 .. count into pieces of `piece` numbers and calls work(begin, end) for each piece.
 template <class Work>
 void for_ranges(JobRunner& jobs, std::size_t count, std::size_t piece, Work&& work) {
   jobs.for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {

@@ -9,13 +9,12 @@
 namespace hf_inner {
 namespace {
 
-// Linux's large page: a factor of 130 MB read through 4 KiB pages takes several times as long.
+// Size of a large page on Linux. Reading a factor of 130 MB through pages of 4 KiB takes several times as long.
 constexpr std::size_t huge_page = std::size_t{2} << 20;
-// Smaller blocks would waste up to half a large page.
+// Smallest block that is aligned to large pages. In smaller blocks up to half of a large page would be wasted.
 constexpr std::size_t least_huge = 2 * huge_page;
 
-// Large blocks are aligned to 2 MiB and offered to the kernel as huge pages: reading a factor of 130 MB through 4 KiB
-// pages costs several times its time through large ones.
+// Aligns large blocks to 2 MiB and asks the kernel for large pages, which make reading a factor several times faster.
 void* default_allocate(std::size_t bytes, std::size_t alignment) noexcept {
   const bool large = bytes >= least_huge;
   const std::size_t align = large ? huge_page : (alignment < sizeof(void*) ? sizeof(void*) : alignment);
@@ -28,7 +27,7 @@ void* default_allocate(std::size_t bytes, std::size_t alignment) noexcept {
   return pointer;
 }
 
-// A std allocator straight on the hooks, for the Memory object itself.
+// A standard allocator that calls the host's functions directly. It allocates the Memory object itself.
 template <class T>
 struct HookAllocator {
   using value_type = T;
@@ -66,7 +65,7 @@ std::shared_ptr<Memory> make_memory(const hf_allocator& hooks, std::uint64_t byt
 }
 
 void* Memory::do_allocate(std::size_t bytes, std::size_t alignment) {
-  // counted until the block is there, or the host's hook refuses or throws
+  // Counts the bytes first and subtracts them again if the allocation fails.
   struct Claim {
     std::atomic<std::uint64_t>& live;
     std::uint64_t bytes;

@@ -1,10 +1,10 @@
-// All memory of a solver passes through one Memory: the host's hooks (or malloc), live and peak bytes, and a byte
-// limit.
+// Memory counts and limits every allocation of a surface and of the objects made on it. It allocates through the host's
+// functions or malloc, and counts live and peak bytes.
 //
-// Containers: hf_inner::Vector<T> (std::pmr::vector on a Memory) for small and growing arrays, hf_inner::Buffer<T> for
-// large numeric arrays (64-byte aligned, not initialised). Failure throws std::bad_alloc and leaves what was allocated
-// before intact. A Memory outlives everything allocated from it; handles share it by std::shared_ptr. Thread safety:
-// allocate and deallocate may be called from any thread if the host's hooks allow it (the default ones do).
+// Two containers use it: Vector<T> (std::pmr::vector) for small and growing arrays, and Buffer<T> for large numeric
+// arrays (64-byte aligned, not initialised). A failed allocation throws std::bad_alloc and leaves earlier allocations
+// intact. A Memory must outlive everything allocated from it, so handles share it by std::shared_ptr. Thread safety:
+// any thread may allocate and deallocate if the host's functions allow it; the default functions do.
 #pragma once
 #include <atomic>
 #include <cstddef>
@@ -22,7 +22,8 @@ namespace hf_inner {
 class Memory final : public std::pmr::memory_resource {
  public:
   Memory() noexcept = default;
-  // hooks: both functions set, or both null for malloc. byte_limit: 0 = none.
+  // hooks: the host's allocation functions; both set, or both null for malloc. byte_limit: most live bytes; 0 = no
+  // limit.
   explicit Memory(const hf_allocator& hooks, std::uint64_t byte_limit = 0) noexcept
       : hooks_(hooks), byte_limit_(byte_limit) {}
 
@@ -41,21 +42,22 @@ class Memory final : public std::pmr::memory_resource {
   std::atomic<std::uint64_t> live_{0}, peak_{0}, count_{0};
 };
 
-// A Memory that lies in a block of the hooks itself. Throws std::bad_alloc.
+// Makes a Memory object whose own block also comes from the hooks. Throws std::bad_alloc.
 std::shared_ptr<Memory> make_memory(const hf_allocator& hooks, std::uint64_t byte_limit);
 
 template <class T>
 using Vector = std::pmr::vector<T>;
 
-// std::make_shared on a Memory, for objects that do not own it (see make_owner_in).
+// std::make_shared with the block taken from `memory`. Use it for objects that do not own that Memory; see
+// make_owner_in.
 template <class T, class... Arguments>
 std::shared_ptr<T> make_shared_in(Memory& memory, Arguments&&... arguments) {
   return std::allocate_shared<T>(std::pmr::polymorphic_allocator<T>(&memory), std::forward<Arguments>(arguments)...);
 }
 
-// An allocator that keeps its Memory alive: for objects that are, directly or through what they hold, owners of the
-// Memory they lie in. The block of such an object is given back after its destructor, when no other object holds the
-// Memory any more.
+// An allocator that keeps its Memory alive. It serves objects that lie in a Memory and also own it, directly or through
+// their members. Such an object frees its block after its own destructor, when no other owner of the Memory may be
+// left.
 template <class T>
 struct OwningAllocator {
   using value_type = T;
@@ -75,13 +77,13 @@ struct OwningAllocator {
   std::shared_ptr<Memory> memory;
 };
 
-// std::make_shared for such objects.
+// std::make_shared for objects that own the Memory they lie in.
 template <class T, class... Arguments>
 std::shared_ptr<T> make_owner_in(const std::shared_ptr<Memory>& memory, Arguments&&... arguments) {
   return std::allocate_shared<T>(OwningAllocator<T>(memory), std::forward<Arguments>(arguments)...);
 }
 
-// Uninitialised array of trivially copyable T, aligned to 64 bytes. Move only.
+// An uninitialised array of trivially copyable T, aligned to 64 bytes. It can be moved but not copied.
 template <class T>
 class Buffer {
  public:
@@ -98,19 +100,19 @@ class Buffer {
   Buffer& operator=(const Buffer&) = delete;
   ~Buffer() { release(); }
 
-  // Replaces the contents by `size` uninitialised elements; on std::bad_alloc the old contents stand.
+  // Replaces the contents by `size` uninitialised elements. If it throws std::bad_alloc, the old contents remain.
   void allocate(Memory& memory, std::size_t size) {
     if (size > most_bytes / sizeof(T)) throw std::bad_alloc();
     T* fresh = size ? static_cast<T*>(memory.allocate(size * sizeof(T), alignment)) : nullptr;
     release();
     memory_ = &memory, data_ = fresh, size_ = size;
   }
-  // Shows `size` elements that somebody else keeps alive; they are only read.
+  // Makes the buffer a read-only view of `size` elements at `data`. The caller keeps these elements alive.
   void borrow(const T* data, std::size_t size) noexcept {
     release();
     memory_ = nullptr, data_ = const_cast<T*>(data), size_ = size;
   }
-  // Like allocate, but keeps the present block when it is large enough; contents are not preserved.
+  // Like allocate, but keeps the present block if it is large enough. The contents are not preserved.
   void reserve_at_least(Memory& memory, std::size_t size) {
     if (size > size_) allocate(memory, size);
   }
@@ -132,9 +134,9 @@ class Buffer {
   const T* begin() const noexcept { return data_; }
   const T* end() const noexcept { return data_ + size_; }
 
-  // A cache line, and the widest vector.
+  // Alignment in bytes: one cache line, and the size of the widest vector register.
   static constexpr std::size_t alignment = 64;
-  // Refuses sizes whose product with the size of T would overflow.
+  // Largest number of bytes of a buffer. The limit keeps size * sizeof(T) from overflowing.
   static constexpr std::size_t most_bytes = static_cast<std::size_t>(-1) / 16;
 
  private:

@@ -1,4 +1,4 @@
-// Hands out the smallest numbers not in use: of sites, handles, pairs and slots.
+// Hands out the smallest number that is not in use. Sites, handles, pairs and slots get their numbers here.
 #pragma once
 #include <cstdint>
 
@@ -6,7 +6,8 @@ namespace hf_inner {
 
 class NumberPool {
  public:
-  // The smallest number that is not in use; it counts as taken at once. in_use(number): asked for rising numbers only.
+  // Returns the smallest number that is not in use, and marks it as taken. in_use(number) is called for rising numbers
+  // only.
   template <class InUse>
   std::uint32_t take(InUse&& in_use) {
     while (in_use(next_)) ++next_;

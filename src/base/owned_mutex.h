@@ -1,4 +1,4 @@
-// A mutex that knows its thread: for what is made at first use behind a const object.
+// A mutex that knows which thread holds it. It guards data that a const object makes at first use.
 #pragma once
 #include <atomic>
 #include <mutex>
@@ -8,8 +8,9 @@
 
 namespace hf_inner {
 
-// Works with std::lock_guard. Locking it twice on one thread throws HF_ERROR_REENTRANT instead of waiting for itself:
-// allocators and job runners of the host may call the library from inside the making.
+// Works with std::lock_guard. If one thread locks it twice, the second lock throws HF_ERROR_REENTRANT instead of
+// waiting forever. This can happen because allocators and job runners of the host may call the library while it makes
+// the data.
 class OwnedMutex {
  public:
   void lock() {

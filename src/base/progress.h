@@ -1,5 +1,5 @@
-// Progress of a long call, polled and cancelled from any thread. Work reports its share as it goes; report() throws
-// HF_ERROR_CANCELLED once cancel() was called, so a cancelled call unwinds like any other failure.
+// Progress of a long call. Any thread can poll and cancel it. The work calls report() with the fraction done. After
+// cancel(), report() throws HF_ERROR_CANCELLED, so a cancelled call unwinds like any failed call.
 #pragma once
 #include <atomic>
 
@@ -30,7 +30,8 @@ class Progress {
   float low_ = 0, high_ = 1;  // of what is reported; the work's own
 };
 
-// While it lives, reports of 0 to 1 stand for `from` to `to` of the range that was. The progress may be absent.
+// During the lifetime of this object, reports from 0 to 1 are mapped to `from` .. `to` of the previous range. The
+// progress may be null.
 class ProgressRange {
  public:
   ProgressRange(Progress* progress, float from, float to) noexcept : progress_(progress) {
@@ -49,7 +50,7 @@ class ProgressRange {
   float low_ = 0, high_ = 1;
 };
 
-// Reports to a progress that may be absent.
+// Reports a fraction to a progress, which may be null.
 inline void report(Progress* progress, float fraction) {
   if (progress) progress->report(fraction);
 }

@@ -1,4 +1,4 @@
-// A view of contiguous memory that somebody else owns (std::span for C++17), and a view of rows at a byte stride.
+// Span views contiguous memory owned by another object, as std::span of C++20 does. Rows views rows at a byte stride.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -35,8 +35,8 @@ class Span {
   std::size_t size_ = 0;
 };
 
-// Rows of `width` numbers of type float or double, `stride` bytes apart, possibly unaligned; read and written as
-// double.
+// Rows of floats or doubles, `stride` bytes apart and possibly unaligned. ConstRows reads the numbers as doubles, and
+// Rows writes doubles to them.
 class ConstRows {
  public:
   ConstRows() noexcept = default;

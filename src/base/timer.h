@@ -1,4 +1,4 @@
-// Wall-clock milliseconds for the statistics.
+// Measures wall-clock milliseconds for the statistics.
 #pragma once
 #include <chrono>
 

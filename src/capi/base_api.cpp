@@ -1,4 +1,4 @@
-// hf/base.h: versions, error detail, progress objects.
+// Implements hf/base.h: versions, error detail, progress objects.
 #include <cstdio>
 
 #include "base/version.h"
@@ -8,7 +8,7 @@
 namespace hf_inner::capi {
 namespace {
 
-// The detail of this thread's last failure. Plain data: no constructor, no destructor, nothing to allocate.
+// The detail of this thread's last failure. It is plain data without constructor or destructor and never allocates.
 thread_local hf_error_detail last_failure;
 
 }  // namespace

@@ -1,5 +1,6 @@
-// The boundary of the library: every exported function runs inside guarded(), which owns the float environment, catches
-// everything and fills the thread's error detail. Descs are read and written here by struct_size.
+// The C boundary of the library. Every exported function runs inside guarded(). guarded() sets the float environment,
+// catches all exceptions and fills the thread's error detail. This header also reads and writes structs of the caller,
+// whose length is their struct_size.
 #pragma once
 #include <cstddef>
 #include <cstring>
@@ -12,7 +13,7 @@
 
 namespace hf_inner::capi {
 
-// Stores the detail of a failure for hf_error_get_detail and returns the code.
+// Stores the detail of a failure, which hf_error_get_detail returns, and returns the code.
 hf_result record_failure(hf_result code, std::uint32_t index, const char* function, const char* message) noexcept;
 
 template <class Work>
@@ -37,12 +38,12 @@ inline void require(const void* pointer, const char* name) {
   if (!pointer) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s is NULL", name);
 }
 
-// The size of a struct in the first release that had it. A field appended after a release gets a specialisation here,
-// offsetof the first new field, so that programs built before go on working.
+// The size of a struct in the first release that had it. If a later release appends a field, specialise this with
+// offsetof the first new field. Programs built with the older header then keep working.
 template <class T>
 inline constexpr std::size_t released_size = sizeof(T);
 
-// Checks struct_size: the released size or more, and zero in every byte this version does not know.
+// Checks struct_size: it must be at least the released size. Every byte that this version does not know must be zero.
 template <class T>
 void check_struct(const T* given, const char* name) {
   require(given, name);
@@ -59,7 +60,7 @@ void check_struct(const T* given, const char* name) {
   }
 }
 
-// A copy of a desc with what the caller's version lacks at zero.
+// Returns a copy of a desc. Fields that the caller's older version lacks are zero in the copy.
 template <class T>
 T read_struct(const T* given, const char* name) {
   check_struct(given, name);
@@ -69,7 +70,7 @@ T read_struct(const T* given, const char* name) {
   return copy;
 }
 
-// As read_struct; NULL gives a struct of defaults.
+// Same as read_struct, but a NULL pointer gives a struct of defaults.
 template <class T>
 T read_optional(const T* given, const char* name) {
   if (given) return read_struct(given, name);
@@ -84,21 +85,21 @@ void require_zero(T reserved) {
     fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "reserved is %lld; set it to 0", static_cast<long long>(reserved));
 }
 
-// Writes an output struct as far as the caller's version goes; its struct_size stays.
+// Writes an output struct up to the length that the caller's version has. The caller's struct_size stays as it is.
 template <class T>
 void write_struct(T* out, T value) {
   value.struct_size = out->struct_size;
   std::memcpy(static_cast<void*>(out), &value, out->struct_size < sizeof(T) ? out->struct_size : sizeof(T));
 }
 
-// A byte stride: 0 is packed, otherwise at least one row.
+// Returns a byte stride. 0 means packed; any other stride must be at least the bytes of one row.
 inline std::size_t stride_of(std::uint32_t stride, std::size_t row, const char* name) {
   if (stride == 0) return row;
   if (stride < row) fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "%s is %u bytes; a row has %zu", name, stride, row);
   return stride;
 }
 
-// Refuses an array out that cannot take what there is. Counts are written before this is called.
+// Refuses an output array that is too small for `count` entries. Call it after the counts were written.
 inline void check_capacity(bool given, std::size_t capacity, std::size_t count, const char* name) {
   if (given && capacity < count)
     fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "%s is %zu; %zu are needed", name, capacity, count);
@@ -108,7 +109,7 @@ inline void write_count(std::uint32_t* out_count, std::size_t count) noexcept {
   if (out_count) *out_count = static_cast<std::uint32_t>(count);
 }
 
-// A list of the caller: at least one entry.
+// Refuses a list of the caller that is NULL or has no entries.
 inline void require_list(std::uint32_t count, const void* list, const char* count_name, const char* name) {
   if (count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "%s is 0", count_name);
   require(list, name);
@@ -124,7 +125,7 @@ inline void check_choice(std::int32_t value, std::int32_t count, const char* nam
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s is %d; it must be 0 to %d", name, value, count - 1);
 }
 
-// A count with a default for 0.
+// Returns a count of the caller, or the default for 0. Refuses counts outside least .. most.
 inline std::uint32_t count_of(std::uint32_t value, std::uint32_t standard, std::uint32_t least, std::uint32_t most,
                               const char* name) {
   if (value == 0) return standard;
@@ -134,7 +135,8 @@ inline std::uint32_t count_of(std::uint32_t value, std::uint32_t standard, std::
   return value;
 }
 
-// Rows of `width` floats or doubles of the caller; null when neither is given, refused when both are.
+// check_one refuses two arrays at once. rows_of views the array that is given as rows of `width` numbers, or returns
+// null rows when none is given.
 inline void check_one(const void* f32, const void* f64, const char* name) {
   if (f32 && f64) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s and %s_f64 are both set; set one", name, name);
 }

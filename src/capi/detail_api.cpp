@@ -1,4 +1,4 @@
-// hf/region.h: detail carried to another region.
+// Implements the part of hf/region.h that carries detail to another region.
 #include <cmath>
 
 #include "capi/morph_out.h"

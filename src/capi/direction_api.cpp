@@ -1,4 +1,4 @@
-// hf/direction.h: direction fields.
+// Implements hf/direction.h: direction fields.
 #include <algorithm>
 #include <cmath>
 
@@ -37,7 +37,7 @@ struct DirectionObject final : Object {
 
 std::shared_ptr<DirectionObject> object_of(hf_direction handle) { return get<DirectionObject>(handle, "direction"); }
 
-// Counts no list can have, refused before the lists are read.
+// Refuses a count that exceeds the number of constraints, before the lists are read.
 void check_count(std::uint32_t count, std::uint32_t there) {
   if (count > there) fail(HF_ERROR_NO_SUCH_SITE, there, "%u constraints named, but there are %u", count, there);
 }
@@ -224,7 +224,7 @@ hf_result hf_direction_get_singularities(hf_direction handle, uint32_t capacity,
     write_count(out_count, found.size());
     check_capacity(out_singularities, capacity, found.size(), "capacity");
     if (!out_singularities) return;
-    // usable triangles stand in the order of the given ones
+    // Found and given triangles have the same order, so one pass over the given triangles finds all numbers.
     std::size_t next = 0;
     for (std::uint32_t t = 0; t < mesh.report.triangle_count && next < found.size(); ++t) {
       if (mesh.triangle_of_given[t] != found[next].triangle) continue;

@@ -1,4 +1,4 @@
-// hf/solver.h: fields, previews and certificates of a solver.
+// Implements the part of hf/solver.h for fields, previews and certificates.
 #include <algorithm>
 #include <cmath>
 
@@ -117,7 +117,7 @@ hf_result hf_solver_solve_at(hf_solver handle, uint32_t count, const uint32_t* v
     }
     Vector<double> values(inner.size() * m, solver->memory.get());
     solver->field.solve_at(inner, values.data());
-    // the list is not read again: the caller may have it overwritten by the output
+    // From here on the input list is not read: the caller may pass memory for the output that overlaps the list.
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t c = 0; c < m; ++c)
         out_values[i * m + c] = place[i] == HF_NO_INDEX ? 0.0 : values[place[i] * m + c];

@@ -8,7 +8,7 @@ namespace {
 
 constexpr unsigned index_bits = sizeof(std::uintptr_t) >= 8 ? 24 : 13;
 constexpr unsigned generation_bits = sizeof(std::uintptr_t) >= 8 ? 32 : 15;
-// what is left for the kind on 32-bit hosts; looked at in every build
+// Checks in every build, 64-bit ones included, that the kind fits the bits that a 32-bit handle has left for it.
 static_assert(static_cast<unsigned>(Kind::surface) >> (32 - 13 - 15) == 0,
               "the last kind does not fit a 32-bit handle");
 constexpr std::uintptr_t index_mask = (std::uintptr_t{1} << index_bits) - 1;
@@ -34,7 +34,7 @@ std::uintptr_t encode(std::size_t index, std::uintptr_t generation, Kind kind) n
          static_cast<std::uintptr_t>(index);
 }
 
-// The slot a handle names, or null. The mutex is held.
+// Returns the slot that a handle names, or null. The caller holds the mutex.
 Slot* slot_of(std::uintptr_t handle, Kind kind) noexcept {
   const std::size_t index = handle & index_mask;
   if (handle >> (index_bits + generation_bits) != static_cast<std::uintptr_t>(kind) || index >= table.capacity)

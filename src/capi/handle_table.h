@@ -1,7 +1,7 @@
-// The one global of the library: the table behind all handles. A handle is not a pointer but kind, generation and
-// index; a stale, foreign or doubly destroyed one is found out and answered with HF_ERROR_INVALID_HANDLE. Generations
-// are never used twice (until 2^32 objects, or 2^15 on 32-bit hosts, were made). Empty, the table holds no memory, so
-// unloading the library leaks nothing.
+// The table behind all handles. It is the only state that all threads of a process share. A handle is no pointer. It
+// encodes the kind of object, a generation and an index. Functions answer a stale, foreign or destroyed handle with
+// HF_ERROR_INVALID_HANDLE. A generation is used again only after 2^32 objects, or 2^15 on 32-bit hosts. An empty table
+// holds no memory, so unloading the library leaks nothing.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -27,8 +27,9 @@ enum class Kind : std::uint32_t {
   surface = 11
 };
 
-// The object that a handle stands for. Readers share, a writer is alone; nobody waits: a call that overlaps answers HF_ERROR_BUSY,
-// or HF_ERROR_REENTRANT when it comes from a callback of the very call it overlaps.
+// The object that a handle stands for. Several calls may read it at once; a call that changes it must be alone. No call
+// waits for another. A call that overlaps a change returns HF_ERROR_BUSY. If it comes from a callback of that change,
+// it returns HF_ERROR_REENTRANT.
 class Object {
  public:
   explicit Object(Kind kind) noexcept : kind_(kind) {}
@@ -52,7 +53,7 @@ class Reading {
   ~Reading();
   Reading(const Reading&) = delete;
   Reading& operator=(const Reading&) = delete;
-  // Whether this thread is inside a call that reads the object.
+  // Returns true if this thread is inside a call that reads the object.
   static bool by_this_thread(const Object& object) noexcept;
 
  private:
@@ -74,14 +75,14 @@ class Changing {
   Object& object_;
 };
 
-// Registers an object; throws std::bad_alloc, or HF_ERROR_TOO_LARGE when the table is full.
+// Registers an object and returns its handle. Throws std::bad_alloc, or HF_ERROR_TOO_LARGE when the table is full.
 std::uintptr_t insert(std::shared_ptr<Object> object);
-// The object behind a handle, kept alive for the call; null when there is none of that kind.
+// Returns the object behind a handle and keeps it alive for the call. Returns null if no object of that kind has it.
 std::shared_ptr<Object> find(std::uintptr_t handle, Kind kind) noexcept;
-// Takes it out of the table; the last user destroys it.
+// Takes an object out of the table. The last call that uses the object destroys it.
 std::shared_ptr<Object> remove(std::uintptr_t handle, Kind kind) noexcept;
 
-// The object behind a handle of the host. T::kind_of says which kind is meant.
+// Returns the object behind a handle of the host, or throws HF_ERROR_INVALID_HANDLE. T::kind_of is the kind of handle.
 template <class T, class Handle>
 std::shared_ptr<T> get(Handle handle, const char* name, std::uint32_t index = HF_NO_INDEX) {
   std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(handle), T::kind_of);
@@ -91,7 +92,7 @@ std::shared_ptr<T> get(Handle handle, const char* name, std::uint32_t index = HF
   return std::static_pointer_cast<T>(std::move(object));
 }
 
-// Makes an object and hands its handle out; *out is NULL after a failure.
+// Makes an object and writes its handle to *out. After a failure *out is NULL.
 template <class Handle, class Make>
 void create(Handle* out, const char* name, Make&& make) {
   if (!out) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s is NULL", name);

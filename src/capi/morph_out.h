@@ -1,4 +1,4 @@
-// Positions and normals of a morphed region, written as hf_morph_desc says.
+// Writes positions and normals of a morphed region to the arrays of hf_morph_desc.
 #pragma once
 #include <cmath>
 
@@ -26,7 +26,8 @@ inline MorphOut read_morph(const hf_morph_desc* given) {
           rows_of(desc.normals, nullptr, 3, desc.normal_stride, "normal_stride")};
 }
 
-// moved(given, i): where the vertex `given`, number i of those inside, stands.
+// moved(given, i) returns the morphed position of the i-th vertex inside the region; `given` is its number in the mesh
+// as the caller passed it.
 template <class Moved>
 void write_morph(const RegionSurface& surface, const RegionState& state, const MorphOut& out, Moved&& moved) {
   const Core& core = *surface.core;

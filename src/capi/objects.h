@@ -1,4 +1,4 @@
-// The objects behind the handles.
+// The classes of the objects behind the handles.
 #pragma once
 #include <atomic>
 #include <memory>
@@ -17,7 +17,8 @@ struct ProgressObject final : Object {
   Progress progress;
 };
 
-// Runs work(progress) with the progress of a handle, or null. A cancel that stopped this call does not stop the next.
+// Calls work(progress) with the progress object of a handle, or with null for a NULL handle. If the call is cancelled,
+// the progress object is reset, so that the next call with it runs.
 template <class Work>
 auto with_progress(hf_progress handle, Work&& work) {
   std::shared_ptr<ProgressObject> object;
@@ -39,7 +40,7 @@ struct SurfaceObject final : Object {
   const hf_surface_info info;
 };
 
-// Poses, transfers, directions, distances and quads stand on this core.
+// Returns the harmonic core of a surface. Poses, transfers, directions, distances and quads are built on this core.
 inline std::shared_ptr<const Core> harmonic_core(hf_surface handle, const char* name = "surface",
                                                  std::uint32_t index = HF_NO_INDEX) {
   return get<SurfaceObject>(handle, name, index)->surface.core(FieldKind::harmonic);
@@ -65,7 +66,7 @@ struct SolverObject final : Object {
   const double penalty;
   std::shared_ptr<Memory> memory;  // outlives everything below
   ScalarField field;
-  // of the last finished change: may be read while another thread changes the field
+  // The site count after the last finished change. Another thread may read it while a change runs.
   std::atomic<std::uint32_t> site_count{0};
 };
 

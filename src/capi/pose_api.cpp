@@ -1,4 +1,4 @@
-// hf/pose.h: poses.
+// Implements hf/pose.h: poses.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -37,7 +37,7 @@ struct PoseObject final : Object {
   std::shared_ptr<Memory> memory;  // outlives the pose
   std::shared_ptr<PoseStack> pose;
   bool keeps_order;  // inner vertices are those given, in their order: nothing welded, none isolated
-  // of the last finished change: may be read while another thread changes the pose
+  // The handle count after the last finished change. Another thread may read it while a change runs.
   std::atomic<std::uint32_t> handle_count;
 };
 
@@ -46,7 +46,7 @@ std::shared_ptr<PoseObject> make_object(std::shared_ptr<PoseStack> pose) {
   return make_owner_in<PoseObject>(memory, memory, std::move(pose));
 }
 
-// The vertices hf_deform writes.
+// The range of vertices that hf_pose_deform writes.
 struct Range {
   std::uint32_t first, count;
   bool whole;
@@ -107,7 +107,7 @@ HandleTransform transform_of(const hf_transform& given) noexcept {
   return out;
 }
 
-// read(stack, i): where handle i of the list goes.
+// read(stack, i) returns the transform of handle i of the list.
 template <class Read>
 void place_handles(hf_pose handle, std::uint32_t count, const std::uint32_t* handles, const void* places,
                    const char* name, Read&& read) {

@@ -1,4 +1,4 @@
-// hf/quads.h: quad meshes, flow lines.
+// Implements hf/quads.h: quad meshes and flow lines.
 #include <algorithm>
 #include <cmath>
 

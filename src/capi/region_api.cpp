@@ -1,4 +1,4 @@
-// hf/region.h: regions.
+// Implements hf/region.h: regions.
 #include <algorithm>
 #include <cmath>
 

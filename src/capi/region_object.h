@@ -1,4 +1,4 @@
-// The object behind a region handle.
+// The class of the object behind a region handle.
 #pragma once
 #include "capi/objects.h"
 #include "detail/region.h"

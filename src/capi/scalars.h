@@ -1,4 +1,4 @@
-// A field of the caller's, as hf_scalars describes it.
+// Reads a field of the caller, which hf_scalars describes.
 #pragma once
 #include <cmath>
 
@@ -8,7 +8,7 @@
 
 namespace hf_inner::capi {
 
-// One value per inner vertex.
+// Returns one value per welded vertex. Throws HF_ERROR_NON_FINITE for an infinite value; NaN stays NaN.
 inline Vector<double> read_scalars(const Geometry& shape, const hf_scalars* given) {
   const hf_scalars desc = read_struct(given, "field");
   check_one(desc.values, desc.values_f64, "values");

@@ -1,4 +1,4 @@
-// The joints and weights of a pose or a transfer, written as hf_skin_info says.
+// Writes the joints and weights of a pose or a transfer to the arrays of hf_skin_info.
 #pragma once
 #include <algorithm>
 
@@ -20,7 +20,7 @@ class SkinOut {
   std::uint32_t weight_count() const noexcept { return out_.weight_count; }
   bool wants_scales() const noexcept { return out_.scales != nullptr; }
 
-  // First; throws HF_ERROR_TOO_SMALL when the arrays cannot take as much.
+  // Call this first. Throws HF_ERROR_TOO_SMALL if the caller's arrays are too small.
   void write_counts(std::size_t joints, std::uint32_t vertices) {
     out_.joint_count = static_cast<std::uint32_t>(joints), out_.vertex_count = vertices;
     write_struct(inout_, out_);
@@ -36,7 +36,8 @@ class SkinOut {
     if (out_.axes) put_quaternion(axes, out_.axes + 4 * j);
     if (out_.scales) put(scale, out_.scales + 3 * j);
   }
-  // weigh(inner, joints, weights) for every vertex as given, inner Mesh::none where isolated.
+  // Calls weigh(inner, joints, weights) for every vertex of the caller's mesh. inner is the number of its welded
+  // vertex, or Mesh::none for an isolated vertex.
   template <class Weigh>
   void write_vertices(const Mesh& mesh, Weigh&& weigh) const {
     for (std::size_t v = 0; (out_.vertex_joints || out_.vertex_weights) && v < mesh.report.vertex_count; ++v) {

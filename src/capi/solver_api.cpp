@@ -1,4 +1,4 @@
-// hf/solver.h: solvers and their sites.
+// Implements hf/solver.h: solvers and their sites.
 #include <algorithm>
 
 #include "capi/boundary.h"
@@ -46,7 +46,7 @@ void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_d
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
 }
 
-// Counts no list can have, refused before the lists are read or anything is allocated by them.
+// Refuses counts that no valid list can have, before any list is read and before any allocation depends on them.
 void check_counts(const SolverObject& solver, const FieldEdit& edit) {
   const std::uint32_t there = solver.field.sites().count();
   if (edit.remove_count > there)
@@ -70,7 +70,7 @@ void change(hf_solver handle, Work&& work) {
   solver->site_count = solver->field.sites().count();
 }
 
-// read(edit) fills the edit in; the handle is checked before it.
+// Applies an edit that read(edit) fills in. The handle is checked first.
 template <class Read>
 hf_result apply(const char* function, hf_solver handle, std::uint32_t* out_sites, Read&& read) {
   return guarded(function, [&] {
@@ -260,7 +260,8 @@ hf_result hf_solver_get_sites(hf_solver handle, hf_sites_info* inout) {
 
 hf_result hf_solver_prepare_rebase(hf_solver solver) {
   return guarded("hf_solver_prepare_rebase", [&] {
-    // neither reading nor changing: it runs beside both, the field guards itself
+    // This call neither reads nor changes the object for the handle table. It may overlap both, because the field has
+    // its own locks.
     get<SolverObject>(solver, "solver")->field.prepare_rebase();
   });
 }
@@ -286,7 +287,7 @@ hf_result hf_solver_get_statistics(hf_solver handle, hf_solver_statistics* out_s
     hf_solver_statistics statistics{};
     statistics.site_count = solver->field.sites().count();
     statistics.factorisation_count = counters.factorisations;
-    // engine green counts the factor of the surface as its first
+    // The engine green counts the factor of the surface as its first factorisation, so one is subtracted.
     if (solver->field.engine().kind() == EngineKind::green) --statistics.factorisation_count;
     statistics.path_solve_count = counters.path_solves, statistics.sweep_count = counters.sweeps;
     statistics.last_route = static_cast<std::uint32_t>(counters.last_route);

@@ -1,4 +1,4 @@
-// hf/surface.h: surfaces, their factors as bytes, picking.
+// Implements hf/surface.h: surfaces, saved factors, picking.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// hf/transfer.h: transfers.
+// Implements hf/transfer.h: transfers.
 #include <algorithm>
 #include <cmath>
 
@@ -27,7 +27,7 @@ struct TransferObject final : Object {
   Transfer transfer;
   OwnedMutex preparing;  // readers that solve the fields of new pairs take turns
   Buffer<Vec3> source_posed, target_posed;
-  // made at the first frame that asks for normals
+  // These members are made at the first frame that asks for normals.
   std::shared_ptr<const Rest> rest;
   Buffer<NormalSum> normal_sums;
   Buffer<Normal> normals;
@@ -150,7 +150,7 @@ hf_result hf_transfer_get_info(hf_transfer handle, hf_transfer_info* out_info) {
       const PairInfo found = object->transfer.pair_info(pair);
       info.aligned_count += found.aligned ? 1u : 0u, info.crossed_count += found.crossed ? 1u : 0u;
     }
-    // the surface's own factor counts as the first
+    // The counter includes the surface's own factor as its first factorisation, so one is subtracted.
     info.source_factorisation_count = object->transfer.source_counters().factorisations - 1;
     info.target_factorisation_count = object->transfer.target_counters().factorisations - 1;
     info.scale = object->transfer.scale(), info.scale_found = object->transfer.scale_found() ? 1 : 0;

@@ -5,7 +5,7 @@
 
 namespace hf_inner::capi {
 
-// site_count(component): sites there.
+// site_count(component) returns the number of sites on a component.
 template <class Count>
 hf_solve_info unreached_by(const Geometry& shape, Count&& site_count) {
   hf_solve_info info{};

@@ -1,12 +1,12 @@
-// Lists of vertices, triangles and regions that the caller names.
+// Reads lists of vertices and regions that the caller names.
 #pragma once
 #include "capi/boundary.h"
 #include "mesh/mesh.h"
 
 namespace hf_inner::capi {
 
-// Appends the inner vertices of a list of vertices as given; isolated ones are Mesh::none. Throws HF_ERROR_OUT_OF_RANGE
-// with the position in the list.
+// Appends the welded vertex of every vertex in the caller's list, or Mesh::none for an isolated vertex. Throws
+// HF_ERROR_OUT_OF_RANGE with the position in the list.
 inline void append_inner(const Mesh& mesh, std::size_t count, const std::uint32_t* vertices, const char* name,
                          Vector<std::int32_t>& out) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -17,7 +17,7 @@ inline void append_inner(const Mesh& mesh, std::size_t count, const std::uint32_
   }
 }
 
-// The same, and HF_ERROR_INVALID_ARGUMENT for an isolated vertex.
+// Same as append_inner, but throws HF_ERROR_INVALID_ARGUMENT for an isolated vertex.
 inline void append_usable(const Mesh& mesh, std::size_t count, const std::uint32_t* vertices, const char* name,
                           Vector<std::int32_t>& out) {
   const std::size_t first = out.size();
@@ -29,13 +29,13 @@ inline void append_usable(const Mesh& mesh, std::size_t count, const std::uint32
   }
 }
 
-// A list that cannot name more than every vertex.
+// Refuses a list that is longer than the number of vertices.
 inline void check_vertex_count(const Mesh& mesh, std::uint32_t count, const char* name) {
   if (count > mesh.report.vertex_count)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%s is %u; the mesh has %u vertices", name, count, mesh.report.vertex_count);
 }
 
-// A list that may not be NULL and names no more vertices than the mesh has.
+// Reads a list of vertices. Refuses NULL and lists that are longer than the number of vertices.
 inline void read_list(const Mesh& mesh, std::uint32_t count, const std::uint32_t* vertices, const char* count_name,
                       const char* name, Vector<std::int32_t>& out) {
   require(vertices, name);
@@ -43,7 +43,7 @@ inline void read_list(const Mesh& mesh, std::uint32_t count, const std::uint32_t
   append_usable(mesh, count, vertices, name, out);
 }
 
-// Sums region sizes, each at least 1; start gets count + 1 entries.
+// Sums the sizes of the regions, which must be at least 1. `start` gets count + 1 entries: where each region starts.
 inline void append_starts(std::uint32_t count, const std::uint32_t* sizes, std::uint32_t limit, const char* name,
                           Vector<std::uint32_t>& start) {
   constexpr std::uint64_t most_repeats =

@@ -1,4 +1,4 @@
-// Writes what inner vertices have to the vertices as given: every welded copy gets the row of its vertex.
+// Writes the values of welded vertices to the vertices of the caller. Every welded copy gets the row of its vertex.
 #pragma once
 #include <algorithm>
 #include <cstring>
@@ -8,8 +8,8 @@
 
 namespace hf_inner::capi {
 
-// Visits vertices [first, first + count) as given, on all threads: visit(given, inner), inner Mesh::none where
-// isolated.
+// Calls visit(given, inner) for the caller's vertices first .. first + count - 1, on all threads. inner is the welded
+// vertex, or Mesh::none for an isolated vertex.
 template <class Visit>
 void for_each_given(const Core& core, std::size_t first, std::size_t count, Visit&& visit) {
   constexpr std::size_t piece =
@@ -22,13 +22,13 @@ void for_each_given(const Core& core, std::size_t first, std::size_t count, Visi
 
 inline void put(Vec3 p, double* values) noexcept { values[0] = p.x, values[1] = p.y, values[2] = p.z; }
 
-// The row of an isolated vertex; a null function gives zeros.
+// Fills the row of an isolated vertex. A null function pointer stands for a row of zeros.
 using IsolatedRow = void (*)(const Mesh::Isolated& entry, double* values);
 inline void put_rest(const Mesh::Isolated& entry, double* values) { put(entry.position, values); }
 inline void put_up(const Mesh::Isolated&, double* values) { put({0, 0, 1}, values); }
 
-// Writes rows of `width` (at most 64) numbers: row(inner, values) fills one. The rows of vertices [first, first +
-// count) stand at 0 to count - 1 of `out`.
+// Writes rows of `width` numbers, at most 64, for the caller's vertices first .. first + count - 1. row(inner, values)
+// fills the row of a welded vertex. Row 0 of `out` is the row of vertex `first`.
 template <class Row>
 void write_range(const Core& core, std::size_t first, std::size_t count, std::size_t width, const Rows& out,
                  IsolatedRow isolated, Row&& row) {
@@ -53,8 +53,8 @@ void write_vertices(const Core& core, std::size_t width, const Rows& out, Isolat
   write_range(core, 0, core.mesh.report.vertex_count, width, out, isolated, row);
 }
 
-// Points of all vertices: write_vertices without a call per number, and a plain loop when inner vertices are those
-// given in their order (keeps_order).
+// Writes the points of all vertices. It is faster than write_vertices, because it makes no call per number. With
+// keeps_order, the welded vertices are the caller's vertices in the same order, and a plain loop suffices.
 template <class Point, class Real>
 void write_points(const Core& core, bool keeps_order, Span<const Point> points, Real* out, std::size_t stride,
                   IsolatedRow isolated) {
@@ -85,7 +85,7 @@ void write_points(const Core& core, bool keeps_order, Span<const Point> points, 
   }
 }
 
-// Takes the field of a solver from where the engine has it.
+// Receives the field of a solver from the engine and writes it to the caller's array.
 class FieldWriter final : public FieldSink {
  public:
   FieldWriter(const Core& core, void* out, bool is_double, std::size_t stride) noexcept
@@ -110,8 +110,8 @@ class FieldWriter final : public FieldSink {
     }
   }
 
-  // M: the number of channels when known as the code is compiled, else 0. The rows of z are read in no order, so they
-  // are asked for some vertices ahead.
+  // M is the number of channels if the compiler knows it, else 0. The rows of z are read in random order, so the loop
+  // prefetches rows some vertices ahead.
   template <class T, std::size_t M>
   void write_rows(std::int32_t first, std::size_t count, const double* z, const std::int32_t* row) const {
     const std::size_t vertices = core_.mesh.report.vertex_count, m = M > 0 ? M : count;
