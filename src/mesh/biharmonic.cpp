@@ -9,21 +9,24 @@
 namespace hf_inner {
 namespace {
 
-// Columns of one job. No result depends on it.
+// Columns of one job. No result depends on this number.
 constexpr std::size_t columns_piece = 8192;
-// Makers of columns, each with a scratch row of the mesh: memory against threads. No result depends on it.
+// Strips that make columns at the same time. Each strip has a scratch row as long as the mesh, so more strips use more
+// memory and more threads. No result depends on this number.
 constexpr std::size_t most_strips = 8;
-// Least mass of a vertex, in means of its component: bounds the condition of K where triangles have no area.
+// Least mass of a vertex, as a share of the mean mass of its component. It bounds the condition of K where triangles
+// have no area.
 constexpr double least_mass = 1e-4;
 
-// Columns of K of one piece, kept until all lengths are known.
+// The columns of K that one piece computes. They are kept until the lengths of all columns are known.
 struct Columns {
   explicit Columns(Memory& memory) : row(&memory), value(&memory) {}
   Vector<Index> row;
   Vector<double> value;
 };
 
-// K_ij = sum_k (L_ik L_kj) / m_k over ascending k: the same sum, bit for bit, for K_ji.
+// Makes columns of K_ij = sum_k (L_ik L_kj) / m_k, with the masses m_k. The sum runs over ascending k, so K_ij and K_ji
+// are the same bit for bit.
 class ColumnMaker {
  public:
   ColumnMaker(const SymmetricMatrix& l, const Vector<double>& inverse_mass, Memory& memory)
@@ -119,7 +122,8 @@ SymmetricMatrix biharmonic(const SymmetricMatrix& laplacian, const Vector<double
   matrix.column_start.assign(n + 1, 0);
   Vector<Columns> part(&memory);
   for (std::size_t p = 0; p < pieces; ++p) part.emplace_back(memory);
-  // one maker per thread would do; one per strip of pieces keeps the work deterministic and its memory small
+  // The work is cut into a fixed number of strips, each with its own maker. So the work does not depend on threads, and
+  // its memory stays small.
   const std::size_t strips = std::min(pieces, most_strips);
   for_each(jobs, static_cast<std::uint32_t>(strips), [&](std::uint32_t strip) {
     ColumnMaker maker(laplacian, inverse_mass, memory);

@@ -1,28 +1,31 @@
-// The bi-harmonic operators of a Laplacian L, fourth order: fields with continuous slope at their sites, which
-// overshoot the site values.
+// The bi-harmonic operators K of a Laplacian L. Their fields have continuous slope at the sites and can overshoot the
+// site values.
 //
 //     K = L M^-1 L     M = lumped vertex areas, with mean 1 in every component (Botsch and Kobbelt 2004).
 //                      The field is the same at any scale of the mesh.
 //     K = L^2          M = 1 (Xu, Zhang, Cohen-Or and Xiong 2009, Section 3.2). The field depends on the sampling.
 //
-// The graph of K is the two-ring graph of the mesh, about 3.4 times the entries of L; its fill-reducing order must be
-// computed on that graph. The diagonal is minus the sum of the rest of its column, so that K annihilates constants to
-// rounding. Symmetric to the bit. Cost: O(sum of squared valences), in parallel.
+// K connects every vertex with the vertices within two edges, so it has about 3.4 times the entries of L. Compute its
+// fill-reducing ordering on this graph. Each diagonal entry is minus the sum of the other entries of its column, so K
+// times a constant is zero up to rounding. K is symmetric bit for bit. Cost: O(sum of squared valences), in parallel.
 #pragma once
 #include "base/symmetric_matrix.h"
 #include "mesh/mesh.h"
 
 namespace hf_inner {
 
-// 1 / m of every vertex, from vertex areas: mean 1 by component, masses floored at a ten-thousandth of it, so that a
-// vertex of zero-area triangles does not swamp its neighbours.
+// Returns 1 / m for every vertex, with the masses m from the vertex areas, scaled to mean 1 in every component. Each
+// mass is at least a ten-thousandth of that mean. Otherwise a vertex of zero-area triangles would dominate its
+// neighbours.
 Vector<double> inverse_masses(const Mesh& mesh, Vector<double> areas);
 
-// Cuts weights of L to `times` their median and returns how many it cut. Squared, the weights between vertices that
-// nearly coincide would exceed the rest of K by more than its digits, and K would not be definite.
+// Limits the weights of L to `times` their median and returns how many weights it changed. K squares the weights.
+// Weights between vertices that nearly coincide would then exceed the rest of K by more digits than a double has, and K
+// would not be positive definite.
 std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memory);
 
-// L diag(inverse_mass) L; an empty inverse_mass stands for ones. jobs: threads to use, null for the caller's alone.
+// Returns L diag(inverse_mass) L. An empty inverse_mass stands for ones. jobs: threads to use; null = the calling
+// thread.
 SymmetricMatrix biharmonic(const SymmetricMatrix& laplacian, const Vector<double>& inverse_mass, Memory& memory,
                            JobRunner* jobs = nullptr);
 

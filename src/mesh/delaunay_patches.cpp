@@ -11,26 +11,28 @@
 namespace hf_inner {
 namespace {
 
-// Triangles or edges of one job. No result depends on it.
+// Triangles or edges of one job. No result depends on this number.
 constexpr std::size_t patch_piece = 16384;
-// Keeps a division by the length of a point triangle finite.
+// Least length in a division, so that triangles with three equal positions do not divide by zero.
 constexpr double least_length = 1e-300;
-// Attempts before the whole mesh becomes one patch: bounds the cost. No result depends on it.
+// Attempts to grow the patches before the whole mesh becomes one patch. It bounds the cost; no result depends on it.
 constexpr int most_attempts = 4;
-// Rings of triangles about an edge that is not Delaunay: size of patches against attempts. No result depends on it.
+// Rings of triangles in a patch around an edge that is not Delaunay. More rings make larger patches but fewer attempts.
+// No result depends on it.
 constexpr int patch_rings = 2;
-// Patches above 1 / this of the mesh become the whole of it: bounds the cost. No result depends on it.
+// If the patches hold more than 1 / patch_share of the mesh, the whole mesh becomes one patch. It bounds the cost; no
+// result depends on it.
 constexpr std::size_t patch_share = 4;
-// An edge whose weight, half of a sum of cotangents, is below minus this is not Delaunay.
+// An edge is not Delaunay if its weight, half of a sum of two cotangents, is below minus this number.
 constexpr double rounding = 0.5 * delaunay_rounding;
-// Twice the limits of MollifiedLengths, so that rounding never hides a triangle it would change.
+// Twice the margin of MollifiedLengths. Rounding then never hides a triangle that MollifiedLengths would change.
 constexpr double safe_closing = 2 * mollify_closing;
 
 std::uint32_t pieces_of(std::size_t count) noexcept {
   return static_cast<std::uint32_t>((count + patch_piece - 1) / patch_piece);
 }
 
-// Whether a triangle may be so thin that the triangulation would lengthen its edges; on the safe side.
+// Returns true if some triangle may be so thin that mollifying would lengthen its edges. It may err towards true.
 bool may_be_thin(const Mesh& mesh, const Topology& topology, Memory& memory, JobRunner* jobs) {
   struct Found {
     double sum = 0, share = std::numeric_limits<double>::infinity(), gap = std::numeric_limits<double>::infinity();
@@ -66,8 +68,8 @@ double cotangent_opposite(const Mesh& mesh, Index triangle, Index first, Index s
   return 0;
 }
 
-// Edges that are not Delaunay as the mesh stands. Those of three and more triangles count as soon as one angle is
-// obtuse, because which triangles are neighbours is found later.
+// Lists the edges of the given mesh that are not Delaunay. An edge of three or more triangles counts as soon as one
+// opposite angle is obtuse. Which of its triangles become neighbours is known only later.
 Vector<Index> broken_edges(const Mesh& mesh, const Topology& topology, const Vector<double>& weights, Memory& memory,
                            JobRunner* jobs) {
   Vector<Vector<Index>> lists(pieces_of(weights.size()), &memory);
@@ -86,7 +88,7 @@ Vector<Index> broken_edges(const Mesh& mesh, const Topology& topology, const Vec
   return all;
 }
 
-// The triangles of the patches, their vertices, and their triangulation.
+// The triangles of the patches, their vertices, and their intrinsic triangulation.
 class Patches {
  public:
   Patches(const Mesh& mesh, const Topology& topology, Memory& memory)
@@ -101,7 +103,7 @@ class Patches {
         edges_(memory),
         surface_(memory) {}
 
-  // Grows around the edges, two rings; false when that takes a quarter of the mesh.
+  // Grows the patches by two rings around the edges. Returns false if they then hold a quarter of the mesh or more.
   bool grow(const Vector<Index>& edges) {
     for (const Index e : edges) take_edge(e);
     for (int ring = 0; ring < patch_rings; ++ring) {
@@ -111,7 +113,7 @@ class Patches {
         if (patch_share * triangles_.size() > in_patch_.size()) return false;
       }
     }
-    // edges of three and more triangles lie inside or outside, never on the border
+    // Takes all triangles of an edge of three and more, so that such an edge is never on the border of a patch.
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       const Index* v = mesh_.triangle(triangles_[i]);
       for (int k = 0; k < 3; ++k) {
@@ -136,7 +138,8 @@ class Patches {
     surface_.flip_to_delaunay();
   }
 
-  // Held edges, in the mesh's numbers, that are not Delaunay with the triangle outside.
+  // Lists the border edges of the patches that are not Delaunay together with the triangle outside, in the mesh's
+  // numbers.
   Vector<Index> broken_border() const {
     Vector<Index> broken(&memory_);
     for (Index h = 0; h < 3 * surface_.face_count(); ++h) {
@@ -153,7 +156,8 @@ class Patches {
   const Vector<Index>& vertices() const noexcept { return vertices_; }
   const IntrinsicTriangulation& surface() const noexcept { return surface_; }
 
-  // Half the cotangents of an edge's triangles outside the patches, and how many those are.
+  // Returns half the cotangents of the edge's triangles outside the patches, and sets `count` to the number of these
+  // triangles.
   double outer_weight(Index e, const Vector<double>& weights, Index& count) const noexcept {
     count = 0;
     const Index begin = topology_.edge_triangle_start[at(e)], end = topology_.edge_triangle_start[at(e) + 1];
@@ -237,7 +241,7 @@ class Patches {
   IntrinsicTriangulation surface_;
 };
 
-// The rows of the vertices of patches, as sums of shares of edges.
+// The matrix rows of the vertices in patches. Each entry is a sum of weights that edges contribute.
 class PatchRows {
  public:
   struct Entry {

@@ -1,14 +1,16 @@
-// The intrinsic Delaunay Laplacian at the cost of the edges that are not Delaunay.
+// Builds the intrinsic Delaunay Laplacian. The cost depends only on the number of edges that are not Delaunay.
 //
-// Most edges of most meshes are Delaunay as they stand, and there the operator is the cotangent one. So only patches
-// are taken into an IntrinsicTriangulation: the triangles within two rings of an edge of negative weight. The edges
-// around a patch are held; when flips inside leave one of them not Delaunay (its angle inside has grown), the patch
-// grows there and starts again. Rows of vertices outside are those of the cotangent Laplacian to the bit, without
-// negative rounding. The others are summed up from the faces of the patches and the triangles beside them. The
-// Delaunay triangulation is unique up to edges of weight zero, so this is the operator of the whole triangulation.
+// Most edges of most meshes are Delaunay already, and the cotangent Laplacian is right there. So only patches go into
+// an IntrinsicTriangulation: the triangles within two rings of an edge of negative weight. Edges on the border of a
+// patch cannot flip. If flips inside leave a border edge not Delaunay, the patch grows around that edge and starts
+// again.
 //
-// Where patches would hold a quarter of the mesh or more, or triangles need mollifying (intrinsic.h), everything is one
-// patch. Cost: a pass over triangles and edges, in parallel, and O(p) for p triangles in patches.
+// A row of a vertex outside the patches is the row of the cotangent Laplacian, bit for bit, with rounding below zero
+// cut off. The other rows are sums over the faces of the patches and the triangles beside them. The Delaunay
+// triangulation is unique except for edges of weight zero, so this is the operator of the whole triangulation.
+//
+// The whole mesh becomes one patch in two cases: the patches would hold a quarter of it, or triangles need mollifying
+// (intrinsic.h). Cost: a pass over triangles and edges, in parallel, and O(p) for p triangles in patches.
 #pragma once
 #include "mesh/intrinsic.h"
 
@@ -21,7 +23,7 @@ struct DelaunayOperator {
   std::int32_t patch_triangles = 0;  // triangles of the mesh that were taken into patches
 };
 
-// weights: cotangent weights by edge. On failure (std::bad_alloc) nothing exists. The same for any number of threads.
+// weights: cotangent weights by edge. Throws std::bad_alloc. The result is the same for any number of threads.
 DelaunayOperator delaunay_operator(const Mesh& mesh, const Topology& topology, const Vector<double>& weights,
                                    bool with_areas, Memory& memory, JobRunner* jobs = nullptr);
 

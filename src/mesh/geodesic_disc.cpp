@@ -11,18 +11,20 @@
 namespace hf_inner {
 namespace {
 
-// Mean edges that a vertex may lie beyond the radius: makes discs of one radius act alike on coarse and fine meshes.
+// How far beyond the radius a vertex may lie, in mean edge lengths. It makes discs of one radius act alike on coarse
+// and fine meshes.
 constexpr double beyond = 0.3;
-// Mean edges that the front runs on, for distances behind obtuse corners.
+// How far the front runs beyond the radius, in mean edge lengths. Distances behind obtuse corners need it.
 constexpr double search_further = 2;
-// Relative gain for which a vertex is spread again: above rounding, so that the front ends.
+// Least relative gain for which the front visits a vertex again. It is above rounding, so that the front ends.
 constexpr double least_gain = 1e-13;
 
-// Distance of C from a source that is `a` from A and `b` from B, with the triangle's edge lengths.
+// Returns the distance of corner C from a source that has distance a from corner A and b from corner B. ab, ac and bc
+// are the edge lengths of the triangle.
 double across(double a, double b, double ab, double ac, double bc) noexcept {
   const double along_edges = std::min(a + ac, b + bc);
   if (!(ab > 0)) return along_edges;
-  // A at the origin, B at (ab, 0), C above and the source below the axis
+  // In the plane, A is the origin, B is (ab, 0), C lies above the x axis and the source below it.
   const double cx = (ac * ac - bc * bc + ab * ab) / (2 * ab), sx = (a * a - b * b + ab * ab) / (2 * ab);
   const double cy2 = ac * ac - cx * cx, sy2 = a * a - sx * sx;
   if (!(cy2 > 0) || sy2 < 0) return along_edges;
@@ -32,8 +34,9 @@ double across(double a, double b, double ab, double ac, double bc) noexcept {
   return std::min(along_edges, hypotenuse(cx - sx, cy + sy));
 }
 
-// Distances that only fall. A vertex is spread again when a shorter path to it is found: behind an obtuse corner, the
-// edge that the path crosses may be reached after the vertex.
+// A front that spreads from vertex to vertex; distances only decrease. It visits a vertex again when it finds a shorter
+// path. This happens behind an obtuse corner: the front may reach the vertex before the edge that the shorter path
+// crosses.
 class Front {
  public:
   Front(const Mesh& mesh, const Topology& topology, Memory& memory)
@@ -47,7 +50,7 @@ class Front {
     std::push_heap(heap_.begin(), heap_.end(), later);
   }
 
-  // Spreads as long as within(v, distance) says so.
+  // Spreads the front as long as within(v, distance) returns true.
   template <class Within>
   void run(Within&& within) {
     while (!heap_.empty()) {
@@ -59,7 +62,7 @@ class Front {
     }
   }
   const std::pmr::unordered_map<Index, double>& distances() const noexcept { return distance_; }
-  // Infinite for vertices the front has not seen.
+  // Returns the distance of a vertex, or infinity if the front has not reached it.
   double distance(Index v) const {
     const auto found = distance_.find(v);
     return found == distance_.end() ? std::numeric_limits<double>::infinity() : found->second;
@@ -76,7 +79,7 @@ class Front {
       const double edge = length(v, w);
       offer(w, own + edge);
       const double other = distance(w);
-      // the third corner may be seen through the edge
+      // a straight path through the edge v w may reach the third corner
       for (Index k = topology_.edge_triangle_start[at(e)]; k < topology_.edge_triangle_start[at(e) + 1]; ++k) {
         const Index* corner = mesh_.triangle(topology_.edge_triangle[at(k)]);
         Index third = Mesh::none;
@@ -113,7 +116,7 @@ Vector<DiscVertex> geodesic_disc(const Mesh& mesh, const Topology& topology, con
       sum += norm(mesh.positions[at(topology.neighbour[at(i)])] - mesh.positions[at(v)]);
     return end > begin ? sum / (end - begin) : 0.0;
   };
-  // two edges further than asked, for the corners behind
+  // The front runs two mean edges beyond the radius, because distances behind obtuse corners need it.
   front.run([&](Index v, double distance) { return distance <= radius + search_further * mean_edge(v); });
   Vector<DiscVertex> disc(&memory);
   const auto inside = [&](Index v) { return front.distance(v) <= radius + beyond * mean_edge(v); };

@@ -1,10 +1,10 @@
-// The vertices within a geodesic distance of a point of the surface.
+// Finds the vertices within a geodesic distance of a point of the surface.
 //
-// Fast marching with circular fronts (Kimmel and Sethian 1998, the unfolded source of Novotni and Klein 2002). Two
-// vertices at known distances place the source in the unfolded plane of their triangle. The third vertex is as far as
-// the straight line to it where that line crosses the edge, else as the path along an edge. Exact for one source on
-// surfaces that unfold to a plane without holes in sight; elsewhere of second order. Cost: O(d log d) for d vertices in
-// the disc, independent of the mesh.
+// The method is fast marching with circular fronts (Kimmel and Sethian 1998; Novotni and Klein 2002). Two vertices with
+// known distances give the place of the source in the plane of their triangle. The distance of the third vertex is the
+// straight line from there if that line crosses the edge between the two. Otherwise it is the path along an edge. The
+// result is exact on surfaces that unfold to a plane, if no hole blocks a straight line. Elsewhere the error is of
+// second order. Cost: O(d log d) for d vertices in the disc, independent of the mesh size.
 #pragma once
 #include <cstdint>
 
@@ -18,9 +18,10 @@ struct DiscVertex {
   bool rim;  // has a neighbour outside the disc
 };
 
-// Vertices within `radius` (in inner units) of the point sum_k weight[k] vertex[k] of one triangle (unused corners -1),
-// by distance. A vertex counts as inside up to a share of its mean edge beyond the radius. The condition u = s on
-// the vertices then acts alike on coarse and fine meshes.
+// Returns the vertices within `radius` of a point, sorted by distance. `radius` is in the unit of mesh.positions. The
+// point is sum_k weight[k] vertex[k] in one triangle; unused corners are -1. A vertex also counts as inside if it lies
+// beyond the radius by a small share of its mean edge length. So a site on the disc acts alike on coarse and fine
+// meshes.
 Vector<DiscVertex> geodesic_disc(const Mesh& mesh, const Topology& topology, const std::int32_t vertex[3],
                                  const double weight[3], double radius, Memory& memory);
 

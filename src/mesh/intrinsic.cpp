@@ -11,16 +11,16 @@
 namespace hf_inner {
 namespace {
 
-// Triangles or edges of one job. No result depends on it.
+// Triangles or edges of one job. No result depends on this number.
 constexpr std::size_t cover_piece = 16384;
-// Flips per half-edge before giving up: ends the loop whatever rounding does.
+// Flips per half-edge before flip_to_delaunay gives up. The loop then ends whatever rounding does.
 constexpr std::uint64_t flips_per_half = 32;
-// Keeps a division by the cotangents of a flat face finite.
+// Least sum of cotangents in a division, so that a flat face does not divide by zero.
 constexpr double least_sum = 1e-300;
-// Done entries before the queue is trimmed: bounds memory; no result depends on it.
+// Finished entries before they are removed from the queue. It bounds memory; no result depends on it.
 constexpr std::size_t least_trim = 65536;
 
-// A side of a triangle at an edge.
+// One side of a triangle, which lies at an edge of the mesh.
 struct Side {
   Index triangle, corner;  // from this corner to the next
   bool forward;            // runs from the edge's first vertex to its second
@@ -37,7 +37,7 @@ Side side_of(const Mesh& mesh, Index triangle, Index first, Index second) noexce
   return {triangle, 0, true, 0};
 }
 
-// The sides in the order of their angles about the edge, counter-clockwise when it points at the viewer.
+// Sorts the sides by their angle about the edge, counter-clockwise for a viewer at whom the edge points.
 void sort_by_angle(const Mesh& mesh, Index first, Index second, Vector<Side>& sides) {
   const Vec3 origin = mesh.positions[at(first)];
   Vec3 axis = mesh.positions[at(second)] - origin;
@@ -55,7 +55,7 @@ void sort_by_angle(const Mesh& mesh, Index first, Index second, Vector<Side>& si
   });
 }
 
-// Components whose every edge joins two triangles that run through it in opposite directions.
+// Marks the components where every edge joins two triangles that run through it in opposite directions.
 Vector<std::uint8_t> plain_components(const Mesh& mesh, const Topology& topology, const Vector<std::uint8_t>* held,
                                       Memory& memory, JobRunner* jobs) {
   const std::size_t edges = at(topology.edge_count()), pieces = (edges + cover_piece - 1) / cover_piece;
@@ -103,7 +103,7 @@ IntrinsicTriangulation IntrinsicTriangulation::make(const Mesh& mesh, const Topo
   return cover;
 }
 
-// The back of a triangle (v0 v1 v2) is the face (v0 v2 v1): its half-edge on side k is 2 - k.
+// The back face of a triangle (v0 v1 v2) is the face (v0 v2 v1). The half-edge 2 - k of the back face lies on side k.
 void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, const Vector<Index>& back,
                                   const Vector<std::uint8_t>* held, JobRunner* jobs) {
   const auto pieces = [](std::size_t count) {
@@ -141,7 +141,8 @@ void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, co
         continue;
       }
       for (std::size_t s = 0; s < sides.size(); ++s) {
-        // the normal of a triangle that runs forward points counter-clockwise, towards the next one
+        // If the side runs forward, its triangle's normal points counter-clockwise around the edge, towards the next
+        // side.
         const Side &here = sides[s], &there = sides[(s + 1) % sides.size()];
         const Index a = here.forward ? front(here) : reverse(here), b = there.forward ? reverse(there) : front(there);
         twin_[at(a)] = b, twin_[at(b)] = a;
@@ -150,7 +151,7 @@ void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, co
   });
 }
 
-// Lengths, mollified where a triangle does not close, and the cotangents of the triangles as they stand in space.
+// Computes edge lengths, mollified where a triangle is degenerate, and the cotangents of the original triangles.
 void IntrinsicTriangulation::measure(const Mesh& mesh, const Topology& topology, const Vector<Index>& back,
                                      JobRunner* jobs) {
   const MollifiedLengths lengths = MollifiedLengths::make(mesh, topology, *memory_, jobs);
@@ -185,16 +186,18 @@ void IntrinsicTriangulation::measure_face(Index face) noexcept {
   cotangents_of_lengths(length_.data() + 3 * at(face), cotangent_.data() + 3 * at(face));
 }
 
-// With room for rounding: co-circular pairs, where both diagonals weigh nothing, must not flip for ever.
+// Allows for rounding. The two diagonals of a co-circular pair both have weight zero; without this margin rounding
+// could flip them for ever.
 bool IntrinsicTriangulation::is_delaunay(Index half) const noexcept {
   const double a = cotangent_[at(half)], b = cotangent_[at(twin_[at(half)])];
   return a + b >= -delaunay_rounding * (1 + std::fabs(a) + std::fabs(b));
 }
 
-// i -> j with k on its left and m on its right becomes k - m: faces (m k i) and (k m j).
+// Flips the edge i -> j, with k on its left and m on its right, to the edge k - m. The new faces are (m k i) and (k m
+// j).
 void IntrinsicTriangulation::flip(Index half) noexcept {
   const Index h0 = half, h1 = next(h0), h2 = next(h1), g0 = twin_[at(half)], g1 = next(g0), g2 = next(g1);
-  // unfolded with i at the origin and j on the x axis
+  // The two faces are unfolded into a plane, with i at the origin and j on the x axis.
   const double l = length_[at(h0)];
   const auto apex = [&](Index base, double from_i, double from_j, double& x, double& y) {
     x = 0.5 * (l + (from_i - from_j) * ((from_i + from_j) / l));
@@ -214,7 +217,7 @@ void IntrinsicTriangulation::flip(Index half) noexcept {
   }
   const Index k = tails[1], m = tails[3];
   for (int q = 0; q < 4; ++q) {
-    // outer edges may be glued to one another
+    // two of the four outer edges may be glued to each other
     const Index* inside = std::find(from, from + 4, twins[q]);
     const Index twin = inside != from + 4 ? to[inside - from] : twins[q];
     tail_[at(to[q])] = tails[q], length_[at(to[q])] = lengths[q];
@@ -251,7 +254,7 @@ std::uint64_t IntrinsicTriangulation::flip_to_delaunay(std::uint64_t flip_limit)
 Vector<double> IntrinsicTriangulation::vertex_areas(Index vertex_count, Memory& memory) const {
   Vector<double> areas(at(vertex_count), 0.0, &memory);
   for (Index f = 0; f < face_count(); ++f) {
-    // |ij|^2 = 2 area (cot at i + cot at j)
+    // The area of the face follows from |ij|^2 = 2 area (cot at i + cot at j).
     const std::size_t h = 3 * at(f);
     std::size_t k = 0;  // the longest side has the steadiest quotient
     for (std::size_t q = 1; q < 3; ++q) k = length_[h + q] > length_[h + k] ? q : k;
@@ -279,7 +282,8 @@ SymmetricMatrix IntrinsicTriangulation::laplacian(Index vertex_count, Memory& me
     const auto [i, j] = ends(h);
     if (i != j) entries[at(cursor[at(i)]++)] = {j, std::min(h, twin_[at(h)])};
   }
-  // rows sorted and merged in place; row_length then holds their off-diagonal entries
+  // Sorts each row and merges its entries in place. Afterwards row_length is the number of off-diagonal entries of each
+  // row.
   Vector<Index> row_length(n, 0, &memory);
   Buffer<double> value(memory, entries.size());
   const std::uint32_t pieces = static_cast<std::uint32_t>((n + cover_piece - 1) / cover_piece);

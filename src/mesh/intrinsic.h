@@ -1,21 +1,21 @@
-// Intrinsic Delaunay triangulations and their Laplacian: non-negative weights, hence the maximum principle, on any
-// triangle soup.
+// Intrinsic Delaunay triangulations and their Laplacian. Its weights are never negative, so harmonic fields stay within
+// the range of their site values on any set of triangles.
 //
-// Two triangles at an edge are Delaunay when the angles opposite it sum to at most pi, cot a + cot b >= 0. An edge that
-// is not is flipped in the surface itself: the pair is unfolded into the plane, the other diagonal has the length it
-// has there. Nothing moves; only which geodesic edges join the vertices changes, and the flips end (Bobenko and
-// Springborn 2007; Sharp, Soliman and Crane 2019 for the walk on edge lengths alone).
+// An edge of two triangles is Delaunay when the opposite angles a and b sum to at most pi, or cot a + cot b >= 0. An
+// edge that is not Delaunay is flipped on the surface itself. The two triangles are unfolded into a plane, and the new
+// edge gets the length of the other diagonal there. No vertex moves; only the geodesic edges between vertices change.
+// The flips end (Bobenko and Springborn 2007; Sharp, Soliman and Crane 2019).
 //
-// Edges of one, or of three and more triangles have no pair to unfold. The tufted cover (Sharp and Crane 2020) takes
-// every triangle twice, front and back. Around an edge, in the order of the angles, it glues the side of each triangle
-// to the side of the next that faces it. Every edge then has two triangles. The Laplacian of the surface is half that
-// of the cover. A component where every edge joins two triangles of one orientation is its own cover and is
-// taken once, unhalved.
+// An edge of one triangle, or of three and more, has no pair to unfold. The tufted cover (Sharp and Crane 2020) solves
+// this. It has a front and a back face for every triangle. Around such an edge it glues each face to the next face, in
+// the order of their angles. Every edge of the cover then has two faces. The Laplacian of the surface is half the
+// Laplacian of the cover. A component where every edge joins two triangles of one orientation needs no cover: its
+// triangles are taken once, with their full weight.
 //
-// Triangles that do not close are mollified (mollify.h): their two shorter edges grow until they do.
-//
-// Cost: O(n) for gluing and angles, in parallel; the flips, a few per cent of the edges, one after the other. The same
-// result for any number of threads, and up to rounding under any numbering of vertices and triangles.
+// Degenerate triangles, whose edge lengths violate the triangle inequality, are mollified (mollify.h): their two
+// shorter edges grow. Cost: O(n) for gluing and angles, in parallel. The flips, a few per cent of the edges, run one
+// after the other. The result is the same for any number of threads. Another numbering of vertices and triangles
+// changes it only by rounding.
 #pragma once
 #include <cstdint>
 
@@ -25,48 +25,53 @@
 
 namespace hf_inner {
 
-// Negative sums of cotangents that count as zero: co-circular pairs would flip for ever.
+// Sums of cotangents above minus this number count as zero. Otherwise rounding could flip co-circular pairs of
+// triangles for ever.
 constexpr double delaunay_rounding = 1e-10;
 
 class IntrinsicTriangulation {
  public:
-  // Empty, without a mesh.
+  // Makes an empty triangulation.
   explicit IntrinsicTriangulation(Memory& memory)
       : memory_(&memory), tail_(&memory), twin_(&memory), length_(&memory), cotangent_(&memory), doubled_(&memory) {}
-  // The cover of the mesh with its own edges. held: null, or by edge whether more of the surface lies beyond it. A held
-  // edge is no border and is never flipped; its half-edges are their own twins. Throws std::bad_alloc.
+  // Makes the cover of the mesh with its own edges. held: null, or for each edge whether more of the surface lies
+  // beyond it. A held edge is no border and is never flipped; each of its half-edges is its own twin. Throws
+  // std::bad_alloc.
   static IntrinsicTriangulation make(const Mesh& mesh, const Topology& topology, Memory& memory,
                                      JobRunner* jobs = nullptr, const Vector<std::uint8_t>* held = nullptr);
 
-  // Flips until every edge is Delaunay. Stops at flip_limit flips (0: 64 per edge), where the weights that are still
-  // negative count as zero: that keeps the maximum principle and gives up some accuracy. Returns the number of flips.
+  // Flips edges until every edge is Delaunay. Returns the number of flips. After flip_limit flips (0: 64 per edge) it
+  // stops, and weights that are still negative count as zero. The field then still keeps within its site values, but
+  // loses accuracy.
   std::uint64_t flip_to_delaunay(std::uint64_t flip_limit = 0);
 
   std::int32_t face_count() const noexcept { return static_cast<std::int32_t>(tail_.size() / 3); }
-  // Half-edge 3 f + k of face f runs from its corner k to the next.
+  // The half-edge 3 f + k of face f runs from its corner k to its next corner.
   std::int32_t tail(std::int32_t half) const noexcept { return tail_[at(half)]; }
   std::int32_t head(std::int32_t half) const noexcept { return tail_[at(next(half))]; }
   std::int32_t twin(std::int32_t half) const noexcept { return twin_[at(half)]; }
   double length(std::int32_t half) const noexcept { return length_[at(half)]; }
-  // Cotangent of the angle opposite the half-edge.
+  // Returns the cotangent of the angle opposite the half-edge.
   double cotangent(std::int32_t half) const noexcept { return cotangent_[at(half)]; }
-  // (cot a + cot b) / 2 of the edge, before the halving of a cover.
+  // Returns (cot a + cot b) / 2 for an edge with opposite angles a and b. On a cover the weight is not yet halved.
   double edge_weight(std::int32_t half) const noexcept {
     return 0.5 * (cotangent_[at(half)] + cotangent_[at(twin_[at(half)])]);
   }
-  // One half on a cover, one on a component that is its own.
+  // Returns one half for a face of a cover, and one for a face of a component that needs no cover.
   double share(std::int32_t face) const noexcept { return doubled_.empty() || !doubled_[at(face)] ? 1.0 : 0.5; }
   std::uint32_t mollified_count() const noexcept { return mollified_; }  // triangles of the mesh
 
-  // K_ij = -sum of the weights of the edges between i and j, rounding below zero cut off; diagonal = minus the rest.
+  // Returns the Laplacian K. K_ij is minus the sum of the weights of the edges between i and j, with sums below zero
+  // set to zero. Each diagonal entry is minus the sum of the rest of its row.
   SymmetricMatrix laplacian(std::int32_t vertex_count, Memory& memory, JobRunner* jobs = nullptr) const;
-  // One third of the intrinsic triangles around every vertex.
+  // Returns for every vertex one third of the area of the intrinsic triangles around it.
   Vector<double> vertex_areas(std::int32_t vertex_count, Memory& memory) const;
 
  private:
   static std::int32_t next(std::int32_t half) noexcept { return half % 3 == 2 ? half - 2 : half + 1; }
 
-  // back: of every triangle of the mesh, the face of its back; its own number where the component is its own cover.
+  // back: for every triangle of the mesh, the number of its back face. It is the triangle's own number where the
+  // component needs no cover.
   void glue(const Mesh& mesh, const Topology& topology, const Vector<std::int32_t>& back,
             const Vector<std::uint8_t>* held, JobRunner* jobs);
   void measure(const Mesh& mesh, const Topology& topology, const Vector<std::int32_t>& back, JobRunner* jobs);

@@ -8,18 +8,20 @@
 namespace hf_inner {
 namespace {
 
-// Triangles or edges of one job. No result depends on it.
+// Triangles or edges of one job. No result depends on this number.
 constexpr std::size_t weights_piece = 32768;
-// Least gap of a triangle for Kahan's formula, in longest edges: keeps the area positive.
+// Least margin b + c - a of a triangle in Kahan's formula, as a share of its longest edge a. It keeps the area
+// positive.
 constexpr double least_gap = 1e-12;
-// How far a thin triangle is opened, in longest edges: a flat one gets cotangents of 350.
+// Margin b + c - a that a thin triangle gets, as a share of its longest edge a. A flat triangle gets cotangents of 350.
 constexpr double closing_gap = 1e-6;
-// Twice the area over the longest edge squared below which a cross product keeps fewer than seven digits.
+// A cross product keeps fewer than seven digits if twice the area over the longest edge squared is below this number.
 constexpr double least_area = 1e-9;
-// Least weight of the clamped operator, in medians: keeps the maximum principle; smaller costs condition.
+// Least weight of the clamped operator, as a share of the median weight. Positive weights keep the field within its
+// site values. A smaller number would worsen the condition of the matrix.
 constexpr double least_weight = 1e-3;
 
-// Runs work(begin, end) over [0, count) in fixed pieces.
+// Calls work(begin, end) for fixed pieces of the range [0, count).
 template <class Work>
 void in_pieces(JobRunner* jobs, std::size_t count, Work&& work) {
   for_each(jobs, static_cast<std::uint32_t>((count + weights_piece - 1) / weights_piece),
@@ -28,7 +30,7 @@ void in_pieces(JobRunner* jobs, std::size_t count, Work&& work) {
 
 }  // namespace
 
-// Kahan's formula, stable on needles, from lengths a >= b >= c.
+// Uses Kahan's formula, which is stable for needle triangles. It needs the lengths in the order a >= b >= c.
 double quadruple_area(const double length[3]) noexcept {
   double a = length[0], b = length[1], c = length[2];
   if (a < b) std::swap(a, b);
@@ -48,9 +50,9 @@ void cotangents_of_lengths(const double length[3], double cotangent[3]) noexcept
 
 namespace {
 
-// A triangle thinner than working precision has a stiffness matrix of rank 1, and the Laplacian may lose definiteness.
-// Its edges are lengthened by just enough to close: b + c - a >= closing_gap a. This is the mollification of Sharp and
-// Crane 2020, on this triangle alone.
+// Computes the cotangents of a triangle so thin that its stiffness matrix would have rank 1 in floating point. With
+// such a matrix the Laplacian may lose definiteness. So each edge is lengthened by just enough to get b + c - a >=
+// closing_gap a. This is the mollification of Sharp and Crane 2020 for one triangle alone.
 void thin_cotangents(const double squared[3], double cotangent[3]) noexcept {
   double length[3] = {std::sqrt(squared[0]), std::sqrt(squared[1]), std::sqrt(squared[2])};
   const double longest = std::max({length[0], length[1], length[2]});
@@ -66,7 +68,7 @@ void thin_cotangents(const double squared[3], double cotangent[3]) noexcept {
 
 }  // namespace
 
-// (u . v) / |u x v|
+// The cotangent of the angle between the edges u and v is (u . v) / |u x v|.
 void corner_cotangents(const Mesh& mesh, Index t, double cotangent[3]) noexcept {
   const Index* v = mesh.triangle(t);
   const Vec3 p[3] = {mesh.positions[at(v[0])], mesh.positions[at(v[1])], mesh.positions[at(v[2])]};
@@ -108,7 +110,7 @@ Vector<double> edge_weights(const Mesh& mesh, const Topology& topology, Operator
   if (kind == OperatorKind::uniform) return Vector<double>(at(topology.edge_count()), 1.0, &memory);
   Vector<double> weights = cotangent_weights(mesh, topology, memory, jobs);
   if (kind == OperatorKind::clamped) {
-    // the mean of many equal-length halves would be dominated by needles: take the median of the magnitudes instead
+    // The median is used because needle triangles would dominate the mean.
     Vector<double> magnitude(weights.size(), &memory);
     std::transform(weights.begin(), weights.end(), magnitude.begin(), [](double w) { return std::fabs(w); });
     const auto middle = magnitude.begin() + static_cast<std::ptrdiff_t>(magnitude.size() / 2);

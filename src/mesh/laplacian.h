@@ -1,8 +1,8 @@
-// Discrete Laplacians on a Mesh: one weight per edge.
+// Discrete Laplacians of a Mesh, with one weight w_ij for each edge ij.
 //
-// Cotangent: w_ij = (1/2) sum over the triangles of ij of cot(angle opposite ij), cot = (a . b) / |a x b| (Pinkall and
-// Polthier 1993). Negative on obtuse pairs. Triangles thinner than 1e-9 are widened first, so that every weight is
-// finite and K stays definite.
+// The cotangent weight w_ij is half the sum of the cotangents of the angles opposite ij (Pinkall and Polthier 1993). It
+// is negative if these angles sum to more than pi. Triangles thinner than 1e-9 are widened first, so that every weight
+// is finite and the Laplacian K stays semi-definite.
 #pragma once
 #include <cstdint>
 
@@ -13,40 +13,44 @@ namespace hf_inner {
 
 enum class OperatorKind : std::int32_t { intrinsic_delaunay = 0, clamped = 1, uniform = 2, cotangent = 3 };
 
-// Which operator of L the field solves: K = L, K = L M^-1 L, or the paper's K = L^2 (biharmonic.h).
+// Which matrix K a field solves with, made of the Laplacian L and the vertex masses M (biharmonic.h): K = L, K = L M^-1
+// L, or K = L^2.
 enum class FieldKind : std::int32_t { harmonic = 0, biharmonic = 1, biharmonic_graph = 2 };
 
-// Cotangents at the three corners of triangle t.
+// Computes the cotangents at the three corners of triangle t.
 void corner_cotangents(const Mesh& mesh, std::int32_t t, double cotangent[3]) noexcept;
-// Four times the area of a triangle with these edges, at least that of one that closes by 1e-12.
+// Returns four times the area of a triangle with these edge lengths. Lengths that violate the triangle inequality count
+// as a very thin triangle.
 double quadruple_area(const double length[3]) noexcept;
-// Cotangents from edge lengths, cotangent[k] opposite length[k]; lengths that do not close are taken as a
-// thin triangle.
+// Computes cotangents from edge lengths; cotangent[k] is opposite length[k]. Lengths that violate the triangle
+// inequality count as a thin triangle.
 void cotangents_of_lengths(const double length[3], double cotangent[3]) noexcept;
 
-// Edge weights w_ij by edge number. Clamped: floored at 1e-3 of the median absolute weight.
-// jobs, here and below: threads to use, null for the caller's alone; the result is the same.
+// Returns the edge weights w_ij by edge number. The clamped operator raises them to at least 1e-3 of the median
+// absolute weight. In this header, `jobs` are the threads to use, or null for the calling thread; the result is the
+// same.
 Vector<double> edge_weights(const Mesh& mesh, const Topology& topology, OperatorKind kind, Memory& memory,
                             JobRunner* jobs = nullptr);
 
-// Number of edges whose cotangent weight is negative.
+// Returns the number of edges whose cotangent weight is negative.
 std::uint32_t count_negative(const Vector<double>& weights) noexcept;
 
-// Lumped (barycentric) vertex areas: one third of the triangles around.
+// Returns the lumped (barycentric) vertex areas: one third of the area of the triangles around each vertex.
 Vector<double> vertex_areas(const Mesh& mesh, Memory& memory, JobRunner* jobs = nullptr);
 
-// Adds to every stored weight of K a share of the larger diagonal at its ends, keeping K 1 = 0: no vertex is tied to
-// the others by less than rounding. Weights stay non-negative.
+// Raises every weight of K by `share` of the larger diagonal entry at its two vertices, and updates the diagonal so
+// that K times ones stays 0. So no connection of a vertex is weaker than rounding. Weights stay non-negative.
 void tie_weakly(SymmetricMatrix& matrix, double share, Memory& memory);
 
-// The last resort where weights of one component span more digits than a double has, as needles at 1e34 beside parts
-// of size 1. Every stored weight is brought within `spread` of the component's median, both ways, keeping K 1 = 0.
-// Fields there follow the graph more than the lengths; they stay within the values of their sites. component: by
-// vertex; confined: by component, the others stay as they are.
+// Limits the weights of a component to the range median / spread .. median * spread. Use it when weights span more
+// digits than a double has, such as needle triangles with weights of 1e34 beside weights of 1. K times ones stays 0.
+// Fields there follow the edge graph more than the lengths, but stay within their site values. component: by vertex.
+// confined: by component, 1 to limit its weights.
 void confine_weights(SymmetricMatrix& matrix, const Vector<std::int32_t>& component,
                      const Vector<std::uint8_t>& confined, double spread, Memory& memory);
 
-// K_ij = -w_ij, K_ii = sum_j w_ij: symmetric, K 1 = 0 exactly in each row up to the rounding of one sum.
+// Returns the symmetric matrix K with K_ij = -w_ij and K_ii = sum_j w_ij. Each row sums to zero up to the rounding of
+// K_ii.
 SymmetricMatrix laplacian(const Topology& topology, const Vector<double>& weights, Memory& memory,
                           JobRunner* jobs = nullptr);
 

@@ -17,13 +17,14 @@ namespace {
 
 using Index = std::int32_t;
 
-// Six half-edges or entries per vertex must fit 31 bits.
+// Largest number of vertices or triangles: six half-edges or entries for each must fit 31 bits.
 constexpr std::uint32_t size_limit = 0x7fffffffu / 6;
-// Sums of squares in inner coordinates must not overflow.
+// Largest diagonal of a mesh. Sums of squares in inner coordinates must not overflow.
 constexpr double largest_scale = 1e300;
-// Area over the longest edge squared that the report calls zero: a height below 2e-12 of the edge.
+// The report counts a triangle as zero-area if its area over the longest edge squared is below this number. Its height
+// is then below 2e-12 of that edge.
 constexpr double zero_area = 1e-12;
-// Triangles of one job. No result depends on it.
+// Triangles of one job. No result depends on this number.
 constexpr std::size_t report_piece = 65536;
 
 void check_sizes(const MeshInput& input) {
@@ -47,7 +48,7 @@ void check_triangles(const MeshInput& input) {
   }
 }
 
-// Bounding box of the vertices as given, which must be finite.
+// Computes centre and scale from the bounding box of the caller's vertices, and refuses positions that are not finite.
 void find_frame(const MeshInput& input, Mesh& mesh) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double low[3] = {infinity, infinity, infinity}, high[3] = {-infinity, -infinity, -infinity};
@@ -71,7 +72,7 @@ void find_frame(const MeshInput& input, Mesh& mesh) {
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the mesh is %g wide; scale it below 1e300", mesh.scale);
 }
 
-// Components of the welded vertices over the usable triangles, by union-find with path halving.
+// Finds the components of the welded vertices that usable triangles connect, by union-find with path halving.
 struct UnionFind {
   explicit UnionFind(std::size_t count, Memory& memory) : parent(count, &memory) {
     std::iota(parent.begin(), parent.end(), 0);
@@ -88,7 +89,8 @@ struct UnionFind {
   Vector<Index> parent;
 };
 
-// Triangles with the same three corners as one before: bucketed by the smallest corner, compared inside a bucket.
+// Counts triangles with the same three corners as an earlier one. They are sorted into buckets by the smallest corner
+// and compared inside a bucket.
 void count_duplicates(Mesh& mesh, Memory& memory) {
   struct Key {
     Index middle, largest;
@@ -119,7 +121,7 @@ void count_duplicates(Mesh& mesh, Memory& memory) {
   }
 }
 
-// Smallest angle (the one of largest cotangent) and zero-area triangles: area below 1e-12 of the longest edge squared.
+// Finds the smallest angle, which has the largest cotangent, and counts triangles of zero area.
 void measure_triangles(Mesh& mesh, JobRunner* jobs, Memory& memory) {
   struct Found {
     double cotangent = -std::numeric_limits<double>::infinity();
@@ -138,7 +140,7 @@ void measure_triangles(Mesh& mesh, JobRunner* jobs, Memory& memory) {
       const double longest = std::max({dot(e[0], e[0]), dot(e[1], e[1]), dot(e[2], e[2])});
       for (int k = 0; k < 3; ++k) {
         const double cosine = -dot(e[k], e[(k + 2) % 3]);
-        // without area: an angle of 0 or pi; two corners at one place count as 0
+        // A triangle without area has angles of 0 or pi. If two corners are at one place, the angle counts as 0.
         const double cotangent =
             area2 > 0 ? cosine / area2 : (cosine < 0 ? -1 : 1) * std::numeric_limits<double>::infinity();
         own.cotangent = std::max(own.cotangent, cotangent);
@@ -164,12 +166,12 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
   mesh.report.vertex_count = input.vertex_count, mesh.report.triangle_count = input.triangle_count;
   find_frame(input, mesh);
 
-  // weld: representative given vertex of every given vertex
+  // representative[v] is the first vertex of the caller that vertex v is welded with
   Vector<Index> representative = weld(input, memory);
   for (std::uint32_t v = 0; v < input.vertex_count; ++v)
     mesh.report.welded_vertex_count += representative[v] == static_cast<Index>(v);
 
-  // usable triangles: three different corners after welding
+  // A usable triangle has three different corners after welding.
   mesh.triangle_of_given.assign(input.triangle_count, none);
   mesh.corners.reserve(std::size_t{3} * input.triangle_count);
   for (std::uint32_t t = 0; t < input.triangle_count; ++t) {
@@ -186,7 +188,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
     fail(HF_ERROR_EMPTY, HF_NO_INDEX, "every triangle has equal corners%s; nothing is left of the mesh",
          input.weld == Weld::none ? "" : " after welding");
 
-  // inner numbering: welded vertices of usable triangles, in the order given
+  // The inner vertices are the welded vertices of usable triangles, numbered in the caller's order.
   Vector<Index> inner(input.vertex_count, none, &memory);
   for (Index& corner : mesh.corners) inner[at(corner)] = 0;
   for (std::uint32_t v = 0; v < input.vertex_count; ++v) {

@@ -1,9 +1,11 @@
-// The surface as every room sees it: vertices welded, centred and scaled, usable triangles only, components known.
+// The mesh that all of src works on: vertices are welded, centred and scaled, triangles are usable, components are
+// known.
 //
-// Intake (Mesh::make) checks the input, welds vertices, drops collapsed triangles, numbers components and counts what
-// is dirty. Inner vertices are those of at least one usable triangle; the maps lead back to the vertices as given.
-// Positions are p' = (p - centre) / scale, with the box diagonal as scale, so that nothing inside depends on unit or
-// offset. Cost: O(n log n) for the weld, O(n) for the rest. On failure nothing is left behind.
+// Mesh::make checks the input, welds vertices, drops triangles with two equal corners, numbers the components and
+// counts faults of the mesh. An inner vertex is a welded vertex of at least one usable triangle. Maps lead from inner
+// vertices back to the vertices of the caller. An inner position is p' = (p - centre) / scale, with the diagonal of the
+// bounding box as scale. So no result depends on the unit or the offset of the input. Cost: O(n log n) for the weld,
+// O(n) for the rest. After a failure no memory stays allocated.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -15,7 +17,7 @@
 
 namespace hf_inner {
 
-// Plain storage in every header; algebra on it that is more than this goes through Eigen (base/algebra.h).
+// A plain vector of three numbers, with the basic operations. Larger algebra uses Eigen (base/algebra.h).
 struct Vec3 {
   double x = 0, y = 0, z = 0;
 };
@@ -32,7 +34,7 @@ using Triangle = std::int32_t[3];
 
 enum class Weld : std::int32_t { exact = 0, none = 1, tolerance = 2 };
 
-// Corner numbers of the caller: 16 or 32 bits, rows of three at a byte stride.
+// The corner numbers of the caller's triangles: 16 or 32 bits wide, in rows of three, at a byte stride.
 class CornerRows {
  public:
   CornerRows() noexcept = default;
@@ -87,8 +89,9 @@ struct Mesh {
         component(&memory),
         isolated(&memory) {}
 
-  // Throws HF_ERROR_EMPTY, _OUT_OF_RANGE (triangle), _NON_FINITE (vertex), _INVALID_ARGUMENT, or std::bad_alloc.
-  // jobs: threads to use; null works on the caller's alone, with the same result.
+  // Throws HF_ERROR_EMPTY, HF_ERROR_OUT_OF_RANGE (index = triangle), HF_ERROR_NON_FINITE (index = vertex),
+  // HF_ERROR_INVALID_ARGUMENT, or std::bad_alloc. jobs: threads to use; null = the calling thread, with the same
+  // result.
   static Mesh make(const MeshInput& input, Memory& memory, JobRunner* jobs = nullptr);
 
   std::int32_t vertex_count() const noexcept { return static_cast<std::int32_t>(positions.size()); }
@@ -97,7 +100,7 @@ struct Mesh {
   const std::int32_t* triangle(std::int32_t t) const noexcept {
     return corners.data() + std::size_t{3} * static_cast<std::size_t>(t);
   }
-  // p = centre + scale p'
+  // to_given converts an inner position to the caller's frame: centre + scale p. to_inner converts back.
   Vec3 to_given(Vec3 p) const noexcept { return centre + scale * p; }
   Vec3 to_inner(Vec3 p) const noexcept { return (1.0 / scale) * (p - centre); }
 

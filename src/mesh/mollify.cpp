@@ -8,11 +8,11 @@
 namespace hf_inner {
 namespace {
 
-// Triangles or edges of one job. No result depends on it.
+// Triangles or edges of one job. No result depends on this number.
 constexpr std::size_t mollify_piece = 16384;
 // Rounds of local lengthening before every edge is lengthened.
 constexpr int most_rounds = 64;
-// Closes a little more than wanted, so that rounding does not leave it open.
+// Factor by which an edge grows more than needed, so that rounding does not leave the triangle open.
 constexpr double overshoot = 1.0001;
 
 void find_lengths(const Mesh& mesh, const Topology& topology, MollifiedLengths& out, JobRunner* jobs) {
@@ -34,7 +34,8 @@ void find_lengths(const Mesh& mesh, const Topology& topology, MollifiedLengths& 
   });
 }
 
-// Length that a triangle lacks to close, 0 for a proper one. `longest` is its longest side.
+// Returns the length that a triangle lacks to fulfil the margin, or 0 if it lacks none. Sets `longest` to its longest
+// side.
 double missing(const double length[3], double floor, std::size_t& longest) noexcept {
   longest = 0;
   for (std::size_t k = 1; k < 3; ++k) longest = length[k] > length[longest] ? k : longest;

@@ -1,18 +1,19 @@
-// Edge lengths that close every triangle.
+// Lengthens edges until every triangle fulfils the triangle inequality with a margin.
 //
-// For a >= b >= c: b + c - a >= mollify_closing a, where a counts as no less than mollify_floor of the mean edge.
-// Triangles that do not close have their two shorter edges lengthened by half of the missing length each. Their
-// neighbours may open by this, so it is repeated for all triangles at once. After the last round, one length added to
-// every edge closes the rest (Sharp and Crane 2020, Section 4.5). The result does not depend on the numbering. Cost:
-// O(n) a round; one round on a mesh without thin triangles.
+// For edge lengths a >= b >= c, the margin is b + c - a >= mollify_closing a. For this, a counts as at least
+// mollify_floor of the mean edge length. In one round, every triangle that violates the margin lengthens each of its
+// two shorter edges by half of the missing length. This may open a neighbouring triangle, so the rounds repeat. After
+// the last round, one length added to every edge closes the triangles that are left (Sharp and Crane 2020, Section
+// 4.5). The result does not depend on the numbering. Cost: O(n) for each round. A mesh without thin triangles needs one
+// round.
 #pragma once
 #include "mesh/topology.h"
 
 namespace hf_inner {
 
-// Opening that closes a triangle, in longest edges: a flat one gets cotangents of 3,500.
+// Margin of the triangle inequality, as a share of the longest edge. It gives a flat triangle cotangents of 3,500.
 constexpr double mollify_closing = 1e-8;
-// Least longest edge, in mean edges, so that triangles of one point get a size.
+// Least longest edge of a triangle, as a share of the mean edge. It gives triangles with three equal positions a size.
 constexpr double mollify_floor = 1e-3;
 
 struct MollifiedLengths {

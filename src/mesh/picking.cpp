@@ -15,7 +15,8 @@ constexpr std::size_t piece = 16384;  // triangles or vertices of a job: some 0.
 
 std::uint32_t pieces_of(std::size_t count) { return static_cast<std::uint32_t>((count + piece - 1) / piece); }
 
-// Positions of inner vertices in the frame of the search: the inner one at rest, the caller's when posed.
+// Positions of inner vertices in the frame of the search. At rest that is the inner frame, when posed the caller's
+// frame.
 class Places {
  public:
   explicit Places(const PickTarget& target) noexcept : mesh_(target.mesh), posed_(target.posed) {}
@@ -39,7 +40,7 @@ class Places {
   const ConstRows posed_;
 };
 
-// Space sheared so that the ray runs along the last axis.
+// A shear of space after which the ray runs along the last axis.
 struct Shear {
   Shear(Vec3 origin, Vec3 direction) noexcept : from(origin) {
     const std::array<double, 3> d = {direction.x, direction.y, direction.z};
@@ -64,7 +65,7 @@ struct Candidate {
   double weight[3] = {0, 0, 0};
 };
 
-// Keeps the hit of a triangle when it is nearer. Corners are sheared.
+// Tests a triangle with sheared corners, and keeps its hit if the hit is nearer than the best so far.
 void test_triangle(const Vec3* corner, bool front_only, std::uint32_t triangle, Candidate& best) noexcept {
   const Vec3 &a = corner[0], &b = corner[1], &c = corner[2];
   const double u = c.x * b.y - c.y * b.x, v = a.x * c.y - a.y * c.x, w = b.x * a.y - b.y * a.x;

@@ -1,11 +1,11 @@
-// What a ray hits first, and which vertex is nearest to a point.
+// Finds the first triangle that a ray hits, and the vertex nearest to a point.
 #pragma once
 #include "mesh/mesh.h"
 
 namespace hf_inner {
 
-// Where the surface stands: rows by vertex as given, or, empty, at rest. Both searches pass over the whole surface, on
-// the threads of `jobs`; the result does not depend on their number.
+// The surface to search. `posed` has one row per vertex of the caller; if it is empty, the surface is at rest. Both
+// searches pass over the whole surface on the threads of `jobs`. The result does not depend on the number of threads.
 struct PickTarget {
   const Mesh& mesh;
   ConstRows posed;
@@ -20,9 +20,9 @@ struct RayHit {
   double distance = 0;
 };
 
-// The first triangle on a ray; triangle HF_NO_INDEX for none. Edges are tested with the same numbers from both sides,
-// so no ray slips between two triangles (Woop, Benthin and Wald 2013). direction: not zero. Throws HF_ERROR_NON_FINITE
-// (index = given vertex) for a posed position.
+// Returns the first triangle on a ray, or HF_NO_INDEX if the ray hits none. Both triangles of an edge compute the same
+// numbers for it, so no ray slips between them (Woop, Benthin and Wald 2013). direction: not zero. Throws
+// HF_ERROR_NON_FINITE (index = vertex of the caller) if a posed position is not finite.
 RayHit cast_ray(const PickTarget& target, Vec3 origin, Vec3 direction, JobRunner& jobs, Memory& memory);
 
 struct NearestVertex {
@@ -30,7 +30,7 @@ struct NearestVertex {
   double distance = 0;               // in the caller's unit
 };
 
-// Throws as cast_ray.
+// Returns the vertex nearest to `point`. Throws as cast_ray does.
 NearestVertex nearest_vertex(const PickTarget& target, Vec3 point, JobRunner& jobs, Memory& memory);
 
 }  // namespace hf_inner

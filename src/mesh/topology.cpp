@@ -5,7 +5,7 @@
 namespace hf_inner {
 namespace {
 
-// Vertices of one job. No result depends on it.
+// Vertices of one job. No result depends on this number.
 constexpr std::size_t bucket_piece = 16384;
 
 }  // namespace
@@ -16,7 +16,7 @@ Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
   Topology topology(memory);
   const std::size_t n = mesh.positions.size(), corner_count = mesh.corners.size();
 
-  // half-edges bucketed by their smaller end, then sorted by the larger one
+  // Half-edges are put into buckets by their smaller vertex, then sorted by their larger vertex.
   struct Half {
     Index second, triangle;
   };
@@ -57,7 +57,8 @@ Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
   }
   topology.edge_triangle_start.push_back(static_cast<Index>(corner_count));
 
-  // neighbours: edges are ordered by (first, second), so both passes fill every row in ascending order
+  // Fills the rows of neighbours. Edges are ordered by (first, second), so both passes fill every row in ascending
+  // order.
   topology.neighbour_start.assign(n + 1, 0);
   for (const Index v : topology.edges) ++topology.neighbour_start[at(v) + 1];
   for (std::size_t v = 0; v < n; ++v) topology.neighbour_start[v + 1] += topology.neighbour_start[v];

@@ -1,4 +1,4 @@
-// Edges and neighbours of a Mesh in compressed rows. Non-manifold edges keep all their triangles.
+// Edges and neighbours of a Mesh, stored in compressed rows. Non-manifold edges keep all their triangles.
 #pragma once
 #include <cstdint>
 
@@ -17,7 +17,7 @@ struct Topology {
   static Topology make(const Mesh& mesh, Memory& memory, JobRunner* jobs = nullptr);
 
   std::int32_t edge_count() const noexcept { return static_cast<std::int32_t>(edges.size() / 2); }
-  // Ends of edge e, the smaller vertex first; edges ordered by (first, second).
+  // first and second are the end vertices of edge e, the smaller one first. Edges are ordered by (first, second).
   std::int32_t first(std::int32_t e) const noexcept { return edges[std::size_t{2} * static_cast<std::size_t>(e)]; }
   std::int32_t second(std::int32_t e) const noexcept { return edges[std::size_t{2} * static_cast<std::size_t>(e) + 1]; }
 
@@ -29,8 +29,8 @@ struct Topology {
   Vector<std::int32_t> neighbour_edge;  // the edge to that neighbour
 };
 
-// Boundary, non-manifold and flipped edges into the report. An edge is flipped when two triangles run through it in one
-// direction.
+// Counts boundary, non-manifold and flipped edges in the report. An edge is flipped when two triangles run through it
+// in the same direction.
 void count_edges(const Mesh& mesh, const Topology& topology, MeshReport& report) noexcept;
 
 }  // namespace hf_inner

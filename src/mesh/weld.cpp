@@ -12,15 +12,16 @@ namespace {
 
 using Index = std::int32_t;
 
-// Slots of the smallest table; it doubles to two per vertex.
+// Slots of the smallest hash table. The table doubles until it has two slots per vertex.
 constexpr std::size_t first_slots = 64;
-// Probes before sorting takes over: a table that is half full takes 1.5 a vertex, made-up positions take n.
+// Probes of the hash table before sorting replaces it. A half-full table needs about 1.5 probes per vertex. Positions
+// that are constructed to collide need up to n probes per vertex.
 constexpr std::uint64_t steps_per_vertex = 16, spare_steps = 1024;
-// Cells fit 64 bits: larger coordinates share the last one.
+// Largest cell number, which fits 64 bits. Larger coordinates share the last cell.
 constexpr std::int64_t largest_cell = 4000000000000000000;
 
 Vec3 position(const MeshInput& input, std::size_t v) noexcept {
-  // adding zero turns -0 into +0
+  // adding zero turns -0 into +0, so both have the same bits
   return {input.positions.get(v, 0) + 0.0, input.positions.get(v, 1) + 0.0, input.positions.get(v, 2) + 0.0};
 }
 
@@ -36,8 +37,8 @@ std::uint64_t mixed(Vec3 p) noexcept {
   return h ^ (h >> 31);
 }
 
-// Vertices in ascending order into a table with open addressing: the first of a place stands for it. False when the
-// table degenerates (many places with one hash), which only made-up positions do.
+// Puts the vertices into a hash table with open addressing, in ascending order. The first vertex at a place represents
+// the later ones. Returns false if too many places have the same hash, which happens only with constructed positions.
 bool weld_by_hash(const MeshInput& input, Vector<Index>& representative, Memory& memory) {
   std::size_t size = first_slots;
   while (size < std::size_t{2} * input.vertex_count) size *= 2;
@@ -126,7 +127,7 @@ Vector<Index> weld_tolerance(const MeshInput& input, Memory& memory) {
       v = parent[static_cast<std::size_t>(v)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(v)])];
     return v;
   };
-  // half of the 27 cells: each pair of cells is compared once
+  // Visits half of the 27 cells around each vertex, so that each pair of cells is compared once.
   for (const Entry& entry : entries) {
     const Vec3 p = position(input, static_cast<std::size_t>(entry.v));
     for (int dx = -1; dx <= 1; ++dx) {

@@ -1,7 +1,9 @@
-// Joins vertices at one place: per given vertex the smallest given vertex it is joined with.
+// Joins vertices that lie at one place. Returns for each vertex of the caller the smallest vertex that it is joined
+// with.
 //
-// Exact: equal coordinates (+0 = -0). Tolerance: closer than the tolerance, transitively, through a grid of cells as
-// wide as the tolerance (at most 27 cells to search). Cost O(n log n).
+// Exact welding joins equal coordinates (+0 = -0). Tolerance welding joins vertices that are closer than the tolerance,
+// transitively. It sorts the vertices into grid cells as wide as the tolerance and searches at most 27 cells. Cost: O(n
+// log n).
 #pragma once
 #include "mesh/mesh.h"
 
