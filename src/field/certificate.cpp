@@ -1,19 +1,20 @@
-// The certificate of a field: the residual of the equations at the computed u and lambda.
+// Computes how well the field u and the fluxes lambda of the sites satisfy K u = W lambda and w_i' u + lambda_i /
+// alpha_i = s_i. Site i has the weights w_i (a column of W), the stiffness alpha_i and the value s_i. The errors are
 //
 //     residual     max_v |sum_j K_vj (u_j - u_v) - (W lambda)_v| / (K_vv r)
 //     site error   max_i |w_i'u + lambda_i / alpha_i - s_i| / r
 //     overshoot    max_v max(u_v - max s, min s - u_v) / r
 //
-// r is the range of the site values of the component and channel. The sums are formed in differences, which lose
-// nothing to the constants that K maps to zero. They use K itself, neither the factor nor the dense system, so a fault
-// in either shows. A small residual does not bound the error on bad meshes. But a damaged factor, a missing site or a
-// number that is not finite cannot pass.
+// Here r is the range of the site values of the component and channel. The sums use the differences u_j - u_v, so a
+// large constant in u costs no digits. The check uses K itself, but neither the factor nor the dense system of the
+// sites, so it finds a fault in either. A small residual does not bound the error of u on meshes of bad quality. But a
+// damaged factor, a missing site or a number that is not finite cannot pass.
 //
-// Overshoot: where K has no positive entry off its diagonal (an M-matrix) and every site is a vertex, the maximum
-// principle holds. The field lies within the site values of its component then. Elsewhere (plain cotangents with obtuse
-// triangles, bi-harmonic fields, points inside triangles) it need not, and is not checked.
+// Overshoot is how far the field leaves the range of its site values. It is checked only if K has no positive entry off
+// its diagonal (an M-matrix) and every site is a vertex. The maximum principle then forbids overshoot. In other cases,
+// such as cotangent weights with obtuse triangles, bi-harmonic fields or points inside triangles, overshoot is allowed.
 //
-// Cost: a solve and a product with K. Nothing is changed.
+// Cost: a solve and a product with K. The function changes nothing.
 #include "field/certificate.h"
 
 #include <algorithm>
@@ -25,10 +26,11 @@
 namespace hf_inner {
 namespace {
 
-// The engines reach this with room to spare. The sites of updown are penalties, which hold to about 1 / penalty.
+// Default tolerances. All engines stay well below them. The engine updown has sites that are penalties, which meet
+// their values only to about 1 / penalty.
 constexpr double exact_tolerance = 1e-8, penalty_tolerance = 1e-5;
 
-// Smallest and largest site value by component and channel.
+// The smallest and largest site value of each component and channel.
 struct Ranges {
   Ranges(const SiteSet& sites, std::size_t components, std::size_t channels, Memory& memory)
       : low(components * channels, HUGE_VAL, &memory), high(components * channels, -HUGE_VAL, &memory) {
@@ -42,7 +44,7 @@ struct Ranges {
     }
   }
   double range(std::size_t i) const noexcept { return high[i] - low[i]; }
-  // The unit of errors.
+  // Returns the unit of errors: the range of the site values, or their size if the range is 0.
   double unit(std::size_t i) const noexcept {
     const double size = std::max(std::fabs(low[i]), std::fabs(high[i]));
     return range(i) > 0 ? range(i) : size > 0 ? size : 1.0;
@@ -50,7 +52,7 @@ struct Ranges {
   Vector<double> low, high;
 };
 
-// Takes the larger; what is no number is infinite.
+// Raises `largest` to `error` if that is larger. An error that is not finite counts as infinite.
 bool raise(double& largest, double error) noexcept {
   const double wrong = std::isfinite(error) ? error : HUGE_VAL;
   if (!(wrong > largest)) return false;
@@ -58,7 +60,7 @@ bool raise(double& largest, double error) noexcept {
   return true;
 }
 
-// u_j - u_v summed with the weights of row v, and whether the row is that of an M-matrix.
+// Sums K_vj (u_j - u_v) over row v. Returns true if no entry off the diagonal is positive, as an M-matrix requires.
 bool row_of(const SymmetricMatrix& k, std::size_t v, const double* u, std::size_t m, double* out) noexcept {
   bool one_sign = true;
   std::fill_n(out, m, 0.0);
@@ -102,7 +104,7 @@ Certificate certify(const ScalarField& field) {
     if (raise(worst, error)) found.vertex = vertex;
   };
 
-  // the sites, and their flux by vertex
+  // Measures the error of each site, and adds up the fluxes of the sites by vertex.
   std::fill_n(right.data(), n * m, 0.0);
   for (std::size_t slot = 0; slot < sites.slots().size(); ++slot) {
     if (!sites.slots()[slot].used()) continue;

@@ -1,4 +1,4 @@
-// Measures the error of a field on the equations that it must satisfy (certificate.cpp).
+// Measures how well a field satisfies its own equations.
 #pragma once
 #include <cstdint>
 
@@ -6,7 +6,8 @@
 
 namespace hf_inner {
 
-// Errors are relative to the range of the site values of a component and channel: where all are equal, to their size.
+// The errors of a field. Each error is relative to the range of the site values of its component and channel. If all
+// site values are equal, it is relative to their size.
 struct Certificate {
   double value_range = 0;  // widest range of the site values of a component and channel
   double residual = 0;     // distance of a vertex from the weighted mean of its neighbours
@@ -16,10 +17,11 @@ struct Certificate {
   std::int32_t vertex = Mesh::none;  // inner vertex of the largest of the three
 };
 
-// The tolerance asked for; for 0 that of the engine. Throws HF_ERROR_INVALID_ARGUMENT unless it is above 0 and finite.
+// Returns the tolerance that the caller asked for, or the default of the engine for 0. Throws HF_ERROR_INVALID_ARGUMENT
+// unless the tolerance is above 0 and finite.
 double certificate_tolerance(double asked, EngineKind engine);
 
-// Solves the field and checks it; a number that is not finite has an infinite error. Throws HF_ERROR_NO_SITES.
+// Solves the field and measures its errors. A value that is not finite has an infinite error. Throws HF_ERROR_NO_SITES.
 Certificate certify(const ScalarField& field);
 
 }  // namespace hf_inner

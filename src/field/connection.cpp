@@ -10,10 +10,10 @@ namespace hf_inner {
 namespace {
 
 constexpr double pi = 3.141592653589793238462643383279502884;
-// A fan whose angles sum to less (radians) is all rounding and has no direction. Neither has a sum of unit directions
-// that is shorter than this. Larger: more vertices count as irregular.
+// If the angles of a fan (radians), or a sum of unit directions, are smaller than these limits, they are mere rounding
+// and give no direction. Larger limits would make more vertices irregular.
 constexpr double least_angle = 1e-9, least_sum = 1e-9;
-// Normals this close to opposite have no smallest rotation between them: 1 + cosine is rounding.
+// If 1 + cosine of two normals is below this number, they count as opposite. No smallest rotation exists between them.
 constexpr double opposite = 1e-12;
 
 double wrapped(double angle) noexcept {
@@ -27,13 +27,13 @@ double corner_angle(const Mesh& mesh, Index v, Index a, Index b) noexcept {
   return std::atan2(norm(cross(p, q)), dot(p, q));
 }
 
-// A triangle at a vertex: from the neighbour `first`, counter-clockwise, to `second`.
+// A triangle at a vertex. Counter-clockwise, it lies between the neighbours `first` and `second`.
 struct Corner {
   Index first, second;
   double angle;
 };
 
-// The fan of a vertex.
+// How the triangles around a vertex lie: whether they form one regular fan, whether it is closed, and its angle scale.
 struct Fan {
   bool regular = false, closed = false;
   double scale = 1;
@@ -54,7 +54,7 @@ class FanMaker {
       triangle_[at(cursor[at(mesh.corners[c])]++)] = static_cast<Index>(c / 3);
   }
 
-  // Fills in angles[place] for the neighbours of v.
+  // Computes the angle of each neighbour of v and writes it to `angles`.
   Fan make(Index v, double* angles) {
     corners_.clear();
     for (Index i = start_[at(v)]; i < start_[at(v) + 1]; ++i) {
@@ -66,7 +66,7 @@ class FanMaker {
     Fan fan;
     const auto repeated = [](const Corner& a, const Corner& b) { return a.first == b.first; };
     if (std::adjacent_find(corners_.begin(), corners_.end(), repeated) != corners_.end()) return fan;
-    // an open fan starts at the neighbour where no triangle ends; two such neighbours make two fans
+    // An open fan starts at the neighbour where no triangle ends. Two such neighbours mean that there are two fans.
     const std::size_t neighbours = at(topology_.neighbour_start[at(v) + 1] - topology_.neighbour_start[at(v)]);
     if (neighbours != corners_.size() && neighbours != corners_.size() + 1) return fan;
     fan.closed = neighbours == corners_.size();
@@ -109,7 +109,7 @@ class FanMaker {
   Vector<Corner> corners_, ends_{corners_.get_allocator()};
 };
 
-// An orthonormal frame of the plane of a normal.
+// Computes an orthonormal frame x, y of the plane with normal n.
 void plane_of(Vec3 n, Vec3& x, Vec3& y) noexcept {
   const double ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
   const Vec3 least = ax <= ay && ax <= az ? Vec3{1, 0, 0} : ay <= az ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
@@ -118,7 +118,7 @@ void plane_of(Vec3 n, Vec3& x, Vec3& y) noexcept {
   y = cross(n, x);
 }
 
-// Turns the frame so that the angles of the edges fit their projections best.
+// Turns the frame so that the angles of the edges fit the projected edges best.
 void fit_frame(const Mesh& mesh, const Topology& topology, Index v, const double* angles, Connection& out) {
   Vec3 &x = out.x[at(v)], &y = out.y[at(v)];
   std::complex<double> sum = 0;
@@ -181,7 +181,7 @@ Connection Connection::make(const Mesh& mesh, const Topology& topology, Memory& 
     }
   }
 
-  // edges of a triangle, for the round trips at irregular corners
+  // Returns the edge between two vertices. The curvature of triangles with irregular corners needs it.
   const auto edge_between = [&](Index v, Index w) {
     const auto begin = topology.neighbour.begin() + topology.neighbour_start[at(v)],
                end = topology.neighbour.begin() + topology.neighbour_start[at(v) + 1];

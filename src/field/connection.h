@@ -1,15 +1,16 @@
-// The discrete Levi-Civita connection of a surface (Knoeppel, Crane, Pinkall and Schroeder 2013, Section 6).
+// The discrete Levi-Civita connection of a surface (Knoeppel, Crane, Pinkall and Schroeder 2013, Section 6). It says
+// how a tangent direction at one vertex compares to one at the next vertex.
 //
-// It has a frame in the tangent plane of every vertex. For every edge it has the angle by which a direction turns in
-// these frames when it is carried along.
+// The connection has a frame in the tangent plane of every vertex. For every edge it stores the angle by which a
+// direction turns, relative to these frames, when it is carried along the edge.
 //
-// A vertex is regular when its triangles form one fan of one orientation. Directions there are measured by the angles
-// between the edges, summed around the vertex and, when the fan is closed, scaled to a full turn of 2 pi. An edge is
-// the same straight line seen from both ends, so carrying turns by angle_j(j -> i) + pi - angle_i(i -> j). The
-// curvature of a triangle is the sum of its scaled angles less pi. Over a closed surface it sums to 2 pi times the
-// Euler characteristic. Frames lie in space so that these angles fit the projected edges best, whatever their
-// numbering. At other vertices (non-manifold, flipped) directions are carried along edges in space, by the smallest
-// rotation from normal to normal.
+// A vertex is regular when its triangles form one fan of one orientation. There, the angle of an edge is the sum of the
+// corner angles before it. If the fan is closed, the angles are scaled to a full turn of 2 pi. An edge is the same
+// straight line seen from both ends i and j, so carrying a direction from i to j turns it by angle_j(j -> i) + pi -
+// angle_i(i -> j). The curvature of a triangle is the sum of its scaled angles less pi. Over a closed surface the
+// curvatures sum to 2 pi times the Euler characteristic. The frames are turned in space so that these angles fit the
+// projected edges best. This does not depend on the numbering. At irregular vertices (non-manifold, flipped) a
+// direction is carried by the smallest rotation from vertex normal to vertex normal.
 //
 // Cost: O(n log valence).
 #pragma once
@@ -30,7 +31,8 @@ struct Connection {
         closed(&memory) {}
   static Connection make(const Mesh& mesh, const Topology& topology, Memory& memory);
 
-  // A complex number z in the frame of v stands for the vector Re z x + Im z y.
+  // to_frame and to_space convert between a vector in space and a complex number z in the frame of v. The number z
+  // stands for the vector Re z x + Im z y.
   std::complex<double> to_frame(std::int32_t v, Vec3 vector) const noexcept {
     const std::size_t i = static_cast<std::size_t>(v);
     return {dot(vector, x[i]), dot(vector, y[i])};
@@ -39,7 +41,7 @@ struct Connection {
     const std::size_t i = static_cast<std::size_t>(v);
     return z.real() * x[i] + z.imag() * y[i];
   }
-  // Turn of a direction that goes along edge e to the vertex `to`.
+  // Returns the angle by which a direction turns when it is carried along edge e to the vertex `to`.
   double turn(const Topology& topology, std::int32_t e, std::int32_t to) const noexcept {
     const double angle = rotation[static_cast<std::size_t>(e)];
     return to == topology.second(e) ? angle : -angle;
@@ -53,11 +55,11 @@ struct Connection {
   std::uint32_t irregular_count = 0;
 };
 
-// The vector carried from the plane of one normal to that of another by the smallest rotation.
+// Carries a vector from the plane of one normal to the plane of another normal, by the smallest rotation.
 Vec3 carry(Vec3 vector, Vec3 from_normal, Vec3 to_normal) noexcept;
 
-// Edges of a shortest path along the edges of the mesh, in order; empty when `from` is `to`. Both in one component.
-// Cost: O(d log d) for the d vertices nearer to `from` than `to` is.
+// Returns the edges of a shortest path along mesh edges, in order. The list is empty if `from` is `to`. Both vertices
+// must lie in one component. Cost: O(d log d) for the d vertices that are nearer to `from` than `to` is.
 Vector<std::int32_t> edge_path(const Mesh& mesh, const Topology& topology, std::int32_t from, std::int32_t to,
                                Memory& memory);
 

@@ -1,13 +1,14 @@
-// Critical points of a piecewise linear field on a triangle mesh, with their index (Banchoff 1970).
+// Finds the critical points of a piecewise linear field on a triangle mesh, with their index (Banchoff 1970).
 //
-// Vertices are totally ordered by (u, number), so that equal values are told apart. The lower link of v is the part of
-// the ring around v below it; index(v) = 1 - chi(lower link), chi = its vertices minus its edges. Inside a manifold:
-//     minimum +1 (empty), maximum +1 (the whole ring), regular 0 (one arc), saddle of k + 1 arcs -k.
+// Vertices are ordered by (value, number), so no two are equal. The lower link of a vertex v is the part of the ring
+// around v that is below v in this order. The index of v is 1 - chi(lower link), where chi is the number of vertices
+// minus the number of edges. In the interior of a manifold this gives: minimum +1 (the lower link is empty), maximum +1
+// (it is the whole ring), regular vertex 0 (it is one arc), saddle -k (it is k + 1 arcs).
 //
-// Each simplex is counted at its highest vertex. So the indices of a component sum to its Euler characteristic on any
-// complex, with borders (a maximum on a border has index 0) and non-manifold edges. The upper link gives the index of
-// -u, which finds saddles on borders whose lower link is one arc.
-// Cost: one pass over edges and triangles.
+// Each vertex, edge and triangle is counted once, at its highest vertex. So the indices of a component sum to its Euler
+// characteristic, also with borders and non-manifold edges. A maximum on a border has index 0. A saddle on a border can
+// have a lower link of one arc; the part of the ring above the vertex then shows the saddle. Cost: one pass over edges
+// and triangles.
 #pragma once
 #include "base/span.h"
 #include "mesh/topology.h"
@@ -30,7 +31,7 @@ struct CriticalPoints {
   std::int32_t euler_characteristic = 0;  // of the part of the mesh that has values
 };
 
-// field: one value per inner vertex; NaN = none: the vertex and what touches it is left out.
+// field: one value per inner vertex. NaN means no value; such a vertex and its edges and triangles are left out.
 CriticalPoints find_critical_points(const Mesh& mesh, const Topology& topology, Span<const double> field,
                                     Memory& memory);
 

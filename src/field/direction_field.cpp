@@ -14,12 +14,13 @@ using Index = std::int32_t;
 using Complex = std::complex<double>;
 
 constexpr double two_pi = 6.283185307179586476925286766559;
-// Largest coordinate of a vector: the square of its length must stay finite.
+// Largest coordinate of a vector, so that the square of its length stays finite.
 constexpr double most_coordinate = 1e150;
-// Part of a unit vector along the surface below which its direction is rounding. Larger: refuses steeper vectors.
+// Least tangent part of a unit vector; in a smaller part the direction is mere rounding. A larger limit would refuse
+// more vectors that are nearly normal to the surface.
 constexpr double least_tangent = 1e-9;
 
-// |z| e^{i n phi}
+// Raises |z| e^{i phi} to |z| e^{i n phi}, where n is the degree.
 Complex raised(Complex z, Index degree) noexcept {
   if (degree == 1) return z;
   const double length = std::abs(z);
@@ -232,7 +233,7 @@ void DirectionField::solve(Vec3* out) const {
   const Vector<Complex> field = solved();
   for (std::size_t v = 0; v < field.size(); ++v)
     out[v] = solver_.connection().to_space(static_cast<Index>(v), root(field[v], solver_.degree()));
-  // constraints hold to the bit, whatever root the field takes
+  // Constrained vertices get their own vectors bit for bit, whichever root the field takes.
   for (const DirectionConstraint& c : constraints_) {
     if (c.vertex >= 0) out[c.vertex] = solver_.connection().to_space(c.vertex, c.vector);
   }
@@ -243,7 +244,8 @@ Vector<Singularity> DirectionField::singularities() const {
   const Core& core = solver_.core();
   const Connection& connection = solver_.connection();
   const Index n = solver_.degree();
-  // the turn of the field along an edge, beyond the connection's; the same number, negated, from its other side
+  // How much more the field turns along an edge than the connection. Seen from the other end, the number is the same
+  // with the opposite sign.
   Vector<double> turn(at(core.topology.edge_count()), 0.0, &memory());
   for (Index e = 0; e < core.topology.edge_count(); ++e) {
     const Complex from = field[at(core.topology.first(e))], to = field[at(core.topology.second(e))];

@@ -1,15 +1,16 @@
-// A smooth tangent direction field under edit, with its undo stack: the object behind hf_direction.
+// A smooth tangent direction field that can be edited, with its undo stack. It is the object behind hf_direction.
 //
-// Constraints are vectors at vertices, projected on their tangent planes. They are added, removed, moved, turned and
-// rewritten; the field between them is that of DirectionSolver.
+// A constraint is a vector at a vertex, projected on the tangent plane. Constraints can be added, removed, moved,
+// turned and changed. DirectionSolver computes the field between them.
 //
-// A vector v = |v| e^{i phi} in its frame stands in the solver as |v| e^{i n phi}, n the degree. The field answers with
-// the root whose angle is nearest to that of the x axis. Moving a constraint carries its vector along the shortest path
-// of edges. Every edit works on a copy of the constraints and swaps it in after the solver has taken the change.
+// Let n be the degree of the field. A vector of length r and angle phi in its vertex frame is the number r e^{i n phi}
+// in the solver. Of the n roots of the solution, the field returns the one whose angle is nearest to the x axis. If a
+// constraint moves, its vector is carried along the shortest path of edges. Every edit changes a copy of the
+// constraints. The copy replaces the original after the solver has accepted the change.
 //
-// Singularities: a triangle ijk has the index I = (1 / 2 pi)(sum of omega + n Omega) (Crane, Desbrun and Schroeder
-// 2010, Section 5). omega_ij = arg(z_j / r_ij z_i) is the turn of the field along an edge beyond that of the
-// connection, Omega the curvature of the triangle. I / n sums to the Euler characteristic over a closed component.
+// A triangle ijk has the singularity index I = (1 / 2 pi)(sum of omega + n Omega) (Crane, Desbrun and Schroeder 2010,
+// Section 5). omega_ij = arg(z_j / r_ij z_i) is how much more the field z turns along an edge than the connection r_ij.
+// Omega is the curvature of the triangle. Over a closed component, I / n sums to the Euler characteristic.
 #pragma once
 #include <memory>
 
@@ -34,17 +35,18 @@ class DirectionField {
  public:
   DirectionField(std::shared_ptr<const Core> core, std::int32_t degree, std::uint32_t site_limit);
 
-  // Each all or nothing; throws with the position in the list as index.
+  // Edits of the constraints. Each edit does everything or throws; the error index is the position in the list.
   void add(std::uint32_t count, const std::uint32_t* vertices, const double* vectors, std::uint32_t* out_sites);
   void remove(std::uint32_t count, const std::uint32_t* sites);
   void move(std::uint32_t count, const std::uint32_t* sites, const std::uint32_t* vertices);
   void set_vectors(std::uint32_t count, const std::uint32_t* sites, const double* vectors);
   void rotate(std::uint32_t count, const std::uint32_t* sites, const double* angles);
 
-  // Shares the system; with the constraints, without the undo stack.
+  // Makes a copy with the same constraints, without the undo stack. Both share the system.
   DirectionField(const DirectionField& other);
   DirectionField& operator=(const DirectionField&) = delete;
-  // As ScalarField: undo goes back to the last record, redo returns; the same bits. Throw HF_ERROR_NO_RECORD.
+  // undo restores the last record and redo reverts the last undo, both bit for bit. They throw HF_ERROR_NO_RECORD if
+  // there is no record.
   void record();
   void undo();
   void redo();
@@ -53,7 +55,7 @@ class DirectionField {
   Span<const DirectionConstraint> constraints() const noexcept { return constraints_; }
   const DirectionSolver& solver() const noexcept { return solver_; }
 
-  // The field of every inner vertex as a vector in space. Throws HF_ERROR_NO_SITES.
+  // Computes the field of every inner vertex as a vector in space. Throws HF_ERROR_NO_SITES.
   void solve(Vec3* out) const;
   Vector<Singularity> singularities() const;  // by triangle
 

@@ -45,7 +45,7 @@ void DirectionSolver::solve(Span<const std::complex<double>> values, std::comple
   const std::size_t unknowns = at(system_->matrix.size());
   Workspace z(core().workspaces, unknowns);
   ConstraintSystem::Answer answer(memory());
-  // a complex number is its two parts in order: the values of two slots
+  // A complex number is its real and imaginary part in order, which are the values of two slots.
   constraints_.sweep(reinterpret_cast<const double*>(values.data()), 1, 0, 1, answer, z.data());
   const Span<const Index> row = system_->factor->position();
   for (Index v = 0; v < core().size(); ++v) {

@@ -1,13 +1,14 @@
-// Smoothest vector fields under edit: the connection Laplacian on a factor of its own, constrained by the machine of
-// fields (engine/constraint_system.h).
+// Solves the smoothest vector fields through constraints that can be edited. It has its own factor, of the connection
+// Laplacian. The constraints go through the constraint system that scalar fields use (engine/constraint_system.h).
 //
 //     E(z) = sum over edges of w_ij |z_j - r_ij z_i|^2,   r_ij = exp(i n rotation_ij)      (Knoeppel et al. 2013)
 //
-// One complex unknown per vertex (two real ones), n the degree of the field, w the cotangent weights floored at 1e-3 of
-// their median. K = the matrix of E is definite on curved surfaces and singular where every round trip comes back
-// unturned (a flat patch, a cylinder). So one vertex of every component is pinned, and the machine takes the pins out
-// of the answer by their paths. A constraint is two sites, one a real unknown. A new value costs a dense solve and a
-// backward sweep.
+// The field z minimises E. z has one complex unknown per vertex, which is two real unknowns. n is the degree of the
+// field. w_ij are the cotangent weights, raised to at least 1e-3 of their median. The matrix K of E is positive
+// definite on curved surfaces. K is singular where every round trip brings a vector back unturned, such as on a flat
+// patch or a cylinder. So one vertex of every component is pinned. The constraint system removes the effect of the pins
+// from the solution, with their elimination paths. A constraint consists of two sites, one for each real unknown. A new
+// value of a constraint costs a dense solve and a backward sweep.
 #pragma once
 #include "engine/constraint_system.h"
 #include "field/direction_system.h"
@@ -21,28 +22,29 @@ struct DirectionCounters {
 
 class DirectionSolver {
  public:
-  // degree >= 1: fields of vectors (1), lines (2), crosses (4). Throws what Factor::make does.
+  // degree: 1 for vectors, 2 for lines, 4 for crosses; at least 1. Throws what Factor::make throws.
   DirectionSolver(std::shared_ptr<const Core> core, std::int32_t degree)
       : DirectionSolver(make_owner_in<DirectionSystem>(core->memory, core, degree)) {}
-  // Without constraints, on a system that others may share.
+  // Makes a solver without constraints. Other solvers may share the system.
   explicit DirectionSolver(std::shared_ptr<const DirectionSystem> system)
       : system_(std::move(system)), constraints_(system_->pinned_operator()) {}
-  // Shares the system and, until they are edited, paths and dense blocks; with the same constraints, counts start
-  // again.
+  // Makes a copy with the same constraints. Both share the system, and also paths and dense blocks until one is edited.
+  // The counters of the copy start at zero.
   DirectionSolver(const DirectionSolver& other) : DirectionSolver(other.system_) {
     constraints_.restore(other.constraints_.state());
   }
   DirectionSolver& operator=(const DirectionSolver&) = delete;
 
-  // Frees slots and puts constraints at vertices into slots; a slot may stand in both. All or nothing.
+  // Removes the constraints of some slots and puts constraints at vertices into other slots. A slot is the number of a
+  // constraint; it may be in both lists. The edit does everything or throws.
   struct Edit {
     Span<const Index> remove, add, vertices;
   };
   void edit(const Edit& edit);
-  // Moves the constrained vertices into the factor. Throws HF_ERROR_NO_SITES without one.
+  // Moves the constrained vertices into the factor. Throws HF_ERROR_NO_SITES if there are none.
   void rebase() { constraints_.rebase(*core().jobs); }
-  // z of every inner vertex, in its frame, raised to the degree; values by slot, likewise. Vertices of components
-  // without a constraint get 0.
+  // Computes z of every inner vertex, in its frame and raised to the degree. values: by slot, in the same form.
+  // Vertices of components without a constraint get 0.
   void solve(Span<const std::complex<double>> values, std::complex<double>* field) const;
 
   const Core& core() const noexcept { return *system_->core; }
@@ -57,7 +59,8 @@ class DirectionSolver {
   double operator_ms() const noexcept { return system_->operator_ms; }
   DirectionCounters counters() const noexcept;
 
-  // The present constraints with their paths and dense blocks, all shared; restore gives the same bits.
+  // snapshot returns the present constraints; their paths and dense blocks are shared, not copied. restore goes back to
+  // a snapshot bit for bit.
   std::shared_ptr<const ConstraintState> snapshot() const { return constraints_.snapshot(); }
   void restore(const ConstraintState& state) { constraints_.restore(state); }
 

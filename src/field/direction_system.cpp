@@ -9,13 +9,12 @@
 namespace hf_inner {
 namespace {
 
-// Share of the mesh's edges that the surface's operator may lack before the mesh is ordered for itself. A few edges
-// across the separators cost little; many fill the factor (two hundred times the work on a jittered torus of 120,000
-// vertices).
+// If the surface's operator lacks a larger share of the mesh edges, the mesh gets an ordering of its own. A few missing
+// edges cost little. Many fill the factor: on a jittered torus of 120,000 vertices the work grew two hundred times.
 constexpr double missing_share = 1e-4;
 constexpr std::size_t piece = 8192;  // vertices a job takes
 
-// Edges of the mesh that the surface's operator does not have.
+// Returns the number of mesh edges that the surface's operator does not have.
 double missing_edges(const Core& core) {
   const SymmetricMatrix& k = core.laplacian;
   std::size_t missing = 0;
@@ -70,8 +69,8 @@ void DirectionSystem::make_order() {
   for (Index v = 0; v < core->size(); ++v) order[at(position[at(v)])] = v;
 }
 
-// Row and column pairs of the real 2 x 2 blocks: w I on the diagonal, -w R between neighbours, R the turn from column
-// to row.
+// Writes the matrix in real 2 x 2 blocks. A diagonal block is w I, with w the sum of the weights of the vertex. The
+// block between neighbours is -w R, with R the rotation from the column's frame to the row's frame.
 void DirectionSystem::make_matrix() {
   const Topology& topology = core->topology;
   const std::size_t n = at(core->size());
@@ -120,7 +119,8 @@ void DirectionSystem::make_matrix() {
   });
 }
 
-// Pins, the factor of A, and the pins' own paths with C = Y_g'Y_g - I / beta.
+// Chooses the pinned unknowns, factorises the matrix A with raised diagonals there, and solves the pins' elimination
+// paths Y_g. It also computes C = Y_g'Y_g - I / beta, with beta the amount by which the diagonals are raised.
 void DirectionSystem::make_pins() {
   const std::size_t components = core->ground.size();
   beta.assign(components, 0.0);

@@ -1,9 +1,9 @@
-// The operator of direction fields of one surface and degree: connection, matrix, factor and the paths of the pins.
-// Immutable; every field on the surface shares it.
+// The operator of the direction fields of one surface and degree: connection, matrix, factor, and elimination paths of
+// the pinned unknowns. It is immutable, and all direction fields of that degree on the surface share it.
 //
-// Unknowns are numbered in the order of the surface's own factor where that is one of the same graph. Where the
-// surface's operator has many edges of its own (intrinsic Delaunay on meshes that are not), the mesh's edges are
-// ordered for themselves.
+// The unknowns have the order of the surface's own factor if that factor has the edges of the mesh. The intrinsic
+// Delaunay operator can have many other edges. In that case the unknowns get an ordering computed from the edges of the
+// mesh.
 #pragma once
 #include "engine/core.h"
 #include "engine/pinned_operator.h"
@@ -13,11 +13,11 @@ namespace hf_inner {
 
 class DirectionSystem {
  public:
-  // Throws what Factor::make does.
+  // Throws what Factor::make throws.
   DirectionSystem(std::shared_ptr<const Core> core, Index degree);
   Index unknown(Index vertex, Index part) const noexcept { return 2 * position[at(vertex)] + part; }
   Index vertex_of(Index unknown) const noexcept { return order[at(unknown / 2)]; }
-  // K for a ConstraintSystem: two pins a component.
+  // Returns the operator K for a ConstraintSystem, with two pinned unknowns in each component.
   PinnedOperator pinned_operator() const noexcept;
 
   std::shared_ptr<const Core> core;  // first member: outlives what is allocated from its memory

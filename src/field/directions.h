@@ -1,13 +1,14 @@
-// Unit directions of the falling heat on every triangle, weighted and summed over the channels.
+// Computes the unit direction of falling heat on every triangle, weighted and summed over the channels.
 //
-// This is most of the time of an average distance (Crane, Weischedel and Wardetzky 2013), so the loop is compiled for
-// four and for eight lanes too. Nothing is contracted and the channels are summed in one order: the bits are the same.
+// An average distance (Crane, Weischedel and Wardetzky 2013) spends most of its time in this loop. So the loop is also
+// compiled for four and for eight lanes. The compiler contracts nothing, and the channels are always summed in the same
+// order, so all versions give the same bits.
 #pragma once
 #include <cstdint>
 
 namespace hf_inner {
 
-// A triangle with area in its plane, the first edge along x: corners (0, 0), (along, 0), (px, py).
+// A triangle of non-zero area in its own plane. The corners are (0, 0), (along, 0) and (px, py).
 struct TriangleFrame {
   double along, px, py;
   std::int32_t row[3];  // of the corners in the heat

@@ -1,7 +1,8 @@
-// The loop of directions.h; includes no header whose inline functions could leak from one instruction set into another.
+// The loop of directions.h. It includes no header with inline functions. The linker could otherwise use a function
+// compiled for one instruction set on a processor without it.
 namespace {
 
-// Eight numbers, in one register or several.
+// Eight numbers. The compiler puts them into one register or several.
 typedef double Eight __attribute__((vector_size(64), aligned(8), may_alias));
 typedef std::int64_t EightBits __attribute__((vector_size(64), aligned(8), may_alias));
 typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
@@ -10,7 +11,7 @@ typedef double Two __attribute__((vector_size(16), aligned(8), may_alias));
 inline void get(const double* from, Eight& x) noexcept { __builtin_memcpy(&x, from, sizeof(x)); }
 inline void get(const double* from, double& x) noexcept { x = *from; }
 
-// By halves.
+// Adds the eight numbers by halves: 8 to 4, 4 to 2, 2 to 1.
 inline double sum_of(const Eight& x) noexcept {
   Four low, high;
   __builtin_memcpy(&low, &x, sizeof(low));
@@ -24,7 +25,7 @@ inline double sum_of(const Eight& x) noexcept {
 }
 inline double sum_of(double x) noexcept { return x; }
 
-// Number: double or Eight; Bits: integers of its size.
+// Adds the directions of one triangle. Number is double or Eight. Bits is the integer type of the same size.
 template <class Number, class Bits>
 inline void add_lanes(const hf_inner::TriangleFrame& frame, const double* u0, const double* u1, const double* u2,
                       const double* weights, double* sums) noexcept {
@@ -32,7 +33,8 @@ inline void add_lanes(const hf_inner::TriangleFrame& frame, const double* u0, co
   Number a, d1, d2, weight;
   get(u0, a), get(u1, d1), get(u2, d2), get(weights, weight);
   d1 -= a, d2 -= a;
-  // times the power of two that brings |d1| + |d2| to [1, 2): far from the source the square of the heat is zero
+  // Scales the differences d1 and d2 of the heat by a power of two, so that |d1| + |d2| is in [1, 2). Far from the
+  // source the square of the heat would underflow to zero.
   Bits bits, other;
   Number scale, second;
   __builtin_memcpy(&bits, &d1, sizeof(bits));
@@ -45,10 +47,12 @@ inline void add_lanes(const hf_inner::TriangleFrame& frame, const double* u0, co
   bits = largest - (bits & exponent);
   __builtin_memcpy(&scale, &bits, sizeof(bits));
   d1 *= scale, d2 *= scale;
-  // grad v times twice the area: d1 n x (p0 - p2) + d2 n x (p1 - p0), and n x (x, y) = (-y, x)
+  // (x, y) is the gradient of the heat times twice the area. With the normal n it is d1 n x (p0 - p2) + d2 n x (p1 -
+  // p0), and n x (x, y) = (-y, x).
   Number x = d1 * frame.py, y = d2 * frame.along - d1 * frame.px;
-  // 1 / sqrt to 1e-10, without a division or a root: half the exponent and a straight line for the mantissa, 3 % off.
-  // Then three steps of Newton's method, e -> 3/2 e^2. The 1e-200 keeps them finite where the heat does not fall.
+  // Computes 1 / sqrt(squared) to 1e-10 without a division or a root. Halving the exponent gives a start value with an
+  // error of 3 %. Each of three Newton steps takes the relative error e to 3/2 e^2. The term 1e-200 keeps the numbers
+  // finite where the heat is constant.
   const Number squared = x * x + y * y + 1e-200, half = 0.5 * squared;
   __builtin_memcpy(&bits, &squared, sizeof(bits));
   bits = 0x5fe6eb50c7b537a9 - (bits >> 1);

@@ -1,4 +1,4 @@
-// directions.inl on four lanes: built with -mavx2, chosen at run time.
+// Compiles directions.inl for four lanes with -mavx2. The library chooses it at run time.
 #include "field/directions.h"
 #include "field/directions.inl"
 

@@ -1,4 +1,4 @@
-// directions.inl on eight lanes: built with -mavx512f, chosen at run time.
+// Compiles directions.inl for eight lanes with -mavx512f. The library chooses it at run time.
 #include "field/directions.h"
 #include "field/directions.inl"
 

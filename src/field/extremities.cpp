@@ -10,7 +10,7 @@
 namespace hf_inner {
 namespace {
 
-// work(component, begin, end) for every run of vertices of one component.
+// Calls work(component, begin, end) for every run of consecutive vertices of one component.
 template <class Work>
 void for_runs(const Core& core, Work&& work) {
   const Vector<Index>& component = core.mesh.component;
@@ -20,7 +20,7 @@ void for_runs(const Core& core, Work&& work) {
   }
 }
 
-// Area of every component.
+// Returns the area of every component.
 Vector<double> component_areas(const Core& core) {
   Vector<double> total(core.ground.size(), 0.0, core.memory.get());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {
@@ -31,7 +31,7 @@ Vector<double> component_areas(const Core& core) {
   return total;
 }
 
-// The vertex of each component that is farthest from its centroid.
+// Returns the vertex of each component that is farthest from the centroid of the component.
 Vector<Index> farthest_vertices(const Core& core, const Vector<double>& total) {
   const std::size_t components = core.ground.size();
   Vector<Vec3> centre(components, core.memory.get());
@@ -61,8 +61,9 @@ Vector<Index> farthest_vertices(const Core& core, const Vector<double>& total) {
 
 constexpr Index unseen = std::numeric_limits<Index>::max();
 
-// Breadth-first search from a vertex over vertices whose level is `unseen`. Writes their level (edges from the start) and
-// lists them in `queue`. Returns how many were found. queue needs room for the vertices plus one.
+// Breadth-first search from a vertex, over vertices whose level is `unseen`. It writes the level of each vertex, which
+// is its number of edges from the start, and lists the vertices in `queue`. Returns how many vertices it found. The
+// queue needs room for the number of vertices plus one.
 std::size_t search_levels(const Topology& topology, Index from, Index* level, Index* queue) {
   const Index *const start = topology.neighbour_start.data(), *const neighbour = topology.neighbour.data();
   std::size_t head = 0, tail = 0;
@@ -70,7 +71,7 @@ std::size_t search_levels(const Topology& topology, Index from, Index* level, In
   while (head < tail) {
     const Index v = queue[head++], next = level[at(v)] + 1, end = start[at(v) + 1];
     for (Index i = start[at(v)]; i < end; ++i) {
-      // no branch: it would be mispredicted every other time
+      // The loop has no branch, because the processor would mispredict it half of the time.
       const Index w = neighbour[at(i)], old = level[at(w)];
       queue[tail] = w, tail += old > next;
       level[at(w)] = std::min(old, next);
@@ -79,8 +80,9 @@ std::size_t search_levels(const Topology& topology, Index from, Index* level, In
   return tail;
 }
 
-// A ring of vertices around the middle of each component. They lie half as many edges from the farthest vertex as the
-// end of a breadth-first search from there, and are edge-connected with the vertex half way.
+// Marks a ring of vertices around the middle of each component. A breadth-first search starts at the farthest vertex.
+// The ring is about half as many edges away from there as the last vertex that the search finds. The ring is
+// edge-connected.
 void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uint8_t>& middle) {
   const Topology& topology = core.topology;
   const std::size_t n = middle.size();
@@ -96,7 +98,7 @@ void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uin
       while (level[at(neighbour[at(i)])] + 1 != level[at(v)]) ++i;
       v = neighbour[at(i)];
     }
-    // two levels, because one alone need not be edge-connected
+    // Takes two neighbouring levels, because the vertices of one level need not be edge-connected.
     head = tail = 0;
     queue[tail++] = v, middle[at(v)] = 1;
     while (head < tail) {
@@ -110,7 +112,7 @@ void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uin
   }
 }
 
-// u of the unit source density with all of a component's area taken in evenly by its middle.
+// Solves for u. Every vertex is a source of its area, and the middle ring of each component takes all of it in evenly.
 void solve_poisson(const Core& core, const Vector<double>& total, Vector<double>& u) {
   Vector<std::uint8_t> middle(u.size(), 0, core.memory.get());
   mark_middles(core, total, middle);
@@ -120,7 +122,8 @@ void solve_poisson(const Core& core, const Vector<double>& total, Vector<double>
   }
   Workspace z(core.workspaces, u.size());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {
-    // a middle without area takes nothing in: its component has no field, and no flow into the pinned vertex
+    // A ring without area takes nothing in. The right side of its component is then 0, so nothing flows into the pinned
+    // vertex.
     const double outside = taken[c] > 0 ? 1 : 0, inside = taken[c] > 0 ? 1 - total[c] / taken[c] : 0.0;
     for (std::size_t v = begin; v < end; ++v) u[v] = core.areas[v] * (middle[v] ? inside : outside);
   });
@@ -132,11 +135,11 @@ double length_of(double fall, bool poisson) noexcept {
   return poisson ? std::sqrt(2 * fall) : fall;
 }
 
-// Peaks of found.field that are long enough, with their lengths.
+// Adds the peaks of found.field that are long enough to the list, with their lengths.
 void propose(const Core& core, const Vector<double>& total, double least_length, bool poisson, Extremities& found) {
   const Vector<double>& u = found.field;
   const Vector<Peak> peaks = find_peaks(core.topology, u, *core.memory);
-  // the level that the highest point of a component falls to
+  // base[c]: the level to which the field falls for the highest point of component c
   Vector<double> base(total.size(), 0.0, core.memory.get());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {
     double sum = base[c];

@@ -1,18 +1,19 @@
-// Extremities of a surface: the tips of what protrudes, as proposals for sites and handles.
+// Finds the extremities of a surface: tips of protruding parts, which are proposals for sites and handles.
 //
-// Poisson: K u = M (1 - s). Every point is a source of its own area, and a ring s around the middle of the component
-// takes it all in. The flow out of a limb makes u a maximum at its tip. Down a limb of any constant girth u falls by
-// (length)^2 / 2, wherever the ring is. So sqrt(2 persistence) is the length of the limb, and numbering, remeshing and
-// pose do not change the list. The ring is half way, in edges, from the vertex farthest from the centroid to the other
-// end of the shape. A point instead of a ring would raise the field behind it and blur the lengths. Cost: one solve.
+// The Poisson kind solves K u = M (1 - s), with M the vertex areas. Every vertex is a source of its own area. A ring of
+// vertices around the middle of the component, marked by s, takes all of it in. So u rises out along a limb and is
+// largest at its tip. Along a limb of constant girth, u differs by (length)^2 / 2 between root and tip, wherever the
+// ring is. So sqrt(2 persistence) is the length of the limb. Numbering, remeshing and pose do not change the list. The
+// ring lies half way, in edges, from the vertex farthest from the centroid to the other end of the shape. A single
+// vertex instead of the ring would raise the field behind it and blur the lengths. Cost: one solve.
 //
-// Geodesic: the mean geodesic distance to the rest of the component (Hilaga, Shinagawa, Kohmura and Kunii 2001), by the
-// heat method. A tip's persistence is the length of its limb times the share of the surface behind it, less the share
-// at the tip.
+// The geodesic kind uses the mean geodesic distance to the rest of the component (Hilaga, Shinagawa, Kohmura and Kunii
+// 2001), which the heat method computes. The persistence of a tip is the length of its limb times a share. This share
+// is the share of the surface behind the limb, less the share at the tip.
 //
-// Persistence (peaks.h) is how far u falls before it rises to something higher. One finger of a hand counts as the arm,
-// the others as fingers. Proposals are sorted by that length, the longest first. The highest point of a component falls
-// to the mean level, or to the deepest saddle between proposals.
+// The persistence of a peak (peaks.h) is how far u falls on the way to a higher point. So one finger of a hand has the
+// length of the arm, and the other fingers have their own lengths. The list is sorted by length, the longest first. For
+// the highest point of a component, u falls to its mean, or to the deepest saddle between proposals.
 #pragma once
 #include <memory>
 
@@ -33,7 +34,7 @@ struct Extremities {
   Vector<double> field;  // of every inner vertex, what the points are the maxima of
 };
 
-// Throws HF_ERROR_UNSUPPORTED when the core's factor is not that of a Laplacian.
+// Both throw HF_ERROR_UNSUPPORTED if the core does not have the factor of a Laplacian.
 Extremities poisson_extremities(const Core& core, double least_length, Progress* progress);
 Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length,
                                  Progress* progress);

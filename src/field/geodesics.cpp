@@ -12,11 +12,12 @@ namespace {
 
 constexpr Index group_size = 8;
 constexpr std::int64_t piece = 8192;  // triangles of one job
-// Least time step as a length over the box diagonal: below it the heat at the far end is less than a double holds.
+// Least time step, as a length over the box diagonal. With less, the heat at the far end would be too small for a
+// double.
 constexpr double least_step = 1.0 / 250;
-// Least mass of a vertex over that of the mean: a vertex without area needs a positive diagonal, and no more.
+// Least mass of a vertex, as a share of the mean mass. A vertex without area needs a positive diagonal.
 constexpr double least_mass = 1e-12;
-// Triangles with less area over their squared length have no direction that rounding leaves.
+// A triangle with less area over its squared length is left out; rounding decides the direction of its gradient.
 constexpr double least_height = 1e-9;
 
 double mean_edge(const Core& core) noexcept {
@@ -42,7 +43,7 @@ Geodesics::Geodesics(std::shared_ptr<const Core> core, double smoothing)
   const double h = mean_edge(c), least = least_step;
   step_ = std::max(smoothing * h * h, least * least);
   SymmetricMatrix matrix = grounded(c);
-  // a vertex without area still needs a positive diagonal
+  // A vertex without area still needs a positive diagonal.
   const double floor = least_mass / std::max(1, c.size());
   for (std::size_t v = 0; v < at(c.size()); ++v) {
     for (Index i = c.laplacian.column_start[v]; i < c.laplacian.column_start[v + 1]; ++i) {
@@ -54,7 +55,7 @@ Geodesics::Geodesics(std::shared_ptr<const Core> core, double smoothing)
   make_frames();
 }
 
-// By the largest row of a triangle: the heat of its corners is read not far from that of the triangle before.
+// Sorts the triangles by their largest row in the factor. Consecutive triangles then read heat from nearby memory.
 void Geodesics::make_frames() {
   const Mesh& mesh = core_->mesh;
   const Span<const Index> position = heat_->position();
@@ -82,8 +83,8 @@ void Geodesics::make_frames() {
   }
 }
 
-// sums[2 t], [2 t + 1] += sum over the channels of weight times X, in frame t.
-// heat[row * channels + c], rows in factor order; weights[component * channels + c].
+// Adds to sums[2 t] and sums[2 t + 1] the directions X of triangle t, in its own frame, weighted and summed over the
+// channels. heat[row * channels + c] has rows in factor order. weights: [component * channels + c].
 void Geodesics::add_directions(const double* heat, Index channels, const double* weights, Vector<double>& sums) const {
   const DirectionSums job = {frames_.data(), heat, weights, channels, sums.data()};
   const std::int64_t count = static_cast<std::int64_t>(frames_.size());
@@ -92,7 +93,8 @@ void Geodesics::add_directions(const double* heat, Index channels, const double*
   });
 }
 
-// Solves K d = b, b_i = sum over the triangles of area grad(hat_i) . X = n x e_i . X / 2.
+// Solves K d = b. b_i sums area grad(hat_i) . X over the triangles at vertex i, where hat_i is the hat function of i.
+// This is the product (n x e_i) . X / 2, with n the normal and e_i the edge opposite to i.
 void Geodesics::integrate(const Vector<double>& sums, double* out) const {
   const Factor& factor = *core_->factor;  // its rows are those of the heat: one ordering
   const Span<const Index> position = factor.position();
@@ -101,7 +103,7 @@ void Geodesics::integrate(const Vector<double>& sums, double* out) const {
   for (std::size_t t = 0; t < frames_.size(); ++t) {
     const TriangleFrame& f = frames_[t];
     const double x = 0.5 * sums[2 * t], y = 0.5 * sums[2 * t + 1];
-    // n x (edge opposite to the corner)
+    // Adds (n x e) . X / 2 to each corner, where e is the edge opposite to the corner.
     z[at(f.row[0])] += -f.py * x + (f.px - f.along) * y;
     z[at(f.row[1])] += f.py * x - f.px * y;
     z[at(f.row[2])] += f.along * y;
@@ -124,7 +126,7 @@ void Geodesics::distance(Span<const Index> sources, double* out) const {
     add_directions(heat.data(), 1, ones.data(), sums);
   }
   integrate(sums, out);
-  // zero at the sources, in the mean over them
+  // Shifts the distance of each component so that its mean over the sources is zero.
   Vector<double> offset(components, 0.0, core.memory.get()), count(components, 0.0, core.memory.get());
   for (const Index s : sources) {
     offset[at(core.mesh.component[at(s)])] += out[s], count[at(core.mesh.component[at(s)])] += 1;
@@ -146,7 +148,7 @@ void Geodesics::average(Index count, double* out, Progress* progress, float from
   Workspace heat(core.workspaces, n * at(group_size));
   for (Index first = 0; first < count; first += group_size) {
     const Index channels = std::min(group_size, count - first);
-    // a channel is heated at one source in every component
+    // Each channel has one source of heat in every component.
     Vector<Index> start(1, 0, &memory), row(&memory), group_of(at(channels), &memory), column_of(at(channels), &memory);
     Vector<double> value(&memory), weights(components * at(channels), 0.0, &memory);
     for (Index k = 0; k < channels; ++k) {

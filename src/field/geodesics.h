@@ -1,14 +1,16 @@
-// Geodesic distance by the heat method (Crane, Weischedel and Wardetzky 2013) on two factors of one ordering.
+// Computes geodesic distances with the heat method (Crane, Weischedel and Wardetzky 2013). It uses two factors of one
+// ordering.
 //
 //     (M + t K) v = sources         the heat after a short time, t = smoothing h^2
 //     X = -grad v / |grad v|        by triangle
 //     K d = integral of X . grad    the distance, up to a constant by component
 //
-// h is the mean length of the edges. K's factor is the core's own; that of M + t K shares its ordering and analysis. t
-// is at least (box diagonal / 250)^2, so that a double can hold the heat at the far end of a large mesh.
+// h is the mean edge length, M the vertex areas and K the Laplacian. The core has the factor of K. The factor of M + t
+// K uses the same ordering and symbolic analysis. t is at least (box diagonal / 250)^2. With a smaller t the heat at
+// the far end of a large mesh would be less than a double can hold.
 //
-// The average over many sources needs one solve for d only, because X adds up. The heat of eight sources takes one
-// backward sweep; their forward part is short paths.
+// The average over many sources needs only one solve for d, because the sum of their X is enough. The heat of eight
+// sources takes one backward sweep. Their forward part needs only the elimination paths of the sources.
 #pragma once
 #include <memory>
 
@@ -18,21 +20,21 @@
 
 namespace hf_inner {
 
-// Throws HF_ERROR_UNSUPPORTED when the core does not hold the factor of a Laplacian (bi-harmonic ones do not).
+// Throws HF_ERROR_UNSUPPORTED if the core does not hold the factor of a Laplacian. Bi-harmonic cores do not.
 void require_laplacian(const Core& core);
 
 class Geodesics {
  public:
-  // One numeric factorisation. Throws as require_laplacian.
+  // Costs one numeric factorisation. Throws as require_laplacian does.
   Geodesics(std::shared_ptr<const Core> core, double smoothing);
 
-  // Distance to the nearest of the sources (inner vertices, at least one), in units of the inner mesh (diagonal 1): 0
-  // at the sources, never negative; -1 in components without a source.
+  // Computes the distance to the nearest source. The sources are at least one inner vertex. The unit is the box
+  // diagonal. The distance is 0 at the sources, never negative, and -1 in components without a source.
   void distance(Span<const std::int32_t> sources, double* out) const;
 
-  // Mean over each component of the distance to its points, up to a constant by component. Takes `count` sources per
-  // component by farthest point sampling, each weighted with the area nearest to it. progress: null, or told the share
-  // done between `from` and `to`.
+  // Computes for each point its mean distance to all points of its component, up to a constant by component. It takes
+  // `count` sources in each component by farthest point sampling, and weights each source with the area nearest to it.
+  // progress: null, or receives the fraction done, between `from` and `to`.
   void average(std::int32_t count, double* out, Progress* progress, float from, float to) const;
 
   const Core& core() const noexcept { return *core_; }

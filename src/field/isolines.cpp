@@ -34,10 +34,10 @@ class Tracer {
     }
   }
 
-  // crossed: the edges with one end below and one not below the level.
+  // Traces all lines of one level. crossed: the edges with one end below the level and the other end not below it.
   void trace(double level, std::uint32_t number, Span<const Index> crossed) {
     level_ = level, number_ = number, ++stamp_;
-    // open lines first: what is left then is closed
+    // Traces the open lines first. All lines that are left are closed.
     for (const bool open : {true, false}) {
       for (const Index e : crossed) {
         for (Index i = begin(e); i < end(e); ++i) {
@@ -56,7 +56,8 @@ class Tracer {
   bool above(Index v) const noexcept { return field_[at(v)] >= level_; }
   bool crossed(Index e) const noexcept { return above(topology_.first(e)) != above(topology_.second(e)); }
 
-  // The triangle that a line goes on to behind triangle entry i of edge e: usable ones are taken in pairs.
+  // Returns the triangle in which a line continues behind edge e, coming from triangle entry i of that edge. The usable
+  // triangles of an edge are taken in pairs.
   Index partner(Index e, Index i) const noexcept {
     Index before = Mesh::none;
     for (Index j = begin(e); j < end(e); ++j) {
@@ -81,12 +82,12 @@ class Tracer {
   Isolines::Point point_on(Index e) const noexcept {
     const Index a = topology_.first(e), b = topology_.second(e);
     const double ua = field_[at(a)], ub = field_[at(b)];
-    // halves keep the difference finite for values of any size
+    // The values are halved, so that the difference stays finite for values of any size.
     const double t = (0.5 * level_ - 0.5 * ua) / (0.5 * ub - 0.5 * ua);
     return {a, b, std::isfinite(t) ? std::min(1.0, std::max(0.0, t)) : 0.0};
   }
 
-  // The vertex a point falls on, or none.
+  // Returns the vertex at which a point lies, or none.
   static Index vertex_of(const Isolines::Point& p) noexcept { return p.t == 0 ? p.a : p.t == 1 ? p.b : Mesh::none; }
   static bool same_place(const Isolines::Point& p, const Isolines::Point& q) noexcept {
     return vertex_of(p) != Mesh::none && vertex_of(p) == vertex_of(q);
@@ -96,19 +97,19 @@ class Tracer {
     if (line_.empty() || !same_place(line_.back(), p)) line_.push_back(p);
   }
 
-  // Whether higher values lie on the right when triangle t is crossed from edge e.
+  // Returns true if higher values lie on the right when the line enters triangle t through edge e.
   bool backward(Index e, Index t) const noexcept {
     const Index* v = mesh_.triangle(t);
     int alone = 0;  // the corner that differs from both others
     for (int k = 0; k < 3; ++k) {
       if (above(v[k]) != above(v[(k + 1) % 3]) && above(v[k]) != above(v[(k + 2) % 3])) alone = k;
     }
-    // a corner above is on the left on the way from its next edge to its previous one
+    // On the way from its next edge to its previous edge, a corner with a higher value is on the left.
     const bool from_next = triangle_edge_[3 * at(t) + at((alone + 2) % 3)] == e;
     return above(v[alone]) != from_next;
   }
 
-  // From triangle entry i of edge e to the end of the line, or once around.
+  // Follows a line from triangle entry i of edge e to its end, or once around if it is closed.
   void follow(Index e, Index i, bool closed) {
     line_.clear();
     const bool turn = backward(e, topology_.edge_triangle[at(i)]);
@@ -168,7 +169,7 @@ Isolines trace_isolines(const Mesh& mesh, const Topology& topology, Span<const d
   Vector<double> sorted(count, &memory);
   for (std::size_t k = 0; k < count; ++k) sorted[k] = levels[order[k]];
 
-  // the edges that each level crosses, low < level <= high
+  // Returns the levels that an edge crosses: low < level <= high.
   struct Range {
     std::size_t first, last;
   };

@@ -1,12 +1,12 @@
-// Iso-lines of a piecewise linear field: the set { u = c } of each level c as polylines over the edges of the mesh.
+// Traces the iso-lines { u = c } of a piecewise linear field u as polylines over the mesh edges.
 //
-// A vertex with u = c exactly counts as just above c (Edelsbrunner and Muecke 1990, "simulation of simplicity", for one
-// comparison). So a line crosses a triangle in exactly two edges or not at all, whatever the values, and has no gaps.
-// It is closed, or ends at a border edge, or at the odd triangle of a non-manifold edge, whose triangles are paired.
-// Points that fall on one vertex are written once. Lines that shrink to fewer than three places (two for open ones) are
-// left out. On consistently oriented surfaces higher values lie on the left.
+// A vertex with u = c exactly counts as just above c ("simulation of simplicity", Edelsbrunner and Muecke 1990). So a
+// line crosses a triangle in exactly two edges or not at all, and has no gaps. A line is closed, or it ends at a border
+// edge. At a non-manifold edge the triangles are taken in pairs; a line also ends at the triangle that has no partner.
+// Consecutive points at the same vertex are written once. A closed line of fewer than three places is left out, and so
+// is an open line of fewer than two. On consistently oriented surfaces higher values lie on the left of a line.
 //
-// Cost: O(E log levels + length of the lines). On failure the output is incomplete.
+// Cost: O(E log levels + length of the lines), with E edges. If the function throws, the output is incomplete.
 #pragma once
 #include <cstdint>
 
@@ -29,11 +29,11 @@ struct Isolines {
   Vector<std::uint8_t> closed;
 };
 
-// Where a point lies, in the unit of the mesh as given.
+// Returns the position of a point, in the unit of the caller's mesh.
 Vec3 position_of(const Mesh& mesh, const Isolines::Point& point) noexcept;
 
-// field: one value per inner vertex; NaN = none, triangles at such a vertex are left out. levels: finite, any order.
-// Lines come in the order of the list.
+// field: one value per inner vertex; NaN means no value, and triangles at such a vertex are left out. levels: finite,
+// in any order. The lines come in the order of the levels.
 Isolines trace_isolines(const Mesh& mesh, const Topology& topology, Span<const double> field, Span<const double> levels,
                         Memory& memory);
 

@@ -9,11 +9,11 @@
 namespace hf_inner {
 namespace {
 
-// A triangle as the field sees it: its values in order, its area, and area times |grad u|.
+// What the levels need of a triangle: its values in ascending order, its area, and its area times |grad u|.
 struct Part {
   double low, middle, high, area, rise;
 
-  // Area with values below c.
+  // Returns the area of the part with values below c.
   double area_below(double c) const noexcept {
     if (c <= low) return 0;
     if (c >= high) return area;
@@ -22,7 +22,7 @@ struct Part {
   }
 };
 
-// Values are scaled to 0..1 over the range.
+// Returns the triangles that have values. The values are scaled so that the range of the field is 0 to 1.
 Vector<Part> parts_of(const Mesh& mesh, Span<const double> field, double& low, double& high, Memory& memory) {
   Vector<Part> parts(&memory);
   parts.reserve(at(mesh.triangle_count()));
@@ -43,7 +43,8 @@ Vector<Part> parts_of(const Mesh& mesh, Span<const double> field, double& low, d
       const Vec3 a = mesh.positions[at(v[0])], e1 = mesh.positions[at(v[1])] - a, e2 = mesh.positions[at(v[2])] - a;
       Part part;
       part.area = 0.5 * norm(cross(e1, e2));
-      // |grad u| area = |(u1 - u0) n x (p0 - p2) + (u2 - u0) n x (p1 - p0)| / 2, and n x keeps lengths in the plane
+      // With the normal n, |grad u| area = |(u1 - u0) n x (p0 - p2) + (u2 - u0) n x (p1 - p0)| / 2. The product n x
+      // does not change lengths in the plane, so it is left out.
       part.rise = 0.5 * norm((u[2] - u[0]) * e1 - (u[1] - u[0]) * e2);
       std::sort(u, u + 3);
       part.low = u[0], part.middle = u[1], part.high = u[2];
@@ -56,10 +57,11 @@ Vector<Part> parts_of(const Mesh& mesh, Span<const double> field, double& low, d
   return parts;
 }
 
-// Halvings of [0, 1]: one a bit of a double. Fewer leave levels inexact, more change nothing.
+// Number of bisections of [0, 1]: one for each bit of a double. Fewer would leave the levels inexact, and more would
+// change nothing.
 constexpr int bisections = 52;
 
-// All targets are bisected at once; trial levels stay in order because the targets do.
+// Bisects all levels at once. The trial levels stay in order because their target areas are in order.
 void equal_areas(const Vector<Part>& parts, Span<double> out, Memory& memory) {
   const std::size_t count = out.size();
   double total = 0;
@@ -84,15 +86,17 @@ void equal_areas(const Vector<Part>& parts, Span<double> out, Memory& memory) {
   }
 }
 
-// A triangle that rises by less of the range has no lines and no width: whole components may be constant.
+// A triangle whose values differ by less than this share of the range counts as flat. It gets no lines and no width,
+// because a whole component may be constant.
 constexpr double flat = 1e-9;
-// Cells of each kind, equal values and quantiles. More cost time in proportion.
+// Number of cells of each kind: equal steps of the value, and quantiles. More cells cost time in proportion.
 constexpr std::size_t most = 2048;
-// Cells thinner than this would only collect rounding errors: the numbers are exact to 1e-16 of the range.
+// Least height of a cell. Thinner cells would collect rounding errors, as values are exact to 1e-16 of the range.
 constexpr double least_cell = 1e-9;
 
 void equal_widths(const Vector<Part>& parts, Span<double> out, Memory& memory) {
-  // cells: equal values, and quantiles of the triangles' middle values where most of the surface is
+  // The limits of the cells are equal steps of the value, and quantiles of the triangles' middle values. The quantiles
+  // put more cells where most of the surface is.
   Vector<double> middle(&memory), edge(&memory);
   middle.reserve(parts.size());
   for (const Part& part : parts) {
@@ -131,7 +135,8 @@ void equal_widths(const Vector<Part>& parts, Span<double> out, Memory& memory) {
     }
   }
   for (std::size_t k = 0; k < cells; ++k) {
-    // area over the mean length of the lines, mean length = rise over the height of the cell
+    // The width of a cell is its area over the mean length of its lines. That mean length is rise over the height of
+    // the cell.
     width[k + 1] = width[k] + (rise[k] > 0 ? area[k] * (edge[k + 1] - edge[k]) / rise[k] : 0.0);
   }
   std::size_t k = 0;

@@ -14,7 +14,8 @@ Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memo
   const std::size_t n = field.size();
   const Index* edge = topology.edges.data();
   const std::size_t edge_ends = topology.edges.size();
-  // one higher neighbour of each vertex, itself where there is none; no branch: it would go either way
+  // basin[v] is one higher neighbour of v, or v itself if there is none. The loop has no branch, because the processor
+  // could not predict it.
   Vector<Index> basin(n, &memory);
   for (std::size_t v = 0; v < n; ++v) basin[v] = static_cast<Index>(v);
   for (std::size_t i = 0; i < edge_ends; i += 2) {
@@ -26,7 +27,7 @@ Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memo
   for (std::size_t v = 0; v < n; ++v) {
     if (basin[v] == static_cast<Index>(v)) peaks.push_back({static_cast<Index>(v), Mesh::none});
   }
-  // the peak above each vertex: every round at least halves the way
+  // Finds the peak above each vertex. Every round at least halves the remaining path.
   for (Index changed = 1; changed != 0;) {
     changed = 0;
     for (std::size_t v = 0; v < n; ++v) {
@@ -35,7 +36,7 @@ Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memo
     }
   }
 
-  // edges between two basins, with the lower end
+  // Lists the edges between two basins.
   Vector<Index> between(edge_ends / 2 + 1, &memory);
   std::size_t count = 0;
   for (std::size_t i = 0; i < edge_ends; i += 2) {

@@ -30,7 +30,7 @@ void ScalarField::prepare_rebase() {
       const std::lock_guard<std::mutex> lock(guard_);
       made.emplace(sites_, engine_->clone(), memory());
     }
-    // one thread: those of the core belong to the edits and solves that go on meanwhile
+    // Uses one thread only: edits and solves on other threads use the threads of the core meanwhile.
     JobRunner alone(1);
     made->engine->rebase(alone);
     const std::lock_guard<std::mutex> lock(guard_);
@@ -42,7 +42,7 @@ void ScalarField::prepare_rebase() {
   preparing_ = false;
 }
 
-// On any failure here the present engine stays; it is correct.
+// Replaces the engine by the prepared one, brought up to date. On any failure the present engine stays; it is correct.
 void ScalarField::adopt() noexcept {
   if (!prepared_) return;
   try {
@@ -51,7 +51,7 @@ void ScalarField::adopt() noexcept {
     prepared_->engine->succeed(*engine_);
     engine_ = std::move(prepared_->engine);
   } catch (...) {
-    // memory ran out: the rebase is given up
+    // Memory ran out, so the prepared engine is dropped.
   }
   prepared_.reset();
 }
@@ -71,7 +71,7 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
       engine_->edit(difference.edit());
     } catch (Error& error) {
       if (error.code() != HF_ERROR_CONFLICT || error.index() >= difference.add.size()) throw;
-      // the engine counts in its own list: name the place in the caller's
+      // The engine's error index counts in its own list of sites. Finds the position in the caller's list instead.
       const std::size_t found = static_cast<std::size_t>(difference.add[error.index()]);
       const std::int32_t owner = next.slots()[found].owner;
       const std::uint32_t slot = static_cast<std::uint32_t>(owner >= 0 ? owner : difference.add[error.index()]);
@@ -158,10 +158,10 @@ void ScalarField::solve_at(Span<const std::int32_t> vertices, double* out) const
 }
 
 void ScalarField::flux(Vector<double>& out, double* field) const {
-  // after an undo an engine may know more slots than the set has
+  // After an undo the engine may have more slots than the site set.
   const std::size_t channels = static_cast<std::size_t>(sites_.channels()), slots = sites_.slots().size();
   out.assign(std::max(slots, static_cast<std::size_t>(engine_->slot_count())) * channels, 0.0);
-  // engines other than green need the field for it; green needs no sweep
+  // The engine green computes fluxes without a sweep; other engines need to solve for the field.
   if (sites_.count() > 0) engine_->solve(sites_.values(), sites_.channels(), field, out.data());
   out.resize(slots * channels);
 }

@@ -1,8 +1,9 @@
-// A harmonic field under edit: the site set, its engine and the undo stack. The object behind hf_solver.
+// A harmonic field that can be edited: its set of sites, its engine and its undo stack. It is the object behind
+// hf_solver.
 //
-// Every edit works on a copy of the site set and swaps it in after the engine has taken the change, so an exception
-// leaves everything as it was. Records share the engine's immutable parts (paths, dense blocks), so undo restores the
-// same bits.
+// Every edit works on a copy of the site set, and replaces the original after the engine has accepted the change. So an
+// exception leaves everything as it was. Records share the immutable parts of the engine (elimination paths, dense
+// blocks), so undo restores the same bits.
 #pragma once
 #include <atomic>
 #include <memory>
@@ -34,15 +35,16 @@ class ScalarField {
               std::uint32_t site_limit);
   ScalarField(const ScalarField& other);  // shares the core; without the undo stack
 
-  // out_sites: null, or add.count numbers; written only on success.
+  // out_sites: null, or room for add.count numbers. The numbers are written only on success.
   void edit(const FieldEdit& edit, std::uint32_t* out_sites);
   void record();
   void undo();
   void redo();
 
-  // Factorises with the present hard sites eliminated, on the calling thread, and keeps the result for the next edit,
-  // which brings it up to date and swaps it in. The one function that may run beside any other of the same object.
-  // Throws HF_ERROR_BUSY when another thread does the same, and as SiteSolver::rebase.
+  // Factorises with the present hard sites eliminated, on the calling thread, and keeps the result. The next edit
+  // brings the result up to date and replaces the engine with it. This is the only function that may run during any
+  // other call on the same object. Throws HF_ERROR_BUSY if another thread is in this function, and what
+  // SiteSolver::rebase throws.
   void prepare_rebase();
 
   const Core& core() const noexcept { return *core_; }
@@ -50,12 +52,13 @@ class ScalarField {
   const SiteSet& sites() const noexcept { return sites_; }
   const SiteSolver& engine() const noexcept { return *engine_; }
 
-  // Throws HF_ERROR_NO_SITES when there is none. field: inner vertex * channels + c.
+  // Solve functions; they throw HF_ERROR_NO_SITES if the field has no site. field: inner vertex * channels + c.
   void solve(double* field) const;
   void solve_into(FieldSink& sink) const;
   PreviewInfo solve_preview(std::int32_t corrections, double* field) const;
   void solve_at(Span<const std::int32_t> vertices, double* out) const;
-  // out: slot * channels + c; without sites all 0. field: null, or that of solve too, not written without sites.
+  // Computes the flux of each site. out: slot * channels + c; all 0 without sites. field: null, or receives the field
+  // as solve does; without sites it is not written.
   void flux(Vector<double>& out, double* field = nullptr) const;
 
  private:

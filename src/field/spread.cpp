@@ -10,7 +10,7 @@ namespace {
 
 constexpr double far = std::numeric_limits<double>::infinity();
 
-// The graph that is searched: patches of vertices, or the vertices themselves.
+// The graph that is searched. Its nodes are patches of vertices, or single vertices.
 struct Patches {
   explicit Patches(Memory& memory)
       : middle(&memory), component(&memory), area(&memory), start(&memory), neighbour(&memory), length(&memory) {}
@@ -20,11 +20,11 @@ struct Patches {
   Vector<double> length;           // to each neighbour
 };
 
-// Most vertices of a patch, and patches a sample needs before components are sampled by patches. Larger patches: fewer
-// searches, coarser samples. More patches a sample: finer samples, and more components searched vertex by vertex.
+// Most vertices of a patch, and least number of patches for each sample. Larger patches make fewer searches and coarser
+// samples. More patches for each sample make finer samples, and more components are searched vertex by vertex.
 constexpr Index patch_size = 24, patches_per_sample = 16;
 
-// Grows the patch of the vertex `list[begin]`, two edges far, over vertices that have none; they are appended.
+// Grows the patch of the vertex list[begin] by two edges, over vertices without a patch, and appends them to `list`.
 void grow_patch(const Topology& topology, Index patch, std::size_t begin, Vector<Index>& patch_of,
                 Vector<Index>& list) {
   std::size_t ring = begin;
@@ -62,7 +62,7 @@ Patches make_patches(const Mesh& mesh, const Topology& topology, const Vector<do
     patches.area.push_back(area);
   }
   list_start.push_back(static_cast<Index>(n));
-  // patches that an edge joins
+  // Connects two patches when an edge joins them.
   Vector<Index> seen_by(patches.middle.size(), Mesh::none, &memory);
   patches.start.push_back(0);
   for (Index p = 0; at(p) < patches.middle.size(); ++p) {
@@ -82,9 +82,9 @@ Patches make_patches(const Mesh& mesh, const Topology& topology, const Vector<do
   return patches;
 }
 
-// Shortest edge paths by corrections in steps of the distance (delta-stepping; Meyer and Sanders 2003, on one thread).
-// Patches nearer than the limit are processed in the order they were found; those beyond it wait for the limit to rise.
-// The distances are the same as by a heap, at a third of the time.
+// Finds shortest edge paths by delta-stepping (Meyer and Sanders 2003), on one thread. Patches nearer than a limit are
+// processed in the order they were found. Patches beyond the limit wait until the limit rises. The distances are those
+// of Dijkstra's algorithm with a heap, in a third of the time.
 class Search {
  public:
   Search(const Patches& patches, Memory& memory)
@@ -98,7 +98,7 @@ class Search {
     step_ = 2 * sum / static_cast<double>(std::max<std::size_t>(1, patches.length.size()));
   }
 
-  // Patches nearer to `source` than to all before become its own.
+  // Gives the sample `name` all patches that are nearer to its patch `source` than to all earlier samples.
   void grow(Index source, Index name) {
     distance[at(source)] = 0, owner[at(source)] = name;
     near_.assign(1, source), waiting_.clear();
@@ -110,7 +110,7 @@ class Search {
   Vector<Index> owner;
 
  private:
-  // Empties the near list; returns the next limit with the patches below it in the list.
+  // Processes and empties the near list. Returns the next limit, and puts the patches below it into the near list.
   double work_off(double limit, Index name) {
     for (std::size_t head = 0; head < near_.size(); ++head) {
       const Index v = near_[head];

@@ -1,13 +1,13 @@
-// Farthest point sampling over the edge graph, in every component at once.
+// Chooses sample vertices that lie far apart, in every component at once (farthest point sampling over the edge graph).
 //
-// The first sample of a component is the vertex farthest from its first vertex. Each next one is the vertex farthest
-// from those before (Gonzalez 1985). Distances are lengths of edge paths; a search stops where an earlier sample is
-// nearer.
+// The first sample of a component is the vertex farthest from its first vertex. Each further sample is the vertex
+// farthest from all samples so far (Gonzalez 1985). Distances are lengths of edge paths. A search stops where an
+// earlier sample is nearer.
 //
-// A component with more than 384 vertices for every sample is sampled by patches: vertices within two edges of a
-// middle, at most 24 of them. Neighbouring patches are joined by the distance of their middles. Samples are middles
-// then, and a patch counts to one sample as a whole. Cost: O(n) for the patches, and about as many searches of the
-// patches as the harmonic number of the count.
+// If a component has more than 384 vertices for every sample, patches are sampled instead of vertices. A patch has at
+// most 24 vertices, all within two edges of its middle vertex. The distance between neighbouring patches is the
+// distance of their middles. A sample is then the middle of a patch, and a whole patch belongs to one sample. Cost:
+// O(n) for the patches, and about H searches of all patches, where H is the harmonic number of `count`.
 #pragma once
 #include "mesh/topology.h"
 

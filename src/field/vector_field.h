@@ -1,17 +1,19 @@
-// Tangent vector fields by components (Xu, Zhang, Cohen-Or and Xiong 2009, Section 3.3): three harmonic channels, then
-// v <- v - (n . v) n with the area-weighted vertex normal n.
+// Makes tangent vector fields from three harmonic channels (Xu, Zhang, Cohen-Or and Xiong 2009, Section 3.3). Each
+// vector v is projected on the tangent plane: v - (n . v) n, with n the area-weighted vertex normal.
 #pragma once
 #include "mesh/topology.h"
 
 namespace hf_inner {
 
-// Unit area-weighted normals of the inner vertices; zero where the triangles around cancel out.
+// Returns the unit area-weighted normals of the inner vertices. A normal is zero where the triangles around it cancel
+// out.
 Vector<Vec3> vertex_normals(const Mesh& mesh, Memory& memory);
 
-// That of one vertex, at the cost of its ring.
+// Returns the normal of one vertex. The cost is proportional to the number of its triangles.
 Vec3 vertex_normal(const Mesh& mesh, const Topology& topology, std::int32_t vertex) noexcept;
 
-// vectors[v * 3 + c], in place. Projected twice, so that n . v is zero to rounding even for nearly normal vectors.
+// Projects vectors[v * 3 + c] in place. It projects twice, so that n . v is zero up to rounding even for vectors that
+// are nearly normal.
 void project_on_tangent_planes(const Vector<Vec3>& normals, double* vectors) noexcept;
 
 }  // namespace hf_inner

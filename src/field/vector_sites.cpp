@@ -18,7 +18,7 @@ const SiteSet::Slot& vector_site(const ScalarField& field, std::uint32_t positio
   return slots[site];
 }
 
-// The vertex of a site, or the corner nearest to it.
+// Returns the vertex of a site. For a point in a triangle it returns the corner of largest weight.
 std::int32_t vertex_of(const Site& site) noexcept {
   int best = 0;
   for (int k = 1; k < 3; ++k) best = site.vertex[k] >= 0 && site.weight[k] > site.weight[best] ? k : best;
@@ -30,7 +30,7 @@ Vec3 value_of(const ScalarField& field, std::uint32_t site) noexcept {
   return {v[0], v[1], v[2]};
 }
 
-// Rodrigues' formula, about a unit axis.
+// Turns v about a unit axis by Rodrigues' formula.
 Vec3 turned(Vec3 v, Vec3 axis, double angle) noexcept {
   const double c = std::cos(angle), s = std::sin(angle);
   return c * v + s * cross(axis, v) + ((1 - c) * dot(axis, v)) * axis;

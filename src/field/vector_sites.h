@@ -1,16 +1,17 @@
-// Vectors of a three-channel field carried and turned on the surface (Xu, Zhang, Cohen-Or and Xiong 2009, Section 3.3).
+// Moves and turns the vectors of the sites of a field with three channels (Xu, Zhang, Cohen-Or and Xiong 2009, Section
+// 3.3).
 #pragma once
 #include "field/scalar_field.h"
 
 namespace hf_inner {
 
-// Moves sites to given vertices of their components. Each vector is carried along the shortest path of edges, turned from
-// vertex normal to vertex normal. All or nothing. Throws as ScalarField::edit, and HF_ERROR_NO_SUCH_SITE,
-// HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (isolated vertex, another component); index = position in the list.
+// Moves sites to vertices of the caller's mesh in the same component. Each vector is carried along the shortest path of
+// edges, turned from vertex normal to vertex normal. The call moves all sites or throws. Throws what ScalarField::edit
+// throws, and HF_ERROR_NO_SUCH_SITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (isolated vertex, another
+// component); index = position in the list.
 void move_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* sites, const std::uint32_t* vertices);
 
-// Turns the vectors about the normals of their vertices by angles in radians. Throws HF_ERROR_NO_SUCH_SITE,
-// HF_ERROR_NON_FINITE.
+// Turns the vectors about their vertex normals by angles in radians. Throws HF_ERROR_NO_SUCH_SITE, HF_ERROR_NON_FINITE.
 void rotate_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* sites, const double* angles);
 
 }  // namespace hf_inner
