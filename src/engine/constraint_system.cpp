@@ -9,11 +9,12 @@
 namespace hf_inner {
 namespace {
 
-// Starting over must save this much of an edit's predicted cost: the rates are good to about a quarter, and an edit
-// that goes on keeps its paths. At 1 fields of similar cost on both routes jump between them.
+// Starting over must be cheaper than continuing by this factor, in predicted cost. The rates are good to about a
+// quarter, and continuing keeps the paths. With 1, edits of similar cost on both routes would alternate between them.
 constexpr double restart_margin = 1.25;
-// Later edits pay for rows of mixed signs again, until a rebase clears them: so they count this many times. Chosen on
-// 800 random edits of 1,000 vectors on 20,000 vertices: 4 takes a fifth longer in all, 16 as long with more rebases.
+// How often the cost of rows of mixed signs counts, because later edits pay for these rows again until a rebase. Chosen
+// on 800 random edits of 1,000 vectors on 20,000 vertices. 4 takes a fifth longer in all than 8. 16 takes as long as 8,
+// with more rebases.
 constexpr double expected_repeats = 8;
 
 }  // namespace
@@ -65,7 +66,7 @@ double ConstraintSystem::base_bytes() const noexcept {
   return state_.base ? state_.base->factor->statistics().bytes : 0.0;
 }
 
-// Cost of the rows of mixed signs that the edit factorises again: those from the first on that leaves.
+// Returns the cost of the rows of mixed signs that the edit factorises again: those from the first removed row on.
 double ConstraintSystem::again_ns(const SiteEdit& edit, const SiteCost& cost) const {
   if (!state_.base) return 0;
   Vector<std::uint8_t> leaves(state_.entries.size(), 0, &memory()), returns(state_.freed.size(), 0, &memory());
@@ -86,7 +87,8 @@ double ConstraintSystem::again_ns(const SiteEdit& edit, const SiteCost& cost) co
   return sum;
 }
 
-// Compares going on with starting over, plainly or with the hard vertex sites eliminated.
+// Compares the cost of continuing from the present rows with the cost of starting over. Starting over may leave the
+// hard vertex sites as rows or eliminate them.
 ConstraintState::Decision ConstraintSystem::decide(const SiteEdit& edit) const {
   const SiteCost cost(operator_.factor->statistics());
   double sites = 0, hard = 0, rows_removed = 0, freed = 0;
@@ -118,7 +120,7 @@ ConstraintState::Decision ConstraintSystem::decide(const SiteEdit& edit) const {
   return decision;
 }
 
-// False: the edit needs a plain layout. The last route, fresh, always decides.
+// Tries one route for an edit. Returns false if the edit needs a new layout of rows. The last route, fresh, never does.
 bool ConstraintSystem::try_route(EditRoute route, const SiteEdit& edit, JobRunner& jobs,
                                  const ConstraintState::Decision& decision) {
   ConstraintState next(state_, memory());

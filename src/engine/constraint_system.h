@@ -1,30 +1,37 @@
-// A few changing constraints on an operator that is factorised once: the machine of fields and direction fields.
+// Solves an operator K under a few changing constraints, with one factorisation. Scalar fields and direction fields use
+// it.
 //
-// With W = [w_1 .. w_k], A = K + sum_c beta_c E_c E_c' (pinned_operator.h) and P A P' = GG':
+// Site i is a constraint w_i' u = s_i on the field u. W has one column w_i per site, s holds the values, and lambda the
+// flux into each site. alpha_i is the stiffness of a soft site. One vertex of every component c is pinned: A = K +
+// sum_c beta_c E_c E_c' (pinned_operator.h). P is the permutation of the ordering and G the Cholesky factor: P A P' = G
+// G'. Then
 //
-//     y_i = G^-1 P w_i          sparse, along elimination-tree paths
+//     y_i = G^-1 P w_i          sparse: it follows the elimination path of the site
 //     S   = Y'Y + D             k x k, one block per component; D = diag(1 / alpha_i), 0 for hard sites
 //     [ S  N ] [lambda]   [ s ]
 //     [ N' C ] [  nu  ] = [ 0 ]
 //
-// Where K maps constants to zero, N_ic = 1 if site i lies in component c, C = 0, and the answer is
+// S is a Schur complement. The border N, C removes the effect of the pins. If K maps constants to zero, N_ic = 1 if
+// site i lies in component c, C = 0, and the field is
 //     u = P' G^-T (Y lambda) + sum_c nu_c 1_c.
-// Elsewhere N = Y'Y_g and C = Y_g'Y_g - I / beta, with the paths Y_g of the pins, and the answer is
+// Otherwise N = Y'Y_g and C = Y_g'Y_g - I / beta, with the elimination paths Y_g of the pins, and the field is
 //     u = P' G^-T (Y lambda + Y_g nu).
-// Both ways pinning a vertex does not change the solution: K u = W lambda and W'u + D lambda = s hold exactly. Insert:
-// path solves and rows of S. Remove: rows of S. Solve: one backward sweep.
+// In both cases pinning does not change the solution: K u = W lambda and W'u + D lambda = s hold exactly. To insert
+// sites, solve their paths and append rows to S. To remove sites, remove rows of S. A solve takes one backward sweep.
 //
-// Very many sites: a rebase (eliminated_base.h) takes the hard vertex sites E into the factor. Later sites are rows as
-// above. Removing a site r of E frees the value t_r. Its column is y_r = G^-1 P (-K_Fr). Its equation
-// (K u)_r = (W lambda)_r is a negative row of the same system:
+// If there are very many sites, a rebase (eliminated_base.h) takes a set E of hard vertex sites out of the matrix. F
+// are the other vertices. Later sites become rows as above. If a site r of E is removed, its value t_r becomes unknown.
+// The column of r is y_r = G^-1 P (-K_Fr). Its equation (K u)_r = (W lambda)_r is a row of negative sign in the same
+// system. R is the set of all removed sites of E:
 //
 //     [ Y_w'Y_w + D     Y_w'Y_r + W_R   ] [lambda]   [ s - Y_w'g - W_E' s_E       ]
 //     [ (...)'          Y_r'Y_r - K_RR  ] [  t   ] = [ K_RE s_E - Y_r'g           ],   g = G^-1 P (-K_FE s_E)
 //
 //     u_F = P' G^-T (g + Y_w lambda + Y_r t),   u_E = s_E,   u_R = t
 //
-// site_cost.h decides how an edit is made; the choice is counted. Edits are all or nothing. Const functions may run at
-// the same time on one system. The owner of the operator outlives the system.
+// A cost model (site_cost.h) decides how an edit is made, and counters record the choice. An edit does everything or
+// throws and changes nothing. Const functions may run at the same time on one system. The operator's owner must outlive
+// the system.
 #pragma once
 #include <atomic>
 
@@ -40,21 +47,23 @@ struct ConstraintCounts {
 
 class ConstraintSystem {
  public:
-  // Channels solved in one sweep: wider rows would push the right-hand sides out of the cache.
+  // Number of channels that one sweep solves. With more, the right-hand sides would not fit the cache.
   static constexpr Index channel_block = 8;
 
   explicit ConstraintSystem(const PinnedOperator& a) : operator_(a), state_(a.component_count(), *a.memory) {}
   ConstraintSystem(const ConstraintSystem& other);  // with its constraints and its counts
   ConstraintSystem& operator=(const ConstraintSystem&) = delete;
 
-  // Throws HF_ERROR_CONFLICT (index = position in edit.add) when a new site depends linearly on the hard sites there.
+  // Throws HF_ERROR_CONFLICT (index = position in edit.add) if a new site depends linearly on the present hard sites.
   void edit(const SiteEdit& edit);
-  // Moves the hard vertex sites there are into the factor, on these threads. Throws HF_ERROR_NO_SITES without one.
+  // Moves the present hard vertex sites into the factor, using the threads of `jobs`. Throws HF_ERROR_NO_SITES if there
+  // are none.
   void rebase(JobRunner& jobs);
 
   const ConstraintState& state() const noexcept { return state_; }
   const PinnedOperator& pinned_operator() const noexcept { return operator_; }
-  // Shares paths and dense blocks; restore gives the same bits.
+  // snapshot returns the present state; it shares elimination paths and dense blocks. restore goes back to it bit for
+  // bit.
   std::shared_ptr<const ConstraintState> snapshot() const;
   void restore(const ConstraintState& state);
 
@@ -62,10 +71,10 @@ class ConstraintSystem {
   void add_counts(const ConstraintCounts& more) noexcept;
   double row_bytes() const noexcept;   // of paths and blocks
   double base_bytes() const noexcept;  // of the factor of a rebase
-  // The factor that paths and sweeps of the present state use.
+  // Returns the factor that paths and sweeps of the present state use.
   const Factor& factor() const noexcept { return state_.base ? *state_.base->factor : *operator_.factor; }
 
-  // The unknowns of the dense system during a solve of m channels.
+  // The unknowns of the dense system, during a solve of m channels.
   struct Answer {
     explicit Answer(Memory& memory)
         : slot(&memory), freed(&memory), centre(&memory), constant(&memory), nu(&memory), total(&memory), x(&memory) {}
@@ -81,18 +90,20 @@ class ConstraintSystem {
     Vector<double> total;     // by component, for a refinement: 1'lambda = -total; empty: 0
     Vector<double> x;         // scratch
   };
-  // All of these take channels [first, first + count) of values[slot * channels + c].
+  // Each of the functions below takes the channels first .. first + count - 1 of values[slot * channels + c].
   //
-  // z <- P u without the constants, freed values included; count numbers an unknown in the factor's order.
+  // sweep computes z, which is P u without the constant of each component. It includes the values t of removed
+  // eliminated sites. z has `count` numbers per unknown, in the order of the factor.
   void sweep(const double* values, Index channels, Index first, Index count, Answer& answer, double* z) const;
-  // The mean site value of every component and channel. A solve subtracts it first, so that a large common offset costs
-  // no digits. It is zero where constants are not in the kernel of K (direction fields).
+  // Computes the mean site value of every component and channel. A solve first subtracts this mean, so that a large
+  // common offset costs no digits. The mean is zero for direction fields, where K does not map constants to zero.
   void find_centres(const double* values, Index channels, Index first, Index count, Answer& answer) const;
-  // The answer of the dense system; centres come first. z: g of the eliminated sites; null without a base.
+  // Solves the dense system for `answer`; call find_centres first. z: the vector g of the eliminated sites, or null
+  // without a rebase.
   void solve_dense(const double* values, Index channels, Index first, Index count, const double* z,
                    Answer& answer) const;
-  // The parts of a solve with right-hand sides of its own (green_refine.cpp): answer -= Y'z; answer <- lambda, t, nu;
-  // z += Y lambda + Y_g nu.
+  // Parts of a solve whose right-hand side is another one (green_refine.cpp). subtract_projections: answer -= Y'z.
+  // solve_rows: replaces `answer` by the unknowns lambda, t and nu. combine: z += Y lambda + Y_g nu.
   void subtract_projections(const double* z, Index count, Answer& answer) const;
   void solve_rows(Index count, Answer& answer) const;
   void combine(const Answer& answer, Index count, double* z) const;

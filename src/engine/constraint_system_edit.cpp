@@ -11,13 +11,13 @@ namespace {
 
 constexpr auto no_row = ConstraintState::no_row;
 
-// Groups are packed again when they store more than this many times the rows in use, and two groups more. Less packs
-// sooner, which solves paths again; more keeps paths without a row in memory and in every sweep.
+// Groups of paths are packed again when they store more than stored_share times the rows in use plus stored_slack.
+// Smaller numbers pack sooner, which solves paths again. Larger numbers keep unused paths in memory and in every sweep.
 constexpr std::int64_t stored_share = 2, stored_slack = 2 * PathGroup::capacity;
 
 }  // namespace
 
-// The rows of an edit on their way into the blocks: their places there, and the new rows of M one after the other.
+// The new rows of an edit on their way into the dense blocks: their places there, and their entries of the matrix M.
 struct ConstraintEdit::Batch {
   struct Where {
     Index place = -1, batch = -1, component = -1;  // batch: number among the new rows, or -1
@@ -43,7 +43,7 @@ struct ConstraintEdit::Batch {
   Where& where(Index row) noexcept {
     return row >= 0 ? of_slot[at(row)] : of_free[at(ConstraintState::base_index(row))];
   }
-  // M(x, y), or null when both rows were there before or lie in different blocks.
+  // Returns the entry M(x, y), or null if both rows are old or lie in different blocks.
   double* entry(const Where& x, const Where& y) noexcept {
     if (x.component != y.component) return nullptr;
     const Where& later = x.place > y.place ? x : y;
@@ -95,7 +95,7 @@ void ConstraintEdit::go_on() {
   add_rows(coming);
 }
 
-// The rows of sites leave; an eliminated site frees its value, which is a row to come.
+// Removes the rows of the removed sites. The value of a removed eliminated site becomes free, which adds a row.
 void ConstraintEdit::remove_sites(Vector<Row>& coming) {
   Vector<Row> leaving(&memory());
   for (const Index slot : edit_.remove) {
@@ -122,7 +122,7 @@ void ConstraintEdit::place_sites(Vector<Row>& coming) {
       coming.push_back({edit_.add[i], site.component});
       continue;
     }
-    // a hard site on an eliminated vertex: its value is given again
+    // The vertex of this hard site is eliminated, so its value is no longer free.
     state_.entries[at(edit_.add[i])].eliminated = b;
     const Index row = ConstraintState::free_row(b);
     const auto pending = std::find_if(coming.begin(), coming.end(), [&](const Row& r) { return r.row == row; });
@@ -135,7 +135,8 @@ void ConstraintEdit::place_sites(Vector<Row>& coming) {
   remove_rows(returning);
 }
 
-// An eliminated component needs a site in force there: its free values alone are a singular system.
+// Refuses a layout in which a component with eliminated vertices has no eliminated site left. Free values alone would
+// be a singular system.
 void ConstraintEdit::check_bases() const {
   if (!state_.base) return;
   Vector<std::uint8_t> in_force(state_.base->floating, &memory());
@@ -187,7 +188,7 @@ void ConstraintEdit::drop_empty_groups() {
   state_.groups.resize(at(kept));
 }
 
-// Groups still store the paths of rows that are gone. When those are the larger part, sparse groups are solved again.
+// Solves paths again when the groups mostly store paths of removed rows. Only sparsely used groups are packed.
 void ConstraintEdit::repack() {
   std::int64_t stored = 0;
   for (const auto& group : state_.groups) stored += group.paths->count();
@@ -204,7 +205,7 @@ void ConstraintEdit::repack() {
   drop_empty_groups();
 }
 
-// Solves the paths of these rows and puts them into new groups at the end.
+// Solves the elimination paths of these rows and puts them into new groups at the end.
 void ConstraintEdit::add_paths(Span<const Index> rows) {
   SiteColumns columns(memory());
   for (const Index row : rows) {
@@ -246,7 +247,7 @@ void ConstraintEdit::add_rows(Span<const Row> rows) {
   append_rows(batch);
 }
 
-// Rows of N for the sites of the groups from the first on.
+// Computes the rows of the border N for the sites of the groups from first_group on.
 void ConstraintEdit::project_pins(std::size_t first_group) {
   const PinPaths& pins = *operator_.paths;
   const std::size_t border = operator_.border();
@@ -267,7 +268,8 @@ void ConstraintEdit::project_pins(std::size_t first_group) {
   });
 }
 
-// Gram of every new group with itself and every group before it: one piece a pair of groups, one entry a pair of rows.
+// Computes the products of the paths of each new group with itself and all earlier groups. One job handles a pair of
+// groups, and each pair of rows gives one entry of M.
 void ConstraintEdit::take_gram(std::size_t first_group, Batch& batch) const {
   struct Pair {
     std::size_t a, b;
@@ -293,7 +295,8 @@ void ConstraintEdit::take_gram(std::size_t first_group, Batch& batch) const {
   });
 }
 
-// D on the diagonal of soft sites; W_R between a site and a free value; -K_RR between free values.
+// Adds the other terms of M: the softness D of soft sites on the diagonal, the weights W_R between a site and a free
+// value, and -K_RR between free values.
 void ConstraintEdit::take_couplings(Batch& batch) const {
   for (const Row& row : batch.rows) {
     if (row.row < 0) continue;
@@ -347,7 +350,7 @@ void ConstraintEdit::append_rows(const Batch& batch) {
   for (std::size_t c = 0; c < blocks.size(); ++c) {
     if (!blocks[c]) continue;
     const Index failed = blocks[c]->factorise(jobs_);
-    // among eliminated sites the order of the rows may be the reason: a plain layout decides
+    // A pivot failed beside eliminated sites. The order of the rows may be the reason, so a new layout decides.
     if (failed >= 0 && state_.base) throw NeedsNewLayout{};
     refuse_dependent(*blocks[c], static_cast<Index>(c), failed);
     state_.blocks[c] = blocks[c];
@@ -366,9 +369,10 @@ void ConstraintEdit::refuse_dependent(const DenseBlock& block, Index component, 
        position);
 }
 
-// The slot of a hard site of the component that depends on others though its pivot kept some rounding, or -1.
-// Constraints of this edit are reported before older ones. Among eliminated sites the diagonal itself may be rounding
-// (a point whose corners are eliminated has none), so pivots say nothing and every new site is examined.
+// Returns the slot of a hard site of the component that depends linearly on others, or -1. It finds dependences that
+// the pivots do not show. It reports sites of this edit before older sites. After a rebase the pivots say nothing,
+// because a diagonal entry itself may be mere rounding, as for a point whose corners are all eliminated. So every new
+// site is then examined.
 Index ConstraintEdit::dependent_slot(const DenseBlock& block, Index component) const {
   if (!state_.base && block.least_pivot() >= suspect_share) return -1;
   Vector<HardSite> sites(&memory());

@@ -1,4 +1,4 @@
-// One edit of a ConstraintSystem: rows that leave and come, on a state that is not yet the present one.
+// One edit of a ConstraintSystem. It removes and adds rows on a copy of the state, which becomes the present one later.
 #pragma once
 #include "engine/constraint_system_state.h"
 
@@ -6,11 +6,11 @@ namespace hf_inner {
 
 class ConstraintEdit {
  public:
-  // Thrown when the edit cannot go on from the present layout. Either a component has no eliminated site left, or a
+  // Thrown when the present layout of rows cannot take the edit. Either a component has no eliminated site left, or a
   // pivot failed and the order of the rows may be the reason.
   struct NeedsNewLayout {};
 
-  // state: edited in place; of no use after an exception.
+  // state: the copy that the edit changes in place. After an exception the copy is useless.
   ConstraintEdit(const PinnedOperator& a, JobRunner& jobs, const SiteEdit& edit, ConstraintState& state)
       : operator_(a), jobs_(jobs), edit_(edit), state_(state) {}
 

@@ -1,4 +1,4 @@
-// The answer of a ConstraintSystem: the dense unknowns, then one backward sweep.
+// Solves a ConstraintSystem: first the dense unknowns, then one backward sweep.
 #include <algorithm>
 
 #include "engine/constraint_system.h"
@@ -6,13 +6,14 @@
 namespace hf_inner {
 namespace {
 
-// Numbers that one job clears: half of it gives more jobs than threads need, double leaves threads idle on small
-// meshes.
+// Numbers that one job sets to zero. Half of it makes more jobs than threads need. Twice of it leaves threads idle on
+// small meshes.
 constexpr std::size_t clear_piece = 16384;
 
 }  // namespace
 
-// Mean site value of every component: where K keeps constants, a large common offset must not cost digits.
+// Computes the mean site value of every component if K maps constants to zero. Subtracting the mean saves the digits
+// that a large common offset would cost.
 void ConstraintSystem::find_centres(const double* values, Index channels, Index first, Index count,
                                     Answer& answer) const {
   const std::size_t m = at(count);
@@ -26,7 +27,8 @@ void ConstraintSystem::find_centres(const double* values, Index channels, Index 
   }
 }
 
-// z <- g = G^-1 P (-K_FE s_E), centred values.
+// Sets z to g = G^-1 P (-K_FE s_E). s_E are the values of the eliminated sites E, less the mean, and F the other
+// vertices.
 void ConstraintSystem::base_forward(const double* values, Index channels, Index first, Index count,
                                     const Answer& answer, double* z) const {
   const std::size_t m = at(count);
@@ -48,7 +50,7 @@ void ConstraintSystem::base_forward(const double* values, Index channels, Index 
   ++sweeps_;
 }
 
-// The eliminated sites in the rows of the others: answer -= W_E' s_E, answer += K_RE s_E.
+// Adds the terms of the eliminated sites E to the other rows: -W_E' s_E for sites, and K_RE s_E for free values R.
 void ConstraintSystem::add_base_terms(const double* values, Index channels, Index first, Index count,
                                       Answer& answer) const {
   const std::size_t m = at(count);
@@ -122,7 +124,7 @@ void ConstraintSystem::sweep(const double* values, Index channels, Index first, 
   }
 }
 
-// answer -= Y'z, row by row.
+// Subtracts Y'z from `answer`, row by row.
 void ConstraintSystem::subtract_projections(const double* z, Index count, Answer& answer) const {
   const std::size_t m = at(count);
   answer.x.resize(PathGroup::capacity * m);
@@ -136,7 +138,7 @@ void ConstraintSystem::subtract_projections(const double* z, Index count, Answer
   }
 }
 
-// answer <- lambda, t and, where K keeps constants, nu added to the constants.
+// Replaces `answer` by the dense unknowns lambda and t. If K maps constants to zero, nu is added to the constants.
 void ConstraintSystem::solve_rows(Index count, Answer& answer) const {
   const std::size_t m = at(count), border = operator_.border();
   const bool constants = operator_.keeps_constants();

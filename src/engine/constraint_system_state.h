@@ -1,5 +1,5 @@
-// The state of a ConstraintSystem: sites by slot, their paths and dense blocks. A plain value that shares what is
-// immutable, so copies are cheap and going back to one gives the same bits.
+// The state of a ConstraintSystem: the sites by slot, their elimination paths and dense blocks. A slot is the number of
+// a site. A state can be copied cheaply, because copies share what is immutable. Restoring a copy gives the same bits.
 #pragma once
 #include "engine/dense_block.h"
 #include "engine/eliminated_base.h"
@@ -8,16 +8,17 @@
 namespace hf_inner {
 
 struct ConstraintState {
-  // A row of the dense system is named by the slot of its site or, for the free value of base index b, by -2 - b.
+  // A row of the dense system has a number. The row of a site has the number of its slot. The row of the free value at
+  // base index b, a removed site of a rebase, has the number -2 - b.
   static constexpr Index no_row = -1;
   static Index free_row(Index base_index) noexcept { return -2 - base_index; }
   static Index base_index(Index row) noexcept { return -2 - row; }
 
-  // Where the path of a row lies.
+  // Position of the elimination path of a row.
   struct Path {
     Index group = -1, column = -1;
   };
-  // Paths of up to PathGroup::capacity rows; row[column] = no_row once it is gone.
+  // A group of elimination paths, at most PathGroup::capacity. row[column] is no_row after its row was removed.
   struct Group {
     std::shared_ptr<const PathGroup> paths;
     Index row[PathGroup::capacity];
@@ -34,7 +35,7 @@ struct ConstraintState {
     Path path;
     bool is_row() const noexcept { return path.group >= 0; }  // else the base site is in force
   };
-  // The cost model's prediction for an edit, and the route taken.
+  // The cost model's prediction for an edit, and the route that was taken.
   struct Decision {
     EditRoute route = EditRoute::none;
     double dense_ms = 0, rebase_ms = 0;

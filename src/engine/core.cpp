@@ -28,7 +28,7 @@ Core::Core(std::shared_ptr<const Geometry> shape)
 
 namespace {
 
-// Mean diagonal and ground vertex of every component.
+// Finds the mean diagonal of every component and the vertex to pin.
 void find_grounds(Core& core) {
   const std::size_t components = static_cast<std::size_t>(core.mesh.component_count());
   core.ground.assign(components, Mesh::none);
@@ -47,21 +47,24 @@ void find_grounds(Core& core) {
   }
 }
 
-// Weights of a bi-harmonic operator's L stay below these multiples of their median: the first with which K factors.
+// Limits for the weights of a bi-harmonic operator's Laplacian L, as multiples of their median. The first limit with
+// which K can be factorised is taken.
 constexpr double weight_caps[] = {1e3, 1e2, 1e1};
 constexpr int cap_count = 3;
-// When the weights of a second-order operator spread over more than the digits there are (a needle of 1e-9 ties two
-// vertices 1e18 times as strongly as the third), every weight gets this share of the diagonals at its ends.
+// Shares of the diagonals that are added to every weight of a second-order operator when it cannot be factorised. This
+// happens when weights span more digits than a double has. A needle triangle of width 1e-9, for example, connects two
+// of its vertices 1e18 times as strongly as the third. The first share with which K can be factorised is taken.
 constexpr double tie_shares[] = {0, 1e-9, 1e-7};
-// The last resort, for the components alone that do not factor even so: their weights, and the masses of bi-harmonic
-// operators, come within this many times their median, both ways.
+// Last resort for components that still cannot be factorised. Their weights are limited to a range of this factor
+// around their median, both ways, and so are the masses of bi-harmonic operators.
 constexpr double confined_spread = 1e4, confined_biharmonic_spread = 10;
-// Fields of a second-order operator lose about 2^-52 over the smallest share of a diagonal that a pivot keeps; one of a
-// regular mesh of n vertices keeps 1 / n at least. A fourth-order operator, which keeps 1 / n^2, has the default.
+// Least share of its diagonal that a pivot of a second-order operator must keep. Fields lose about 2^-52 over that
+// share. A regular mesh of n vertices keeps at least 1 / n. A fourth-order operator keeps 1 / n^2 and has the default
+// limit.
 constexpr double harmonic_lost_share = 0x1p-31;
 
-// K of the options, on the mesh's own edges or on the intrinsic Delaunay ones. cap: of weight_caps and tie_shares;
-// confined: empty, or the components of the last resort.
+// Builds K for the options, on the mesh's own edges or on the intrinsic Delaunay edges. cap: position in weight_caps
+// and tie_shares. confined: empty, or the components whose weights are limited as a last resort.
 void make_operator(Core& core, const CoreOptions& options, int cap, const Vector<std::uint8_t>& confined) {
   Memory& pool = *core.memory;
   Vector<double> areas(&pool);
@@ -93,7 +96,7 @@ void make_operator(Core& core, const CoreOptions& options, int cap, const Vector
   find_grounds(core);
 }
 
-// K with its grounds added for as long as this lives: a copy of it would cost as much as building it.
+// Adds the pins to the diagonal of K during the lifetime of this object. A copy of K would cost as much as building it.
 class InPlaceGrounds {
  public:
   explicit InPlaceGrounds(Core& core) : core_(core), plain_(core.memory.get()) {
@@ -162,7 +165,7 @@ std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, co
       make_factor(*core, options);
       break;
     } catch (const Error& error) {
-      // a lost pivot, or saved bytes of a factor that was made of a later operator
+      // Either a pivot failed, or the saved factor was made of an operator with limited weights, which is tried next.
       const bool loading = !options.saved_factor.empty();
       if (!confined.empty() || !(loading || error.code() == HF_ERROR_NOT_POSITIVE_DEFINITE)) throw;
       if (cap + 1 == cap_count) {

@@ -1,5 +1,5 @@
-// Geometry, operator and factor: what all fields of one kind on one surface share. Immutable once made, so any number
-// of threads may read it; only the workspace pools inside have a lock.
+// Geometry, operator and factor, which all fields of one kind on one surface share. A core is immutable, so any number
+// of threads may read it. Only its workspace pools have a lock.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -28,10 +28,11 @@ struct CoreTimes {
 
 struct Core {
   explicit Core(std::shared_ptr<const Geometry> shape);
-  // The operator K on a geometry and its grounded factor A = K + sum_c beta_c e_gc e_gc' (beta_c = mean diagonal of
-  // component c, g_c its first vertex). options.operator_kind must be the geometry's. Progress: 0.15 to 1.
+  // Makes the operator K on a geometry, and the factor of the pinned matrix A = K + sum_c beta_c e_gc e_gc'. g_c is the
+  // first vertex of component c, and beta_c the mean diagonal of K there. options.operator_kind must be the geometry's.
+  // Progress runs from 0.15 to 1.
   static std::shared_ptr<const Core> make(std::shared_ptr<const Geometry> shape, const CoreOptions& options);
-  // Both in one call.
+  // Makes the geometry and its core in one call.
   static std::shared_ptr<const Core> make(const MeshInput& input, const CoreOptions& options,
                                           std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs);
 
@@ -48,11 +49,12 @@ struct Core {
   SymmetricMatrix laplacian;     // K: L, or bi-harmonic
   Vector<std::int32_t> ground;   // per component
   Vector<double> mean_diagonal;  // per component
-  // Corrections with the true operator, in difference form, that a field takes after its sweep: 0 for second-order
-  // operators, 1 for bi-harmonic ones, whose condition is squared.
+  // Correction steps with the true operator after the sweep of a field: 0 for second-order operators, 1 for bi-harmonic
+  // operators, whose condition number is squared. The residual uses differences of values.
   std::int32_t refinements = 0;
-  // 0, or the weights of some components were limited because they did not factor (lost_components.h). Then it is the
-  // hash of A before that, plus one. A saved factor stores it, so loading knows early that weights must be limited.
+  // 0 if no weights were limited. If the weights of some components were limited because those components did not
+  // factor (lost_components.h), it is 1 plus the hash of the matrix A before that. A saved factor stores this number,
+  // so loading knows early that weights must be limited.
   std::uint64_t confined_hash = 0;
   Ordering ordering = Ordering::nested_dissection;
   std::shared_ptr<const Factor> factor;  // of A; null when the options asked for none
@@ -62,11 +64,12 @@ struct Core {
   WorkspacePool& zeroed_workspaces;
 };
 
-// The grounded matrix A.
+// Returns the pinned matrix A.
 SymmetricMatrix grounded(const Core& core);
-// Its hash, by which a saved factor knows its mesh: pattern and numbers of K, grounds and their weights.
+// Returns the hash of A, by which a saved factor recognises its mesh. It covers the pattern and the numbers of K, and
+// the pinned vertices with their weights.
 std::uint64_t grounded_hash(const Core& core);
-// Coordinates of the inner vertices as the ordering takes them.
+// Returns the coordinates of the inner vertices in the format that the ordering needs.
 Vector<float> ordering_coordinates(const Mesh& mesh, Memory& memory);
 
 }  // namespace hf_inner

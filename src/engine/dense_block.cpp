@@ -13,19 +13,20 @@ namespace {
 
 constexpr std::int32_t tile = 4;
 
-// A pivot this far below its diagonal means linear dependence. Independent sites stay above 1e-9 even on bi-harmonic
-// patches; a point that depends on three crowded ones in its triangle keeps up to 1e-12 of rounding.
+// A pivot below this share of its diagonal entry means linear dependence. Independent sites stay above 1e-9 even on
+// bi-harmonic patches. A point that depends on three crowded points in its triangle keeps up to 1e-12 of rounding.
 constexpr double pivot_floor = 1e-11;
 
-// Rates of a removal: nanoseconds that a rotation spends on a number behind the row, flops of a factorisation in one
-// nanosecond. They decide between two routes with the same result, so an error costs time alone.
+// Rates for removing a row: the nanoseconds of one rotation for one number behind the row, and the flops of a
+// factorisation in one nanosecond. They decide between two routes with the same result, so wrong rates cost only time.
 constexpr double rotation_ns = 2, factor_rate = 15;
-// Rows below which a factorisation runs on one thread, and tiles of eight rows that a job takes above: a smaller job
-// costs more to hand out than to do.
+// A factorisation of fewer rows than least_parallel runs on one thread. Above that, a job takes tiles_per_job tiles of
+// eight rows. Smaller jobs would cost more to hand out than to do.
 constexpr std::int32_t least_parallel = 400, tiles_per_job = 12;
 
-// dots[i * tile + j] = a_i . b_j over `count` entries. Each has four running sums in one fixed order for every
-// instruction set. Clones need the dynamic linker of glibc, and sanitizers cannot run before it.
+// Computes dots[i * tile + j] = a_i . b_j over `count` entries. Each product has four running sums in one fixed order,
+// so every instruction set gives the same bits. target_clones needs the dynamic linker of glibc, and sanitizers cannot
+// run before it.
 #if defined(__GLIBC__) && defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__SANITIZE_ADDRESS__)
 __attribute__((target_clones("avx2", "default")))
@@ -78,8 +79,9 @@ DenseBlock::DenseBlock(const DenseBlock& other)
   std::copy(std::begin(other.schur_), std::end(other.schur_), schur_);
 }
 
-// Rotates the rest of column r below row r into the columns that follow. Row by row: a row takes the rotations of the
-// rows above it, then makes its own. Four rows at once, because each is one chain of dependent operations.
+// Updates L after row r was removed: rotates column r below row r into the later columns. Each row first takes the
+// rotations of the rows above it, then makes its own. Four rows are processed at once, because one row is a chain of
+// dependent operations.
 void DenseBlock::update_without(std::int32_t r) {
   struct Rotation {
     double c, s, inverse_c;
@@ -147,7 +149,7 @@ void DenseBlock::remove(Span<const std::int32_t> ids) {
   }
   const double fresh = (left * left * left - std::pow(static_cast<double>(first), 3)) / 3 / factor_rate;
   if (negative_ == 0 && d * rotation_ns * (k - first) * k < fresh) {
-    // from the last row to the first: later rows move least
+    // Removes rows from the last to the first, because the fewest rows lie behind a late row.
     for (std::int32_t r = count() - 1; r >= 0; --r) {
       if (!leaves(ids_[static_cast<std::size_t>(r)])) continue;
       if (r < valid_) update_without(r), --valid_;
@@ -178,7 +180,7 @@ void DenseBlock::append(std::int32_t id, const double* values, bool positive, co
 
 std::int32_t DenseBlock::factorise_signed() {
   const std::int32_t k = count();
-  // four rows at a time on a fixed grid; scaled holds l_i Sigma of the rows under way
+  // Processes four rows at a time on a fixed grid. `scaled` holds l_i Sigma of these rows.
   Vector<double> scaled(static_cast<std::size_t>(tile) * static_cast<std::size_t>(k), 0.0, memory_);
   double dots[tile * tile];
   while (valid_ < k) {
@@ -190,7 +192,7 @@ std::int32_t DenseBlock::factorise_signed() {
     for (std::int32_t j0 = 0; j0 <= grid; j0 += tile) {
       const double* other[tile];
       for (std::int32_t j = 0; j < tile; ++j) other[j] = l_.data() + row(std::min(j0 + j, k - 1));
-      // at j0 = grid the four rows meet themselves: their first `grid` entries are known by then
+      // At j0 = grid the four rows multiply with each other. Their first `grid` entries are known by then.
       tile_dots(mine, other, static_cast<std::size_t>(j0), dots);
       for (std::int32_t i = valid_; i < end; ++i) {
         double* l = l_.data() + row(i);
@@ -217,8 +219,9 @@ std::int32_t DenseBlock::factorise_signed() {
   return -1;
 }
 
-// The front kernels of the sparse factor on one front of k columns and no rows below. Rows that are up to date come in as
-// they are; every number is one chain of operations in column order, so it does not matter which rows were there.
+// Factorises with the front kernels of the sparse factor, on one front of k columns without rows below. Rows that are
+// up to date are copied in. Every number is one chain of operations in column order, so its bits do not depend on which
+// rows were present before.
 std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
   const Kernels& kernels = choose_kernels();
   const std::int32_t k = count(), done = valid_ / 8 * 8, tiles = (k + 7) / 8;
@@ -257,7 +260,7 @@ std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
     if (begin >= done) {
       const std::int32_t failed = kernels.factor_triangle(front, begin, end, floor.data());
       if (failed >= 0) {
-        // the next call finds the same row: those above it stay as they are
+        // The rows above the failed row stay, so the next call finds the same row.
         return failed;
       }
     }
@@ -305,7 +308,7 @@ void DenseBlock::factorise_border() {
   }
 }
 
-// fixed: the number of channels where it is known when compiled, else 0.
+// Solves for several channels. `fixed` is the number of channels if the compiler knows it, else 0.
 template <std::size_t fixed>
 void DenseBlock::solve_channels(double* x, std::size_t channels) const noexcept {
   const std::int32_t k = count();

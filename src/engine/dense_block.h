@@ -1,15 +1,15 @@
 // The dense part of a constraint system for one component.
 //
-// It keeps the symmetric matrix M of its rows and the factor M = L Sigma L', both as packed lower rows, and edits them
-// row by row. Sigma = diag(+1 or -1): rows of sites are positive, rows of free values (constraint_system.h) negative.
-// That makes M quasi-definite, so it factors in any order without pivoting (Vanderbei 1995).
+// It stores the symmetric matrix M of its rows and the factor M = L Sigma L', both as packed lower rows, and edits both
+// row by row. Sigma = diag(+1 or -1). Rows of sites are positive. Rows of free values (constraint_system.h) are
+// negative. So M is quasi-definite and can be factorised in any order without pivoting (Vanderbei 1995).
 //
-// Append rows: the front kernels of the sparse factor on the new rows alone. Remove row r while all signs are positive:
-// the rows of L below r get a rank-one update L33 L33' + l l' by plane rotations, O((k - r)^2). Many removals at once,
-// or mixed signs: factorised again from M, O(k^3 / 3). A block is copied before it is edited, so a failure leaves the
-// old one in place.
+// To append rows, the front kernels of the sparse factor run on the new rows alone. To remove row r while all signs are
+// positive, the rows of L below r get a rank-one update L33 L33' + l l' by plane rotations, where l is column r below
+// row r. This costs O((k - r)^2) for k rows. After many removals at once, or with mixed signs, M is factorised again,
+// in O(k^3 / 3). A block is copied before an edit, so a failed edit leaves the old block in place.
 //
-// A border of at most two more unknowns nu takes the pins of the component out of the answer:
+// A border of at most two more unknowns nu removes the effect of the pinned vertices of the component:
 //
 //     [ M   N ] [ x  ]   [   b    ]
 //     [ N'  C ] [ nu ] = [ -total ]        (C - N' M^-1 N) is negative definite
@@ -26,7 +26,7 @@ namespace hf_inner {
 class DenseBlock {
  public:
   static constexpr std::size_t most_border = 2;
-  // corner: C, border x border numbers; null: zeros.
+  // corner: the border x border numbers of C; null stands for zeros.
   explicit DenseBlock(Memory& memory, std::size_t border = 0, const double* corner = nullptr);
   DenseBlock(const DenseBlock& other);
 
@@ -34,24 +34,25 @@ class DenseBlock {
   Span<const std::int32_t> ids() const noexcept { return ids_; }
   bool has_negative() const noexcept { return negative_ > 0; }
 
-  // Removes the rows whose ids are in `ids` (all present).
+  // Removes the rows with these ids. All of them must be present.
   void remove(Span<const std::int32_t> ids);
-  // Appends a row: row[j] = M(new, j) for the present rows j, row[count] = M(new, new). border: its row of N; null:
-  // ones. factorise() must follow.
+  // Appends a row: row[j] = M(new, j) for the present rows j, and row[count] = M(new, new). border: the row of N for
+  // the new row; null stands for ones. Call factorise() afterwards.
   void append(std::int32_t id, const double* row, bool positive = true, const double* border = nullptr);
-  // Brings L up to date. Returns -1, or the row whose pivot failed: that site depends linearly on the ones before it.
+  // Brings L up to date. Returns -1, or the row whose pivot failed. The site of that row depends linearly on earlier
+  // sites.
   std::int32_t factorise(JobRunner& jobs);
 
-  // In place: x <- M^-1 x, x[i * channels + c].
+  // Replaces x by M^-1 x, with x[i * channels + c].
   void solve(double* x, std::int32_t channels) const noexcept;
-  // The same with the border; all signs positive. total: one number a channel for a border of one, or null: zeros.
-  // Writes nu[p * channels + c].
+  // Same as solve, with the border. All signs must be positive. total: one number per channel for a border of one; null
+  // stands for zeros. Writes nu[p * channels + c].
   void solve_bordered(double* x, std::int32_t channels, const double* total, double* nu) const noexcept;
   std::size_t border() const noexcept { return border_; }
-  // The smallest pivot over its diagonal entry, of a factorised block: crowded points, whose solution loses as many
-  // digits, have a small one. O(k).
+  // Returns the smallest ratio of a pivot to its diagonal entry, for a factorised block. Crowded points have a small
+  // ratio. A ratio of 1e-k costs about k digits of the solution. Cost: O(k) for k rows.
   double least_pivot() const noexcept;
-  // The same of one row.
+  // Returns the ratio of the pivot of row i to its diagonal entry.
   double pivot_share(std::int32_t i) const noexcept;
   double bytes() const noexcept { return 8.0 * static_cast<double>(m_.size() + l_.size()); }
 

@@ -9,8 +9,8 @@
 namespace hf_inner {
 namespace {
 
-// Share of its length that a row keeps beside the rows it depends on: rounding leaves 1e-15. Larger: refuses points
-// that are closer to a line of others.
+// A row depends on others if less than this share of its length remains orthogonal to them. Rounding leaves 1e-15. A
+// larger number would refuse points that are closer to a line through others.
 constexpr double dependence = 1e-9;
 
 struct Corner {
@@ -22,7 +22,8 @@ Index root_of(Vector<Index>& parent, Index i) noexcept {
   return i;
 }
 
-// The first of `rows` that depends on those before it, or -1. Gram and Schmidt, twice for every row.
+// Returns the first of `rows` that depends on the rows before it, or -1. It orthogonalises every row twice
+// (Gram-Schmidt).
 Index first_dependent(Span<const HardSite> sites, Span<const Index> rows, const Vector<Index>& columns,
                       Memory& memory) {
   const std::size_t width = columns.size();
@@ -42,7 +43,7 @@ Index first_dependent(Span<const HardSite> sites, Span<const Index> rows, const 
       }
     }
     const double length = std::sqrt(std::inner_product(row, row + width, row, 0.0));
-    // weights sum to 1, so a row is at least 1 / sqrt(3) long before
+    // The weights sum to 1, so the row had a length of at least 1 / sqrt(3) before.
     if (!(length > dependence)) return rows[i];
     for (std::size_t c = 0; c < width; ++c) row[c] /= length;
   }

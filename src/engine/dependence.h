@@ -1,9 +1,9 @@
-// Finds hard sites whose conditions depend linearly on those of others.
+// Finds hard sites whose conditions depend linearly on the conditions of other sites.
 //
-// A hard site demands w'u = s with its barycentric weights w. Rows w depend on others at four points of a triangle, at
-// three points on a line of it, and at a point on an edge with both ends. The dense system W G W' shows that only by a
-// pivot of rounding size, and independent points at a distance d have pivots of d^2. The rows themselves tell the two
-// apart to 1e-9 of a triangle.
+// A hard site demands w'u = s with its barycentric weights w. Linear dependence occurs with four points in a triangle,
+// three points on a line in a triangle, or a point on an edge whose two end vertices are sites. The dense system shows
+// dependence only by a pivot of rounding size. But independent points at a small distance d also have small pivots, of
+// size d^2. The weights w themselves distinguish the two cases, down to distances of 1e-9 of a triangle.
 #pragma once
 #include <cstdint>
 
@@ -13,8 +13,9 @@
 
 namespace hf_inner {
 
-// A pivot below this share of its diagonal entry makes its site a suspect: crowded points lie at d^2 for a distance d,
-// dependent ones below 1e-11. Larger: examines more crowded points, in time only.
+// A pivot below this share of its diagonal entry makes its site a suspect. Crowded points at a distance d have a share
+// of about d^2, and dependent points less than 1e-11. A larger number costs time, because more crowded points are
+// examined.
 constexpr double suspect_share = 1e-6;
 
 struct HardSite {
@@ -23,9 +24,9 @@ struct HardSite {
   bool suspect = false;  // has a small pivot: only groups with one are examined
 };
 
-// The slot of the first site whose row depends on those before it, or -1. sites: all hard sites of one component; their
-// order decides which one is reported. Orthogonalises the rows of one group of sites with common vertices at a time:
-// O(sites^2 vertices) of the group.
+// Returns the slot of the first site whose weights depend on the sites before it, or -1. sites: all hard sites of one
+// component; their order decides which site is reported. The function orthogonalises one group of sites with common
+// vertices at a time, in O(sites^2 vertices) of the group.
 std::int32_t dependent_site(Span<const HardSite> sites, Memory& memory);
 
 }  // namespace hf_inner

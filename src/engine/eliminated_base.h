@@ -1,7 +1,8 @@
-// The rebase: many hard vertex sites are taken out of the matrix itself. Their rows and columns become the identity;
-// pattern, ordering and symbolic analysis stay. A component that keeps no such site stays pinned. Immutable, shared by
-// clones; the values of the sites are not part of it.
+// The rebase: takes many hard vertex sites out of the matrix. The rows and columns of these sites become the identity.
+// Pattern, ordering and symbolic analysis stay. A component without such a site stays pinned. The object is immutable,
+// and clones share it. It does not contain the values of the sites.
 //
+// With E the vertices of the sites, s_E their values and F the other vertices:
 //     u_F = A_FF^-1 (-K_FE s_E + ...),   A_FF = K_FF (+ pins)
 #pragma once
 #include "engine/pinned_operator.h"
@@ -10,7 +11,8 @@ namespace hf_inner {
 
 struct EliminatedBase {
   explicit EliminatedBase(Memory& memory) : vertex(&memory), index_of(&memory), floating(&memory) {}
-  // unknowns: each once; components: of these. Cost: one numeric factorisation.
+  // unknowns: the vertices to eliminate, each once. components: the component of each unknown. Cost: one numeric
+  // factorisation.
   static std::shared_ptr<const EliminatedBase> make(const PinnedOperator& a, Span<const Index> unknowns,
                                                     Span<const Index> components, JobRunner& jobs);
 

@@ -1,6 +1,6 @@
-// The shape behind a surface: welded mesh, edges, areas and edge weights. No factor.
+// The geometry of a surface: welded mesh, edges, areas and edge weights. It has no factor.
 //
-// Immutable once made, so any number of threads may read it. Only the workspace pools inside have a lock.
+// A geometry is immutable, so any number of threads may read it. Only its workspace pools have a lock.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -18,7 +18,7 @@ namespace hf_inner {
 struct Geometry {
   Geometry(std::shared_ptr<Memory> owner, std::shared_ptr<JobRunner> runner);
   // Welds and checks the input (Mesh::make), then computes edges, areas and weights. Throws what Mesh::make throws, and
-  // HF_ERROR_CANCELLED. Progress: 0 to 0.15.
+  // HF_ERROR_CANCELLED. Progress runs from 0 to 0.15.
   static std::shared_ptr<const Geometry> make(const MeshInput& input, OperatorKind operator_kind,
                                               std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs,
                                               Progress* progress);

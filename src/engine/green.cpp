@@ -5,11 +5,12 @@
 namespace hf_inner {
 namespace {
 
-// Rows a job takes: half of it costs more calls than it spreads, double leaves threads idle on meshes of 50,000
+// Rows of one job. Half of it costs more calls than it gains. Twice of it leaves threads idle on meshes of 50,000
 // vertices.
 constexpr std::size_t piece = 16384;
-// Points whose least pivot share is below this may keep fewer than ten digits in the dense solve. Their field takes one
-// step with the true operator, for two sweeps more. Larger: steps that change nothing.
+// If the smallest pivot ratio of a dense block is below this number, the dense solve may keep fewer than ten digits.
+// The field then takes one refinement step with the true operator, which costs two sweeps more. A larger number would
+// add steps that change nothing.
 constexpr double crowded_share = 1e-4;
 
 PinnedOperator operator_of(const Core& core) {
@@ -109,7 +110,7 @@ void GreenSolver::write_field(const double* z, Index channels, Index first, Inde
 void GreenSolver::solve(const double* values, Index channels, double* field, double* flux) const {
   const std::size_t n = at(core_->size()), stride = at(channels);
   Answer answer(memory());
-  // the flux of an eliminated site is read off the field, and a refinement starts from it
+  // The flux of an eliminated site comes from the field, and a refinement step starts from the field.
   const bool needs_field = flux && !field && (state().base || refinements() > 0);
   Workspace own(core_->workspaces, needs_field ? n * stride : 0);
   if (needs_field) field = own.data();
@@ -139,7 +140,7 @@ void GreenSolver::solve(const double* values, Index channels, double* field, dou
   if (field && state().base && flux) base_flux(channels, field, flux);
 }
 
-// lambda_e = (K u)_e - (W lambda)_e of the eliminated sites.
+// Computes the flux of each eliminated site e: lambda_e = (K u)_e - (W lambda)_e.
 void GreenSolver::base_flux(Index channels, const double* field, double* flux) const {
   const std::size_t m = at(channels);
   const SymmetricMatrix& k = core_->laplacian;
@@ -170,7 +171,7 @@ void GreenSolver::base_flux(Index channels, const double* field, double* flux) c
 void GreenSolver::solve_at(const double* values, Index channels, Span<const Index> vertices, double* out) const {
   const std::size_t n = at(core_->size()), stride = at(channels);
   if (state().base || refinements() > 0) {
-    // the eliminated sites reach everything, and so does a residual: their part needs a sweep over the mesh
+    // Eliminated sites and residuals affect every vertex, so these fields need a sweep over the whole mesh.
     Workspace field(core_->workspaces, n * stride);
     solve(values, channels, field.data(), nullptr);
     for (std::size_t i = 0; i < vertices.size(); ++i)
@@ -198,7 +199,7 @@ void GreenSolver::solve_at(const double* values, Index channels, Span<const Inde
     for (const auto& group : state().groups) core_->factor->clear(*group.paths, count, z.data());
     z.clean();
   }
-  // hard sites among the vertices hold their values
+  // Hard sites among the requested vertices get their values exactly.
   Vector<std::pair<Index, std::size_t>> asked(&memory());
   for (std::size_t i = 0; i < vertices.size(); ++i) asked.push_back({vertices[i], i});
   std::sort(asked.begin(), asked.end());

@@ -1,5 +1,6 @@
-// Engine green: factor once, never touch the factor again. Its machine is constraint_system.h, here on the operator K
-// of a surface, which maps constants to zero; this file adds channels, refinement, partial fields, previews and fluxes.
+// The engine green: it factorises once, and edits of sites do not change the factor. The constraint system
+// (constraint_system.h) does the edits. Here it has the operator K of a surface, which maps constants to zero. This
+// class adds channels, refinement, partial fields, previews and fluxes.
 #pragma once
 #include "engine/constraint_system.h"
 #include "engine/site_solver.h"
@@ -31,18 +32,20 @@ class GreenSolver final : public SiteSolver {
   static constexpr Index channel_block = ConstraintSystem::channel_block;
   Index refinements() const noexcept;  // steps with the true operator that a field takes
   bool reached(std::size_t component) const noexcept { return state().sites_of[component] > 0; }
-  // Copies channels [first, first + count) of the hard vertex sites, to the bit: row_of(vertex) is where.
+  // Copies channels first .. first + count - 1 of the hard vertex sites into the field, bit for bit. row_of(vertex)
+  // returns where the row of the vertex is.
   template <class RowOf>
   void copy_hard_values(const double* values, Index channels, Index first, Index count, RowOf&& row_of) const;
-  // Writes the field by vertex: z, the sweep's result in the order of the factor, plus the constant of each component.
+  // Writes the field by vertex. It is the result z of the sweep, in the order of the factor, plus the constant of each
+  // component.
   void write_field(const double* z, Index channels, Index first, Index count, const Answer& answer,
                    double* field) const;
   void base_flux(Index channels, const double* field, double* flux) const;
-  // in green_refine.cpp
+  // The following functions are in green_refine.cpp.
   struct SingleSweeps;
   void refine(const double* values, Index channels, Index first, Index count, double* z, Answer& answer, double* field,
               SingleSweeps* single = nullptr) const;
-  // in green_preview.cpp
+  // The following function is in green_preview.cpp.
   double value_range(const double* values, Index channels, Index first, Index count) const;
 
   const ConstraintState& state() const noexcept { return system_.state(); }
@@ -53,7 +56,7 @@ class GreenSolver final : public SiteSolver {
   ConstraintCounts cloned_at_;  // counts of the engine this one was cloned from, at that time
 };
 
-// For a refinement in single precision.
+// Data for a refinement whose sweeps run in single precision.
 struct GreenSolver::SingleSweeps {
   const PreviewFactor& factor;
   float* scratch;  // room for the right-hand sides

@@ -1,14 +1,14 @@
-// Previews: the field by the single-precision copy of the factor, at half the bytes of a sweep.
+// Previews: computes the field with a single-precision copy of the factor. A sweep then reads half the bytes.
 //
-// The dense part and the paths are in double, the backward sweep in single precision. The error is about 1e-6 of the
-// range of the site values. A correction (green_refine.cpp) forms the residual in double and takes it through both
-// single-precision sweeps:
+// The dense part and the paths are in double, and the backward sweep is in single precision. The error is about 1e-6 of
+// the range of the site values. A correction (green_refine.cpp) computes the residuals r and g of the present field and
+// flux in double. It solves for the changes du and dlambda with two single-precision sweeps:
 //
-//     K du - W dlambda = r,  W'du + D dlambda = g,     r, g of the present field and flux
+//     K du - W dlambda = r,  W'du + D dlambda = g
 //
-// Each shrinks the error by the relative error of the two sweeps on a rough right-hand side. So the size of the last
-// correction times that factor is about the error that remains. Sites inside the factor (after a rebase) are answered
-// by the exact field. A correction costs a product with K and two such sweeps.
+// Each correction reduces the error by the relative error of the two sweeps. So the error that remains is about the
+// size of the last correction times that factor. If sites are inside the factor after a rebase, a preview is the exact
+// field. A correction costs a product with K and two single-precision sweeps.
 #include <algorithm>
 #include <cmath>
 
@@ -18,18 +18,18 @@
 namespace hf_inner {
 namespace {
 
-// Error of a single-precision sweep over the range of the values: the largest seen on difficult site sets. Smaller
-// would promise too much there, larger asks hosts for corrections they do not need.
+// Error of a single-precision sweep, relative to the range of the values: the largest seen on difficult sets of sites.
+// A smaller number would promise too much there. A larger one would ask hosts for corrections they do not need.
 constexpr double sweep_error = 1e-5;
-// Share of the error that the first correction leaves: above the 3e-4 seen on 304,000 vertices. Later ones are
-// measured.
+// Share of the error that the first correction leaves. It is above the 3e-4 seen on 304,000 vertices. The share of
+// later corrections is measured.
 constexpr double first_shrink = 2e-3;
-// Share of the range that rounding in double leaves: no estimate goes below.
+// Share of the value range that rounding in double leaves. No error estimate goes below it.
 constexpr double least_error = 1e-13;
 
 }  // namespace
 
-// Widest range of the site values over components, for channels [first, first + count).
+// Returns the widest range of the site values over all components, for channels first .. first + count - 1.
 double GreenSolver::value_range(const double* values, Index channels, Index first, Index count) const {
   const std::size_t m = at(count), components = state().sites_of.size();
   Vector<double> low(components * m, HUGE_VAL, &memory()), high(components * m, -HUGE_VAL, &memory());

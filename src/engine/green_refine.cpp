@@ -1,15 +1,17 @@
-// One step of iterative refinement with the true operator, for operators whose condition is squared (bi-harmonic):
+// One step of iterative refinement with the true operator K. Bi-harmonic operators need it, because their condition
+// number is squared. u is the field and lambda the fluxes of the sites, with values s_i and weights w_i. The residuals
+// r, g and the changes du, dlambda are
 //
 //     r_v = (W lambda)_v - sum_j K_vj (u_j - u_v),    g_i = s_i - w_i'u - D_i lambda_i
 //     K du - W dlambda = r,    W'du + D dlambda = g
 //
-// The residual is formed in differences, which loses nothing to the constants that K maps to zero. The correction is
-// solved as a field with the extra source y = G^-1 P r:
+// The residual uses differences of u, so a large constant in u costs no digits. The change is solved as a field with an
+// extra source y = G^-1 P r. a is the constant of each component:
 //
 //     S dlambda + a 1 = g - Y'y,   1'dlambda = -1'r,   du = P' G^-T (y + Y dlambda) + a
 //
-// A free value t_r of a rebase obeys the same equation in its row: right-hand side -r_r - Y_r'y. Cost: a product with
-// K, a forward and a backward sweep.
+// A free value t_r of a rebase has the same equation in its row, with the right-hand side -r_r - Y_r'y. The other
+// letters are those of constraint_system.h. Cost: a product with K, a forward and a backward sweep.
 #include <algorithm>
 #include <cmath>
 
@@ -32,7 +34,7 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
   const auto u = [&](Index v) { return field + at(v) * stride + offset; };
   const auto r = [&](Index v) { return z + at(position[at(v)]) * m; };
 
-  // r by factor row
+  // Writes -sum_j K_vj (u_j - u_v) to the residual r, by row of the factor.
   for_ranges(*core_->jobs, n, piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       double* own = r(static_cast<Index>(v));
@@ -45,7 +47,7 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
       }
     }
   });
-  // W lambda, and g into `next`
+  // Adds W lambda to the residual r, and writes the residual g of the sites into `next`.
   Answer next(memory());
   next.slot.assign(state().entries.size() * m, 0.0), next.freed.assign(state().freed.size() * m, 0.0);
   next.constant.assign(state().sites_of.size() * m, 0.0), next.total.assign(state().sites_of.size() * m, 0.0);
@@ -63,7 +65,8 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
       }
     }
   }
-  // eliminated vertices stand outside the factor: those in force have no equation, the freed ones a row of their own
+  // Eliminated vertices are not in the factor. If their site is in force, they have no equation. If their value is
+  // free, the equation is a row of the dense system.
   for (std::size_t b = 0; b < state().freed.size(); ++b) {
     double* own = r(base->vertex[b]);
     if (state().freed[b].is_row()) {
@@ -72,8 +75,7 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
     std::fill_n(own, m, 0.0);
   }
   for (std::size_t v = 0; v < n; ++v) {
-    for (std::size_t q = 0; q < m; ++q)
-      next.total[at(core_->mesh.component[v]) * m + q] += r(static_cast<Index>(v))[q];
+    for (std::size_t q = 0; q < m; ++q) next.total[at(core_->mesh.component[v]) * m + q] += r(static_cast<Index>(v))[q];
   }
 
   if (single) {
@@ -113,7 +115,7 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
     if (!state().freed[b].is_row()) continue;
     for (std::size_t q = 0; q < m; ++q) u(base->vertex[b])[q] += next.freed[b * m + q];
   }
-  // hard vertex sites hold their values to the bit
+  // Hard vertex sites get their values bit for bit.
   copy_hard_values(values, channels, first, count, u);
 }
 

@@ -6,8 +6,8 @@
 namespace hf_inner {
 namespace {
 
-// Times the share of its diagonal that a pivot must keep in the whole, which factors in another order: components near
-// to failing count too. Larger: confines components that would factor.
+// Factor by which a pivot must exceed its usual limit. The whole matrix has another ordering, so components near to
+// failing count as well. A larger factor would limit the weights of components that could be factorised.
 constexpr double margin = 16;
 
 }  // namespace
@@ -16,7 +16,7 @@ Vector<std::uint8_t> lost_components(const Core& core, const FactorOptions& opti
   Memory& memory = *core.memory;
   const std::size_t n = at(core.size()), components = core.ground.size();
   const Vector<Index>& component = core.mesh.component;
-  // vertices by component, ascending, and the place of each among its own
+  // Sorts the vertices by component, and numbers the vertices of each component.
   Vector<Index> start(components + 1, 0, &memory), vertex(n, &memory), place(n, &memory);
   for (std::size_t v = 0; v < n; ++v) ++start[at(component[v]) + 1];
   for (std::size_t c = 0; c < components; ++c) start[c + 1] += start[c];

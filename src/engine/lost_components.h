@@ -1,15 +1,16 @@
-// Finds the components of a surface that do not factor.
+// Finds the components of a surface whose matrix cannot be factorised.
 //
-// A matrix without entries between components is definite when every block is. So each is factorised on its own;
-// together they cost what the whole matrix does. A component whose weights spread over more digits than a double has
-// says nothing about the others.
+// The matrix has no entries between components, so it is positive definite if every component's block is. So each block
+// is factorised alone. Together the blocks cost as much as the whole matrix. The failure of one block, whose weights
+// may span more digits than a double has, does not affect the others.
 #pragma once
 #include "engine/core.h"
 
 namespace hf_inner {
 
-// By component: whether its block of the pinned matrix A has a failed pivot, or one near to failing, so that the others
-// factor in the order of the whole. Deterministic. Throws what a factorisation does, except for a failed pivot.
+// Returns, for each component, whether its block of the pinned matrix A has a failed pivot or one near to failing.
+// Without these components the whole matrix factors, although its ordering differs. The result is deterministic. Throws
+// what a factorisation throws, except for a failed pivot.
 Vector<std::uint8_t> lost_components(const Core& core, const FactorOptions& options);
 
 }  // namespace hf_inner

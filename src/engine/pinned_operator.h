@@ -1,9 +1,12 @@
-// The operator that a ConstraintSystem constrains, as a view of what its owner keeps alive.
+// The operator K that a ConstraintSystem constrains. The struct is a view; its owner keeps the data alive.
 //
-// K is semi-definite: it may map to zero a constant, or a parallel field, on every component. So one vertex of every
-// component is pinned, A = K + sum_c beta_c E_c E_c', and A is factorised. Pinning must not change the answer:
-//   - K maps constants to zero (fields): the lambda of a component sum to 0, and the component gets a constant;
-//   - any other K (direction fields): the paths of the pins, Y_g = G^-1 P E_g, take the pins away again.
+// K is semi-definite: on every component it may map a constant, or a parallel vector field, to zero. So one vertex of
+// every component is pinned, and A = K + sum_c beta_c E_c E_c' is factorised as P A P' = G G'. E_c are the pinned
+// unknowns of component c, and beta_c is the weight of the pin. Pinning must not change the solution. There are two
+// cases:
+// - K maps constants to zero (scalar fields): the fluxes lambda of a component sum to 0, and the solution gets a
+//   constant.
+// - Any other K (direction fields): the elimination paths of the pins, Y_g = G^-1 P E_g, remove the effect of the pins.
 #pragma once
 #include "base/index.h"
 #include "base/jobs.h"
@@ -12,7 +15,7 @@
 
 namespace hf_inner {
 
-// Columns Y_g of the pins, by component and pin, and C = Y_g'Y_g - I / beta.
+// The columns Y_g of the pinned unknowns, by component and pin, and the matrix C = Y_g'Y_g - I / beta.
 struct PinPaths {
   explicit PinPaths(Memory& memory) : groups(&memory), group(&memory), column(&memory), corner(&memory) {}
   Vector<std::shared_ptr<const PathGroup>> groups;
@@ -24,7 +27,7 @@ struct PinnedOperator {
   static constexpr std::size_t most_border = 2;
   Index size() const noexcept { return matrix->size(); }
   std::size_t component_count() const noexcept { return pin_weight.size(); }
-  // Pins of a component, and so the width of the border of its dense block.
+  // Returns the number of pins of a component, which is the width of the border of its dense block.
   std::size_t border() const noexcept { return pin_weight.empty() ? 1 : pins.size() / pin_weight.size(); }
   bool keeps_constants() const noexcept { return paths == nullptr; }
 

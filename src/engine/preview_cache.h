@@ -1,6 +1,6 @@
-// The single-precision copy of a core's factor, shared by all that share the core.
+// Holds the single-precision copy of a core's factor. All users of the core share the copy.
 //
-// The first preview makes it, the host drops it. Any number of threads may ask for it at once.
+// The first preview makes the copy, and the host may free it. Any number of threads may ask for it at the same time.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -11,10 +11,10 @@ namespace hf_inner {
 
 class PreviewCache {
  public:
-  // The copy, made when there is none. Two threads that ask first at the same time both make one and share the one that
-  // was ready first. So no thread holds a lock while the threads of the host work.
+  // Returns the copy, and makes it if there is none. If two threads ask first at the same time, both make a copy and
+  // then share the copy that was ready first. So no thread holds a lock while threads of the host work.
   std::shared_ptr<const PreviewFactor> get(const Factor& factor, Memory& memory, JobRunner& jobs);
-  // Calls that use it keep it until they are done.
+  // Frees the copy. Calls that use the copy keep it alive until they end.
   void release() noexcept;
 
  private:

@@ -46,7 +46,7 @@ void RefactorSolver::edit(const SiteEdit& edit) {
   std::swap(state_.path, next.path);
 }
 
-// Whether a hard site depends on others though its pivot kept some rounding.
+// Returns true if a hard site depends linearly on others although no pivot failed, because rounding kept it positive.
 bool RefactorSolver::crowded_out(const State& state, const DenseBlock& block) const {
   if (block.least_pivot() >= suspect_share) return false;
   Vector<HardSite> sites(core_->memory.get());
@@ -92,7 +92,7 @@ void RefactorSolver::factorise(State& state) const {
   state.factor = core_->factor->refactor(a, eliminated, memory, *core_->jobs);
   ++factorisations_;
 
-  // bordered part: columns of A^-1 W_p with the eliminated rows at zero
+  // Computes the dense border: the columns of A^-1 W_p with zeros in the eliminated rows.
   state.dense.assign(state.count.size(), nullptr);
   state.path.reset();
   if (state.points.empty()) return;
@@ -131,7 +131,7 @@ void RefactorSolver::factorise(State& state) const {
   state.path = path;
 }
 
-// u <- A^-1 right, both in factor order.
+// Sets u to A^-1 right. Both are in the order of the factor.
 void RefactorSolver::solve_linear(const State& state, const Vector<double>& right, Index channels, double* u) const {
   std::copy(right.begin(), right.end(), u);
   state.factor->solve_in_order(u, channels, *core_->jobs);
@@ -179,7 +179,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
   }
   solve_linear(state_, right, channels, u.data());
 
-  // bordered point sites, component by component
+  // Solves the dense border of the point sites, component by component.
   Vector<double> constant(state_.count.size() * m, 0.0, &memory), lambda(state_.points.size() * m, 0.0, &memory),
       x(&memory);
   for (std::size_t component = 0; component < state_.dense.size(); ++component) {
@@ -198,7 +198,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
         x[i * m + c] = value;
       }
     }
-    // without a vertex site the component is pinned: its block has a border of constants
+    // A component without a vertex site is pinned, so its block has a border for the constant.
     block->solve_bordered(x.data(), channels, nullptr, &constant[component * m]);
     for (std::size_t i = 0; i < members.size(); ++i) {
       const double* y = state_.path->data() + at(members[i]) * n;
@@ -221,7 +221,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
     }
   }
   if (flux) {
-    // lambda of a point from the border, of a vertex site from K u = W lambda
+    // The flux of a point site comes from the dense border, that of a vertex site from K u = W lambda.
     for (std::size_t i = 0; i < state_.points.size(); ++i) {
       for (std::size_t c = 0; c < m; ++c) flux[at(state_.points[i]) * m + c] = lambda[i * m + c];
     }
@@ -251,7 +251,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
 }
 
 void RefactorSolver::solve_at(const double* values, Index channels, Span<const Index> vertices, double* out) const {
-  // the baseline has no partial evaluation: it solves everything
+  // This engine cannot solve at single vertices, so it solves the whole field.
   Vector<double> field(at(core_->size()) * at(channels), core_->memory.get());
   solve(values, channels, field.data(), nullptr);
   for (std::size_t i = 0; i < vertices.size(); ++i)

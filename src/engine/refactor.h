@@ -1,13 +1,14 @@
-// Engine refactor: the baseline that other engines are measured against, and the oracle of tests.
+// The engine refactor: the baseline for measurements of other engines, and the reference for tests.
 //
-// Every edit factorises K again with the hard vertex sites eliminated: their rows and columns are the identity, so
-// ordering and symbolic analysis stand. The soft vertex sites go on the diagonal:
+// Every edit factorises K again, with the hard vertex sites eliminated. Their rows and columns become the identity, so
+// ordering and symbolic analysis stay. The stiffness alpha of soft vertex sites is added to the diagonal. With h the
+// hard vertex sites, f the other vertices and s the site values:
 //
 //     u_h = s_h,   (K_ff + diag(alpha)) u_f = alpha s - K_fh s_h
 //
-// Points inside triangles (W_p) are bordered: S = W_p' A^-1 W_p + D. A component without any vertex site is pinned, and
-// the row 1'lambda = 0 joins the border, as in engine green. An edit costs a numeric factorisation, a field a forward
-// and a backward sweep.
+// Points inside triangles, with weights W_p, go into a dense border S = W_p' A^-1 W_p + D, where A is the matrix above
+// and D the softness of the points. A component without vertex sites is pinned, and the row 1'lambda = 0 joins the
+// border. An edit costs a numeric factorisation. A field costs a forward and a backward sweep.
 #pragma once
 #include <atomic>
 

@@ -1,13 +1,14 @@
-// The rim of a region: the vertices that part its inside from the rest once they are sites.
+// Finds the rim of a region: the vertices that separate the region from the rest when they are sites.
 //
-// On the mesh's own edges these are the vertices with a neighbour outside. An intrinsic operator has edges of its own,
-// and a bi-harmonic one reaches two rings far, so couplings of K count as well.
+// A vertex with a mesh neighbour outside belongs to the rim. The matrix K can couple more vertices: an intrinsic
+// operator has edges of its own, and a bi-harmonic operator couples vertices within two edges. So the couplings of K
+// count as well.
 #pragma once
 #include "engine/core.h"
 
 namespace hf_inner {
 
-// Whether K couples v with a vertex that is not inside.
+// Returns true if K couples v with a vertex that is not inside.
 template <class Inside>
 bool couples_outward(const Core& core, std::int32_t v, Inside&& inside) {
   const SymmetricMatrix& k = core.laplacian;

@@ -1,4 +1,4 @@
-// One constraint of a field, and the edit that takes a set of them to another.
+// Site is one constraint of a field. SiteEdit turns one set of sites into another.
 #pragma once
 #include <cstdint>
 
@@ -8,7 +8,8 @@
 
 namespace hf_inner {
 
-// A linear functional w on at most three unknowns with its softness: w'u + compliance lambda = s.
+// A constraint w'u + compliance lambda = s on at most three unknowns of the field u. w are the weights, lambda is the
+// flux into the site and s its value. A compliance of 0 makes the site hard.
 struct Site {
   Index vertex[3] = {-1, -1, -1};  // inner vertices, or unknowns of another operator; unused corners are -1
   double weight[3] = {0, 0, 0};
@@ -27,14 +28,14 @@ struct Site {
   }
 };
 
-// Slots to leave and slots to fill. A slot may stand in both: a move.
+// Slots to empty and slots to fill. A slot is the number of a site. A slot in both lists means that its site moves.
 struct SiteEdit {
   Span<const Index> remove;
   Span<const Index> add;
   Span<const Site> sites;  // for `add`, in its order
 };
 
-// How the last edit of places was made.
+// How the last edit of sites was carried out.
 enum class EditRoute : std::int32_t {
   none = 0,
   dense = 1,   // rows of the dense system came and went

@@ -1,8 +1,9 @@
-// Predicts what an edit costs on each route: grow the dense system, or eliminate the sites and factorise.
+// Predicts what an edit costs on two routes: grow the dense system, or eliminate the sites and factorise again.
 //
-// The figures of the factor and measured rates decide, so the choice is the same on every machine and in every run.
-// Dense route for d new rows beside k: paths 2 d P, Gram 2 d (k + d / 2) C, Cholesky ((k + d)^3 - k^3) / 3 flops. P is
-// the number of entries of a mean path, C that of its rows. Rebase: the factorisation's flops and one more sweep. Unit:
+// The prediction uses the size of the factor and fixed rates, so the choice is the same on every machine and in every
+// run. The dense route with d new rows beside k present rows costs 2 d P flops for the paths, 2 d (k + d / 2) C for the
+// products of paths and ((k + d)^3 - k^3) / 3 for the Cholesky factor. P is the mean number of entries of a path and C
+// its mean number of rows. A rebase costs the flops of the factorisation and one more sweep. All results are in
 // nanoseconds.
 #pragma once
 #include "factor/factor.h"
@@ -10,8 +11,8 @@
 namespace hf_inner {
 
 struct SiteCost {
-  // Flops in a nanosecond on one thread, measured with AVX-512 on a 2 GHz Xeon; AVX2 divides all by about the same
-  // factor. Half of one: its route is chosen half as often. Wrong rates cost time, never digits.
+  // Flops per nanosecond on one thread, measured with AVX-512 on a Xeon of 2 GHz. With AVX2 all rates fall by about the
+  // same factor. Half of one rate makes the choice of its route half as likely. Wrong rates cost time, but no digits.
   static constexpr double path_rate = 45, gram_rate = 40, cholesky_rate = 15, factorisation_rate = 26;
   static constexpr double signed_rate =
       3.7;                                 // of mixed signs (DenseBlock), which has no front kernels; 100 to 1,600 rows
@@ -22,9 +23,9 @@ struct SiteCost {
     return 2 * d * factor_.path_entries / path_rate + 2 * d * (k + d / 2) * factor_.path_rows / gram_rate +
            (cube(k + d) - cube(k)) / 3 / cholesky_rate;
   }
-  // Rows [first, k) of mixed signs factorised again.
+  // Cost of factorising again the rows [first, k) of mixed signs.
   double signed_ns(double first, double k) const noexcept { return (cube(k) - cube(first)) / 3 / signed_rate; }
-  // outside: rows that stay outside the elimination.
+  // outside: the number of rows that the rebase does not eliminate.
   double rebase_ns(double outside) const noexcept {
     return factor_.flops / factorisation_rate + 4 * factor_.entries / sweep_rate + dense_ns(0, outside);
   }

@@ -11,13 +11,15 @@
 namespace hf_inner {
 namespace {
 
-// Largest value of a site: beyond it, values times weights of up to 1e12 give fluxes that are not finite.
+// Largest size of a site value. Larger values times weights of up to 1e12 could give fluxes that are not finite.
 constexpr double most = 1e200;
-// Barycentric weights may sum to 1 within this. Single-precision ones do; a larger bound would hide wrong ones.
+// How far the sum of barycentric weights may be from 1. Weights in single precision stay within it. A larger number
+// would hide wrong weights.
 constexpr double weight_sum_error = 1e-6;
-// A weight this close to 1 makes a point its corner. A larger share would move points that the host placed.
+// A point whose weight at a corner exceeds 1 minus this number becomes that vertex. A larger number would move points
+// that the host placed near a corner.
 constexpr double corner_share = 1e-12;
-// A stiffness is clamped to this range of mean diagonals, as field.h says: beyond it the system loses digits.
+// Range of the stiffness, in mean diagonals of K, as hf/solver.h documents. Beyond it the system loses digits.
 constexpr double least_stiffness = 1e-12, most_stiffness = 1e12;
 
 bool same_site(const Site& a, const Site& b) noexcept {
@@ -102,18 +104,19 @@ void SiteSet::claim_vertex(const Arrival& arrival, std::int32_t vertex, std::int
     fail(code, arrival.position,
          "site %u of the batch: its place overlaps site %d%s; use a smaller radius, or move one of them",
          arrival.position, it->slot, same ? "" : ", which has other values");
-  fail(code, arrival.position,
-       "site %u of the batch: vertex %u%s carries site %d already%s; set its values or move it", arrival.position,
-       arrival.given_vertex, other.given_vertex == arrival.given_vertex ? "" : " (through a copy at the same place)",
-       it->slot, same ? "" : " with other values");
+  fail(code, arrival.position, "site %u of the batch: vertex %u%s carries site %d already%s; set its values or move it",
+       arrival.position, arrival.given_vertex,
+       other.given_vertex == arrival.given_vertex ? "" : " (through a copy at the same place)", it->slot,
+       same ? "" : " with other values");
 }
 
-// Gives its vertices and hidden slots back; the slot itself stays used.
+// Frees the vertices and hidden slots of a site. The slot itself stays in use.
 void SiteSet::release(std::int32_t slot) noexcept {
   const Slot& own = slots_[at(slot)];
   if (own.radius > 0) {
-    by_vertex_.erase(std::remove_if(by_vertex_.begin(), by_vertex_.end(), [&](const AtVertex& a) { return a.slot == slot; }),
-                     by_vertex_.end());
+    by_vertex_.erase(
+        std::remove_if(by_vertex_.begin(), by_vertex_.end(), [&](const AtVertex& a) { return a.slot == slot; }),
+        by_vertex_.end());
     for (std::size_t s = 0; s < slots_.size(); ++s) {
       if (slots_[s].owner != slot) continue;
       slots_[s] = Slot{};
@@ -141,7 +144,7 @@ void SiteSet::set_value(std::int32_t slot, const double* values) noexcept {
   for (std::int32_t c = 0; c < channels_; ++c) values_[at(slot * channels_ + c)] = values ? values[c] : 0.0;
 }
 
-// Puts an arrival into a slot; a disc uses more of them.
+// Places a site in a slot. A disc also takes hidden slots.
 void SiteSet::place(const Core& core, const Arrival& arrival, std::int32_t slot, std::uint32_t limit) {
   Slot own;
   own.site = arrival.site, own.given_vertex = arrival.given_vertex;
@@ -154,9 +157,8 @@ void SiteSet::place(const Core& core, const Arrival& arrival, std::int32_t slot,
     set_value(slot, arrival.values);
     return;
   }
-  const Vector<DiscVertex> disc =
-      geodesic_disc(core.mesh, core.topology, arrival.site.vertex, arrival.site.weight,
-                    arrival.radius / core.mesh.scale, *core.memory);
+  const Vector<DiscVertex> disc = geodesic_disc(core.mesh, core.topology, arrival.site.vertex, arrival.site.weight,
+                                                arrival.radius / core.mesh.scale, *core.memory);
   Vector<std::int32_t> held(core.memory.get()), taken(core.memory.get());
   const bool whole = core.refinements > 0;  // of fourth order: values on a rim leave the slope free
   for (const DiscVertex& v : disc) {
@@ -169,7 +171,7 @@ void SiteSet::place(const Core& core, const Arrival& arrival, std::int32_t slot,
     if (whole || v.rim || couples_outward(core, v.vertex, inside)) held.push_back(v.vertex);
   }
   if (held.empty() && !disc.empty()) held.push_back(disc[0].vertex);  // the disc is the whole component
-  // smaller than the mesh can show: the point itself
+  // The disc is smaller than the mesh spacing, so the site stays a point.
   if (disc.empty() && own.site.is_vertex()) claim_vertex(arrival, own.site.vertex[0], slot);
   if (held.size() > 1 && (held.size() - 1 > limit || count_ + hidden_ > limit - (held.size() - 1)))
     fail(HF_ERROR_TOO_LARGE, arrival.position,
@@ -203,7 +205,7 @@ void SiteSet::remove(std::uint32_t count, const std::uint32_t* sites) {
 
 void SiteSet::move(const Core& core, std::uint32_t count, const std::uint32_t* sites, const Places& to,
                    std::uint32_t limit) {
-  // all leave before any arrives, so that sites may swap places
+  // All sites leave their places before any site arrives, so that sites may swap places.
   for (std::uint32_t i = 0; i < count; ++i) {
     check_site(i, sites[i]);
     for (std::uint32_t j = 0; j < i && count <= 64; ++j) {
@@ -233,8 +235,8 @@ void check_value(double value, std::uint32_t position, std::int32_t channel) {
     fail(HF_ERROR_NON_FINITE, position, "entry %u of the list: value of channel %d is not a finite number", position,
          channel);
   if (std::fabs(value) > most)
-    fail(HF_ERROR_TOO_LARGE, position, "entry %u of the list: value of channel %d is %g; scale it below 1e200", position,
-         channel, value);
+    fail(HF_ERROR_TOO_LARGE, position, "entry %u of the list: value of channel %d is %g; scale it below 1e200",
+         position, channel, value);
 }
 
 }  // namespace

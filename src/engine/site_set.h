@@ -1,12 +1,12 @@
-// The sites of one solver as its user sees them: numbers, places, values and stiffness.
+// The sites of one solver as the caller sees them: numbers, places, values and stiffness.
 //
-// It also tells the engine the change that an edit makes. A plain value: copied before an edit, swapped in after the
-// engine has taken the change, kept on the undo stack.
+// The set can be copied. An edit changes a copy, which replaces the original after the engine has accepted the change.
+// Undo keeps old copies. SiteDifference computes the edit that leads from one set to another.
 //
-// A site of finite radius is the condition u = s on a geodesic disc. For a second-order operator the vertices of its
-// rim are held, because the field inside is constant then; for a fourth-order one all its vertices. The first of them
-// stands in the site's own slot, the others in slots that only the engine knows. No other site may use a vertex of the
-// disc.
+// A site of finite radius means that u = s on a geodesic disc. For a second-order operator only the boundary vertices
+// of the disc are constrained, because the field inside is then constant. For a fourth-order operator all its vertices
+// are. The first constrained vertex has the slot of the site. The others have hidden slots, which only the engine uses.
+// No other site may use a vertex of the disc.
 #pragma once
 #include <cstdint>
 
@@ -15,7 +15,7 @@
 
 namespace hf_inner {
 
-// Places of a batch: vertices, or triangles with barycentric weights, as given.
+// The places of a batch of sites in the caller's mesh: vertices, or triangles with barycentric weights.
 struct Places {
   std::uint32_t count = 0;
   const std::uint32_t* vertices = nullptr;
@@ -44,8 +44,8 @@ class SiteSet {
     Site site;  // component -1: free
     std::uint32_t given_vertex = HF_NO_INDEX;
     double stiffness = 0;
-    double radius = 0;         // of a disc, in the unit of the mesh
-    std::int32_t owner = -1;   // the slot of the disc that this one belongs to
+    double radius = 0;        // of a disc, in the unit of the mesh
+    std::int32_t owner = -1;  // the slot of the disc that this one belongs to
     bool used() const noexcept { return site.component >= 0; }
     bool is_site() const noexcept { return used() && owner < 0; }  // of its own, with a number
   };
@@ -55,8 +55,8 @@ class SiteSet {
   const double* values() const noexcept { return values_.data(); }
   std::int32_t channels() const noexcept { return channels_; }
 
-  // Each throws as the C functions document, with the position in the batch as index. It may leave *this half edited,
-  // so work on a copy.
+  // Edits of the set. Each throws as the C function of the same name documents; the error index is the position in the
+  // batch. After an exception *this may be half edited, so call these functions on a copy.
   void remove(std::uint32_t count, const std::uint32_t* sites);
   void move(const Core& core, std::uint32_t count, const std::uint32_t* sites, const Places& to, std::uint32_t limit);
   void set_values(std::uint32_t count, const std::uint32_t* sites, const double* values);
@@ -67,7 +67,7 @@ class SiteSet {
   struct AtVertex {
     std::int32_t vertex, slot;
   };
-  // A site to be placed.
+  // A site that is about to be placed.
   struct Arrival {
     std::uint32_t position;  // in the batch
     std::uint32_t given_vertex;
@@ -93,7 +93,7 @@ class SiteSet {
   NumberPool numbers_;
 };
 
-// The engine edit that leads from one set to another.
+// The edit of the engine that leads from one set to another set.
 struct SiteDifference {
   explicit SiteDifference(Memory& memory) : remove(&memory), add(&memory), sites(&memory) {}
   SiteDifference(const SiteSet& from, const SiteSet& to, Memory& memory);

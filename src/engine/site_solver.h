@@ -1,9 +1,10 @@
-// Harmonic fields whose constraints change: one interface, three engines.
+// The interface of the engines that solve harmonic fields u under changing constraints. There are three engines.
 //
-//     K u = W lambda,   w_i' u + lambda_i / alpha_i = s_i     (alpha = infinity: a hard site)
+//     K u = W lambda,   w_i' u + lambda_i / alpha_i = s_i     (alpha_i = infinity: a hard site)
 //
-// A Site is a linear functional w on the vertices (a vertex, or three barycentric weights). Sites stand in slots that
-// the caller (SiteSet, a pose) chooses. Edits are all or nothing: on an exception the engine is as before.
+// Site i has the weights w_i, which are the columns of W, the stiffness alpha_i and the value s_i. lambda_i is the flux
+// into it. A Site is a vertex, or a point with three barycentric weights. The caller (SiteSet or a pose) chooses the
+// slot, which is the number of a site. An edit does everything or throws and changes nothing.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -25,7 +26,7 @@ struct EngineCounters {
   double bytes = 0;
 };
 
-// Accuracy of a preview.
+// How accurate a preview is.
 struct PreviewInfo {
   bool exact = false;             // solve gave the answer, without single precision
   std::int32_t corrections = 0;   // made
@@ -35,8 +36,8 @@ struct PreviewInfo {
   double bytes = 0;               // size of the single-precision copy
 };
 
-// Takes channels [first, first + count) of a field where they lie: inner vertex v at z[row[v] * count], or at z[v *
-// count] when row is null.
+// Receives a block of channels of a field from the engine. The channels are first .. first + count - 1. Inner vertex v
+// is at z[row[v] * count], or at z[v * count] if row is null.
 class FieldSink {
  public:
   virtual ~FieldSink() = default;
@@ -45,27 +46,29 @@ class FieldSink {
 
 class SiteSolver {
  public:
-  // penalty: weight of hard sites relative to the mean diagonal, for updown only.
+  // penalty: weight of hard sites relative to the mean diagonal of K. Only the engine updown uses it.
   static std::shared_ptr<SiteSolver> make(EngineKind kind, std::shared_ptr<const Core> core, double penalty);
   virtual ~SiteSolver() = default;
 
-  // All or nothing. Throws HF_ERROR_CONFLICT (index = position in edit.add) when a new site depends linearly on the
-  // hard sites there are.
+  // Applies an edit completely, or throws and changes nothing. Throws HF_ERROR_CONFLICT (index = position in edit.add)
+  // if a new site depends linearly on the present hard sites.
   virtual void edit(const SiteEdit& edit) = 0;
 
-  // The field of every inner vertex: field[vertex * channels + c]. values[slot * channels + c] for every slot in use.
-  // Vertices of components without a site get 0. Hard vertex sites hold their values exactly. flux: null, or
-  // slot_count() rows, written for free slots too. Const functions may run at the same time on one engine.
+  // Solves for the field of every inner vertex: field[vertex * channels + c]. values: values[slot * channels + c] for
+  // every slot in use. Vertices of components without a site get 0. Hard vertex sites get their values exactly. flux:
+  // null, or room for slot_count() rows; free slots get a row too. Const functions may run at the same time on one
+  // engine.
   virtual void solve(const double* values, std::int32_t channels, double* field, double* flux) const = 0;
 
-  // The same field, given to the sink without a copy in between.
+  // Solves for the same field and passes it to the sink without an extra copy.
   virtual void solve_into(const double* values, std::int32_t channels, FieldSink& sink) const = 0;
 
-  // The field at chosen inner vertices: for engine green at the cost of their elimination paths.
+  // Solves for the field at chosen inner vertices. The engine green needs only the elimination paths of these vertices.
   virtual void solve_at(const double* values, std::int32_t channels, Span<const std::int32_t> vertices,
                         double* out) const = 0;
 
-  // The field by a single-precision factor and so many corrections in double; engines that have none give the field.
+  // Solves with a single-precision factor, and makes `corrections` corrections in double. An engine without such a
+  // factor gives the exact field.
   virtual void solve_preview(const double* values, std::int32_t channels, std::int32_t corrections, double* field,
                              PreviewInfo& info) const {
     (void)corrections;
@@ -74,23 +77,23 @@ class SiteSolver {
     info.exact = true;
   }
 
-  // A copy that shares what is immutable.
+  // Returns a copy that shares all immutable parts.
   virtual std::shared_ptr<SiteSolver> clone() const = 0;
 
-  // Moves the present hard vertex sites into the factor, on these threads. Throws HF_ERROR_UNSUPPORTED (engines other
-  // than green), HF_ERROR_NO_SITES (none is hard). All or nothing.
+  // Moves the present hard vertex sites into the factor, using the threads of `jobs`. Throws HF_ERROR_UNSUPPORTED
+  // (engines other than green) or HF_ERROR_NO_SITES (no site is hard). If it throws, nothing changes.
   virtual void rebase(JobRunner& jobs);
-  // Takes over the counts that `predecessor`, of which this is a clone, has made since.
+  // Adds the counts that `predecessor` has made since this engine was cloned from it.
   virtual void succeed(const SiteSolver& predecessor) noexcept { (void)predecessor; }
 
   virtual EngineKind kind() const noexcept = 0;
   virtual EngineCounters counters() const noexcept = 0;
-  // Sites of a component at present.
+  // Returns the present number of sites of a component.
   virtual std::int32_t site_count(std::int32_t component) const noexcept = 0;
   virtual std::int32_t slot_count() const noexcept = 0;  // 1 + the largest slot ever used
 };
 
-// solve_into by way of solve, for engines that have nothing better.
+// Implements solve_into by solve, for engines without a faster way.
 inline void solve_copied(const SiteSolver& solver, const Core& core, const double* values, std::int32_t channels,
                          FieldSink& sink) {
   Workspace field(core.workspaces, static_cast<std::size_t>(core.size()) * static_cast<std::size_t>(channels));

@@ -1,4 +1,4 @@
-// Sparse columns of sites and free values, as the factor's path solves take them.
+// Sparse columns of sites and of free values, in the format of the factor's path solves.
 #pragma once
 #include "engine/eliminated_base.h"
 #include "engine/site.h"
@@ -7,7 +7,7 @@ namespace hf_inner {
 
 struct SiteColumns {
   explicit SiteColumns(Memory& memory) : start(&memory), row(&memory), value(&memory) { start.push_back(0); }
-  // w of a site, without the eliminated corners.
+  // Appends the weights w of a site. Corners that a rebase has eliminated are left out.
   void append(const Site& site, const EliminatedBase* base) {
     for (int k = 0; k < 3; ++k) {
       if (site.vertex[k] < 0 || site.weight[k] == 0 || (base && base->eliminated(site.vertex[k]))) continue;
@@ -15,7 +15,7 @@ struct SiteColumns {
     }
     start.push_back(static_cast<std::int32_t>(row.size()));
   }
-  // -K_Fr of an eliminated vertex r.
+  // Appends the column -K_Fr of an eliminated vertex r whose value is free. F are the vertices that are not eliminated.
   void append_free(std::int32_t r, const SymmetricMatrix& k, const EliminatedBase& base) {
     for (std::int32_t i = k.column_start[static_cast<std::size_t>(r)];
          i < k.column_start[static_cast<std::size_t>(r) + 1]; ++i) {

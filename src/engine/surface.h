@@ -1,7 +1,8 @@
-// A surface: one geometry and the operators that fields on it need, each with its factor.
+// A surface: one geometry and up to three operators for fields on it, each with its factor.
 //
-// The operator it is made with stays. Those of other kinds of field are made when first asked for, shared by all who
-// use them, and freed with the last of them. So a surface that is not used holds one factor, whatever was made on it.
+// The surface keeps the operator that it was made with. It makes operators for other kinds of field when they are first
+// needed. Users of such an operator share it, and it is freed with the last of them. So an unused surface holds only
+// one factor.
 #pragma once
 #include <array>
 #include <memory>
@@ -13,17 +14,17 @@ namespace hf_inner {
 
 class Surface {
  public:
-  // Makes the operator and factor of options.field_kind, or loads the factor (options.saved_factor).
+  // Makes the operator and factor of options.field_kind, or loads the factor from options.saved_factor.
   Surface(std::shared_ptr<const Geometry> geometry, const CoreOptions& options);
 
   const Geometry& geometry() const noexcept { return *geometry_; }
-  // The operator the surface was made with.
+  // Returns the operator that the surface was made with.
   const Core& own() const noexcept { return *own_; }
   FieldKind field_kind() const noexcept { return own_->field_kind; }
 
-  // The operator and factor of a kind of field. Cost: none for one that exists, else that of making it; other threads
-  // that ask for a missing one wait meanwhile. Throws HF_ERROR_REENTRANT when a callback of the making asks, and as
-  // Core::make. Thread safety: any thread.
+  // Returns the operator and factor of a kind of field. If they are missing, the call makes them, and other threads
+  // that ask for them wait. Throws HF_ERROR_REENTRANT if a callback asks during the making, and what Core::make throws.
+  // Thread safety: any thread.
   std::shared_ptr<const Core> core(FieldKind kind, Progress* progress = nullptr) const;
 
  private:

@@ -15,10 +15,11 @@
 namespace hf_inner {
 namespace {
 
-// Edited sites since the factorisation after which a solve takes a refinement step: a sweep more in every field.
+// Number of edited sites since the last factorisation after which a solve takes a refinement step. A step costs one
+// more sweep in every field.
 constexpr std::uint32_t refine_after = 256;
 
-// CHOLMOD's workspace, silent.
+// CHOLMOD's workspace, with its printing switched off.
 struct Common {
   Common() noexcept {
     cholmod_start(&c);
@@ -88,13 +89,14 @@ class UpdownSolver final : public SiteSolver {
       sites[at(edit.add[i])] = edit.sites[i];
       ++count[at(edit.sites[i].component)];
     }
-    // the pin comes before the last site leaves and goes after the first has come
+    // A component is pinned before its last site leaves, and its pin goes after its first site has come.
     for (std::size_t c = 0; c < count.size(); ++c) {
       if (count_[c] > 0 && count[c] == 0) coming.push_back(ground(static_cast<Index>(c)));
       if (count_[c] == 0 && count[c] > 0) leaving.push_back(ground(static_cast<Index>(c)));
     }
     if (!change(coming, true) || !change(leaving, false)) {
-      // the factor may hold half of the edit, or no numbers at all: make that of the sites there were
+      // The factor may contain half of the edit or no numbers at all. Factorise again with the sites from before the
+      // edit.
       rebuild();
       throw std::bad_alloc();
     }
@@ -117,7 +119,7 @@ class UpdownSolver final : public SiteSolver {
       for (std::size_t c = 0; c < m; ++c)
         centre[at(site.component) * m + c] += values[slot * m + c] / count_[at(site.component)];
     }
-    // right-hand side R R' s, by columns; s less its component's mean
+    // Computes the right-hand side R R' s by columns. The mean of each component is subtracted from s.
     Workspace right(core_->workspaces, n * m), wanted(core_->workspaces, sites_.size() * m);
     std::fill_n(right.data(), n * m, 0.0);
     for (std::size_t slot = 0; slot < sites_.size(); ++slot) {
@@ -170,7 +172,7 @@ class UpdownSolver final : public SiteSolver {
     solve_copied(*this, *core_, values, channels, sink);
   }
   void solve_at(const double* values, Index channels, Span<const Index> vertices, double* out) const override {
-    // the paper's engine has no partial evaluation: it solves everything
+    // This engine cannot solve at single vertices, so it solves the whole field.
     Vector<double> field(at(core_->size()) * at(channels), core_->memory.get());
     solve(values, channels, field.data(), nullptr);
     for (std::size_t i = 0; i < vertices.size(); ++i)
@@ -190,7 +192,7 @@ class UpdownSolver final : public SiteSolver {
   Index slot_count() const noexcept override { return static_cast<Index>(sites_.size()); }
 
  private:
-  // Penalty of a site in the unit of K; compliance 0 is a hard site.
+  // Returns the penalty of a site in the unit of K. A compliance of 0 is a hard site.
   double alpha(const Site& site) const noexcept {
     return core_->mean_diagonal[at(site.component)] *
            (site.compliance > 0 ? std::min(1 / site.compliance, penalty_) : penalty_);
@@ -199,7 +201,8 @@ class UpdownSolver final : public SiteSolver {
     return Site::at_vertex(core_->mesh, core_->ground[at(component)], 1.0);
   }
 
-  // One update or downdate with all of these sites. False: CHOLMOD failed and the factor is not to be trusted.
+  // Updates or downdates the factor with all of these sites at once. Returns false if CHOLMOD failed; the factor is
+  // then invalid.
   bool change(const Vector<Site>& sites, bool update) {
     if (sites.empty()) return true;
     const Span<const Index> position = position_;
@@ -229,7 +232,7 @@ class UpdownSolver final : public SiteSolver {
     return done;
   }
 
-  // Factorises K + R R' of the present sites and pins.
+  // Factorises K + R R' with the present sites and pins.
   void rebuild() {
     cholmod_free_factor(&factor_, &common_.c);
     const Index n = core_->size();
@@ -244,7 +247,7 @@ class UpdownSolver final : public SiteSolver {
         static_cast<int*>(a->i)[used] = k.row[at(i)];
         double value = k.value[at(i)];
         const Index c = core_->mesh.component[at(v)];
-        // before any site: every component is pinned
+        // No site is in the factor yet, so every component is pinned.
         if (k.row[at(i)] == v && v == core_->ground[at(c)]) value += core_->mean_diagonal[at(c)];
         static_cast<double*>(a->x)[used++] = value;
       }
@@ -253,11 +256,11 @@ class UpdownSolver final : public SiteSolver {
     const Span<const Index> order = core_->factor->order();
     factor_ = cholmod_analyze_p(a, const_cast<int*>(order.data()), nullptr, 0, &common_.c);
     bool done = factor_ && cholmod_factorize(a, factor_, &common_.c) && common_.c.status == CHOLMOD_OK;
-    // updown works on a simplicial LDL' factor
+    // cholmod_updown needs a simplicial LDL' factor.
     done = done && cholmod_change_factor(CHOLMOD_REAL, 0, 0, 1, 1, factor_, &common_.c);
     cholmod_free_sparse(&a, &common_.c);
     if (done) {
-      // CHOLMOD postorders the given permutation: keep where every unknown went
+      // CHOLMOD postorders the given permutation. Stores where every unknown went.
       position_.resize(at(n));
       for (Index r = 0; r < n; ++r) position_[at(static_cast<int*>(factor_->Perm)[r])] = r;
       ++factorisations_, edits_ = 0;
@@ -280,7 +283,7 @@ class UpdownSolver final : public SiteSolver {
     return change(coming, true) && change(leaving, false);
   }
 
-  // The solution stays in CHOLMOD's own array until the next call.
+  // Solves into CHOLMOD's own array, which stays valid until the next call.
   const double* back_substitute(const double* right, std::size_t columns) const {
     cholmod_dense b{};
     b.nrow = b.d = at(core_->size()), b.ncol = columns, b.nzmax = b.nrow * columns;
@@ -291,9 +294,9 @@ class UpdownSolver final : public SiteSolver {
     return static_cast<double*>(work_.x->x);
   }
 
-  // residual = R R' s - (K + R R' + pins) u by channel, K in difference form. The error of a site is formed first.
-  // Formed by vertex, its rounding (alpha times the last digit) would not point along w, where the penalty makes it
-  // harmless.
+  // Computes residual = R R' s - (K + R R' + pins) u by channel; K u uses differences of u. The error of each site is
+  // computed first. If it were summed by vertex, its rounding, multiplied by the penalty, would not point along the
+  // weights w. Along w the penalty makes rounding harmless.
   void residual_of(const double* wanted, const double* u, Index channels, double* residual) const {
     const SymmetricMatrix& k = core_->laplacian;
     const std::size_t n = at(core_->size()), m = at(channels);

@@ -1,16 +1,18 @@
-// Engine updown: the paper's method, kept whole (Xu, Zhang, Cohen-Or and Xiong 2009, Section 3; Davis and Hager 2005
-// for the update).
+// The engine updown: the method of Xu, Zhang, Cohen-Or and Xiong 2009, Section 3, without changes. The factor updates
+// are those of Davis and Hager 2005.
 //
 //     (K + R R') u = R R' s,   R = [sqrt(alpha_i) w_i]
 //
-// Sites come and go by multi-rank update and downdate of a sparse LDL' factor (cholmod_updown); the field follows by
-// back substitution. A hard site is a penalty of 1e8 mean diagonals, so it holds to about 1e-8 of the value range.
-// cholmod_updown neither checks its input nor reports a failed pivot. So every component without a site is pinned on
-// its diagonal, updates go before downdates, and values are centred. After many edits the solve takes one refinement
-// step with the true matrix, which removes the drift. If an update fails, the factor is recomputed from the sites. The
-// memory of this engine is CHOLMOD's own, not the solver's allocator.
+// Site i has the weights w_i, the penalty alpha_i and the value s_i. To add and remove sites, a multi-rank update and
+// downdate change a sparse LDL' factor (cholmod_updown). A back substitution then gives the field u. A hard site is a
+// penalty of 1e8 mean diagonals of K, so the field meets its value to about 1e-8 of the value range.
 //
-// Only in builds with HF_WITH_GPL: CHOLMOD's Modify module is GPL-2.0+.
+// cholmod_updown neither checks its input nor reports a failed pivot. So a component without a site is pinned on its
+// diagonal, updates run before downdates, and the mean is subtracted from the values. Many edits make the factor drift.
+// A solve then takes one refinement step with the true matrix, which removes the drift. If an update fails, the engine
+// factorises again from the sites. Its memory comes from CHOLMOD, not from the solver's allocator.
+//
+// The engine exists only in builds with HF_WITH_GPL, because CHOLMOD's Modify module is GPL-2.0+.
 #pragma once
 #include <memory>
 

@@ -27,12 +27,12 @@ void WorkspacePool::give(Buffer<double>&& buffer) noexcept {
       free_.push_back(std::move(buffer));
       return;
     }
-    // keep the larger ones
+    // The pool is full: it keeps the larger buffers.
     const auto smallest =
         std::min_element(free_.begin(), free_.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
     if (smallest->size() < buffer.size()) *smallest = std::move(buffer);
   } catch (...) {
-    // no room to remember it: the buffer is released by its owner
+    // The pool cannot grow, so the owner frees the buffer.
   }
 }
 

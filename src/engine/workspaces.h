@@ -1,4 +1,4 @@
-// Large scratch arrays that solves share.
+// Large scratch arrays that solves share and reuse.
 #pragma once
 #include <mutex>
 
@@ -6,14 +6,14 @@
 
 namespace hf_inner {
 
-// Keeps scratch arrays for the next solve. The first touch of fresh memory costs more than a sweep.
+// Keeps scratch arrays for later solves. The first access to fresh memory would cost more than a sweep.
 class WorkspacePool {
  public:
-  // zeroed: buffers of this pool are all zero when taken, and must be all zero when given back.
+  // zeroed: the buffers of this pool are all zero when taken, and must be all zero when given back.
   explicit WorkspacePool(Memory& memory, bool zeroed = false) : memory_(memory), zeroed_(zeroed), free_(&memory) {}
   // Moves a buffer of at least `size` doubles out of the pool, or makes one.
   Buffer<double> take(std::size_t size);
-  // Puts it back; never throws (the buffer is released when the pool cannot grow).
+  // Gives a buffer back to the pool. Never throws: if the pool cannot grow, the buffer is freed.
   void give(Buffer<double>&& buffer) noexcept;
 
  private:
@@ -23,7 +23,7 @@ class WorkspacePool {
   Vector<Buffer<double>> free_;
 };
 
-// A buffer of the pool for one scope.
+// Takes a buffer from the pool for one scope.
 class Workspace {
  public:
   Workspace(WorkspacePool& pool, std::size_t size) : pool_(pool), buffer_(pool.take(size)) {}
@@ -34,7 +34,7 @@ class Workspace {
   Workspace& operator=(const Workspace&) = delete;
   double* data() noexcept { return buffer_.data(); }
   double& operator[](std::size_t i) noexcept { return buffer_[i]; }
-  // Of a zeroed pool: the buffer is in use and must not go back unless clean() is called.
+  // For a zeroed pool: marks the buffer as not zero. It does not go back to the pool unless clean() is called.
   void soil() noexcept { dropped_ = true; }
   void clean() noexcept { dropped_ = false; }
 
