@@ -2,9 +2,9 @@
  *
  * Both use the flux f_ij = w_ij (u_j - u_i) of a field u along the mesh edge ij. The weights w are positive: they are
  * those of HF_OPERATOR_CLAMPED, whatever operator the surface has. At a vertex that is not a site, the flux that comes
- * in equals the flux that goes out. A flow line runs along edges, at an offset inside the flux of each edge. At every
- * vertex a planar matching connects the incoming flux to the outgoing flux. So flow lines never cross or merge, and
- * their value always rises, on surfaces of any genus. */
+ * in equals the flux that goes out. Imagine each edge as a strip as wide as its flux. A flow line runs along such
+ * strips and keeps a place across each strip. At every vertex a planar matching connects the incoming strips to the
+ * outgoing strips. So flow lines never cross or merge, and their value always rises, on surfaces of any genus. */
 #ifndef HF_QUADS_H
 #define HF_QUADS_H
 

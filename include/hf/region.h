@@ -122,9 +122,9 @@ enum {
   HF_REGION_SITES = 2   /* those that hold the base */
 };
 
-/* Writes one list of vertices of your mesh, ascending. Of welded copies the list has the first. list: HF_REGION_*.
- * out_vertices: NULL, or uint32_t[capacity]. out_count: NULL, or receives the length. Errors: HF_ERROR_INVALID_ARGUMENT
- * (list). Thread safety: reads `region`. Since 0.1. */
+/* Writes one list of vertices of your mesh, ascending. Where vertices were welded, the list has the first copy. list:
+ * HF_REGION_*. out_vertices: NULL, or uint32_t[capacity]. out_count: NULL, or receives the length. Errors:
+ * HF_ERROR_INVALID_ARGUMENT (list). Thread safety: reads `region`. Since 0.1. */
 HF_API hf_result hf_region_get_vertices(hf_region region, int32_t list, uint32_t capacity, uint32_t* out_vertices,
                                         uint32_t* out_count);
 

@@ -120,7 +120,8 @@ ConstraintState::Decision ConstraintSystem::decide(const SiteEdit& edit) const {
   return decision;
 }
 
-// Tries one route for an edit. Returns false if the edit needs a new layout of rows. The last route, fresh, never does.
+// Tries one route for an edit. Returns false if the edit needs a new layout of rows. The route `fresh` always makes a
+// new layout, so it never returns false.
 bool ConstraintSystem::try_route(EditRoute route, const SiteEdit& edit, JobRunner& jobs,
                                  const ConstraintState::Decision& decision) {
   ConstraintState next(state_, memory());

@@ -1,18 +1,18 @@
 // Solves an operator K under a few changing constraints, with one factorisation. Scalar fields and direction fields use
 // it.
 //
-// Site i is a constraint w_i' u = s_i on the field u. W has one column w_i per site, s holds the values, and lambda the
-// flux into each site. alpha_i is the stiffness of a soft site. One vertex of every component c is pinned: A = K +
-// sum_c beta_c E_c E_c' (pinned_operator.h). P is the permutation of the ordering and G the Cholesky factor: P A P' = G
-// G'. Then
+// Site i is a constraint w_i' u = s_i on the field u. The matrix W has one column w_i per site, s holds the values, and
+// lambda holds the flux into each site. A soft site has the stiffness alpha_i. One vertex of every component c is
+// pinned: A = K + sum_c beta_c E_c E_c' (pinned_operator.h). The ordering is the permutation P, and the Cholesky factor
+// is G: P A P' = G G'. A solve has these equations:
 //
 //     y_i = G^-1 P w_i          sparse: it follows the elimination path of the site
 //     S   = Y'Y + D             k x k, one block per component; D = diag(1 / alpha_i), 0 for hard sites
 //     [ S  N ] [lambda]   [ s ]
-//     [ N' C ] [  nu  ] = [ 0 ]
+//     [ N' C ] [  nu  ] = [ 0 ].
 //
-// S is a Schur complement. The border N, C removes the effect of the pins. If K maps constants to zero, N_ic = 1 if
-// site i lies in component c, C = 0, and the field is
+// The matrix S is a Schur complement. The border N, C removes the effect of the pins. If K maps constants to zero, N_ic
+// = 1 if site i lies in component c, C = 0, and the field is
 //     u = P' G^-T (Y lambda) + sum_c nu_c 1_c.
 // Otherwise N = Y'Y_g and C = Y_g'Y_g - I / beta, with the elimination paths Y_g of the pins, and the field is
 //     u = P' G^-T (Y lambda + Y_g nu).
@@ -22,12 +22,12 @@
 // If there are very many sites, a rebase (eliminated_base.h) takes a set E of hard vertex sites out of the matrix. F
 // are the other vertices. Later sites become rows as above. If a site r of E is removed, its value t_r becomes unknown.
 // The column of r is y_r = G^-1 P (-K_Fr). Its equation (K u)_r = (W lambda)_r is a row of negative sign in the same
-// system. R is the set of all removed sites of E:
+// system. R is the set of all removed sites of E. The dense system then is:
 //
 //     [ Y_w'Y_w + D     Y_w'Y_r + W_R   ] [lambda]   [ s - Y_w'g - W_E' s_E       ]
 //     [ (...)'          Y_r'Y_r - K_RR  ] [  t   ] = [ K_RE s_E - Y_r'g           ],   g = G^-1 P (-K_FE s_E)
 //
-//     u_F = P' G^-T (g + Y_w lambda + Y_r t),   u_E = s_E,   u_R = t
+//     u_F = P' G^-T (g + Y_w lambda + Y_r t),   u_E = s_E,   u_R = t.
 //
 // A cost model (site_cost.h) decides how an edit is made, and counters record the choice. An edit does everything or
 // throws and changes nothing. Const functions may run at the same time on one system. The operator's owner must outlive
@@ -102,8 +102,9 @@ class ConstraintSystem {
   // without a rebase.
   void solve_dense(const double* values, Index channels, Index first, Index count, const double* z,
                    Answer& answer) const;
-  // Parts of a solve whose right-hand side is another one (green_refine.cpp). subtract_projections: answer -= Y'z.
-  // solve_rows: replaces `answer` by the unknowns lambda, t and nu. combine: z += Y lambda + Y_g nu.
+  // Three steps of a solve, for callers with a right-hand side of their own (green_refine.cpp). The first step,
+  // subtract_projections, computes answer -= Y'z. The second, solve_rows, replaces `answer` by the dense unknowns
+  // lambda, t and nu. The third, combine, computes z += Y lambda + Y_g nu.
   void subtract_projections(const double* z, Index count, Answer& answer) const;
   void solve_rows(Index count, Answer& answer) const;
   void combine(const Answer& answer, Index count, double* z) const;

@@ -63,8 +63,9 @@ constexpr double confined_spread = 1e4, confined_biharmonic_spread = 10;
 // limit.
 constexpr double harmonic_lost_share = 0x1p-31;
 
-// Builds K for the options, on the mesh's own edges or on the intrinsic Delaunay edges. cap: position in weight_caps
-// and tie_shares. confined: empty, or the components whose weights are limited as a last resort.
+// Builds K for the options, on the mesh's own edges or on the intrinsic Delaunay edges. The number `cap` is a position
+// in weight_caps and tie_shares. The list `confined` is empty, or marks the components whose weights are limited as a
+// last resort.
 void make_operator(Core& core, const CoreOptions& options, int cap, const Vector<std::uint8_t>& confined) {
   Memory& pool = *core.memory;
   Vector<double> areas(&pool);
@@ -165,7 +166,8 @@ std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, co
       make_factor(*core, options);
       break;
     } catch (const Error& error) {
-      // Either a pivot failed, or the saved factor was made of an operator with limited weights, which is tried next.
+      // Two causes are possible. A pivot failed, or the saved factor belongs to an operator with limited weights. In
+      // both cases the loop builds the operator with the next limit and tries again.
       const bool loading = !options.saved_factor.empty();
       if (!confined.empty() || !(loading || error.code() == HF_ERROR_NOT_POSITIVE_DEFINITE)) throw;
       if (cap + 1 == cap_count) {

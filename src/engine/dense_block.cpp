@@ -25,8 +25,8 @@ constexpr double rotation_ns = 2, factor_rate = 15;
 constexpr std::int32_t least_parallel = 400, tiles_per_job = 12;
 
 // Computes dots[i * tile + j] = a_i . b_j over `count` entries. Each product has four running sums in one fixed order,
-// so every instruction set gives the same bits. target_clones needs the dynamic linker of glibc, and sanitizers cannot
-// run before it.
+// so every instruction set gives the same bits. The attribute target_clones needs the dynamic linker of glibc, and
+// sanitizers cannot run before it.
 #if defined(__GLIBC__) && defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__SANITIZE_ADDRESS__)
 __attribute__((target_clones("avx2", "default")))
@@ -149,7 +149,7 @@ void DenseBlock::remove(Span<const std::int32_t> ids) {
   }
   const double fresh = (left * left * left - std::pow(static_cast<double>(first), 3)) / 3 / factor_rate;
   if (negative_ == 0 && d * rotation_ns * (k - first) * k < fresh) {
-    // Removes rows from the last to the first, because the fewest rows lie behind a late row.
+    // Removes rows from the last to the first. Removing a late row is cheap, because few rows lie behind it.
     for (std::int32_t r = count() - 1; r >= 0; --r) {
       if (!leaves(ids_[static_cast<std::size_t>(r)])) continue;
       if (r < valid_) update_without(r), --valid_;
@@ -219,9 +219,9 @@ std::int32_t DenseBlock::factorise_signed() {
   return -1;
 }
 
-// Factorises with the front kernels of the sparse factor, on one front of k columns without rows below. Rows that are
-// up to date are copied in. Every number is one chain of operations in column order, so its bits do not depend on which
-// rows were present before.
+// Factorises the block with the dense kernels of the sparse factor. They see one dense triangle of k columns (a front
+// without rows below it). Rows of L that are up to date are copied into it. Every number is one chain of operations in
+// column order, so its bits do not depend on which rows were present before.
 std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
   const Kernels& kernels = choose_kernels();
   const std::int32_t k = count(), done = valid_ / 8 * 8, tiles = (k + 7) / 8;

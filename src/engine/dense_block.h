@@ -4,10 +4,11 @@
 // row by row. Sigma = diag(+1 or -1). Rows of sites are positive. Rows of free values (constraint_system.h) are
 // negative. So M is quasi-definite and can be factorised in any order without pivoting (Vanderbei 1995).
 //
-// To append rows, the front kernels of the sparse factor run on the new rows alone. To remove row r while all signs are
-// positive, the rows of L below r get a rank-one update L33 L33' + l l' by plane rotations, where l is column r below
-// row r. This costs O((k - r)^2) for k rows. After many removals at once, or with mixed signs, M is factorised again,
-// in O(k^3 / 3). A block is copied before an edit, so a failed edit leaves the old block in place.
+// To append rows, the dense kernels of the sparse factor factorise the new rows alone. To remove row r, if all signs
+// are positive, the rows of L below r get a rank-one update by plane rotations: L33 L33' + l l'. Here L33 is the part
+// of L behind row and column r, and l is column r below row r. This costs O((k - r)^2) for k rows. After many removals
+// at once, or with mixed signs, M is factorised again, in O(k^3 / 3). A block is copied before an edit, so a failed
+// edit leaves the old block in place.
 //
 // A border of at most two more unknowns nu removes the effect of the pinned vertices of the component:
 //
@@ -36,8 +37,8 @@ class DenseBlock {
 
   // Removes the rows with these ids. All of them must be present.
   void remove(Span<const std::int32_t> ids);
-  // Appends a row: row[j] = M(new, j) for the present rows j, and row[count] = M(new, new). border: the row of N for
-  // the new row; null stands for ones. Call factorise() afterwards.
+  // Appends a row to the matrix M. The entry row[j] is M(new, j) for the present rows j, and row[count] is M(new, new).
+  // The array `border` is the new row of the border N; null stands for ones. Call factorise() afterwards.
   void append(std::int32_t id, const double* row, bool positive = true, const double* border = nullptr);
   // Brings L up to date. Returns -1, or the row whose pivot failed. The site of that row depends linearly on earlier
   // sites.

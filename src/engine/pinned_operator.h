@@ -3,10 +3,11 @@
 // K is semi-definite: on every component it may map a constant, or a parallel vector field, to zero. So one vertex of
 // every component is pinned, and A = K + sum_c beta_c E_c E_c' is factorised as P A P' = G G'. E_c are the pinned
 // unknowns of component c, and beta_c is the weight of the pin. Pinning must not change the solution. There are two
-// cases:
-// - K maps constants to zero (scalar fields): the fluxes lambda of a component sum to 0, and the solution gets a
-//   constant.
-// - Any other K (direction fields): the elimination paths of the pins, Y_g = G^-1 P E_g, remove the effect of the pins.
+// cases.
+// - Case 1: K maps constants to zero (scalar fields). Then the fluxes lambda of a component sum to 0, and the solution
+//   gets a constant.
+// - Case 2: any other K (direction fields). Then the elimination paths of the pins, Y_g = G^-1 P E_g, remove the effect
+//   of the pins.
 #pragma once
 #include "base/index.h"
 #include "base/jobs.h"

@@ -1,10 +1,10 @@
 // Predicts what an edit costs on two routes: grow the dense system, or eliminate the sites and factorise again.
 //
 // The prediction uses the size of the factor and fixed rates, so the choice is the same on every machine and in every
-// run. The dense route with d new rows beside k present rows costs 2 d P flops for the paths, 2 d (k + d / 2) C for the
-// products of paths and ((k + d)^3 - k^3) / 3 for the Cholesky factor. P is the mean number of entries of a path and C
-// its mean number of rows. A rebase costs the flops of the factorisation and one more sweep. All results are in
-// nanoseconds.
+// run. The dense route adds d new rows to k present rows. It costs 2 d P flops for the paths and 2 d (k + d / 2) C
+// flops for the products of paths. The Cholesky factor costs ((k + d)^3 - k^3) / 3 flops. P is the mean number of
+// entries of a path and C its mean number of rows. A rebase costs the flops of the factorisation and one more sweep.
+// All results are in nanoseconds.
 #pragma once
 #include "factor/factor.h"
 

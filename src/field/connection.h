@@ -6,7 +6,7 @@
 //
 // A vertex is regular when its triangles form one fan of one orientation. There, the angle of an edge is the sum of the
 // corner angles before it. If the fan is closed, the angles are scaled to a full turn of 2 pi. An edge is the same
-// straight line seen from both ends i and j, so carrying a direction from i to j turns it by angle_j(j -> i) + pi -
+// straight line seen from both ends i and j. So a direction that is carried from i to j turns by angle_j(j -> i) + pi -
 // angle_i(i -> j). The curvature of a triangle is the sum of its scaled angles less pi. Over a closed surface the
 // curvatures sum to 2 pi times the Euler characteristic. The frames are turned in space so that these angles fit the
 // projected edges best. This does not depend on the numbering. At irregular vertices (non-manifold, flipped) a

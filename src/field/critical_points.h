@@ -2,8 +2,9 @@
 //
 // Vertices are ordered by (value, number), so no two are equal. The lower link of a vertex v is the part of the ring
 // around v that is below v in this order. The index of v is 1 - chi(lower link), where chi is the number of vertices
-// minus the number of edges. In the interior of a manifold this gives: minimum +1 (the lower link is empty), maximum +1
-// (it is the whole ring), regular vertex 0 (it is one arc), saddle -k (it is k + 1 arcs).
+// minus the number of edges. In the interior of a manifold, a minimum has index +1, because its lower link is empty. A
+// maximum has +1, because its lower link is the whole ring. A regular vertex has 0 (one arc), and a saddle has -k (k +
+// 1 arcs).
 //
 // Each vertex, edge and triangle is counted once, at its highest vertex. So the indices of a component sum to its Euler
 // characteristic, also with borders and non-manifold edges. A maximum on a border has index 0. A saddle on a border can

@@ -4,13 +4,14 @@
 // turned and changed. DirectionSolver computes the field between them.
 //
 // Let n be the degree of the field. A vector of length r and angle phi in its vertex frame is the number r e^{i n phi}
-// in the solver. Of the n roots of the solution, the field returns the one whose angle is nearest to the x axis. If a
+// in the solver. The solution has n roots; the field returns the root whose angle is nearest to the x axis. If a
 // constraint moves, its vector is carried along the shortest path of edges. Every edit changes a copy of the
 // constraints. The copy replaces the original after the solver has accepted the change.
 //
-// A triangle ijk has the singularity index I = (1 / 2 pi)(sum of omega + n Omega) (Crane, Desbrun and Schroeder 2010,
-// Section 5). omega_ij = arg(z_j / r_ij z_i) is how much more the field z turns along an edge than the connection r_ij.
-// Omega is the curvature of the triangle. Over a closed component, I / n sums to the Euler characteristic.
+// The singularity index of a triangle is (1 / 2 pi)(sum of omega + n Omega) (Crane, Desbrun and Schroeder 2010, Section
+// 5). Here omega_ij = arg(z_j / r_ij z_i), for each edge ij of the triangle. It is how much more the field z turns
+// along the edge than the connection r_ij. Omega is the curvature of the triangle. Over a closed component, the indices
+// divided by n sum to the Euler characteristic.
 #pragma once
 #include <memory>
 

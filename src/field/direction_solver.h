@@ -3,12 +3,12 @@
 //
 //     E(z) = sum over edges of w_ij |z_j - r_ij z_i|^2,   r_ij = exp(i n rotation_ij)      (Knoeppel et al. 2013)
 //
-// The field z minimises E. z has one complex unknown per vertex, which is two real unknowns. n is the degree of the
-// field. w_ij are the cotangent weights, raised to at least 1e-3 of their median. The matrix K of E is positive
-// definite on curved surfaces. K is singular where every round trip brings a vector back unturned, such as on a flat
-// patch or a cylinder. So one vertex of every component is pinned. The constraint system removes the effect of the pins
-// from the solution, with their elimination paths. A constraint consists of two sites, one for each real unknown. A new
-// value of a constraint costs a dense solve and a backward sweep.
+// The field z minimises E. It has one complex unknown per vertex, which is two real unknowns. The degree of the field
+// is n. The cotangent weights w_ij are raised to at least 1e-3 of their median. The matrix K of E is positive definite
+// on curved surfaces. K is singular where every round trip brings a vector back unturned, such as on a flat patch or a
+// cylinder. So one vertex of every component is pinned. The constraint system removes the effect of the pins from the
+// solution, with their elimination paths. A constraint consists of two sites, one for each real unknown. A new value of
+// a constraint costs a dense solve and a backward sweep.
 #pragma once
 #include "engine/constraint_system.h"
 #include "field/direction_system.h"

@@ -1,11 +1,12 @@
 // Finds the extremities of a surface: tips of protruding parts, which are proposals for sites and handles.
 //
 // The Poisson kind solves K u = M (1 - s), with M the vertex areas. Every vertex is a source of its own area. A ring of
-// vertices around the middle of the component, marked by s, takes all of it in. So u rises out along a limb and is
-// largest at its tip. Along a limb of constant girth, u differs by (length)^2 / 2 between root and tip, wherever the
-// ring is. So sqrt(2 persistence) is the length of the limb. Numbering, remeshing and pose do not change the list. The
-// ring lies half way, in edges, from the vertex farthest from the centroid to the other end of the shape. A single
-// vertex instead of the ring would raise the field behind it and blur the lengths. Cost: one solve.
+// vertices around the middle of the component is the sink, which s describes: it takes in what all sources give. So u
+// rises out along a limb and is largest at its tip. Along a limb of constant girth, u differs by (length)^2 / 2 between
+// root and tip, wherever the ring is. So sqrt(2 persistence) is the length of the limb. Numbering, remeshing and pose
+// do not change the list. The ring lies half way, in edges, from the vertex farthest from the centroid to the other end
+// of the shape. A single vertex instead of the ring would raise the field behind it and blur the lengths. Cost: one
+// solve.
 //
 // The geodesic kind uses the mean geodesic distance to the rest of the component (Hilaga, Shinagawa, Kohmura and Kunii
 // 2001), which the heat method computes. The persistence of a tip is the length of its limb times a share. This share

@@ -83,8 +83,9 @@ void Geodesics::make_frames() {
   }
 }
 
-// Adds to sums[2 t] and sums[2 t + 1] the directions X of triangle t, in its own frame, weighted and summed over the
-// channels. heat[row * channels + c] has rows in factor order. weights: [component * channels + c].
+// Sums the unit directions X of each triangle t over the channels, with weights. The result is added to sums[2 t] and
+// sums[2 t + 1], in the frame of the triangle. The array `heat` is [row * channels + c], with rows in factor order. The
+// array `weights` is [component * channels + c].
 void Geodesics::add_directions(const double* heat, Index channels, const double* weights, Vector<double>& sums) const {
   const DirectionSums job = {frames_.data(), heat, weights, channels, sums.data()};
   const std::int64_t count = static_cast<std::int64_t>(frames_.size());

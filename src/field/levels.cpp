@@ -9,7 +9,7 @@
 namespace hf_inner {
 namespace {
 
-// What the levels need of a triangle: its values in ascending order, its area, and its area times |grad u|.
+// A triangle with its values in ascending order, its area, and its area times |grad u| of the field u.
 struct Part {
   double low, middle, high, area, rise;
 
