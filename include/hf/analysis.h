@@ -11,9 +11,10 @@
 extern "C" {
 #endif
 
-/* A field with one value per vertex of your mesh. Set either values or values_f64. NaN marks a vertex without a value:
- * functions leave out the triangles and edges at that vertex. They refuse infinity. Where vertices were welded, the
- * value of the first copy counts. Functions ignore vertices that lie in no usable triangle. */
+/* This struct passes a field with one value per vertex of your mesh. Set either values or values_f64. NaN marks a
+ * vertex without a value: functions leave out the triangles and edges at that vertex. They refuse infinity. Where
+ * vertices were welded, the value of the first copy counts. Functions ignore vertices that lie in no usable triangle.
+ */
 typedef struct hf_scalars {
   uint32_t struct_size;
   uint32_t value_stride;    /* bytes between vertices; 0 = packed */
@@ -23,7 +24,7 @@ typedef struct hf_scalars {
 
 /* ---- levels and iso-lines ---- */
 
-/* How the level_count levels divide a field into strips. N levels give N + 1 strips. */
+/* Selects how levels divide a field into strips. N levels give N + 1 strips. */
 enum {
   HF_LEVELS_VALUE = 0, /* equal steps of the value */
   HF_LEVELS_AREA = 1,  /* equal areas: the strips cover the same area each */
@@ -141,8 +142,8 @@ HF_API hf_result hf_geodesics_solve_f64(hf_geodesics geodesics, uint32_t source_
 
 /* ---- extremities ---- */
 
-/* How hf_surface_find_extremities finds tips. Both kinds take the peaks of a field that rises towards protruding parts.
- */
+/* Selects how hf_surface_find_extremities finds tips. Both kinds take the peaks of a field that rises towards
+ * protruding parts. */
 enum {
   HF_EXTREMITIES_POISSON = 0, /* a field with a source at every vertex: one solve */
   HF_EXTREMITIES_GEODESIC = 1 /* mean geodesic distance to the rest of the component (Hilaga et al. 2001) */

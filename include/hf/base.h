@@ -1,4 +1,4 @@
-/* hf/base.h - result codes, error details, memory and thread hooks, progress, version.
+/* hf/base.h - check results, pass your allocator and threads, follow progress, read the version.
  *
  * Rules for every function of hf:
  * - It returns an hf_result: HF_OK (0) or a negative code. Functions that cannot fail return their value.
@@ -126,11 +126,11 @@ HF_API const char* hf_result_get_name(hf_result result);
 HF_API uint32_t hf_version_get(void);
 
 /* Your allocator, which serves a surface and everything made from it. Set both functions, or neither; then the library
- * uses malloc. allocate returns `size` bytes aligned to `alignment`, or NULL to refuse. `alignment` is a power of two;
- * `size` need not be a multiple of it. release gets a block back with the size and alignment it was allocated with, and
- * must not throw. The library calls both from the thread of the API call, and from worker threads if thread_count
- * allows any. If allocate throws a C++ exception, the API call returns HF_ERROR_INTERNAL, or HF_ERROR_OUT_OF_MEMORY for
- * std::bad_alloc. The object is then as before. */
+ * uses malloc. The function `allocate` returns `size` bytes aligned to `alignment`, or NULL to refuse. The alignment is
+ * a power of two; `size` need not be a multiple of it. The function `release` gets a block back with the size and
+ * alignment it was allocated with, and must not throw. The library calls both from the thread of the API call, and from
+ * worker threads if thread_count allows any. If allocate throws a C++ exception, the API call returns
+ * HF_ERROR_INTERNAL, or HF_ERROR_OUT_OF_MEMORY for std::bad_alloc. The object is then as before. */
 typedef struct hf_allocator {
   void* (*allocate)(void* user, size_t size, size_t alignment);
   void (*release)(void* user, void* block, size_t size, size_t alignment);
@@ -139,8 +139,8 @@ typedef struct hf_allocator {
 
 /* Your job system. run must call job(job_data, i) for i = 0 .. count - 1, on any threads and in any order. It returns
  * when all these calls have returned. If run is NULL, the library makes thread_count - 1 threads of its own. The
- * library itself does the jobs that run leaves out, and does a repeated job only once. run may throw a C++ exception
- * after all started jobs have returned; the API call then returns HF_ERROR_INTERNAL. */
+ * library itself does the jobs that run leaves out, and does a repeated job only once. The function run may throw a C++
+ * exception after all started jobs have returned; the API call then returns HF_ERROR_INTERNAL. */
 typedef struct hf_job_runner {
   void (*run)(void* user, uint32_t count, void (*job)(void* job_data, uint32_t index), void* job_data);
   void* user;

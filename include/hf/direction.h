@@ -99,7 +99,8 @@ HF_API hf_result hf_direction_solve(hf_direction direction, float* out_vectors, 
 HF_API hf_result hf_direction_solve_f64(hf_direction direction, double* out_vectors, uint32_t vector_stride,
                                         hf_solve_info* out_info);
 
-/* A singularity: a triangle around which the field makes a full turn or a 1 / degree part of one. */
+/* A singularity is a triangle around which the field makes extra turns. They are counted in parts of 1 / degree of a
+ * full turn. */
 typedef struct hf_singularity {
   uint32_t triangle; /* as given */
   uint32_t vertex;   /* its corner where the field is shortest, as given; of welded copies the first */

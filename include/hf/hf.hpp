@@ -93,7 +93,8 @@ class Progress {
   Handle<hf_progress, hf_progress_destroy> handle_;
 };
 
-// The mesh, welded and factorised once. All classes below are made on a surface; their objects may outlive it.
+// A Surface holds the mesh, which it welds and factorises once. All classes below are made on a surface; their objects
+// may outlive it.
 class Surface {
  public:
   explicit Surface(const hf_surface_desc& desc) : vertices_(desc.vertex_count) {
@@ -274,7 +275,7 @@ class Solver {
   uint32_t channels_ = 1, vertices_ = 0;
 };
 
-// A direction field on a surface. All vectors are three numbers each.
+// Computes a direction field on a surface. All vectors are three numbers each.
 class Direction {
  public:
   explicit Direction(const Surface& surface, uint32_t degree = 1) : vertices_(surface.vertex_count()) {
@@ -423,7 +424,7 @@ class Geodesics {
   uint32_t vertices_ = 0;
 };
 
-// A quad mesh (hf/quads.h) with all its arrays.
+// Holds a quad mesh (hf/quads.h) with all its arrays.
 struct QuadMesh {
   std::vector<double> positions, barycentrics;  // three numbers per vertex
   std::vector<uint32_t> triangles;              // by vertex, of the mesh as given
@@ -454,7 +455,7 @@ inline QuadMesh make_quads(const Surface& surface, const hf_quads_desc* desc = n
   return mesh;
 }
 
-// Flow lines of a field. One Flow can trace many fields on its surface.
+// Holds flow lines of a field. One Flow can trace many fields on its surface.
 struct FlowLines {
   std::vector<double> positions, values;  // three numbers and one per point
   std::vector<uint32_t> line_starts, line_ends;
@@ -498,7 +499,7 @@ class Flow {
   uint32_t points_ = 4096, lines_ = 64;
 };
 
-// A region of a surface (hf/region.h), its smooth base, and the morph between surface and base.
+// Holds a region of a surface (hf/region.h) and its smooth base, and morphs between the two.
 class Region {
  public:
   // positions: the surface of weight 0, or empty for the positions of the mesh. field_kind: HF_FIELD_HARMONIC makes a

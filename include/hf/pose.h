@@ -20,7 +20,7 @@ extern "C" {
 /* A set of handles on a surface. */
 typedef struct hf_pose_object* hf_pose;
 
-/* How vertices follow the handles. */
+/* Selects how vertices follow the handles. */
 enum {
   HF_DEFORM_SMOOTH = 0, /* quadratic bands, reduced elastic energy: the default */
   HF_DEFORM_PAPER = 1   /* linear bands of equal value, shape matching of overlapping clusters */
@@ -52,7 +52,7 @@ HF_API hf_result hf_pose_clone(hf_pose pose, hf_pose* out_pose);
 /* Destroys a pose. Ignores NULL and destroyed handles. Since 0.1. */
 HF_API void hf_pose_destroy(hf_pose pose);
 
-/* The options of a pose, with defaults filled in, and the number of its handles. */
+/* hf_pose_get_info writes the options of a pose here, with defaults filled in, and the number of its handles. */
 typedef struct hf_pose_info {
   uint32_t struct_size;
   int32_t mode;
@@ -127,7 +127,7 @@ HF_API hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_t
 HF_API hf_result hf_pose_set_matrices(hf_pose pose, uint32_t handle_count, const uint32_t* handles,
                                       const double* matrices);
 
-/* The region of a handle, its layer, and its motion in the last hf_deform. */
+/* hf_pose_get_handle writes the region of a handle here, its layer, and its motion in the last hf_deform. */
 typedef struct hf_handle_info {
   uint32_t struct_size;
   uint32_t vertex_count; /* of the region, welded copies counted once */
@@ -172,7 +172,7 @@ typedef struct hf_deform_info {
  * `pose`. Since 0.1. */
 HF_API hf_result hf_deform(hf_pose pose, float* out_positions, hf_deform_info* out_info);
 
-/* Options of hf_pose_deform: outputs, strides and a range of vertices. Set at least one output. */
+/* The options of hf_pose_deform are outputs, strides and a range of vertices. Set at least one output. */
 typedef struct hf_deform_desc {
   uint32_t struct_size;
   uint32_t position_stride; /* bytes between vertices; 0 = packed */
@@ -189,15 +189,15 @@ typedef struct hf_deform_desc {
   uint32_t vertex_count; /* only the range, if there are no higher layers, no refine and no normals */
 } hf_deform_desc;
 
-/* Like hf_deform, with the options of a desc. Errors: HF_ERROR_EMPTY (no handle), HF_ERROR_OUT_OF_RANGE (the range),
- * HF_ERROR_INVALID_ARGUMENT. Thread safety: changes `pose`. Since 0.1. */
+/* Does the same as hf_deform, with the options of a desc. Errors: HF_ERROR_EMPTY (no handle), HF_ERROR_OUT_OF_RANGE
+ * (the range), HF_ERROR_INVALID_ARGUMENT. Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_deform(hf_pose pose, const hf_deform_desc* desc, hf_deform_info* out_info);
 
 /* ---- skins ---- */
 
-/* A pose or a transfer as a skin for linear blend skinning. The clusters become joints with fixed vertex weights, and
- * the skin holds their motion in the last frame. Joint j takes a point p to R (p - pivot) + translation, with R its
- * rotation. Its inverse bind matrix is the translation by -pivot.
+/* This struct receives a pose or a transfer as a skin for linear blend skinning. The clusters become joints with fixed
+ * vertex weights, and the skin holds their motion in the last frame. Joint j takes a point p to R (p - pivot) +
+ * translation, with R its rotation. Its inverse bind matrix is the translation by -pivot.
  *
  * If you ask for scales, a joint may also stretch along its own axes. With B the rotation of `axes`, the joint takes p
  * to R B diag(scale) B^-1 (p - pivot) + translation. In a scene file that is a node with rotation R B and that scale,

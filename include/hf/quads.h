@@ -85,7 +85,7 @@ HF_API void hf_quads_destroy(hf_quads quads);
 /* Writes the counts. Thread safety: reads `quads`. Since 0.1. */
 HF_API hf_result hf_quads_get_info(hf_quads quads, hf_quads_info* out_info);
 
-/* The arrays of a quad mesh. They are yours: each is NULL or as large as its capacity. */
+/* hf_quads_get_mesh writes the quad mesh to these arrays. They are yours: each is NULL or as large as its capacity. */
 typedef struct hf_quads_mesh {
   uint32_t struct_size;
   uint32_t vertex_capacity, face_capacity, corner_capacity, site_capacity; /* in */

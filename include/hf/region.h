@@ -48,9 +48,9 @@ enum {
   HF_SIDE_SEED = 2     /* the piece that seed_vertex lies in */
 };
 
-/* A closed curve through at least 3 points. Shortest paths along edges join each point to the next and the last to the
- * first. The vertices on the curve are the rim of the region; they are not part of the region. A whole border of the
- * surface is a curve too; it has only one side. */
+/* Describes a closed curve through at least 3 points. Shortest paths along edges join each point to the next and the
+ * last to the first. The vertices on the curve are the rim of the region; they are not part of the region. A whole
+ * border of the surface is a curve too; it has only one side. */
 typedef struct hf_curve_desc {
   uint32_t struct_size;
   uint32_t point_count;
@@ -128,7 +128,7 @@ enum {
 HF_API hf_result hf_region_get_vertices(hf_region region, int32_t list, uint32_t capacity, uint32_t* out_vertices,
                                         uint32_t* out_count);
 
-/* Weight and outputs of hf_region_morph and hf_detail_morph. Set at least one output. */
+/* Gives hf_region_morph and hf_detail_morph their weight and outputs. Set at least one output. */
 typedef struct hf_morph_desc {
   uint32_t struct_size;
   uint32_t position_stride; /* bytes between vertices; 0 = packed */

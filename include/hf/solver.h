@@ -19,7 +19,7 @@ extern "C" {
 /* A set of sites on a surface, and their field. */
 typedef struct hf_solver_object* hf_solver;
 
-/* How a solver applies its sites to the factor. All engines give the same field. */
+/* Selects how a solver applies its sites to the factor. All engines give the same field. */
 enum {
   HF_ENGINE_GREEN = 0,   /* sites are rows of a small dense system beside the factor: the default */
   HF_ENGINE_UPDOWN = 1,  /* as in Xu et al. 2009: penalties on the diagonal, sparse update and downdate; only in builds
@@ -54,7 +54,7 @@ HF_API hf_result hf_solver_clone(hf_solver solver, hf_solver* out_solver);
  * Since 0.1. */
 HF_API void hf_solver_destroy(hf_solver solver);
 
-/* The options of a solver, with defaults filled in, and the number of its sites. */
+/* hf_solver_get_info writes the options of a solver here, with defaults filled in, and the number of its sites. */
 typedef struct hf_solver_info {
   uint32_t struct_size;
   int32_t field_kind;
@@ -195,7 +195,7 @@ HF_API hf_result hf_solver_solve_at(hf_solver solver, uint32_t vertex_count, con
 HF_API hf_result hf_solver_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride,
                                          double* out_normals, hf_solve_info* out_info);
 
-/* The same in double. Thread safety: reads `solver`. Since 0.1. */
+/* Does the same as hf_solver_solve_vectors, in double. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_vectors_f64(hf_solver solver, double* out_vectors, uint32_t vector_stride,
                                              double* out_normals, hf_solve_info* out_info);
 
@@ -256,8 +256,9 @@ HF_API hf_result hf_solver_rotate_vectors(hf_solver solver, uint32_t site_count,
 
 /* ---- how right a field is ---- */
 
-/* How accurate a field is. Each error is relative to the range of the site values of its component and channel. Where
- * all site values are equal, it is relative to their size. A value that is not finite counts as infinitely wrong. */
+/* The certificate says how accurate a field is. Each error is relative to the range of the site values of its component
+ * and channel. Where all site values are equal, it is relative to their size. A value that is not finite counts as
+ * infinitely wrong. */
 typedef struct hf_certificate {
   uint32_t struct_size;
   int32_t overshoot_checked; /* out: 1 where a field must keep to the range of its sites: harmonic, intrinsic Delaunay
@@ -280,8 +281,8 @@ HF_API hf_result hf_solver_certify(hf_solver solver, hf_certificate* inout_certi
 
 /* ---- undo ---- */
 
-/* Records the sites for undo. The library keeps the last 256 records. A record costs the memory of a list of sites;
- * records share the rest. Thread safety: changes `solver`. Since 0.1. */
+/* Records the sites for undo. The library keeps the last 256 records. Each record keeps its own list of sites. Records
+ * share all other memory. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_record(hf_solver solver);
 /* Restores the last record; the field then has the same bits as at the record. Errors: HF_ERROR_NO_RECORD. Thread
  * safety: changes `solver`. Since 0.1. */
@@ -299,7 +300,7 @@ HF_API hf_result hf_solver_redo(hf_solver solver);
  * in this call). Thread safety: can run during any other call on the same solver. Since 0.1. */
 HF_API hf_result hf_solver_prepare_rebase(hf_solver solver);
 
-/* How the solver carried out the last edit of places (hf_solver_statistics.last_route). */
+/* These values say how the solver carried out the last edit of places (hf_solver_statistics.last_route). */
 enum {
   HF_ROUTE_NONE = 0,  /* no place was edited yet, or the engine is not green */
   HF_ROUTE_DENSE = 1, /* rows of the dense system came and went */

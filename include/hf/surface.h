@@ -14,15 +14,16 @@ extern "C" {
 
 typedef struct hf_surface_object* hf_surface;
 
-/* How the surface joins vertices at one place. Modelling tools split vertices at texture seams: a horse model can have
- * 1,109 separate pieces as stored and be one piece when welded. Functions write results to every copy of a vertex. */
+/* Selects how the surface joins vertices at one place. Modelling tools split vertices at texture seams: a horse model
+ * can have 1,109 separate pieces as stored and be one piece when welded. Functions write results to every copy of a
+ * vertex. */
 enum {
   HF_WELD_EXACT = 0,    /* bit-equal positions (+0 and -0 are equal) */
   HF_WELD_NONE = 1,     /* vertices as stored */
   HF_WELD_TOLERANCE = 2 /* positions closer than weld_tolerance, transitively */
 };
 
-/* The discrete Laplacian L: (L u)_i = sum_j w_ij (u_i - u_j). */
+/* Selects the edge weights w_ij of the discrete Laplacian L of a field u: (L u)_i = sum_j w_ij (u_i - u_j). */
 enum {
   HF_OPERATOR_INTRINSIC_DELAUNAY = 0, /* cotangent weights of the intrinsic Delaunay triangulation, on the tufted cover
                                          where edges are open or non-manifold (Bobenko and Springborn 2007; Sharp and
@@ -33,8 +34,8 @@ enum {
   HF_OPERATOR_COTANGENT = 3 /* w_ij = (cot a_ij + cot b_ij) / 2, the paper's; can be negative at obtuse triangles */
 };
 
-/* Which matrix K a field solves with. A bi-harmonic field is smooth at its sites and overshoots their values. Its
- * factor is 3 to 4 times larger than a harmonic one, and its solve adds one correction step. */
+/* Selects the matrix K that a field solves with. A bi-harmonic field is smooth at its sites and overshoots their
+ * values. Its factor is 3 to 4 times larger than a harmonic one, and its solve adds one correction step. */
 enum {
   HF_FIELD_HARMONIC = 0,   /* K = L */
   HF_FIELD_BIHARMONIC = 1, /* K = L M^-1 L, M the vertex areas scaled to mean 1 by component: does not depend on the
@@ -42,7 +43,7 @@ enum {
   HF_FIELD_BIHARMONIC_GRAPH = 2 /* K = L^2, the paper's: depends on how densely the surface is sampled */
 };
 
-/* How the unknowns are ordered to keep the factor small. */
+/* Selects how the unknowns are ordered. A good order keeps the factor small. */
 enum {
   HF_ORDERING_NESTED_DISSECTION = 0, /* our own; the least fill */
   HF_ORDERING_MINIMUM_DEGREE = 1,    /* quicker to compute, more fill on large meshes */
@@ -152,7 +153,8 @@ HF_API hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* ou
 HF_API hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity, uint32_t* out_components,
                                            uint32_t* out_count);
 
-/* Sizes and times of a surface. Times are in milliseconds. Bytes are doubles (exact to 2^53). */
+/* hf_surface_get_statistics writes sizes and times of a surface here. Times are in milliseconds. Bytes are doubles
+ * (exact to 2^53). */
 typedef struct hf_surface_statistics {
   uint32_t struct_size;
   uint32_t unknown_count; /* size of the factored matrix */
@@ -195,7 +197,7 @@ typedef struct hf_pick_desc {
   uint32_t reserved;           /* 0 */
 } hf_pick_desc;
 
-/* The first triangle that a ray hits. */
+/* hf_surface_cast_ray writes the first triangle that a ray hits here. */
 typedef struct hf_hit {
   uint32_t struct_size;
   int32_t found;          /* 1: a triangle was hit; 0: none, and all else is 0 or HF_NO_INDEX */
@@ -208,10 +210,10 @@ typedef struct hf_hit {
 
 /* Finds what a mouse click hits: the first triangle on a ray. origin, direction: double[3] in the frame of the
  * positions; the direction can have any length above 0. desc: NULL for the rest positions. A ray through an edge or a
- * vertex never misses both triangles. If several triangles are at the same distance, the one with the lowest index
- * counts. Cost: a pass over the triangles, about 10 ns each on one thread. Errors: HF_ERROR_NON_FINITE (origin,
- * direction, a position: index = vertex), HF_ERROR_INVALID_ARGUMENT (direction 0). Thread safety: reads `surface`.
- * Since 0.1. */
+ * vertex never slips between the triangles there. If several triangles are at the same distance, the one with the
+ * lowest index counts. Cost: a pass over the triangles, about 10 ns each on one thread. Errors: HF_ERROR_NON_FINITE
+ * (origin, direction, a position: index = vertex), HF_ERROR_INVALID_ARGUMENT (direction 0). Thread safety: reads
+ * `surface`. Since 0.1. */
 HF_API hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const double* direction,
                                      const hf_pick_desc* desc, hf_hit* out_hit);
 

@@ -19,7 +19,7 @@ enum {
   HF_TRANSFER_PAPER = 1   /* clusters are level bands of single fields, the paper's */
 };
 
-/* Flags of a pair of regions. They can be combined. */
+/* These flags describe a pair of regions. They can be combined. */
 enum {
   HF_PAIR_ANCHOR = 1,       /* the target's region follows the scaled path of the source's (feet, trunk) */
   HF_PAIR_FOOT = 2,         /* an anchor that also stands on the ground, and whose leg gives the scale */
@@ -86,7 +86,7 @@ typedef struct hf_pair_info {
  * `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_pair(hf_transfer transfer, uint32_t pair, hf_pair_info* out_info);
 
-/* The transfer as a whole. */
+/* hf_transfer_get_info writes counts and the scale of a transfer here. */
 typedef struct hf_transfer_info {
   uint32_t struct_size;
   uint32_t pair_count;
@@ -102,8 +102,8 @@ typedef struct hf_transfer_info {
  * does. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_info(hf_transfer transfer, hf_transfer_info* out_info);
 
-/* One frame: the posed source in, the posed target out. Set source_positions or source_positions_f64, and at least one
- * output. Strides are in bytes; 0 = packed. */
+/* Describes one frame: the input is the posed source, the output the posed target. Set source_positions or
+ * source_positions_f64, and at least one output. Strides are in bytes; 0 = packed. */
 typedef struct hf_transfer_frame {
   uint32_t struct_size;
   uint32_t source_stride;

@@ -50,7 +50,7 @@ struct Batch {
   }
 };
 
-// How long a thread polls before it sleeps. A sleeping thread needs tens of microseconds to wake. A longer time would
+// A thread polls this long before it sleeps. A sleeping thread needs tens of microseconds to wake. A longer time would
 // keep a core from the host.
 constexpr std::chrono::microseconds spin_time{40};
 // Polls between two readings of the clock. No result depends on this number.

@@ -9,7 +9,7 @@
 namespace hf_inner {
 namespace {
 
-// Size of a large page on Linux. Reading a factor of 130 MB through pages of 4 KiB takes several times as long.
+// A large page has this size on Linux. Reading a factor of 130 MB through pages of 4 KiB takes several times as long.
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 // Smallest block that is aligned to large pages. In smaller blocks up to half of a large page would be wasted.
 constexpr std::size_t least_huge = 2 * huge_page;

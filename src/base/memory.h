@@ -48,8 +48,8 @@ std::shared_ptr<Memory> make_memory(const hf_allocator& hooks, std::uint64_t byt
 template <class T>
 using Vector = std::pmr::vector<T>;
 
-// std::make_shared with the block taken from `memory`. Use it for objects that do not own that Memory; see
-// make_owner_in.
+// Does the same as std::make_shared, but takes the block from `memory`. Use it for objects that do not own that Memory;
+// see make_owner_in.
 template <class T, class... Arguments>
 std::shared_ptr<T> make_shared_in(Memory& memory, Arguments&&... arguments) {
   return std::allocate_shared<T>(std::pmr::polymorphic_allocator<T>(&memory), std::forward<Arguments>(arguments)...);
@@ -77,7 +77,7 @@ struct OwningAllocator {
   std::shared_ptr<Memory> memory;
 };
 
-// std::make_shared for objects that own the Memory they lie in.
+// Does the same as std::make_shared, for objects that own the Memory they lie in.
 template <class T, class... Arguments>
 std::shared_ptr<T> make_owner_in(const std::shared_ptr<Memory>& memory, Arguments&&... arguments) {
   return std::allocate_shared<T>(OwningAllocator<T>(memory), std::forward<Arguments>(arguments)...);
@@ -112,7 +112,7 @@ class Buffer {
     release();
     memory_ = nullptr, data_ = const_cast<T*>(data), size_ = size;
   }
-  // Like allocate, but keeps the present block if it is large enough. The contents are not preserved.
+  // Makes room for `size` elements. It keeps the present block if that is large enough. The contents are not preserved.
   void reserve_at_least(Memory& memory, std::size_t size) {
     if (size > size_) allocate(memory, size);
   }
@@ -134,7 +134,7 @@ class Buffer {
   const T* begin() const noexcept { return data_; }
   const T* end() const noexcept { return data_ + size_; }
 
-  // Alignment in bytes: one cache line, and the size of the widest vector register.
+  // The alignment in bytes is one cache line, which is also the size of the widest vector register.
   static constexpr std::size_t alignment = 64;
   // Largest number of bytes of a buffer. The limit keeps size * sizeof(T) from overflowing.
   static constexpr std::size_t most_bytes = static_cast<std::size_t>(-1) / 16;

@@ -7,8 +7,8 @@
 
 namespace hf_inner {
 
-// Both triangles of a symmetric n x n matrix, compressed by columns. Every column has its diagonal entry, and row
-// indices ascend in a column. column_start has n + 1 entries. The matrix has fewer than 2^31 entries.
+// Stores both triangles of a symmetric n x n matrix, compressed by columns. Every column has its diagonal entry, and
+// row indices ascend in a column. column_start has n + 1 entries. The matrix has fewer than 2^31 entries.
 struct SymmetricMatrix {
   explicit SymmetricMatrix(Memory& memory) : column_start(&memory), row(&memory), value(&memory) {}
   std::int32_t size() const noexcept {

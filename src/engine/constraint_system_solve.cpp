@@ -6,8 +6,8 @@
 namespace hf_inner {
 namespace {
 
-// Numbers that one job sets to zero. Half of it makes more jobs than threads need. Twice of it leaves threads idle on
-// small meshes.
+// Number of array entries that one job sets to zero. Half this number makes more jobs than threads need. Twice this
+// number leaves threads idle on small meshes.
 constexpr std::size_t clear_piece = 16384;
 
 }  // namespace

@@ -14,7 +14,7 @@ struct ConstraintState {
   static Index free_row(Index base_index) noexcept { return -2 - base_index; }
   static Index base_index(Index row) noexcept { return -2 - row; }
 
-  // Position of the elimination path of a row.
+  // Says where the elimination path of a row is: in which group of paths, and in which column of the group.
   struct Path {
     Index group = -1, column = -1;
   };

@@ -69,7 +69,7 @@ SymmetricMatrix grounded(const Core& core);
 // Returns the hash of A, by which a saved factor recognises its mesh. It covers the pattern and the numbers of K, and
 // the pinned vertices with their weights.
 std::uint64_t grounded_hash(const Core& core);
-// Returns the coordinates of the inner vertices in the format that the ordering needs.
+// Returns the coordinates of the welded vertices in the format that the ordering needs.
 Vector<float> ordering_coordinates(const Mesh& mesh, Memory& memory);
 
 }  // namespace hf_inner

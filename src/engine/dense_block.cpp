@@ -180,7 +180,8 @@ void DenseBlock::append(std::int32_t id, const double* values, bool positive, co
 
 std::int32_t DenseBlock::factorise_signed() {
   const std::int32_t k = count();
-  // Processes four rows at a time on a fixed grid. `scaled` holds l_i Sigma of these rows.
+  // Processes four rows at a time on a fixed grid. The array `scaled` holds these rows of L, multiplied by the signs
+  // Sigma.
   Vector<double> scaled(static_cast<std::size_t>(tile) * static_cast<std::size_t>(k), 0.0, memory_);
   double dots[tile * tile];
   while (valid_ < k) {
@@ -219,9 +220,9 @@ std::int32_t DenseBlock::factorise_signed() {
   return -1;
 }
 
-// Factorises the block with the dense kernels of the sparse factor. They see one dense triangle of k columns (a front
-// without rows below it). Rows of L that are up to date are copied into it. Every number is one chain of operations in
-// column order, so its bits do not depend on which rows were present before.
+// Factorises the block with the dense kernels of the sparse factor. The kernels work on one dense triangle of k
+// columns, a front without rows below it. Rows of L that are up to date are copied into it. Every number is one chain
+// of operations in column order, so its bits do not depend on which rows were present before.
 std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
   const Kernels& kernels = choose_kernels();
   const std::int32_t k = count(), done = valid_ / 8 * 8, tiles = (k + 7) / 8;

@@ -40,14 +40,14 @@ class DenseBlock {
   // Appends a row to the matrix M. The entry row[j] is M(new, j) for the present rows j, and row[count] is M(new, new).
   // The array `border` is the new row of the border N; null stands for ones. Call factorise() afterwards.
   void append(std::int32_t id, const double* row, bool positive = true, const double* border = nullptr);
-  // Brings L up to date. Returns -1, or the row whose pivot failed. The site of that row depends linearly on earlier
-  // sites.
+  // Factorises the rows that L does not have yet. Returns -1, or the row whose pivot failed. The site of that row
+  // depends linearly on earlier sites.
   std::int32_t factorise(JobRunner& jobs);
 
   // Replaces x by M^-1 x, with x[i * channels + c].
   void solve(double* x, std::int32_t channels) const noexcept;
-  // Same as solve, with the border. All signs must be positive. total: one number per channel for a border of one; null
-  // stands for zeros. Writes nu[p * channels + c].
+  // Solves with the matrix M and its border N, C. All signs must be positive. total: one number per channel for a
+  // border of one; null stands for zeros. Writes nu[p * channels + c].
   void solve_bordered(double* x, std::int32_t channels, const double* total, double* nu) const noexcept;
   std::size_t border() const noexcept { return border_; }
   // Returns the smallest ratio of a pivot to its diagonal entry, for a factorised block. Crowded points have a small

@@ -10,7 +10,7 @@ namespace hf_inner {
 namespace {
 
 // A row depends on others if less than this share of its length remains orthogonal to them. Rounding leaves 1e-15. A
-// larger number would refuse points that are closer to a line through others.
+// larger number would refuse points that lie close to, but not on, a line through other sites.
 constexpr double dependence = 1e-9;
 
 struct Corner {

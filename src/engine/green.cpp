@@ -5,8 +5,8 @@
 namespace hf_inner {
 namespace {
 
-// Rows of one job. Half of it costs more calls than it gains. Twice of it leaves threads idle on meshes of 50,000
-// vertices.
+// Number of rows that one job takes. Half this number costs more calls than it gains. Twice this number leaves threads
+// idle on meshes of 50,000 vertices.
 constexpr std::size_t piece = 16384;
 // If the smallest pivot ratio of a dense block is below this number, the dense solve may keep fewer than ten digits.
 // The field then takes one refinement step with the true operator, which costs two sweeps more. A larger number would

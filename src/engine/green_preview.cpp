@@ -1,4 +1,5 @@
-// Previews: computes the field with a single-precision copy of the factor. A sweep then reads half the bytes.
+// Previews: computes the field with a single-precision copy of the factor. A sweep then reads half the bytes of a sweep
+// in double precision.
 //
 // The dense part and the paths are in double, and the backward sweep is in single precision. The error is about 1e-6 of
 // the range of the site values. A correction (green_refine.cpp) computes the residuals r and g of the present field and

@@ -28,14 +28,15 @@ struct Site {
   }
 };
 
-// Slots to empty and slots to fill. A slot is the number of a site. A slot in both lists means that its site moves.
+// Lists the slots to empty and the slots to fill. A slot is the number of a site. A slot in both lists means that its
+// site moves.
 struct SiteEdit {
   Span<const Index> remove;
   Span<const Index> add;
   Span<const Site> sites;  // for `add`, in its order
 };
 
-// How the last edit of sites was carried out.
+// The route says how the last edit of sites was carried out.
 enum class EditRoute : std::int32_t {
   none = 0,
   dense = 1,   // rows of the dense system came and went

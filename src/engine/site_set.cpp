@@ -11,10 +11,11 @@
 namespace hf_inner {
 namespace {
 
-// Largest size of a site value. Larger values times weights of up to 1e12 could give fluxes that are not finite.
+// Site values may be at most this large. Larger values times weights of up to 1e12 could give fluxes that are not
+// finite.
 constexpr double most = 1e200;
-// How far the sum of barycentric weights may be from 1. Weights in single precision stay within it. A larger number
-// would hide wrong weights.
+// The sum of barycentric weights may differ from 1 by this much. Weights in single precision stay within it. A larger
+// number would hide wrong weights.
 constexpr double weight_sum_error = 1e-6;
 // A point whose weight at a corner exceeds 1 minus this number becomes that vertex. A larger number would move points
 // that the host placed near a corner.

@@ -26,7 +26,7 @@ struct EngineCounters {
   double bytes = 0;
 };
 
-// How accurate a preview is.
+// The accuracy of a preview.
 struct PreviewInfo {
   bool exact = false;             // solve gave the answer, without single precision
   std::int32_t corrections = 0;   // made
@@ -36,7 +36,7 @@ struct PreviewInfo {
   double bytes = 0;               // size of the single-precision copy
 };
 
-// Receives a block of channels of a field from the engine. The channels are first .. first + count - 1. Inner vertex v
+// Receives a block of channels of a field from the engine. The channels are first .. first + count - 1. Welded vertex v
 // is at z[row[v] * count], or at z[v * count] if row is null.
 class FieldSink {
  public:
@@ -54,7 +54,7 @@ class SiteSolver {
   // if a new site depends linearly on the present hard sites.
   virtual void edit(const SiteEdit& edit) = 0;
 
-  // Solves for the field of every inner vertex: field[vertex * channels + c]. values: values[slot * channels + c] for
+  // Solves for the field of every welded vertex: field[vertex * channels + c]. values: values[slot * channels + c] for
   // every slot in use. Vertices of components without a site get 0. Hard vertex sites get their values exactly. flux:
   // null, or room for slot_count() rows; free slots get a row too. Const functions may run at the same time on one
   // engine.
@@ -63,7 +63,8 @@ class SiteSolver {
   // Solves for the same field and passes it to the sink without an extra copy.
   virtual void solve_into(const double* values, std::int32_t channels, FieldSink& sink) const = 0;
 
-  // Solves for the field at chosen inner vertices. The engine green needs only the elimination paths of these vertices.
+  // Solves for the field at chosen welded vertices. The engine green needs only the elimination paths of these
+  // vertices.
   virtual void solve_at(const double* values, std::int32_t channels, Span<const std::int32_t> vertices,
                         double* out) const = 0;
 

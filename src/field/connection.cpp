@@ -33,7 +33,7 @@ struct Corner {
   double angle;
 };
 
-// How the triangles around a vertex lie: whether they form one regular fan, whether it is closed, and its angle scale.
+// The triangles around a vertex: whether they form one regular fan, whether it is closed, and the scale of its angles.
 struct Fan {
   bool regular = false, closed = false;
   double scale = 1;

@@ -9,8 +9,8 @@
 // straight line seen from both ends i and j. So a direction that is carried from i to j turns by angle_j(j -> i) + pi -
 // angle_i(i -> j). The curvature of a triangle is the sum of its scaled angles less pi. Over a closed surface the
 // curvatures sum to 2 pi times the Euler characteristic. The frames are turned in space so that these angles fit the
-// projected edges best. This does not depend on the numbering. At irregular vertices (non-manifold, flipped) a
-// direction is carried by the smallest rotation from vertex normal to vertex normal.
+// projected edges best. The frames do not depend on the vertex numbering. At irregular vertices (non-manifold, flipped)
+// a direction is carried by the smallest rotation from vertex normal to vertex normal.
 //
 // Cost: O(n log valence).
 #pragma once

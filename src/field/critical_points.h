@@ -32,7 +32,7 @@ struct CriticalPoints {
   std::int32_t euler_characteristic = 0;  // of the part of the mesh that has values
 };
 
-// field: one value per inner vertex. NaN means no value; such a vertex and its edges and triangles are left out.
+// field: one value per welded vertex. NaN means no value; such a vertex and its edges and triangles are left out.
 CriticalPoints find_critical_points(const Mesh& mesh, const Topology& topology, Span<const double> field,
                                     Memory& memory);
 

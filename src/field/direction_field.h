@@ -56,7 +56,7 @@ class DirectionField {
   Span<const DirectionConstraint> constraints() const noexcept { return constraints_; }
   const DirectionSolver& solver() const noexcept { return solver_; }
 
-  // Computes the field of every inner vertex as a vector in space. Throws HF_ERROR_NO_SITES.
+  // Computes the field of every welded vertex as a vector in space. Throws HF_ERROR_NO_SITES.
   void solve(Vec3* out) const;
   Vector<Singularity> singularities() const;  // by triangle
 

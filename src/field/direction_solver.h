@@ -43,7 +43,7 @@ class DirectionSolver {
   void edit(const Edit& edit);
   // Moves the constrained vertices into the factor. Throws HF_ERROR_NO_SITES if there are none.
   void rebase() { constraints_.rebase(*core().jobs); }
-  // Computes z of every inner vertex, in its frame and raised to the degree. values: by slot, in the same form.
+  // Computes z of every welded vertex, in its frame and raised to the degree. values: by slot, in the same form.
   // Vertices of components without a constraint get 0.
   void solve(Span<const std::complex<double>> values, std::complex<double>* field) const;
 

@@ -69,8 +69,9 @@ void DirectionSystem::make_order() {
   for (Index v = 0; v < core->size(); ++v) order[at(position[at(v)])] = v;
 }
 
-// Writes the matrix in real 2 x 2 blocks. A diagonal block is w I, with w the sum of the weights of the vertex. The
-// block between neighbours is -w R, with R the rotation from the column's frame to the row's frame.
+// Writes the matrix in real 2 x 2 blocks. A diagonal block is the identity times the sum of the vertex's weights. The
+// block between two neighbours is -w R, with w the weight of their edge and R the rotation from the column's frame to
+// the row's frame.
 void DirectionSystem::make_matrix() {
   const Topology& topology = core->topology;
   const std::size_t n = at(core->size());

@@ -1,8 +1,8 @@
 // Computes the unit direction of falling heat on every triangle, weighted and summed over the channels.
 //
 // An average distance (Crane, Weischedel and Wardetzky 2013) spends most of its time in this loop. So the loop is also
-// compiled for four and for eight lanes. The compiler contracts nothing, and the channels are always summed in the same
-// order, so all versions give the same bits.
+// compiled for four and for eight lanes. The compiler never fuses a multiplication and an addition, and the channels
+// are always summed in the same order, so all versions give the same bits.
 #pragma once
 #include <cstdint>
 

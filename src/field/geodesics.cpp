@@ -12,8 +12,8 @@ namespace {
 
 constexpr Index group_size = 8;
 constexpr std::int64_t piece = 8192;  // triangles of one job
-// Least time step, as a length over the box diagonal. With less, the heat at the far end would be too small for a
-// double.
+// The least time step, as a length over the box diagonal. With a smaller step, the heat at the far end would be too
+// small for a double.
 constexpr double least_step = 1.0 / 250;
 // Least mass of a vertex, as a share of the mean mass. A vertex without area needs a positive diagonal.
 constexpr double least_mass = 1e-12;
@@ -84,8 +84,8 @@ void Geodesics::make_frames() {
 }
 
 // Sums the unit directions X of each triangle t over the channels, with weights. The result is added to sums[2 t] and
-// sums[2 t + 1], in the frame of the triangle. The array `heat` is [row * channels + c], with rows in factor order. The
-// array `weights` is [component * channels + c].
+// sums[2 t + 1], in the frame of the triangle. The array `heat` has the index row * channels + c, with rows in factor
+// order. The array `weights` has the index component * channels + c.
 void Geodesics::add_directions(const double* heat, Index channels, const double* weights, Vector<double>& sums) const {
   const DirectionSums job = {frames_.data(), heat, weights, channels, sums.data()};
   const std::int64_t count = static_cast<std::int64_t>(frames_.size());
@@ -94,8 +94,9 @@ void Geodesics::add_directions(const double* heat, Index channels, const double*
   });
 }
 
-// Solves K d = b. b_i sums area grad(hat_i) . X over the triangles at vertex i, where hat_i is the hat function of i.
-// This is the product (n x e_i) . X / 2, with n the normal and e_i the edge opposite to i.
+// Solves K d = b for the distance d. The entry b_i is a sum over the triangles at vertex i. Each triangle adds the dot
+// product of X and n x e_i, divided by 2. Here X is the unit direction in the triangle, n its normal, and e_i its edge
+// opposite to i.
 void Geodesics::integrate(const Vector<double>& sums, double* out) const {
   const Factor& factor = *core_->factor;  // its rows are those of the heat: one ordering
   const Span<const Index> position = factor.position();
@@ -104,7 +105,7 @@ void Geodesics::integrate(const Vector<double>& sums, double* out) const {
   for (std::size_t t = 0; t < frames_.size(); ++t) {
     const TriangleFrame& f = frames_[t];
     const double x = 0.5 * sums[2 * t], y = 0.5 * sums[2 * t + 1];
-    // Adds (n x e) . X / 2 to each corner, where e is the edge opposite to the corner.
+    // Adds to each corner half the dot product of X and n x e, where e is the edge opposite to the corner.
     z[at(f.row[0])] += -f.py * x + (f.px - f.along) * y;
     z[at(f.row[1])] += f.py * x - f.px * y;
     z[at(f.row[2])] += f.along * y;

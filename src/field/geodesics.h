@@ -28,7 +28,7 @@ class Geodesics {
   // Costs one numeric factorisation. Throws as require_laplacian does.
   Geodesics(std::shared_ptr<const Core> core, double smoothing);
 
-  // Computes the distance to the nearest source. The sources are at least one inner vertex. The unit is the box
+  // Computes the distance to the nearest source. The sources are at least one welded vertex. The unit is the box
   // diagonal. The distance is 0 at the sources, never negative, and -1 in components without a source.
   void distance(Span<const std::int32_t> sources, double* out) const;
 

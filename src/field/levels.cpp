@@ -91,7 +91,8 @@ void equal_areas(const Vector<Part>& parts, Span<double> out, Memory& memory) {
 constexpr double flat = 1e-9;
 // Number of cells of each kind: equal steps of the value, and quantiles. More cells cost time in proportion.
 constexpr std::size_t most = 2048;
-// Least height of a cell. Thinner cells would collect rounding errors, as values are exact to 1e-16 of the range.
+// A cell has at least this height. Thinner cells would collect rounding errors, as values are exact to 1e-16 of the
+// range.
 constexpr double least_cell = 1e-9;
 
 void equal_widths(const Vector<Part>& parts, Span<double> out, Memory& memory) {

@@ -17,7 +17,7 @@ struct Peak {
   std::int32_t saddle;  // where it meets a higher peak; Mesh::none for the highest of its component
 };
 
-// Returns every local maximum, by vertex. field: finite, one value per inner vertex.
+// Returns every local maximum, by vertex. field: finite, one value per welded vertex.
 Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memory& memory);
 
 }  // namespace hf_inner

@@ -52,7 +52,7 @@ class ScalarField {
   const SiteSet& sites() const noexcept { return sites_; }
   const SiteSolver& engine() const noexcept { return *engine_; }
 
-  // Solve functions; they throw HF_ERROR_NO_SITES if the field has no site. field: inner vertex * channels + c.
+  // Solve functions; they throw HF_ERROR_NO_SITES if the field has no site. field: welded vertex * channels + c.
   void solve(double* field) const;
   void solve_into(FieldSink& sink) const;
   PreviewInfo solve_preview(std::int32_t corrections, double* field) const;

@@ -20,8 +20,9 @@ struct Patches {
   Vector<double> length;           // to each neighbour
 };
 
-// Most vertices of a patch, and least number of patches for each sample. Larger patches make fewer searches and coarser
-// samples. More patches for each sample make finer samples, and more components are searched vertex by vertex.
+// A patch has at most patch_size vertices. Patches are used if each sample gets at least patches_per_sample of them.
+// Larger patches make fewer searches and coarser samples. More patches per sample make finer samples, and more
+// components are searched vertex by vertex.
 constexpr Index patch_size = 24, patches_per_sample = 16;
 
 // Grows the patch of the vertex list[begin] by two edges, over vertices without a patch, and appends them to `list`.

@@ -5,7 +5,7 @@
 
 namespace hf_inner {
 
-// Returns the unit area-weighted normals of the inner vertices. A normal is zero where the triangles around it cancel
+// Returns the unit area-weighted normals of the welded vertices. A normal is zero where the triangles around it cancel
 // out.
 Vector<Vec3> vertex_normals(const Mesh& mesh, Memory& memory);
 

@@ -9,7 +9,7 @@
 namespace hf_inner {
 namespace {
 
-// Columns of one job. No result depends on this number.
+// Number of columns that one job takes. No result depends on this number.
 constexpr std::size_t columns_piece = 8192;
 // Strips that make columns at the same time. Each strip has a scratch row as long as the mesh, so more strips use more
 // memory and more threads. No result depends on this number.

@@ -3,7 +3,8 @@
 //
 //     K = L M^-1 L     M = lumped vertex areas, with mean 1 in every component (Botsch and Kobbelt 2004).
 //                      The field is the same at any scale of the mesh.
-//     K = L^2          M = 1 (Xu, Zhang, Cohen-Or and Xiong 2009, Section 3.2). The field depends on the sampling.
+//     K = L^2          M = 1 (Xu, Zhang, Cohen-Or and Xiong 2009, Section 3.2). The field depends on how densely the
+//     mesh is sampled.
 //
 // K connects every vertex with the vertices within two edges, so it has about 3.4 times the entries of L. Compute its
 // fill-reducing ordering on this graph. Each diagonal entry is minus the sum of the other entries of its column, so K

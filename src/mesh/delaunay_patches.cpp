@@ -11,7 +11,7 @@
 namespace hf_inner {
 namespace {
 
-// Triangles or edges of one job. No result depends on this number.
+// Number of triangles or edges that one job takes. No result depends on this number.
 constexpr std::size_t patch_piece = 16384;
 // Least length in a division, so that triangles with three equal positions do not divide by zero.
 constexpr double least_length = 1e-300;
@@ -25,7 +25,8 @@ constexpr int patch_rings = 2;
 constexpr std::size_t patch_share = 4;
 // An edge is not Delaunay if its weight, half of a sum of two cotangents, is below minus this number.
 constexpr double rounding = 0.5 * delaunay_rounding;
-// Twice the margin of MollifiedLengths. Rounding then never hides a triangle that MollifiedLengths would change.
+// This is twice the margin of MollifiedLengths. Rounding then never hides a triangle that MollifiedLengths would
+// change.
 constexpr double safe_closing = 2 * mollify_closing;
 
 std::uint32_t pieces_of(std::size_t count) noexcept {

@@ -11,10 +11,10 @@
 namespace hf_inner {
 namespace {
 
-// How far beyond the radius a vertex may lie, in mean edge lengths. It makes discs of one radius act alike on coarse
+// A vertex may lie this far beyond the radius, in mean edge lengths. It makes discs of one radius act alike on coarse
 // and fine meshes.
 constexpr double beyond = 0.3;
-// How far the front runs beyond the radius, in mean edge lengths. Distances behind obtuse corners need it.
+// The front runs this far beyond the radius, in mean edge lengths. Distances behind obtuse corners need it.
 constexpr double search_further = 2;
 // Least relative gain for which the front visits a vertex again. It is above rounding, so that the front ends.
 constexpr double least_gain = 1e-13;

@@ -20,8 +20,8 @@ struct DiscVertex {
 
 // Returns the vertices within `radius` of a point, sorted by distance. `radius` is in the unit of mesh.positions. The
 // point is sum_k weight[k] vertex[k] in one triangle; unused corners are -1. A vertex also counts as inside if it lies
-// beyond the radius by a small share of its mean edge length. So a site on the disc acts alike on coarse and fine
-// meshes.
+// beyond the radius by a small share of its mean edge length. So a site on the disc has the same effect on coarse and
+// fine meshes.
 Vector<DiscVertex> geodesic_disc(const Mesh& mesh, const Topology& topology, const std::int32_t vertex[3],
                                  const double weight[3], double radius, Memory& memory);
 

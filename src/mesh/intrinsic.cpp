@@ -11,13 +11,13 @@
 namespace hf_inner {
 namespace {
 
-// Triangles or edges of one job. No result depends on this number.
+// Number of triangles or edges that one job takes. No result depends on this number.
 constexpr std::size_t cover_piece = 16384;
 // Flips per half-edge before flip_to_delaunay gives up. The loop then ends whatever rounding does.
 constexpr std::uint64_t flips_per_half = 32;
 // Least sum of cotangents in a division, so that a flat face does not divide by zero.
 constexpr double least_sum = 1e-300;
-// Finished entries before they are removed from the queue. It bounds memory; no result depends on it.
+// The queue is trimmed when it starts with more finished entries than this. It bounds memory; no result depends on it.
 constexpr std::size_t least_trim = 65536;
 
 // One side of a triangle, which lies at an edge of the mesh.

@@ -8,7 +8,7 @@
 namespace hf_inner {
 namespace {
 
-// Triangles or edges of one job. No result depends on this number.
+// Number of triangles or edges that one job takes. No result depends on this number.
 constexpr std::size_t weights_piece = 32768;
 // Least margin b + c - a of a triangle in Kahan's formula, as a share of its longest edge a. It keeps the area
 // positive.

@@ -13,8 +13,8 @@ namespace hf_inner {
 
 enum class OperatorKind : std::int32_t { intrinsic_delaunay = 0, clamped = 1, uniform = 2, cotangent = 3 };
 
-// Which matrix K a field solves with, made of the Laplacian L and the vertex masses M (biharmonic.h): K = L, K = L M^-1
-// L, or K = L^2.
+// Selects the matrix K that a field solves with. K is made of the Laplacian L and the vertex masses M (biharmonic.h): K
+// = L, K = L M^-1 L, or K = L^2.
 enum class FieldKind : std::int32_t { harmonic = 0, biharmonic = 1, biharmonic_graph = 2 };
 
 // Computes the cotangents at the three corners of triangle t.

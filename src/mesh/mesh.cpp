@@ -19,12 +19,12 @@ using Index = std::int32_t;
 
 // Largest number of vertices or triangles: six half-edges or entries for each must fit 31 bits.
 constexpr std::uint32_t size_limit = 0x7fffffffu / 6;
-// Largest diagonal of a mesh. Sums of squares in inner coordinates must not overflow.
+// The diagonal of a mesh must be below this length. Sums of squares in inner coordinates must not overflow.
 constexpr double largest_scale = 1e300;
 // The report counts a triangle as zero-area if its area over the longest edge squared is below this number. Its height
 // is then below 2e-12 of that edge.
 constexpr double zero_area = 1e-12;
-// Triangles of one job. No result depends on this number.
+// Number of triangles that one job takes. No result depends on this number.
 constexpr std::size_t report_piece = 65536;
 
 void check_sizes(const MeshInput& input) {

@@ -8,9 +8,9 @@
 namespace hf_inner {
 namespace {
 
-// Triangles or edges of one job. No result depends on this number.
+// Number of triangles or edges that one job takes. No result depends on this number.
 constexpr std::size_t mollify_piece = 16384;
-// Rounds of local lengthening before every edge is lengthened.
+// Most rounds that lengthen edges of single triangles. After them, one length is added to every edge.
 constexpr int most_rounds = 64;
 // Factor by which an edge grows more than needed, so that rounding does not leave the triangle open.
 constexpr double overshoot = 1.0001;

@@ -1,11 +1,11 @@
 // Lengthens edges until every triangle fulfils the triangle inequality with a margin.
 //
-// For edge lengths a >= b >= c, the margin is b + c - a >= mollify_closing a. For this, a counts as at least
-// mollify_floor of the mean edge length. In one round, every triangle that violates the margin lengthens each of its
-// two shorter edges by half of the missing length. This may open a neighbouring triangle, so the rounds repeat. After
-// the last round, one length added to every edge closes the triangles that are left (Sharp and Crane 2020, Section
-// 4.5). The result does not depend on the numbering. Cost: O(n) for each round. A mesh without thin triangles needs one
-// round.
+// For edge lengths a >= b >= c, the margin is b + c - a >= mollify_closing a. If the edge a is shorter than
+// mollify_floor mean edges, that length replaces a on the right. In one round, every triangle that violates the margin
+// lengthens each of its two shorter edges by half of the missing length. This may open a neighbouring triangle, so the
+// rounds repeat. After the last round, one length added to every edge closes the triangles that are left (Sharp and
+// Crane 2020, Section 4.5). The result does not depend on the numbering. Cost: O(n) for each round. A mesh without thin
+// triangles needs one round.
 #pragma once
 #include "mesh/topology.h"
 

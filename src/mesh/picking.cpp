@@ -15,8 +15,8 @@ constexpr std::size_t piece = 16384;  // triangles or vertices of a job: some 0.
 
 std::uint32_t pieces_of(std::size_t count) { return static_cast<std::uint32_t>((count + piece - 1) / piece); }
 
-// Positions of inner vertices in the frame of the search. At rest that is the inner frame, when posed the caller's
-// frame.
+// Gives the positions of welded vertices in the frame of the search. For a surface at rest this is the library's
+// centred and scaled frame. For a posed surface it is the caller's frame.
 class Places {
  public:
   explicit Places(const PickTarget& target) noexcept : mesh_(target.mesh), posed_(target.posed) {}
@@ -40,7 +40,7 @@ class Places {
   const ConstRows posed_;
 };
 
-// A shear of space after which the ray runs along the last axis.
+// Shears space so that the ray runs along the last axis.
 struct Shear {
   Shear(Vec3 origin, Vec3 direction) noexcept : from(origin) {
     const std::array<double, 3> d = {direction.x, direction.y, direction.z};

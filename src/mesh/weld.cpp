@@ -12,7 +12,7 @@ namespace {
 
 using Index = std::int32_t;
 
-// Slots of the smallest hash table. The table doubles until it has two slots per vertex.
+// The hash table starts with this many slots. The table doubles until it has two slots per vertex.
 constexpr std::size_t first_slots = 64;
 // Probes of the hash table before sorting replaces it. A half-full table needs about 1.5 probes per vertex. Positions
 // that are constructed to collide need up to n probes per vertex.
