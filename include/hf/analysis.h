@@ -31,10 +31,10 @@ enum {
   HF_LEVELS_LENGTH = 2 /* equal mean widths: the width of a strip is its area over the mean length of its lines */
 };
 
-/* Writes level_count levels (1 to 1,000,000), ascending. HF_LEVELS_AREA makes all strips between two levels equal in
- * area. HF_LEVELS_LENGTH makes the mean widths of the strips equal. So rings around point sites are evenly spaced,
- * where equal steps of the value would crowd them. HF_LEVELS_LENGTH leaves out the parts where the field is flat to
- * 1e-9 of its range.
+/* Writes level_count levels (1 to 1,000,000), ascending. HF_LEVELS_AREA makes all strips equal in area.
+ * HF_LEVELS_LENGTH makes the mean widths of the strips equal. So rings around point sites are evenly spaced, where
+ * equal steps of the value would crowd them. HF_LEVELS_LENGTH leaves out the parts where the field is flat to 1e-9 of
+ * its range.
  *
  * In formulas, A(c) is the area where the field is below c, and L(c) is the length of the iso-line of level c. Both are
  * exact for the piecewise linear field. HF_LEVELS_AREA takes equal steps of A. HF_LEVELS_LENGTH takes equal steps of
@@ -66,11 +66,11 @@ typedef struct hf_isolines {
 
 /* Traces the iso-lines of level_count levels. The levels must be finite and can have any order; the lines come in the
  * order of the levels. A vertex whose value equals a level counts as just above it, so lines have no gaps. A line
- * either closes or ends. It ends at a border, at a triangle without values or at a non-manifold edge. At a non-manifold
- * edge the triangles are taken in pairs. The function leaves out lines of length zero. Seen from outside a consistently
- * oriented mesh, the field is higher on the left of a line. Cost: O(edges log levels + points). Errors:
- * HF_ERROR_NON_FINITE (index = vertex, or position in levels), HF_ERROR_TOO_LARGE (2^32 points). Thread safety: reads
- * `surface`. Since 0.1. */
+ * either closes or ends. It ends at a border, at a triangle without values or at a non-manifold edge. A line continues
+ * through a non-manifold edge where that edge's triangles form a pair, and ends at a triangle without a partner. The
+ * function leaves out lines of length zero. Seen from outside a consistently oriented mesh, the field is higher on the
+ * left of a line. Cost: O(edges log levels + points). Errors: HF_ERROR_NON_FINITE (index = vertex, or position in
+ * levels), HF_ERROR_TOO_LARGE (2^32 points). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_trace_isolines(hf_surface surface, const hf_scalars* field, uint32_t level_count,
                                            const double* levels, hf_isolines* inout_lines);
 

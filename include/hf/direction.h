@@ -3,7 +3,7 @@
  * The field minimises the sum of w_ij |z_j - r_ij z_i|^2 over the edges ij (Knoeppel, Crane, Pinkall and Schroeder
  * 2013). z_i is the vector in the tangent plane of vertex i. r_ij turns it into the tangent plane of j (discrete
  * Levi-Civita connection). w_ij are the clamped cotangent weights. The field has the length of the constraint vectors
- * at the constraints. Nothing fixes its length between them, and its length is 0 at singularities.
+ * at the constraints. Nothing fixes its length between them, and its length is 0 at singularities. The function
  * hf_solver_solve_vectors computes the simpler vector fields of Xu, Zhang, Cohen-Or and Xiong (2009). */
 #ifndef HF_DIRECTION_H
 #define HF_DIRECTION_H
@@ -35,8 +35,8 @@ HF_API hf_result hf_direction_create(hf_surface surface, const hf_direction_desc
  * copy costs the constraints only. Sets *out_direction to NULL first. Thread safety: reads `direction`. Since 0.1. */
 HF_API hf_result hf_direction_clone(hf_direction direction, hf_direction* out_direction);
 
-/* Destroys a direction field. Ignores NULL and destroyed handles. Thread safety: waits for a call under way on another
- * thread. Since 0.1. */
+/* Destroys a direction field. Ignores NULL and destroyed handles. Thread safety: a call under way on another thread
+ * ends first; it keeps the object alive. Since 0.1. */
 HF_API void hf_direction_destroy(hf_direction direction);
 
 /* Adds constraints: vectors at vertices. The function projects the vectors on the tangent planes. Each constraint costs

@@ -97,8 +97,8 @@ HF_API hf_result hf_pose_add_handles(hf_pose pose, const hf_handles_desc* handle
 HF_API hf_result hf_pose_add_handle_at(hf_pose pose, const double* point, double radius, uint32_t* out_handle);
 
 /* Removes handles by number: uint32_t[handle_count]. A handle on a higher layer takes its edit with it: the surface is
- * then, bit for bit, as if the handle had never been added. On layer 0 this holds only when you remove the handles that
- * were added last. Errors: HF_ERROR_NO_SUCH_HANDLE. Thread safety: changes `pose`. Since 0.1. */
+ * then, bit for bit, as if the handle had never been added. On layer 0 this holds when you remove the handles that were
+ * added last. Errors: HF_ERROR_NO_SUCH_HANDLE. Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_remove_handles(hf_pose pose, uint32_t handle_count, const uint32_t* handles);
 
 /* A rigid motion of a handle from its rest place. It takes a point p to rotation (p - centroid) + centroid +

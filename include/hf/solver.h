@@ -50,8 +50,8 @@ HF_API hf_result hf_create(hf_surface surface, const hf_solver_desc* desc, hf_so
  * 0.1. */
 HF_API hf_result hf_solver_clone(hf_solver solver, hf_solver* out_solver);
 
-/* Destroys a solver. Ignores NULL and destroyed handles. Thread safety: waits for a call under way on another thread.
- * Since 0.1. */
+/* Destroys a solver. Ignores NULL and destroyed handles. Thread safety: a call under way on another thread ends first;
+ * it keeps the object alive. Since 0.1. */
 HF_API void hf_solver_destroy(hf_solver solver);
 
 /* hf_solver_get_info writes the options of a solver here, with defaults filled in, and the number of its sites. */
@@ -167,7 +167,7 @@ typedef struct hf_solve_info {
   uint32_t unreached_vertex_count;    /* given vertices in them, isolated ones included */
 } hf_solve_info;
 
-/* Solves for the field at every vertex as given. out_values: float[vertex_count] rows of channel_count values,
+/* Solves for the field at every vertex of your mesh. out_values: float[vertex_count] rows of channel_count values,
  * value_stride bytes apart (0 = packed). The field is 0 on components without a site; out_info counts them, or is NULL.
  * Hard sites hold their values exactly. Cost: one backward sweep through the factor, or three sweeps for bi-harmonic
  * fields. Errors: HF_ERROR_NO_SITES. Thread safety: reads `solver`. Since 0.1. */

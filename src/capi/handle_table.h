@@ -28,8 +28,8 @@ enum class Kind : std::uint32_t {
 };
 
 // The object that a handle stands for. Several calls may read it at once; a call that changes it must be alone. No call
-// waits for another. A call that overlaps a change returns HF_ERROR_BUSY. If it comes from a callback of that change,
-// it returns HF_ERROR_REENTRANT.
+// waits for another. A call that cannot start because of another call returns HF_ERROR_BUSY. If it comes from a
+// callback of that other call, it returns HF_ERROR_REENTRANT.
 class Object {
  public:
   explicit Object(Kind kind) noexcept : kind_(kind) {}

@@ -98,8 +98,8 @@ class ConstraintSystem {
   // Computes the mean site value of every component and channel. A solve first subtracts this mean, so that a large
   // common offset costs no digits. The mean is zero for direction fields, where K does not map constants to zero.
   void find_centres(const double* values, Index channels, Index first, Index count, Answer& answer) const;
-  // Solves the dense system for `answer`; call find_centres first. z: the vector g of the eliminated sites, or null
-  // without a rebase.
+  // Solves the dense system for `answer`; call find_centres first. The array z holds the forward sweep g of the values
+  // of eliminated sites (see the top of this file). It is null without a rebase.
   void solve_dense(const double* values, Index channels, Index first, Index count, const double* z,
                    Answer& answer) const;
   // Three steps of a solve, for callers with a right-hand side of their own (green_refine.cpp). The first step,

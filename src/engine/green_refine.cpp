@@ -6,7 +6,7 @@
 //     K du - W dlambda = r,    W'du + D dlambda = g
 //
 // The residual uses differences of u, so a large constant in u costs no digits. The change is solved as a field with an
-// extra source y = G^-1 P r. a is the constant of each component:
+// extra source y = G^-1 P r. The constant of each component is a:
 //
 //     S dlambda + a 1 = g - Y'y,   1'dlambda = -1'r,   du = P' G^-T (y + Y dlambda) + a
 //

@@ -9,9 +9,9 @@
 namespace hf_inner {
 
 // Returns, for each component, whether its block of the pinned matrix A has a failed pivot or one near to failing.
-// Without these components the whole matrix can be factorised. The test asks a little more of a pivot, because the
-// whole matrix has another ordering. The result is deterministic. Throws what a factorisation throws, except for a
-// failed pivot.
+// Without these components the whole matrix can be factorised. The test asks more of a pivot than a factorisation,
+// because the whole matrix has another ordering. The result is deterministic. Throws what a factorisation throws,
+// except for a failed pivot.
 Vector<std::uint8_t> lost_components(const Core& core, const FactorOptions& options);
 
 }  // namespace hf_inner

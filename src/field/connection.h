@@ -5,12 +5,12 @@
 // direction turns, relative to these frames, when it is carried along the edge.
 //
 // A vertex is regular when its triangles form one fan of one orientation. There, the angle of an edge is the sum of the
-// corner angles before it. If the fan is closed, the angles are scaled to a full turn of 2 pi. An edge is the same
-// straight line seen from both ends i and j. So a direction that is carried from i to j turns by angle_j(j -> i) + pi -
-// angle_i(i -> j). The curvature of a triangle is the sum of its scaled angles less pi. Over a closed surface the
-// curvatures sum to 2 pi times the Euler characteristic. The frames are turned in space so that these angles fit the
-// projected edges best. The frames do not depend on the vertex numbering. At irregular vertices (non-manifold, flipped)
-// a direction is carried by the smallest rotation from vertex normal to vertex normal.
+// corner angles between a first edge and this edge. If the fan is closed, the angles are scaled to a full turn of 2 pi.
+// An edge is the same straight line seen from both ends i and j. So a direction that is carried from i to j turns by
+// angle_j(j -> i) + pi - angle_i(i -> j). The curvature of a triangle is the sum of its scaled angles less pi. Over a
+// closed surface the curvatures sum to 2 pi times the Euler characteristic. The frames are turned in space so that
+// these angles fit the projected edges best. The frames do not depend on the vertex numbering. At irregular vertices
+// (non-manifold, flipped) a direction is carried by the smallest rotation from vertex normal to vertex normal.
 //
 // Cost: O(n log valence).
 #pragma once

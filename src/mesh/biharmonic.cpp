@@ -14,8 +14,8 @@ constexpr std::size_t columns_piece = 8192;
 // Strips that make columns at the same time. Each strip has a scratch row as long as the mesh, so more strips use more
 // memory and more threads. No result depends on this number.
 constexpr std::size_t most_strips = 8;
-// Least mass of a vertex, as a share of the mean mass of its component. It bounds the condition of K where triangles
-// have no area.
+// Least mass of a vertex, as a share of the mean mass of its component. It bounds the condition number of K where
+// triangles have no area.
 constexpr double least_mass = 1e-4;
 
 // The columns of K that one piece computes. They are kept until the lengths of all columns are known.

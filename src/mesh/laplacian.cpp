@@ -18,7 +18,7 @@ constexpr double closing_gap = 1e-6;
 // A cross product keeps fewer than seven digits if twice the area over the longest edge squared is below this number.
 constexpr double least_area = 1e-9;
 // Least weight of the clamped operator, as a share of the median weight. Positive weights keep the field within its
-// site values. A smaller number would worsen the condition of the matrix.
+// site values. A smaller number would worsen the condition number of the matrix.
 constexpr double least_weight = 1e-3;
 
 // Calls work(begin, end) for fixed pieces of the range [0, count).

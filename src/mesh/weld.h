@@ -1,5 +1,5 @@
-// Joins vertices that lie at one place. Returns for each vertex of the caller the smallest vertex that it is joined
-// with.
+// Joins vertices that lie at one place. Returns for each vertex of the caller the vertex of lowest number that it is
+// joined with.
 //
 // Exact welding joins equal coordinates (+0 = -0). Tolerance welding joins vertices that are closer than the tolerance,
 // transitively. It sorts the vertices into grid cells as wide as the tolerance and searches at most 27 cells. Cost: O(n

@@ -130,7 +130,7 @@ class hf_error_detail(Structure):
 
 
 class hf_allocator(Structure):
-    """Your allocator, for a surface and everything made from it."""
+    """Your allocator, which serves a surface and everything made from it."""
     allocate: int
     release: int
     user: int
@@ -152,7 +152,7 @@ class hf_job_runner(Structure):
 
 
 class hf_factor_desc(Structure):
-    """A factor that hf_surface_save wrote, to be loaded instead of made."""
+    """A factor that hf_surface_save wrote."""
     struct_size: int
     borrow: int
     bytes: int
@@ -166,7 +166,7 @@ class hf_factor_desc(Structure):
 
 
 class hf_surface_desc(Structure):
-    """Set positions or positions_f64, and triangles or triangles_u16."""
+    """The mesh and the options of a surface."""
     struct_size: int
     vertex_count: int
     triangle_count: int
@@ -246,7 +246,7 @@ class hf_surface_info(Structure):
 
 
 class hf_surface_report(Structure):
-    """What was found in the mesh."""
+    """Counts of what the surface found in the mesh."""
     struct_size: int
     vertex_count: int
     triangle_count: int
@@ -282,7 +282,7 @@ class hf_surface_report(Structure):
 
 
 class hf_surface_statistics(Structure):
-    """Times in milliseconds, bytes as double (exact to 2^53)."""
+    """hf_surface_get_statistics writes sizes and times of a surface here."""
     struct_size: int
     unknown_count: int
     weld_ms: float
@@ -318,7 +318,7 @@ class hf_surface_statistics(Structure):
 
 
 class hf_pick_desc(Structure):
-    """Where the surface stands when it is picked, if not at rest."""
+    """Options of picking"""
     struct_size: int
     position_stride: int
     positions: int
@@ -336,7 +336,7 @@ class hf_pick_desc(Structure):
 
 
 class hf_hit(Structure):
-    """The first triangle on a ray."""
+    """hf_surface_cast_ray writes the first triangle that a ray hits here."""
     struct_size: int
     found: int
     triangle: int
@@ -356,7 +356,7 @@ class hf_hit(Structure):
 
 
 class hf_solver_desc(Structure):
-    """How sites act on the factor."""
+    """Selects how a solver applies its sites to the factor."""
     struct_size: int
     field_kind: int
     engine: int
@@ -378,7 +378,7 @@ class hf_solver_desc(Structure):
 
 
 class hf_solver_info(Structure):
-    """What a solver was made with, defaults filled in, and what it holds."""
+    """hf_solver_get_info writes the options of a solver here, with defaults filled in, and the number of its sites."""
     struct_size: int
     field_kind: int
     engine: int
@@ -424,7 +424,7 @@ class hf_sites_desc(Structure):
 
 
 class hf_edit_desc(Structure):
-    """One batch of edits, in the order remove, move, set, add."""
+    """One batch of edits, applied in the order remove, move, set, add."""
     struct_size: int
     remove_count: int
     remove_sites: int
@@ -450,7 +450,7 @@ class hf_edit_desc(Structure):
 
 
 class hf_sites_info(Structure):
-    """Where sites are and what they hold."""
+    """Places, values and fluxes of the sites."""
     struct_size: int
     capacity: int
     count: int
@@ -478,7 +478,7 @@ class hf_sites_info(Structure):
 
 
 class hf_solve_info(Structure):
-    """What the sites of a solve did not reach."""
+    """The components that the sites of a solve did not reach."""
     struct_size: int
     unreached_component_count: int
     first_unreached_component: int
@@ -492,7 +492,7 @@ class hf_solve_info(Structure):
 
 
 class hf_preview_info(Structure):
-    """What a preview reached."""
+    """Counts and errors of a preview."""
     struct_size: int
     exact: int
     correction_count: int
@@ -514,7 +514,7 @@ class hf_preview_info(Structure):
 
 
 class hf_certificate(Structure):
-    """Errors are relative to the range of the site values of the component and channel (to their size where all are equal)."""
+    """The certificate says how accurate a field is."""
     struct_size: int
     overshoot_checked: int
     tolerance: float
@@ -538,7 +538,7 @@ class hf_certificate(Structure):
 
 
 class hf_solver_statistics(Structure):
-    """What a solver holds and has done."""
+    """Counts, memory and cost estimates of a solver."""
     struct_size: int
     site_count: int
     factorisation_count: int
@@ -574,7 +574,7 @@ class hf_solver_statistics(Structure):
 
 
 class hf_scalars(Structure):
-    """A field with one value per vertex as given."""
+    """This struct passes a field with one value per vertex of your mesh."""
     struct_size: int
     value_stride: int
     values: int
@@ -666,7 +666,7 @@ class hf_geodesics_desc(Structure):
 
 
 class hf_extremities_desc(Structure):
-    """How tips are found"""
+    """Selects how hf_surface_find_extremities finds tips."""
     struct_size: int
     kind: int
     least_length: float
@@ -714,7 +714,7 @@ class hf_direction_desc(Structure):
 
 
 class hf_singularity(Structure):
-    """A triangle around which the field turns against the surface."""
+    """A singularity is a triangle around which the field makes extra turns."""
     triangle: int
     vertex: int
     index: int
@@ -726,7 +726,7 @@ class hf_singularity(Structure):
 
 
 class hf_direction_statistics(Structure):
-    """What a direction field was made with, and what it holds and has done."""
+    """The options a direction field was made with, and counts of its constraints and of the work done so far."""
     struct_size: int
     degree: int
     site_limit: int
@@ -762,7 +762,7 @@ class hf_direction_statistics(Structure):
 
 
 class hf_pose_desc(Structure):
-    """How vertices follow the handles."""
+    """Selects how vertices follow the handles."""
     struct_size: int
     mode: int
     band_count: int
@@ -780,7 +780,7 @@ class hf_pose_desc(Structure):
 
 
 class hf_pose_info(Structure):
-    """The options a pose was made with, defaults filled in, and what it holds."""
+    """hf_pose_get_info writes the options of a pose here, with defaults filled in, and the number of its handles."""
     struct_size: int
     mode: int
     band_count: int
@@ -802,7 +802,7 @@ class hf_pose_info(Structure):
 
 
 class hf_handles_desc(Structure):
-    """Handles to add"""
+    """The handles to add."""
     struct_size: int
     handle_count: int
     region_counts: int
@@ -824,7 +824,7 @@ class hf_handles_desc(Structure):
 
 
 class hf_transform(Structure):
-    """A rigid motion of a handle from its rest place"""
+    """A rigid motion of a handle from its rest place."""
     rotation: object
     translation: object
     _fields_ = [
@@ -834,7 +834,7 @@ class hf_transform(Structure):
 
 
 class hf_handle_info(Structure):
-    """What a handle is and where it stands."""
+    """hf_pose_get_handle writes the region of a handle here, its layer, and its motion in the last hf_deform."""
     struct_size: int
     vertex_count: int
     site_count: int
@@ -860,7 +860,7 @@ class hf_handle_info(Structure):
 
 
 class hf_deform_info(Structure):
-    """What a deform did."""
+    """Counts and times of a deform."""
     struct_size: int
     iteration_count: int
     cluster_count: int
@@ -884,7 +884,7 @@ class hf_deform_info(Structure):
 
 
 class hf_deform_desc(Structure):
-    """More ways to write a pose."""
+    """The options of hf_pose_deform are outputs, strides and a range of vertices."""
     struct_size: int
     position_stride: int
     positions: int
@@ -912,7 +912,7 @@ class hf_deform_desc(Structure):
 
 
 class hf_skin_info(Structure):
-    """A pose or a transfer as a skin for linear blend skinning"""
+    """This struct receives a pose or a transfer as a skin for linear blend skinning."""
     struct_size: int
     joint_capacity: int
     vertex_capacity: int
@@ -967,7 +967,7 @@ class hf_quads_desc(Structure):
 
 
 class hf_quads_info(Structure):
-    """What came out."""
+    """Counts of a quad mesh."""
     struct_size: int
     vertex_count: int
     face_count: int
@@ -997,7 +997,7 @@ class hf_quads_info(Structure):
 
 
 class hf_quads_mesh(Structure):
-    """Arrays are yours, NULL or as large as the capacities."""
+    """hf_quads_get_mesh writes the quad mesh to these arrays."""
     struct_size: int
     vertex_capacity: int
     face_capacity: int
@@ -1087,7 +1087,7 @@ class hf_region_desc(Structure):
 
 
 class hf_curve_desc(Structure):
-    """A closed curve"""
+    """Describes a closed curve through at least 3 points."""
     struct_size: int
     point_count: int
     vertices: int
@@ -1107,7 +1107,7 @@ class hf_curve_desc(Structure):
 
 
 class hf_region_edit_desc(Structure):
-    """A change of a region, in the order curve, rings, remove, add."""
+    """A change of a region."""
     struct_size: int
     ring_count: int
     curve: int
@@ -1129,7 +1129,7 @@ class hf_region_edit_desc(Structure):
 
 
 class hf_region_info(Structure):
-    """What a region is, and what its last edit did."""
+    """Counts and areas of a region and of its last edit."""
     struct_size: int
     field_kind: int
     vertex_count: int
@@ -1163,7 +1163,7 @@ class hf_region_info(Structure):
 
 
 class hf_morph_desc(Structure):
-    """Where hf_region_morph and hf_detail_morph write."""
+    """Gives hf_region_morph and hf_detail_morph their weight and outputs."""
     struct_size: int
     position_stride: int
     weight: float
@@ -1224,7 +1224,7 @@ class hf_transfer_desc(Structure):
 
 
 class hf_pairs_desc(Structure):
-    """Pairs to add"""
+    """The pairs to add."""
     struct_size: int
     pair_count: int
     source_counts: int
@@ -1265,7 +1265,7 @@ class hf_pair_info(Structure):
 
 
 class hf_transfer_info(Structure):
-    """The transfer as a whole."""
+    """hf_transfer_get_info writes counts and the scale of a transfer here."""
     struct_size: int
     pair_count: int
     cluster_count: int
@@ -1289,7 +1289,7 @@ class hf_transfer_info(Structure):
 
 
 class hf_transfer_frame(Structure):
-    """One frame."""
+    """Describes one frame"""
     struct_size: int
     source_stride: int
     source_positions: int
