@@ -295,7 +295,7 @@ HF_API hf_result hf_solver_redo(hf_solver solver);
 /* Moves the hard vertex sites into the factor in the background. It factorises once on the calling thread, while other
  * threads edit and solve with this solver. The next edit switches to the new factor. Fields before and after are the
  * same up to rounding. Call it on a thread of yours when hf_solver_statistics.rebase_advised is 1. An edit of very many
- * sites moves them by itself when that is quicker. Memory: one more factor while sites stay in it. Errors:
+ * sites moves them by itself when that is quicker. Memory: one more factor, for as long as sites are in it. Errors:
  * HF_ERROR_NO_SITES (no hard site at a vertex), HF_ERROR_UNSUPPORTED (other engines), HF_ERROR_BUSY (another thread is
  * in this call). Thread safety: can run during any other call on the same solver. Since 0.1. */
 HF_API hf_result hf_solver_prepare_rebase(hf_solver solver);

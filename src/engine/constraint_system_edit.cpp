@@ -135,8 +135,8 @@ void ConstraintEdit::place_sites(Vector<Row>& coming) {
   remove_rows(returning);
 }
 
-// Refuses a layout in which a component with eliminated vertices has no eliminated site left. Free values alone would
-// be a singular system.
+// Refuses a layout in which a component with eliminated vertices has no eliminated site left. If all its values were
+// free, the system would be singular.
 void ConstraintEdit::check_bases() const {
   if (!state_.base) return;
   Vector<std::uint8_t> in_force(state_.base->floating, &memory());

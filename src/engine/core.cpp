@@ -58,9 +58,9 @@ constexpr double tie_shares[] = {0, 1e-9, 1e-7};
 // Last resort for components that still cannot be factorised. Their weights are limited to a range of this factor
 // around their median, both ways, and so are the masses of bi-harmonic operators.
 constexpr double confined_spread = 1e4, confined_biharmonic_spread = 10;
-// Least share of its diagonal that a pivot of a second-order operator must keep. Fields lose about 2^-52 over that
-// share. A regular mesh of n vertices keeps at least 1 / n. A fourth-order operator keeps 1 / n^2 and has the default
-// limit.
+// Least share of its diagonal that a pivot of a second-order operator must keep. The relative error of a field is about
+// 2^-52 divided by that share. The pivots of a regular mesh of n vertices keep at least 1 / n. Those of a fourth-order
+// operator keep 1 / n^2, so it has the default limit.
 constexpr double harmonic_lost_share = 0x1p-31;
 
 // Builds K for the options, on the mesh's own edges or on the intrinsic Delaunay edges. The number `cap` is a position

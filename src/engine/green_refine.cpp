@@ -34,7 +34,8 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
   const auto u = [&](Index v) { return field + at(v) * stride + offset; };
   const auto r = [&](Index v) { return z + at(position[at(v)]) * m; };
 
-  // Writes -sum_j K_vj (u_j - u_v) to the residual r, by row of the factor.
+  // Writes the part of the residual r that comes from the operator K and the field u: -sum_j K_vj (u_j - u_v). The rows
+  // of r are in the order of the factor.
   for_ranges(*core_->jobs, n, piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       double* own = r(static_cast<Index>(v));

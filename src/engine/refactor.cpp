@@ -46,7 +46,8 @@ void RefactorSolver::edit(const SiteEdit& edit) {
   std::swap(state_.path, next.path);
 }
 
-// Returns true if a hard site depends linearly on others although no pivot failed, because rounding kept it positive.
+// Returns true if a hard site depends linearly on others although no pivot failed. Rounding can keep such a pivot
+// positive.
 bool RefactorSolver::crowded_out(const State& state, const DenseBlock& block) const {
   if (block.least_pivot() >= suspect_share) return false;
   Vector<HardSite> sites(core_->memory.get());

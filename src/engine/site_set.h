@@ -4,9 +4,9 @@
 // Undo keeps old copies. SiteDifference computes the edit that leads from one set to another.
 //
 // A site of finite radius means that u = s on a geodesic disc. For a second-order operator only the boundary vertices
-// of the disc are constrained, because the field inside is then constant. For a fourth-order operator all its vertices
-// are. The first constrained vertex has the slot of the site. The others have hidden slots, which only the engine uses.
-// No other site may use a vertex of the disc.
+// of the disc are constrained, because the field inside is then constant. For a fourth-order operator all vertices of
+// the disc are constrained. The first constrained vertex has the slot of the site. The others have hidden slots, which
+// only the engine uses. No other site may use a vertex of the disc.
 #pragma once
 #include <cstdint>
 

@@ -244,8 +244,8 @@ Vector<Singularity> DirectionField::singularities() const {
   const Core& core = solver_.core();
   const Connection& connection = solver_.connection();
   const Index n = solver_.degree();
-  // For each edge, how much more the field turns along it than the connection does. Seen from the other end, the number
-  // is the same with the opposite sign.
+  // Stores, for each edge, how much more the field turns along it than the connection does. Seen from the other end,
+  // the number is the same with the opposite sign.
   Vector<double> turn(at(core.topology.edge_count()), 0.0, &memory());
   for (Index e = 0; e < core.topology.edge_count(); ++e) {
     const Complex from = field[at(core.topology.first(e))], to = field[at(core.topology.second(e))];

@@ -71,7 +71,8 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
       engine_->edit(difference.edit());
     } catch (Error& error) {
       if (error.code() != HF_ERROR_CONFLICT || error.index() >= difference.add.size()) throw;
-      // The engine's error index counts in its own list of sites. Finds the position in the caller's list instead.
+      // The engine's error index is a position in its own list of sites. Finds the position in the caller's list
+      // instead.
       const std::size_t found = static_cast<std::size_t>(difference.add[error.index()]);
       const std::int32_t owner = next.slots()[found].owner;
       const std::uint32_t slot = static_cast<std::uint32_t>(owner >= 0 ? owner : difference.add[error.index()]);

@@ -16,7 +16,8 @@ namespace {
 constexpr double beyond = 0.3;
 // The front runs this far beyond the radius, in mean edge lengths. Distances behind obtuse corners need it.
 constexpr double search_further = 2;
-// Least relative gain for which the front visits a vertex again. It is above rounding, so that the front ends.
+// Least relative gain for which the front visits a vertex again. The number exceeds rounding errors, which could
+// otherwise keep the front running for ever.
 constexpr double least_gain = 1e-13;
 
 // Returns the distance of corner C from a source that has distance a from corner A and b from corner B. ab, ac and bc

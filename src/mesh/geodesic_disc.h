@@ -3,8 +3,8 @@
 // The method is fast marching with circular fronts (Kimmel and Sethian 1998; Novotni and Klein 2002). Two vertices with
 // known distances give the place of the source in the plane of their triangle. The distance of the third vertex is the
 // straight line from there if that line crosses the edge between the two. Otherwise it is the path along an edge. The
-// result is exact on surfaces that unfold to a plane, if no hole blocks a straight line. Elsewhere the error is of
-// second order. Cost: O(d log d) for d vertices in the disc, independent of the mesh size.
+// result is exact on surfaces that unfold to a plane, if no hole blocks a straight line. Elsewhere the error falls with
+// the square of the edge length. Cost: O(d log d) for d vertices in the disc, independent of the mesh size.
 #pragma once
 #include <cstdint>
 
