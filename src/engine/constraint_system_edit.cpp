@@ -135,8 +135,7 @@ void ConstraintEdit::place_sites(Vector<Row>& coming) {
   remove_rows(returning);
 }
 
-// Refuses a layout in which a component with eliminated vertices has no eliminated site left. If all its values were
-// free, the system would be singular.
+// Refuses a component whose eliminated vertices all have free values: its system would be singular.
 void ConstraintEdit::check_bases() const {
   if (!state_.base) return;
   Vector<std::uint8_t> in_force(state_.base->floating, &memory());
@@ -350,7 +349,7 @@ void ConstraintEdit::append_rows(const Batch& batch) {
   for (std::size_t c = 0; c < blocks.size(); ++c) {
     if (!blocks[c]) continue;
     const Index failed = blocks[c]->factorise(jobs_);
-    // A pivot failed beside eliminated sites. The order of the rows may be the reason, so a new layout decides.
+    // A pivot failed after a rebase. The order of the rows may be the reason, so try a new layout.
     if (failed >= 0 && state_.base) throw NeedsNewLayout{};
     refuse_dependent(*blocks[c], static_cast<Index>(c), failed);
     state_.blocks[c] = blocks[c];
@@ -369,9 +368,8 @@ void ConstraintEdit::refuse_dependent(const DenseBlock& block, Index component, 
        position);
 }
 
-// Returns the slot of a hard site of the component that depends linearly on others, or -1. It finds dependences that
-// the pivots do not show. It reports sites of this edit before older sites. After a rebase the pivots say nothing,
-// because a diagonal entry itself may be mere rounding, as for a point whose corners are all eliminated. So every new
+// Returns the slot of a hard site of the component that depends linearly on others, or -1. It reports sites of this
+// edit before older sites. After a rebase a diagonal entry may be mere rounding, and so may its pivot. So every new
 // site is then examined.
 Index ConstraintEdit::dependent_slot(const DenseBlock& block, Index component) const {
   if (!state_.base && block.least_pivot() >= suspect_share) return -1;

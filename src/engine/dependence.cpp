@@ -43,7 +43,7 @@ Index first_dependent(Span<const HardSite> sites, Span<const Index> rows, const 
       }
     }
     const double length = std::sqrt(std::inner_product(row, row + width, row, 0.0));
-    // The weights sum to 1, so the row had a length of at least 1 / sqrt(3) before.
+    // The weights sum to 1, so the row had a length of at least 1 / sqrt(3) before it was orthogonalised.
     if (!(length > dependence)) return rows[i];
     for (std::size_t c = 0; c < width; ++c) row[c] /= length;
   }

@@ -93,7 +93,8 @@ void RefactorSolver::factorise(State& state) const {
   state.factor = core_->factor->refactor(a, eliminated, memory, *core_->jobs);
   ++factorisations_;
 
-  // Computes the dense border: the columns of A^-1 W_p with zeros in the eliminated rows.
+  // Computes the dense border of the point sites: the columns of A^-1 W_p, with A the factorised matrix and W_p the
+  // weights of these sites. Eliminated rows are zero.
   state.dense.assign(state.count.size(), nullptr);
   state.path.reset();
   if (state.points.empty()) return;

@@ -10,7 +10,7 @@ namespace {
 
 // Number of triangles or edges that one job takes. No result depends on this number.
 constexpr std::size_t mollify_piece = 16384;
-// Most rounds that lengthen edges of single triangles. After them, one length is added to every edge.
+// Largest number of rounds that lengthen edges of single triangles. After them, one length is added to every edge.
 constexpr int most_rounds = 64;
 // Factor by which an edge grows more than needed, so that rounding does not leave the triangle open.
 constexpr double overshoot = 1.0001;
