@@ -148,7 +148,7 @@ typedef struct hf_surface_report {
 HF_API hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_report);
 
 /* Writes the component of every vertex of your mesh, and HF_NO_INDEX for isolated vertices. Components are numbered in
- * the order of their smallest vertices. out_components: NULL, or uint32_t[capacity]. out_count: NULL, or receives
+ * the order of their lowest vertex numbers. out_components: NULL, or uint32_t[capacity]. out_count: NULL, or receives
  * vertex_count. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity, uint32_t* out_components,
                                            uint32_t* out_count);

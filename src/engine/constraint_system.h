@@ -92,8 +92,8 @@ class ConstraintSystem {
   };
   // Each of the functions below takes the channels first .. first + count - 1 of values[slot * channels + c].
   //
-  // sweep computes z, which is P u without the constant of each component. It includes the values t of removed
-  // eliminated sites. z has `count` numbers per unknown, in the order of the factor.
+  // The function sweep computes z: the field u in the order of the factor, without the constant of each component. It
+  // includes the values t of removed eliminated sites. It has `count` numbers per unknown.
   void sweep(const double* values, Index channels, Index first, Index count, Answer& answer, double* z) const;
   // Computes the mean site value of every component and channel. A solve first subtracts this mean, so that a large
   // common offset costs no digits. The mean is zero for direction fields, where K does not map constants to zero.
@@ -102,9 +102,9 @@ class ConstraintSystem {
   // of eliminated sites (see the top of this file). It is null without a rebase.
   void solve_dense(const double* values, Index channels, Index first, Index count, const double* z,
                    Answer& answer) const;
-  // Three steps of a solve, for callers with a right-hand side of their own (green_refine.cpp). The first step,
-  // subtract_projections, computes answer -= Y'z. The second, solve_rows, replaces `answer` by the dense unknowns
-  // lambda, t and nu. The third, combine, computes z += Y lambda + Y_g nu.
+  // Three steps of a solve, for callers with a right-hand side of their own (green_refine.cpp). The letters are those
+  // of the top of this file. The first step, subtract_projections, computes answer -= Y'z. The second, solve_rows,
+  // replaces `answer` by the dense unknowns lambda, t and nu. The third, combine, computes z += Y lambda + Y_g nu.
   void subtract_projections(const double* z, Index count, Answer& answer) const;
   void solve_rows(Index count, Answer& answer) const;
   void combine(const Answer& answer, Index count, double* z) const;

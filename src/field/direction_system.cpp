@@ -9,8 +9,9 @@
 namespace hf_inner {
 namespace {
 
-// If the surface's operator lacks a larger share of the mesh edges, the mesh gets an ordering of its own. A few missing
-// edges cost little. Many fill the factor: on a jittered torus of 120,000 vertices the work grew two hundred times.
+// If the surface's operator lacks more than this share of the mesh edges, the mesh gets an ordering of its own. A few
+// missing edges cost little. Many fill the factor: on a jittered torus of 120,000 vertices the work grew two hundred
+// times.
 constexpr double missing_share = 1e-4;
 constexpr std::size_t piece = 8192;  // vertices a job takes
 

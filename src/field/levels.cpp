@@ -136,8 +136,8 @@ void equal_widths(const Vector<Part>& parts, Span<double> out, Memory& memory) {
     }
   }
   for (std::size_t k = 0; k < cells; ++k) {
-    // The width of a cell is its area over the mean length of its lines. That mean length is rise over the height of
-    // the cell.
+    // The width of a cell is its area over the mean length of its lines. That mean length is rise[k] over the height of
+    // the cell, where rise[k] sums area times |grad u| in the cell.
     width[k + 1] = width[k] + (rise[k] > 0 ? area[k] * (edge[k + 1] - edge[k]) / rise[k] : 0.0);
   }
   std::size_t k = 0;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double far = std::numeric_limits<double>::infinity();
 
-// The graph that is searched. Its nodes are patches of vertices, or single vertices.
+// This is the graph that is searched. Its nodes are patches of vertices, or single vertices.
 struct Patches {
   explicit Patches(Memory& memory)
       : middle(&memory), component(&memory), area(&memory), start(&memory), neighbour(&memory), length(&memory) {}
