@@ -260,8 +260,8 @@ hf_result hf_solver_get_sites(hf_solver handle, hf_sites_info* inout) {
 
 hf_result hf_solver_prepare_rebase(hf_solver solver) {
   return guarded("hf_solver_prepare_rebase", [&] {
-    // This call takes no lock of the handle table. It may run during reads and changes of the solver, because the field
-    // has its own locks.
+    // This call is neither a Reading nor a Changing of the solver object. It may run during both, because the field has
+    // its own locks.
     get<SolverObject>(solver, "solver")->field.prepare_rebase();
   });
 }
