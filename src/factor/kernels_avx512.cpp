@@ -1,5 +1,4 @@
-// Kernels for one instruction set; see kernels.h. The vector types come before the kernels written on them.
-// clang-format off
+// Kernels for one instruction set; see kernels.h. The vector types are included before the kernels that use them.
 #include "factor/simd_avx512.h"
 #define HF_KERNEL_SET kernels_avx512_set
 #define HF_KERNEL_NAME "avx512"

@@ -1,5 +1,4 @@
-// Kernels for one instruction set; see kernels.h. The vector types come before the kernels written on them.
-// clang-format off
+// Kernels for one instruction set; see kernels.h. The vector types are included before the kernels that use them.
 #include "factor/simd_plain.h"
 #define HF_KERNEL_SET kernels_plain_set
 #define HF_KERNEL_NAME "plain"

@@ -1,11 +1,10 @@
-// The kernels of one instruction set, gathered; see kernels.h. The file that includes this has included its vector
-// types and says by HF_KERNEL_SET and HF_KERNEL_NAME what the set is called.
-// clang-format off
+// Collects the kernels of one instruction set; see kernels.h. The including file has already included its vector types.
+// It names the set by HF_KERNEL_SET and HF_KERNEL_NAME.
 #include "factor/kernels_factor.inl"
-#include "factor/kernels_sweep.inl"
 #include "factor/kernels_narrow.inl"
-#include "factor/kernels_triangle.inl"
 #include "factor/kernels_path.inl"
+#include "factor/kernels_sweep.inl"
+#include "factor/kernels_triangle.inl"
 // clang-format on
 
 namespace hf_inner {
