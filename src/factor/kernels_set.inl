@@ -1,10 +1,11 @@
 // Collects the kernels of one instruction set; see kernels.h. The including file has already included its vector types.
 // It names the set by HF_KERNEL_SET and HF_KERNEL_NAME.
+// clang-format off
 #include "factor/kernels_factor.inl"
-#include "factor/kernels_narrow.inl"
-#include "factor/kernels_path.inl"
 #include "factor/kernels_sweep.inl"
+#include "factor/kernels_narrow.inl"
 #include "factor/kernels_triangle.inl"
+#include "factor/kernels_path.inl"
 // clang-format on
 
 namespace hf_inner {
