@@ -78,24 +78,24 @@ struct StrainLimits {
 // scan. Settings nearby meet the same bounds. In 15 of 16 poses of eight other meshes, more edges keep a stretch within
 // [0.8, 1.25] (docs/studies/poses.md).
 constexpr StrainLimits strain_limits[] = {{0.8, 1.24, 4.0, 0.25, 0.0, 0.28}, {0.92, 1.14, 8.0, 0.5, 0.2, 0.16}};
-// A group whose second moment is below this share of its first is a line, and a line has no stress. Half and double:
-// the same bench figures.
+// A group whose second moment is below this share of its first is a line, and a line has no stress. Halving or doubling
+// it changes no bench figure.
 constexpr double thinnest_sheet = 1e-2;
 
 // ---- subspace.cpp ----
 
 // Stiffness that holds a cluster where the energy leaves it free, relative to the mean diagonal of its linear part.
-// Half lowers the plane's smallest stretch after refinement from 0.851 to 0.846, below its bound. Double raises the
-// plane's energy by 0.6 %.
+// Half the value lowers the plane's smallest stretch after refinement from 0.851 to 0.846, below its bound. Twice the
+// value raises the plane's energy by 0.6 %.
 constexpr double rigidity = 1e-3;
 // Extra weight of edges at a handle's border, for components with two handles and with more. 0.25 raises the smallest
 // stretch of the bent cactus from 0.786 to 0.801, and the energy by 0.1 %. 3.5 was fitted together with the strain
 // limits (docs/studies/poses.md).
 constexpr double border_stiffness[] = {0.25, 3.5};
-// Edges sampled for the energy: fewer make the first solve with new handles faster. Half and double change the scan's
-// energy by 1 %.
+// Edges sampled for the energy: fewer make the first solve with new handles faster. Halving or doubling it changes the
+// scan's energy by 1 %.
 constexpr double edge_samples = 60000;
-// A cluster with fewer edges uses all of them instead of a sample. Half and double: the same bench figures.
+// A cluster with fewer edges uses all of them instead of a sample. Halving or doubling it changes no bench figure.
 constexpr std::int32_t few_edges = 1500;
 // Edges of one thread's job. The size is fixed, so that sums keep their order.
 constexpr std::int32_t edge_piece = 16384;
@@ -103,7 +103,7 @@ constexpr std::int32_t edge_piece = 16384;
 // ---- rest.cpp, rest.h ----
 
 // Edge weights of the energy are clamped to this range. Negative weights would reward collapse, and huge ones come from
-// needle-shaped triangles. Half and double of either bound change no bench figure.
+// needle-shaped triangles. Halving or doubling either bound changes no bench figure.
 constexpr double least_edge_weight = 0.01, largest_edge_weight = 25;
 // Vertices of one thread's job. The size is fixed, so that sums keep their order.
 constexpr std::int32_t vertex_piece = 4096;
@@ -114,16 +114,16 @@ constexpr std::int32_t vertex_piece = 4096;
 // handles has 2 % less energy but twice the weights, and a torus with eight handles four times the weights. With 0.6
 // the scan folds. With 0.15 its longest edge stretches by 1.40 instead of 1.29.
 constexpr double field_prune = 0.3;
-// Connected pieces below this share of their band's area are dropped. Half and double change no bench figure.
+// Connected pieces below this share of their band's area are dropped. Halving or doubling it changes no bench figure.
 constexpr double piece_share = 0.02;
-// Clusters below this share of their component's area are dropped. Double drops 1 of the scan's 30 clusters.
+// Clusters below this share of their component's area are dropped. Twice the value drops 1 of the scan's 30 clusters.
 constexpr double smallest_area = 2e-4;
 // Factor by which smallest_area grows until the number of clusters is within free_cluster_limit.
 constexpr double area_growth = 4;
 // The time of the dense solve grows with the cube of the number of clusters. Bands get wider to reach the target, and
 // pieces are dropped above the limit.
 constexpr std::int32_t free_cluster_target = 480, free_cluster_limit = 768;
-// Weights below this share of the norm of their row are dropped. Half and double change energies by 0.2 %.
+// Weights below this share of the norm of their row are dropped. Halving or doubling it changes energies by 0.2 %.
 constexpr double weight_prune = 1e-3;
 
 // ---- levels.cpp ----
@@ -132,10 +132,10 @@ constexpr double weight_prune = 1e-3;
 constexpr int level_bins = 128;
 // Bins to each side in the running mean of gradients. 1 and 6 change energies by 0.3 %.
 constexpr int smoothed_bins = 3;
-// Least gradient, as a share of the largest. It bounds the level length of flat parts. Half and double: the same bench
-// figures.
+// Least gradient, as a share of the largest. It bounds the level length of flat parts. Halving or doubling it changes
+// no bench figure.
 constexpr double least_gradient = 1e-4;
-// Triangles of a component in the histogram: fewer take less time. Half and double change energies by 0.2 %.
+// Triangles of a component in the histogram: fewer take less time. Halving or doubling it changes energies by 0.2 %.
 constexpr double triangle_samples = 20000;
 // Jobs into which the triangles are split. The number is fixed, so that sums keep their order.
 constexpr std::uint32_t histogram_shares = 8;

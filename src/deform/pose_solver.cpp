@@ -87,7 +87,7 @@ void match_group(const Subspace& s, std::size_t g, const double* rows, double (&
   }
 }
 
-// Computes, over the groups under one cluster, sum[j][i] = sum of area times R_g(i, j).
+// Sums the rotations R_g of the groups under one cluster, weighted by area: sum[j][i] = sum of area times R_g(i, j).
 HF_FOUR_LANES
 void mean_of_groups(const Subspace& s, std::int32_t first, std::int32_t last, const double* columns,
                     double (&sum)[3][4]) noexcept {

@@ -35,7 +35,8 @@ Sheet make_sheet(const Mat3& moments, std::int32_t limits) noexcept;
 struct Stress {
   double along = 0, across = 0, beside = 0;
 };
-// Returns the stress that a group should have. columns[j][i]: S(i, j). r: the rotation nearest to S.
+// Returns the stress that a group should have. columns[j][i]: entry (i, j) of the group's moment matrix S. r: the
+// rotation nearest to S.
 Stress stress_of(const Sheet& sheet, const double (&columns)[3][4], const Mat3& r) noexcept;
 // Moves `stress` towards `wanted` by the share r of the strain limits. Returns the Frobenius norm of the step.
 double follow(const Sheet& sheet, const Stress& wanted, Stress& stress) noexcept;

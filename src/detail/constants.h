@@ -6,15 +6,18 @@
 namespace hf_inner {
 
 // --- curve.cpp ---
+
 // How far the sum of three barycentric coordinates may be from 1. Rounding to floats costs 1e-7. No result depends on
 // it.
 constexpr double barycentric_tolerance = 1e-6;
 
 // --- region.cpp ---
+
 // A region of more than 1 in 8 vertices is solved over the whole factor. This changes the time, never the result.
 constexpr std::size_t whole_sweep_share = 8;
 
 // --- disc_map.cpp ---
+
 // Least edge weight, as a share of the median: only positive weights give a map without folds. Same floor as in the
 // operator.
 constexpr double disc_least_weight = 1e-3;
@@ -24,6 +27,7 @@ constexpr std::int32_t disc_leaf = 8;
 constexpr std::int32_t disc_stack = 32;
 
 // --- carried_detail.cpp ---
+
 // Least share of a direction's length that must remain after projection; below it rounding sets the frame. Not
 // measured.
 constexpr double least_direction = 1e-9;

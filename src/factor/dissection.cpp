@@ -10,19 +10,19 @@
 namespace hf_inner {
 namespace {
 
-// Parts up to this size are ordered by minimum degree. Half: fill changes by -2 to +1 %, in more time. Double: by +1 to
-// +3 %, in less time.
+// Parts up to this size are ordered by minimum degree. At half the value: fill changes by -2 to +1 %, in more time. At
+// twice the value: by +1 to +3 %, in less time.
 constexpr std::int32_t leaf_size = 180;
 // A halo is the set of neighbours outside a part. A leaf counts at most this many of them, which bounds its bit rows.
-// Half and double change nothing on torus and scan.
+// Halving or doubling it changes nothing on the test meshes torus and scan.
 constexpr std::int32_t halo_limit = 1500;
 // A part up to this size is finished as one job: smaller jobs balance the threads better but cost more. No result
 // depends on it.
 constexpr std::int32_t task_size = 4000;
 // Parts are cut in waves until there are this many; then each becomes a job. No result depends on it.
 constexpr std::size_t most_parts = 64;
-// A part is ordered whole if its separator would be a larger share of it. Half and double change nothing on torus and
-// scan.
+// A part is ordered whole if its separator would be a larger share of it. Halving or doubling it changes nothing on the
+// test meshes torus and scan.
 constexpr double most_separator = 0.75;
 // Shares of progress: one wave of cuts, all waves, and the start of the leaves.
 constexpr float progress_step = 0.05f, progress_cut = 0.4f, progress_leaves = 0.3f;

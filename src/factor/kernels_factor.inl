@@ -13,7 +13,7 @@ using hf_inner::FrontView;
 using D = Simd<double>;
 // Tiles solved together, so that their rows stay in the cache while all column blocks pass over them.
 constexpr std::int32_t solved_tiles = 6;
-// Columns of one pass: a column tile of them fills a quarter of a 48 KB cache.
+// Columns that one pass multiplies: a tile with this many columns fills a quarter of a 48 KB cache.
 constexpr std::int32_t update_depth = 192;
 constexpr std::int32_t tile_vectors = 8 / D::width;  // vectors per 8-row tile
 

@@ -5,13 +5,14 @@
 namespace hf_inner {
 namespace {
 
-// Graphs up to this size are bisected without coarsening. Half: flops grow by 1 to 5 %. Double: they change by -3 to +4
-// %, and wider flows cost time.
+// Graphs up to this size are bisected without coarsening. At half the value: flops grow by 1 to 5 %. At twice the
+// value: they change by -3 to +4 %, and wider flows cost time.
 constexpr std::int32_t direct_size = 400;
-// Parts of at least this size try more directions on their coarsest graph. Half and double change flops by at most 2 %.
+// Parts of at least this size try more directions on their coarsest graph. Halving or doubling it changes flops by at
+// most 2 %.
 constexpr std::int32_t thorough_size = 4000;
-// Rings by which a separator is widened when it is carried back. Half: flops grow by 2 to 15 %. Double: they change by
-// -10 to +1 %, but the flow is larger.
+// Rings by which a separator is widened when it is carried back. At half the value: flops grow by 2 to 15 %. At twice
+// the value: they change by -10 to +1 %, but the flow is larger.
 constexpr std::int32_t widening = 2;
 // Additional passes on large parts, each with the band around the new separator. None: flops grow by 1 to 4 %. Two:
 // they fall by 0 to 5 %, but cost one more flow.
@@ -19,8 +20,8 @@ constexpr std::int32_t repeats = 1;
 // Widening keeps at least 1 / this of the graph on each side. With 2, flops grow by up to 54 %. With 10 they change by
 // -4 to +3 %.
 constexpr std::int32_t smallest_side = 5;
-// A graph is not coarsened if its coarser graph would be a larger share of it, as in graphs without stars. Half and
-// double change nothing.
+// A graph is not coarsened if its coarser graph would be a larger share of it, as in graphs without stars. Halving or
+// doubling it changes nothing.
 constexpr double least_shrinking = 0.75;
 
 }  // namespace

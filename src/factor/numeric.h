@@ -4,8 +4,8 @@
 // Every supernode assembles a front from its columns of A and the update matrices of its children. It factors its
 // columns, and leaves the update matrix -B B' for its parent. Finished columns are written row by row, supernodes from
 // last to first, so that a backward sweep reads memory forwards. A supernode is stored as its packed lower triangle
-// with inverted diagonal, then its rows below. Cost: the flops of the pattern. Memory: two stacks of update matrices
-// per thread. After a failure `values` is undefined.
+// with inverted diagonal, then its rows below. The pattern determines the number of flops. Memory: two stacks of update
+// matrices per thread. After a failure `values` is undefined.
 #pragma once
 #include <cstdint>
 

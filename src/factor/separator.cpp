@@ -9,26 +9,28 @@ namespace {
 
 constexpr std::uint8_t touches_left = 1, touches_right = 2, on_path = 4;
 constexpr std::int32_t none = -1, source = -2, sink = -3;
-// Largest half width of the band, as a share of the vertices. Half: flops change by up to +6 %. Double: by up to +40 %,
-// because the band swallows a side.
+// Largest half width of the band, as a share of the vertices. At half the value: flops change by up to +6 %. At twice
+// the value: by up to +40 %, because the band swallows a side.
 constexpr double widest_band = 0.3;
 // Width of the band in square roots of the size, for large and small graphs. Small: half changes flops by -7 to +6 %,
 // double by at most 2 %. Large: no change.
 constexpr double band_of_large = 16, band_of_small = 6;
-// Larger graphs only get here if coarsening failed. Half changes flops by at most 3 %, double not at all.
+// Larger graphs only get here if coarsening failed. Half the value changes flops by at most 3 %, twice the value
+// changes nothing.
 constexpr std::int32_t small_graph = 500;
-// If the second squared extent is below this share of the first, the second axis is not tried, which saves time. Half
-// and double do not change the fill.
+// If the second squared extent is below this share of the first, the second axis is not tried, which saves time.
+// Halving or doubling it does not change the fill.
 constexpr double long_shape = 0.04;
-// Largest ratio of extents in a diagonal direction; it guards against flat shapes. Half and double change nothing.
+// Largest ratio of extents in a diagonal direction; it guards against flat shapes. Halving or doubling it changes
+// nothing.
 constexpr double longest_diagonal = 1e3;
 // Range of squared extents in which positions are usable. Below it all positions coincide.
 constexpr double largest_extent = 1e300, least_extent = 1e-300;
-// If the squared separator is more than this many times the size, distances in the graph are tried too. Half and double
-// change the fill by at most 0.1 %.
+// If the squared separator is more than this many times the size, distances in the graph are tried too. Halving or
+// doubling it changes the fill by at most 0.1 %.
 constexpr double poor_separator = 2.5;
-// Half width of the band for a second try, when breadth-first keys empty a side. Half and double change nothing on
-// torus, creature and scan.
+// Half width of the band for a second try, when breadth-first keys empty a side. Halving or doubling it changes nothing
+// on the test meshes torus, creature and scan.
 constexpr double narrow_band = 0.05;
 
 // Computes the eigenvectors of a symmetric 3 x 3 matrix by Jacobi rotations, columns by falling eigenvalue. Eigen is

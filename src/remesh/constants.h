@@ -1,12 +1,11 @@
 // All chosen numbers of this folder, grouped by the file that uses them.
 //
-// "Half" and "double" say what happened when the number was halved and doubled; "at 8" names another tried value. All
-// were tried at edges of 3 to 4 % of the box on a cow, a figure of eight (kinds uniform and pure), an elephant, a
-// triceratops, and a blob of three pieces with borders. "Box" means the diagonal of the bounding box. Distances are
-// Hausdorff distances in % of the box, unless they are called mean. Aspects and angles are 95 % quantiles. "Irregular"
-// is the share of irregular vertices. "Same" means that no figure changed. "No trend" means that figures changed, but
-// alike or both ways, and the distance by at most 0.3. All these numbers decide about whole lines and faces, so
-// rounding alone can change the number of faces by 1.4 %.
+// The lines say what happened with half or twice the value, or with other values. All were tried at edges of 3 to 4 %
+// of the box on a cow, a figure of eight (kinds uniform and pure), an elephant, a triceratops, and a blob of three
+// pieces with borders. "Box" means the diagonal of the bounding box. Distances are Hausdorff distances in % of the box,
+// unless they are called mean. Aspects and angles are 95 % quantiles. "Irregular" is the share of irregular vertices.
+// Where some results got better and others worse, the distance changed by at most 0.3. All these numbers decide about
+// whole lines and faces, so rounding alone can change the number of faces by 1.4 %.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,70 +13,77 @@
 namespace hf_inner {
 
 // --- quads.h ---
-// Edge length, as a share of the box: trades detail for the number of faces. docs/quads.md is measured with it. Half:
-// four times the faces.
+
+// Edge length, as a share of the box: trades detail for the number of faces. docs/quads.md is measured with it. At half
+// the value: four times the faces.
 constexpr double default_edge_length = 0.022;
 // Rounds of relaxation: trades evenness for time. At 30 the figure of eight has an aspect of 2.6 instead of 2.5, and 37
-// % irregular vertices instead of 34 %. 120: same as 60.
+// % irregular vertices instead of 34 %. With 120 the results are those of 60.
 constexpr std::int32_t default_relax_rounds = 60;
 
 // --- quads.cpp: sites ---
-// Sites nearer to each other than this share of the box become one, so that each limb has one site. Half: same. Double:
-// the cow has other sites, and 16 % irregular vertices instead of 19 %.
+
+// Sites nearer to each other than this share of the box become one, so that each limb has one site. Halving it changes
+// nothing. At twice the value: the cow has other sites, and 16 % irregular vertices instead of 19 %.
 constexpr double tip_distance = 0.06;
 // Most tips used as sites; it bounds the sites of busy shapes. With 8, the cow has 22 % fewer faces, and 27 % irregular
-// vertices instead of 19 %. 64: same.
+// vertices instead of 19 %. With 64 nothing changes.
 constexpr std::size_t most_tips = 32;
 struct TipLengths {
   double geodesic, poisson;
 };
-// Least lengths of tips, from a list with many sites to one with few; the best mesh of all lists is kept. Half and
-// double of the geodesic lengths change figures both ways.
+// Least lengths of tips, from a list with many sites to one with few; the best mesh of all lists is kept. Halving or
+// doubling the geodesic lengths improves some results and worsens others.
 constexpr TipLengths tip_lengths[] = {{0.008, 0.02}, {0.015, 0.05}, {0.03, 0.1}, {0.1, 0.3}};
-// Number of lists that are tried; each takes 2 to 20 % of the time. With 1 or 2 the same mesh won on four shapes.
+// Number of lists that are tried; each takes 2 to 20 % of the time. With 1 or 2 the same mesh won on four test shapes.
 constexpr int tip_trials = 4;
-// Sources of the mean distance: more find tips more exactly but take longer. 20: other tips on the cow. 80: same.
+// Sources of the mean distance: more find tips more exactly but take longer. 20: other tips on the cow. With 80 nothing
+// changes.
 constexpr std::int32_t geodesic_sources = 40;
-// Time step of the heat method, in squared mean edges. The authors of the method use 1. Half and double change figures
-// both ways.
+// Time step of the heat method, in squared mean edges. The authors of the method use 1. Halving or doubling it improves
+// some results and worsens others.
 constexpr double geodesic_smoothing = 1.0;
 // Weight that holds a border at one level; more weight restricts the flow. On the blob, 3 gives 12 % fewer faces, and
 // 300 gives 36 % more.
 constexpr double apex_weight = 30;
 
 // --- quads.cpp: lines of kind pure ---
-// Rounds that scale the number of lines to the wanted number of faces. 1 and 4: same on the figure of eight.
+
+// Rounds that scale the number of lines to the wanted number of faces. With 1 and 4 nothing changes on the figure of
+// eight.
 constexpr int line_rounds = 2;
 // Share of wanted faces over area. At 1.0 the distance is 0.89 % of the box instead of 0.84, with 14 % fewer faces. At
 // 1.3 it is 0.80 %, with 8 % more.
 constexpr double area_share = 1.15;
-// Smallest factor of a correction of the lines; a guard. 0.5 and 0.1: same.
+// Smallest factor of a correction of the lines; a guard. With 0.5 and 0.1 nothing changes.
 constexpr double least_line_scale = 0.25;
-// Largest factor of a correction of the lines; a guard. 4 and 16: same.
+// Largest factor of a correction of the lines; a guard. With 4 and 16 nothing changes.
 constexpr double most_line_scale = 8.0;
 
 // --- quads.cpp: evening out ---
-// One in this many relaxation rounds runs before thin parts are measured. One in 3 and one in 12: same on two meshes of
-// kind pure.
+
+// One in this many relaxation rounds runs before thin parts are measured. One in 3 or one in 12 changes nothing on two
+// test meshes of kind pure.
 constexpr std::int32_t early_share = 6;
-// The mesh after few rounds is kept if its distance is below this share of the final one. 0.5 and 1: same on two meshes
-// of kind pure.
+// The mesh after few rounds is kept if its distance is below this share of the final one. With 0.5 and 1 nothing
+// changes on two test meshes of kind pure.
 constexpr double early_gain = 0.9;
-// Below this distance (share of the box), snapping is skipped, which saves time on smooth shapes. Half and double:
-// same.
+// Below this distance (share of the box), snapping is skipped, which saves time on smooth shapes. Halving or doubling
+// it changes nothing.
 constexpr double capture_from = 0.003;
 
 // --- quads.cpp: fitting ---
-// Distance between samples, in edge lengths: closer samples find more misses but take longer. Half changes the distance
-// both ways. Double raises the mean distance by up to 6 %.
+
+// Distance between samples, in edge lengths: closer samples find more misses but take longer. Half the value makes the
+// distance smaller on some meshes and larger on others. Twice the value raises the mean distance by up to 6 %.
 constexpr double sample_spacing = 0.33;
 // Tolerance of fitting, in edge lengths: trades distance for faces. It gives 0.86 % of the box at edges of 2.2 %; the
-// tests demand 1 %. Half: up to 18 % more faces. Double: distances up to 2.9 %.
+// tests demand 1 %. At half the value: up to 18 % more faces. At twice the value: distances up to 2.9 %.
 constexpr double fit_tolerance = 0.39;
 // Tolerance of collapses relative to that of fitting. It is above 1, so that collapses do not undo the fit. At 1.0 the
 // Hausdorff distance is 1.18 % of the box instead of 1.26. At 1.2 it is 1.17 %, with 30 % more faces.
 constexpr double collapse_tolerance = 1.03;
-// Most turns of fitting and collapsing: more of them take longer. 2 and 8: same on seven meshes.
+// Most turns of fitting and collapsing: more of them take longer. With 2 and 8 nothing changes on seven test meshes.
 constexpr int fit_turns = 4;
 // Corners that a step may turn over grow by this number per turn: trades distance for folds. At 1 the distance is 1.63
 // % of the box instead of 1.60. At 4 it stays the same.
@@ -85,41 +91,45 @@ constexpr std::int32_t folds_a_turn = 2;
 // Rings of quads relaxed around a step in odd turns. At 0 the distance is 1.28 % of the box instead of 1.26. At 2 it
 // stays the same.
 constexpr std::int32_t fit_rings_odd = 1;
-// Shortest edges, in edge lengths, that kind pure keeps where the mesh was refined. Half and double: same on three
-// meshes.
+// Shortest edges, in edge lengths, that kind pure keeps where the mesh was refined. Halving or doubling it changes
+// nothing on three test meshes.
 constexpr double short_edge_pure = 0.3;
 
 // --- quads.cpp: choice ---
-// A mesh is not fitted if it is this many times farther from the surface than the nearest mesh; this saves time. 1.1
-// and 3: same.
+
+// A mesh is not fitted if it is this many times farther from the surface than the nearest mesh; this saves time. With
+// 1.1 and 3 nothing changes.
 constexpr double trial_cutoff = 1.35;
-// Most meshes that are fitted: more of them cost time but give more choice. With 1 the same mesh won on five shapes.
+// Most meshes that are fitted: more of them cost time but give more choice. With 1 the same mesh won on five test
+// shapes.
 constexpr std::size_t most_fitted = 3;
-// Most meshes that are fitted for each density. 1: same on four shapes.
+// Most meshes that are fitted for each density. With 1 nothing changes on four test shapes.
 constexpr std::size_t most_dense = 2;
 // Number of densities in the next line.
 constexpr int density_count = 2;
-// Denser meshes, tried if no mesh is good. The skull and an elephant of docs/quads.md need them. Half and double steps:
-// same.
+// Denser meshes, tried if no mesh is good. The skull and an elephant of docs/quads.md need them. Halving or doubling
+// the steps changes nothing.
 constexpr double densities[density_count] = {1.15, 1.3};
 // Distance of a good mesh, in edge lengths: 0.9 % of the box at edges of 2.2 %; the tests demand 1 %. 0.3: up to 66 %
-// more faces. 0.6: same.
+// more faces. With 0.6 nothing changes.
 constexpr double near_distance = 0.41;
-// Denser meshes are tried only if the cost of the best mesh is larger; this saves time. 1.0 and 1.2: same on four
-// shapes.
+// Denser meshes are tried only if the cost of the best mesh is larger; this saves time. With 1.0 and 1.2 nothing
+// changes on four test shapes.
 constexpr double near_enough = 1.06;
-// Share of edges and of quads that may be worse. docs/quads.md reports the same 5 and 95 % quantiles. 0.02 and 0.1:
-// same.
+// Share of edges and of quads that may be worse. docs/quads.md reports the same 5 and 95 % quantiles. With 0.02 and 0.1
+// nothing changes.
 constexpr double outliers = 0.05;
 // Shortest edges of an even mesh, in edge lengths; the tests demand 0.5. With 0.3 and 0.7 the same meshes are chosen.
 constexpr double shortest_even = 0.52;
-// Longest edges of an even mesh, in edge lengths; the tests demand at most 2.1. 1.5: up to 32 % more faces. 4: same.
+// Longest edges of an even mesh, in edge lengths; the tests demand at most 2.1. 1.5: up to 32 % more faces. With 4
+// nothing changes.
 constexpr double longest_even = 2;
-// Largest aspect of an even mesh: trades evenness for faces. 2: up to 65 % more faces. 8: same.
+// Largest aspect of an even mesh: trades evenness for faces. 2: up to 65 % more faces. With 8 nothing changes.
 constexpr double narrowest_even = 4;
-// Largest aspect of an even mesh of kind pure, where lines cannot end. 6 and 24: same.
+// Largest aspect of an even mesh of kind pure, where lines cannot end. With 6 and 24 nothing changes.
 constexpr double narrowest_pure = 12;
-// Weight of edges that are too short, relative to edges that are too long. 1 and 4: same on four shapes.
+// Weight of edges that are too short, relative to edges that are too long. With 1 and 4 nothing changes on four test
+// shapes.
 constexpr double short_edge_cost = 2;
 // Stands for the aspect of a quad with an edge of length 0. Any number far above narrowest_pure will do.
 constexpr double most_aspect = 1e3;
@@ -151,17 +161,18 @@ constexpr float given_made = 0.7f;
 constexpr float dense_made = 0.3f;
 
 // --- flux_sites.cpp, border_flux.cpp ---
-// Fewest lines at a site, and fewest nodes of a ring. 2 would double an edge, which check_quads refuses. 2 and 6: same
-// on four shapes.
+
+// Fewest lines at a site, and fewest nodes of a ring. 2 would double an edge, which check_quads refuses. With 2 and 6
+// nothing changes on four test shapes.
 constexpr double least_lines = 4;
-// Radius of the circle that measures the girth of a limb, as a share of the box. Half: aspect of the cow 3.4 instead of
-// 2.2. Double: the distance grows by 0.1 to 0.2 % of the box.
+// Radius of the circle that measures the girth of a limb, as a share of the box. At half the value: aspect of the cow
+// 3.4 instead of 2.2. At twice the value: the distance grows by 0.1 to 0.2 % of the box.
 constexpr double circle_radius = 0.1;
 // Half the width of the band around that circle, as a share of its radius. Distance of the figure of eight: 1.00 % of
-// the box, 1.35 at half, 1.08 at double.
+// the box, 1.35 at half the value, 1.08 at twice the value.
 constexpr double circle_band = 0.2;
-// Least geodesic distance between a tip and borders or earlier sites. Half: same. Double: the cow's 95 % edge is 1.9
-// edge lengths instead of 1.5.
+// Least geodesic distance between a tip and borders or earlier sites. Halving it changes nothing. At twice the value:
+// the 95 % quantile of the cow's edges is 1.9 edge lengths instead of 1.5.
 constexpr double border_distance = 0.08;
 // Most sites of a component. It bounds time and memory: all pairs of sites and a dense system (border_flux.cpp). Not
 // measured.
@@ -173,13 +184,13 @@ constexpr std::size_t least_sites = 2;
 constexpr std::size_t least_sites_with_handles = 4;
 // The usual number of sites; progress uses it before the number is known.
 constexpr std::size_t expected_sites = 4;
-// Weight of neighbours that are both sources or both sinks, against the balance of sources and sinks. Half and double:
-// the same partition on four shapes.
+// Weight of neighbours that are both sources or both sinks, against the balance of sources and sinks. Halving or
+// doubling it gives the same partition on four test shapes.
 constexpr double neighbour_cost = 0.5;
 // Guards a division by 0 when all sites are in one place. Positions have a box of diagonal 1.
 constexpr double least_mean_distance = 1e-12;
-// Up to this many sites, all partitions are tried: 2,048 for 12 sites, twice as many for each more. With 6, the cow's 5
-// % edge is 0.55 edge lengths instead of 0.64. 16: same.
+// Up to this many sites, all partitions are tried: 2,048 for 12 sites, twice as many for each more. With 6, the 5 %
+// quantile of the cow's edges is 0.55 edge lengths instead of 0.64. With 16 nothing changes.
 constexpr std::size_t most_tried_at_once = 12;
 // Up to this many sites, two are exchanged at once, which costs k^4 per sweep for k sites. Not measured: no tried shape
 // had 20 sites.
@@ -189,35 +200,39 @@ constexpr double least_cost_gain = 1e-12;
 // Factor on the diagonal of one pinned vertex per component. Any value above 1 gives the same field. With 1.001 or 20,
 // rounding changes the faces of the figure of eight by 1 %.
 constexpr double pinned_diagonal = 2;
-// Solves per field, refinements included. With 1, rounding changes the cow's faces from 518 to 511. 6: same within
-// rounding.
+// Solves per field, refinements included. With 1, rounding changes the cow's faces from 518 to 511. With 6 nothing
+// changes within rounding.
 constexpr int flux_solves = 3;
-// Raises of border fluxes, before all sources and sinks get fixed values: trades time for even lines. 3: same on a
-// sheet with holes.
+// Raises of border fluxes, before all sources and sinks get fixed values: trades time for even lines. With 3 nothing
+// changes on a sheet with holes.
 constexpr int border_rounds = 6;
-// Factor of one raise. 1.3: same. 3: the distance of a sheet with holes is 1.89 % of the box instead of 1.54, its
-// aspect 19 instead of 12.
+// Factor of one raise. With 1.3 nothing changes. 3: the distance of a sheet with holes is 1.89 % of the box instead of
+// 1.54, its aspect 19 instead of 12.
 constexpr double border_raise = 1.7;
 
 // --- flux_field.cpp ---
+
 // Keeps the flux between equal values positive. It is near the smallest double, so it does not change other fluxes.
 constexpr double least_flux = 1e-300;
 // Share of the inflow that counts as used up: a few units of rounding.
 constexpr double least_segment = 1e-15;
 
 // --- ring_levels.cpp ---
-// Distance from a site to its first ring, in edge lengths: a compromise of kinds uniform and pure. Half changes the
-// distance by -0.2 to +0.1 % of the box; 1.2 by -0.1 to +0.2, with fewer faces.
+
+// Distance from a site to its first ring, in edge lengths: a compromise of kinds uniform and pure. Half the value
+// changes the distance to the surface by -0.2 to +0.1 % of the box. A value of 1.2 changes it by -0.1 to +0.2, with
+// fewer faces.
 constexpr double ring_at_site = 0.8;
 // Distance from a saddle to the next ring, in edge lengths. At 0.25 the distance to the surface changes by -0.3 to +0.2
 // % of the box. At 1 it grows by up to 0.3, and the cow has 40 % irregular vertices instead of 30.
 constexpr double ring_at_saddle = 0.5;
-// Most loops per arc whose lengths are integrated: more cost time but give more even rings. Half and double change
-// figures both ways.
+// Most loops per arc whose lengths are integrated: more cost time but give more even rings. Halving or doubling it
+// improves some results and worsens others.
 constexpr std::int32_t loops_an_arc = 64;
-// A step above this share of an arc's range is subdivided. Half and double change figures both ways.
+// A step above this share of an arc's range is subdivided. Halving or doubling it improves some results and worsens
+// others.
 constexpr double long_step = 0.01;
-// Pieces of such a long step. 4 and 16 change figures both ways.
+// Pieces of such a long step. 4 and 16 improve some results and worsen others.
 constexpr std::int32_t long_step_pieces = 8;
 // Guards a division by 0.
 constexpr double least_arc_flux = 1e-30;
@@ -225,6 +240,7 @@ constexpr double least_arc_flux = 1e-30;
 constexpr double most_rings = 1e6;
 
 // --- rings.cpp ---
+
 // Keeps a number of nodes within the range of an integer.
 constexpr double most_nodes = 1e6;
 // Fewest nodes of the ring beside a site; splitting then gives the site 3 or more faces. Angles of the cow (95 %): 42
@@ -236,31 +252,36 @@ constexpr double widest_gap_length = 1.9;
 // A pair of lines ends where three neighbouring gaps together are narrower than this many edge lengths. 1.2: 2 to 6 %
 // more faces; 2.4: 2 to 6 % fewer.
 constexpr double narrowest_gaps_length = 1.7;
-// Fewest lines that a ring keeps: a hexagon. 4: same on four shapes. 12 changes figures both ways.
+// Fewest lines that a ring keeps: a hexagon. With 4 nothing changes on four test shapes. 12 improves some results and
+// worsens others.
 constexpr std::int32_t least_lined = 6;
-// Distance between two lines that are traced down together, as a share of the gap. 0.125 and 0.5: same on four shapes.
+// Distance between two lines that are traced down together, as a share of the gap. With 0.125 and 0.5 nothing changes
+// on four test shapes.
 constexpr double second_line = 0.25;
 
 // --- quad_mesh.cpp ---
+
 // Cost of a reflex corner; a flat corner costs 1. With 0, the distance of the figure of eight is 1.02 % of the box
-// instead of 1.00, its aspect 2.6 instead of 2.5. 8: same.
+// instead of 1.00, its aspect 2.6 instead of 2.5. With 8 nothing changes.
 constexpr double reflex_cost = 4;
 // Cost of a quad with an edge of length 0. It is above every other cost, so such a quad is chosen last.
 constexpr double degenerate_cost = 1e3;
 
 // --- relax.cpp ---
-// Share of the way to the proposed place that a vertex moves; below 1 it does not swing. 0.25 and 1 change figures both
-// ways.
+
+// Share of the way to the proposed place that a vertex moves; below 1 it does not swing. 0.25 and 1 improve some
+// results and worsen others.
 constexpr double relax_step = 0.5;
-// Share of the way to the wanted edge length. 0.25 changes figures both ways. At 1 the cow has 33 % irregular vertices
-// instead of 30.
+// Share of the way to the wanted edge length. 0.25 improves some results and worsens others. At 1 the cow has 33 %
+// irregular vertices instead of 30.
 constexpr double size_step = 0.5;
-// Most edges that one walk crosses: ends walks on degenerate triangles. 50 and 800: same.
+// Most edges that one walk crosses: ends walks on degenerate triangles. With 50 and 800 nothing changes.
 constexpr int most_crossings = 200;
-// Most times that vertices move back in a round of relaxation; it bounds the time. 2 and 8: same.
+// Most times that vertices move back in a round of relaxation; it bounds the time. With 2 and 8 nothing changes.
 constexpr int take_backs = 4;
 
 // --- nearest.cpp ---
+
 // Triangles in a leaf of the search tree: trades tests of boxes for tests of triangles. The result does not depend on
 // it.
 constexpr std::int32_t triangles_a_leaf = 4;
@@ -268,16 +289,19 @@ constexpr std::int32_t triangles_a_leaf = 4;
 constexpr std::int32_t tree_stack = 32;
 
 // --- quad_distance.cpp ---
+
 // Vertices that are sampled before large surfaces skip some, which saves time: every second vertex from 60,000 on,
 // every third from 120,000.
 constexpr std::int32_t most_samples = 60000;
 // Up to this many triangles, points inside them are sampled too. Finer surfaces have enough vertices.
 constexpr std::int32_t most_spread = 30000;
-// Most steps along an edge of a sampled triangle. With 4, the blob has 2 % more faces. 16: same.
+// Most steps along an edge of a sampled triangle. With 4, the blob has 2 % more faces. With 16 nothing changes.
 constexpr double most_steps = 8;
-// Fewest steps on a triangle of the surface; its corners already are samples. 2: same on four shapes.
+// Fewest steps on a triangle of the surface; its corners already are samples. With 2 nothing changes on four test
+// shapes.
 constexpr std::int32_t surface_steps = 1;
-// Fewest steps on a triangle of a quad; 2 samples the middles of its edges. 1 and 4: same on four shapes.
+// Fewest steps on a triangle of a quad; 2 samples the middles of its edges. With 1 and 4 nothing changes on four test
+// shapes.
 constexpr std::int32_t quad_steps = 2;
 // A diagonal this near to the surface needs no better one. It is a squared distance in squared sample spacings: 0.14 of
 // a spacing. With 0 the mean distance changes by 3 %, with 0.08 it grows by up to 6 %.
@@ -294,18 +318,20 @@ constexpr std::uint64_t hash_start = 0x9e3779b97f4a7c15u;
 constexpr std::uint64_t hash_factor = 0xff51afd7ed558ccdu;
 
 // --- capture.cpp ---
-// Distance (share of the box) from which a missed place is snapped: trades distance for shape. Half: aspects up to 7.1.
-// Double: mean distance up to 24 % larger, but even quads.
+
+// Distance (share of the box) from which a missed place is snapped: trades distance for shape. At half the value:
+// aspects up to 7.1. At twice the value: mean distance up to 24 % larger, but even quads.
 constexpr double capture_tolerance = 0.006;
-// Rounds of snapping. 2 and 10 change figures both ways.
+// Rounds of snapping. 2 and 10 improve some results and worsen others.
 constexpr std::int32_t capture_rounds = 5;
-// Rounds of relaxation after snapping. 4 and 16 change figures both ways.
+// Rounds of relaxation after snapping. 4 and 16 improve some results and worsen others.
 constexpr std::int32_t capture_relax_rounds = 8;
-// Rings of quads relaxed around a snapped vertex. 1 and 6 change figures both ways.
+// Rings of quads relaxed around a snapped vertex. 1 and 6 improve some results and worsen others.
 constexpr std::int32_t capture_rings = 3;
 
 // --- fit.h, fit.cpp ---
-// Most rounds of fitting in one turn; it bounds the time. 40 and 160: same on six meshes.
+
+// Most rounds of fitting in one turn; it bounds the time. With 40 and 160 nothing changes on six test meshes.
 constexpr std::int32_t fit_rounds = 80;
 // Rounds of relaxation after a step. With 6 and 24 the distance is the same, and faces change by 3 %.
 constexpr std::int32_t fit_relax_rounds = 12;
@@ -315,61 +341,68 @@ constexpr std::int32_t fit_rings = 2;
 // Additional rings for the steps release and snap. With 0 the distance is the same. With 2 it is 1.27 % of the box
 // instead of 1.26.
 constexpr std::int32_t fit_snap_rings = 1;
-// Rings of quads relaxed after subdividing and snapping. 0 and 2: same on six meshes, where subdividing is rare.
+// Rings of quads relaxed after subdividing and snapping. With 0 and 2 nothing changes on six test meshes, where
+// subdividing is rare.
 constexpr std::int32_t fit_resnap_rings = 1;
 // Rings between two places of one round: fewer allow more places at once, but their steps may touch. With 1 the
-// distance is 1.18 % of the box instead of 1.26. 6: same.
+// distance is 1.18 % of the box instead of 1.26. With 6 nothing changes.
 constexpr std::int32_t fit_apart = 3;
-// Radius, in edge lengths, in which a step is judged; a little above fit_rings. Half: 2 % more faces. Double: the
-// distance grows by 0.01 % of the box.
+// Radius, in edge lengths, in which a step is judged; a little above fit_rings. At half the value: 2 % more faces. At
+// twice the value: the distance grows by 0.01 % of the box.
 constexpr double fit_reach = 2.2;
-// Radius, in edge lengths, within which a place counts as tried: smaller repeats places, larger skips some. Half and
-// double change figures both ways.
+// Radius, in edge lengths, within which a place counts as tried: smaller repeats places, larger skips some. Halving or
+// doubling it improves some results and worsens others.
 constexpr double fit_same_place = 0.8;
-// A step of fitting stays only if the distance to the surface falls to this share of what it was. 0.8: same; 1: the
-// Hausdorff distance of the triceratops rose from 1.60 to 1.87 %.
+// A step of fitting stays only if the distance to the surface falls to this share of what it was. With 0.8 nothing
+// changes; 1: the Hausdorff distance of the triceratops rose from 1.60 to 1.87 %.
 constexpr double fit_gain = 0.97;
 // The same share for a step that turns corners over: trades distance for folds. With half the distance is the same;
 // with 1 nothing changes.
 constexpr double fit_folding_gain = 0.5;
-// Fitting may multiply the number of faces by this at most. 1.1 and 3: same on six meshes, which add less.
+// Fitting may multiply the number of faces by this at most. With 1.1 and 3 nothing changes on six test meshes, which
+// add less.
 constexpr double fit_most_faces = 1.5;
 // Faces that the largest step adds: two for each of six quads around a vertex.
 constexpr std::int32_t step_faces = 12;
-// A vertex of smaller scale is not subdivided, which allows about two subdivisions of one place. 0.25 and 0.8: same on
-// six meshes.
+// A vertex of smaller scale is not subdivided, which allows about two subdivisions of one place. With 0.25 and 0.8
+// nothing changes on six test meshes.
 constexpr float finest_scale = 0.5f;
 
 // --- refine.cpp ---
-// Factor on the edge length after subdividing, between 1 and the half of a halved edge. 0.5 and 1: same on six meshes.
+
+// Factor on the edge length after subdividing, between 1 and the half of a halved edge. With 0.5 and 1 nothing changes
+// on six test meshes.
 constexpr float subdivided_scale = 0.75f;
 // Factor on the edge length after a split, which adds one face. With 0.75 and 1 the distance is the same.
 constexpr float split_scale = 0.92f;
 
 // --- coarsen.h, coarsen.cpp ---
-// A quad with an edge below this many edge lengths may collapse. Half: 32 % irregular vertices instead of 16, and the 5
-// % edge falls to 0.43. 0.8: 66 % irregular vertices instead of 56.
+
+// A quad with an edge below this many edge lengths may collapse. At half the value: 32 % irregular vertices instead of
+// 16, and the 5 % quantile of the edges falls to 0.43. With 0.8: 66 % irregular vertices instead of 56.
 constexpr double short_edge = 0.55;
-// Most rounds of collapses; it bounds the time. 12 and 48: same on seven meshes.
+// Most rounds of collapses; it bounds the time. With 12 and 48 nothing changes on seven test meshes.
 constexpr std::int32_t collapse_rounds = 24;
-// Share of quads with a short edge that may stay: trades time for evenness. Half: the distance is the same. Double: up
-// to 4 % more faces.
+// Share of quads with a short edge that may stay: trades time for evenness. At half the value: the distance is the
+// same. At twice the value: up to 4 % more faces.
 constexpr double collapse_enough = 0.02;
-// Rounds of relaxation after collapses. 6 and 24 change figures both ways.
+// Rounds of relaxation after collapses. 6 and 24 improve some results and worsen others.
 constexpr std::int32_t collapse_relax_rounds = 12;
-// Rings of quads relaxed around a collapse. 1 and 4 change figures both ways.
+// Rings of quads relaxed around a collapse. 1 and 4 improve some results and worsen others.
 constexpr std::int32_t collapse_rings = 2;
 // Most faces of the two merged vertices together; the merged vertex has two fewer. 7: up to 7 % more faces, and 32 %
-// irregular vertices instead of 39. 10: same as 8.
+// irregular vertices instead of 39. With 10 the results are those of 8.
 constexpr std::int32_t collapse_most_faces = 8;
-// Most trials of a round; it bounds the time. 2 and 8: same on seven meshes.
+// Most trials of a round; it bounds the time. With 2 and 8 nothing changes on seven test meshes.
 constexpr int collapse_tries = 4;
-// Radius, in edge lengths, in which a collapse may not increase the misses. Half and double change figures both ways.
+// Radius, in edge lengths, in which a collapse may not increase the misses. Halving or doubling it improves some
+// results and worsens others.
 constexpr double collapse_reach = 2;
-// A miss outside this radius undoes the nearest collapse if its distance is larger than this many tolerances. 1.0 and
-// 2.2: same on seven meshes.
+// A miss outside this radius undoes the nearest collapse if its distance is larger than this many tolerances. With 1.0
+// and 2.2 nothing changes on seven test meshes.
 constexpr double collapse_far = 1.1;
-// Radius, in edge lengths, around an undone collapse in which no other is tried. Half: same. Double: 1 % more faces.
+// Radius, in edge lengths, around an undone collapse in which no other is tried. Halving it changes nothing. At twice
+// the value: 1 % more faces.
 constexpr double collapse_same_place = 0.3;
 
 }  // namespace hf_inner

@@ -62,7 +62,8 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
 }
 
 std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Memory& memory) {
-  // The faces around v in counter-clockwise order, and for each its two neighbours of v.
+  // Lists the faces around v in counter-clockwise order. For each face, `first` and `last` are its two corners beside
+  // v.
   Table<std::int32_t> faces(memory), spokes(memory);
   Table<std::int32_t> first(memory), last(memory);
   for (std::int32_t f = 0; f < mesh.face_count(); ++f)

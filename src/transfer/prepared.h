@@ -99,9 +99,9 @@ struct Transfer::Prepared {
   Vector<Vec3> blended;               // posed target, inner units.
   double lift = 0;                    // height by which everything is raised.
   Vector<std::int32_t> source_owner;  // per source vertex: cluster whose centre is nearest.
-  // The next arrays have one entry per cluster. rest_lows, source_lows: lowest scaled height of its source vertices
-  // over the ground, at rest and now. target_lows: lowest height of its target vertices. touch: its area if it touches
-  // the ground now but not at rest.
+  // Four arrays with one entry per cluster. rest_lows and source_lows: lowest scaled height of the cluster's source
+  // vertices over the ground, at rest and now. target_lows: lowest height of the cluster's target vertices. touch: the
+  // cluster's area if the cluster touches the ground now but not at rest.
   Vector<double> rest_lows, source_lows, target_lows, touch;
   double source_low = 0;  // lowest height of all source vertices
   struct Sunk {

@@ -115,8 +115,8 @@ void Transfer::find_sunk(Prepared& p, Vec3 up, double allowed) const noexcept {
   }
 }
 
-// Raises the hold of each region that sinks, or adds one, and holds the deepest vertex of each sunk cluster. Returns
-// false if no part sinks.
+// Raises the constraint (hold) of each region that sinks into the ground, or adds one. Constrains the deepest vertex of
+// each sunk cluster too. Returns false if no part sinks.
 bool Transfer::hold_sunk(Prepared& p, Vec3 up, double share, std::size_t& held) const noexcept {
   const std::size_t rows = p.given_hold.size();
   bool any = false;

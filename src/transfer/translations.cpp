@@ -231,8 +231,8 @@ Vec3 Translations::place(std::size_t row, const Mat3* rotations, const Vec3* shi
 }
 
 // Solves a small positive definite system by Cholesky in place, for three right-hand sides at once. It is written by
-// hand, because Eigen allocates when the size is only known at run time. Absent holds get the rows of the identity
-// matrix.
+// hand, because Eigen allocates when the size is only known at run time. A constraint (hold) that this pass skips gets
+// a row of the identity matrix.
 void Translations::solve_holds(Span<const Hold> holds, bool with_vertical) noexcept {
   const std::size_t k = holds.size(), rows = row_start_.size() - 1;
   double* m = hold_matrix_.data();

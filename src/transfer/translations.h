@@ -105,11 +105,11 @@ class Translations {
                const Clusters& clusters);
 
   void add_influences();
-  // Fills A^-1 R^T for the rows first .. last - 1, where A is the matrix of the energies and R the rows. Also fills
-  // their part of the Gram matrix, against all rows before `last`.
+  // Fills A^-1 R^T for the rows first .. last - 1, where A is the matrix of the energies and R the rows. Also fills the
+  // Gram matrix R A^-1 R^T between these rows and all rows before `last`.
   void fill_influences(std::size_t first, std::size_t last) noexcept;
-  // Solves for the multipliers of the holds, one vector each, in hold_rhs_. with_vertical: vertical holds take part
-  // too.
+  // Solves for the multipliers of the constraints (holds), one vector each, in hold_rhs_. with_vertical: constraints
+  // along the up direction count too.
   void solve_holds(Span<const Hold> holds, bool with_vertical) noexcept;
 
   std::int32_t count_ = 0;
