@@ -20,7 +20,7 @@ namespace hf_inner {
 struct BandOptions {
   int degree = 2;
   BandSpacing spacing = BandSpacing::equal_length;
-  // wished number of bands (K); see bands_for
+  // Wished number of bands (K); bands_for gives the real one.
   std::int32_t band_count = static_cast<std::int32_t>(default_bands_smooth);
 };
 

@@ -173,7 +173,7 @@ constexpr std::int32_t samples_per_group = 24;
 
 // ---- rotation.cpp, rotation_batch.cpp ----
 
-// Angle (radians) below which two terms of the series are exact in double.
+// Below this angle (radians) the first two terms of the sine's series are exact in double.
 constexpr double small_angle = 1e-4;
 // Eigenvalues of a matrix of size 1 that differ by less count as equal: their rounding error and a margin.
 constexpr double equal_eigenvalues = 1e-12;
@@ -193,7 +193,7 @@ constexpr double settled_newton_step = 1e-14;
 constexpr double skin_vertices = 20000;  // most vertices in the fit: fewer take less time
 constexpr int skin_rounds = 8;           // rounds over all joints
 constexpr int stretch_rounds = 6;        // rounds that fit rotation and stretch of one joint in turn
-// as a share of the moments: a joint without extent in a direction keeps the scale 1 there
+// Added to the moments, as a share of them: a joint without extent in a direction keeps the scale 1 there.
 constexpr double stretch_ballast = 1e-6;
 constexpr double least_stretch = 1e-3;       // keeps a joint's scale positive
 constexpr double least_vertex_area = 1e-12;  // as a share of the squared box: vertices without area still count

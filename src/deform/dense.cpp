@@ -104,7 +104,7 @@ void DenseFactor::factorise(Buffer<double>&& lower, std::int32_t size, Memory& m
     if (pivot > pivot_floor * diagonal && pivot > 0) {
       inverse_pivot_[i] = 1.0 / std::sqrt(pivot);
     } else {
-      // The zero in inverse_pivot_ makes the rows below zero in this column.
+      // inverse_pivot_ is 0 here, so all later rows get a 0 in this column.
       ++dropped_;
       std::fill(row, row + i, 0.0);
     }

@@ -20,7 +20,7 @@ void set_target(const SmoothSystem& system, std::size_t g, SmoothState& state) n
   }
 }
 
-// Writes the transforms of the handles as rows of the unknown matrix X.
+// Writes the transforms of the handles into X, the matrix of all transforms.
 void set_handle_rows(const SmoothSystem& system, const Affine* transforms, SmoothState& state) noexcept {
   for (std::int32_t h = 0; h < system.handle_count; ++h) {
     double* x = state.rows.data() + 16 * static_cast<std::size_t>(h);

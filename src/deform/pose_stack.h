@@ -42,7 +42,7 @@ class PoseStack {
   std::uint32_t handle_count() const noexcept { return static_cast<std::uint32_t>(entries_.size()); }
   std::uint32_t layer_of(std::uint32_t number) const;
   HandleReport handle(std::uint32_t number) const;
-  // Does the same as handle(), but an error carries this index.
+  // Returns the report of a handle like handle(), but an error carries this index.
   HandleReport handle_at(std::uint32_t number, std::uint32_t index) const;
   Span<const double> field(std::uint32_t number) const;  // in the handle's own layer
   // Returns the motion from rest to where the handle was in the last deform().
@@ -57,7 +57,7 @@ class PoseStack {
  private:
   struct Entry {
     std::uint32_t number = 0, layer = 0;
-    // the handle's number in the poses of its own layer and those above
+    // The handle's number in the poses of its own layer and of the layers above.
     std::array<std::uint32_t, layer_limit> inner{};
     Vec3 centroid;         // of the rest region, in the given frame
     HandleTransform edit;  // D_h, the user's transform

@@ -34,7 +34,8 @@ struct Rest {
   }
 };
 
-// Calls loop(first, last) for every piece of vertex_piece numbers in 0 .. count, on several threads.
+// Cuts the numbers 0 .. count into pieces of vertex_piece numbers, and calls loop(first, last) for each piece on
+// several threads.
 template <class Loop>
 void for_vertex_pieces(JobRunner& jobs, std::int32_t count, Loop&& loop) {
   const std::int32_t pieces = (count + vertex_piece - 1) / vertex_piece;

@@ -28,7 +28,8 @@ struct Sheet {
   double inverse_moment[2] = {0, 0};  // 0: the group is a line or a point and never has a stress
   std::int32_t limits = 0;            // index into strain_limits
 };
-// Makes the sheet of a group. moments: the matrix M above. limits: index into strain_limits.
+// Makes the sheet of a group. moments: the second moments M of the group's rest edges. limits: index into
+// strain_limits.
 Sheet make_sheet(const Mat3& moments, std::int32_t limits) noexcept;
 
 // The stress matrix X = [along across; across beside] in the axes of the sheet.

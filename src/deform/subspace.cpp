@@ -96,8 +96,8 @@ void add_blocks(const BlendRows& rows, const Sample* samples, std::size_t count,
   }
 }
 
-// Where the sums add Q_gc (subspace.h): wide[16 entry + 4 a + b], with entry = entry_of[row_of_group[g] + c]. The
-// column b = 3 stays 0.
+// The arrays to which the sums add the coefficient matrix Q_gc of group g and cluster c (subspace.h). Its numbers are
+// wide[16 entry + 4 a + b], with entry = entry_of[row_of_group[g] + c]. The column b = 3 stays 0.
 struct Moments {
   double* wide;
   const std::int32_t* entry_of;
@@ -380,7 +380,7 @@ class Assembly {
   const Groups& groups_;
   Subspace& out_;
   Memory& memory_;
-  // by component: 0 without free clusters, 1 with, 2 if also more than two handles meet
+  // By component: 0 without free clusters, 1 with free clusters, 2 if more than two handles meet there too.
   Vector<std::uint8_t> elastic_;
   Vector<std::int32_t> edge_count_;   // by cluster: ends of edges in it
   Vector<std::uint8_t> needs_all_;    // by vertex: 1 in a cluster with few edges

@@ -74,7 +74,7 @@ class Factor {
   virtual Span<const std::int32_t> position() const noexcept = 0;
   virtual Span<const std::int32_t> order() const noexcept = 0;
 
-  // Sweep in place over z[row * channels + channel], rows in factor order.
+  // The two sweeps work in place on z[row * channels + channel], with rows in factor order.
   virtual void forward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
   virtual void backward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
 

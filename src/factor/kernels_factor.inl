@@ -22,8 +22,8 @@ inline double* vector_row(double* tiles, std::int32_t v, std::int64_t tile_strid
   return tiles + (v / tile_vectors) * tile_stride + (v % tile_vectors) * D::width;
 }
 
-// Computes c[r][j] = (Fresh ? 0 : c[r][j]) - sum over k of a[r][k] b[j][k]. Per k, a and b advance by 8 doubles; per j,
-// c advances by c_step.
+// Multiplies two blocks: c[r][j] = (Fresh ? 0 : c[r][j]) - sum over k of a[r][k] b[j][k]. Per k, a and b advance by 8
+// doubles; per j, c advances by c_step.
 template <int R, int N, bool Fresh>
 inline void multiply_block(const double* const* a, const double* b, std::int32_t k_count, double* const* c,
                            std::int64_t c_step) noexcept {

@@ -20,7 +20,8 @@ namespace {
 
 // Columns that are summed together on the stack, for several right-hand sides.
 constexpr std::int32_t chunk_columns = 256;
-// The same for one right-hand side. It is larger than most rows, so that a block is read as one stream.
+// Columns that are summed together on the stack, for one right-hand side. More columns than most rows have, so that a
+// block is read as one stream.
 constexpr std::int32_t single_columns = 1024;
 // Numbers that stay in the second-level cache while strips of columns pass over them: 64 KB of doubles.
 constexpr std::int64_t pass_numbers = 8192;

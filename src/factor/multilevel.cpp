@@ -159,7 +159,7 @@ Cut MultilevelBisection::run(const GraphView& graph, std::uint8_t* side) {
     // Growing levels_ may have moved its entries.
     fine = depth == 0 ? &graph : &levels_[depth - 1].view;
     coarsen(*fine, levels_[depth]);
-    // there are hardly any stars, so this graph is bisected
+    // The graph has hardly any stars, so it is bisected as it is.
     if (levels_[depth].view.size > least_shrinking * fine->size) break;
     fine = &levels_[depth++].view;
   }

@@ -118,8 +118,8 @@ void measure_tasks(const Symbolic& symbolic, Plan& plan) {
   }
 }
 
-// Finds first-fit places for the update matrices that outlive their task or wave. Those of task roots get theirs first.
-// Those of a wave get theirs while their children's matrices are still in use.
+// Finds first-fit places for the update matrices that outlive their task or wave. Task roots get their places first. A
+// supernode of a wave gets its place while its children's matrices are still in use.
 void place_shared(const Symbolic& symbolic, Memory& memory, Plan& plan) {
   struct Gap {
     std::int64_t begin, end;

@@ -231,7 +231,8 @@ class ForwardPass {
     if (narrow) solve_triangle(s, z);
   }
 
-  // Does the same with the rows of a large supernode split over the threads.
+  // Does the forward step of one supernode like the function above, with the rows of a large supernode split over the
+  // threads.
   void solve(std::int32_t s, T* product, JobRunner& jobs) const {
     const std::int32_t columns = symbolic_.columns(s), rows = symbolic_.below(s);
     if (jobs.thread_count() == 1 || static_cast<double>(columns) * rows < least_cut || rows <= piece_rows ||

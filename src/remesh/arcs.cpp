@@ -11,7 +11,8 @@ void walk_loop(const FluxField& field, Loop loop, Table<std::int32_t>& out) {
   out.clear();
   for (std::int32_t h = loop.seed;;) {
     out.push_back(h);
-    // goes from high to low, in the triangle to the right; `opposite` is that triangle's third corner
+    // This half-edge goes from high to low, in the triangle to the right. `opposite` is the third corner of that
+    // triangle.
     const std::int32_t t = s.twin[h];
     const std::int32_t opposite = s.tail[FluxSurface::previous(t)];
     h = field.rank(opposite) < loop.threshold ? FluxSurface::previous(t) : FluxSurface::next(t);

@@ -17,16 +17,16 @@ namespace hf_inner {
 // Edge length, as a share of the box: trades detail for the number of faces. docs/quads.md is measured with it. At half
 // the value: four times the faces.
 constexpr double default_edge_length = 0.022;
-// Rounds of relaxation: trades evenness for time. At 30 the figure of eight has an aspect of 2.6 instead of 2.5, and 37
-// % irregular vertices instead of 34 %. With 120 the results are those of 60.
+// Rounds of relaxation: trades evenness for time. At 30 a figure of eight has an aspect of 2.6 instead of 2.5, and 37 %
+// irregular vertices instead of 34 %. With 120 the results are those of 60.
 constexpr std::int32_t default_relax_rounds = 60;
 
 // --- quads.cpp: sites ---
 
 // Sites nearer to each other than this share of the box become one, so that each limb has one site. Halving it changes
-// nothing. At twice the value: the cow has other sites, and 16 % irregular vertices instead of 19 %.
+// nothing. At twice the value: a cow has other sites, and 16 % irregular vertices instead of 19 %.
 constexpr double tip_distance = 0.06;
-// Most tips used as sites; it bounds the sites of busy shapes. With 8, the cow has 22 % fewer faces, and 27 % irregular
+// Most tips used as sites; it bounds the sites of busy shapes. With 8, a cow has 22 % fewer faces, and 27 % irregular
 // vertices instead of 19 %. With 64 nothing changes.
 constexpr std::size_t most_tips = 32;
 struct TipLengths {
@@ -37,23 +37,23 @@ struct TipLengths {
 constexpr TipLengths tip_lengths[] = {{0.008, 0.02}, {0.015, 0.05}, {0.03, 0.1}, {0.1, 0.3}};
 // Number of lists that are tried; each takes 2 to 20 % of the time. With 1 or 2 the same mesh won on four test shapes.
 constexpr int tip_trials = 4;
-// Sources of the mean distance: more find tips more exactly but take longer. 20: other tips on the cow. With 80 nothing
+// Sources of the mean distance: more find tips more exactly but take longer. 20: other tips on a cow. With 80 nothing
 // changes.
 constexpr std::int32_t geodesic_sources = 40;
 // Time step of the heat method, in squared mean edges. The authors of the method use 1. Halving or doubling it improves
 // some results and worsens others.
 constexpr double geodesic_smoothing = 1.0;
-// Weight that holds a border at one level; more weight restricts the flow. On the blob, 3 gives 12 % fewer faces, and
-// 300 gives 36 % more.
+// Weight that holds a border at one level; more weight restricts the flow. On a blob of three pieces, 3 gives 12 %
+// fewer faces, and 300 gives 36 % more.
 constexpr double apex_weight = 30;
 
 // --- quads.cpp: lines of kind pure ---
 
-// Rounds that scale the number of lines to the wanted number of faces. With 1 and 4 nothing changes on the figure of
+// Rounds that scale the number of lines to the wanted number of faces. With 1 and 4 nothing changes on a figure of
 // eight.
 constexpr int line_rounds = 2;
-// Share of wanted faces over area. At 1.0 the distance is 0.89 % of the box instead of 0.84, with 14 % fewer faces. At
-// 1.3 it is 0.80 %, with 8 % more.
+// Share of wanted faces over area. At 1.0 the distance to the surface is 0.89 % of the box instead of 0.84, with 14 %
+// fewer faces. At 1.3 it is 0.80 %, with 8 % more.
 constexpr double area_share = 1.15;
 // Smallest factor of a correction of the lines; a guard. With 0.5 and 0.1 nothing changes.
 constexpr double least_line_scale = 0.25;
@@ -85,11 +85,11 @@ constexpr double fit_tolerance = 0.39;
 constexpr double collapse_tolerance = 1.03;
 // Most turns of fitting and collapsing: more of them take longer. With 2 and 8 nothing changes on seven test meshes.
 constexpr int fit_turns = 4;
-// Corners that a step may turn over grow by this number per turn: trades distance for folds. At 1 the distance is 1.63
-// % of the box instead of 1.60. At 4 it stays the same.
+// Corners that a step may turn over grow by this number per turn: trades distance for folds. At 1 the distance to the
+// surface is 1.63 % of the box instead of 1.60. At 4 it stays the same.
 constexpr std::int32_t folds_a_turn = 2;
-// Rings of quads relaxed around a step in odd turns. At 0 the distance is 1.28 % of the box instead of 1.26. At 2 it
-// stays the same.
+// Rings of quads relaxed around a step in odd turns. At 0 the distance to the surface is 1.28 % of the box instead of
+// 1.26. At 2 it stays the same.
 constexpr std::int32_t fit_rings_odd = 1;
 // Shortest edges, in edge lengths, that kind pure keeps where the mesh was refined. Halving or doubling it changes
 // nothing on three test meshes.
@@ -157,7 +157,7 @@ constexpr float fit_progress = 0.6f;
 // Progress when a mesh from given sites is made; the rest is for fitting. On three shapes, making took 10 to 50 % of
 // both.
 constexpr float given_made = 0.7f;
-// The same share for a denser mesh.
+// Progress when a denser mesh is made; the rest is for fitting it.
 constexpr float dense_made = 0.3f;
 
 // --- flux_sites.cpp, border_flux.cpp ---
@@ -165,21 +165,21 @@ constexpr float dense_made = 0.3f;
 // Fewest lines at a site, and fewest nodes of a ring. 2 would double an edge, which check_quads refuses. With 2 and 6
 // nothing changes on four test shapes.
 constexpr double least_lines = 4;
-// Radius of the circle that measures the girth of a limb, as a share of the box. At half the value: aspect of the cow
-// 3.4 instead of 2.2. At twice the value: the distance grows by 0.1 to 0.2 % of the box.
+// Radius of the circle that measures the girth of a limb, as a share of the box. At half the value: aspect of a cow 3.4
+// instead of 2.2. At twice the value: the distance to the surface grows by 0.1 to 0.2 % of the box.
 constexpr double circle_radius = 0.1;
-// Half the width of the band around that circle, as a share of its radius. Distance of the figure of eight: 1.00 % of
-// the box, 1.35 at half the value, 1.08 at twice the value.
+// Vertices this close to circle_radius, as a share of it, measure the girth of a limb. The distance to the surface of a
+// figure of eight is 1.00 % of the box, 1.35 at half the value, 1.08 at twice the value.
 constexpr double circle_band = 0.2;
 // Least geodesic distance between a tip and borders or earlier sites. Halving it changes nothing. At twice the value:
-// the 95 % quantile of the cow's edges is 1.9 edge lengths instead of 1.5.
+// the 95 % quantile of a cow's edges is 1.9 edge lengths instead of 1.5.
 constexpr double border_distance = 0.08;
 // Most sites of a component. It bounds time and memory: all pairs of sites and a dense system (border_flux.cpp). Not
 // measured.
 constexpr std::size_t most_sites = 400;
 // Fewest sites of a component: a source and a sink.
 constexpr std::size_t least_sites = 2;
-// Fewest sites of a surface with handles. With 2, the distance of the figure of eight is 1.02 % of the box instead of
+// Fewest sites of a surface with handles. With 2, the distance of a figure of eight is 1.02 % of the box instead of
 // 1.00. With 8 it is 1.14, and 50 % of the vertices are irregular instead of 34.
 constexpr std::size_t least_sites_with_handles = 4;
 // The usual number of sites; progress uses it before the number is known.
@@ -190,7 +190,7 @@ constexpr double neighbour_cost = 0.5;
 // Guards a division by 0 when all sites are in one place. Positions have a box of diagonal 1.
 constexpr double least_mean_distance = 1e-12;
 // Up to this many sites, all partitions are tried: 2,048 for 12 sites, twice as many for each more. With 6, the 5 %
-// quantile of the cow's edges is 0.55 edge lengths instead of 0.64. With 16 nothing changes.
+// quantile of a cow's edges is 0.55 edge lengths instead of 0.64. With 16 nothing changes.
 constexpr std::size_t most_tried_at_once = 12;
 // Up to this many sites, two are exchanged at once, which costs k^4 per sweep for k sites. Not measured: no tried shape
 // had 20 sites.
@@ -198,9 +198,9 @@ constexpr std::size_t most_exchanged_in_pairs = 40;
 // Least gain of an exchange: above the rounding error of a cost of size 1, so that exchanges end.
 constexpr double least_cost_gain = 1e-12;
 // Factor on the diagonal of one pinned vertex per component. Any value above 1 gives the same field. With 1.001 or 20,
-// rounding changes the faces of the figure of eight by 1 %.
+// rounding changes the faces of a figure of eight by 1 %.
 constexpr double pinned_diagonal = 2;
-// Solves per field, refinements included. With 1, rounding changes the cow's faces from 518 to 511. With 6 nothing
+// Solves per field, refinements included. With 1, rounding changes the faces of a cow from 518 to 511. With 6 nothing
 // changes within rounding.
 constexpr int flux_solves = 3;
 // Raises of border fluxes, before all sources and sinks get fixed values: trades time for even lines. With 3 nothing
@@ -224,7 +224,7 @@ constexpr double least_segment = 1e-15;
 // fewer faces.
 constexpr double ring_at_site = 0.8;
 // Distance from a saddle to the next ring, in edge lengths. At 0.25 the distance to the surface changes by -0.3 to +0.2
-// % of the box. At 1 it grows by up to 0.3, and the cow has 40 % irregular vertices instead of 30.
+// % of the box. At 1 it grows by up to 0.3, and a cow has 40 % irregular vertices instead of 30.
 constexpr double ring_at_saddle = 0.5;
 // Most loops per arc whose lengths are integrated: more cost time but give more even rings. Halving or doubling it
 // improves some results and worsens others.
@@ -232,7 +232,7 @@ constexpr std::int32_t loops_an_arc = 64;
 // A step above this share of an arc's range is subdivided. Halving or doubling it improves some results and worsens
 // others.
 constexpr double long_step = 0.01;
-// Pieces of such a long step. 4 and 16 improve some results and worsen others.
+// Pieces into which a long step is subdivided. 4 and 16 improve some results and worsen others.
 constexpr std::int32_t long_step_pieces = 8;
 // Guards a division by 0.
 constexpr double least_arc_flux = 1e-30;
@@ -243,11 +243,11 @@ constexpr double most_rings = 1e6;
 
 // Keeps a number of nodes within the range of an integer.
 constexpr double most_nodes = 1e6;
-// Fewest nodes of the ring beside a site; splitting then gives the site 3 or more faces. Angles of the cow (95 %): 42
-// degrees, 52 with 4, 47 with 8.
+// Fewest nodes of the ring beside a site; splitting then gives the site 3 or more faces. Angles of a cow (95 %
+// quantile): 42 degrees, 52 with 4, 47 with 8.
 constexpr double least_nodes_at_site = 6;
 // A gap wider than this many edge lengths gets a pair of nodes. At 1.6, 51 % of the vertices are irregular instead of
-// 34, with 10 to 17 % more faces. At 3 the distance is up to 1.3 % of the box, with 31 % fewer faces.
+// 34, with 10 to 17 % more faces. At 3 the distance to the surface is up to 1.3 % of the box, with 31 % fewer faces.
 constexpr double widest_gap_length = 1.9;
 // A pair of lines ends where three neighbouring gaps together are narrower than this many edge lengths. 1.2: 2 to 6 %
 // more faces; 2.4: 2 to 6 % fewer.
@@ -261,7 +261,7 @@ constexpr double second_line = 0.25;
 
 // --- quad_mesh.cpp ---
 
-// Cost of a reflex corner; a flat corner costs 1. With 0, the distance of the figure of eight is 1.02 % of the box
+// Cost of a reflex corner; a flat corner costs 1. With 0, the distance of a figure of eight is 1.02 % of the box
 // instead of 1.00, its aspect 2.6 instead of 2.5. With 8 nothing changes.
 constexpr double reflex_cost = 4;
 // Cost of a quad with an edge of length 0. It is above every other cost, so such a quad is chosen last.
@@ -272,7 +272,7 @@ constexpr double degenerate_cost = 1e3;
 // Share of the way to the proposed place that a vertex moves; below 1 it does not swing. 0.25 and 1 improve some
 // results and worsen others.
 constexpr double relax_step = 0.5;
-// Share of the way to the wanted edge length. 0.25 improves some results and worsens others. At 1 the cow has 33 %
+// Share of the way to the wanted edge length. 0.25 improves some results and worsens others. At 1 a cow has 33 %
 // irregular vertices instead of 30.
 constexpr double size_step = 0.5;
 // Most edges that one walk crosses: ends walks on degenerate triangles. With 50 and 800 nothing changes.
@@ -295,7 +295,7 @@ constexpr std::int32_t tree_stack = 32;
 constexpr std::int32_t most_samples = 60000;
 // Up to this many triangles, points inside them are sampled too. Finer surfaces have enough vertices.
 constexpr std::int32_t most_spread = 30000;
-// Most steps along an edge of a sampled triangle. With 4, the blob has 2 % more faces. With 16 nothing changes.
+// Most steps along an edge of a sampled triangle. With 4, a blob has 2 % more faces. With 16 nothing changes.
 constexpr double most_steps = 8;
 // Fewest steps on a triangle of the surface; its corners already are samples. With 2 nothing changes on four test
 // shapes.
@@ -333,13 +333,13 @@ constexpr std::int32_t capture_rings = 3;
 
 // Most rounds of fitting in one turn; it bounds the time. With 40 and 160 nothing changes on six test meshes.
 constexpr std::int32_t fit_rounds = 80;
-// Rounds of relaxation after a step. With 6 and 24 the distance is the same, and faces change by 3 %.
+// Rounds of relaxation after a step. With 6 and 24 the distance to the surface is the same, and faces change by 3 %.
 constexpr std::int32_t fit_relax_rounds = 12;
-// Rings of quads relaxed around a step. With 1 the distance is the same, with 2 % more faces. With 4 it is 1.29 % of
-// the box instead of 1.26.
+// Rings of quads relaxed around a step. With 1 the distance to the surface is the same, with 2 % more faces. With 4 it
+// is 1.29 % of the box instead of 1.26.
 constexpr std::int32_t fit_rings = 2;
-// Additional rings for the steps release and snap. With 0 the distance is the same. With 2 it is 1.27 % of the box
-// instead of 1.26.
+// Additional rings for the steps release and snap. With 0 the distance to the surface is the same. With 2 it is 1.27 %
+// of the box instead of 1.26.
 constexpr std::int32_t fit_snap_rings = 1;
 // Rings of quads relaxed after subdividing and snapping. With 0 and 2 nothing changes on six test meshes, where
 // subdividing is rare.
@@ -348,16 +348,16 @@ constexpr std::int32_t fit_resnap_rings = 1;
 // distance is 1.18 % of the box instead of 1.26. With 6 nothing changes.
 constexpr std::int32_t fit_apart = 3;
 // Radius, in edge lengths, in which a step is judged; a little above fit_rings. At half the value: 2 % more faces. At
-// twice the value: the distance grows by 0.01 % of the box.
+// twice the value: the distance to the surface grows by 0.01 % of the box.
 constexpr double fit_reach = 2.2;
 // Radius, in edge lengths, within which a place counts as tried: smaller repeats places, larger skips some. Halving or
 // doubling it improves some results and worsens others.
 constexpr double fit_same_place = 0.8;
 // A step of fitting stays only if the distance to the surface falls to this share of what it was. With 0.8 nothing
-// changes; 1: the Hausdorff distance of the triceratops rose from 1.60 to 1.87 %.
+// changes; 1: the Hausdorff distance of a triceratops rose from 1.60 to 1.87 %.
 constexpr double fit_gain = 0.97;
-// The same share for a step that turns corners over: trades distance for folds. With half the distance is the same;
-// with 1 nothing changes.
+// Like fit_gain, but for a step that turns corners over: trades distance for folds. With half the value the distance to
+// the surface is the same, with 1 nothing changes.
 constexpr double fit_folding_gain = 0.5;
 // Fitting may multiply the number of faces by this at most. With 1.1 and 3 nothing changes on six test meshes, which
 // add less.
@@ -373,7 +373,8 @@ constexpr float finest_scale = 0.5f;
 // Factor on the edge length after subdividing, between 1 and the half of a halved edge. With 0.5 and 1 nothing changes
 // on six test meshes.
 constexpr float subdivided_scale = 0.75f;
-// Factor on the edge length after a split, which adds one face. With 0.75 and 1 the distance is the same.
+// Factor on the edge length after a split, which adds one face. With 0.75 and 1 the distance to the surface is the
+// same.
 constexpr float split_scale = 0.92f;
 
 // --- coarsen.h, coarsen.cpp ---
@@ -383,8 +384,8 @@ constexpr float split_scale = 0.92f;
 constexpr double short_edge = 0.55;
 // Most rounds of collapses; it bounds the time. With 12 and 48 nothing changes on seven test meshes.
 constexpr std::int32_t collapse_rounds = 24;
-// Share of quads with a short edge that may stay: trades time for evenness. At half the value: the distance is the
-// same. At twice the value: up to 4 % more faces.
+// Share of quads with a short edge that may stay: trades time for evenness. At half the value: the distance to the
+// surface is the same. At twice the value: up to 4 % more faces.
 constexpr double collapse_enough = 0.02;
 // Rounds of relaxation after collapses. 6 and 24 improve some results and worsen others.
 constexpr std::int32_t collapse_relax_rounds = 12;

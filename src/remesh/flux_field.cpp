@@ -66,8 +66,8 @@ double FluxField::imbalance(std::int32_t v) const noexcept {
 }
 
 void FluxField::match(std::int32_t v) {
-  // The edges around the vertex, counter-clockwise. Offsets of incoming edges then grow with the order, offsets of
-  // outgoing edges against it.
+  // Lists the edges around the vertex, counter-clockwise. Offsets of incoming edges then grow with the order, offsets
+  // of outgoing edges against it.
   struct Segment {
     std::int32_t half;  // uphill
     bool in;

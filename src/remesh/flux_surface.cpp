@@ -59,7 +59,7 @@ Table<std::uint8_t> orient(const Mesh& mesh, const Pairs& pairs, Memory& memory)
         const std::int32_t other = pairs.twin[h];
         if (other == none) continue;
         const std::int32_t a = mesh.corners[static_cast<std::size_t>(h)];
-        // both half-edges start at a, so the triangles disagree
+        // If both half-edges start at a, the two triangles are oriented against each other.
         const bool same_way = mesh.corners[static_cast<std::size_t>(other)] == a;
         const std::uint8_t wanted = static_cast<std::uint8_t>(turned[t] ^ (same_way ? 1 : 0));
         if (turned[other / 3] == unseen) {

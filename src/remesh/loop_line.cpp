@@ -76,7 +76,7 @@ SurfacePoint LoopLine::location(double place) const noexcept {
   const std::int32_t h = edges_[found.edge];
   const bool left = found.share < 0.5;
   std::int32_t triangle = (left ? h : s.twin[h]) / 3;
-  // for a triangle at an apex, takes the one across the border
+  // A triangle at an apex is not real, so the triangle across the border is taken.
   if (triangle >= s.real_triangles) triangle = s.twin[3 * triangle] / 3;
   SurfacePoint out;
   out.triangle = triangle;

@@ -238,8 +238,8 @@ constexpr std::int32_t turning_rounds = 3;
 // Most single vertices held in one frame. It bounds the Gram matrix and the time of a frame in which many vertices
 // sink.
 constexpr std::size_t vertex_rows = 24;
-// Added to the diagonal, relative to it: two constraints (holds) of the same place stay solvable. Halving or doubling
-// it changes results by at most 3 %.
+// This share of the diagonal is added to the diagonal, so that two constraints (holds) of the same place can be solved.
+// Halving or doubling it changes results by at most 3 %.
 constexpr double hold_ridge = 1e-9;
 // Keeps the square root of a failed pivot positive.
 constexpr double least_pivot = 1e-300;

@@ -123,8 +123,8 @@ class Translations {
   Vector<std::int32_t> row_start_, row_column_;
   Vector<double> row_weight_;
   Vector<Vec3> row_point_;
-  // influence_: A^-1 R^T, rows x clusters. gram_: R A^-1 R^T. hold_matrix_: scratch of the holds. The last vertex_rows
-  // rows belong to set_vertex_rows.
+  // influence_: A^-1 R^T, rows x clusters. gram_: R A^-1 R^T. hold_matrix_: scratch of the constraints (holds). The
+  // last vertex_rows rows belong to set_vertex_rows.
   Vector<double> influence_, gram_, hold_matrix_;
   Vector<Vec3> hold_rhs_;
 };
