@@ -37,8 +37,8 @@ struct TipLengths {
 constexpr TipLengths tip_lengths[] = {{0.008, 0.02}, {0.015, 0.05}, {0.03, 0.1}, {0.1, 0.3}};
 // Number of lists that are tried; each takes 2 to 20 % of the time. With 1 or 2 the same mesh won on four test shapes.
 constexpr int tip_trials = 4;
-// Sources of the mean distance: more find tips more exactly but take longer. 20: other tips on a cow. With 80 nothing
-// changes.
+// Sources of the mean distance: more find tips more exactly but take longer. With 20: other tips on a cow. With 80
+// nothing changes.
 constexpr std::int32_t geodesic_sources = 40;
 // Time step of the heat method, in squared mean edges. The authors of the method use 1. Halving or doubling it improves
 // some results and worsens others.
@@ -110,8 +110,8 @@ constexpr int density_count = 2;
 // Denser meshes, tried if no mesh is good. The skull and an elephant of docs/quads.md need them. Halving or doubling
 // the steps changes nothing.
 constexpr double densities[density_count] = {1.15, 1.3};
-// Distance of a good mesh, in edge lengths: 0.9 % of the box at edges of 2.2 %; the tests demand 1 %. 0.3: up to 66 %
-// more faces. With 0.6 nothing changes.
+// Distance of a good mesh, in edge lengths: 0.9 % of the box at edges of 2.2 %; the tests demand 1 %. With 0.3: up to
+// 66 % more faces. With 0.6 nothing changes.
 constexpr double near_distance = 0.41;
 // Denser meshes are tried only if the cost of the best mesh is larger; this saves time. With 1.0 and 1.2 nothing
 // changes on four test shapes.
@@ -121,10 +121,10 @@ constexpr double near_enough = 1.06;
 constexpr double outliers = 0.05;
 // Shortest edges of an even mesh, in edge lengths; the tests demand 0.5. With 0.3 and 0.7 the same meshes are chosen.
 constexpr double shortest_even = 0.52;
-// Longest edges of an even mesh, in edge lengths; the tests demand at most 2.1. 1.5: up to 32 % more faces. With 4
+// Longest edges of an even mesh, in edge lengths; the tests demand at most 2.1. With 1.5: up to 32 % more faces. With 4
 // nothing changes.
 constexpr double longest_even = 2;
-// Largest aspect of an even mesh: trades evenness for faces. 2: up to 65 % more faces. With 8 nothing changes.
+// Largest aspect of an even mesh: trades evenness for faces. With 2: up to 65 % more faces. With 8 nothing changes.
 constexpr double narrowest_even = 4;
 // Largest aspect of an even mesh of kind pure, where lines cannot end. With 6 and 24 nothing changes.
 constexpr double narrowest_pure = 12;
@@ -206,8 +206,8 @@ constexpr int flux_solves = 3;
 // Raises of border fluxes, before all sources and sinks get fixed values: trades time for even lines. With 3 nothing
 // changes on a sheet with holes.
 constexpr int border_rounds = 6;
-// Factor of one raise. With 1.3 nothing changes. 3: the distance of a sheet with holes is 1.89 % of the box instead of
-// 1.54, its aspect 19 instead of 12.
+// Factor of one raise. With 1.3 nothing changes. With 3: the distance of a sheet with holes is 1.89 % of the box
+// instead of 1.54, its aspect 19 instead of 12.
 constexpr double border_raise = 1.7;
 
 // --- flux_field.cpp ---
@@ -249,8 +249,8 @@ constexpr double least_nodes_at_site = 6;
 // A gap wider than this many edge lengths gets a pair of nodes. At 1.6, 51 % of the vertices are irregular instead of
 // 34, with 10 to 17 % more faces. At 3 the distance to the surface is up to 1.3 % of the box, with 31 % fewer faces.
 constexpr double widest_gap_length = 1.9;
-// A pair of lines ends where three neighbouring gaps together are narrower than this many edge lengths. 1.2: 2 to 6 %
-// more faces; 2.4: 2 to 6 % fewer.
+// A pair of lines ends where three neighbouring gaps together are narrower than this many edge lengths. With 1.2: 2 to
+// 6 % more faces; with 2.4: 2 to 6 % fewer.
 constexpr double narrowest_gaps_length = 1.7;
 // Fewest lines that a ring keeps: a hexagon. With 4 nothing changes on four test shapes. 12 improves some results and
 // worsens others.
@@ -354,7 +354,7 @@ constexpr double fit_reach = 2.2;
 // doubling it improves some results and worsens others.
 constexpr double fit_same_place = 0.8;
 // A step of fitting stays only if the distance to the surface falls to this share of what it was. With 0.8 nothing
-// changes; 1: the Hausdorff distance of a triceratops rose from 1.60 to 1.87 %.
+// changes; with 1: the Hausdorff distance of a triceratops rose from 1.60 to 1.87 %.
 constexpr double fit_gain = 0.97;
 // Like fit_gain, but for a step that turns corners over: trades distance for folds. With half the value the distance to
 // the surface is the same, with 1 nothing changes.
@@ -391,8 +391,8 @@ constexpr double collapse_enough = 0.02;
 constexpr std::int32_t collapse_relax_rounds = 12;
 // Rings of quads relaxed around a collapse. 1 and 4 improve some results and worsen others.
 constexpr std::int32_t collapse_rings = 2;
-// Most faces of the two merged vertices together; the merged vertex has two fewer. 7: up to 7 % more faces, and 32 %
-// irregular vertices instead of 39. With 10 the results are those of 8.
+// Most faces of the two merged vertices together; the merged vertex has two fewer. With 7: up to 7 % more faces, and 32
+// % irregular vertices instead of 39. With 10 the results are those of 8.
 constexpr std::int32_t collapse_most_faces = 8;
 // Most trials of a round; it bounds the time. With 2 and 8 nothing changes on seven test meshes.
 constexpr int collapse_tries = 4;

@@ -14,7 +14,7 @@ constexpr double degree = 3.14159265358979323846 / 180;
 // A height above every real one: a search for the lowest height starts from it.
 constexpr double no_height = 1e300;
 
-// --- options (transfer.h, clusters.h, translations.h) ---
+// --- options ---
 
 // Trades detail for time. At half the value: the error of a horse transferred to itself is 0.0095 (0.0090 now), and a
 // standing foot slides by 0.025 boxes. At twice the value: that error is 0.0082, but surfaces sink 0.004 boxes into the
@@ -147,8 +147,8 @@ constexpr double least_weight_share = 1e-3;
 // Trades the source's rotation for matching the neighbours' places. At half the value: the error of a horse transferred
 // to itself is 0.0095 (0.0090 now). At twice the value: 0.0085, but the edge stretch of a wolf is 0.34 (0.32 now).
 constexpr double keep_rotation = 0.18;
-// A cluster whose centre has a larger field value belongs to a handle and keeps its rotation. 0.45: the edge stretch of
-// a deer is 0.39 (0.35 now). 1: a standing foot slides by 0.014 boxes.
+// A cluster whose centre has a larger field value belongs to a handle and keeps its rotation. With 0.45: the edge
+// stretch of a deer is 0.39 (0.35 now). With 1: a standing foot slides by 0.014 boxes.
 constexpr double handle_share = 0.9;
 
 // --- source_rotations.cpp ---
