@@ -118,7 +118,7 @@ constexpr double field_prune = 0.3;
 constexpr double piece_share = 0.02;
 // Clusters below this share of their component's area are dropped. Twice the value drops 1 of the scan's 30 clusters.
 constexpr double smallest_area = 2e-4;
-// Factor by which smallest_area grows until the number of clusters is within free_cluster_limit.
+// While there are more than free_cluster_limit clusters, smallest_area grows by this factor.
 constexpr double area_growth = 4;
 // The time of the dense solve grows with the cube of the number of clusters. Bands get wider to reach the target, and
 // pieces are dropped above the limit.
@@ -128,7 +128,7 @@ constexpr double weight_prune = 1e-3;
 
 // ---- levels.cpp ----
 
-// Bins for the values of a field; a field has 10 to 64 bands.
+// Bins into which the values of a field are sorted, to space 10 to 64 bands.
 constexpr int level_bins = 128;
 // Bins to each side in the running mean of gradients. 1 and 6 change energies by 0.3 %.
 constexpr int smoothed_bins = 3;
@@ -144,7 +144,7 @@ constexpr std::uint32_t histogram_shares = 8;
 
 // A component gets rotation groups by its share of the area, and at least one group in this many of all groups.
 constexpr std::int32_t least_group_share = 4;
-// Vertices that are searched again when a distance among them has changed.
+// Size of a block of vertices. A block is searched again when a distance in it has changed.
 constexpr std::size_t farthest_block = 256;
 
 // ---- blend.cpp, blend_blocks.cpp ----

@@ -18,7 +18,7 @@ struct alignas(64) RotationBatch {
   void set_rotation(int lane, const Quaternion& near) noexcept {
     for (int k = 0; k < 4; ++k) q[k][lane] = near.coeffs()(k);
   }
-  // Sets the matrix S of a lane: columns[j][i] = S(i, j).
+  // Sets the matrix S of one lane. columns[j][i] is the entry of S in row i and column j.
   void set_columns(int lane, const double (&columns)[3][4]) noexcept {
     for (int j = 0; j < 3; ++j) {
       for (int i = 0; i < 3; ++i) s[3 * i + j][lane] = columns[j][i];

@@ -138,8 +138,8 @@ constexpr double most_aspect = 1e3;
 struct QuadsProgress {
   float prepared, far_tips, tips, tried, fitted;
 };
-// Progress at the end of each stage. In measurements tips ended at 1 to 8 % of the time, trials at 10 to 86 %, and
-// fitting at 44 to 100 %. No value fits all shapes.
+// Progress at the end of each stage. Measured: tips ended at 1 to 8 % of the time, trials at 10 to 86 %, and fitting at
+// 44 to 100 %. No value fits all shapes.
 constexpr QuadsProgress quads_progress = {0.15f, 0.25f, 0.3f, 0.6f, 0.8f};
 struct MakeProgress {
   float flow, solved, counted, arcs, rings, polygons, split;
@@ -179,8 +179,8 @@ constexpr double border_distance = 0.08;
 constexpr std::size_t most_sites = 400;
 // Fewest sites of a component: a source and a sink.
 constexpr std::size_t least_sites = 2;
-// Fewest sites of a surface with handles. With 2, the distance of a figure of eight is 1.02 % of the box instead of
-// 1.00. With 8 it is 1.14, and 50 % of the vertices are irregular instead of 34.
+// Fewest sites of a surface with handles. With 2, the distance to the surface of a figure of eight is 1.02 % of the box
+// instead of 1.00. With 8 it is 1.14, and 50 % of the vertices are irregular instead of 34.
 constexpr std::size_t least_sites_with_handles = 4;
 // The usual number of sites; progress uses it before the number is known.
 constexpr std::size_t expected_sites = 4;
@@ -206,8 +206,8 @@ constexpr int flux_solves = 3;
 // Raises of border fluxes, before all sources and sinks get fixed values: trades time for even lines. With 3 nothing
 // changes on a sheet with holes.
 constexpr int border_rounds = 6;
-// Factor of one raise. With 1.3 nothing changes. With 3: the distance of a sheet with holes is 1.89 % of the box
-// instead of 1.54, its aspect 19 instead of 12.
+// Factor of one raise. With 1.3 nothing changes. With 3: the distance to the surface of a sheet with holes is 1.89 % of
+// the box instead of 1.54, its aspect 19 instead of 12.
 constexpr double border_raise = 1.7;
 
 // --- flux_field.cpp ---
@@ -261,8 +261,8 @@ constexpr double second_line = 0.25;
 
 // --- quad_mesh.cpp ---
 
-// Cost of a reflex corner; a flat corner costs 1. With 0, the distance of a figure of eight is 1.02 % of the box
-// instead of 1.00, its aspect 2.6 instead of 2.5. With 8 nothing changes.
+// Cost of a reflex corner; a flat corner costs 1. With 0, the distance to the surface of a figure of eight is 1.02 % of
+// the box instead of 1.00, its aspect 2.6 instead of 2.5. With 8 nothing changes.
 constexpr double reflex_cost = 4;
 // Cost of a quad with an edge of length 0. It is above every other cost, so such a quad is chosen last.
 constexpr double degenerate_cost = 1e3;

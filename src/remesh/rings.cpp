@@ -281,7 +281,7 @@ class Builder {
   }
 
   // Completes a ring above a saddle: makes the number of nodes even. In kind uniform it also fills the widest gap at
-  // the saddle by the edge length.
+  // the saddle, with nodes about an edge length apart.
   void fill_saddle_ring(std::int32_t r) {
     std::int32_t widest = none, n = out_.rings[r].node;
     double width = -1;

@@ -138,7 +138,7 @@ void finish(KernelRow& row, std::size_t most, std::int32_t fallback) {
   for (double& w : row.weight) w /= sum;
 }
 
-// Scales the slopes from index `begin` on, so that the moment has trace 1 at rest. Then it closes the row.
+// Scales the slopes from index `begin` on, so that the moment has trace 1 at rest. Then it marks the end of the row.
 void close_row(std::size_t begin, double trace, SourceKernels& out) {
   for (std::size_t i = begin; i < out.slope.size(); ++i) out.slope[i] = (trace > 0 ? 1 / trace : 0.0) * out.slope[i];
   out.start.push_back(static_cast<std::int32_t>(out.slope.size()));

@@ -39,7 +39,7 @@ constexpr double least_scale = 1e-6, most_scale = 1e6;
 // At twice the value: feet end 1.3 times as far from their paths.
 constexpr double default_spread_share = 0.5;
 // Trades exact paths of anchors for shape. At half the value: feet end 1.8 times as far from their paths. At twice the
-// value: 0.6 times as far, and edges stretch the same.
+// value they end 0.6 times as far, and edges stretch the same.
 constexpr double default_anchor_pull = 1;
 // Weight of the centroid when no region is anchored; it alone then fixes the place. Halving or doubling it changes
 // results by at most 3 % and moves vertices by up to 0.004 boxes.
@@ -62,7 +62,8 @@ struct FieldWindow {
   double low, high;
 };
 // Field values between which a leg is measured; if no vertex lies in one window, the next is used. With half the first
-// window, feet end 1.2 times as far from their paths. Doubled: results of a wolf change by at most 3 %.
+// window, feet end 1.2 times as far from their paths. With twice the first window, results of a wolf change by at most
+// 3 %.
 constexpr FieldWindow leg_windows[] = {{0.4, 0.6}, {0.3, 0.7}, {0.2, 0.8}};
 // Field values at which a limb begins. Halving it changes results by at most 3 %. At twice the value: limbs of the test
 // models wolf and fox are no longer aligned.

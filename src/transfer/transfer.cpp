@@ -288,7 +288,8 @@ PairInfo Transfer::pair_info(std::uint32_t pair) {
   return info;
 }
 
-// Tells whether the source region lies on the other side (left or right) than the target region.
+// Tells whether the regions of a pair lie on different sides: left on the source and right on the target, or the
+// reverse.
 bool Transfer::is_crossed(std::uint32_t number) const {
   const auto side = [](const Core& core, const Mat3& axes, Span<const std::int32_t> region,
                        const Vector<double>& area) {
