@@ -35,7 +35,7 @@ constexpr std::uint32_t default_bands_smooth = 10, default_bands_paper = 12;
 constexpr std::uint32_t default_iterations_smooth = 5, default_iterations_paper = 200;
 // Rotation groups: more of them fit better but make each iteration slower. With 125, the pulled scan's smallest stretch
 // falls from 0.74 to 0.68. Ten times the groups with twice the bands lower the energy of the bent cylinder and the
-// twisted bar by 0.3 %. The full-mesh step lowers it by 3 and 5 %.
+// twisted bar by 0.3 %. The full-mesh step (refine.h) lowers these two energies by 3 and 5 %.
 constexpr std::uint32_t default_groups = 250;
 // A pose counts as converged when no rotation changes by more (Frobenius norm). Solving it again then does nothing.
 constexpr double settled_change = 1e-6;
@@ -75,8 +75,8 @@ struct StrainLimits {
   double follow;       // r: share of the way to the wanted stress, per iteration
 };
 // Limits for components with two handles, and for those with more. They were fitted on two planes and two poses of a
-// scan. Settings nearby meet the same bounds. In 15 of 16 poses of eight other meshes, more edges keep a stretch within
-// [0.8, 1.25] (docs/studies/poses.md).
+// scan. Settings close to these keep the edges of the four poses as well within their limits. In 15 of 16 poses of
+// eight other meshes, more edges keep a stretch within [0.8, 1.25] (docs/studies/poses.md).
 constexpr StrainLimits strain_limits[] = {{0.8, 1.24, 4.0, 0.25, 0.0, 0.28}, {0.92, 1.14, 8.0, 0.5, 0.2, 0.16}};
 // A group whose second moment is below this share of its first is a line, and a line has no stress. Halving or doubling
 // it changes no bench figure.

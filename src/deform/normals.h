@@ -1,9 +1,9 @@
 // Computes unit normals of a posed surface, weighted by area: n_v ~ sum over the triangles at v of (q - p) x (r - p).
 //
 // p, q and r are the corners of a triangle. The vertices are cut into pieces. Each piece goes through its triangles
-// once, so that its sums stay in the cache. A triangle across a border of pieces is computed for both. Cost: a cross
-// product per triangle, about 10 ns per vertex. The limit is the memory: 70 bytes per vertex are read and written.
-// Allocates nothing. Gives the same bits on every machine and number of threads.
+// once, so that its sums stay in the cache. A triangle with corners in several pieces is computed for each of them.
+// Cost: a cross product per triangle, about 10 ns per vertex. The limit is the memory: 70 bytes per vertex are read and
+// written. Allocates nothing. Gives the same bits on every machine and number of threads.
 #pragma once
 #include "deform/rest.h"
 

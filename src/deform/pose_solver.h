@@ -58,7 +58,7 @@ struct SolveReport {
   double last_change = 0;
 };
 
-// Two functions that set the group rotations before a solve: from the handles' whole turns (start_rotations), or by
+// The next two functions set the group rotations before a solve: from the handles' whole turns (start_rotations), or by
 // adding the turns since the last solve (predict_rotations). start_rotations takes the groups of `component`, or all
 // groups if it is negative, and clears their stress.
 void start_rotations(const SmoothSystem& system, const Groups& groups, std::int32_t component, Span<const Vec3> turns,

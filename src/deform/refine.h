@@ -38,8 +38,8 @@ class Refinement {
   Refinement(const Core& core, Memory& memory);
   // Makes room for the values of this many slots.
   void fit(std::int32_t slot_count);
-  // Improves `positions` in place; they are blended, in the given unit and frame. Vertices of handles and of components
-  // without free clusters keep their positions.
+  // Improves the blended `positions` in place. They are in the given unit and frame. Vertices of handles and of
+  // components without free clusters keep their positions.
   void apply(const RefineInput& input, Vec3* positions);
 
  private:

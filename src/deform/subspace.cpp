@@ -96,8 +96,8 @@ void add_blocks(const BlendRows& rows, const Sample* samples, std::size_t count,
   }
 }
 
-// The arrays to which the sums add the coefficient matrix Q_gc of group g and cluster c (subspace.h). Its numbers are
-// wide[16 entry + 4 a + b], with entry = entry_of[row_of_group[g] + c]. The column b = 3 stays 0.
+// The arrays to which the sums add the coefficient matrix Q_gc of group g and cluster c (subspace.h). Row a and column
+// b of the matrix are at wide[16 entry + 4 a + b], where entry is entry_of[row_of_group[g] + c]. Column 3 stays 0.
 struct Moments {
   double* wide;
   const std::int32_t* entry_of;

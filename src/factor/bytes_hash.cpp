@@ -3,8 +3,8 @@
 namespace hf_inner {
 namespace {
 
-// Number of independent chains of multiplications; with one, each multiplication would wait for the last. Part of the
-// saved format.
+// Number of independent chains of multiplications; with one, each multiplication would wait for the last. A change of
+// this number would change the saved format.
 constexpr int chains = 8;
 // Distance of the prefetch in bytes. Without it the chains would keep too few cache lines under way.
 constexpr int bytes_ahead = 4096;

@@ -15,7 +15,7 @@
 
 namespace hf_inner {
 
-// Bytes of one piece, hashed as one job. Part of the saved format.
+// Bytes of one piece, hashed as one job. A change of this number would change the saved format.
 constexpr std::uint64_t hash_piece_bytes = std::uint64_t{1} << 16;
 
 inline std::uint64_t hash_step(std::uint64_t state, std::uint64_t word) noexcept {

@@ -76,7 +76,7 @@ struct Kernels {
                           std::int32_t columns, double* z, std::int32_t first, std::int32_t channels);
   void (*backward_narrow_f32)(const float* triangle, const std::int32_t* rows, std::int32_t row_count,
                               std::int32_t columns, float* z, std::int32_t first, std::int32_t channels);
-  // Two functions that do the same as backward_rows and backward_triangle on the single-precision copy of the factor.
+  // The next two do the same as backward_rows and backward_triangle on the single-precision copy of the factor.
   void (*backward_rows_f32)(const float* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
                             std::int32_t begin, std::int32_t end, float* z, std::int32_t first, std::int32_t channels);
   void (*backward_triangle_f32)(const float* triangle, std::int32_t columns, float* z, std::int32_t channels);

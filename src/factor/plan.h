@@ -38,7 +38,7 @@ struct Plan {
   double bytes() const noexcept;
 };
 
-// Two functions that return the number of doubles in a front's panel and in its update matrix.
+// These two functions return the number of doubles in a front's panel and in its update matrix.
 inline std::int64_t panel_size(std::int64_t columns, std::int64_t below) noexcept {
   return 8 * ((columns + 7) / 8 + (below + 7) / 8) * columns;
 }

@@ -25,7 +25,7 @@ class PreviewFactor {
   PreviewFactor(std::shared_ptr<const Analysis> analysis, const Kernels& kernels, const Buffer<double>& values,
                 Memory& memory, JobRunner& jobs);
 
-  // Compute z <- G^-1 z and z <- G^-T z in place on z[row * channels + channel], rows in factor order.
+  // The two sweeps compute z <- G^-1 z and z <- G^-T z in place on z[row * channels + channel], rows in factor order.
   void forward(float* z, std::int32_t channels, JobRunner& jobs) const;
   void backward(float* z, std::int32_t channels, JobRunner& jobs) const;
   // The same two sweeps on double numbers. They are scaled by a power of two before the sweep, so any magnitude works.

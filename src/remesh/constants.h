@@ -35,7 +35,8 @@ struct TipLengths {
 // Least lengths of tips, from a list with many sites to one with few; the best mesh of all lists is kept. Halving or
 // doubling the geodesic lengths improves some results and worsens others.
 constexpr TipLengths tip_lengths[] = {{0.008, 0.02}, {0.015, 0.05}, {0.03, 0.1}, {0.1, 0.3}};
-// Number of lists that are tried; each takes 2 to 20 % of the time. With 1 or 2 the same mesh won on four test shapes.
+// Number of lists that are tried; each takes 2 to 20 % of the time. With 1 or 2 the same mesh was chosen on four test
+// shapes.
 constexpr int tip_trials = 4;
 // Sources of the mean distance: more find tips more exactly but take longer. With 20: other tips on a cow. With 80
 // nothing changes.
@@ -100,8 +101,8 @@ constexpr double short_edge_pure = 0.3;
 // A mesh is not fitted if it is this many times farther from the surface than the nearest mesh; this saves time. With
 // 1.1 and 3 nothing changes.
 constexpr double trial_cutoff = 1.35;
-// Most meshes that are fitted: more of them cost time but give more choice. With 1 the same mesh won on five test
-// shapes.
+// Most meshes that are fitted: more of them cost time but give more choice. With 1 the same mesh was chosen on five
+// test shapes.
 constexpr std::size_t most_fitted = 3;
 // Most meshes that are fitted for each density. With 1 nothing changes on four test shapes.
 constexpr std::size_t most_dense = 2;
@@ -187,7 +188,7 @@ constexpr std::size_t expected_sites = 4;
 // Weight of neighbours that are both sources or both sinks, against the balance of sources and sinks. Halving or
 // doubling it gives the same partition on four test shapes.
 constexpr double neighbour_cost = 0.5;
-// Guards a division by 0 when all sites are in one place. Positions have a box of diagonal 1.
+// Guards a division by 0 when all sites are in one place. Positions are scaled to a bounding box with diagonal 1.
 constexpr double least_mean_distance = 1e-12;
 // Up to this many sites, all partitions are tried: 2,048 for 12 sites, twice as many for each more. With 6, the 5 %
 // quantile of a cow's edges is 0.55 edge lengths instead of 0.64. With 16 nothing changes.
@@ -295,7 +296,8 @@ constexpr std::int32_t tree_stack = 32;
 constexpr std::int32_t most_samples = 60000;
 // Up to this many triangles, points inside them are sampled too. Finer surfaces have enough vertices.
 constexpr std::int32_t most_spread = 30000;
-// Most steps along an edge of a sampled triangle. With 4, a blob has 2 % more faces. With 16 nothing changes.
+// Most steps along an edge of a sampled triangle. With 4, the quad mesh of a test blob has 2 % more faces. With 16
+// nothing changes.
 constexpr double most_steps = 8;
 // Fewest steps on a triangle of the surface; its corners already are samples. With 2 nothing changes on four test
 // shapes.

@@ -25,8 +25,8 @@ struct QuadMiss {
 };
 
 // Faces known to lie within one tolerance of the surface, as hashes of their corners' positions. Faces that a step did
-// not move are not measured again. If two faces have the same hash (about one in 10^7 pairs of runs), the second is
-// only measured together with the whole mesh.
+// not move are not measured again. If two faces have the same hash, which is very unlikely, the second is only measured
+// together with the whole mesh.
 struct NearFaces {
   explicit NearFaces(Memory& memory) : keys(&memory) {}
   static std::uint64_t key(const QuadMesh& mesh, std::int32_t f) noexcept;

@@ -3,7 +3,7 @@
 // "Box" means the diagonal of a mesh's bounding box, which is 1 in inner coordinates. The lines say what happened with
 // half or twice the value. All figures come from the animals in ../shared. The self error compares the motion of
 // q_Horse, transferred to itself, with the original: it is 0.0090 boxes. The foot error is how far feet end from their
-// scaled paths. Stretch is the 95th percentile of the edges' stretch: 0.32 on the wolf, 0.35 on the deer.
+// scaled paths. Edge stretch is the 95th percentile over all edges; it is 0.32 on a wolf and 0.35 on a deer.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -118,9 +118,9 @@ constexpr double least_area_share = 1e-6;
 
 // --- islands.cpp ---
 
-// Measured on six characters of ../shared with 3 to 66 pieces; a row is the field values of one vertex. Most sweeps of
-// the relaxation, a bound on its time. At half the value, rows change by at most 0.008. At twice the value they change
-// by 0.006, in up to twice the time.
+// Most sweeps of the relaxation, a bound on its time. A row is the field values of one vertex. All numbers of this file
+// were measured on six characters of ../shared with 3 to 66 pieces. At half the value, rows change by at most 0.008. At
+// twice the value they change by 0.006, in up to twice the time.
 constexpr std::int32_t most_sweeps = 200;
 // The relaxation ends when no value changes by more. Halving or doubling it changes rows by 3e-6.
 constexpr double still_enough = 1e-7;
@@ -230,8 +230,8 @@ constexpr double least_share = 1e-3;
 // Rounds that lift sunk parts. At half the value: surfaces sink 0.0007 boxes instead of 0.0001. Doubling it changes
 // results by at most 3 %.
 constexpr std::int32_t sunk_rounds = 8;
-// Rounds in which the clusters turn as well. At half the value: the edge stretch of a cow is 0.204 (0.211 now).
-// Doubling it changes results by at most 3 %.
+// Rounds of lifting in which the clusters turn as well. At half the value: the edge stretch of a cow is 0.204 (0.211
+// now). Doubling it changes results by at most 3 %.
 constexpr std::int32_t turning_rounds = 3;
 
 // --- translations.cpp ---

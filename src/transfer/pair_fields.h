@@ -50,8 +50,8 @@ class PairFields {
   Vector<std::uint8_t> slot_used_;
 };
 
-// Fills the field rows of vertices in components without a region. reached: by component, 1 if it has a region.
-// Declared here for its test.
+// Fills the field rows of vertices in components without a region. reached: by component, 1 if it has a region. It is
+// declared here so that its test can call it.
 void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int32_t channels, double* field);
 
 }  // namespace hf_inner
