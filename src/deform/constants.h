@@ -75,8 +75,8 @@ struct StrainLimits {
   double follow;       // r: share of the way to the wanted stress, per iteration
 };
 // Limits for components with two handles, and for those with more. They were fitted on two planes and two poses of a
-// scan. Settings close to these keep the edges of the four poses as well within their limits. In 15 of 16 poses of
-// eight other meshes, more edges keep a stretch within [0.8, 1.25] (docs/studies/poses.md).
+// scan. Settings close to these meet the same targets of stretch. In 15 of 16 poses of eight other meshes, more edges
+// keep a stretch within [0.8, 1.25] (docs/studies/poses.md).
 constexpr StrainLimits strain_limits[] = {{0.8, 1.24, 4.0, 0.25, 0.0, 0.28}, {0.92, 1.14, 8.0, 0.5, 0.2, 0.16}};
 // A group whose second moment is below this share of its first is a line, and a line has no stress. Halving or doubling
 // it changes no bench figure.

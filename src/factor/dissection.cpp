@@ -24,7 +24,7 @@ constexpr std::size_t most_parts = 64;
 // A part is ordered whole if its separator would be a larger share of it. Halving or doubling it changes nothing on the
 // test meshes torus and scan.
 constexpr double most_separator = 0.75;
-// Shares of progress: one wave of cuts, all waves, and the start of the leaves.
+// Progress of one wave of cuts, of all waves, and at the start of the leaves.
 constexpr float progress_step = 0.05f, progress_cut = 0.4f, progress_leaves = 0.3f;
 
 // A part of the graph, with its own vertex numbers. Its vertices take the places [begin, begin + size) of the order.
@@ -44,7 +44,7 @@ struct Part {
   GraphView view() noexcept { return {size, start(), neighbour(), point.empty() ? nullptr : point.data(), nullptr}; }
 };
 
-// The places of the order that a separator takes.
+// A range of places in the order, which a separator fills.
 struct Range {
   std::int32_t begin, end;
 };

@@ -76,7 +76,8 @@ constexpr double suspicious_fill = 1.2;
 // Flops that cost as much as one entry of the factor, to compare two orderings. 50 flops take the time of three sweeps
 // over an entry (torus with 304,000 vertices: 27 GF/s, 9 ms per sweep).
 constexpr double flops_per_entry = 50;
-// Shares of progress: ordering takes about half of a first factorisation, the analysis a tenth.
+// Progress after the ordering and after the analysis. The ordering takes about half of a first factorisation, the
+// analysis a tenth.
 constexpr float progress_ordered = 0.45f, progress_analysed = 0.55f;
 
 // Tells whether the factor has more than log2(n) times the matrix's entries, up to a constant.

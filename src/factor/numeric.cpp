@@ -21,7 +21,7 @@ constexpr double small_wave_flops = 2e6;
 constexpr std::int32_t copy_tiles = 32, solve_tiles_step = 6, update_tiles_step = 4, store_tiles_step = 16;
 // Columns that are factored before all threads solve the tiles below them. No result depends on it.
 constexpr std::int32_t column_block = 64;
-// Shares of progress: the subtrees, then the waves above them.
+// Shares of progress: the subtrees take the first, the waves above them the second.
 constexpr float progress_tasks = 0.8f, progress_waves = 0.19f;
 
 // All memory that one thread needs to factor fronts. It is reused from front to front.

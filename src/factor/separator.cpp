@@ -12,8 +12,8 @@ constexpr std::int32_t none = -1, source = -2, sink = -3;
 // Largest half width of the band, as a share of the vertices. At half the value: flops change by up to +6 %. At twice
 // the value: by up to +40 %, because the band swallows a side.
 constexpr double widest_band = 0.3;
-// Width of the band in square roots of the size, for large and small graphs. Small: half changes flops by -7 to +6 %,
-// double by at most 2 %. Large: no change.
+// Width of the band in square roots of the size, for large and small graphs. Half the second number changes flops by -7
+// to +6 %, twice the number by at most 2 %. The first number changes nothing.
 constexpr double band_of_large = 16, band_of_small = 6;
 // Larger graphs only get here if coarsening failed. Half the value changes flops by at most 3 %, twice the value
 // changes nothing.

@@ -140,13 +140,13 @@ struct QuadsProgress {
   float prepared, far_tips, tips, tried, fitted;
 };
 // Progress at the end of each stage. Measured: tips ended at 1 to 8 % of the time, trials at 10 to 86 %, and fitting at
-// 44 to 100 %. No value fits all shapes.
+// 44 to 100 %. No set of values fits all shapes.
 constexpr QuadsProgress quads_progress = {0.15f, 0.25f, 0.3f, 0.6f, 0.8f};
 struct MakeProgress {
   float flow, solved, counted, arcs, rings, polygons, split;
 };
-// Progress while one mesh is made. Evening out took 65 to 97 % of the time, but only has the last 30 % here. A test
-// bounds the size of the steps.
+// Progress while one mesh is made. Evening out took 65 to 97 % of the time, but gets only the last 30 % of the progress
+// here. A test limits the size of the steps.
 constexpr MakeProgress make_progress = {0.2f, 0.3f, 0.35f, 0.4f, 0.6f, 0.65f, 0.7f};
 struct EvenProgress {
   float early, early_measured, relaxed, measured, captured;

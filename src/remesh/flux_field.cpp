@@ -90,7 +90,7 @@ void FluxField::match(std::int32_t v) {
   while (true) {
     const std::size_t size = ring.size();
     // A boundary lies between an incoming and an outgoing segment. `step` is the largest amount that every boundary can
-    // match at once. A segment between two boundaries gives half to each.
+    // match at once. A segment between two boundaries gives half of its flux to each.
     double step = -1;
     for (std::size_t i = 0; i < size; ++i) {
       const Segment& s = ring[i];

@@ -19,7 +19,8 @@ class LoopLine {
   double length() const noexcept { return length_; }
   // Returns the place along the loop at which a line crosses edge i with this offset.
   double place(std::int32_t i, double offset) const noexcept;
-  // Returns the line through a place. `place` may be any real number; it counts modulo the length.
+  // Returns the flux line that crosses the loop at a place. `place` may be any real number; it counts modulo the loop's
+  // length.
   FluxPoint at(double place) const noexcept;
   // Returns the place of a point of the flow, or 0 if the loop does not cross the point's edge.
   double place_of(FluxPoint p) const noexcept;

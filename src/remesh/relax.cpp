@@ -57,7 +57,7 @@ SurfacePoint walk_surface(const FluxSurface& s, SurfacePoint at, Vec3 way) noexc
       if (!(rest > 0)) return at;
       direction = (1 / rest) * direction;
     }
-    // Change of the weights per unit of length.
+    // How much the barycentric weights change per unit of length along the walk.
     double rate[3];
     rate[0] = dot(cross(c - b, direction), n) / nn;
     rate[1] = dot(cross(a - c, direction), n) / nn;

@@ -44,8 +44,8 @@ constexpr double default_anchor_pull = 1;
 // Weight of the centroid when no region is anchored; it alone then fixes the place. Halving or doubling it changes
 // results by at most 3 % and moves vertices by up to 0.004 boxes.
 constexpr double root_alone = 1;
-// Weight of the centroid beside an anchored trunk. It is small, because the trunk must win. Halving or doubling it
-// changes results by at most 3 %.
+// Weight of the centroid beside an anchored trunk. It is small, because the trunk should decide the place. Halving or
+// doubling it changes results by at most 3 %.
 constexpr double root_with_trunk = 1e-3;
 // Weight of the centroid when only feet are anchored. The edge stretch of a wolf without a trunk pair is 0.28. It is
 // 0.26 at half the value, 0.30 at twice and 0.45 at ten times the value.
@@ -76,8 +76,9 @@ constexpr double opposite = 1e-6;
 // Clusters per target vertex, one JOINTS set of glTF. Using all weights instead of four changes no figure to four
 // digits.
 constexpr std::int32_t blend_count = 4;
-// Source vertices within one width of a kernel. At half the value: the edge stretch of a wolf is 0.33 (0.32 now). At
-// twice the value: the error of a horse transferred to itself is 0.0096 (0.0090 now); without anchors it grows by 14 %.
+// A kernel is made wide enough to have this many source vertices within one width. At half the value: the edge stretch
+// of a wolf is 0.33 (0.32 now). At twice the value: the error of a horse transferred to itself is 0.0096 (0.0090 now);
+// without anchors it grows by 14 %.
 constexpr std::int32_t nearest_count = 6;
 // A kernel ends at this many widths from its centre. At half the value: the edge stretch of a wolf is 0.35 (0.32 now).
 // Doubling it changes results by at most 3 %.

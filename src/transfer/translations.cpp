@@ -151,7 +151,7 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
   }
   add_influences();
 
-  // Only the entries that are not zero are stored.
+  // Stores only those entries of the table that are not zero.
   for (std::size_t c = 0; c < count; ++c) {
     table_start_.push_back(static_cast<std::int32_t>(table_column_.size()));
     for (std::size_t d = 0; d < count; ++d) {
