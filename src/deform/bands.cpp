@@ -98,7 +98,8 @@ class BandCutter {
   Memory& memory_;
   Vector<Vector<ClusterEntry>> entries_;
   std::int32_t next_cluster_ = 0;
-  // Scratch arrays for the present field, per vertex or per vertex and band.
+  // These arrays are scratch memory for the field that is being cut. They have one entry per vertex, or three per
+  // vertex (one per band).
   Partition partition_;
   Buffer<BandValues> values_;
   Buffer<double> share_;        // share of the field at the vertex (beta)

@@ -168,7 +168,7 @@ constexpr std::int32_t samples_per_cluster = 40;
 
 // ---- refine.cpp ----
 
-// Vertices whose edges give a group its rotation on a given surface.
+// Most vertices of a group whose edges give the group its rotation on a given surface.
 constexpr std::int32_t samples_per_group = 24;
 
 // ---- rotation.cpp, rotation_batch.cpp ----

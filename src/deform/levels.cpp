@@ -13,8 +13,8 @@ struct Histogram {
   }
 };
 
-// Length of the gradient of phi on a triangle, and its area: grad = n x (sum of phi_k times edge opposite k) / (2
-// area).
+// The length of a field's gradient on a triangle, and the triangle's area. With the field phi and the normal n, the
+// gradient is n x (sum of phi_k times edge opposite k) / (2 area).
 struct TriangleGradient {
   double length, area;
 };

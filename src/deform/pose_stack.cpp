@@ -19,7 +19,8 @@ Mat3 linear_part(const Affine& affine) noexcept {
   return m;
 }
 
-// Convert between p -> R (p - c) + c + t about a centroid c, and p -> R p + t' about the origin.
+// These two functions convert a motion p -> R (p - c) + c + t about a centroid c to p -> R p + t' about the origin, and
+// back.
 RigidMotion motion_of(const HandleTransform& transform, Vec3 centroid) noexcept {
   return {transform.rotation, centroid - rotate(transform.rotation, centroid) + transform.translation};
 }

@@ -11,7 +11,8 @@ constexpr double pi = 3.14159265358979323846;
 
 using Vec4 = hf_eigen::Vector4d;
 
-// Second-order expansion in a rotation vector u: tr(exp([u])' B) = tr B + u.a - u' H u / 2 + O(u^3).
+// The second-order expansion of an objective in a rotation vector u: tr(exp([u])' B) = tr B + u.a - u' H u / 2 +
+// O(u^3).
 struct Quadratic {
   Vec3 a;
   double h00, h11, h22, h01, h02, h12;

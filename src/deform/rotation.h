@@ -32,7 +32,7 @@ class Quaternion : public hf_eigen::Quaterniond {
   Quaternion() noexcept : Quaternion({}, 1) {}
   Quaternion(Vec3 vector, double scalar) noexcept : Base(scalar, vector.x, vector.y, vector.z) {}
   Quaternion(const Base& q) noexcept : Base(q) {}
-  // From a rotation matrix, or from four coefficients x y z w.
+  // Makes a quaternion from a rotation matrix, or from four coefficients x y z w.
   template <class Derived>
   explicit Quaternion(const hf_eigen::MatrixBase<Derived>& matrix) noexcept : Base(matrix) {}
 };

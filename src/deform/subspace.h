@@ -42,7 +42,7 @@ struct Subspace {
         stiffness(&memory),
         factor(memory) {}
 
-  // The coefficients between a group and a cluster.
+  // The coefficients by which a rotation group and a cluster act on each other.
   struct Entry {
     std::int32_t cluster;
     double area;     // sum over the group's vertices of area times weight

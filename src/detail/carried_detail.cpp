@@ -40,7 +40,7 @@ Vector<Frame> base_frames(const RegionSurface& surface, const RegionState& state
   for (std::size_t i = 0; i < shape.corners.size(); i += 3) {
     const Index* c = &shape.corners[i];
     const Vec3 b = base[at(c[1])] - base[at(c[0])], d = base[at(c[2])] - base[at(c[0])];
-    // The derivative of the position by the disc coordinate u, times twice the triangle's area in the disc.
+    // `grows` is the derivative of the position by the disc coordinate u, times twice the triangle's area in the disc.
     const Vec3 grows = (disc[at(c[2])].v - disc[at(c[0])].v) * b - (disc[at(c[1])].v - disc[at(c[0])].v) * d;
     for (int k = 0; k < 3; ++k) direction[at(c[k])] = direction[at(c[k])] + grows;
   }

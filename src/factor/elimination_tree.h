@@ -1,4 +1,5 @@
-// Computes elimination tree, postorder and column counts of a permuted symmetric pattern; symbolic.h names the sources.
+// Computes the elimination tree, its postorder, and the column counts of a permuted symmetric pattern. The papers are
+// named in symbolic.h.
 #pragma once
 #include <cstdint>
 

@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::uint64_t magic = 0x524F544341464648ull;  // "HFFACTOR"
 constexpr std::uint32_t version = 2;
-// Bytes copied by one job: smaller jobs balance the threads better but cost more. No result depends on it.
+// One job copies this many bytes: smaller jobs balance the threads better but cost more. No result depends on it.
 constexpr std::uint64_t copy_step = std::uint64_t{1} << 22;
 // Refuses damaged counts before a sum of sizes can overflow.
 constexpr std::uint64_t most_count = std::uint64_t{1} << 48;
 // Refuses damaged counts of entries and flops.
 constexpr double most_work = 1e300;
-// Supernodes checked by one job. No result depends on it.
+// One job checks this many supernodes. No result depends on it.
 constexpr std::int32_t list_step = 2048;
 constexpr std::uint32_t byte_order = 0x01020304u;
 

@@ -11,7 +11,7 @@ namespace {
 using hf_inner::ChildView;
 using hf_inner::FrontView;
 using D = Simd<double>;
-// Tiles solved together, so that their rows stay in the cache while all column blocks pass over them.
+// This many tiles are solved together, so that their rows stay in the cache while all column blocks pass over them.
 constexpr std::int32_t solved_tiles = 6;
 // Columns that one pass multiplies: a tile with this many columns fills a quarter of a 48 KB cache.
 constexpr std::int32_t update_depth = 192;

@@ -14,8 +14,8 @@ constexpr std::int32_t thorough_size = 4000;
 // Rings by which a separator is widened when it is carried back. At half the value: flops grow by 2 to 15 %. At twice
 // the value: they change by -10 to +1 %, but the flow is larger.
 constexpr std::int32_t widening = 2;
-// Additional passes on large parts, each with the band around the new separator. None: flops grow by 1 to 4 %. Two:
-// they fall by 0 to 5 %, but cost one more flow.
+// Large parts get this many additional passes, each with the band around the new separator. With none, flops grow by 1
+// to 4 %. With two they fall by 0 to 5 %, but cost one more flow.
 constexpr std::int32_t repeats = 1;
 // Widening keeps at least 1 / this of the graph on each side. With 2, flops grow by up to 54 %. With 10 they change by
 // -4 to +3 %.

@@ -17,7 +17,7 @@ constexpr std::int32_t assembly_ahead = 16;
 constexpr double even_fronts = 1.25;
 // A wave with fewer flops is never split: 0.07 ms at 27 GF/s, the cost of about two batches of jobs.
 constexpr double small_wave_flops = 2e6;
-// Tiles per job, chosen by the cost of a tile in each step. No result depends on it.
+// The number of tiles per job, chosen by the cost of a tile in each step. No result depends on it.
 constexpr std::int32_t copy_tiles = 32, solve_tiles_step = 6, update_tiles_step = 4, store_tiles_step = 16;
 // Columns that are factored before all threads solve the tiles below them. No result depends on it.
 constexpr std::int32_t column_block = 64;

@@ -24,7 +24,7 @@ struct Plan {
   // The supernode tree.
   Buffer<std::int32_t> child, sibling;  // first child and next sibling of a supernode, ascending; -1 at the end
   Buffer<std::uint8_t> parity;  // depth of the supernode, lowest bit: which of the two stacks takes its update matrix
-  // Memory of a factorisation, in doubles.
+  // The memory that a factorisation needs, in doubles.
   struct Sizes {
     std::int64_t panel = 0, stack[2] = {0, 0};
     std::int32_t children = 0, columns = 0;

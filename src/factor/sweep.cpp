@@ -15,19 +15,19 @@
 namespace hf_inner {
 namespace {
 
-// Columns of a top supernode that one job sums. No result depends on it.
+// One job sums this many columns of a top supernode. No result depends on it.
 constexpr std::int32_t piece_columns = 96;
 // A wave runs whole supernodes as jobs if the largest is at most this many times its fair share.
 constexpr double even_share = 1.3;
 // A wave with fewer entries is never split: some 20 microseconds at 0.6 ns per entry, less than a batch of jobs costs.
 constexpr double small_wave_entries = 30000;
-// Rows below a supernode that one job multiplies. No result depends on it.
+// One job multiplies this many rows below a supernode. No result depends on it.
 constexpr std::int32_t piece_rows = 128;
 // A supernode with fewer entries is never split: some 25 microseconds, less than a batch of jobs costs.
 constexpr double least_cut = 40000;
-// Numbers that one job converts. No result depends on it.
+// One job converts this many numbers of the factor. No result depends on it.
 constexpr std::size_t preview_step = std::size_t{1} << 18;
-// Numbers of a right-hand side that one job converts. No result depends on it.
+// One job converts this many numbers of a right-hand side. No result depends on it.
 constexpr std::size_t convert_step = std::size_t{1} << 15;
 // Largest power of two whose inverse is a normal double too.
 constexpr int largest_exponent = 1000;
@@ -124,7 +124,7 @@ struct BackwardPass {
   }
 };
 
-// Scratch of one thread in a forward sweep.
+// The scratch memory of one thread in a forward sweep.
 template <class T>
 struct ForwardScratch {
   ForwardScratch(Memory& memory, std::int32_t unknowns, std::int32_t below, std::int32_t channels)

@@ -56,9 +56,11 @@ constexpr int line_rounds = 2;
 // Share of wanted faces over area. At 1.0 the distance to the surface is 0.89 % of the box instead of 0.84, with 14 %
 // fewer faces. At 1.3 it is 0.80 %, with 8 % more.
 constexpr double area_share = 1.15;
-// Smallest factor of a correction of the lines; a guard. With 0.5 and 0.1 nothing changes.
+// The lines are corrected by at least this factor at a time; it guards against extreme counts. With 0.5 and 0.1 nothing
+// changes.
 constexpr double least_line_scale = 0.25;
-// Largest factor of a correction of the lines; a guard. With 4 and 16 nothing changes.
+// The lines are corrected by at most this factor at a time; it guards against extreme counts. With 4 and 16 nothing
+// changes.
 constexpr double most_line_scale = 8.0;
 
 // --- quads.cpp: evening out ---
@@ -196,7 +198,8 @@ constexpr std::size_t most_tried_at_once = 12;
 // Up to this many sites, two are exchanged at once, which costs k^4 per sweep for k sites. Not measured: no tried shape
 // had 20 sites.
 constexpr std::size_t most_exchanged_in_pairs = 40;
-// Least gain of an exchange: above the rounding error of a cost of size 1, so that exchanges end.
+// An exchange must lower the cost by at least this much. It is above the rounding error of a cost of size 1, so
+// exchanges end.
 constexpr double least_cost_gain = 1e-12;
 // Factor on the diagonal of one pinned vertex per component. Any value above 1 gives the same field. With 1.001 or 20,
 // rounding changes the faces of a figure of eight by 1 %.
@@ -270,11 +273,11 @@ constexpr double degenerate_cost = 1e3;
 
 // --- relax.cpp ---
 
-// Share of the way to the proposed place that a vertex moves; below 1 it does not swing. 0.25 and 1 improve some
-// results and worsen others.
+// A vertex moves by this share of the way to its proposed place. Below 1 it does not swing to and fro. 0.25 and 1
+// improve some results and worsen others.
 constexpr double relax_step = 0.5;
-// Share of the way to the wanted edge length. 0.25 improves some results and worsens others. At 1 a cow has 33 %
-// irregular vertices instead of 30.
+// Sizes of quads move by this share of the way to the wanted edge length. 0.25 improves some results and worsens
+// others. At 1 a cow has 33 % irregular vertices instead of 30.
 constexpr double size_step = 0.5;
 // Most edges that one walk crosses: ends walks on degenerate triangles. With 50 and 800 nothing changes.
 constexpr int most_crossings = 200;
@@ -314,9 +317,9 @@ constexpr double diagonal_shares[] = {0.5, 0.25, 0.75};
 constexpr std::int32_t samples_a_piece = 4096;
 // Faces in one job. The result does not depend on it.
 constexpr std::int32_t faces_a_piece = 512;
-// 2^64 over the golden ratio, as in splitmix64.
+// The value with which the hash starts: 2^64 over the golden ratio, as in splitmix64.
 constexpr std::uint64_t hash_start = 0x9e3779b97f4a7c15u;
-// The first multiplier of MurmurHash3's finaliser.
+// The multiplier that mixes the hash, the first one in the last step of MurmurHash3.
 constexpr std::uint64_t hash_factor = 0xff51afd7ed558ccdu;
 
 // --- capture.cpp ---

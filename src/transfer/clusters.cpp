@@ -87,7 +87,7 @@ void weigh_by_distance(const ClusterOptions& options, const Vector<NearestCentre
   }
 }
 
-// The weight of band number `band` at the field value u: a hat function over [0, 1] with `bands` bands, times
+// Returns the weight of one band at the field value u. It is a hat function of `bands` bands over [0, 1], times
 // u^band_exponent.
 double band_weight(double u, std::int32_t band, std::int32_t bands) noexcept {
   const double hat = 1 - std::abs(u * (bands - 1) - band);

@@ -134,7 +134,7 @@ constexpr std::size_t held_divisor = 3;
 // Least number of such vertices: three points fix a piece in space. With one, rows change by 0.03. With six, by 0.16 on
 // pieces of some ten vertices.
 constexpr std::size_t least_held = 3;
-// Trades memory of the search grid for visited vertices; no result depends on it.
+// The mean number of points per cell of the search grid: trades memory for visited points. No result depends on it.
 constexpr double points_per_cell = 2;
 // Bounds the grid to 64^3 cells (1 MB); no result depends on it.
 constexpr std::int32_t most_cells = 64;

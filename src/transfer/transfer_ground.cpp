@@ -37,7 +37,7 @@ void Transfer::hold_regions(Prepared& p, double share) const {
       if (hold.share > 0) p.holds.push_back(hold);
       continue;
     }
-    // The lowest vertex of the region, relative to the region's mean, after the blended rotation.
+    // `low` is the height of the region's lowest vertex over the region's mean, after the blended rotation.
     const Mat3 rotation = p.translations.mean_rotation(row, p.matrices.data());
     double low = no_height;
     for (const std::int32_t v : target_.region(pair.number))

@@ -119,7 +119,8 @@ class Translations {
   Vector<double> scratch_;  // right-hand side and solution, four numbers per cluster
   Vector<std::int32_t> table_start_, table_column_;
   Vector<Vec3> table_;
-  // Sparse rows over the clusters: anchored regions, the root, loose regions, single vertices.
+  // These arrays hold sparse rows over the clusters: first the anchored regions, then the whole body (root), loose
+  // regions and single vertices.
   Vector<std::int32_t> row_start_, row_column_;
   Vector<double> row_weight_;
   Vector<Vec3> row_point_;
