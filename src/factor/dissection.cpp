@@ -21,8 +21,8 @@ constexpr std::int32_t halo_limit = 1500;
 constexpr std::int32_t task_size = 4000;
 // Parts are cut in waves until there are this many; then each becomes a job. No result depends on it.
 constexpr std::size_t most_parts = 64;
-// A part is ordered whole if its separator would be a larger share of it. Halving or doubling it changes nothing on the
-// test meshes torus and scan.
+// A part is not split but ordered whole if its separator would be a larger share of it. Halving or doubling it changes
+// nothing on the test meshes torus and scan.
 constexpr double most_separator = 0.75;
 // Progress of one wave of cuts, of all waves, and at the start of the leaves.
 constexpr float progress_step = 0.05f, progress_cut = 0.4f, progress_leaves = 0.3f;

@@ -51,8 +51,8 @@ inline void with_columns(std::int32_t columns, Body&& body) noexcept {
 }
 
 // Sums up to NV vectors of columns over all rows, for C right-hand sides: sum[c * chunk_columns + column]. `Chains`
-// rows are summed at once. Strips of a wide block read it out of order. So each row prefetches as many numbers as it
-// reads from `ahead`, in order.
+// rows are summed at once. A wide block is read strip by strip, which is not its order in memory. So each row
+// prefetches as many numbers as it reads from `ahead`, in order.
 template <class T, int C, int NV, int Chains, bool Ahead = false>
 inline void sum_in_registers(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                              const T* z, std::int32_t channels, T* sum, const T* ahead = nullptr) noexcept {
@@ -198,9 +198,9 @@ inline void store_lanes(T* p, typename Simd<T>::Type v, int count) noexcept {
     Simd<T>::store_part(p, v, count);
 }
 
-// Handles N columns for one vector of channels: target[j] -= sum over the rows. The factor's entries are broadcast.
-// Strips of N columns read the block out of order. So each row prefetches as many numbers as it reads from `ahead`, in
-// order.
+// Handles N columns for one vector of channels: target[j] -= sum over the rows. The factor's entries are broadcast. The
+// block is read in strips of N columns, which is not its order in memory. So each row prefetches as many numbers as it
+// reads from `ahead`, in order.
 template <class T, int N>
 inline void subtract_lanes(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                            const T* z, T* target, std::int32_t channels, int count, const T* ahead) noexcept {

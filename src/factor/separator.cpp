@@ -21,8 +21,8 @@ constexpr std::int32_t small_graph = 500;
 // If the second squared extent is below this share of the first, the second axis is not tried, which saves time.
 // Halving or doubling it does not change the fill.
 constexpr double long_shape = 0.04;
-// Largest ratio of extents in a diagonal direction; it guards against flat shapes. Halving or doubling it changes
-// nothing.
+// A diagonal direction weighs the second axis by the ratio of extents, but at most by this number; it guards against
+// flat shapes. Halving or doubling it changes nothing.
 constexpr double longest_diagonal = 1e3;
 // Range of squared extents in which positions are usable. Below it all positions coincide.
 constexpr double largest_extent = 1e300, least_extent = 1e-300;

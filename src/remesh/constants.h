@@ -23,8 +23,8 @@ constexpr std::int32_t default_relax_rounds = 60;
 
 // --- quads.cpp: sites ---
 
-// Sites nearer to each other than this share of the box become one, so that each limb has one site. Halving it changes
-// nothing. At twice the value: a cow has other sites, and 16 % irregular vertices instead of 19 %.
+// A tip nearer to an earlier one than this share of the box becomes no site, so that each limb has one site. Halving it
+// changes nothing. At twice the value: a cow has other sites, and 16 % irregular vertices instead of 19 %.
 constexpr double tip_distance = 0.06;
 // Most tips used as sites; it bounds the sites of busy shapes. With 8, a cow has 22 % fewer faces, and 27 % irregular
 // vertices instead of 19 %. With 64 nothing changes.
@@ -35,8 +35,8 @@ struct TipLengths {
 // Least lengths of tips, from a list with many sites to one with few; the best mesh of all lists is kept. Halving or
 // doubling the geodesic lengths improves some results and worsens others.
 constexpr TipLengths tip_lengths[] = {{0.008, 0.02}, {0.015, 0.05}, {0.03, 0.1}, {0.1, 0.3}};
-// Number of lists that are tried; each takes 2 to 20 % of the time. With 1 or 2 the same mesh was chosen on four test
-// shapes.
+// This many lists of sites (tip_lengths) are tried; each takes 2 to 20 % of the time. With 1 or 2 the same mesh was
+// chosen on four test shapes.
 constexpr int tip_trials = 4;
 // Sources of the mean distance: more find tips more exactly but take longer. With 20: other tips on a cow. With 80
 // nothing changes.
@@ -56,11 +56,11 @@ constexpr int line_rounds = 2;
 // Share of wanted faces over area. At 1.0 the distance to the surface is 0.89 % of the box instead of 0.84, with 14 %
 // fewer faces. At 1.3 it is 0.80 %, with 8 % more.
 constexpr double area_share = 1.15;
-// The lines are corrected by at least this factor at a time; it guards against extreme counts. With 0.5 and 0.1 nothing
-// changes.
+// One correction multiplies the number of lines by at least this factor; it guards against extreme counts. With 0.5 and
+// 0.1 nothing changes.
 constexpr double least_line_scale = 0.25;
-// The lines are corrected by at most this factor at a time; it guards against extreme counts. With 4 and 16 nothing
-// changes.
+// One correction multiplies the number of lines by at most this factor; it guards against extreme counts. With 4 and 16
+// nothing changes.
 constexpr double most_line_scale = 8.0;
 
 // --- quads.cpp: evening out ---
@@ -157,10 +157,10 @@ struct EvenProgress {
 constexpr EvenProgress even_progress = {0.1f, 0.2f, 0.5f, 0.6f, 0.9f};
 // Progress of one turn that fitting takes; the rest is for collapsing. The share is not measured.
 constexpr float fit_progress = 0.6f;
-// Progress when a mesh from given sites is made; the rest is for fitting. On three shapes, making took 10 to 50 % of
-// both.
+// Progress at which a mesh from given sites is made; the rest is for fitting it. On three shapes, making took 10 to 50
+// % of both.
 constexpr float given_made = 0.7f;
-// Progress when a denser mesh is made; the rest is for fitting it.
+// Progress at which a denser mesh is made; the rest is for fitting it.
 constexpr float dense_made = 0.3f;
 
 // --- flux_sites.cpp, border_flux.cpp ---
@@ -279,7 +279,8 @@ constexpr double relax_step = 0.5;
 // Sizes of quads move by this share of the way to the wanted edge length. 0.25 improves some results and worsens
 // others. At 1 a cow has 33 % irregular vertices instead of 30.
 constexpr double size_step = 0.5;
-// Most edges that one walk crosses: ends walks on degenerate triangles. With 50 and 800 nothing changes.
+// Most edges that one walk along the surface crosses; it ends walks on degenerate triangles. With 50 and 800 nothing
+// changes.
 constexpr int most_crossings = 200;
 // Most times that vertices move back in a round of relaxation; it bounds the time. With 2 and 8 nothing changes.
 constexpr int take_backs = 4;

@@ -68,7 +68,8 @@ constexpr FieldWindow leg_windows[] = {{0.4, 0.6}, {0.3, 0.7}, {0.2, 0.8}};
 // Field values at which a limb begins. Halving it changes results by at most 3 %. At twice the value: limbs of the test
 // models wolf and fox are no longer aligned.
 constexpr FieldWindow limb_window = {0.4, 0.65};
-// Bound of 1 + cosine for opposite directions (within 0.08 degrees): their cross product gives no axis to turn about.
+// Two directions count as opposite if 1 + the cosine of their angle is smaller (within 0.08 degrees). Then their cross
+// product gives no axis to turn about.
 constexpr double opposite = 1e-6;
 
 // --- clusters.h, clusters.cpp ---
