@@ -1,4 +1,4 @@
-// A surface from a file with a pose of the library on it: handles by name, motions over time, frames.
+// A surface from a file, with a pose of the library on it: handles by name, motions over time, frames.
 #ifndef HF_SAMPLES_DEFORM_POSABLE_H
 #define HF_SAMPLES_DEFORM_POSABLE_H
 
@@ -19,7 +19,7 @@
 
 namespace samples {
 
-// What a file holds: a glTF scene at rest, or a plain surface. `surface` keeps its faces and vertex order.
+// The content of a file: a glTF scene at rest, or a plain surface. `surface` keeps its faces and vertex order.
 struct PosableMesh {
   Model model;
   FlatMesh flat;
@@ -27,7 +27,7 @@ struct PosableMesh {
 };
 PosableMesh read_posable(const std::filesystem::path& file);
 
-// x -> R (x - centroid) + centroid + translation, of one handle.
+// The motion x -> R (x - centroid) + centroid + translation of one handle.
 struct HandlePlace {
   glm::dquat rotation{1, 0, 0, 0};
   glm::dvec3 translation{0};
@@ -47,10 +47,11 @@ class Posable {
   // Throw std::runtime_error naming the handle.
   void add(const std::vector<HandleEntry>& handles);
   void remove(const std::vector<std::string>& names);
-  // The motions of a step begin where the handles stand; `t` from 0 to 1 of the way.
+  // The motions of a step start where the handles stand. `t` is the share of the way, from 0 to 1.
   void begin(const Step& step);
   void drag(double t);
-  // A step frame by frame: its drags go on by equal parts, frame(f, count) after each, f from 1 to count.
+  // Plays a step frame by frame. Its drags continue by equal parts. frame(f, count) is called after each part, f from 1
+  // to count.
   template <class Frame>
   void play(const Step& step, double frame_rate, Frame&& frame) {
     const int count = std::max(1, static_cast<int>(std::lround(step.seconds * frame_rate)));
@@ -60,12 +61,12 @@ class Posable {
       frame(f, count);
     }
   }
-  // Vertices (xyz) and normals; refine: with the full-mesh step.
+  // Returns vertices (xyz) and normals. refine: with the full-mesh step.
   void deform(bool refine, std::vector<double>& positions, std::vector<float>& normals, uint32_t iterations = 0);
 
   hf_pose pose() const { return pose_; }
   double diagonal() const { return diagonal_; }
-  // Name, number and region of the handles there are, in the order they were added.
+  // Name, number and region of every handle, in the order in which handles were added.
   struct Live {
     std::string name;
     uint32_t number;
@@ -78,7 +79,7 @@ class Posable {
     MotionEntry before;
   };
   const std::vector<Live>& handles() const { return live_; }
-  // The vertices of a handle: its field is 1 there.
+  // Returns the vertices of a handle, where its field is 1.
   std::vector<uint32_t> region_of(const Live& live) const;
 
  private:
@@ -94,7 +95,7 @@ class Posable {
   std::vector<Live> live_;
 };
 
-// Throws std::runtime_error "what: the library's own sentence" unless the result is HF_OK.
+// Throws std::runtime_error with "what: the library's message" unless the result is HF_OK.
 void expect_ok(hf_result result, const std::string& what);
 
 }  // namespace samples

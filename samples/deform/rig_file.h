@@ -11,7 +11,8 @@
 
 namespace samples {
 
-// Places and lengths are fractions: of the sides of the rest bounding box (0 0 0 = lower corner) and of its diagonal.
+// Places are fractions of the sides of the rest bounding box (0 0 0 is its lower corner). Lengths are fractions of its
+// diagonal.
 struct HandleEntry {
   std::string name;
   uint32_t layer = 0;
@@ -24,8 +25,8 @@ struct HandleEntry {
   bool outside = false;  // of the box
 };
 
-// Where a handle is to go, from its rest place (layer 0) or from where the layers below carry it: a turn about a point,
-// then a move; or the end of a straight beam whose free part bends into an arc.
+// Where a handle should move, from its rest place (layer 0) or from where the layers below carry it. Either it turns
+// about a point and then moves, or it is the end of a straight beam whose free part bends into an arc.
 struct MotionEntry {
   glm::dvec3 axis{0, 1, 0};
   double degrees = 0;

@@ -23,7 +23,7 @@ struct CurveFile {
 // Throws std::runtime_error naming file and place.
 CurveFile read_curve_file(const std::string& file, const SurfaceMesh& mesh);
 
-// The region that the curve encloses, and `grow` rings more.
+// Returns the region that the curve encloses, with `grow` more rings.
 void enclose(hf::Region& region, const CurveFile& curve, int32_t grow);
 
 }  // namespace samples

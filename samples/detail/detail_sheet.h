@@ -1,4 +1,4 @@
-// Pictures of a region: the surface with its curve and rim, and what the morph makes of it.
+// Pictures of a region: the surface with its curve and rim, and the results of the morph.
 #ifndef HF_SAMPLES_DETAIL_DETAIL_SHEET_H
 #define HF_SAMPLES_DETAIL_DETAIL_SHEET_H
 
@@ -14,7 +14,7 @@ struct SheetTile {
   std::vector<float> positions;
 };
 
-// What all tiles share. The camera looks at the region and a margin round it.
+// Settings that all tiles share. The camera shows the region and a margin round it.
 struct SheetScene {
   std::vector<uint32_t> triangles;
   std::vector<float> surface;    // positions before any morph

@@ -1,4 +1,4 @@
-// What hf_field is asked to do: its command line and its edit script.
+// The command line and the edit script of hf_field.
 #ifndef HF_SAMPLES_FIELD_OPTIONS_H
 #define HF_SAMPLES_FIELD_OPTIONS_H
 

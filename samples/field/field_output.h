@@ -12,7 +12,7 @@
 
 namespace samples {
 
-// What is shown of a field. values: one a vertex, NaN where there is none, or three for vectors.
+// The parts of a field that are shown. values: one per vertex, NaN where it has none, or three for vectors.
 struct FieldView {
   const SurfaceMesh* mesh = nullptr;
   std::vector<double> values;
@@ -26,16 +26,16 @@ struct FieldView {
   int width = 900, height = 760;
 };
 
-// One row a line, 17 digits: reads back to the same doubles.
+// Writes one row per line with 17 digits, which read back to the same doubles.
 void write_field_text(const std::string& file, const std::vector<double>& field, size_t components);
 
-// Every triangle is cut along the levels between strips, so that a strip has one colour and sharp borders at any mesh
-// resolution; iso-lines and arrows are line primitives.
+// Writes a glb. Every triangle is cut along the levels between strips, so a strip has one colour and sharp borders at
+// any mesh resolution. Iso-lines and arrows are line primitives.
 void write_field_glb(const std::string& file, const FieldView& view);
 
-// Strips from blue to yellow, iso-lines dark, a red dot at every site; with critical points: minima blue, maxima red,
-// saddles green, sites small and black; vectors as arrows spread evenly over the surface, singularities of index above
-// zero red, below zero blue.
+// Draws a picture. Strips go from blue to yellow, iso-lines are dark, and every site has a red dot. With critical
+// points, minima are blue, maxima red and saddles green; sites are then small and black. Vectors are arrows spread
+// evenly over the surface. Singularities with an index above zero are red, those below zero blue.
 Picture field_picture(const FieldView& view);
 
 }  // namespace samples

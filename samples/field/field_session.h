@@ -1,5 +1,5 @@
-// A solver and the numbers of its sites by place, and what the library finds out about a field: the C functions of
-// hf/solver.h and hf/analysis.h with std::vector.
+// A solver, the numbers of its sites by place, and the analyses of its field. It wraps the C functions of hf/solver.h
+// and hf/analysis.h with std::vector.
 #ifndef HF_SAMPLES_FIELD_SESSION_H
 #define HF_SAMPLES_FIELD_SESSION_H
 
@@ -40,20 +40,20 @@ class Session {
   }
 
   void apply(const Edit& edit);
-  // One row of components() values a vertex.
+  // One row of components() values per vertex.
   std::vector<double> solve(hf_solve_info& info) const;
   // Places of all sites, for pictures.
   std::vector<glm::dvec3> positions(const SurfaceMesh& mesh) const;
 
-  // Whether a site is in the component of each vertex.
+  // Tells for each vertex whether its component has a site.
   std::vector<bool> reached() const;
 
   std::vector<hf_extremity> extremities(int kind) const;
-  // Geodesic distance of every vertex to the nearest source, -1 where there is none.
+  // Geodesic distance of every vertex to the nearest source, or -1 where there is no path.
   std::vector<double> distance(const std::vector<uint32_t>& sources) const;
   std::vector<double> levels(const std::vector<double>& field, int spacing, int count) const;
   std::vector<IsoLine> isolines(const std::vector<double>& field, const std::vector<double>& levels) const;
-  // Of a direction field; empty for others.
+  // The singularities of a direction field; empty for other fields.
   std::vector<hf_singularity> singularities() const;
   std::vector<hf_critical_point> critical_points(const std::vector<double>& field, hf_critical_info& info) const;
 
@@ -79,8 +79,8 @@ class Session {
   std::vector<Numbers> undone_from_, redone_from_;
 };
 
-// Sites for a mesh one knows nothing of: its extremities, and where a component has fewer than two, the vertex farthest
-// from the first; with the values 0 and 1 in turn, or vectors along the surface. Every vertex is reached.
+// Proposes sites for an unknown mesh: its extremities. If a component has fewer than two, the vertex farthest from the
+// first is added. The values alternate between 0 and 1, or are vectors along the surface. Every component gets sites.
 std::vector<SiteArgument> propose_sites(const SurfaceMesh& mesh, const Session& session, int extremities);
 
 }  // namespace samples

@@ -13,8 +13,8 @@
 
 namespace samples {
 
-// The bytes of the file. delay_ms: how long a frame stands; the animation loops. One frame gives a plain PNG.
-// Throws std::runtime_error naming the frame that is empty or has another size than the first.
+// Returns the bytes of the file. delay_ms: how long a frame is shown; the animation loops. One frame gives a plain PNG.
+// Throws std::runtime_error naming a frame that is empty or has another size than the first.
 std::vector<uint8_t> encode_frames(const std::vector<Picture>& frames, uint32_t delay_ms);
 
 void write_frames(const std::string& path, const std::vector<Picture>& frames, uint32_t delay_ms);

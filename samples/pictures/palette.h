@@ -15,7 +15,7 @@ struct IndexedPictures {
   std::vector<std::vector<uint8_t>> pixels;     // per picture: a palette entry per pixel
 };
 
-// Exact where the pictures hold at most 255 colours that differ in their upper six bits.
+// The colours are exact if the pictures have at most 255 colours that differ in their upper six bits.
 IndexedPictures to_palette(const std::vector<Picture>& pictures);
 
 }  // namespace samples

@@ -1,7 +1,8 @@
-// The scenes that hf_pictures draws: generated creatures posed, in strips, as quads, and playing another's walk.
+// The scenes that hf_pictures draws: generated creatures that are posed, coloured in strips, remeshed into quads, or
+// play another creature's walk.
 //
-// A scene keeps what it made once (surface, factor, handles); draw() gives one picture of it. Phases run from 0 to 1
-// and every scene looks the same at both ends.
+// A scene keeps the data it computes once (surface, factor, handles). draw() returns one picture of it. Phases run from
+// 0 to 1, and every scene looks the same at both ends.
 #ifndef HF_SAMPLES_PICTURES_SCENES_H
 #define HF_SAMPLES_PICTURES_SCENES_H
 
@@ -16,10 +17,10 @@
 
 namespace samples {
 
-// A linear colour as a display shows it, a little lighter so that shading is seen.
+// Converts a linear colour for display, a little lighter so that shading is visible.
 float displayed(float linear);
 
-// A creature's closed surface, one vertex per place, with its coat.
+// A creature's closed surface, one vertex per place, with the colours of its coat.
 struct Body {
   Body(const std::string& name, uint32_t vertices);
   // The vertex nearest to a point.
@@ -33,10 +34,10 @@ struct Body {
   hf::Surface surface;
 };
 
-// Looking at a creature's right side from a little ahead and above.
+// A camera on a creature's right side, from a little ahead and above.
 View side_view(int width, int height);
 
-// The head is pulled until the creature rears, and eases back; the hind hooves stay. Handles are coloured.
+// The head is pulled until the creature rears, and goes back. The hind hooves stay. Handles are coloured.
 class PoseScene {
  public:
   explicit PoseScene(const Body& body);
@@ -51,7 +52,7 @@ class PoseScene {
   Box box_;
 };
 
-// A field in strips: 0 at nose, tail and hooves, 1 at a site dragged around the flank.
+// A field in strips: it is 0 at nose, tail and hooves, and 1 at a site that is dragged around the flank.
 class FieldScene {
  public:
   explicit FieldScene(const Body& body);
@@ -67,11 +68,11 @@ class FieldScene {
 // The walk of one creature on another.
 class WalkScene {
  public:
-  // One frame per phase 0, 1 / frames, ...; pairs: a file as hf_transfer takes it.
+  // Frames have the phases 0, 1 / frames, and so on. pairs: a pairs file of hf_transfer.
   WalkScene(const std::string& source, const std::string& target, uint32_t vertices, const std::filesystem::path& pairs,
             uint32_t frames);
   Picture draw(int width, int height, uint32_t frame, bool target) const;
-  // The source behind, the target before it.
+  // The source stands behind the target.
   Picture draw_both(int width, int height, uint32_t frame) const;
 
  private:

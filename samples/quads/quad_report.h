@@ -16,8 +16,8 @@ struct QuadReport {
   int euler_characteristic = 0;
   bool each_directed_edge_once = true, no_repeated_corner = true;
   std::map<uint32_t, uint32_t> valences;  // faces around a vertex: how many vertices have so many
-  // 5th, 50th and 95th percentile: edges over the length aimed at, longest over shortest edge of a quad, degrees that a
-  // corner of a quad is off 90
+  // 5th, 50th and 95th percentiles of three figures: edge length over the wanted length, longest over shortest edge of
+  // a quad, and degrees by which a corner of a quad differs from 90.
   double edge[3] = {0, 0, 0}, aspect[3] = {0, 0, 0}, angle[3] = {0, 0, 0};
 };
 

@@ -1,5 +1,5 @@
-// The surface of a flat mesh, as the programs make it: welded within 1e-5 of the largest extent, because exporters round
-// copies of a vertex differently now and then.
+// The surface of a flat mesh, as all programs make it. Vertices are welded within 1e-5 of the largest extent, because
+// some exporters round copies of a vertex differently.
 #ifndef HF_SAMPLES_TRANSFER_FLAT_SURFACE_H
 #define HF_SAMPLES_TRANSFER_FLAT_SURFACE_H
 
@@ -10,12 +10,12 @@
 
 namespace samples {
 
-// Throws std::runtime_error "what: the library's own sentence" unless the result is HF_OK.
+// Throws std::runtime_error with "what: the library's message" unless the result is HF_OK.
 void check(hf_result result, const std::string& what);
 
 class FlatSurface {
  public:
-  // paper: plain cotangents, as the paper has them, instead of the library's default operator.
+  // paper: use plain cotangent weights, as in the paper, instead of the library's default operator.
   FlatSurface(const FlatMesh& mesh, const std::string& name, uint32_t threads, bool paper = false);
   ~FlatSurface() { hf_surface_destroy(surface_); }
   FlatSurface(const FlatSurface&) = delete;

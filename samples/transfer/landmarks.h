@@ -1,12 +1,13 @@
-// Places of a creature that a transfer needs, found from its shape and, where they say something, its joint names:
-// feet, head or nose, tail, hands, and two places on the trunk.
+// Finds the places of a creature that a transfer needs: feet, head or nose, tail, hands, and two places on the trunk.
+// It uses the shape, and joint names where they help.
 //
-// Feet are the pieces of the surface below 12 % of the height that stand on the ground (lower where legs are shorter,
-// further off it where a model rests in mid-stride), so any number of legs is found and a front leg named "hand" does
-// no harm. The side axis is the one the shape is most symmetric along, forward is where toes, head and eyes point (+z
-// when in doubt, as glTF says). Head, tail and hands go by joint names first, else by the extremities of the surface
-// (hf_surface_find_extremities); ears by joint names only. The trunk places lie where a line through the belly, or through
-// the back of someone upright, leaves the body. Every landmark says how it was found and how far to trust it.
+// Feet are the pieces of the surface below 12 % of the height that stand on the ground. The limit is lower for shorter
+// legs, and a piece may be farther off the ground if the model rests in mid-stride. So any number of legs is found, and
+// a front leg named "hand" does no harm. The side axis is the one with the best symmetry. Forward is where toes, head
+// and eyes point (+z when in doubt, as in glTF). Head, tail and hands come from joint names first, else from the
+// extremities of the surface (hf_surface_find_extremities). Ears come from joint names only. The trunk places lie where
+// a line through the belly, or through the back of an upright body, leaves the body. Every landmark says how it was
+// found and how reliable it is.
 #ifndef HF_SAMPLES_TRANSFER_LANDMARKS_H
 #define HF_SAMPLES_TRANSFER_LANDMARKS_H
 
@@ -34,7 +35,7 @@ struct Landmarks {
   const Landmark* get(const std::string& name) const;
 };
 
-// Throws std::runtime_error when the surface has no feet to speak of. axes: null to find them.
+// Throws std::runtime_error when the surface has no feet. axes: null to find them.
 Landmarks find_landmarks(const Model& model, const FlatMesh& mesh, const Axes* axes);
 
 }  // namespace samples

@@ -31,7 +31,7 @@ struct PairsFile {
 
 // Throws std::runtime_error "file: key path: what is wrong".
 PairsFile read_pairs(const std::filesystem::path& file);
-// The same from a value; what names it in messages.
+// Reads the pairs from a JSON value. `what` names it in messages.
 PairsFile parse_pairs(const nlohmann::json& value, const std::string& what);
 
 struct EditsFile {

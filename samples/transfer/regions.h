@@ -1,9 +1,9 @@
-// Regions of vertices on a model, chosen the ways a person would name them: by joint, by place, by vertex list.
+// Regions of vertices on a model, chosen as a user would name them: by joint, by place, or by vertex list.
 //
-// A joint owns the vertices whose largest skin weight is its own (a mesh without a skin is owned by its node). A ball
-// takes the vertices within a radius of a seed vertex that are connected to it inside the ball, so that a ball on one
-// foot never takes the other foot. Regions are lists of flat vertices (flat_mesh.h), all copies of a welded vertex
-// included.
+// A joint owns the vertices for which it has the largest skin weight. A mesh without a skin is owned by its node. A
+// ball takes the vertices within a radius of a seed vertex that are edge-connected to it inside the ball. So a ball on
+// one foot never takes the other foot. Regions are lists of flat vertices (flat_mesh.h), with all copies of a welded
+// vertex.
 #ifndef HF_SAMPLES_TRANSFER_REGIONS_H
 #define HF_SAMPLES_TRANSFER_REGIONS_H
 
@@ -17,7 +17,7 @@
 
 namespace samples {
 
-// Rows right, up, forward.
+// The rows right, up and forward.
 struct Axes {
   glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1};
 };
@@ -35,7 +35,7 @@ struct Selector {
   std::string where;     // key path, for messages
 };
 
-// An object with joint or joints, extreme, children, position, radius, vertices.
+// A JSON object with joint or joints, extreme, children, position, radius, vertices.
 Selector read_selector(const JsonReader& json);
 
 struct Region {
@@ -47,20 +47,20 @@ class RegionFinder {
  public:
   RegionFinder(const Model& model, const FlatMesh& mesh, const Axes& axes);
 
-  // The union of the selectors; throws std::runtime_error that names the key path, the joint or vertex, and what there
-  // is instead.
+  // Returns the union of the selectors. Throws std::runtime_error that names the key path, the joint or vertex, and the
+  // existing names.
   Region find(const std::vector<Selector>& selectors) const;
 
-  // A vertex that several regions claim goes to the one with the nearest seed; regions[first..] give way to those
-  // before `first`. Returns the index of a region that is left empty, or -1.
+  // Resolves overlaps. A vertex in several regions goes to the one with the nearest seed, but regions before `first`
+  // keep all their vertices. Returns the index of a region that is left empty, or -1.
   int separate(std::vector<Region>& regions, size_t first = 0) const;
 
   // One line per joint: name, vertices owned, place.
   std::vector<std::string> describe_joints() const;
   double diagonal() const { return diagonal_; }
-  // The joint (or mesh node) a vertex belongs to; empty without a name.
+  // Returns the joint (or mesh node) to which a vertex belongs; empty without a name.
   const std::string& owner_name(uint32_t vertex) const;
-  // There is one node of that name, a joint of a skin.
+  // Tells whether exactly one node has that name and is a joint of a skin.
   bool is_joint(const std::string& name) const;
 
  private:

@@ -1,11 +1,11 @@
-// Joint rotations of a model's own rig that bring its skin nearest to given vertex positions.
+// Fits joint rotations of a model's own rig, so that its skin comes nearest to given vertex positions.
 //
-// Per frame: minimise sum_v a_v |sum_j w_vj G_j B_j p_v - y_v|^2 + k sum_j |turn of j from rest|^2 over the local
-// rotations, by damped Gauss-Newton from the frame before. With x_j = G_j B_j p_v and o_a the origin of joint a, a
-// small world turn w of a moves v by w x (sum_{j below a} w_vj (x_j - o_a)), so a vertex touches only the joints above
-// its influences: O(V d^2 + J^3) an iteration. Joints that the model's own clips move (roots, and feet that a rig
-// places by inverse kinematics) may shift too, others keep their bones' lengths. Positions are in world space, in
-// double.
+// For each frame it minimises sum_v a_v |sum_j w_vj G_j B_j p_v - y_v|^2 + k sum_j |turn of j from rest|^2 over the
+// local rotations, by damped Gauss-Newton from the frame before. Let x_j = G_j B_j p_v, and o_a be the origin of joint
+// a. A small world turn w of a moves v by w x (sum_{j below a} w_vj (x_j - o_a)). So a vertex only involves the joints
+// above those that influence it, and an iteration costs O(V d^2 + J^3). Joints that the model's own clips move (roots,
+// and feet that a rig places by inverse kinematics) may shift too. All others keep the lengths of their bones.
+// Positions are in world space, in double.
 #ifndef HF_SAMPLES_TRANSFER_RIG_FIT_H
 #define HF_SAMPLES_TRANSFER_RIG_FIT_H
 
@@ -20,9 +20,10 @@ class RigFit {
   // Throws std::runtime_error when no mesh of the model has a skin.
   RigFit(const Model& model, const FlatMesh& mesh);
 
-  // The pose for the frame (x y z of every flat vertex), found from `start`. iterations: of Gauss-Newton.
+  // Finds the pose of the frame (x y z of every flat vertex), starting from `start`. iterations: number of Gauss-Newton
+  // steps.
   Pose fit(const std::vector<double>& frame, const Pose& start, int iterations) const;
-  // A model like the given one whose only clip is the poses at the times.
+  // Returns a copy of the given model whose only clip has the poses at the times.
   Animation clip(const std::string& name, const std::vector<double>& times, const std::vector<Pose>& poses) const;
 
   size_t turning() const { return joints_.size(); }

@@ -28,7 +28,7 @@ struct PairReport {
   double source_leak = 0, target_leak = 0, alignment_degrees = -1, confidence = 0;
 };
 
-// How the feet fared over a clip, in box diagonals of the target.
+// The motion of the feet over a clip, in box diagonals of the target.
 struct FootReport {
   double path_mean = 0, path_max = 0;  // from the scaled path of the source's foot
   double sunk = 0;                     // deeper under the rest ground than the source's foot, scaled
@@ -51,7 +51,7 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  // Removes pairs by name and adds others. Regions of new pairs give way to those that are there.
+  // Removes pairs by name and adds others. Regions of new pairs leave out vertices that existing pairs have.
   void edit(const EditsFile& edits);
 
   // Pairs that touch the ground in these clips become contacts, or feet when no pair is a foot. names: pairs or joints
@@ -62,10 +62,10 @@ class Session {
 
   // rate: frames per second; below 0: the clip's own key times.
   PlayedClip play(const Animation& animation, double rate, ProgressBar& bar);
-  // Posed copies of the source (x y z of every flat vertex).
+  // Returns posed copies of the source (x y z of every flat vertex).
   PlayedClip play(const std::string& name, const std::vector<double>& times, std::vector<std::vector<double>> poses,
                   ProgressBar& bar);
-  // Joints and weights; the clips are left to the caller.
+  // Joints and weights; the caller adds the clips.
   SkinDescription skin();
 
   std::vector<PairReport> pairs();

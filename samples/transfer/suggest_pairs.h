@@ -1,4 +1,4 @@
-// PAIRS.json proposed from the landmarks of two models: the places both have. To be looked at and edited.
+// Proposes a PAIRS.json from the landmarks of two models: the places that both have. The user should check and edit it.
 #ifndef HF_SAMPLES_TRANSFER_SUGGEST_PAIRS_H
 #define HF_SAMPLES_TRANSFER_SUGGEST_PAIRS_H
 
@@ -22,7 +22,7 @@ struct Suggestion {
   std::vector<std::string> notes;  // places only one of them has, axes, what to check
 };
 
-// Throws std::runtime_error when the two have too little in common, and says what each has.
+// Throws std::runtime_error when the two models have too little in common; the message says what each has.
 Suggestion suggest_pairs(const Model& source, const FlatMesh& source_mesh, const Model& target,
                          const FlatMesh& target_mesh);
 

@@ -28,7 +28,8 @@ struct TransferCommand {
 TransferCommand parse_command(int count, char** arguments);
 const char* usage();
 
-// The clips a --clip names, by exact name, by the part after the last '|', or by index. Throws listing what there is.
+// Returns the clips that --clip names: by exact name, by the part after the last '|', or by index. Throws with a list
+// of the existing clips.
 std::vector<const Animation*> choose_clips(const Model& model, const std::string& wanted);
 
 // "out/walk.glb" -> "out/walk_edited.glb"

@@ -1,4 +1,4 @@
-// What a run did and how well, as text and as JSON.
+// The report of a run and its quality, as text and as JSON.
 #ifndef HF_SAMPLES_TRANSFER_TRANSFER_REPORT_H
 #define HF_SAMPLES_TRANSFER_TRANSFER_REPORT_H
 
@@ -10,9 +10,9 @@
 
 namespace samples {
 
-// How well a written file, read again, gives back the computed frames, in box diagonals of the target: the largest miss
-// at keys, and an estimate of the root mean square half-way between keys (a quarter of the second difference of the
-// frames).
+// How well a written file gives back the computed frames when it is read again, in box diagonals of the target. It has
+// the largest miss at keys. It also estimates the root mean square half-way between keys, as a quarter of the second
+// difference of the frames.
 struct ReplayReport {
   double key_max = 0, half_rms = 0;
 };

@@ -8,7 +8,8 @@
 namespace hf_inner {
 namespace {
 
-// Fields that carry bands: of two handles in a component the second's, of more all, of one none.
+// Finds the fields that make bands. With two handles in a component, only the second handle's field does; with more,
+// all fields do; with one, none.
 Vector<FieldPart> find_parts(const Mesh& mesh, const Reach& reach, Memory& memory) {
   Vector<FieldPart> parts(&memory);
   for (std::int32_t c = 0; c < mesh.component_count(); ++c) {
@@ -21,7 +22,7 @@ Vector<FieldPart> find_parts(const Mesh& mesh, const Reach& reach, Memory& memor
   return parts;
 }
 
-// Union-find with the smallest member as representative, so that results do not depend on the order of unions.
+// Union-find whose representative is the smallest member. So results do not depend on the order of unions.
 struct Partition {
   Vector<std::int32_t> parent;
   Partition(std::size_t size, Memory& memory) : parent(size, 0, &memory) {}
@@ -37,8 +38,8 @@ struct Partition {
   }
 };
 
-// Cuts one field after the other into clusters and collects entries (vertex, cluster, weight) by piece of the vertices
-// (vertex_piece). Threads share the pieces; edges between pieces are joined on one thread.
+// Cuts one field after the other into clusters. It collects entries (vertex, cluster, weight) in one list per piece of
+// vertices (vertex_piece). Threads share these pieces. One thread joins the edges between pieces.
 class BandCutter {
  public:
   BandCutter(const Core& core, const Rest& rest, const Reach& reach, const HandleFields& fields,
@@ -59,17 +60,18 @@ class BandCutter {
         roots_(&memory),
         others_(core.size(), 0.0, &memory) {}
 
-  // Forgets all entries; the first cluster gets this number.
+  // Forgets all entries. The first new cluster gets the number first_cluster.
   void begin(std::int32_t first_cluster) noexcept {
     for (auto& list : entries_) list.clear();
     next_cluster_ = first_cluster;
   }
-  // One field on one component. Pieces below `smallest` of the component's area are dropped.
+  // Cuts one field on one component. It drops connected pieces with less than the share `smallest` of the component's
+  // area.
   void cut(const FieldPart& part, const Levels& levels, double smallest);
-  // Hands out the share of B_0 of all fields of a component to the other handles.
+  // Gives each handle its share of the first band, for all fields of a component.
   void finish_component(std::int32_t component);
 
-  // By piece of the vertices; those of a vertex in the order they came.
+  // One list per piece of vertices. The entries of a vertex keep the order in which they were added.
   const Vector<Vector<ClusterEntry>>& entries() const noexcept { return entries_; }
   std::int32_t cluster_count() const noexcept { return next_cluster_; }
 
@@ -96,19 +98,20 @@ class BandCutter {
   Memory& memory_;
   Vector<Vector<ClusterEntry>> entries_;
   std::int32_t next_cluster_ = 0;
-  // Scratch for the field in work, per vertex or per vertex and band.
+  // These arrays are scratch memory for the field that is being cut. They have one entry per vertex, or three per
+  // vertex (one per band).
   Partition partition_;
   Buffer<BandValues> values_;
-  Buffer<double> share_;        // beta
+  Buffer<double> share_;        // share of the field at the vertex (beta)
   Buffer<double> floor_;        // smallest field value that counts at a vertex
   std::int32_t floor_of_ = -1;  // the component that floor_ belongs to
   Buffer<double> piece_area_;   // by root of the union-find partition
   Buffer<std::int32_t> piece_cluster_;
-  Vector<Root> roots_;     // ascending
-  Vector<double> others_;  // sum over the fields of beta_i B_0 / (1 - phi_i)
+  Vector<Root> roots_;     // roots of the partition, ascending
+  Vector<double> others_;  // by vertex: sum over the fields of share times B_0 / (1 - phi)
 };
 
-// Calls loop(piece, vertices of it) for the pieces of an ascending list; long lists at once.
+// Splits an ascending vertex list into pieces, and calls loop(piece, its vertices). Long lists run on several threads.
 template <class Loop>
 void BandCutter::in_pieces(Span<const std::int32_t> vertices, Loop&& loop) {
   const std::int32_t *const begin = vertices.begin(), *const end = vertices.end();
@@ -128,7 +131,7 @@ void BandCutter::in_pieces(Span<const std::int32_t> vertices, Loop&& loop) {
   });
 }
 
-// Once per component of more than two handles.
+// Computes the smallest field value that counts at each vertex. It runs once per component with more than two handles.
 void BandCutter::find_floor(const FieldPart& part) noexcept {
   const Span<const std::int32_t> present = reach_.handles_of(part.component);
   if (present.size() <= 2 || floor_of_ == part.component) return;
@@ -147,14 +150,14 @@ void BandCutter::evaluate(const FieldPart& part, const Levels& levels, Span<cons
   const bool several = reach_.handles_of(part.component).size() > 2, eased = several && options_.degree == 2;
   for (const std::int32_t v : vertices) {
     share_[v] = several ? std::max(0.0, phi[v] - floor_[v]) : 1.0;
-    if (share_[v] <= 0) continue;  // nothing of this field counts here
+    if (share_[v] <= 0) continue;  // this field does not count here
     const double level = levels(phi[v]);
-    values_[v] = band_values(eased ? eased_level(level, options_.band_count) : level, options_.band_count,
-                             options_.degree);
+    values_[v] =
+        band_values(eased ? eased_level(level, options_.band_count) : level, options_.band_count, options_.degree);
   }
 }
 
-// The bands that both ends of an edge are in.
+// Joins the two ends of an edge in every band that contains both.
 inline void BandCutter::join_edge(std::int32_t v, std::int32_t u) noexcept {
   if (share_[u] <= 0) return;
   const int width = options_.degree + 1;
@@ -165,7 +168,8 @@ inline void BandCutter::join_edge(std::int32_t v, std::int32_t u) noexcept {
   }
 }
 
-// Neighbours ascend: each edge is seen once, from its larger end.
+// Joins all edges inside one piece of vertices. Neighbours are sorted, so each edge is handled once, from its larger
+// end.
 void BandCutter::join_inside(Span<const std::int32_t> vertices) noexcept {
   const Topology& topology = core_.topology;
   const std::int32_t first = vertices[0] / vertex_piece * vertex_piece;
@@ -200,7 +204,7 @@ void BandCutter::number_pieces(Span<const std::int32_t> vertices, double smalles
     for (int a = 0; a < width; ++a) {
       const std::int32_t band = values_[v].first + a, own = 3 * v + a;
       if (!interior(band) || !(values_[v].value[a] > 0)) continue;
-      // a root is the smallest of its piece: it was here before
+      // The root is the smallest member of its connected piece, so the loop has met it before.
       const std::int32_t root = partition_.parent[own] = partition_.parent[partition_.parent[own]];
       if (root == own) roots_.push_back({own, band}), piece_area_[own] = 0;
       const double area = share_[v] * values_[v].value[a] * rest_.area[v];
@@ -215,8 +219,8 @@ void BandCutter::number_pieces(Span<const std::int32_t> vertices, double smalles
   }
 }
 
-// Entries of the clusters; of the handle itself; and the others' share, which is handed out in finish_component,
-// without the handle's own part.
+// Adds the entries of the clusters and of the handle itself. The share of the first band is only summed up here;
+// finish_component gives it to all handles. The handle's own part of that share is therefore subtracted here.
 void BandCutter::emit(const FieldPart& part, Span<const std::int32_t> vertices, Vector<ClusterEntry>& entries) {
   const double* phi = fields_.of(part.handle);
   const std::int32_t last = options_.band_count + 1;
@@ -268,7 +272,7 @@ void BandCutter::finish_component(std::int32_t component) {
 void find_elastic(const Mesh& mesh, const Reach& reach, ClusterWeights& weights, Memory& memory) {
   Vector<std::uint8_t> elastic(mesh.component_count(), 0, &memory);
   for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
-    // clusters ascend, free ones come last
+    // The clusters of a vertex are sorted, and the free ones (not handles) come last.
     const std::int32_t end = weights.start[v + 1];
     if (end > weights.start[v] && weights.cluster[end - 1] >= weights.handle_count) elastic[mesh.component[v]] = 1;
   }

@@ -10,7 +10,8 @@ Vec3 blend_vertex(const Mesh& mesh, const ClusterWeights& weights, const Affine*
   const Vec3 p = mesh.positions[v];
   const std::int32_t first = weights.start[v], last = weights.start[v + 1];
   if (first == last) return p;
-  // the blended transform first: twelve independent sums, in the order of the loops for wider lanes
+  // The weighted sum of the transforms comes first. Its twelve sums run in the same order as in the loops for AVX2 and
+  // AVX-512.
   double sum[12];
   const double own = weights.weight[first];
   for (int i = 0; i < 12; ++i) sum[i] = own * (&transforms[weights.cluster[first]].a[0][0])[i];

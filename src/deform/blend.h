@@ -1,28 +1,33 @@
-// Vertices from cluster transforms: x_v = sum_c W_vc A_c (p_v, 1); vertices without weights stay at rest.
-// Cost: about 7 ns per vertex on two handles. Allocates nothing; the same bits on every machine.
+// Computes vertex positions from cluster transforms: x_v = sum_c W_vc A_c (p_v, 1).
+//
+// W_vc is the weight of vertex v in cluster c, A_c the cluster's transform, p_v the rest position. A vertex without
+// weights stays at rest. With two handles it costs about 7 ns per vertex. Allocates nothing. Gives the same bits on
+// every machine.
 #pragma once
 #include "deform/bands.h"
 
 namespace hf_inner {
 
-// Row-major 3 x 4: x = A (p, 1), in the mesh's own unit.
+// A row-major 3 x 4 transform: x = A (p, 1), in the unit of the scaled mesh.
 struct Affine {
   double a[3][4];
 };
 
-// Fills the blocks of `weights` in: those whose vertices share most of their clusters, as eight in a row do in any mesh
-// but a shuffled one. The work of a block grows with the clusters of any of its vertices, that of eight vertices with
-// the clusters of each. Cost: two passes over the weights. When it throws there are no blocks.
+// Fills the blocks of `weights`: those whose eight vertices share most of their clusters. The work of a block grows
+// with the number of different clusters in it; without a block, each vertex pays for its own clusters. Neighbouring
+// vertices share clusters in every mesh but a shuffled one. Cost: two passes over the weights. When it throws,
+// `weights` has no blocks.
 void list_blocks(ClusterWeights& weights, JobRunner& jobs);
 
-// Writes the blended positions, moved to offset + scale x. columns: scratch of column_count() numbers, on 64 bytes. packed: null, or three floats per vertex that get the same positions.
+// Writes the blended positions, moved to offset + scale x. columns: scratch of column_count() numbers, aligned to 64
+// bytes. packed: null, or three floats per vertex that get the same positions.
 inline std::size_t column_count(const ClusterWeights& weights) noexcept {
   return 16 * static_cast<std::size_t>(weights.cluster_count);
 }
 void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, double* columns, Vec3 offset,
            double scale, Vec3* positions, float* packed, JobRunner& jobs);
 
-// One vertex, in the mesh's own unit.
+// Returns the blended position of one vertex, in the unit of the scaled mesh.
 Vec3 blend_vertex(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, std::int32_t v) noexcept;
 
 }  // namespace hf_inner

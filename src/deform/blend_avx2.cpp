@@ -1,6 +1,7 @@
-// The loop of blend.cpp with a column of the blended transform in each register. The sums have the order of the plain
-// loop and nothing is contracted, so the bits are the same. Built with -mavx2, chosen at run time; includes no header
-// whose inline functions could leak into other files.
+// The loop of blend.cpp with one column of the blended transform in each register. The sums have the order of the plain
+// loop, without fused multiply-adds, so the bits are the same. The build uses -mavx2, and the program chooses the loop
+// at run time. The file includes no header with inline functions, because their AVX2 code could be linked into other
+// files.
 #include <immintrin.h>
 
 #include "deform/blend_rows.h"
@@ -9,8 +10,8 @@ namespace hf_inner {
 
 namespace {
 
-// Half a block of eight vertices in the lanes: the twelve numbers of their transforms first, cluster by cluster. A
-// cluster that a vertex does not use has weight zero there.
+// Blends four vertices, half a block of eight, one vertex per lane. First it sums the twelve numbers of their
+// transforms, cluster by cluster. A cluster that a vertex does not use has weight zero in its lane.
 void blend_half(const BlendRows& rows, std::int32_t block, std::size_t half) noexcept {
   const std::int32_t begin = rows.block_start[block], end = rows.block_start[block + 1];
   __m256d sum[12];

@@ -1,6 +1,7 @@
 // The loop of blend.cpp with two columns of the blended transform in each register. The sums have the order of the
-// plain loop and nothing is contracted, so the bits are the same. Built with -mavx512f, chosen at run time; includes no
-// header whose inline functions could leak into other files.
+// plain loop, without fused multiply-adds, so the bits are the same. The build uses -mavx512f, and the program chooses
+// the loop at run time. The file includes no header with inline functions, because their AVX-512 code could be linked
+// into other files.
 #include <immintrin.h>
 
 #include "deform/blend_rows.h"
@@ -8,9 +9,9 @@
 namespace hf_inner {
 namespace {
 
-// Masked by all ones: the plain intrinsics start from an undefined register, and GCC 12 warns of it.
-// Eight vertices in the lanes: the twelve numbers of their transforms first, cluster by cluster. A cluster that a
-// vertex does not use has weight zero there.
+// Blends a block of eight vertices, one vertex per lane. First it sums the twelve numbers of their transforms, cluster
+// by cluster. A cluster that a vertex does not use has weight zero in its lane. The masks are all ones: the intrinsics
+// without a mask start from an undefined register, and GCC 12 warns about that.
 void blend_block(const BlendRows& rows, std::int32_t block) noexcept {
   const std::int32_t begin = rows.block_start[block], end = rows.block_start[block + 1];
   __m512d sum[12];

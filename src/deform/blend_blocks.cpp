@@ -8,8 +8,9 @@ namespace {
 
 constexpr std::int32_t lanes = 8;
 
-// Clusters of the block's vertices from the smallest; use(cluster, weights of the eight) for each. Returns how many, 0
-// when the block is not worth it: a vertex without clusters, or more of them than a quarter of its weights and two.
+// Calls use(cluster, eight weights) for every cluster of the block's vertices, in ascending order. Returns the number
+// of clusters. It returns 0 when blending the block as one does not pay: a vertex has no cluster, or the vertices share
+// too few clusters (block_sharing).
 template <class Use>
 std::int32_t merge_block(const ClusterWeights& weights, std::int32_t block, Use&& use) noexcept {
   constexpr std::int32_t none = 0x10000;

@@ -1,4 +1,4 @@
-// The arrays of a blend, for the loops of blend.cpp, blend_avx2.cpp and blend_avx512.cpp.
+// The arrays of a blend, as the loops of blend.cpp, blend_avx2.cpp and blend_avx512.cpp read them.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,13 +14,13 @@ struct BlendRows {
   double offset[3];
   double scale;
   double* positions;  // 3 per vertex
-  // by block of eight vertices (ClusterWeights); null: there are none
+  // The same weights by block of eight vertices (ClusterWeights). Null: there are no blocks.
   const std::int32_t* block_start;
   const std::uint16_t* block_cluster;
   const float* block_weight;
 };
 
-// first is a multiple of eight.
+// Both loops need a `first` that is a multiple of eight.
 void blend_rows_avx2(const BlendRows& rows, std::int32_t first, std::int32_t last) noexcept;
 void blend_rows_avx512(const BlendRows& rows, std::int32_t first, std::int32_t last) noexcept;
 

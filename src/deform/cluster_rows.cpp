@@ -21,7 +21,8 @@ class WeightTable {
     for (const ClusterEntry& entry : entries) items_[next[entry.vertex - first]++] = {entry.cluster, entry.weight};
   }
 
-  // The row of a vertex, clusters ascending, small weights pruned, sum 1. Empty when nothing is left.
+  // Returns the row of a vertex: clusters ascending, small weights removed, sum 1. The row is empty when no weight
+  // remains.
   Span<const Item> finish(std::int32_t v) noexcept {
     Item* items = items_.data() + start_[v - first_];
     std::int32_t count = join_equal(items, start_[v - first_ + 1] - start_[v - first_]);
@@ -60,7 +61,7 @@ class WeightTable {
   Buffer<Item> items_;
 };
 
-// The rows of a piece of the vertices.
+// The finished rows of one piece of vertices.
 struct PieceRows {
   explicit PieceRows(const std::pmr::polymorphic_allocator<std::byte>& allocator)
       : length(allocator), cluster(allocator), weight(allocator) {}
@@ -69,9 +70,9 @@ struct PieceRows {
   Vector<float> weight;
   std::int32_t unreached = 0;
 
-  // A row of weights that sum to 1, rounded to whole steps; the largest takes up what is left.
+  // Appends a row of weights that sum to 1, rounded to multiples of 2^-24. The largest weight takes the remainder.
   void append(Span<const WeightTable::Item> row) {
-    constexpr double steps = 16777216;  // 2^24: whole numbers up to it are floats
+    constexpr double steps = 16777216;  // 2^24: a float holds all whole numbers up to it
     double left = steps;
     std::size_t largest = 0;
     for (std::size_t k = 1; k < row.size(); ++k) largest = row[k].weight > row[largest].weight ? k : largest;
@@ -87,8 +88,8 @@ struct PieceRows {
   }
 };
 
-// Rows of the vertices [first, last). A vertex whose pieces were all dropped takes the fields themselves as weights of
-// the handles.
+// Makes the rows of the vertices [first, last). If all clusters of a vertex were dropped, it gets the handles, weighted
+// by their fields.
 void make_rows(const Vector<ClusterEntry>& entries, std::int32_t first, std::int32_t last, const Mesh& mesh,
                const Reach& reach, const HandleFields& fields, PieceRows& out, Memory& memory) {
   WeightTable table(entries, first, last, memory);
@@ -130,7 +131,8 @@ void write_rows(const Core& core, const Reach& reach, const HandleFields& fields
   });
   out.start.resize(n + 1);
   out.start[0] = 0;
-  for (std::int32_t v = 0; v < n; ++v) out.start[v + 1] = out.start[v] + rows[v / vertex_piece].length[v % vertex_piece];
+  for (std::int32_t v = 0; v < n; ++v)
+    out.start[v + 1] = out.start[v] + rows[v / vertex_piece].length[v % vertex_piece];
   out.cluster.resize(out.start[n]), out.weight.resize(out.start[n]);
   for_vertex_pieces(*core.jobs, n, [&](std::int32_t first, std::int32_t) {
     const PieceRows& own = rows[first / vertex_piece];

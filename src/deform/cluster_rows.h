@@ -1,6 +1,8 @@
-// Rows of cluster weights from the shares the bands give: per vertex equal clusters joined, small ones dropped, the rest
-// scaled to sum 1 and rounded to whole steps of 2^-24. Cost: O(entries), pieces of the vertices at once. On failure
-// nothing is left behind.
+// Makes rows of cluster weights from the entries of the bands.
+//
+// For each vertex it sums the entries of the same cluster, drops small weights, scales the rest to sum 1, and rounds
+// them to multiples of 2^-24. Cost: O(entries). Pieces of vertices run on several threads. A failed call changes
+// nothing.
 #pragma once
 #include "deform/bands.h"
 
@@ -11,8 +13,8 @@ struct ClusterEntry {
   double weight;
 };
 
-// entries: one list per piece of the vertices (vertex_piece); those of one vertex are summed in their order. Fills start, cluster, weight and
-// unreached_vertex_count of `out`.
+// entries: one list per piece of vertices (vertex_piece). Entries of one vertex are summed in their order. It fills
+// start, cluster, weight and unreached_vertex_count of `out`.
 void write_rows(const Core& core, const Reach& reach, const HandleFields& fields,
                 const Vector<Vector<ClusterEntry>>& entries, ClusterWeights& out, Memory& memory);
 

@@ -1,156 +1,201 @@
-// The chosen numbers of poses: what each trades, and on what it was chosen. Limits that hosts meet come first.
+// The chosen numbers of poses: what each trades, and on what it was chosen. Limits that callers meet come first.
 //
-// "Bench" is hf_bench deform-quality: planes, bars, a cylinder, a cactus and a scan (docs/studies/poses.md).
+// "Bench" is the program hf_bench deform-quality: planes, bars, a cylinder, a cactus and a scan
+// (docs/studies/poses.md).
 #pragma once
 #include <cstddef>
 #include <cstdint>
 
 namespace hf_inner {
 
-// ---- limits of the C ABI: src/capi checks against these ----
+// ---- limits of the C ABI; src/capi checks them ----
 
-constexpr std::uint32_t handle_limit = 256;  // of a pose; with free_cluster_limit, cluster numbers fit 16 bits
-constexpr std::uint32_t layer_limit = 8;     // of a pose; each layer above the first holds two more poses
-constexpr std::uint32_t least_bands = 2, most_bands = 64;  // clusters are bounded by free_cluster_target anyway
-constexpr std::uint32_t most_iterations = 1000;            // of one deform()
-constexpr std::uint32_t most_groups = 2000;                // an iteration costs one rotation a group
-constexpr std::uint32_t most_joints = 8;                   // weights of a vertex in a skin: engines read 4 or 8
-constexpr double largest_translation = 1e15;  // box diagonals; beyond, a double no longer resolves the surface
+// Most handles of a pose. Together with free_cluster_limit it keeps cluster numbers within 16 bits.
+constexpr std::uint32_t handle_limit = 256;
+// Most layers of a pose; each layer above the first holds two more poses.
+constexpr std::uint32_t layer_limit = 8;
+// Fewest and most bands that a caller may ask for; free_cluster_target bounds the clusters anyway.
+constexpr std::uint32_t least_bands = 2, most_bands = 64;
+// Most iterations of one deform() call.
+constexpr std::uint32_t most_iterations = 1000;
+// Most rotation groups; an iteration computes one rotation per group.
+constexpr std::uint32_t most_groups = 2000;
+// Most weights of a vertex in a skin; game engines read 4 or 8.
+constexpr std::uint32_t most_joints = 8;
+// Largest translation, in diagonals of the bounding box. Beyond it a double no longer resolves the surface.
+constexpr double largest_translation = 1e15;
 
 // ---- pose.cpp, pose_stack.cpp ----
 
-// Bands per field. Smooth, on the scan: 5 cost 8 to 18 % of energy, 20 gain 6 % and stretch an edge by 1.42 for 1.29.
+// Bands per field. With 5 smooth bands, the scan's energy is 8 to 18 % larger. With 20 it is 6 % smaller, but the
+// largest edge stretch grows from 1.29 to 1.42.
 constexpr std::uint32_t default_bands_smooth = 10, default_bands_paper = 12;
-// Per frame. Five smooth ones leave 0.3 % of the energy at most; the paper's mode moves one band per iteration.
+// Iterations per frame. After five in smooth mode, the energy is within 0.3 % of its minimum. In paper mode, motion
+// moves on by only one band per iteration.
 constexpr std::uint32_t default_iterations_smooth = 5, default_iterations_paper = 200;
-// Rotation groups, against time per iteration. 125 lower the pulled scan's smallest stretch from 0.74 to 0.68. Ten
-// times the groups with twice the bands lower the energy of the bent cylinder and the twisted bar by 0.3 %; the
-// full-mesh step lowers it by 3 and 5.
+// Rotation groups: more of them fit better but make each iteration slower. With 125, the pulled scan's smallest stretch
+// falls from 0.74 to 0.68. Ten times the groups with twice the bands lower the energy of the bent cylinder and the
+// twisted bar by 0.3 %. The full-mesh step (refine.h) lowers these two energies by 3 and 5 %.
 constexpr std::uint32_t default_groups = 250;
-// Largest change of a rotation (Frobenius) below which a pose asked for again is not solved on.
+// A pose counts as converged when no rotation changes by more (Frobenius norm). Solving it again then does nothing.
 constexpr double settled_change = 1e-6;
-// Iterations on one target. The smooth mode unwinds twists of many turns beyond; the paper's needs hundreds to
-// converge.
+// Most iterations while the handles stay in place. Beyond it, the smooth mode would unwind twists of many turns. The
+// paper mode needs hundreds to converge.
 constexpr std::uint32_t idle_limit_smooth = 100, idle_limit_paper = 2000;
-// Radians a handle may turn in one step; beyond, the pose starts afresh from the fields instead of predicting.
+// If a handle turns by more radians in one step, the pose starts again from the fields instead of from a prediction.
 constexpr double jump_turn = 1.75;
-// Steps of a layer, which starts from the surface below at every change; more than the default of a pose that goes on.
+// Fewest iterations of a layer. A layer starts from the surface below at every change, so it needs more than a pose
+// that continues.
 constexpr std::uint32_t least_layer_iterations = 16;
 
-// Largest error of a number of a rigid matrix: rounded to floats it is off by 6e-8. What passes is made rigid.
+// How far an entry of a given matrix may be from a rigid motion; rounding to floats costs 6e-8. An accepted matrix is
+// replaced by the nearest rigid one.
 constexpr double rigid_tolerance = 1e-4;
 
 // ---- pose_solver.cpp ----
 
-// Step of the local rotations over the fitted one; 1 is plain alternation. 1.25 and 1.75 move energies by 0.2 % at
-// most.
+// Length of a local rotation step, relative to the step to the fitted rotation (over-relaxation). 1 is plain
+// alternation. 1.25 and 1.75 change energies by at most 0.2 %.
 constexpr double over_relaxation = 1.5;
-// Cosine of half the turn (90 degrees) above which steps are over-relaxed; larger turns go to the fitted rotation.
+// Only steps with a larger cosine of half their angle (turns below 90 degrees) are over-relaxed. Larger turns go
+// exactly to the fitted rotation.
 constexpr double over_relaxed_cosine = 0.7;
-// Radians between handles at which rotations are kept near the blended turns, and at which the limit is
-// least_turn_limit: a twist of 450 degrees must not fall back by a whole turn (tests/unit/deform/drag_test.cpp).
+// When handles turn against each other by more than the first angle, group rotations must stay near the blended turns.
+// From the second angle on they stay within least_turn_limit (all in radians). Otherwise a twist of 450 degrees falls
+// back by a whole turn (tests/unit/deform/drag_test.cpp).
 constexpr double turn_limit_from = 5.0, turn_limit_full = 7.0, least_turn_limit = 0.3;
 
 // ---- strain.cpp ----
 
 struct StrainLimits {
-  double low, high;    // of sigma
-  double stiffness;    // k
-  double largest;      // c
-  double contraction;  // n
-  double follow;       // r
+  double low, high;    // clamps the stretch sigma
+  double stiffness;    // k: how many times stiffer a group gets outside the limits
+  double largest;      // c: largest stress
+  double contraction;  // n: contraction across a pull
+  double follow;       // r: share of the way to the wanted stress, per iteration
 };
-// By the handles of the component: two, more. Fitted on two planes and two poses of a scan; settings nearby meet the
-// same bars, and 15 of 16 poses of eight other meshes keep more edges within [0.8, 1.25] (docs/studies/poses.md).
+// Limits for components with two handles, and for those with more. They were fitted on two planes and two poses of a
+// scan. Settings close to these meet the same targets of stretch. In 15 of 16 poses of eight other meshes, more edges
+// keep a stretch within [0.8, 1.25] (docs/studies/poses.md).
 constexpr StrainLimits strain_limits[] = {{0.8, 1.24, 4.0, 0.25, 0.0, 0.28}, {0.92, 1.14, 8.0, 0.5, 0.2, 0.16}};
-// m_2 / m_1 below which a group is a line, which is never under stress; half or double: the same bench.
+// A group whose second moment is below this share of its first is a line, and a line has no stress. Halving or doubling
+// it changes no bench figure.
 constexpr double thinnest_sheet = 1e-2;
 
 // ---- subspace.cpp ----
 
-// eps over the mean diagonal of a cluster's linear part: holds what the energy leaves free. Half of
-// it loses the bar of the plane's refined stretch (0.846 for 0.851), double costs the plane 0.6 % of energy.
+// Stiffness that holds a cluster where the energy leaves it free, relative to the mean diagonal of its linear part.
+// Half the value lowers the plane's smallest stretch after refinement from 0.851 to 0.846, below its bound. Twice the
+// value raises the plane's energy by 0.6 %.
 constexpr double rigidity = 1e-3;
-// Gain of edges at a handle's border, by the handles of the component: two, more. 1/4 raises the smallest stretch of
-// the bent cactus from 0.786 to 0.801 for 0.1 % of energy; 7/2 belongs to the strain limits (docs/studies/poses.md).
+// Extra weight of edges at a handle's border, for components with two handles and with more. 0.25 raises the smallest
+// stretch of the bent cactus from 0.786 to 0.801, and the energy by 0.1 %. 3.5 was fitted together with the strain
+// limits (docs/studies/poses.md).
 constexpr double border_stiffness[] = {0.25, 3.5};
-// Edges of the energy, against the time of first handles. Half or double change the scan's energy by 1 %.
+// Edges sampled for the energy: fewer make the first solve with new handles faster. Halving or doubling it changes the
+// scan's energy by 1 %.
 constexpr double edge_samples = 60000;
-constexpr std::int32_t few_edges = 1500;    // clusters with fewer are summed whole; half or double: the same bench
-constexpr std::int32_t edge_piece = 16384;  // edges a thread takes at once; fixed, so that sums keep their order
+// A cluster with fewer edges uses all of them instead of a sample. Halving or doubling it changes no bench figure.
+constexpr std::int32_t few_edges = 1500;
+// Edges of one thread's job. The size is fixed, so that sums keep their order.
+constexpr std::int32_t edge_piece = 16384;
 
 // ---- rest.cpp, rest.h ----
 
-// Edge weights of the energy are clamped: negative ones would reward collapse, huge ones come from needles. Half or
-// double of either bound changes nothing in the bench.
+// Edge weights of the energy are clamped to this range. Negative weights would reward collapse, and huge ones come from
+// needle-shaped triangles. Halving or doubling either bound changes no bench figure.
 constexpr double least_edge_weight = 0.01, largest_edge_weight = 25;
-constexpr std::int32_t vertex_piece = 4096;  // vertices a thread takes at once; fixed, so that sums keep their order
+// Vertices of one thread's job. The size is fixed, so that sums keep their order.
+constexpr std::int32_t vertex_piece = 4096;
 
 // ---- bands.cpp, cluster_rows.cpp ----
 
-// Of |phi|: smaller fields do not count at a vertex. With 0.03 a scan with three handles has 2 % less energy and twice
-// the weights, a torus with eight handles four times as many. With 0.6 the scan folds, with 0.15 its longest edge goes
-// from 1.29 to 1.40.
+// A field counts at a vertex only above this share of the norm of all fields there. With 0.03, a scan with three
+// handles has 2 % less energy but twice the weights, and a torus with eight handles four times the weights. With 0.6
+// the scan folds. With 0.15 its longest edge stretches by 1.40 instead of 1.29.
 constexpr double field_prune = 0.3;
-constexpr double piece_share =
-    0.02;  // of its band: smaller pieces are dropped; half or double change nothing in the bench
-constexpr double smallest_area =
-    2e-4;                          // of its component: smaller clusters are dropped; double drops 1 of the scan's 30
-constexpr double area_growth = 4;  // of smallest_area, until clusters are within free_cluster_limit
-// The dense solve grows with the cube of the clusters: bands get wider to reach the target, pieces are dropped above
-// the limit.
+// Connected pieces below this share of their band's area are dropped. Halving or doubling it changes no bench figure.
+constexpr double piece_share = 0.02;
+// Clusters below this share of their component's area are dropped. Twice the value drops 1 of the scan's 30 clusters.
+constexpr double smallest_area = 2e-4;
+// While there are more than free_cluster_limit clusters, smallest_area grows by this factor.
+constexpr double area_growth = 4;
+// The time of the dense solve grows with the cube of the number of clusters. Bands get wider to reach the target, and
+// pieces are dropped above the limit.
 constexpr std::int32_t free_cluster_target = 480, free_cluster_limit = 768;
-constexpr double weight_prune = 1e-3;  // of |W|: smaller weights are dropped; half or double move energies by 0.2 %
+// Weights below this share of the norm of their row are dropped. Halving or doubling it changes energies by 0.2 %.
+constexpr double weight_prune = 1e-3;
 
 // ---- levels.cpp ----
 
-constexpr int level_bins = 128;   // of a field's values, against 10 to 64 bands
-constexpr int smoothed_bins = 3;  // to each side in the running mean of gradients; 1 or 6 move energies by 0.3 %
-constexpr double least_gradient =
-    1e-4;  // of the largest: bounds the length of flat parts; half or double: the same bench
-constexpr double triangle_samples = 20000;     // of a component, against time; half or double move energies by 0.2 %
-constexpr std::uint32_t histogram_shares = 8;  // parts of the triangles for threads; fixed: sums keep their order
+// Bins into which the values of a field are sorted, to space 10 to 64 bands.
+constexpr int level_bins = 128;
+// Bins to each side in the running mean of gradients. 1 and 6 change energies by 0.3 %.
+constexpr int smoothed_bins = 3;
+// Least gradient, as a share of the largest. It limits how many bands fall on parts where the field is nearly constant.
+// Halving or doubling it changes no bench figure.
+constexpr double least_gradient = 1e-4;
+// Triangles of a component in the histogram: fewer take less time. Halving or doubling it changes energies by 0.2 %.
+constexpr double triangle_samples = 20000;
+// Jobs into which the triangles are split. The number is fixed, so that sums keep their order.
+constexpr std::uint32_t histogram_shares = 8;
 
 // ---- groups.cpp ----
 
-constexpr std::int32_t least_group_share = 4;  // a component gets its share by area, and 1/4 of all groups at least
-constexpr std::size_t farthest_block = 256;    // vertices searched again when a distance among them changed
+// A component gets rotation groups by its share of the area, and at least one group in this many of all groups.
+constexpr std::int32_t least_group_share = 4;
+// Size of a block of vertices. A block is searched again when a distance in it has changed.
+constexpr std::size_t farthest_block = 256;
 
 // ---- blend.cpp, blend_blocks.cpp ----
 
-constexpr std::int32_t packed_at_once = 256;  // vertices (6 KB): still in the first cache when they are packed
-constexpr std::int32_t blocks_at_once = 512;  // of eight vertices: vertex_piece, as threads take them elsewhere
-constexpr std::int32_t block_sharing = 4;     // weights per cluster from which eight vertices are blended together
+// Vertices (6 KB) blended before they are packed: they are still in the first-level cache then.
+constexpr std::int32_t packed_at_once = 256;
+// Blocks of eight vertices in one job; together they are vertex_piece vertices.
+constexpr std::int32_t blocks_at_once = 512;
+// Eight vertices are blended as one block if they have at least this many weights per different cluster.
+constexpr std::int32_t block_sharing = 4;
 
 // ---- dense.cpp ----
 
-constexpr double pivot_floor = 1e-10;  // of the diagonal: below, an unknown depends on the ones before it
+// A pivot below this share of its diagonal means that the unknown depends on earlier ones.
+constexpr double pivot_floor = 1e-10;
 
 // ---- paper_scheme.cpp ----
 
-constexpr std::int32_t samples_per_cluster = 40;  // against time; 240 lower the energy by 7 to 11 % (bench)
+// Sampled vertices per cluster: fewer take less time. 240 lower the energy by 7 to 11 % in the bench.
+constexpr std::int32_t samples_per_cluster = 40;
 
 // ---- refine.cpp ----
 
-constexpr std::int32_t samples_per_group = 24;  // vertices whose edges give a group its rotation on a given surface
+// Most vertices of a group whose edges give the group its rotation on a given surface.
+constexpr std::int32_t samples_per_group = 24;
 
 // ---- rotation.cpp, rotation_batch.cpp ----
 
-constexpr double small_angle = 1e-4;           // radians: below, two terms of the series are exact in double
-constexpr double equal_eigenvalues = 1e-12;    // of a matrix of size 1: rounding of its eigenvalues, and a margin
-constexpr double newton_floor = 1e-6;          // of |S|: pivots above it certify a maximum
-constexpr int newton_steps = 6;                // each squares the error: warm starts arrive in four (rotation_test)
-constexpr double longest_newton_step = 1.0;    // squared radians: beyond, the quadratic model says nothing
-constexpr double settled_newton_step = 1e-14;  // squared radians of the last step; its error is of the order of that
+// Below this angle (radians) the first two terms of the sine's series are exact in double.
+constexpr double small_angle = 1e-4;
+// Eigenvalues of a matrix of size 1 that differ by less count as equal: their rounding error and a margin.
+constexpr double equal_eigenvalues = 1e-12;
+// Pivots above this share of the norm of S prove that the step is near a maximum.
+constexpr double newton_floor = 1e-6;
+// Most Newton steps. Each squares the error, so starts near the result need four (rotation_test).
+constexpr int newton_steps = 6;
+// Longest Newton step (squared radians). Beyond it the quadratic model does not predict the maximum.
+constexpr double longest_newton_step = 1.0;
+// Length of the last Newton step (squared radians). The remaining error is about as large as this number.
+constexpr double settled_newton_step = 1e-14;
 
 // ---- skin.cpp ----
 
-// Stretching joints replay a lifted plane within 0.2 % of the box, rigid ones within 2.5; bends and twists 0.1 for 0.6.
-constexpr double skin_vertices = 20000;      // of the fit, against its time
-constexpr int skin_rounds = 8;               // over all joints
-constexpr int stretch_rounds = 6;            // rotation and stretch of one joint in turn
-constexpr double stretch_ballast = 1e-6;     // of the moments: directions in which a joint has no extent keep s = 1
-constexpr double least_stretch = 1e-3;       // a joint's scale stays positive
-constexpr double least_vertex_area = 1e-12;  // of the box squared: vertices without area still count
+// The next numbers fit joints to the posed surface. With stretching joints, a lifted plane is replayed within 0.2 % of
+// the box, with rigid joints within 2.5 %. Bends and twists come within 0.1 % instead of 0.6 %.
+constexpr double skin_vertices = 20000;  // most vertices in the fit: fewer take less time
+constexpr int skin_rounds = 8;           // rounds over all joints
+constexpr int stretch_rounds = 6;        // rounds that fit rotation and stretch of one joint in turn
+// Added to the moments, as a share of them: a joint without extent in a direction keeps the scale 1 there.
+constexpr double stretch_ballast = 1e-6;
+constexpr double least_stretch = 1e-3;       // keeps a joint's scale positive
+constexpr double least_vertex_area = 1e-12;  // as a share of the squared box: vertices without area still count
 
 }  // namespace hf_inner

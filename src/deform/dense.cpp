@@ -9,7 +9,7 @@
 namespace hf_inner {
 namespace {
 
-// Products of row a with the four rows b0 .. b3 in a fixed order of summation.
+// Computes the products of row a with the four rows b0 .. b3, in a fixed order of summation.
 void dot_four(const double* a, const double* b0, const double* b1, const double* b2, const double* b3,
               std::int32_t count, double (&out)[4]) noexcept {
   double s[4][2] = {{0, 0}, {0, 0}, {0, 0}, {0, 0}};
@@ -24,7 +24,7 @@ void dot_four(const double* a, const double* b0, const double* b1, const double*
   for (int r = 0; r < 4; ++r) out[r] = s[r][0] + s[r][1];
 }
 
-// x <- L^-1 x, four columns side by side.
+// Solves L y = x in place (forward substitution), for four right-hand sides side by side.
 HF_FOUR_LANES
 void solve_lower(const double* lower, const double* inverse_pivot, std::int32_t size, double* x) noexcept {
   for (std::int32_t i = 0; i < size; ++i) {
@@ -45,7 +45,7 @@ void solve_lower(const double* lower, const double* inverse_pivot, std::int32_t 
   }
 }
 
-// x <- L^-T x: the rows of L from the last, two at a time.
+// Solves L' y = x in place (backward substitution). It takes the rows of L from the last one, two at a time.
 HF_FOUR_LANES
 void solve_upper(const double* lower, const double* inverse_pivot, std::int32_t size, double* x) noexcept {
   std::int32_t i = size;
@@ -86,7 +86,7 @@ void DenseFactor::factorise(Buffer<double>&& lower, std::int32_t size, Memory& m
     const double diagonal = row[i];
     double square = 0;
     for (std::int32_t j = 0; j < i; j += 4) {
-      // four columns at once as far as their common part goes, then the small triangle between them
+      // Four columns are computed at once up to their common part, then the small triangle between them.
       const std::int32_t columns = std::min(4, i - j);
       const double* other[4];
       for (int c = 0; c < 4; ++c)
@@ -104,7 +104,7 @@ void DenseFactor::factorise(Buffer<double>&& lower, std::int32_t size, Memory& m
     if (pivot > pivot_floor * diagonal && pivot > 0) {
       inverse_pivot_[i] = 1.0 / std::sqrt(pivot);
     } else {
-      // rows below get zeros in this column through inverse_pivot_ = 0
+      // inverse_pivot_ is 0 here, so all later rows get a 0 in this column.
       ++dropped_;
       std::fill(row, row + i, 0.0);
     }

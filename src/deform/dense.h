@@ -1,11 +1,12 @@
-// A dense symmetric positive semi-definite system, factored once and solved for three right-hand sides many times.
+// Factors a dense symmetric positive semi-definite system once, and solves it for three right-hand sides many times.
 //
-// Row-oriented Cholesky L L'. An unknown whose pivot falls below a fraction of its diagonal depends on the ones before
-// it, as clusters do on a mesh too coarse to separate them. It is set to zero, which leaves a minimiser of the same
-// quadratic. Cost: size^3 / 6 multiply-adds, size^2 per solve and right-hand side. Solving allocates nothing.
+// The factorisation is a row-oriented Cholesky L L'. If a pivot falls below a fraction of its diagonal, the unknown
+// depends on earlier ones. This happens to clusters on a mesh too coarse to separate them. The unknown is set to zero,
+// and the result still minimises the same quadratic energy. Factoring costs size^3 / 6 multiply-adds, and a solve
+// size^2 per right-hand side. Solving allocates nothing.
 //
-// By hand, not Eigen's: a solve takes a quarter of the time of its LLT at size 480, in every frame, and dependent
-// unknowns are dropped.
+// It is written by hand instead of with Eigen's LLT. At size 480 a solve takes a quarter of the time, in every frame.
+// Eigen's LLT also cannot drop dependent unknowns.
 #pragma once
 #include <cstdint>
 
@@ -16,9 +17,9 @@ namespace hf_inner {
 class DenseFactor {
  public:
   explicit DenseFactor(Memory&) noexcept {}
-  // Takes the lower triangle, row by row with leading dimension size; it is overwritten by L.
+  // Factors the matrix. lower: its lower triangle, row by row with leading dimension size; L overwrites it.
   void factorise(Buffer<double>&& lower, std::int32_t size, Memory& memory);
-  // In place on x[4 * unknown + k], k < 3 used, k = 3 carried along.
+  // Solves in place. x[4 * unknown + k] holds right-hand side k < 3; the fourth number is only padding.
   void solve(double* x) const noexcept;
   std::int32_t size() const noexcept { return size_; }
   std::int32_t dropped() const noexcept { return dropped_; }

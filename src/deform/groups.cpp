@@ -12,10 +12,11 @@ struct Front {
   std::int32_t vertex;
 };
 
-// Spreads a group from its seed over the vertices that are nearer to it than to their present group. The distances are
-// the fixed point d[u] = min over neighbours v of d[v] + |uv|. It does not depend on the order in which vertices are
-// relaxed, so no heap is needed. The front holds all vertices below a limit, which rises by a mean edge (Meyer and
-// Sanders 2003, delta-stepping on one thread).
+// Spreads a new group from its seed over the vertices that are nearer to it than to their present group.
+//
+// The distances are the fixed point d[u] = min over neighbours v of d[v] + |uv|. This does not depend on the order in
+// which vertices are visited, so no heap is needed. The front holds all vertices below a limit, and the limit rises by
+// a mean edge length (delta-stepping, Meyer and Sanders 2003, on one thread).
 class Spreading {
  public:
   Spreading(const Core& core, Memory& memory)
@@ -30,12 +31,11 @@ class Spreading {
     Buffer<double> length(memory, topology.edge_count());
     for (std::int32_t e = 0; e < topology.edge_count(); ++e)
       length[e] = norm(core.mesh.positions[topology.second(e)] - core.mesh.positions[topology.first(e)]);
-    for (std::size_t k = 0; k < arc_.size(); ++k)
-      arc_[k] = {length[topology.neighbour_edge[k]], topology.neighbour[k]};
+    for (std::size_t k = 0; k < arc_.size(); ++k) arc_[k] = {length[topology.neighbour_edge[k]], topology.neighbour[k]};
     std::fill(node_.begin(), node_.end(), Node{std::numeric_limits<double>::infinity(), -1, 0});
   }
 
-  // The vertices of the component that groups are made in next.
+  // Sets the component in which the next groups are made. vertices: its vertices.
   void enter(Span<const std::int32_t> vertices) {
     vertices_ = vertices;
     double total = 0;
@@ -61,7 +61,7 @@ class Spreading {
       while (!near_.empty()) {
         const Front front = near_.back();
         near_.pop_back();
-        if (front.distance > node_[front.vertex].distance) continue;  // came nearer since
+        if (front.distance > node_[front.vertex].distance) continue;  // a shorter path was found since
         for (std::int32_t k = start_[front.vertex]; k < start_[front.vertex + 1]; ++k) {
           Node& node = node_[arc_[k].vertex];
           const double distance = front.distance + arc_[k].length;
@@ -86,7 +86,8 @@ class Spreading {
     }
   }
 
-  // The first of the farthest vertices. Only blocks that have changed since are looked through.
+  // Returns the first of the farthest vertices. It only searches blocks of vertices that have changed since the last
+  // call.
   std::int32_t farthest() noexcept {
     std::int32_t found = vertices_[0];
     for (std::size_t b = 0; b < best_.size(); ++b) {
@@ -113,15 +114,15 @@ class Spreading {
   };
   struct Node {
     double distance;
-    std::int32_t group, block;  // of vertices_
+    std::int32_t group, block;  // block: index into best_ and stale_
   };
   const std::int32_t* start_;  // neighbours of vertex v: arc_[start_[v] .. start_[v + 1])
   Buffer<Arc> arc_;
   Buffer<Node> node_;
   Vector<Front> near_, far_;
   Span<const std::int32_t> vertices_;
-  Vector<std::int32_t> best_;   // per block of vertices_ the farthest
-  Vector<std::uint8_t> stale_;  // per block
+  Vector<std::int32_t> best_;   // by block of vertices_: its farthest vertex
+  Vector<std::uint8_t> stale_;  // by block: 1 if a distance in it has changed
   double step_ = 0;
 };
 
@@ -149,7 +150,8 @@ std::shared_ptr<const Groups> Groups::with(std::shared_ptr<const Groups> groups,
     if (grown->has(c)) continue;
     const Span<const std::int32_t> vertices = rest.vertices_of(c);
     const double share = total_area > 0 ? rest.component_area[c] / total_area : 1.0;
-    const std::int32_t quota = std::max((wished + least_group_share - 1) / least_group_share, static_cast<std::int32_t>(std::lround(share * wished)));
+    const std::int32_t quota = std::max((wished + least_group_share - 1) / least_group_share,
+                                        static_cast<std::int32_t>(std::lround(share * wished)));
     grown->component_start[c] = grown->count();
     spreading.enter(vertices);
     for (std::int32_t k = 0; k < quota; ++k) {

@@ -1,10 +1,10 @@
-// Rotation groups: small patches of the surface on which the elastic energy fits one rotation each. They do not depend
-// on the handles, so their rotations survive every change of handles.
+// Makes rotation groups: small patches of the surface to which the elastic energy fits one rotation each.
 //
-// Farthest-point sampling along edges: each new seed is the vertex farthest from all seeds so far; distances are only
-// relaxed where the new seed is nearer. A component gets its groups when two handles first meet in it: its share by
-// area, and at least a quarter of the count wished for. Cost O(n log groups) and a scan of n / 256 blocks a group. On
-// failure nothing is left behind.
+// Groups do not depend on the handles, so their rotations survive every change of handles. They come from
+// farthest-point sampling along edges: each new seed is the vertex farthest from all seeds so far. Distances are only
+// updated where the new seed is nearer. A component gets its groups when two handles first meet in it: its share by
+// area, and at least a quarter of the wished count. Cost: O(n log groups), and a scan of n / 256 blocks per group. A
+// failed call changes nothing.
 #pragma once
 #include <cstdint>
 
@@ -24,7 +24,8 @@ struct Groups {
   std::int32_t count() const noexcept { return static_cast<std::int32_t>(seed.size()); }
   bool has(std::int32_t c) const noexcept { return component_end[c] > component_start[c]; }
 
-  // A copy of `groups` (null: none yet) with groups for these components too; numbers that exist stay.
+  // Returns a copy of `groups` (null: none yet) that also has groups for these components. Existing groups keep their
+  // numbers.
   static std::shared_ptr<const Groups> with(std::shared_ptr<const Groups> groups, const Core& core, const Rest& rest,
                                             Span<const std::int32_t> components, std::int32_t wished, Memory& memory);
 };

@@ -11,7 +11,8 @@
 namespace hf_inner {
 namespace {
 
-// Farthest-point sampling of the ring, one vertex of every component first so that no component loses its sites.
+// Chooses `count` ring vertices by farthest-point sampling. It takes one vertex of every component first, so that each
+// component has sites.
 Vector<std::int32_t> sample_ring(const Mesh& mesh, const Vector<std::int32_t>& ring, std::uint32_t count,
                                  Memory& memory) {
   Vector<std::int32_t> chosen(&memory);
@@ -38,12 +39,13 @@ Vector<std::int32_t> sample_ring(const Mesh& mesh, const Vector<std::int32_t>& r
   return chosen;
 }
 
-// The field of the last handle follows from the others: they sum to 1 wherever there is a site.
+// Returns the number of fields to solve. The fields sum to 1, so the field of the last handle follows from the others.
 std::int32_t solved_channels(std::size_t handle_count) noexcept {
   return handle_count < 2 ? static_cast<std::int32_t>(handle_count) : static_cast<std::int32_t>(handle_count) - 1;
 }
 
-// One vertex: what the solve gave, made a partition of unity over the handles of the component.
+// Writes the fields of one vertex. The solved values are clipped and scaled, so that they sum to 1 over the handles of
+// the component.
 void finish_vertex(std::int32_t v, const double* solved, std::int32_t channels, std::int32_t owner,
                    Span<const std::int32_t> present, HandleFields& fields) {
   const std::int32_t handle_count = static_cast<std::int32_t>(fields.leak.size());
@@ -140,7 +142,7 @@ Reach::Reach(const Mesh& mesh, const Handles& handles, Memory& memory)
     : owner(mesh.vertex_count(), -1, &memory),
       component_start(mesh.component_count() + 1, 0, &memory),
       handle(&memory) {
-  // a handle may reach into several components: count each pair once
+  // A handle may reach into several components; each pair of handle and component counts once.
   Vector<std::int32_t> last_handle(mesh.component_count(), -1, &memory);
   const auto for_pairs = [&](auto&& use) {
     std::fill(last_handle.begin(), last_handle.end(), -1);
@@ -182,7 +184,7 @@ HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Han
   } else {
     std::fill(solved.data(), solved.data() + width * static_cast<std::size_t>(n), 0.0);
   }
-  // leak: before anything is corrected, wherever the fields come from sites
+  // The leak is measured before any correction, in all components that have sites.
   for (std::int32_t owner = 0; owner < handle_count; ++owner) {
     for (const std::int32_t v : handles[owner].region->vertices) {
       if (solver.site_count(core.mesh.component[v]) == 0) continue;

@@ -1,12 +1,13 @@
-// Handles: regions of vertices that move rigidly, their boundary rings as sites, and one harmonic field per handle.
+// Makes handles: regions of vertices that move rigidly. Their boundary rings are sites, and each handle has one
+// harmonic field.
 //
 //     K phi_i = 0 away from the rings,   phi_i = 1 on the ring of handle i, 0 on the rings of the others
 //
-// (Xu, Zhang, Cohen-Or and Xiong 2009, Section 5.1). A ring vertex is a region vertex with a neighbour outside; a
-// harmonic field is constant behind a full ring, so the ring says all. With samples of the ring as sites, the paper's
-// economy, values leak through between them: the leak is measured. Afterwards the fields are made exact on the regions,
-// clipped to [0, 1] and normalised to sum 1. Cost: one path solve per site, one backward sweep per handle. On failure
-// nothing is left behind.
+// This is Section 5.1 of Xu, Zhang, Cohen-Or and Xiong 2009; K is the Laplacian. A ring vertex is a vertex of the
+// region with a neighbour outside. Behind a full ring a harmonic field is constant, so the ring alone is enough. The
+// paper uses only samples of the ring as sites, which is cheaper. Values then leak between the samples, and the leak is
+// measured. Afterwards the fields are made exact on the regions, clipped to [0, 1] and scaled to sum 1. Cost: one path
+// solve per site, one backward sweep per handle. A failed call changes nothing.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -21,9 +22,9 @@ struct HandleRegion {
   explicit HandleRegion(Memory& memory) : vertices(&memory), sites(&memory), slots(&memory) {}
   Vector<std::int32_t> vertices;  // inner, ascending
   Vector<std::int32_t> sites;     // ring vertices that are sites, ascending; none when the region fills its components
-  Vector<std::int32_t> slots;     // of the sites in the pose's SiteSolver
-  Vec3 centroid;                  // mean of the vertices, in the mesh's own unit
-  std::int32_t component = 0;     // of the first vertex
+  Vector<std::int32_t> slots;     // slots of these sites in the pose's SiteSolver
+  Vec3 centroid;                  // mean of the vertices, in the unit of the scaled mesh
+  std::int32_t component = 0;     // component of the first vertex
 };
 
 struct Handle {
@@ -31,27 +32,29 @@ struct Handle {
   std::shared_ptr<const HandleRegion> region;
 };
 
-// The handles of a pose, in the order of the channels of their fields.
+// The handles of a pose, in the order of their fields.
 using Handles = Vector<Handle>;
 
-// `vertices`: inner vertices, Mesh::none allowed nowhere; repeated ones count once. samples_per_ring: 0 = the whole
-// ring. Slots are left open.
+// Makes the region of a handle. vertices: inner vertices without Mesh::none; repeated ones count once.
+// samples_per_ring: number of ring vertices used as sites, 0 for the whole ring. The slots remain empty.
 std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices,
                                           std::uint32_t samples_per_ring, Memory& memory);
 
-// The region of a point and a radius (in the mesh's own unit): the vertices within it that are edge-connected inside it
-// to the vertex nearest to the point; that vertex at least. Ascending.
+// Returns the vertices within a radius of a point, in ascending order. Point and radius are in the unit of the scaled
+// mesh. The region starts at the vertex nearest to the point, which always belongs to it. It contains those vertices
+// that are edge-connected to that vertex inside the radius.
 Vector<std::int32_t> region_near(const Core& core, Vec3 point, double radius, Memory& memory);
 
-// The same for a list of points (xyz) and radii in the unit of the mesh as given: region r is vertices[start[r] ..
-// start[r + 1]). Throws HF_ERROR_NON_FINITE, and HF_ERROR_INVALID_ARGUMENT for a negative radius; index = r.
+// Does the same as region_near for a list of points (xyz) and radii, in the unit of the mesh as given. Region r is
+// vertices[start[r] .. start[r + 1]). Throws HF_ERROR_NON_FINITE, or HF_ERROR_INVALID_ARGUMENT for a negative radius;
+// index: r.
 void regions_near(const Core& core, Span<const double> points, Span<const double> radii, Vector<std::uint32_t>& start,
                   Vector<std::int32_t>& vertices);
 
-// Which handle owns a vertex (index into handles, or -1), and which handles stand in each component.
+// Lists which handle owns each vertex, and which handles have vertices in each component.
 struct Reach {
   Reach(const Mesh& mesh, const Handles& handles, Memory& memory);
-  Vector<std::int32_t> owner;            // per vertex
+  Vector<std::int32_t> owner;            // by vertex: index of its handle, or -1
   Vector<std::int32_t> component_start;  // handles of component c: handle[start[c] .. start[c + 1]), ascending
   Vector<std::int32_t> handle;
   Span<const std::int32_t> handles_of(std::int32_t component) const noexcept {
@@ -77,7 +80,7 @@ struct HandleFields {
   Vector<double> leak;    // per handle
 };
 
-// Solves for all handles at once; `solver` holds the sites of every handle in their slots.
+// Solves the fields of all handles at once. solver: holds the sites of every handle in their slots.
 HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Handles& handles, const Reach& reach,
                                  Memory& memory);
 

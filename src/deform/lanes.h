@@ -1,6 +1,7 @@
-// Loops over four numbers that lie together, compiled for AVX2 too and chosen when the program starts: nothing is
-// contracted, so the bits are those of the plain build. Clones need the dynamic linker's help (glibc), and sanitizers
-// cannot run before it.
+// HF_FOUR_LANES also compiles a function for AVX2. The program picks the version when it starts.
+//
+// The loops work on four adjacent numbers and use no fused multiply-adds, so the bits are those of the plain build. The
+// choice needs glibc's dynamic linker. It runs before sanitizers can, so sanitizer builds leave it out.
 #pragma once
 
 #if defined(__GLIBC__) && defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \

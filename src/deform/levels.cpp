@@ -13,7 +13,8 @@ struct Histogram {
   }
 };
 
-// |grad phi| and area of a triangle: grad = n x (sum of phi_k opposite edge k) / (2 area).
+// The length of a field's gradient on a triangle, and the triangle's area. With the field phi and the normal n, the
+// gradient is n x (sum of phi_k times edge opposite k) / (2 area).
 struct TriangleGradient {
   double length, area;
 };
@@ -42,7 +43,8 @@ void set_equal_value(Levels& levels) noexcept {
   for (int b = 0; b <= Levels::bins; ++b) levels.level[b] = static_cast<double>(b) / Levels::bins;
 }
 
-// Mean gradient per bin; bins that no triangle passes take the nearest bin's, then a running mean over 7 bins.
+// Computes the mean gradient per bin of field values. A bin without triangles takes the value of the nearest bin. Then
+// a running mean smooths the bins.
 bool mean_gradients(const Histogram& histogram, double (&smooth)[Levels::bins]) noexcept {
   double mean[Levels::bins];
   int last_full = -1;
@@ -94,11 +96,11 @@ Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleField
     for (Levels& l : levels) set_equal_value(l);
     return levels;
   }
-  // parts of component c: [part_start[c], part_start[c + 1])
+  // The fields of component c are parts [part_start[c], part_start[c + 1]).
   Vector<std::int32_t> part_start(mesh.component_count() + 1, 0, &memory);
   for (const FieldPart& part : parts) ++part_start[part.component + 1];
   for (std::int32_t c = 0; c < mesh.component_count(); ++c) part_start[c + 1] += part_start[c];
-  // shares of the triangles, always the same, summed in their order
+  // The triangles are split into a fixed number of jobs, whose histograms are summed in their order.
   Vector<Histogram> histograms(histogram_shares * parts.size(), Histogram{}, &memory);
   core.jobs->for_each(histogram_shares, [&](std::uint32_t share) {
     const std::int64_t count = mesh.triangle_count();
@@ -121,14 +123,14 @@ Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleField
 }
 
 double eased_level(double level, std::int32_t band_count) noexcept {
-  const double spans = band_count, x = std::clamp(level, 0.0, 1.0) * spans;  // of the basis of degree 2
+  const double spans = band_count, x = std::clamp(level, 0.0, 1.0) * spans;  // spans of the basis of degree 2
   const auto eased = [](double d) { return 0.5 * (d + d * d * (2 - d)); };
   if (x < 1) return eased(x) / spans;
   return x > spans - 1 ? 1 - eased(spans - x) / spans : level;
 }
 
 BandValues band_values(double level, std::int32_t band_count, int degree) noexcept {
-  // K + 2 functions of degree p take K + 2 - p spans; knots are clamped at both ends
+  // K + 2 functions of degree p take K + 2 - p spans. The knots are clamped at both ends.
   const std::int32_t spans = band_count + 2 - degree;
   const double x = std::clamp(level, 0.0, 1.0) * spans;
   const std::int32_t span = std::min(static_cast<std::int32_t>(x), spans - 1);

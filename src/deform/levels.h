@@ -1,9 +1,10 @@
-// Levels of a field: phi of a handle turned into s in [0, 1], and the B-spline basis over s that makes the bands.
+// Turns a handle's field phi into a level s in [0, 1], and evaluates the B-spline basis over s that makes the bands.
 //
-// Equal value: s = phi (the paper). Equal length: s = int_0^phi dp / g(p), normalised, with
-//     g(p) = sum_T A |grad phi|^3 / sum_T A |grad phi|^2   over the triangles T that level p passes.
-// g is the mean gradient weighted by energy, so appendages without a handle, where phi is nearly constant, do not
-// count. Cost: O(min(triangles, triangle_samples) bins touched) per field. On failure nothing is left behind.
+// Equal value: s = phi, as in the paper. Equal length: s = int_0^phi dp / g(p), scaled to end at 1, where
+//     g(p) = sum_T A |grad phi|^3 / sum_T A |grad phi|^2   over the triangles T that contain the value p.
+// A is the area of a triangle. g is the mean gradient weighted by energy. Parts without a handle, where phi is nearly
+// constant, therefore do not count. Cost per field: O(min(triangles, triangle_samples)) times the bins that a triangle
+// spans. A failed call changes nothing.
 #pragma once
 #include <cstdint>
 
@@ -20,26 +21,26 @@ struct FieldPart {
   std::int32_t component, handle;
 };
 
-// Piecewise linear in phi, increasing from 0 to 1.
+// The level s as a function of phi: piecewise linear, increasing from 0 to 1.
 struct Levels {
   static constexpr int bins = level_bins;
   double level[bins + 1];
   double operator()(double phi) const noexcept;
 };
 
-// The levels of several fields in one pass over the triangles; parts ordered by component.
+// Computes the levels of several fields in one pass over the triangles. parts: ordered by component.
 Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleFields& fields,
                            const Vector<FieldPart>& parts, BandSpacing spacing, Memory& memory);
 
-// The clamped uniform B-spline basis B_0 .. B_{K+1} of degree 1 or 2 on [0, 1]: at most degree + 1 values are not zero.
+// Values of the clamped uniform B-spline basis B_0 .. B_{K+1} of degree 1 or 2 on [0, 1]. At most degree + 1 of them
+// are not zero.
 struct BandValues {
   std::int32_t first;  // number of the function of value[0]
   double value[3];
 };
-// The level at which bands are read where more than two handles share a surface, so that bending starts gradually at a
-// handle. Over the last span at each end it slows down to half its speed: d spans from an end become (d + d^2 (2 - d))
-// /
-// 2. band_count: spans of the basis of degree 2.
+// Returns the level at which bands are read where more than two handles share a surface. With it, bending starts
+// gradually at a handle. In the last span at each end the level slows down to half its speed: a distance of d spans
+// from the end becomes (d + d^2 (2 - d)) / 2. band_count: number of spans of the basis of degree 2.
 double eased_level(double level, std::int32_t band_count) noexcept;
 BandValues band_values(double level, std::int32_t band_count, int degree) noexcept;
 

@@ -9,7 +9,7 @@
 namespace hf_inner {
 namespace {
 
-// Below, in squares of the box: rounding of the positions, not a direction.
+// A shorter normal sum (in squares of the box) is only rounding of the positions and has no direction.
 constexpr double smallest_length = 1e-36;
 
 void add_border_normals(const NormalRows& rows, const std::int32_t* corners, std::int32_t count, std::int32_t first,
@@ -66,8 +66,8 @@ void vertex_normals(const Mesh& mesh, const Rest& rest, const Vec3* positions, N
   if (__builtin_cpu_supports("avx2")) add_inner = &add_inner_normals_avx2, add_border = &add_border_normals_avx2;
 #endif
   for_vertex_pieces(jobs, mesh.vertex_count(), [&](std::int32_t first, std::int32_t last) {
-    const std::int32_t piece = first / vertex_piece, begin = rest.piece_start[piece],
-                       border = rest.piece_border[piece], end = rest.piece_start[piece + 1];
+    const std::int32_t piece = first / vertex_piece, begin = rest.piece_start[piece], border = rest.piece_border[piece],
+                       end = rest.piece_start[piece + 1];
     const std::int32_t* corners = rest.piece_corner.data();
     std::memset(static_cast<void*>(sums + first), 0, static_cast<std::size_t>(last - first) * sizeof(NormalSum));
     add_inner(rows, corners + 3 * static_cast<std::size_t>(begin), border - begin);

@@ -1,7 +1,9 @@
-// Unit normals of a posed surface, weighted by area: n_v ~ sum over the triangles at v of (q - p) x (r - p).
-// The vertices are cut into pieces and each piece goes through its triangles once, so that the sums stay close; a
-// triangle across a border is done for both. Cost: a cross product per triangle, about 10 ns a vertex; it is bound by
-// the 70 bytes a vertex read and written. Allocates nothing; the same bits on every machine and number of threads.
+// Computes unit normals of a posed surface, weighted by area: n_v ~ sum over the triangles at v of (q - p) x (r - p).
+//
+// p, q and r are the corners of a triangle. The vertices are cut into pieces. Each piece goes through its triangles
+// once, so that its sums stay in the cache. A triangle with corners in several pieces is computed for each of them.
+// Cost: a cross product per triangle, about 10 ns per vertex. The limit is the memory: 70 bytes per vertex are read and
+// written. Allocates nothing. Gives the same bits on every machine and number of threads.
 #pragma once
 #include "deform/rest.h"
 
@@ -12,14 +14,15 @@ struct Normal {
 };
 inline Vec3 to_vec3(const Normal& n) noexcept { return {n.x, n.y, n.z}; }
 
-// A sum of normals of triangles times twice their area, in the mesh's own unit, in single precision. Vertices are known
-// to 1e-16 of the box, so a triangle whose area leaves the range of a float has no direction.
+// A sum of triangle normals, each with the length of twice its area in the unit of the scaled mesh. Single precision is
+// enough: positions are exact to 1e-16 of the box, so a triangle whose area leaves the range of a float has no
+// direction anyway.
 struct alignas(16) NormalSum {
   float component[4];  // the last is 0
 };
 
-// Vertices whose triangles have no direction, or directions that cancel, get (0, 0, 1). positions: in the unit of the
-// mesh as given. sums: scratch, one per vertex.
+// Computes all vertex normals. A vertex gets (0, 0, 1) if its triangles have no direction, or if their normals cancel.
+// positions: in the unit of the mesh as given. sums: scratch, one per vertex.
 void vertex_normals(const Mesh& mesh, const Rest& rest, const Vec3* positions, NormalSum* sums, Normal* normals,
                     JobRunner& jobs);
 

@@ -1,6 +1,6 @@
-// The loop over triangles of normals.cpp with the three components in one register: products, differences and sums are
-// the same, so are the bits. Built with -mavx2, chosen at run time; includes no header whose inline functions could
-// leak into other files.
+// The loop over triangles of normals.cpp with the three components in one register. Products, differences and sums are
+// the same, so the bits are too. The build uses -mavx2, and the program chooses the loop at run time. The file includes
+// no header with inline functions, because their AVX2 code could be linked into other files.
 #include "deform/normals_avx2.h"
 
 #include <immintrin.h>
@@ -15,7 +15,7 @@ inline __attribute__((always_inline)) void add_normals(const NormalRows& rows, c
   const double* positions = rows.positions;
   float* sums = rows.sums;
   const __m256d unit = _mm256_set1_pd(rows.unit);
-  const __m256i three = _mm256_set_epi64x(0, -1, -1, -1);  // the last position ends where its array ends
+  const __m256i three = _mm256_set_epi64x(0, -1, -1, -1);  // the mask does not read beyond the end of the array
   const std::int32_t* end = corners + 3 * static_cast<std::size_t>(count);
   for (const std::int32_t* corner = corners; corner < end; corner += 3) {
     const std::size_t i = static_cast<std::uint32_t>(corner[0]), j = static_cast<std::uint32_t>(corner[1]),
@@ -23,7 +23,7 @@ inline __attribute__((always_inline)) void add_normals(const NormalRows& rows, c
     const __m256d p = _mm256_maskload_pd(positions + 3 * i, three);
     const __m256d a = _mm256_mul_pd(unit, _mm256_sub_pd(_mm256_maskload_pd(positions + 3 * j, three), p)),
                   b = _mm256_mul_pd(unit, _mm256_sub_pd(_mm256_maskload_pd(positions + 3 * k, three), p));
-    // a x b, its components in the order z x y until the end
+    // c is the cross product a x b. Its components have the order z x y until the end.
     constexpr int next = 0xC9;  // y z x
     const __m256d c = _mm256_sub_pd(_mm256_mul_pd(a, _mm256_permute4x64_pd(b, next)),
                                     _mm256_mul_pd(_mm256_permute4x64_pd(a, next), b));

@@ -1,4 +1,4 @@
-// The arrays of normals.cpp and normals_avx2.cpp.
+// The arrays that the loops of normals.cpp and normals_avx2.cpp share.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -12,10 +12,11 @@ struct NormalRows {
   float* normals;           // 3 per vertex
 };
 
-// Sums of such a length can be squared in single precision.
+// A sum of normals with a length in this range can be squared in single precision.
 constexpr float shortest_sum = 1e-15f, longest_sum = 1e15f;
 
-// Adds the normals of triangles, three corners each, to the sums of their corners, or of those in first .. last only.
+// Add the normals of `count` triangles, three corners each, to the sums of their corners. The second only adds to the
+// vertices [first, last).
 void add_inner_normals_avx2(const NormalRows& rows, const std::int32_t* corners, std::int32_t count) noexcept;
 void add_border_normals_avx2(const NormalRows& rows, const std::int32_t* corners, std::int32_t count,
                              std::int32_t first, std::int32_t last) noexcept;

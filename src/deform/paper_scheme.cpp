@@ -7,7 +7,7 @@
 namespace hf_inner {
 namespace {
 
-// Vertices by free cluster.
+// The vertices of each free cluster (a cluster that is no handle), with their weights.
 struct Members {
   Vector<std::int32_t> start, vertex;
   Vector<double> weight;
@@ -29,7 +29,7 @@ struct Members {
   }
 };
 
-// x = R p + t with the rotation as a matrix, as the blend takes it.
+// Turns a rigid motion x = R p + t into the 3 x 4 matrix that the blend uses.
 Affine to_affine(const RigidMotion& motion) noexcept {
   Affine affine;
   const Mat3 r = motion.rotation.toRotationMatrix();
@@ -40,7 +40,8 @@ Affine to_affine(const RigidMotion& motion) noexcept {
   return affine;
 }
 
-// Shape matching of one cluster: the rigid motion from its samples at rest to `position_of(sample)`.
+// Matches the shape of one cluster: returns the rigid motion that takes its samples from rest nearest to
+// `position_of(sample)`.
 template <class PositionOf>
 RigidMotion match_shape(const PaperSystem& system, const Mesh& mesh, std::int32_t f, const Quaternion& near,
                         PositionOf&& position_of) noexcept {
@@ -79,7 +80,7 @@ PaperSystem::PaperSystem(const Core& core, const ClusterWeights& weights, Memory
   Vector<double> distance(&memory);
   cluster_start.push_back(0);
   for (std::int32_t f = 0; f < free_count; ++f) {
-    // farthest-point sampling of the cluster's vertices, the heaviest first
+    // Farthest-point sampling of the cluster's vertices. The first sample is the vertex with the largest weight.
     const std::int32_t first = members.start[f], count = members.start[f + 1] - first;
     distance.assign(count, std::numeric_limits<double>::infinity());
     auto next = std::max_element(members.weight.begin() + first, members.weight.begin() + first + count) -

@@ -1,9 +1,10 @@
 // The pose solve of the paper (Xu, Zhang, Cohen-Or and Xiong 2009, Section 5.2), kept as a mode of its own.
 //
-// Every cluster moves rigidly. Repeat: place sample vertices by blending the transforms of the clusters they lie in;
-// give every free cluster the rigid motion that fits its samples best (shape matching). All clusters step at once, so
-// motion travels through the overlaps by one band per iteration, and hundreds of iterations are needed; the smooth mode
-// (pose_solver.h) needs a few. Cost: 40 samples per cluster and iteration. Allocates nothing, cannot fail.
+// Every cluster moves rigidly. An iteration has two steps. First, sample vertices are placed by blending the transforms
+// of their clusters. Then every free cluster gets the rigid motion that fits its samples best (shape matching). All
+// clusters move at once, so motion travels through their overlaps by one band per iteration. That takes hundreds of
+// iterations; the smooth mode (pose_solver.h) needs a few. Cost: 40 samples per cluster and iteration. Allocates
+// nothing and cannot fail.
 #pragma once
 #include "deform/blend.h"
 #include "deform/pose_solver.h"
@@ -11,7 +12,7 @@
 
 namespace hf_inner {
 
-// The system of one set of handles. Immutable once made.
+// The prepared system for one set of handles. It never changes.
 struct PaperSystem {
   PaperSystem(const Core& core, const ClusterWeights& weights, Memory& memory);
   std::int32_t handle_count, free_count;
@@ -28,16 +29,17 @@ struct PaperState {
   explicit PaperState(Memory& memory) : motion(&memory), position(&memory) {}
   PaperState(const PaperState& other, Memory& memory)
       : motion(other.motion, &memory), position(other.position, &memory) {}
-  // Makes room for a system, clusters at rest.
+  // Makes room for a system, with all clusters at rest.
   void fit(const PaperSystem& system);
-  Vector<RigidMotion> motion;  // per free cluster, in the mesh's own unit
+  Vector<RigidMotion> motion;  // by free cluster, in the unit of the scaled mesh
   Vector<Vec3> position;       // per sample
 };
 
-// Motions that fit given positions (in the mesh's own unit) best: to go on from a pose after the handles changed.
+// Fits the motions to given positions (in the unit of the scaled mesh). A pose continues from them after its handles
+// changed.
 void fit_motions(const PaperSystem& system, const Mesh& mesh, const Vec3* positions, PaperState& state) noexcept;
 
-// transforms: those of the handles are read, those of the free clusters written.
+// Solves the pose. transforms: the handles' entries are read, the free clusters' entries are written.
 SolveReport solve_paper_pose(const PaperSystem& system, const Mesh& mesh, const ClusterWeights& weights,
                              std::uint32_t iterations, double tolerance, PaperState& state,
                              Affine* transforms) noexcept;

@@ -226,8 +226,8 @@ void Pose::remove_handles(Span<const std::uint32_t> numbers) {
   install(std::move(layout), std::move(state));
 }
 
-// The handles left are those before the last were added: back to that layout and solver state, with the transforms as
-// they are now.
+// Restores the layout and solver state before the last handles were added, if exactly those handles remain. The handles
+// keep their present transforms.
 bool Pose::restore_previous(const Handles& remaining) {
   if (!previous_layout_ || previous_layout_->handles.size() != remaining.size()) return false;
   for (std::size_t i = 0; i < remaining.size(); ++i) {
@@ -256,7 +256,8 @@ void Pose::install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> 
   if (!layout_) posed_ = false, stale_ = false;
 }
 
-// Groups for the components in which handles meet. They need no field: the first time, both are made at once.
+// Makes the groups of the components in which at least two handles meet. This needs no field, so the first time groups
+// and fields are made at once.
 std::shared_ptr<const Groups> Pose::meet(const Layout& layout) const {
   Vector<std::int32_t> shared(&memory());
   for (std::int32_t c = 0; c < core_->mesh.component_count(); ++c) {
@@ -300,8 +301,8 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, st
   return layout;
 }
 
-// A new handle takes over the rotation the surface has where it stands, so that its way back to rest is predicted like
-// any turn.
+// Gives a new handle the rotation that the posed surface has at its region. Its way back to rest can then be predicted
+// like any other turn.
 void Pose::carry_handle(const Handle& handle, HandleState& state) const {
   if (!posed_) return;
   ensure_surface();
@@ -340,7 +341,7 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
   }
   if (state_) state->smooth.rotation.assign(state_->smooth.rotation.begin(), state_->smooth.rotation.end());
   state->smooth.fit(*layout.smooth, *layout.groups);
-  // components that were rigid so far start from the fields
+  // Components that were rigid so far start from the fields.
   Vector<Vec3> turns(&memory());
   for (const HandleState& handle : state->handles) turns.push_back(handle.solved_turn);
   for (const std::int32_t c : layout.weights.elastic_components) {
@@ -477,7 +478,7 @@ Vec3 Pose::blended(std::int32_t vertex) const noexcept {
   return core_->mesh.to_given(blend_vertex(core_->mesh, layout_->weights, state_->transforms.data(), vertex));
 }
 
-// Vertices and normals from the transforms.
+// Writes vertices and normals from the transforms.
 void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
   const Mesh& mesh = core_->mesh;
   posed_ = true;

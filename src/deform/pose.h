@@ -1,13 +1,13 @@
-// A pose: handles that come and go on one surface, and the deformation that follows them. Everything behind hf_pose_*
-// and hf_deform.
+// A pose: handles on one surface, which can be added and removed, and the deformation that follows them. The object
+// behind hf_pose_* and hf_deform.
 //
-// A Layout goes from regions to sites on the shared factor, fields, cluster weights and the reduced system. It is
-// immutable and shared by clones. A State goes, every frame, from transforms of handles to transforms of clusters,
-// vertices and normals.
+// A Layout holds what depends only on the handles' regions: sites, fields, cluster weights and the reduced system. It
+// is immutable and shared by clones. A State changes every frame. From the transforms of the handles it computes those
+// of the clusters, then vertices and normals.
 //
-// Everything is transactional: on an exception the pose is as before. Repeated deform() calls allocate nothing. Results
-// do not depend on the number of threads. Adding handles and removing them again restores the layout and the solver
-// state bit for bit (the layout before the last change is kept for that).
+// After an exception the pose is as before. Repeated deform() calls allocate nothing. Results do not depend on the
+// number of threads. If handles are added and then removed again, layout and solver state are restored bit for bit; the
+// pose keeps the layout before the last change for this.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -21,24 +21,25 @@ namespace hf_inner {
 
 enum class DeformMode : std::int32_t { smooth = 0, paper = 1 };
 
-// Zeros are defaults; the ranges are those of hf_pose_desc.
+// Options of a pose. Zeros mean defaults; the ranges are those of hf_pose_desc.
 struct PoseOptions {
   DeformMode mode = DeformMode::smooth;
   std::uint32_t band_count = 0;        // 2 to 64; 10 (smooth) or 12 (paper)
   std::uint32_t iteration_count = 0;   // 1 to 1000; 5 or 200
-  std::uint32_t samples_per_ring = 0;  // the full ring
+  std::uint32_t samples_per_ring = 0;  // sites per ring; 0: the full ring
   std::uint32_t group_count = 0;       // 1 to 2000; 250
 };
 
-// p -> rotation (p - centroid) + centroid + translation, in the unit of the mesh as given. The quaternion need not be
-// normalised; all zero is the identity.
+// The motion p -> rotation (p - centroid) + centroid + translation, in the unit of the mesh as given. The quaternion
+// need not be normalised. All zeros mean the identity.
 struct HandleTransform {
   Quaternion rotation;
   Vec3 translation;
 };
 
-// p -> M p as a HandleTransform about the centroid. matrix: 16 numbers by columns. Throws HF_ERROR_NON_FINITE, and
-// HF_ERROR_INVALID_ARGUMENT for anything but a rigid motion (rigid_tolerance); index = position.
+// Returns the motion p -> M p as a HandleTransform about the centroid. matrix: 16 numbers by columns. Throws
+// HF_ERROR_NON_FINITE, or HF_ERROR_INVALID_ARGUMENT for a motion that is not rigid within rigid_tolerance; index:
+// position.
 HandleTransform rigid_transform(const double* matrix, Vec3 centroid, std::uint32_t position);
 
 struct HandleReport {
@@ -49,41 +50,42 @@ struct HandleReport {
 
 struct DeformRequest {
   bool normals = false;
-  std::uint32_t iteration_count = 0;  // 0: the pose's
-  bool restart = false;               // forget the last pose, turns beyond 180 degrees included
+  std::uint32_t iteration_count = 0;  // 0: the pose's own
+  bool restart = false;               // forget the last pose, also full turns beyond 180 degrees
   bool refine = false;                // one full-mesh step on top (refine.h); needs a second-order operator
   bool surface = true;                // false: transforms only; ask blended() for the vertices wanted
-  float* packed_positions = nullptr;  // three per inner vertex: written on the way where that is possible
-  Normal* packed_normals = nullptr;   // per inner vertex: normals go there instead of the pose's own memory
+  float* packed_positions = nullptr;  // three per inner vertex, or null; written during the blend where possible
+  Normal* packed_normals = nullptr;   // per inner vertex, or null; if given, normals are written here
 };
 
-// Throws HF_ERROR_INVALID_ARGUMENT for an iteration_count beyond most_iterations.
+// Throws HF_ERROR_INVALID_ARGUMENT for an iteration_count above most_iterations.
 void check_request(const DeformRequest& request);
 
 struct DeformReport {
-  Span<const Vec3> positions;  // per inner vertex, in the unit and frame of the mesh as given
-  Span<const Normal> normals;  // unit; empty when not asked for
-  bool packed_positions = false;  // those of the request were written
+  Span<const Vec3> positions;     // per inner vertex, in the unit and frame of the mesh as given
+  Span<const Normal> normals;     // unit; empty when not asked for
+  bool packed_positions = false;  // the request's packed_positions were written
   std::uint32_t iteration_count = 0, cluster_count = 0, unreached_vertex_count = 0;
   double last_change = 0, solve_ms = 0, blend_ms = 0, normal_ms = 0, refine_ms = 0;
 };
 
 class Pose {
  public:
-  // Throws HF_ERROR_UNSUPPORTED when the core has no factor, HF_ERROR_INVALID_ARGUMENT for options out of range.
+  // Throws HF_ERROR_UNSUPPORTED when the core has no factor, and HF_ERROR_INVALID_ARGUMENT for options out of range.
   static std::shared_ptr<Pose> make(std::shared_ptr<const Core> core, const PoseOptions& options);
   std::shared_ptr<Pose> clone() const;
 
-  // Region r holds vertices[start[r] .. start[r + 1]) (inner; Mesh::none = an isolated vertex as given, an error). New
-  // handles stand at rest. out_numbers: empty or one per region. Throws HF_ERROR_EMPTY, _OUT_OF_RANGE,
-  // _INVALID_ARGUMENT, _OVERLAP (index = position in vertices), _TOO_LARGE.
+  // Adds handles at rest. Region r holds vertices[start[r] .. start[r + 1]), which are inner vertices; Mesh::none
+  // stands for an isolated vertex and is an error. out_numbers: empty or one per region. Throws HF_ERROR_EMPTY,
+  // _OUT_OF_RANGE, _INVALID_ARGUMENT or _OVERLAP (index: position in vertices), or _TOO_LARGE.
   void add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, Span<std::uint32_t> out_numbers);
-  // Throws HF_ERROR_EMPTY, _NO_SUCH_HANDLE (index = position; also for a number named twice).
+  // Throws HF_ERROR_EMPTY or _NO_SUCH_HANDLE (index: position; also for a number named twice).
   void remove_handles(Span<const std::uint32_t> numbers);
-  // Throws HF_ERROR_EMPTY, _NO_SUCH_HANDLE, _NON_FINITE (index = position).
+  // Throws HF_ERROR_EMPTY, _NO_SUCH_HANDLE or _NON_FINITE (index: position).
   void set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTransform> transforms);
 
-  // Throws HF_ERROR_EMPTY when there is no handle. The spans hold until the next change of the pose.
+  // Solves the pose and writes the surface. Throws HF_ERROR_EMPTY when the pose has no handle. The returned spans stay
+  // valid until the next change of the pose.
   DeformReport deform(const DeformRequest& request);
 
   std::uint32_t handle_count() const noexcept;
@@ -91,18 +93,19 @@ class Pose {
   Span<const double> field(std::uint32_t number) const;  // per inner vertex
   const Core& core() const noexcept { return *core_; }
   const PoseOptions& options() const noexcept { return options_; }
-  // Clusters as joints: weights, and their transforms in the mesh's own unit as of the last deform(). Null before the
-  // first handle.
+  // The clusters as joints: their weights, and their transforms as of the last deform(), in the unit of the scaled
+  // mesh. Null before the first handle is added.
   const ClusterWeights* weights() const noexcept;
   Span<const Affine> cluster_transforms() const noexcept;
   bool posed() const noexcept { return posed_; }  // the transforms hold a pose
-  // Rotation groups in use and unknowns the reduced system found dependent, for statistics and tests.
+  // For statistics and tests: the rotation groups in use, and the unknowns that the reduced system found to be
+  // dependent.
   std::int32_t group_count() const noexcept;
   std::int32_t dropped_unknowns() const noexcept;
 
-  // ---- for layers (pose_stack.h), whose poses must depend on nothing but what is given here ----
+  // ---- for layers (pose_stack.h), whose poses must depend only on the arguments of these calls ----
 
-  // A pose without handles that shares what was made of the mesh.
+  // Returns a pose without handles that shares the data prepared from the mesh.
   std::shared_ptr<Pose> without_handles() const;
   Span<const std::int32_t> region(std::uint32_t number) const;  // inner vertices
   std::uint32_t position_of(std::uint32_t number) const {
@@ -110,16 +113,17 @@ class Pose {
   }
   const Rest& rest() const noexcept { return *rest_; }
   Span<const Vec3> surface() const noexcept { return {positions_.data(), positions_.size()}; }  // of the last deform
-  // Throws HF_ERROR_NON_FINITE with this index. scale: the mesh's.
+  // Throws HF_ERROR_NON_FINITE with this index for a bad transform. scale: the mesh's scale.
   static void check_transform(const HandleTransform& transform, std::uint32_t index, double scale);
-  // The rotations of the given surface (inner vertices, in the mesh's given frame) become the start of deform_from().
-  // prepare_start() makes the room for it; nothing allocates after.
+  // take_start() stores the rotations of the given surface (inner vertices, in the mesh's given frame) as the start of
+  // deform_from(). prepare_start() allocates the memory for it; take_start() allocates nothing.
   void prepare_start();
   void take_start(Span<const Vec3> surface) noexcept;
-  // Solves from the start of `start` (a clone), turned on by `turns` (rotation vectors by handle, in the order they
-  // were added), whatever was solved before. Bits depend on start, transforms, turns and request only.
+  // Solves from the stored start of the pose `start`. It ignores what this pose solved before. turns: one rotation
+  // vector per handle, in the order in which handles were added; the start is turned by them first. The bits depend
+  // only on start, transforms, turns and request.
   DeformReport deform_from(const Pose& start, Span<const Vec3> turns, const DeformRequest& request);
-  // One vertex of the last pose, in the unit and frame of the mesh as given.
+  // Returns one vertex of the last pose, in the unit and frame of the mesh as given.
   Vec3 blended(std::int32_t vertex) const noexcept;
 
   Pose(std::shared_ptr<const Core> core, const PoseOptions& options,
@@ -128,10 +132,10 @@ class Pose {
  private:
   struct Layout;
   struct HandleState {
-    Quaternion rotation;  // asked for
-    Vec3 translation;     // in the mesh's own unit
-    Vec3 turn;            // rotation vector of the motion so far, turns included
-    Quaternion solved;    // rotation the group rotations stand for
+    Quaternion rotation;  // as the caller set it
+    Vec3 translation;     // in the unit of the scaled mesh
+    Vec3 turn;            // rotation vector of the motion so far, with full turns
+    Quaternion solved;    // rotation from which the group rotations were solved
     Vec3 solved_turn;
   };
   struct State {
@@ -151,10 +155,10 @@ class Pose {
     Buffer<double> columns;       // scratch of the blend
     SmoothState smooth;
     PaperState paper;
-    bool started = false;  // a pose to go on from
-    bool changed = true;   // transforms or handles since the last solve
+    bool started = false;  // there is a pose to continue from
+    bool changed = true;   // transforms or handles changed since the last solve
     double last_change = 0;
-    std::uint32_t idle_iterations = 0;  // since the last change
+    std::uint32_t idle_iterations = 0;  // iterations since the last change
   };
 
   Memory& memory() const noexcept { return *core_->memory; }
@@ -164,7 +168,7 @@ class Pose {
   std::shared_ptr<const Groups> meet(const Layout& layout) const;
   std::shared_ptr<const Layout> make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites,
                                             const SiteEdit& edit) const;
-  // The state for `layout`, going on from the present one.
+  // Returns the state for `layout`, continued from the present state.
   std::shared_ptr<State> carry_over(const Layout& layout) const;
   void carry_handle(const Handle& handle, HandleState& state) const;
   void install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> state) noexcept;
@@ -187,9 +191,9 @@ class Pose {
   mutable Buffer<Vec3> positions_;
   Buffer<Normal> normals_;
   Buffer<NormalSum> normal_sums_;
-  Buffer<Vec3> turns_;                      // scratch, handle_limit
+  Buffer<Vec3> turns_;                      // scratch for handle_limit handles
   bool posed_ = false;                      // there is a last pose
-  mutable bool stale_ = false;              // positions_ do not hold it: only transforms were asked for
+  mutable bool stale_ = false;              // positions_ are older than the last pose, which only wrote transforms
   std::shared_ptr<Refinement> refinement_;  // made at the first refined frame
   GroupStart start_;
   SolveReport report_;

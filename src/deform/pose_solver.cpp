@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// The target of active group g for the global step: its rotation, strained.
+// Sets what the global step aims at for active group g: its rotation, changed by its stress.
 void set_target(const SmoothSystem& system, std::size_t g, SmoothState& state) noexcept {
   const Mat3 target =
       strained(system.sheet[g], state.stress[g], state.rotation[system.subspace.group[g]].toRotationMatrix());
@@ -20,7 +20,7 @@ void set_target(const SmoothSystem& system, std::size_t g, SmoothState& state) n
   }
 }
 
-// The transforms of the handles as rows of X.
+// Writes the transforms of the handles into X, the matrix of all transforms.
 void set_handle_rows(const SmoothSystem& system, const Affine* transforms, SmoothState& state) noexcept {
   for (std::int32_t h = 0; h < system.handle_count; ++h) {
     double* x = state.rows.data() + 16 * static_cast<std::size_t>(h);
@@ -30,7 +30,8 @@ void set_handle_rows(const SmoothSystem& system, const Affine* transforms, Smoot
   }
 }
 
-// known = -L_fh X_h
+// Computes the right-hand side of the known handle transforms X_h: known = -L_fh X_h, where L_fh couples free clusters
+// with handles.
 HF_FOUR_LANES
 void set_known(const SmoothSystem& system, SmoothState& state) noexcept {
   const std::size_t columns = 4 * static_cast<std::size_t>(system.handle_count);
@@ -45,7 +46,7 @@ void set_known(const SmoothSystem& system, SmoothState& state) noexcept {
   }
 }
 
-// rows <- known + sum_g Q_gc R_g' for the free clusters.
+// Adds the groups' rotations to the right-hand side of the free clusters: rows = known + sum_g Q_gc R_g' (subspace.h).
 HF_FOUR_LANES
 void add_groups(const SmoothSystem& system, const double* columns, const double* known, double* rows) noexcept {
   const Subspace& s = system.subspace;
@@ -68,7 +69,7 @@ void add_groups(const SmoothSystem& system, const double* columns, const double*
   }
 }
 
-// sum[j][i] = S_g(i, j) = sum_c sum_a X_c(a, i) Q_gc(a, j)
+// Computes the matrix S_g of group g (subspace.h): sum[j][i] = S_g(i, j) = sum_c sum_a X_c(a, i) Q_gc(a, j).
 HF_FOUR_LANES
 void match_group(const Subspace& s, std::size_t g, const double* rows, double (&sum)[3][4]) noexcept {
   double total[3][4] = {};
@@ -86,7 +87,7 @@ void match_group(const Subspace& s, std::size_t g, const double* rows, double (&
   }
 }
 
-// sum[j][i] = sum over the groups under a cluster of area times R_g(i, j)
+// Sums the rotations R_g of the groups under one cluster, weighted by area: sum[j][i] = sum of area times R_g(i, j).
 HF_FOUR_LANES
 void mean_of_groups(const Subspace& s, std::int32_t first, std::int32_t last, const double* columns,
                     double (&sum)[3][4]) noexcept {
@@ -101,7 +102,8 @@ void mean_of_groups(const Subspace& s, std::int32_t first, std::int32_t last, co
   }
 }
 
-// Adds eps_c Rbar_c' to the rows of clusters: the means of their groups' rotations, found in the lanes of the batch.
+// Adds eps_c Rbar_c' to the rows of several clusters. Rbar_c is the mean of the groups' rotations under cluster c,
+// found in one lane of the batch.
 void add_means(const SmoothSystem& system, RotationBatch& batch, const std::int32_t* cluster, int count,
                double* rows) noexcept {
   best_rotations_from(batch, count);
@@ -115,7 +117,7 @@ void add_means(const SmoothSystem& system, RotationBatch& batch, const std::int3
   }
 }
 
-// rows of the free clusters <- known + sum_g Q_gc R_g' + eps_c Rbar_c'
+// Sets the right-hand side of the free clusters: rows = known + sum_g Q_gc R_g' + eps_c Rbar_c' (subspace.h).
 void set_right_hand_side(const SmoothSystem& system, SmoothState& state) noexcept {
   const Subspace& s = system.subspace;
   double* free_rows = state.rows.data() + 16 * static_cast<std::size_t>(system.handle_count);
@@ -140,7 +142,7 @@ void set_right_hand_side(const SmoothSystem& system, SmoothState& state) noexcep
   if (count > 0) add_means(system, batch, cluster, count, free_rows);
 }
 
-// S_g at rest: every cluster's transform is the identity.
+// Returns the matrix S_g of group g at rest, where every cluster's transform is the identity.
 Mat3 rest_moments(const Subspace& s, std::size_t g) noexcept {
   Mat3 sum;
   for (std::int32_t e = s.entry_start[g]; e < s.entry_start[g + 1]; ++e) {
@@ -161,7 +163,7 @@ void read_transforms(const SmoothSystem& system, const SmoothState& state, Affin
   }
 }
 
-// sum_i phi_i(seed) turn_i of active group g
+// Returns the handles' turns at active group g, blended by the fields at its seed: sum_i phi_i(seed) turn_i.
 Vec3 blended_turn(const SmoothSystem& system, std::size_t g, Span<const Vec3> turns) noexcept {
   Vec3 turn;
   for (std::size_t i = 0; i < turns.size(); ++i) turn = turn + system.seed_field[g * turns.size() + i] * turns[i];
@@ -174,12 +176,12 @@ Quaternion within_turn_limit(const Quaternion& q, const Quaternion& anchor, doub
   return normalised(exponential((turn_limit / angle) * logarithm(q * anchor.conjugate())) * anchor);
 }
 
-// Takes the rotation of active group g to `fit`, or beyond; returns the change.
+// Moves the rotation of active group g to `fit`, or beyond it if `relax`. Returns the change.
 double turn_group(const SmoothSystem& system, std::size_t g, Quaternion fit, bool relax, SmoothState& state) noexcept {
   Quaternion& q = state.rotation[system.subspace.group[g]];
   double cosine = fit.dot(q);
   if (cosine < 0) fit.coeffs() *= -1, cosine = -cosine;
-  // |R - R'|_F = 2 sqrt(2) sin(angle / 2)
+  // The Frobenius norm of the change is |R - R'|_F = 2 sqrt(2) sin(angle / 2).
   const double square = (fit.coeffs() - q.coeffs()).squaredNorm();
   const double change = 2.0 * std::sqrt(2.0 * square * (1.0 - 0.25 * square));
   const double on = relax && cosine > over_relaxed_cosine ? over_relaxation : 1.0, back = 1.0 - on;
@@ -188,7 +190,7 @@ double turn_group(const SmoothSystem& system, std::size_t g, Quaternion fit, boo
   return change;
 }
 
-// Local step of all groups; returns the largest change.
+// Runs the local step for all groups. Returns the largest change.
 double fit_rotations(const SmoothSystem& system, bool relax, SmoothState& state) noexcept {
   const Subspace& s = system.subspace;
   constexpr std::size_t lanes = RotationBatch::lanes;

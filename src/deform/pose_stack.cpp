@@ -19,7 +19,8 @@ Mat3 linear_part(const Affine& affine) noexcept {
   return m;
 }
 
-// p -> R (p - c) + c + t as p -> R p + t', and back.
+// These two functions convert a motion p -> R (p - c) + c + t about a centroid c to p -> R p + t' about the origin, and
+// back.
 RigidMotion motion_of(const HandleTransform& transform, Vec3 centroid) noexcept {
   return {transform.rotation, centroid - rotate(transform.rotation, centroid) + transform.translation};
 }
@@ -132,7 +133,8 @@ void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int
       entries[first + r].centroid = pose.handle(inner[r]).centroid;
     }
   };
-  // the layers at and above get the new handles on copies; their own layer comes into being
+  // The new handles' layer and all layers above it get the handles, on copies. If the handles' layer does not exist
+  // yet, it is created.
   std::array<std::shared_ptr<Layer>, layer_limit> layers = layers_;
   for (std::uint32_t k = std::max(layer, 1u); k < layer_limit; ++k) {
     if (!layers_[k] && k != layer) continue;
@@ -140,7 +142,7 @@ void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int
     enter(*plain, k);
     layers[k] = make_layer(std::move(plain));
   }
-  if (layer == 0) enter(*base_, 0);  // all or nothing itself; what follows cannot fail
+  if (layer == 0) enter(*base_, 0);  // changes all or nothing; the lines below cannot fail
   entries_ = std::move(entries);
   layers_ = std::move(layers);
   mark_stale(layer);
@@ -178,7 +180,7 @@ void PoseStack::remove_handles(Span<const std::uint32_t> numbers) {
     plain->remove_handles(inner);
     layers[k] = make_layer(std::move(plain));
   }
-  if (collect(0)) base_->remove_handles(inner);  // all or nothing itself; what follows cannot fail
+  if (collect(0)) base_->remove_handles(inner);  // changes all or nothing; the lines below cannot fail
   entries_ = std::move(entries);
   layers_ = std::move(layers);
   mark_stale(lowest);
@@ -227,7 +229,7 @@ HandleTransform PoseStack::placed(std::uint32_t number) const {
 
 // ---- the pose ----
 
-// The rotation of the edges at the region's vertices, and the mean of its vertices.
+// Fits a rigid motion to a region: the rotation of the edges at its vertices, and the mean of its vertices.
 RigidMotion PoseStack::fit_region(const Entry& entry, Span<const std::int32_t> region,
                                   const Vec3* surface) const noexcept {
   Mat3 sum;
@@ -266,7 +268,7 @@ bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_chang
       entry.placed = {normalised(found.rotation * edit.rotation),
                       rotate(found.rotation, edit.translation) + found.translation};
       const bool at_rest = norm(entry.turn) == 0 && norm(entry.edit.translation) == 0;
-      if (at_rest) entry.placed = found;  // the same bits for U and E
+      if (at_rest) entry.placed = found;  // gives U and E the same bits
       turn = rotate(found.rotation, entry.turn);
     }
     const HandleTransform unedited = transform_of(found, entry.centroid),
@@ -289,7 +291,7 @@ bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_chang
   return true;
 }
 
-// X = E + q (X_below - U)
+// Combines the layer's surfaces: X = E + q (X_below - U), with U the unedited and E the edited pose (pose_stack.h).
 void PoseStack::combine(Layer& layer, Span<const Vec3> below) noexcept {
   const Span<const Affine> from = layer.plain->cluster_transforms(), to = layer.edited->cluster_transforms();
   for (std::size_t c = 0; c < from.size(); ++c) {
@@ -317,7 +319,7 @@ DeformReport PoseStack::deform(const DeformRequest& request) {
   check_request(request);
   if (entries_.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
   if (!has_layers()) {
-    base_stale_ = true;  // layers that come find nothing to go on from
+    base_stale_ = true;  // if layers are added later, they must not reuse old poses
     return base_->deform(request);
   }
   const std::size_t n = static_cast<std::size_t>(core_->size());

@@ -56,7 +56,7 @@ void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) 
         double s[3][4] = {};
         for (std::int32_t e = k.column_start[v]; e < k.column_start[v + 1]; ++e) {
           const std::int32_t u = k.row[e];
-          const double w = std::fmax(-k.value[e], 0.0);  // the diagonal too: nothing
+          const double w = std::fmax(-k.value[e], 0.0);  // the diagonal has weight 0
           const Vec3 moved = w * (x - positions[u]), edge = p - core.mesh.positions[u];
           const double along[3] = {edge.x, edge.y, edge.z};
           for (int j = 0; j < 3; ++j)
@@ -74,12 +74,12 @@ void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) 
   });
 }
 
-// b - K x in factor order, in the mesh's own unit.
+// Computes the right-hand side b - K x in the order of the factor, in the unit of the scaled mesh.
 void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* positions, double* z) {
   const Core& core = input.core;
   const SymmetricMatrix& k = core.laplacian;
   const Span<const std::int32_t> position = core.factor->position();
-  const double own_unit = 2.0 / core.mesh.scale;  // and the half of the two rotations
+  const double own_unit = 2.0 / core.mesh.scale;  // contains the 1/2 of the two rotations
   for_vertex_pieces(*core.jobs, core.size(), [&](std::int32_t first, std::int32_t last) {
     for (std::int32_t v = first; v < last; ++v) {
       Vec3 sum;
@@ -88,7 +88,7 @@ void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* posit
           const std::int32_t u = k.row[e];
           const Vec3 edge = core.mesh.positions[v] - core.mesh.positions[u];
           const Vec3 missing = (rotation_[v] + rotation_[u]) * edge - own_unit * (positions[v] - positions[u]);
-          sum = sum - 0.5 * k.value[e] * missing;  // nothing from the diagonal
+          sum = sum - 0.5 * k.value[e] * missing;  // the diagonal adds nothing
         }
       }
       double* row = z + 3 * static_cast<std::size_t>(position[v]);
@@ -109,7 +109,7 @@ void Refinement::apply(const RefineInput& input, Vec3* positions) {
   set_right_hand_side(input, positions, z.data());
   core.factor->solve_in_order(z.data(), 3, *core.jobs);
 
-  // the rings are where they belong: what the step did to them is taken back by its harmonic field
+  // The rings already are where they belong. A harmonic field therefore cancels the change that the step made there.
   const Span<const std::int32_t> position = core.factor->position();
   std::fill(values_.begin(), values_.end(), 0.0);
   for (const Handle& handle : input.handles) {
@@ -144,7 +144,7 @@ void GroupStart::choose(const Core& core, const Groups& groups, const Vector<std
   for (std::size_t g = 0; g < group_.size(); ++g)
     start_[g + 1] = start_[g] + std::min(size[group_[g]], samples_per_group);
   vertex_.assign(start_.back(), 0);
-  // every size/count-th vertex of a group, in the order of numbers
+  // The samples of a group are every size/count-th vertex, in the order of vertex numbers.
   Vector<std::int32_t> seen(groups.count(), 0, start_.get_allocator()), taken(group_.size(), 0, start_.get_allocator());
   for (std::int32_t v = 0; v < core.size(); ++v) {
     const std::int32_t group = groups.group_of[v];

@@ -1,17 +1,18 @@
-// A full-mesh step on top of a blended pose, and the start of one pose from another's surface.
+// Improves a blended pose by one full-mesh step (Refinement), and starts one pose from another's surface (GroupStart).
 //
 // Refinement is one as-rigid-as-possible step of the whole surface against its rest shape (Sorkine and Alexa 2007).
-// From the blended positions x it solves
+// From the blended positions x and the rest positions p it solves
 //     R_v = argmax tr(R' sum_u w_vu (x_v - x_u)(p_v - p_u)'),
 //     sum_u w_vu (y_v - y_u) = sum_u w_vu / 2 (R_v + R_u)(p_v - p_u),   y = x on the handles.
-// The weights w are those of the operator K, and u runs over the neighbours in its triangulation. So y = x + K^-1 (b -
-// K x) with b the right side, on the factor that is there. With these weights the energy never grows. Cotangents of the
-// mesh's own edges are larger where triangles are obtuse, and the step overshoots there. More steps walk towards the
-// collapsed minima of that energy. Cost: a rotation per vertex, three sweeps of three channels.
+// R_v is the rotation of vertex v, and y are the new positions. The weights w are those of the operator K, and u runs
+// over the neighbours of v in its triangulation. So y = x + K^-1 (b - K x), where b is the right side, and the existing
+// factor is used. With these weights the energy never grows. Cotangents of the mesh's own edges would be larger at
+// obtuse triangles, and the step would overshoot there. Several steps would approach the collapsed minima of this
+// energy. Cost: a rotation per vertex, and three sweeps for three coordinates.
 //
-// GroupStart finds the rotation of every rotation group of a given surface, from the edges at some of its vertices.
+// GroupStart finds the rotation of every rotation group on a given surface, from the edges at some of its vertices.
 //
-// Both keep their memory from frame to frame. On failure nothing is changed.
+// Both keep their memory from frame to frame. A failed call changes nothing.
 #pragma once
 #include "deform/blend.h"
 #include "deform/groups.h"
@@ -27,7 +28,7 @@ struct RefineInput {
   const ClusterWeights& weights;
   const SiteSolver& sites;
   const Handles& handles;
-  const Groups* groups;                      // null: rotations are found without a start
+  const Groups* groups;                      // null: rotations are found without a starting rotation
   const Vector<Quaternion>* group_rotation;  // by group
   const Affine* transforms;                  // by cluster, handles first
 };
@@ -35,10 +36,10 @@ struct RefineInput {
 class Refinement {
  public:
   Refinement(const Core& core, Memory& memory);
-  // Room for the values of this many slots.
+  // Makes room for the values of this many slots.
   void fit(std::int32_t slot_count);
-  // positions: blended, in the given unit and frame; improved in place. Vertices of handles and of components that are
-  // not elastic keep theirs.
+  // Improves the blended `positions` in place. They are in the given unit and frame. Vertices of handles and of
+  // components without free clusters keep their positions.
   void apply(const RefineInput& input, Vec3* positions);
 
  private:
@@ -55,7 +56,7 @@ class GroupStart {
  public:
   explicit GroupStart(Memory& memory)
       : rotation(&memory), motion(&memory), own_unit(&memory), group_(&memory), start_(&memory), vertex_(&memory) {}
-  // Samples of these groups; rotation is sized to all groups.
+  // Chooses sample vertices for these groups. `rotation` gets one entry for each of all groups.
   void choose(const Core& core, const Groups& groups, const Vector<std::int32_t>& active);
   void fit(const Core& core, const Rest& rest, Span<const Vec3> surface) noexcept;
   Vector<Quaternion> rotation;  // by group; smooth mode
@@ -66,7 +67,8 @@ class GroupStart {
   Vector<std::int32_t> group_, start_, vertex_;
 };
 
-// The rotation of the edges at one vertex: sum_u w_vu (x_v - x_u)(p_v - p_u)'.
+// Adds the moment matrix of the edges at one vertex: sum_u w_vu (x_v - x_u)(p_v - p_u)'. The rotation nearest to it is
+// the rotation of these edges.
 void add_ring(const Core& core, const Rest& rest, const Vec3* positions, std::int32_t v, Mat3& sum) noexcept;
 
 }  // namespace hf_inner

@@ -1,5 +1,6 @@
-// The surface at rest as deformation needs it: vertex areas, vertices by component, triangles at a piece of vertices,
-// edge stiffness. Made once per pose, shared by its clones. Cost O(n). On failure nothing is left behind.
+// The rest shape as poses need it: vertex areas, vertices by component, triangles by piece of vertices, edge stiffness.
+//
+// Made once per pose and shared by its clones. Cost: O(n). A failed call changes nothing.
 #pragma once
 #include <cstdint>
 
@@ -11,19 +12,19 @@ namespace hf_inner {
 struct Rest {
   Rest(const Core& core, Memory& memory);
 
-  // Vertices of component c: vertices[start[c] .. start[c + 1]), ascending.
+  // The vertices of component c are component_vertex[component_start[c] .. component_start[c + 1]), ascending.
   Vector<std::int32_t> component_start;
   Vector<std::int32_t> component_vertex;
   Vector<std::int32_t> component_triangles;  // number of triangles per component
   Vector<double> component_area;
   Vector<double> area;  // lumped, per vertex
-  // Corners of the triangles at piece k of the vertices (for_vertex_pieces), three each: piece_corner[3 * i], i from
-  // piece_start[k] to piece_start[k + 1]. Those with all corners in the piece come first, up to piece_border[k]; those
-  // at a border are in the lists of all its pieces.
+  // The triangles at piece k of the vertices (for_vertex_pieces): corners piece_corner[3 * i] and the next two, i from
+  // piece_start[k] to piece_start[k + 1]. Triangles with all corners in the piece come first, up to piece_border[k]. A
+  // triangle with corners in several pieces is in the list of each of them.
   Vector<std::int32_t> piece_start, piece_border;
   Vector<std::int32_t> piece_corner;
-  // Edge weights of the elastic energy: the operator's, kept in [least_edge_weight, largest_edge_weight]. Negative ones would reward collapse, huge
-  // ones come from triangles without area.
+  // Edge weights of the elastic energy: the operator's, clamped to [least_edge_weight, largest_edge_weight]. Negative
+  // weights would reward collapse, and huge ones come from triangles without area.
   Vector<double> stiffness;
 
   Span<const std::int32_t> vertices_of(std::int32_t component) const noexcept {
@@ -33,7 +34,8 @@ struct Rest {
   }
 };
 
-// Calls loop(first, last) for every piece of 0 .. count.
+// Cuts the numbers 0 .. count into pieces of vertex_piece numbers, and calls loop(first, last) for each piece on
+// several threads.
 template <class Loop>
 void for_vertex_pieces(JobRunner& jobs, std::int32_t count, Loop&& loop) {
   const std::int32_t pieces = (count + vertex_piece - 1) / vertex_piece;
@@ -43,7 +45,8 @@ void for_vertex_pieces(JobRunner& jobs, std::int32_t count, Loop&& loop) {
   });
 }
 
-// A number in [0, 1) from an index: the sampling of edges and triangles must not follow the order of the input.
+// Returns a pseudo-random number in [0, 1) for an index. With it, the sampling of edges and triangles does not follow
+// the order of the input.
 inline double scattered(std::uint32_t index) noexcept {
   std::uint64_t x = index + 0x9e3779b97f4a7c15ull;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;

@@ -11,7 +11,8 @@ constexpr double pi = 3.14159265358979323846;
 
 using Vec4 = hf_eigen::Vector4d;
 
-// tr(exp([u])' B) = tr B + u.a - u' H u / 2 + O(u^3)
+// The second-order expansion of an objective in a rotation vector u: tr(exp([u])' B) = tr B + u.a - u' H u / 2 +
+// O(u^3).
 struct Quadratic {
   Vec3 a;
   double h00, h11, h22, h01, h02, h12;
@@ -26,8 +27,8 @@ Quadratic expand(const Mat3& s, const Mat3& r) noexcept {
   return q;
 }
 
-// Solves H u = a by L D L'; false when H is not safely positive definite. By hand: Eigen's LLT asks for no margin, and
-// its LDLT pivots.
+// Solves H u = a by L D L'. Returns false unless H is positive definite with a margin. It is written by hand: Eigen's
+// LLT has no margin, and Eigen's LDLT pivots.
 bool newton_step(const Quadratic& q, double floor, Vec3& u) noexcept {
   if (!(q.h00 > floor)) return false;
   const double l10 = q.h01 / q.h00, l20 = q.h02 / q.h00;
@@ -63,7 +64,7 @@ Vec3 logarithm(const Quaternion& q) noexcept {
 }
 
 Vec3 continued_logarithm(const Quaternion& q, Vec3 previous) noexcept {
-  // the step from where the motion stood, at most half a turn; what follows is where it leads to first order
+  // The step from the previous rotation is at most half a turn. To first order, the motion is then at previous + step.
   const Vec3 step = logarithm(q * exponential(previous).conjugate());
   const Vec3 expected = previous + step;
   const double expected_angle = std::sqrt(dot(expected, expected));
@@ -77,7 +78,8 @@ Vec3 continued_logarithm(const Quaternion& q, Vec3 previous) noexcept {
   } else if (expected_angle > 0) {
     nearest = (2 * pi * std::round(expected_angle / (2 * pi)) / expected_angle) * expected;
   }
-  // close to a whole turn the axis of q says nothing about the axis of the turns: go on along the old one
+  // Close to a whole turn, the axis of q does not show the axis of the turns. The motion then continues along the old
+  // axis.
   const Vec3 gap = nearest - expected;
   return dot(gap, gap) > 1.0 && dot(step, step) < 2.25 ? expected : nearest;
 }
@@ -86,7 +88,7 @@ Quaternion best_rotation(const Mat3& matrix, const Quaternion& near) noexcept {
   const double largest = matrix.cwiseAbs().maxCoeff();
   if (!(largest > 0) || !matrix.allFinite()) return near;
   const Mat3 m = matrix / largest;
-  // Horn's matrix for the order (x, y, z, w); Eigen reads its lower triangle
+  // Horn's matrix for the order (x, y, z, w). Eigen reads its lower triangle.
   hf_eigen::Matrix4d n;
   n(0, 0) = m(0, 0) - m(1, 1) - m(2, 2), n(1, 1) = m(1, 1) - m(0, 0) - m(2, 2), n(2, 2) = m(2, 2) - m(0, 0) - m(1, 1);
   n(1, 0) = m(0, 1) + m(1, 0), n(2, 0) = m(0, 2) + m(2, 0), n(2, 1) = m(1, 2) + m(2, 1);
@@ -94,7 +96,7 @@ Quaternion best_rotation(const Mat3& matrix, const Quaternion& near) noexcept {
   n(3, 3) = m.trace();
   const hf_eigen::SelfAdjointEigenSolver<hf_eigen::Matrix4d> eigen(n);
   const Vec4& value = eigen.eigenvalues();  // ascending
-  // among equals the projection of `near` on their space
+  // If several eigenvalues are equal, the result is the projection of `near` on their eigenvectors.
   Vec4 sum = Vec4::Zero();
   for (int i = 0; i < 4; ++i) {
     const Vec4 v = eigen.eigenvectors().col(i);
@@ -115,7 +117,8 @@ Quaternion best_rotation_from(const Mat3& s, const Quaternion& near) noexcept {
     if (!newton_step(expand(s, q.toRotationMatrix()), floor, u)) break;
     const double step2 = dot(u, u);
     if (step2 > longest_newton_step) break;
-    // the turn by 2 atan(|u| / 2) is as good as one by |u| and needs no sine; the error after a step u is of order u^2
+    // A turn by the angle 2 atan(|u| / 2) is as good as one by |u| and needs no sine. The error after a step u is of
+    // order u^2.
     q = normalised(Quaternion(0.5 * u, 1) * q);
     if (step2 < settled_newton_step) return q;
   }

@@ -1,5 +1,6 @@
-// The Newton steps of rotation_batch.cpp with four lanes in a register; the bits are the same. Built with -mavx2,
-// chosen at run time; includes no header whose inline functions could leak into other files.
+// The Newton steps of rotation_batch.cpp with four matrices (lanes) in a register; the bits are the same. The build
+// uses -mavx2, and the program chooses the loop at run time. The file includes no header with inline functions, because
+// their AVX2 code could be linked into other files.
 #include <cstring>
 
 #include "deform/rotation_step.h"

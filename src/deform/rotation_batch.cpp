@@ -13,12 +13,13 @@ namespace {
 constexpr int lanes = RotationBatch::lanes;
 
 struct LaneState {
-  double floor;  // pivots at or below are not safely positive
-  bool open;     // goes on; settled or lost otherwise
-  bool lost;     // no certified maximum
+  double floor;  // pivots up to this number are not safely positive
+  bool open;     // needs more steps; if not, it has converged or failed
+  bool lost;     // the steps reach no proven maximum
 };
 
-// Lanes whose step cannot be trusted are lost; those that are not open do not move. Says whether any goes on.
+// Marks lanes whose step cannot be trusted as lost, and sets the steps of lanes that are not open to zero. Returns
+// whether any lane needs more steps.
 bool judge(RotationStep& step, LaneState (&state)[lanes]) noexcept {
   bool open = false;
   for (int l = 0; l < lanes; ++l) {

@@ -1,10 +1,11 @@
-// argmax tr(R' S) for eight matrices at once: the local steps of poses and of the full-mesh refinement.
+// Finds the best rotations argmax tr(R' S) for eight matrices S at once.
 //
-// The lanes take the Newton steps of best_rotation_from() (rotation.h) and do not depend on each other. So a lane gives
-// the same bits beside any neighbours and on every machine. By hand, not with Eigen: eight
-// lanes take 25 ns a matrix, one matrix at a time takes 117 ns.
+// Poses and the full-mesh refinement use it for their local steps. Each lane takes the Newton steps of
+// best_rotation_from() (rotation.h), independent of the other lanes. So a lane gives the same bits beside any
+// neighbours and on every machine. It is written by hand, because eight lanes take 25 ns per matrix, and one matrix at
+// a time with Eigen takes 117 ns.
 //
-// Cost: about 40 ns a matrix on 256-bit lanes when it starts nearby. Allocates nothing, cannot fail.
+// Cost: about 40 ns per matrix on 256-bit registers when it starts nearby. Allocates nothing and cannot fail.
 #pragma once
 #include "deform/rotation.h"
 
@@ -17,7 +18,7 @@ struct alignas(64) RotationBatch {
   void set_rotation(int lane, const Quaternion& near) noexcept {
     for (int k = 0; k < 4; ++k) q[k][lane] = near.coeffs()(k);
   }
-  // columns[j][i] = S(i, j)
+  // Sets the matrix S of one lane. columns[j][i] is the entry of S in row i and column j.
   void set_columns(int lane, const double (&columns)[3][4]) noexcept {
     for (int j = 0; j < 3; ++j) {
       for (int i = 0; i < 3; ++i) s[3 * i + j][lane] = columns[j][i];
@@ -26,7 +27,8 @@ struct alignas(64) RotationBatch {
   Quaternion rotation(int lane) const noexcept { return {{q[0][lane], q[1][lane], q[2][lane]}, q[3][lane]}; }
 };
 
-// The first `count` lanes; best_rotation() from the same start where the steps do not reach a certified maximum.
+// Finds the rotations of the first `count` lanes. Where the steps reach no proven maximum, it calls best_rotation()
+// from the same start.
 void best_rotations_from(RotationBatch& batch, int count) noexcept;
 
 }  // namespace hf_inner

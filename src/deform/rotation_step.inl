@@ -1,7 +1,9 @@
-// One Newton step of rotations in lanes, for the loops of rotation_batch.cpp and its wider builds. Lane is a double or
-// a vector of doubles. The operations and their order are the same, so are the bits.
+// One Newton step of several rotations, for the loops of rotation_batch.cpp and its wider builds. Lane is a double or a
+// vector of doubles. The operations and their order are the same for both, so the bits are too.
 //
-//     H u = a with tr(exp([u])' B) = tr B + u.a - u' H u / 2 + O(u^3), B = S R', by L D L'.
+//     H u = a   with   tr(exp([u])' B) = tr B + u.a - u' H u / 2 + O(u^3),   B = S R'
+//
+// It solves H u = a for the rotation vector u of the step, by L D L'.
 template <class Lane>
 inline void find_step(const Lane (&s)[9], const Lane (&q)[4], Lane (&u)[3], Lane (&pivot)[3]) noexcept {
   const Lane xx = q[0] * q[0], yy = q[1] * q[1], zz = q[2] * q[2], ww = q[3] * q[3];
@@ -28,8 +30,8 @@ inline void find_step(const Lane (&s)[9], const Lane (&q)[4], Lane (&u)[3], Lane
   u[0] = ax * i0 - l10 * u[1] - l20 * u[2];
 }
 
-// The turn by 2 atan(|u| / 2) is as good as one by |u| and needs no sine. q is not normalised: its square grows by
-// 1 + |u|^2 / 4.
+// Turns q by the angle 2 atan(|u| / 2), which is as good as |u| and needs no sine. q is not normalised: its square
+// grows by the factor 1 + |u|^2 / 4.
 template <class Lane>
 inline void take_step(const Lane (&u)[3], Lane (&q)[4]) noexcept {
   const Lane x = q[0], y = q[1], z = q[2], w = q[3];
@@ -40,7 +42,8 @@ inline void take_step(const Lane (&u)[3], Lane (&q)[4]) noexcept {
   q[3] = w - (hx * x + hy * y + hz * z);
 }
 
-// Eight lanes, as many at once as Lane holds. step: written; a step that is not to be taken is set to zero before.
+// Finds or takes the step of eight lanes, as many at once as Lane holds. step: written when the step is found. A lane
+// that must not move has a zero step.
 template <class Lane>
 inline void step_lanes(const double* s, double* q, RotationStep& step, bool take) noexcept {
   constexpr int width = static_cast<int>(sizeof(Lane) / sizeof(double));

@@ -12,12 +12,12 @@ struct JointMotion {
   Vec3 translation;
 };
 
-// R B diag(s) B'
+// Returns the linear part R B diag(s) B' of a joint's motion: rotation R, stretch s along the axes B.
 Mat3 linear_part(const JointMotion& motion, const Mat3& axes) noexcept {
   return motion.rotation.toRotationMatrix() * (axes * to_eigen(motion.stretch).asDiagonal() * axes.transpose());
 }
 
-// The least-squares fit of the joints, in the mesh's own unit.
+// Fits the joints to the posed surface by least squares, in the unit of the scaled mesh.
 class JointFit {
  public:
   JointFit(const Pose& pose, std::uint32_t weight_count, bool stretching, const Vector<Quaternion>& axes,
@@ -37,7 +37,7 @@ class JointFit {
     start_.assign(joint_count_ + 1, 0);
     Vector<std::int32_t> chosen(&memory);
     for (std::int32_t v = 0; v < core.size(); ++v) {
-      if (table.start[v + 1] - table.start[v] < 2) continue;  // on one joint: nothing to fit
+      if (table.start[v + 1] - table.start[v] < 2) continue;  // a vertex on one joint needs no fit
       if (scattered(static_cast<std::uint32_t>(v)) * core.size() < skin_vertices) chosen.push_back(v);
     }
     std::uint32_t joint[most_joints];
@@ -66,7 +66,7 @@ class JointFit {
     }
   }
 
-  // residual = blend - posed, kept up to date.
+  // Runs the rounds. The residual (blended minus posed position) is kept up to date.
   void run(JointMotion* motion) {
     for (std::size_t j = 0; j < joint_count_; ++j) move(j, motion[j], 1);
     const std::size_t handles = static_cast<std::size_t>(pose_.weights()->handle_count);
@@ -81,7 +81,7 @@ class JointFit {
 
  private:
   struct Item {
-    std::int32_t vertex;  // of those chosen
+    std::int32_t vertex;  // index into the chosen vertices
     double weight;
   };
 
@@ -94,7 +94,8 @@ class JointFit {
     }
   }
 
-  // With joint j taken out of the residual: it is to bring -residual / weight.
+  // Fits joint j. The caller has taken joint j out of the residual, so the joint should move each vertex to -residual /
+  // weight.
   JointMotion fit(std::size_t j, const JointMotion& present) const noexcept {
     double total = 0;
     Vec3 from, to;
@@ -124,7 +125,7 @@ class JointFit {
     return motion;
   }
 
-  // min |R B s B' - target rest^-1| in the norm of the rest moments, rotation and stretch in turn.
+  // Minimises |R B s B' - target rest^-1| in the norm of the rest moments. Rotation R and stretch s are found in turn.
   static void fit_stretch(const Mat3& target, const Mat3& rest, const Mat3& axes, JointMotion& motion) noexcept {
     const Mat3 seen = axes.transpose() * rest * axes;
     const double ballast = stretch_ballast * seen.trace();
@@ -217,7 +218,7 @@ void skin_weights(const Pose& pose, std::int32_t vertex, std::uint32_t count, st
     joints[0] = static_cast<std::uint32_t>(table.cluster_count), weights[0] = 1;
     return;
   }
-  // the largest, by insertion: rows are short
+  // Insertion keeps the largest weights, because rows are short.
   double kept[most_joints] = {0};
   std::uint32_t used = 0;
   for (std::int32_t k = first; k < last; ++k) {

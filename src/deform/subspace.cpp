@@ -9,7 +9,7 @@
 namespace hf_inner {
 namespace {
 
-// Blended positions of vertices before any transform: x_v = sum_k weight[k] A_cluster[k] (p_v, 1).
+// The data of a blend before any transform: x_v = sum_k weight[k] A_cluster[k] (p_v, 1).
 struct BlendRows {
   const std::int32_t* start;
   const std::uint16_t* cluster;
@@ -17,9 +17,9 @@ struct BlendRows {
   const Vec3* positions;
 };
 
-using Four = double __attribute__((vector_size(32)));  // two halves where there is no AVX
+using Four = double __attribute__((vector_size(32)));  // compiled to two halves without AVX
 
-// z_c(e) of one edge, clusters ascending; room for two rows of weights.
+// The vectors z_c(e) of one edge e (subspace.h), clusters ascending. It has room for the weights of both ends.
 struct EdgeRow {
   struct Z {
     double x[4];
@@ -53,19 +53,20 @@ inline void fill_row(const BlendRows& rows, std::int32_t i, std::int32_t j, Edge
   }
 }
 
-// An edge i - j that is in the sum, with its whole weight w_e.
+// An edge i - j that the sums use, with its whole weight w_e.
 struct Sample {
   std::int32_t i, j;
   double weight;
 };
 
-// Places of the blocks of the system matrix: one block row per free cluster.
+// The blocks of the system matrix; each free cluster has one row of blocks.
 struct Blocks {
   double *lower, *coupling;
   std::size_t handles, free;
 };
 
-// L of the free clusters of every edge with those before them and themselves.
+// Adds the matrices L_cd (subspace.h) of every edge: each free cluster c with itself, the free clusters before it, and
+// the handles.
 HF_FOUR_LANES
 void add_blocks(const BlendRows& rows, const Sample* samples, std::size_t count, EdgeRow row,
                 const Blocks& out) noexcept {
@@ -81,8 +82,8 @@ void add_blocks(const BlendRows& rows, const Sample* samples, std::size_t count,
         const std::size_t c = static_cast<std::size_t>(row.cluster[s]);
         const bool handle = c < out.handles;
         const std::size_t stride = handle ? handle_stride : free_stride;
-        double* block = (handle ? out.coupling + 4 * c : out.lower + 4 * (c - out.handles)) +
-                        4 * (own - out.handles) * stride;
+        double* block =
+            (handle ? out.coupling + 4 * c : out.lower + 4 * (c - out.handles)) + 4 * (own - out.handles) * stride;
         Four z, line;
         std::memcpy(&z, row.z[s].x, sizeof z);
         for (std::size_t a = 0; a < 4; ++a) {
@@ -95,7 +96,8 @@ void add_blocks(const BlendRows& rows, const Sample* samples, std::size_t count,
   }
 }
 
-// Where Q_gc goes: wide[16 entry + 4 a + b], b = 3 stays 0; entry = entry_of[row_of_group[g] + c].
+// The arrays to which the sums add the coefficient matrix Q_gc of group g and cluster c (subspace.h). Row a and column
+// b of the matrix are at wide[16 entry + 4 a + b], where entry is entry_of[row_of_group[g] + c]. Column 3 stays 0.
 struct Moments {
   double* wide;
   const std::int32_t* entry_of;
@@ -161,7 +163,7 @@ class Assembly {
     std::fill(out_.coupling.begin(), out_.coupling.end(), 0.0);
     list_uses();
     list_samples();
-    // two sums over the same edges, each in their order: on two threads as on one
+    // The two sums use the same edges, each in its own order. So one or two threads give the same bits.
     core_.jobs->for_each(2, [&](std::uint32_t half) {
       if (half == 0) {
         sum_blocks();
@@ -193,7 +195,7 @@ class Assembly {
     widest_ = 0;
     for (std::int32_t v = 0; v < core_.size(); ++v)
       widest_ = std::max(widest_, weights_.start[v + 1] - weights_.start[v]);
-    // by vertex: each is an end of as many edges as it has neighbours
+    // Edges are counted at their ends: a vertex has as many edges as neighbours.
     const Topology& topology = core_.topology;
     double ends = 0;
     for (std::int32_t v = 0; v < core_.size(); ++v) {
@@ -213,7 +215,7 @@ class Assembly {
     }
   }
 
-  // Weight of edge e in the sample, 0 when left out.
+  // Returns the weight of edge e in the sample, or 0 if the sample leaves it out.
   double sample_weight(std::int32_t e) const noexcept {
     const std::int32_t i = core_.topology.first(e), j = core_.topology.second(e);
     if (!is_elastic(i)) return 0;
@@ -222,7 +224,7 @@ class Assembly {
     return scattered(static_cast<std::uint32_t>(e)) < probability_ ? sampled_weight_ : 0;
   }
 
-  // Entries (group, cluster) that occur: a table of marks, then numbers group by group.
+  // Numbers the pairs (group, cluster) that occur: first it marks them in a table, then it numbers them group by group.
   void number_entries() {
     const std::size_t clusters = static_cast<std::size_t>(weights_.cluster_count);
     entry_of_.assign(out_.group.size() * clusters, -1);
@@ -275,7 +277,7 @@ class Assembly {
     return out_.entry[entry_of_[row_of_group_[group] + static_cast<std::size_t>(cluster)]];
   }
 
-  // The edges of the sum, in their order, in pieces of fixed size.
+  // Lists the edges of the sums in their order, in pieces of fixed size.
   void list_samples() {
     const Topology& topology = core_.topology;
     handle_share_.assign(core_.size(), 0.0f);
@@ -303,7 +305,7 @@ class Assembly {
     });
   }
 
-  // Calls use(samples, count, row) piece by piece, with room for the row of an edge.
+  // Calls use(samples, count, row) for every piece of edges. `row` has room for one edge.
   template <class Use>
   void for_samples(Use&& use) const {
     Buffer<std::int32_t> cluster(memory_, 2 * static_cast<std::size_t>(widest_));
@@ -378,15 +380,16 @@ class Assembly {
   const Groups& groups_;
   Subspace& out_;
   Memory& memory_;
-  Vector<std::uint8_t> elastic_;        // per component; 2: with more than two handles
-  Vector<std::int32_t> edge_count_;     // per cluster, ends counted
-  Vector<std::uint8_t> needs_all_;      // per vertex: in a cluster with few edges
-  Vector<std::int32_t> entry_of_;       // per active group and cluster
-  Vector<std::size_t> row_of_group_;    // where the group's row of entry_of_ begins; of elastic ones
-  Vector<float> handle_share_;          // per vertex the largest weight of a handle: 1 on it, 0 beyond its last band
-  Vector<Vector<Sample>> samples_;      // by piece of the edges
+  // By component: 0 without free clusters, 1 with free clusters, 2 if more than two handles meet there too.
+  Vector<std::uint8_t> elastic_;
+  Vector<std::int32_t> edge_count_;   // by cluster: ends of edges in it
+  Vector<std::uint8_t> needs_all_;    // by vertex: 1 in a cluster with few edges
+  Vector<std::int32_t> entry_of_;     // by active group and cluster: number of its entry
+  Vector<std::size_t> row_of_group_;  // by group of an elastic component: where its row of entry_of_ begins
+  Vector<float> handle_share_;        // by vertex: largest weight of a handle, 1 on the handle
+  Vector<Vector<Sample>> samples_;    // by piece of the edges
   double probability_ = 1, sampled_weight_ = 1;
-  std::int32_t widest_ = 0;  // weights of a vertex
+  std::int32_t widest_ = 0;  // most weights of a vertex
   Buffer<double> lower_;
 };
 

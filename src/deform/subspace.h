@@ -2,20 +2,23 @@
 //
 //     E(A, R) = 1/2 sum_e w_e |x_i - x_j - R (p_i - p_j)|^2,   x_v = sum_c W_vc A_c (p_v, 1)
 //
-// This is as-rigid-as-possible (Sorkine and Alexa 2007) in a reduced subspace with one rotation per group of vertices
-// (Jacobson et al. 2012). Let z_c(e) = W_ic (p_i, 1) - W_jc (p_j, 1) and X_c = A_c' (4 x 3). For fixed rotations
+// The sum runs over the edges e = (i, j). p is the rest and x the posed position, A_c the transform of cluster c, W_vc
+// the weight of vertex v in it. R is the rotation of the group at the edge. This is as-rigid-as-possible energy
+// (Sorkine and Alexa 2007) in a reduced subspace, with one rotation per group of vertices (Jacobson et al. 2012). Let
+// z_c(e) = W_ic (p_i, 1) - W_jc (p_j, 1) and X_c = A_c' (4 x 3). For fixed rotations
 //     sum_d L_cd X_d = sum_g Q_gc R_g' + eps_c Rbar_c'
-// over the free clusters d. Those of handles are given. The coefficients are
+// holds for every free cluster c; the transforms of the handles are given. The coefficients are
 //     L_cd = sum_e w_e z_c z_d',   Q_gc = sum_{e at g} w_e/2 z_c (p_i - p_j)'.
 // eps_c keeps a cluster that the energy leaves free near the mean rotation Rbar_c of its groups. For fixed transforms
-// R_g = argmax tr(R' S_g), S_g = sum_c A_c Q_gc.
+//     R_g = argmax tr(R' S_g),   S_g = sum_c A_c Q_gc.
 //
 // Bending ends abruptly at a handle, and the group across its border turns too far for the triangles there. So edges
-// gain weight towards the border: (1 + a b^4), with b the handle's weight at the edge and a = border_stiffness.
+// gain weight towards the border by the factor 1 + a b^4, where b is the handle's weight at the edge and a is
+// border_stiffness.
 //
-// The subspace keeps cross-sections affine. On large meshes edges are sampled, with 1 / probability as weight, but
-// never those of clusters that have few. Cost: edges times the square of the clusters at an edge, and one dense
-// factorisation. On failure nothing is left behind.
+// In this subspace cross-sections stay affine. On large meshes edges are sampled, and a sampled edge weighs 1 /
+// probability. Clusters with few edges keep all of them. Cost: edges times the square of the clusters at an edge, and
+// one dense factorisation. A failed call changes nothing.
 #pragma once
 #include <cstdint>
 
@@ -39,7 +42,7 @@ struct Subspace {
         stiffness(&memory),
         factor(memory) {}
 
-  // The coefficients between a group and a cluster.
+  // The coefficients by which a rotation group and a cluster act on each other.
   struct Entry {
     std::int32_t cluster;
     double area;     // sum over the group's vertices of area times weight
@@ -54,8 +57,8 @@ struct Subspace {
   Vector<std::uint8_t> shared;       // per active group: more than two handles meet in its component
   Vector<std::int32_t> entry_start;  // entries of group[k]: entry[entry_start[k] .. entry_start[k + 1])
   Vector<Entry> entry;
-  // The entries of free cluster f and their groups (positions in Subspace::group), by group: use[use_start[f] ..
-  // use_start[f + 1]).
+  // The entries of free cluster f, with their groups (positions in Subspace::group), ordered by group: use[use_start[f]
+  // .. use_start[f + 1]).
   struct Use {
     std::int32_t entry, group;
   };

@@ -17,7 +17,8 @@ struct Frame {
 
 Vec3 across(Vec3 v, Vec3 normal) noexcept { return v - dot(v, normal) * normal; }
 
-// The frame of a normal and a direction; any direction will do, also 0 or one along the normal.
+// Makes an orthonormal frame. Its z axis is the normal; its x axis is the direction, projected across the normal. If
+// the direction is 0 or parallel to the normal, a coordinate axis replaces it.
 Frame frame_of(Vec3 normal, Vec3 direction) noexcept {
   const Vec3 z = unit_normal(normal);
   Vec3 x = across(direction, z);
@@ -29,7 +30,7 @@ Frame frame_of(Vec3 normal, Vec3 direction) noexcept {
   return {x, cross(z, x), z};
 }
 
-// Frames of the vertices inside.
+// Returns one frame of the base surface for every vertex inside the region.
 Vector<Frame> base_frames(const RegionSurface& surface, const RegionState& state, Span<const DiscPoint> disc,
                           Memory& memory) {
   const RegionShape& shape = *state.shape;
@@ -39,7 +40,7 @@ Vector<Frame> base_frames(const RegionSurface& surface, const RegionState& state
   for (std::size_t i = 0; i < shape.corners.size(); i += 3) {
     const Index* c = &shape.corners[i];
     const Vec3 b = base[at(c[1])] - base[at(c[0])], d = base[at(c[2])] - base[at(c[0])];
-    // dx / du times twice the triangle's area in the disc
+    // `grows` is the derivative of the position by the disc coordinate u, times twice the triangle's area in the disc.
     const Vec3 grows = (disc[at(c[2])].v - disc[at(c[0])].v) * b - (disc[at(c[1])].v - disc[at(c[0])].v) * d;
     for (int k = 0; k < 3; ++k) direction[at(c[k])] = direction[at(c[k])] + grows;
   }
@@ -58,7 +59,7 @@ Vector<Frame> base_frames(const RegionSurface& surface, const RegionState& state
   return frames;
 }
 
-// Places of the pins along the loop, each further along than the one before.
+// Finds the position of each pinned vertex along the boundary loop, and checks that the pins go round it in order.
 void place_pins(const Region& region, const DiscBoundary& boundary, Span<const Index> vertices, const char* name,
                 DiscPins& pins) {
   const RegionState& state = *region.state();
@@ -100,7 +101,7 @@ CarriedDetail carry_detail(const Region& source, const Region& target, const Car
   DiscPins from_pins(memory), to_pins(memory);
   place_pins(source, from_rim, options.source_pins, "source_vertices", from_pins);
   place_pins(target, to_rim, options.target_pins, "target_vertices", to_pins);
-  // the source's arc length gives the angles
+  // The angles of the pins follow the arc length along the source's rim.
   const std::size_t size = from_rim.loop.size();
   for (const Index place : from_pins.place) {
     const double s = from_rim.arc[at(place)] - from_rim.arc[at(from_pins.place[0])];
@@ -119,7 +120,7 @@ CarriedDetail carry_detail(const Region& source, const Region& target, const Car
                                                    : 1.0;
   const RegionShape& from_shape = *from_state->shape;
   const Vector<Frame> from_frames = base_frames(from, *from_state, from_disc, memory);
-  Vector<Vec3> local(at(from_shape.local_count()), &memory);  // 0 on the rim
+  Vector<Vec3> local(at(from_shape.local_count()), &memory);  // Stays 0 on the rim.
   for (std::size_t i = 0; i < from_shape.inside.size(); ++i) {
     const Vec3 d = from.position(from_shape.inside[i]) - from_state->base[i];
     const Frame& f = from_frames[i];

@@ -1,4 +1,4 @@
-// Every chosen number of this room, grouped by the file that uses it.
+// All chosen numbers of this folder, grouped by the file that uses them.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -6,27 +6,35 @@
 namespace hf_inner {
 
 // --- curve.cpp ---
-// Largest error of the sum of barycentrics: rounded to floats they sum within 1e-7. No result depends on it.
+
+// How far the sum of three barycentric coordinates may be from 1. Rounding to floats costs 1e-7. No result depends on
+// it.
 constexpr double barycentric_tolerance = 1e-6;
 
 // --- region.cpp ---
-// Regions of more than 1 in 8 vertices are solved over the whole factor. The result does not depend on it.
+
+// A region of more than 1 in 8 vertices is solved over the whole factor. This changes the time, never the result.
 constexpr std::size_t whole_sweep_share = 8;
 
 // --- disc_map.cpp ---
-// Floor of weights, in medians: an embedding needs positive ones. The value is that of the clamped operator.
+
+// Least edge weight, as a share of the median: only positive weights give a map without folds. Same floor as in the
+// operator.
 constexpr double disc_least_weight = 1e-3;
-// Boxes against triangles to test. The result does not depend on it.
+// Triangles in a leaf of the search tree. It trades tests of boxes for tests of triangles; no result depends on it.
 constexpr std::int32_t disc_leaf = 8;
-// 2^31 triangles halved to leaves give 28 levels, each with one box waiting.
+// Depth of the search stack: 2^31 triangles halved to leaves make 28 levels, and each level leaves one box to visit.
 constexpr std::int32_t disc_stack = 32;
 
 // --- carried_detail.cpp ---
-// Length of a projected direction, in lengths before, below which rounding would choose the frame. Not measured.
+
+// Least share of a direction's length that must remain after projection; below it rounding sets the frame. Not
+// measured.
 constexpr double least_direction = 1e-9;
-// Normal sum, in the largest, below which a frame is that of the whole region: edges 1e-6 of the others. Not measured.
+// Least length of a normal sum as a share of the region's largest; below it the whole region's frame is used. Not
+// measured.
 constexpr double least_normal = 1e-12;
-// Normals steeper than this on x start a frame from y: any value from 0.58 to 1 leaves one axis usable.
+// A normal with more than this on the x axis starts its frame from y. Any value from 0.58 to 1 leaves one axis usable.
 constexpr double upright_cosine = 0.9;
 
 }  // namespace hf_inner

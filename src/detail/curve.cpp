@@ -12,7 +12,7 @@ namespace {
 
 constexpr Index none = -1, on_curve = -2;
 
-// Shortest paths along edges (Dijkstra); all paths use the same arrays.
+// Finds shortest paths along edges (Dijkstra's algorithm). All paths share the same arrays.
 class Paths {
  public:
   Paths(const Core& core, Memory& memory)
@@ -22,12 +22,12 @@ class Paths {
         touched_(&memory),
         heap_(&memory) {}
 
-  // Appends the vertices from `from` on, without `to`.
+  // Appends the vertices of the shortest path from `from` to `to`; `to` itself is left out.
   void append(Index from, Index to, Vector<Index>& out) {
     if (from == to) return;
     const Topology& topology = core_.topology;
     const Vector<Vec3>& position = core_.mesh.positions;
-    // backwards, so that `before` leads from the start to the end
+    // The search runs backwards, so that `before` leads from the start to the end.
     heap_.assign(1, {0.0, to, none});
     while (true) {
       std::pop_heap(heap_.begin(), heap_.end());
@@ -66,7 +66,7 @@ class Paths {
   Vector<Reached> heap_;
 };
 
-// Pieces of one component without the curve.
+// The edge-connected pieces that remain of one component when the curve's vertices are taken out.
 struct Pieces {
   explicit Pieces(Memory& memory) : piece(&memory), area(&memory) {}
   Vector<Index> piece;  // by vertex; none in other components
@@ -100,7 +100,7 @@ Pieces cut(const Core& core, Span<const Index> curve, Memory& memory) {
   return pieces;
 }
 
-// Whether the curve consists of whole borders.
+// Tells whether the curve consists of whole borders of the surface.
 bool along_borders(const Core& core, Span<const Index> curve, const Pieces& pieces) {
   const Topology& topology = core.topology;
   return std::all_of(curve.begin(), curve.end(), [&](Index v) {
@@ -170,7 +170,7 @@ Vector<std::int32_t> curve_side(const Core& core, Span<const std::int32_t> curve
       fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(given),
            "seed vertex %d is in another component than the curve", given);
   }
-  // a border curve has one side only
+  // A curve along a border has only one side.
   const bool others = side == CurveSide::smaller && pieces.area.size() > 1;
   Vector<Index> inside(&memory);
   for (Index v = 0; v < core.size(); ++v) {

@@ -1,8 +1,8 @@
-// Closed curves on a surface, and the pieces they cut it into.
+// Finds closed curves on a surface, and the pieces into which they cut it.
 //
-// A curve is a ring of vertices: its points, joined by shortest paths along edges. Pieces are the edge-connected sets
-// of vertices off the curve. A curve separates if it leaves two pieces or more, or if it is a whole border. Cost: O(d
-// log d) per path for the d vertices nearer than its end, O(n) for the pieces.
+// A curve is a ring of vertices: its points, joined by shortest paths along edges. A piece is an edge-connected set of
+// vertices off the curve. A curve separates the surface if it leaves two pieces or more, or if it is a whole border.
+// Each path costs O(d log d) for the d vertices nearer than its end. The pieces cost O(n) for n vertices.
 #pragma once
 #include <cstdint>
 
@@ -12,20 +12,21 @@ namespace hf_inner {
 
 enum class CurveSide : std::int32_t { smaller = 0, larger = 1, seed = 2 };
 
-// The corner that stands for a point on a triangle as given: the one of the largest weight. Throws
-// HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (unusable triangle, weights below 0 or of another sum than 1),
-// HF_ERROR_NON_FINITE; index = position.
+// Returns the corner of a given triangle that lies nearest to a point in it: the one with the largest barycentric
+// weight. Throws HF_ERROR_OUT_OF_RANGE for a triangle that does not exist, HF_ERROR_INVALID_ARGUMENT for a collapsed
+// triangle, a negative weight or a sum other than 1, and HF_ERROR_NON_FINITE. The error's index is `position`.
 std::int32_t nearest_corner(const Mesh& mesh, std::uint32_t triangle, const double* barycentrics,
                             std::uint32_t position);
 
-// Throws HF_ERROR_INVALID_ARGUMENT (index = position) for a point in another component than the first.
+// Throws HF_ERROR_INVALID_ARGUMENT if a point lies in another component than the first point; index: its position.
 void require_one_component(const Mesh& mesh, Span<const std::int32_t> points);
 
-// The vertices of the curve, in order, without repeats in a row. points: inner vertices of one component.
+// Returns the vertices of the closed curve in order, without repeats in a row. points: inner vertices of one component.
 Vector<std::int32_t> closed_curve(const Core& core, Span<const std::int32_t> points, Memory& memory);
 
-// The vertices of one side, ascending. seed: with CurveSide::seed, an inner vertex. Throws HF_ERROR_INVALID_ARGUMENT
-// when the curve does not separate, or the seed is on it or in another component (index = the seed as given).
+// Returns the vertices of one side of the curve in ascending order. `seed` is an inner vertex of the wanted side; only
+// CurveSide::seed uses it. Throws HF_ERROR_INVALID_ARGUMENT when the curve does not separate the surface. It throws the
+// same when the seed lies on the curve or in another component; the index is then the seed as the caller numbered it.
 Vector<std::int32_t> curve_side(const Core& core, Span<const std::int32_t> curve, CurveSide side, std::int32_t seed,
                                 Memory& memory);
 

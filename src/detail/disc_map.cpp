@@ -23,7 +23,7 @@ struct HalfEdge {
   fail(HF_ERROR_UNSUPPORTED, static_cast<std::uint32_t>(given), "the region is no disc: %s at vertex %d", what, given);
 }
 
-// Weights of the mesh's edges, made positive.
+// Returns the weights of these edges, each raised to a small positive floor.
 Vector<double> positive_weights(const Core& core, Span<const Index> edges, Memory& memory) {
   Vector<double> weights(&memory), magnitude(&memory);
   for (const Index e : edges) weights.push_back(core.weights[at(e)]), magnitude.push_back(std::fabs(weights.back()));
@@ -35,7 +35,7 @@ Vector<double> positive_weights(const Core& core, Span<const Index> edges, Memor
   return weights;
 }
 
-// The point of a segment nearest to p, as the weight of its second end.
+// Finds the point of the segment a-b nearest to p. Returns the weight of b in it, from 0 to 1.
 double along(DiscPoint a, DiscPoint b, DiscPoint p) noexcept {
   const double u = b.u - a.u, v = b.v - a.v, length = u * u + v * v;
   const double t = length > 0 ? ((p.u - a.u) * u + (p.v - a.v) * v) / length : 0;
@@ -44,7 +44,7 @@ double along(DiscPoint a, DiscPoint b, DiscPoint p) noexcept {
 
 double squared(DiscPoint a, DiscPoint b) noexcept { return (a.u - b.u) * (a.u - b.u) + (a.v - b.v) * (a.v - b.v); }
 
-// Squared distance of p from a triangle, and the weights of its nearest point.
+// Returns the squared distance from p to a triangle. weights: barycentric weights of the triangle's nearest point.
 double nearest(const DiscPoint c[3], DiscPoint p, double weights[3]) noexcept {
   double area[3], whole = 0;
   for (int k = 0; k < 3; ++k) {
@@ -125,7 +125,7 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
     };
     const double whole = arc_from_first(first + steps);
     for (std::size_t i = first; i < first + steps; ++i) {
-      // a stretch without length spreads its vertices evenly
+      // A stretch of the rim without length spreads its vertices evenly.
       const double share =
           whole > 0 ? arc_from_first(i) / whole : static_cast<double>(i - first) / static_cast<double>(steps);
       const double angle = two_pi * (begin + (end - begin) * share);
@@ -133,7 +133,7 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
     }
   }
 
-  // unknowns: all vertices off the loop
+  // The unknowns are all vertices that are not on the boundary loop.
   Vector<Index> number(at(shape.local_count()), -1, &memory), unknown(&memory), edges(&memory);
   for (Index l = 0; l < shape.local_count(); ++l)
     if (boundary.place(l) < 0) number[at(l)] = static_cast<Index>(unknown.size()), unknown.push_back(l);
@@ -161,7 +161,7 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
     column.clear();
     for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i, ++edge) {
       const Index l = shape.local[at(topology.neighbour[at(i)])];
-      if (l < 0) continue;  // on another sheet that touches the region here
+      if (l < 0) continue;  // this neighbour is on another sheet that only touches the region here
       const double w = weights[edge];
       diagonal += w;
       if (number[at(l)] >= 0) {
@@ -245,7 +245,7 @@ std::int32_t DiscSearch::find(DiscPoint point, double weights[3]) const {
     if (best >= 0 && distance(b) >= least) continue;
     const Box& box = boxes_[at(b)];
     if (box.count == 0) {
-      // the nearer half first
+      // The search visits the nearer half first.
       const bool swap = distance(box.first) > distance(box.first + 1);
       stack[depth++] = box.first + (swap ? 0 : 1), stack[depth++] = box.first + (swap ? 1 : 0);
       continue;

@@ -1,28 +1,30 @@
-// The surface between a region and its base: x = p + weight (base - p) inside, p elsewhere.
+// Blends a region between the surface and its smooth base surface.
 //
-// Its normals are unit vectors along the sum of the cross products of the triangles around a vertex.
+// A vertex inside the region moves to x = p + weight (base - p); all others keep their position p. A normal is the unit
+// vector along the sum of the cross products of the triangles around a vertex.
 #pragma once
 #include "detail/region.h"
 
 namespace hf_inner {
 
-// p + weight (base - p), with the bits of p at 0 and those of the base at 1.
+// Returns p + weight (base - p). The result has exactly the bits of p at weight 0, and those of base at weight 1.
 inline Vec3 morphed(Vec3 p, Vec3 base, double weight) noexcept {
   if (weight == 0) return p;
   if (weight == 1) return base;
   return p + weight * (base - p);
 }
 
-// Positions by local number, scaled: inside morphed, the rim as it is.
+// Returns scaled positions by local number: vertices inside are morphed, rim vertices stay in place.
 Vector<Vec3> morphed_positions(const RegionSurface& surface, const RegionState& state, double weight, Memory& memory);
 
-// Area of the triangles with a corner inside, of the scaled mesh.
+// Returns the area of all triangles with a corner inside the region, measured on the scaled mesh.
 double morphed_area(const RegionSurface& surface, const RegionState& state, double weight, Memory& memory);
 
-// Sums of cross products by local number, of all triangles around, for any scaled positions by local number.
+// Returns, for each local vertex, the sum of the cross products of all triangles around it. `positions` are any scaled
+// positions by local number.
 Vector<Vec3> local_normal_sums(const RegionState& state, Span<const Vec3> positions, Memory& memory);
 
-// Unit vector; (0, 0, 1) where triangles cancel out or have no area.
+// Returns the unit vector along a sum of cross products, or (0, 0, 1) if the sum is zero.
 Vec3 unit_normal(Vec3 sum) noexcept;
 
 }  // namespace hf_inner

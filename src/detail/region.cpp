@@ -29,7 +29,7 @@ Vector<Index> edited(const Core& core, Vector<Index>&& inside, const RegionEdit&
   return std::move(inside);
 }
 
-// Edits a clone of the engine of `from` to have the sites of `to`.
+// Clones the engine of `from`, and changes the clone's sites to those of `to`.
 void place_sites(const RegionState& from, RegionState& to, const Core& core, Memory& memory) {
   const std::shared_ptr<SiteSolver> engine = from.engine->clone();
   Vector<Index> leaving(&memory), coming(&memory), slots(&memory);
@@ -74,7 +74,7 @@ void solve_base(const RegionSurface& surface, RegionState& state, Memory& memory
   }
   const auto take = [&](std::size_t i, const double* u) { state.base[i] = core.mesh.to_given({u[0], u[1], u[2]}); };
   state.base.resize(shape.inside.size());
-  // a bi-harmonic field is refined, which needs the whole factor
+  // Iterative refinement corrects a bi-harmonic field, and it needs the whole factor.
   state.whole_sweep = core.refinements > 0 || whole_sweep_share * shape.inside.size() > at(core.size());
   if (state.whole_sweep) {
     Workspace field(core.workspaces, at(core.size()) * 3);

@@ -8,7 +8,7 @@
 namespace hf_inner {
 namespace {
 
-// use(u) for the neighbours of v.
+// Calls use(u) for every neighbour u of the vertex v.
 template <class Use>
 void for_neighbours(const Topology& topology, Index v, Use&& use) {
   for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i)
@@ -68,7 +68,8 @@ Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, st
   Vector<std::uint8_t> in(at(core.size()), 0, &memory);
   for (const Index v : inside) in[at(v)] = 1;
   Vector<Index> front(&memory), next(&memory);
-  // a front moves outwards through vertices outside, or inwards through those inside, from the boundary between them
+  // A front of vertices starts at the region's boundary. It moves outwards if the region grows, and inwards if it
+  // shrinks.
   const std::uint8_t joins = rings > 0;
   for (const Index v : inside) {
     if (joins) {

@@ -3,9 +3,10 @@
 namespace hf_inner {
 namespace {
 
-// Independent chains of multiplications: one would wait for each. Part of the saved format.
+// Number of independent chains of multiplications; with one, each multiplication would wait for the last. A change of
+// this number would change the saved format.
 constexpr int chains = 8;
-// Bytes asked for ahead: the chains alone keep too few cache lines on their way.
+// Distance of the prefetch in bytes. Without it the chains would keep too few cache lines under way.
 constexpr int bytes_ahead = 4096;
 
 }  // namespace

@@ -1,9 +1,10 @@
-// A 64-bit check over large blocks of bytes at the speed of memory: not cryptographic, made to find damage.
+// Computes a 64-bit checksum of large byte blocks at the speed of memory. It finds damage and is not cryptographic.
 //
-// The bytes are cut into pieces of 64 KiB. A piece runs through eight chains, one little-endian word each in turn:
-// state <- (state xor word) p; state <- state xor state >> 32, p = 2^64 / golden ratio, odd. Every step is a bijection
-// of the state and of the word, so one changed word always changes its chain, its piece and the whole. The pieces'
-// values and the length run through one chain in their order: the same for any number of threads.
+// The bytes are cut into pieces of 64 KiB. A piece runs through eight chains, which take the little-endian words in
+// turn. A step is state <- (state xor word) p; state <- state xor (state >> 32), where the odd number p is 2^64 /
+// golden ratio. Every step is a bijection of the state and of the word, so one changed word always changes its chain,
+// its piece and the whole. The pieces' values and the length run through one chain in their order. So the result is the
+// same for any number of threads.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -14,7 +15,7 @@
 
 namespace hf_inner {
 
-// Bytes hashed as one job. Part of the saved format.
+// Bytes of one piece, hashed as one job. A change of this number would change the saved format.
 constexpr std::uint64_t hash_piece_bytes = std::uint64_t{1} << 16;
 
 inline std::uint64_t hash_step(std::uint64_t state, std::uint64_t word) noexcept {
@@ -22,11 +23,11 @@ inline std::uint64_t hash_step(std::uint64_t state, std::uint64_t word) noexcept
   return state ^ (state >> 32);
 }
 
-// At most hash_piece_bytes; the last word of a length that is no multiple of eight is filled with zeros.
+// Hashes one piece of at most hash_piece_bytes. If the length is no multiple of eight, zeros fill the last word.
 std::uint64_t hash_piece(const std::uint8_t* bytes, std::uint64_t length) noexcept;
 
-// also(begin, end): called for every piece right after it was read, from the thread that read it. Allocates eight bytes
-// for each piece.
+// Hashes all bytes. also(begin, end) is called for every piece right after it was read, on the thread that read it.
+// Allocates eight bytes for each piece.
 template <class Also>
 std::uint64_t hash_bytes(const std::uint8_t* bytes, std::uint64_t length, Memory& memory, JobRunner& jobs,
                          Also&& also) {

@@ -10,23 +10,27 @@
 namespace hf_inner {
 namespace {
 
-// Parts this small are ordered by minimum degree. Half: fill -2 to +1 %, more time. Double: +1 to +3 %, less time.
+// Parts up to this size are ordered by minimum degree. At half the value: fill changes by -2 to +1 %, in more time. At
+// twice the value: by +1 to +3 %, in less time.
 constexpr std::int32_t leaf_size = 180;
-// A leaf with more halo is ordered without it: bounds its bit rows. Half and double: nothing on torus and scan.
+// A halo is the set of neighbours outside a part. A leaf counts at most this many of them, which bounds its bit rows.
+// Halving or doubling it changes nothing on the test meshes torus and scan.
 constexpr std::int32_t halo_limit = 1500;
-// Parts this small are one job to the end: waiting against overhead. No result depends on it.
+// A part up to this size is finished as one job: smaller jobs balance the threads better but cost more. No result
+// depends on it.
 constexpr std::int32_t task_size = 4000;
-// Parts that are cut in waves before each becomes a job. No result depends on it.
+// Parts are cut in waves until there are this many; then each becomes a job. No result depends on it.
 constexpr std::size_t most_parts = 64;
-// A larger share of a part separates nothing: it is ordered whole. Half and double: nothing on torus and scan.
+// A part is not split but ordered whole if its separator would be a larger share of it. Halving or doubling it changes
+// nothing on the test meshes torus and scan.
 constexpr double most_separator = 0.75;
-// Shares of progress: a wave, all waves, and where the leaves begin.
+// Progress of one wave of cuts, of all waves, and at the start of the leaves.
 constexpr float progress_step = 0.05f, progress_cut = 0.4f, progress_leaves = 0.3f;
 
-// A part of the graph with numbers of its own. Its vertices take the places [begin, begin + size) of the order.
+// A part of the graph, with its own vertex numbers. Its vertices take the places [begin, begin + size) of the order.
 struct Part {
   std::int32_t size = 0, begin = 0;
-  Buffer<std::int32_t> storage;  // id, start, neighbour
+  Buffer<std::int32_t> storage;  // id, start and neighbour, one after the other
   Buffer<float> point;
   std::int32_t* id() noexcept { return storage.data(); }
   std::int32_t* start() noexcept { return storage.data() + size; }
@@ -40,7 +44,7 @@ struct Part {
   GraphView view() noexcept { return {size, start(), neighbour(), point.empty() ? nullptr : point.data(), nullptr}; }
 };
 
-// Places of the order that a separator takes.
+// A range of places in the order, which a separator fills.
 struct Range {
   std::int32_t begin, end;
 };
@@ -62,7 +66,7 @@ struct Workspace {
   LeafOrder leaf;
   Vector<std::uint8_t> side;
   Vector<std::int32_t> number, halo;
-  Buffer<std::int32_t> local_of;  // of an unknown inside the present leaf, -1 outside
+  Buffer<std::int32_t> local_of;  // by unknown: its number inside the present leaf, -1 outside
   Vector<std::int32_t> found;
   Vector<Range> separators;
 };
@@ -76,7 +80,7 @@ class Dissection {
   void run(Progress* progress) {
     std::pmr::vector<Part> parts(&memory_);
     parts.push_back(whole());
-    // wave by wave at the top, where there are few parts and each is cut by one thread
+    // Near the top there are few parts, so they are cut in waves; each part is cut by one thread.
     bool cutting = true;
     float done = progress_step;
     while (cutting && parts.size() < most_parts) {
@@ -100,7 +104,7 @@ class Dissection {
         if (part.size > 0) parts.push_back(std::move(part));
       }
     }
-    // the largest first: job order decides nothing but the waiting time
+    // The largest parts come first. The order of the jobs only changes the waiting time.
     std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.size > b.size; });
     report(progress, progress_leaves);
     jobs_.for_each(static_cast<std::uint32_t>(parts.size()), [&](std::uint32_t k) {
@@ -126,13 +130,13 @@ class Dissection {
     return part;
   }
 
-  // Cuts a part in two, or orders it whole when it is small or cannot be cut; the separator takes the last places.
+  // Cuts a part in two. It orders the part whole if it is small or cannot be cut. The separator takes the last places.
   void split(Part part, Workspace& workspace, Part& left, Part& right) {
     if (part.size <= leaf_size) return order_leaf(part, workspace);
     workspace.side.resize(static_cast<std::size_t>(part.size));
     std::uint8_t* side = workspace.side.data();
     const Cut cut = workspace.bisection.run(part.view(), side);
-    // a separator that is most of the part separates nothing useful
+    // A separator that takes most of the part is useless.
     if (!cut.usable() || cut.separator > most_separator * part.size) return order_whole(part);
     std::int32_t size[3] = {0, 0, 0};
     std::size_t edges[3] = {0, 0, 0};
@@ -151,8 +155,8 @@ class Dissection {
     workspace.separators.push_back({part.begin + size[side_left] + size[side_right], part.begin + part.size});
   }
 
-  // Inside a separator any order fills alike; vertices next to the same parts are put side by side, so that the rows a
-  // part touches are runs. The key is the first eliminated neighbour.
+  // Any order inside a separator gives the same fill. Vertices next to the same parts are put side by side, so that the
+  // rows touched by a part are consecutive. The sort key is the first eliminated neighbour.
   void sort_separators() {
     const std::int32_t n = matrix_.size();
     Buffer<std::int32_t> position(memory_, static_cast<std::size_t>(n));
@@ -201,7 +205,7 @@ class Dissection {
     out.start()[size] = k;
   }
 
-  // A part to the end, depth first: the list holds at most one part per level and side.
+  // Orders a part completely, depth first. The list then holds at most one part per level and side.
   void finish(Part first, Workspace& workspace) {
     std::pmr::vector<Part> waiting(&memory_);
     waiting.push_back(std::move(first));

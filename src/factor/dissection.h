@@ -1,12 +1,13 @@
-// Nested dissection (George 1973) with minimum vertex separators found on a multilevel hierarchy (Hendrickson &
-// Rothberg 1998; Ashcraft & Liu 1998) and geometry as the first guess.
+// Orders unknowns by nested dissection (George 1973). Minimum vertex separators come from a multilevel hierarchy
+// (Hendrickson & Rothberg 1998; Ashcraft & Liu 1998), with geometry as the first guess.
 //
-// A part of more than `direct_size` vertices is coarsened by stars (a free vertex with free neighbours takes its ring)
-// down to it and bisected there. The separator is carried back level by level: widened by rings, and replaced by the
-// minimum separator in that band. Parts of at most `leaf_size` are ordered by exact minimum degree with their halo. No
-// recursion: parts wait on a list. A part that cannot be split (cliques, hubs) is ordered by approximate minimum
-// degree. Same order for any number of threads. Cost: O(|A| log n) plus the flows; a few times faster than METIS on
-// surface meshes.
+// A part with more than `direct_size` vertices is coarsened until it is small enough, and bisected there. One vertex of
+// the coarser graph is a star: a vertex together with its neighbours, if none of them belongs to another star. The
+// separator is then carried back level by level. On each level it is widened by rings to a band, and replaced by the
+// minimum separator in that band. Parts with at most `leaf_size` vertices are ordered by exact minimum degree, together
+// with their neighbours outside. There is no recursion: parts wait on a list. A part that cannot be split (cliques,
+// hubs) is ordered by approximate minimum degree. The order is the same for any number of threads. Cost: O(|A| log n)
+// for n unknowns and |A| entries, plus the flows. It is a few times faster than METIS on surface meshes.
 #pragma once
 #include <cstdint>
 

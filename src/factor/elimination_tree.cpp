@@ -5,11 +5,11 @@
 namespace hf_inner {
 namespace {
 
-// Columns asked for ahead of the permuted walk: the time of a cache miss. No result depends on it.
+// Columns by which the permuted walk prefetches: about the time of one cache miss. No result depends on it.
 constexpr std::int32_t columns_ahead = 12;
 
-// Liu's algorithm: parent[j] by walking from every neighbour k < i up to its present root, ancestors path-compressed to
-// i.
+// Computes the elimination tree by Liu's algorithm. For row i it walks from every neighbour k < i up to the present
+// root. The walk compresses the path of ancestors, so that they point to i.
 void link_tree(const SymmetricMatrix& matrix, const std::int32_t* order, const std::int32_t* position, std::int32_t n,
                std::int32_t* parent, std::int32_t* ancestor) {
   const std::int32_t* start = matrix.column_start.data();
@@ -31,7 +31,7 @@ void link_tree(const SymmetricMatrix& matrix, const std::int32_t* order, const s
   }
 }
 
-// Postorder without recursion: post[k] = node visited k-th. Children ascending.
+// Computes a postorder without recursion: post[k] is the node visited k-th. Children are visited in ascending order.
 void make_postorder(const std::int32_t* parent, std::int32_t n, std::int32_t* post, std::int32_t* head,
                     std::int32_t* next) {
   std::fill(head, head + n, -1);
@@ -43,7 +43,7 @@ void make_postorder(const std::int32_t* parent, std::int32_t n, std::int32_t* po
   std::int32_t k = 0;
   for (std::int32_t root = 0; root < n; ++root) {
     if (parent[root] >= 0) continue;
-    // descend to the first leaf, emit, go to the next sibling or up
+    // Goes down to the first leaf, emits it, and continues with the next sibling or the parent.
     std::int32_t j = root;
     for (;;) {
       while (head[j] >= 0) {
@@ -58,7 +58,7 @@ void make_postorder(const std::int32_t* parent, std::int32_t n, std::int32_t* po
   }
 }
 
-// Neighbours of smaller label of every row, in postordered labels.
+// Lists the neighbours with a smaller label for every row, in postordered labels.
 void make_lower(const SymmetricMatrix& matrix, Memory& memory, const std::int32_t* position, EliminationTree& tree) {
   const std::int32_t n = matrix.size();
   const std::int32_t* start = matrix.column_start.data();
@@ -80,9 +80,9 @@ void make_lower(const SymmetricMatrix& matrix, Memory& memory, const std::int32_
   lower_start[n] = k;
 }
 
-// Column counts by row subtrees. j is a leaf of the subtree of row i when no node of the subtree of j is in it yet. The
-// least common ancestor with the previous leaf is subtracted once. Labels are postordered; descendants of j are
-// [first[j], j].
+// Counts the non-zeros of every column from the row subtrees. j is a leaf of the subtree of row i when no descendant of
+// j is in it yet. Then the least common ancestor of j and the previous leaf is subtracted once. Labels are postordered,
+// so the descendants of j are [first[j], j].
 void count_columns(EliminationTree& tree, std::int32_t n, Memory& memory) {
   Buffer<std::int32_t> work(memory, static_cast<std::size_t>(n) * 4 + 4);
   std::int32_t* first = work.data();
@@ -93,7 +93,7 @@ void count_columns(EliminationTree& tree, std::int32_t n, Memory& memory) {
   const std::int32_t* lower_start = tree.lower_start.data();
   const std::int32_t* lower = tree.lower.data();
   std::int32_t* count = tree.count.data();
-  // transpose: for every column the rows below, ascending
+  // The transpose lists, for every column, the rows below in ascending order.
   const std::int32_t total = lower_start[n];
   Buffer<std::int32_t> upper(memory, static_cast<std::size_t>(total) + 1);
   std::fill(upper_start, upper_start + n + 1, 0);
@@ -106,7 +106,7 @@ void count_columns(EliminationTree& tree, std::int32_t n, Memory& memory) {
   for (std::int32_t j = 0; j < n; ++j) first[j] = -1;
   for (std::int32_t j = 0; j < n; ++j) {
     if (first[j] < 0)
-      first[j] = j, count[j] = 1;  // a leaf of the tree
+      first[j] = j, count[j] = 1;  // j is a leaf of the tree
     else
       count[j] = 0;
     if (parent[j] >= 0 && first[parent[j]] < 0) first[parent[j]] = first[j];
@@ -117,7 +117,7 @@ void count_columns(EliminationTree& tree, std::int32_t n, Memory& memory) {
     for (std::int32_t e = upper_start[j]; e < upper_start[j + 1]; ++e) {
       const std::int32_t i = upper[e];
       const std::int32_t leaf = previous_leaf[i];
-      if (leaf >= first[j]) continue;  // not a leaf of row subtree i
+      if (leaf >= first[j]) continue;  // j is no leaf of row subtree i
       ++count[j];
       if (leaf >= 0) {
         std::int32_t root = leaf;

@@ -1,4 +1,5 @@
-// Elimination tree, postorder and column counts of a permuted symmetric pattern; see symbolic.h for the sources.
+// Computes the elimination tree, its postorder, and the column counts of a permuted symmetric pattern. The papers are
+// named in symbolic.h.
 #pragma once
 #include <cstdint>
 
@@ -8,12 +9,12 @@
 
 namespace hf_inner {
 
-// Pattern of P A P' and its elimination tree, all in postordered labels: label[k] = unknown.
+// The pattern of P A P' and its elimination tree, all in postordered labels: label[k] is an unknown.
 struct EliminationTree {
   Buffer<std::int32_t> label;        // label -> unknown
   Buffer<std::int32_t> parent;       // parent label, -1 for a root
   Buffer<std::int32_t> count;        // non-zeros of the column of G, diagonal included
-  Buffer<std::int32_t> lower_start;  // neighbours with a smaller label, by rows: [lower_start[i], lower_start[i + 1])
+  Buffer<std::int32_t> lower_start;  // neighbours with a smaller label, row by row
   Buffer<std::int32_t> lower;
 };
 

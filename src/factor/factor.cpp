@@ -25,7 +25,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// Bounds, order of the rows, a diagonal in every column.
+// Checks the bounds, the order of the rows, and that every column has a diagonal.
 void require_well_formed(const SymmetricMatrix& matrix) {
   if (matrix.row.size() > static_cast<std::size_t>(INT32_MAX) || matrix.row.size() != matrix.value.size()) {
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the matrix has %zu entries; the limit is 2^31 - 1", matrix.row.size());
@@ -50,8 +50,8 @@ void require_well_formed(const SymmetricMatrix& matrix) {
   }
 }
 
-// Every entry of the matrix must have its place in the factor; asked of loaded factors, whose pattern hash may be
-// forged.
+// Checks that every entry of the matrix has its place in the factor. Only loaded factors need it, because their pattern
+// hash may be forged.
 void require_inside(const SymmetricMatrix& matrix, const Symbolic& symbolic, Memory& memory) {
   Buffer<std::int32_t> owner(memory, static_cast<std::size_t>(symbolic.size));
   std::fill(owner.begin(), owner.end(), -1);
@@ -70,14 +70,17 @@ void require_inside(const SymmetricMatrix& matrix, const Symbolic& symbolic, Mem
   }
 }
 
-// Fill beyond this many n log n is compared with minimum degree. A torus reaches 0.63 of it, creature 0.47, scan 0.34.
+// A factor with more entries than this many n log n is compared with minimum degree. The test meshes torus, creature
+// and scan reach 0.63, 0.47 and 0.34 times n log n.
 constexpr double suspicious_fill = 1.2;
-// Compares two orderings: 50 flops take the time of three sweeps over an entry (304K torus, 27 GF/s, 9 ms a sweep).
+// Flops that cost as much as one entry of the factor, to compare two orderings. 50 flops take the time of three sweeps
+// over an entry (torus with 304,000 vertices: 27 GF/s, 9 ms per sweep).
 constexpr double flops_per_entry = 50;
-// Shares of progress: ordering takes about half of a first factorisation, the analysis a tenth.
+// Progress after the ordering and after the analysis. The ordering takes about half of a first factorisation, the
+// analysis a tenth.
 constexpr float progress_ordered = 0.45f, progress_analysed = 0.55f;
 
-// More fill than log2(n) times the entries, up to a constant.
+// Tells whether the factor has more than log2(n) times the matrix's entries, up to a constant.
 bool suspicious(const SymmetricMatrix& matrix, const Symbolic& symbolic) {
   const double lower = 0.5 * (static_cast<double>(matrix.row.size()) + matrix.size());
   return symbolic.entries > suspicious_fill * lower * std::log2(2.0 + matrix.size());
@@ -108,7 +111,7 @@ SupernodalFactor::SupernodalFactor(std::shared_ptr<const Analysis> analysis, Mem
   measure_paths();
 }
 
-// Every path is that of the parent and the supernode's own columns.
+// Measures the elimination paths. Each path is the parent's path plus the supernode's own columns.
 void SupernodalFactor::measure_paths() {
   const Symbolic& pattern = symbolic();
   struct Path {
@@ -153,7 +156,7 @@ std::shared_ptr<const Factor> Factor::make(const SymmetricMatrix& matrix, Coordi
   std::shared_ptr<Analysis> analysis = make_shared_in<Analysis>(memory);
   analyse(matrix, Span<const std::int32_t>(order.data(), order.size()), memory, analysis->symbolic);
   if (options.ordering == Ordering::nested_dissection && suspicious(matrix, analysis->symbolic)) {
-    // a graph that separates badly: the better of the two orderings
+    // This graph separates badly, so the better of two orderings is taken.
     order_by_minimum_degree(matrix, memory, order);
     const FillEstimate other = estimate_fill(matrix, Span<const std::int32_t>(order.data(), order.size()), memory);
     if (other.entries + other.flops / flops_per_entry <

@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::uint64_t magic = 0x524F544341464648ull;  // "HFFACTOR"
 constexpr std::uint32_t version = 2;
-// Bytes that one job copies: balance against overhead. No result depends on it.
+// One job copies this many bytes: smaller jobs balance the threads better but cost more. No result depends on it.
 constexpr std::uint64_t copy_step = std::uint64_t{1} << 22;
 // Refuses damaged counts before a sum of sizes can overflow.
 constexpr std::uint64_t most_count = std::uint64_t{1} << 48;
 // Refuses damaged counts of entries and flops.
 constexpr double most_work = 1e300;
-// Supernodes that one job checks. No result depends on it.
+// One job checks this many supernodes. No result depends on it.
 constexpr std::int32_t list_step = 2048;
 constexpr std::uint32_t byte_order = 0x01020304u;
 
@@ -39,7 +39,7 @@ struct Header {
   std::uint64_t matrix_hash;
   double entries, flops;
   std::uint64_t length;
-  std::uint64_t checksum;  // of all that follows the header
+  std::uint64_t checksum;  // of all bytes after the header
   std::uint64_t unused[3];
   std::uint64_t header_check;  // hash of the fields above
 };
@@ -51,7 +51,7 @@ std::uint64_t check_of(const Header& header) noexcept {
 
 constexpr std::uint64_t padded(std::uint64_t bytes) noexcept { return (bytes + 63) & ~std::uint64_t{63}; }
 
-// Where each section begins; no sum overflows for counts below 2^48.
+// The places where the sections begin. No sum overflows for counts below 2^48.
 struct Layout {
   Layout(std::uint64_t unknowns, std::uint64_t supernodes, std::uint64_t row_count, std::uint64_t value_count) {
     order = sizeof(Header);
@@ -98,8 +98,8 @@ Header read_header(Span<const std::uint8_t> bytes) {
   return header;
 }
 
-// Whether none of the numbers is NaN or infinite, from bytes of any alignment: an exponent of all ones, plus one,
-// reaches the sign.
+// Tells whether no number is NaN or infinite. The bytes may have any alignment. NaN and infinity have an exponent of
+// all ones; adding one to it reaches the sign bit.
 bool finite_numbers(const std::uint8_t* bytes, std::uint64_t count) noexcept {
   constexpr std::uint64_t exponent = 0x7FF0000000000000ull, one = 0x0010000000000000ull;
   std::uint64_t bad[8] = {};
@@ -154,7 +154,7 @@ void check_columns(Symbolic& out) {
   }
 }
 
-// work(s) for every supernode, in pieces.
+// Calls work(s) for every supernode s, in jobs of list_step supernodes.
 template <class Work>
 void for_supernodes(const Symbolic& symbolic, JobRunner& jobs, Work&& work) {
   jobs.for_each(static_cast<std::uint32_t>((symbolic.supernodes + list_step - 1) / list_step),
@@ -164,7 +164,8 @@ void for_supernodes(const Symbolic& symbolic, JobRunner& jobs, Work&& work) {
                 });
 }
 
-// Row lists ascend, lie below their columns, and go on in the parent: its columns or its list.
+// Checks that row lists ascend, lie below their columns, and continue in the parent: each row is a column of the parent
+// or in the parent's list.
 void check_rows(Symbolic& out, JobRunner& jobs) {
   for_supernodes(out, jobs, [&](std::int32_t s) {
     const std::int32_t* rows = out.row_list(s);
@@ -186,7 +187,7 @@ void check_rows(Symbolic& out, JobRunner& jobs) {
       if (up == up_end || *up != *rows) refuse("a row list does not go on in its parent");
     }
   });
-  // postorder: the subtree of s is the run of supernodes that ends in s
+  // In a postorder, the subtree of s is the range of supernodes that ends with s.
   Buffer<std::int32_t>& first = out.subtree;
   for (std::int32_t s = 0; s < out.supernodes; ++s) first[s] = s;
   for (std::int32_t s = 0; s < out.supernodes; ++s) {
@@ -217,7 +218,7 @@ void place_values(Symbolic& out, std::uint64_t value_count) {
   if (next != static_cast<std::int64_t>(value_count)) refuse("its numbers do not fit its supernodes");
 }
 
-// The diagonals are stored inverted: each must be positive.
+// The diagonals are stored inverted; each must be positive.
 void check_diagonals(const Symbolic& symbolic, const double* values, JobRunner& jobs) {
   for_supernodes(symbolic, jobs, [&](std::int32_t s) {
     const double* triangle = values + symbolic.value_start[s];
@@ -323,7 +324,8 @@ std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, const 
   Buffer<double> values;
   if (!options.borrow) values.allocate(memory, static_cast<std::size_t>(header.value_count) + value_slack);
 
-  // one pass: check, look for NaN, copy. First touch of fresh memory costs more than the copy: all threads touch theirs
+  // One pass verifies the checksum, looks for NaN, and copies. The first touch of fresh memory costs more than the
+  // copy, so all threads touch their pieces.
   const std::uint64_t checksum = hash_bytes(
       given + sizeof header, layout.length - sizeof header, memory, jobs, [&](std::uint64_t from, std::uint64_t to) {
         const std::uint64_t begin = std::max(layout.values, from + sizeof header);

@@ -1,82 +1,87 @@
-// Dense kernels of the factorisation, compiled once for every instruction set (kernels_plain.cpp, kernels_avx2.cpp,
-// kernels_avx512.cpp) and chosen at run time. Each element of a result is one chain of fused multiply-adds in a fixed
-// order, so AVX2 and AVX-512 give the same bits. The plain build rounds every product and differs in the last digits.
+// Dense kernels of the factorisation. They are compiled once for every instruction set (kernels_plain.cpp,
+// kernels_avx2.cpp, kernels_avx512.cpp), and one set is chosen at run time. Each element of a result is one chain of
+// fused multiply-adds in a fixed order, so AVX2 and AVX-512 give the same bits. The plain build rounds every product
+// and differs in the last digits.
 //
-// Front of a supernode with nc columns and m rows below: rows in tiles of 8, the nc triangle rows padded to a multiple
-// of 8, then the m rows padded likewise. Panel: [tile][column][8]. Update matrix: lower triangle by column tiles of 8
-// columns, tile t column-major with all rows from 8 t on, so its columns are 8 (T - t) numbers apart for T tiles.
+// A front is the dense matrix of one supernode with nc columns and m rows below its triangle. Its rows lie in tiles of
+// 8: the nc triangle rows padded to a multiple of 8, then the m rows padded likewise. The panel holds its columns as
+// [tile][column][8]. The update matrix is a lower triangle in column tiles of 8 columns. Tile t is column-major and has
+// all rows from 8 t on, so its columns are 8 (T - t) numbers apart for T tiles.
 #pragma once
 #include <cstddef>
 #include <cstdint>
 
 namespace hf_inner {
 
-// Where column tile t of an update matrix of `tiles` tiles begins.
+// Returns where column tile t of an update matrix with `tiles` tiles begins.
 constexpr std::int64_t update_tile_start(std::int64_t tiles, std::int64_t t) noexcept {
   return 64 * (t * tiles - t * (t - 1) / 2);
 }
 
-// One front in work.
+// The front that a kernel works on.
 struct FrontView {
   double* panel;
   double* update;
-  std::int32_t columns;         // nc
-  std::int32_t below;           // m
+  std::int32_t columns;         // nc of the comment above
+  std::int32_t below;           // m of the comment above
   std::int32_t triangle_tiles;  // ceil(nc / 8)
   std::int32_t below_tiles;     // ceil(m / 8)
 };
 
-// A child's update matrix on its way into the parent's front. Its rows fall into runs that are consecutive in the front
+// A child's update matrix that is added to the parent's front. Its rows form runs that are consecutive in the front
 // too.
 struct ChildView {
   const double* update;
   std::int32_t tiles;
   std::int32_t size;          // rows of the child below its triangle
-  std::int32_t into_panel;    // its first columns, those that fall into the parent's triangle
+  std::int32_t into_panel;    // the leading columns that belong to the parent's triangle
   const std::int32_t* place;  // padded row of the parent's front, ascending
   const std::int32_t* run;    // first rows of the runs, ending with `size`
 };
 
-// Supernodes of at most this many columns are stored solved: X = L^-1 and B X in place of L and B (kernels_narrow.inl).
+// Supernodes with at most this many columns are stored inverted: X = L^-1 and B X replace the triangle L and the rows B
+// (kernels_narrow.inl).
 constexpr std::int32_t narrow_columns = 16;
 
 struct Kernels {
   const char* name;
 
-  // Factors columns [begin, end) of the panel on the triangle tiles that hold them; begin is a multiple of 8, columns
-  // before begin are done. The diagonal is stored inverted. A pivot must exceed `floor` of its column. Returns the
-  // column whose pivot failed, or -1.
+  // Factors columns [begin, end) of the panel on the triangle tiles that hold them. begin is a multiple of 8, and the
+  // columns before it are finished. The diagonal is stored inverted. The pivot of column j must exceed floor[j].
+  // Returns the column whose pivot failed, or -1.
   std::int32_t (*factor_triangle)(const FrontView& front, std::int32_t begin, std::int32_t end, const double* floor);
-  // Columns [begin, end) on tiles [tile_begin, tile_end), all below the triangle tiles of those columns.
+  // Solves columns [begin, end) on the tiles [tile_begin, tile_end), which lie below the triangle tiles of these
+  // columns.
   void (*solve_tiles)(const FrontView& front, std::int32_t begin, std::int32_t end, std::int32_t tile_begin,
                       std::int32_t tile_end);
-  // Column tiles [tile_begin, tile_end) of the update matrix = -B B'.
+  // Computes column tiles [tile_begin, tile_end) of the update matrix -B B'.
   void (*form_update)(const FrontView& front, std::int32_t tile_begin, std::int32_t tile_end);
-  // Adds columns [begin, end) of the child's update matrix to panel and update matrix.
+  // Adds columns [begin, end) of the child's update matrix to the front's panel and update matrix.
   void (*extend_add)(const FrontView& front, const ChildView& child, std::int32_t begin, std::int32_t end);
-  // A narrow front, after its update matrix: X in place of L, then W = B X on tiles [tile_begin, tile_end) below.
+  // For a narrow front after its update matrix. The first replaces the triangle L by X = L^-1. The second replaces the
+  // rows B by W = B X on tiles [tile_begin, tile_end).
   void (*invert_triangle)(const FrontView& front);
   void (*multiply_inverse)(const FrontView& front, std::int32_t tile_begin, std::int32_t tile_end);
-  // Writes tiles [tile_begin, tile_end) row by row: packed triangle, then the rows below.
+  // Writes tiles [tile_begin, tile_end) row by row: the packed triangle, then the rows below.
   void (*store_tiles)(const FrontView& front, double* values, std::int32_t tile_begin, std::int32_t tile_end);
 
-  // Backward sweep of one supernode on z[row * channels + channel]:
-  // z[first + j] -= sum over the rows below of B[row][j] z[row], for columns j in [begin, end).
+  // Backward sweep of one supernode over z[row * channels + channel], for its columns j in [begin, end): z[first + j]
+  // -= sum over the rows below of B[row][j] z[row].
   void (*backward_rows)(const double* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
                         std::int32_t begin, std::int32_t end, double* z, std::int32_t first, std::int32_t channels);
-  // z <- L^-T z on the packed triangle.
+  // Computes z <- L^-T z on the packed triangle.
   void (*backward_triangle)(const double* triangle, std::int32_t columns, double* z, std::int32_t channels);
-  // Both of a narrow supernode.
+  // Does both steps of the backward sweep for a narrow supernode.
   void (*backward_narrow)(const double* triangle, const std::int32_t* rows, std::int32_t row_count,
                           std::int32_t columns, double* z, std::int32_t first, std::int32_t channels);
   void (*backward_narrow_f32)(const float* triangle, const std::int32_t* rows, std::int32_t row_count,
                               std::int32_t columns, float* z, std::int32_t first, std::int32_t channels);
-  // The same two on the single-precision copy.
+  // The next two do the same as backward_rows and backward_triangle on the single-precision copy of the factor.
   void (*backward_rows_f32)(const float* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
                             std::int32_t begin, std::int32_t end, float* z, std::int32_t first, std::int32_t channels);
   void (*backward_triangle_f32)(const float* triangle, std::int32_t columns, float* z, std::int32_t channels);
-  // Forward: z <- L^-1 z on the triangle, then out[k * channels] = B[k] z for every row k below (not subtracted); for a
-  // narrow supernode the rows come before the triangle.
+  // Forward sweep. The first computes z <- L^-1 z on the triangle, the second out[k * channels] = B[k] z for every row
+  // k below, without subtracting it. For a narrow supernode the rows come before the triangle.
   void (*forward_triangle)(const double* triangle, std::int32_t columns, double* z, std::int32_t channels);
   void (*forward_rows)(const double* below, std::int32_t row_count, std::int32_t columns, const double* z, double* out,
                        std::int32_t channels);
@@ -84,21 +89,21 @@ struct Kernels {
   void (*forward_rows_f32)(const float* below, std::int32_t row_count, std::int32_t columns, const float* z, float* out,
                            std::int32_t channels);
 
-  // Path blocks x[nc][lanes], lanes a multiple of 8: x <- L^-1 x, then x[target[k]] -= B[k] x for every row below;
-  // narrow ones the other way round.
+  // Work on path blocks x[nc][lanes], where lanes is a multiple of 8. The first computes x <- L^-1 x. The second
+  // subtracts x[target[k]] -= B[k] x for every row k below. For a narrow supernode the rows come first.
   void (*path_triangle)(const double* triangle, std::int32_t columns, double* x, std::int32_t lanes);
   void (*path_rows)(const double* below, std::int32_t row_count, std::int32_t columns, const double* x,
                     std::int32_t lanes, double* base, const std::int64_t* target);
-  // gram[i * stride + j] += sum over rows of a[row * a_lanes + i] b[row * b_lanes + j]; i < a_count, j < b_count
-  // rounded up to 8.
+  // Adds gram[i * stride + j] += sum over rows of a[row * a_lanes + i] b[row * b_lanes + j], for i < a_count and j <
+  // b_count rounded up to 8.
   void (*gram)(const double* a, std::int32_t a_lanes, std::int32_t a_count, const double* b, std::int32_t b_lanes,
                std::int32_t b_count, std::int32_t rows, double* gram, std::int32_t stride);
 };
 
-// The best set this processor runs.
+// Returns the best set that this processor can run.
 const Kernels& choose_kernels() noexcept;
 
-// The sets by themselves, for tests that compare them; null when this build or processor has no such set.
+// The sets by themselves, for tests that compare them. Null when this build or processor has no such set.
 const Kernels* plain_kernels() noexcept;
 const Kernels* avx2_kernels() noexcept;
 const Kernels* avx512_kernels() noexcept;

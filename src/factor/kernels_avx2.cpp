@@ -1,4 +1,4 @@
-// Kernels for one instruction set; see kernels.h. The vector types come before the kernels written on them.
+// Kernels for one instruction set; see kernels.h. The vector types are included before the kernels that use them.
 // clang-format off
 #include "factor/simd_avx2.h"
 #define HF_KERNEL_SET kernels_avx2_set

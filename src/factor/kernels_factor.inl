@@ -1,6 +1,6 @@
-// Front kernels: triangle, tiles, update matrix, extend-add, write-out. Included by the kernels_*.cpp files after a
-// simd_*.h. Everything is in an unnamed namespace and uses no inline code of the standard library: no function compiled
-// for one instruction set is ever linked into another.
+// Kernels for fronts: triangle, tiles, update matrix, extend-add, write-out. The kernels_*.cpp files include this file
+// after a simd_*.h. All functions are in an unnamed namespace and use no inline code of the standard library. So no
+// function compiled for one instruction set is ever linked into another.
 #include <cstddef>
 #include <cstdint>
 
@@ -11,18 +11,19 @@ namespace {
 using hf_inner::ChildView;
 using hf_inner::FrontView;
 using D = Simd<double>;
-// Tiles solved at a time, so that their rows stay in the cache while all column blocks pass over them.
+// This many tiles are solved together, so that their rows stay in the cache while all column blocks pass over them.
 constexpr std::int32_t solved_tiles = 6;
-// Columns of one pass: a column tile of them fills a quarter of a 48 KB cache.
+// Columns that one pass multiplies: a tile with this many columns fills a quarter of a 48 KB cache.
 constexpr std::int32_t update_depth = 192;
 constexpr std::int32_t tile_vectors = 8 / D::width;  // vectors per 8-row tile
 
-// Vector-row v of a tiled array: v counts groups of D::width rows.
+// Returns vector-row v of a tiled array. A vector-row is a group of D::width rows, one vector.
 inline double* vector_row(double* tiles, std::int32_t v, std::int64_t tile_stride) noexcept {
   return tiles + (v / tile_vectors) * tile_stride + (v % tile_vectors) * D::width;
 }
 
-// c[r][j] = (fresh ? 0 : c[r][j]) - sum over k of a[r][k] b[j][k]: a, b step 8 doubles per k, c steps c_step per j.
+// Multiplies two blocks: c[r][j] = (Fresh ? 0 : c[r][j]) - sum over k of a[r][k] b[j][k]. Per k, a and b advance by 8
+// doubles; per j, c advances by c_step.
 template <int R, int N, bool Fresh>
 inline void multiply_block(const double* const* a, const double* b, std::int32_t k_count, double* const* c,
                            std::int64_t c_step) noexcept {
@@ -44,7 +45,7 @@ inline void multiply_block(const double* const* a, const double* b, std::int32_t
   }
 }
 
-// All 8 columns of one column tile for R vector-rows.
+// Computes all 8 columns of one column tile for R vector-rows.
 template <int R, bool Fresh>
 inline void multiply_tile(const double* const* a, const double* b, std::int32_t k_count, double* const* c,
                           std::int64_t c_step) noexcept {
@@ -55,7 +56,7 @@ inline void multiply_tile(const double* const* a, const double* b, std::int32_t 
   }
 }
 
-// The last columns of a panel when nc is no multiple of 8: `width` columns, one vector-row.
+// Computes the last `width` columns of a panel for one vector-row, when the number of columns is no multiple of 8.
 inline void multiply_narrow(const double* a, const double* b, std::int32_t k_count, double* c,
                             std::int32_t width) noexcept {
   double* row[1] = {c};
@@ -71,8 +72,8 @@ inline void multiply_narrow(const double* a, const double* b, std::int32_t k_cou
   }
 }
 
-// Vector-rows [v, v_end) of panel columns [8 block, 8 block + width) -= those of the columns before, from column
-// k_begin on.
+// Updates columns [8 block, 8 block + width) of the panel on vector-rows [v, v_end): it subtracts the products with all
+// columns before them.
 inline void panel_multiply(double* panel, std::int64_t tile_stride, std::int32_t v, std::int32_t v_end,
                            std::int32_t block, std::int32_t width) noexcept {
   const double* b = panel + block * tile_stride;
@@ -103,8 +104,8 @@ inline void panel_multiply(double* panel, std::int64_t tile_stride, std::int32_t
   }
 }
 
-// One vector-row of `Width` columns times the inverse transpose of the 8 x 8 triangle at `diagonal` ([column][8],
-// diagonal inverted).
+// Multiplies one vector-row of `Width` columns by the inverse transpose of the 8 x 8 triangle at `diagonal`
+// ([column][8], diagonal inverted).
 template <int Width>
 inline void solve_vector_row(double* c, const double* diagonal) noexcept {
   D::Type x[Width];
@@ -146,7 +147,8 @@ void solve_rows(double* panel, std::int64_t tile_stride, std::int32_t v, std::in
   }
 }
 
-// Cholesky of the 8 x 8 tile, right-looking; entries above the diagonal hold junk that is never read.
+// Computes the Cholesky factor of an 8 x 8 tile, right-looking. Entries above the diagonal hold values that are never
+// read.
 std::int32_t factor_tile(double* tile, std::int32_t width, const double* floor) noexcept {
   for (std::int32_t j = 0; j < width; ++j) {
     const double pivot = tile[9 * j];
@@ -237,7 +239,7 @@ void form_update(const FrontView& front, std::int32_t tile_begin, std::int32_t t
   }
 }
 
-// target[k] += source[k].
+// Adds target[k] += source[k] for k < count.
 inline void add_run(double* target, const double* source, std::int32_t count) noexcept {
   std::int32_t k = 0;
   for (; k + D::width <= count; k += D::width) D::store(target + k, D::add(D::load(target + k), D::load(source + k)));
@@ -249,7 +251,7 @@ inline void add_run(double* target, const double* source, std::int32_t count) no
   for (; k < count; ++k) target[k] += source[k];
 }
 
-// Numbers of column j of a child, indexed by its rows.
+// Returns the numbers of column j of a child's update matrix, indexed by its rows.
 inline const double* child_column(const ChildView& child, std::int32_t j) noexcept {
   const std::int64_t tile = j >> 3;
   return child.update + hf_inner::update_tile_start(child.tiles, tile) + (j & 7) * 8 * (child.tiles - tile) - 8 * tile;
@@ -264,7 +266,7 @@ void extend_add(const FrontView& front, const ChildView& child, std::int32_t beg
     const double* source = child_column(child, j);
     std::int32_t i = j;
     if (j < child.into_panel) {
-      // tile layout: runs are cut at tile boundaries
+      // In the tile layout of the panel, runs are split at tile boundaries.
       double* target = front.panel + 8 * static_cast<std::int64_t>(child.place[j]);
       for (const std::int32_t* r = run; i < child.size; ++r) {
         for (const std::int32_t last = r[1]; i < last;) {
@@ -286,7 +288,7 @@ void extend_add(const FrontView& front, const ChildView& child, std::int32_t beg
   }
 }
 
-// Row r of a tile, columns [0, count), to consecutive numbers.
+// Copies row r of a tile, columns [0, count), to consecutive numbers.
 inline void store_row(const double* tile, std::int32_t r, std::int32_t count, double* out) noexcept {
   for (std::int32_t k = 0; k < count; ++k) out[k] = tile[8 * k + r];
 }
@@ -298,7 +300,7 @@ void store_tiles(const FrontView& front, double* values, std::int32_t tile_begin
     const double* source = front.panel + tile * stride;
     double* row[8];
     std::int32_t count = 8;
-    std::int64_t whole = columns;  // columns all rows of the tile have
+    std::int64_t whole = columns;  // columns that all rows of the tile have
     if (tile < front.triangle_tiles) {
       const std::int64_t first = 8 * static_cast<std::int64_t>(tile);
       count = smaller(8, static_cast<std::int32_t>(columns - first));

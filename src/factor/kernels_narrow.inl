@@ -1,13 +1,15 @@
-// Narrow supernodes, at most 16 columns: most of a factor's supernodes, in which a sweep's time is latency, not memory.
-// They are stored solved. For columns (L; B) of the factor, the packed triangle holds X = L^-1 and the rows below hold
-// W = B L^-1. Both sweeps are then products, without a chain from column to column:
-//   backward  z <- X' z - W' y     (y: the rows below)
-//   forward   y <- y - W z, then z <- X z
-// An inverse of at most 16 columns of a Cholesky factor is as accurate as the substitution it stands for (Higham 2002,
-// chapter 8). Making it costs nc (nc + 1) / 2 products a row, a few percent of the factorisation's.
+// Kernels for narrow supernodes, which have at most 16 columns. Most supernodes of a factor are narrow, and a sweep
+// over them waits for latency, not for memory.
 //
-// Sums: with one right-hand side the own rows and then the rows below go round four chains (two above 8 columns), else
-// they form one chain.
+// They are stored inverted. A supernode's columns consist of a triangle L and the rows B below. Instead of them, the
+// factor stores X = L^-1 and W = B L^-1. Both sweeps are then products, without a chain from column to column:
+//     backward  z <- X' z - W' y     (y: the rows below)
+//     forward   y <- y - W z, then z <- X z
+// The inverse of at most 16 columns of a Cholesky factor is as accurate as the substitution it replaces (Higham 2002,
+// chapter 8). Computing it costs nc (nc + 1) / 2 products per row for nc columns, a few percent of the factorisation.
+//
+// Order of sums: with one right-hand side, the own rows and then the rows below go to four chains in turn (two chains
+// above 8 columns). With several right-hand sides they form one chain.
 #include <cstddef>
 #include <cstdint>
 
@@ -15,12 +17,12 @@ namespace {
 
 constexpr int most_narrow = hf_inner::narrow_columns;
 
-// Entry (i, j) of the triangle tiles of a front.
+// Returns entry (i, j) of the triangle tiles of a front.
 inline double& triangle_entry(double* panel, std::int64_t stride, std::int32_t i, std::int32_t j) noexcept {
   return panel[(i >> 3) * stride + 8 * j + (i & 7)];
 }
 
-// X in place of L (whose diagonal is inverted already) in the triangle tiles.
+// Replaces L, whose diagonal is already inverted, by X = L^-1 in the triangle tiles.
 void invert_triangle(const FrontView& front) {
   const std::int64_t stride = 8 * static_cast<std::int64_t>(front.columns);
   const auto at = [&](std::int32_t i, std::int32_t j) -> double& { return triangle_entry(front.panel, stride, i, j); };
@@ -33,7 +35,7 @@ void invert_triangle(const FrontView& front) {
   }
 }
 
-// Vector-rows of `Width` columns times the triangle X: w_j = sum over i >= j of b_i X_ij.
+// Multiplies vector-rows of `Width` columns by the triangle X: w_j = sum over i >= j of b_i X_ij.
 template <int Width>
 void multiply_rows_fixed(double* panel, std::int64_t stride, std::int32_t v, std::int32_t v_end) noexcept {
   for (; v < v_end; ++v) {
@@ -59,7 +61,7 @@ void multiply_inverse(const FrontView& front, std::int32_t tile_begin, std::int3
   });
 }
 
-// Backward, up to 4 right-hand sides: the columns lie along the lanes.
+// Backward sweep for up to 4 right-hand sides; the columns lie along the vector lanes.
 template <class T, int N, int C>
 inline void backward_narrow_columns(const T* triangle, const std::int32_t* rows, std::int32_t row_count, T* z,
                                     std::int32_t first) noexcept {
@@ -127,8 +129,8 @@ inline void backward_narrow_columns(const T* triangle, const std::int32_t* rows,
   }
 }
 
-// Backward, one vector of right-hand sides along the lanes, columns [begin, begin + N) in registers; the columns before
-// are done already, those behind are not.
+// Backward sweep for one vector of right-hand sides along the lanes, with columns [begin, begin + N) in registers.
+// Earlier columns are already finished, later ones are not.
 template <class T, int N>
 inline void backward_narrow_lanes(const T* triangle, std::int32_t columns, std::int32_t begin, const std::int32_t* rows,
                                   std::int32_t row_count, T* z, std::int32_t first, std::int32_t channels,
@@ -211,7 +213,7 @@ void backward_narrow_f32(const float* triangle, const std::int32_t* rows, std::i
   backward_narrow_any<float>(triangle, rows, row_count, columns, z, first, channels);
 }
 
-// z <- X z, last row first.
+// Computes z <- X z, from the last row to the first.
 template <class T>
 inline void forward_narrow(const T* triangle, std::int32_t columns, T* z, std::int32_t channels) noexcept {
   using S = Simd<T>;
@@ -234,7 +236,7 @@ inline void forward_narrow(const T* triangle, std::int32_t columns, T* z, std::i
   }
 }
 
-// The same on a path block, lanes 1 or a multiple of 8.
+// Does the same as forward_narrow on a path block. lanes: 1 or a multiple of 8.
 inline void path_narrow(const double* triangle, std::int32_t columns, double* x, std::int32_t lanes) noexcept {
   forward_narrow<double>(triangle, columns, x, lanes);
 }

@@ -1,11 +1,12 @@
-// Path kernels: blocks of up to 32 sites, the sites along the vector lanes. Included after a simd_*.h, see
+// Kernels for paths: blocks of up to 32 sites, with the sites along the vector lanes. Included after a simd_*.h; see
 // kernels_factor.inl.
 #include <cstddef>
 #include <cstdint>
 
 namespace {
 
-// target[r][lane] (+ or -)= sum over k of a[r][k * a_step] * x[k * lanes + lane], for R rows and L vectors of lanes.
+// Computes target[r][lane] += (or -=) sum over k of a[r][k * a_step] * x[k * lanes + lane], for R rows and L vectors of
+// lanes.
 template <int R, int L, bool Add>
 inline void lane_block(const double* const* a, std::int64_t a_step, const double* x, std::int64_t lanes,
                        std::int32_t k_count, double* const* target) noexcept {
@@ -51,7 +52,7 @@ inline void lane_rows_block(const double* const* a, std::int64_t a_step, const d
   }
 }
 
-// x -= row-block times x for any number of rows.
+// Runs lane_rows_block for any number of rows.
 template <bool Add>
 inline void lane_rows_any(const double* const* a, std::int64_t a_step, const double* x, std::int64_t lanes,
                           std::int32_t used, std::int32_t k_count, double* const* target, std::int32_t count) noexcept {

@@ -1,5 +1,5 @@
-// The kernels of one instruction set, gathered; see kernels.h. The file that includes this has included its vector
-// types and says by HF_KERNEL_SET and HF_KERNEL_NAME what the set is called.
+// Collects the kernels of one instruction set; see kernels.h. The including file has already included its vector types.
+// It names the set by HF_KERNEL_SET and HF_KERNEL_NAME.
 // clang-format off
 #include "factor/kernels_factor.inl"
 #include "factor/kernels_sweep.inl"

@@ -1,14 +1,15 @@
-// Sweep kernels: one supernode on m interleaved right-hand sides. Included after a simd_*.h, see kernels_factor.inl.
+// Kernels for backward sweeps: one supernode with m interleaved right-hand sides. Included after a simd_*.h; see
+// kernels_factor.inl.
 //
-// A column's sum over the rows below is one chain in row order. With one right-hand side on at most 16 columns, two
-// chains hide the latency. The rule counts columns of the supernode, not vector lengths or pieces, so all sets and all
-// numbers of threads give the same bits. Supernodes of at most 8 columns: kernels_narrow.inl.
+// A column's sum over the rows below is one chain in row order. With one right-hand side and at most 16 columns, two
+// chains hide the latency. This rule counts columns of the supernode, not vector lengths or jobs. So all instruction
+// sets and all numbers of threads give the same bits. Narrow supernodes are in kernels_narrow.inl.
 #include <cstddef>
 #include <cstdint>
 
 namespace {
 
-// Sums in registers stay there only if every loop over them is unrolled.
+// The sums stay in registers only if every loop over them is unrolled.
 #if defined(__clang__)
 #define HF_UNROLL _Pragma("unroll")
 #elif defined(__GNUC__)
@@ -17,21 +18,22 @@ namespace {
 #define HF_UNROLL
 #endif
 
-// Columns summed at a time on the stack, several right-hand sides.
+// Columns that are summed together on the stack, for several right-hand sides.
 constexpr std::int32_t chunk_columns = 256;
-// The same of one right-hand side: as many as rows have, so that a block is read as one stream.
+// Columns that are summed together on the stack, for one right-hand side. More columns than most rows have, so that a
+// block is read as one stream.
 constexpr std::int32_t single_columns = 1024;
-// Numbers that stay in the second-level cache while strips of columns go over them: 64 KB of doubles.
+// Numbers that stay in the second-level cache while strips of columns pass over them: 64 KB of doubles.
 constexpr std::int64_t pass_numbers = 8192;
-// Rows of a pass at least, whatever their length.
+// Fewest rows of a pass, whatever their length.
 constexpr std::int64_t least_rows = 16;
-// Columns of a triangle copied at a time: 16 KB with eight lanes, inside the first-level cache.
+// Columns of a triangle that are copied together: 16 KB with eight lanes, inside the first-level cache.
 constexpr std::int32_t segment = 256;
 
 template <class T>
 constexpr int line = 64 / sizeof(T);  // numbers of a cache line
 
-// Rows that stay in the second-level cache while strips of columns go over them.
+// Returns how many rows stay in the second-level cache while strips of columns pass over them.
 inline std::int32_t rows_of_pass(std::int64_t columns) noexcept {
   return static_cast<std::int32_t>(columns * least_rows > pass_numbers ? least_rows : pass_numbers / columns);
 }
@@ -41,16 +43,16 @@ struct Constant {
   static constexpr int value = N;
 };
 
-// Calls body with Constant<columns>; 1 <= columns <= Most.
+// Calls body with Constant<columns>. columns: from 1 to Most.
 template <int Most, class Body>
 inline void with_columns(std::int32_t columns, Body&& body) noexcept {
   if (columns == Most) return body(Constant<Most>{});
   if constexpr (Most > 1) with_columns<Most - 1>(columns, body);
 }
 
-// Sums of up to NV vectors of columns over all rows, C right-hand sides, `Chains` rows in flight: sum[c * chunk +
-// column].
-// Strips of a wide block read it out of order: each row asks for as many numbers `ahead` in order.
+// Sums up to NV vectors of columns over all rows, for C right-hand sides: sum[c * chunk_columns + column]. `Chains`
+// rows are summed at once. A wide block is read strip by strip, which is not its order in memory. So each row
+// prefetches as many numbers as it reads from `ahead`, in order.
 template <class T, int C, int NV, int Chains, bool Ahead = false>
 inline void sum_in_registers(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                              const T* z, std::int32_t channels, T* sum, const T* ahead = nullptr) noexcept {
@@ -97,7 +99,7 @@ inline void sum_in_registers(const T* block, std::int64_t stride, const std::int
   }
 }
 
-// One right-hand side, up to `register_vectors` vectors of columns: the sums stay in registers. The block is read as
+// For one right-hand side, the sums of up to this many vectors of columns stay in registers. The block is then read as
 // one stream, row after row, which the processor's own prefetch follows best.
 constexpr int register_vectors = gemm_columns == 8 ? 16 : 12;
 
@@ -108,8 +110,8 @@ inline void sum_row_by_row(const T* block, std::int64_t stride, const std::int32
   if constexpr (NV > 1) sum_row_by_row<T, NV - 1>(block, stride, rows, row_count, vectors, z, sum);
 }
 
-// The same on more columns: sums in the first-level cache. Two or more rows at a time would need fewer loads and stores
-// of sums, but several streams: 16 instead of 30 GB/s where it was measured.
+// Sums more columns than fit in registers; the sums stay in the first-level cache. Two or more rows at a time would
+// load and store the sums less often. But they read several streams, with 16 instead of 30 GB/s where it was measured.
 template <class T>
 inline void sum_streaming(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                           std::int32_t width, const T* z, T* sum) noexcept {
@@ -127,7 +129,7 @@ template <class T, int C>
 inline void sum_channels(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                          std::int32_t width, const T* z, std::int32_t channels, T* sum) noexcept {
   using S = Simd<T>;
-  // sums kept in registers: about 16 vectors of 32 or 12 of 16
+  // The sums that stay in registers: about 16 vectors of 32 registers, or 12 of 16.
   constexpr int most = gemm_columns == 8 ? (C >= 8 ? 2 : 16 / C >= 8 ? 8 : 16 / C) : (C >= 4 ? (C > 4 ? 1 : 2) : 8 / C);
   const std::int32_t pass = rows_of_pass(stride);
   for (std::int32_t r = 0; r < row_count; r += pass) {
@@ -149,7 +151,7 @@ inline void sum_channels(const T* block, std::int64_t stride, const std::int32_t
   }
 }
 
-// sum[c][j] over the rows for C right-hand sides starting at z.
+// Computes sum[c][j] over the rows, for C right-hand sides that start at z.
 template <class T, int C>
 inline void sum_rows(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                      std::int32_t width, const T* z, std::int32_t channels, T* sum) noexcept {
@@ -167,12 +169,12 @@ inline void sum_rows(const T* block, std::int64_t stride, const std::int32_t* ro
   sum_channels<T, C>(block, stride, rows, row_count, width, z, channels, sum);
 }
 
-// The sums of `width` columns for all channels are subtracted from z.
+// Computes the sums of `width` columns for all channels, and subtracts them from z.
 template <class T, int C>
 inline void subtract_sums(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                           std::int32_t width, T* z, T* target, std::int32_t channels) noexcept {
   alignas(64) T sum[(C == 1 ? single_columns : C * chunk_columns) + 64];
-  // narrow supernodes with one right-hand side write their sums without reading them
+  // Narrow supernodes with one right-hand side write their sums without reading them first.
   const std::int32_t padded = C == 1 && stride <= 16 ? 0 : (width + 63) & ~63;
   for (int c = 0; c < C; ++c) {
     for (std::int32_t j = 0; j < padded; ++j) sum[c * chunk_columns + j] = 0;
@@ -196,8 +198,9 @@ inline void store_lanes(T* p, typename Simd<T>::Type v, int count) noexcept {
     Simd<T>::store_part(p, v, count);
 }
 
-// N columns for one vector of channels: the factor's entries are broadcast, target[j] -= sum over the rows. The strips
-// of N columns read the block out of order, so each row asks for as many numbers `ahead` as it reads, in order.
+// Handles N columns for one vector of channels: target[j] -= sum over the rows. The factor's entries are broadcast. The
+// block is read in strips of N columns, which is not its order in memory. So each row prefetches as many numbers as it
+// reads from `ahead`, in order.
 template <class T, int N>
 inline void subtract_lanes(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                            const T* z, T* target, std::int32_t channels, int count, const T* ahead) noexcept {
@@ -219,7 +222,8 @@ inline void subtract_lanes(const T* block, std::int64_t stride, const std::int32
   }
 }
 
-// Many channels: they lie along the lanes. Rows in passes that stay in the cache while the column groups go over them.
+// Handles many channels, which lie along the lanes. Rows are taken in passes that stay in the cache while the groups of
+// columns pass over them.
 template <class T>
 void backward_rows_lanes(const T* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
                          std::int32_t width, T* z, T* target, std::int32_t channels) noexcept {
@@ -273,9 +277,10 @@ void backward_rows_any(const T* below, const std::int32_t* rows, std::int32_t ro
   }
 }
 
-// One right-hand side, the packed triangle from its last number to its first, one stream: x_j = x_j inv_j, then
-// x_i -= L[j][i] x_j for i < j, the nearest first, since the next row waits for them. The columns in work are in a
-// copy: a finished number stored among them would not be forwarded to the vector load after it.
+// Solves the packed triangle for one right-hand side. It reads the triangle from its last number to its first as one
+// stream. For each row j it computes x_j = x_j inv_j, then x_i -= L[j][i] x_j for i < j, the nearest i first, because
+// the next row waits for it. The present columns are in a copy: a single number stored among them could not be
+// forwarded to the vector load after it.
 template <class T>
 void backward_triangle_single(const T* triangle, std::int32_t columns, T* z) noexcept {
   using S = Simd<T>;
@@ -297,8 +302,8 @@ void backward_triangle_single(const T* triangle, std::int32_t columns, T* z) noe
   }
 }
 
-// Subtracts the contribution of rows [begin, end) of the packed triangle, at most 8 and solved in `x`. Columns
-// [left, right) lie in a copy of whole vectors, the nearest first.
+// Subtracts the contribution of at most 8 rows of the packed triangle, whose solution is in `x`. Columns [left, right)
+// lie in a copy of whole vectors. The nearest column comes first.
 template <class T, class S>
 inline void subtract_solved(const T* const* row, const typename S::Type* x, std::int32_t left, std::int32_t right,
                             T* copy) noexcept {
@@ -311,8 +316,9 @@ inline void subtract_solved(const T* const* row, const typename S::Type* x, std:
   }
 }
 
-// Several right-hand sides along the lanes, a segment of columns at a time in a copy: part vectors stored next to each
-// other would not be forwarded to the loads after them. Each target is loaded and stored once for 8 rows.
+// Solves the triangle for several right-hand sides along the lanes, one segment of columns at a time in a copy. Without
+// the copy, partial vectors stored next to each other could not be forwarded to the loads after them. Each target is
+// loaded and stored once for 8 rows.
 template <class T, class S>
 inline void backward_triangle_lanes(const T* triangle, std::int32_t columns, T* z, std::int32_t channels,
                                     int count) noexcept {

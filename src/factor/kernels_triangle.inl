@@ -1,11 +1,11 @@
-// Forward sweep kernels: one supernode on m interleaved right-hand sides. Included after a simd_*.h, see
-// kernels_factor.inl. A dot product is summed in 8 (double) or 16 (float) lanes whatever the vector length.
+// Kernels for forward sweeps: one supernode with m interleaved right-hand sides. Included after a simd_*.h; see
+// kernels_factor.inl. A dot product is summed in 8 (double) or 16 (float) lanes, whatever the vector length.
 #include <cstddef>
 #include <cstdint>
 
 namespace {
 
-// Dot product in one vector's worth of partial sums (64 bytes on every set), joined as a fixed tree.
+// Returns a dot product. Its partial sums fill 64 bytes on every instruction set, and a fixed tree adds them up.
 template <class T>
 inline T dot(const T* a, const T* b, std::int32_t count) noexcept {
   using S = Simd<T>;
@@ -47,7 +47,7 @@ void forward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::in
     const int count = channels - c < S::width ? channels - c : S::width;
     row = triangle;
     for (std::int32_t j = 0; j < columns; row += ++j) {
-      // two chains: even and odd columns
+      // There are two chains of sums, for even and for odd columns.
       typename S::Type even = S::zero(), odd = S::zero();
       const T* x = z + c;
       std::int32_t i = 0;
@@ -64,8 +64,8 @@ void forward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::in
 }
 
 #if defined(__AVX2__)
-// Rows of a narrow supernode times one right-hand side, four at a time; the last group writes up to three numbers too
-// many, for which `out` has room.
+// Multiplies the rows of a narrow supernode by one right-hand side, four rows at a time. The last group can write three
+// numbers too many, for which `out` has room.
 inline void forward_rows_narrow(const double* below, std::int32_t row_count, std::int32_t columns, const double* z,
                                 double* out) noexcept {
   alignas(64) double padded[16] = {};
@@ -95,7 +95,7 @@ void forward_rows_any(const T* below, std::int32_t row_count, std::int32_t colum
     for (std::int32_t r = 0; r < row_count; ++r, below += columns) out[r] = dot<T>(below, z, columns);
     return;
   }
-  // channels in groups of one vector, four rows at a time: the factor's entries are broadcast
+  // Takes channels in groups of one vector, and four rows at a time. The factor's entries are broadcast.
   for (std::int32_t c = 0; c < channels; c += S::width) {
     const int count = channels - c < S::width ? channels - c : S::width;
     std::int32_t r = 0;

@@ -5,7 +5,7 @@
 namespace hf_inner {
 namespace {
 
-// Set bits of a word; the plain instruction set has no instruction for it.
+// Counts the set bits of a word; the plain instruction set has no instruction for it.
 inline std::int32_t count_bits(std::uint64_t x) noexcept {
   x -= (x >> 1) & 0x5555555555555555ull;
   x = (x & 0x3333333333333333ull) + ((x >> 2) & 0x3333333333333333ull);
@@ -42,13 +42,13 @@ void LeafOrder::run(std::int32_t* out) {
     const std::int32_t v = left_[at];
     left_.erase(left_.begin() + at), left_.push_back(0), --remaining;
     out[k] = v;
-    // its neighbours become a clique
+    // The neighbours of the eliminated vertex become a clique.
     const std::uint64_t* own = row(v);
     for (std::int32_t w = 0; w < words_; ++w) {
       for (std::uint64_t bits = own[w]; bits != 0; bits &= bits - 1) {
         const std::int32_t u = 64 * w + __builtin_ctzll(bits);
         std::uint64_t* target = row(u);
-        if (u >= inner_) break;  // halo rows are never asked for
+        if (u >= inner_) break;  // rows of halo vertices are never read
         std::int32_t total = 0;
         for (std::int32_t x = 0; x < words_; ++x) {
           std::uint64_t merged = target[x] | own[x];

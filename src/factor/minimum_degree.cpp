@@ -9,13 +9,15 @@
 namespace hf_inner {
 namespace {
 
-// Vertices with more neighbours than this times sqrt(n) come last: time against fill. As in AMD; 5 and 20 order 64,000
-// vertices with 30 hubs alike, and without it a star of 200,000 vertices takes minutes.
+// Vertices with more neighbours than this times sqrt(n) are eliminated last: trades time for fill. The AMD library uses
+// the same value. With 5 and 20, a graph of 64,000 vertices with 30 hubs gets the same order. Without such a limit, a
+// star of 200,000 vertices takes minutes.
 constexpr double dense_factor = 10;
-constexpr Index dense_least = 16;  // graphs so small have no dense vertex
+constexpr Index dense_least = 16;  // smaller graphs have no dense vertex
 
-// The quotient graph. A variable stands for unknowns with equal neighbours, an element for an eliminated variable.
-// The list of a variable holds elements first, then variables; the list of an element holds variables.
+// The quotient graph of an elimination. A variable stands for unknowns with equal neighbours, an element for an
+// eliminated variable. The list of a variable holds elements first, then variables. The list of an element holds
+// variables.
 class QuotientGraph {
  public:
   QuotientGraph(Index size, const Index* start, const Index* neighbour, Memory& memory)
@@ -26,7 +28,7 @@ class QuotientGraph {
     read(start, neighbour);
   }
 
-  // Eliminates everything; order[k] = unknown eliminated k-th.
+  // Eliminates all unknowns. order[k] is the unknown eliminated k-th.
   void run(Index* order) {
     order_ = order;
     take_special();
@@ -46,9 +48,9 @@ class QuotientGraph {
  private:
   static constexpr std::size_t array_count = 13;
   static constexpr Index none = -1;
-  static constexpr Index dense_mark = -2;  // in last_: eliminated at the end
+  static constexpr Index dense_mark = -2;  // value in last_ of vertices that are eliminated at the end
 
-  // The lists, a fifth to spare so that they are seldom compacted, and one list more.
+  // Returns the room for all lists and one more. A fifth is spare, so that the lists are seldom compacted.
   static std::size_t room_for(Index size, const Index* start) {
     const std::size_t pattern = at(start[size] - start[0]), room = pattern + pattern / 5 + at(size) + 1;
     if (room > static_cast<std::size_t>(INT32_MAX)) {
@@ -74,7 +76,7 @@ class QuotientGraph {
     left_ = size_;
   }
 
-  // Isolated vertices come first, dense ones last; the others are filed by degree.
+  // Isolated vertices are eliminated first, dense ones last. The others go to the degree lists.
   void take_special() {
     const double limit = std::max<double>(dense_least, dense_factor * std::sqrt(static_cast<double>(size_)));
     for (Index v = 0; v < size_; ++v) {
@@ -90,7 +92,7 @@ class QuotientGraph {
     }
   }
 
-  // ---- variables by degree: doubly linked lists
+  // ---- doubly linked lists of the variables of each degree
 
   void file(Index v, Index degree) noexcept {
     const Index first = bucket_[degree];
@@ -116,15 +118,15 @@ class QuotientGraph {
     return pivot;
   }
 
-  // Writes the unknowns that v stands for.
+  // Writes the unknowns that v stands for to the order.
   void eliminate(Index v) noexcept {
     for (Index u = v; u != none; u = next_member_[u]) order_[ordered_++] = u;
   }
 
   // ---- the new element
 
-  // The variables next to the pivot become its list, their weights are negated and they leave the degree lists. The
-  // elements next to it are absorbed.
+  // Makes the pivot an element. The variables next to it become its list; their weights are negated, and they leave the
+  // degree lists. The elements next to the pivot are absorbed.
   void form_element(Index pivot) {
     const Index pivot_weight = weight_[pivot];
     left_ -= pivot_weight;
@@ -149,13 +151,13 @@ class QuotientGraph {
     eliminate(pivot);
     start_[pivot] = begin, length_[pivot] = end - begin;
     pivot_end_ = end;
-    elements_[pivot] = none;  // an element
+    elements_[pivot] = none;  // marks it as an element
   }
 
   void gather(Index from, Index count, Index& end) noexcept {
     for (Index k = from; k < from + count; ++k) {
       const Index v = lists_[at(k)], weight = weight_[v];
-      if (weight <= 0) continue;  // absorbed, or here already
+      if (weight <= 0) continue;  // v is absorbed, or already in the list
       pivot_degree_ += weight;
       weight_[v] = -weight;
       lists_[at(end++)] = v;
@@ -163,7 +165,7 @@ class QuotientGraph {
     }
   }
 
-  // Room for the pivot's new list at the end of the lists.
+  // Makes room for the pivot's new list behind all other lists.
   void make_room(Index pivot) {
     std::size_t need = at(length_[pivot] - elements_[pivot]);
     for (Index k = start_[pivot]; k < start_[pivot] + elements_[pivot]; ++k) need += at(length_[lists_[at(k)]]);
@@ -171,7 +173,8 @@ class QuotientGraph {
     if (at(free_) + need > lists_.size()) compact();
   }
 
-  // Moves the lists together. The first entry of each gives its place to the number of its owner, complemented.
+  // Moves all lists together. While they move, the first entry of each list is replaced by the complement of its
+  // owner's number.
   void compact() noexcept {
     for (Index v = 0; v < size_; ++v) {
       if (length_[v] == 0) continue;
@@ -197,7 +200,8 @@ class QuotientGraph {
 
   // ---- degrees
 
-  // mark_[e] - tag_ becomes the weight of what element e holds outside the pivot's list, for every e next to that list.
+  // For every element e next to the pivot's list, mark_[e] - tag_ becomes the weight of those variables of e that are
+  // not in that list.
   void subtract_from_elements(Index pivot) noexcept {
     most_ = std::max(most_, pivot_degree_);
     clear_marks();
@@ -213,15 +217,15 @@ class QuotientGraph {
     }
   }
 
-  // Starts the tags again before they overflow. A mark of 0 stays: what is absorbed.
+  // Restarts the tags before they overflow. A mark of 0 means absorbed, and stays.
   void clear_marks() noexcept {
     if (tag_ <= INT32_MAX - 2 * std::int64_t{size_}) return;
     for (Index v = 0; v < size_; ++v) mark_[v] = mark_[v] != 0;
     tag_ = 2;
   }
 
-  // Shortens the lists of the pivot's variables, bounds their degrees, and eliminates at once those that have no other
-  // neighbours. The rest go to the hash lists.
+  // Shortens the lists of the pivot's variables and bounds their degrees. Variables without other neighbours are
+  // eliminated at once. The others go to the hash lists.
   void update_degrees(Index pivot) noexcept {
     const Index begin = start_[pivot], end = begin + length_[pivot];
     Index kept = begin;
@@ -246,8 +250,8 @@ class QuotientGraph {
     degree_[pivot] = pivot_degree_;
   }
 
-  // Leaves the pivot, the elements that reach outside its list, and the variables outside it. Returns the weight out
-  // there, counted twice where two elements overlap.
+  // Shortens the list of v. It keeps the pivot, the elements that reach outside the pivot's list, and the variables
+  // outside it. Returns the weight of the variables outside, counted twice where two elements overlap.
   Index shorten(Index v, Index pivot, std::uint32_t& hash) noexcept {
     const Index first = start_[v], variables = first + elements_[v], stop = first + length_[v];
     std::int64_t outside = 0;
@@ -259,7 +263,7 @@ class QuotientGraph {
         outside += rest, hash += static_cast<std::uint32_t>(e);
         lists_[at(to++)] = e;
       } else {
-        mark_[e] = length_[e] = 0;  // inside the pivot's list: absorbed
+        mark_[e] = length_[e] = 0;  // it lies inside the pivot's list: absorbed
       }
     }
     const Index kept = to;
@@ -269,7 +273,7 @@ class QuotientGraph {
       outside += weight, hash += static_cast<std::uint32_t>(u);
       lists_[at(to++)] = u;
     }
-    // the pivot becomes the first element: what stood there moves behind the others
+    // The pivot becomes the first element; the first entry moves behind the other elements.
     lists_[at(to++)] = lists_[at(kept)];
     lists_[at(kept)] = lists_[at(first)];
     lists_[at(first)] = pivot;
@@ -278,7 +282,7 @@ class QuotientGraph {
     return static_cast<Index>(std::min<std::int64_t>(outside, size_));
   }
 
-  // ---- variables that cannot be told apart
+  // ---- variables with equal neighbours
 
   void merge_equal(Index pivot) noexcept {
     tag_ += most_;
@@ -293,7 +297,7 @@ class QuotientGraph {
     clear_marks();
   }
 
-  // Compares a variable with those after it in its hash list.
+  // Compares the variable v with those after it in its hash list, and merges equal ones into v.
   void merge_into(Index v) noexcept {
     const Index length = length_[v], elements = elements_[v];
     for (Index p = start_[v]; p < start_[v] + length; ++p) mark_[lists_[at(p)]] = tag_;
@@ -314,13 +318,13 @@ class QuotientGraph {
     ++tag_;
   }
 
-  // Files the variables that the pivot leaves by their new degrees.
+  // Puts the remaining variables of the pivot's list into the degree lists, by their new degrees.
   void file_again(Index pivot) noexcept {
     const Index begin = start_[pivot], end = begin + length_[pivot];
     Index kept = begin;
     for (Index k = begin; k < end; ++k) {
       const Index v = lists_[at(k)], weight = -weight_[v];
-      if (weight <= 0) continue;  // merged
+      if (weight <= 0) continue;  // v was merged into another variable
       weight_[v] = weight;
       const std::int64_t bound = std::int64_t{degree_[v]} + pivot_degree_ - weight;
       degree_[v] = static_cast<Index>(std::min<std::int64_t>(bound, left_ - weight));
@@ -329,23 +333,23 @@ class QuotientGraph {
     }
     weight_[pivot] = 0;
     length_[pivot] = kept - begin;
-    if (kept == begin) mark_[pivot] = 0;  // nothing is left around it
+    if (kept == begin) mark_[pivot] = 0;  // the element has no variable left
     if (free_ == pivot_end_) free_ = kept;
   }
 
   Index size_;
   Buffer<Index> lists_, storage_;
-  Index free_ = 0;          // the lists end here
-  Index left_ = 0;          // unknowns not yet eliminated, the dense ones apart
-  Index ordered_ = 0;       // places of the order that are taken
+  Index free_ = 0;          // end of the lists
+  Index left_ = 0;          // unknowns not yet eliminated, without the dense ones
+  Index ordered_ = 0;       // number of places of the order that are filled
   Index least_ = 0;         // no variable has a smaller degree
   Index most_ = 0;          // largest weight of an element so far
-  Index tag_ = 2;           // marks from here on are of the present step
+  Index tag_ = 2;           // larger marks belong to the present step
   Index pivot_degree_ = 0;  // weight of the pivot's list
   Index pivot_end_ = 0;     // where that list ended before it was shortened
   Index* order_ = nullptr;
   Index *start_, *length_;     // the list of a variable or an element
-  Index* elements_;            // how many elements stand first in it; none: not a variable
+  Index* elements_;            // number of elements at the start of its list; none: no variable
   Index* weight_;              // unknowns a variable stands for; negative: in the pivot's list; 0: absorbed
   Index* degree_;              // bound of a variable's degree; weight of an element's list
   Index* mark_;                // see subtract_from_elements; 0: absorbed

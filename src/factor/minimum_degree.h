@@ -1,7 +1,8 @@
 // Approximate minimum degree: a fill-reducing order of a whole graph.
 //
 // Method: Amestoy, Davis & Duff, An approximate minimum degree ordering algorithm, SIAM J. Matrix Anal. Appl. 17, 1996.
-// Integers alone decide and ties go to the variable filed last, so every system gets the same order.
+// All decisions use integers, and ties go to the variable that joined its degree list last. So every system gets the
+// same order.
 #pragma once
 #include <cstdint>
 
@@ -9,8 +10,8 @@
 
 namespace hf_inner {
 
-// Symmetric graph: the neighbours of v are neighbour[start[v]] to neighbour[start[v + 1] - 1], v itself may be among
-// them. order[k] = vertex eliminated k-th. Throws HF_ERROR_TOO_LARGE beyond about 1.7e9 neighbours.
+// Orders a symmetric graph. The neighbours of v are neighbour[start[v]] to neighbour[start[v + 1] - 1]; v itself may be
+// among them. order[k] is the vertex eliminated k-th. Throws HF_ERROR_TOO_LARGE beyond about 1.7e9 neighbours.
 void order_graph_by_minimum_degree(std::int32_t size, const std::int32_t* start, const std::int32_t* neighbour,
                                    Memory& memory, Buffer<std::int32_t>& order);
 

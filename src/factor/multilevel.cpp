@@ -5,22 +5,29 @@
 namespace hf_inner {
 namespace {
 
-// Graphs this small are bisected as they are. Half: flops +1 to +5 %. Double: -3 to +4 %, wider flows cost time.
+// Graphs up to this size are bisected without coarsening. At half the value: flops grow by 1 to 5 %. At twice the
+// value: they change by -3 to +4 %, and wider flows cost time.
 constexpr std::int32_t direct_size = 400;
-// Parts this large try more directions on their coarsest graph. Half and double: flops within 2 %.
+// Parts of at least this size try more directions on their coarsest graph. Halving or doubling it changes flops by at
+// most 2 %.
 constexpr std::int32_t thorough_size = 4000;
-// Rings around a separator that is carried back. Half: flops +2 to +15 %. Double: -10 to +1 %, for a larger flow.
+// Rings by which a separator is widened when it is carried back. At half the value: flops grow by 2 to 15 %. At twice
+// the value: they change by -10 to +1 %, but the flow is larger.
 constexpr std::int32_t widening = 2;
-// Further passes with the band moved along, on large parts. None: flops +1 to +4 %. Two: 0 to -5 %, for one more flow.
+// Large parts get this many additional passes, each with the band around the new separator. With none, flops grow by 1
+// to 4 %. With two they fall by 0 to 5 %, but cost one more flow.
 constexpr std::int32_t repeats = 1;
-// Widening stops before a side is less than 1 / this. A half each (2): flops up to +54 %. A tenth: -4 to +3 %.
+// Widening keeps at least 1 / this of the graph on each side. With 2, flops grow by up to 54 %. With 10 they change by
+// -4 to +3 %.
 constexpr std::int32_t smallest_side = 5;
-// A graph that clusters to more than this is bisected as it is. Half and double: nothing; for graphs without stars.
+// A graph is not coarsened if its coarser graph would be a larger share of it, as in graphs without stars. Halving or
+// doubling it changes nothing.
 constexpr double least_shrinking = 0.75;
 
 }  // namespace
 
-// Stars first: a vertex whose ring is free takes it. The rest join the cluster of their first clustered neighbour.
+// Clusters a graph by stars. A vertex whose neighbours are all free takes them into its cluster. Each remaining vertex
+// joins the cluster of its first clustered neighbour.
 std::int32_t MultilevelBisection::make_clusters(const GraphView& fine, std::int32_t* cluster) {
   const std::int32_t n = fine.size;
   const std::int32_t* start = fine.start;
@@ -53,7 +60,7 @@ void MultilevelBisection::coarsen(const GraphView& fine, Level& coarse) {
   };
   std::int32_t* cluster = grow(coarse.cluster, static_cast<std::size_t>(n));
   const std::int32_t count = make_clusters(fine, cluster);
-  // members by cluster
+  // Lists the members of each cluster.
   cluster_start_.assign(static_cast<std::size_t>(count) + 1, 0);
   std::int32_t* member_start = cluster_start_.data();
   for (std::int32_t v = 0; v < n; ++v) ++member_start[cluster[v] + 1];
@@ -96,7 +103,7 @@ void MultilevelBisection::coarsen(const GraphView& fine, Level& coarse) {
   coarse.view = {count, start, neighbour, point, weight};
 }
 
-// Adds rings of neighbours to what lies between, as long as both sides keep a fifth of the whole.
+// Adds rings of neighbours to the separator, as long as both sides keep a fifth of the graph (smallest_side).
 void MultilevelBisection::widen(const GraphView& graph, std::uint8_t* side, int rings) {
   std::int32_t left[2] = {0, 0};
   queue_.clear();
@@ -116,7 +123,7 @@ void MultilevelBisection::widen(const GraphView& graph, std::uint8_t* side, int 
         if (side[u] >= side_between) continue;
         ++lost[side[u]];
         queue_.push_back(u);
-        side[u] = static_cast<std::uint8_t>(side_between + 1 + side[u]);  // until the ring is accepted
+        side[u] = static_cast<std::uint8_t>(side_between + 1 + side[u]);  // marked until the ring is accepted
       }
     }
     const bool keep = smallest_side * static_cast<std::int64_t>(left[0] - lost[0]) >= graph.size &&
@@ -149,10 +156,11 @@ Cut MultilevelBisection::run(const GraphView& graph, std::uint8_t* side) {
   const GraphView* fine = &graph;
   while (fine->size > direct_size) {
     while (levels_.size() <= depth) levels_.emplace_back(memory_);
-    // the list may have moved
+    // Growing levels_ may have moved its entries.
     fine = depth == 0 ? &graph : &levels_[depth - 1].view;
     coarsen(*fine, levels_[depth]);
-    if (levels_[depth].view.size > least_shrinking * fine->size) break;  // no stars to speak of: bisect what there is
+    // The graph has hardly any stars, so it is bisected as it is.
+    if (levels_[depth].view.size > least_shrinking * fine->size) break;
     fine = &levels_[depth++].view;
   }
   if (depth == 0) return search_.bisect(graph, side, thorough);
@@ -164,7 +172,7 @@ Cut MultilevelBisection::run(const GraphView& graph, std::uint8_t* side) {
     if (k > 0) levels_[k - 1].side.resize(static_cast<std::size_t>(finer.size));
     cut = carry_back(finer, levels_[k], k == 0 ? side : levels_[k - 1].side.data());
   }
-  // the way back lost a side: cut the part as it is
+  // If carrying back has emptied a side, the graph is cut as it is.
   return cut.usable() ? cut : search_.bisect(graph, side, true);
 }
 

@@ -1,4 +1,4 @@
-// Multilevel bisection of one part of a nested dissection; see dissection.h.
+// Bisects one part of a nested dissection on a multilevel hierarchy; see dissection.h.
 #pragma once
 #include <cstdint>
 
@@ -12,7 +12,7 @@ class MultilevelBisection {
   explicit MultilevelBisection(Memory& memory)
       : memory_(memory), search_(memory), levels_(&memory), cluster_start_(&memory), mark_(&memory), queue_(&memory) {}
 
-  // side[v] = left, right or between. An unusable cut when the part cannot be split.
+  // Writes side[v]: left, right or between. Returns an unusable cut when the part cannot be split.
   Cut run(const GraphView& graph, std::uint8_t* side);
 
  private:
@@ -21,7 +21,7 @@ class MultilevelBisection {
         : start(&memory), neighbour(&memory), cluster(&memory), weight(&memory), point(&memory), side(&memory) {}
     GraphView view;
     Vector<std::int32_t> start, neighbour;
-    Vector<std::int32_t> cluster;  // of the finer graph: its vertex -> vertex of this level
+    Vector<std::int32_t> cluster;  // from a vertex of the finer graph to its vertex on this level
     Vector<std::int32_t> weight;
     Vector<float> point;
     Vector<std::uint8_t> side;

@@ -10,20 +10,21 @@
 namespace hf_inner {
 namespace {
 
-// Columns asked for ahead of the assembly. No result depends on it.
+// Columns by which the assembly prefetches. No result depends on it.
 constexpr std::int32_t assembly_ahead = 16;
-// A wave runs whole fronts while the largest is at most this over its fair share; else each front is cut.
+// A wave runs whole fronts as jobs if the largest front is at most this many times its fair share. Otherwise each front
+// is split over the threads.
 constexpr double even_fronts = 1.25;
-// Flops below which a wave is not cut: 0.07 ms at 27 GF/s, about two batches.
+// A wave with fewer flops is never split: 0.07 ms at 27 GF/s, the cost of about two batches of jobs.
 constexpr double small_wave_flops = 2e6;
-// Tiles of one job, by the cost of a tile in that step. No result depends on it.
+// The number of tiles per job, chosen by the cost of a tile in each step. No result depends on it.
 constexpr std::int32_t copy_tiles = 32, solve_tiles_step = 6, update_tiles_step = 4, store_tiles_step = 16;
-// Columns factored before the tiles below them are solved by all threads. No result depends on it.
+// Columns that are factored before all threads solve the tiles below them. No result depends on it.
 constexpr std::int32_t column_block = 64;
-// Shares of progress: the subtrees, then the waves of the top.
+// Shares of progress: the subtrees take the first, the waves above them the second.
 constexpr float progress_tasks = 0.8f, progress_waves = 0.19f;
 
-// Everything one thread needs to run fronts; reused from front to front.
+// All memory that one thread needs to factor fronts. It is reused from front to front.
 struct Workspace {
   Workspace(Memory& memory, std::int32_t unknowns, const Plan::Sizes& sizes)
       : place_of(memory, unknowns),
@@ -34,7 +35,8 @@ struct Workspace {
         children(memory, static_cast<std::size_t>(sizes.children)) {
     for (int side = 0; side < 2; ++side) stack[side].allocate(memory, static_cast<std::size_t>(sizes.stack[side]));
   }
-  Buffer<std::int32_t> place_of;  // padded front row of a row of the matrix; valid for rows of the present front only
+  // By row of the matrix: its padded row in the present front. Only entries of the front's rows are valid.
+  Buffer<std::int32_t> place_of;
   Buffer<double> panel, floor, stack[2];
   std::int64_t stack_top[2] = {0, 0};
   Buffer<std::int32_t> place, run;
@@ -42,7 +44,7 @@ struct Workspace {
   std::int32_t child_count = 0;
 };
 
-// Workspaces of the threads that run at the moment: as many as have ever run at once.
+// Workspaces for the running threads. Their number is the largest number of threads that ran at once.
 class WorkspacePool {
  public:
   WorkspacePool(Memory& memory, std::int32_t unknowns, const Plan::Sizes& sizes)
@@ -118,7 +120,7 @@ class Factorisation {
     return front;
   }
 
-  // Rows of the front, the children's places in it, and the columns of A.
+  // Sets up the front: the places of its rows, the places of its children's rows, and the columns of A.
   void assemble(std::int32_t s, const FrontView& front, Workspace& workspace) const noexcept {
     std::int32_t* place_of = workspace.place_of.data();
     const std::int32_t first = symbolic_.first[s];
@@ -194,7 +196,7 @@ class Factorisation {
          unknown);
   }
 
-  // One front from assembly to stored columns, on one thread.
+  // Computes one front on one thread, from the assembly to the stored columns.
   void run_front(std::int32_t s, Workspace& workspace, double* update) noexcept {
     const FrontView front = open_front(s, workspace, update);
     const std::int32_t tiles = front.triangle_tiles + front.below_tiles;
@@ -240,7 +242,8 @@ class Factorisation {
     }
   }
 
-  // Whole fronts as jobs when they share the threads evenly, else one front after the other with its pieces as jobs.
+  // Runs one wave. If whole fronts share the threads evenly, each front is a job. Otherwise the fronts run one after
+  // the other, each split over the threads.
   void run_wave(std::int32_t wave, WorkspacePool& pool) {
     const std::int32_t begin = plan_.wave_start[wave], end = plan_.wave_start[wave + 1];
     double total = 0, largest = 0;
@@ -263,7 +266,7 @@ class Factorisation {
     pool.give_back(std::move(workspace));
   }
 
-  // Runs piece(begin, end) over [begin, end) in steps.
+  // Calls piece(begin, end) over [begin, end) in steps, as jobs.
   template <class Piece>
   void in_pieces(std::int32_t begin, std::int32_t end, std::int32_t step, Piece&& piece) {
     if (begin >= end) return;
@@ -273,8 +276,8 @@ class Factorisation {
     });
   }
 
-  // The same front with every step cut over the threads; each number is formed by the same operations in the same
-  // order.
+  // Computes the same front as run_front, with every step split over the threads. Each number comes from the same
+  // operations in the same order.
   void run_front_in_pieces(std::int32_t s, Workspace& workspace, double* update) {
     const FrontView front = open_front(s, workspace, update);
     const std::int32_t tiles = front.triangle_tiles + front.below_tiles;
@@ -341,7 +344,7 @@ void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernel
 }
 
 bool all_finite(const double* values, std::size_t count) noexcept {
-  // x - x is zero exactly for finite x; independent sums without branches
+  // x - x is zero exactly for finite x. Independent sums avoid branches.
   double sum[8] = {};
   std::size_t k = 0;
   for (; k + 8 <= count; k += 8) {

@@ -1,10 +1,11 @@
-// Numeric supernodal Cholesky factorisation by the multifrontal method (Duff & Reid 1983; Liu 1992, "The multifrontal
-// method for sparse matrix solution: theory and practice").
+// Computes the numbers of a supernodal Cholesky factor by the multifrontal method (Duff & Reid 1983; Liu 1992, "The
+// multifrontal method for sparse matrix solution: theory and practice").
 //
-// Every supernode assembles a front from its columns of A and the update matrices of its children, factors its columns,
-// and leaves -B B' for its parent. Finished columns are written row by row, supernodes last to first, so that a
-// backward sweep reads memory forwards: packed lower triangle with the diagonal inverted, then the rows below. Cost:
-// flops of the pattern; memory: two stacks of update matrices per thread. On failure `values` is undefined.
+// Every supernode assembles a front from its columns of A and the update matrices of its children. It factors its
+// columns, and leaves the update matrix -B B' for its parent. Finished columns are written row by row, supernodes from
+// last to first, so that a backward sweep reads memory forwards. A supernode is stored as its packed lower triangle
+// with inverted diagonal, then its rows below. The pattern determines the number of flops. Memory: two stacks of update
+// matrices per thread. After a failure `values` is undefined.
 #pragma once
 #include <cstdint>
 
@@ -19,19 +20,20 @@
 
 namespace hf_inner {
 
-// Numbers behind the last stored one that sweeps may read over (and ignore).
+// Numbers behind the last stored one. Sweeps may read them, but ignore their values.
 constexpr std::size_t value_slack = 64;
 
-// `eliminated` (per unknown, may be empty): rows and columns taken as the identity. lost_share: see FactorOptions.
-// Throws HF_ERROR_NOT_POSITIVE_DEFINITE with the unknown of the first failed pivot, in factor order.
+// Factorises the matrix. `eliminated` (per unknown, may be empty) marks rows and columns that count as the identity.
+// lost_share: see FactorOptions. Throws HF_ERROR_NOT_POSITIVE_DEFINITE; index: the unknown of the first failed pivot in
+// factor order.
 void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix,
                Span<const std::uint8_t> eliminated, double lost_share, double* values, Memory& memory, JobRunner& jobs,
                Progress* progress);
 
-// No NaN and no infinity among the numbers.
+// Tells whether no number is NaN or infinite.
 bool all_finite(const double* values, std::size_t count) noexcept;
 
-// Throws HF_ERROR_NON_FINITE with the column of the first NaN or infinity.
+// Throws HF_ERROR_NON_FINITE for the first NaN or infinity; index: its column.
 void require_finite(const SymmetricMatrix& matrix);
 
 }  // namespace hf_inner

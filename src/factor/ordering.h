@@ -1,5 +1,5 @@
-// Fill-reducing orderings: order[k] = unknown eliminated k-th. All are deterministic and the same for any number of
-// threads.
+// Fill-reducing orderings: order[k] is the unknown eliminated k-th. All are deterministic and the same for any number
+// of threads.
 #pragma once
 #include <cstdint>
 
@@ -11,7 +11,7 @@
 
 namespace hf_inner {
 
-// Dispatches; throws HF_ERROR_UNSUPPORTED for an ordering this build does not have.
+// Computes the chosen ordering. Throws HF_ERROR_UNSUPPORTED if this build does not have it.
 void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering ordering, Memory& memory,
                 JobRunner& jobs, Progress* progress, Buffer<std::int32_t>& order);
 
@@ -19,7 +19,7 @@ void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering
 void order_by_minimum_degree(const SymmetricMatrix& matrix, Memory& memory, Buffer<std::int32_t>& order);
 
 #if defined(HF_WITH_GPL)
-// METIS through CHOLMOD. It draws from rand(): the host's sequence is set aside and put back.
+// METIS through CHOLMOD. It uses rand(), so the host's random sequence is saved and restored.
 void order_by_metis(const SymmetricMatrix& matrix, Memory& memory, Buffer<std::int32_t>& order);
 #endif
 

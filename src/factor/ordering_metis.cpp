@@ -1,4 +1,4 @@
-// The peer: METIS through CHOLMOD's Partition module. Only in builds with HF_WITH_GPL.
+// The ordering of METIS, through CHOLMOD's Partition module. Only in builds with HF_WITH_GPL.
 #if defined(HF_WITH_GPL)
 #include <cholmod.h>
 #include <stdlib.h>
@@ -9,8 +9,8 @@
 namespace hf_inner {
 namespace {
 
-// Sets the host's rand() sequence aside for its lifetime: METIS reseeds and draws from it. Not for several threads at
-// once.
+// Saves the host's rand() sequence and restores it at the end of its life, because METIS seeds rand() and draws from
+// it. Not safe for several threads at once.
 class RandomState {
  public:
   RandomState() noexcept : host_(initstate(1, state_, sizeof state_)) {}

@@ -1,7 +1,10 @@
-// Path solves: Y = G^-1 P W for sparse columns. A column is non-zero only on the elimination-tree paths of its entries
-// (Gilbert & Peierls 1988; Schreiber 1982), so a group of neighbouring sites touches a few hundred supernodes. The
-// sites of a group are sorted by their first row, which makes the active sites of every supernode one range; they lie
-// along the vector lanes. Cost: path entries times sites. One group = one job; groups are cut by count alone.
+// Solves elimination paths: Y = G^-1 P W for sparse columns of W. A column is non-zero only on the elimination-tree
+// paths of its entries (Gilbert & Peierls 1988; Schreiber 1982), so a group of neighbouring sites touches a few hundred
+// supernodes.
+//
+// The sites of a group are sorted by their first row, so the active sites of every supernode are one range. They lie
+// along the vector lanes. Cost: path entries times sites. One group is one job. The number of sites alone decides the
+// groups.
 #include <algorithm>
 #include <cstring>
 
@@ -11,15 +14,15 @@
 namespace hf_inner {
 namespace {
 
-// Numbers that a vector of padding lanes may touch behind the last block.
+// Numbers behind the last block that a vector with padding lanes may touch.
 constexpr std::int32_t lane_slack = 64;
-// Sites of a group and what a padded range may touch behind them.
+// The sites of a group, and the numbers behind them that a padded range may touch.
 constexpr std::int32_t gram_stride = PathGroup::capacity + 16;
 
 const PathBlocks& blocks_of(const PathGroup& group) noexcept { return static_cast<const PathBlocks&>(group); }
 
-// The union of the paths of a group, as blocks without places; slot[s] = index of the block of supernode s, -1 for
-// none.
+// Lists the blocks on the union of a group's paths; their places are set later. slot[s]: index of the block of
+// supernode s, or -1 if there is none.
 void collect_blocks(const Symbolic& symbolic, const SparseColumns& columns, Span<const std::int32_t> members,
                     Vector<PathBlock>& blocks, std::int32_t* slot) {
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(members.size()); ++i) {
@@ -31,7 +34,7 @@ void collect_blocks(const Symbolic& symbolic, const SparseColumns& columns, Span
           continue;
         }
         PathBlock& block = blocks[slot[s]];
-        if (block.low + block.used == i + 1) break;  // the rest of the path is marked for this site already
+        if (block.low + block.used == i + 1) break;  // the rest of the path is already marked for this site
         block.used = i + 1 - block.low;
       }
     }
@@ -49,7 +52,7 @@ std::shared_ptr<const PathGroup> solve_group(const SupernodalFactor& factor, con
   std::fill(slot.begin(), slot.end(), -1);
   Vector<PathBlock> blocks(&memory);
   collect_blocks(symbolic, columns, members, blocks, slot.data());
-  // places: rows of the union, shifted so that site i of a row lies at place_of[row] + i
+  // Sets the places of the blocks. Rows of the union are shifted, so that site i of a row lies at place_of[row] + i.
   Buffer<std::int64_t> place_of(memory, static_cast<std::size_t>(symbolic.size));
   std::int64_t total = 0;
   std::int32_t longest = 0;
@@ -77,7 +80,7 @@ std::shared_ptr<const PathGroup> solve_group(const SupernodalFactor& factor, con
   const Kernels& kernels = factor.kernels();
   for (const PathBlock& block : blocks) {
     const std::int32_t s = block.supernode;
-    const bool narrow = symbolic.columns(s) <= narrow_columns;  // stored solved: rows first
+    const bool narrow = symbolic.columns(s) <= narrow_columns;  // stored inverted: its rows come first
     if (!narrow) kernels.path_triangle(factor.triangle(s), symbolic.columns(s), values + block.at, block.lanes);
     const std::int32_t* rows = symbolic.row_list(s);
     const std::int32_t count = symbolic.below(s);
@@ -106,7 +109,7 @@ void SupernodalFactor::solve_paths(const SparseColumns& columns, Memory& memory,
   const std::int32_t count = columns.count();
   if (count == 0) return;
   require_in_range(columns, size());
-  // sites by their first row in factor order
+  // Sorts the sites by their first row in factor order.
   Buffer<std::int32_t> members(memory, static_cast<std::size_t>(count));
   Buffer<std::int32_t> key(memory, static_cast<std::size_t>(count));
   for (std::int32_t i = 0; i < count; ++i) {
@@ -116,7 +119,7 @@ void SupernodalFactor::solve_paths(const SparseColumns& columns, Memory& memory,
   }
   std::sort(members.begin(), members.end(),
             [&](std::int32_t a, std::int32_t b) { return key[a] != key[b] ? key[a] < key[b] : a < b; });
-  // groups of whole lanes of 8, and an even number of them, so that two threads have the same work
+  // Groups have whole lanes of 8. Their number is even where possible, so that two threads have the same work.
   const std::int32_t lanes = (count + 7) / 8;
   std::int32_t groups = (count + PathGroup::capacity - 1) / PathGroup::capacity;
   if (groups % 2 == 1 && groups < lanes) ++groups;

@@ -5,11 +5,12 @@
 namespace hf_inner {
 namespace {
 
-// A subtree of this share of the work is one task: eight tasks a thread on four threads, so that none waits long.
+// A subtree with at most this share of the work is one task. Four threads get eight tasks each, so that none waits
+// long.
 constexpr double task_share = 1.0 / 32.0;
 // Smaller subtrees are grouped up to this share, so that a task costs more than its start.
 constexpr double group_share = 1.0 / 64.0;
-// Flops below which the matrix is one task: 0.15 ms at 27 GF/s, a few batches.
+// A matrix with fewer flops is one task: 0.15 ms at 27 GF/s, the cost of a few batches of jobs.
 constexpr double whole_work = 4e6;
 
 void link_children(const Symbolic& symbolic, Memory& memory, Plan& plan) {
@@ -24,7 +25,7 @@ void link_children(const Symbolic& symbolic, Memory& memory, Plan& plan) {
   }
 }
 
-// Share of flops and of stored numbers in every subtree.
+// Computes the share of flops and of stored numbers in every subtree.
 void sum_shares(const Symbolic& symbolic, double* share) {
   double work = 0;
   for (std::int32_t s = 0; s < symbolic.supernodes; ++s) work += symbolic.work[s];
@@ -71,7 +72,7 @@ void group_tasks(const Symbolic& symbolic, const double* share, Memory& memory, 
   for (std::int32_t t = 0; t < plan.tasks; ++t) plan.task_order[t] = t;
   std::stable_sort(plan.task_order.begin(), plan.task_order.end(),
                    [&](std::int32_t a, std::int32_t b) { return task_share_sum[a] > task_share_sum[b]; });
-  // waves: height above the tasks
+  // The wave of a top supernode is its height above the tasks.
   Vector<std::int32_t> height(symbolic.supernodes, -1, &memory);
   for (const std::int32_t s : top) {
     std::int32_t h = 0;
@@ -102,7 +103,7 @@ void grow(const Symbolic& symbolic, const Plan& plan, std::int32_t s, Plan::Size
   sizes.child_rows = std::max(sizes.child_rows, rows);
 }
 
-// The two stacks of a task, run in advance.
+// Measures the largest sizes of a task's two stacks by running the task in advance.
 void measure_tasks(const Symbolic& symbolic, Plan& plan) {
   for (std::size_t r = 0; r < plan.task_root.size(); ++r) {
     const std::int32_t root = plan.task_root[r];
@@ -117,8 +118,8 @@ void measure_tasks(const Symbolic& symbolic, Plan& plan) {
   }
 }
 
-// First-fit places of the update matrices that outlive their piece: those of task roots from the start, those of a wave
-// while the children they replace still stand.
+// Finds first-fit places for the update matrices that outlive their task or wave. Task roots get their places first. A
+// supernode of a wave gets its place while its children's matrices are still in use.
 void place_shared(const Symbolic& symbolic, Memory& memory, Plan& plan) {
   struct Gap {
     std::int64_t begin, end;

@@ -1,8 +1,8 @@
-// Cuts the work on a factor into pieces. The cut depends on the pattern alone, never on the number of threads, so that
+// Splits the work on a factor into jobs. The split depends only on the pattern, never on the number of threads, so
 // every sum is formed in the same order.
 //
-// Tasks are groups of complete subtrees of the supernode tree, each a small share of the whole; they run in any order.
-// The supernodes above them, the top, are taken in waves of equal height: a wave needs only the waves before it.
+// A task is a group of complete subtrees of the supernode tree, a small share of all work. Tasks run in any order. The
+// supernodes above the tasks, called the top, run in waves of equal height. A wave only needs the waves before it.
 #pragma once
 #include <cstdint>
 
@@ -12,19 +12,19 @@
 namespace hf_inner {
 
 struct Plan {
-  // tasks
+  // The tasks.
   Buffer<std::int32_t> task_root;   // roots of complete subtrees, ascending
   Buffer<std::int32_t> task_start;  // tasks + 1: task t owns roots [task_start[t], task_start[t + 1])
   Buffer<std::int32_t> task_order;  // tasks by falling work
   std::int32_t tasks = 0;
-  // top
+  // The top: all supernodes above the tasks.
   Buffer<std::int32_t> top;         // supernodes above the tasks, wave by wave, ascending inside a wave
   Buffer<std::int32_t> wave_start;  // waves + 1
   std::int32_t waves = 0;
-  // tree
+  // The supernode tree.
   Buffer<std::int32_t> child, sibling;  // first child and next sibling of a supernode, ascending; -1 at the end
   Buffer<std::uint8_t> parity;  // depth of the supernode, lowest bit: which of the two stacks takes its update matrix
-  // storage of a factorisation, in doubles
+  // The memory that a factorisation needs, in doubles.
   struct Sizes {
     std::int64_t panel = 0, stack[2] = {0, 0};
     std::int32_t children = 0, columns = 0;
@@ -38,7 +38,7 @@ struct Plan {
   double bytes() const noexcept;
 };
 
-// Doubles of the panel and of the update matrix of a front.
+// These two functions return the number of doubles in a front's panel and in its update matrix.
 inline std::int64_t panel_size(std::int64_t columns, std::int64_t below) noexcept {
   return 8 * ((columns + 7) / 8 + (below + 7) / 8) * columns;
 }

@@ -9,25 +9,33 @@ namespace {
 
 constexpr std::uint8_t touches_left = 1, touches_right = 2, on_path = 4;
 constexpr std::int32_t none = -1, source = -2, sink = -3;
-// Half the band at most, as a share. Half: flops up to +6 %. Double: up to +40 %, as it swallows a side.
+// Largest half width of the band, as a share of the vertices. At half the value: flops change by up to +6 %. At twice
+// the value: by up to +40 %, because the band swallows a side.
 constexpr double widest_band = 0.3;
-// Widths of the band in square roots of the size. Small, half: flops -7 to +6 %; double: within 2 %. Large: nothing.
+// Width of the band in square roots of the size, for large and small graphs. Half the second number changes flops by -7
+// to +6 %, twice the number by at most 2 %. The first number changes nothing.
 constexpr double band_of_large = 16, band_of_small = 6;
-// Larger graphs come here only where coarsening failed. Half: flops within 3 %. Double: nothing.
+// Larger graphs only get here if coarsening failed. Half the value changes flops by at most 3 %, twice the value
+// changes nothing.
 constexpr std::int32_t small_graph = 500;
-// Squared extents: below, the second axis is not tried, for time. Half and double: fill unchanged.
+// If the second squared extent is below this share of the first, the second axis is not tried, which saves time.
+// Halving or doubling it does not change the fill.
 constexpr double long_shape = 0.04;
-// Bounds the ratio of extents in a diagonal, against flat shapes. Half and double: nothing.
+// A diagonal direction weighs the second axis by the ratio of extents, but at most by this number; it guards against
+// flat shapes. Halving or doubling it changes nothing.
 constexpr double longest_diagonal = 1e3;
-// Squared extents of places that are usable; below, all are one place.
+// Range of squared extents in which positions are usable. Below it all positions coincide.
 constexpr double largest_extent = 1e300, least_extent = 1e-300;
-// Squared separator over size from which distances in the graph are tried too. Half and double: fill within 0.1 %.
+// If the squared separator is more than this many times the size, distances in the graph are tried too. Halving or
+// doubling it changes the fill by at most 0.1 %.
 constexpr double poor_separator = 2.5;
-// Share of the band when breadth-first keys lose a side. Half and double: nothing on torus, creature and scan.
+// Half width of the band for a second try, when breadth-first keys empty a side. Halving or doubling it changes nothing
+// on the test meshes torus, creature and scan.
 constexpr double narrow_band = 0.05;
 
-// Eigenvectors of a symmetric 3 x 3 matrix by Jacobi rotations, columns by falling eigenvalue. By hand, not Eigen's: the
-// order of the unknowns follows the signs of the axes, and with other signs the last bits of fields change.
+// Computes the eigenvectors of a symmetric 3 x 3 matrix by Jacobi rotations, columns by falling eigenvalue. Eigen is
+// not used here: the order of the unknowns depends on the signs of the axes. With other signs, the last bits of fields
+// would change.
 void principal_axes(double a[3][3], double axis[3][3], double value[3]) {
   double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (int sweep = 0; sweep < 12; ++sweep) {
@@ -58,7 +66,7 @@ void principal_axes(double a[3][3], double axis[3][3], double value[3]) {
   }
 }
 
-// Bits of a float in an order that unsigned comparison follows.
+// Returns the bits of a float in a form whose unsigned order is the order of the floats.
 std::uint32_t ordered_bits(float x) noexcept {
   std::uint32_t bits;
   std::memcpy(&bits, &x, sizeof bits);
@@ -73,7 +81,7 @@ double Cut::score() const noexcept {
   return (static_cast<double>(separator) + 0.5) * (1 + imbalance * imbalance);
 }
 
-// The band as a graph of its own, with a flag for every vertex next to a side.
+// Collects the band as a graph of its own, with flags for vertices next to a side.
 void SeparatorSearch::collect_band(const GraphView& graph, const std::uint8_t* side) {
   band_.clear();
   if (slot_.size() < static_cast<std::size_t>(graph.size)) slot_.resize(static_cast<std::size_t>(graph.size));
@@ -102,8 +110,9 @@ void SeparatorSearch::collect_band(const GraphView& graph, const std::uint8_t* s
   previous_.assign(count, none), next_.assign(count, none);
 }
 
-// Breadth-first levels of the residual graph from the source. States: 2 b = entry of vertex b, 2 b + 1 = its exit; a
-// vertex on no path is entered and left at once and has the exit only. True when the sink is reached.
+// Finds the breadth-first levels of the residual graph from the source. State 2 b is the entry of vertex b, state 2 b +
+// 1 its exit. A vertex on no path is entered and left at once, so it only has the exit. Returns true when the sink is
+// reached.
 bool SeparatorSearch::label_phase() {
   const std::size_t count = band_.size();
   level_.assign(2 * count, none);
@@ -137,7 +146,7 @@ bool SeparatorSearch::label_phase() {
   return last != INT32_MAX;
 }
 
-// Disjoint shortest paths by depth-first search on the levels; a state that was used or leads nowhere is taken out.
+// Finds disjoint shortest paths by depth-first search on the levels. A state that is used or leads nowhere is removed.
 std::int32_t SeparatorSearch::augment_phase() {
   const std::size_t count = band_.size();
   iterator_.assign(band_start_.begin(), band_start_.end() - 1);
@@ -183,12 +192,12 @@ std::int32_t SeparatorSearch::augment_phase() {
 
 // Adds the path on the stack to the flow.
 void SeparatorSearch::apply_path() {
-  std::int32_t from = source;  // the vertex whose exit the path came from
+  std::int32_t from = source;  // the vertex whose exit comes before this state
   for (std::size_t k = 0; k < stack_.size(); ++k) {
     const std::int32_t state = stack_[k], b = state >> 1;
     if ((state & 1) == 0) {
       if (from == b) {
-        // back into b from its own exit: b drops out of its path
+        // The path goes back into b from b's own exit, so b leaves its old path.
         flags_[b] &= static_cast<std::uint8_t>(~on_path);
         previous_[b] = next_[b] = none;
       } else {
@@ -205,7 +214,7 @@ void SeparatorSearch::apply_path() {
   }
 }
 
-// States from which the sink can be reached in the residual graph; a vertex on no path has the exit only.
+// Marks the states from which the sink can be reached in the residual graph. A vertex on no path only has the exit.
 void SeparatorSearch::mark_reaching_sink() {
   const std::size_t count = band_.size();
   reach_.assign(2 * count, 0);
@@ -224,7 +233,7 @@ void SeparatorSearch::mark_reaching_sink() {
       if (next_[b] >= 0) visit(2 * next_[b]);
       continue;
     }
-    // what enters b: any neighbour's exit, and b's own exit when b is on a path
+    // The states that lead into b are the exits of its neighbours, and b's own exit when b is on a path.
     for (std::int32_t e = band_start_[b]; e < band_start_[b + 1]; ++e) visit(2 * band_neighbour_[e] + 1);
     if (flags_[b] & on_path)
       visit(state + 1);
@@ -233,7 +242,8 @@ void SeparatorSearch::mark_reaching_sink() {
   }
 }
 
-// After the last labelling: level_ marks what the source reaches, reach_ what reaches the sink.
+// Chooses between the two extreme minimum cuts, after the last labelling. level_ marks the states that the source
+// reaches, reach_ those that reach the sink.
 Cut SeparatorSearch::choose_cut(const GraphView& graph, std::uint8_t* side) {
   mark_reaching_sink();
   Cut near_source, near_sink;
@@ -286,7 +296,8 @@ Cut SeparatorSearch::refine(const GraphView& graph, std::uint8_t* side) {
   return choose_cut(graph, side);
 }
 
-// Keys in ranked_; the middle `share` of the weight on either side of the median is the band.
+// Sorts the vertices by key_. Those within `share` of the weight on either side of the median form the band, in which a
+// minimum cut is then tried.
 bool SeparatorSearch::try_keys(const GraphView& graph, std::uint8_t* side, Cut& best, double share) {
   const std::int32_t n = graph.size;
   ranked_.resize(static_cast<std::size_t>(n));
@@ -315,7 +326,7 @@ bool SeparatorSearch::try_keys(const GraphView& graph, std::uint8_t* side, Cut& 
     for (std::ptrdiff_t k = 0; k < low; ++k) trial_[ranked_[k] & 0xffffffffu] = side_left;
     for (std::ptrdiff_t k = high; k < n; ++k) trial_[ranked_[k] & 0xffffffffu] = side_right;
   }
-  // an edge that jumps the band puts its left end into it
+  // If an edge jumps over the band, its left end moves into the band.
   for (std::int32_t v = 0; v < n; ++v) {
     if (trial_[v] != side_left) continue;
     for (std::int32_t e = graph.start[v]; e < graph.start[v + 1]; ++e) {
@@ -333,7 +344,8 @@ bool SeparatorSearch::try_keys(const GraphView& graph, std::uint8_t* side, Cut& 
   return true;
 }
 
-// Order of a breadth-first search, component after component, each from a vertex far from its first.
+// Numbers the vertices in breadth-first order, component after component. Each search starts at a vertex far from the
+// component's first one.
 void SeparatorSearch::breadth_first_keys(const GraphView& graph) {
   const std::int32_t n = graph.size;
   key_.assign(static_cast<std::size_t>(n), -1.0f);
@@ -394,7 +406,7 @@ Cut SeparatorSearch::bisect(const GraphView& graph, std::uint8_t* side, bool tho
     if (spread) {
       projection_keys(graph, axis[0]);
       try_keys(graph, side, best, share);
-      // a long shape has one sensible axis
+      // A long shape has only one sensible axis.
       if (value[1] > long_shape * value[0] || !best.usable()) {
         projection_keys(graph, axis[1]);
         try_keys(graph, side, best, share);
@@ -412,8 +424,8 @@ Cut SeparatorSearch::bisect(const GraphView& graph, std::uint8_t* side, bool tho
       }
     }
   }
-  // far above the square root of the size: the places mislead (a tube with long triangles along it is cut lengthwise),
-  // so distances in the graph get their say
+  // A separator far above the square root of the size means that positions mislead. For example, a tube with long
+  // triangles is cut lengthwise. Then distances in the graph are tried too.
   const bool poor = static_cast<double>(best.separator) * best.separator > poor_separator * n;
   if (!spread || !best.usable() || thorough || poor) {
     breadth_first_keys(graph);

@@ -1,9 +1,10 @@
-// Minimum vertex separators of a graph, for nested dissection.
+// Finds minimum vertex separators of a graph, for nested dissection.
 //
 // A bisection fixes two sides and leaves a band between them. The smallest set of band vertices that separates the
-// sides equals a maximum set of vertex-disjoint paths (Menger). Dinic's algorithm finds it on split vertices of
-// capacity 1, kept implicitly as predecessors and successors on the paths. Both extreme minimum cuts are read off the
-// residual; the better balanced stands. Cost: O(band edges) per phase, a handful of phases. Deterministic.
+// sides is as large as the largest set of vertex-disjoint paths through the band (Menger). Dinic's algorithm finds
+// these paths on split vertices of capacity 1, stored as predecessors and successors on the paths. The residual graph
+// gives both extreme minimum cuts, and the better balanced one is taken. Cost: O(band edges) per phase, with a handful
+// of phases. Deterministic.
 #pragma once
 #include <cstdint>
 
@@ -11,21 +12,21 @@
 
 namespace hf_inner {
 
-// A graph without loops, both directions of every edge stored.
+// A graph without loops. Both directions of every edge are stored.
 struct GraphView {
   std::int32_t size = 0;
   const std::int32_t* start = nullptr;
   const std::int32_t* neighbour = nullptr;
   const float* point = nullptr;          // xyz per vertex, or null
-  const std::int32_t* weight = nullptr;  // original vertices a vertex stands for, or null for 1 each
+  const std::int32_t* weight = nullptr;  // number of original vertices that a vertex stands for, or null for 1 each
   std::int32_t weight_of(std::int32_t v) const noexcept { return weight ? weight[v] : 1; }
 };
 
 enum : std::uint8_t { side_left = 0, side_right = 1, side_between = 2 };
 
 struct Cut {
-  std::int32_t separator = 0;        // vertices between
-  std::int64_t left = 0, right = 0;  // weights of the sides
+  std::int32_t separator = 0;        // number of vertices between the sides
+  std::int64_t left = 0, right = 0;  // weights of the two sides
   bool usable() const noexcept { return left > 0 && right > 0; }
   double score() const noexcept;  // smaller is better: size times (1 + squared imbalance)
 };
@@ -50,12 +51,12 @@ class SeparatorSearch {
         trial_(&memory),
         key_(&memory) {}
 
-  // In: side[v] left, right or between (the band; must separate the sides). Out: between is a minimum separator inside
-  // the band.
+  // Replaces the band by a minimum separator inside it. side[v] is left, right or between. On entry, the vertices
+  // between are the band, which must separate the sides.
   Cut refine(const GraphView& graph, std::uint8_t* side);
 
-  // Bisection of a small graph from keys along its principal axes, or from breadth-first order when it has no extent.
-  // `thorough` tries diagonal axes too. Returns an unusable cut when the graph cannot be split.
+  // Bisects a small graph by keys: positions along its principal axes, or a breadth-first order when the positions have
+  // no extent. `thorough` tries diagonal axes too. Returns an unusable cut when the graph cannot be split.
   Cut bisect(const GraphView& graph, std::uint8_t* side, bool thorough);
 
  private:

@@ -1,5 +1,5 @@
-// Vectors of 256 bits: those of the AVX2 build, and of the narrow supernodes in the AVX-512 build; and what both builds
-// share.
+// Vectors of 256 bits, for the AVX2 build and for the narrow supernodes of the AVX-512 build, and functions that both
+// builds share.
 #pragma once
 #include <immintrin.h>
 
@@ -19,7 +19,8 @@ struct Double4 {
   static void store(double* p, Type v) noexcept { _mm256_storeu_pd(p, v); }
   static Type load_part(const double* p, int count) noexcept { return _mm256_maskload_pd(p, mask(count)); }
   static void store_part(double* p, Type v, int count) noexcept { _mm256_maskstore_pd(p, mask(count), v); }
-  // The same by whole stores, which later loads can take from the store buffer; for counts known when compiled.
+  // Does the same as store_part with whole stores, which later loads can take from the store buffer. It is meant for
+  // counts that are known at compile time.
   static void store_first(double* p, Type v, int count) noexcept {
     if (count >= 4) return store(p, v);
     __m128d rest = _mm256_castpd256_pd128(v);
@@ -64,7 +65,7 @@ inline float multiply_add_scalar(float a, float b, float c) noexcept {
   return _mm_cvtss_f32(_mm_fmadd_ss(_mm_set_ss(a), _mm_set_ss(b), _mm_set_ss(c)));
 }
 
-// Sums of the four numbers of each of four vectors: (0 + 2) + (1 + 3).
+// Returns the sums of the four numbers of each of four vectors: (0 + 2) + (1 + 3).
 inline __m256d sums_of_four(__m256d a, __m256d b, __m256d c, __m256d d) noexcept {
   const __m256d ab = _mm256_add_pd(_mm256_permute2f128_pd(a, b, 0x20), _mm256_permute2f128_pd(a, b, 0x31));
   const __m256d cd = _mm256_add_pd(_mm256_permute2f128_pd(c, d, 0x20), _mm256_permute2f128_pd(c, d, 0x31));

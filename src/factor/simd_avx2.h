@@ -20,8 +20,8 @@ struct Narrow {
   using Set = Simd<T>;
 };
 
-// Products of a row of N <= 16 numbers with z, padded by zeros to 16, summed to four: lanes 8 apart by one fused
-// multiply-add, then lanes 4 apart. Reads up to 15 numbers behind the row.
+// Multiplies a row of N <= 16 numbers by z, padded with zeros to 16, and sums the products to four numbers. One fused
+// multiply-add joins lanes 8 apart, then lanes 4 apart are added. Reads up to 15 numbers behind the row.
 constexpr bool has_row_products = true;
 template <int N>
 inline __m256d row_products(const double* row, const double* z) noexcept {
@@ -33,10 +33,10 @@ inline __m256d row_products(const double* row, const double* z) noexcept {
   return _mm256_add_pd(low, high);
 }
 
-constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of an accumulator: 12 of 16 registers
-constexpr int lane_vectors = 2, lane_rows = 6;  // the same of the kernels of paths
+constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of a sum: 12 of 16 registers
+constexpr int lane_vectors = 2, lane_rows = 6;  // the same in the kernels for paths
 
-// out[r][at + c] = tile[8 c + r] for r < rows, c < columns: blocks of 4 x 4.
+// Transposes by blocks of 4 x 4: out[r][at + c] = tile[8 c + r] for r < rows and c < columns.
 inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows,
                              std::int32_t columns) noexcept {
   for (std::int32_t r = 0; r < rows; r += 4) {

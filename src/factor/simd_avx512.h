@@ -61,7 +61,7 @@ struct Simd<float> {
   static Type subtract_product(Type a, Type b, Type c) noexcept { return _mm512_fnmadd_ps(a, b, c); }
 };
 
-// Vectors for supernodes of a known number of columns: 256 bits where that holds them.
+// Vectors for supernodes with a known number of columns: 256 bits where that is enough.
 template <bool Half>
 struct NarrowDouble {
   using Set = Simd<double>;
@@ -83,8 +83,8 @@ struct Narrow : NarrowDouble<Columns <= 4> {};
 template <int Columns>
 struct Narrow<float, Columns> : NarrowFloat<Columns <= 8> {};
 
-// Products of a row of N <= 16 numbers with z, padded by zeros to 16, summed to four: lanes 8 apart by one fused
-// multiply-add, then lanes 4 apart. Reads up to 15 numbers behind the row.
+// Multiplies a row of N <= 16 numbers by z, padded with zeros to 16, and sums the products to four numbers. One fused
+// multiply-add joins lanes 8 apart, then lanes 4 apart are added. Reads up to 15 numbers behind the row.
 constexpr bool has_row_products = true;
 template <int N>
 inline __m256d row_products(const double* row, const double* z) noexcept {
@@ -94,10 +94,10 @@ inline __m256d row_products(const double* row, const double* z) noexcept {
   return _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xff, all, 0), _mm512_maskz_extractf64x4_pd(0xff, all, 1));
 }
 
-constexpr int gemm_rows = 3, gemm_columns = 8;  // vectors of rows x columns of an accumulator: 24 of 32 registers
-constexpr int lane_vectors = 3, lane_rows = 8;  // the same of the kernels of paths
+constexpr int gemm_rows = 3, gemm_columns = 8;  // vectors of rows x columns of a sum: 24 of 32 registers
+constexpr int lane_vectors = 3, lane_rows = 8;  // the same in the kernels for paths
 
-// out[r][at + c] = tile[8 c + r] for r < rows, c < columns: one 8 x 8 transpose in registers.
+// Transposes by one 8 x 8 transpose in registers: out[r][at + c] = tile[8 c + r] for r < rows and c < columns.
 inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows,
                              std::int32_t columns) noexcept {
   __m512d in[8], pair[8], quad[8], row[8];

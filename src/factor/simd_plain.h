@@ -1,5 +1,5 @@
-// Vector types of the plain build: two lanes that every 64-bit processor has; products are rounded before they are
-// added.
+// Vector types of the plain build, with two lanes, which every 64-bit processor has. Products are rounded before they
+// are added.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -57,15 +57,15 @@ struct Narrow {
   using Set = Simd<T>;
 };
 
-constexpr bool has_row_products = false;  // no four lanes: one product after the other
+constexpr bool has_row_products = false;  // without four lanes, one product follows the other
 
-constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of an accumulator: 12 of 16 registers
-constexpr int lane_vectors = 2, lane_rows = 4;  // the same of the kernels of paths
+constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of a sum: 12 of 16 registers
+constexpr int lane_vectors = 2, lane_rows = 4;  // the same in the kernels for paths
 
 inline double multiply_add_scalar(double a, double b, double c) noexcept { return a * b + c; }
 inline float multiply_add_scalar(float a, float b, float c) noexcept { return a * b + c; }
 
-// out[r][at + c] = tile[8 c + r] for r < rows, c < columns.
+// Transposes: out[r][at + c] = tile[8 c + r] for r < rows and c < columns.
 inline void store_transposed(const double* tile, double* const* out, std::int64_t at, std::int32_t rows,
                              std::int32_t columns) noexcept {
   for (std::int32_t r = 0; r < rows; ++r) {

@@ -1,4 +1,4 @@
-// The factor itself: symbolic analysis and plan, shared by all factors of one pattern, and the numbers.
+// The factor itself: symbolic analysis and plan, which all factors of one pattern share, and the numbers.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -13,12 +13,13 @@ namespace hf_inner {
 struct Analysis {
   Symbolic symbolic;
   Plan plan;
-  Ordering ordering = Ordering::nested_dissection;  // that was asked for
+  Ordering ordering = Ordering::nested_dissection;  // the one that the caller chose
   std::uint64_t pattern_hash = 0;                   // of the matrix: refactor takes the same pattern only
-  bool loaded = false;                              // from bytes: the hash is not to be trusted
+  bool loaded = false;                              // loaded from bytes: the hash cannot be trusted
 };
 
-// One supernode of a path group: nc rows of `lanes` numbers, sites [low, low + used) of the group.
+// One supernode of a path group: a row of `lanes` numbers for each of its columns, for the sites [low, low + used) of
+// the group.
 struct PathBlock {
   std::int32_t supernode;
   std::int32_t low, used, lanes;
@@ -63,7 +64,7 @@ class SupernodalFactor final : public Factor {
   void clear(const PathGroup& group, std::int32_t channels, double* z) const override;
   void project(const PathGroup& group, const double* z, std::int32_t channels, double* out) const override;
 
-  // Supernodes on the paths of these unknowns, ascending.
+  // Returns the supernodes on the paths of these unknowns, ascending.
   Vector<std::int32_t> path_union(Span<const std::int32_t> unknowns) const;
   const Symbolic& symbolic() const noexcept { return analysis_->symbolic; }
   const Plan& plan() const noexcept { return analysis_->plan; }
@@ -76,7 +77,7 @@ class SupernodalFactor final : public Factor {
   Buffer<double>& values() noexcept { return values_; }
   const Buffer<double>& values() const noexcept { return values_; }
   const std::shared_ptr<const Analysis>& analysis() const noexcept { return analysis_; }
-  // Factorises the matrix into values(), which it allocates.
+  // Allocates values() and factorises the matrix into it.
   void compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, double lost_share, JobRunner& jobs,
                Progress* progress);
   void set_timings(double ordering_ms, double symbolic_ms) noexcept {
@@ -85,7 +86,7 @@ class SupernodalFactor final : public Factor {
   void set_loaded(bool borrowed, double load_ms) noexcept {
     statistics_.loaded = true, statistics_.borrowed = borrowed, statistics_.load_ms = load_ms;
   }
-  // Another set of kernels, for tests that compare them.
+  // Sets another set of kernels, for tests that compare them.
   void use_kernels(const Kernels& kernels) noexcept { kernels_ = &kernels; }
 
  private:

@@ -1,9 +1,10 @@
 // Forward and backward sweeps over the stored factor.
 //
-// Backward, z <- G^-T z: supernodes last to first; each subtracts what its rows below contribute, then solves its
-// triangle. Top supernodes wave by wave, then the tasks, all at once: no two pieces write the same row. Forward, z <-
-// G^-1 z: supernodes first to last. A task keeps its contributions above itself in a buffer of its own; the buffers are
-// added in the order of the tasks. Cost: one read of the factor per call for up to 8 channels.
+// The backward sweep, z <- G^-T z, takes the supernodes from last to first. Each subtracts the contribution of its rows
+// below, then solves its triangle. First the top supernodes run wave by wave, then all tasks at once; no two jobs write
+// the same row. The forward sweep, z <- G^-1 z, takes the supernodes from first to last. A task collects its
+// contributions to rows above itself in its own buffer. The buffers are added in the order of the tasks. Cost: one read
+// of the factor per call for up to 8 channels.
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -14,21 +15,21 @@
 namespace hf_inner {
 namespace {
 
-// Columns of a top supernode that one job sums. No result depends on it.
+// One job sums this many columns of a top supernode. No result depends on it.
 constexpr std::int32_t piece_columns = 96;
-// A wave runs whole supernodes while the largest is at most this over its fair share.
+// A wave runs whole supernodes as jobs if the largest is at most this many times its fair share.
 constexpr double even_share = 1.3;
-// Entries below which a wave is not cut: some 20 microseconds at 0.6 ns an entry, less than a batch.
+// A wave with fewer entries is never split: some 20 microseconds at 0.6 ns per entry, less than a batch of jobs costs.
 constexpr double small_wave_entries = 30000;
-// Rows below a supernode that one job multiplies. No result depends on it.
+// One job multiplies this many rows below a supernode. No result depends on it.
 constexpr std::int32_t piece_rows = 128;
-// Entries below which the rows of a supernode are not cut: some 25 microseconds, less than a batch.
+// A supernode with fewer entries is never split: some 25 microseconds, less than a batch of jobs costs.
 constexpr double least_cut = 40000;
-// Numbers that one job converts. No result depends on it.
+// One job converts this many numbers of the factor. No result depends on it.
 constexpr std::size_t preview_step = std::size_t{1} << 18;
-// Numbers of a right-hand side that one job converts. No result depends on it.
+// One job converts this many numbers of a right-hand side. No result depends on it.
 constexpr std::size_t convert_step = std::size_t{1} << 15;
-// Powers of two whose inverse is a normal double too.
+// Largest power of two whose inverse is a normal double too.
 constexpr int largest_exponent = 1000;
 
 // One backward sweep on double or single-precision numbers.
@@ -77,8 +78,8 @@ struct BackwardPass {
     triangle(s);
   }
 
-  // A wave as jobs: whole supernodes when they are many or small, else pieces of their columns first and the triangles
-  // after.
+  // Runs one wave as jobs. Each job is a whole supernode if there are many or small ones. Otherwise the jobs are pieces
+  // of their columns first, and their triangles after.
   void wave(std::int32_t begin, std::int32_t end, JobRunner& jobs) const {
     const std::int32_t* top = plan.top.data();
     const auto pieces_of = [&](std::int32_t s) { return (symbolic.columns(s) + piece_columns - 1) / piece_columns; };
@@ -123,12 +124,12 @@ struct BackwardPass {
   }
 };
 
-// Scratch of one thread in a forward sweep.
+// The scratch memory of one thread in a forward sweep.
 template <class T>
 struct ForwardScratch {
   ForwardScratch(Memory& memory, std::int32_t unknowns, std::int32_t below, std::int32_t channels)
       : place_of(memory, unknowns), product(memory, static_cast<std::size_t>(below) * channels + 8) {}
-  Buffer<std::int32_t> place_of;  // row above the task -> its place in the task's buffer
+  Buffer<std::int32_t> place_of;  // by row above the task: its place in the task's buffer
   Buffer<T> product;
 };
 
@@ -224,13 +225,14 @@ class ForwardPass {
 
   void solve(std::int32_t s, T* product) const noexcept {
     T* z = z_ + static_cast<std::int64_t>(symbolic_.first[s]) * channels_;
-    const bool narrow = symbolic_.columns(s) <= narrow_columns;  // stored solved: rows first
+    const bool narrow = symbolic_.columns(s) <= narrow_columns;  // stored inverted: its rows come first
     if (!narrow) solve_triangle(s, z);
     multiply_rows(s, 0, symbolic_.below(s), z, product);
     if (narrow) solve_triangle(s, z);
   }
 
-  // The same with the rows of a large supernode cut over the threads.
+  // Does the forward step of one supernode like the function above, with the rows of a large supernode split over the
+  // threads.
   void solve(std::int32_t s, T* product, JobRunner& jobs) const {
     const std::int32_t columns = symbolic_.columns(s), rows = symbolic_.below(s);
     if (jobs.thread_count() == 1 || static_cast<double>(columns) * rows < least_cut || rows <= piece_rows ||
@@ -296,7 +298,7 @@ Vector<std::int32_t> SupernodalFactor::path_union(Span<const std::int32_t> unkno
   for (const std::int32_t unknown : unknowns) nodes.push_back(pattern.supernode[pattern.position[unknown]]);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  // every path up to the first supernode that is marked
+  // Follows every path up to the first marked supernode.
   Vector<std::uint8_t> marked(static_cast<std::size_t>(pattern.supernodes), 0, &memory_);
   for (const std::int32_t s : nodes) marked[static_cast<std::size_t>(s)] = 1;
   const std::size_t starts = nodes.size();
@@ -351,8 +353,8 @@ void PreviewFactor::backward(float* z, std::int32_t channels, JobRunner& jobs) c
 
 namespace {
 
-// The largest magnitude, as a power of two: dividing by it is exact, and single precision neither overflows nor meets
-// its subnormal numbers. 1 for zero.
+// Returns a power of two near the largest magnitude, or 1 if all numbers are zero. Dividing by it is exact. Single
+// precision then neither overflows nor meets its subnormal numbers.
 double scale_of(const double* z, std::size_t count, Memory& memory, JobRunner& jobs) {
   const std::size_t pieces = (count + convert_step - 1) / convert_step;
   Buffer<double> largest(memory, pieces);

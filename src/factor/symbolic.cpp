@@ -8,7 +8,7 @@
 namespace hf_inner {
 namespace {
 
-// Supernodes while they merge. Index = fundamental supernode, in postorder.
+// The supernodes while they merge. The index is the fundamental supernode, in postorder.
 struct Merging {
   Merging(Memory& memory, std::int32_t count)
       : first(memory, static_cast<std::size_t>(count) + 1),
@@ -20,13 +20,13 @@ struct Merging {
         next(memory, count) {}
   Buffer<std::int32_t> first;       // columns [first[s], first[s + 1]) in tree labels
   Buffer<std::int32_t> parent;      // supernode tree
-  Buffer<std::int32_t> into;        // the supernode it joined, or -1
-  Buffer<std::int32_t> width;       // columns with all that joined
+  Buffer<std::int32_t> into;        // the supernode that it joined, or -1
+  Buffer<std::int32_t> width;       // its columns and those of all supernodes that joined it
   Buffer<std::int32_t> below;       // rows below
   Buffer<std::int32_t> head, next;  // present children
 };
 
-// Chains of columns whose structures nest without a zero: parent[j] = j + 1 and count[j] = count[j + 1] + 1.
+// Finds chains of columns whose patterns nest without a zero: parent[j] = j + 1 and count[j] = count[j + 1] + 1.
 std::int32_t find_fundamental(const EliminationTree& tree, std::int32_t n, std::int32_t* supernode,
                               std::int32_t* first) {
   std::int32_t count = 0;
@@ -39,7 +39,8 @@ std::int32_t find_fundamental(const EliminationTree& tree, std::int32_t n, std::
   return count;
 }
 
-// Tries the children of f in the order of the zeros they add; those that join hand their children on to f.
+// Tries to merge the children of supernode f into f, those that add the fewest zeros first. A child that joins passes
+// its own children on to f.
 void merge_children(Merging& m, std::int32_t f, Vector<std::pair<std::int64_t, std::int32_t>>& trial) {
   const auto zeros = [&](std::int32_t c) {
     return static_cast<std::int64_t>(m.width[c]) * (m.width[f] + m.below[f] - m.below[c]);
@@ -52,7 +53,7 @@ void merge_children(Merging& m, std::int32_t f, Vector<std::pair<std::int64_t, s
     m.into[c] = f;
     m.width[f] += m.width[c];
   }
-  // children list again: those that stayed, and the children of those that joined
+  // Rebuilds the list of children: those that stayed, and the children of those that joined.
   std::int32_t kept = -1;
   for (const auto& [unused, c] : trial) {
     if (m.into[c] < 0) {
@@ -69,8 +70,8 @@ void merge_children(Merging& m, std::int32_t f, Vector<std::pair<std::int64_t, s
   m.head[f] = kept;
 }
 
-// Postorder of the merged tree: fills the final position of every tree label and the arrays of `out` that describe
-// columns.
+// Numbers the merged tree in postorder. Fills the final position of every tree label, and the arrays of `out` that
+// describe columns.
 void number_supernodes(const Merging& m, std::int32_t fundamental, Memory& memory, Symbolic& out,
                        std::int32_t* final_of) {
   const std::size_t count = static_cast<std::size_t>(fundamental);
@@ -84,7 +85,7 @@ void number_supernodes(const Merging& m, std::int32_t fundamental, Memory& memor
   std::int32_t supernodes = 0;
   for (std::int32_t s = fundamental - 1; s >= 0; --s) {
     if (m.into[s] >= 0) {
-      // a member of the supernode it finally belongs to; members come in ascending order
+      // s is a member of the supernode that it finally belongs to. Members come in ascending order.
       std::int32_t root = m.into[s];
       while (m.into[root] >= 0) root = m.into[root];
       member_next[s] = member_head[root], member_head[root] = s;
@@ -131,8 +132,8 @@ void number_supernodes(const Merging& m, std::int32_t fundamental, Memory& memor
   }
 }
 
-// Row lists: for every row, ascending, walk from the supernode of each smaller neighbour up to the row's own. The lists
-// come out ascending. `label_at` maps final rows to tree labels.
+// Makes the row lists. For every row, in ascending order, it walks from the supernode of each smaller neighbour up to
+// the row's own supernode. So the lists are ascending. `label_at` maps final rows to tree labels.
 void make_row_lists(const EliminationTree& tree, const std::int32_t* final_of, const std::int32_t* label_at,
                     Memory& memory, Symbolic& out) {
   const std::int32_t n = out.size;

@@ -11,7 +11,9 @@ void walk_loop(const FluxField& field, Loop loop, Table<std::int32_t>& out) {
   out.clear();
   for (std::int32_t h = loop.seed;;) {
     out.push_back(h);
-    const std::int32_t t = s.twin[h];  // high -> low, in the triangle to the right; its third corner is opposite
+    // This half-edge goes from high to low, in the triangle to the right. `opposite` is the third corner of that
+    // triangle.
+    const std::int32_t t = s.twin[h];
     const std::int32_t opposite = s.tail[FluxSurface::previous(t)];
     h = field.rank(opposite) < loop.threshold ? FluxSurface::previous(t) : FluxSurface::next(t);
     if (h == loop.seed) return;
@@ -50,7 +52,7 @@ ArcGraph::ArcGraph(const FluxField& field, Memory& memory)
   up_start.push_back(0);
   for (std::int32_t i = 0; i < critical.size(); ++i) {
     const std::int32_t v = critical[i], begin = s.out[v];
-    Table<std::int32_t> done(memory);  // edges at v on loops that already became arcs
+    Table<std::int32_t> done(memory);  // edges at v whose loops are already arcs
     for (std::int32_t g = begin;;) {
       if (field.rises(g) && std::find(done.begin(), done.end(), g) == done.end()) {
         Arc arc;
@@ -63,7 +65,7 @@ ArcGraph::ArcGraph(const FluxField& field, Memory& memory)
           heap.push_back(field.rank(s.head(h)));
         }
         std::make_heap(heap.begin(), heap.end(), later);
-        // the loop passes the vertices above it one by one, the lowest first
+        // The loop moves up past the vertices above it one by one, the lowest first, until it meets a critical vertex.
         while (arc.upper < 0) {
           if (heap.empty()) fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "an arc of level loops has no upper end");
           std::pop_heap(heap.begin(), heap.end(), later);

@@ -9,8 +9,8 @@
 namespace hf_inner {
 namespace {
 
-// Solves A x = b by Cholesky in place, A positive definite by rows; b becomes x. By hand: its size is known at run
-// time.
+// Solves A x = b by Cholesky in place; b becomes x. a: a positive definite matrix, row by row. It is written by hand,
+// because the size is only known at run time.
 void solve_dense(Vector<double>& a, Vector<double>& b) {
   const std::size_t n = b.size();
   for (std::size_t j = 0; j < n; ++j) {

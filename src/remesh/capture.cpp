@@ -19,7 +19,7 @@ std::int32_t capture_features(const FluxSurface& s, const QuadDistance& distance
                               const CaptureOptions& options, Memory& memory) {
   Vector<QuadMiss> misses(&memory);
   const VertexFans fans(mesh, memory);
-  // how many corners around a vertex are turned over against the normal of the surface there
+  // Counts the corners around a vertex that are turned over against the normal of the surface there.
   auto turned_over = [&](std::int32_t v) {
     std::int32_t count = 0;
     for (std::int32_t i = fans.start[v]; i < fans.start[v + 1]; ++i) {

@@ -1,8 +1,9 @@
-// Snaps a relaxed quad mesh to the places of the surface it misses: tips, crests, thin ends.
+// Snaps a relaxed quad mesh to places of the surface that it misses: tips, crests, thin ends.
 //
-// Each missed vertex of the surface, the farthest first, takes the nearest free corner of its nearest face and pins it.
-// Two such vertices are at least an edge length apart. The rest is relaxed again. A move that would turn a corner over
-// is left out. Cost: O(n log faces) a round.
+// A miss is a surface vertex too far from the quads. The farthest comes first. The nearest free corner of its nearest
+// face moves to it and is pinned there. Two snapped vertices are at least an edge length apart. The vertices around
+// them are relaxed again. A move that would turn a corner over is not made. Cost: O(n log faces) per round for n
+// surface vertices.
 #pragma once
 #include "remesh/quad_distance.h"
 #include "remesh/relax.h"
@@ -10,11 +11,11 @@
 namespace hf_inner {
 
 struct CaptureOptions {
-  double edge_length = 0;  // inner units
+  double edge_length = 0;  // in inner units
   Progress* progress = nullptr;
 };
 
-// Returns how many vertices were snapped.
+// Returns how many vertices it snapped.
 std::int32_t capture_features(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh,
                               const CaptureOptions& options, Memory& memory);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr std::int32_t none = -1;
 
 struct Collapse {
-  double length;  // of its shortest edge
+  double length;  // of the quad's shortest edge
   std::int32_t face, corner;
 };
 
@@ -21,7 +21,8 @@ double side(const QuadMesh& mesh, std::int32_t f, std::int32_t k) {
   return norm(mesh.position[c[(k + 1) % 4]] - mesh.position[c[k]]);
 }
 
-// Quads that may collapse and have a short edge, the shortest first, each along the shorter diagonal that may.
+// Lists the quads that may collapse and have a short edge, the shortest first. Each collapses along its shorter
+// diagonal if it may, else along the other.
 void list_collapses(const QuadMesh& mesh, const VertexFans& fans, double shortest, bool only_refined,
                     Vector<Collapse>& out) {
   out.clear();
@@ -46,7 +47,7 @@ void list_collapses(const QuadMesh& mesh, const VertexFans& fans, double shortes
   });
 }
 
-// Marks the neighbours of a quad that collapses: they stay unchanged in that round.
+// Marks all vertices near a quad that collapses, so that no quad beside it collapses in the same round.
 void block_around(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, Table<std::uint8_t>& blocked) {
   for (std::int32_t k = mesh.face_start[f]; k < mesh.face_start[f + 1]; ++k) {
     const std::int32_t v = mesh.corner[k];
@@ -63,8 +64,8 @@ std::int32_t nearest(const Vector<Vec3>& points, const Vec3& to) {
   return static_cast<std::int32_t>(best);
 }
 
-// Applies the collapses, no two of which share a vertex or a neighbour. merged: by vertex of the new mesh, whether it
-// was two.
+// Applies collapses of which no two share a vertex or a neighbour. merged: by vertex of the new mesh, whether it was
+// two vertices.
 void collapse_quads(const FluxSurface& surface, QuadMesh& mesh, const Vector<Collapse>& collapses,
                     Table<std::uint8_t>& merged, Memory& memory) {
   Table<std::int32_t> becomes(mesh.position.size(), 0, memory);
@@ -73,7 +74,7 @@ void collapse_quads(const FluxSurface& surface, QuadMesh& mesh, const Vector<Col
   for (const Collapse& collapse : collapses) {
     const std::int32_t* c = mesh.corner.data() + mesh.face_start[collapse.face];
     std::int32_t a = c[collapse.corner], b = c[collapse.corner + 2];
-    if (mesh.pinned[b]) std::swap(a, b);  // not both are
+    if (mesh.pinned[b]) std::swap(a, b);  // at most one of the two is pinned
     if (!mesh.pinned[a]) {
       mesh.location[a] = walk_surface(surface, mesh.location[a], 0.5 * (mesh.position[b] - mesh.position[a]));
       mesh.position[a] = position_of(surface, mesh.location[a]);
@@ -123,7 +124,7 @@ bool can_collapse(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, 
       if (corner[j] != a) continue;
       for (const std::int32_t x : {corner[(j + 1) % size], corner[(j + size - 1) % size]}) {
         if (x == b || x == d) continue;
-        for (std::int32_t l = fans.start[c]; l < fans.start[c + 1]; ++l) {  // an edge from x to c
+        for (std::int32_t l = fans.start[c]; l < fans.start[c + 1]; ++l) {  // is there an edge from x to c
           const std::int32_t h = fans.face[l], n = mesh.size(h), *other = mesh.corner.data() + mesh.face_start[h];
           for (std::int32_t m = 0; m < n; ++m)
             if (other[m] == c && (other[(m + 1) % n] == x || other[(m + n - 1) % n] == x)) return false;
@@ -164,9 +165,9 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
   Vector<QuadMiss> before(&memory), after(&memory);
   NearFaces known(memory);
   Table<std::uint8_t> moving(memory);
-  Vector<Vec3> kept(&memory), centres(&memory);  // centres of collapses taken back; of those tried now
+  Vector<Vec3> kept(&memory), centres(&memory);  // centres of collapses that were undone, and of those tried now
   const double length = options.edge_length;
-  // the sum of the excess distances within a radius of a point
+  // Sums up how far misses within a radius of a point exceed the tolerance.
   const double reach = collapse_reach * length;
   auto excess = [&](const Vector<QuadMiss>& misses, const Vec3& point, double radius) {
     double sum = 0;
@@ -199,7 +200,7 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
       block_around(mesh, fans, collapse.face, blocked);
     }
     if (taken.empty()) break;
-    // a collapse that takes the mesh too far from the surface is taken back, until no collapse does
+    // Collapses that take the mesh too far from the surface are undone, until no such collapse is left.
     for (int tries = 0; tries < collapse_tries && !taken.empty(); ++tries) {
       QuadMesh trial = mesh;
       collapse_quads(surface, trial, taken, moving, memory);
@@ -213,7 +214,7 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
         const Vec3& centre = centres[static_cast<std::size_t>(i)];
         bad[i] = excess(after, centre, reach) > excess(before, centre, reach);
       }
-      // a miss beyond that reach counts against the nearest collapse
+      // A miss farther away than `reach` counts against the nearest collapse.
       const double limit = std::max(before.empty() ? 0 : before[0].distance, collapse_far * options.tolerance);
       if (std::count(bad.begin(), bad.end(), 1) == 0)
         for (const QuadMiss& miss : after)

@@ -1,36 +1,39 @@
 // Collapses quads of a mesh where its edges are short.
 //
-// A quad (a, b, c, d) collapses along its diagonal: a and c become one vertex and its sides coincide in pairs (diagonal
-// collapse: Tarini, Pietroni, Cignoni, Panozzo and Puppo 2010). The result is a mesh of quads with the same Euler
-// characteristic if a and c share no neighbours but b and d, and no face but this one. Vertices b and d need four
-// faces or more, a and c three, and a and c together at most collapse_most_faces. Borders and their faces stay.
+// A quad (a, b, c, d) collapses along its diagonal: a and c become one vertex, and its sides coincide in pairs
+// (diagonal collapse: Tarini, Pietroni, Cignoni, Panozzo and Puppo 2010). The result is again a mesh of quads with the
+// same Euler characteristic if a and c have no common neighbours except b and d, and no common face except this one.
+// Vertices b and d need four faces or more. Vertices a and c need three or more each, and together at most
+// collapse_most_faces. Borders and their faces stay.
 //
-// coarsen_quads collapses quads with an edge shorter than `shortest`, the shortest first, many at a time. The vertices
-// around them are relaxed and the mesh is measured. A collapse after which more is missed nearby is taken back.
+// coarsen_quads collapses quads that have an edge shorter than `shortest`, the shortest first, many at a time. The
+// vertices around them are relaxed, and the distance to the surface is measured. A collapse that makes this distance
+// worse nearby is undone.
 #pragma once
 #include "remesh/constants.h"
 #include "remesh/quad_distance.h"
 
 namespace hf_inner {
 
-// Whether quad f may collapse along the diagonal of its corners k and k + 2.
+// Tells whether quad f may collapse along the diagonal of its corners k and k + 2.
 bool can_collapse(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, std::int32_t k);
 
-// Collapses quads that are too far from the surface, no two of them neighbours: subdividing does not help a quad that
-// lies across a fold or in a tangle. Returns how many. merged: by vertex of the new mesh, whether it was two; unchanged
-// if none collapsed.
+// Collapses quads that are too far from the surface, no two of them neighbours. Subdividing does not help a quad that
+// lies across a fold or in a tangle. Returns how many quads it collapsed. merged: by vertex of the new mesh, whether it
+// was two vertices; unchanged if no quad collapsed.
 std::int32_t collapse_misses(const FluxSurface& surface, QuadMesh& mesh, const Vector<QuadMiss>& misses,
                              Table<std::uint8_t>& merged, Memory& memory);
 
 struct CoarsenOptions {
-  double edge_length = 0, tolerance = 0;  // inner units
-  double shortest = short_edge;           // edge lengths
-  bool only_refined = false;              // quads with a corner whose scale is below 1
+  double edge_length = 0, tolerance = 0;  // in inner units
+  double shortest = short_edge;           // in edge lengths
+  bool only_refined = false;              // only quads with a corner whose scale is below 1
   std::int32_t rounds = collapse_rounds;
   Progress* progress = nullptr;
 };
 
-// Returns the distance of the new mesh and the surface: at most collapse_far tolerances, or `deviation` as it was.
+// Returns the distance between the new mesh and the surface. It is at most collapse_far tolerances, or else the given
+// `deviation`.
 double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, double deviation,
                      const CoarsenOptions& options, Memory& memory);
 

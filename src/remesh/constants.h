@@ -1,10 +1,11 @@
-// Every chosen number of this room, grouped by the file that uses it.
+// All chosen numbers of this folder, grouped by the file that uses them.
 //
-// The lines say what half and double do, or the values named. They were tried at edges of 3 to 4 % of the box on a cow,
-// a figure of eight (both kinds), an elephant, a triceratops, and a blob of three pieces with borders. H is the
-// Hausdorff distance in % of the box; aspect and angles are 95 % quantiles. "Same" means the same figures. "No trend":
-// figures move, but half and double move them alike or both ways, H by 0.3 at most. Numbers decide whole lines and
-// faces, so rounding alone can move the faces by 1.4 %.
+// The lines say what happened with half or twice the value, or with other values. All were tried at edges of 3 to 4 %
+// of the box on a cow, a figure of eight (kinds uniform and pure), an elephant, a triceratops, and a blob of three
+// pieces with borders. "Box" means the diagonal of the bounding box. Distances are Hausdorff distances in % of the box,
+// unless they are called mean. Aspects and angles are 95 % quantiles. "Irregular" is the share of irregular vertices.
+// Where some results got better and others worse, the distance changed by at most 0.3. All these numbers decide about
+// whole lines and faces, so rounding alone can change the number of faces by 1.4 %.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -12,302 +13,403 @@
 namespace hf_inner {
 
 // --- quads.h ---
-// Faces against detail, as share of the box; docs/quads.md is measured at this value. Half: four times the faces.
+
+// Edge length, as a share of the box: trades detail for the number of faces. docs/quads.md is measured with it. At half
+// the value: four times the faces.
 constexpr double default_edge_length = 0.022;
-// Evenness against time. 30: aspect of the eight 2.5 to 2.6, irregular 34 to 37 %; 120: as 60.
+// Rounds of relaxation: trades evenness for time. At 30 a figure of eight has an aspect of 2.6 instead of 2.5, and 37 %
+// irregular vertices instead of 34 %. With 120 the results are those of 60.
 constexpr std::int32_t default_relax_rounds = 60;
 
 // --- quads.cpp: sites ---
-// Keeps one site a limb, in box diagonals. Half: same; double: other sites on the cow, irregular 19 to 16 %.
+
+// A tip nearer to an earlier one than this share of the box becomes no site, so that each limb has one site. Halving it
+// changes nothing. At twice the value: a cow has other sites, and 16 % irregular vertices instead of 19 %.
 constexpr double tip_distance = 0.06;
-// Bounds the sites of busy shapes. 8: the cow has 22 % fewer faces, irregular 19 to 27 %; 64: same.
+// Most tips used as sites; it bounds the sites of busy shapes. With 8, a cow has 22 % fewer faces, and 27 % irregular
+// vertices instead of 19 %. With 64 nothing changes.
 constexpr std::size_t most_tips = 32;
 struct TipLengths {
   double geodesic, poisson;
 };
-// Lists from many sites to few; the best mesh is kept. Half or double geodesic lengths: no trend.
+// Least lengths of tips, from a list with many sites to one with few; the best mesh of all lists is kept. Halving or
+// doubling the geodesic lengths improves some results and worsens others.
 constexpr TipLengths tip_lengths[] = {{0.008, 0.02}, {0.015, 0.05}, {0.03, 0.1}, {0.1, 0.3}};
-// How many of the lists are tried: 2 to 20 % of the time each. 1 or 2: the same mesh won on four shapes.
+// This many lists of sites (tip_lengths) are tried; each takes 2 to 20 % of the time. With 1 or 2 the same mesh was
+// chosen on four test shapes.
 constexpr int tip_trials = 4;
-// Sources of the mean distance: time against tips found. 20: other tips on the cow; 80: same.
+// Sources of the mean distance: more find tips more exactly but take longer. With 20: other tips on a cow. With 80
+// nothing changes.
 constexpr std::int32_t geodesic_sources = 40;
-// Time step of the heat method in squared mean edges, 1 as its authors have it. Half or double: no trend.
+// Time step of the heat method, in squared mean edges. The authors of the method use 1. Halving or doubling it improves
+// some results and worsens others.
 constexpr double geodesic_smoothing = 1.0;
-// Holds a border at one level against freedom of the flow. 3: 12 % fewer faces; 300: 36 % more (the blob).
+// Weight that holds a border at one level; more weight restricts the flow. On a blob of three pieces, 3 gives 12 %
+// fewer faces, and 300 gives 36 % more.
 constexpr double apex_weight = 30;
 
 // --- quads.cpp: lines of kind pure ---
-// Rounds of scaling lines to faces. 1 or 4: same (the eight, kind pure).
+
+// Rounds that scale the number of lines to the wanted number of faces. With 1 and 4 nothing changes on a figure of
+// eight.
 constexpr int line_rounds = 2;
-// Faces for the area. 1.0: H 0.84 to 0.89 with 14 % fewer faces; 1.3: 0.80 with 8 % more.
+// Share of wanted faces over area. At 1.0 the distance to the surface is 0.89 % of the box instead of 0.84, with 14 %
+// fewer faces. At 1.3 it is 0.80 %, with 8 % more.
 constexpr double area_share = 1.15;
-// Bounds a correction of the lines. 0.5 or 0.1: same; a guard.
+// One correction multiplies the number of lines by at least this factor; it guards against extreme counts. With 0.5 and
+// 0.1 nothing changes.
 constexpr double least_line_scale = 0.25;
-// Bounds a correction of the lines. 4 or 16: same; a guard.
+// One correction multiplies the number of lines by at most this factor; it guards against extreme counts. With 4 and 16
+// nothing changes.
 constexpr double most_line_scale = 8.0;
 
 // --- quads.cpp: evening out ---
-// Share of the rounds, 1 in 6, before thin parts are measured. 1 in 3 or 1 in 12: same on two meshes of kind pure.
+
+// One in this many relaxation rounds runs before thin parts are measured. One in 3 or one in 12 changes nothing on two
+// test meshes of kind pure.
 constexpr std::int32_t early_share = 6;
-// How much nearer the mesh relaxed less must be to be kept. 0.5 or 1: same on two meshes of kind pure.
+// The mesh after few rounds is kept if its distance is below this share of the final one. With 0.5 and 1 nothing
+// changes on two test meshes of kind pure.
 constexpr double early_gain = 0.9;
-// Below this distance, in box diagonals, snapping is left out: saves time on smooth shapes. Half or double: same.
+// Below this distance (share of the box), snapping is skipped, which saves time on smooth shapes. Halving or doubling
+// it changes nothing.
 constexpr double capture_from = 0.003;
 
 // --- quads.cpp: fitting ---
-// Distance of samples, in edge lengths: finds misses against time. Half: H no trend; double: mean up to +6 %.
+
+// Distance between samples, in edge lengths: closer samples find more misses but take longer. Half the value makes the
+// distance smaller on some meshes and larger on others. Twice the value raises the mean distance by up to 6 %.
 constexpr double sample_spacing = 0.33;
-// H against faces, 0.86 % of the box at 2.2 % edges (tests: 1 %). Half: up to 18 % more faces; double: H to 2.9.
+// Tolerance of fitting, in edge lengths: trades distance for faces. It gives 0.86 % of the box at edges of 2.2 %; the
+// tests demand 1 %. At half the value: up to 18 % more faces. At twice the value: distances up to 2.9 %.
 constexpr double fit_tolerance = 0.39;
-// Tolerance of collapses over that of fitting; above 1, so that collapses do not undo the fit. At 1.0 the Hausdorff
-// distance fell from 1.26 to 1.18 %; at 1.2 it was 1.17 %, with 30 % more faces.
+// Tolerance of collapses relative to that of fitting. It is above 1, so that collapses do not undo the fit. At 1.0 the
+// Hausdorff distance is 1.18 % of the box instead of 1.26. At 1.2 it is 1.17 %, with 30 % more faces.
 constexpr double collapse_tolerance = 1.03;
-// Turns of fitting and collapsing at most: time against distance. 2 or 8: same on seven meshes.
+// Most turns of fitting and collapsing: more of them take longer. With 2 and 8 nothing changes on seven test meshes.
 constexpr int fit_turns = 4;
-// Corners that a step may turn over, more each turn: distance against folds. 1: H 1.60 to 1.63; 4: same H.
+// Corners that a step may turn over grow by this number per turn: trades distance for folds. At 1 the distance to the
+// surface is 1.63 % of the box instead of 1.60. At 4 it stays the same.
 constexpr std::int32_t folds_a_turn = 2;
-// Rings relaxed around a step in odd turns. 0: H 1.26 to 1.28; 2: H same.
+// Rings of quads relaxed around a step in odd turns. At 0 the distance to the surface is 1.28 % of the box instead of
+// 1.26. At 2 it stays the same.
 constexpr std::int32_t fit_rings_odd = 1;
-// Shortest edges that kind pure keeps where it was refined. Half or double: same on three meshes.
+// Shortest edges, in edge lengths, that kind pure keeps where the mesh was refined. Halving or doubling it changes
+// nothing on three test meshes.
 constexpr double short_edge_pure = 0.3;
 
 // --- quads.cpp: choice ---
-// Meshes this much farther than the nearest are not fitted: saves time. 1.1 or 3: same.
+
+// A mesh is not fitted if it is this many times farther from the surface than the nearest mesh; this saves time. With
+// 1.1 and 3 nothing changes.
 constexpr double trial_cutoff = 1.35;
-// Meshes fitted at most: time against choice. 1: the same mesh won on five shapes.
+// Most meshes that are fitted: more of them cost time but give more choice. With 1 the same mesh was chosen on five
+// test shapes.
 constexpr std::size_t most_fitted = 3;
-// Meshes of each density fitted at most: time against choice. 1: same on four shapes.
+// Most meshes that are fitted for each density. With 1 nothing changes on four test shapes.
 constexpr std::size_t most_dense = 2;
-// How many densities follow.
+// Number of densities in the next line.
 constexpr int density_count = 2;
-// Tried if no mesh is good; the skull and an elephant of docs/quads.md need them. Half or double steps: same.
+// Denser meshes, tried if no mesh is good. The skull and an elephant of docs/quads.md need them. Halving or doubling
+// the steps changes nothing.
 constexpr double densities[density_count] = {1.15, 1.3};
-// Distance of a good mesh, 0.9 % of the box at 2.2 % edges (tests: 1 %). 0.3: up to 66 % more faces; 0.6: same.
+// Distance of a good mesh, in edge lengths: 0.9 % of the box at edges of 2.2 %; the tests demand 1 %. With 0.3: up to
+// 66 % more faces. With 0.6 nothing changes.
 constexpr double near_distance = 0.41;
-// Cost from which denser meshes are tried: time against distance. 1.0 or 1.2: same on four shapes.
+// Denser meshes are tried only if the cost of the best mesh is larger; this saves time. With 1.0 and 1.2 nothing
+// changes on four test shapes.
 constexpr double near_enough = 1.06;
-// Share of edges and quads that may be worse, as docs/quads.md reports 5 and 95 %. 0.02 or 0.1: same.
+// Share of edges and of quads that may be worse. docs/quads.md reports the same 5 and 95 % quantiles. With 0.02 and 0.1
+// nothing changes.
 constexpr double outliers = 0.05;
-// Edges of an even mesh, above the 0.5 of the tests. 0.3 or 0.7: same choice.
+// Shortest edges of an even mesh, in edge lengths; the tests demand 0.5. With 0.3 and 0.7 the same meshes are chosen.
 constexpr double shortest_even = 0.52;
-// Edges of an even mesh, below the 2.1 of the tests. 1.5: up to 32 % more faces; 4: same.
+// Longest edges of an even mesh, in edge lengths; the tests demand at most 2.1. With 1.5: up to 32 % more faces. With 4
+// nothing changes.
 constexpr double longest_even = 2;
-// Aspect of an even mesh: evenness against faces. 2: up to 65 % more faces; 8: same.
+// Largest aspect of an even mesh: trades evenness for faces. With 2: up to 65 % more faces. With 8 nothing changes.
 constexpr double narrowest_even = 4;
-// Aspect of an even mesh of kind pure, where lines cannot end. 6 or 24: same.
+// Largest aspect of an even mesh of kind pure, where lines cannot end. With 6 and 24 nothing changes.
 constexpr double narrowest_pure = 12;
-// Weight of edges too short against those too long in the choice. 1 or 4: same on four shapes.
+// Weight of edges that are too short, relative to edges that are too long. With 1 and 4 nothing changes on four test
+// shapes.
 constexpr double short_edge_cost = 2;
-// Stands for the aspect of a quad with an edge of length 0; any number far above narrowest_pure.
+// Stands for the aspect of a quad with an edge of length 0. Any number far above narrowest_pure will do.
 constexpr double most_aspect = 1e3;
 
 // --- quads.cpp: progress ---
 struct QuadsProgress {
   float prepared, far_tips, tips, tried, fitted;
 };
-// Measured: tips end at 1 to 8 % of the time, trials at 10 to 86, fitting at 44 to 100. None is right for all.
+// Progress at the end of each stage. Measured: tips ended at 1 to 8 % of the time, trials at 10 to 86 %, and fitting at
+// 44 to 100 %. No set of values fits all shapes.
 constexpr QuadsProgress quads_progress = {0.15f, 0.25f, 0.3f, 0.6f, 0.8f};
 struct MakeProgress {
   float flow, solved, counted, arcs, rings, polygons, split;
 };
-// Measured: a mesh spends 65 to 97 % in evening out, which has the last 30 % here; a test bounds the steps.
+// Progress while one mesh is made. Evening out took 65 to 97 % of the time, but gets only the last 30 % of the progress
+// here. A test limits the size of the steps.
 constexpr MakeProgress make_progress = {0.2f, 0.3f, 0.35f, 0.4f, 0.6f, 0.65f, 0.7f};
 struct EvenProgress {
   float early, early_measured, relaxed, measured, captured;
 };
-// Order only; the shares are not measured.
+// Progress while one mesh is evened out. Only the order is right; the shares are not measured.
 constexpr EvenProgress even_progress = {0.1f, 0.2f, 0.5f, 0.6f, 0.9f};
-// Order only; the share is not measured.
+// Progress of one turn that fitting takes; the rest is for collapsing. The share is not measured.
 constexpr float fit_progress = 0.6f;
-// Order only. Measured on three shapes: making takes 10 to 50 % of making and fitting.
+// Progress at which a mesh from given sites is made; the rest is for fitting it. On three shapes, making took 10 to 50
+// % of both.
 constexpr float given_made = 0.7f;
-// As given_made.
+// Progress at which a denser mesh is made; the rest is for fitting it.
 constexpr float dense_made = 0.3f;
 
 // --- flux_sites.cpp, border_flux.cpp ---
-// Nodes of a ring, lines of a site: 2 would double an edge, which check_quads refuses. 2 or 6: same on four shapes.
+
+// Fewest lines at a site, and fewest nodes of a ring. 2 would double an edge, which check_quads refuses. With 2 and 6
+// nothing changes on four test shapes.
 constexpr double least_lines = 4;
-// Where the girth of a limb is measured, in box diagonals. Half: aspect of the cow 2.2 to 3.4; double: H +0.1 to +0.2.
+// Radius of the circle that measures the girth of a limb, as a share of the box. At half the value: aspect of a cow 3.4
+// instead of 2.2. At twice the value: the distance to the surface grows by 0.1 to 0.2 % of the box.
 constexpr double circle_radius = 0.1;
-// Width of the band of that circle over its radius. Half: H of the eight 1.00 to 1.35; double: 1.08.
+// Vertices this close to circle_radius, as a share of it, measure the girth of a limb. The distance to the surface of a
+// figure of eight is 1.00 % of the box, 1.35 at half the value, 1.08 at twice the value.
 constexpr double circle_band = 0.2;
-// Geodesic distance of a tip from borders and earlier sites. Half: same; double: 95 % edge of the cow 1.5 to 1.9.
+// Least geodesic distance between a tip and borders or earlier sites. Halving it changes nothing. At twice the value:
+// the 95 % quantile of a cow's edges is 1.9 edge lengths instead of 1.5.
 constexpr double border_distance = 0.08;
-// Bounds time and memory: pairs of sites and a dense system (border_flux.cpp). Not measured.
+// Most sites of a component. It bounds time and memory: all pairs of sites and a dense system (border_flux.cpp). Not
+// measured.
 constexpr std::size_t most_sites = 400;
-// A source and a sink.
+// Fewest sites of a component: a source and a sink.
 constexpr std::size_t least_sites = 2;
-// Sites of a surface with handles. 2: H of the eight 1.00 to 1.02; 8: 1.14, irregular 34 to 50 %.
+// Fewest sites of a surface with handles. With 2, the distance to the surface of a figure of eight is 1.02 % of the box
+// instead of 1.00. With 8 it is 1.14, and 50 % of the vertices are irregular instead of 34.
 constexpr std::size_t least_sites_with_handles = 4;
-// Progress only: the usual number of sites, before it is known.
+// The usual number of sites; progress uses it before the number is known.
 constexpr std::size_t expected_sites = 4;
-// Neighbours of one sign against balance of the sides. Half or double: the same partition on four shapes.
+// Weight of neighbours that are both sources or both sinks, against the balance of sources and sinks. Halving or
+// doubling it gives the same partition on four test shapes.
 constexpr double neighbour_cost = 0.5;
-// A guard against 0 for sites in one place; positions have a box of diagonal 1.
+// Guards a division by 0 when all sites are in one place. Positions are scaled to a bounding box with diagonal 1.
 constexpr double least_mean_distance = 1e-12;
-// All partitions: 2,048 of 12 sites, twice as many a site. 6: edges of the cow 0.64 to 0.55 (5 %); 16: same.
+// Up to this many sites, all partitions are tried: 2,048 for 12 sites, twice as many for each more. With 6, the 5 %
+// quantile of a cow's edges is 0.55 edge lengths instead of 0.64. With 16 nothing changes.
 constexpr std::size_t most_tried_at_once = 12;
-// Time: double exchanges of k sites cost k^4 a sweep. Not measured: no shape tried had 20 sites.
+// Up to this many sites, two are exchanged at once, which costs k^4 per sweep for k sites. Not measured: no tried shape
+// had 20 sites.
 constexpr std::size_t most_exchanged_in_pairs = 40;
-// Above rounding of a cost of size 1, so that exchanges end.
+// An exchange must lower the cost by at least this much. It is above the rounding error of a cost of size 1, so
+// exchanges end.
 constexpr double least_cost_gain = 1e-12;
-// Pins a vertex of each component; any value above 1 gives one field. 1.001 or 20: the eight by rounding, +-1 % faces.
+// Factor on the diagonal of one pinned vertex per component. Any value above 1 gives the same field. With 1.001 or 20,
+// rounding changes the faces of a figure of eight by 1 %.
 constexpr double pinned_diagonal = 2;
-// Solves, refinements included. 1: faces by rounding, 518 to 511 on the cow; 6: as 3, within rounding.
+// Solves per field, refinements included. With 1, rounding changes the faces of a cow from 518 to 511. With 6 nothing
+// changes within rounding.
 constexpr int flux_solves = 3;
-// Raises before sources and sinks are held at two levels: time against even lines. 3: same on a sheet with holes.
+// Raises of border fluxes, before all sources and sinks get fixed values: trades time for even lines. With 3 nothing
+// changes on a sheet with holes.
 constexpr int border_rounds = 6;
-// Factor of a raise. 1.3: same; 3: H of a sheet with holes 1.54 to 1.89, aspect 12 to 19.
+// Factor of one raise. With 1.3 nothing changes. With 3: the distance to the surface of a sheet with holes is 1.89 % of
+// the box instead of 1.54, its aspect 19 instead of 12.
 constexpr double border_raise = 1.7;
 
 // --- flux_field.cpp ---
-// Keeps the flux of equal values positive; near the smallest double, so that it adds nothing to others.
+
+// Keeps the flux between equal values positive. It is near the smallest double, so it does not change other fluxes.
 constexpr double least_flux = 1e-300;
-// Share of the inflow that counts as used up: some units of rounding.
+// Share of the inflow that counts as used up: a few units of rounding.
 constexpr double least_segment = 1e-15;
 
 // --- ring_levels.cpp ---
-// Edge lengths from a site to its first ring, between both kinds. Half: H -0.2 to +0.1; 1.2: -0.1 to +0.2, fewer faces.
+
+// Distance from a site to its first ring, in edge lengths: a compromise of kinds uniform and pure. Half the value
+// changes the distance to the surface by -0.2 to +0.1 % of the box. A value of 1.2 changes it by -0.1 to +0.2, with
+// fewer faces.
 constexpr double ring_at_site = 0.8;
-// Half a face on both sides of a saddle. 0.25: H -0.3 to +0.2; 1: up to +0.3, irregular 30 to 40 % on the cow.
+// Distance from a saddle to the next ring, in edge lengths. At 0.25 the distance to the surface changes by -0.3 to +0.2
+// % of the box. At 1 it grows by up to 0.3, and a cow has 40 % irregular vertices instead of 30.
 constexpr double ring_at_saddle = 0.5;
-// Loops whose lengths are integrated along an arc: time against even rings. Half or double: no trend.
+// Most loops per arc whose lengths are integrated: more cost time but give more even rings. Halving or doubling it
+// improves some results and worsens others.
 constexpr std::int32_t loops_an_arc = 64;
-// Share of an arc's range above which a step is subdivided. Half or double: no trend.
+// A step above this share of an arc's range is subdivided. Halving or doubling it improves some results and worsens
+// others.
 constexpr double long_step = 0.01;
-// Pieces of such a step. 4 or 16: no trend.
+// Pieces into which a long step is subdivided. 4 and 16 improve some results and worsen others.
 constexpr std::int32_t long_step_pieces = 8;
-// A guard against division by 0.
+// Guards a division by 0.
 constexpr double least_arc_flux = 1e-30;
-// A guard: an edge_length of 1e-4 of the box, the least allowed, gives some ten thousand rings an arc.
+// Most rings of a mesh. An edge_length of 1e-4 of the box, the least allowed, gives some ten thousand rings per arc.
 constexpr double most_rings = 1e6;
 
 // --- rings.cpp ---
-// A guard for the conversion to an integer.
+
+// Keeps a number of nodes within the range of an integer.
 constexpr double most_nodes = 1e6;
-// Valence of a site, 3 or more after splitting 6 nodes. 4: angles of the cow 42 to 52 degrees (95 %); 8: 47.
+// Fewest nodes of the ring beside a site; splitting then gives the site 3 or more faces. Angles of a cow (95 %
+// quantile): 42 degrees, 52 with 4, 47 with 8.
 constexpr double least_nodes_at_site = 6;
-// Edge lengths of a gap that gets a pair of nodes. 1.6: irregular 34 to 51 %, faces +10 to 17; 3: H to 1.3, 31 % fewer.
+// A gap wider than this many edge lengths gets a pair of nodes. At 1.6, 51 % of the vertices are irregular instead of
+// 34, with 10 to 17 % more faces. At 3 the distance to the surface is up to 1.3 % of the box, with 31 % fewer faces.
 constexpr double widest_gap_length = 1.9;
-// A pair of lines ends where three neighbouring gaps together are narrower than this many edge lengths. 1.2: 2 to 6 %
-// more faces; 2.4: 2 to 6 % fewer.
+// A pair of lines ends where three neighbouring gaps together are narrower than this many edge lengths. With 1.2: 2 to
+// 6 % more faces; with 2.4: 2 to 6 % fewer.
 constexpr double narrowest_gaps_length = 1.7;
-// Lines that a ring keeps, a hexagon. 4: same on four shapes; 12: no trend.
+// Fewest lines that a ring keeps: a hexagon. With 4 nothing changes on four test shapes. 12 improves some results and
+// worsens others.
 constexpr std::int32_t least_lined = 6;
-// Share of the gap between two lines that are traced down together. 0.125 or 0.5: same on four shapes.
+// Distance between two lines that are traced down together, as a share of the gap. With 0.125 and 0.5 nothing changes
+// on four test shapes.
 constexpr double second_line = 0.25;
 
 // --- quad_mesh.cpp ---
-// Cost of a reflex corner, above the 1 of a flat one. 0: H of the eight 1.00 to 1.02, aspect 2.5 to 2.6; 8: same.
+
+// Cost of a reflex corner; a flat corner costs 1. With 0, the distance to the surface of a figure of eight is 1.02 % of
+// the box instead of 1.00, its aspect 2.6 instead of 2.5. With 8 nothing changes.
 constexpr double reflex_cost = 4;
-// Above any sum of four squared cosines and reflex_cost, so that such a quad is chosen last.
+// Cost of a quad with an edge of length 0. It is above every other cost, so such a quad is chosen last.
 constexpr double degenerate_cost = 1e3;
 
 // --- relax.cpp ---
-// Share of the way to the proposals, below 1 against swinging. 0.25 or 1: no trend.
+
+// A vertex moves by this share of the way to its proposed place. Below 1 it does not swing to and fro. 0.25 and 1
+// improve some results and worsen others.
 constexpr double relax_step = 0.5;
-// Share of the way to the edge length aimed at. 0.25: no trend; 1: more irregular vertices on the cow, 30 to 33 %.
+// Sizes of quads move by this share of the way to the wanted edge length. 0.25 improves some results and worsens
+// others. At 1 a cow has 33 % irregular vertices instead of 30.
 constexpr double size_step = 0.5;
-// A guard against walks without end on degenerate triangles. 50 or 800: same.
+// Most edges that one walk along the surface crosses; it ends walks on degenerate triangles. With 50 and 800 nothing
+// changes.
 constexpr int most_crossings = 200;
-// Bounds the time of a round of relaxation. 2 or 8: same.
+// Most times that vertices move back in a round of relaxation; it bounds the time. With 2 and 8 nothing changes.
 constexpr int take_backs = 4;
 
 // --- nearest.cpp ---
-// Boxes against triangles to test. The result does not depend on it.
+
+// Triangles in a leaf of the search tree: trades tests of boxes for tests of triangles. The result does not depend on
+// it.
 constexpr std::int32_t triangles_a_leaf = 4;
-// 2^31 triangles halved to leaves give 29 levels, each with one box waiting.
+// Depth of the search stack: 2^31 triangles halved to leaves make 29 levels, and each level leaves one box to visit.
 constexpr std::int32_t tree_stack = 32;
 
 // --- quad_distance.cpp ---
-// Time on large surfaces: every second vertex from 60,000 on, every third from 120,000.
+
+// Vertices that are sampled before large surfaces skip some, which saves time: every second vertex from 60,000 on,
+// every third from 120,000.
 constexpr std::int32_t most_samples = 60000;
-// Triangles up to which their insides are sampled: time; finer surfaces have vertices enough.
+// Up to this many triangles, points inside them are sampled too. Finer surfaces have enough vertices.
 constexpr std::int32_t most_spread = 30000;
-// Bounds the samples of a triangle. 4: faces of the blob +2 %; 16: same.
+// Most steps along an edge of a sampled triangle. With 4, the quad mesh of a test blob has 2 % more faces. With 16
+// nothing changes.
 constexpr double most_steps = 8;
-// Steps on a triangle of the surface at least: its vertices are samples already. 2: same on four shapes.
+// Fewest steps on a triangle of the surface; its corners already are samples. With 2 nothing changes on four test
+// shapes.
 constexpr std::int32_t surface_steps = 1;
-// Steps on a triangle of a quad at least, so that the middles of edges are sampled. 1 or 4: same on four shapes.
+// Fewest steps on a triangle of a quad; 2 samples the middles of its edges. With 1 and 4 nothing changes on four test
+// shapes.
 constexpr std::int32_t quad_steps = 2;
-// Squared spacings, 0.14 of one: a diagonal that near needs no better. 0: mean within 3 %; 0.08: mean up to +6 %.
+// A diagonal this near to the surface needs no better one. It is a squared distance in squared sample spacings: 0.14 of
+// a spacing. With 0 the mean distance changes by 3 %, with 0.08 it grows by up to 6 %.
 constexpr double flat_diagonal = 0.02;
-// Places on a diagonal that are measured: the middle first, so that a bad diagonal is left early.
+// Places on a diagonal that are measured. The middle comes first, so that a bad diagonal is rejected early.
 constexpr double diagonal_shares[] = {0.5, 0.25, 0.75};
-// Size of a piece of parallel work, in samples. The result does not depend on it.
+// Samples in one job. The result does not depend on it.
 constexpr std::int32_t samples_a_piece = 4096;
-// Size of a piece of parallel work, in faces. The result does not depend on it.
+// Faces in one job. The result does not depend on it.
 constexpr std::int32_t faces_a_piece = 512;
-// 2^64 over the golden ratio, as in splitmix64.
+// The value with which the hash starts: 2^64 over the golden ratio, as in splitmix64.
 constexpr std::uint64_t hash_start = 0x9e3779b97f4a7c15u;
-// The first multiplier of MurmurHash3's finaliser.
+// The multiplier that mixes the hash, the first one in the last step of MurmurHash3.
 constexpr std::uint64_t hash_factor = 0xff51afd7ed558ccdu;
 
 // --- capture.cpp ---
-// Places snapped, in box diagonals: reach against shape. Half: aspect up to 7.1; double: mean up to +24 %, even quads.
+
+// Distance (share of the box) from which a missed place is snapped: trades distance for shape. At half the value:
+// aspects up to 7.1. At twice the value: mean distance up to 24 % larger, but even quads.
 constexpr double capture_tolerance = 0.006;
-// Rounds of snapping. 2 or 10: no trend.
+// Rounds of snapping. 2 and 10 improve some results and worsen others.
 constexpr std::int32_t capture_rounds = 5;
-// Rounds of relaxation after snapping. 4 or 16: no trend.
+// Rounds of relaxation after snapping. 4 and 16 improve some results and worsen others.
 constexpr std::int32_t capture_relax_rounds = 8;
-// Rings relaxed around a snapped vertex. 1 or 6: no trend.
+// Rings of quads relaxed around a snapped vertex. 1 and 6 improve some results and worsen others.
 constexpr std::int32_t capture_rings = 3;
 
 // --- fit.h, fit.cpp ---
-// Bounds the time of a turn. 40 or 160: same on six meshes.
+
+// Most rounds of fitting in one turn; it bounds the time. With 40 and 160 nothing changes on six test meshes.
 constexpr std::int32_t fit_rounds = 80;
-// Rounds of relaxation after a step. 6 or 24: H same, faces within 3 %.
+// Rounds of relaxation after a step. With 6 and 24 the distance to the surface is the same, and faces change by 3 %.
 constexpr std::int32_t fit_relax_rounds = 12;
-// Rings relaxed around a step. 1: H same, faces +2 %; 4: H 1.26 to 1.29.
+// Rings of quads relaxed around a step. With 1 the distance to the surface is the same, with 2 % more faces. With 4 it
+// is 1.29 % of the box instead of 1.26.
 constexpr std::int32_t fit_rings = 2;
-// Rings more for release and snap. 0: H same; 2: H 1.26 to 1.27.
+// Additional rings for the steps release and snap. With 0 the distance to the surface is the same. With 2 it is 1.27 %
+// of the box instead of 1.26.
 constexpr std::int32_t fit_snap_rings = 1;
-// Rings relaxed after subdividing and snapping. 0 or 2: same on six meshes, where subdividing is rare.
+// Rings of quads relaxed after subdividing and snapping. With 0 and 2 nothing changes on six test meshes, where
+// subdividing is rare.
 constexpr std::int32_t fit_resnap_rings = 1;
-// Rings between places of one round: more places at once against steps that touch. 1: H 1.26 to 1.18; 6: same.
+// Rings between two places of one round: fewer allow more places at once, but their steps may touch. With 1 the
+// distance is 1.18 % of the box instead of 1.26. With 6 nothing changes.
 constexpr std::int32_t fit_apart = 3;
-// Edge lengths around a place in which a step is compared, a little above fit_rings. Half: faces +2 %; double: H +0.01.
+// Radius, in edge lengths, in which a step is judged; a little above fit_rings. At half the value: 2 % more faces. At
+// twice the value: the distance to the surface grows by 0.01 % of the box.
 constexpr double fit_reach = 2.2;
-// Edge lengths within which a place counts as tried: repeats against skipped places. Half or double: no trend.
+// Radius, in edge lengths, within which a place counts as tried: smaller repeats places, larger skips some. Halving or
+// doubling it improves some results and worsens others.
 constexpr double fit_same_place = 0.8;
-// A step of fitting stays only if the distance to the surface falls to this share of what it was. 0.8: same; 1: the
-// Hausdorff distance of the triceratops rose from 1.60 to 1.87 %.
+// A step of fitting stays only if the distance to the surface falls to this share of what it was. With 0.8 nothing
+// changes; with 1: the Hausdorff distance of a triceratops rose from 1.60 to 1.87 %.
 constexpr double fit_gain = 0.97;
-// The same where corners turn over: distance against folds. Half: H same; 1: same.
+// Like fit_gain, but for a step that turns corners over: trades distance for folds. With half the value the distance to
+// the surface is the same, with 1 nothing changes.
 constexpr double fit_folding_gain = 0.5;
-// Bounds the faces added. 1.1 or 3: same on six meshes, which add less.
+// Fitting may multiply the number of faces by this at most. With 1.1 and 3 nothing changes on six test meshes, which
+// add less.
 constexpr double fit_most_faces = 1.5;
-// Faces of the largest step, two for each of six quads around a vertex.
+// Faces that the largest step adds: two for each of six quads around a vertex.
 constexpr std::int32_t step_faces = 12;
-// Bounds subdividing at one place, about two times. 0.25 or 0.8: same on six meshes.
+// A vertex of smaller scale is not subdivided, which allows about two subdivisions of one place. With 0.25 and 0.8
+// nothing changes on six test meshes.
 constexpr float finest_scale = 0.5f;
 
 // --- refine.cpp ---
-// Edge length after subdividing, between 1 and the half of a middle. 0.5 or 1: same on six meshes.
+
+// Factor on the edge length after subdividing, between 1 and the half of a halved edge. With 0.5 and 1 nothing changes
+// on six test meshes.
 constexpr float subdivided_scale = 0.75f;
-// Edge length after a split, which adds one face. 0.75 or 1: H same.
+// Factor on the edge length after a split, which adds one face. With 0.75 and 1 the distance to the surface is the
+// same.
 constexpr float split_scale = 0.92f;
 
 // --- coarsen.h, coarsen.cpp ---
-// Faces against short edges. Half: irregular 16 to 32 %, 5 % edge down to 0.43; 0.8: irregular 56 to 66 %.
+
+// A quad with an edge below this many edge lengths may collapse. At half the value: 32 % irregular vertices instead of
+// 16, and the 5 % quantile of the edges falls to 0.43. With 0.8: 66 % irregular vertices instead of 56.
 constexpr double short_edge = 0.55;
-// Bounds the time. 12 or 48: same on seven meshes.
+// Most rounds of collapses; it bounds the time. With 12 and 48 nothing changes on seven test meshes.
 constexpr std::int32_t collapse_rounds = 24;
-// Share of quads with a short edge that may stay: time against evenness. Half: H same; double: faces up to +4 %.
+// Share of quads with a short edge that may stay: trades time for evenness. At half the value: the distance to the
+// surface is the same. At twice the value: up to 4 % more faces.
 constexpr double collapse_enough = 0.02;
-// Rounds of relaxation after collapses. 6 or 24: no trend.
+// Rounds of relaxation after collapses. 6 and 24 improve some results and worsen others.
 constexpr std::int32_t collapse_relax_rounds = 12;
-// Rings relaxed around a collapse. 1 or 4: no trend.
+// Rings of quads relaxed around a collapse. 1 and 4 improve some results and worsen others.
 constexpr std::int32_t collapse_rings = 2;
-// A merged vertex has two faces fewer. 7: faces up to +7 %, 39 to 32 % irregular; 10: as 8.
+// Most faces of the two merged vertices together; the merged vertex has two fewer. With 7: up to 7 % more faces, and 32
+// % irregular vertices instead of 39. With 10 the results are those of 8.
 constexpr std::int32_t collapse_most_faces = 8;
-// Bounds the time of a round. 2 or 8: same on seven meshes.
+// Most trials of a round; it bounds the time. With 2 and 8 nothing changes on seven test meshes.
 constexpr int collapse_tries = 4;
-// Edge lengths around a collapse in which nothing more may be missed. Half or double: no trend.
+// Radius, in edge lengths, in which a collapse may not increase the misses. Halving or doubling it improves some
+// results and worsens others.
 constexpr double collapse_reach = 2;
-// Distance beyond that reach, in tolerances, that takes a collapse back. 1.0 or 2.2: same on seven meshes.
+// A miss outside this radius undoes the nearest collapse if its distance is larger than this many tolerances. With 1.0
+// and 2.2 nothing changes on seven test meshes.
 constexpr double collapse_far = 1.1;
-// Edge lengths from a collapse taken back in which none is tried again. Half: same; double: faces +1 %.
+// Radius, in edge lengths, around an undone collapse in which no other is tried. Halving it changes nothing. At twice
+// the value: 1 % more faces.
 constexpr double collapse_same_place = 0.3;
 
 }  // namespace hf_inner

@@ -24,10 +24,11 @@ struct Place {
 
 struct Tried {
   Vec3 point;
-  std::int32_t step;  // tried next
+  std::int32_t step;  // the step to try next
 };
 
-// By vertex, the sum of the normals around it, weighted by area: one triangle's normal is arbitrary at a crease.
+// Returns the sum of the triangle normals around each vertex, weighted by area. At a crease, the normal of one triangle
+// alone would be arbitrary.
 Table<Vec3> vertex_normals(const FluxSurface& s, Memory& memory) {
   Table<Vec3> normals(s.vertex_count(), Vec3{}, memory);
   for (std::int32_t t = 0; t < s.real_triangles; ++t) {
@@ -120,7 +121,7 @@ class Fitter {
     }
   }
 
-  // Whether a vertex of the surface lies on a border.
+  // Tells whether a vertex of the surface lies on a border.
   bool on_border(std::int32_t v) const {
     std::int32_t h = surface_.out[v];
     do {
@@ -130,7 +131,8 @@ class Fitter {
     return false;
   }
 
-  // The vertex that a step would change: the nearest corner of the quad that may take the step.
+  // Returns the vertex that a step would change: the corner of the missed quad that is nearest to the miss and may take
+  // the step.
   std::int32_t vertex_for(std::int32_t step, const QuadMiss& miss, const VertexFans& fans) const {
     const std::int32_t f = miss.face, size = mesh_.size(f), *c = mesh_.corner.data() + mesh_.face_start[f];
     if (step == collapse)
@@ -152,7 +154,8 @@ class Fitter {
     return best;
   }
 
-  // The places whose next step is the first in the list of steps, no two of them near each other.
+  // Chooses the step of this round, the earliest one that any place still has to try. `chosen` gets the places with
+  // this step, no two of them near each other.
   std::int32_t choose(Vector<Place>& chosen) {
     Vector<Place> places(&memory_);
     std::int32_t step = given_up;
@@ -189,7 +192,7 @@ class Fitter {
     return step;
   }
 
-  // The surface point of a missed place.
+  // Returns the surface point of a missed place.
   SurfacePoint target(const QuadMiss& miss) const {
     SurfacePoint at;
     if (miss.vertex < 0) return distance_.nearest(miss.point);
@@ -248,7 +251,7 @@ class Fitter {
     relax(mesh, options_.relax_rings + (step <= snap ? fit_snap_rings : 0), moving);
   }
 
-  // Snaps the nearest vertex that may move to each place.
+  // For each place, snaps the nearest vertex that may move to it.
   void snap_nearest(const Vector<Place>& places, QuadMesh& mesh, const Table<std::uint8_t>& moving) const {
     for (const Place& place : places) {
       std::int32_t best = none;
@@ -261,7 +264,7 @@ class Fitter {
     }
   }
 
-  // How many corners around `point` are turned over against the mean normal of the surface there.
+  // Counts the corners around `point` that are turned over against the mean normal of the surface there.
   std::int32_t folds(const QuadMesh& mesh, const Vec3& point) const {
     std::int32_t count = 0;
     const double radius = fit_reach * options_.edge_length;
@@ -296,7 +299,7 @@ class Fitter {
   QuadMesh& mesh_;
   const FitOptions& options_;
   Memory& memory_;
-  Vector<QuadMiss> misses_, after_;  // of mesh_; of the trial
+  Vector<QuadMiss> misses_, after_;  // misses of mesh_ and of the trial
   Vector<Tried> tried_;
   Table<Vec3> normals_;
   NearFaces known_;

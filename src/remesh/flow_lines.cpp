@@ -9,7 +9,7 @@ namespace hf_inner {
 
 namespace {
 
-// Whether an edge carries flux: not along a plateau, and not to an apex.
+// Tells whether an edge carries flux. Edges on a plateau and edges to an apex carry none.
 bool carries(const FluxField& field, std::int32_t h) {
   const FluxSurface& s = field.surface();
   return s.weight[h] > 0 && field.value(s.head(h)) > field.value(s.tail[h]);
@@ -32,7 +32,7 @@ Vec3 FlowTracer::place(const FluxField& field, FluxPoint p) const noexcept {
   const double share = std::min(std::max(p.offset / field.flux(h), 0.0), 1.0);
   const bool left = share < 0.5;
   const std::int32_t side = left ? h : s.twin[h];
-  if (!s.is_real(side)) return middle;  // along a border
+  if (!s.is_real(side)) return middle;  // on a border
   const std::int32_t x = s.tail[FluxSurface::previous(side)];
   const std::int32_t low = field.value(x) > c ? a : x, high = field.value(x) > c ? x : b;
   const double span = field.value(high) - field.value(low);
@@ -55,7 +55,7 @@ void FlowTracer::follow(const FluxField& field, FluxPoint p, bool upward, FlowLi
 FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Span<const std::int32_t> seeds) const {
   const FluxSurface& s = surface_;
   Memory& memory = *core_->memory;
-  // an apex takes the value of a vertex of its border: its edges have no weight, and it is no extremum
+  // An apex gets the value of a vertex on its border. Its edges have no weight here, so it is no extremum.
   Vector<double> values(&memory);
   values.reserve(static_cast<std::size_t>(s.vertex_count()));
   for (std::int32_t v = 0; v < s.vertex_count(); ++v) {
@@ -84,7 +84,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
       g = s.turn_left(g);
       if (g == begin) break;
     }
-    // trace down and reverse, then trace up from the seed
+    // The line is traced down and reversed; then it is traced up from the seed.
     std::int32_t low = v, high = v;
     const std::size_t first = out.point.size();
     FluxPoint p;
@@ -101,7 +101,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
   }
   if (!seeds.empty()) return out;
 
-  // minima, also those on plateaus, with their outflow
+  // Finds the minima, also those on plateaus, with the flux that leaves them.
   struct Source {
     std::int32_t vertex;
     double flux;
@@ -122,7 +122,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
   }
   double given = 0, passed = 0;
   for (const Source& source : sources) {
-    // rounding the running sum keeps every partial sum within one line of its share
+    // Rounding the running sum keeps every partial sum within one line of its exact share.
     passed += source.flux;
     const std::int64_t count = std::llround(passed / total * line_count) - std::llround(given);
     given += static_cast<double>(count);
@@ -131,7 +131,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
     std::int64_t k = 0;
     for (std::int32_t g = begin; k < count;) {
       const double f = carries(field, g) ? field.flux(g) : 0.0;
-      // offsets grow clockwise around a source
+      // The offsets grow clockwise around a source.
       for (; k < count && source.flux * (static_cast<double>(k) + 0.5) / static_cast<double>(count) <= sum + f; ++k) {
         const double offset = source.flux * (static_cast<double>(k) + 0.5) / static_cast<double>(count) - sum;
         std::int32_t high = source.vertex;

@@ -1,13 +1,14 @@
-// Flow lines of a field as curves for display and guidance; field/ has the iso-lines.
+// Traces the flow lines of a field as curves for display and guidance. The folder field/ has iso-lines.
 //
-// Lines run in the flux of clamped cotangent weights (flux_field.h): they never cross, always rise, and end at extrema.
-// A harmonic field of the clamped operator has a balanced flux, and its lines are as dense as the field is steep. In
-// any other field a vertex scales its inflow to its outflow; all else holds.
+// Lines follow the flux of clamped cotangent weights (flux_field.h): they never cross, always rise, and end at extrema.
+// In a harmonic field of the clamped operator the flux is balanced, and lines are dense where the field is steep. In
+// any other field each vertex scales its inflow to its outflow; the other properties hold as well.
 //
-// A line gives one point per edge it runs in. The point lies on the iso-line through the middle of the edge's values.
-// The line's share of the edge places it between the middles of the two segments of that iso-line.
+// A line has one point per edge that it runs along. The point lies on the iso-line through the mean of the edge's two
+// values. The line's share of the edge's flux places it between the middles of the two segments of that iso-line.
 //
-// The surface is prepared once; a trace costs the ranks, O(n log n), and O(degree) per edge a line runs in.
+// The surface is prepared once. A trace costs O(n log n) to sort n vertices, and O(degree) per edge that a line runs
+// along.
 #pragma once
 #include "engine/core.h"
 #include "remesh/flux_field.h"
@@ -18,8 +19,8 @@ struct FlowLineSet {
   explicit FlowLineSet(Memory& memory) : point(&memory), value(&memory), start(&memory), from(&memory), to(&memory) {}
   Vector<Vec3> point;  // inner units
   Vector<double> value;
-  Vector<std::uint32_t> start;    // by line, and the end
-  Vector<std::int32_t> from, to;  // by line, inner vertices: its lower and upper end
+  Vector<std::uint32_t> start;    // by line, and the end of the last line
+  Vector<std::int32_t> from, to;  // by line: inner vertices at its lower and upper end
 };
 
 class FlowTracer {
@@ -29,7 +30,7 @@ class FlowTracer {
   const FluxSurface& surface() const noexcept { return surface_; }
 
   // Traces line_count lines from the minima, each for the same flux. With seeds it traces one line through every seed
-  // vertex instead, along the edge of the largest flux. u: by inner vertex, finite wherever a line can run.
+  // vertex instead, along the edge with the largest flux there. u: by inner vertex, finite wherever a line can run.
   FlowLineSet trace(Span<const double> u, std::uint32_t line_count, Span<const std::int32_t> seeds) const;
 
  private:
@@ -38,7 +39,7 @@ class FlowTracer {
 
   std::shared_ptr<const Core> core_;
   FluxSurface surface_;
-  Table<std::int32_t> fan_;  // by inner vertex, its first vertex of the surface
+  Table<std::int32_t> fan_;  // by inner vertex: its first vertex in surface_
 };
 
 }  // namespace hf_inner

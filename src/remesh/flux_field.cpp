@@ -66,11 +66,12 @@ double FluxField::imbalance(std::int32_t v) const noexcept {
 }
 
 void FluxField::match(std::int32_t v) {
-  // the ring, counter-clockwise; for incoming edges that is from left to right, for outgoing ones from right to left
+  // Lists the edges around the vertex, counter-clockwise. Offsets of incoming edges then grow with the order, offsets
+  // of outgoing edges against it.
   struct Segment {
     std::int32_t half;  // uphill
     bool in;
-    double low, high;  // the unmatched range of offsets; of outgoing ones in the units of the inflow
+    double low, high;  // the unmatched offsets; for outgoing edges in units of the inflow
   };
   Vector<Segment> ring(memory_);
   double in = 0, out = 0;
@@ -88,7 +89,8 @@ void FluxField::match(std::int32_t v) {
     if (!s.in) s.high *= in / out;
   while (true) {
     const std::size_t size = ring.size();
-    // the largest amount that every boundary can match at once; a segment between two boundaries gives half to each
+    // A boundary lies between an incoming and an outgoing segment. `step` is the largest amount that every boundary can
+    // match at once. A segment between two boundaries gives half of its flux to each.
     double step = -1;
     for (std::size_t i = 0; i < size; ++i) {
       const Segment& s = ring[i];
@@ -97,19 +99,19 @@ void FluxField::match(std::int32_t v) {
       const double most = (s.high - s.low) / ends;
       if (step < 0 || most < step) step = most;
     }
-    if (step < 0) break;  // one kind is left, with rounding errors only
+    if (step < 0) break;  // only incoming or only outgoing segments are left, with rounding errors
     for (std::size_t i = 0; i < size && step > 0; ++i) {
       Segment &a = ring[i], &b = ring[(i + 1) % size];
       if (a.in == b.in) continue;
-      if (a.in) {  // the right side of the inflow beside the right side of the outflow
+      if (a.in) {  // right end of the inflow beside the right end of the outflow
         matches_.push_back({v, a.half, b.half, a.high - step, b.high - step, step});
         a.high -= step, b.high -= step;
-      } else {  // left beside left
+      } else {  // left end beside left end
         matches_.push_back({v, b.half, a.half, b.low, a.low, step});
         a.low += step, b.low += step;
       }
     }
-    // used segments are removed, one at least in every round, so that the loop ends
+    // Used segments are removed. Each round removes at least one, so the loop ends.
     std::size_t kept = 0;
     double least = 0;
     for (std::size_t i = 0; i < size; ++i)
@@ -138,7 +140,7 @@ FluxPoint FluxField::through_saddle(std::int32_t v, FluxPoint p, bool upward) co
     if (!best || miss < missed) best = &m, missed = miss;
     if (miss == 0) break;
   }
-  if (!best) return {};  // an edge without flux
+  if (!best) return {};  // the edge carries no flux
   const double from = upward ? best->in_offset : best->out_offset, to = upward ? best->out_offset : best->in_offset;
   const double t = std::min(std::max(offset - from, 0.0), best->length);
   return {upward ? best->out : best->in, (to + t) * (upward ? scale : 1.0)};
@@ -148,7 +150,8 @@ FluxPoint FluxField::up(FluxPoint p) const {
   const FluxSurface& s = *surface_;
   const std::int32_t v = s.head(p.half);
   if (saddle_of_[v] != none) return through_saddle(v, p, true);
-  // inflow runs counter-clockwise from left to right: sum the flux left of the line, find the left end
+  // Inflow runs counter-clockwise from left to right. This loop sums up the flux left of the line and finds the left
+  // end.
   std::int32_t g = s.twin[p.half];  // leaves v
   double left = p.offset, in = flux(p.half);
   std::int32_t a = s.turn_right(g);
@@ -158,7 +161,7 @@ FluxPoint FluxField::up(FluxPoint p) const {
     left += f, in += f;
   }
   for (std::int32_t b = s.turn_left(g); !rises(b); b = s.turn_left(b)) in += flux(s.twin[b]);
-  // clockwise from there, the outflow again runs from left to right
+  // Clockwise from there, the outflow again runs from left to right.
   double out = 0;
   for (std::int32_t b = a; rises(b); b = s.turn_right(b)) out += flux(b);
   double rest = left * (out / in);
@@ -174,7 +177,7 @@ FluxPoint FluxField::down(FluxPoint p) const {
   const std::int32_t v = s.tail[p.half];
   if (saddle_of_[v] != none) return through_saddle(v, p, false);
   double left = p.offset, out = flux(p.half);
-  std::int32_t a = s.turn_left(p.half);  // outflow to the left of the line, then the leftmost inflow
+  std::int32_t a = s.turn_left(p.half);  // sum up the outflow left of the line, then find the leftmost inflow
   for (; rises(a); a = s.turn_left(a)) {
     if (a == p.half) return {};  // a minimum
     const double f = flux(a);

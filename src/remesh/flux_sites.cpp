@@ -12,8 +12,8 @@
 namespace hf_inner {
 namespace {
 
-// Lengths of shortest paths along edges from one vertex; -1 if there is none. An apex is at distance 0 from its
-// border.
+// Computes the lengths of the shortest paths along edges from one vertex, and -1 for vertices without a path. The edges
+// between an apex and its border have length 0.
 void distances_from(const FluxSurface& s, std::int32_t source, Table<double>& distance, Memory& memory) {
   using Entry = std::pair<double, std::int32_t>;
   Vector<Entry> heap(&memory);
@@ -26,7 +26,7 @@ void distances_from(const FluxSurface& s, std::int32_t source, Table<double>& di
     heap.pop_back();
     const std::int32_t v = entry.second;
     if (entry.first > distance[v]) continue;
-    if (s.is_apex(v) && v != source) continue;  // paths do not cross a hole
+    if (s.is_apex(v) && v != source) continue;  // paths must not cross a hole
     const std::int32_t begin = s.out[v];
     for (std::int32_t g = begin;;) {
       const std::int32_t w = s.head(g);
@@ -64,14 +64,14 @@ double border_length(const FluxSurface& s, std::int32_t apex) {
 
 double even(double x) { return std::max(least_lines, 2 * std::round(x / 2)); }
 
-// The sites of one component with their distances.
+// The sites of one component, and the distances between them.
 struct Group {
   explicit Group(Memory& memory) : sites(&memory), distance(&memory) {}
   Vector<FluxSite> sites;
-  Vector<double> distance;  // [i * count + j]
+  Vector<double> distance;  // between sites i and j: [i * count + j]
 };
 
-// sinks: one flag per site.
+// Returns the cost of a partition into sources and sinks (flux_sites.h). sinks: one flag per site.
 double partition_cost(const Group& g, const Vector<std::uint8_t>& sinks) {
   const std::size_t k = g.sites.size();
   double up = 0, down = 0, mean = 0, close = 0, like = 0;
@@ -89,7 +89,8 @@ double partition_cost(const Group& g, const Vector<std::uint8_t>& sinks) {
   return std::fabs(up - down) / (up + down) + (like > 0 ? neighbour_cost * close / like : 0.0);
 }
 
-// Which sites are sinks: the best of all partitions of few sites, else by single or double exchanges.
+// Chooses which sites are sinks. For few sites it tries all partitions. For more it exchanges one or two sites while
+// the cost falls.
 Vector<std::uint8_t> partition(const Group& g) {
   const std::size_t k = g.sites.size();
   Vector<std::uint8_t> best(k, std::uint8_t{0}, g.sites.get_allocator().resource()), trial(best, best.get_allocator());
@@ -119,7 +120,7 @@ Vector<std::uint8_t> partition(const Group& g) {
   return best;
 }
 
-// Scales the sinks or the sources to `total` lines, in steps of two.
+// Scales the lines of the sinks, or of the sources, to the sum `total`, in steps of two lines.
 void share_out(Vector<FluxSite>& sites, bool sinks, double total) {
   double sum = 0;
   for (const FluxSite& site : sites)
@@ -142,7 +143,7 @@ void share_out(Vector<FluxSite>& sites, bool sinks, double total) {
   }
 }
 
-// Scales both sides to one even total.
+// Scales sources and sinks to the same even number of lines.
 void even_out(Vector<FluxSite>& sites) {
   double up = 0, down = 0;
   std::size_t up_count = 0, down_count = 0;
@@ -173,13 +174,14 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
                                    Memory& memory, Progress* progress) {
   Vector<FluxSite> all(&memory);
   const Table<double> area = vertex_shares(s, memory);
-  Table<std::int32_t> euler(s.component_count, 0, memory);  // of the closed components
+  // Euler characteristic of each component after its borders are closed
+  Table<std::int32_t> euler(s.component_count, 0, memory);
   Table<std::int32_t> first(s.component_count, -1, memory);
   for (std::int32_t v = 0; v < s.vertex_count(); ++v) {
     euler[s.component[v]] += 1;
     if (first[s.component[v]] < 0) first[s.component[v]] = v;
   }
-  // V - E + F with E = 3 F / 2
+  // V - E + F, where closed triangle meshes have E = 3 F / 2.
   Table<std::int32_t> faces(s.component_count, 0, memory);
   for (std::int32_t t = 0; 3 * t < s.half_count(); ++t) faces[s.component[s.tail[3 * t]]] += 1;
   for (std::int32_t c = 0; c < s.component_count; ++c) euler[c] -= faces[c] / 2;
@@ -198,10 +200,11 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
     nearest.assign(s.vertex_count(), HUGE_VAL);
     auto reach = [&](std::size_t i) {
       const float part =
-          static_cast<float>(i) / static_cast<float>(i + expected_sites);  // their number is not known yet
+          static_cast<float>(i) / static_cast<float>(i + expected_sites);  // the number of sites is not known yet
       report(progress, (static_cast<float>(c) + part) / static_cast<float>(s.component_count));
       distances_from(s, group.sites[i].vertex, distance, memory);
-      // lines from the length of the circle around the site: the derivative of the area of discs
+      // The number of lines follows from the length of the circle around the site. That length is the derivative of the
+      // area of discs.
       if (group.sites[i].lines == 0) {
         double circumference = 0;
         if (s.is_apex(group.sites[i].vertex)) {
@@ -225,7 +228,7 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
       reach(group.sites.size() - 1);
     }
     while (group.sites.size() < wanted) {
-      if (group.sites.empty()) {  // the farthest vertex from any vertex
+      if (group.sites.empty()) {  // takes the vertex farthest from an arbitrary one
         distances_from(s, first[c], distance, memory);
         std::int32_t far = first[c];
         for (std::int32_t v = 0; v < s.first_apex; ++v)
@@ -282,7 +285,7 @@ FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs, Pr
     std::sort(column.begin(), column.end());
     for (std::size_t i = 0; i < column.size(); ++i) {
       if (i > 0 && k.row.back() == column[i].first && static_cast<std::int32_t>(k.row.size()) > k.column_start.back()) {
-        k.value.back() += column[i].second;  // two edges between one pair
+        k.value.back() += column[i].second;  // two edges between the same two vertices
       } else {
         k.row.push_back(column[i].first), k.value.push_back(column[i].second);
       }

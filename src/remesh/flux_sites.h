@@ -1,16 +1,17 @@
-// Where the flow of a quad mesh starts and ends, and its amounts: the sites of a Neumann problem.
+// Chooses where the flow of a quad mesh starts and ends, and how much flows: the sites of a Neumann problem.
 //
-// Every site carries an even number of lines, least_lines or more. A vertex gets the circumference of the geodesic
-// circle around it (circle_radius) over the edge length, a border its length over the edge length.
-// Sites are partitioned into sources and sinks so that both sides carry about the same and neighbours differ. The
-// partition minimises
-//     |sum+ - sum-| / sum + neighbour_cost * mean over pairs of one sign of exp(-d_ij / mean d).
-// All partitions of up to most_tried_at_once sites are tried; of more sites, exchanges while the cost falls.
-// Then both sides are scaled to one even total (largest remainders, in steps of two). A component with too few sites
-// gets further ones, each farthest from those it has.
+// Every site carries an even number of lines, at least least_lines. A vertex gets the circumference of the geodesic
+// circle around it (circle_radius) over the edge length. A border gets its length over the edge length. Sites are
+// partitioned into sources and sinks, so that both sides carry about the same number of lines and neighbours differ.
+// The partition minimises
+//     |sum+ - sum-| / sum + neighbour_cost * mean over pairs on one side of exp(-d_ij / mean d).
+// sum+ and sum- are the lines of sinks and sources, and d_ij is the distance of sites i and j. Up to most_tried_at_once
+// sites, all partitions are tried. With more sites, sites are exchanged while the cost falls. Then both sides are
+// scaled to one even total (largest remainders, in steps of two). A component with too few sites gets additional ones,
+// each farthest from the existing ones.
 //
-// The field solves K u = b, b = +lines at sinks, -lines at sources: u rises from sources to sinks.
-// Cost: one Dijkstra over the edges per site, one factorisation.
+// The field solves K u = b with b = +lines at sinks and -lines at sources, so u rises from sources to sinks. Cost: one
+// Dijkstra search over the edges per site, and one factorisation.
 #pragma once
 #include "base/jobs.h"
 #include "base/progress.h"
@@ -24,20 +25,20 @@ struct FluxSite {
   double lines;         // > 0: a sink, < 0: a source
 };
 
-// given: sites with their lines (0: chosen here; otherwise of both signs in each component). automatic: given sites are
-// proposals. Those near borders are left out, and components with handles get at least four. Apexes are always sites.
-// Throws HF_ERROR_INVALID_ARGUMENT when given lines cannot balance, HF_ERROR_TOO_LARGE beyond most_sites sites and
-// borders.
+// Chooses the sites of all components. given: sites with their lines; lines of 0 are chosen here, otherwise each
+// component needs both signs. automatic: given sites are only proposals. Those near borders are skipped, and components
+// with handles get at least four sites. Apexes are always sites. Throws HF_ERROR_INVALID_ARGUMENT when given lines
+// cannot balance, and HF_ERROR_TOO_LARGE beyond most_sites sites and borders.
 Vector<FluxSite> choose_flux_sites(const FluxSurface& surface, Span<const FluxSite> given, bool automatic,
                                    double edge_length, Memory& memory, Progress* progress);
 
-// The factor of the flux problem, and fields from it.
+// Factors the matrix of the flux problem, and solves fields from it.
 class FluxSolver {
  public:
-  // Orders and factorises. Throws as Factor::make.
+  // Orders and factorises the matrix. Throws the errors of Factor::make.
   FluxSolver(const FluxSurface& surface, Memory& memory, JobRunner& jobs, Progress* progress = nullptr);
-  // u by vertex of the surface, up to a constant per component. Refined (flux_solves), because lines need a flow that
-  // balances at every vertex.
+  // Returns u by vertex of the surface, up to a constant per component. Iterative refinement (flux_solves) improves it,
+  // because lines need a flow that balances at every vertex.
   Vector<double> solve(Span<const FluxSite> sites) const;
 
  private:
@@ -50,8 +51,8 @@ class FluxSolver {
 // Multiplies the lines of all sites of a component and balances them again (even numbers, at least 4 each).
 void scale_lines(const FluxSurface& surface, std::int32_t component, double factor, Vector<FluxSite>& sites);
 
-// Solves, and raises the lines of borders that the flow of other sites crosses until every apex is an extremum.
-// If that fails, sources and sinks are held at two levels (border_flux.h).
+// Solves the field. If flow of other sites crosses a border, it raises the border's lines, until every apex is an
+// extremum. If that fails, sources and sinks get fixed values (border_flux.h).
 Vector<double> solve_with_borders(const FluxSurface& surface, const FluxSolver& solver, Vector<FluxSite>& sites);
 
 }  // namespace hf_inner

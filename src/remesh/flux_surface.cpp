@@ -14,7 +14,7 @@ std::uint32_t given(const Mesh& mesh, std::int32_t v) {
   return static_cast<std::uint32_t>(mesh.given_of_inner[static_cast<std::size_t>(v)]);
 }
 
-// The two half-edges of every edge, or one at a border, by the vertices of the Mesh.
+// Finds the two half-edges of every edge, or one at a border. Edges are compared by their vertices in the Mesh.
 struct Pairs {
   Pairs(const Mesh& mesh, Memory& memory) : twin(3 * mesh.triangle_count(), none, memory) {
     struct Side {
@@ -44,9 +44,9 @@ struct Pairs {
   Table<std::int32_t> twin;
 };
 
-// Which triangles must be turned so that all of a component agree with its first one.
+// Finds which triangles must be turned over, so that all triangles of a component agree with its first one.
 Table<std::uint8_t> orient(const Mesh& mesh, const Pairs& pairs, Memory& memory) {
-  constexpr std::uint8_t unseen = 2;  // beside 0 and 1, the answers
+  constexpr std::uint8_t unseen = 2;  // a third value, beside the answers 0 and 1
   Table<std::uint8_t> turned(mesh.triangle_count(), unseen, memory);
   Table<std::int32_t> stack(memory);
   for (std::int32_t start = 0; start < mesh.triangle_count(); ++start) {
@@ -59,7 +59,8 @@ Table<std::uint8_t> orient(const Mesh& mesh, const Pairs& pairs, Memory& memory)
         const std::int32_t other = pairs.twin[h];
         if (other == none) continue;
         const std::int32_t a = mesh.corners[static_cast<std::size_t>(h)];
-        const bool same_way = mesh.corners[static_cast<std::size_t>(other)] == a;  // both run from a: they disagree
+        // If both half-edges start at a, the two triangles are oriented against each other.
+        const bool same_way = mesh.corners[static_cast<std::size_t>(other)] == a;
         const std::uint8_t wanted = static_cast<std::uint8_t>(turned[t] ^ (same_way ? 1 : 0));
         if (turned[other / 3] == unseen) {
           turned[other / 3] = wanted, stack.push_back(other / 3);
@@ -82,7 +83,8 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
   s.real_triangles = mesh.triangle_count();
   const std::int32_t real_halves = 3 * s.real_triangles;
 
-  // corners in their new order: a turned triangle (a, b, c) becomes (a, c, b); its side k becomes side 2 - k
+  // Puts the corners in their new order. A turned triangle (a, b, c) becomes (a, c, b), and its side k becomes side 2 -
+  // k.
   s.tail.assign(real_halves, none), s.twin.assign(real_halves, none);
   Table<std::int32_t> corner(real_halves, none, memory);
   auto moved = [&](std::int32_t h) { return turned[h / 3] ? 3 * (h / 3) + 2 - h % 3 : h; };
@@ -93,10 +95,10 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
       if (pairs.twin[h] != none) s.twin[moved(h)] = moved(pairs.twin[h]);
   }
 
-  // one vertex per fan: the corners reached by turning about it
+  // Makes one vertex per fan: the corners that are reached by turning about the vertex.
   for (std::int32_t h = 0; h < real_halves; ++h) {
     if (s.tail[h] != none) continue;
-    std::int32_t first = h;  // back to the right end of the fan, or once around
+    std::int32_t first = h;  // goes back to the right end of the fan, or once around
     while (s.twin[first] != none) {
       first = next(s.twin[first]);
       if (first == h) break;
@@ -112,7 +114,7 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
   }
   s.first_apex = s.out.size();
 
-  // weights
+  // Computes the edge weights.
   const Vector<double> weights = edge_weights(mesh, topology, OperatorKind::clamped, memory);
   Vector<double> sorted(weights.begin(), weights.end(), &memory);
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
@@ -127,7 +129,8 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
     s.weight[h] = weights[static_cast<std::size_t>(topology.neighbour_edge[static_cast<std::size_t>(found)])];
   }
 
-  // a fan of triangles from an apex to every border loop; border half-edge a -> b gets the triangle (b, a, apex)
+  // Adds a fan of triangles from an apex to every border loop. The border half-edge a -> b gets the triangle (b, a,
+  // apex).
   std::int32_t edges = 0, border_edges = 0;
   for (std::int32_t h = 0; h < real_halves; ++h) edges += s.twin[h] == none ? 2 : 1, border_edges += s.twin[h] == none;
   s.euler_characteristic = s.first_apex - edges / 2 + s.real_triangles;
@@ -145,12 +148,12 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
       s.weight.push_back(s.weight[h]), s.weight.push_back(apex_weight * median),
           s.weight.push_back(apex_weight * median);
       s.twin[h] = fresh;
-      // a -> apex of this triangle is apex -> b of the one before it on the border
+      // The edge a -> apex of this triangle is the edge apex -> b of the triangle before it on the border.
       if (last != none) s.twin[last + 2] = fresh + 1, s.twin[fresh + 1] = last + 2;
       if (first == none) first = fresh;
       last = fresh;
       middle_point = middle_point + s.position[a], count += 1;
-      // the next border half-edge leaves b: turn about b through its fan
+      // The next border half-edge leaves b. It is found by turning about b through its fan.
       std::int32_t g = next(h);
       while (s.twin[g] != none && s.twin[g] < real_halves) g = next(s.twin[g]);
       if (g == start || s.twin[g] != none) break;
@@ -161,7 +164,7 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
     s.position.push_back((1.0 / count) * middle_point);
   }
 
-  // components
+  // Finds the components.
   s.component.assign(s.vertex_count(), none);
   Table<std::int32_t> stack(memory);
   for (std::int32_t v = 0; v < s.vertex_count(); ++v) {

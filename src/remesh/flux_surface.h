@@ -1,12 +1,14 @@
-// The surface in which flux lines run: an oriented half-edge mesh without borders, one positive weight per edge.
+// The surface along which flux lines run: an oriented half-edge mesh without borders, with one positive weight per
+// edge.
 //
-// Triangles are turned so that neighbours agree; a vertex where several fans meet becomes one vertex per fan. Every
-// border loop is closed by an extra vertex, an apex, joined to all its vertices. An apex is a site like any other, with
-// the flux through the border, so the code that follows knows only closed surfaces. Weights are cotangent weights with
-// a floor of 1e-3 of their median, which keeps every flux positive uphill. Edges to an apex weigh `apex_weight`
-// medians, so that the border is nearly at one level; 0 takes the apex out of the field.
+// Triangles are turned so that neighbours agree. A vertex where several fans of triangles meet becomes one vertex per
+// fan. Every border loop is closed by an additional vertex, an apex, that is joined to all its vertices. An apex is a
+// site like any other, and its flux is the flux through the border. So the code that uses this mesh only sees closed
+// surfaces. Weights are cotangent weights with a floor of 1e-3 of their median, which keeps every flux positive uphill.
+// Edges to an apex weigh `apex_weight` medians, so that the border is nearly at one level. With 0 the apex has no
+// effect on the field.
 //
-// Half-edge 3 t + k of triangle t runs from its corner k to the next. Cost: O(n log n).
+// Half-edge 3 t + k of triangle t runs from its corner k to the next corner. Cost: O(n log n) for n vertices.
 #pragma once
 #include "mesh/laplacian.h"
 #include "remesh/table.h"
@@ -22,8 +24,8 @@ struct FluxSurface {
         position(memory),
         mesh_vertex(memory),
         component(memory) {}
-  // Throws HF_ERROR_UNSUPPORTED with a vertex as given: an edge of three or more triangles, or a surface that cannot be
-  // oriented.
+  // Throws HF_ERROR_UNSUPPORTED (index: a vertex as given) for an edge with three or more triangles, or a surface that
+  // cannot be oriented.
   static FluxSurface make(const Mesh& mesh, const Topology& topology, double apex_weight, Memory& memory);
 
   std::int32_t vertex_count() const noexcept { return out.size(); }
@@ -31,11 +33,11 @@ struct FluxSurface {
   static std::int32_t next(std::int32_t h) noexcept { return h % 3 == 2 ? h - 2 : h + 1; }
   static std::int32_t previous(std::int32_t h) noexcept { return h % 3 == 0 ? h + 2 : h - 1; }
   std::int32_t head(std::int32_t h) const noexcept { return tail[next(h)]; }
-  // The next half-edge that leaves the same vertex, counter-clockwise.
+  // Returns the next half-edge that leaves the same vertex, counter-clockwise.
   std::int32_t turn_left(std::int32_t h) const noexcept { return twin[previous(h)]; }
   std::int32_t turn_right(std::int32_t h) const noexcept { return next(twin[h]); }
   bool is_apex(std::int32_t v) const noexcept { return v >= first_apex; }
-  bool is_real(std::int32_t h) const noexcept { return h < 3 * real_triangles; }  // not of a triangle at an apex
+  bool is_real(std::int32_t h) const noexcept { return h < 3 * real_triangles; }  // not in a triangle at an apex
 
   Table<std::int32_t> tail, twin;   // By half-edge.
   Table<double> weight;             // By half-edge; equal for both of an edge.

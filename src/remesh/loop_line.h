@@ -1,8 +1,9 @@
-// A loop of an arc as a closed polyline on the surface, with places along it for points of the flow.
+// A loop of an arc as a closed polyline on the surface. It turns points of the flow into places along the polyline, and
+// back.
 //
-// The loop at value c crosses its edges at points P_i. Edge i gets the stretch from the middle of the segment before
-// P_i to the middle of the segment behind it, and its flux is spread evenly along that stretch. So nodes keep their
-// order and lie on the surface.
+// The loop at value c crosses its edges at points P_i. Edge i gets a stretch of the polyline: from the middle of the
+// segment before P_i to the middle of the segment behind it. The edge's flux is spread evenly along that stretch. So
+// nodes keep their order and lie on the surface.
 #pragma once
 #include "remesh/rings.h"
 
@@ -11,16 +12,17 @@ namespace hf_inner {
 class LoopLine {
  public:
   explicit LoopLine(Memory& memory) : edges_(memory), points_(memory), starts_(memory) {}
-  // border: points lie at the ends of the edges that are no apex.
+  // Builds the polyline. border: each point lies at the end of its edge that is no apex.
   void build(const FluxField& field, Loop loop, double value, bool border);
 
   const Table<std::int32_t>& edges() const noexcept { return edges_; }
   double length() const noexcept { return length_; }
-  // Place along the loop at which a line crosses edge i.
+  // Returns the place along the loop at which a line crosses edge i with this offset.
   double place(std::int32_t i, double offset) const noexcept;
-  // The line at a place; any real number, modulo the length.
+  // Returns the flux line that crosses the loop at a place. `place` may be any real number; it counts modulo the loop's
+  // length.
   FluxPoint at(double place) const noexcept;
-  // The place of a point of the flow; 0 if the loop does not cross its edge.
+  // Returns the place of a point of the flow, or 0 if the loop does not cross the point's edge.
   double place_of(FluxPoint p) const noexcept;
   SurfacePoint location(double place) const noexcept;
 
@@ -40,10 +42,10 @@ class LoopLine {
   Table<std::int32_t> edges_;
   struct Point {
     Vec3 p;
-    double t;  // from the tail of the edge to its head
+    double t;  // position on the edge, from its tail (0) to its head (1)
   };
   Table<Point> points_;
-  Table<double> starts_;  // place of every point
+  Table<double> starts_;  // place of each point along the loop
   double length_ = 0;
 };
 

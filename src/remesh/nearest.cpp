@@ -9,8 +9,8 @@ namespace {
 
 double squared(Vec3 a) { return dot(a, a); }
 
-// Squared distance to a triangle, by the regions of its corners, edges and face (Ericson 2005, Section 5.1.5). weights:
-// NULL, or those of the nearest point.
+// Returns the squared distance to a triangle, by the regions of its corners, edges and face (Ericson 2005, Section
+// 5.1.5). weights: NULL, or receives the barycentric weights of the nearest point.
 double to_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c, double* weights = nullptr) {
   const auto take = [&](double s, double t, double rest, double distance) {
     if (weights) weights[0] = s, weights[1] = t, weights[2] = rest;

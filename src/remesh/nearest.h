@@ -1,4 +1,4 @@
-// The point of a triangle soup nearest to a given one, through a tree of boxes.
+// Finds the point of a set of triangles nearest to a given point, through a tree of boxes.
 #pragma once
 #include "mesh/mesh.h"
 #include "remesh/table.h"
@@ -7,24 +7,25 @@ namespace hf_inner {
 
 class NearestTriangle {
  public:
-  // corners: three indices into positions per triangle; both arrays must outlive this.
+  // corners: three indices into positions per triangle. Both arrays must outlive this object.
   NearestTriangle(const Table<Vec3>& positions, const Table<std::int32_t>& corners, Memory& memory);
   struct Found {
     std::int32_t triangle = -1;
     double squared = 0;
   };
-  // hint: a triangle that may be near, or -1. enough: a squared distance; the search ends at any triangle that near,
-  // else it returns the nearest. Cost: O(log triangles) on a surface, O(1) if the hint is near enough.
+  // Finds the nearest triangle. hint: a triangle that may be near, or -1. enough: a squared distance; the search ends
+  // at the first triangle that is at least that near. Cost: O(log triangles) on a surface, O(1) if the hint is near
+  // enough.
   Found find(Vec3 p, std::int32_t hint = -1, double enough = 0) const noexcept;
-  // Weights of the corners of triangle t at its point nearest to p.
+  // Computes the barycentric weights of the point of triangle t nearest to p.
   void weights(Vec3 p, std::int32_t t, double* out) const noexcept;
-  // Triangles in the order of the tree: neighbours in it are neighbours in space.
+  // Returns the triangles in the order of the tree: neighbours in this order are neighbours in space.
   const Table<std::int32_t>& order() const noexcept { return order_; }
 
  private:
   struct Box {
     Vec3 low, high;
-    std::int32_t first, count, right;  // a leaf's triangles; or the right child (the left one is the next box)
+    std::int32_t first, count, right;  // triangles of a leaf; right: the right child (the left one is the next box)
   };
   std::int32_t build(std::int32_t first, std::int32_t count);
   Vec3 corner(std::int32_t t, std::int32_t k) const noexcept { return (*positions_)[(*corners_)[3 * t + k]]; }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int32_t none = -1;
 
-// How many corners of a quad are reflex in the plane of its mean normal, and the last of them.
+// Counts the corners of a quad that are reflex in the plane of its mean normal. last: the last of them.
 std::int32_t reflex_corners(const QuadMesh& mesh, const std::int32_t* c, std::int32_t& last) {
   const Vec3 normal = cross(mesh.position[c[2]] - mesh.position[c[0]], mesh.position[c[3]] - mesh.position[c[1]]);
   std::int32_t count = 0;
@@ -23,8 +23,8 @@ std::int32_t reflex_corners(const QuadMesh& mesh, const std::int32_t* c, std::in
   return count;
 }
 
-// The triangles of the quads: fans from their first corners. A quad so twisted that no diagonal lies inside gives the
-// triangles of both diagonals.
+// The triangles of all quads: a fan from the first corner of each. A quad so twisted that no diagonal lies inside it
+// adds the triangles of both diagonals.
 struct Soup {
   explicit Soup(Memory& memory) : corners(memory), face(memory) {}
   Table<std::int32_t> corners, face;
@@ -41,7 +41,8 @@ struct Soup {
   }
 };
 
-// Visits points of a triangle except its corners, `spacing` apart, at most most_steps to an edge.
+// Visits points of a triangle except its corners. They are about `spacing` apart, with at most most_steps steps along
+// an edge.
 template <class Visit>
 void spread(Vec3 a, Vec3 b, Vec3 c, double spacing, std::int32_t least, Visit&& visit) {
   const double longest = std::max(norm(b - a), std::max(norm(c - b), norm(a - c)));
@@ -156,7 +157,8 @@ double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<Quad
   double worst = out_misses ? tolerance : 0;
   Table<double> distance(*memory_);
   Table<std::int32_t> nearest(*memory_);
-  // distances above `tolerance`, or above all before in their piece; 0 for the others
+  // Stores distances above `tolerance`. Without out_misses it stores only distances above all earlier ones of their
+  // job. All others are 0.
   auto measure_samples = [&](const NearestTriangle& tree, const Table<Sample>& samples,
                              const Table<std::int32_t>* faces) {
     distance.assign(samples.size(), 0), nearest.assign(samples.size(), none);

@@ -1,11 +1,11 @@
-// Measures the distance of a quad mesh and its surface, and finds where it is large.
+// Measures the distance between a quad mesh and its surface, and finds where it is large.
 //
-// Both ways, sampled: vertices of the surface to the quads (fans of triangles from their first corners), and points of
-// these triangles, `spacing` apart, to the surface. Large surfaces are sampled at some of their vertices
-// (most_samples), small ones also at points of their larger triangles (most_spread). Points follow the order of a tree
-// of boxes, so the last triangle found is mostly near enough for the next point. That costs O(1) a point, and O(log)
-// where the distance exceeds the tolerance. Work is cut into pieces of fixed size for the threads; the result does not
-// depend on their number.
+// The distance is sampled both ways. Vertices of the surface are measured to the quads (as fans of triangles from their
+// first corners). Points on these triangles, `spacing` apart, are measured to the surface. Large surfaces are sampled
+// at some of their vertices (most_samples), small ones also at points in their larger triangles (most_spread). The
+// samples follow the order of a tree of boxes, so the last triangle found is mostly near enough for the next sample. A
+// sample then costs O(1), and O(log n) where the distance exceeds the tolerance. The work is split into jobs of fixed
+// size, so the result does not depend on the number of threads.
 #pragma once
 #include <unordered_set>
 
@@ -20,13 +20,13 @@ struct QuadMiss {
   static constexpr std::int32_t of_surface = -1, of_quads = -2;
   double distance;
   Vec3 point;
-  std::int32_t vertex;  // of the surface, or of_surface, of_quads
-  std::int32_t face;    // of the quads: the nearest, or the one sampled
+  std::int32_t vertex;  // vertex of the surface, or of_surface, or of_quads
+  std::int32_t face;    // face of the quad mesh: the nearest one, or the sampled one
 };
 
-// Faces known to lie within one tolerance of the surface, by a hash of their corners' positions in order: faces that a
-// step did not move are not measured again. If two faces have one hash (about one in 10^7 pairs of runs), the second is
-// not measured until the whole mesh is.
+// Faces known to lie within one tolerance of the surface, as hashes of their corners' positions. Faces that a step did
+// not move are not measured again. If two faces have the same hash, which is very unlikely, the second is only measured
+// together with the whole mesh.
 struct NearFaces {
   explicit NearFaces(Memory& memory) : keys(&memory) {}
   static std::uint64_t key(const QuadMesh& mesh, std::int32_t f) noexcept;
@@ -36,26 +36,26 @@ struct NearFaces {
 
 class QuadDistance {
  public:
-  // spacing: of the points on triangles, inner units.
+  // spacing: distance between the points on triangles, in inner units.
   QuadDistance(const FluxSurface& surface, double spacing, Memory& memory, JobRunner* jobs = nullptr);
-  // Rotates the corners of every quad: its reflex corner comes first, or else an end of the diagonal nearer to the
-  // surface, because most programs draw quads as fans.
-  // Parameter known: NULL, or faces that stay unchanged.
+  // Rotates the corners of every quad, because most programs draw quads as fans from the first corner. The reflex
+  // corner comes first. Without one, an end of the diagonal nearer to the surface comes first. known: NULL, or faces
+  // that stay unchanged.
   void turn_quads(QuadMesh& mesh, const NearFaces* known = nullptr) const;
-  // Returns the largest distance. out_misses: NULL, or receives the places farther than `tolerance`, the farthest
-  // first; without a miss the function then returns `tolerance`. Parameter known: NULL, or faces found near at this
-  // tolerance; they are left out, and faces found near are added.
+  // Returns the largest distance. out_misses: NULL, or receives the places farther away than `tolerance`, the farthest
+  // first. If there is none, the function returns `tolerance`. known: NULL, or faces already found near at this
+  // tolerance; they are skipped, and faces found near now are added.
   double measure(const QuadMesh& mesh, double tolerance, Vector<QuadMiss>* out_misses, Progress* progress,
                  NearFaces* known = nullptr) const;
 
-  // The point of the surface nearest to p.
+  // Returns the point of the surface nearest to p.
   SurfacePoint nearest(Vec3 p) const noexcept;
 
  private:
   struct Sample {
     Vec3 point;
-    std::int32_t vertex, face;  // As in QuadMiss; face and hint are set for samples of the quads only.
-    std::int32_t hint;          // A triangle of the surface near it.
+    std::int32_t vertex, face;  // as in QuadMiss; only samples of the quads have face and hint.
+    std::int32_t hint;          // a triangle of the surface near the sample.
   };
   void sample_surface();
   Table<Sample> sample_quads(const QuadMesh& mesh, const Table<std::int32_t>& corners, const Table<std::int32_t>& faces,
@@ -65,7 +65,7 @@ class QuadDistance {
   double spacing_;
   Memory* memory_;
   JobRunner* jobs_;
-  Table<std::int32_t> corners_;  // of the surface's real triangles
+  Table<std::int32_t> corners_;  // of the triangles that are not at an apex
   NearestTriangle tree_;
   Table<Sample> samples_;  // of the surface, in the order of the tree
 };

@@ -16,7 +16,7 @@ std::uint64_t edge_key(std::int32_t a, std::int32_t b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
 }
 
-// Sum of the squared cosines of a quad's angles, with a cost for reflex corners: 0 for rectangles.
+// Returns the sum of the squared cosines of a quad's angles, with a cost for reflex corners. It is 0 for rectangles.
 double badness(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 p[4] = {a, b, c, d};
   const Vec3 normal = cross(c - a, d - b);
@@ -58,7 +58,7 @@ class Splitter {
         if (n == 6) cost += quad_cost(d, rest_[(i + 4) % n], rest_[(i + 5) % n], a);
         if (best == none || cost < least) best = i, least = cost;
       }
-      if (best == none) break;  // every chord is an edge elsewhere: the polygon stays whole
+      if (best == none) break;  // all chords are edges of other faces, so the polygon stays whole
       const std::int32_t a = rest_[best], b = rest_[(best + 1) % n], c = rest_[(best + 2) % n],
                          d = rest_[(best + 3) % n];
       edges_.insert(edge_key(a, d));
@@ -175,7 +175,8 @@ QuadMesh make_polygons(const FluxField& field, const ArcGraph& graph, const Ring
       continue;
     }
     out.face_start.push_back(out.corner.size());
-    // polygons of 6 corners at a site and of 8 at a saddle get a centre vertex; smaller ones are split by chords
+    // Polygons with at least 6 corners at a site, or 8 at a saddle, get a centre vertex. Smaller ones are split by
+    // chords.
     const std::int32_t size = out.size(out.face_count() - 1);
     centre.push_back(critical != none && (one_ring ? size >= 6 : size >= 8) && !surface.is_apex(critical) ? critical
                                                                                                           : none);

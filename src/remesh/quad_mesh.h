@@ -1,12 +1,12 @@
 // Turns rings and lines into polygons, and polygons into quads.
 //
-// Faces are the orbits of "go along a half-edge, turn back, turn one step clockwise" over the nodes. A node has the
-// half-edges next, up, previous, down, counter-clockwise. A polygon of 2 m corners around a site or saddle is split
-// into m quads by a centre vertex joined to every second corner. Other polygons are cut into quads along their best
-// chords. Faces across borders (the caps of apexes) are left out.
+// A node has the half-edges next, up, previous and down, counter-clockwise. A face is found by repeating three moves:
+// go along a half-edge, turn back, turn one half-edge clockwise. A polygon of 2 m corners around a site or saddle is
+// split into m quads by a centre vertex that is joined to every second corner. Other polygons are split into quads
+// along their best chords. Faces that close a border (at an apex) are left out.
 //
-// check_quads() is the oracle: every directed edge once, no corner repeated in a face, the Euler characteristic of the
-// input.
+// check_quads() verifies a mesh: it has every directed edge once, no corner twice in a face, and the Euler
+// characteristic of the input.
 #pragma once
 #include "remesh/rings.h"
 
@@ -24,9 +24,9 @@ struct QuadMesh {
   Table<SurfacePoint> location;  // By vertex.
   Table<Vec3> position;          // By vertex, inner units.
   static constexpr std::uint8_t free = 0, site = 1, snapped = 2;
-  Table<std::uint8_t> pinned;  // By vertex, whether it is pinned and why.
-  Table<std::uint8_t> border;  // By vertex, whether it lies on a border.
-  Table<float> scale;          // By vertex, edge length over the one aimed at: below 1 if refined.
+  Table<std::uint8_t> pinned;  // by vertex: whether it is pinned, and why.
+  Table<std::uint8_t> border;  // by vertex: whether it lies on a border.
+  Table<float> scale;          // by vertex: factor on the wanted edge length, below 1 if refined.
   Table<std::int32_t> face_start, corner;
   std::int32_t face_count() const noexcept { return face_start.size() - 1; }
   std::int32_t size(std::int32_t f) const noexcept { return face_start[f + 1] - face_start[f]; }
@@ -37,19 +37,20 @@ struct QuadMesh {
   }
 };
 
-// The faces around every vertex v, face[start[v] .. start[v + 1]), unordered.
+// The faces around every vertex v: face[start[v] .. start[v + 1]), in no order.
 struct VertexFans {
   VertexFans(const QuadMesh& mesh, Memory& memory);
   std::int32_t valence(std::int32_t v) const noexcept { return start[v + 1] - start[v]; }
   Table<std::int32_t> start, face;
 };
 
-// Marks the vertices of all faces at marked ones, `rings` times.
+// Marks the vertices of all faces that have a marked vertex; it repeats this `rings` times.
 void grow_marks(const QuadMesh& mesh, std::int32_t rings, Table<std::uint8_t>& marked);
 
 Vec3 position_of(const FluxSurface& surface, const SurfacePoint& point) noexcept;
 
-// centre: by face, the critical vertex of the surface in it, -1 for faces between rings of one arc.
+// Makes the polygons. centre: by face, the critical vertex of the surface in it, or -1 for a face between two rings of
+// one arc.
 QuadMesh make_polygons(const FluxField& field, const ArcGraph& graph, const RingMesh& rings,
                        Table<std::int32_t>& centre, Memory& memory);
 QuadMesh split_polygons(const FluxSurface& surface, const QuadMesh& polygons, const Table<std::int32_t>& centre,

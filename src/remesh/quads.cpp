@@ -16,8 +16,8 @@ namespace hf_inner {
 
 namespace {
 
-// Scales the lines of every component so that the mean face is a little smaller than a square of the edge length. The
-// number of faces is rings times lines, summed over arcs.
+// Scales the lines of every component, so that the mean face is a little smaller than a square of the edge length. The
+// number of faces is the sum over all rings of the lines that cross them.
 void fit_lines(const FluxSurface& surface, Span<const double> u, const RingOptions& options, Vector<FluxSite>& sites,
                Memory& memory) {
   const FluxField field(surface, u, memory);
@@ -38,8 +38,8 @@ void fit_lines(const FluxSurface& surface, Span<const double> u, const RingOptio
   }
 }
 
-// How uneven a mesh is: 0 if edges have `shortest` to `longest` edge lengths and quads an aspect of at most
-// `narrowest`, apart from a few (outliers).
+// Returns how uneven a mesh is. The result is 0 if edges have `shortest` to `longest` edge lengths and quads have an
+// aspect of at most `narrowest`. A few may be worse (outliers).
 double shape_cost(const QuadMesh& mesh, double edge_length, double shortest, double longest, double narrowest,
                   Memory& memory) {
   Vector<double> lengths(&memory), aspects(&memory);
@@ -62,7 +62,7 @@ double shape_cost(const QuadMesh& mesh, double edge_length, double shortest, dou
          std::max(0.0, std::log(at(aspects, 1 - outliers) / narrowest));
 }
 
-// Makes meshes of one surface from several sets of sites, with one factor and one tree.
+// Makes meshes of one surface from several sets of sites, with one factor and one search tree.
 class Maker {
  public:
   explicit Maker(const QuadOptions& options)
@@ -75,8 +75,8 @@ class Maker {
 
   const FluxSurface& surface() const noexcept { return surface_; }
 
-  // out_deviation: the distance of the mesh and the surface. density: edge lengths are 1 / density of the one asked
-  // for.
+  // Makes one mesh. out_deviation: the distance between mesh and surface. density: edges are 1 / density of the wanted
+  // edge length.
   QuadResult make(Span<const FluxSite> given, double density, double* out_deviation) const {
     Progress* const progress = options_.progress;
     QuadResult result(memory_);
@@ -118,8 +118,8 @@ class Maker {
     return result;
   }
 
-  // Fits the mesh and collapses short edges (in kind pure only those that refining made) in turns. Each turn allows
-  // more folds than the last. Returns the cost of the mesh.
+  // Fits the mesh and collapses short edges in turns. In kind pure it only collapses edges that refining made. Each
+  // turn allows more folds than the last. Returns the cost of the mesh.
   double fit(QuadMesh& mesh, double density, double deviation) const {
     const double allowed = fit_tolerance * options_.edge_length, edge_length = options_.edge_length / density;
     if (options_.relax > 0) {
@@ -151,7 +151,7 @@ class Maker {
     return cost(mesh, deviation);
   }
 
-  // At most 1 for a good mesh, more for worse ones.
+  // Returns at most 1 for a good mesh, and more for a worse one.
   double cost(const QuadMesh& mesh, double deviation) const {
     const double shape =
         options_.uniform ? shape_cost(mesh, options_.edge_length, shortest_even, longest_even, narrowest_even, memory_)
@@ -159,7 +159,8 @@ class Maker {
     return std::max(deviation / (near_distance * options_.edge_length), 1.0) + shape;
   }
 
-  // Numbers sites as vertices of the Mesh, and orders weights as its triangles, which may have been turned here.
+  // Changes the result to vertices and triangles of the Mesh: FluxSurface numbers vertices differently, and may have
+  // turned triangles.
   void to_mesh(QuadResult& result) const {
     for (FluxSite& site : result.sites) site.vertex = surface_.mesh_vertex[site.vertex];
     for (SurfacePoint& point : result.mesh.location) {
@@ -175,7 +176,7 @@ class Maker {
   }
 
  private:
-  // Chooses sites with their lines and returns the field.
+  // Chooses the sites with their lines, and returns the field.
   Vector<double> flow(Span<const FluxSite> given, const RingOptions& rings, QuadResult& result) const {
     const ProgressRange range(options_.progress, 0.0f, make_progress.flow);
     result.sites =
@@ -189,7 +190,7 @@ class Maker {
     return u;
   }
 
-  // Relaxes, and keeps snapped features if they reduce the distance both ways.
+  // Relaxes the mesh. It snaps features, and keeps them if they reduce the distance both ways.
   double even_out(QuadMesh& mesh, double edge_length) const {
     Progress* const progress = options_.progress;
     auto relax = [&](std::int32_t rounds, float from, float to) {
@@ -203,7 +204,8 @@ class Maker {
       distance_.turn_quads(at);
       return distance_.measure(at, 0, nullptr, progress);
     };
-    // vertices slide off thin parts where edges are long: in kind pure a mesh relaxed less is kept if it is nearer
+    // Vertices slide off thin parts where edges are long. So in kind pure, the mesh after few rounds is kept if it is
+    // nearer to the surface.
     const std::int32_t little = options_.uniform ? 0 : options_.relax / early_share;
     relax(little, 0.0f, even_progress.early);
     QuadMesh early = mesh;
@@ -247,7 +249,7 @@ QuadResult make_quads(const QuadOptions& options) {
   }();
   const Maker& maker = *made;
   const FluxSurface& surface = maker.surface();
-  // a vertex of several fans counts in its first
+  // A vertex with several fans counts as the vertex of its first fan.
   Table<std::int32_t> fan(core.size(), -1, memory);
   for (std::int32_t v = surface.first_apex; v-- > 0;) fan[surface.mesh_vertex[v]] = v;
   Vector<FluxSite> given(&memory);
@@ -265,7 +267,7 @@ QuadResult make_quads(const QuadOptions& options) {
     return result;
   }
 
-  // tips by both fields: the mean distance finds limbs that the Poisson field merges into others
+  // Tips come from two fields: the mean distance finds limbs that the Poisson field merges into others.
   const Geodesics geodesics(options.core, geodesic_smoothing);
   const Extremities far = [&] {
     const ProgressRange range(progress, quads_progress.prepared, quads_progress.far_tips);
@@ -308,7 +310,7 @@ QuadResult make_quads(const QuadOptions& options) {
   }
   if (trials.empty())
     trials.push_back({0, maker.make(given, 1, &deviation), Vector<FluxSite>(given, &memory)});  // throws the reason
-  // fitted in order of distance; the first good one is taken, or the best
+  // Meshes are fitted in order of distance. The first good one is taken, or else the best.
   std::stable_sort(trials.begin(), trials.end(),
                    [](const Trial& a, const Trial& b) { return a.deviation < b.deviation; });
   double least = -1;
@@ -337,7 +339,7 @@ QuadResult make_quads(const QuadOptions& options) {
         const double cost = maker.fit(result.mesh, density, deviation);
         if (cost < least) least = cost, best = std::move(result);
       } catch (const Error& error) {
-        if (error.code() == HF_ERROR_CANCELLED) throw;  // otherwise keep the best so far
+        if (error.code() == HF_ERROR_CANCELLED) throw;  // keeps the best mesh so far
       }
     }
   }

@@ -1,4 +1,4 @@
-// Makes quad meshes from harmonic fields: sites, field, arcs, rings, polygons, quads, relaxed and fitted.
+// Makes quad meshes from harmonic fields, from the choice of sites to the fitted mesh.
 #pragma once
 #include "engine/core.h"
 #include "remesh/constants.h"
@@ -13,7 +13,7 @@ struct QuadOptions {
   bool uniform = false;
   bool split = true;
   std::int32_t relax = default_relax_rounds;  // rounds
-  Span<const FluxSite> sites;  // FluxSite::vertex is an inner vertex of the core; every border is a site as well
+  Span<const FluxSite> sites;  // FluxSite::vertex is an inner vertex of the core; every border is a site too
   bool automatic = true;
   bool scale_lines = true;  // kind pure: scale the lines to the edge length; off: keep the caller's numbers
   Progress* progress = nullptr;
@@ -22,14 +22,14 @@ struct QuadOptions {
 struct QuadResult {
   explicit QuadResult(Memory& memory) : mesh(memory), sites(&memory) {}
   QuadMesh mesh;
-  Vector<FluxSite> sites;  // FluxSite::vertex is inner, none for a border
+  Vector<FluxSite> sites;  // FluxSite::vertex is an inner vertex, or none for a border
   std::int32_t raw_faces = 0, raw_quads = 0, saddles = 0, euler_characteristic = 0;
   std::int32_t extra_extrema = 0;
-  double imbalance = 0;  // the largest at a vertex that is no site
+  double imbalance = 0;  // the largest imbalance of flux at a vertex that is no site
 };
 
-// Throws HF_ERROR_UNSUPPORTED for surfaces that are not manifold or cannot be oriented and as require_laplacian,
-// HF_ERROR_CANCELLED, std::bad_alloc.
+// Throws HF_ERROR_UNSUPPORTED for surfaces that are not manifold or cannot be oriented. Also throws the errors of
+// require_laplacian, HF_ERROR_CANCELLED and std::bad_alloc.
 QuadResult make_quads(const QuadOptions& options);
 
 }  // namespace hf_inner

@@ -14,7 +14,7 @@ constexpr std::int32_t none = -1;
 }  // namespace
 
 void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::uint8_t>& marked, Memory& memory) {
-  // a vertex half way from v to the point `to`
+  // Adds a vertex half way from v to the point `to`.
   auto half_way = [&](std::int32_t v, const Vec3& to) {
     const SurfacePoint at = walk_surface(surface, mesh.location[v], 0.5 * (to - mesh.position[v]));
     return mesh.add_vertex(at, position_of(surface, at), QuadMesh::free, false, subdivided_scale * mesh.scale[v]);
@@ -22,7 +22,8 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
   struct Middle {
     std::int32_t to, vertex;
   };
-  // middles of edges at marked vertices: a list through `following`
+  // The middles of edges at marked vertices, as linked lists: `first` starts the list of a vertex, `following`
+  // continues it.
   Vector<Middle> middles(&memory);
   Table<std::int32_t> first(marked.size(), none, memory), following(memory);
   auto middle_of = [&](std::int32_t v, std::int32_t a) {
@@ -61,7 +62,8 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
 }
 
 std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Memory& memory) {
-  // the faces around v with their first neighbour of v, counter-clockwise
+  // Lists the faces around v in counter-clockwise order. For each face, `first` and `last` are its two corners beside
+  // v.
   Table<std::int32_t> faces(memory), spokes(memory);
   Table<std::int32_t> first(memory), last(memory);
   for (std::int32_t f = 0; f < mesh.face_count(); ++f)
@@ -76,12 +78,13 @@ std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, M
         std::swap(first[j], first[i + 1]), std::swap(last[j], last[i + 1]), std::swap(faces[j], faces[i + 1]);
         break;
       }
-  // the new quad lies between two spokes that run across the way, with two faces or more on both sides
+  // A spoke is an edge at v. The new quad lies between two spokes that run across the direction `way`, with at least
+  // two faces on each side.
   const Vec3 p = mesh.position[v], way = unit(towards - p);
   std::int32_t from = none, to = none;
   double best = 0;
   for (std::int32_t i = 0; i < n; ++i)
-    for (std::int32_t count = 2; count <= n - 2; ++count) {  // faces from spoke i on join the new vertex
+    for (std::int32_t count = 2; count <= n - 2; ++count) {  // `count` faces from spoke i on join the new vertex
       const std::int32_t j = (i + count) % n;
       double sum = 0;
       for (std::int32_t k = 1; k < count; ++k)

@@ -14,8 +14,8 @@ Vec3 triangle_normal(const FluxSurface& s, std::int32_t t) {
                     s.position[s.tail[3 * t + 2]] - s.position[s.tail[3 * t]]));
 }
 
-// Proposals of one quad. outward: the surface's normals at its corners, summed; a quad turned over against it is turned
-// back.
+// Proposes corners for one quad. outward: the sum of the surface's normals at the quad's corners. A quad that is turned
+// over against `outward` is turned back.
 void propose(const QuadMesh& mesh, const std::int32_t* c, double edge_length, Vec3 outward, Vec3* out) {
   const Vec3 p[4] = {mesh.position[c[0]], mesh.position[c[1]], mesh.position[c[2]], mesh.position[c[3]]};
   const Vec3 middle = 0.25 * (p[0] + p[1] + p[2] + p[3]);
@@ -57,7 +57,7 @@ SurfacePoint walk_surface(const FluxSurface& s, SurfacePoint at, Vec3 way) noexc
       if (!(rest > 0)) return at;
       direction = (1 / rest) * direction;
     }
-    // change of the weights per length
+    // How much the barycentric weights change per unit of length along the walk.
     double rate[3];
     rate[0] = dot(cross(c - b, direction), n) / nn;
     rate[1] = dot(cross(a - c, direction), n) / nn;
@@ -74,7 +74,7 @@ SurfacePoint walk_surface(const FluxSurface& s, SurfacePoint at, Vec3 way) noexc
     for (double& w : at.weight) w /= sum;
     rest -= length;
     if (leaves < 0) return at;
-    // over the edge opposite corner `leaves`
+    // The walk crosses the edge opposite corner `leaves`.
     const std::int32_t h = 3 * t + (leaves + 1) % 3, twin = s.twin[h];
     if (!s.is_real(twin)) return at;  // a border
     at.weight[leaves] = 0;
@@ -97,14 +97,14 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
   Table<SurfacePoint> old_location(memory);
   Table<double> count(n, 0.0, memory);
   Table<std::uint8_t> was_over(mesh.corner.size(), 0, memory), back(n, 0, memory), tangled(n, 0, memory);
-  // whether corner k of face f is turned over against the normal of the surface there
+  // Tells whether corner k of face f is turned over against the normal of the surface there.
   auto over = [&](std::int32_t f, std::int32_t k) {
     const std::int32_t size = mesh.size(f), *c = mesh.corner.data() + mesh.face_start[f];
     const Vec3 p = mesh.position[c[k]], x = mesh.position[c[(k + 1) % size]] - p,
                y = mesh.position[c[(k + size - 1) % size]] - p;
     return dot(cross(x, y), triangle_normal(s, mesh.location[c[k]].triangle)) <= 0;
   };
-  // the vertices that may move, and the faces around them
+  // The vertices that may move, and the faces around them.
   Table<std::int32_t> vertices(memory), faces(memory);
   for (std::int32_t v = 0; v < n; ++v)
     if (!options.moving || (*options.moving)[v]) vertices.push_back(v);
@@ -142,7 +142,7 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
       mesh.location[v] = walk_surface(s, mesh.location[v], way);
       mesh.position[v] = position_of(s, mesh.location[v]);
     }
-    // faces with a corner newly turned over move back, until none is left
+    // The vertices of a face with a newly turned corner move back, until there is no such face.
     for (int again = 0; again < take_backs; ++again) {
       bool any = false;
       for (const std::int32_t v : vertices) back[v] = 0;

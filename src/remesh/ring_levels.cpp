@@ -10,7 +10,7 @@
 namespace hf_inner {
 namespace {
 
-// The distance s over the values of one arc.
+// The distance s along one arc, as a function of the field's value (rings.h).
 class Scale {
  public:
   Scale(const FluxField& field, const ArcGraph& graph, const Arc& arc, Memory& memory) : samples_(memory) {
@@ -71,7 +71,7 @@ class Scale {
   Table<Sample> samples_;
 };
 
-// The extreme value of a border's vertices: the highest at a source, the lowest at a sink.
+// Returns the extreme value of a border's vertices: the highest at a source, the lowest at a sink.
 double rim_value(const FluxField& field, std::int32_t apex, bool highest) {
   const FluxSurface& s = field.surface();
   const std::int32_t begin = s.out[apex];
@@ -98,7 +98,7 @@ void place_rings(const FluxField& field, const ArcGraph& graph, const RingOption
     const bool site_below = !border_below && field.sign_changes(arc.lower) == 0,
                site_above = !border_above && field.sign_changes(arc.upper) == 0;
     auto add = [&](double value) {
-      std::int32_t low = 0, high = m;  // vertices below the value
+      std::int32_t low = 0, high = m;  // vertices below the value, by bisection
       while (low < high) {
         const std::int32_t middle = (low + high) / 2;
         if (field.value(graph.vertices[arc.first + middle]) < value) {
@@ -135,7 +135,7 @@ void place_rings(const FluxField& field, const ArcGraph& graph, const RingOption
       if (static_cast<double>(out.rings.size()) + steps > most_rings)
         fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "more than %g rings; take a larger edge_length", most_rings);
       const std::int32_t n = static_cast<std::int32_t>(steps);
-      // at the ends of the room, where they are not borders, and between them
+      // Rings are placed evenly from one end of the room to the other. An end at a border already has its ring.
       for (std::int32_t k = 0; k <= n; ++k) {
         if ((k == 0 && border_below) || (k == n && border_above && (n > 0 || !border_below))) continue;
         if (n == 0 && (border_below || border_above)) continue;

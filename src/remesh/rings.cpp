@@ -46,7 +46,7 @@ class Builder {
 
  private:
   struct Arrival {
-    std::int32_t from;  // node below
+    std::int32_t from;  // the node below
     FluxPoint point;
     double place;
   };
@@ -58,7 +58,7 @@ class Builder {
     const Ring& ring = out_.rings[r];
     line.build(field_, {ring.threshold, ring.seed}, ring.value, ring.border);
   }
-  // Makes r the current ring: its polyline and the numbers of its edges.
+  // Makes r the current ring: builds its polyline and numbers its edges.
   void begin_ring(std::int32_t r) {
     build(r, line_);
     for (std::int32_t i = 0; i < line_.edges().size(); ++i) index_of_edge_[line_.edges()[i]] = i;
@@ -83,7 +83,7 @@ class Builder {
     return n;
   }
   void link(std::int32_t a, std::int32_t b) { out_.nodes[a].next = b, out_.nodes[b].previous = a; }
-  // Adds a node behind `after`.
+  // Adds a node behind the node `after` on its ring.
   std::int32_t insert(std::int32_t after, double place) {
     const std::int32_t r = out_.nodes[after].ring, before = out_.nodes[after].next;
     const std::int32_t n = add_node(r, place, line_.at(place), none);
@@ -97,7 +97,7 @@ class Builder {
     if (out_.nodes[n].next == n) return length;
     return g < 0 ? g + length : g;
   }
-  // Adds `count` nodes evenly in the gap behind n.
+  // Adds `count` nodes, evenly spaced in the gap behind node n.
   void fill(std::int32_t n, std::int32_t count) {
     const double from = out_.nodes[n].place, width = gap(n);
     for (std::int32_t k = 1; k <= count; ++k) n = insert(n, from + width * k / (count + 1));
@@ -188,7 +188,8 @@ class Builder {
     }
   }
 
-  // Adds the nodes of ring r for the lines that reach it, from one ring in its order or from several through a saddle.
+  // Adds the nodes of ring r for the lines that reach it. They come from one ring in its order, or through a saddle
+  // from several rings.
   void arrive(std::int32_t r, bool saddle, std::int32_t rank) {
     begin_ring(r);
     const std::int32_t threshold = out_.rings[r].threshold;
@@ -202,7 +203,7 @@ class Builder {
       std::sort(arrivals_.begin(), arrivals_.end(),
                 [](const Arrival& a, const Arrival& b) { return a.place < b.place; });
     } else if (count > 1) {
-      // the order is that of the ring below; find its first node
+      // The order of the nodes is that of the ring below. This finds the first node.
       std::size_t begin = 0;
       double drop = -1;
       for (std::size_t k = 0; k < arrivals_.size(); ++k) {
@@ -228,8 +229,8 @@ class Builder {
     complete_ring(r);
   }
 
-  // Adds two neighbouring lines from ring r, half way around from its only node, down to one gap of a ring below the
-  // saddle of that rank. Only the first is traced; the second runs beside it.
+  // Adds two neighbouring lines from ring r down to one gap of a ring below the saddle of that rank. They start half
+  // way around the ring from its only node. Only the first line is traced; the second runs beside it.
   void join_down(std::int32_t r, std::int32_t rank) {
     const std::int32_t only = out_.rings[r].node;
     const double place = only == none ? 0.0 : out_.nodes[only].place + line_.length() / 2;
@@ -248,7 +249,7 @@ class Builder {
     if (p.half == none) fail_off_arc();
     build(below, lower_line_);
     const double low_place = lower_line_.place_of(p);
-    // insert behind the last node before that place, or behind the last of all
+    // The new nodes go behind the last node before that place, or behind the last of all nodes.
     std::int32_t after = out_.rings[below].node, best = none, m = after;
     for (std::int32_t k = 0; k < out_.rings[below].count; ++k, m = out_.nodes[m].next) {
       if (out_.nodes[m].place <= low_place && (best == none || out_.nodes[m].place >= out_.nodes[best].place)) best = m;
@@ -269,17 +270,18 @@ class Builder {
     }
   }
 
-  // Whether the gap behind n is adjacent to the saddle: its two lines are not neighbours on one ring below.
+  // Tells whether the gap behind n is adjacent to the saddle: its two lines are not neighbours on one ring below.
   bool is_at_saddle(std::int32_t n) const {
     const std::int32_t a = out_.nodes[n].down, b = out_.nodes[out_.nodes[n].next].down;
     if (a == none || b == none) return true;
     if (a == b) return true;
     std::int32_t m = out_.nodes[a].next;
-    while (m != a && ended_[m]) m = out_.nodes[m].next;  // skip lines that end; all others go up
+    while (m != a && ended_[m]) m = out_.nodes[m].next;  // skips lines that end; all others continue
     return m != b;
   }
 
-  // Above a saddle: makes the number of nodes even, and fills the widest gap at the saddle by the edge length.
+  // Completes a ring above a saddle: makes the number of nodes even. In kind uniform it also fills the widest gap at
+  // the saddle, with nodes about an edge length apart.
   void fill_saddle_ring(std::int32_t r) {
     std::int32_t widest = none, n = out_.rings[r].node;
     double width = -1;
@@ -294,7 +296,7 @@ class Builder {
     fill(widest, wanted);
   }
 
-  // Applies the rules of rings.h and ends work on ring r.
+  // Applies the rules of rings.h and completes ring r.
   void complete_ring(std::int32_t r) {
     const Ring& ring = out_.rings[r];
     const std::int32_t upper = graph_.arcs[ring.arc].upper;

@@ -1,20 +1,22 @@
-// Rings of nodes on the level loops of a flux field, and the lines between them: the combinatorial quad mesh.
+// Places rings of nodes on the level loops of a flux field, and lines between the rings: the combinatorial quad mesh.
 //
-// Rings. Along every arc the mean distance between loops is s(c) = integral of L(c) / F dc. L is the length of the loop
-// and F the flux; the mean slope on a loop is F / L. Rings are edge_length apart in s, ring_at_saddle from a saddle,
-// ring_at_site from a site, and on the border itself at an apex. Every arc has at least one.
+// Rings. Along every arc the mean distance between loops is s(c) = integral of L(c) / F dc, where c is the field's
+// value, L the length of the loop and F the flux. (The mean slope on a loop is F / L.) Rings are edge_length apart in
+// s. They are ring_at_saddle from a saddle, ring_at_site from a site, and on the border itself at an apex. Every arc
+// has at least one ring.
 //
 // Nodes. The nodes of a ring are the points where lines cross it. Lines come up from the ring below by the exact flux
-// maps; at a source they start evenly in the flux. These rules keep the mesh valid and even, in both kinds.
-//   A ring has an even number of nodes, 4 or more (6 beside a site). Missing nodes are added two at a time in one gap;
-//   an odd one is added in the gap adjacent to the saddle.
-//   A ring above a saddle has at least two lines from below: missing ones are traced down from it.
-// Kind uniform adds pairs of nodes in wide gaps (widest_gap_length) and ends pairs of neighbouring lines where three
-// gaps together are narrow (narrowest_gaps_length). Nodes come and go in pairs, so every face has an even number of
-// corners.
+// maps. At a source they start evenly spaced in the flux. Two rules keep the mesh valid and even, in both kinds:
+// - A ring has an even number of nodes, 4 or more (6 beside a site). Missing nodes are added two at a time in one gap.
+//   An odd one is added in the gap adjacent to the saddle.
+// - A ring above a saddle has at least two lines from below. Missing lines are traced down from the ring.
 //
-// A node has a next and a previous on its ring, with higher values on the left, and an up and a down along its line; -1
-// if there is none.
+// Kind uniform adds pairs of nodes in wide gaps (widest_gap_length). It ends pairs of neighbouring lines where three
+// gaps together are narrow (narrowest_gaps_length). Nodes are added and removed in pairs, so every face has an even
+// number of corners.
+//
+// A node has a next and a previous node on its ring, with higher values on the left. It has an up and a down node along
+// its line. A missing node is -1.
 #pragma once
 #include "base/progress.h"
 #include "remesh/arcs.h"
@@ -29,18 +31,18 @@ struct RingOptions {
 struct RingNode {
   std::int32_t ring = -1;
   FluxPoint point;
-  double place = 0;  // along the ring, 0 to its length
+  double place = 0;  // place along the ring, from 0 to its length
   std::int32_t next = -1, previous = -1, up = -1, down = -1;
 };
 
 struct Ring {
   std::int32_t arc = -1, threshold = 0, seed = -1;
   double value = 0, length = 0;
-  std::int32_t node = -1, count = 0;  // one of its nodes, and how many
+  std::int32_t node = -1, count = 0;  // one of its nodes, and the number of nodes
   bool border = false;
 };
 
-// A point of the surface in a triangle: weights of its corners.
+// A point of the surface in a triangle, with the barycentric weights of its corners.
 struct SurfacePoint {
   std::int32_t triangle = -1;
   double weight[3] = {0, 0, 0};
@@ -48,13 +50,14 @@ struct SurfacePoint {
 
 struct RingMesh {
   explicit RingMesh(Memory& memory) : rings(memory), nodes(memory), ring_start(memory), location(memory) {}
-  Table<Ring> rings;  // of arc a: ring_start[a] .. ring_start[a + 1], from below
+  Table<Ring> rings;  // rings of arc a: ring_start[a] .. ring_start[a + 1], from below
   Table<RingNode> nodes;
   Table<std::int32_t> ring_start;
-  Table<SurfacePoint> location;  // of nodes
+  Table<SurfacePoint> location;  // by node
 };
 
-// lines_at: by vertex of the surface, how many lines start at a source (kind pure; kind uniform counts by length).
+// lines_at: by vertex of the surface, the number of lines that start at a source. Only kind pure uses it; kind uniform
+// counts by length.
 RingMesh make_rings(const FluxField& field, const ArcGraph& graph, const Table<double>& lines_at,
                     const RingOptions& options, Memory& memory, Progress* progress);
 

@@ -1,13 +1,14 @@
-// Compares the two rest shapes of a transfer: axes, size, and directions of limbs.
+// Compares the two rest shapes of a transfer: their axes, their sizes, and the directions of their limbs.
 //
-// Axes: A = T' S with the rows right, up, forward of target and source. A rotation R of the source becomes A R A' on
-// the target. Scale: the ratio of the lengths of the legs, or of the boxes' diagonals without feet. The length of a leg
-// is the mean height of the vertices whose largest field belongs to the foot and lies in leg_windows.
+// Axes: S and T hold the rows right, up, forward of source and target, and A = T' S. A rotation R of the source becomes
+// A R A' on the target. Scale: the ratio of the leg lengths, or of the bounding boxes' diagonals if no pair is a foot.
+// A leg consists of the vertices whose largest field is the foot's, with values in leg_windows. Its length is their
+// mean height.
 //
-// Rest alignment works per limb. The direction d runs from the centroid of the vertices with field h in limb_window to
-// the centroid of the region, on both surfaces. Where A d_source and d_target differ by more than the limit, D_h is the
-// minimal rotation from one to the other. It is applied before the motion as D_h^w, where w fades it in along the limb.
-// Short limbs and trunk pairs are left alone.
+// Rest alignment works per limb h, on both surfaces. The direction d of a limb runs from the centroid of the vertices
+// with field h in limb_window to the centroid of region h. If A d_source and d_target differ by more than the limit,
+// D_h is the minimal rotation from d_target to A d_source. A cluster applies D_h^w before the motion, where w rises
+// from 0 to 1 along the limb. Short limbs and trunk pairs get no alignment.
 #pragma once
 #include <cstdint>
 
@@ -17,32 +18,35 @@
 
 namespace hf_inner {
 
-// One side's shape in field terms.
+// The rest shape of one side (source or target), with the fields of its pairs.
 struct RestSide {
   const Mesh* mesh = nullptr;
-  Span<const double> field;  // n x pair count
+  Span<const double> field;  // vertex count x pair count
   Span<const double> area;
   Mat3 axes;  // rows right, up, forward
   Vec3 up() const noexcept { return {axes(1, 0), axes(1, 1), axes(1, 2)}; }
 };
 
-// Orthonormal axes of nine numbers; all zero: the identity. Throws HF_ERROR_INVALID_ARGUMENT unless they are a
-// right-handed frame within axes_tolerance.
+// Turns nine numbers into orthonormal axes; nine zeros mean the identity. Throws HF_ERROR_INVALID_ARGUMENT unless the
+// rows are a right-handed frame within axes_tolerance.
 Mat3 checked_axes(const double (&rows)[9], const char* side);
 
-// Lowest point along up, inner coordinates.
+// Returns the height of the lowest vertex along up, in inner coordinates.
 double ground_height(const RestSide& side) noexcept;
 
-// Mean leg length of the foot pairs (columns of the field), inner coordinates; 0 when no vertex lies in the window.
+// Returns the mean leg length of the foot pairs in inner coordinates. foot_columns: the pairs' columns in the field. If
+// a leg has no vertex in any window, it returns 0.
 double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns) noexcept;
 
-// Direction of limb h (not normalised: its length is that of the outer limb). False when the window holds no vertex.
+// Finds the direction of limb `column`; its length is that of the outer part of the limb. Returns false when no vertex
+// has a field value in limb_window.
 bool limb_direction(const RestSide& side, std::int32_t column, Vec3 region_centroid, Vec3& direction) noexcept;
 
-// Minimal rotation taking the direction `from` to `to`; opposite directions turn about the axis nearest to `axis`.
+// Returns the minimal rotation that turns the direction `from` to `to`. For opposite directions it turns about the axis
+// nearest to `axis`.
 Quaternion minimal_rotation(Vec3 from, Vec3 to, Vec3 axis) noexcept;
 
-// q^w, w in [0, 1].
+// Returns the rotation q^w, the part w of q. w: in [0, 1].
 Quaternion power(const Quaternion& q, double w) noexcept;
 
 }  // namespace hf_inner

@@ -16,7 +16,7 @@ double squared_distance(const double* a, const double* b, std::int32_t count) no
   return sum;
 }
 
-// The five nearest centres of every target vertex, kept while centres are added.
+// The five nearest cluster centres of a target vertex, updated whenever a centre is added.
 struct NearestCentres {
   static constexpr std::int32_t kept = blend_count + 1;
   double distance[kept];
@@ -29,7 +29,8 @@ struct NearestCentres {
   }
 };
 
-// Farthest-point sampling of the rows, starting at the row with the largest maximum.
+// Chooses cluster centres by farthest-point sampling of the vertices' field rows. The first centre is the row with the
+// largest maximum.
 void sample_centres(const ClusterOptions& options, std::int32_t width, Span<const double> field, Clusters& out,
                     Vector<NearestCentres>& nearest, Memory& memory, JobRunner& jobs) {
   const std::size_t n = field.size() / at(width);
@@ -74,7 +75,8 @@ void weigh_by_distance(const ClusterOptions& options, const Vector<NearestCentre
     const NearestCentres& near = nearest[v];
     Candidate candidates[blend_count];
     std::int32_t count = 0;
-    // relative to the nearest, less the value at the fifth: continuous where the four change
+    // Weights are relative to the nearest centre, less the value at the fifth nearest. So they stay continuous where
+    // the four nearest centres change.
     const double last =
         near.cluster[blend_count] < 0 ? 0.0 : std::exp(-sharpness * (near.distance[blend_count] - near.distance[0]));
     for (std::int32_t i = 0; i < blend_count && near.cluster[i] >= 0; ++i) {
@@ -85,7 +87,8 @@ void weigh_by_distance(const ClusterOptions& options, const Vector<NearestCentre
   }
 }
 
-// Hat function of band k of K over [0, 1], times u^4.
+// Returns the weight of one band at the field value u. It is a hat function of `bands` bands over [0, 1], times
+// u^band_exponent.
 double band_weight(double u, std::int32_t band, std::int32_t bands) noexcept {
   const double hat = 1 - std::abs(u * (bands - 1) - band);
   return hat > 0 ? hat * std::pow(u, band_exponent) : 0.0;
@@ -107,7 +110,7 @@ void weigh_by_bands(std::int32_t width, std::int32_t bands, Span<const double> f
   }
 }
 
-// Writes the entries of one kernel, thinned evenly, normalised; an empty one falls back to the vertex given.
+// The source vertices that one kernel covers, with their weights.
 struct KernelRow {
   explicit KernelRow(Memory& memory) : vertex(&memory), weight(&memory) {}
   Vector<std::int32_t> vertex;
@@ -135,13 +138,13 @@ void finish(KernelRow& row, std::size_t most, std::int32_t fallback) {
   for (double& w : row.weight) w /= sum;
 }
 
-// Scales the entries from `begin` on so that the trace of the moment is 1 at rest, and closes the row.
+// Scales the slopes from index `begin` on, so that the moment has trace 1 at rest. Then it marks the end of the row.
 void close_row(std::size_t begin, double trace, SourceKernels& out) {
   for (std::size_t i = begin; i < out.slope.size(); ++i) out.slope[i] = (trace > 0 ? 1 / trace : 0.0) * out.slope[i];
   out.start.push_back(static_cast<std::int32_t>(out.slope.size()));
 }
 
-// Per source vertex, zero everywhere between two rows.
+// Scratch arrays by source vertex; all are zero again after each row.
 struct EdgeScratch {
   EdgeScratch(std::size_t count, Memory& memory)
       : kernel(count, 0.0, &memory),
@@ -154,7 +157,7 @@ struct EdgeScratch {
   Vector<std::int32_t> list;
 };
 
-// Edges of the kernel's vertices, gathered at their ends.
+// Adds one row: all edges of the kernel's vertices, summed up at their two ends.
 void append_edges(const KernelRow& row, const Core& core, EdgeScratch& scratch, SourceKernels& out) {
   const std::size_t begin = out.slope.size();
   Vector<double>& kernel = scratch.kernel;
@@ -206,7 +209,8 @@ struct ClusterRows {
   std::int32_t support = 0;
 };
 
-// Gaussian kernels around a centre; widths adapt to how dense the source is there.
+// Collects the source vertices of a cluster's two Gaussian kernels around its centre. Where the source is coarse, the
+// kernels are wider.
 void centre_rows(const ClusterOptions& options, const double* centre, std::int32_t width, Span<const double> field,
                  ClusterRows& out, Memory& memory) {
   const std::size_t n = field.size() / at(width);
@@ -235,7 +239,7 @@ void centre_rows(const ClusterOptions& options, const double* centre, std::int32
   finish(out.narrow, most_narrow, nearest), finish(out.broad, most_broad, nearest);
 }
 
-// The paper's: the band's own weight, and the three bands around it for the broad kernel.
+// Paper mode: the narrow kernel has the weights of one band. The broad kernel also covers the bands around it.
 void band_rows(std::int32_t h, std::int32_t band, std::int32_t bands, std::int32_t width, Span<const double> field,
                Span<const double> area, ClusterRows& out) {
   std::int32_t nearest = 0;
@@ -256,7 +260,8 @@ void band_rows(std::int32_t h, std::int32_t band, std::int32_t bands, std::int32
   finish(out.narrow, most_narrow, nearest), finish(out.broad, most_broad, nearest);
 }
 
-// Mass and centroid of every cluster on the target. Unused clusters are left out and the others renumbered.
+// Computes mass and centroid of every cluster on the target. Clusters without mass are dropped, and the others
+// renumbered.
 void measure_target(Span<const double> area, const Mesh& mesh, Clusters& out, Vector<std::int32_t>& kept,
                     Memory& memory) {
   Vector<double> mass(at(out.count), 0.0, &memory);
@@ -288,7 +293,7 @@ void write_weights(Candidate* candidates, std::int32_t count, std::int32_t* join
   count = std::min(count, blend_count);
   double sum = 0;
   for (std::int32_t i = 0; i < count; ++i) sum += candidates[i].weight;
-  if (!(sum > 0)) {  // all four at one distance with the fifth
+  if (!(sum > 0)) {  // all four are as far away as the fifth
     for (std::int32_t i = 0; i < count; ++i) candidates[i].weight = 1, sum += 1;
   }
   double rest = weight_units;
@@ -343,7 +348,8 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
     }
   });
 
-  // centres of the clusters that are left; of a band the area mean of its rows
+  // Copies the centres of the clusters that remain. In paper mode, a cluster's centre is the area mean of its vertices'
+  // field rows.
   Vector<double> centres(kept.size() * at(field_count), 0.0, &memory);
   if (!options.paper_bands) {
     for (std::size_t c = 0; c < kept.size(); ++c) {

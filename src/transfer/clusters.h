@@ -1,13 +1,14 @@
-// Makes corresponding clusters of two surfaces with the same harmonic coordinates U (pair_fields.h).
+// Makes corresponding clusters on two surfaces with the same harmonic coordinates U (pair_fields.h).
 //
-// Default: a cluster is a kernel exp(-|U(v) - c|^2 / 2 s^2) around a centre c in the space of all fields. Centres are a
-// farthest-point sample of the target's rows. The same centre on source and target is the correspondence of iso-levels
-// of Xu et al. 2009, Section 6, in all fields at once. Paper: a cluster is a level band of one field, a hat function of
-// u_h times a power of u_h, the same on both surfaces.
+// By default, a cluster is a kernel exp(-|U(v) - c|^2 / 2 s^2) of width s around a centre c. U(v) and c hold one number
+// per field. The centres are a farthest-point sample of the target vertices' U. Source and target share the centres.
+// This generalises the corresponding iso-levels of Xu et al. 2009, Section 6, to all fields at once. In paper mode, a
+// cluster is a level band of one field u_h: a hat function of u_h times a power of u_h, the same on both surfaces.
 //
-// Target: each vertex keeps its four largest weights. They fall to zero where a fifth would take over. They are
-// multiples of 2^-24 that sum to exactly 1. Source: each cluster has a narrow and a broad kernel. Their widths adapt to
-// coarse meshes; the broad one decides where the narrow one is uncertain. Cost: O(n C H) once per change of pairs.
+// Each target vertex keeps its four largest weights. They fall to zero where a fifth would replace one of them. They
+// are multiples of 2^-24 that sum to exactly 1. On the source, each cluster has a narrow and a broad kernel. Their
+// widths adapt to coarse meshes. The broad kernel decides where the narrow one is uncertain. Each change of the pairs
+// costs O(n C H) for n vertices, C clusters and H pairs.
 #pragma once
 #include <cstdint>
 
@@ -20,17 +21,18 @@ namespace hf_inner {
 
 struct ClusterOptions {
   bool paper_bands = false;
-  std::int32_t cluster_count = 0;  // 0 = default_cluster_count, or default_bands per field
+  std::int32_t cluster_count = 0;  // 0: default_cluster_count; in paper mode default_bands per field
   double kernel_width = default_kernel_width;
 };
 
-// The moment that the rotation of a cluster is fitted to. The default sums over edges, the paper over vertices:
+// The moment matrix M from which the rotation of a cluster is computed. p are rest positions, q posed positions, and
+// p', q' their means. The default sums over edges, paper mode over vertices:
 //     M = sum_ij w_ij (q_i - q_j)(p_i - p_j)',     M = sum_i w_i (q_i - q')(p_i - p')'.
-// Edges are blind to parts that shift against each other, which helps on the animals. Both sums are linear in q.
-// A kernel is therefore stored as M = sum_v q_v g_v', with one constant g_v per vertex:
+// An edge sum ignores how two parts shift against each other, which improves the results on the animals. Both sums are
+// linear in q. A kernel therefore stores one constant vector g_v per vertex, and M = sum_v q_v g_v':
 //     g_v = sum_j w_vj (p_v - p_j),     g_v = w_v (p_v - p'),     sum_v g_v = 0.
-// That is a third of the terms, and no rest position is read. Rows are compressed and scaled so that M has trace 1 at
-// rest; g = 0 for a cluster without extent.
+// This has a third of the terms and reads no rest positions. Rows are compressed and scaled, so that M has trace 1 at
+// rest. A cluster without extent has g = 0.
 struct SourceKernels {
   explicit SourceKernels(Memory& memory) : start(&memory), vertex(&memory), slope(&memory) {}
   Vector<std::int32_t> start, vertex;
@@ -53,19 +55,19 @@ struct Clusters {
   Vector<float> weight;
   Vector<double> mass;           // share of the target's area, summing to 1
   Vector<Vec3> pivot;            // rest centroid on the target, inner coordinates
-  Vector<std::int32_t> support;  // source vertices within the base width; few make a cluster uncertain
+  Vector<std::int32_t> support;  // source vertices within the base width; few make a rotation uncertain
   SourceKernels narrow, broad;
 };
 
-// Vertex areas of a mesh, normalised to sum 1; floored, so that no vertex is without weight.
+// Returns the vertex areas of a mesh, scaled to sum 1. A floor gives every vertex some weight.
 Vector<double> area_shares(const Mesh& mesh, Memory& memory);
 
 Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, Span<const double> source_field,
                        Span<const double> source_area, const Core& source_core, Span<const double> target_field,
                        Span<const double> target_area, const Mesh& target_mesh, Memory& memory, JobRunner& jobs);
 
-// The four (or fewer) weights of one vertex from `count` candidates, as multiples of 2^-24 with sum exactly 1; sorts
-// the candidates.
+// Writes the four (or fewer) largest weights of one vertex, taken from `count` candidates. They are multiples of 2^-24
+// with sum exactly 1. The candidates end up sorted.
 struct Candidate {
   std::int32_t cluster = 0;
   double weight = 0;

@@ -1,8 +1,8 @@
-// Components without a region take their coordinates from the surface they lie next to (see pair_fields.h).
+// Gives coordinates to components without a region: they take those of the surface beside them (see pair_fields.h).
 //
-// The nearest reached vertex is found on a uniform grid with about two vertices per cell. The relaxation is
-// Gauss-Seidel on the clamped Laplacian of the component, in vertex order, so the result does not depend on anything
-// but the mesh. Cost: linear in the islands' vertices times the sweeps.
+// A uniform grid with about two vertices per cell finds the nearest vertex of a component that has a region. The other
+// vertices relax by Gauss-Seidel steps on the clamped Laplacian of their component, in vertex order. The result
+// therefore depends only on the mesh. The time is linear in the vertices of these components times the sweeps.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,7 +14,7 @@
 namespace hf_inner {
 namespace {
 
-// Points sorted into the cells of a uniform grid over the unit-diagonal box of the mesh.
+// The points sorted into the cells of a uniform grid. The grid spans their bounding box.
 class PointGrid {
  public:
   PointGrid(const Core& core, Span<const std::uint8_t> reached)
@@ -46,13 +46,13 @@ class PointGrid {
     }
   }
 
-  // The nearest point (the smallest number among equals) and its squared distance.
+  // Returns the nearest point, the one with the smallest number among equals. best: its squared distance.
   std::int32_t nearest(Vec3 p, double& best) const {
     std::int32_t found = -1;
     best = std::numeric_limits<double>::infinity();
     const std::int32_t cx = cell(p.x - low_.x), cy = cell(p.y - low_.y), cz = cell(p.z - low_.z);
     for (std::int32_t shell = 0; shell <= cells_; ++shell) {
-      // everything outside the shells searched so far is at least this far away
+      // Everything outside the shells searched so far is at least `safe` away.
       if (found >= 0) {
         const double safe = (shell - 1) * cell_size_;
         if (safe > 0 && best <= safe * safe) break;
@@ -163,7 +163,7 @@ void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int
       for (std::size_t j = 0; j < width; ++j)
         mean[j] += field[at(members[i].host) * width + j] / static_cast<double>(held);
     }
-    // one row for the small ones; the others start from the mean
+    // All vertices of a small component get the mean row. In a larger one, free vertices start from the mean.
     const bool rigid = norm(high - low) < rigid_island;
     for (std::size_t i = 0; i < members.size(); ++i) {
       const double* from = !rigid && i < held ? field + at(members[i].host) * width : mean.data();

@@ -27,7 +27,7 @@ PairFields::PairFields(const PairFields& other)
 void PairFields::add(Span<const std::uint32_t> numbers, Span<const Span<const std::int32_t>> regions,
                      const char* side) {
   Memory& memory = *core_->memory;
-  // check all before anything changes
+  // All entries are checked before anything changes.
   Vector<std::int32_t> claimed(owner_, &memory);
   std::uint32_t position = 0;
   for (std::size_t i = 0; i < regions.size(); ++i) {

@@ -1,13 +1,15 @@
-// One side of a transfer: regions of all pairs on one surface, and harmonic coordinates of its vertices.
+// One side of a transfer: the regions of all pairs on one surface, and harmonic coordinates of its vertices.
 //
-// u_h is harmonic, 1 on region h and 0 on the other regions, as in a pose (deform/handles.h). The row
-// U(v) = (u_1 .. u_H)(v) sums to 1. The full rings of the regions are sites, so that nothing leaks into a region.
+// The field u_h is harmonic, 1 on region h and 0 on the other regions, as in a pose (deform/handles.h). The row U(v) =
+// (u_1 .. u_H)(v) of a vertex v sums to 1. The full rings of the regions are sites, so that no field leaks into a
+// region.
 //
-// A component without a region (an eye, a strap) follows the surface beside it. The third of its vertices that is
-// nearest takes the rows of that surface; the rest is relaxed between them. A small component gets one row.
+// A component without a region (an eye, a strap) follows the surface beside it. One third of its vertices, those
+// nearest to that surface, copy its rows. The other vertices relax between them. A small component gets one row.
 //
-// Cost: the engine pays for an edit by the elimination paths of the rings. solve() is one sweep for H channels. No
-// factor changes. After an edit that fails the object can only be destroyed: Transfer edits copies and swaps them in.
+// Cost: an edit solves the elimination paths of the rings' sites, and a call of solve() makes one sweep for H channels.
+// The factor never changes. After a failed edit the object can only be destroyed: Transfer edits copies and swaps them
+// in.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -25,15 +27,15 @@ class PairFields {
   PairFields& operator=(const PairFields&) = delete;
   PairFields& operator=(PairFields&&) = default;
 
-  // regions[i] becomes the region of pair numbers[i], which must be free. Vertices may repeat inside a region.
-  // Throws HF_ERROR_EMPTY (index = pair in the batch), HF_ERROR_OUT_OF_RANGE and HF_ERROR_OVERLAP (index = position in
-  // all regions one after the other). `side` names the surface in messages.
+  // regions[i] becomes the region of pair numbers[i], which must be free. Vertices may repeat inside a region. `side`
+  // names the surface in messages. Throws HF_ERROR_EMPTY (index: pair in the batch). Throws HF_ERROR_OUT_OF_RANGE and
+  // HF_ERROR_OVERLAP (index: position in the list of all regions, one after the other).
   void add(Span<const std::uint32_t> numbers, Span<const Span<const std::int32_t>> regions, const char* side);
-  // The numbers must be in use.
+  // Every number must be in use.
   void remove(Span<const std::uint32_t> numbers);
 
-  // field[v * H + i] = U of pair numbers[i]; leaks[i] = largest deviation from 1 on region i or from 0 on the others
-  // before clipping.
+  // Fills field[v * H + i] with u of pair numbers[i] at vertex v, H the number of pairs. leaks[i] is the largest
+  // deviation before clipping: from 1 on region i, or from 0 on the others.
   void solve(Span<const std::uint32_t> numbers, double* field, double* leaks) const;
 
   bool in_use(std::uint32_t number) const noexcept { return number < regions_.size() && regions_[number]; }
@@ -48,7 +50,8 @@ class PairFields {
   Vector<std::uint8_t> slot_used_;
 };
 
-// Rows of vertices in components without a region; `reached` per component. Declared here for its test.
+// Fills the field rows of vertices in components without a region. reached: by component, 1 if it has a region. It is
+// declared here so that its test can call it.
 void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int32_t channels, double* field);
 
 }  // namespace hf_inner

@@ -1,4 +1,4 @@
-// Data that a transfer derives from its pairs (Transfer::Prepared), shared by its files.
+// The data that a transfer derives from its pairs (Transfer::Prepared), shared by the files of Transfer.
 #pragma once
 #include <algorithm>
 
@@ -6,7 +6,7 @@
 
 namespace hf_inner {
 
-// A cluster's motion for the blend: columns of the matrix and the shift, one number of padding each.
+// A cluster's motion as the blend reads it: three matrix columns and the shift, each padded to four numbers.
 struct BlendColumns {
   double m[4][4] = {};
 };
@@ -67,42 +67,43 @@ struct Transfer::Prepared {
   struct Anchor {
     std::uint32_t number = 0, flags = 0;
     bool is_foot = false;
-    std::int32_t cluster = 0;  // of largest weight on the region
+    std::int32_t cluster = 0;  // cluster with the largest weight on the region
     Vec3 source_rest, target_rest;
   };
 
   Buffer<double> source_field, target_field;
-  // per pair, in the order of numbers_
+  // The next arrays have one entry per pair, in the order of numbers_.
   Vector<double> source_leak, target_leak, limb_angle, confidence;
-  Vector<Quaternion> limb_turn;  // D_h
+  Vector<Quaternion> limb_turn;  // D_h of alignment.h
   Vector<std::uint8_t> aligned;
-  Vector<Quaternion> cluster_turn;  // D_h^w
+  Vector<Quaternion> cluster_turn;  // D_h^w of alignment.h
   Clusters clusters;
   SourceRotations source_rotations;
   Translations translations;
   Refit refit;
   Vector<Anchor> anchors;
-  double scale = 1;  // s in inner units
+  double scale = 1;  // target lengths over source lengths, in inner units
   double source_ground = 0, target_ground = 0;
   Vec3 target_centroid;
-  // the last frame
+  // The state of the last frame.
   Vector<Vec3> posed;                   // source, inner units
-  Vector<Quaternion> given, rotations;  // from the source, and as refitted
+  Vector<Quaternion> given, rotations;  // rotations from the source, and after the refit
   Vector<Mat3> matrices;
   Vector<Vec3> shifts, cluster_goals, goals;
   Vector<Anchor> loose;     // pairs without an anchor: only holds move them.
-  Vector<Hold> holds;       // of this round; room for one per pair and vertex row.
-  Vector<Hold> given_hold;  // of the caller, per row; share 0 = none.
-  // the surface over the ground
-  Vector<std::int32_t> rides;  // per target vertex: row of the region it moves with, or -1.
+  Vector<Hold> holds;       // this round's holds; room for one per pair and vertex row.
+  Vector<Hold> given_hold;  // the caller's hold of each row; share 0: none.
+  // Data that keeps the surface above the ground.
+  Vector<std::int32_t> rides;  // by target vertex: row of the region it moves with, or -1.
   Vector<BlendColumns> columns;
   Vector<Vec3> blended;               // posed target, inner units.
-  double lift = 0;                    // of everything, along up.
+  double lift = 0;                    // height by which everything is raised.
   Vector<std::int32_t> source_owner;  // per source vertex: cluster whose centre is nearest.
-  // Per cluster: lowest scaled height of its source vertices over the ground, at rest and now. Lowest height of its
-  // target vertices. Area that touches the ground now and not at rest.
+  // Four arrays with one entry per cluster. rest_lows and source_lows: lowest scaled height of the cluster's source
+  // vertices over the ground, at rest and now. target_lows: lowest height of the cluster's target vertices. touch: the
+  // cluster's area if the cluster touches the ground now but not at rest.
   Vector<double> rest_lows, source_lows, target_lows, touch;
-  double source_low = 0;  // of all, along up
+  double source_low = 0;  // lowest height of all source vertices
   struct Sunk {
     double depth = 0;
     std::int32_t vertex = -1;

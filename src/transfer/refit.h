@@ -1,15 +1,17 @@
-// Turns clusters towards the places where their neighbours went.
+// Turns each cluster to match where its neighbours moved.
 //
 // An anchored foot may stand where the source's rotations alone would not put it. Translations alone then shift the
-// clusters of the leg against each other, like beads on a string. So each cluster is matched to its overlaps,
+// clusters of the leg against each other, like beads on a string. So each cluster is fitted to its overlaps:
 //     R_c = argmax tr(R' (M_c / s_c + b R_c0)),   M_c = sum_d k_cd (y_cd - y_c)(x_cd - x_c)',
 //     k_cd = sum_v a_v W_vc W_vd.
-// x_cd is the rest centroid of the overlap of c and d, y_cd the mean of where both put it, s_c the rest spread. R_c0 is
-// the rotation that came from the source: it decides the twist, and b how far a cluster may turn.
+// R_c is the new rotation of cluster c. a_v is the area of vertex v, W_vc its weight in c. x_cd is the rest centroid of
+// the overlap of clusters c and d, and y_cd the mean of the places that c and d give it. x_c and y_c are the same for c
+// alone, and s_c is its rest spread. R_c0 is the rotation taken from the source: it decides the twist. The constant b
+// (keep_rotation) limits how far a cluster turns.
 //
 // Translations are solved again afterwards. This is the shape matching of Xu et al. 2009, Section 5.2, started at the
-// transferred rotations. Clusters of handles keep theirs. A rigid motion is unchanged. Cost: O(overlaps) per round.
-// Allocates nothing.
+// transferred rotations. Clusters of handles keep their rotations. A rigid motion stays unchanged. A round costs
+// O(overlaps) and allocates nothing.
 #pragma once
 #include <cstdint>
 
@@ -25,13 +27,13 @@ class Refit {
       : start_(&memory), other_(&memory), weight_(&memory), point_(&memory), spread_(&memory), centroid_(&memory) {}
   void prepare(const Mesh& target, Span<const double> area, const Clusters& clusters, Memory& memory);
 
-  // One round of rotations. given: those from the source. rotations: the present ones, replaced. matrices: the present
-  // ones as matrices.
+  // Runs one round of rotations. given: the rotations taken from the source. rotations: the present rotations, which it
+  // replaces. matrices: the present rotations as matrices. shifts: the present translations.
   void turn(const Quaternion* given, const Vec3* shifts, Quaternion* rotations, const Mat3* matrices) const noexcept;
 
  private:
   std::int32_t count_ = 0;
-  // overlaps of each cluster, also with itself
+  // The overlaps of each cluster with others and with itself.
   Vector<std::int32_t> start_, other_;
   Vector<double> weight_;
   Vector<Vec3> point_;

@@ -1,19 +1,21 @@
 // Finds how each cluster of the source has turned in a posed frame.
 //
-//     M_c = sum_ij w_cij (q_i - q_j)(p_i - p_j)',   R_c = argmax tr(R' (M_c + e R_b)),
-// p the rest and q the posed vertices. R_b is found likewise, from the broad kernel and the rotation of the whole. The
-// sum runs over the edges of the cluster's kernel, in paper mode over its vertices (clusters.h). This is the rotation
-// of as-rigid-as-possible cells (Sorkine and Alexa 2007), averaged over the cluster. The broad cluster decides the
-// twist of thin, flat and collinear ones. For q = R p + t every R_c is R: M_c = R S and R S + e R = R (S + e I).
+//     M_c = sum_ij w_cij (q_i - q_j)(p_i - p_j)',   R_c = argmax tr(R' (M_c + e R_b))
 //
-// Cost: the sum of the kernel sizes and three 4 x 4 eigenproblems per cluster. Allocates nothing.
+// R_c is the rotation of cluster c, p the rest and q the posed vertices. R_b is found in the same way, from the broad
+// kernel and the rotation of the whole body. The sum runs over the edges of the cluster's kernel, in paper mode over
+// its vertices (clusters.h). This is the rotation of as-rigid-as-possible cells (Sorkine and Alexa 2007), averaged over
+// the cluster. R_b, with the small weight e, decides the twist of thin, flat and collinear clusters. A rigid motion q =
+// R p + t gives R to every cluster, because M_c = R S with a positive S.
+//
+// Each cluster costs the size of its kernels and two 4 x 4 eigenproblems. Allocates nothing.
 #pragma once
 #include "deform/rotation.h"
 #include "transfer/clusters.h"
 
 namespace hf_inner {
 
-// The source as a whole: rotation, area centroid, and how far from rigid the frame is.
+// The motion of the whole source: its rotation, its area centroids, and how far the frame is from a rigid motion.
 struct WholeMotion {
   Quaternion rotation;
   Vec3 rest_centroid, centroid;
@@ -31,7 +33,7 @@ class SourceRotations {
                 JobRunner& jobs) const;
 
  private:
-  Vector<std::int32_t> sample_;  // vertices for the rotation of the whole
+  Vector<std::int32_t> sample_;  // vertices used for the rotation of the whole
   Vector<double> sample_weight_;
   Vec3 sample_centroid_;
   double sample_spread_ = 0;

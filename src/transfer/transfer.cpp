@@ -48,7 +48,7 @@ Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Cor
       !std::isfinite(options.alignment_angle)) {
     fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "kernel_width, scale and alignment_angle must be finite");
   }
-  // the ABI gives floats, so the bounds are compared as floats
+  // The ABI passes floats, so the bounds are compared as floats.
   const auto width = static_cast<float>(options.kernel_width);
   if (options.kernel_width != 0 &&
       (width < static_cast<float>(least_kernel_width) || width > static_cast<float>(most_kernel_width))) {
@@ -77,7 +77,7 @@ void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs) 
       fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i),
            "pair %zu has flags that are none of HF_PAIR_*: %u", i, pairs[i].flags);
   }
-  // the smallest free numbers
+  // New pairs get the smallest free numbers.
   Vector<std::uint32_t> fresh_numbers(&memory), numbers(numbers_, &memory), flags(flags_, &memory);
   Vector<Span<const std::int32_t>> source_regions(&memory), target_regions(&memory);
   NumberPool pool;
@@ -93,7 +93,7 @@ void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs) 
   source.add({fresh_numbers.data(), fresh_numbers.size()}, {source_regions.data(), source_regions.size()}, "source");
   target.add({fresh_numbers.data(), fresh_numbers.size()}, {target_regions.data(), target_regions.size()}, "target");
 
-  // nothing below fails
+  // No statement below can fail.
   source_ = std::move(source), target_ = std::move(target);
   numbers_.swap(numbers), flags_.swap(flags);
   prepared_.reset();
@@ -117,7 +117,8 @@ void Transfer::remove_pairs(Span<const std::uint32_t> pairs) {
   prepared_.reset();
 }
 
-// Directions of the limbs at rest, which of them differ too much, and what that means for each cluster.
+// Finds the rest directions of the limbs, aligns those that differ too much, and sets the turn of each cluster. Also
+// finds scale and ground heights.
 void Transfer::prepare_alignment(Prepared& p) const {
   const std::size_t width = numbers_.size();
   const RestSide source{
@@ -185,14 +186,14 @@ void Transfer::prepare_anchors(Prepared& p) const {
   }
   TranslationOptions options;
   if (options_.mode == HF_TRANSFER_PAPER) options.spread_share = 0;
-  // feet alone would let the trunk float: the centroid holds it then
+  // Anchored feet alone would let the trunk float, so the centroid gets more weight then.
   options.root = p.anchors.empty() ? root_alone : holds_trunk ? root_with_trunk : root_without_trunk;
   p.translations.prepare(*target_core_, target_area_, p.clusters, {regions.data(), regions.size()},
                          {loose.data(), loose.size()}, options);
   p.holds.reserve(numbers_.size() + vertex_rows), p.given_hold.assign(numbers_.size() + 1, Hold());
   for (std::size_t k = 0; k < p.anchors.size(); ++k) p.anchors[k].cluster = p.translations.heaviest(k);
 
-  // vertices that move with the region of a pair, being blended from the same clusters
+  // Finds the vertices that move with the region of a pair, because they blend from the same clusters.
   p.rides.assign(at(target_core_->size()), -1);
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     const std::size_t row = i < p.anchors.size() ? i : i + 1;
@@ -206,7 +207,7 @@ void Transfer::prepare_anchors(Prepared& p) const {
   }
 }
 
-// Which cluster each source vertex belongs to, and how high the clusters are at rest.
+// Finds the cluster of each source vertex, and the lowest rest height of each cluster.
 void Transfer::prepare_ground(Prepared& p) const {
   const std::size_t width = numbers_.size(), count = at(p.clusters.count);
   const Mesh& mesh = source_core_->mesh;
@@ -262,7 +263,7 @@ Transfer::Prepared& Transfer::prepare() {
   p.target_centroid = area_mean(target_core_->mesh, target_area_);
   prepare_ground(p);
 
-  // the frame before the first: rest
+  // The frame before the first one is the rest shape.
   const std::size_t count = at(p.clusters.count);
   p.posed.resize(at(source_core_->size()));
   p.given.assign(count, Quaternion()), p.rotations.assign(count, Quaternion()),
@@ -287,7 +288,8 @@ PairInfo Transfer::pair_info(std::uint32_t pair) {
   return info;
 }
 
-// On one side of the source and on the other of the target.
+// Tells whether the regions of a pair lie on different sides: left on the source and right on the target, or the
+// reverse.
 bool Transfer::is_crossed(std::uint32_t number) const {
   const auto side = [](const Core& core, const Mat3& axes, Span<const std::int32_t> region,
                        const Vector<double>& area) {

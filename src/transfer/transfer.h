@@ -1,21 +1,23 @@
 // Plays the motion of one surface on another: the object behind hf_transfer_*.
 //
-// Pairs of regions give both surfaces the same harmonic coordinates (pair_fields) and matching clusters (clusters).
-// A frame takes the rotations of the source's clusters (source_rotations) into the target's axes and rest directions
-// (alignment). Translations of the target's clusters follow (translations), which then turn to meet each other (refit).
-// Each vertex blends four of them. Xu, Zhang, Cohen-Or and Xiong 2009, Section 6; those files name what differs.
+// Pairs of regions give both surfaces the same harmonic coordinates (pair_fields) and matching clusters (clusters). A
+// frame takes the rotations of the source's clusters (source_rotations) into the target's axes and rest directions
+// (alignment). Then it solves the translations of the target's clusters (translations), and turns the clusters to fit
+// each other (refit). Each vertex blends four clusters. The method is that of Xu, Zhang, Cohen-Or and Xiong 2009,
+// Section 6. Each file says what differs.
 //
-// Pairs come and go at any time; no factor changes. Derived data is recomputed at the next question.
+// The caller can add and remove pairs at any time; no factor changes. The next call recomputes the derived data.
 //
-// Anchors: the target's region goes where the source's went, y = c + s A (q - p), s the scale. When the source turns or
-// falls as a whole, the offsets between the two rest shapes turn with it. Those of a standing foot turn as far as the
-// foot itself.
+// Anchors: the target's region moves as the source's region moved, y = c + s A (q - p). p and q are the source region's
+// rest and posed means, c is the target region's rest mean. s is the scale, and A takes the source's axes to the
+// target's. When the source turns or falls as a whole, the offsets between the two rest shapes turn with it. The offset
+// of a standing foot turns only as far as the foot itself.
 //
-// Ground (transfer_ground.cpp): a foot follows its path exactly while its source stands. A contact comes as near to the
-// ground as its source. No part sinks deeper than the source, and a lying body rests on the parts its source rests on.
-// These are holds: constraints solved beside the energies, without touching a factor.
+// Ground (transfer_ground.cpp): a foot follows its path exactly while the source's foot stands. A contact comes as near
+// to the ground as its source. No part sinks deeper than the source. A lying body rests on the parts on which its
+// source rests. All these are holds: constraints that are solved beside the energies and change no factor.
 //
-// Edits and frames are all or nothing. apply() allocates nothing once prepared. Results do not depend on threads.
+// A refused edit or frame changes nothing. apply() allocates nothing once prepared. Results do not depend on threads.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -53,7 +55,7 @@ struct PairInfo {
   bool aligned = false, crossed = false;
 };
 
-// The mean of a pair's target region in one frame, given units.
+// A constraint of one frame: the mean of a pair's target region goes to `place`, in the caller's units.
 struct PairHold {
   std::uint32_t pair = 0;
   Vec3 place;
@@ -61,16 +63,16 @@ struct PairHold {
 
 class Transfer {
  public:
-  // Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE for bad options.
+  // Throws HF_ERROR_INVALID_ARGUMENT or HF_ERROR_NON_FINITE for bad options.
   Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target, const TransferOptions& options);
   ~Transfer();
   Transfer(const Transfer&) = delete;
   Transfer& operator=(const Transfer&) = delete;
 
-  // out_pairs: null, or one number per pair. Errors of PairFields::add; HF_ERROR_TOO_LARGE above 256 pairs,
-  // HF_ERROR_INVALID_ARGUMENT for unknown flags.
+  // Adds pairs of regions. out_pairs: null, or room for one number per pair. Throws the errors of PairFields::add. Also
+  // throws HF_ERROR_TOO_LARGE above 256 pairs, and HF_ERROR_INVALID_ARGUMENT for unknown flags.
   void add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs);
-  // HF_ERROR_NO_SUCH_PAIR (index = position in the list), also for a number named twice.
+  // Throws HF_ERROR_NO_SUCH_PAIR (index: position in the list), also for a number named twice.
   void remove_pairs(Span<const std::uint32_t> pairs);
   std::uint32_t pair_count() const noexcept { return static_cast<std::uint32_t>(numbers_.size()); }
 
@@ -78,18 +80,19 @@ class Transfer {
 
   PairInfo pair_info(std::uint32_t pair);
 
-  // source: posed inner vertices of the source in given units; out: inner vertices of the target in given units.
-  // HF_ERROR_EMPTY without a pair, HF_ERROR_NON_FINITE (index = inner vertex of the source). holds: regions of the
-  // target that go where the caller says in this frame. HF_ERROR_NO_SUCH_PAIR, HF_ERROR_NON_FINITE,
-  // HF_ERROR_INVALID_ARGUMENT (a pair twice), index = position in the list.
+  // Poses the target like the posed source. source, out: inner vertices of source and target, in the caller's units.
+  // holds: regions of the target that move where the caller says in this frame. Throws HF_ERROR_EMPTY without a pair,
+  // and HF_ERROR_NON_FINITE (index: inner vertex of the source). For bad holds it throws HF_ERROR_NO_SUCH_PAIR,
+  // HF_ERROR_NON_FINITE, or HF_ERROR_INVALID_ARGUMENT for a pair named twice (index: position in the list).
   void apply(const Vec3* source, Vec3* out, Span<const PairHold> holds = {});
 
-  // The skin of the last frame (at rest when there was none since the pairs changed).
+  // The number of clusters (joints) in the skin of the last frame. Before the first frame, the skin is at rest.
   std::int32_t cluster_count();
-  // Each null or cluster_count() long, in given units: rest centroid, rotation, posed place of the centroid.
+  // Writes each cluster's rest centroid, rotation and posed centroid, in the caller's units. Each array is null or
+  // cluster_count() long.
   void skin_motion(Vec3* pivots, Quaternion* rotations, Vec3* places);
-  // joint[weight_count], weight[weight_count] of an inner vertex of the target, falling, summing to 1 exactly;
-  // weight_count 4 or 8.
+  // Writes the joints and weights of an inner vertex of the target, by falling weight, with sum exactly 1.
+  // weight_count: 4 or 8, the length of both arrays.
   void skin_weights(std::int32_t vertex, std::uint32_t weight_count, std::uint32_t* joints, float* weights);
 
   const Core& source() const noexcept { return *source_core_; }
@@ -121,7 +124,7 @@ class Transfer {
   std::shared_ptr<const Core> source_core_, target_core_;
   TransferOptions options_;
   Mat3 source_axes_, target_axes_;
-  Quaternion axes_;  // A
+  Quaternion axes_;  // A: takes the source's axes to the target's
   PairFields source_, target_;
   Vector<std::uint32_t> numbers_;  // pairs in use, ascending: the order of the fields
   Vector<std::uint32_t> flags_;    // by number

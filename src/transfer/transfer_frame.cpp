@@ -1,4 +1,4 @@
-// One frame of a transfer (transfer.h): where the regions go, how the clusters turn and move, the blend.
+// Computes one frame of a transfer (transfer.h): the goals of the regions, the motion of the clusters, and the blend.
 #include <cmath>
 
 #include "base/error.h"
@@ -11,7 +11,7 @@ namespace {
 
 bool is_finite(Vec3 p) noexcept { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// How rigid a frame of the source is, and how far it has turned as a whole, 0 to 1.
+// Tells how rigid a frame of the source is, from 0 to 1.
 double rigid_share(const WholeMotion& whole) noexcept {
   const double ratio = whole.residual / rigid_residual;
   return 1 / (1 + ratio * ratio);
@@ -20,21 +20,21 @@ double turned_share(const Quaternion& turn) noexcept {
   return smooth_step(turn_low, turn_high, turn.angularDistance(Quaternion()));
 }
 
-// How far it has fallen over: turns about the vertical do not count.
+// Tells how far the body has fallen over, from 0 to 1. Turns about the vertical do not count.
 double fallen_share(const Quaternion& turn, Vec3 up) noexcept {
   return smooth_step(turn_low, turn_high, std::acos(std::clamp(dot(up, rotate(turn, up)), -1.0, 1.0)));
 }
 
-// The part of a rotation about an axis.
+// Returns the part of the rotation q that turns about the axis.
 Quaternion about(const Quaternion& q, Vec3 axis) noexcept {
   return normalised({dot(to_vec3(q.vec()), axis) * axis, q.w()});
 }
 
 }  // namespace
 
-// Where the anchored regions go. turn: rotation of the whole source in the target's frame. The offset between the two
-// rest shapes turns with a body that turns. A foot stands while the body turns over it: upright, its offset turns only
-// as far about the vertical as the foot itself has turned.
+// Computes where the anchored regions go. turn: rotation of the whole source in the target's frame. When the body
+// turns, the offset between the two rest shapes turns with it. A standing foot stays in place while the body turns over
+// it. While the body is upright, the foot's offset therefore turns only as far about the vertical as the foot itself.
 void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const {
   const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
   const double rigid = rigid_share(whole), share = std::max(rigid, turned_share(turn)),
@@ -54,7 +54,7 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
     }
     p.goals[k] = anchor.target_rest + path + turned;
     if (!anchor.is_foot) continue;
-    // not deeper under the ground than the source's foot
+    // The target's foot may sink only as deep into the ground as the source's foot.
     const double allowed =
         p.target_ground + std::min(0.0, p.scale * (lowest(from, p.posed.data(), source_up) - p.source_ground));
     const Mat3 rotation = p.translations.mean_rotation(k, p.matrices.data());
@@ -137,7 +137,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   const WholeMotion whole = p.source_rotations.whole(from, source_area_, p.posed.data());
   p.source_rotations.clusters(p.clusters, p.posed.data(), whole.rotation, p.given.data(), *target_core_->jobs);
 
-  // into the target's axes and rest directions
+  // Takes the rotations into the target's axes and rest directions.
   const Quaternion turn = normalised(axes_ * whole.rotation * axes_.conjugate());
   const Vec3 centroid = p.target_centroid + p.scale * rotate(axes_, whole.centroid - whole.rest_centroid);
   for (std::size_t c = 0; c < p.rotations.size(); ++c) {
@@ -153,7 +153,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   const bool over_ground = options_.mode == HF_TRANSFER_FIELDS && !p.anchors.empty();
   const double lies = over_ground ? (1 - rigid) * lying_share(p) : 0.0;
   if (lies > 0) lie_down(p, centroid, lies, fallen, share);
-  // nothing pulls where there is no anchor
+  // Without anchors and holds nothing pulls the clusters, so no refit is needed.
   const std::int32_t rounds =
       options_.mode == HF_TRANSFER_PAPER || (p.anchors.empty() && holds.empty()) ? 0 : refit_rounds;
   for (std::int32_t round = 0; round < rounds; ++round) {

@@ -1,13 +1,13 @@
-// Keeps the target over the ground: regions that stand or touch, and the rest of the surface.
+// Keeps the target above the ground: the regions that stand or touch, and the rest of the surface.
 //
-// The ground is the lowest point of the rest shape. A target may sink as deep as its source, scaled. Regions are held
-// while the translations are solved (hold_regions). The rest of the surface follows three rules:
+// The ground is the height of the lowest point of the rest shape. A target may sink as deep as its source, scaled.
+// Regions are held while the translations are solved (hold_regions). Three rules lift the rest of the surface:
 // - A lying source touches the ground with clusters that are far above it at rest. The same clusters of the target
-//   shall touch: lie_down moves the anchors along up by the mean difference of their heights.
-// - A body that has fallen over and does not lie yet is raised as a whole by the depth it sinks.
-// - In each cluster that still sinks, the deepest vertex is held at the allowed height. The clusters turn to follow.
-//   Where it moves with the region of a pair, that region is raised instead.
-// Frames in which nothing lies or sinks only cost a pass over the heights.
+//   should touch: lie_down moves the anchors along up by the mean difference of their heights.
+// - A body that has fallen over but does not lie yet is raised as a whole by the depth it sinks.
+// - In each cluster that still sinks, the deepest vertex is held at the allowed height, and the clusters turn to follow
+//   it. If that vertex moves with the region of a pair, the region is raised instead. A frame in which no part lies or
+//   sinks only costs one pass over the heights.
 #include <cmath>
 
 #include "base/index.h"
@@ -15,8 +15,8 @@
 #include "transfer/prepared.h"
 
 namespace hf_inner {
-// Holds the regions that stand, touch or would sink, and those the caller places. share: how far the frame is a rigid
-// motion or the body has fallen over. At share 1 only the caller holds.
+// Holds the regions that stand, touch or would sink, and those that the caller places. share: how far the frame is a
+// rigid motion, or the body has fallen over. At share 1 only the caller's holds remain.
 void Transfer::hold_regions(Prepared& p, double share) const {
   const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
   const bool by_itself = options_.mode == HF_TRANSFER_FIELDS && share < 1;
@@ -37,7 +37,7 @@ void Transfer::hold_regions(Prepared& p, double share) const {
       if (hold.share > 0) p.holds.push_back(hold);
       continue;
     }
-    // lowest vertex of the region about its mean, as the blend turns it
+    // `low` is the height of the region's lowest vertex over the region's mean, after the blended rotation.
     const Mat3 rotation = p.translations.mean_rotation(row, p.matrices.data());
     double low = no_height;
     for (const std::int32_t v : target_.region(pair.number))
@@ -60,7 +60,7 @@ void Transfer::hold_regions(Prepared& p, double share) const {
   p.translations.hold({p.holds.data(), p.holds.size()}, up, p.matrices.data(), p.shifts.data());
 }
 
-// Heights of the source's clusters, scaled, and how far the source lies, 0 to 1.
+// Returns how far the source lies, from 0 to 1. Also fills the scaled heights of the source's clusters.
 double Transfer::lying_share(Prepared& p) const noexcept {
   const Vec3 up = up_of(source_axes_);
   p.source_low = no_height;
@@ -81,7 +81,7 @@ double Transfer::lying_share(Prepared& p) const noexcept {
   return smooth_step(lies_low, lies_high, touching);
 }
 
-// The anchors follow the clusters that touch.
+// Lowers or raises the anchors, so that the target's clusters touch the ground where the source's clusters touch it.
 void Transfer::lie_down(Prepared& p, Vec3 centroid, double lies, double fallen, double share) const {
   const Vec3 up = up_of(target_axes_);
   blend(p);
@@ -115,8 +115,8 @@ void Transfer::find_sunk(Prepared& p, Vec3 up, double allowed) const noexcept {
   }
 }
 
-// Raises the hold of each row that sinks, or makes one, and holds the deepest vertices of the clusters. False when
-// nothing sinks.
+// Raises the constraint (hold) of each region that sinks into the ground, or adds one. Constrains the deepest vertex of
+// each sunk cluster too. Returns false if no part sinks.
 bool Transfer::hold_sunk(Prepared& p, Vec3 up, double share, std::size_t& held) const noexcept {
   const std::size_t rows = p.given_hold.size();
   bool any = false;
@@ -128,7 +128,7 @@ bool Transfer::hold_sunk(Prepared& p, Vec3 up, double share, std::size_t& held) 
     for (Hold& hold : p.holds) {
       if (hold.row != row) continue;
       if (hold.share < weak_hold * sunk_hold * share)
-        hold = fresh;  // hardly held
+        hold = fresh;  // the old hold is too weak to raise
       else
         hold.goal = hold.goal + depth / hold.share * up;
       return;
@@ -137,7 +137,7 @@ bool Transfer::hold_sunk(Prepared& p, Vec3 up, double share, std::size_t& held) 
   };
   for (std::size_t row = 0; row < rows; ++row)
     if (p.deepest[row].vertex >= 0) raise(row, p.deepest[row].depth);
-  // the deepest clusters first, as far as there are rows
+  // The deepest clusters come first, as long as vertex rows are free.
   while (true) {
     Prepared::Sunk* deepest = nullptr;
     for (std::size_t c = rows; c < p.deepest.size(); ++c)
@@ -157,8 +157,8 @@ bool Transfer::hold_sunk(Prepared& p, Vec3 up, double share, std::size_t& held) 
   }
 }
 
-// Bends up what would sink below the ground. share, 0 to 1: 0 for a rigid motion of the whole source, which is copied
-// unchanged. fallen, 0 to 1: how far the body tilts over before it lies on the ground.
+// Lifts all parts that would sink below the ground. share: 0 for a rigid motion of the whole source, which is copied
+// unchanged, up to 1. fallen: how far the body has tilted over without lying on the ground, from 0 to 1.
 void Transfer::keep_above_ground(Prepared& p, Vec3 centroid, double share, double fallen) const {
   if (!(share > least_share)) return;
   const Vec3 up = up_of(target_axes_);
