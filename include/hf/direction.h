@@ -40,10 +40,11 @@ HF_API void hf_direction_destroy(hf_direction direction);
 
 /* Adds constraints: vectors at vertices, projected on the tangent planes. Costs two elimination paths and two dense rows
  * each. Very many at once go into the factor instead, by one factorisation; later changes cost paths and rows again.
- * vertices: [site_count] as given. vectors: [site_count][3], zero for a constraint of no length. out_sites: NULL, or
- * [site_count] numbers; a constraint keeps its number until it is removed. Errors: HF_ERROR_OUT_OF_RANGE,
- * HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (an isolated vertex, a vector normal to the surface),
- * HF_ERROR_DUPLICATE_SITE, HF_ERROR_TOO_LARGE (site_limit). Thread safety: changes `direction`. Since 0.1. */
+ * vertices: [site_count] as given. vectors: [site_count][3], coordinates below 1e150, zero for a constraint of no
+ * length. out_sites: NULL, or [site_count] numbers; a constraint keeps its number until it is removed. Errors:
+ * HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (an isolated vertex, a vector normal to the
+ * surface), HF_ERROR_DUPLICATE_SITE, HF_ERROR_TOO_LARGE (site_limit, a coordinate). Thread safety: changes `direction`.
+ * Since 0.1. */
 HF_API hf_result hf_direction_add_sites(hf_direction direction, uint32_t site_count, const uint32_t* vertices,
                                         const double* vectors, uint32_t* out_sites);
 

@@ -74,7 +74,7 @@ typedef struct hf_handles_desc {
   uint32_t struct_size;
   uint32_t handle_count;           /* >= 1 */
   const uint32_t* region_counts;   /* [handle_count] vertices of each region, >= 1 */
-  const uint32_t* region_vertices; /* all regions one after the other; vertices as given */
+  const uint32_t* region_vertices; /* all regions one after the other; vertices as given, up to 4 entries per vertex */
   const double* points;            /* [handle_count][3] at rest. The region is the vertex nearest to the point and what */
   const double* radii;             /* is edge-connected to it within [handle_count] radii >= 0 of the point */
   uint32_t layer;                  /* 0 to HF_LAYER_COUNT - 1, for the whole batch */
@@ -103,7 +103,7 @@ HF_API hf_result hf_pose_remove_handles(hf_pose pose, uint32_t handle_count, con
  * mean of the region's rest positions (hf_pose_get_handle), in the unit of the mesh. */
 typedef struct hf_transform {
   double rotation[4]; /* unit quaternion x, y, z, w; normalised inside; all zero = identity */
-  double translation[3];
+  double translation[3]; /* up to 1e15 box diagonals */
 } hf_transform;
 
 /* Places handles: hf_transform[handle_count] for uint32_t[handle_count] handles. On layer 0 the motion is from the rest
@@ -175,7 +175,7 @@ typedef struct hf_deform_desc {
   double* positions_f64;    /* the same in double, or NULL; set one of the two at most */
   float* normals;           /* [vertex_count][3] unit normals of the posed surface, shared across seams, or NULL */
   uint32_t normal_stride;   /* bytes between normals; 0 = packed */
-  uint32_t iteration_count; /* 0 = the pose's */
+  uint32_t iteration_count; /* 1 to 1000; 0 = the pose's */
   int32_t restart;          /* 1: forget the last pose and start from the fields */
   int32_t refine;           /* 1: one step of the whole surface towards as-rigid-as-possible on top, with the same factor:
                                three sweeps, about 0.5 us a vertex more */

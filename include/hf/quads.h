@@ -27,11 +27,12 @@ enum {
 typedef struct hf_quads_desc {
   uint32_t struct_size;
   int32_t kind;                  /* HF_QUADS_* */
-  float edge_length;             /* aimed at, in the unit of the mesh; 0 = 0.022 of the box diagonal */
+  float edge_length;             /* aimed at, in the unit of the mesh, 1e-4 to 1 of the box diagonal; 0 = 0.022 of it */
   uint32_t site_count;           /* 0 = sites are proposed: tips, and points far from them */
   const uint32_t* site_vertices; /* [site_count] as given; where lines start or end. Borders are sites of their own */
   const int32_t* site_lines;     /* NULL = chosen, or [site_count]: how many lines end (> 0) or start (< 0) there. Every
-                                    component needs both signs; numbers are made even, at least 4, and of equal sum */
+                                    component needs both signs; up to 100,000 each; numbers are made even, at least 4,
+                                    and of equal sum */
   int32_t keep_polygons;         /* 1: polygons at sites and saddles stay whole; 0: all faces are split into quads */
   uint32_t relax_count;          /* rounds of tangential relaxation, up to 1,000; 0 = 60; HF_NO_INDEX = none, and the mesh
                                     stays as the lines make it */
@@ -117,7 +118,7 @@ HF_API void hf_flow_destroy(hf_flow flow);
 typedef struct hf_flow_lines {
   uint32_t struct_size;
   uint32_t wanted_count; /* in: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds */
-  uint32_t seed_count;   /* in: lines through chosen vertices instead; 0 = none */
+  uint32_t seed_count;   /* in: lines through chosen vertices instead, up to 1,000,000; 0 = none */
   uint32_t point_capacity, line_capacity; /* in */
   uint32_t point_count, line_count;       /* out */
   uint32_t reserved;                      /* 0 */

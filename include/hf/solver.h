@@ -34,7 +34,8 @@ typedef struct hf_solver_desc {
   uint32_t channel_count; /* fields solved at once, 1 to 64; 0 = 1 */
   uint32_t site_limit;    /* most sites the solver may hold; 0 = 100,000 */
   uint32_t reserved;      /* 0 */
-  double penalty;         /* HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10 */
+  double penalty;         /* HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal, above 0, clamped to
+                             1e10; 0 = 1e8 */
   hf_progress progress;   /* NULL, or an object to poll and cancel through */
 } hf_solver_desc;
 
@@ -80,9 +81,9 @@ typedef struct hf_sites_desc {
   const uint32_t* triangles;  /* [site_count] triangles as given, or NULL */
   const double* barycentrics; /* [site_count][3] with triangles: weights of the corners, >= 0, of sum 1 within 1e-6 */
   const double* values;       /* [site_count][channel_count], up to 1e200 in size; NULL = 0 */
-  const double* stiffness;    /* [site_count] relative to the mean diagonal of K; 0 = hard (exact); NULL = all hard;
-                                 clamped to 1e-12 .. 1e12 */
-  const double* radii;        /* [site_count] geodesic radius in the unit of the mesh; 0 = a point; NULL = all points */
+  const double* stiffness;    /* [site_count] >= 0, relative to the mean diagonal of K; 0 = hard (exact); NULL = all
+                                 hard; clamped to 1e-12 .. 1e12 */
+  const double* radii;        /* [site_count] >= 0, geodesic, in the unit of the mesh; 0 = a point; NULL = all points */
 } hf_sites_desc;
 
 /* Adds sites. out_sites: NULL, or uint32_t[site_count] for their numbers. A site keeps its number until it is removed;

@@ -37,11 +37,11 @@ typedef struct hf_transfer_desc {
   int32_t mode;           /* HF_TRANSFER_* */
   uint32_t cluster_count; /* 1 to 512; 0 = 80 */
   float kernel_width;     /* of a cluster in field space, 0.005 to 0.5; 0 = 0.04 */
-  float scale;            /* lengths of the target over those of the source; 0 = from the legs, or from the boxes when no
-                             pair is a foot */
+  float scale;            /* lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the
+                             boxes when no pair is a foot */
   float alignment_angle;  /* rest directions that differ by more are aligned, radians; 0 = 40 degrees; negative = never */
   float source_axes[9];   /* rows right, up, forward of the source; all zero = x, y, z (glTF: up +y, forward +z) */
-  float target_axes[9];
+  float target_axes[9];   /* both: rows of length 1, orthogonal, right x up = forward, each within 1e-3 */
 } hf_transfer_desc;
 
 /* Creates a transfer between two surfaces, which may be one. Sets *out_transfer to NULL first. desc: NULL for defaults.
@@ -57,7 +57,7 @@ typedef struct hf_pairs_desc {
   uint32_t struct_size;
   uint32_t pair_count;             /* >= 1 */
   const uint32_t* source_counts;   /* [pair_count] vertices of each region, >= 1 */
-  const uint32_t* source_vertices; /* all regions one after the other; vertices as given */
+  const uint32_t* source_vertices; /* all regions one after the other; vertices as given, up to 4 entries per vertex */
   const uint32_t* target_counts;   /* [pair_count] */
   const uint32_t* target_vertices;
   const uint32_t* flags; /* [pair_count] HF_PAIR_*, or NULL for none */
@@ -113,7 +113,7 @@ typedef struct hf_transfer_frame {
   float* target_normals;   /* [target vertex_count][3], or NULL */
   /* Holds: the mean of the target's region of a pair (welded copies count once) goes exactly where you say: a foot on a
      step, a hand on a rail. The rest follows. */
-  uint32_t hold_count;
+  uint32_t hold_count;          /* up to HF_PAIR_LIMIT */
   uint32_t reserved;            /* 0 */
   const uint32_t* hold_pairs;   /* [hold_count] each pair at most once */
   const double* hold_positions; /* [hold_count][3] in the target's unit and frame */

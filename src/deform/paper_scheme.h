@@ -34,6 +34,9 @@ struct PaperState {
   Vector<Vec3> position;       // per sample
 };
 
+// x = R p + t with the rotation as a matrix, as the blend takes it.
+Affine to_affine(const RigidMotion& motion) noexcept;
+
 // Motions that fit given positions (in the mesh's own unit) best: to go on from a pose after the handles changed.
 void fit_motions(const PaperSystem& system, const Mesh& mesh, const Vec3* positions, PaperState& state) noexcept;
 

@@ -57,6 +57,9 @@ struct DeformRequest {
   Normal* packed_normals = nullptr;   // per inner vertex: normals go there instead of the pose's own memory
 };
 
+// Throws HF_ERROR_EMPTY without any, HF_ERROR_TOO_LARGE when a pose cannot hold as many.
+void check_handle_count(std::size_t there, std::size_t added);
+
 // Throws HF_ERROR_INVALID_ARGUMENT for an iteration_count beyond most_iterations.
 void check_request(const DeformRequest& request);
 
@@ -96,9 +99,8 @@ class Pose {
   const ClusterWeights* weights() const noexcept;
   Span<const Affine> cluster_transforms() const noexcept;
   bool posed() const noexcept { return posed_; }  // the transforms hold a pose
-  // Rotation groups in use and unknowns the reduced system found dependent, for statistics and tests.
+  // Rotation groups in use, for statistics and tests.
   std::int32_t group_count() const noexcept;
-  std::int32_t dropped_unknowns() const noexcept;
 
   // ---- for layers (pose_stack.h), whose poses must depend on nothing but what is given here ----
 

@@ -5,10 +5,6 @@
 
 namespace hf_inner {
 
-// --- curve.cpp ---
-// Largest error of the sum of barycentrics: rounded to floats they sum within 1e-7. No result depends on it.
-constexpr double barycentric_tolerance = 1e-6;
-
 // --- region.cpp ---
 // Regions of more than 1 in 8 vertices are solved over the whole factor. The result does not depend on it.
 constexpr std::size_t whole_sweep_share = 8;

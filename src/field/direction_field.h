@@ -68,7 +68,6 @@ class DirectionField {
   void restore(Record& record);
   void accept(Vector<DirectionConstraint>& next) noexcept;
   void check_site(const Vector<DirectionConstraint>& list, std::uint32_t position, std::uint32_t site) const;
-  std::int32_t locate(std::uint32_t position, std::uint32_t vertex) const;
   std::complex<double> projected(std::uint32_t position, std::int32_t vertex, const double* vector) const;
   void check_free(const Vector<DirectionConstraint>& list, std::uint32_t position, std::uint32_t own) const;
   Vector<std::complex<double>> solved() const;

@@ -4,6 +4,9 @@
 
 namespace hf_inner {
 
+// Throws HF_ERROR_INVALID_ARGUMENT for a field of other than 3 channels.
+void require_vectors(const ScalarField& field);
+
 // Moves sites to given vertices of their components. Each vector is carried along the shortest path of edges, turned from
 // vertex normal to vertex normal. All or nothing. Throws as ScalarField::edit, and HF_ERROR_NO_SUCH_SITE,
 // HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (isolated vertex, another component); index = position in the list.

@@ -59,6 +59,9 @@ struct PairHold {
   Vec3 place;
 };
 
+// Throws HF_ERROR_EMPTY without any, HF_ERROR_TOO_LARGE when a transfer cannot hold as many.
+void check_pair_count(std::size_t there, std::size_t added);
+
 class Transfer {
  public:
   // Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE for bad options.
@@ -79,7 +82,7 @@ class Transfer {
   PairInfo pair_info(std::uint32_t pair);
 
   // source: posed inner vertices of the source in given units; out: inner vertices of the target in given units.
-  // HF_ERROR_EMPTY without a pair, HF_ERROR_NON_FINITE (index = inner vertex of the source). holds: regions of the
+  // HF_ERROR_EMPTY without a pair, HF_ERROR_NON_FINITE (index = vertex of the source as given). holds: regions of the
   // target that go where the caller says in this frame. HF_ERROR_NO_SUCH_PAIR, HF_ERROR_NON_FINITE,
   // HF_ERROR_INVALID_ARGUMENT (a pair twice), index = position in the list.
   void apply(const Vec3* source, Vec3* out, Span<const PairHold> holds = {});

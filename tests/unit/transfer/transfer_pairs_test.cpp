@@ -129,7 +129,10 @@ TEST(TransferPairs, BadOptionsAreRefused) {
   EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.kernel_width = 0.6; }), HF_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.kernel_width = -1; }), HF_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.scale = -1; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.scale = std::nan(""); }), HF_ERROR_NON_FINITE);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.scale = 1e7; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.scale = std::nan(""); }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.kernel_width = std::nan(""); }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.alignment_angle = std::nan(""); }), HF_ERROR_NON_FINITE);
   EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.source_axes[0] = 1; }), HF_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(refused([](hf_inner::TransferOptions& o) {
               const double mirrored[9] = {-1, 0, 0, 0, 1, 0, 0, 0, 1};
