@@ -165,19 +165,17 @@ hf_result hf_surface_find_critical_points(hf_surface handle, const hf_scalars* g
 }
 
 hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* given, hf_geodesics* out_geodesics) {
-  return guarded("hf_geodesics_create", [&] {
-    create(out_geodesics, "out_geodesics", [&] {
-      const std::shared_ptr<const Core> core = harmonic_core(surface);
-      const hf_geodesics_desc desc = read_optional(given, "desc");
-      const double smoothing = static_cast<double>(desc.smoothing);
-      if (smoothing != 0 && !(smoothing >= 0.1 && smoothing <= 1e4))
-        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "smoothing is %g; it must be 0.1 to 10000, or 0 for 1", smoothing);
-      return with_progress(desc.progress, [&](Progress* progress) {
-        report(progress, 0);
-        auto made = make_owner_in<GeodesicsObject>(core->memory, core, smoothing > 0 ? smoothing : 1.0);
-        report(progress, 1);
-        return made;
-      });
+  return create("hf_geodesics_create", out_geodesics, "out_geodesics", [&] {
+    const std::shared_ptr<const Core> core = harmonic_core(surface);
+    const hf_geodesics_desc desc = read_optional(given, "desc");
+    const double smoothing = static_cast<double>(desc.smoothing);
+    if (smoothing != 0 && !(smoothing >= 0.1 && smoothing <= 1e4))
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "smoothing is %g; it must be 0.1 to 10000, or 0 for 1", smoothing);
+    return with_progress(desc.progress, [&](Progress* progress) {
+      report(progress, 0);
+      auto made = make_owner_in<GeodesicsObject>(core->memory, core, smoothing > 0 ? smoothing : 1.0);
+      report(progress, 1);
+      return made;
     });
   });
 }

@@ -79,32 +79,24 @@ using namespace hf_inner::capi;
 extern "C" {
 
 hf_result hf_direction_create(hf_surface surface, const hf_direction_desc* given, hf_direction* out_direction) {
-  return guarded("hf_direction_create", [&] {
-    create(out_direction, "out_direction", [&] {
-      const std::shared_ptr<const Core> core = harmonic_core(surface);
-      const hf_direction_desc desc = read_optional(given, "desc");
-      if (desc.degree != 0 && desc.degree != 1 && desc.degree != 2 && desc.degree != 4)
-        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "degree is %u; it must be 1, 2 or 4", desc.degree);
-      require_zero(desc.reserved);
-      return with_progress(desc.progress, [&](Progress* progress) {
-        report(progress, 0);
-        auto made = make_owner_in<DirectionObject>(core->memory, core, desc.degree ? desc.degree : 1u,
-                                                   desc.site_limit ? desc.site_limit : default_site_limit);
-        report(progress, 1);
-        return made;
-      });
+  return create("hf_direction_create", out_direction, "out_direction", [&] {
+    const std::shared_ptr<const Core> core = harmonic_core(surface);
+    const hf_direction_desc desc = read_optional(given, "desc");
+    if (desc.degree != 0 && desc.degree != 1 && desc.degree != 2 && desc.degree != 4)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "degree is %u; it must be 1, 2 or 4", desc.degree);
+    require_zero(desc.reserved);
+    return with_progress(desc.progress, [&](Progress* progress) {
+      report(progress, 0);
+      auto made = make_owner_in<DirectionObject>(core->memory, core, desc.degree ? desc.degree : 1u,
+                                                 desc.site_limit ? desc.site_limit : default_site_limit);
+      report(progress, 1);
+      return made;
     });
   });
 }
 
 hf_result hf_direction_clone(hf_direction handle, hf_direction* out_direction) {
-  return guarded("hf_direction_clone", [&] {
-    create(out_direction, "out_direction", [&] {
-      const auto direction = object_of(handle);
-      const Reading reading(*direction);
-      return make_owner_in<DirectionObject>(direction->memory, *direction);
-    });
-  });
+  return clone_object<DirectionObject>("hf_direction_clone", handle, "direction", out_direction, "out_direction");
 }
 
 hf_result hf_direction_record(hf_direction handle) {

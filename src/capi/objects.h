@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/progress.h"
+#include "capi/boundary.h"
 #include "capi/handle_table.h"
 #include "engine/surface.h"
 #include "field/scalar_field.h"
@@ -68,6 +69,22 @@ struct SolverObject final : Object {
   // of the last finished change: may be read while another thread changes the field
   std::atomic<std::uint32_t> site_count{0};
 };
+
+// The body of a function that makes an object: its handle in *out, NULL on failure.
+template <class Handle, class Make>
+hf_result create(const char* function, Handle* out, const char* name, Make&& make) {
+  return guarded(function, [&] { create(out, name, make); });
+}
+
+// The body of a function that copies an object.
+template <class T, class Handle>
+hf_result clone_object(const char* function, Handle handle, const char* name, Handle* out, const char* out_name) {
+  return create(function, out, out_name, [&] {
+    const auto object = get<T>(handle, name);
+    const Reading reading(*object);
+    return make_owner_in<T>(object->memory, *object);
+  });
+}
 
 // A count that can be read while another thread changes the object; 0 for an invalid handle.
 template <class T, class Handle>

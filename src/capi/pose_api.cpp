@@ -62,7 +62,7 @@ Range read_range(const hf_deform_desc& desc, std::uint32_t vertex_count) {
 
 void add_handles(hf_pose handle, const hf_handles_desc& desc, std::uint32_t* out_handles) {
   const auto pose = get<PoseObject>(handle, "pose");
-  check_handle_count(0, desc.handle_count);  // before lists of that length are read
+  check_region_count(0, desc.handle_count, "handle");  // before lists of that length are read
   require_zero(desc.reserved);
   const bool near = desc.points || desc.radii;
   if (near) {
@@ -174,26 +174,22 @@ using namespace hf_inner::capi;
 extern "C" {
 
 hf_result hf_pose_create(hf_surface surface, const hf_pose_desc* given, hf_pose* out_pose) {
-  return guarded("hf_pose_create", [&] {
-    create(out_pose, "out_pose", [&] {
-      const std::shared_ptr<const Core> core = harmonic_core(surface);
-      const hf_pose_desc desc = read_optional(given, "desc");
-      PoseOptions options;
-      options.mode = static_cast<DeformMode>(desc.mode), options.band_count = desc.band_count;
-      options.iteration_count = desc.iteration_count, options.samples_per_ring = desc.samples_per_ring;
-      options.group_count = desc.group_count;
-      return make_object(PoseStack::make(core, options));
-    });
+  return create("hf_pose_create", out_pose, "out_pose", [&] {
+    const std::shared_ptr<const Core> core = harmonic_core(surface);
+    const hf_pose_desc desc = read_optional(given, "desc");
+    PoseOptions options;
+    options.mode = static_cast<DeformMode>(desc.mode), options.band_count = desc.band_count;
+    options.iteration_count = desc.iteration_count, options.samples_per_ring = desc.samples_per_ring;
+    options.group_count = desc.group_count;
+    return make_object(PoseStack::make(core, options));
   });
 }
 
 hf_result hf_pose_clone(hf_pose handle, hf_pose* out_pose) {
-  return guarded("hf_pose_clone", [&] {
-    create(out_pose, "out_pose", [&] {
-      const auto pose = get<PoseObject>(handle, "pose");
-      const Reading reading(*pose);
-      return make_object(pose->pose->clone());
-    });
+  return create("hf_pose_clone", out_pose, "out_pose", [&] {
+    const auto pose = get<PoseObject>(handle, "pose");
+    const Reading reading(*pose);
+    return make_object(pose->pose->clone());
   });
 }
 

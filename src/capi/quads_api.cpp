@@ -125,17 +125,15 @@ using namespace hf_inner::capi;
 extern "C" {
 
 hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quads* out_quads) {
-  return guarded("hf_quads_create", [&] {
-    create(out_quads, "out_quads", [&] {
-      const std::shared_ptr<const Core> core = harmonic_core(handle);
-      const hf_quads_desc desc = read_optional(given, "desc");
-      Vector<FluxSite> sites(core->memory.get());
-      QuadOptions options = read_options(core, desc, sites);
-      return with_progress(desc.progress, [&](Progress* progress) {
-        options.progress = progress;
-        return make_owner_in<QuadsObject>(core->memory, core, make_quads(options),
-                                          options.edge_length * core->mesh.scale);
-      });
+  return create("hf_quads_create", out_quads, "out_quads", [&] {
+    const std::shared_ptr<const Core> core = harmonic_core(handle);
+    const hf_quads_desc desc = read_optional(given, "desc");
+    Vector<FluxSite> sites(core->memory.get());
+    QuadOptions options = read_options(core, desc, sites);
+    return with_progress(desc.progress, [&](Progress* progress) {
+      options.progress = progress;
+      return make_owner_in<QuadsObject>(core->memory, core, make_quads(options),
+                                        options.edge_length * core->mesh.scale);
     });
   });
 }
@@ -171,11 +169,9 @@ hf_result hf_quads_get_mesh(hf_quads handle, hf_quads_mesh* inout_mesh) {
 }
 
 hf_result hf_flow_create(hf_surface surface, hf_flow* out_flow) {
-  return guarded("hf_flow_create", [&] {
-    create(out_flow, "out_flow", [&] {
-      const std::shared_ptr<const Core> core = harmonic_core(surface);
-      return make_owner_in<FlowObject>(core->memory, core);
-    });
+  return create("hf_flow_create", out_flow, "out_flow", [&] {
+    const std::shared_ptr<const Core> core = harmonic_core(surface);
+    return make_owner_in<FlowObject>(core->memory, core);
   });
 }
 

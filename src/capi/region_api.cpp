@@ -47,32 +47,24 @@ using namespace hf_inner::capi;
 extern "C" {
 
 hf_result hf_region_create(hf_surface handle, const hf_region_desc* given, hf_region* out_region) {
-  return guarded("hf_region_create", [&] {
-    create(out_region, "out_region", [&] {
-      const auto surface = get<SurfaceObject>(handle, "surface");
-      const hf_region_desc desc = read_optional(given, "desc");
-      check_choice(desc.field_kind, 3, "field_kind");
-      require_zero(desc.reserved);
-      return with_progress(desc.progress, [&](Progress* progress) {
-        const auto core = surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress);
-        check_one(desc.positions, desc.positions_f64, "positions");
-        const ConstRows given_positions =
-            rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
-        return make_owner_in<RegionObject>(
-            core->memory, make_owner_in<RegionSurface>(core->memory, core, positions_of(*core, given_positions)));
-      });
+  return create("hf_region_create", out_region, "out_region", [&] {
+    const auto surface = get<SurfaceObject>(handle, "surface");
+    const hf_region_desc desc = read_optional(given, "desc");
+    check_choice(desc.field_kind, 3, "field_kind");
+    require_zero(desc.reserved);
+    return with_progress(desc.progress, [&](Progress* progress) {
+      const auto core = surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress);
+      check_one(desc.positions, desc.positions_f64, "positions");
+      const ConstRows given_positions =
+          rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
+      return make_owner_in<RegionObject>(
+          core->memory, make_owner_in<RegionSurface>(core->memory, core, positions_of(*core, given_positions)));
     });
   });
 }
 
 hf_result hf_region_clone(hf_region handle, hf_region* out_region) {
-  return guarded("hf_region_clone", [&] {
-    create(out_region, "out_region", [&] {
-      const auto object = get<RegionObject>(handle, "region");
-      const Reading reading(*object);
-      return make_owner_in<RegionObject>(object->memory, *object);
-    });
-  });
+  return clone_object<RegionObject>("hf_region_clone", handle, "region", out_region, "out_region");
 }
 
 void hf_region_destroy(hf_region region) { destroy<RegionObject>(region); }

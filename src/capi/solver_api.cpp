@@ -84,35 +84,27 @@ using namespace hf_inner::capi;
 extern "C" {
 
 hf_result hf_create(hf_surface handle, const hf_solver_desc* given, hf_solver* out_solver) {
-  return guarded("hf_create", [&] {
-    create(out_solver, "out_solver", [&] {
-      const auto surface = get<SurfaceObject>(handle, "surface");
-      const hf_solver_desc desc = read_optional(given, "desc");
-      check_choice(desc.field_kind, 3, "field_kind");
-      check_choice(desc.engine, 3, "engine");
-      require_zero(desc.reserved);
-      const std::uint32_t channels = count_of(desc.channel_count, 1, 1, most_channels, "channel_count");
-      if (desc.penalty != 0 && !(desc.penalty > 0))
-        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
-      const double penalty = desc.penalty > 0 ? std::min(desc.penalty, largest_penalty) : default_penalty;
-      return with_progress(desc.progress, [&](Progress* progress) {
-        return make_owner_in<SolverObject>(surface->memory,
-                                           surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress),
-                                           static_cast<EngineKind>(desc.engine), penalty, channels,
-                                           desc.site_limit ? desc.site_limit : default_site_limit);
-      });
+  return create("hf_create", out_solver, "out_solver", [&] {
+    const auto surface = get<SurfaceObject>(handle, "surface");
+    const hf_solver_desc desc = read_optional(given, "desc");
+    check_choice(desc.field_kind, 3, "field_kind");
+    check_choice(desc.engine, 3, "engine");
+    require_zero(desc.reserved);
+    const std::uint32_t channels = count_of(desc.channel_count, 1, 1, most_channels, "channel_count");
+    if (desc.penalty != 0 && !(desc.penalty > 0))
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
+    const double penalty = desc.penalty > 0 ? std::min(desc.penalty, largest_penalty) : default_penalty;
+    return with_progress(desc.progress, [&](Progress* progress) {
+      return make_owner_in<SolverObject>(surface->memory,
+                                         surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress),
+                                         static_cast<EngineKind>(desc.engine), penalty, channels,
+                                         desc.site_limit ? desc.site_limit : default_site_limit);
     });
   });
 }
 
 hf_result hf_solver_clone(hf_solver handle, hf_solver* out_solver) {
-  return guarded("hf_solver_clone", [&] {
-    create(out_solver, "out_solver", [&] {
-      const auto solver = get<SolverObject>(handle, "solver");
-      const Reading reading(*solver);
-      return make_owner_in<SolverObject>(solver->memory, *solver);
-    });
-  });
+  return clone_object<SolverObject>("hf_solver_clone", handle, "solver", out_solver, "out_solver");
 }
 
 void hf_solver_destroy(hf_solver solver) { destroy<SolverObject>(solver); }

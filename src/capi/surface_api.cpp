@@ -90,38 +90,36 @@ using namespace hf_inner::capi;
 extern "C" {
 
 hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surface) {
-  return guarded("hf_surface_create", [&] {
-    create(out_surface, "out_surface", [&] {
-      const hf_surface_desc desc = read_struct(given, "desc");
-      hf_surface_info info = read_info(desc);
-      if (info.vertex_count > info.vertex_limit)
-        fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; the vertex_limit is %u", info.vertex_count,
-             info.vertex_limit);
-      if (info.triangle_limit != 0 && info.triangle_count > info.triangle_limit)
-        fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; the triangle_limit is %u", info.triangle_count,
-             info.triangle_limit);
-      if (info.triangle_limit == 0 && info.triangle_count / triangles_per_vertex > info.vertex_limit)
-        fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
-             "%u triangles; without a triangle_limit at most eight per vertex of the vertex_limit %u are taken",
-             info.triangle_count, info.vertex_limit);
-      const MeshInput input = read_mesh(desc);
-      if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
-        fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
-      CoreOptions options;
-      options.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
-      options.field_kind = static_cast<FieldKind>(desc.field_kind);
-      options.ordering = desc.ordering == HF_ORDERING_METIS            ? Ordering::metis
-                         : desc.ordering == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree
-                                                                       : Ordering::nested_dissection;
-      if (desc.saved_factor) read_saved_factor(desc, options);
-      info.ordering = static_cast<std::int32_t>(options.ordering);
-      return with_progress(desc.progress, [&](Progress* progress) {
-        options.progress = progress;
-        auto memory = make_memory(desc.allocator, std::uint64_t{desc.memory_limit_mb} << 20);
-        auto jobs = make_shared_in<JobRunner>(*memory, info.thread_count, desc.job_runner);
-        auto geometry = Geometry::make(input, options.operator_kind, memory, std::move(jobs), progress);
-        return make_owner_in<SurfaceObject>(memory, std::move(geometry), options, info);
-      });
+  return create("hf_surface_create", out_surface, "out_surface", [&] {
+    const hf_surface_desc desc = read_struct(given, "desc");
+    hf_surface_info info = read_info(desc);
+    if (info.vertex_count > info.vertex_limit)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; the vertex_limit is %u", info.vertex_count,
+           info.vertex_limit);
+    if (info.triangle_limit != 0 && info.triangle_count > info.triangle_limit)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; the triangle_limit is %u", info.triangle_count,
+           info.triangle_limit);
+    if (info.triangle_limit == 0 && info.triangle_count / triangles_per_vertex > info.vertex_limit)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+           "%u triangles; without a triangle_limit at most eight per vertex of the vertex_limit %u are taken",
+           info.triangle_count, info.vertex_limit);
+    const MeshInput input = read_mesh(desc);
+    if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
+      fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
+    CoreOptions options;
+    options.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
+    options.field_kind = static_cast<FieldKind>(desc.field_kind);
+    options.ordering = desc.ordering == HF_ORDERING_METIS            ? Ordering::metis
+                       : desc.ordering == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree
+                                                                     : Ordering::nested_dissection;
+    if (desc.saved_factor) read_saved_factor(desc, options);
+    info.ordering = static_cast<std::int32_t>(options.ordering);
+    return with_progress(desc.progress, [&](Progress* progress) {
+      options.progress = progress;
+      auto memory = make_memory(desc.allocator, std::uint64_t{desc.memory_limit_mb} << 20);
+      auto jobs = make_shared_in<JobRunner>(*memory, info.thread_count, desc.job_runner);
+      auto geometry = Geometry::make(input, options.operator_kind, memory, std::move(jobs), progress);
+      return make_owner_in<SurfaceObject>(memory, std::move(geometry), options, info);
     });
   });
 }

@@ -52,13 +52,11 @@ extern "C" {
 
 hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_transfer_desc* desc,
                              hf_transfer* out_transfer) {
-  return guarded("hf_transfer_create", [&] {
-    create(out_transfer, "out_transfer", [&] {
-      get<SurfaceObject>(source, "source", 0), get<SurfaceObject>(target, "target", 1);
-      const TransferOptions options = read_options(desc);
-      const auto from = harmonic_core(source, "source", 0), to = harmonic_core(target, "target", 1);
-      return make_owner_in<TransferObject>(to->memory, from, to, options);
-    });
+  return create("hf_transfer_create", out_transfer, "out_transfer", [&] {
+    get<SurfaceObject>(source, "source", 0), get<SurfaceObject>(target, "target", 1);
+    const TransferOptions options = read_options(desc);
+    const auto from = harmonic_core(source, "source", 0), to = harmonic_core(target, "target", 1);
+    return make_owner_in<TransferObject>(to->memory, from, to, options);
   });
 }
 
@@ -68,7 +66,7 @@ hf_result hf_transfer_add_pairs(hf_transfer handle, const hf_pairs_desc* given, 
   return guarded("hf_transfer_add_pairs", [&] {
     const auto object = get<TransferObject>(handle, "transfer");
     const hf_pairs_desc desc = read_struct(given, "pairs");
-    check_pair_count(0, desc.pair_count);  // before lists of that length are read
+    check_region_count(0, desc.pair_count, "pair");  // before lists of that length are read
     require(desc.source_counts, "source_counts"), require(desc.source_vertices, "source_vertices");
     require(desc.target_counts, "target_counts"), require(desc.target_vertices, "target_vertices");
     const Changing changing(*object);

@@ -79,7 +79,7 @@ void DenseFactor::factorise(Buffer<double>&& lower, std::int32_t size, Memory& m
   inverse_pivot_.allocate(memory, static_cast<std::size_t>(size));
   std::fill(inverse_pivot_.begin(), inverse_pivot_.end(), 0.0);
   lower_ = std::move(lower);
-  size_ = size;
+  size_ = size, dropped_ = 0;
   const std::size_t stride = static_cast<std::size_t>(size);
   for (std::int32_t i = 0; i < size; ++i) {
     double* row = lower_.data() + stride * static_cast<std::size_t>(i);
@@ -105,6 +105,7 @@ void DenseFactor::factorise(Buffer<double>&& lower, std::int32_t size, Memory& m
       inverse_pivot_[i] = 1.0 / std::sqrt(pivot);
     } else {
       // rows below get zeros in this column through inverse_pivot_ = 0
+      ++dropped_;
       std::fill(row, row + i, 0.0);
     }
   }

@@ -21,9 +21,11 @@ class DenseFactor {
   // In place on x[4 * unknown + k], k < 3 used, k = 3 carried along.
   void solve(double* x) const noexcept;
   std::int32_t size() const noexcept { return size_; }
+  std::int32_t dropped() const noexcept { return dropped_; }
 
  private:
   std::int32_t size_ = 0;
+  std::int32_t dropped_ = 0;
   Buffer<double> lower_;
   Buffer<double> inverse_pivot_;  // 0 for dropped unknowns
 };

@@ -34,13 +34,6 @@ PoseOptions checked(const PoseOptions& options) {
 
 }  // namespace
 
-void check_handle_count(std::size_t there, std::size_t added) {
-  if (added == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "handle_count is 0");
-  if (there + added > handle_limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%zu handles and %zu more; a pose holds at most %u", there, added,
-         handle_limit);
-}
-
 void check_request(const DeformRequest& request) {
   require_range(request.iteration_count, 1, most_iterations, "iteration_count");
 }
@@ -104,7 +97,7 @@ std::int32_t Pose::require(std::uint32_t number, std::uint32_t position) const {
 
 void Pose::check_regions(Span<const std::uint32_t> start, Span<const std::int32_t> vertices) const {
   const std::size_t added = start.size() < 2 ? 0 : start.size() - 1;
-  check_handle_count(handle_count(), added);
+  check_region_count(handle_count(), added, "handle");
   Vector<std::int32_t> owner(static_cast<std::size_t>(core_->size()), -1, &memory());  // -2: a handle there is
   if (layout_) {
     for (std::int32_t v = 0; v < core_->size(); ++v) owner[v] = layout_->reach.owner[v] >= 0 ? -2 : -1;

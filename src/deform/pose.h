@@ -57,9 +57,6 @@ struct DeformRequest {
   Normal* packed_normals = nullptr;   // per inner vertex: normals go there instead of the pose's own memory
 };
 
-// Throws HF_ERROR_EMPTY without any, HF_ERROR_TOO_LARGE when a pose cannot hold as many.
-void check_handle_count(std::size_t there, std::size_t added);
-
 // Throws HF_ERROR_INVALID_ARGUMENT for an iteration_count beyond most_iterations.
 void check_request(const DeformRequest& request);
 

@@ -1,4 +1,4 @@
-// What a pose makes of its handles (Pose::Layout), shared by its files.
+// The data a pose derives from its handles (Pose::Layout), shared by its files.
 #pragma once
 #include "deform/pose.h"
 

@@ -103,7 +103,7 @@ void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int
   if (layer >= layer_limit)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "layer is %u; it must be 0 to %u", layer, layer_limit - 1);
   const std::size_t added = start.size() < 2 ? 0 : start.size() - 1, first = entries_.size();
-  check_handle_count(first, added);
+  check_region_count(first, added, "handle");
   Vector<Entry> entries(&memory());
   entries.assign(entries_.begin(), entries_.end());
   NumberPool numbers;

@@ -190,26 +190,29 @@ void DirectionField::move(std::uint32_t count, const std::uint32_t* sites, const
   accept(next);
 }
 
-void DirectionField::set_vectors(std::uint32_t count, const std::uint32_t* sites, const double* vectors) {
+template <class Work>
+void DirectionField::update(std::uint32_t count, const std::uint32_t* sites, Work&& work) {
   check_site_count(count, count_);
   Vector<DirectionConstraint> next(constraints_, &memory());
   for (std::uint32_t i = 0; i < count; ++i) {
     check_site(next, i, sites[i]);
-    next[sites[i]].vector = projected(i, next[sites[i]].vertex, vectors + std::size_t{3} * i);
+    work(i, next[sites[i]]);
   }
   accept(next);
 }
 
+void DirectionField::set_vectors(std::uint32_t count, const std::uint32_t* sites, const double* vectors) {
+  update(count, sites, [&](std::uint32_t i, DirectionConstraint& site) {
+    site.vector = projected(i, site.vertex, vectors + std::size_t{3} * i);
+  });
+}
+
 void DirectionField::rotate(std::uint32_t count, const std::uint32_t* sites, const double* angles) {
-  check_site_count(count, count_);
-  Vector<DirectionConstraint> next(constraints_, &memory());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    check_site(next, i, sites[i]);
+  update(count, sites, [&](std::uint32_t i, DirectionConstraint& site) {
     if (!std::isfinite(angles[i]))
       fail(HF_ERROR_NON_FINITE, i, "entry %u of the list: the angle is not a finite number", i);
-    next[sites[i]].vector *= std::polar(1.0, wrapped(angles[i]));
-  }
-  accept(next);
+    site.vector *= std::polar(1.0, wrapped(angles[i]));
+  });
 }
 
 Vector<Complex> DirectionField::solved() const {

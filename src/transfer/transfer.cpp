@@ -45,13 +45,6 @@ void check_options(const TransferOptions& options) {
 
 }  // namespace
 
-void check_pair_count(std::size_t there, std::size_t added) {
-  if (added == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "pair_count is 0");
-  if (there + added > handle_limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%zu pairs and %zu more; a transfer holds at most %u", there, added,
-         handle_limit);
-}
-
 Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target,
                    const TransferOptions& options)
     : source_core_(std::move(source)),
@@ -75,7 +68,7 @@ Transfer::~Transfer() = default;
 
 void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs) {
   Memory& memory = *target_core_->memory;
-  check_pair_count(numbers_.size(), pairs.size());
+  check_region_count(numbers_.size(), pairs.size(), "pair");
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (pairs[i].flags & ~known_flags)
       fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i),

@@ -59,9 +59,6 @@ struct PairHold {
   Vec3 place;
 };
 
-// Throws HF_ERROR_EMPTY without any, HF_ERROR_TOO_LARGE when a transfer cannot hold as many.
-void check_pair_count(std::size_t there, std::size_t added);
-
 class Transfer {
  public:
   // Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE for bad options.

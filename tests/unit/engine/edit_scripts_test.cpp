@@ -8,17 +8,10 @@
 namespace {
 
 using hf_test::EditScript;
+using hf_test::engines;
 using hf_test::PlainMesh;
 
 bool full() { return std::getenv("HF_FULL_TESTS") != nullptr; }
-
-std::vector<hf_inner::EngineKind> engines() {
-#ifdef HF_WITH_GPL
-  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor, hf_inner::EngineKind::updown};
-#else
-  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor};
-#endif
-}
 
 PlainMesh several_components() {
   PlainMesh mesh = hf_test::grid(7, 5, 1, 0.3);

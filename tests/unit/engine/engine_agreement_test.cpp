@@ -9,15 +9,8 @@
 
 namespace {
 
+using hf_test::engines;
 using hf_test::PlainMesh;
-
-std::vector<hf_inner::EngineKind> engines() {
-#ifdef HF_WITH_GPL
-  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor, hf_inner::EngineKind::updown};
-#else
-  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor};
-#endif
-}
 
 // hard sites of updown are penalties of 1e8 mean diagonals
 double tolerance(hf_inner::EngineKind kind) { return kind == hf_inner::EngineKind::updown ? 2e-6 : 1e-11; }
