@@ -105,8 +105,8 @@ HF_API hf_result hf_pose_remove_handles(hf_pose pose, uint32_t handle_count, con
  * translation. The centroid is the mean of the region's rest positions, in the unit of the mesh (hf_pose_get_handle
  * writes it). */
 typedef struct hf_transform {
-  double rotation[4]; /* unit quaternion x, y, z, w; normalised inside; all zero = identity */
-  double translation[3];
+  double rotation[4];    /* unit quaternion x, y, z, w; normalised inside; all zero = identity */
+  double translation[3]; /* up to 1e15 box diagonals */
 } hf_transform;
 
 /* Places handles: hf_transform[handle_count] for uint32_t[handle_count] handles. On layer 0 a transform is a motion
@@ -180,7 +180,7 @@ typedef struct hf_deform_desc {
   double* positions_f64;    /* the same in double, or NULL; set one of the two at most */
   float* normals;           /* [vertex_count][3] unit normals of the posed surface, shared across seams, or NULL */
   uint32_t normal_stride;   /* bytes between normals; 0 = packed */
-  uint32_t iteration_count; /* 0 = the pose's */
+  uint32_t iteration_count; /* 1 to 1000; 0 = the pose's */
   int32_t restart;          /* 1: forget the last pose and start from the fields */
   int32_t refine; /* 1: adds one as-rigid-as-possible step of the whole surface, with the same factor. Costs three
                      sweeps, about 0.5 us a vertex more */

@@ -31,7 +31,8 @@ typedef struct hf_quads_desc {
   uint32_t site_count;           /* 0 = sites are proposed: tips, and points far from them */
   const uint32_t* site_vertices; /* [site_count] as given; where lines start or end. Borders are sites of their own */
   const int32_t* site_lines;     /* NULL = chosen, or [site_count]: how many lines end (> 0) or start (< 0) there. Every
-                                    component needs both signs; numbers are made even, at least 4, and of equal sum */
+                                    component needs both signs; up to 100,000 each; numbers are made even, at least 4,
+                                    and of equal sum */
   int32_t keep_polygons;         /* 1: polygons at sites and saddles stay whole; 0: all faces are split into quads */
   uint32_t relax_count; /* rounds of tangential relaxation, up to 1,000; 0 = 60; HF_NO_INDEX = none, and the mesh
                            stays as the lines make it */

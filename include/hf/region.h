@@ -158,7 +158,7 @@ typedef struct hf_detail_desc {
                                       each region's curve, or without a curve its rim vertex of lowest number */
   const uint32_t* source_vertices; /* [pair_count] rim vertices of the source, as given */
   const uint32_t* target_vertices; /* [pair_count] rim vertices of the target, as given */
-  double scale;                    /* of the detail; 0 = square root of target base area over source base area */
+  double scale;                    /* of the detail, > 0; 0 = square root of target base area over source base area */
   hf_progress progress;            /* NULL, or an object to poll and cancel through */
 } hf_detail_desc;
 

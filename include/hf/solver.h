@@ -83,9 +83,9 @@ typedef struct hf_sites_desc {
   const uint32_t* triangles;  /* [site_count] triangles as given, or NULL */
   const double* barycentrics; /* [site_count][3] with triangles: weights of the corners, >= 0, of sum 1 within 1e-6 */
   const double* values;       /* [site_count][channel_count], up to 1e200 in size; NULL = 0 */
-  const double* stiffness;    /* [site_count] relative to the mean diagonal of K; 0 = hard (exact); NULL = all hard;
-                                 clamped to 1e-12 .. 1e12 */
-  const double* radii;        /* [site_count] geodesic radius in the unit of the mesh; 0 = a point; NULL = all points */
+  const double* stiffness;    /* [site_count] >= 0, relative to the mean diagonal of K; 0 = hard (exact); NULL = all
+                                 hard; clamped to 1e-12 .. 1e12 */
+  const double* radii;        /* [site_count] >= 0, geodesic, in the unit of the mesh; 0 = a point; NULL = all points */
 } hf_sites_desc;
 
 /* Adds sites. out_sites: NULL, or receives their numbers in uint32_t[site_count]. A site keeps its number until it is

@@ -57,7 +57,7 @@ typedef struct hf_pairs_desc {
   uint32_t struct_size;
   uint32_t pair_count;             /* >= 1 */
   const uint32_t* source_counts;   /* [pair_count] vertices of each region, >= 1 */
-  const uint32_t* source_vertices; /* all regions one after the other; vertices as given */
+  const uint32_t* source_vertices; /* all regions one after the other; vertices as given, up to 4 entries per vertex */
   const uint32_t* target_counts;   /* [pair_count] */
   const uint32_t* target_vertices;
   const uint32_t* flags; /* [pair_count] HF_PAIR_*, or NULL for none */

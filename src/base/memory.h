@@ -30,7 +30,6 @@ class Memory final : public std::pmr::memory_resource {
   std::uint64_t live_bytes() const noexcept { return live_.load(std::memory_order_relaxed); }
   std::uint64_t peak_bytes() const noexcept { return peak_.load(std::memory_order_relaxed); }
   std::uint64_t allocation_count() const noexcept { return count_.load(std::memory_order_relaxed); }
-  void reset_peak() noexcept { peak_.store(live_bytes(), std::memory_order_relaxed); }
 
  private:
   void* do_allocate(std::size_t bytes, std::size_t alignment) override;

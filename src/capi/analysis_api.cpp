@@ -28,12 +28,11 @@ struct GeodesicsObject final : Object {
 void distance(hf_geodesics handle, std::uint32_t count, const std::uint32_t* vertices, float* f32, double* f64,
               std::uint32_t value_stride) {
   const auto object = get<GeodesicsObject>(handle, "geodesics");
-  if (!f32 && !f64) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_distances is NULL");
+  require(f32 ? static_cast<const void*>(f32) : f64, "out_distances");
   require_list(count, vertices, "source_count", "sources");
   const Reading reading(*object);
   const Core& core = object->geodesics.core();
-  if (count > core.mesh.report.vertex_count)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u sources; the mesh has %u vertices", count, core.mesh.report.vertex_count);
+  check_vertex_count(core.mesh, count, "source_count");
   const Rows out = rows_of(f32, f64, 1, value_stride, "value_stride");
   Vector<std::int32_t> sources(core.memory.get());
   append_usable(core.mesh, count, vertices, "sources", sources);
@@ -145,7 +144,7 @@ hf_result hf_surface_find_critical_points(hf_surface handle, const hf_scalars* g
                                           hf_critical_point* out_points, hf_critical_info* out_info) {
   return guarded("hf_surface_find_critical_points", [&] {
     const auto surface = get<SurfaceObject>(handle, "surface");
-    if (!out_points && !out_info) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_points and out_info are both NULL");
+    require_either(out_points, out_info, "out_points and out_info");
     if (out_info) check_struct(out_info, "out_info");
     const Geometry& shape = surface->surface.geometry();
     const Vector<double> field = read_scalars(shape, given);
@@ -166,19 +165,17 @@ hf_result hf_surface_find_critical_points(hf_surface handle, const hf_scalars* g
 }
 
 hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* given, hf_geodesics* out_geodesics) {
-  return guarded("hf_geodesics_create", [&] {
-    create(out_geodesics, "out_geodesics", [&] {
-      const std::shared_ptr<const Core> core = harmonic_core(surface);
-      const hf_geodesics_desc desc = read_optional(given, "desc");
-      const double smoothing = static_cast<double>(desc.smoothing);
-      if (smoothing != 0 && !(smoothing >= 0.1 && smoothing <= 1e4))
-        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "smoothing is %g; it must be 0.1 to 10000, or 0 for 1", smoothing);
-      return with_progress(desc.progress, [&](Progress* progress) {
-        report(progress, 0);
-        auto made = make_owner_in<GeodesicsObject>(core->memory, core, smoothing > 0 ? smoothing : 1.0);
-        report(progress, 1);
-        return made;
-      });
+  return create("hf_geodesics_create", out_geodesics, "out_geodesics", [&] {
+    const std::shared_ptr<const Core> core = harmonic_core(surface);
+    const hf_geodesics_desc desc = read_optional(given, "desc");
+    const double smoothing = static_cast<double>(desc.smoothing);
+    if (smoothing != 0 && !(smoothing >= 0.1 && smoothing <= 1e4))
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "smoothing is %g; it must be 0.1 to 10000, or 0 for 1", smoothing);
+    return with_progress(desc.progress, [&](Progress* progress) {
+      report(progress, 0);
+      auto made = make_owner_in<GeodesicsObject>(core->memory, core, smoothing > 0 ? smoothing : 1.0);
+      report(progress, 1);
+      return made;
     });
   });
 }
@@ -202,8 +199,7 @@ hf_result hf_surface_find_extremities(hf_surface handle, const hf_extremities_de
   return guarded("hf_surface_find_extremities", [&] {
     const std::shared_ptr<const Core> shared = harmonic_core(handle);
     const hf_extremities_desc desc = read_extremities(given);
-    if (!out_extremities && !out_count)
-      fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_extremities and out_count are both NULL");
+    require_either(out_extremities, out_count, "out_extremities and out_count");
     const Core& core = *shared;
     const Extremities found =
         with_progress(desc.progress, [&](Progress* progress) { return search(shared, desc, progress); });

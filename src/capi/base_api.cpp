@@ -81,8 +81,7 @@ uint32_t hf_version_get(void) {
 }
 
 hf_result hf_progress_create(hf_progress* out_progress) {
-  return guarded("hf_progress_create",
-                 [&] { create(out_progress, "out_progress", [] { return std::make_shared<ProgressObject>(); }); });
+  return create("hf_progress_create", out_progress, "out_progress", [] { return std::make_shared<ProgressObject>(); });
 }
 
 void hf_progress_destroy(hf_progress progress) { destroy<ProgressObject>(progress); }

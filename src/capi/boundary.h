@@ -38,6 +38,11 @@ inline void require(const void* pointer, const char* name) {
   if (!pointer) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s is NULL", name);
 }
 
+// Two ways to give one thing; at least one is set.
+inline void require_either(const void* a, const void* b, const char* names) {
+  if (!a && !b) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s are both NULL", names);
+}
+
 // The size of a struct in the first release that had it. If a later release appends a field, specialise this with
 // offsetof the first new field. Programs built with the older header then keep working.
 template <class T>
@@ -150,6 +155,19 @@ inline Rows rows_of(float* f32, double* f64, std::size_t width, std::uint32_t st
   if (f64) return {f64, stride_of(stride, width * sizeof(double), stride_name)};
   if (f32) return {f32, stride_of(stride, width * sizeof(float), stride_name)};
   return {};
+}
+
+// Where hf_deform_desc and hf_morph_desc want positions and normals.
+struct PointsOut {
+  Rows positions, normals;
+};
+template <class Desc>
+PointsOut read_points_out(const Desc& desc) {
+  check_one(desc.positions, desc.positions_f64, "positions");
+  if (!desc.positions && !desc.positions_f64 && !desc.normals)
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "positions, positions_f64 and normals are all NULL; nothing to write");
+  return {rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride"),
+          rows_of(desc.normals, nullptr, 3, desc.normal_stride, "normal_stride")};
 }
 
 }  // namespace hf_inner::capi

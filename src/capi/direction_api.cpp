@@ -12,8 +12,6 @@
 namespace hf_inner::capi {
 namespace {
 
-constexpr std::uint32_t default_constraint_limit = 100000;  // bounds the memory of a runaway host
-
 struct DirectionObject final : Object {
   static constexpr Kind kind_of = Kind::direction;
   DirectionObject(const std::shared_ptr<const Core>& core, std::uint32_t given_degree, std::uint32_t limit)
@@ -37,22 +35,29 @@ struct DirectionObject final : Object {
 
 std::shared_ptr<DirectionObject> object_of(hf_direction handle) { return get<DirectionObject>(handle, "direction"); }
 
-// Refuses a count that exceeds the number of constraints, before the lists are read.
-void check_count(std::uint32_t count, std::uint32_t there) {
-  if (count > there) fail(HF_ERROR_NO_SUCH_SITE, there, "%u constraints named, but there are %u", count, there);
-}
-
-template <class Change>
-void change(hf_direction handle, Change&& work) {
+template <class Work>
+void change(hf_direction handle, Work&& work) {
   const auto direction = object_of(handle);
   const Changing changing(*direction);
-  work(*direction);
+  work(direction->field);
   direction->site_count = direction->field.count();
+}
+
+// An edit that takes `count` sites or vertices and another list beside them.
+template <class Work>
+hf_result edit(const char* function, hf_direction handle, std::uint32_t count, const std::uint32_t* list,
+               const char* list_name, const void* other, const char* other_name, Work&& work) {
+  return guarded(function, [&] {
+    object_of(handle);
+    require_list(count, list, "site_count", list_name);
+    if (other_name) require(other, other_name);
+    change(handle, work);
+  });
 }
 
 void solve(hf_direction handle, float* f32, double* f64, std::uint32_t stride, hf_solve_info* out_info) {
   const auto direction = object_of(handle);
-  if (!f32 && !f64) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_vectors is NULL");
+  require(f32 ? static_cast<const void*>(f32) : f64, "out_vectors");
   if (out_info) check_struct(out_info, "out_info");
   const Rows out = rows_of(f32, f64, 3, stride, "vector_stride");
   const Reading reading(*direction);
@@ -74,110 +79,71 @@ using namespace hf_inner::capi;
 extern "C" {
 
 hf_result hf_direction_create(hf_surface surface, const hf_direction_desc* given, hf_direction* out_direction) {
-  return guarded("hf_direction_create", [&] {
-    create(out_direction, "out_direction", [&] {
-      const std::shared_ptr<const Core> core = harmonic_core(surface);
-      const hf_direction_desc desc = read_optional(given, "desc");
-      if (desc.degree != 0 && desc.degree != 1 && desc.degree != 2 && desc.degree != 4)
-        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "degree is %u; it must be 1, 2 or 4", desc.degree);
-      require_zero(desc.reserved);
-      return with_progress(desc.progress, [&](Progress* progress) {
-        report(progress, 0);
-        auto made = make_owner_in<DirectionObject>(core->memory, core, desc.degree ? desc.degree : 1u,
-                                                   desc.site_limit ? desc.site_limit : default_constraint_limit);
-        report(progress, 1);
-        return made;
-      });
+  return create("hf_direction_create", out_direction, "out_direction", [&] {
+    const std::shared_ptr<const Core> core = harmonic_core(surface);
+    const hf_direction_desc desc = read_optional(given, "desc");
+    if (desc.degree != 0 && desc.degree != 1 && desc.degree != 2 && desc.degree != 4)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "degree is %u; it must be 1, 2 or 4", desc.degree);
+    require_zero(desc.reserved);
+    return with_progress(desc.progress, [&](Progress* progress) {
+      report(progress, 0);
+      auto made = make_owner_in<DirectionObject>(core->memory, core, desc.degree ? desc.degree : 1u,
+                                                 desc.site_limit ? desc.site_limit : default_site_limit);
+      report(progress, 1);
+      return made;
     });
   });
 }
 
 hf_result hf_direction_clone(hf_direction handle, hf_direction* out_direction) {
-  return guarded("hf_direction_clone", [&] {
-    create(out_direction, "out_direction", [&] {
-      const auto direction = object_of(handle);
-      const Reading reading(*direction);
-      return make_owner_in<DirectionObject>(direction->memory, *direction);
-    });
-  });
+  return clone_object<DirectionObject>("hf_direction_clone", handle, "direction", out_direction, "out_direction");
 }
 
 hf_result hf_direction_record(hf_direction handle) {
-  return guarded("hf_direction_record",
-                 [&] { change(handle, [](DirectionObject& direction) { direction.field.record(); }); });
+  return guarded("hf_direction_record", [&] { change(handle, [](DirectionField& field) { field.record(); }); });
 }
 
 hf_result hf_direction_undo(hf_direction handle) {
-  return guarded("hf_direction_undo",
-                 [&] { change(handle, [](DirectionObject& direction) { direction.field.undo(); }); });
+  return guarded("hf_direction_undo", [&] { change(handle, [](DirectionField& field) { field.undo(); }); });
 }
 
 hf_result hf_direction_redo(hf_direction handle) {
-  return guarded("hf_direction_redo",
-                 [&] { change(handle, [](DirectionObject& direction) { direction.field.redo(); }); });
+  return guarded("hf_direction_redo", [&] { change(handle, [](DirectionField& field) { field.redo(); }); });
 }
 
 void hf_direction_destroy(hf_direction direction) { destroy<DirectionObject>(direction); }
 
 hf_result hf_direction_add_sites(hf_direction handle, uint32_t site_count, const uint32_t* vertices,
                                  const double* vectors, uint32_t* out_sites) {
-  return guarded("hf_direction_add_sites", [&] {
-    object_of(handle);
-    require_list(site_count, vertices, "site_count", "vertices"), require(vectors, "vectors");
-    change(handle, [&](DirectionObject& direction) { direction.field.add(site_count, vertices, vectors, out_sites); });
-  });
+  return edit("hf_direction_add_sites", handle, site_count, vertices, "vertices", vectors, "vectors",
+              [&](DirectionField& field) { field.add(site_count, vertices, vectors, out_sites); });
 }
 
 hf_result hf_direction_remove_sites(hf_direction handle, uint32_t site_count, const uint32_t* sites) {
-  return guarded("hf_direction_remove_sites", [&] {
-    object_of(handle);
-    require_list(site_count, sites, "site_count", "sites");
-    change(handle, [&](DirectionObject& direction) {
-      check_count(site_count, direction.field.count());
-      direction.field.remove(site_count, sites);
-    });
-  });
+  return edit("hf_direction_remove_sites", handle, site_count, sites, "sites", nullptr, nullptr,
+              [&](DirectionField& field) { field.remove(site_count, sites); });
 }
 
 hf_result hf_direction_move_sites(hf_direction handle, uint32_t site_count, const uint32_t* sites,
                                   const uint32_t* vertices) {
-  return guarded("hf_direction_move_sites", [&] {
-    object_of(handle);
-    require_list(site_count, sites, "site_count", "sites"), require(vertices, "vertices");
-    change(handle, [&](DirectionObject& direction) {
-      check_count(site_count, direction.field.count());
-      direction.field.move(site_count, sites, vertices);
-    });
-  });
+  return edit("hf_direction_move_sites", handle, site_count, sites, "sites", vertices, "vertices",
+              [&](DirectionField& field) { field.move(site_count, sites, vertices); });
 }
 
 hf_result hf_direction_set_vectors(hf_direction handle, uint32_t site_count, const uint32_t* sites,
                                    const double* vectors) {
-  return guarded("hf_direction_set_vectors", [&] {
-    object_of(handle);
-    require_list(site_count, sites, "site_count", "sites"), require(vectors, "vectors");
-    change(handle, [&](DirectionObject& direction) {
-      check_count(site_count, direction.field.count());
-      direction.field.set_vectors(site_count, sites, vectors);
-    });
-  });
+  return edit("hf_direction_set_vectors", handle, site_count, sites, "sites", vectors, "vectors",
+              [&](DirectionField& field) { field.set_vectors(site_count, sites, vectors); });
 }
 
 hf_result hf_direction_rotate_sites(hf_direction handle, uint32_t site_count, const uint32_t* sites,
                                     const double* angles) {
-  return guarded("hf_direction_rotate_sites", [&] {
-    object_of(handle);
-    require_list(site_count, sites, "site_count", "sites"), require(angles, "angles");
-    change(handle, [&](DirectionObject& direction) {
-      check_count(site_count, direction.field.count());
-      direction.field.rotate(site_count, sites, angles);
-    });
-  });
+  return edit("hf_direction_rotate_sites", handle, site_count, sites, "sites", angles, "angles",
+              [&](DirectionField& field) { field.rotate(site_count, sites, angles); });
 }
 
 uint32_t hf_direction_get_site_count(hf_direction direction) {
-  const std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(direction), Kind::direction);
-  return object ? static_cast<DirectionObject&>(*object).site_count.load() : 0;
+  return count_at(direction, &DirectionObject::site_count);
 }
 
 hf_result hf_direction_get_sites(hf_direction handle, uint32_t capacity, uint32_t* out_sites, uint32_t* out_vertices,
@@ -216,22 +182,17 @@ hf_result hf_direction_get_singularities(hf_direction handle, uint32_t capacity,
                                          uint32_t* out_count) {
   return guarded("hf_direction_get_singularities", [&] {
     const auto direction = object_of(handle);
-    if (!out_count && !out_singularities)
-      fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_singularities and out_count are both NULL");
+    require_either(out_singularities, out_count, "out_singularities and out_count");
     const Reading reading(*direction);
     const Mesh& mesh = direction->field.solver().core().mesh;
     const Vector<Singularity> found = direction->field.singularities();
     write_count(out_count, found.size());
     check_capacity(out_singularities, capacity, found.size(), "capacity");
     if (!out_singularities) return;
-    // Found and given triangles have the same order, so one pass over the given triangles finds all numbers.
-    std::size_t next = 0;
-    for (std::uint32_t t = 0; t < mesh.report.triangle_count && next < found.size(); ++t) {
-      if (mesh.triangle_of_given[t] != found[next].triangle) continue;
-      const auto vertex = mesh.given_of_inner[static_cast<std::size_t>(found[next].vertex)];
-      out_singularities[next] = {t, static_cast<std::uint32_t>(vertex), found[next].index};
-      ++next;
-    }
+    const Vector<std::uint32_t> triangle = given_triangles(mesh, *direction->memory);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      out_singularities[i] = {triangle[static_cast<std::size_t>(found[i].triangle)],
+                              given_vertex(mesh, found[i].vertex), found[i].index};
   });
 }
 

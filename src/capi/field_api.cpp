@@ -1,13 +1,16 @@
 // Implements the part of hf/solver.h for fields, previews and certificates.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "capi/boundary.h"
 #include "capi/objects.h"
 #include "capi/unreached.h"
+#include "capi/vertex_lists.h"
 #include "capi/vertex_writer.h"
 #include "field/certificate.h"
 #include "field/vector_field.h"
+#include "field/vector_sites.h"
 #include "hf/solver.h"
 
 namespace hf_inner::capi {
@@ -22,7 +25,7 @@ hf_solve_info unreached(const SolverObject& solver) {
 
 void solve(hf_solver handle, float* f32, double* f64, std::uint32_t value_stride, hf_solve_info* out_info) {
   const auto solver = get<SolverObject>(handle, "solver");
-  if (!f32 && !f64) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_values is NULL");
+  require(f32 ? static_cast<const void*>(f32) : f64, "out_values");
   if (out_info) check_struct(out_info, "out_info");
   const Reading reading(*solver);
   const std::size_t m = static_cast<std::size_t>(solver->field.sites().channels());
@@ -35,13 +38,11 @@ void solve(hf_solver handle, float* f32, double* f64, std::uint32_t value_stride
 void solve_vectors(hf_solver handle, float* f32, double* f64, std::uint32_t stride, double* out_normals,
                    hf_solve_info* out_info) {
   const auto solver = get<SolverObject>(handle, "solver");
-  if (!f32 && !f64) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_vectors is NULL");
+  require(f32 ? static_cast<const void*>(f32) : f64, "out_vectors");
   if (out_info) check_struct(out_info, "out_info");
   const Reading reading(*solver);
   const Core& core = solver->field.core();
-  if (solver->field.sites().channels() != 3)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the solver has %d channels; vector fields need channel_count 3",
-         solver->field.sites().channels());
+  require_vectors(solver->field);
   const Rows out = rows_of(f32, f64, 3, stride, "vector_stride");
   Workspace field(core.workspaces, static_cast<std::size_t>(core.size()) * 3);
   solver->field.solve(field.data());
@@ -58,7 +59,7 @@ void solve_vectors(hf_solver handle, float* f32, double* f64, std::uint32_t stri
 void solve_preview(hf_solver handle, float* f32, double* f64, std::uint32_t value_stride,
                    std::uint32_t correction_count, hf_preview_info* out_info) {
   const auto solver = get<SolverObject>(handle, "solver");
-  if (!f32 && !f64) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_values is NULL");
+  require(f32 ? static_cast<const void*>(f32) : f64, "out_values");
   if (out_info) check_struct(out_info, "out_info");
   if (correction_count > most_corrections)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "correction_count is %u; it must be 0 to %u", correction_count,
@@ -103,24 +104,16 @@ hf_result hf_solver_solve_at(hf_solver handle, uint32_t count, const uint32_t* v
     const Reading reading(*solver);
     const Mesh& mesh = solver->field.core().mesh;
     const std::size_t m = static_cast<std::size_t>(solver->field.sites().channels());
-    if (count > mesh.report.vertex_count)
-      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices asked for; the mesh has %u", count, mesh.report.vertex_count);
-    Vector<std::int32_t> inner(solver->memory.get());
-    Vector<std::uint32_t> place(solver->memory.get());  // in `inner`, of every vertex of the list
-    for (std::uint32_t i = 0; i < count; ++i) {
-      if (vertices[i] >= mesh.report.vertex_count)
-        fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of the list: vertex %u, but there are %u vertices", i, vertices[i],
-             mesh.report.vertex_count);
-      const std::int32_t v = mesh.inner_of_given[vertices[i]];
-      place.push_back(v == Mesh::none ? HF_NO_INDEX : static_cast<std::uint32_t>(inner.size()));
-      if (v != Mesh::none) inner.push_back(v);
-    }
+    check_vertex_count(mesh, count, "vertex_count");
+    Vector<std::int32_t> asked(solver->memory.get()), inner(solver->memory.get());
+    append_inner(mesh, count, vertices, "vertices", asked);
+    std::copy_if(asked.begin(), asked.end(), std::back_inserter(inner), [](std::int32_t v) { return v != Mesh::none; });
     Vector<double> values(inner.size() * m, solver->memory.get());
     solver->field.solve_at(inner, values.data());
-    // From here on the input list is not read: the caller may pass memory for the output that overlaps the list.
+    // From here on the caller's list is not read: the caller may pass memory for the output that overlaps the list.
+    const double* next = values.data();
     for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t c = 0; c < m; ++c)
-        out_values[i * m + c] = place[i] == HF_NO_INDEX ? 0.0 : values[place[i] * m + c];
+      for (std::size_t c = 0; c < m; ++c) out_values[i * m + c] = asked[i] == Mesh::none ? 0.0 : *next++;
     }
   });
 }
@@ -171,8 +164,7 @@ hf_result hf_solver_certify(hf_solver handle, hf_certificate* inout_certificate)
     if (!(worst <= tolerance))
       fail(HF_ERROR_INACCURATE, report.worst_vertex,
            "the field is wrong by %.3g of the range of its values at vertex %u, more than the tolerance %.3g; make a "
-           "new "
-           "surface of the mesh",
+           "new surface of the mesh",
            worst, report.worst_vertex, tolerance);
   });
 }

@@ -10,20 +10,16 @@
 
 namespace hf_inner::capi {
 
-struct MorphOut {
+struct MorphOut : PointsOut {
   double weight;
-  Rows positions, normals;
 };
 
 inline MorphOut read_morph(const hf_morph_desc* given) {
   const hf_morph_desc desc = read_struct(given, "desc");
   require_zero(desc.reserved);
-  check_one(desc.positions, desc.positions_f64, "positions");
-  if (!desc.positions && !desc.positions_f64 && !desc.normals)
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "positions, positions_f64 and normals are all NULL; nothing to write");
+  const PointsOut out = read_points_out(desc);
   if (!std::isfinite(desc.weight)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "weight is not finite");
-  return {desc.weight, rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride"),
-          rows_of(desc.normals, nullptr, 3, desc.normal_stride, "normal_stride")};
+  return {out, desc.weight};
 }
 
 // moved(given, i) returns the morphed position of the i-th vertex inside the region; `given` is its number in the mesh

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/progress.h"
+#include "capi/boundary.h"
 #include "capi/handle_table.h"
 #include "engine/surface.h"
 #include "field/scalar_field.h"
@@ -70,9 +71,45 @@ struct SolverObject final : Object {
   std::atomic<std::uint32_t> site_count{0};
 };
 
+// The body of a function that makes an object: its handle in *out, NULL on failure.
+template <class Handle, class Make>
+hf_result create(const char* function, Handle* out, const char* name, Make&& make) {
+  return guarded(function, [&] { create(out, name, make); });
+}
+
+// The body of a function that copies an object.
+template <class T, class Handle>
+hf_result clone_object(const char* function, Handle handle, const char* name, Handle* out, const char* out_name) {
+  return create(function, out, out_name, [&] {
+    const auto object = get<T>(handle, name);
+    const Reading reading(*object);
+    return make_owner_in<T>(object->memory, *object);
+  });
+}
+
+// A count that can be read while another thread changes the object; 0 for an invalid handle.
+template <class T, class Handle>
+std::uint32_t count_at(Handle handle, const std::atomic<std::uint32_t> T::*count) {
+  const std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(handle), T::kind_of);
+  return object ? (static_cast<const T&>(*object).*count).load() : 0;
+}
+
+// Most sites of a solver or a direction field unless the caller says so: bounds the memory of a runaway host.
+constexpr std::uint32_t default_site_limit = 100000;
+
 inline std::uint32_t given_vertex(const Mesh& mesh, std::int32_t inner) noexcept {
   return inner == Mesh::none ? HF_NO_INDEX
                              : static_cast<std::uint32_t>(mesh.given_of_inner[static_cast<std::size_t>(inner)]);
+}
+
+// The triangle as given of every inner one.
+inline Vector<std::uint32_t> given_triangles(const Mesh& mesh, Memory& memory) {
+  Vector<std::uint32_t> given(static_cast<std::size_t>(mesh.triangle_count()), HF_NO_INDEX, &memory);
+  for (std::size_t t = 0; t < mesh.triangle_of_given.size(); ++t) {
+    if (mesh.triangle_of_given[t] != Mesh::none)
+      given[static_cast<std::size_t>(mesh.triangle_of_given[t])] = static_cast<std::uint32_t>(t);
+  }
+  return given;
 }
 
 }  // namespace hf_inner::capi

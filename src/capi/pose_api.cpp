@@ -62,7 +62,7 @@ Range read_range(const hf_deform_desc& desc, std::uint32_t vertex_count) {
 
 void add_handles(hf_pose handle, const hf_handles_desc& desc, std::uint32_t* out_handles) {
   const auto pose = get<PoseObject>(handle, "pose");
-  if (desc.handle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "handle_count is 0");
+  check_region_count(0, desc.handle_count, "handle");  // before lists of that length are read
   require_zero(desc.reserved);
   const bool near = desc.points || desc.radii;
   if (near) {
@@ -72,9 +72,6 @@ void add_handles(hf_pose handle, const hf_handles_desc& desc, std::uint32_t* out
   } else {
     require(desc.region_counts, "region_counts"), require(desc.region_vertices, "region_vertices");
   }
-  if (desc.handle_count > HF_HANDLE_LIMIT)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles in one batch; a pose takes at most %d", desc.handle_count,
-         HF_HANDLE_LIMIT);
   const Changing changing(*pose);
   const Mesh& mesh = pose->pose->core().mesh;
   Vector<std::uint32_t> start(pose->memory.get());
@@ -83,7 +80,7 @@ void add_handles(hf_pose handle, const hf_handles_desc& desc, std::uint32_t* out
     const std::size_t count = desc.handle_count;
     regions_near(pose->pose->core(), {desc.points, 3 * count}, {desc.radii, count}, start, vertices);
   } else {
-    append_starts(desc.handle_count, desc.region_counts, mesh.report.vertex_count, "region_counts", start);
+    append_starts(desc.handle_count, desc.region_counts, mesh.report.vertex_count, start);
     append_inner(mesh, start.back(), desc.region_vertices, "region_vertices", vertices);
   }
   Vector<std::uint32_t> numbers(desc.handle_count, pose->memory.get());
@@ -125,11 +122,7 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
   const auto pose = get<PoseObject>(handle, "pose");
   if (out_info) check_struct(out_info, "out_info");
   check_flag(desc.restart, "restart"), check_flag(desc.refine, "refine");
-  check_one(desc.positions, desc.positions_f64, "positions");
-  if (!desc.positions && !desc.positions_f64 && !desc.normals)
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "positions, positions_f64 and normals are all NULL; nothing to write");
-  const Rows positions = rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
-  const Rows normals = rows_of(desc.normals, nullptr, 3, desc.normal_stride, "normal_stride");
+  const PointsOut out = read_points_out(desc);
   DeformRequest request;
   request.normals = desc.normals != nullptr;
   request.iteration_count = desc.iteration_count;
@@ -159,8 +152,8 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
       write_points(core, pose->keeps_order, report.normals, desc.normals,
                    stride_of(desc.normal_stride, 3 * sizeof(float), "normal_stride"), put_up);
   } else {
-    if (positions) write_range(core, range.first, range.count, 3, positions, put_rest, put_position);
-    if (normals) write_range(core, range.first, range.count, 3, normals, put_up, put_normal);
+    if (out.positions) write_range(core, range.first, range.count, 3, out.positions, put_rest, put_position);
+    if (out.normals) write_range(core, range.first, range.count, 3, out.normals, put_up, put_normal);
   }
   if (!out_info) return;
   hf_deform_info info{};
@@ -181,26 +174,22 @@ using namespace hf_inner::capi;
 extern "C" {
 
 hf_result hf_pose_create(hf_surface surface, const hf_pose_desc* given, hf_pose* out_pose) {
-  return guarded("hf_pose_create", [&] {
-    create(out_pose, "out_pose", [&] {
-      const std::shared_ptr<const Core> core = harmonic_core(surface);
-      const hf_pose_desc desc = read_optional(given, "desc");
-      PoseOptions options;
-      options.mode = static_cast<DeformMode>(desc.mode), options.band_count = desc.band_count;
-      options.iteration_count = desc.iteration_count, options.samples_per_ring = desc.samples_per_ring;
-      options.group_count = desc.group_count;
-      return make_object(PoseStack::make(core, options));
-    });
+  return create("hf_pose_create", out_pose, "out_pose", [&] {
+    const std::shared_ptr<const Core> core = harmonic_core(surface);
+    const hf_pose_desc desc = read_optional(given, "desc");
+    PoseOptions options;
+    options.mode = static_cast<DeformMode>(desc.mode), options.band_count = desc.band_count;
+    options.iteration_count = desc.iteration_count, options.samples_per_ring = desc.samples_per_ring;
+    options.group_count = desc.group_count;
+    return make_object(PoseStack::make(core, options));
   });
 }
 
 hf_result hf_pose_clone(hf_pose handle, hf_pose* out_pose) {
-  return guarded("hf_pose_clone", [&] {
-    create(out_pose, "out_pose", [&] {
-      const auto pose = get<PoseObject>(handle, "pose");
-      const Reading reading(*pose);
-      return make_object(pose->pose->clone());
-    });
+  return create("hf_pose_clone", out_pose, "out_pose", [&] {
+    const auto pose = get<PoseObject>(handle, "pose");
+    const Reading reading(*pose);
+    return make_object(pose->pose->clone());
   });
 }
 
@@ -242,8 +231,7 @@ hf_result hf_pose_add_handle_at(hf_pose pose, const double* point, double radius
 hf_result hf_pose_remove_handles(hf_pose handle, uint32_t handle_count, const uint32_t* handles) {
   return guarded("hf_pose_remove_handles", [&] {
     const auto pose = get<PoseObject>(handle, "pose");
-    if (handle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "handle_count is 0");
-    require(handles, "handles");
+    require_list(handle_count, handles, "handle_count", "handles");
     const Changing changing(*pose);
     pose->pose->remove_handles({handles, handle_count});
     pose->handle_count = pose->pose->handle_count();
@@ -281,7 +269,7 @@ hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* ou
     const HandleReport report = pose->pose->handle(number);
     hf_handle_info info{};
     info.vertex_count = report.vertex_count, info.site_count = report.site_count, info.component = report.component;
-    info.centroid[0] = report.centroid.x, info.centroid[1] = report.centroid.y, info.centroid[2] = report.centroid.z;
+    put(report.centroid, info.centroid);
     info.leak = report.leak;
     const HandleTransform placed = pose->pose->placed(number);
     std::copy_n(placed.rotation.coeffs().data(), 4, info.rotation);  // x y z w
@@ -291,10 +279,7 @@ hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* ou
   });
 }
 
-uint32_t hf_pose_get_handle_count(hf_pose pose) {
-  const std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(pose), Kind::pose);
-  return object ? static_cast<PoseObject&>(*object).handle_count.load() : 0;
-}
+uint32_t hf_pose_get_handle_count(hf_pose pose) { return count_at(pose, &PoseObject::handle_count); }
 
 hf_result hf_pose_get_field(hf_pose handle, uint32_t number, float* out_values, uint32_t value_stride) {
   return guarded("hf_pose_get_field", [&] {

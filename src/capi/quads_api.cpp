@@ -1,16 +1,13 @@
 // Implements hf/quads.h: quad meshes and flow lines.
-#include <algorithm>
 #include <cmath>
 
 #include "capi/boundary.h"
 #include "capi/objects.h"
+#include "capi/quads_out.h"
 #include "capi/scalars.h"
 #include "capi/vertex_lists.h"
-#include "capi/vertex_writer.h"
 #include "hf/quads.h"
 #include "remesh/constants.h"
-#include "remesh/flow_lines.h"
-#include "remesh/quads.h"
 
 namespace hf_inner::capi {
 namespace {
@@ -32,26 +29,59 @@ struct FlowObject final : Object {
   FlowTracer tracer;
 };
 
+// Bounds of options, which hf/quads.h states. They refuse mistakes; no result depends on them.
+constexpr std::uint32_t most_rounds = 1000, most_flow_lines = 1000000;
+constexpr std::int32_t most_site_lines = 100000;
+constexpr double least_length = 1e-4, most_length = 1.0;  // edge lengths, as shares of the box diagonal
+
+// The edge length in box diagonals.
+double read_edge_length(const Mesh& mesh, float given) {
+  const double length = static_cast<double>(given);
+  if (!std::isfinite(length)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "edge_length is not finite");
+  if (length == 0) return default_edge_length;
+  const double share = length / mesh.scale;
+  if (share < least_length || share > most_length)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; on this mesh it must be %g to %g, or 0", length,
+         least_length * mesh.scale, most_length * mesh.scale);
+  return share;
+}
+
 void read_sites(const Core& core, const hf_quads_desc& desc, Vector<FluxSite>& sites) {
   if (desc.site_count == 0) {
     if (desc.site_vertices || desc.site_lines)
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "site_count is 0, but arrays of sites are given");
     return;
   }
-  require(desc.site_vertices, "desc->site_vertices");
-  check_vertex_count(core.mesh, desc.site_count, "site_count");
   Vector<std::int32_t> inner(core.memory.get());
-  append_usable(core.mesh, desc.site_count, desc.site_vertices, "site_vertices", inner);
+  read_list(core.mesh, desc.site_count, desc.site_vertices, "site_count", "site_vertices", inner);
   Vector<std::uint8_t> taken(static_cast<std::size_t>(core.size()), std::uint8_t{0}, core.memory.get());
   for (std::uint32_t i = 0; i < desc.site_count; ++i) {
     if (taken[static_cast<std::size_t>(inner[i])]++)
       fail(HF_ERROR_DUPLICATE_SITE, i, "entry %u of site_vertices: vertex %u is named twice", i, desc.site_vertices[i]);
-    constexpr std::int32_t most = 100000;
-    if (desc.site_lines && (desc.site_lines[i] == 0 || desc.site_lines[i] > most || desc.site_lines[i] < -most))
-      fail(HF_ERROR_INVALID_ARGUMENT, i, "site_lines[%u] is %d; it must be -%d to %d and not 0", i, desc.site_lines[i],
-           most, most);
-    sites.push_back({inner[i], desc.site_lines ? static_cast<double>(desc.site_lines[i]) : 0.0});
+    const std::int32_t lines = desc.site_lines ? desc.site_lines[i] : 0;
+    if (desc.site_lines && (lines == 0 || lines > most_site_lines || lines < -most_site_lines))
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "site_lines[%u] is %d; it must be -%d to %d and not 0", i, lines,
+           most_site_lines, most_site_lines);
+    sites.push_back({inner[i], static_cast<double>(lines)});
   }
+}
+
+// sites: what options.sites refers to.
+QuadOptions read_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc, Vector<FluxSite>& sites) {
+  check_choice(desc.kind, 2, "kind");
+  check_flag(desc.keep_polygons, "keep_polygons");
+  if (desc.relax_count > most_rounds && desc.relax_count != HF_NO_INDEX)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "relax_count is %u; it must be up to %u, or HF_NO_INDEX",
+         desc.relax_count, most_rounds);
+  QuadOptions options;
+  options.edge_length = read_edge_length(core->mesh, desc.edge_length);
+  options.uniform = desc.kind == HF_QUADS_UNIFORM, options.split = desc.keep_polygons == 0;
+  if (desc.relax_count)
+    options.relax = desc.relax_count == HF_NO_INDEX ? 0 : static_cast<std::int32_t>(desc.relax_count);
+  read_sites(*core, desc, sites);
+  options.sites = sites, options.automatic = sites.empty(), options.scale_lines = !desc.site_lines;
+  options.core = std::move(core);
+  return options;
 }
 
 hf_quads_info info_of(const QuadsObject& object) {
@@ -70,6 +100,22 @@ hf_quads_info info_of(const QuadsObject& object) {
   return info;
 }
 
+void check_flow_counts(const hf_flow_lines& lines) {
+  if (lines.seed_count > most_flow_lines)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "seed_count is %u; it must be up to %u", lines.seed_count,
+         most_flow_lines);
+  if (lines.seed_count == 0 && (lines.wanted_count < 1 || lines.wanted_count > most_flow_lines))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "wanted_count is %u; it must be 1 to %u", lines.wanted_count,
+         most_flow_lines);
+}
+
+void check_values(const Mesh& mesh, Span<const double> field) {
+  for (std::size_t v = 0; v < field.size(); ++v) {
+    const std::uint32_t given = given_vertex(mesh, static_cast<std::int32_t>(v));
+    if (std::isnan(field[v])) fail(HF_ERROR_NON_FINITE, given, "the value of vertex %u is NaN", given);
+  }
+}
+
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -79,38 +125,15 @@ using namespace hf_inner::capi;
 extern "C" {
 
 hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quads* out_quads) {
-  return guarded("hf_quads_create", [&] {
-    create(out_quads, "out_quads", [&] {
-      QuadOptions options;
-      options.core = harmonic_core(handle);
-      const Core& core = *options.core;
-      const hf_quads_desc desc = read_optional(given, "desc");
-      check_choice(desc.kind, 2, "kind");
-      check_flag(desc.keep_polygons, "keep_polygons");
-      const double length = static_cast<double>(desc.edge_length);
-      if (!std::isfinite(length)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "edge_length is not finite");
-      if (length < 0)
-        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; it must be above 0, or 0", length);
-      constexpr std::uint32_t most_rounds = 1000;
-      if (desc.relax_count > most_rounds && desc.relax_count != HF_NO_INDEX)
-        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "relax_count is %u; it must be up to %u, or HF_NO_INDEX",
-             desc.relax_count, most_rounds);
-      options.edge_length = length > 0 ? length / core.mesh.scale : default_edge_length;
-      constexpr double least = 1e-4, largest = 1.0;
-      if (options.edge_length < least || options.edge_length > largest)
-        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "edge_length is %g; on this mesh it must be %g to %g", length,
-             least * core.mesh.scale, largest * core.mesh.scale);
-      options.uniform = desc.kind == HF_QUADS_UNIFORM, options.split = desc.keep_polygons == 0;
-      if (desc.relax_count)
-        options.relax = desc.relax_count == HF_NO_INDEX ? 0 : static_cast<std::int32_t>(desc.relax_count);
-      Vector<FluxSite> sites(core.memory.get());
-      read_sites(core, desc, sites);
-      options.sites = sites, options.automatic = sites.empty(), options.scale_lines = !desc.site_lines;
-      return with_progress(desc.progress, [&](Progress* progress) {
-        options.progress = progress;
-        return make_owner_in<QuadsObject>(core.memory, options.core, make_quads(options),
-                                          options.edge_length * core.mesh.scale);
-      });
+  return create("hf_quads_create", out_quads, "out_quads", [&] {
+    const std::shared_ptr<const Core> core = harmonic_core(handle);
+    const hf_quads_desc desc = read_optional(given, "desc");
+    Vector<FluxSite> sites(core->memory.get());
+    QuadOptions options = read_options(core, desc, sites);
+    return with_progress(desc.progress, [&](Progress* progress) {
+      options.progress = progress;
+      return make_owner_in<QuadsObject>(core->memory, core, make_quads(options),
+                                        options.edge_length * core->mesh.scale);
     });
   });
 }
@@ -141,37 +164,14 @@ hf_result hf_quads_get_mesh(hf_quads handle, hf_quads_mesh* inout_mesh) {
     check_capacity(out.face_starts, out.face_capacity, out.face_count, "face_capacity");
     check_capacity(out.face_corners, out.corner_capacity, out.corner_count, "corner_capacity");
     check_capacity(out.site_vertices || out.site_lines, out.site_capacity, out.site_count, "site_capacity");
-    const Mesh& mesh = object->core->mesh;
-    const QuadResult& result = object->result;
-    Vector<std::uint32_t> given_triangle(out.triangles || out.barycentrics ? mesh.triangle_count() : 0, HF_NO_INDEX,
-                                         object->core->memory.get());
-    if (!given_triangle.empty()) {
-      for (std::size_t t = mesh.triangle_of_given.size(); t-- > 0;)
-        if (mesh.triangle_of_given[t] != Mesh::none)
-          given_triangle[static_cast<std::size_t>(mesh.triangle_of_given[t])] = static_cast<std::uint32_t>(t);
-    }
-    for (std::int32_t v = 0; v < result.mesh.position.size(); ++v) {
-      const SurfacePoint& point = result.mesh.location[v];
-      const std::size_t i = static_cast<std::size_t>(v);
-      if (out.positions) put(mesh.to_given(result.mesh.position[v]), out.positions + 3 * i);
-      if (out.triangles) out.triangles[i] = given_triangle[static_cast<std::size_t>(point.triangle)];
-      if (out.barycentrics) std::copy(point.weight, point.weight + 3, out.barycentrics + 3 * i);
-    }
-    if (out.face_starts) std::copy(result.mesh.face_start.begin(), result.mesh.face_start.end(), out.face_starts);
-    if (out.face_corners) std::copy(result.mesh.corner.begin(), result.mesh.corner.end(), out.face_corners);
-    for (std::size_t i = 0; i < result.sites.size(); ++i) {
-      if (out.site_vertices) out.site_vertices[i] = given_vertex(mesh, result.sites[i].vertex);
-      if (out.site_lines) out.site_lines[i] = static_cast<std::int32_t>(std::lround(result.sites[i].lines));
-    }
+    write_mesh(*object->core, object->result, out);
   });
 }
 
 hf_result hf_flow_create(hf_surface surface, hf_flow* out_flow) {
-  return guarded("hf_flow_create", [&] {
-    create(out_flow, "out_flow", [&] {
-      const std::shared_ptr<const Core> core = harmonic_core(surface);
-      return make_owner_in<FlowObject>(core->memory, core);
-    });
+  return create("hf_flow_create", out_flow, "out_flow", [&] {
+    const std::shared_ptr<const Core> core = harmonic_core(surface);
+    return make_owner_in<FlowObject>(core->memory, core);
   });
 }
 
@@ -182,11 +182,7 @@ hf_result hf_flow_trace(hf_flow handle, const hf_scalars* given, hf_flow_lines* 
     const auto object = get<FlowObject>(handle, "flow");
     hf_flow_lines out = read_struct(inout_lines, "inout_lines");
     require_zero(out.reserved);
-    constexpr std::uint32_t most = 1000000;
-    if (out.seed_count > most)
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "seed_count is %u; it must be up to %u", out.seed_count, most);
-    if (out.seed_count == 0 && (out.wanted_count < 1 || out.wanted_count > most))
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "wanted_count is %u; it must be 1 to %u", out.wanted_count, most);
+    check_flow_counts(out);
     const Reading reading(*object);
     const Core& core = object->tracer.core();
     const Mesh& mesh = core.mesh;
@@ -196,10 +192,7 @@ hf_result hf_flow_trace(hf_flow handle, const hf_scalars* given, hf_flow_lines* 
       append_usable(mesh, out.seed_count, out.seeds, "seeds", seeds);
     }
     const Vector<double> field = read_scalars(*core.geometry, given);
-    for (std::size_t v = 0; v < field.size(); ++v)
-      if (std::isnan(field[v]))
-        fail(HF_ERROR_NON_FINITE, given_vertex(mesh, static_cast<std::int32_t>(v)), "the value of vertex %u is NaN",
-             given_vertex(mesh, static_cast<std::int32_t>(v)));
+    check_values(mesh, field);
     const FlowLineSet lines = object->tracer.trace(field, out.wanted_count, seeds);
     if (lines.point.size() >= HF_NO_INDEX) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the lines have 2^32 points or more");
     out.point_count = static_cast<std::uint32_t>(lines.point.size());
@@ -207,14 +200,7 @@ hf_result hf_flow_trace(hf_flow handle, const hf_scalars* given, hf_flow_lines* 
     write_struct(inout_lines, out);
     check_capacity(out.positions || out.values, out.point_capacity, out.point_count, "point_capacity");
     check_capacity(out.line_starts || out.line_ends, out.line_capacity, out.line_count, "line_capacity");
-    for (std::size_t i = 0; out.positions && i < lines.point.size(); ++i)
-      put(mesh.to_given(lines.point[i]), out.positions + 3 * i);
-    if (out.values) std::copy(lines.value.begin(), lines.value.end(), out.values);
-    if (out.line_starts) std::copy(lines.start.begin(), lines.start.end(), out.line_starts);
-    for (std::size_t l = 0; out.line_ends && l < lines.from.size(); ++l) {
-      out.line_ends[2 * l] = given_vertex(mesh, lines.from[l]);
-      out.line_ends[2 * l + 1] = given_vertex(mesh, lines.to[l]);
-    }
+    write_lines(mesh, lines, out);
   });
 }
 

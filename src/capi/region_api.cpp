@@ -8,6 +8,27 @@
 namespace hf_inner::capi {
 namespace {
 
+// points: what edit.curve refers to.
+void read_curve(const Mesh& mesh, const hf_curve_desc& curve, Vector<std::int32_t>& points, RegionEdit& edit) {
+  check_choice(curve.side, 3, "side");
+  if (curve.vertices && (curve.triangles || curve.barycentrics))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and triangles are both set; set one");
+  if (!curve.vertices) require(curve.triangles, "vertices and triangles"), require(curve.barycentrics, "barycentrics");
+  constexpr std::uint32_t least = 3;
+  if (curve.point_count < least)
+    fail(HF_ERROR_EMPTY, curve.point_count, "a closed curve takes %u points or more; %u are given", least,
+         curve.point_count);
+  check_vertex_count(mesh, curve.point_count, "point_count");
+  for (std::uint32_t i = 0; i < curve.point_count; ++i)
+    points.push_back(curve.vertices
+                         ? usable_vertex(mesh, curve.vertices[i], i, "vertices")
+                         : nearest_corner(mesh, curve.triangles[i], curve.barycentrics + 3 * std::size_t{i}, i));
+  require_one_component(mesh, points);
+  edit.curve = points, edit.side = static_cast<CurveSide>(curve.side);
+  if (edit.side == CurveSide::seed)
+    edit.seed = usable_vertex(mesh, curve.seed_vertex, curve.seed_vertex, "seed_vertex");
+}
+
 template <class Work>
 hf_result change(const char* function, hf_region handle, Work&& work) {
   return guarded(function, [&] {
@@ -26,32 +47,24 @@ using namespace hf_inner::capi;
 extern "C" {
 
 hf_result hf_region_create(hf_surface handle, const hf_region_desc* given, hf_region* out_region) {
-  return guarded("hf_region_create", [&] {
-    create(out_region, "out_region", [&] {
-      const auto surface = get<SurfaceObject>(handle, "surface");
-      const hf_region_desc desc = read_optional(given, "desc");
-      check_choice(desc.field_kind, 3, "field_kind");
-      require_zero(desc.reserved);
-      return with_progress(desc.progress, [&](Progress* progress) {
-        const auto core = surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress);
-        check_one(desc.positions, desc.positions_f64, "positions");
-        const ConstRows given_positions =
-            rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
-        return make_owner_in<RegionObject>(
-            core->memory, make_owner_in<RegionSurface>(core->memory, core, positions_of(*core, given_positions)));
-      });
+  return create("hf_region_create", out_region, "out_region", [&] {
+    const auto surface = get<SurfaceObject>(handle, "surface");
+    const hf_region_desc desc = read_optional(given, "desc");
+    check_choice(desc.field_kind, 3, "field_kind");
+    require_zero(desc.reserved);
+    return with_progress(desc.progress, [&](Progress* progress) {
+      const auto core = surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress);
+      check_one(desc.positions, desc.positions_f64, "positions");
+      const ConstRows given_positions =
+          rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
+      return make_owner_in<RegionObject>(
+          core->memory, make_owner_in<RegionSurface>(core->memory, core, positions_of(*core, given_positions)));
     });
   });
 }
 
 hf_result hf_region_clone(hf_region handle, hf_region* out_region) {
-  return guarded("hf_region_clone", [&] {
-    create(out_region, "out_region", [&] {
-      const auto object = get<RegionObject>(handle, "region");
-      const Reading reading(*object);
-      return make_owner_in<RegionObject>(object->memory, *object);
-    });
-  });
+  return clone_object<RegionObject>("hf_region_clone", handle, "region", out_region, "out_region");
 }
 
 void hf_region_destroy(hf_region region) { destroy<RegionObject>(region); }
@@ -65,36 +78,7 @@ hf_result hf_region_edit(hf_region handle, const hf_region_edit_desc* given) {
     Memory* const memory = object->memory.get();
     Vector<std::int32_t> points(memory), remove(memory), add(memory);
     RegionEdit edit;
-    if (desc.curve) {
-      const hf_curve_desc curve = read_struct(desc.curve, "curve");
-      check_choice(curve.side, 3, "side");
-      if (curve.vertices && (curve.triangles || curve.barycentrics))
-        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and triangles are both set; set one");
-      if (!curve.vertices)
-        require(curve.triangles, "vertices and triangles"), require(curve.barycentrics, "barycentrics");
-      constexpr std::uint32_t least = 3;
-      if (curve.point_count < least)
-        fail(HF_ERROR_EMPTY, curve.point_count, "a closed curve takes %u points or more; %u are given", least,
-             curve.point_count);
-      check_vertex_count(mesh, curve.point_count, "point_count");
-      if (curve.vertices) {
-        append_usable(mesh, curve.point_count, curve.vertices, "vertices", points);
-      } else {
-        for (std::uint32_t i = 0; i < curve.point_count; ++i)
-          points.push_back(nearest_corner(mesh, curve.triangles[i], curve.barycentrics + 3 * std::size_t{i}, i));
-      }
-      require_one_component(mesh, points);
-      edit.curve = points, edit.side = static_cast<CurveSide>(curve.side);
-      if (edit.side == CurveSide::seed) {
-        if (curve.seed_vertex >= mesh.report.vertex_count)
-          fail(HF_ERROR_OUT_OF_RANGE, curve.seed_vertex, "seed_vertex is %u, but there are %u vertices",
-               curve.seed_vertex, mesh.report.vertex_count);
-        edit.seed = mesh.inner_of_given[curve.seed_vertex];
-        if (edit.seed == Mesh::none)
-          fail(HF_ERROR_INVALID_ARGUMENT, curve.seed_vertex, "seed vertex %u is in no usable triangle",
-               curve.seed_vertex);
-      }
-    }
+    if (desc.curve) read_curve(mesh, read_struct(desc.curve, "curve"), points, edit);
     if (desc.remove_count)
       read_list(mesh, desc.remove_count, desc.remove_vertices, "remove_vertices", "remove_vertices", remove);
     if (desc.add_count) read_list(mesh, desc.add_count, desc.add_vertices, "add_vertices", "add_vertices", add);
@@ -146,8 +130,7 @@ hf_result hf_region_get_vertices(hf_region handle, int32_t list, uint32_t capaci
   return guarded("hf_region_get_vertices", [&] {
     const auto object = get<RegionObject>(handle, "region");
     check_choice(list, 3, "list");
-    if (!out_vertices && !out_count)
-      fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_vertices and out_count are both NULL");
+    require_either(out_vertices, out_count, "out_vertices and out_count");
     const Reading reading(*object);
     const RegionShape& shape = *object->region.state()->shape;
     const Vector<std::int32_t>& vertices = list == HF_REGION_INSIDE ? shape.inside
@@ -157,8 +140,7 @@ hf_result hf_region_get_vertices(hf_region handle, int32_t list, uint32_t capaci
     check_capacity(out_vertices, capacity, vertices.size(), "capacity");
     if (!out_vertices) return;
     const Mesh& mesh = object->region.core().mesh;
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-      out_vertices[i] = static_cast<std::uint32_t>(mesh.given_of_inner[static_cast<std::size_t>(vertices[i])]);
+    for (std::size_t i = 0; i < vertices.size(); ++i) out_vertices[i] = given_vertex(mesh, vertices[i]);
     std::sort(out_vertices, out_vertices + vertices.size());
   });
 }

@@ -12,7 +12,7 @@ namespace hf_inner::capi {
 inline Vector<double> read_scalars(const Geometry& shape, const hf_scalars* given) {
   const hf_scalars desc = read_struct(given, "field");
   check_one(desc.values, desc.values_f64, "values");
-  if (!desc.values && !desc.values_f64) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "values and values_f64 are both NULL");
+  require_either(desc.values, desc.values_f64, "values and values_f64");
   const ConstRows rows = rows_of(desc.values, desc.values_f64, 1, desc.value_stride, "value_stride");
   Vector<double> field(static_cast<std::size_t>(shape.mesh.vertex_count()), shape.memory.get());
   for (std::size_t v = 0; v < field.size(); ++v) {

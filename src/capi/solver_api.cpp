@@ -3,13 +3,14 @@
 
 #include "capi/boundary.h"
 #include "capi/objects.h"
+#include "capi/vertex_writer.h"
 #include "field/vector_sites.h"
 #include "hf/solver.h"
 
 namespace hf_inner::capi {
 namespace {
 
-constexpr std::uint32_t most_channels = 64, default_site_limit = 100000;
+constexpr std::uint32_t most_channels = most_width;
 constexpr double default_penalty = 1e8;   // the paper's
 constexpr double largest_penalty = 1e10;  // beyond it the other equations of a penalised row drown in rounding
 
@@ -19,8 +20,7 @@ Places read_places(const hf_sites_desc& desc) {
   if (desc.site_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
   if (desc.vertices && desc.triangles)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and triangles are both set; set one");
-  if (!desc.vertices && !desc.triangles)
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "vertices and triangles are both NULL");
+  require_either(desc.vertices, desc.triangles, "vertices and triangles");
   if (desc.triangles && !desc.barycentrics)
     fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "barycentrics is NULL, but the sites are in triangles");
   Places places;
@@ -46,22 +46,6 @@ void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_d
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
 }
 
-// Refuses counts that no valid list can have, before any list is read and before any allocation depends on them.
-void check_counts(const SolverObject& solver, const FieldEdit& edit) {
-  const std::uint32_t there = solver.field.sites().count();
-  if (edit.remove_count > there)
-    fail(HF_ERROR_NO_SUCH_SITE, there, "%u sites to remove, but the solver has %u", edit.remove_count, there);
-  const std::uint32_t left = there - edit.remove_count;
-  const auto check = [&](std::uint32_t count, const char* what) {
-    if (count > left)
-      fail(HF_ERROR_NO_SUCH_SITE, left, "%u %s, but the solver has %u sites%s", count, what, left,
-           edit.remove_count ? " after the removals" : "");
-  };
-  check(edit.move_count, "sites to move"), check(edit.set_count, "values to set");
-  if (edit.add.count > solver.site_limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u sites to add; the site_limit is %u", edit.add.count, solver.site_limit);
-}
-
 template <class Work>
 void change(hf_solver handle, Work&& work) {
   const auto solver = get<SolverObject>(handle, "solver");
@@ -77,10 +61,7 @@ hf_result apply(const char* function, hf_solver handle, std::uint32_t* out_sites
     get<SolverObject>(handle, "solver");
     FieldEdit edit;
     read(edit);
-    change(handle, [&](SolverObject& solver) {
-      check_counts(solver, edit);
-      solver.field.edit(edit, out_sites);
-    });
+    change(handle, [&](SolverObject& solver) { solver.field.edit(edit, out_sites); });
   });
 }
 
@@ -90,15 +71,7 @@ hf_result change_vectors(const char* function, hf_solver handle, std::uint32_t c
   return guarded(function, [&] {
     get<SolverObject>(handle, "solver");
     require_list(count, sites, "site_count", "sites"), require(list, name);
-    change(handle, [&](SolverObject& solver) {
-      if (solver.field.sites().channels() != 3)
-        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the solver has %d channels; vector fields need channel_count 3",
-             solver.field.sites().channels());
-      if (count > solver.field.sites().count())
-        fail(HF_ERROR_NO_SUCH_SITE, solver.field.sites().count(), "%u sites named, but there are %u", count,
-             solver.field.sites().count());
-      work(solver.field);
-    });
+    change(handle, [&](SolverObject& solver) { work(solver.field); });
   });
 }
 
@@ -111,40 +84,27 @@ using namespace hf_inner::capi;
 extern "C" {
 
 hf_result hf_create(hf_surface handle, const hf_solver_desc* given, hf_solver* out_solver) {
-  return guarded("hf_create", [&] {
-    create(out_solver, "out_solver", [&] {
-      const auto surface = get<SurfaceObject>(handle, "surface");
-      const hf_solver_desc desc = read_optional(given, "desc");
-      check_choice(desc.field_kind, 3, "field_kind");
-      check_choice(desc.engine, 3, "engine");
-      require_zero(desc.reserved);
-#ifndef HF_WITH_GPL
-      if (desc.engine == HF_ENGINE_UPDOWN)
-        fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-             "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
-#endif
-      const std::uint32_t channels = count_of(desc.channel_count, 1, 1, most_channels, "channel_count");
-      if (desc.penalty != 0 && !(desc.penalty > 0))
-        fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
-      const double penalty = desc.penalty > 0 ? std::min(desc.penalty, largest_penalty) : default_penalty;
-      return with_progress(desc.progress, [&](Progress* progress) {
-        return make_owner_in<SolverObject>(surface->memory,
-                                           surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress),
-                                           static_cast<EngineKind>(desc.engine), penalty, channels,
-                                           desc.site_limit ? desc.site_limit : default_site_limit);
-      });
+  return create("hf_create", out_solver, "out_solver", [&] {
+    const auto surface = get<SurfaceObject>(handle, "surface");
+    const hf_solver_desc desc = read_optional(given, "desc");
+    check_choice(desc.field_kind, 3, "field_kind");
+    check_choice(desc.engine, 3, "engine");
+    require_zero(desc.reserved);
+    const std::uint32_t channels = count_of(desc.channel_count, 1, 1, most_channels, "channel_count");
+    if (desc.penalty != 0 && !(desc.penalty > 0))
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
+    const double penalty = desc.penalty > 0 ? std::min(desc.penalty, largest_penalty) : default_penalty;
+    return with_progress(desc.progress, [&](Progress* progress) {
+      return make_owner_in<SolverObject>(surface->memory,
+                                         surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress),
+                                         static_cast<EngineKind>(desc.engine), penalty, channels,
+                                         desc.site_limit ? desc.site_limit : default_site_limit);
     });
   });
 }
 
 hf_result hf_solver_clone(hf_solver handle, hf_solver* out_solver) {
-  return guarded("hf_solver_clone", [&] {
-    create(out_solver, "out_solver", [&] {
-      const auto solver = get<SolverObject>(handle, "solver");
-      const Reading reading(*solver);
-      return make_owner_in<SolverObject>(solver->memory, *solver);
-    });
-  });
+  return clone_object<SolverObject>("hf_solver_clone", handle, "solver", out_solver, "out_solver");
 }
 
 void hf_solver_destroy(hf_solver solver) { destroy<SolverObject>(solver); }
@@ -215,10 +175,7 @@ hf_result hf_solver_rotate_vectors(hf_solver solver, uint32_t site_count, const 
                         [&](ScalarField& field) { rotate_vectors(field, site_count, sites, angles); });
 }
 
-uint32_t hf_solver_get_site_count(hf_solver solver) {
-  const std::shared_ptr<Object> object = find(reinterpret_cast<std::uintptr_t>(solver), Kind::solver);
-  return object ? static_cast<SolverObject&>(*object).site_count.load() : 0;
-}
+uint32_t hf_solver_get_site_count(hf_solver solver) { return count_at(solver, &SolverObject::site_count); }
 
 hf_result hf_solver_get_sites(hf_solver handle, hf_sites_info* inout) {
   return guarded("hf_solver_get_sites", [&] {

@@ -4,6 +4,7 @@
 
 #include "capi/boundary.h"
 #include "capi/objects.h"
+#include "capi/vertex_writer.h"
 #include "factor/factor_bytes.h"
 #include "hf/surface.h"
 #include "mesh/picking.h"
@@ -19,11 +20,6 @@ hf_surface_info read_info(const hf_surface_desc& desc) {
   check_choice(desc.operator_kind, 4, "operator_kind");
   check_choice(desc.field_kind, 3, "field_kind");
   check_choice(desc.ordering, 3, "ordering");
-#ifndef HF_WITH_GPL
-  if (desc.ordering == HF_ORDERING_METIS)
-    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-         "HF_ORDERING_METIS needs a build with HF_WITH_GPL; use HF_ORDERING_NESTED_DISSECTION");
-#endif
   info.vertex_count = desc.vertex_count, info.triangle_count = desc.triangle_count;
   info.weld = desc.weld, info.weld_tolerance = desc.weld_tolerance;
   info.operator_kind = desc.operator_kind, info.field_kind = desc.field_kind, info.ordering = desc.ordering;
@@ -35,12 +31,10 @@ hf_surface_info read_info(const hf_surface_desc& desc) {
 
 MeshInput read_mesh(const hf_surface_desc& desc) {
   check_one(desc.positions, desc.positions_f64, "positions");
-  if (!desc.positions && !desc.positions_f64)
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "positions and positions_f64 are both NULL");
+  require_either(desc.positions, desc.positions_f64, "positions and positions_f64");
   if (desc.triangles && desc.triangles_u16)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "triangles and triangles_u16 are both set; set one");
-  if (!desc.triangles && !desc.triangles_u16)
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "triangles and triangles_u16 are both NULL");
+  require_either(desc.triangles, desc.triangles_u16, "triangles and triangles_u16");
   MeshInput input;
   input.vertex_count = desc.vertex_count, input.triangle_count = desc.triangle_count;
   input.positions = rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
@@ -96,40 +90,36 @@ using namespace hf_inner::capi;
 extern "C" {
 
 hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surface) {
-  return guarded("hf_surface_create", [&] {
-    create(out_surface, "out_surface", [&] {
-      const hf_surface_desc desc = read_struct(given, "desc");
-      hf_surface_info info = read_info(desc);
-      if (info.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "vertex_count is 0");
-      if (info.triangle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "triangle_count is 0");
-      if (info.vertex_count > info.vertex_limit)
-        fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; the vertex_limit is %u", info.vertex_count,
-             info.vertex_limit);
-      if (info.triangle_limit != 0 && info.triangle_count > info.triangle_limit)
-        fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; the triangle_limit is %u", info.triangle_count,
-             info.triangle_limit);
-      if (info.triangle_limit == 0 && info.triangle_count / triangles_per_vertex > info.vertex_limit)
-        fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
-             "%u triangles; without a triangle_limit at most eight per vertex of the vertex_limit %u are taken",
-             info.triangle_count, info.vertex_limit);
-      const MeshInput input = read_mesh(desc);
-      if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
-        fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
-      CoreOptions options;
-      options.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
-      options.field_kind = static_cast<FieldKind>(desc.field_kind);
-      options.ordering = desc.ordering == HF_ORDERING_METIS            ? Ordering::metis
-                         : desc.ordering == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree
-                                                                       : Ordering::nested_dissection;
-      if (desc.saved_factor) read_saved_factor(desc, options);
-      info.ordering = static_cast<std::int32_t>(options.ordering);
-      return with_progress(desc.progress, [&](Progress* progress) {
-        options.progress = progress;
-        auto memory = make_memory(desc.allocator, std::uint64_t{desc.memory_limit_mb} << 20);
-        auto jobs = make_shared_in<JobRunner>(*memory, info.thread_count, desc.job_runner);
-        auto geometry = Geometry::make(input, options.operator_kind, memory, std::move(jobs), progress);
-        return make_owner_in<SurfaceObject>(memory, std::move(geometry), options, info);
-      });
+  return create("hf_surface_create", out_surface, "out_surface", [&] {
+    const hf_surface_desc desc = read_struct(given, "desc");
+    hf_surface_info info = read_info(desc);
+    if (info.vertex_count > info.vertex_limit)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; the vertex_limit is %u", info.vertex_count,
+           info.vertex_limit);
+    if (info.triangle_limit != 0 && info.triangle_count > info.triangle_limit)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u triangles; the triangle_limit is %u", info.triangle_count,
+           info.triangle_limit);
+    if (info.triangle_limit == 0 && info.triangle_count / triangles_per_vertex > info.vertex_limit)
+      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+           "%u triangles; without a triangle_limit at most eight per vertex of the vertex_limit %u are taken",
+           info.triangle_count, info.vertex_limit);
+    const MeshInput input = read_mesh(desc);
+    if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
+      fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
+    CoreOptions options;
+    options.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
+    options.field_kind = static_cast<FieldKind>(desc.field_kind);
+    options.ordering = desc.ordering == HF_ORDERING_METIS            ? Ordering::metis
+                       : desc.ordering == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree
+                                                                     : Ordering::nested_dissection;
+    if (desc.saved_factor) read_saved_factor(desc, options);
+    info.ordering = static_cast<std::int32_t>(options.ordering);
+    return with_progress(desc.progress, [&](Progress* progress) {
+      options.progress = progress;
+      auto memory = make_memory(desc.allocator, std::uint64_t{desc.memory_limit_mb} << 20);
+      auto jobs = make_shared_in<JobRunner>(*memory, info.thread_count, desc.job_runner);
+      auto geometry = Geometry::make(input, options.operator_kind, memory, std::move(jobs), progress);
+      return make_owner_in<SurfaceObject>(memory, std::move(geometry), options, info);
     });
   });
 }
@@ -172,8 +162,7 @@ hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity, uint3
                                     uint32_t* out_count) {
   return guarded("hf_surface_get_components", [&] {
     const auto object = get<SurfaceObject>(surface, "surface");
-    if (!out_components && !out_count)
-      fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_components and out_count are both NULL");
+    require_either(out_components, out_count, "out_components and out_count");
     const Mesh& mesh = object->surface.geometry().mesh;
     write_count(out_count, mesh.report.vertex_count);
     check_capacity(out_components, capacity, mesh.report.vertex_count, "capacity");
@@ -213,7 +202,7 @@ hf_result hf_surface_save(hf_surface handle, int32_t field_kind, size_t capacity
     const std::shared_ptr<const Core> core = object->surface.core(static_cast<FieldKind>(field_kind));
     const std::size_t size = static_cast<std::size_t>(saved_factor_size(*core->factor));
     if (out_size) *out_size = size;
-    if (!out_bytes && !out_size) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_bytes and out_size are both NULL");
+    require_either(out_bytes, out_size, "out_bytes and out_size");
     if (!out_bytes) return;
     check_capacity(true, capacity, size, "capacity");
     save_factor(*core->factor, grounded_hash(*core), {static_cast<std::uint8_t*>(out_bytes), size}, *core->memory,
@@ -236,8 +225,7 @@ hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const do
     hit.found = found.triangle != HF_NO_INDEX;
     hit.triangle = found.triangle, hit.vertex = given_vertex(shape.mesh, found.vertex);
     std::copy_n(found.weight, 3, hit.barycentrics);
-    if (hit.found)
-      hit.position[0] = found.position.x, hit.position[1] = found.position.y, hit.position[2] = found.position.z;
+    if (hit.found) put(found.position, hit.position);
     hit.distance = found.distance;
     write_struct(out_hit, hit);
   });

@@ -1,6 +1,5 @@
 // Implements hf/transfer.h: transfers.
 #include <algorithm>
-#include <cmath>
 
 #include "capi/boundary.h"
 #include "capi/objects.h"
@@ -34,27 +33,12 @@ struct TransferObject final : Object {
 };
 
 TransferOptions read_options(const hf_transfer_desc* given) {
+  const hf_transfer_desc desc = read_optional(given, "desc");
   TransferOptions options;
-  if (!given) return options;
-  const hf_transfer_desc desc = read_struct(given, "desc");
-  check_choice(desc.mode, 2, "mode");
-  options.mode = desc.mode;
-  options.cluster_count = count_of(desc.cluster_count, 0, 1, 512, "cluster_count");
-  const double width = static_cast<double>(desc.kernel_width);
-  if (width != 0 && !(width >= 0.00499 && width <= 0.501))
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "kernel_width is %g; it must be 0.005 to 0.5, or 0 for 0.04", width);
-  const double scale = static_cast<double>(desc.scale);
-  if (scale != 0 && !(scale > 0 && std::isfinite(scale)))
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it must be above 0, or 0 to find it", scale);
-  const double angle = static_cast<double>(desc.alignment_angle);
-  if (!std::isfinite(angle)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "alignment_angle is not a finite number");
-  options.kernel_width = width, options.scale = scale, options.alignment_angle = angle;
-  for (int k = 0; k < 9; ++k) {
-    if (!std::isfinite(desc.source_axes[k]) || !std::isfinite(desc.target_axes[k]))
-      fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "source_axes or target_axes: number %d is not finite", k);
-    options.source_axes[k] = static_cast<double>(desc.source_axes[k]),
-    options.target_axes[k] = static_cast<double>(desc.target_axes[k]);
-  }
+  options.mode = desc.mode, options.cluster_count = desc.cluster_count;
+  options.kernel_width = static_cast<double>(desc.kernel_width), options.scale = static_cast<double>(desc.scale);
+  options.alignment_angle = static_cast<double>(desc.alignment_angle);
+  std::copy_n(desc.source_axes, 9, options.source_axes), std::copy_n(desc.target_axes, 9, options.target_axes);
   return options;
 }
 
@@ -68,13 +52,11 @@ extern "C" {
 
 hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_transfer_desc* desc,
                              hf_transfer* out_transfer) {
-  return guarded("hf_transfer_create", [&] {
-    create(out_transfer, "out_transfer", [&] {
-      get<SurfaceObject>(source, "source", 0), get<SurfaceObject>(target, "target", 1);
-      const TransferOptions options = read_options(desc);
-      const auto from = harmonic_core(source, "source", 0), to = harmonic_core(target, "target", 1);
-      return make_owner_in<TransferObject>(to->memory, from, to, options);
-    });
+  return create("hf_transfer_create", out_transfer, "out_transfer", [&] {
+    get<SurfaceObject>(source, "source", 0), get<SurfaceObject>(target, "target", 1);
+    const TransferOptions options = read_options(desc);
+    const auto from = harmonic_core(source, "source", 0), to = harmonic_core(target, "target", 1);
+    return make_owner_in<TransferObject>(to->memory, from, to, options);
   });
 }
 
@@ -84,29 +66,18 @@ hf_result hf_transfer_add_pairs(hf_transfer handle, const hf_pairs_desc* given, 
   return guarded("hf_transfer_add_pairs", [&] {
     const auto object = get<TransferObject>(handle, "transfer");
     const hf_pairs_desc desc = read_struct(given, "pairs");
-    if (desc.pair_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "pair_count is 0");
-    if (desc.pair_count > HF_PAIR_LIMIT)
-      fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u pairs in one batch; a transfer takes at most %d", desc.pair_count,
-           HF_PAIR_LIMIT);
+    check_region_count(0, desc.pair_count, "pair");  // before lists of that length are read
     require(desc.source_counts, "source_counts"), require(desc.source_vertices, "source_vertices");
     require(desc.target_counts, "target_counts"), require(desc.target_vertices, "target_vertices");
     const Changing changing(*object);
     Memory* memory = object->memory.get();
-    const Mesh &source = object->transfer.source().mesh, &target = object->transfer.target().mesh;
-    Vector<std::uint32_t> source_start(memory), target_start(memory);
-    append_starts(desc.pair_count, desc.source_counts, source.report.vertex_count, "source_counts", source_start);
-    append_starts(desc.pair_count, desc.target_counts, target.report.vertex_count, "target_counts", target_start);
-    Vector<std::int32_t> source_vertices(memory), target_vertices(memory);
-    append_usable(source, source_start.back(), desc.source_vertices, "source_vertices", source_vertices);
-    append_usable(target, target_start.back(), desc.target_vertices, "target_vertices", target_vertices);
-    Vector<PairInput> pairs(desc.pair_count, memory);
-    for (std::uint32_t p = 0; p < desc.pair_count; ++p) {
-      pairs[p].source =
-          Span<const std::int32_t>(source_vertices.data() + source_start[p], source_start[p + 1] - source_start[p]);
-      pairs[p].target =
-          Span<const std::int32_t>(target_vertices.data() + target_start[p], target_start[p + 1] - target_start[p]);
-      pairs[p].flags = desc.flags ? desc.flags[p] : 0;
-    }
+    const Regions source(object->transfer.source().mesh, desc.pair_count, desc.source_counts, desc.source_vertices,
+                         "source_vertices", memory);
+    const Regions target(object->transfer.target().mesh, desc.pair_count, desc.target_counts, desc.target_vertices,
+                         "target_vertices", memory);
+    Vector<PairInput> pairs(memory);
+    for (std::uint32_t p = 0; p < desc.pair_count; ++p)
+      pairs.push_back({source[p], target[p], desc.flags ? desc.flags[p] : 0});
     object->transfer.add_pairs(pairs, out_pairs);
   });
 }
@@ -114,8 +85,7 @@ hf_result hf_transfer_add_pairs(hf_transfer handle, const hf_pairs_desc* given, 
 hf_result hf_transfer_remove_pairs(hf_transfer handle, uint32_t pair_count, const uint32_t* pairs) {
   return guarded("hf_transfer_remove_pairs", [&] {
     const auto object = get<TransferObject>(handle, "transfer");
-    if (pair_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "pair_count is 0");
-    require(pairs, "pairs");
+    require_list(pair_count, pairs, "pair_count", "pairs");
     const Changing changing(*object);
     object->transfer.remove_pairs({pairs, pair_count});
   });
@@ -163,8 +133,7 @@ hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) 
     const auto object = get<TransferObject>(handle, "transfer");
     const hf_transfer_frame frame = read_struct(given, "frame");
     check_one(frame.source_positions, frame.source_positions_f64, "source_positions");
-    if (!frame.source_positions && !frame.source_positions_f64)
-      fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "source_positions and source_positions_f64 are both NULL");
+    require_either(frame.source_positions, frame.source_positions_f64, "source_positions and source_positions_f64");
     check_one(frame.target_positions, frame.target_positions_f64, "target_positions");
     const ConstRows posed =
         rows_of(frame.source_positions, frame.source_positions_f64, 3, frame.source_stride, "source_stride");
@@ -180,10 +149,7 @@ hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) 
     const Mesh& source = object->transfer.source().mesh;
     for (std::size_t v = 0; v < source.given_of_inner.size(); ++v) {
       const std::size_t row = static_cast<std::size_t>(source.given_of_inner[v]);
-      const Vec3 p{posed.get(row, 0), posed.get(row, 1), posed.get(row, 2)};
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-        fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(row), "source vertex %zu is not finite", row);
-      object->source_posed[v] = p;
+      object->source_posed[v] = {posed.get(row, 0), posed.get(row, 1), posed.get(row, 2)};
     }
     const Core& target = object->transfer.target();
     if (normals && !object->rest) {

@@ -1,7 +1,7 @@
 // Reads lists of vertices and regions that the caller names.
 #pragma once
 #include "capi/boundary.h"
-#include "mesh/mesh.h"
+#include "mesh/places.h"
 
 namespace hf_inner::capi {
 
@@ -9,24 +9,13 @@ namespace hf_inner::capi {
 // HF_ERROR_OUT_OF_RANGE with the position in the list.
 inline void append_inner(const Mesh& mesh, std::size_t count, const std::uint32_t* vertices, const char* name,
                          Vector<std::int32_t>& out) {
-  for (std::size_t i = 0; i < count; ++i) {
-    if (vertices[i] >= mesh.report.vertex_count)
-      fail(HF_ERROR_OUT_OF_RANGE, static_cast<std::uint32_t>(i),
-           "entry %zu of %s: vertex %u, but there are %u vertices", i, name, vertices[i], mesh.report.vertex_count);
-    out.push_back(mesh.inner_of_given[vertices[i]]);
-  }
+  for (std::size_t i = 0; i < count; ++i) out.push_back(inner_vertex(mesh, vertices[i], i, name));
 }
 
 // Same as append_inner, but throws HF_ERROR_INVALID_ARGUMENT for an isolated vertex.
 inline void append_usable(const Mesh& mesh, std::size_t count, const std::uint32_t* vertices, const char* name,
                           Vector<std::int32_t>& out) {
-  const std::size_t first = out.size();
-  append_inner(mesh, count, vertices, name, out);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (out[first + i] == Mesh::none)
-      fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i),
-           "entry %zu of %s: vertex %u is in no usable triangle; leave it out", i, name, vertices[i]);
-  }
+  for (std::size_t i = 0; i < count; ++i) out.push_back(usable_vertex(mesh, vertices[i], i, name));
 }
 
 // Refuses a list that is longer than the number of vertices.
@@ -43,15 +32,14 @@ inline void read_list(const Mesh& mesh, std::uint32_t count, const std::uint32_t
   append_usable(mesh, count, vertices, name, out);
 }
 
-// Sums the sizes of the regions, which must be at least 1. `start` gets count + 1 entries: where each region starts.
-inline void append_starts(std::uint32_t count, const std::uint32_t* sizes, std::uint32_t limit, const char* name,
+// Sums the sizes of the regions. `start` gets count + 1 entries: where each region starts.
+inline void append_starts(std::uint32_t count, const std::uint32_t* sizes, std::uint32_t limit,
                           Vector<std::uint32_t>& start) {
   constexpr std::uint64_t most_repeats =
       4;  // a region may name welded copies and repeats, a list of this length is a mistake
   std::uint64_t total = 0;
   start.push_back(0);
   for (std::uint32_t r = 0; r < count; ++r) {
-    if (sizes[r] == 0) fail(HF_ERROR_EMPTY, r, "%s[%u] is 0; a region has at least one vertex", name, r);
     total += sizes[r];
     if (total > most_repeats * limit)
       fail(HF_ERROR_TOO_LARGE, r, "the regions name %llu vertices; the mesh has %u",
@@ -59,5 +47,20 @@ inline void append_starts(std::uint32_t count, const std::uint32_t* sizes, std::
     start.push_back(static_cast<std::uint32_t>(total));
   }
 }
+
+// Regions of one surface, as lists one after the other.
+struct Regions {
+  Regions(const Mesh& mesh, std::uint32_t count, const std::uint32_t* sizes, const std::uint32_t* list,
+          const char* name, Memory* memory)
+      : start(memory), vertices(memory) {
+    append_starts(count, sizes, mesh.report.vertex_count, start);
+    append_usable(mesh, start.back(), list, name, vertices);
+  }
+  Span<const std::int32_t> operator[](std::uint32_t r) const noexcept {
+    return {vertices.data() + start[r], start[r + 1] - start[r]};
+  }
+  Vector<std::uint32_t> start;
+  Vector<std::int32_t> vertices;
+};
 
 }  // namespace hf_inner::capi

@@ -27,22 +27,24 @@ using IsolatedRow = void (*)(const Mesh::Isolated& entry, double* values);
 inline void put_rest(const Mesh::Isolated& entry, double* values) { put(entry.position, values); }
 inline void put_up(const Mesh::Isolated&, double* values) { put({0, 0, 1}, values); }
 
-// Writes rows of `width` numbers, at most 64, for the caller's vertices first .. first + count - 1. row(inner, values)
-// fills the row of a welded vertex. Row 0 of `out` is the row of vertex `first`.
+// The largest number of channels a row may have; hf/solver.h states it.
+constexpr std::size_t most_width = 64;
+
+// Writes rows of `width` numbers for the caller's vertices first .. first + count - 1. row(inner, values) fills the row
+// of a welded vertex. Row 0 of `out` is the row of vertex `first`.
 template <class Row>
 void write_range(const Core& core, std::size_t first, std::size_t count, std::size_t width, const Rows& out,
                  IsolatedRow isolated, Row&& row) {
-  constexpr std::size_t most = 64;
   for_each_given(core, first, count, [&](std::size_t v, std::int32_t inner) {
     if (inner == Mesh::none) return;
-    double values[most];
+    double values[most_width];
     row(static_cast<std::size_t>(inner), values);
     for (std::size_t c = 0; c < width; ++c) out.set(v - first, c, values[c]);
   });
   for (const Mesh::Isolated& entry : core.mesh.isolated) {
     const std::size_t v = static_cast<std::size_t>(entry.given);
     if (v < first || v >= first + count) continue;
-    double values[most] = {0};
+    double values[most_width] = {0};
     if (isolated) isolated(entry, values);
     for (std::size_t c = 0; c < width; ++c) out.set(v - first, c, values[c]);
   }

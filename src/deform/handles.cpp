@@ -68,6 +68,13 @@ void finish_vertex(std::int32_t v, const double* solved, std::int32_t channels, 
 
 }  // namespace
 
+void check_region_count(std::size_t there, std::size_t added, const char* noun) {
+  if (added == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "%s_count is 0", noun);
+  if (there + added > handle_limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%zu %ss and %zu more; at most %u are possible", there, noun, added,
+         handle_limit);
+}
+
 std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices,
                                           std::uint32_t samples_per_ring, Memory& memory) {
   const Mesh& mesh = core.mesh;

@@ -17,6 +17,9 @@
 
 namespace hf_inner {
 
+// Bounds the regions of a pose or a transfer, each called `noun`. Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.
+void check_region_count(std::size_t there, std::size_t added, const char* noun);
+
 // The part of a handle that never changes.
 struct HandleRegion {
   explicit HandleRegion(Memory& memory) : vertices(&memory), sites(&memory), slots(&memory) {}

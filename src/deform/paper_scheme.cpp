@@ -29,17 +29,6 @@ struct Members {
   }
 };
 
-// Turns a rigid motion x = R p + t into the 3 x 4 matrix that the blend uses.
-Affine to_affine(const RigidMotion& motion) noexcept {
-  Affine affine;
-  const Mat3 r = motion.rotation.toRotationMatrix();
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) affine.a[i][j] = r(i, j);
-  }
-  affine.a[0][3] = motion.translation.x, affine.a[1][3] = motion.translation.y, affine.a[2][3] = motion.translation.z;
-  return affine;
-}
-
 // Matches the shape of one cluster: returns the rigid motion that takes its samples from rest nearest to
 // `position_of(sample)`.
 template <class PositionOf>
@@ -67,6 +56,16 @@ RigidMotion match_shape(const PaperSystem& system, const Mesh& mesh, std::int32_
 }
 
 }  // namespace
+
+Affine to_affine(const RigidMotion& motion) noexcept {
+  Affine affine;
+  const Mat3 r = motion.rotation.toRotationMatrix();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) affine.a[i][j] = r(i, j);
+  }
+  affine.a[0][3] = motion.translation.x, affine.a[1][3] = motion.translation.y, affine.a[2][3] = motion.translation.z;
+  return affine;
+}
 
 PaperSystem::PaperSystem(const Core& core, const ClusterWeights& weights, Memory& memory)
     : handle_count(weights.handle_count),

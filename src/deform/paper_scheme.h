@@ -35,6 +35,9 @@ struct PaperState {
   Vector<Vec3> position;       // per sample
 };
 
+// Turns a rigid motion x = R p + t into the 3 x 4 matrix that the blend uses.
+Affine to_affine(const RigidMotion& motion) noexcept;
+
 // Fits the motions to given positions (in the unit of the scaled mesh). A pose continues from them after its handles
 // changed.
 void fit_motions(const PaperSystem& system, const Mesh& mesh, const Vec3* positions, PaperState& state) noexcept;

@@ -1,17 +1,14 @@
 #include "deform/pose.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "base/error.h"
 #include "base/number_pool.h"
-#include "base/timer.h"
+#include "deform/pose_layout.h"
 
 namespace hf_inner {
 namespace {
-
-bool is_finite(Vec3 v) noexcept { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void require_range(std::uint32_t value, std::uint32_t low, std::uint32_t high, const char* name) {
   if (value != 0 && (value < low || value > high))
@@ -40,42 +37,6 @@ PoseOptions checked(const PoseOptions& options) {
 void check_request(const DeformRequest& request) {
   require_range(request.iteration_count, 1, most_iterations, "iteration_count");
 }
-
-HandleTransform rigid_transform(const double* m, Vec3 centroid, std::uint32_t index) {
-  for (int i = 0; i < 16; ++i) {
-    if (!std::isfinite(m[i])) fail(HF_ERROR_NON_FINITE, index, "matrix %u holds a number that is not finite", index);
-  }
-  Mat3 linear;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) linear(i, j) = m[4 * j + i];
-  }
-  const Quaternion rotation = best_rotation(linear, Quaternion());
-  const Mat3 exact = rotation.toRotationMatrix();
-  double off = std::fabs(m[3]) + std::fabs(m[7]) + std::fabs(m[11]) + std::fabs(m[15] - 1);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) off = std::max(off, std::fabs(linear(i, j) - exact(i, j)));
-  }
-  if (!(off <= rigid_tolerance))
-    fail(HF_ERROR_INVALID_ARGUMENT, index, "matrix %u is no rigid motion; scale and shear are not taken", index);
-  return {rotation, rotate(rotation, centroid) + Vec3{m[12], m[13], m[14]} - centroid};
-}
-
-struct Pose::Layout {
-  explicit Layout(const Handles& list, std::shared_ptr<SiteSolver> solver, const Core& core, Memory& memory)
-      : handles(list, &memory),
-        sites(std::move(solver)),
-        reach(core.mesh, handles, memory),
-        fields(0, 0, memory),
-        weights(memory) {}
-  Handles handles;
-  std::shared_ptr<SiteSolver> sites;
-  Reach reach;
-  HandleFields fields;
-  ClusterWeights weights;
-  std::shared_ptr<const Groups> groups;
-  std::shared_ptr<const SmoothSystem> smooth;
-  std::shared_ptr<const PaperSystem> paper;
-};
 
 Pose::Pose(std::shared_ptr<const Core> core, const PoseOptions& options, std::shared_ptr<const Rest> rest)
     : core_(std::move(core)),
@@ -135,11 +96,8 @@ std::int32_t Pose::require(std::uint32_t number, std::uint32_t position) const {
 }
 
 void Pose::check_regions(Span<const std::uint32_t> start, Span<const std::int32_t> vertices) const {
-  if (start.size() < 2) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no handle to add");
-  const std::size_t added = start.size() - 1;
-  if (added + handle_count() > handle_limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles and %zu more; a pose holds at most %u", handle_count(), added,
-         handle_limit);
+  const std::size_t added = start.size() < 2 ? 0 : start.size() - 1;
+  check_region_count(handle_count(), added, "handle");
   Vector<std::int32_t> owner(static_cast<std::size_t>(core_->size()), -1, &memory());  // -2: a handle there is
   if (layout_) {
     for (std::int32_t v = 0; v < core_->size(); ++v) owner[v] = layout_->reach.owner[v] >= 0 ? -2 : -1;
@@ -196,7 +154,6 @@ void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t>
 }
 
 void Pose::remove_handles(Span<const std::uint32_t> numbers) {
-  if (numbers.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no handle to remove");
   Vector<std::uint8_t> leaving(handle_count(), 0, &memory());
   for (std::uint32_t k = 0; k < numbers.size(); ++k) {
     const std::int32_t i = require(numbers[k], k);
@@ -352,31 +309,6 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
   return state;
 }
 
-void Pose::check_transform(const HandleTransform& transform, std::uint32_t index, double scale) {
-  const Quaternion& q = transform.rotation;
-  if (!q.coeffs().allFinite() || !is_finite(transform.translation))
-    fail(HF_ERROR_NON_FINITE, index, "transform %u holds a number that is not finite", index);
-  if (!(norm(transform.translation) <= largest_translation * scale))
-    fail(HF_ERROR_NON_FINITE, index, "the translation of transform %u is beyond %g box diagonals", index,
-         largest_translation);
-}
-
-void Pose::set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTransform> transforms) {
-  if (numbers.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no transform to set");
-  for (std::uint32_t k = 0; k < numbers.size(); ++k) {
-    require(numbers[k], k);
-    check_transform(transforms[k], k, core_->mesh.scale);
-  }
-  for (std::uint32_t k = 0; k < numbers.size(); ++k) {
-    HandleState& handle = state_->handles[find(numbers[k])];
-    const Quaternion rotation = normalised(transforms[k].rotation);
-    const Vec3 translation = (1.0 / core_->mesh.scale) * transforms[k].translation;
-    handle.turn = continued_logarithm(rotation, handle.turn);
-    handle.rotation = rotation, handle.translation = translation;
-    state_->changed = true;
-  }
-}
-
 HandleReport Pose::handle(std::uint32_t number) const {
   const std::int32_t i = require(number, HF_NO_INDEX);
   const HandleRegion& region = *layout_->handles[i].region;
@@ -402,197 +334,6 @@ Span<const Affine> Pose::cluster_transforms() const noexcept {
 
 std::int32_t Pose::group_count() const noexcept {
   return layout_ && layout_->smooth ? static_cast<std::int32_t>(layout_->smooth->subspace.group.size()) : 0;
-}
-
-std::int32_t Pose::dropped_unknowns() const noexcept {
-  return layout_ && layout_->smooth ? layout_->smooth->subspace.factor.dropped() : 0;
-}
-
-// ---- the pose ----
-
-void Pose::place_handles() noexcept {
-  for (std::size_t i = 0; i < state_->handles.size(); ++i) {
-    const HandleState& handle = state_->handles[i];
-    const Vec3 centroid = layout_->handles[i].region->centroid;
-    const Mat3 r = handle.rotation.toRotationMatrix();
-    const Vec3 t = centroid - r * centroid + handle.translation;
-    auto& a = state_->transforms[i].a;
-    for (int k = 0; k < 3; ++k) {
-      for (int j = 0; j < 3; ++j) a[k][j] = r(k, j);
-    }
-    a[0][3] = t.x, a[1][3] = t.y, a[2][3] = t.z;
-  }
-}
-
-void Pose::solve_smooth(std::uint32_t iterations) noexcept {
-  State& state = *state_;
-  const std::size_t count = state.handles.size();
-  double largest = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    turns_[i] = logarithm(state.handles[i].rotation * state.handles[i].solved.conjugate());
-    largest = std::max(largest, norm(turns_[i]));
-  }
-  if (!state.started || largest > jump_turn) {
-    for (std::size_t i = 0; i < count; ++i) turns_[i] = state.handles[i].turn;
-    start_rotations(*layout_->smooth, *layout_->groups, -1, {turns_.data(), count}, state.smooth);
-  } else if (largest > 0) {
-    predict_rotations(*layout_->smooth, {turns_.data(), count}, state.smooth);
-  }
-  for (std::size_t i = 0; i < count; ++i) turns_[i] = state.handles[i].turn;
-  set_turn_limit(*layout_->smooth, {turns_.data(), count}, state.smooth);
-  for (HandleState& handle : state.handles) handle.solved = handle.rotation, handle.solved_turn = handle.turn;
-  report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());
-}
-
-void Pose::solve_paper(std::uint32_t iterations) noexcept {
-  for (HandleState& handle : state_->handles) handle.solved = handle.rotation, handle.solved_turn = handle.turn;
-  report_ = solve_paper_pose(*layout_->paper, core_->mesh, layout_->weights, iterations, settled_change, state_->paper,
-                             state_->transforms.data());
-}
-
-void Pose::prepare(const DeformRequest& request) {
-  if (!layout_) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
-  check_request(request);
-  const Mesh& mesh = core_->mesh;
-  if (request.normals) {
-    const std::size_t n = static_cast<std::size_t>(mesh.vertex_count());
-    normal_sums_.reserve_at_least(memory(), n);
-    if (!request.packed_normals) normals_.reserve_at_least(memory(), n);
-  }
-  if (request.refine && !refinement_) {
-    if (core_->refinements > 0)
-      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the refinement step needs a solver of the harmonic equation");
-    refinement_ = make_shared_in<Refinement>(memory(), *core_, memory());
-  }
-  if (request.refine) refinement_->fit(layout_->sites->slot_count());
-}
-
-void Pose::ensure_surface() const {
-  if (!stale_) return;
-  blend(core_->mesh, layout_->weights, state_->transforms.data(), state_->columns.data(), core_->mesh.centre,
-        core_->mesh.scale, positions_.data(), nullptr, *core_->jobs);
-  stale_ = false;
-}
-
-Vec3 Pose::blended(std::int32_t vertex) const noexcept {
-  return core_->mesh.to_given(blend_vertex(core_->mesh, layout_->weights, state_->transforms.data(), vertex));
-}
-
-// Writes vertices and normals from the transforms.
-void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
-  const Mesh& mesh = core_->mesh;
-  posed_ = true;
-  stale_ = !request.surface;
-  report.cluster_count = static_cast<std::uint32_t>(layout_->weights.cluster_count);
-  report.unreached_vertex_count = static_cast<std::uint32_t>(layout_->weights.unreached_vertex_count);
-  report.last_change = state_->last_change;
-  if (!request.surface) return;
-  const Timer blend_timer;
-  float* packed = request.refine ? nullptr : request.packed_positions;
-  blend(mesh, layout_->weights, state_->transforms.data(), state_->columns.data(), mesh.centre, mesh.scale,
-        positions_.data(), packed, *core_->jobs);
-  report.packed_positions = packed != nullptr;
-  report.blend_ms = blend_timer.milliseconds();
-  if (request.refine) {
-    const Timer refine_timer;
-    const RefineInput input{*core_,
-                            *rest_,
-                            layout_->reach,
-                            layout_->weights,
-                            *layout_->sites,
-                            layout_->handles,
-                            layout_->groups.get(),
-                            layout_->smooth ? &state_->smooth.rotation : nullptr,
-                            state_->transforms.data()};
-    refinement_->apply(input, positions_.data());
-    report.refine_ms = refine_timer.milliseconds();
-  }
-  report.positions = {positions_.data(), positions_.size()};
-  if (request.normals) {
-    const Timer normal_timer;
-    Normal* normals = request.packed_normals ? request.packed_normals : normals_.data();
-    vertex_normals(mesh, *rest_, positions_.data(), normal_sums_.data(), normals, *core_->jobs);
-    report.normals = {normals, positions_.size()};
-    report.normal_ms = normal_timer.milliseconds();
-  }
-}
-
-DeformReport Pose::deform(const DeformRequest& request) {
-  prepare(request);
-  State& state = *state_;
-  if (request.restart) {
-    for (HandleState& handle : state.handles) handle.turn = logarithm(handle.rotation);
-    for (RigidMotion& motion : state.paper.motion) motion = RigidMotion();
-    state.started = false, state.changed = true;
-  }
-
-  DeformReport report;
-  const Timer solve_timer;
-  if (state.changed) state.idle_iterations = 0;
-  const std::uint32_t idle_limit = layout_->smooth ? idle_limit_smooth : idle_limit_paper;
-  if (state.changed || (state.last_change >= settled_change && state.idle_iterations < idle_limit)) {
-    const std::uint32_t iterations = request.iteration_count ? request.iteration_count : options_.iteration_count;
-    place_handles();
-    if (layout_->smooth) {
-      solve_smooth(iterations);
-    } else {
-      solve_paper(iterations);
-    }
-    report.iteration_count = report_.iterations;
-    state.idle_iterations += report_.iterations;
-    state.started = true, state.changed = false, state.last_change = report_.last_change;
-  }
-  report.solve_ms = solve_timer.milliseconds();
-  write_surface(request, report);
-  return report;
-}
-
-// ---- for layers ----
-
-Span<const std::int32_t> Pose::region(std::uint32_t number) const {
-  return layout_->handles[require(number, HF_NO_INDEX)].region->vertices;
-}
-
-void Pose::prepare_start() {
-  if (!layout_) return;
-  if (layout_->smooth) {
-    start_.choose(*core_, *layout_->groups, layout_->smooth->subspace.group);
-  } else {
-    start_.motion.assign(state_->paper.motion.begin(), state_->paper.motion.end());
-    start_.own_unit.resize(core_->size());
-  }
-}
-
-void Pose::take_start(Span<const Vec3> surface) noexcept {
-  if (layout_->smooth) return start_.fit(*core_, *rest_, surface);
-  for (std::size_t v = 0; v < surface.size(); ++v) start_.own_unit[v] = core_->mesh.to_inner(surface[v]);
-  fit_motions(*layout_->paper, core_->mesh, start_.own_unit.data(), state_->paper);
-  std::copy(state_->paper.motion.begin(), state_->paper.motion.end(), start_.motion.begin());
-}
-
-DeformReport Pose::deform_from(const Pose& start, Span<const Vec3> turns, const DeformRequest& request) {
-  prepare(request);
-  State& state = *state_;
-  DeformReport report;
-  const Timer solve_timer;
-  const std::uint32_t iterations = request.iteration_count ? request.iteration_count : options_.iteration_count;
-  place_handles();
-  if (layout_->smooth) {
-    std::copy(start.start_.rotation.begin(), start.start_.rotation.end(), state.smooth.rotation.begin());
-    std::fill(state.smooth.stress.begin(), state.smooth.stress.end(), Stress());
-    predict_rotations(*layout_->smooth, turns, state.smooth);
-    state.smooth.turn_limit = SmoothState::no_turn_limit;  // the start is close enough
-    report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());
-  } else {
-    std::copy(start.start_.motion.begin(), start.start_.motion.end(), state.paper.motion.begin());
-    report_ = solve_paper_pose(*layout_->paper, core_->mesh, layout_->weights, iterations, settled_change, state.paper,
-                               state.transforms.data());
-  }
-  report.iteration_count = report_.iterations;
-  state.started = true, state.changed = true, state.last_change = report_.last_change;
-  report.solve_ms = solve_timer.milliseconds();
-  write_surface(request, report);
-  return report;
 }
 
 }  // namespace hf_inner

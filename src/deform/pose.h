@@ -101,7 +101,6 @@ class Pose {
   // For statistics and tests: the rotation groups in use, and the unknowns that the reduced system found to be
   // dependent.
   std::int32_t group_count() const noexcept;
-  std::int32_t dropped_unknowns() const noexcept;
 
   // ---- for layers (pose_stack.h), whose poses must depend only on the arguments of these calls ----
 

@@ -11,14 +11,6 @@
 namespace hf_inner {
 namespace {
 
-Mat3 linear_part(const Affine& affine) noexcept {
-  Mat3 m;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) m(i, j) = affine.a[i][j];
-  }
-  return m;
-}
-
 // These two functions convert a motion p -> R (p - c) + c + t about a centroid c to p -> R p + t' about the origin, and
 // back.
 RigidMotion motion_of(const HandleTransform& transform, Vec3 centroid) noexcept {
@@ -112,9 +104,7 @@ void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int
   if (layer >= layer_limit)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "layer is %u; it must be 0 to %u", layer, layer_limit - 1);
   const std::size_t added = start.size() < 2 ? 0 : start.size() - 1, first = entries_.size();
-  if (added + first > handle_limit)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%zu handles and %zu more; a pose holds at most %u", first, added,
-         handle_limit);
+  check_region_count(first, added, "handle");
   Vector<Entry> entries(&memory());
   entries.assign(entries_.begin(), entries_.end());
   NumberPool numbers;
@@ -150,7 +140,6 @@ void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int
 }
 
 void PoseStack::remove_handles(Span<const std::uint32_t> numbers) {
-  if (numbers.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no handle to remove");
   Vector<std::uint8_t> leaving(entries_.size(), 0, &memory());
   std::uint32_t lowest = layer_limit;
   for (std::uint32_t k = 0; k < numbers.size(); ++k) {
@@ -187,7 +176,6 @@ void PoseStack::remove_handles(Span<const std::uint32_t> numbers) {
 }
 
 void PoseStack::set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTransform> transforms) {
-  if (numbers.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no transform to set");
   for (std::uint32_t k = 0; k < numbers.size(); ++k) {
     require(numbers[k], k);
     Pose::check_transform(transforms[k], k, core_->mesh.scale);

@@ -6,7 +6,6 @@
 #include "deform/rotation_batch.h"
 
 namespace hf_inner {
-namespace {
 
 Mat3 linear_part(const Affine& affine) noexcept {
   Mat3 m;
@@ -15,8 +14,6 @@ Mat3 linear_part(const Affine& affine) noexcept {
   }
   return m;
 }
-
-}  // namespace
 
 void add_ring(const Core& core, const Rest& rest, const Vec3* positions, std::int32_t v, Mat3& sum) noexcept {
   const Topology& topology = core.topology;

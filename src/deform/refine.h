@@ -67,6 +67,9 @@ class GroupStart {
   Vector<std::int32_t> group_, start_, vertex_;
 };
 
+// The 3 x 3 part of a cluster's transform.
+Mat3 linear_part(const Affine& affine) noexcept;
+
 // Adds the moment matrix of the edges at one vertex: sum_u w_vu (x_v - x_u)(p_v - p_u)'. The rotation nearest to it is
 // the rotation of these edges.
 void add_ring(const Core& core, const Rest& rest, const Vec3* positions, std::int32_t v, Mat3& sum) noexcept;

@@ -5,12 +5,6 @@
 
 namespace hf_inner {
 
-// --- curve.cpp ---
-
-// How far the sum of three barycentric coordinates may be from 1. Rounding to floats costs 1e-7. No result depends on
-// it.
-constexpr double barycentric_tolerance = 1e-6;
-
 // --- region.cpp ---
 
 // A region of more than 1 in 8 vertices is solved over the whole factor. This changes the time, never the result.

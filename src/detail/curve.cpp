@@ -1,11 +1,10 @@
 #include "detail/curve.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.h"
 #include "base/index.h"
-#include "detail/constants.h"
+#include "mesh/places.h"
 
 namespace hf_inner {
 namespace {
@@ -119,22 +118,8 @@ bool along_borders(const Core& core, Span<const Index> curve, const Pieces& piec
 
 std::int32_t nearest_corner(const Mesh& mesh, std::uint32_t triangle, const double* barycentrics,
                             std::uint32_t position) {
-  if (triangle >= mesh.report.triangle_count)
-    fail(HF_ERROR_OUT_OF_RANGE, position, "entry %u of triangles: triangle %u, but there are %u triangles", position,
-         triangle, mesh.report.triangle_count);
-  const Index t = mesh.triangle_of_given[triangle];
-  if (t == Mesh::none)
-    fail(HF_ERROR_INVALID_ARGUMENT, position, "entry %u of triangles: triangle %u is collapsed or a duplicate",
-         position, triangle);
-  const double* w = barycentrics;
-  for (int k = 0; k < 3; ++k) {
-    if (!std::isfinite(w[k])) fail(HF_ERROR_NON_FINITE, position, "barycentrics %u: not finite", position);
-    if (w[k] < 0) fail(HF_ERROR_INVALID_ARGUMENT, position, "barycentrics %u: %g is below 0", position, w[k]);
-  }
-  const double sum = w[0] + w[1] + w[2];
-  if (!(std::fabs(sum - 1) <= barycentric_tolerance))
-    fail(HF_ERROR_INVALID_ARGUMENT, position, "barycentrics %u sum to %g; they must sum to 1", position, sum);
-  return mesh.triangle(t)[std::max_element(w, w + 3) - w];
+  const Index t = usable_triangle(mesh, triangle, barycentrics, position);
+  return mesh.triangle(t)[std::max_element(barycentrics, barycentrics + 3) - barycentrics];
 }
 
 void require_one_component(const Mesh& mesh, Span<const std::int32_t> points) {

@@ -7,6 +7,7 @@
 #include "base/index.h"
 #include "engine/rim.h"
 #include "mesh/geodesic_disc.h"
+#include "mesh/places.h"
 
 namespace hf_inner {
 namespace {
@@ -14,9 +15,6 @@ namespace {
 // Site values may be at most this large. Larger values times weights of up to 1e12 could give fluxes that are not
 // finite.
 constexpr double most = 1e200;
-// The sum of barycentric weights may differ from 1 by this much. Weights in single precision stay within it. A larger
-// number would hide wrong weights.
-constexpr double weight_sum_error = 1e-6;
 // A point whose weight at a corner exceeds 1 minus this number becomes that vertex. A larger number would move points
 // that the host placed near a corner.
 constexpr double corner_share = 1e-12;
@@ -29,6 +27,10 @@ bool same_site(const Site& a, const Site& b) noexcept {
 }
 
 }  // namespace
+
+void check_site_count(std::uint32_t count, std::uint32_t there) {
+  if (count > there) fail(HF_ERROR_NO_SUCH_SITE, there, "%u sites named, but there are %u", count, there);
+}
 
 void SiteSet::swap(SiteSet& other) noexcept {
   slots_.swap(other.slots_), values_.swap(other.values_), by_vertex_.swap(other.by_vertex_);
@@ -43,40 +45,13 @@ void SiteSet::check_site(std::uint32_t position, std::uint32_t site) const {
 }
 
 Site SiteSet::locate(const Mesh& mesh, const Places& places, std::uint32_t i) const {
-  if (places.vertices) {
-    const std::uint32_t given = places.vertices[i];
-    if (given >= mesh.report.vertex_count)
-      fail(HF_ERROR_OUT_OF_RANGE, i, "site %u of the batch: vertex %u, but there are %u vertices", i, given,
-           mesh.report.vertex_count);
-    const std::int32_t inner = mesh.inner_of_given[given];
-    if (inner == Mesh::none)
-      fail(HF_ERROR_INVALID_ARGUMENT, i,
-           "site %u of the batch: vertex %u belongs to no usable triangle; choose a vertex of the surface", i, given);
-    return Site::at_vertex(mesh, inner);
-  }
-  const std::uint32_t given = places.triangles[i];
-  if (given >= mesh.report.triangle_count)
-    fail(HF_ERROR_OUT_OF_RANGE, i, "site %u of the batch: triangle %u, but there are %u triangles", i, given,
-         mesh.report.triangle_count);
-  const std::int32_t triangle = mesh.triangle_of_given[given];
-  if (triangle == Mesh::none)
-    fail(HF_ERROR_INVALID_ARGUMENT, i, "site %u of the batch: triangle %u has equal corners; choose another", i, given);
-  double sum = 0;
+  if (places.vertices) return Site::at_vertex(mesh, usable_vertex(mesh, places.vertices[i], i));
+  const double* weight = places.barycentrics + std::size_t{3} * i;
+  const std::int32_t triangle = usable_triangle(mesh, places.triangles[i], weight, i);
+  const double sum = weight[0] + weight[1] + weight[2];
   Site site;
   for (int k = 0; k < 3; ++k) {
-    const double w = places.barycentrics[std::size_t{3} * i + static_cast<std::size_t>(k)];
-    if (!std::isfinite(w))
-      fail(HF_ERROR_NON_FINITE, i, "site %u of the batch: barycentric weight %d is not a finite number", i, k);
-    if (w < 0)
-      fail(HF_ERROR_INVALID_ARGUMENT, i,
-           "site %u of the batch: barycentric weight %d is %g; weights must not be negative", i, k, w);
-    site.weight[k] = w, sum += w;
-  }
-  if (!(std::fabs(sum - 1) <= weight_sum_error))
-    fail(HF_ERROR_INVALID_ARGUMENT, i, "site %u of the batch: barycentric weights sum to %.9g; they must sum to 1", i,
-         sum);
-  for (int k = 0; k < 3; ++k) {
-    site.vertex[k] = mesh.triangle(triangle)[k], site.weight[k] /= sum;
+    site.vertex[k] = mesh.triangle(triangle)[k], site.weight[k] = weight[k] / sum;
     if (site.weight[k] > 1 - corner_share) return Site::at_vertex(mesh, site.vertex[k]);  // a corner is a vertex site
   }
   site.component = mesh.component[at(site.vertex[0])];
@@ -193,6 +168,7 @@ void SiteSet::place(const Core& core, const Arrival& arrival, std::int32_t slot,
 }
 
 void SiteSet::remove(std::uint32_t count, const std::uint32_t* sites) {
+  check_site_count(count, count_);
   for (std::uint32_t i = 0; i < count; ++i) {
     check_site(i, sites[i]);
     const std::int32_t slot = static_cast<std::int32_t>(sites[i]);
@@ -206,6 +182,7 @@ void SiteSet::remove(std::uint32_t count, const std::uint32_t* sites) {
 
 void SiteSet::move(const Core& core, std::uint32_t count, const std::uint32_t* sites, const Places& to,
                    std::uint32_t limit) {
+  check_site_count(count, count_);
   // All sites leave their places before any site arrives, so that sites may swap places.
   for (std::uint32_t i = 0; i < count; ++i) {
     check_site(i, sites[i]);
@@ -243,6 +220,7 @@ void check_value(double value, std::uint32_t position, std::int32_t channel) {
 }  // namespace
 
 void SiteSet::set_values(std::uint32_t count, const std::uint32_t* sites, const double* values) {
+  check_site_count(count, count_);
   bool discs = false;
   for (std::uint32_t i = 0; i < count; ++i) {
     check_site(i, sites[i]);
@@ -260,10 +238,11 @@ void SiteSet::set_values(std::uint32_t count, const std::uint32_t* sites, const 
 }
 
 void SiteSet::add(const Core& core, const Places& places, const double* values, const double* stiffness,
-                  std::uint32_t limit, std::uint32_t* out_sites) {
+                  std::uint32_t limit, Vector<std::uint32_t>& out_sites) {
   if (places.count > limit || count_ + hidden_ > limit - places.count)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u sites and %u more; the site_limit is %u", count_ + hidden_, places.count,
          limit);
+  out_sites.reserve(places.count);
   for (std::uint32_t i = 0; i < places.count; ++i) {
     Arrival arrival;
     arrival.position = i;
@@ -288,7 +267,7 @@ void SiteSet::add(const Core& core, const Places& places, const double* values, 
     const std::int32_t slot = free_slot();
     ++count_;
     place(core, arrival, slot, limit);
-    if (out_sites) out_sites[i] = static_cast<std::uint32_t>(slot);
+    out_sites.push_back(static_cast<std::uint32_t>(slot));
   }
 }
 

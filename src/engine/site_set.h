@@ -24,6 +24,9 @@ struct Places {
   const double* radii = nullptr;  // geodesic, in the unit of the mesh; null or 0: points
 };
 
+// Refuses a list that names more sites than there are, before it is read. Throws HF_ERROR_NO_SUCH_SITE (index = there).
+void check_site_count(std::uint32_t count, std::uint32_t there);
+
 class SiteSet {
  public:
   SiteSet(Memory& memory, std::int32_t channels)
@@ -55,13 +58,16 @@ class SiteSet {
   const double* values() const noexcept { return values_.data(); }
   std::int32_t channels() const noexcept { return channels_; }
 
+  // Throws HF_ERROR_NO_SUCH_SITE (index = position) for a number without a site.
+  void check_site(std::uint32_t position, std::uint32_t site) const;
   // Edits of the set. Each throws as the C function of the same name documents; the error index is the position in the
   // batch. After an exception *this may be half edited, so call these functions on a copy.
   void remove(std::uint32_t count, const std::uint32_t* sites);
   void move(const Core& core, std::uint32_t count, const std::uint32_t* sites, const Places& to, std::uint32_t limit);
   void set_values(std::uint32_t count, const std::uint32_t* sites, const double* values);
+  // Appends the numbers of the new sites.
   void add(const Core& core, const Places& places, const double* values, const double* stiffness, std::uint32_t limit,
-           std::uint32_t* out_sites);
+           Vector<std::uint32_t>& out_sites);
 
  private:
   struct AtVertex {
@@ -75,7 +81,6 @@ class SiteSet {
     double radius, stiffness;
     const double* values;  // null: 0
   };
-  void check_site(std::uint32_t position, std::uint32_t site) const;
   Site locate(const Mesh& mesh, const Places& places, std::uint32_t i) const;
   const AtVertex* find_vertex(std::int32_t vertex) const noexcept;
   void claim_vertex(const Arrival& arrival, std::int32_t vertex, std::int32_t slot);

@@ -6,6 +6,8 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "base/number_pool.h"
+#include "engine/site_set.h"
+#include "mesh/places.h"
 
 namespace hf_inner {
 namespace {
@@ -84,19 +86,6 @@ void DirectionField::check_site(const Vector<DirectionConstraint>& list, std::ui
          "entry %u of the list: there is no constraint %u (removed already, or never added)", position, site);
 }
 
-std::int32_t DirectionField::locate(std::uint32_t position, std::uint32_t vertex) const {
-  const Mesh& mesh = solver_.core().mesh;
-  if (vertex >= mesh.report.vertex_count)
-    fail(HF_ERROR_OUT_OF_RANGE, position, "entry %u of the list: vertex %u, but there are %u vertices", position,
-         vertex, mesh.report.vertex_count);
-  const Index inner = mesh.inner_of_given[vertex];
-  if (inner == Mesh::none)
-    fail(HF_ERROR_INVALID_ARGUMENT, position,
-         "entry %u of the list: vertex %u belongs to no usable triangle; choose a vertex of the surface", position,
-         vertex);
-  return inner;
-}
-
 Complex DirectionField::projected(std::uint32_t position, Index vertex, const double* vector) const {
   Vec3 v{vector[0], vector[1], vector[2]};
   if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
@@ -141,7 +130,7 @@ void DirectionField::add(std::uint32_t count, const std::uint32_t* vertices, con
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t free = numbers.take([&](std::uint32_t s) { return s < next.size() && next[s].vertex >= 0; });
     if (free == next.size()) next.emplace_back();
-    const Index v = locate(i, vertices[i]);
+    const Index v = usable_vertex(solver_.core().mesh, vertices[i], i);
     next[free] = {v, vertices[i], projected(i, v, vectors + std::size_t{3} * i)};
     if (taken[at(v)]) check_free(next, i, free);
     taken[at(v)] = 1, slots.push_back(static_cast<Index>(free)), inner.push_back(v);
@@ -155,6 +144,7 @@ void DirectionField::add(std::uint32_t count, const std::uint32_t* vertices, con
 }
 
 void DirectionField::remove(std::uint32_t count, const std::uint32_t* sites) {
+  check_site_count(count, count_);
   Vector<DirectionConstraint> next(constraints_, &memory());
   Vector<Index> slots(&memory());
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -169,6 +159,7 @@ void DirectionField::remove(std::uint32_t count, const std::uint32_t* sites) {
 }
 
 void DirectionField::move(std::uint32_t count, const std::uint32_t* sites, const std::uint32_t* vertices) {
+  check_site_count(count, count_);
   const Core& core = solver_.core();
   Vector<DirectionConstraint> next(constraints_, &memory());
   Vector<Index> slots(&memory()), inner(&memory());
@@ -178,7 +169,7 @@ void DirectionField::move(std::uint32_t count, const std::uint32_t* sites, const
     if (named[sites[i]]++)
       fail(HF_ERROR_NO_SUCH_SITE, i, "entry %u of the list: constraint %u is named twice", i, sites[i]);
     DirectionConstraint& site = next[sites[i]];
-    const Index to = locate(i, vertices[i]);
+    const Index to = usable_vertex(core.mesh, vertices[i], i);
     if (core.mesh.component[at(to)] != core.mesh.component[at(site.vertex)])
       fail(HF_ERROR_INVALID_ARGUMENT, i,
            "entry %u of the list: vertex %u lies in another component than constraint %u; remove it there and add it "
@@ -200,24 +191,29 @@ void DirectionField::move(std::uint32_t count, const std::uint32_t* sites, const
   accept(next);
 }
 
-void DirectionField::set_vectors(std::uint32_t count, const std::uint32_t* sites, const double* vectors) {
+template <class Work>
+void DirectionField::update(std::uint32_t count, const std::uint32_t* sites, Work&& work) {
+  check_site_count(count, count_);
   Vector<DirectionConstraint> next(constraints_, &memory());
   for (std::uint32_t i = 0; i < count; ++i) {
     check_site(next, i, sites[i]);
-    next[sites[i]].vector = projected(i, next[sites[i]].vertex, vectors + std::size_t{3} * i);
+    work(i, next[sites[i]]);
   }
   accept(next);
 }
 
+void DirectionField::set_vectors(std::uint32_t count, const std::uint32_t* sites, const double* vectors) {
+  update(count, sites, [&](std::uint32_t i, DirectionConstraint& site) {
+    site.vector = projected(i, site.vertex, vectors + std::size_t{3} * i);
+  });
+}
+
 void DirectionField::rotate(std::uint32_t count, const std::uint32_t* sites, const double* angles) {
-  Vector<DirectionConstraint> next(constraints_, &memory());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    check_site(next, i, sites[i]);
+  update(count, sites, [&](std::uint32_t i, DirectionConstraint& site) {
     if (!std::isfinite(angles[i]))
       fail(HF_ERROR_NON_FINITE, i, "entry %u of the list: the angle is not a finite number", i);
-    next[sites[i]].vector *= std::polar(1.0, wrapped(angles[i]));
-  }
-  accept(next);
+    site.vector *= std::polar(1.0, wrapped(angles[i]));
+  });
 }
 
 Vector<Complex> DirectionField::solved() const {

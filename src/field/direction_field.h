@@ -70,8 +70,10 @@ class DirectionField {
   };
   void restore(Record& record);
   void accept(Vector<DirectionConstraint>& next) noexcept;
+  // Changes vectors: work(i, constraint) for every entry of the list. All or nothing.
+  template <class Work>
+  void update(std::uint32_t count, const std::uint32_t* sites, Work&& work);
   void check_site(const Vector<DirectionConstraint>& list, std::uint32_t position, std::uint32_t site) const;
-  std::int32_t locate(std::uint32_t position, std::uint32_t vertex) const;
   std::complex<double> projected(std::uint32_t position, std::int32_t vertex, const double* vector) const;
   void check_free(const Vector<DirectionConstraint>& list, std::uint32_t position, std::uint32_t own) const;
   Vector<std::complex<double>> solved() const;

@@ -41,13 +41,13 @@ Geodesics::Geodesics(std::shared_ptr<const Core> core, double smoothing)
   const Core& c = *core_;
   require_laplacian(c);
   const double h = mean_edge(c), least = least_step;
-  step_ = std::max(smoothing * h * h, least * least);
+  const double step = std::max(smoothing * h * h, least * least);
   SymmetricMatrix matrix = grounded(c);
   // A vertex without area still needs a positive diagonal.
   const double floor = least_mass / std::max(1, c.size());
   for (std::size_t v = 0; v < at(c.size()); ++v) {
     for (Index i = c.laplacian.column_start[v]; i < c.laplacian.column_start[v + 1]; ++i) {
-      matrix.value[at(i)] = step_ * c.laplacian.value[at(i)];
+      matrix.value[at(i)] = step * c.laplacian.value[at(i)];
       if (at(c.laplacian.row[at(i)]) == v) matrix.value[at(i)] += std::max(c.areas[v], floor);
     }
   }

@@ -38,7 +38,6 @@ class Geodesics {
   void average(std::int32_t count, double* out, Progress* progress, float from, float to) const;
 
   const Core& core() const noexcept { return *core_; }
-  double time_step() const noexcept { return step_; }
 
  private:
   void make_frames();
@@ -47,7 +46,6 @@ class Geodesics {
 
   std::shared_ptr<const Core> core_;
   Vector<TriangleFrame> frames_;  // of the triangles with area, neighbours in the factor near one another
-  double step_ = 0;
   std::shared_ptr<const Factor> heat_;
 };
 

@@ -60,11 +60,11 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
   const std::lock_guard<std::mutex> lock(guard_);
   adopt();
   SiteSet next(sites_, memory());
-  Vector<std::uint32_t> numbers(edit.add.count, &memory());
+  Vector<std::uint32_t> numbers(&memory());
   next.remove(edit.remove_count, edit.remove_sites);
   next.move(*core_, edit.move_count, edit.move_sites, edit.move_to, site_limit_);
   next.set_values(edit.set_count, edit.set_sites, edit.set_values);
-  next.add(*core_, edit.add, edit.add_values, edit.add_stiffness, site_limit_, numbers.data());
+  next.add(*core_, edit.add, edit.add_values, edit.add_stiffness, site_limit_, numbers);
   const SiteDifference difference(sites_, next, memory());
   if (!difference.empty()) {
     try {
@@ -95,7 +95,7 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
   }
   sites_.swap(next);
   history_.clear_redo();
-  for (std::uint32_t i = 0; out_sites && i < edit.add.count; ++i) out_sites[i] = numbers[i];
+  if (out_sites) std::copy(numbers.begin(), numbers.end(), out_sites);
 }
 
 ScalarField::Record ScalarField::present() const {
@@ -146,8 +146,7 @@ void ScalarField::solve_into(FieldSink& sink) const {
 }
 
 PreviewInfo ScalarField::solve_preview(std::int32_t corrections, double* field) const {
-  if (sites_.count() == 0)
-    fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; add at least one before solving");
+  require_sites();
   PreviewInfo info;
   engine_->solve_preview(sites_.values(), sites_.channels(), corrections, field, info);
   return info;

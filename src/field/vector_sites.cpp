@@ -6,16 +6,14 @@
 #include "base/index.h"
 #include "field/connection.h"
 #include "field/vector_field.h"
+#include "mesh/places.h"
 
 namespace hf_inner {
 namespace {
 
 const SiteSet::Slot& vector_site(const ScalarField& field, std::uint32_t position, std::uint32_t site) {
-  const Span<const SiteSet::Slot> slots = field.sites().slots();
-  if (site >= slots.size() || !slots[site].is_site())
-    fail(HF_ERROR_NO_SUCH_SITE, position, "entry %u of the list: there is no site %u (removed already, or never added)",
-         position, site);
-  return slots[site];
+  field.sites().check_site(position, site);
+  return field.sites().slots()[site];
 }
 
 // Returns the vertex of a site. For a point in a triangle it returns the corner of largest weight.
@@ -38,30 +36,27 @@ Vec3 turned(Vec3 v, Vec3 axis, double angle) noexcept {
 
 }  // namespace
 
+void require_vectors(const ScalarField& field) {
+  if (field.sites().channels() != 3)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the solver has %d channels; vector fields need channel_count 3",
+         field.sites().channels());
+}
+
 void move_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* sites, const std::uint32_t* vertices) {
+  require_vectors(field), check_site_count(count, field.sites().count());
   const Core& core = field.core();
   const Mesh& mesh = core.mesh;
-  Vector<std::int32_t> to(field.core().memory.get());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (vertices[i] >= mesh.report.vertex_count)
-      fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of vertices: vertex %u, but there are %u vertices", i, vertices[i],
-           mesh.report.vertex_count);
-    to.push_back(mesh.inner_of_given[vertices[i]]);
-  }
   Vector<double> values(field.core().memory.get());
   for (std::uint32_t i = 0; i < count; ++i) {
     const SiteSet::Slot& slot = vector_site(field, i, sites[i]);
     std::int32_t here = vertex_of(slot.site);
-    if (to[i] == Mesh::none)
-      fail(HF_ERROR_INVALID_ARGUMENT, i,
-           "entry %u of the list: vertex %u belongs to no usable triangle; choose a vertex of the surface", i,
-           vertices[i]);
-    if (mesh.component[at(to[i])] != slot.site.component)
+    const std::int32_t to = usable_vertex(mesh, vertices[i], i);
+    if (mesh.component[at(to)] != slot.site.component)
       fail(HF_ERROR_INVALID_ARGUMENT, i,
            "entry %u of the list: vertex %u lies in another component than site %u; remove it there and add it here", i,
            vertices[i], sites[i]);
     Vec3 vector = value_of(field, sites[i]), normal = vertex_normal(mesh, core.topology, here);
-    for (const std::int32_t e : edge_path(mesh, core.topology, here, to[i], *field.core().memory)) {
+    for (const std::int32_t e : edge_path(mesh, core.topology, here, to, *field.core().memory)) {
       here = core.topology.first(e) == here ? core.topology.second(e) : core.topology.first(e);
       const Vec3 next = vertex_normal(mesh, core.topology, here);
       if (norm(next) == 0) continue;  // triangles that cancel out: the plane before stands
@@ -77,6 +72,7 @@ void move_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* 
 }
 
 void rotate_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* sites, const double* angles) {
+  require_vectors(field), check_site_count(count, field.sites().count());
   const Core& core = field.core();
   Vector<double> values(field.core().memory.get());
   for (std::uint32_t i = 0; i < count; ++i) {

@@ -5,6 +5,9 @@
 
 namespace hf_inner {
 
+// Throws HF_ERROR_INVALID_ARGUMENT for a field of other than 3 channels.
+void require_vectors(const ScalarField& field);
+
 // Moves sites to vertices of the caller's mesh in the same component. Each vector is carried along the shortest path of
 // edges, turned from vertex normal to vertex normal. The call moves all sites or throws. Throws what ScalarField::edit
 // throws, and HF_ERROR_NO_SUCH_SITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (isolated vertex, another

@@ -28,8 +28,8 @@ constexpr double zero_area = 1e-12;
 constexpr std::size_t report_piece = 65536;
 
 void check_sizes(const MeshInput& input) {
-  if (input.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the mesh has no vertices");
-  if (input.triangle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the mesh has no triangles");
+  if (input.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "vertex_count is 0");
+  if (input.triangle_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "triangle_count is 0");
   if (input.vertex_count > size_limit)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; at most %u are supported", input.vertex_count, size_limit);
   if (input.triangle_count > size_limit)

@@ -47,27 +47,22 @@ class Scale {
     }
   }
   double total() const noexcept { return samples_.back().distance; }
-  double value(double distance) const noexcept {
-    std::int32_t i = 1;
-    while (i + 1 < samples_.size() && samples_[i].distance < distance) ++i;
-    const Sample &a = samples_[i - 1], &b = samples_[i];
-    const double width = b.distance - a.distance;
-    const double t = width > 0 ? std::min(std::max((distance - a.distance) / width, 0.0), 1.0) : 0.5;
-    return a.value + t * (b.value - a.value);
-  }
-  double distance(double value) const noexcept {
-    std::int32_t i = 1;
-    while (i + 1 < samples_.size() && samples_[i].value < value) ++i;
-    const Sample &a = samples_[i - 1], &b = samples_[i];
-    const double width = b.value - a.value;
-    const double t = width > 0 ? std::min(std::max((value - a.value) / width, 0.0), 1.0) : 0.5;
-    return a.distance + t * (b.distance - a.distance);
-  }
+  double value(double distance) const noexcept { return interpolate(&Sample::distance, distance, &Sample::value); }
+  double distance(double value) const noexcept { return interpolate(&Sample::value, value, &Sample::distance); }
 
  private:
   struct Sample {
     double value, length, distance;
   };
+  // `out` where `in` is x, between the samples around it.
+  double interpolate(double Sample::*in, double x, double Sample::*out) const noexcept {
+    std::int32_t i = 1;
+    while (i + 1 < samples_.size() && samples_[i].*in < x) ++i;
+    const Sample &a = samples_[i - 1], &b = samples_[i];
+    const double width = b.*in - a.*in;
+    const double t = width > 0 ? std::min(std::max((x - a.*in) / width, 0.0), 1.0) : 0.5;
+    return a.*out + t * (b.*out - a.*out);
+  }
   Table<Sample> samples_;
 };
 

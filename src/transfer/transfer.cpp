@@ -23,6 +23,26 @@ Vec3 area_mean(const Mesh& mesh, const Vector<double>& area) noexcept {
   return sum;
 }
 
+void check_options(const TransferOptions& options) {
+  if (options.mode != HF_TRANSFER_FIELDS && options.mode != HF_TRANSFER_PAPER)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "mode is %d; use HF_TRANSFER_FIELDS or HF_TRANSFER_PAPER",
+         options.mode);
+  if (options.cluster_count > cluster_limit)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "cluster_count is %u; it must be 1 to %u, or 0 for the default",
+         options.cluster_count, cluster_limit);
+  // the ABI gives floats, so the bounds are compared as floats
+  const auto width = static_cast<float>(options.kernel_width);
+  if (width != 0 &&
+      !(width >= static_cast<float>(least_kernel_width) && width <= static_cast<float>(most_kernel_width)))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "kernel_width is %g; it must be %g to %g, or 0 for the default",
+         options.kernel_width, least_kernel_width, most_kernel_width);
+  if (options.scale != 0 && !(options.scale >= least_scale && options.scale <= most_scale))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it must be %g to %g, or 0 for the ratio of the legs",
+         options.scale, least_scale, most_scale);
+  if (!std::isfinite(options.alignment_angle))
+    fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "alignment_angle is not a finite number");
+}
+
 }  // namespace
 
 Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target,
@@ -39,26 +59,7 @@ Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Cor
       flags_(target_core_->memory.get()),
       source_area_(area_shares(source_core_->mesh, *target_core_->memory)),
       target_area_(area_shares(target_core_->mesh, *target_core_->memory)) {
-  if (options.mode != HF_TRANSFER_FIELDS && options.mode != HF_TRANSFER_PAPER)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "mode %d is none of HF_TRANSFER_*", options.mode);
-  if (options.cluster_count > cluster_limit)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "cluster_count is %u; it may be 1 to %u, or 0 for the default",
-         options.cluster_count, cluster_limit);
-  if (!std::isfinite(options.kernel_width) || !std::isfinite(options.scale) ||
-      !std::isfinite(options.alignment_angle)) {
-    fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "kernel_width, scale and alignment_angle must be finite");
-  }
-  // The ABI passes floats, so the bounds are compared as floats.
-  const auto width = static_cast<float>(options.kernel_width);
-  if (options.kernel_width != 0 &&
-      (width < static_cast<float>(least_kernel_width) || width > static_cast<float>(most_kernel_width))) {
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "kernel_width is %g; it may be %g to %g, or 0 for the default",
-         options.kernel_width, least_kernel_width, most_kernel_width);
-  }
-  if (options.scale != 0 && !(options.scale >= least_scale && options.scale <= most_scale)) {
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "scale is %g; it may be %g to %g, or 0 for the ratio of the legs",
-         options.scale, least_scale, most_scale);
-  }
+  check_options(options);
   if (options_.kernel_width == 0) options_.kernel_width = default_kernel_width;
   if (options_.alignment_angle == 0) options_.alignment_angle = default_alignment_angle;
 }
@@ -67,11 +68,7 @@ Transfer::~Transfer() = default;
 
 void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs) {
   Memory& memory = *target_core_->memory;
-  if (pairs.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the batch holds no pair");
-  if (pairs.size() + numbers_.size() > handle_limit) {
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%zu pairs would be too many; a transfer holds at most %u",
-         pairs.size() + numbers_.size(), handle_limit);
-  }
+  check_region_count(numbers_.size(), pairs.size(), "pair");
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (pairs[i].flags & ~known_flags)
       fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i),
@@ -102,7 +99,6 @@ void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs) 
 
 void Transfer::remove_pairs(Span<const std::uint32_t> pairs) {
   Memory& memory = *target_core_->memory;
-  if (pairs.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the list holds no pair");
   Vector<std::uint32_t> numbers(numbers_, &memory);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto found = std::lower_bound(numbers.begin(), numbers.end(), pairs[i]);

@@ -126,8 +126,10 @@ void Transfer::blend(Prepared& p) const {
 
 void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) {
   for (std::int32_t v = 0; v < source_core_->size(); ++v) {
+    const std::int32_t given = source_core_->mesh.given_of_inner[at(v)];
     if (!is_finite(source[v]))
-      fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(v), "vertex %d of the posed source is not finite", v);
+      fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(given), "vertex %d of the posed source is not finite",
+           given);
   }
   Prepared& p = prepare();
   read_holds(p, holds);

@@ -62,6 +62,9 @@ static void a_vector_of_three_channels_is_carried_and_turned_without_touching_th
   surface_free(&tube);
 }
 
+/* One call that must be refused with this code and index. */
+#define REFUSED(what, expected, index, call) check_row(__LINE__, what, #call, call, expected, index)
+
 static void vectors_are_refused_with_their_place_in_the_list(void** state) {
   (void)state;
   Surface tube;
@@ -72,28 +75,17 @@ static void vectors_are_refused_with_their_place_in_the_list(void** state) {
   uint32_t sites[2];
   assert_ok(hf_add_sites(solver, &batch, sites));
   add_site(flat, 3, 1);
-  check_row(__LINE__, "past the end", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 2, sites, far),
-            HF_ERROR_OUT_OF_RANGE, 1);
-  check_row(__LINE__, "taken", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 1, sites, taken),
-            HF_ERROR_CONFLICT, 0);
-  check_row(__LINE__, "absent", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 2, absent, places),
-            HF_ERROR_NO_SUCH_SITE, 1);
-  check_row(__LINE__, "none", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 0, sites, places),
-            HF_ERROR_EMPTY, NO_INDEX);
-  check_row(__LINE__, "NULL", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 1, NULL, places),
-            HF_ERROR_NULL_POINTER, NO_INDEX);
-  check_row(__LINE__, "NULL", "hf_solver_move_vectors", hf_solver_move_vectors(solver, 1, sites, NULL),
-            HF_ERROR_NULL_POINTER, NO_INDEX);
-  check_row(__LINE__, "one channel", "hf_solver_move_vectors", hf_solver_move_vectors(flat, 1, sites, places),
-            HF_ERROR_INVALID_ARGUMENT, NO_INDEX);
-  check_row(__LINE__, "infinite", "hf_solver_rotate_vectors", hf_solver_rotate_vectors(solver, 2, sites, angles),
-            HF_ERROR_NON_FINITE, 1);
-  check_row(__LINE__, "absent", "hf_solver_rotate_vectors", hf_solver_rotate_vectors(solver, 2, absent, values),
-            HF_ERROR_NO_SUCH_SITE, 1);
-  check_row(__LINE__, "too many", "hf_solver_rotate_vectors", hf_solver_rotate_vectors(solver, 1000000, sites, angles),
-            HF_ERROR_NO_SUCH_SITE, 2);
-  check_row(__LINE__, "one channel", "hf_solver_rotate_vectors", hf_solver_rotate_vectors(flat, 1, sites, angles),
-            HF_ERROR_INVALID_ARGUMENT, NO_INDEX);
+  REFUSED("past the end", HF_ERROR_OUT_OF_RANGE, 1, hf_solver_move_vectors(solver, 2, sites, far));
+  REFUSED("taken", HF_ERROR_CONFLICT, 0, hf_solver_move_vectors(solver, 1, sites, taken));
+  REFUSED("absent", HF_ERROR_NO_SUCH_SITE, 1, hf_solver_move_vectors(solver, 2, absent, places));
+  REFUSED("none", HF_ERROR_EMPTY, NO_INDEX, hf_solver_move_vectors(solver, 0, sites, places));
+  REFUSED("NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_solver_move_vectors(solver, 1, NULL, places));
+  REFUSED("NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_solver_move_vectors(solver, 1, sites, NULL));
+  REFUSED("one channel", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_solver_move_vectors(flat, 1, sites, places));
+  REFUSED("infinite", HF_ERROR_NON_FINITE, 1, hf_solver_rotate_vectors(solver, 2, sites, angles));
+  REFUSED("absent", HF_ERROR_NO_SUCH_SITE, 1, hf_solver_rotate_vectors(solver, 2, absent, values));
+  REFUSED("too many", HF_ERROR_NO_SUCH_SITE, 2, hf_solver_rotate_vectors(solver, 1000000, sites, angles));
+  REFUSED("one channel", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_solver_rotate_vectors(flat, 1, sites, angles));
   double now[6];
   hf_sites_info info = HF_INIT(hf_sites_info);
   info.capacity = 2, info.values = now;
@@ -218,7 +210,6 @@ static void a_direction_object_refuses_bad_input_and_stays_as_it_was(void** stat
                  past[2] = {10, CUT_VERTICES};
   const uint32_t twice[2] = {0, 0}, absent[1] = {9};
   const double bad[6] = {1, 0, 0, 0, NAN, 0};
-#define REFUSED(what, expected, index, call) check_row(__LINE__, what, #call, call, expected, index)
   REFUSED("a welded copy", HF_ERROR_TOO_LARGE, NO_INDEX, hf_direction_add_sites(direction, 2, copy, vectors, NULL));
   REFUSED("a welded copy", HF_ERROR_DUPLICATE_SITE, 0, hf_direction_add_sites(direction, 1, copy + 1, vectors, NULL));
   REFUSED("isolated", HF_ERROR_INVALID_ARGUMENT, 0, hf_direction_add_sites(direction, 1, isolated, vectors, NULL));

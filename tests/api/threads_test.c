@@ -9,16 +9,6 @@
 enum { COLUMNS = 30, ROWS_ = 24, VERTICES = (COLUMNS + 1) * (ROWS_ + 1), THREADS = 8, ROUNDS = 60 };
 
 static Surface sheet;
-static int create_sheet(void** state) {
-  (void)state;
-  sheet = surface_sheet(COLUMNS, ROWS_);
-  return 0;
-}
-static int free_sheet(void** state) {
-  (void)state;
-  surface_free(&sheet);
-  return 0;
-}
 
 typedef struct Worker {
   pthread_t thread;
@@ -337,5 +327,8 @@ int main(void) {
       cmocka_unit_test(calls_during_a_change_are_busy_and_destroy_waits_for_it),
       cmocka_unit_test(handles_are_made_and_destroyed_on_all_threads),
   };
-  return cmocka_run_group_tests(tests, create_sheet, free_sheet);
+  sheet = surface_sheet(COLUMNS, ROWS_);
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  surface_free(&sheet);
+  return failed;
 }

@@ -9,6 +9,15 @@
 
 namespace hf_test {
 
+// The engines of this build.
+inline std::vector<hf_inner::EngineKind> engines() {
+#ifdef HF_WITH_GPL
+  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor, hf_inner::EngineKind::updown};
+#else
+  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor};
+#endif
+}
+
 // sites in use only; values one row per site. Returns n x m (components without a site: zero rows). lambda: one row per
 // site.
 inline Eigen::MatrixXd dense_field(const hf_inner::Core& core, const std::vector<hf_inner::Site>& sites,

@@ -147,6 +147,19 @@ namespace Hf
             return rows;
         }
 
+        /// <summary>A struct that the library fills.</summary>
+        internal unsafe T Read<T>(Query call) where T : struct
+        {
+            var info = new T[1];
+            using (var pins = new Pins())
+            {
+                void* place = (void*)pins.Add(info);
+                *(uint*)place = (uint)Marshal.SizeOf(typeof(T));  // struct_size
+                Check(call(Handle, place));
+            }
+            return info[0];
+        }
+
         internal static IntPtr HandleOf(HfObject thing, string name)
         {
             if (thing == null) throw new HfException(name + " is null", Constants.HF_ERROR_INVALID_HANDLE);

@@ -75,15 +75,7 @@ namespace Hf
         public void Undo() { Check(Functions.hf_region_undo(Handle)); }
         public void Redo() { Check(Functions.hf_region_redo(Handle)); }
 
-        public hf_region_info Info
-        {
-            get
-            {
-                var info = new hf_region_info { struct_size = (uint)sizeof(hf_region_info) };
-                Check(Functions.hf_region_get_info(Handle, &info));
-                return info;
-            }
-        }
+        public hf_region_info Info { get { return Read<hf_region_info>(Functions.hf_region_get_info); } }
 
         /// <summary>list: HF_REGION_INSIDE, HF_REGION_RIM, HF_REGION_SITES.</summary>
         public uint[] Vertices(int list = Constants.HF_REGION_INSIDE)

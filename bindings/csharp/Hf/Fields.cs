@@ -114,15 +114,7 @@ namespace Hf
             return found;
         }
 
-        public hf_direction_statistics Statistics
-        {
-            get
-            {
-                var statistics = new hf_direction_statistics { struct_size = (uint)sizeof(hf_direction_statistics) };
-                Check(Functions.hf_direction_get_statistics(Handle, &statistics));
-                return statistics;
-            }
-        }
+        public hf_direction_statistics Statistics { get { return Read<hf_direction_statistics>(Functions.hf_direction_get_statistics); } }
 
         /// <summary>The field as vectors, xyz per vertex.</summary>
         public double[] Solve()

@@ -61,15 +61,7 @@ namespace Hf
         }
 
         /// <summary>The options it was made with, defaults filled in, and the number of its handles.</summary>
-        public hf_pose_info Info
-        {
-            get
-            {
-                var info = new hf_pose_info { struct_size = (uint)sizeof(hf_pose_info) };
-                Check(Functions.hf_pose_get_info(Handle, &info));
-                return info;
-            }
-        }
+        public hf_pose_info Info { get { return Read<hf_pose_info>(Functions.hf_pose_get_info); } }
 
         public Pose Clone()
         {

@@ -47,15 +47,7 @@ namespace Hf
             }
         }
 
-        public hf_quads_info Info
-        {
-            get
-            {
-                var info = new hf_quads_info { struct_size = (uint)sizeof(hf_quads_info) };
-                Check(Functions.hf_quads_get_info(Handle, &info));
-                return info;
-            }
-        }
+        public hf_quads_info Info { get { return Read<hf_quads_info>(Functions.hf_quads_get_info); } }
 
         public QuadMesh Mesh()
         {

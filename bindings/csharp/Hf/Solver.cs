@@ -47,25 +47,9 @@ namespace Hf
         }
 
         /// <summary>The options it was made with, defaults filled in, and the number of its sites.</summary>
-        public hf_solver_info Info
-        {
-            get
-            {
-                var info = new hf_solver_info { struct_size = (uint)sizeof(hf_solver_info) };
-                Check(Functions.hf_solver_get_info(Handle, &info));
-                return info;
-            }
-        }
+        public hf_solver_info Info { get { return Read<hf_solver_info>(Functions.hf_solver_get_info); } }
 
-        public hf_solver_statistics Statistics
-        {
-            get
-            {
-                var statistics = new hf_solver_statistics { struct_size = (uint)sizeof(hf_solver_statistics) };
-                Check(Functions.hf_solver_get_statistics(Handle, &statistics));
-                return statistics;
-            }
-        }
+        public hf_solver_statistics Statistics { get { return Read<hf_solver_statistics>(Functions.hf_solver_get_statistics); } }
 
         hf_sites_desc Places(Pins pins, uint[] vertices, double[] values, double[] stiffness = null,
             double[] radii = null, uint[] triangles = null, double[] barycentrics = null)

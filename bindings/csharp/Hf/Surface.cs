@@ -119,35 +119,11 @@ namespace Hf
         }
 
         /// <summary>The options it was made with, defaults filled in.</summary>
-        public hf_surface_info Info
-        {
-            get
-            {
-                var info = new hf_surface_info { struct_size = (uint)sizeof(hf_surface_info) };
-                Check(Functions.hf_surface_get_info(Handle, &info));
-                return info;
-            }
-        }
+        public hf_surface_info Info { get { return Read<hf_surface_info>(Functions.hf_surface_get_info); } }
 
-        public hf_surface_report Report
-        {
-            get
-            {
-                var report = new hf_surface_report { struct_size = (uint)sizeof(hf_surface_report) };
-                Check(Functions.hf_surface_get_report(Handle, &report));
-                return report;
-            }
-        }
+        public hf_surface_report Report { get { return Read<hf_surface_report>(Functions.hf_surface_get_report); } }
 
-        public hf_surface_statistics Statistics
-        {
-            get
-            {
-                var statistics = new hf_surface_statistics { struct_size = (uint)sizeof(hf_surface_statistics) };
-                Check(Functions.hf_surface_get_statistics(Handle, &statistics));
-                return statistics;
-            }
-        }
+        public hf_surface_statistics Statistics { get { return Read<hf_surface_statistics>(Functions.hf_surface_get_statistics); } }
 
         /// <summary>The component of every vertex; HF_NO_INDEX for isolated ones.</summary>
         public uint[] Components()

@@ -58,15 +58,7 @@ namespace Hf
             return info;
         }
 
-        public hf_transfer_info Info
-        {
-            get
-            {
-                var info = new hf_transfer_info { struct_size = (uint)sizeof(hf_transfer_info) };
-                Check(Functions.hf_transfer_get_info(Handle, &info));
-                return info;
-            }
-        }
+        public hf_transfer_info Info { get { return Read<hf_transfer_info>(Functions.hf_transfer_get_info); } }
 
         /// <summary>One posed frame of the source into the target's positions.</summary>
         public double[] Apply(double[] sourcePositions)

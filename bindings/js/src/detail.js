@@ -1,6 +1,6 @@
 // Regions of a surface, their smooth base, and detail carried to another region (hf/region.h).
 export function detailClasses(tools) {
-  const { make, call, handleOf, query, watched, Handle, OnSurface, fail, integers, output, points, read, written } =
+  const { make, call, handleOf, query, watched, Handle, Recorded, fail, integers, output, points, read, written } =
     tools;
 
   const morph = (name, thing, weight, out, { normals = null, Type = Float32Array } = {}) => {
@@ -19,7 +19,7 @@ export function detailClasses(tools) {
   };
 
   /** A region of a surface. `positions`: a pose of the surface to work on, null for its rest positions. */
-  class Region extends OnSurface {
+  class Region extends Recorded {
     static prefix = 'hf_region';
     constructor(surface, { positions = null, fieldKind = 0, progress = null } = {}) {
       super(surface, () => {
@@ -45,15 +45,6 @@ export function detailClasses(tools) {
       if (removed) desc.set('remove_count', removed.length).set('remove_vertices', read(removed));
       watched(desc, progress);
       call('hf_region_edit', this._handle, desc);
-    }
-    record() {
-      call('hf_region_record', this._handle);
-    }
-    undo() {
-      call('hf_region_undo', this._handle);
-    }
-    redo() {
-      call('hf_region_redo', this._handle);
     }
     get info() {
       return query('hf_region_info', 'hf_region_get_info', this._handle);

@@ -9,6 +9,7 @@ export function fieldClasses(tools) {
     table,
     rowSize,
     OnSurface,
+    Recorded,
     doubles,
     integers,
     output,
@@ -32,7 +33,7 @@ export function fieldClasses(tools) {
     }
   }
 
-  class Direction extends OnSurface {
+  class Direction extends Recorded {
     static prefix = 'hf_direction';
     constructor(surface, { progress = null, ...options } = {}) {
       super(surface, () => watched(make('hf_direction_desc').options(options), progress));
@@ -65,15 +66,6 @@ export function fieldClasses(tools) {
       const numbers = integers(sites, 'sites');
       const turns = doubles(angles, 'angles', counted(numbers));
       call('hf_direction_rotate_sites', this._handle, counted(numbers), numbers && read(numbers), turns && read(turns));
-    }
-    record() {
-      call('hf_direction_record', this._handle);
-    }
-    undo() {
-      call('hf_direction_undo', this._handle);
-    }
-    redo() {
-      call('hf_direction_redo', this._handle);
     }
     sites() {
       const n = this.siteCount;

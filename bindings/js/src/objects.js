@@ -69,6 +69,19 @@ export function makeApi(backend) {
     }
   }
 
+  /** An object on a surface whose edits are recorded and undone by PREFIX_record, PREFIX_undo and PREFIX_redo. */
+  class Recorded extends OnSurface {
+    record() {
+      call(`${this.constructor.prefix}_record`, this._handle);
+    }
+    undo() {
+      call(`${this.constructor.prefix}_undo`, this._handle);
+    }
+    redo() {
+      call(`${this.constructor.prefix}_redo`, this._handle);
+    }
+  }
+
   const handleOf = (thing, kind, name) => {
     if (thing === null || thing === undefined) return 0;
     if (!(thing instanceof kind)) fail(`${name} must be a ${kind.name}`);
@@ -114,6 +127,7 @@ export function makeApi(backend) {
     rowSize,
     Handle,
     OnSurface,
+    Recorded,
     doubles,
     fail,
     integers,

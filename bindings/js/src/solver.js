@@ -6,7 +6,7 @@ export function solverClasses(tools) {
     direct,
     query,
     watched,
-    OnSurface,
+    Recorded,
     doubles,
     fail,
     integers,
@@ -20,7 +20,7 @@ export function solverClasses(tools) {
   } = tools;
 
   /** Sites on a surface, and the field through them. */
-  class Solver extends OnSurface {
+  class Solver extends Recorded {
     static prefix = 'hf_solver';
     static create = 'hf_create';
     constructor(surface, { progress = null, ...options } = {}) {
@@ -141,15 +141,6 @@ export function solverClasses(tools) {
       for (const [name, array] of Object.entries(arrays)) info.set(name, written(array));
       call('hf_solver_get_sites', this._handle, info);
       return arrays;
-    }
-    record() {
-      call('hf_solver_record', this._handle);
-    }
-    undo() {
-      call('hf_solver_undo', this._handle);
-    }
-    redo() {
-      call('hf_solver_redo', this._handle);
     }
     prepareRebase() {
       call('hf_solver_prepare_rebase', this._handle);

@@ -273,6 +273,12 @@ class Object:
     def _own(self, handle: ctypes.c_void_p) -> None:
         self._raw_handle, self._open = handle.value, True
 
+    def _read(self, function: str, struct: type) -> Any:
+        """A struct that a function of this object fills."""
+        info = make(struct)
+        call(function, self._raw_handle, ctypes.byref(info))
+        return info
+
     @property
     def handle(self) -> Optional[int]:
         """The handle of the C ABI."""

@@ -87,9 +87,7 @@ class Direction(Object):
 
     @property
     def statistics(self) -> _raw.hf_direction_statistics:
-        statistics = make(_raw.hf_direction_statistics)
-        call("hf_direction_get_statistics", self._raw_handle, ctypes.byref(statistics))
-        return statistics
+        return self._read("hf_direction_get_statistics", _raw.hf_direction_statistics)
 
     def solve(self, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32) -> np.ndarray:
         """The field as vectors, (n, 3)."""

@@ -139,9 +139,7 @@ class Pose(Object):
     @property
     def info(self) -> _raw.hf_pose_info:
         """The options the pose was made with, defaults filled in."""
-        info = make(_raw.hf_pose_info)
-        call("hf_pose_get_info", self._raw_handle, ctypes.byref(info))
-        return info
+        return self._read("hf_pose_get_info", _raw.hf_pose_info)
 
     def handle_info(self, handle: int) -> _raw.hf_handle_info:
         info = make(_raw.hf_handle_info)
@@ -227,9 +225,7 @@ class Transfer(Object):
 
     @property
     def info(self) -> _raw.hf_transfer_info:
-        info = make(_raw.hf_transfer_info)
-        call("hf_transfer_get_info", self._raw_handle, ctypes.byref(info))
-        return info
+        return self._read("hf_transfer_get_info", _raw.hf_transfer_info)
 
     def apply(self, source_positions: ArrayLike, out: Optional[np.ndarray] = None, *,
         normals: Optional[np.ndarray] = None, dtype: Any = np.float32,

@@ -58,9 +58,7 @@ class Quads(Object):
     @property
     def info(self) -> _raw.hf_quads_info:
         """Sizes and counts."""
-        info = make(_raw.hf_quads_info)
-        call("hf_quads_get_info", self._raw_handle, ctypes.byref(info))
-        return info
+        return self._read("hf_quads_get_info", _raw.hf_quads_info)
 
     def mesh(self) -> QuadMesh:
         info = self.info

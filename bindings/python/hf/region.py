@@ -94,9 +94,7 @@ class Region(Object):
 
     @property
     def info(self) -> _raw.hf_region_info:
-        info = make(_raw.hf_region_info)
-        call("hf_region_get_info", self._raw_handle, ctypes.byref(info))
-        return info
+        return self._read("hf_region_get_info", _raw.hf_region_info)
 
     def vertices(self, which: int = RegionList.INSIDE) -> np.ndarray:
         """Vertices inside, on the rim, or the sites that hold the base, (k,) uint32."""

@@ -48,16 +48,12 @@ class Solver(Object):
     @property
     def info(self) -> _raw.hf_solver_info:
         """What the solver was made with, and how many sites it holds."""
-        info = make(_raw.hf_solver_info)
-        call("hf_solver_get_info", self._raw_handle, ctypes.byref(info))
-        return info
+        return self._read("hf_solver_get_info", _raw.hf_solver_info)
 
     @property
     def statistics(self) -> _raw.hf_solver_statistics:
         """Sites, factorisations and memory."""
-        statistics = make(_raw.hf_solver_statistics)
-        call("hf_solver_get_statistics", self._raw_handle, ctypes.byref(statistics))
-        return statistics
+        return self._read("hf_solver_get_statistics", _raw.hf_solver_statistics)
 
     # ---- sites ----
 

@@ -104,23 +104,17 @@ class Surface(Object):
     @property
     def info(self) -> _raw.hf_surface_info:
         """The options the surface was made with, defaults filled in."""
-        info = make(_raw.hf_surface_info)
-        call("hf_surface_get_info", self._raw_handle, ctypes.byref(info))
-        return info
+        return self._read("hf_surface_get_info", _raw.hf_surface_info)
 
     @property
     def report(self) -> _raw.hf_surface_report:
         """What was found in the mesh."""
-        report = make(_raw.hf_surface_report)
-        call("hf_surface_get_report", self._raw_handle, ctypes.byref(report))
-        return report
+        return self._read("hf_surface_get_report", _raw.hf_surface_report)
 
     @property
     def statistics(self) -> _raw.hf_surface_statistics:
         """Times, memory and the size of the factor."""
-        statistics = make(_raw.hf_surface_statistics)
-        call("hf_surface_get_statistics", self._raw_handle, ctypes.byref(statistics))
-        return statistics
+        return self._read("hf_surface_get_statistics", _raw.hf_surface_statistics)
 
     @property
     def components(self) -> np.ndarray:

@@ -8,17 +8,10 @@
 namespace {
 
 using hf_test::EditScript;
+using hf_test::engines;
 using hf_test::PlainMesh;
 
 bool full() { return std::getenv("HF_FULL_TESTS") != nullptr; }
-
-std::vector<hf_inner::EngineKind> engines() {
-#ifdef HF_WITH_GPL
-  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor, hf_inner::EngineKind::updown};
-#else
-  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor};
-#endif
-}
 
 PlainMesh several_components() {
   PlainMesh mesh = hf_test::grid(7, 5, 1, 0.3);
@@ -32,7 +25,8 @@ PlainMesh several_components() {
 std::shared_ptr<const hf_inner::Core> loaded_core(const PlainMesh& mesh) {
   const auto made = hf_test::make_core(mesh);
   std::vector<std::uint8_t> bytes(hf_inner::saved_factor_size(*made->factor));
-  hf_inner::save_factor(*made->factor, hf_inner::grounded_hash(*made), {bytes.data(), bytes.size()}, *made->memory, *made->jobs);
+  hf_inner::save_factor(*made->factor, hf_inner::grounded_hash(*made), {bytes.data(), bytes.size()}, *made->memory,
+                        *made->jobs);
   hf_inner::CoreOptions options;
   options.saved_factor = bytes;
   return hf_test::make_core(mesh, 1, options);

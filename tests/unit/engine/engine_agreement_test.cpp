@@ -9,15 +9,8 @@
 
 namespace {
 
+using hf_test::engines;
 using hf_test::PlainMesh;
-
-std::vector<hf_inner::EngineKind> engines() {
-#ifdef HF_WITH_GPL
-  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor, hf_inner::EngineKind::updown};
-#else
-  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor};
-#endif
-}
 
 // hard sites of updown are penalties of 1e8 mean diagonals
 double tolerance(hf_inner::EngineKind kind) { return kind == hf_inner::EngineKind::updown ? 2e-6 : 1e-11; }
@@ -246,7 +239,8 @@ TEST(Green, moves_many_sites_into_the_factor_and_stays_exact_under_edits) {
     std::vector<std::int32_t> slots;
     std::vector<hf_inner::Site> sites;
     for (int v = 0; v < core->size(); v += 3)
-      sites.push_back(hf_inner::Site::at_vertex(core->mesh, v)), slots.push_back(static_cast<std::int32_t>(slots.size()));
+      sites.push_back(hf_inner::Site::at_vertex(core->mesh, v)),
+          slots.push_back(static_cast<std::int32_t>(slots.size()));
     script.sites = sites;
     for (std::size_t i = 0; i < 2 * sites.size(); ++i) script.values.push_back(std::sin(static_cast<double>(i)));
     hf_inner::SiteEdit edit;

@@ -129,7 +129,10 @@ TEST(TransferPairs, BadOptionsAreRefused) {
   EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.kernel_width = 0.6; }), HF_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.kernel_width = -1; }), HF_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.scale = -1; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.scale = std::nan(""); }), HF_ERROR_NON_FINITE);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.scale = 1e7; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.scale = std::nan(""); }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.kernel_width = std::nan(""); }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.alignment_angle = std::nan(""); }), HF_ERROR_NON_FINITE);
   EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.source_axes[0] = 1; }), HF_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(refused([](hf_inner::TransferOptions& o) {
               const double mirrored[9] = {-1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -158,7 +161,8 @@ TEST(TransferPairs, WhenMemoryRunsOutAtAnyAllocationTheTransferStaysAsItWas) {
   Body horse = a.horse, bull = a.bull;
   horse.build(world), bull.build(world);
   const std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
-  const std::vector<hf_inner::PairInput> first(inputs.begin(), inputs.begin() + 6), rest(inputs.begin() + 6, inputs.end());
+  const std::vector<hf_inner::PairInput> first(inputs.begin(), inputs.begin() + 6),
+      rest(inputs.begin() + 6, inputs.end());
   const std::vector<Vec3> posed = horse.posed(a.walk, 0.4);
   hf_inner::Transfer transfer(horse.core, bull.core, {});
   add(transfer, first);
@@ -320,7 +324,8 @@ TEST(TransferPairs, KernelsOfTheSourceAreNormalisedAndLocal) {
           largest = std::max(largest, hf_inner::norm(kernels->slope[i]));
           centre = centre + (1.0 / static_cast<double>(last - first)) * point(i);
         }
-        for (size_t i = first; i < last; ++i) radius += hf_inner::norm(point(i) - centre) / static_cast<double>(last - first);
+        for (size_t i = first; i < last; ++i)
+          radius += hf_inner::norm(point(i) - centre) / static_cast<double>(last - first);
         EXPECT_LT(hf_inner::norm(sum), 1e-9 * std::max(largest, 1.0)) << c;
         EXPECT_NEAR(trace, 1.0, 1e-9) << c;
         (kernels == &clusters.narrow ? narrow_radius : broad_radius) += radius / clusters.count;

@@ -1,0 +1,46 @@
+// Quad meshes and flow lines, written as hf_quads_mesh and hf_flow_lines say.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "capi/objects.h"
+#include "capi/vertex_writer.h"
+#include "hf/quads.h"
+#include "remesh/flow_lines.h"
+#include "remesh/quads.h"
+
+namespace hf_inner::capi {
+
+// Fills the arrays that are given; capacities are checked.
+inline void write_mesh(const Core& core, const QuadResult& result, const hf_quads_mesh& out) {
+  const Mesh& mesh = core.mesh;
+  Vector<std::uint32_t> triangle(core.memory.get());
+  if (out.triangles) triangle = given_triangles(mesh, *core.memory);
+  for (std::int32_t v = 0; v < result.mesh.position.size(); ++v) {
+    const SurfacePoint& point = result.mesh.location[v];
+    const std::size_t i = static_cast<std::size_t>(v);
+    if (out.positions) put(mesh.to_given(result.mesh.position[v]), out.positions + 3 * i);
+    if (out.triangles) out.triangles[i] = triangle[static_cast<std::size_t>(point.triangle)];
+    if (out.barycentrics) std::copy(point.weight, point.weight + 3, out.barycentrics + 3 * i);
+  }
+  if (out.face_starts) std::copy(result.mesh.face_start.begin(), result.mesh.face_start.end(), out.face_starts);
+  if (out.face_corners) std::copy(result.mesh.corner.begin(), result.mesh.corner.end(), out.face_corners);
+  for (std::size_t i = 0; i < result.sites.size(); ++i) {
+    if (out.site_vertices) out.site_vertices[i] = given_vertex(mesh, result.sites[i].vertex);
+    if (out.site_lines) out.site_lines[i] = static_cast<std::int32_t>(std::lround(result.sites[i].lines));
+  }
+}
+
+// Fills the arrays that are given; capacities are checked.
+inline void write_lines(const Mesh& mesh, const FlowLineSet& lines, const hf_flow_lines& out) {
+  for (std::size_t i = 0; out.positions && i < lines.point.size(); ++i)
+    put(mesh.to_given(lines.point[i]), out.positions + 3 * i);
+  if (out.values) std::copy(lines.value.begin(), lines.value.end(), out.values);
+  if (out.line_starts) std::copy(lines.start.begin(), lines.start.end(), out.line_starts);
+  for (std::size_t l = 0; out.line_ends && l < lines.from.size(); ++l) {
+    out.line_ends[2 * l] = given_vertex(mesh, lines.from[l]);
+    out.line_ends[2 * l + 1] = given_vertex(mesh, lines.to[l]);
+  }
+}
+
+}  // namespace hf_inner::capi

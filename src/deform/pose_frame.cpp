@@ -1,0 +1,235 @@
+// A frame of a pose: transforms of handles in, transforms of clusters, vertices and normals out.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/timer.h"
+#include "deform/pose_layout.h"
+
+namespace hf_inner {
+
+HandleTransform rigid_transform(const double* m, Vec3 centroid, std::uint32_t index) {
+  for (int i = 0; i < 16; ++i) {
+    if (!std::isfinite(m[i])) fail(HF_ERROR_NON_FINITE, index, "matrix %u holds a number that is not finite", index);
+  }
+  Mat3 linear;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) linear(i, j) = m[4 * j + i];
+  }
+  const Quaternion rotation = best_rotation(linear, Quaternion());
+  const Mat3 exact = rotation.toRotationMatrix();
+  double off = std::fabs(m[3]) + std::fabs(m[7]) + std::fabs(m[11]) + std::fabs(m[15] - 1);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) off = std::max(off, std::fabs(linear(i, j) - exact(i, j)));
+  }
+  if (!(off <= rigid_tolerance))
+    fail(HF_ERROR_INVALID_ARGUMENT, index, "matrix %u is no rigid motion; scale and shear are not taken", index);
+  return {rotation, rotate(rotation, centroid) + Vec3{m[12], m[13], m[14]} - centroid};
+}
+
+void Pose::check_transform(const HandleTransform& transform, std::uint32_t index, double scale) {
+  const Quaternion& q = transform.rotation;
+  const Vec3 t = transform.translation;
+  if (!q.coeffs().allFinite() || !std::isfinite(t.x) || !std::isfinite(t.y) || !std::isfinite(t.z))
+    fail(HF_ERROR_NON_FINITE, index, "transform %u holds a number that is not finite", index);
+  if (!(norm(transform.translation) <= largest_translation * scale))
+    fail(HF_ERROR_NON_FINITE, index, "the translation of transform %u is beyond %g box diagonals", index,
+         largest_translation);
+}
+
+void Pose::set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTransform> transforms) {
+  for (std::uint32_t k = 0; k < numbers.size(); ++k) {
+    require(numbers[k], k);
+    check_transform(transforms[k], k, core_->mesh.scale);
+  }
+  for (std::uint32_t k = 0; k < numbers.size(); ++k) {
+    HandleState& handle = state_->handles[find(numbers[k])];
+    const Quaternion rotation = normalised(transforms[k].rotation);
+    const Vec3 translation = (1.0 / core_->mesh.scale) * transforms[k].translation;
+    handle.turn = continued_logarithm(rotation, handle.turn);
+    handle.rotation = rotation, handle.translation = translation;
+    state_->changed = true;
+  }
+}
+
+void Pose::place_handles() noexcept {
+  for (std::size_t i = 0; i < state_->handles.size(); ++i) {
+    const HandleState& handle = state_->handles[i];
+    const Vec3 centroid = layout_->handles[i].region->centroid;
+    const Vec3 turned = handle.rotation.toRotationMatrix() * centroid;
+    state_->transforms[i] = to_affine({handle.rotation, centroid - turned + handle.translation});
+  }
+}
+
+void Pose::solve_smooth(std::uint32_t iterations) noexcept {
+  State& state = *state_;
+  const std::size_t count = state.handles.size();
+  double largest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    turns_[i] = logarithm(state.handles[i].rotation * state.handles[i].solved.conjugate());
+    largest = std::max(largest, norm(turns_[i]));
+  }
+  if (!state.started || largest > jump_turn) {
+    for (std::size_t i = 0; i < count; ++i) turns_[i] = state.handles[i].turn;
+    start_rotations(*layout_->smooth, *layout_->groups, -1, {turns_.data(), count}, state.smooth);
+  } else if (largest > 0) {
+    predict_rotations(*layout_->smooth, {turns_.data(), count}, state.smooth);
+  }
+  for (std::size_t i = 0; i < count; ++i) turns_[i] = state.handles[i].turn;
+  set_turn_limit(*layout_->smooth, {turns_.data(), count}, state.smooth);
+  for (HandleState& handle : state.handles) handle.solved = handle.rotation, handle.solved_turn = handle.turn;
+  report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());
+}
+
+void Pose::solve_paper(std::uint32_t iterations) noexcept {
+  for (HandleState& handle : state_->handles) handle.solved = handle.rotation, handle.solved_turn = handle.turn;
+  report_ = solve_paper_pose(*layout_->paper, core_->mesh, layout_->weights, iterations, settled_change, state_->paper,
+                             state_->transforms.data());
+}
+
+void Pose::prepare(const DeformRequest& request) {
+  if (!layout_) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
+  check_request(request);
+  const Mesh& mesh = core_->mesh;
+  if (request.normals) {
+    const std::size_t n = static_cast<std::size_t>(mesh.vertex_count());
+    normal_sums_.reserve_at_least(memory(), n);
+    if (!request.packed_normals) normals_.reserve_at_least(memory(), n);
+  }
+  if (request.refine && !refinement_) {
+    if (core_->refinements > 0)
+      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the refinement step needs a solver of the harmonic equation");
+    refinement_ = make_shared_in<Refinement>(memory(), *core_, memory());
+  }
+  if (request.refine) refinement_->fit(layout_->sites->slot_count());
+}
+
+void Pose::ensure_surface() const {
+  if (!stale_) return;
+  blend(core_->mesh, layout_->weights, state_->transforms.data(), state_->columns.data(), core_->mesh.centre,
+        core_->mesh.scale, positions_.data(), nullptr, *core_->jobs);
+  stale_ = false;
+}
+
+Vec3 Pose::blended(std::int32_t vertex) const noexcept {
+  return core_->mesh.to_given(blend_vertex(core_->mesh, layout_->weights, state_->transforms.data(), vertex));
+}
+
+// Vertices and normals from the transforms.
+void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
+  const Mesh& mesh = core_->mesh;
+  posed_ = true;
+  stale_ = !request.surface;
+  report.cluster_count = static_cast<std::uint32_t>(layout_->weights.cluster_count);
+  report.unreached_vertex_count = static_cast<std::uint32_t>(layout_->weights.unreached_vertex_count);
+  report.last_change = state_->last_change;
+  if (!request.surface) return;
+  const Timer blend_timer;
+  float* packed = request.refine ? nullptr : request.packed_positions;
+  blend(mesh, layout_->weights, state_->transforms.data(), state_->columns.data(), mesh.centre, mesh.scale,
+        positions_.data(), packed, *core_->jobs);
+  report.packed_positions = packed != nullptr;
+  report.blend_ms = blend_timer.milliseconds();
+  if (request.refine) {
+    const Timer refine_timer;
+    const RefineInput input{*core_,
+                            *rest_,
+                            layout_->reach,
+                            layout_->weights,
+                            *layout_->sites,
+                            layout_->handles,
+                            layout_->groups.get(),
+                            layout_->smooth ? &state_->smooth.rotation : nullptr,
+                            state_->transforms.data()};
+    refinement_->apply(input, positions_.data());
+    report.refine_ms = refine_timer.milliseconds();
+  }
+  report.positions = {positions_.data(), positions_.size()};
+  if (request.normals) {
+    const Timer normal_timer;
+    Normal* normals = request.packed_normals ? request.packed_normals : normals_.data();
+    vertex_normals(mesh, *rest_, positions_.data(), normal_sums_.data(), normals, *core_->jobs);
+    report.normals = {normals, positions_.size()};
+    report.normal_ms = normal_timer.milliseconds();
+  }
+}
+
+DeformReport Pose::deform(const DeformRequest& request) {
+  prepare(request);
+  State& state = *state_;
+  if (request.restart) {
+    for (HandleState& handle : state.handles) handle.turn = logarithm(handle.rotation);
+    for (RigidMotion& motion : state.paper.motion) motion = RigidMotion();
+    state.started = false, state.changed = true;
+  }
+
+  DeformReport report;
+  const Timer solve_timer;
+  if (state.changed) state.idle_iterations = 0;
+  const std::uint32_t idle_limit = layout_->smooth ? idle_limit_smooth : idle_limit_paper;
+  if (state.changed || (state.last_change >= settled_change && state.idle_iterations < idle_limit)) {
+    const std::uint32_t iterations = request.iteration_count ? request.iteration_count : options_.iteration_count;
+    place_handles();
+    if (layout_->smooth) {
+      solve_smooth(iterations);
+    } else {
+      solve_paper(iterations);
+    }
+    report.iteration_count = report_.iterations;
+    state.idle_iterations += report_.iterations;
+    state.started = true, state.changed = false, state.last_change = report_.last_change;
+  }
+  report.solve_ms = solve_timer.milliseconds();
+  write_surface(request, report);
+  return report;
+}
+
+// ---- for layers ----
+
+Span<const std::int32_t> Pose::region(std::uint32_t number) const {
+  return layout_->handles[require(number, HF_NO_INDEX)].region->vertices;
+}
+
+void Pose::prepare_start() {
+  if (!layout_) return;
+  if (layout_->smooth) {
+    start_.choose(*core_, *layout_->groups, layout_->smooth->subspace.group);
+  } else {
+    start_.motion.assign(state_->paper.motion.begin(), state_->paper.motion.end());
+    start_.own_unit.resize(core_->size());
+  }
+}
+
+void Pose::take_start(Span<const Vec3> surface) noexcept {
+  if (layout_->smooth) return start_.fit(*core_, *rest_, surface);
+  for (std::size_t v = 0; v < surface.size(); ++v) start_.own_unit[v] = core_->mesh.to_inner(surface[v]);
+  fit_motions(*layout_->paper, core_->mesh, start_.own_unit.data(), state_->paper);
+  std::copy(state_->paper.motion.begin(), state_->paper.motion.end(), start_.motion.begin());
+}
+
+DeformReport Pose::deform_from(const Pose& start, Span<const Vec3> turns, const DeformRequest& request) {
+  prepare(request);
+  State& state = *state_;
+  DeformReport report;
+  const Timer solve_timer;
+  const std::uint32_t iterations = request.iteration_count ? request.iteration_count : options_.iteration_count;
+  place_handles();
+  if (layout_->smooth) {
+    std::copy(start.start_.rotation.begin(), start.start_.rotation.end(), state.smooth.rotation.begin());
+    std::fill(state.smooth.stress.begin(), state.smooth.stress.end(), Stress());
+    predict_rotations(*layout_->smooth, turns, state.smooth);
+    state.smooth.turn_limit = SmoothState::no_turn_limit;  // the start is close enough
+    report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());
+  } else {
+    std::copy(start.start_.motion.begin(), start.start_.motion.end(), state.paper.motion.begin());
+    report_ = solve_paper_pose(*layout_->paper, core_->mesh, layout_->weights, iterations, settled_change, state.paper,
+                               state.transforms.data());
+  }
+  report.iteration_count = report_.iterations;
+  state.started = true, state.changed = true, state.last_change = report_.last_change;
+  report.solve_ms = solve_timer.milliseconds();
+  write_surface(request, report);
+  return report;
+}
+
+}  // namespace hf_inner

@@ -1,0 +1,24 @@
+// The data a pose derives from its handles (Pose::Layout), shared by its files.
+#pragma once
+#include "deform/pose.h"
+
+namespace hf_inner {
+
+struct Pose::Layout {
+  explicit Layout(const Handles& list, std::shared_ptr<SiteSolver> solver, const Core& core, Memory& memory)
+      : handles(list, &memory),
+        sites(std::move(solver)),
+        reach(core.mesh, handles, memory),
+        fields(0, 0, memory),
+        weights(memory) {}
+  Handles handles;
+  std::shared_ptr<SiteSolver> sites;
+  Reach reach;
+  HandleFields fields;
+  ClusterWeights weights;
+  std::shared_ptr<const Groups> groups;
+  std::shared_ptr<const SmoothSystem> smooth;
+  std::shared_ptr<const PaperSystem> paper;
+};
+
+}  // namespace hf_inner

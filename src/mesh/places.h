@@ -1,0 +1,19 @@
+// Turns vertices and triangle points that a caller names into inner ones.
+//
+// `position` is the place in the caller's list and becomes the index of the error; `list` names the list in the text.
+#pragma once
+#include "mesh/mesh.h"
+
+namespace hf_inner {
+
+// The inner vertex, Mesh::none for an isolated one. Throws HF_ERROR_OUT_OF_RANGE.
+std::int32_t inner_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t position, const char* list = "the list");
+
+// The inner vertex. Throws as inner_vertex, and HF_ERROR_INVALID_ARGUMENT for an isolated one.
+std::int32_t usable_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t position, const char* list = "the list");
+
+// The inner triangle. Throws HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (collapsed), and as the weights of its
+// corners ask: HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (below 0, or of another sum than 1).
+std::int32_t usable_triangle(const Mesh& mesh, std::uint32_t triangle, const double* weights, std::size_t position);
+
+}  // namespace hf_inner
