@@ -122,13 +122,6 @@ Quaternion best_rotation_from(const Mat3& s, const Quaternion& near) noexcept {
   return best_rotation(s, near);
 }
 
-PrincipalAxes principal_axes(const Mat3& symmetric) noexcept {
-  const hf_eigen::SelfAdjointEigenSolver<Mat3> eigen(symmetric);
-  PrincipalAxes out{eigen.eigenvectors().rowwise().reverse(), eigen.eigenvalues().reverse()};
-  if (out.axes.determinant() < 0) out.axes.col(2) *= -1;
-  return out;
-}
-
 RigidMotion fit_rigid(Span<const Vec3> rest, Span<const Vec3> posed, Span<const double> weights,
                       const Quaternion& near) noexcept {
   const std::size_t count = rest.size();

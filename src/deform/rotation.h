@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "base/algebra.h"
+#include "base/principal_axes.h"
 #include "base/span.h"
 #include "mesh/mesh.h"
 
@@ -56,13 +57,6 @@ Vec3 continued_logarithm(const Quaternion& q, Vec3 previous) noexcept;
 Quaternion best_rotation(const Mat3& s, const Quaternion& near) noexcept;
 // The same maximiser by Newton steps from `near`; best_rotation() where they do not reach a certified maximum.
 Quaternion best_rotation_from(const Mat3& s, const Quaternion& near) noexcept;
-
-struct PrincipalAxes {
-  Mat3 axes;                  // columns: unit eigenvectors by falling eigenvalue; a rotation
-  hf_eigen::Vector3d moment;  // the eigenvalues
-};
-// symmetric: its lower triangle is read.
-PrincipalAxes principal_axes(const Mat3& symmetric) noexcept;
 
 // x = R p + t
 struct RigidMotion {
