@@ -65,6 +65,7 @@ struct StrainLimits {
 constexpr StrainLimits strain_limits[] = {{0.8, 1.24, 4.0, 0.25, 0.0, 0.28}, {0.92, 1.14, 8.0, 0.5, 0.2, 0.16}};
 // m_2 / m_1 below which a group is a line, which is never under stress; half or double: the same bench.
 constexpr double thinnest_sheet = 1e-2;
+constexpr double largest_strain = 1e150;  // its square is still a double
 
 // ---- subspace.cpp ----
 
@@ -104,7 +105,9 @@ constexpr double weight_prune = 1e-3;  // of |W|: smaller weights are dropped; h
 
 // ---- levels.cpp ----
 
-constexpr int level_bins = 128;   // of a field's values, against 10 to 64 bands
+constexpr double least_twice_area = 1e-300;  // guards a division; triangles without area have no gradient
+constexpr double steepest_gradient = 1e9;    // per box: beyond, a needle and not the field
+constexpr int level_bins = 128;              // of a field's values, against 10 to 64 bands
 constexpr int smoothed_bins = 3;  // to each side in the running mean of gradients; 1 or 6 move energies by 0.3 %
 constexpr double least_gradient =
     1e-4;  // of the largest: bounds the length of flat parts; half or double: the same bench
@@ -136,6 +139,14 @@ constexpr std::int32_t samples_per_group = 24;  // vertices whose edges give a g
 
 // ---- rotation.cpp, rotation_batch.cpp ----
 
+constexpr double least_norm_square = 1e-200, largest_norm_square = 1e200;      // beyond, normalised_far()
+constexpr double least_matrix_square = 1e-300, largest_matrix_square = 1e300;  // squares within keep their digits
+constexpr double least_near_share = 1e-20;  // squared: below, `near` is orthogonal to all best rotations
+// When a drag goes on beyond half a turn. Half and double (and 1e-10 or 1e-3 radians for the axis) pass the 22 tests of
+// drags and rotations alike; no other figure was tried.
+constexpr double principal_turn = 0.9 * 3.14159265358979323846;  // radians: below, the shortest turn is meant
+constexpr double least_axis_angle = 1e-9;                        // radians: below, a turn has no axis
+constexpr double farthest_gap2 = 1.0, longest_step2 = 2.25;      // squared radians: beyond the gap, the old axis stays
 constexpr double small_angle = 1e-4;           // radians: below, two terms of the series are exact in double
 constexpr double equal_eigenvalues = 1e-12;    // of a matrix of size 1: rounding of its eigenvalues, and a margin
 constexpr double newton_floor = 1e-6;          // of |S|: pivots above it certify a maximum
@@ -149,6 +160,7 @@ constexpr double settled_newton_step = 1e-14;  // squared radians of the last st
 constexpr double skin_vertices = 20000;      // of the fit, against its time
 constexpr int skin_rounds = 8;               // over all joints
 constexpr int stretch_rounds = 6;            // rotation and stretch of one joint in turn
+constexpr double least_moment = 1e-300;      // guards a division
 constexpr double stretch_ballast = 1e-6;     // of the moments: directions in which a joint has no extent keep s = 1
 constexpr double least_stretch = 1e-3;       // a joint's scale stays positive
 constexpr double least_vertex_area = 1e-12;  // of the box squared: vertices without area still count

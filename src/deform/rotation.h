@@ -13,6 +13,7 @@
 #include "base/algebra.h"
 #include "base/principal_axes.h"
 #include "base/span.h"
+#include "deform/constants.h"
 #include "mesh/mesh.h"
 
 namespace hf_inner {
@@ -41,7 +42,7 @@ class Quaternion : public hf_eigen::Quaterniond {
 Quaternion normalised_far(const Quaternion& q) noexcept;  // where squares leave the range of a double
 inline Quaternion normalised(const Quaternion& q) noexcept {
   const double square = q.squaredNorm();
-  if (!(square > 1e-200 && square < 1e200)) return normalised_far(q);
+  if (!(square > least_norm_square && square < largest_norm_square)) return normalised_far(q);
   return Quaternion((1.0 / std::sqrt(square)) * q.coeffs());
 }
 inline Vec3 rotate(const Quaternion& q, Vec3 v) noexcept { return to_vec3(q * to_eigen(v)); }
