@@ -81,6 +81,7 @@ constexpr StrainLimits strain_limits[] = {{0.8, 1.24, 4.0, 0.25, 0.0, 0.28}, {0.
 // A group whose second moment is below this share of its first is a line, and a line has no stress. Halving or doubling
 // it changes no bench figure.
 constexpr double thinnest_sheet = 1e-2;
+constexpr double largest_strain = 1e150;  // its square is still a double
 
 // ---- subspace.cpp ----
 
@@ -128,6 +129,10 @@ constexpr double weight_prune = 1e-3;
 
 // ---- levels.cpp ----
 
+// Guards a division: triangles without area have no gradient.
+constexpr double least_twice_area = 1e-300;
+// Largest gradient, per box diagonal. A larger one comes from a needle and not from the field.
+constexpr double steepest_gradient = 1e9;
 // Bins into which the values of a field are sorted, to space 10 to 64 bands.
 constexpr int level_bins = 128;
 // Bins to each side in the running mean of gradients. 1 and 6 change energies by 0.3 %.
@@ -173,13 +178,24 @@ constexpr std::int32_t samples_per_group = 24;
 
 // ---- rotation.cpp, rotation_batch.cpp ----
 
+// Squared norms of quaternions outside this range are scaled first, by normalised_far().
+constexpr double least_norm_square = 1e-200, largest_norm_square = 1e200;
+// Squares of matrices within this range keep their digits.
+constexpr double least_matrix_square = 1e-300, largest_matrix_square = 1e300;
+// Squared. Below it, the rotation to stay near is orthogonal to all best rotations.
+constexpr double least_near_share = 1e-20;
+// The next three decide how a drag goes on beyond half a turn. At half and at twice each value (the axis also with
+// 1e-10 and 1e-3 radians), the 22 tests of drags and rotations pass alike; no other figure was tried.
+constexpr double principal_turn = 0.9 * 3.14159265358979323846;  // radians: below it, the shortest turn is meant
+constexpr double least_axis_angle = 1e-9;                        // radians: a smaller turn has no axis
+constexpr double farthest_gap2 = 1.0, longest_step2 = 2.25;      // squared radians: beyond the gap, the old axis stays
 // Below this angle (radians) the first two terms of the sine's series are exact in double.
 constexpr double small_angle = 1e-4;
 // Eigenvalues of a matrix of size 1 that differ by less count as equal: their rounding error and a margin.
 constexpr double equal_eigenvalues = 1e-12;
 // Pivots above this share of the norm of S prove that the step is near a maximum.
 constexpr double newton_floor = 1e-6;
-// Most Newton steps. Each squares the error, so starts near the result need four (rotation_test).
+// At most this many Newton steps. Each squares the error, so starts near the result need four (rotation_test).
 constexpr int newton_steps = 6;
 // Longest Newton step (squared radians). Beyond it the quadratic model does not predict the maximum.
 constexpr double longest_newton_step = 1.0;
@@ -190,9 +206,10 @@ constexpr double settled_newton_step = 1e-14;
 
 // The next numbers fit joints to the posed surface. With stretching joints, a lifted plane is replayed within 0.2 % of
 // the box, with rigid joints within 2.5 %. Bends and twists come within 0.1 % instead of 0.6 %.
-constexpr double skin_vertices = 20000;  // most vertices in the fit: fewer take less time
+constexpr double skin_vertices = 20000;  // at most this many vertices in the fit: fewer take less time
 constexpr int skin_rounds = 8;           // rounds over all joints
 constexpr int stretch_rounds = 6;        // rounds that fit rotation and stretch of one joint in turn
+constexpr double least_moment = 1e-300;  // guards a division
 // Added to the moments, as a share of them: a joint without extent in a direction keeps the scale 1 there.
 constexpr double stretch_ballast = 1e-6;
 constexpr double least_stretch = 1e-3;       // keeps a joint's scale positive

@@ -21,7 +21,7 @@ struct TriangleGradient {
 TriangleGradient gradient(const Vec3& p0, const Vec3& p1, const Vec3& p2, const double (&phi)[3]) noexcept {
   const Vec3 sum = phi[0] * (p2 - p1) + phi[1] * (p0 - p2) + phi[2] * (p1 - p0);
   const double twice_area = norm(cross(p1 - p0, p2 - p0));
-  return {twice_area > 1e-300 ? norm(sum) / twice_area : 0.0, 0.5 * twice_area};
+  return {twice_area > least_twice_area ? norm(sum) / twice_area : 0.0, 0.5 * twice_area};
 }
 
 void add_triangle(const Mesh& mesh, const std::int32_t* corner, const double* phi, Histogram& histogram) noexcept {
@@ -30,7 +30,7 @@ void add_triangle(const Mesh& mesh, const std::int32_t* corner, const double* ph
   if (!(high > low)) return;
   const TriangleGradient g =
       gradient(mesh.positions[corner[0]], mesh.positions[corner[1]], mesh.positions[corner[2]], values);
-  if (!(g.length > 0) || !(g.length < 1e9)) return;
+  if (!(g.length > 0) || !(g.length < steepest_gradient)) return;
   const int first = std::min(static_cast<int>(low * Levels::bins), Levels::bins - 1);
   const int last = std::min(static_cast<int>(high * Levels::bins), Levels::bins - 1);
   for (int b = first; b <= last; ++b) {

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "deform/constants.h"
-
 namespace hf_inner {
 namespace {
 
@@ -70,9 +68,9 @@ Vec3 continued_logarithm(const Quaternion& q, Vec3 previous) noexcept {
   const double expected_angle = std::sqrt(dot(expected, expected));
   const Vec3 principal = logarithm(q);
   const double angle = std::sqrt(dot(principal, principal));
-  if (expected_angle <= pi && angle < 0.9 * pi) return principal;
+  if (expected_angle <= pi && angle < principal_turn) return principal;
   Vec3 nearest = principal;
-  if (angle > 1e-9) {
+  if (angle > least_axis_angle) {
     const double turns = std::round((dot(expected, principal) / angle - angle) / (2 * pi));
     nearest = ((angle + 2 * pi * turns) / angle) * principal;
   } else if (expected_angle > 0) {
@@ -81,7 +79,7 @@ Vec3 continued_logarithm(const Quaternion& q, Vec3 previous) noexcept {
   // Close to a whole turn, the axis of q does not show the axis of the turns. The motion then continues along the old
   // axis.
   const Vec3 gap = nearest - expected;
-  return dot(gap, gap) > 1.0 && dot(step, step) < 2.25 ? expected : nearest;
+  return dot(gap, gap) > farthest_gap2 && dot(step, step) < longest_step2 ? expected : nearest;
 }
 
 Quaternion best_rotation(const Mat3& matrix, const Quaternion& near) noexcept {
@@ -102,7 +100,7 @@ Quaternion best_rotation(const Mat3& matrix, const Quaternion& near) noexcept {
     const Vec4 v = eigen.eigenvectors().col(i);
     if (value(3) - value(i) <= equal_eigenvalues) sum += near.coeffs().dot(v) * v;
   }
-  if (!(sum.squaredNorm() > 1e-20)) sum = eigen.eigenvectors().col(3);
+  if (!(sum.squaredNorm() > least_near_share)) sum = eigen.eigenvectors().col(3);
   const Quaternion q = normalised(Quaternion(sum));
   return q.dot(near) < 0 ? Quaternion(-q.coeffs()) : q;
 }
@@ -123,13 +121,6 @@ Quaternion best_rotation_from(const Mat3& s, const Quaternion& near) noexcept {
     if (step2 < settled_newton_step) return q;
   }
   return best_rotation(s, near);
-}
-
-PrincipalAxes principal_axes(const Mat3& symmetric) noexcept {
-  const hf_eigen::SelfAdjointEigenSolver<Mat3> eigen(symmetric);
-  PrincipalAxes out{eigen.eigenvectors().rowwise().reverse(), eigen.eigenvalues().reverse()};
-  if (out.axes.determinant() < 0) out.axes.col(2) *= -1;
-  return out;
 }
 
 RigidMotion fit_rigid(Span<const Vec3> rest, Span<const Vec3> posed, Span<const double> weights,

@@ -11,7 +11,9 @@
 #include <cmath>
 
 #include "base/algebra.h"
+#include "base/principal_axes.h"
 #include "base/span.h"
+#include "deform/constants.h"
 #include "mesh/mesh.h"
 
 namespace hf_inner {
@@ -41,7 +43,7 @@ class Quaternion : public hf_eigen::Quaterniond {
 Quaternion normalised_far(const Quaternion& q) noexcept;  // for lengths whose squares leave the range of a double
 inline Quaternion normalised(const Quaternion& q) noexcept {
   const double square = q.squaredNorm();
-  if (!(square > 1e-200 && square < 1e200)) return normalised_far(q);
+  if (!(square > least_norm_square && square < largest_norm_square)) return normalised_far(q);
   return Quaternion((1.0 / std::sqrt(square)) * q.coeffs());
 }
 inline Vec3 rotate(const Quaternion& q, Vec3 v) noexcept { return to_vec3(q * to_eigen(v)); }
@@ -58,13 +60,6 @@ Vec3 continued_logarithm(const Quaternion& q, Vec3 previous) noexcept;
 Quaternion best_rotation(const Mat3& s, const Quaternion& near) noexcept;
 // Finds the same maximum by Newton steps from `near`. It calls best_rotation() if the steps reach no proven maximum.
 Quaternion best_rotation_from(const Mat3& s, const Quaternion& near) noexcept;
-
-struct PrincipalAxes {
-  Mat3 axes;                  // columns: unit eigenvectors by falling eigenvalue; a rotation
-  hf_eigen::Vector3d moment;  // the eigenvalues
-};
-// Returns the principal axes of a symmetric matrix. Only the lower triangle of `symmetric` is read.
-PrincipalAxes principal_axes(const Mat3& symmetric) noexcept;
 
 // The rigid motion x = R p + t.
 struct RigidMotion {

@@ -61,7 +61,7 @@ void best_rotations_from(RotationBatch& batch, int count) noexcept {
   for (int l = 0; l < lanes; ++l) {
     double square = 0;
     for (const auto& row : batch.s) square += row[l] * row[l];
-    const bool usable = square > 1e-300 && square < 1e300;
+    const bool usable = square > least_matrix_square && square < largest_matrix_square;
     state[l] = {usable ? newton_floor * std::sqrt(square) : 0.0, usable, !usable};
   }
   const StepLoop loop = rotation_loop();

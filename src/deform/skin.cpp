@@ -133,7 +133,7 @@ class JointFit {
       const Mat3 along = (motion.rotation.toRotationMatrix() * axes).transpose() * target * axes;
       hf_eigen::Vector3d s;
       for (int i = 0; i < 3; ++i)
-        s(i) = std::max(least_stretch, (along(i, i) + ballast) / std::max(seen(i, i) + ballast, 1e-300));
+        s(i) = std::max(least_stretch, (along(i, i) + ballast) / std::max(seen(i, i) + ballast, least_moment));
       motion.stretch = to_vec3(s);
       motion.rotation = best_rotation(target * (axes * s.asDiagonal() * axes.transpose()), motion.rotation);
     }

@@ -32,7 +32,7 @@ Stress stress_of(const Sheet& sheet, const double (&columns)[3][4], const Mat3& 
                across = 0.5 * (dot(turned[0], drawn[1]) + dot(turned[1], drawn[0]));
   const double mean = 0.5 * (along + beside), half = 0.5 * (along - beside),
                radius = std::sqrt(half * half + across * across);
-  if (!(std::fabs(mean) < 1e150) || !(radius < 1e150)) return {};
+  if (!(std::fabs(mean) < largest_strain) || !(radius < largest_strain)) return {};
   const double larger = mean + radius, smaller = mean - radius,
                larger_kept = std::clamp(larger, limits.low, limits.high),
                smaller_kept = std::clamp(smaller, limits.low, limits.high);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/principal_axes.h"
+
 namespace hf_inner {
 namespace {
 
@@ -21,11 +23,6 @@ constexpr std::int32_t small_graph = 500;
 // If the second squared extent is below this share of the first, the second axis is not tried, which saves time.
 // Halving or doubling it does not change the fill.
 constexpr double long_shape = 0.04;
-// A diagonal direction weighs the second axis by the ratio of extents, but at most by this number; it guards against
-// flat shapes. Halving or doubling it changes nothing.
-constexpr double longest_diagonal = 1e3;
-// Range of squared extents in which positions are usable. Below it all positions coincide.
-constexpr double largest_extent = 1e300, least_extent = 1e-300;
 // If the squared separator is more than this many times the size, distances in the graph are tried too. Halving or
 // doubling it changes the fill by at most 0.1 %.
 constexpr double poor_separator = 2.5;
@@ -33,37 +30,22 @@ constexpr double poor_separator = 2.5;
 // on the test meshes torus, creature and scan.
 constexpr double narrow_band = 0.05;
 
-// Computes the eigenvectors of a symmetric 3 x 3 matrix by Jacobi rotations, columns by falling eigenvalue. Eigen is
-// not used here: the order of the unknowns depends on the signs of the axes. With other signs, the last bits of fields
-// would change.
-void principal_axes(double a[3][3], double axis[3][3], double value[3]) {
-  double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (int sweep = 0; sweep < 12; ++sweep) {
-    for (int p = 0; p < 2; ++p) {
-      for (int q = p + 1; q < 3; ++q) {
-        if (std::fabs(a[p][q]) <= 1e-15 * (std::fabs(a[p][p]) + std::fabs(a[q][q]))) continue;
-        const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-        const double t = (theta >= 0 ? 1.0 : -1.0) / (std::fabs(theta) + std::sqrt(theta * theta + 1));
-        const double c = 1 / std::sqrt(t * t + 1), s = t * c;
-        for (int k = 0; k < 3; ++k) {
-          const double x = a[k][p], y = a[k][q];
-          a[k][p] = c * x - s * y, a[k][q] = s * x + c * y;
-        }
-        for (int k = 0; k < 3; ++k) {
-          const double x = a[p][k], y = a[q][k];
-          a[p][k] = c * x - s * y, a[q][k] = s * x + c * y;
-          const double m = v[k][p], n = v[k][q];
-          v[k][p] = c * m - s * n, v[k][q] = s * m + c * n;
-        }
-      }
-    }
+// The principal axes of the places of a graph, with signs that depend on the places alone.
+PrincipalAxes axes_of(const GraphView& graph) noexcept {
+  const auto place = [&](std::int32_t v) {
+    return hf_eigen::Map<const hf_eigen::Vector3f>(graph.point + 3 * static_cast<std::size_t>(v)).cast<double>();
+  };
+  hf_eigen::Vector3d mean;
+  for (std::int32_t v = 0; v < graph.size; ++v) mean += place(v);
+  mean /= graph.size;
+  Mat3 moments;
+  for (std::int32_t v = 0; v < graph.size; ++v) {
+    const hf_eigen::Vector3d d = place(v) - mean;
+    moments += d * d.transpose();
   }
-  int order[3] = {0, 1, 2};
-  std::sort(order, order + 3, [&](int i, int j) { return a[i][i] != a[j][j] ? a[i][i] > a[j][j] : i < j; });
-  for (int k = 0; k < 3; ++k) {
-    value[k] = a[order[k]][order[k]];
-    for (int i = 0; i < 3; ++i) axis[k][i] = v[i][order[k]];
-  }
+  PrincipalAxes out = principal_axes(moments);
+  fix_signs(out.axes);
+  return out;
 }
 
 // Returns the bits of a float in a form whose unsigned order is the order of the floats.
@@ -386,41 +368,24 @@ Cut SeparatorSearch::bisect(const GraphView& graph, std::uint8_t* side, bool tho
       widest_band, 0.5 * (n > small_graph ? band_of_large : band_of_small) / std::sqrt(static_cast<double>(n)));
   bool spread = false;
   if (graph.point) {
-    double mean[3] = {0, 0, 0}, moment[3][3] = {}, axis[3][3], value[3];
-    for (std::int32_t v = 0; v < n; ++v) {
-      for (int c = 0; c < 3; ++c) mean[c] += graph.point[3 * static_cast<std::size_t>(v) + c];
-    }
-    for (double& m : mean) m /= n;
-    for (std::int32_t v = 0; v < n; ++v) {
-      double d[3];
-      for (int c = 0; c < 3; ++c) d[c] = graph.point[3 * static_cast<std::size_t>(v) + c] - mean[c];
-      for (int i = 0; i < 3; ++i) {
-        for (int j = i; j < 3; ++j) moment[i][j] += d[i] * d[j];
-      }
-    }
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < i; ++j) moment[i][j] = moment[j][i];
-    }
-    principal_axes(moment, axis, value);
-    spread = value[0] > 0 && value[0] < largest_extent;
-    if (spread) {
-      projection_keys(graph, axis[0]);
+    const PrincipalAxes shape = axes_of(graph);
+    const hf_eigen::Vector3d& extent = shape.moment;
+    const auto try_axis = [&](const hf_eigen::Vector3d& axis) {
+      projection_keys(graph, axis.data());
       try_keys(graph, side, best, share);
-      // A long shape has only one sensible axis.
-      if (value[1] > long_shape * value[0] || !best.usable()) {
-        projection_keys(graph, axis[1]);
-        try_keys(graph, side, best, share);
-      }
+    };
+    spread = extent[0] > 0;  // else all are in one place, or places are no numbers
+    if (spread) {
+      try_axis(shape.axes.col(0));
+      // a long shape has one sensible axis
+      if (extent[1] > long_shape * extent[0] || !best.usable()) try_axis(shape.axes.col(1));
       if (thorough) {
-        const double ratio = std::sqrt(std::max(0.0, value[0]) / std::max(least_extent, value[1]));
-        for (const double sign : {1.0, -1.0}) {
-          double diagonal[3];
-          for (int c = 0; c < 3; ++c) diagonal[c] = axis[0][c] + sign * std::min(ratio, longest_diagonal) * axis[1][c];
-          projection_keys(graph, diagonal);
-          try_keys(graph, side, best, share);
-        }
-        projection_keys(graph, axis[2]);
-        try_keys(graph, side, best, share);
+        // the diagonals of a box of these extents
+        const hf_eigen::Vector3d along = std::sqrt(std::max(0.0, extent[1])) * shape.axes.col(0),
+                                 across = std::sqrt(extent[0]) * shape.axes.col(1);
+        try_axis((along + across).normalized());
+        try_axis((along - across).normalized());
+        try_axis(shape.axes.col(2));
       }
     }
   }

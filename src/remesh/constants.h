@@ -282,8 +282,6 @@ constexpr double size_step = 0.5;
 // Most edges that one walk along the surface crosses; it ends walks on degenerate triangles. With 50 and 800 nothing
 // changes.
 constexpr int most_crossings = 200;
-// Most times that vertices move back in a round of relaxation; it bounds the time. With 2 and 8 nothing changes.
-constexpr int take_backs = 4;
 
 // --- nearest.cpp ---
 
@@ -368,11 +366,6 @@ constexpr double fit_folding_gain = 0.5;
 // Fitting may multiply the number of faces by this at most. With 1.1 and 3 nothing changes on six test meshes, which
 // add less.
 constexpr double fit_most_faces = 1.5;
-// Faces that the largest step adds: two for each of six quads around a vertex.
-constexpr std::int32_t step_faces = 12;
-// A vertex of smaller scale is not subdivided, which allows about two subdivisions of one place. With 0.25 and 0.8
-// nothing changes on six test meshes.
-constexpr float finest_scale = 0.5f;
 
 // --- refine.cpp ---
 

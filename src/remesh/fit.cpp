@@ -137,7 +137,7 @@ class Fitter {
     const std::int32_t f = miss.face, size = mesh_.size(f), *c = mesh_.corner.data() + mesh_.face_start[f];
     if (step == collapse)
       return size == 4 && (can_collapse(mesh_, fans, f, 0) || can_collapse(mesh_, fans, f, 1)) ? c[0] : none;
-    if (step > snap && mesh_.face_count() + step_faces > most_faces_) return none;
+    if (step > snap && mesh_.face_count() >= most_faces_) return none;
     std::int32_t best = none;
     for (std::int32_t k = 0; k < size; ++k) {
       const std::int32_t v = c[k];
@@ -145,7 +145,6 @@ class Fitter {
       if (step == release) may = may && mesh_.pinned[v] == QuadMesh::snapped && miss.vertex == QuadMiss::of_quads;
       if (step == snap) may = may && !mesh_.pinned[v];
       if (step == split || step == widen) may = may && fans.valence(v) >= 4;
-      if (step == subdivide) may = may && mesh_.scale[v] >= finest_scale;
       for (std::int32_t i = fans.start[v]; step > snap && may && i < fans.start[v + 1]; ++i)
         may = mesh_.size(fans.face[i]) == 4;
       if (may && (best == none || norm(mesh_.position[v] - miss.point) < norm(mesh_.position[best] - miss.point)))

@@ -142,9 +142,10 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
       mesh.location[v] = walk_surface(s, mesh.location[v], way);
       mesh.position[v] = position_of(s, mesh.location[v]);
     }
-    // The vertices of a face with a newly turned corner move back, until there is no such face.
-    for (int again = 0; again < take_backs; ++again) {
-      bool any = false;
+    // The vertices of a face with a newly turned corner move back, until there is no such face. Each pass moves at
+    // least one vertex back, so the loop ends.
+    for (bool any = true; any;) {
+      any = false;
       for (const std::int32_t v : vertices) back[v] = 0;
       for (const std::int32_t f : faces) {
         for (std::int32_t k = 0; k < mesh.size(f); ++k) {
@@ -153,7 +154,6 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
           for (std::int32_t j = 0; j < mesh.size(f); ++j) back[mesh.corner[mesh.face_start[f] + j]] = 1;
         }
       }
-      if (!any) break;
       for (const std::int32_t v : vertices)
         if (back[v]) mesh.position[v] = old_position[v], mesh.location[v] = old_location[v];
     }

@@ -32,7 +32,7 @@ samples::Picture draw(const Dragged& d, const std::vector<Vec3>& posed, const Ca
     }
   }
   samples::View view;
-  view.width = view.height = c.mesh.vertex_count() > 20000 ? 150 : 175;
+  view.width = view.height = 300;
   view.direction = c.closed ? samples::Point{0.35, 0.25, 1.0} : samples::Point{0.5, 0.7, 1.0};
   return samples::render(surface, view, look);
 }

@@ -294,4 +294,44 @@ TEST_F(OrderingTest, the_minimum_separator_is_minimum) {
   }
 }
 
+// A grid graph whose places are flat, on a line, in one place, tiny, huge or no numbers is still cut in two.
+TEST_F(OrderingTest, graphs_are_bisected_wherever_their_places_lie) {
+  constexpr std::int32_t side_length = 18, n = side_length * side_length;
+  std::vector<std::int32_t> start{0}, neighbour;
+  for (std::int32_t v = 0; v < n; ++v) {
+    const std::int32_t x = v % side_length, y = v / side_length;
+    if (x > 0) neighbour.push_back(v - 1);
+    if (x + 1 < side_length) neighbour.push_back(v + 1);
+    if (y > 0) neighbour.push_back(v - side_length);
+    if (y + 1 < side_length) neighbour.push_back(v + side_length);
+    start.push_back(static_cast<std::int32_t>(neighbour.size()));
+  }
+  const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  const std::array<float, 3> scales[] = {{1, 1, 0},      {1, 0, 0},         {0, 0, 0},         {1e-30f, 1e-30f, 0},
+                                         {1e-45f, 0, 0}, {1e36f, 1e36f, 0}, {1e36f, 1e-6f, 0}, {nan, nan, nan},
+                                         {1, nan, 0},    {infinity, 1, 0}};
+  hf_inner::SeparatorSearch search(memory);
+  for (const auto& scale : scales) {
+    for (const bool thorough : {false, true}) {
+      std::vector<float> point;
+      for (std::int32_t v = 0; v < n; ++v) {
+        const float x = static_cast<float>(v % side_length), y = static_cast<float>(v / side_length);
+        point.insert(point.end(), {scale[0] * x, scale[1] * y, scale[2]});
+      }
+      std::vector<std::uint8_t> side(static_cast<std::size_t>(n), hf_inner::side_between);
+      const hf_inner::GraphView graph{n, start.data(), neighbour.data(), point.data(), nullptr};
+      const hf_inner::Cut cut = search.bisect(graph, side.data(), thorough);
+      EXPECT_TRUE(cut.usable()) << scale[0] << " " << scale[1];
+      EXPECT_LE(cut.separator, side_length) << scale[0] << " " << scale[1];
+      for (std::int32_t v = 0; v < n; ++v) {
+        for (std::int32_t e = start[static_cast<std::size_t>(v)]; e < start[static_cast<std::size_t>(v) + 1]; ++e) {
+          const std::int32_t u = neighbour[static_cast<std::size_t>(e)];
+          ASSERT_FALSE(side[static_cast<std::size_t>(v)] == hf_inner::side_left &&
+                       side[static_cast<std::size_t>(u)] == hf_inner::side_right);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
