@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "hf/base.h"
 
 namespace hf_inner {
@@ -23,12 +24,12 @@ class JobRunner {
 
   // Calls job(index) for index = 0 .. count-1, on any of the threads, in any order, each once; returns when all are
   // done. The first exception of a job is rethrown on the calling thread; the remaining jobs are still called or
-  // skipped.
+  // skipped. Polls before every job: a cancelled call throws HF_ERROR_CANCELLED.
   template <class Job>
   void for_each(std::uint32_t count, Job&& job) {
     if (count == 0) return;
     if (thread_count_ == 1 || count == 1) {
-      for (std::uint32_t i = 0; i < count; ++i) job(i);
+      for (std::uint32_t i = 0; i < count; ++i) poll(), job(i);
       return;
     }
     run(
@@ -51,7 +52,7 @@ class JobRunner {
 template <class Job>
 void for_each(JobRunner* jobs, std::uint32_t count, Job&& job) {
   if (jobs) return jobs->for_each(count, job);
-  for (std::uint32_t i = 0; i < count; ++i) job(i);
+  for (std::uint32_t i = 0; i < count; ++i) poll(), job(i);
 }
 
 // Calls work(begin, end) for the pieces of 0 .. count, `piece` numbers each.

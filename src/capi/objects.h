@@ -17,13 +17,15 @@ struct ProgressObject final : Object {
   Progress progress;
 };
 
-// Runs work(progress) with the progress of a handle, or null. A cancel that stopped this call does not stop the next.
+// Runs work() with the progress of a handle, or without one. A cancel that stopped this call does not stop the next.
 template <class Work>
 auto with_progress(hf_progress handle, Work&& work) {
   std::shared_ptr<ProgressObject> object;
   if (handle) object = get<ProgressObject>(handle, "progress");
+  Progress* const progress = object ? &object->progress : nullptr;
+  const CallProgress here(progress);
   try {
-    return work(object ? &object->progress : nullptr);
+    return work();
   } catch (const Error& error) {
     if (error.code() == HF_ERROR_CANCELLED && object) object->progress.reset();
     throw;

@@ -106,8 +106,7 @@ hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quad
       Vector<FluxSite> sites(core.memory.get());
       read_sites(core, desc, sites);
       options.sites = sites, options.automatic = sites.empty(), options.scale_lines = !desc.site_lines;
-      return with_progress(desc.progress, [&](Progress* progress) {
-        options.progress = progress;
+      return with_progress(desc.progress, [&] {
         return make_owner_in<QuadsObject>(core.memory, options.core, make_quads(options),
                                           options.edge_length * core.mesh.scale);
       });

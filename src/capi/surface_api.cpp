@@ -123,11 +123,10 @@ hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surfac
                                                                        : Ordering::nested_dissection;
       if (desc.saved_factor) read_saved_factor(desc, options);
       info.ordering = static_cast<std::int32_t>(options.ordering);
-      return with_progress(desc.progress, [&](Progress* progress) {
-        options.progress = progress;
+      return with_progress(desc.progress, [&] {
         auto memory = make_memory(desc.allocator, std::uint64_t{desc.memory_limit_mb} << 20);
         auto jobs = make_shared_in<JobRunner>(*memory, info.thread_count, desc.job_runner);
-        auto geometry = Geometry::make(input, options.operator_kind, memory, std::move(jobs), progress);
+        auto geometry = Geometry::make(input, options.operator_kind, memory, std::move(jobs));
         return make_owner_in<SurfaceObject>(memory, std::move(geometry), options, info);
       });
     });

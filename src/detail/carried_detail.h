@@ -15,7 +15,6 @@ namespace hf_inner {
 struct CarryOptions {
   Span<const std::int32_t> source_pins, target_pins;  // inner vertices in pairs; empty: the states' first points
   double scale = 0;                                   // 0: from the areas of the bases
-  Progress* progress = nullptr;
 };
 
 struct CarriedDetail {

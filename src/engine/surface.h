@@ -24,7 +24,7 @@ class Surface {
   // The operator and factor of a kind of field. Cost: none for one that exists, else that of making it; other threads
   // that ask for a missing one wait meanwhile. Throws HF_ERROR_REENTRANT when a callback of the making asks, and as
   // Core::make. Thread safety: any thread.
-  std::shared_ptr<const Core> core(FieldKind kind, Progress* progress = nullptr) const;
+  std::shared_ptr<const Core> core(FieldKind kind) const;
 
  private:
   std::shared_ptr<const Geometry> geometry_;

@@ -1,8 +1,10 @@
 #include "factor/dissection.h"
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 
+#include "base/progress.h"
 #include "factor/leaf_order.h"
 #include "factor/minimum_degree.h"
 #include "factor/multilevel.h"
@@ -20,8 +22,8 @@ constexpr std::int32_t task_size = 4000;
 constexpr std::size_t most_parts = 64;
 // A larger share of a part separates nothing: it is ordered whole. Half and double: nothing on torus and scan.
 constexpr double most_separator = 0.75;
-// Shares of progress: a wave, all waves, and where the leaves begin.
-constexpr float progress_step = 0.05f, progress_cut = 0.4f, progress_leaves = 0.3f;
+// Shares of progress: a wave of cuts, all waves at most. The parts that remain have the rest, by unknowns ordered.
+constexpr float progress_step = 0.05f, progress_cut = 0.4f;
 
 // A part of the graph with numbers of its own. Its vertices take the places [begin, begin + size) of the order.
 struct Part {
@@ -73,14 +75,14 @@ class Dissection {
              std::int32_t* order)
       : matrix_(matrix), coordinates_(coordinates), memory_(memory), jobs_(jobs), order_(order), free_(&memory) {}
 
-  void run(Progress* progress) {
+  void run() {
     std::pmr::vector<Part> parts(&memory_);
     parts.push_back(whole());
     // wave by wave at the top, where there are few parts and each is cut by one thread
     bool cutting = true;
-    float done = progress_step;
+    float done = 0;
     while (cutting && parts.size() < most_parts) {
-      report(progress, done);
+      report(done);
       done = std::min(progress_cut, done + progress_step);
       const std::size_t count = parts.size();
       std::pmr::vector<Part> next(2 * count, &memory_);
@@ -102,11 +104,12 @@ class Dissection {
     }
     // the largest first: job order decides nothing but the waiting time
     std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.size > b.size; });
-    report(progress, progress_leaves);
+    cut_share_ = done;
     jobs_.for_each(static_cast<std::uint32_t>(parts.size()), [&](std::uint32_t k) {
       with_workspace([&](Workspace& workspace) { finish(std::move(parts[k]), workspace); });
     });
     sort_separators();
+    report(1.0f);
   }
 
  private:
@@ -128,6 +131,7 @@ class Dissection {
 
   // Cuts a part in two, or orders it whole when it is small or cannot be cut; the separator takes the last places.
   void split(Part part, Workspace& workspace, Part& left, Part& right) {
+    poll();
     if (part.size <= leaf_size) return order_leaf(part, workspace);
     workspace.side.resize(static_cast<std::size_t>(part.size));
     std::uint8_t* side = workspace.side.data();
@@ -209,10 +213,18 @@ class Dissection {
       Part part = std::move(waiting.back());
       waiting.pop_back();
       Part left, right;
+      const std::int32_t size = part.size;
       split(std::move(part), workspace, left, right);
+      report_ordered(size - left.size - right.size);
       if (left.size > 0) waiting.push_back(std::move(left));
       if (right.size > 0) waiting.push_back(std::move(right));
     }
+  }
+
+  // Reports unknowns that have their place. Called by jobs.
+  void report_ordered(std::int32_t count) {
+    const float all = static_cast<float>(ordered_.fetch_add(count, std::memory_order_relaxed) + count);
+    report(cut_share_ + (1 - cut_share_) * all / static_cast<float>(matrix_.size()));
   }
 
   void order_leaf(const Part& part, Workspace& workspace) {
@@ -273,15 +285,17 @@ class Dissection {
   std::mutex mutex_;
   Vector<std::shared_ptr<Workspace>> free_;
   std::size_t made_ = 0;
+  float cut_share_ = 0;                  // of progress, when the waves end
+  std::atomic<std::int32_t> ordered_{0};  // unknowns of the parts since then
 };
 
 }  // namespace
 
 void order_by_dissection(const SymmetricMatrix& matrix, Coordinates coordinates, Memory& memory, JobRunner& jobs,
-                         Progress* progress, Buffer<std::int32_t>& order) {
+                         Buffer<std::int32_t>& order) {
   order.allocate(memory, static_cast<std::size_t>(matrix.size()));
   if (matrix.size() == 0) return;
-  Dissection(matrix, coordinates, memory, jobs, order.data()).run(progress);
+  Dissection(matrix, coordinates, memory, jobs, order.data()).run();
 }
 
 }  // namespace hf_inner

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/progress.h"
+
 namespace hf_inner {
 namespace {
 
@@ -14,7 +16,9 @@ void link_tree(const SymmetricMatrix& matrix, const std::int32_t* order, const s
                std::int32_t* parent, std::int32_t* ancestor) {
   const std::int32_t* start = matrix.column_start.data();
   const std::int32_t* row = matrix.row.data();
+  Poller poller;
   for (std::int32_t i = 0; i < n; ++i) {
+    poller.due();
     if (i + columns_ahead < n) __builtin_prefetch(row + start[order[i + columns_ahead]]);
     parent[i] = -1, ancestor[i] = -1;
     const std::int32_t unknown = order[i];

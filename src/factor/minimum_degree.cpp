@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/progress.h"
 #include "base/error.h"
 #include "base/index.h"
 
@@ -30,7 +31,9 @@ class QuotientGraph {
   void run(Index* order) {
     order_ = order;
     take_special();
+    Poller poller(64);
     while (left_ > 0) {
+      poller.due();
       const Index pivot = take_least();
       form_element(pivot);
       subtract_from_elements(pivot);

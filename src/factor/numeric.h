@@ -25,8 +25,7 @@ constexpr std::size_t value_slack = 64;
 // `eliminated` (per unknown, may be empty): rows and columns taken as the identity. lost_share: see FactorOptions.
 // Throws HF_ERROR_NOT_POSITIVE_DEFINITE with the unknown of the first failed pivot, in factor order.
 void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix,
-               Span<const std::uint8_t> eliminated, double lost_share, double* values, Memory& memory, JobRunner& jobs,
-               Progress* progress);
+               Span<const std::uint8_t> eliminated, double lost_share, double* values, Memory& memory, JobRunner& jobs);
 
 // No NaN and no infinity among the numbers.
 bool all_finite(const double* values, std::size_t count) noexcept;

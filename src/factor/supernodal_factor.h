@@ -77,8 +77,7 @@ class SupernodalFactor final : public Factor {
   const Buffer<double>& values() const noexcept { return values_; }
   const std::shared_ptr<const Analysis>& analysis() const noexcept { return analysis_; }
   // Factorises the matrix into values(), which it allocates.
-  void compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, double lost_share, JobRunner& jobs,
-               Progress* progress);
+  void compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, double lost_share, JobRunner& jobs);
   void set_timings(double ordering_ms, double symbolic_ms) noexcept {
     statistics_.ordering_ms = ordering_ms, statistics_.symbolic_ms = symbolic_ms;
   }

@@ -64,7 +64,7 @@ void DirectionSystem::make_order() {
     const Vector<float> coordinates = ordering_coordinates(core->mesh, *core->memory);
     Buffer<Index> made;
     hf_inner::make_order(graph, {coordinates.data(), coordinates.size()}, core->ordering, *core->memory, *core->jobs,
-                         nullptr, made);
+                         made);
     for (Index k = 0; k < core->size(); ++k) position[at(made[k])] = k;
   }
   for (Index v = 0; v < core->size(); ++v) order[at(position[at(v)])] = v;
@@ -142,6 +142,7 @@ void DirectionSystem::make_pins() {
   }
   FactorOptions options;
   options.ordering = Ordering::natural;  // the unknowns stand in the order of the surface's factor
+  options.flop_limit = core->flop_limit;
   factor = Factor::make(a, {}, options, *core->memory, *core->jobs);
   const Vector<double> ones(pins.size(), 1.0, &*core->memory);
   pin_paths.group.resize(pins.size()), pin_paths.column.resize(pins.size());

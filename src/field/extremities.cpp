@@ -165,27 +165,26 @@ void propose(const Core& core, const Vector<double>& total, double least_length,
 
 }  // namespace
 
-Extremities poisson_extremities(const Core& core, double least_length, Progress* progress) {
+Extremities poisson_extremities(const Core& core, double least_length) {
   require_laplacian(core);
   Extremities found(*core.memory);
   found.field.resize(at(core.size()));
   const Vector<double> total = component_areas(core);
-  report(progress, 0.1f);
+  report(0.1f);
   solve_poisson(core, total, found.field);
-  report(progress, 0.8f);
+  report(0.8f);
   propose(core, total, least_length, true, found);
-  report(progress, 1.0f);
+  report(1.0f);
   return found;
 }
 
-Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length,
-                                 Progress* progress) {
+Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length) {
   const Core& core = geodesics.core();
   Extremities found(*core.memory);
   found.field.resize(at(core.size()));
-  geodesics.average(source_count, found.field.data(), progress, 0.3f, 0.95f);
+  geodesics.average(source_count, found.field.data(), 0.3f, 0.95f);
   propose(core, component_areas(core), least_length, false, found);
-  report(progress, 1.0f);
+  report(1.0f);
   return found;
 }
 

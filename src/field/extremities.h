@@ -34,8 +34,7 @@ struct Extremities {
 };
 
 // Throws HF_ERROR_UNSUPPORTED when the core's factor is not that of a Laplacian.
-Extremities poisson_extremities(const Core& core, double least_length, Progress* progress);
-Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length,
-                                 Progress* progress);
+Extremities poisson_extremities(const Core& core, double least_length);
+Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length);
 
 }  // namespace hf_inner

@@ -136,12 +136,12 @@ void Geodesics::distance(Span<const Index> sources, double* out) const {
   for (const Index s : sources) out[s] = 0;
 }
 
-void Geodesics::average(Index count, double* out, Progress* progress, float from, float to) const {
+void Geodesics::average(Index count, double* out, float from, float to) const {
   const Core& core = *core_;
   Memory& memory = *core.memory;
   const std::size_t n = at(core.size()), components = at(core.mesh.component_count());
   const SpreadSamples samples = spread_samples(core.mesh, core.topology, core.areas, count, memory);
-  report(progress, from + 0.2f * (to - from));
+  report(from + 0.2f * (to - from));
   Vector<double> sums(2 * frames_.size(), 0.0, &memory);
   Workspace heat(core.workspaces, n * at(group_size));
   for (Index first = 0; first < count; first += group_size) {
@@ -170,11 +170,10 @@ void Geodesics::average(Index count, double* out, Progress* progress, float from
     }
     heat_->backward(heat.data(), channels, *core.jobs);
     add_directions(heat.data(), channels, weights.data(), sums);
-    report(progress,
-           from + (0.2f + 0.7f * static_cast<float>(first + channels) / static_cast<float>(count)) * (to - from));
+    report(from + (0.2f + 0.7f * static_cast<float>(first + channels) / static_cast<float>(count)) * (to - from));
   }
   integrate(sums, out);
-  report(progress, to);
+  report(to);
 }
 
 }  // namespace hf_inner

@@ -11,7 +11,6 @@ namespace hf_inner {
 
 struct CaptureOptions {
   double edge_length = 0;  // inner units
-  Progress* progress = nullptr;
 };
 
 // Returns how many vertices were snapped.

@@ -27,7 +27,6 @@ struct CoarsenOptions {
   double shortest = short_edge;           // edge lengths
   bool only_refined = false;              // quads with a corner whose scale is below 1
   std::int32_t rounds = collapse_rounds;
-  Progress* progress = nullptr;
 };
 
 // Returns the distance of the new mesh and the surface: at most collapse_far tolerances, or `deviation` as it was.

@@ -170,7 +170,7 @@ void balance(Group& group) {
 }  // namespace
 
 Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> given, bool automatic, double edge_length,
-                                   Memory& memory, Progress* progress) {
+                                   Memory& memory) {
   Vector<FluxSite> all(&memory);
   const Table<double> area = vertex_shares(s, memory);
   Table<std::int32_t> euler(s.component_count, 0, memory);  // of the closed components
@@ -199,7 +199,7 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
     auto reach = [&](std::size_t i) {
       const float part =
           static_cast<float>(i) / static_cast<float>(i + expected_sites);  // their number is not known yet
-      report(progress, (static_cast<float>(c) + part) / static_cast<float>(s.component_count));
+      report((static_cast<float>(c) + part) / static_cast<float>(s.component_count));
       distances_from(s, group.sites[i].vertex, distance, memory);
       // lines from the length of the circle around the site: the derivative of the area of discs
       if (group.sites[i].lines == 0) {
@@ -253,12 +253,12 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
     }
     balance(group);
     all.insert(all.end(), group.sites.begin(), group.sites.end());
-    report(progress, static_cast<float>(c + 1) / static_cast<float>(s.component_count));
+    report(static_cast<float>(c + 1) / static_cast<float>(s.component_count));
   }
   return all;
 }
 
-FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs, Progress* progress)
+FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs)
     : surface_(&s), memory_(&memory), jobs_(&jobs) {
   const std::int32_t n = s.vertex_count();
   SymmetricMatrix k(memory);
@@ -293,7 +293,6 @@ FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs, Pr
     coordinates.push_back(static_cast<float>(p.z));
   }
   FactorOptions options;
-  options.progress = progress;
   factor_ = Factor::make(k, coordinates, options, memory, jobs);
 }
 

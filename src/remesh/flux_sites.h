@@ -29,13 +29,13 @@ struct FluxSite {
 // Throws HF_ERROR_INVALID_ARGUMENT when given lines cannot balance, HF_ERROR_TOO_LARGE beyond most_sites sites and
 // borders.
 Vector<FluxSite> choose_flux_sites(const FluxSurface& surface, Span<const FluxSite> given, bool automatic,
-                                   double edge_length, Memory& memory, Progress* progress);
+                                   double edge_length, Memory& memory);
 
 // The factor of the flux problem, and fields from it.
 class FluxSolver {
  public:
   // Orders and factorises. Throws as Factor::make.
-  FluxSolver(const FluxSurface& surface, Memory& memory, JobRunner& jobs, Progress* progress = nullptr);
+  FluxSolver(const FluxSurface& surface, Memory& memory, JobRunner& jobs);
   // u by vertex of the surface, up to a constant per component. Refined (flux_solves), because lines need a flow that
   // balances at every vertex.
   Vector<double> solve(Span<const FluxSite> sites) const;

@@ -45,8 +45,7 @@ class QuadDistance {
   // Returns the largest distance. out_misses: NULL, or receives the places farther than `tolerance`, the farthest
   // first; without a miss the function then returns `tolerance`. Parameter known: NULL, or faces found near at this
   // tolerance; they are left out, and faces found near are added.
-  double measure(const QuadMesh& mesh, double tolerance, Vector<QuadMiss>* out_misses, Progress* progress,
-                 NearFaces* known = nullptr) const;
+  double measure(const QuadMesh& mesh, double tolerance, Vector<QuadMiss>* out_misses, NearFaces* known = nullptr) const;
 
   // The point of the surface nearest to p.
   SurfacePoint nearest(Vec3 p) const noexcept;

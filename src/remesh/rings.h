@@ -56,6 +56,6 @@ struct RingMesh {
 
 // lines_at: by vertex of the surface, how many lines start at a source (kind pure; kind uniform counts by length).
 RingMesh make_rings(const FluxField& field, const ArcGraph& graph, const Table<double>& lines_at,
-                    const RingOptions& options, Memory& memory, Progress* progress);
+                    const RingOptions& options, Memory& memory);
 
 }  // namespace hf_inner

@@ -241,7 +241,7 @@ TEST_F(FactorTest, a_cancelled_factorisation_unwinds_and_frees_everything) {
   hf_inner::Progress progress;
   progress.cancel();
   hf_inner::FactorOptions options;
-  options.progress = &progress;
+  const hf_inner::CallProgress call(&progress);
   try {
     hf_inner::Factor::make(a, {}, options, counted, two);
     FAIL() << "went on";

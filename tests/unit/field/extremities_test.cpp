@@ -178,13 +178,14 @@ TEST(Extremities, can_be_cancelled) {
   const auto core = hf_test::make_core(hf_test::torus(20, 10));
   hf_inner::Progress progress;
   progress.cancel();
+  const hf_inner::CallProgress call(&progress);
   try {
-    hf_inner::poisson_extremities(*core, 0.05, &progress);
+    hf_inner::poisson_extremities(*core, 0.05);
     FAIL();
   } catch (const hf_inner::Error& error) {
     EXPECT_EQ(error.code(), HF_ERROR_CANCELLED);
   }
-  EXPECT_THROW(hf_inner::geodesic_extremities(hf_inner::Geodesics(core, 1), 8, 0.05, &progress), hf_inner::Error);
+  EXPECT_THROW(hf_inner::geodesic_extremities(hf_inner::Geodesics(core, 1), 8, 0.05), hf_inner::Error);
 }
 
 // Persistence by the definition: the lowest point of the best way from a peak to something higher, by flooding.

@@ -321,12 +321,13 @@ TEST(TurnQuads, AQuadBeginsAtItsReflexCornerOrAtTheDiagonalOnTheSurface) {
 
 TEST(ProgressRange, NestsAndEndsWithItsScope) {
   Progress progress;
+  const CallProgress call(&progress);
   {
-    const ProgressRange outer(&progress, 0.2f, 0.6f);
+    const ProgressRange outer(0.2f, 0.6f);
     progress.report(0.5f);
     EXPECT_FLOAT_EQ(progress.fraction(), 0.4f);
     {
-      const ProgressRange inner(&progress, 0.5f, 1.0f);
+      const ProgressRange inner(0.5f, 1.0f);
       progress.report(0.5f);
       EXPECT_FLOAT_EQ(progress.fraction(), 0.5f);
     }
@@ -335,7 +336,9 @@ TEST(ProgressRange, NestsAndEndsWithItsScope) {
   }
   progress.report(1.0f);
   EXPECT_FLOAT_EQ(progress.fraction(), 1.0f);
-  const ProgressRange none(nullptr, 0, 1);
+  const CallProgress without(nullptr);
+  const ProgressRange none(0, 1);
+  report(0.5f);
 }
 
 }  // namespace
