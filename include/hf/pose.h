@@ -79,6 +79,7 @@ typedef struct hf_handles_desc {
   const double* radii;             /* is edge-connected to it within [handle_count] radii >= 0 of the point */
   uint32_t layer;                  /* 0 to HF_LAYER_COUNT - 1, for the whole batch */
   uint32_t reserved;               /* 0 */
+  hf_progress progress;            /* NULL, or an object to poll and cancel through */
 } hf_handles_desc;
 
 /* Adds handles. Their transforms start as the identity. On layer 0 that is the rest place, so a posed surface is pulled
@@ -86,7 +87,8 @@ typedef struct hf_handles_desc {
  * surface for a layer. out_handles: NULL, or uint32_t[handle_count]. Costs one field solve per layer from its own up. No
  * two regions may overlap, on any layer; welded copies count as one vertex. Errors: HF_ERROR_OUT_OF_RANGE and
  * HF_ERROR_OVERLAP (index = position in region_vertices, or handle when given by points), HF_ERROR_INVALID_ARGUMENT
- * (isolated vertex, layer, regions and points at once), HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (HF_HANDLE_LIMIT).
+ * (isolated vertex, layer, regions and points at once), HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (HF_HANDLE_LIMIT),
+ * HF_ERROR_CANCELLED.
  * Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_add_handles(hf_pose pose, const hf_handles_desc* handles, uint32_t* out_handles);
 

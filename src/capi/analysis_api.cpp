@@ -64,11 +64,7 @@ Extremities search(const std::shared_ptr<const Core>& core, const hf_extremities
   const double least = static_cast<double>(desc.least_length);
   if (desc.kind == HF_EXTREMITIES_POISSON) return poisson_extremities(*core, least);
   const std::int32_t sources = static_cast<std::int32_t>(desc.source_count);
-  if (!desc.geodesics) {
-    const Geodesics geodesics(core, 1.0);
-    report(0.3f);
-    return geodesic_extremities(geodesics, sources, least);
-  }
+  if (!desc.geodesics) return geodesic_extremities(core, 1.0, sources, least);
   const auto object = get<GeodesicsObject>(desc.geodesics, "desc->geodesics");
   const Reading reading(*object);
   if (&object->geodesics.core() != core.get())
@@ -174,7 +170,6 @@ hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* given
       if (smoothing != 0 && !(smoothing >= 0.1 && smoothing <= 1e4))
         fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "smoothing is %g; it must be 0.1 to 10000, or 0 for 1", smoothing);
       return with_progress(desc.progress, [&] {
-        report(0);
         auto made = make_owner_in<GeodesicsObject>(core->memory, core, smoothing > 0 ? smoothing : 1.0);
         report(1);
         return made;

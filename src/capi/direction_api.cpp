@@ -82,7 +82,6 @@ hf_result hf_direction_create(hf_surface surface, const hf_direction_desc* given
         fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "degree is %u; it must be 1, 2 or 4", desc.degree);
       require_zero(desc.reserved);
       return with_progress(desc.progress, [&] {
-        report(0);
         auto made = make_owner_in<DirectionObject>(core->memory, core, desc.degree ? desc.degree : 1u,
                                                    desc.site_limit ? desc.site_limit : default_constraint_limit);
         report(1);

@@ -25,6 +25,7 @@ auto with_progress(hf_progress handle, Work&& work) {
   Progress* const progress = object ? &object->progress : nullptr;
   const CallProgress here(progress);
   try {
+    poll();
     return work();
   } catch (const Error& error) {
     if (error.code() == HF_ERROR_CANCELLED && object) object->progress.reset();

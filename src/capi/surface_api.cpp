@@ -12,6 +12,7 @@ namespace hf_inner::capi {
 namespace {
 
 constexpr std::uint32_t most_threads = 256, default_vertex_limit = 20000000, triangles_per_vertex = 8;
+constexpr std::uint32_t default_work_limit_gflop = 100000;
 
 hf_surface_info read_info(const hf_surface_desc& desc) {
   hf_surface_info info{};
@@ -30,6 +31,8 @@ hf_surface_info read_info(const hf_surface_desc& desc) {
   info.thread_count = count_of(desc.thread_count, 1, 1, most_threads, "thread_count");
   info.vertex_limit = desc.vertex_limit ? desc.vertex_limit : default_vertex_limit;
   info.triangle_limit = desc.triangle_limit, info.memory_limit_mb = desc.memory_limit_mb;
+  info.work_limit_gflop = desc.work_limit_gflop ? desc.work_limit_gflop : default_work_limit_gflop;
+  require_zero(desc.reserved);
   return info;
 }
 
@@ -116,6 +119,7 @@ hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surfac
       if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
         fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
       CoreOptions options;
+      options.flop_limit = 1e9 * static_cast<double>(info.work_limit_gflop);
       options.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
       options.field_kind = static_cast<FieldKind>(desc.field_kind);
       options.ordering = desc.ordering == HF_ORDERING_METIS            ? Ordering::metis
@@ -205,18 +209,21 @@ hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statistics* o
   });
 }
 
-hf_result hf_surface_save(hf_surface handle, int32_t field_kind, size_t capacity, void* out_bytes, size_t* out_size) {
+hf_result hf_surface_save(hf_surface handle, int32_t field_kind, hf_progress progress, size_t capacity, void* out_bytes,
+                          size_t* out_size) {
   return guarded("hf_surface_save", [&] {
     const auto object = get<SurfaceObject>(handle, "surface");
     check_choice(field_kind, 3, "field_kind");
-    const std::shared_ptr<const Core> core = object->surface.core(static_cast<FieldKind>(field_kind));
-    const std::size_t size = static_cast<std::size_t>(saved_factor_size(*core->factor));
-    if (out_size) *out_size = size;
-    if (!out_bytes && !out_size) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_bytes and out_size are both NULL");
-    if (!out_bytes) return;
-    check_capacity(true, capacity, size, "capacity");
-    save_factor(*core->factor, grounded_hash(*core), {static_cast<std::uint8_t*>(out_bytes), size}, *core->memory,
-                *core->jobs);
+    with_progress(progress, [&] {
+      const std::shared_ptr<const Core> core = object->surface.core(static_cast<FieldKind>(field_kind));
+      const std::size_t size = static_cast<std::size_t>(saved_factor_size(*core->factor));
+      if (out_size) *out_size = size;
+      if (!out_bytes && !out_size) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_bytes and out_size are both NULL");
+      if (!out_bytes) return;
+      check_capacity(true, capacity, size, "capacity");
+      save_factor(*core->factor, grounded_hash(*core), {static_cast<std::uint8_t*>(out_bytes), size}, *core->memory,
+                  *core->jobs);
+    });
   });
 }
 

@@ -107,7 +107,7 @@ hf_result hf_transfer_add_pairs(hf_transfer handle, const hf_pairs_desc* given, 
           Span<const std::int32_t>(target_vertices.data() + target_start[p], target_start[p + 1] - target_start[p]);
       pairs[p].flags = desc.flags ? desc.flags[p] : 0;
     }
-    object->transfer.add_pairs(pairs, out_pairs);
+    with_progress(desc.progress, [&] { object->transfer.add_pairs(pairs, out_pairs); });
   });
 }
 

@@ -1,6 +1,7 @@
 #include "field/extremities.h"
 
 #include <algorithm>
+#include <optional>
 #include <cmath>
 #include <limits>
 
@@ -182,10 +183,24 @@ Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source
   const Core& core = geodesics.core();
   Extremities found(*core.memory);
   found.field.resize(at(core.size()));
-  geodesics.average(source_count, found.field.data(), 0.3f, 0.95f);
+  {
+    const ProgressRange range(0.0f, 0.95f);
+    geodesics.average(source_count, found.field.data());
+  }
   propose(core, component_areas(core), least_length, false, found);
   report(1.0f);
   return found;
+}
+
+Extremities geodesic_extremities(std::shared_ptr<const Core> core, double smoothing, std::int32_t source_count,
+                                 double least_length) {
+  constexpr float factored = 0.3f;  // share of progress
+  const std::optional<Geodesics> geodesics = [&] {
+    const ProgressRange range(0.0f, factored);
+    return std::optional<Geodesics>(std::in_place, std::move(core), smoothing);
+  }();
+  const ProgressRange range(factored, 1.0f);
+  return geodesic_extremities(*geodesics, source_count, least_length);
 }
 
 }  // namespace hf_inner

@@ -36,5 +36,8 @@ struct Extremities {
 // Throws HF_ERROR_UNSUPPORTED when the core's factor is not that of a Laplacian.
 Extremities poisson_extremities(const Core& core, double least_length);
 Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length);
+// The same on distances that are made for it; smoothing: see Geodesics.
+Extremities geodesic_extremities(std::shared_ptr<const Core> core, double smoothing, std::int32_t source_count,
+                                 double least_length);
 
 }  // namespace hf_inner

@@ -33,7 +33,7 @@ class Geodesics {
   // Mean over each component of the distance to its points, up to a constant by component. Takes `count` sources per
   // component by farthest point sampling, each weighted with the area nearest to it. progress: null, or told the share
   // done between `from` and `to`.
-  void average(std::int32_t count, double* out, float from, float to) const;
+  void average(std::int32_t count, double* out) const;
 
   const Core& core() const noexcept { return *core_; }
   double time_step() const noexcept { return step_; }

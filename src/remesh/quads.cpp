@@ -262,10 +262,9 @@ QuadResult make_quads(const QuadOptions& options) {
   }
 
   // tips by both fields: the mean distance finds limbs that the Poisson field merges into others
-  const Geodesics geodesics(options.core, geodesic_smoothing);
   const Extremities far = [&] {
     const ProgressRange range(quads_progress.prepared, quads_progress.far_tips);
-    return geodesic_extremities(geodesics, geodesic_sources, tip_lengths[0].geodesic);
+    return geodesic_extremities(options.core, geodesic_smoothing, geodesic_sources, tip_lengths[0].geodesic);
   }();
   const Extremities high = [&] {
     const ProgressRange range(quads_progress.far_tips, quads_progress.tips);

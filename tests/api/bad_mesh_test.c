@@ -218,10 +218,10 @@ static void readers_of_base_and_surface_refuse_null_and_small_arrays(void** stat
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_get_components(scene.sheet, 0, NULL, NULL));
   unsigned char byte;
   size_t size;
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_save(scene.sheet, 0, 0, NULL, NULL));
-  ROW("one byte", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_surface_save(scene.sheet, 0, 1, &byte, &size));
-  ROW("field kind -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, hf_surface_save(scene.sheet, -1, 1, &byte, &size));
-  ROW("field kind 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, hf_surface_save(scene.sheet, 3, 1, &byte, &size));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_save(scene.sheet, 0, NULL, 0, NULL, NULL));
+  ROW("one byte", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_surface_save(scene.sheet, 0, NULL, 1, &byte, &size));
+  ROW("field kind -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, hf_surface_save(scene.sheet, -1, NULL, 1, &byte, &size));
+  ROW("field kind 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, hf_surface_save(scene.sheet, 3, NULL, 1, &byte, &size));
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_progress_create(NULL));
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_progress_get_fraction(scene.progress, NULL));
   ROW("handle NULL", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0, hf_progress_get_fraction(NULL, &fraction));

@@ -269,7 +269,7 @@ static void the_second_kind_is_made_once_and_shared(void** state) {
   const double added = memory_of(surface) - with;
   assert_true(added < 0.2 * (with - first)); /* ... and two more solvers share it */
   size_t size = 0;
-  assert_ok(hf_surface_save(surface, HF_FIELD_BIHARMONIC, 0, NULL, &size));
+  assert_ok(hf_surface_save(surface, HF_FIELD_BIHARMONIC, NULL, 0, NULL, &size));
   assert_true(size > 0 && memory_of(surface) - with < 0.2 * (with - first));
   for (int i = 0; i < 3; ++i) hf_solver_destroy(plates[i]);
   hf_solver_destroy(harmonic), hf_surface_destroy(surface), surface_free(&sheet);

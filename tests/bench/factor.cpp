@@ -116,11 +116,11 @@ json store_and_load(const Mesh& mesh, const Run& run) {
   const hf_surface_statistics made = maker.surface_statistics();
   const double make_ms = made.ordering_ms + made.symbolic_ms + made.numeric_ms;
   hf_factor_desc saved = HF_INIT(hf_factor_desc);
-  check(hf_surface_save(maker.surface(), HF_FIELD_HARMONIC, 0, nullptr, &saved.byte_count));
+  check(hf_surface_save(maker.surface(), HF_FIELD_HARMONIC, nullptr, 0, nullptr, &saved.byte_count));
   hf_inner::Memory memory;
   hf_inner::Buffer<uint8_t> bytes(memory, saved.byte_count);
   saved.bytes = bytes.data();
-  const double save = time_ms([&] { check(hf_surface_save(maker.surface(), HF_FIELD_HARMONIC, saved.byte_count, bytes.data(), nullptr)); });
+  const double save = time_ms([&] { check(hf_surface_save(maker.surface(), HF_FIELD_HARMONIC, nullptr, saved.byte_count, bytes.data(), nullptr)); });
   std::vector<double> copied, borrowed;
   for (uint32_t r = 0; r < run.repetitions; ++r) {
     for (const int borrow : {0, 1}) {
