@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/progress.h"
 #include "base/timer.h"
 #include "factor/ordering.h"
 
@@ -86,13 +87,17 @@ void DirectionSystem::make_matrix() {
       edge_weights(core->mesh, topology, OperatorKind::clamped, *core->memory, core->jobs.get());
   matrix.column_start.resize(2 * n + 1);
   matrix.column_start[0] = 0;
+  Poller poller;
   for (std::size_t p = 0; p < n; ++p) {
+    poller.due();
     const std::size_t v = at(order[p]);
     const Index length = 2 * (topology.neighbour_start[v + 1] - topology.neighbour_start[v] + 1);
     for (std::size_t part = 0; part < 2; ++part)
       matrix.column_start[2 * p + part + 1] = matrix.column_start[2 * p + part] + length;
   }
-  matrix.row.resize(at(matrix.column_start[2 * n])), matrix.value.resize(matrix.row.size());
+  matrix.row.resize(at(matrix.column_start[2 * n]));
+  poll();
+  matrix.value.resize(matrix.row.size());
   for_ranges(*core->jobs, n, piece, [&](std::size_t begin, std::size_t end) {
     struct Neighbour {
       Index position, vertex, edge;
@@ -132,13 +137,18 @@ void DirectionSystem::make_pins() {
   const std::size_t components = core->ground.size();
   beta.assign(components, 0.0);
   Vector<double> count(components, 0.0, &*core->memory);
+  Poller poller;
   for (Index v = 0; v < core->size(); ++v) {
+    poller.due();
     const std::size_t c = at(core->mesh.component[at(v)]);
     beta[c] += matrix.value[matrix.diagonal(unknown(v, 0))], count[c] += 1;
   }
   SymmetricMatrix a(*core->memory);
   a.column_start.assign(matrix.column_start.begin(), matrix.column_start.end());
-  a.row.assign(matrix.row.begin(), matrix.row.end()), a.value.assign(matrix.value.begin(), matrix.value.end());
+  a.row.assign(matrix.row.begin(), matrix.row.end());
+  poll();
+  a.value.assign(matrix.value.begin(), matrix.value.end());
+  poll();
   Vector<Index> start(1, 0, &*core->memory);
   for (std::size_t c = 0; c < components; ++c) {
     beta[c] = beta[c] > 0 ? beta[c] / count[c] : 1.0;

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/hypotenuse.h"
 #include "base/index.h"
+#include "base/progress.h"
 #include "mesh/weld.h"
 
 namespace hf_inner {
@@ -162,13 +163,16 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
   check_triangles(input);
   Mesh mesh(memory);
   mesh.report.vertex_count = input.vertex_count, mesh.report.triangle_count = input.triangle_count;
+  poll();
   find_frame(input, mesh);
+  poll();
 
   // weld: representative given vertex of every given vertex
   Vector<Index> representative = weld(input, memory);
   for (std::uint32_t v = 0; v < input.vertex_count; ++v)
     mesh.report.welded_vertex_count += representative[v] == static_cast<Index>(v);
 
+  poll();
   // usable triangles: three different corners after welding
   mesh.triangle_of_given.assign(input.triangle_count, none);
   mesh.corners.reserve(std::size_t{3} * input.triangle_count);
@@ -186,6 +190,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
     fail(HF_ERROR_EMPTY, HF_NO_INDEX, "every triangle has equal corners%s; nothing is left of the mesh",
          input.weld == Weld::none ? "" : " after welding");
 
+  poll();
   // inner numbering: welded vertices of usable triangles, in the order given
   Vector<Index> inner(input.vertex_count, none, &memory);
   for (Index& corner : mesh.corners) inner[at(corner)] = 0;
@@ -212,6 +217,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
         mesh.to_inner({input.positions.get(v, 0), input.positions.get(v, 1), input.positions.get(v, 2)});
   }
 
+  poll();
   UnionFind sets(count, memory);
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
     sets.unite(mesh.triangle(t)[0], mesh.triangle(t)[1]);
@@ -224,6 +230,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
         root == static_cast<Index>(i) ? static_cast<Index>(mesh.report.component_count++) : mesh.component[at(root)];
   }
 
+  poll();
   count_duplicates(mesh, memory);
   measure_triangles(mesh, jobs, memory);
   return mesh;

@@ -5,6 +5,7 @@
 #include <queue>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "factor/factor.h"
 #include "remesh/border_flux.h"
 #include "remesh/constants.h"
@@ -266,7 +267,9 @@ FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs)
   Vector<std::pair<std::int32_t, double>> column(&memory);
   Table<std::uint8_t> pinned(s.component_count, 0, memory);
   Vector<float> coordinates(&memory);
+  Poller poller;
   for (std::int32_t v = 0; v < n; ++v) {
+    poller.due();
     column.clear();
     double diagonal = 0;
     const std::int32_t begin = s.out[v];

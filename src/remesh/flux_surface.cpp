@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/progress.h"
 
 namespace hf_inner {
 namespace {
@@ -93,6 +94,7 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
       if (pairs.twin[h] != none) s.twin[moved(h)] = moved(pairs.twin[h]);
   }
 
+  poll();
   // one vertex per fan: the corners reached by turning about it
   for (std::int32_t h = 0; h < real_halves; ++h) {
     if (s.tail[h] != none) continue;
@@ -112,6 +114,7 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
   }
   s.first_apex = s.out.size();
 
+  poll();
   // weights
   const Vector<double> weights = edge_weights(mesh, topology, OperatorKind::clamped, memory);
   Vector<double> sorted(weights.begin(), weights.end(), &memory);
