@@ -200,8 +200,7 @@ hf_result hf_surface_find_extremities(hf_surface handle, const hf_extremities_de
     if (!out_extremities && !out_count)
       fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "out_extremities and out_count are both NULL");
     const Core& core = *shared;
-    const Extremities found =
-        with_progress(desc.progress, [&] { return search(shared, desc); });
+    const Extremities found = with_progress(desc.progress, [&] { return search(shared, desc); });
     const std::uint32_t count = static_cast<std::uint32_t>(found.points.size());
     write_count(out_count, count);
     check_capacity(out_extremities, capacity, count, "capacity");

@@ -99,9 +99,7 @@ hf_result hf_region_edit(hf_region handle, const hf_region_edit_desc* given) {
       read_list(mesh, desc.remove_count, desc.remove_vertices, "remove_vertices", "remove_vertices", remove);
     if (desc.add_count) read_list(mesh, desc.add_count, desc.add_vertices, "add_vertices", "add_vertices", add);
     edit.rings = desc.ring_count, edit.remove = remove, edit.add = add;
-    with_progress(desc.progress, [&] {
-      object->region.edit(edit);
-    });
+    with_progress(desc.progress, [&] { object->region.edit(edit); });
   });
 }
 

@@ -145,8 +145,7 @@ void make_factor(Core& core, const CoreOptions& options) {
 std::shared_ptr<const Core> Core::make(const MeshInput& input, const CoreOptions& options,
                                        std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs) {
   if (!options.saved_factor.empty()) check_saved_factor(options.saved_factor);
-  return make(Geometry::make(input, options.operator_kind, std::move(memory), std::move(jobs)),
-              options);
+  return make(Geometry::make(input, options.operator_kind, std::move(memory), std::move(jobs)), options);
 }
 
 std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, const CoreOptions& options) {

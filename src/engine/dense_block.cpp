@@ -217,8 +217,8 @@ std::int32_t DenseBlock::factorise_signed() {
   return -1;
 }
 
-// The front kernels of the sparse factor on one front of k columns and no rows below. Rows that are up to date come in as
-// they are; every number is one chain of operations in column order, so it does not matter which rows were there.
+// The front kernels of the sparse factor on one front of k columns and no rows below. Rows that are up to date come in
+// as they are; every number is one chain of operations in column order, so it does not matter which rows were there.
 std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
   const Kernels& kernels = choose_kernels();
   const std::int32_t k = count(), done = valid_ / 8 * 8, tiles = (k + 7) / 8;

@@ -72,8 +72,7 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
     std::fill_n(own, m, 0.0);
   }
   for (std::size_t v = 0; v < n; ++v) {
-    for (std::size_t q = 0; q < m; ++q)
-      next.total[at(core_->mesh.component[v]) * m + q] += r(static_cast<Index>(v))[q];
+    for (std::size_t q = 0; q < m; ++q) next.total[at(core_->mesh.component[v]) * m + q] += r(static_cast<Index>(v))[q];
   }
 
   if (single) {

@@ -285,7 +285,7 @@ class Dissection {
   std::mutex mutex_;
   Vector<std::shared_ptr<Workspace>> free_;
   std::size_t made_ = 0;
-  float cut_share_ = 0;                  // of progress, when the waves end
+  float cut_share_ = 0;                   // of progress, when the waves end
   std::atomic<std::int32_t> ordered_{0};  // unknowns of the parts since then
 };
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/progress.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "base/progress.h"
 
 namespace hf_inner {
 namespace {

@@ -351,7 +351,8 @@ class Factorisation {
 }  // namespace
 
 void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix,
-               Span<const std::uint8_t> eliminated, double lost_share, double* values, Memory& memory, JobRunner& jobs) {
+               Span<const std::uint8_t> eliminated, double lost_share, double* values, Memory& memory,
+               JobRunner& jobs) {
   Factorisation(symbolic, plan, kernels, matrix, eliminated, lost_share, values, memory, jobs).run();
   const std::size_t stored = static_cast<std::size_t>(symbolic.stored_entries);
   std::fill(values + stored, values + stored + value_slack, 0.0);

@@ -28,8 +28,8 @@ constexpr double poor_separator = 2.5;
 // Share of the band when breadth-first keys lose a side. Half and double: nothing on torus, creature and scan.
 constexpr double narrow_band = 0.05;
 
-// Eigenvectors of a symmetric 3 x 3 matrix by Jacobi rotations, columns by falling eigenvalue. By hand, not Eigen's: the
-// order of the unknowns follows the signs of the axes, and with other signs the last bits of fields change.
+// Eigenvectors of a symmetric 3 x 3 matrix by Jacobi rotations, columns by falling eigenvalue. By hand, not Eigen's:
+// the order of the unknowns follows the signs of the axes, and with other signs the last bits of fields change.
 void principal_axes(double a[3][3], double axis[3][3], double value[3]) {
   double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (int sweep = 0; sweep < 12; ++sweep) {

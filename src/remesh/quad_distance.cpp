@@ -148,7 +148,8 @@ void QuadDistance::turn_quads(QuadMesh& mesh, const NearFaces* known) const {
   });
 }
 
-double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<QuadMiss>* out_misses, NearFaces* known) const {
+double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<QuadMiss>* out_misses,
+                             NearFaces* known) const {
   Soup soup(*memory_);
   soup.make(mesh);
   const NearestTriangle quads(mesh.position, soup.corners, *memory_);

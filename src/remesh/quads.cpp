@@ -176,8 +176,7 @@ class Maker {
   // Chooses sites with their lines and returns the field.
   Vector<double> flow(Span<const FluxSite> given, const RingOptions& rings, QuadResult& result) const {
     const ProgressRange range(0.0f, make_progress.flow);
-    result.sites =
-        choose_flux_sites(surface_, given, options_.automatic, rings.edge_length, memory_);
+    result.sites = choose_flux_sites(surface_, given, options_.automatic, rings.edge_length, memory_);
     Vector<double> u = solve_with_borders(surface_, solver_, result.sites);
     for (int round = 0; round < line_rounds && !options_.uniform && options_.scale_lines; ++round) {
       report(1.0f);

@@ -342,7 +342,8 @@ std::vector<double> loaded_field(const Mesh& m, std::uint32_t count, int operato
   hf_solver solver = nullptr;
   std::size_t size = 0;
   std::vector<double> field(m.count(), NAN);
-  if (hf_surface_create(&desc, &made) == HF_OK && hf_surface_save(made, field_kind, nullptr, 0, nullptr, &size) == HF_OK) {
+  if (hf_surface_create(&desc, &made) == HF_OK &&
+      hf_surface_save(made, field_kind, nullptr, 0, nullptr, &size) == HF_OK) {
     std::vector<unsigned char> bytes(size);
     hf_factor_desc saved = HF_INIT(hf_factor_desc);
     saved.bytes = bytes.data(), saved.byte_count = size;

@@ -110,7 +110,8 @@ void Player::reload() {
   std::size_t size = 0;
   expect(HF_OK, hf_surface_save(surface, field_kind_, nullptr, 0, nullptr, &size), "hf_surface_save, size");
   std::vector<std::uint8_t> bytes(size + 1, 0x5A);
-  expect(HF_ERROR_TOO_SMALL, hf_surface_save(surface, field_kind_, nullptr, size - 1, bytes.data(), &size), "hf_surface_save");
+  expect(HF_ERROR_TOO_SMALL, hf_surface_save(surface, field_kind_, nullptr, size - 1, bytes.data(), &size),
+         "hf_surface_save");
   expect(HF_OK, hf_surface_save(surface, field_kind_, nullptr, size, bytes.data(), nullptr), "hf_surface_save");
   hold(bytes[size] == 0x5A, "hf_surface_save wrote beyond its size");
   hf_factor_desc factor = HF_INIT(hf_factor_desc);

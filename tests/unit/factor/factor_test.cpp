@@ -262,8 +262,8 @@ TEST_F(FactorTest, avx2_and_avx512_give_the_same_bits) {
     const auto analysis = static_cast<const hf_inner::SupernodalFactor&>(*made).analysis();
     hf_inner::SupernodalFactor f(analysis, memory), g(analysis, memory), h(analysis, memory);
     f.use_kernels(*narrow), g.use_kernels(*wide), h.use_kernels(*hf_inner::plain_kernels());
-    f.compute(a, {}, hf_inner::default_lost_share, one, nullptr), g.compute(a, {}, hf_inner::default_lost_share, one, nullptr);
-    h.compute(a, {}, hf_inner::default_lost_share, one, nullptr);
+    f.compute(a, {}, hf_inner::default_lost_share, one), g.compute(a, {}, hf_inner::default_lost_share, one);
+    h.compute(a, {}, hf_inner::default_lost_share, one);
     ASSERT_EQ(std::memcmp(f.values().data(), g.values().data(), f.values().size() * sizeof(double)), 0);
     for (const std::int32_t channels : {1, 2, 3, 4, 8, 9}) {
       const std::vector<double> b = random_vector(static_cast<std::size_t>(a.size()) * channels, 9);

@@ -26,7 +26,7 @@ class OrderingTest : public testing::Test {
   hf_inner::Buffer<std::int32_t> order(const hf_inner::SymmetricMatrix& a, hf_inner::Ordering kind, const std::vector<float>& points = {},
                                  hf_inner::JobRunner* jobs = nullptr) {
     hf_inner::Buffer<std::int32_t> result;
-    hf_inner::make_order(a, {points.data(), points.size()}, kind, memory, jobs ? *jobs : one, nullptr, result);
+    hf_inner::make_order(a, {points.data(), points.size()}, kind, memory, jobs ? *jobs : one, result);
     std::vector<char> seen(static_cast<std::size_t>(a.size()), 0);
     EXPECT_EQ(result.size(), seen.size());
     for (const std::int32_t v : result) {
