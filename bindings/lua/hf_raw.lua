@@ -54,6 +54,8 @@ typedef struct hf_surface_desc {
   uint32_t vertex_limit;
   uint32_t triangle_limit;
   uint32_t memory_limit_mb;
+  uint32_t work_limit_gflop;
+  uint32_t reserved;
   hf_allocator allocator;
   hf_job_runner job_runner;
   hf_progress progress;
@@ -72,6 +74,7 @@ typedef struct hf_surface_info {
   uint32_t vertex_limit;
   uint32_t triangle_limit;
   uint32_t memory_limit_mb;
+  uint32_t work_limit_gflop;
 } hf_surface_info;
 typedef struct hf_surface_report {
   uint32_t struct_size;
@@ -337,6 +340,7 @@ typedef struct hf_handles_desc {
   const double* radii;
   uint32_t layer;
   uint32_t reserved;
+  hf_progress progress;
 } hf_handles_desc;
 typedef struct hf_transform {
   double rotation[4];
@@ -532,6 +536,7 @@ typedef struct hf_pairs_desc {
   const uint32_t* target_counts;
   const uint32_t* target_vertices;
   const uint32_t* flags;
+  hf_progress progress;
 } hf_pairs_desc;
 typedef struct hf_pair_info {
   uint32_t struct_size;
@@ -582,7 +587,7 @@ hf_result hf_surface_get_info(hf_surface surface, hf_surface_info* out_info);
 hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_report);
 hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity, uint32_t* out_components, uint32_t* out_count);
 hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statistics* out_statistics);
-hf_result hf_surface_save(hf_surface surface, int32_t field_kind, size_t capacity, void* out_bytes, size_t* out_size);
+hf_result hf_surface_save(hf_surface surface, int32_t field_kind, hf_progress progress, size_t capacity, void* out_bytes, size_t* out_size);
 hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const double* direction, const hf_pick_desc* desc, hf_hit* out_hit);
 hf_result hf_surface_find_vertex(hf_surface surface, const double* point, const hf_pick_desc* desc, uint32_t* out_vertex, double* out_distance);
 hf_result hf_create(hf_surface surface, const hf_solver_desc* desc, hf_solver* out_solver);

@@ -47,9 +47,9 @@ end
 -- The factor of a kind of field (nil: harmonic) as a string of bytes, for the option saved_factor.
 function Surface:save(field_kind)
   local size = ffi.new('size_t[1]')
-  check(C.hf_surface_save(self.raw, field_kind or 0, 0, nil, size))
+  check(C.hf_surface_save(self.raw, field_kind or 0, nil, 0, nil, size))
   local bytes = ffi.new('char[?]', size[0])
-  check(C.hf_surface_save(self.raw, field_kind or 0, size[0], bytes, size))
+  check(C.hf_surface_save(self.raw, field_kind or 0, nil, size[0], bytes, size))
   return ffi.string(bytes, size[0])
 end
 

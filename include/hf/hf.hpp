@@ -131,9 +131,9 @@ class Surface {
   // Returns the factor as bytes. Pass them to hf_surface_create in hf_surface_desc::saved_factor.
   std::vector<uint8_t> save(int32_t field_kind = HF_FIELD_HARMONIC) const {
     size_t size = 0;
-    check(hf_surface_save(get(), field_kind, 0, nullptr, &size));
+    check(hf_surface_save(get(), field_kind, nullptr, 0, nullptr, &size));
     std::vector<uint8_t> bytes(size);
-    check(hf_surface_save(get(), field_kind, size, bytes.data(), &size));
+    check(hf_surface_save(get(), field_kind, nullptr, size, bytes.data(), &size));
     return bytes;
   }
   // Finds the first triangle on a ray. desc: null for the rest positions.

@@ -79,6 +79,7 @@ typedef struct hf_handles_desc {
   const double* radii;  /* is edge-connected to it within [handle_count] radii >= 0 of the point */
   uint32_t layer;       /* 0 to HF_LAYER_COUNT - 1, for the whole batch */
   uint32_t reserved;    /* 0 */
+  hf_progress progress; /* NULL, or an object to poll and cancel through */
 } hf_handles_desc;
 
 /* Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a posed

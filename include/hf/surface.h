@@ -82,6 +82,9 @@ typedef struct hf_surface_desc {
   uint32_t vertex_limit;         /* refuse larger meshes before allocating; 0 = 20,000,000 */
   uint32_t triangle_limit;       /* refuse more triangles; 0 = eight per vertex of the vertex limit */
   uint32_t memory_limit_mb;      /* refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit */
+  uint32_t work_limit_gflop;     /* refuse a factorisation of more than this many 10^9 operations. They are counted
+                                    before it begins; 0 = 100,000, about an hour of one core */
+  uint32_t reserved;             /* 0 */
   hf_allocator allocator;        /* zero = malloc */
   hf_job_runner job_runner;      /* zero = threads of the library's own */
   hf_progress progress;          /* NULL, or an object to poll and cancel through */
@@ -120,6 +123,7 @@ typedef struct hf_surface_info {
   uint32_t vertex_limit;
   uint32_t triangle_limit;  /* 0: eight per vertex of the vertex limit */
   uint32_t memory_limit_mb; /* 0: none */
+  uint32_t work_limit_gflop;
 } hf_surface_info;
 
 /* Writes the options of a surface. Thread safety: reads `surface`. Since 0.1. */
@@ -179,11 +183,12 @@ HF_API hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statis
  * mesh, options and library version, whatever the number of threads. The bytes are little-endian and hold a format
  * version, a hash of the matrix and a checksum. They hold no sites.
  *
- * field_kind: HF_FIELD_*; if the surface has no factor of that kind yet, the call makes it first. out_bytes: NULL, or
- * `capacity` bytes, any alignment. out_size: NULL, or receives the size. Cost: one copy of the factor. On failure
- * out_bytes is undefined. Thread safety: reads `surface`. Since 0.1. */
-HF_API hf_result hf_surface_save(hf_surface surface, int32_t field_kind, size_t capacity, void* out_bytes,
-                                 size_t* out_size);
+ * field_kind: HF_FIELD_*; a factor that does not exist yet is made first. progress: NULL, or an object to poll and
+ * cancel through. out_bytes: NULL, or `capacity` bytes, any alignment. out_size: NULL, or receives the size. Cost: one
+ * copy of the factor. On failure out_bytes is undefined. Errors: HF_ERROR_CANCELLED, HF_ERROR_TOO_SMALL. Thread safety:
+ * reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_save(hf_surface surface, int32_t field_kind, hf_progress progress, size_t capacity,
+                                 void* out_bytes, size_t* out_size);
 
 /* ---- picking ---- */
 

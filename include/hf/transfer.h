@@ -61,6 +61,7 @@ typedef struct hf_pairs_desc {
   const uint32_t* target_counts;   /* [pair_count] */
   const uint32_t* target_vertices;
   const uint32_t* flags; /* [pair_count] HF_PAIR_*, or NULL for none */
+  hf_progress progress;  /* NULL, or an object to poll and cancel through */
 } hf_pairs_desc;
 
 /* Adds pairs. out_pairs: NULL, or receives their numbers in uint32_t[pair_count]. Does not factorise. Errors: as

@@ -7,9 +7,9 @@ int main(int argc, char** argv) {
   /* in the tool */
   hf_surface made = mesh_surface(&mesh);
   size_t size = 0;
-  ok(hf_surface_save(made, HF_FIELD_HARMONIC, 0, NULL, &size)); /* NULL bytes: the size alone */
+  ok(hf_surface_save(made, HF_FIELD_HARMONIC, NULL, 0, NULL, &size)); /* NULL bytes: the size alone */
   void* bytes = malloc(size);
-  ok(hf_surface_save(made, HF_FIELD_HARMONIC, size, bytes, NULL));
+  ok(hf_surface_save(made, HF_FIELD_HARMONIC, NULL, size, bytes, NULL));
   FILE* file = fopen("factor.hf", "wb");
   if (!file || fwrite(bytes, 1, size, file) != size || fclose(file) != 0) return fprintf(stderr, "cannot write\n"), 1;
   free(bytes);

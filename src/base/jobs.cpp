@@ -29,6 +29,7 @@ struct Batch {
   std::uint32_t count;
   void (*call)(void*, std::uint32_t);
   void* context;
+  Progress* progress;  // of the call that runs the batch
   std::atomic<std::uint32_t> next{0};
   std::atomic<bool> failed{false};
   std::exception_ptr error;
@@ -36,12 +37,14 @@ struct Batch {
   void work_one(std::uint32_t index) noexcept {
     if (failed.load(std::memory_order_relaxed)) return;
     try {
+      poll();
       call(context, index);
     } catch (...) {
       if (!failed.exchange(true)) error = std::current_exception();
     }
   }
   void work() noexcept {
+    const CallProgress here(progress);
     for (;;) {
       const std::uint32_t index = next.fetch_add(1, std::memory_order_relaxed);
       if (index >= count) return;
@@ -167,7 +170,7 @@ JobRunner::~JobRunner() {
 
 void JobRunner::run(std::uint32_t count, Call call, void* context) {
   Batch batch;
-  batch.count = count, batch.call = call, batch.context = context;
+  batch.count = count, batch.call = call, batch.context = context, batch.progress = current_progress();
   if (host_.run && in_host_job) {
     batch.work();
   } else if (host_.run) {

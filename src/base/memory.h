@@ -28,6 +28,11 @@ class Memory final : public std::pmr::memory_resource {
       : hooks_(hooks), byte_limit_(byte_limit) {}
 
   std::uint64_t live_bytes() const noexcept { return live_.load(std::memory_order_relaxed); }
+  // Bytes that may still be allocated before the byte limit refuses.
+  std::uint64_t room() const noexcept {
+    const std::uint64_t live = live_bytes();
+    return byte_limit_ == 0 ? UINT64_MAX : byte_limit_ > live ? byte_limit_ - live : 0;
+  }
   std::uint64_t peak_bytes() const noexcept { return peak_.load(std::memory_order_relaxed); }
   std::uint64_t allocation_count() const noexcept { return count_.load(std::memory_order_relaxed); }
 

@@ -59,20 +59,16 @@ hf_extremities_desc read_extremities(const hf_extremities_desc* given) {
   return desc;
 }
 
-Extremities search(const std::shared_ptr<const Core>& core, const hf_extremities_desc& desc, Progress* progress) {
+Extremities search(const std::shared_ptr<const Core>& core, const hf_extremities_desc& desc) {
   const double least = static_cast<double>(desc.least_length);
-  if (desc.kind == HF_EXTREMITIES_POISSON) return poisson_extremities(*core, least, progress);
+  if (desc.kind == HF_EXTREMITIES_POISSON) return poisson_extremities(*core, least);
   const std::int32_t sources = static_cast<std::int32_t>(desc.source_count);
-  if (!desc.geodesics) {
-    const Geodesics geodesics(core, 1.0);
-    report(progress, 0.3f);
-    return geodesic_extremities(geodesics, sources, least, progress);
-  }
+  if (!desc.geodesics) return geodesic_extremities(core, 1.0, sources, least);
   const auto object = get<GeodesicsObject>(desc.geodesics, "desc->geodesics");
   const Reading reading(*object);
   if (&object->geodesics.core() != core.get())
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "desc->geodesics belongs to another surface; make it on this surface");
-  return geodesic_extremities(object->geodesics, sources, least, progress);
+  return geodesic_extremities(object->geodesics, sources, least);
 }
 
 }  // namespace
@@ -171,10 +167,9 @@ hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* given
     const double smoothing = static_cast<double>(desc.smoothing);
     if (smoothing != 0 && !(smoothing >= 0.1 && smoothing <= 1e4))
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "smoothing is %g; it must be 0.1 to 10000, or 0 for 1", smoothing);
-    return with_progress(desc.progress, [&](Progress* progress) {
-      report(progress, 0);
+    return with_progress(desc.progress, [&] {
       auto made = make_owner_in<GeodesicsObject>(core->memory, core, smoothing > 0 ? smoothing : 1.0);
-      report(progress, 1);
+      report(1);
       return made;
     });
   });
@@ -201,8 +196,7 @@ hf_result hf_surface_find_extremities(hf_surface handle, const hf_extremities_de
     const hf_extremities_desc desc = read_extremities(given);
     require_either(out_extremities, out_count, "out_extremities and out_count");
     const Core& core = *shared;
-    const Extremities found =
-        with_progress(desc.progress, [&](Progress* progress) { return search(shared, desc, progress); });
+    const Extremities found = with_progress(desc.progress, [&] { return search(shared, desc); });
     const std::uint32_t count = static_cast<std::uint32_t>(found.points.size());
     write_count(out_count, count);
     check_capacity(out_extremities, capacity, count, "capacity");

@@ -44,8 +44,7 @@ hf_result hf_detail_create(hf_region source_handle, hf_region target_handle, con
     }
     CarryOptions options;
     options.source_pins = source_pins, options.target_pins = target_pins, options.scale = desc.scale;
-    return with_progress(desc.progress, [&](Progress* progress) {
-      options.progress = progress;
+    return with_progress(desc.progress, [&] {
       return make_owner_in<DetailObject>(target->memory,
                                          carry_detail(source->region, target->region, options, *memory));
     });

@@ -85,11 +85,10 @@ hf_result hf_direction_create(hf_surface surface, const hf_direction_desc* given
     if (desc.degree != 0 && desc.degree != 1 && desc.degree != 2 && desc.degree != 4)
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "degree is %u; it must be 1, 2 or 4", desc.degree);
     require_zero(desc.reserved);
-    return with_progress(desc.progress, [&](Progress* progress) {
-      report(progress, 0);
+    return with_progress(desc.progress, [&] {
       auto made = make_owner_in<DirectionObject>(core->memory, core, desc.degree ? desc.degree : 1u,
                                                  desc.site_limit ? desc.site_limit : default_site_limit);
-      report(progress, 1);
+      report(1);
       return made;
     });
   });

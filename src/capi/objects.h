@@ -18,14 +18,17 @@ struct ProgressObject final : Object {
   Progress progress;
 };
 
-// Calls work(progress) with the progress object of a handle, or with null for a NULL handle. If the call is cancelled,
-// the progress object is reset, so that the next call with it runs.
+// Calls work() as a call that reports to the progress object of a handle; NULL: to none. If the call is cancelled, the
+// progress object is reset, so that the next call with it runs.
 template <class Work>
 auto with_progress(hf_progress handle, Work&& work) {
   std::shared_ptr<ProgressObject> object;
   if (handle) object = get<ProgressObject>(handle, "progress");
+  Progress* const progress = object ? &object->progress : nullptr;
+  const CallProgress here(progress);
   try {
-    return work(object ? &object->progress : nullptr);
+    poll();
+    return work();
   } catch (const Error& error) {
     if (error.code() == HF_ERROR_CANCELLED && object) object->progress.reset();
     throw;

@@ -85,7 +85,7 @@ void add_handles(hf_pose handle, const hf_handles_desc& desc, std::uint32_t* out
   }
   Vector<std::uint32_t> numbers(desc.handle_count, pose->memory.get());
   try {
-    pose->pose->add_handles(start, vertices, desc.layer, numbers);
+    with_progress(desc.progress, [&] { pose->pose->add_handles(start, vertices, desc.layer, numbers); });
   } catch (const Error& error) {
     if (!near || error.code() != HF_ERROR_OVERLAP) throw;
     const std::uint32_t r =

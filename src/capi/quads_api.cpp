@@ -130,8 +130,7 @@ hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quad
     const hf_quads_desc desc = read_optional(given, "desc");
     Vector<FluxSite> sites(core->memory.get());
     QuadOptions options = read_options(core, desc, sites);
-    return with_progress(desc.progress, [&](Progress* progress) {
-      options.progress = progress;
+    return with_progress(desc.progress, [&] {
       return make_owner_in<QuadsObject>(core->memory, core, make_quads(options),
                                         options.edge_length * core->mesh.scale);
     });

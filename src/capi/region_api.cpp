@@ -52,8 +52,8 @@ hf_result hf_region_create(hf_surface handle, const hf_region_desc* given, hf_re
     const hf_region_desc desc = read_optional(given, "desc");
     check_choice(desc.field_kind, 3, "field_kind");
     require_zero(desc.reserved);
-    return with_progress(desc.progress, [&](Progress* progress) {
-      const auto core = surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress);
+    return with_progress(desc.progress, [&] {
+      const auto core = surface->surface.core(static_cast<FieldKind>(desc.field_kind));
       check_one(desc.positions, desc.positions_f64, "positions");
       const ConstRows given_positions =
           rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
@@ -83,10 +83,7 @@ hf_result hf_region_edit(hf_region handle, const hf_region_edit_desc* given) {
       read_list(mesh, desc.remove_count, desc.remove_vertices, "remove_vertices", "remove_vertices", remove);
     if (desc.add_count) read_list(mesh, desc.add_count, desc.add_vertices, "add_vertices", "add_vertices", add);
     edit.rings = desc.ring_count, edit.remove = remove, edit.add = add;
-    with_progress(desc.progress, [&](Progress* progress) {
-      edit.progress = progress;
-      object->region.edit(edit);
-    });
+    with_progress(desc.progress, [&] { object->region.edit(edit); });
   });
 }
 

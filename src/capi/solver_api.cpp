@@ -94,9 +94,9 @@ hf_result hf_create(hf_surface handle, const hf_solver_desc* given, hf_solver* o
     if (desc.penalty != 0 && !(desc.penalty > 0))
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
     const double penalty = desc.penalty > 0 ? std::min(desc.penalty, largest_penalty) : default_penalty;
-    return with_progress(desc.progress, [&](Progress* progress) {
+    return with_progress(desc.progress, [&] {
       return make_owner_in<SolverObject>(surface->memory,
-                                         surface->surface.core(static_cast<FieldKind>(desc.field_kind), progress),
+                                         surface->surface.core(static_cast<FieldKind>(desc.field_kind)),
                                          static_cast<EngineKind>(desc.engine), penalty, channels,
                                          desc.site_limit ? desc.site_limit : default_site_limit);
     });

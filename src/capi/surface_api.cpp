@@ -13,6 +13,7 @@ namespace hf_inner::capi {
 namespace {
 
 constexpr std::uint32_t most_threads = 256, default_vertex_limit = 20000000, triangles_per_vertex = 8;
+constexpr std::uint32_t default_work_limit_gflop = 100000;
 
 hf_surface_info read_info(const hf_surface_desc& desc) {
   hf_surface_info info{};
@@ -26,6 +27,8 @@ hf_surface_info read_info(const hf_surface_desc& desc) {
   info.thread_count = count_of(desc.thread_count, 1, 1, most_threads, "thread_count");
   info.vertex_limit = desc.vertex_limit ? desc.vertex_limit : default_vertex_limit;
   info.triangle_limit = desc.triangle_limit, info.memory_limit_mb = desc.memory_limit_mb;
+  info.work_limit_gflop = desc.work_limit_gflop ? desc.work_limit_gflop : default_work_limit_gflop;
+  require_zero(desc.reserved);
   return info;
 }
 
@@ -114,11 +117,10 @@ hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surfac
                                                                      : Ordering::nested_dissection;
     if (desc.saved_factor) read_saved_factor(desc, options);
     info.ordering = static_cast<std::int32_t>(options.ordering);
-    return with_progress(desc.progress, [&](Progress* progress) {
-      options.progress = progress;
+    return with_progress(desc.progress, [&] {
       auto memory = make_memory(desc.allocator, std::uint64_t{desc.memory_limit_mb} << 20);
       auto jobs = make_shared_in<JobRunner>(*memory, info.thread_count, desc.job_runner);
-      auto geometry = Geometry::make(input, options.operator_kind, memory, std::move(jobs), progress);
+      auto geometry = Geometry::make(input, options.operator_kind, memory, std::move(jobs));
       return make_owner_in<SurfaceObject>(memory, std::move(geometry), options, info);
     });
   });
@@ -195,18 +197,21 @@ hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statistics* o
   });
 }
 
-hf_result hf_surface_save(hf_surface handle, int32_t field_kind, size_t capacity, void* out_bytes, size_t* out_size) {
+hf_result hf_surface_save(hf_surface handle, int32_t field_kind, hf_progress progress, size_t capacity, void* out_bytes,
+                          size_t* out_size) {
   return guarded("hf_surface_save", [&] {
     const auto object = get<SurfaceObject>(handle, "surface");
     check_choice(field_kind, 3, "field_kind");
-    const std::shared_ptr<const Core> core = object->surface.core(static_cast<FieldKind>(field_kind));
-    const std::size_t size = static_cast<std::size_t>(saved_factor_size(*core->factor));
-    if (out_size) *out_size = size;
-    require_either(out_bytes, out_size, "out_bytes and out_size");
-    if (!out_bytes) return;
-    check_capacity(true, capacity, size, "capacity");
-    save_factor(*core->factor, grounded_hash(*core), {static_cast<std::uint8_t*>(out_bytes), size}, *core->memory,
-                *core->jobs);
+    with_progress(progress, [&] {
+      const std::shared_ptr<const Core> core = object->surface.core(static_cast<FieldKind>(field_kind));
+      const std::size_t size = static_cast<std::size_t>(saved_factor_size(*core->factor));
+      if (out_size) *out_size = size;
+      require_either(out_bytes, out_size, "out_bytes and out_size");
+      if (!out_bytes) return;
+      check_capacity(true, capacity, size, "capacity");
+      save_factor(*core->factor, grounded_hash(*core), {static_cast<std::uint8_t*>(out_bytes), size}, *core->memory,
+                  *core->jobs);
+    });
   });
 }
 

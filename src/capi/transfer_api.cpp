@@ -78,7 +78,7 @@ hf_result hf_transfer_add_pairs(hf_transfer handle, const hf_pairs_desc* given, 
     Vector<PairInput> pairs(memory);
     for (std::uint32_t p = 0; p < desc.pair_count; ++p)
       pairs.push_back({source[p], target[p], desc.flags ? desc.flags[p] : 0});
-    object->transfer.add_pairs(pairs, out_pairs);
+    with_progress(desc.progress, [&] { object->transfer.add_pairs(pairs, out_pairs); });
   });
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/progress.h"
+
 namespace hf_inner {
 namespace {
 
@@ -133,6 +135,7 @@ void write_rows(const Core& core, const Reach& reach, const HandleFields& fields
   out.start[0] = 0;
   for (std::int32_t v = 0; v < n; ++v)
     out.start[v + 1] = out.start[v] + rows[v / vertex_piece].length[v % vertex_piece];
+  poll();
   out.cluster.resize(out.start[n]), out.weight.resize(out.start[n]);
   for_vertex_pieces(*core.jobs, n, [&](std::int32_t first, std::int32_t) {
     const PieceRows& own = rows[first / vertex_piece];

@@ -94,7 +94,7 @@ void place_pins(const Region& region, const DiscBoundary& boundary, Span<const I
 }  // namespace
 
 CarriedDetail carry_detail(const Region& source, const Region& target, const CarryOptions& options, Memory& memory) {
-  report(options.progress, 0.0f);
+  report(0.0f);
   const RegionSurface &from = *source.surface(), &to = *target.surface();
   const std::shared_ptr<const RegionState> from_state = source.state();
   const DiscBoundary from_rim(from, *from_state, memory), to_rim(to, *target.state(), memory);
@@ -109,9 +109,9 @@ CarriedDetail carry_detail(const Region& source, const Region& target, const Car
   }
   to_pins.turn.assign(from_pins.turn.begin(), from_pins.turn.end());
   const Vector<DiscPoint> from_disc = map_to_disc(from, *from_state, from_rim, from_pins, memory);
-  report(options.progress, 0.4f);
+  report(0.4f);
   const Vector<DiscPoint> to_disc = map_to_disc(to, *target.state(), to_rim, to_pins, memory);
-  report(options.progress, 0.8f);
+  report(0.8f);
 
   CarriedDetail carried{target.surface(), target.state(), Vector<Vec3>(&memory)};
   const double scale = options.scale > 0           ? options.scale
@@ -137,7 +137,7 @@ CarriedDetail carry_detail(const Region& source, const Region& target, const Car
     const Frame& f = to_frames[i];
     carried.offset[i] = scale * (c.x * f.x + c.y * f.y + c.z * f.z);
   }
-  report(options.progress, 1.0f);
+  report(1.0f);
   return carried;
 }
 

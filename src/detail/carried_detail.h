@@ -14,9 +14,8 @@
 namespace hf_inner {
 
 struct CarryOptions {
-  Span<const std::int32_t> source_pins, target_pins;  // pinned inner vertices in pairs; empty: the states' `first`
-  double scale = 0;                                   // 0: derived from the areas of the two base surfaces
-  Progress* progress = nullptr;
+  Span<const std::int32_t> source_pins, target_pins;  // inner vertices in pairs; empty: the states' first points
+  double scale = 0;                                   // 0: from the areas of the bases
 };
 
 struct CarriedDetail {

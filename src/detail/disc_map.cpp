@@ -178,7 +178,7 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
     for (const double x : {p.x, p.y, p.z}) coordinates.push_back(static_cast<float>(x));
   }
   FactorOptions options;
-  options.ordering = core.ordering;
+  options.ordering = core.ordering, options.flop_limit = core.flop_limit;
   const std::shared_ptr<const Factor> factor = Factor::make(matrix, coordinates, options, memory, *core.jobs);
   Vector<double> z(right.size(), &memory);
   factor->solve(right.data(), right.data(), 2, z.data(), *core.jobs);

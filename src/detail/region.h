@@ -48,7 +48,6 @@ struct RegionEdit {
   std::int32_t seed = -1;
   std::int32_t rings = 0;
   Span<const std::int32_t> remove, add;  // inner vertices
-  Progress* progress = nullptr;
 };
 
 struct RegionState {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "base/timer.h"
 #include "engine/lost_components.h"
 #include "factor/factor_bytes.h"
@@ -122,10 +123,13 @@ class InPlaceGrounds {
 
 FactorOptions factor_options(const CoreOptions& options) noexcept {
   FactorOptions out;
-  out.ordering = options.ordering;
+  out.ordering = options.ordering, out.flop_limit = options.flop_limit;
   if (options.field_kind == FieldKind::harmonic) out.lost_share = harmonic_lost_share;
   return out;
 }
+
+// The share of progress when the operator stands; the rest is the factor's.
+constexpr float progress_operator = 0.2f;
 
 void make_factor(Core& core, const CoreOptions& options) {
   Memory& pool = *core.memory;
@@ -145,8 +149,7 @@ void make_factor(Core& core, const CoreOptions& options) {
 std::shared_ptr<const Core> Core::make(const MeshInput& input, const CoreOptions& options,
                                        std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs) {
   if (!options.saved_factor.empty()) check_saved_factor(options.saved_factor);
-  return make(Geometry::make(input, options.operator_kind, std::move(memory), std::move(jobs), options.progress),
-              options);
+  return make(Geometry::make(input, options.operator_kind, std::move(memory), std::move(jobs)), options);
 }
 
 std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, const CoreOptions& options) {
@@ -158,14 +161,16 @@ std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, co
   core->times.weld_ms = shape->weld_ms;
   Vector<std::uint8_t> confined(&pool);
   make_operator(*core, options, 0, confined);
-  core->ordering = options.ordering;
+  core->ordering = options.ordering, core->flop_limit = options.flop_limit;
   core->times.operator_ms = shape->weights_ms + operator_timer.milliseconds();
-  report(options.progress, 0.2f);
+  report(progress_operator);
   for (int cap = 0;;) {
     try {
+      const ProgressRange range(progress_operator, 1.0f);
       make_factor(*core, options);
       break;
     } catch (const Error& error) {
+      if (error.code() == HF_ERROR_CANCELLED) throw;
       // Two causes are possible. A pivot failed, or the saved factor belongs to an operator with limited weights. In
       // both cases the loop builds the operator with the next limit and tries again.
       const bool loading = !options.saved_factor.empty();
@@ -181,7 +186,7 @@ std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, co
       ++cap;
     make_operator(*core, options, cap, confined);
   }
-  report(options.progress, 1.0f);
+  report(1.0f);
   return core;
 }
 

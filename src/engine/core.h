@@ -19,7 +19,7 @@ struct CoreOptions {
   bool need_factor = true;                // the engines updown and refactor keep their own
   Span<const std::uint8_t> saved_factor;  // not empty: the factor is loaded from these bytes instead of made
   bool borrow_factor = false;             // its numbers are read in place: the bytes outlive the core
-  Progress* progress = nullptr;
+  double flop_limit = 0;                  // of every factorisation on the core; 0 = none
 };
 
 struct CoreTimes {
@@ -57,6 +57,7 @@ struct Core {
   // so loading knows early that weights must be limited.
   std::uint64_t confined_hash = 0;
   Ordering ordering = Ordering::nested_dissection;
+  double flop_limit = 0;                 // as in CoreOptions
   std::shared_ptr<const Factor> factor;  // of A; null when the options asked for none
   CoreTimes times;
   mutable PreviewCache preview;  // the factor in single precision

@@ -17,17 +17,16 @@ Geometry::Geometry(std::shared_ptr<Memory> owner, std::shared_ptr<JobRunner> run
       zeroed_workspaces(*memory, true) {}
 
 std::shared_ptr<const Geometry> Geometry::make(const MeshInput& input, OperatorKind operator_kind,
-                                               std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs,
-                                               Progress* progress) {
+                                               std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs) {
   Memory& pool = *memory;
   const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(memory, memory, std::move(jobs));
   JobRunner* const runner = shape->jobs.get();
   shape->operator_kind = operator_kind;
-  report(progress, 0.0f);
+  report(0.0f);
   Timer weld_timer;
   shape->mesh = Mesh::make(input, pool, runner);
   shape->weld_ms = weld_timer.milliseconds();
-  report(progress, 0.1f);
+  report(0.1f);
   Timer weights_timer;
   shape->topology = Topology::make(shape->mesh, pool, runner);
   shape->areas = vertex_areas(shape->mesh, pool, runner);
@@ -42,7 +41,7 @@ std::shared_ptr<const Geometry> Geometry::make(const MeshInput& input, OperatorK
     if (v != Mesh::none) ++shape->given_count[at(shape->mesh.component[at(v)])];
   }
   shape->weights_ms = weights_timer.milliseconds();
-  report(progress, 0.15f);
+  report(0.15f);
   return shape;
 }
 

@@ -20,8 +20,7 @@ struct Geometry {
   // Welds and checks the input (Mesh::make), then computes edges, areas and weights. Throws what Mesh::make throws, and
   // HF_ERROR_CANCELLED. Progress runs from 0 to 0.15.
   static std::shared_ptr<const Geometry> make(const MeshInput& input, OperatorKind operator_kind,
-                                              std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs,
-                                              Progress* progress);
+                                              std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs);
 
   std::shared_ptr<Memory> memory;  // first member: outlives what is allocated from it
   std::shared_ptr<JobRunner> jobs;

@@ -8,7 +8,8 @@
 namespace hf_inner {
 
 void SiteSolver::rebase(JobRunner&) {
-  fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "only engine green keeps its sites outside the factor; there is nothing to rebase");
+  fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+       "only engine green keeps its sites outside the factor; there is nothing to rebase");
 }
 
 std::shared_ptr<SiteSolver> SiteSolver::make(EngineKind kind, std::shared_ptr<const Core> core, double penalty) {

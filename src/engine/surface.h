@@ -22,10 +22,10 @@ class Surface {
   const Core& own() const noexcept { return *own_; }
   FieldKind field_kind() const noexcept { return own_->field_kind; }
 
-  // Returns the operator and factor of a kind of field. If they are missing, the call makes them, and other threads
-  // that ask for them wait. Throws HF_ERROR_REENTRANT if a callback asks during the making, and what Core::make throws.
-  // Thread safety: any thread.
-  std::shared_ptr<const Core> core(FieldKind kind, Progress* progress = nullptr) const;
+  // The operator and factor of a kind of field. Cost: none for one that exists, else that of making it; other threads
+  // that ask for a missing one wait meanwhile. Throws HF_ERROR_REENTRANT when a callback of the making asks, and as
+  // Core::make. Thread safety: any thread.
+  std::shared_ptr<const Core> core(FieldKind kind) const;
 
  private:
   std::shared_ptr<const Geometry> geometry_;

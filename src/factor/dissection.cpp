@@ -1,8 +1,10 @@
 #include "factor/dissection.h"
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 
+#include "base/progress.h"
 #include "factor/leaf_order.h"
 #include "factor/minimum_degree.h"
 #include "factor/multilevel.h"
@@ -24,8 +26,8 @@ constexpr std::size_t most_parts = 64;
 // A part is not split but ordered whole if its separator would be a larger share of it. Halving or doubling it changes
 // nothing on the test meshes torus and scan.
 constexpr double most_separator = 0.75;
-// Progress of one wave of cuts, of all waves, and at the start of the leaves.
-constexpr float progress_step = 0.05f, progress_cut = 0.4f, progress_leaves = 0.3f;
+// Shares of progress: a wave of cuts, all waves at most. The parts that remain have the rest, by unknowns ordered.
+constexpr float progress_step = 0.05f, progress_cut = 0.4f;
 
 // A part of the graph, with its own vertex numbers. Its vertices take the places [begin, begin + size) of the order.
 struct Part {
@@ -77,14 +79,14 @@ class Dissection {
              std::int32_t* order)
       : matrix_(matrix), coordinates_(coordinates), memory_(memory), jobs_(jobs), order_(order), free_(&memory) {}
 
-  void run(Progress* progress) {
+  void run() {
     std::pmr::vector<Part> parts(&memory_);
     parts.push_back(whole());
     // Near the top there are few parts, so they are cut in waves; each part is cut by one thread.
     bool cutting = true;
-    float done = progress_step;
+    float done = 0;
     while (cutting && parts.size() < most_parts) {
-      report(progress, done);
+      report(done);
       done = std::min(progress_cut, done + progress_step);
       const std::size_t count = parts.size();
       std::pmr::vector<Part> next(2 * count, &memory_);
@@ -106,11 +108,12 @@ class Dissection {
     }
     // The largest parts come first. The order of the jobs only changes the waiting time.
     std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.size > b.size; });
-    report(progress, progress_leaves);
+    cut_share_ = done;
     jobs_.for_each(static_cast<std::uint32_t>(parts.size()), [&](std::uint32_t k) {
       with_workspace([&](Workspace& workspace) { finish(std::move(parts[k]), workspace); });
     });
     sort_separators();
+    report(1.0f);
   }
 
  private:
@@ -132,6 +135,7 @@ class Dissection {
 
   // Cuts a part in two. It orders the part whole if it is small or cannot be cut. The separator takes the last places.
   void split(Part part, Workspace& workspace, Part& left, Part& right) {
+    poll();
     if (part.size <= leaf_size) return order_leaf(part, workspace);
     workspace.side.resize(static_cast<std::size_t>(part.size));
     std::uint8_t* side = workspace.side.data();
@@ -213,10 +217,18 @@ class Dissection {
       Part part = std::move(waiting.back());
       waiting.pop_back();
       Part left, right;
+      const std::int32_t size = part.size;
       split(std::move(part), workspace, left, right);
+      report_ordered(size - left.size - right.size);
       if (left.size > 0) waiting.push_back(std::move(left));
       if (right.size > 0) waiting.push_back(std::move(right));
     }
+  }
+
+  // Reports unknowns that have their place. Called by jobs.
+  void report_ordered(std::int32_t count) {
+    const float all = static_cast<float>(ordered_.fetch_add(count, std::memory_order_relaxed) + count);
+    report(cut_share_ + (1 - cut_share_) * all / static_cast<float>(matrix_.size()));
   }
 
   void order_leaf(const Part& part, Workspace& workspace) {
@@ -277,15 +289,17 @@ class Dissection {
   std::mutex mutex_;
   Vector<std::shared_ptr<Workspace>> free_;
   std::size_t made_ = 0;
+  float cut_share_ = 0;                   // of progress, when the waves end
+  std::atomic<std::int32_t> ordered_{0};  // unknowns of the parts since then
 };
 
 }  // namespace
 
 void order_by_dissection(const SymmetricMatrix& matrix, Coordinates coordinates, Memory& memory, JobRunner& jobs,
-                         Progress* progress, Buffer<std::int32_t>& order) {
+                         Buffer<std::int32_t>& order) {
   order.allocate(memory, static_cast<std::size_t>(matrix.size()));
   if (matrix.size() == 0) return;
-  Dissection(matrix, coordinates, memory, jobs, order.data()).run(progress);
+  Dissection(matrix, coordinates, memory, jobs, order.data()).run();
 }
 
 }  // namespace hf_inner

@@ -19,6 +19,6 @@
 namespace hf_inner {
 
 void order_by_dissection(const SymmetricMatrix& matrix, Coordinates coordinates, Memory& memory, JobRunner& jobs,
-                         Progress* progress, Buffer<std::int32_t>& order);
+                         Buffer<std::int32_t>& order);
 
 }  // namespace hf_inner

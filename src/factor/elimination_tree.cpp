@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/progress.h"
+
 namespace hf_inner {
 namespace {
 
@@ -14,7 +16,9 @@ void link_tree(const SymmetricMatrix& matrix, const std::int32_t* order, const s
                std::int32_t* parent, std::int32_t* ancestor) {
   const std::int32_t* start = matrix.column_start.data();
   const std::int32_t* row = matrix.row.data();
+  Poller poller;
   for (std::int32_t i = 0; i < n; ++i) {
+    poller.due();
     if (i + columns_ahead < n) __builtin_prefetch(row + start[order[i + columns_ahead]]);
     parent[i] = -1, ancestor[i] = -1;
     const std::int32_t unknown = order[i];
@@ -68,7 +72,9 @@ void make_lower(const SymmetricMatrix& matrix, Memory& memory, const std::int32_
   std::int32_t* lower_start = tree.lower_start.data();
   std::int32_t* lower = tree.lower.data();
   std::int32_t k = 0;
+  Poller poller;
   for (std::int32_t i = 0; i < n; ++i) {
+    poller.due();
     if (i + columns_ahead < n) __builtin_prefetch(row + start[tree.label[i + columns_ahead]]);
     lower_start[i] = k;
     const std::int32_t unknown = tree.label[i];
@@ -100,6 +106,7 @@ void count_columns(EliminationTree& tree, std::int32_t n, Memory& memory) {
   for (std::int32_t e = 0; e < total; ++e) ++upper_start[lower[e] + 1];
   for (std::int32_t j = 0; j < n; ++j) upper_start[j + 1] += upper_start[j];
   for (std::int32_t j = 0; j < n; ++j) set[j] = upper_start[j];
+  poll();
   for (std::int32_t i = 0; i < n; ++i) {
     for (std::int32_t e = lower_start[i]; e < lower_start[i + 1]; ++e) upper[set[lower[e]]++] = i;
   }
@@ -112,7 +119,9 @@ void count_columns(EliminationTree& tree, std::int32_t n, Memory& memory) {
     if (parent[j] >= 0 && first[parent[j]] < 0) first[parent[j]] = first[j];
     previous_leaf[j] = -1, set[j] = j;
   }
+  Poller poller;
   for (std::int32_t j = 0; j < n; ++j) {
+    poller.due();
     if (parent[j] >= 0) --count[parent[j]];
     for (std::int32_t e = upper_start[j]; e < upper_start[j + 1]; ++e) {
       const std::int32_t i = upper[e];

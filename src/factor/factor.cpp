@@ -86,6 +86,47 @@ bool suspicious(const SymmetricMatrix& matrix, const Symbolic& symbolic) {
   return symbolic.entries > suspicious_fill * lower * std::log2(2.0 + matrix.size());
 }
 
+// The pattern of the factor under `order`, which it releases, or under minimum degree where that is better.
+std::shared_ptr<Analysis> make_analysis(const SymmetricMatrix& matrix, const FactorOptions& options,
+                                        Buffer<std::int32_t>& order, Memory& memory) {
+  std::shared_ptr<Analysis> analysis = make_shared_in<Analysis>(memory);
+  analyse(matrix, Span<const std::int32_t>(order.data(), order.size()), memory, analysis->symbolic);
+  if (options.ordering == Ordering::nested_dissection && suspicious(matrix, analysis->symbolic)) {
+    // This graph separates badly, so the better of two orderings is taken.
+    order_by_minimum_degree(matrix, memory, order);
+    const FillEstimate other = estimate_fill(matrix, Span<const std::int32_t>(order.data(), order.size()), memory);
+    if (other.entries + other.flops / flops_per_entry <
+        analysis->symbolic.entries + analysis->symbolic.flops / flops_per_entry) {
+      analysis = make_shared_in<Analysis>(memory);
+      analyse(matrix, Span<const std::int32_t>(order.data(), order.size()), memory, analysis->symbolic);
+    }
+  }
+  order.release();
+  make_plan(analysis->symbolic, memory, analysis->plan);
+  analysis->pattern_hash = hash_pattern(matrix), analysis->ordering = options.ordering;
+  return analysis;
+}
+
+// Refuses a factorisation before it begins: its flops and bytes are known once the pattern is.
+void require_within_limits(const Analysis& analysis, double flop_limit, const Memory& memory) {
+  const Symbolic& symbolic = analysis.symbolic;
+  if (flop_limit > 0 && symbolic.flops > flop_limit) {
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+         "the factorisation takes %.0f * 10^9 operations, and the work_limit_gflop is %.0f; triangles that join far "
+         "vertices at random cost that much. Raise the limit or repair the mesh",
+         1e-9 * symbolic.flops, 1e-9 * flop_limit);
+  }
+  constexpr double mebibyte = 1048576.0;
+  const double needed =
+      8.0 * (symbolic.stored_entries + static_cast<double>(analysis.plan.shared_size + analysis.plan.in_task.panel));
+  const double room = static_cast<double>(memory.room());
+  if (needed > room) {
+    fail(HF_ERROR_OUT_OF_MEMORY, HF_NO_INDEX,
+         "the factor needs %.0f MiB more, and memory_limit_mb leaves %.0f MiB; the object is as it was before the call",
+         std::ceil(needed / mebibyte), std::floor(room / mebibyte));
+  }
+}
+
 }  // namespace
 
 std::uint64_t hash_pattern(const SymmetricMatrix& matrix) noexcept {
@@ -132,10 +173,10 @@ void SupernodalFactor::measure_paths() {
 }
 
 void SupernodalFactor::compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, double lost_share,
-                               JobRunner& jobs, Progress* progress) {
+                               JobRunner& jobs) {
   Stopwatch watch;
   values_.allocate(memory_, static_cast<std::size_t>(symbolic().stored_entries) + value_slack);
-  factorise(symbolic(), plan(), kernels(), matrix, eliminated, lost_share, values_.data(), memory_, jobs, progress);
+  factorise(symbolic(), plan(), kernels(), matrix, eliminated, lost_share, values_.data(), memory_, jobs);
   statistics_.numeric_ms = watch.lap_ms();
 }
 
@@ -147,33 +188,24 @@ std::shared_ptr<const Factor> Factor::make(const SymmetricMatrix& matrix, Coordi
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%zu coordinates for %d unknowns: three each, or none",
          coordinates.size(), matrix.size());
   }
-  report(options.progress, 0.0f);
+  report(0.0f);
   Stopwatch watch;
   Buffer<std::int32_t> order;
-  make_order(matrix, coordinates, options.ordering, memory, jobs, options.progress, order);
-  const double ordering_ms = watch.lap_ms();
-  report(options.progress, progress_ordered);
-  std::shared_ptr<Analysis> analysis = make_shared_in<Analysis>(memory);
-  analyse(matrix, Span<const std::int32_t>(order.data(), order.size()), memory, analysis->symbolic);
-  if (options.ordering == Ordering::nested_dissection && suspicious(matrix, analysis->symbolic)) {
-    // This graph separates badly, so the better of two orderings is taken.
-    order_by_minimum_degree(matrix, memory, order);
-    const FillEstimate other = estimate_fill(matrix, Span<const std::int32_t>(order.data(), order.size()), memory);
-    if (other.entries + other.flops / flops_per_entry <
-        analysis->symbolic.entries + analysis->symbolic.flops / flops_per_entry) {
-      analysis = make_shared_in<Analysis>(memory);
-      analyse(matrix, Span<const std::int32_t>(order.data(), order.size()), memory, analysis->symbolic);
-    }
+  {
+    const ProgressRange range(0.0f, progress_ordered);
+    make_order(matrix, coordinates, options.ordering, memory, jobs, order);
   }
-  order.release();
-  make_plan(analysis->symbolic, memory, analysis->plan);
-  analysis->pattern_hash = hash_pattern(matrix), analysis->ordering = options.ordering;
+  const double ordering_ms = watch.lap_ms();
+  report(progress_ordered);
+  std::shared_ptr<Analysis> analysis = make_analysis(matrix, options, order, memory);
+  require_within_limits(*analysis, options.flop_limit, memory);
   const double symbolic_ms = watch.lap_ms();
-  report(options.progress, progress_analysed);
+  report(progress_analysed);
+  const ProgressRange range(progress_analysed, 1.0f);
   std::shared_ptr<SupernodalFactor> factor = make_shared_in<SupernodalFactor>(memory, std::move(analysis), memory);
   factor->set_timings(ordering_ms, symbolic_ms);
-  factor->compute(matrix, {}, options.lost_share, jobs, options.progress);
-  report(options.progress, 1.0f);
+  factor->compute(matrix, {}, options.lost_share, jobs);
+  report(1.0f);
   return factor;
 }
 
@@ -194,7 +226,7 @@ std::shared_ptr<const Factor> SupernodalFactor::refactor(const SymmetricMatrix& 
   }
   std::shared_ptr<SupernodalFactor> factor = make_shared_in<SupernodalFactor>(memory, analysis_, memory);
   factor->kernels_ = kernels_;
-  factor->compute(matrix, eliminated, default_lost_share, jobs, nullptr);
+  factor->compute(matrix, eliminated, default_lost_share, jobs);
   return factor;
 }
 

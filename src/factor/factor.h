@@ -29,8 +29,8 @@ constexpr double default_lost_share = 0x1p-46;
 
 struct FactorOptions {
   Ordering ordering = Ordering::nested_dissection;
-  double lost_share = default_lost_share;  // larger: pivots that keep few digits fail too
-  Progress* progress = nullptr;            // reported between 0 and 1
+  double lost_share = default_lost_share;  // larger: pivots fail that keep fewer digits than wished
+  double flop_limit = 0;                   // refuse a matrix whose factorisation takes more; 0 = none
 };
 
 struct FactorStatistics {

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "base/progress.h"
 
 namespace hf_inner {
 namespace {
@@ -32,7 +33,9 @@ class QuotientGraph {
   void run(Index* order) {
     order_ = order;
     take_special();
+    Poller poller(64);
     while (left_ > 0) {
+      poller.due();
       const Index pivot = take_least();
       form_element(pivot);
       subtract_from_elements(pivot);

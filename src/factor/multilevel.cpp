@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/progress.h"
+
 namespace hf_inner {
 namespace {
 
@@ -156,6 +158,7 @@ Cut MultilevelBisection::run(const GraphView& graph, std::uint8_t* side) {
   const GraphView* fine = &graph;
   while (fine->size > direct_size) {
     while (levels_.size() <= depth) levels_.emplace_back(memory_);
+    poll();
     // Growing levels_ may have moved its entries.
     fine = depth == 0 ? &graph : &levels_[depth - 1].view;
     coarsen(*fine, levels_[depth]);
@@ -168,6 +171,7 @@ Cut MultilevelBisection::run(const GraphView& graph, std::uint8_t* side) {
   coarsest.side.resize(static_cast<std::size_t>(coarsest.view.size));
   Cut cut = search_.bisect(coarsest.view, coarsest.side.data(), thorough);
   for (std::size_t k = depth; cut.usable() && k-- > 0;) {
+    poll();
     const GraphView& finer = k == 0 ? graph : levels_[k - 1].view;
     if (k > 0) levels_[k - 1].side.resize(static_cast<std::size_t>(finer.size));
     cut = carry_back(finer, levels_[k], k == 0 ? side : levels_[k - 1].side.data());

@@ -21,8 +21,11 @@ constexpr double small_wave_flops = 2e6;
 constexpr std::int32_t copy_tiles = 32, solve_tiles_step = 6, update_tiles_step = 4, store_tiles_step = 16;
 // Columns that are factored before all threads solve the tiles below them. No result depends on it.
 constexpr std::int32_t column_block = 64;
-// Shares of progress: the subtrees take the first, the waves above them the second.
-constexpr float progress_tasks = 0.8f, progress_waves = 0.19f;
+// Flops above which a front is run in pieces on one thread too, so that a cancel is heeded between them: 10 ms at 27
+// GF/s. Double: twice the wait. Half: more calls of kernels.
+constexpr double long_front_flops = 2.5e8;
+// The share of progress that the flops of the fronts have; storing the rest is short.
+constexpr double progress_of_fronts = 0.99;
 
 // All memory that one thread needs to factor fronts. It is reused from front to front.
 struct Workspace {
@@ -93,7 +96,7 @@ class Factorisation {
         shared_(memory, static_cast<std::size_t>(plan.shared_size)),
         update_(memory, static_cast<std::size_t>(symbolic.supernodes)) {}
 
-  void run(Progress* progress) {
+  void run() {
     {
       WorkspacePool pool(memory_, symbolic_.size, plan_.in_task);
       jobs_.for_each(static_cast<std::uint32_t>(plan_.tasks), [&](std::uint32_t k) {
@@ -105,7 +108,6 @@ class Factorisation {
     throw_if_lost();
     WorkspacePool pool(memory_, symbolic_.size, plan_.in_top);
     for (std::int32_t wave = 0; wave < plan_.waves; ++wave) {
-      report(progress, progress_tasks + progress_waves * static_cast<float>(wave) / static_cast<float>(plan_.waves));
       run_wave(wave, pool);
       throw_if_lost();
     }
@@ -196,8 +198,22 @@ class Factorisation {
          unknown);
   }
 
-  // Computes one front on one thread, from the assembly to the stored columns.
-  void run_front(std::int32_t s, Workspace& workspace, double* update) noexcept {
+  // Reports the flops of a finished front. Called by jobs.
+  void report_done(double flops) {
+    double done = done_.load(std::memory_order_relaxed);
+    while (!done_.compare_exchange_weak(done, done + flops, std::memory_order_relaxed)) {
+    }
+    report(static_cast<float>(progress_of_fronts * (done + flops) / symbolic_.flops));
+  }
+
+  // One front from assembly to stored columns, on one thread unless it is long.
+  void run_front(std::int32_t s, Workspace& workspace, double* update) {
+    if (symbolic_.work[s] > long_front_flops) return run_front_in_pieces(s, workspace, update);
+    run_short_front(s, workspace, update);
+    report_done(symbolic_.work[s]);
+  }
+
+  void run_short_front(std::int32_t s, Workspace& workspace, double* update) noexcept {
     const FrontView front = open_front(s, workspace, update);
     const std::int32_t tiles = front.triangle_tiles + front.below_tiles;
     update_[s] = update;
@@ -226,7 +242,7 @@ class Factorisation {
     kernels_.store_tiles(front, values_ + symbolic_.value_start[s], 0, tiles);
   }
 
-  void run_task(std::int32_t task, Workspace& workspace) noexcept {
+  void run_task(std::int32_t task, Workspace& workspace) {
     for (std::int32_t r = plan_.task_start[task]; r < plan_.task_start[task + 1]; ++r) {
       const std::int32_t root = plan_.task_root[r];
       workspace.stack_top[0] = workspace.stack_top[1] = 0;
@@ -317,6 +333,7 @@ class Factorisation {
     in_pieces(0, tiles, store_tiles_step, [&](std::int32_t begin, std::int32_t end) {
       kernels_.store_tiles(front, values_ + symbolic_.value_start[s], begin, end);
     });
+    report_done(symbolic_.work[s]);
   }
 
   const Symbolic& symbolic_;
@@ -331,14 +348,15 @@ class Factorisation {
   Buffer<double> shared_;
   Buffer<double*> update_;
   std::atomic<std::int32_t> lost_{INT32_MAX};
+  std::atomic<double> done_{0};  // flops of finished fronts
 };
 
 }  // namespace
 
 void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix,
-               Span<const std::uint8_t> eliminated, double lost_share, double* values, Memory& memory, JobRunner& jobs,
-               Progress* progress) {
-  Factorisation(symbolic, plan, kernels, matrix, eliminated, lost_share, values, memory, jobs).run(progress);
+               Span<const std::uint8_t> eliminated, double lost_share, double* values, Memory& memory,
+               JobRunner& jobs) {
+  Factorisation(symbolic, plan, kernels, matrix, eliminated, lost_share, values, memory, jobs).run();
   const std::size_t stored = static_cast<std::size_t>(symbolic.stored_entries);
   std::fill(values + stored, values + stored + value_slack, 0.0);
 }

@@ -27,8 +27,7 @@ constexpr std::size_t value_slack = 64;
 // lost_share: see FactorOptions. Throws HF_ERROR_NOT_POSITIVE_DEFINITE; index: the unknown of the first failed pivot in
 // factor order.
 void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernels, const SymmetricMatrix& matrix,
-               Span<const std::uint8_t> eliminated, double lost_share, double* values, Memory& memory, JobRunner& jobs,
-               Progress* progress);
+               Span<const std::uint8_t> eliminated, double lost_share, double* values, Memory& memory, JobRunner& jobs);
 
 // Tells whether no number is NaN or infinite.
 bool all_finite(const double* values, std::size_t count) noexcept;

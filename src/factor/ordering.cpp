@@ -10,10 +10,10 @@ void order_by_minimum_degree(const SymmetricMatrix& matrix, Memory& memory, Buff
 }
 
 void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering ordering, Memory& memory,
-                JobRunner& jobs, Progress* progress, Buffer<std::int32_t>& order) {
+                JobRunner& jobs, Buffer<std::int32_t>& order) {
   switch (ordering) {
     case Ordering::nested_dissection:
-      return order_by_dissection(matrix, coordinates, memory, jobs, progress, order);
+      return order_by_dissection(matrix, coordinates, memory, jobs, order);
     case Ordering::minimum_degree:
       return order_by_minimum_degree(matrix, memory, order);
     case Ordering::metis:

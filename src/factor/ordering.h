@@ -13,7 +13,7 @@ namespace hf_inner {
 
 // Computes the chosen ordering. Throws HF_ERROR_UNSUPPORTED if this build does not have it.
 void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering ordering, Memory& memory,
-                JobRunner& jobs, Progress* progress, Buffer<std::int32_t>& order);
+                JobRunner& jobs, Buffer<std::int32_t>& order);
 
 // Approximate minimum degree of the whole matrix (minimum_degree.h).
 void order_by_minimum_degree(const SymmetricMatrix& matrix, Memory& memory, Buffer<std::int32_t>& order);

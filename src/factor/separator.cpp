@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/principal_axes.h"
+#include "base/progress.h"
 
 namespace hf_inner {
 namespace {
@@ -273,14 +274,14 @@ Cut SeparatorSearch::refine(const GraphView& graph, std::uint8_t* side) {
       flags_[b] |= on_path, previous_[b] = source, next_[b] = sink;
     }
   }
-  while (label_phase() && augment_phase() > 0) {
-  }
+  while (label_phase() && augment_phase() > 0) poll();
   return choose_cut(graph, side);
 }
 
 // Sorts the vertices by key_. Those within `share` of the weight on either side of the median form the band, in which a
 // minimum cut is then tried.
 bool SeparatorSearch::try_keys(const GraphView& graph, std::uint8_t* side, Cut& best, double share) {
+  poll();
   const std::int32_t n = graph.size;
   ranked_.resize(static_cast<std::size_t>(n));
   for (std::int32_t v = 0; v < n; ++v)

@@ -77,9 +77,8 @@ class SupernodalFactor final : public Factor {
   Buffer<double>& values() noexcept { return values_; }
   const Buffer<double>& values() const noexcept { return values_; }
   const std::shared_ptr<const Analysis>& analysis() const noexcept { return analysis_; }
-  // Allocates values() and factorises the matrix into it.
-  void compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, double lost_share, JobRunner& jobs,
-               Progress* progress);
+  // Factorises the matrix into values(), which it allocates.
+  void compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, double lost_share, JobRunner& jobs);
   void set_timings(double ordering_ms, double symbolic_ms) noexcept {
     statistics_.ordering_ms = ordering_ms, statistics_.symbolic_ms = symbolic_ms;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/progress.h"
 #include "factor/elimination_tree.h"
 
 namespace hf_inner {
@@ -143,7 +144,9 @@ void make_row_lists(const EliminationTree& tree, const std::int32_t* final_of, c
   std::fill(seen.begin(), seen.end(), -1);
   std::copy(out.row_start.data(), out.row_start.data() + out.supernodes, fill.begin());
   std::int32_t* rows = out.rows.data();
+  Poller poller(1024);
   for (std::int32_t i = 0; i < n; ++i) {
+    poller.due();
     const std::int32_t label = label_at[i];
     const std::int32_t own = out.supernode[i];
     seen[own] = i;
@@ -188,6 +191,7 @@ void analyse(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memo
       merging.below[s] = tree.count[last] - 1;
     }
     Vector<std::pair<std::int64_t, std::int32_t>> trial(&memory);
+    poll();
     for (std::int32_t s = 0; s < fundamental; ++s) {
       merge_children(merging, s, trial);
       const std::int32_t up = merging.parent[s];
@@ -205,6 +209,7 @@ void analyse(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memo
   for (std::int32_t s = 0; s < out.supernodes; ++s) {
     for (std::int32_t j = out.first[s]; j < out.first[s + 1]; ++j) out.supernode[j] = s;
   }
+  poll();
   make_row_lists(tree, final_of.data(), label_at.data(), memory, out);
   out.value_start.allocate(memory, out.supernodes);
   out.work.allocate(memory, out.supernodes);

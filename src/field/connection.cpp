@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/index.h"
+#include "base/progress.h"
 #include "field/vector_field.h"
 
 namespace hf_inner {
@@ -152,7 +153,9 @@ Connection Connection::make(const Mesh& mesh, const Topology& topology, Memory& 
   out.closed.assign(at(mesh.component_count()), 1);
   Vector<double> angle(topology.neighbour.size(), 0.0, &memory), scale(n, 1.0, &memory);
   FanMaker fans(mesh, topology, memory);
+  Poller poller;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    poller.due();
     Vec3& normal = out.normal[at(v)];
     const double length = norm(normal);
     normal = length > 0 ? (1 / length) * normal : Vec3{0, 0, 1};
@@ -166,6 +169,7 @@ Connection Connection::make(const Mesh& mesh, const Topology& topology, Memory& 
 
   out.rotation.resize(at(topology.edge_count()));
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    poller.due();
     for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
       const Index w = topology.neighbour[at(i)], e = topology.neighbour_edge[at(i)];
       if (w < v) continue;  // v is the edge's first vertex
@@ -190,6 +194,7 @@ Connection Connection::make(const Mesh& mesh, const Topology& topology, Memory& 
   };
   out.curvature.resize(at(mesh.triangle_count()));
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    poller.due();
     const Index* v = mesh.triangle(t);
     double sum = 0;
     if (out.regular[at(v[0])] && out.regular[at(v[1])] && out.regular[at(v[2])]) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/progress.h"
 #include "base/timer.h"
 #include "factor/ordering.h"
 
@@ -14,6 +15,9 @@ namespace {
 // times.
 constexpr double missing_share = 1e-4;
 constexpr std::size_t piece = 8192;  // vertices a job takes
+// Shares of progress: the connection; then an order of the system's own, which is seldom needed. The factor has the
+// rest.
+constexpr float progress_connection = 0.05f, progress_ordered_directions = 0.3f;
 
 // Returns the number of mesh edges that the surface's operator does not have.
 double missing_edges(const Core& core) {
@@ -42,9 +46,14 @@ DirectionSystem::DirectionSystem(std::shared_ptr<const Core> given, Index n)
       pins(core->memory.get()),
       pin_paths(*core->memory) {
   Timer timer;
-  make_order();
+  report(progress_connection);
+  {
+    const ProgressRange range(progress_connection, progress_ordered_directions);
+    make_order();
+  }
   make_matrix();
   operator_ms = timer.milliseconds();
+  const ProgressRange range(progress_ordered_directions, 1.0f);
   make_pins();
 }
 
@@ -64,7 +73,7 @@ void DirectionSystem::make_order() {
     const Vector<float> coordinates = ordering_coordinates(core->mesh, *core->memory);
     Buffer<Index> made;
     hf_inner::make_order(graph, {coordinates.data(), coordinates.size()}, core->ordering, *core->memory, *core->jobs,
-                         nullptr, made);
+                         made);
     for (Index k = 0; k < core->size(); ++k) position[at(made[k])] = k;
   }
   for (Index v = 0; v < core->size(); ++v) order[at(position[at(v)])] = v;
@@ -80,13 +89,17 @@ void DirectionSystem::make_matrix() {
       edge_weights(core->mesh, topology, OperatorKind::clamped, *core->memory, core->jobs.get());
   matrix.column_start.resize(2 * n + 1);
   matrix.column_start[0] = 0;
+  Poller poller;
   for (std::size_t p = 0; p < n; ++p) {
+    poller.due();
     const std::size_t v = at(order[p]);
     const Index length = 2 * (topology.neighbour_start[v + 1] - topology.neighbour_start[v] + 1);
     for (std::size_t part = 0; part < 2; ++part)
       matrix.column_start[2 * p + part + 1] = matrix.column_start[2 * p + part] + length;
   }
-  matrix.row.resize(at(matrix.column_start[2 * n])), matrix.value.resize(matrix.row.size());
+  matrix.row.resize(at(matrix.column_start[2 * n]));
+  poll();
+  matrix.value.resize(matrix.row.size());
   for_ranges(*core->jobs, n, piece, [&](std::size_t begin, std::size_t end) {
     struct Neighbour {
       Index position, vertex, edge;
@@ -127,13 +140,18 @@ void DirectionSystem::make_pins() {
   const std::size_t components = core->ground.size();
   beta.assign(components, 0.0);
   Vector<double> count(components, 0.0, &*core->memory);
+  Poller poller;
   for (Index v = 0; v < core->size(); ++v) {
+    poller.due();
     const std::size_t c = at(core->mesh.component[at(v)]);
     beta[c] += matrix.value[matrix.diagonal(unknown(v, 0))], count[c] += 1;
   }
   SymmetricMatrix a(*core->memory);
   a.column_start.assign(matrix.column_start.begin(), matrix.column_start.end());
-  a.row.assign(matrix.row.begin(), matrix.row.end()), a.value.assign(matrix.value.begin(), matrix.value.end());
+  a.row.assign(matrix.row.begin(), matrix.row.end());
+  poll();
+  a.value.assign(matrix.value.begin(), matrix.value.end());
+  poll();
   Vector<Index> start(1, 0, &*core->memory);
   for (std::size_t c = 0; c < components; ++c) {
     beta[c] = beta[c] > 0 ? beta[c] / count[c] : 1.0;
@@ -144,6 +162,7 @@ void DirectionSystem::make_pins() {
   }
   FactorOptions options;
   options.ordering = Ordering::natural;  // the unknowns stand in the order of the surface's factor
+  options.flop_limit = core->flop_limit;
   factor = Factor::make(a, {}, options, *core->memory, *core->jobs);
   const Vector<double> ones(pins.size(), 1.0, &*core->memory);
   pin_paths.group.resize(pins.size()), pin_paths.column.resize(pins.size());

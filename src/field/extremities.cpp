@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/index.h"
 #include "field/peaks.h"
@@ -168,28 +169,41 @@ void propose(const Core& core, const Vector<double>& total, double least_length,
 
 }  // namespace
 
-Extremities poisson_extremities(const Core& core, double least_length, Progress* progress) {
+Extremities poisson_extremities(const Core& core, double least_length) {
   require_laplacian(core);
   Extremities found(*core.memory);
   found.field.resize(at(core.size()));
   const Vector<double> total = component_areas(core);
-  report(progress, 0.1f);
+  report(0.1f);
   solve_poisson(core, total, found.field);
-  report(progress, 0.8f);
+  report(0.8f);
   propose(core, total, least_length, true, found);
-  report(progress, 1.0f);
+  report(1.0f);
   return found;
 }
 
-Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length,
-                                 Progress* progress) {
+Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length) {
   const Core& core = geodesics.core();
   Extremities found(*core.memory);
   found.field.resize(at(core.size()));
-  geodesics.average(source_count, found.field.data(), progress, 0.3f, 0.95f);
+  {
+    const ProgressRange range(0.0f, 0.95f);
+    geodesics.average(source_count, found.field.data());
+  }
   propose(core, component_areas(core), least_length, false, found);
-  report(progress, 1.0f);
+  report(1.0f);
   return found;
+}
+
+Extremities geodesic_extremities(std::shared_ptr<const Core> core, double smoothing, std::int32_t source_count,
+                                 double least_length) {
+  constexpr float factored = 0.3f;  // share of progress
+  const std::optional<Geodesics> geodesics = [&] {
+    const ProgressRange range(0.0f, factored);
+    return std::optional<Geodesics>(std::in_place, std::move(core), smoothing);
+  }();
+  const ProgressRange range(factored, 1.0f);
+  return geodesic_extremities(*geodesics, source_count, least_length);
 }
 
 }  // namespace hf_inner

@@ -35,9 +35,11 @@ struct Extremities {
   Vector<double> field;  // of every inner vertex, what the points are the maxima of
 };
 
-// Both throw HF_ERROR_UNSUPPORTED if the core does not have the factor of a Laplacian.
-Extremities poisson_extremities(const Core& core, double least_length, Progress* progress);
-Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length,
-                                 Progress* progress);
+// All throw HF_ERROR_UNSUPPORTED if the core does not have the factor of a Laplacian.
+Extremities poisson_extremities(const Core& core, double least_length);
+Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length);
+// The same, but makes the geodesics itself, with that smoothing.
+Extremities geodesic_extremities(std::shared_ptr<const Core> core, double smoothing, std::int32_t source_count,
+                                 double least_length);
 
 }  // namespace hf_inner

@@ -20,6 +20,9 @@ constexpr double least_mass = 1e-12;
 // A triangle with less area over its squared length is left out; rounding decides the direction of its gradient.
 constexpr double least_height = 1e-9;
 
+// Shares of progress of a mean distance: its sources are spread, the distances are summed, the sum is integrated.
+constexpr float progress_spread = 0.2f, progress_averaged = 0.9f;
+
 double mean_edge(const Core& core) noexcept {
   double sum = 0;
   for (Index e = 0; e < core.topology.edge_count(); ++e)
@@ -140,12 +143,12 @@ void Geodesics::distance(Span<const Index> sources, double* out) const {
   for (const Index s : sources) out[s] = 0;
 }
 
-void Geodesics::average(Index count, double* out, Progress* progress, float from, float to) const {
+void Geodesics::average(Index count, double* out) const {
   const Core& core = *core_;
   Memory& memory = *core.memory;
   const std::size_t n = at(core.size()), components = at(core.mesh.component_count());
   const SpreadSamples samples = spread_samples(core.mesh, core.topology, core.areas, count, memory);
-  report(progress, from + 0.2f * (to - from));
+  report(progress_spread);
   Vector<double> sums(2 * frames_.size(), 0.0, &memory);
   Workspace heat(core.workspaces, n * at(group_size));
   for (Index first = 0; first < count; first += group_size) {
@@ -174,11 +177,11 @@ void Geodesics::average(Index count, double* out, Progress* progress, float from
     }
     heat_->backward(heat.data(), channels, *core.jobs);
     add_directions(heat.data(), channels, weights.data(), sums);
-    report(progress,
-           from + (0.2f + 0.7f * static_cast<float>(first + channels) / static_cast<float>(count)) * (to - from));
+    report(progress_spread +
+           (progress_averaged - progress_spread) * static_cast<float>(first + channels) / static_cast<float>(count));
   }
   integrate(sums, out);
-  report(progress, to);
+  report(1.0f);
 }
 
 }  // namespace hf_inner

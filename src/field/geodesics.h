@@ -33,9 +33,8 @@ class Geodesics {
   void distance(Span<const std::int32_t> sources, double* out) const;
 
   // Computes for each point its mean distance to all points of its component, up to a constant by component. It takes
-  // `count` sources in each component by farthest point sampling. The weight of a source is the area nearest to it. The
-  // fraction done is reported to `progress`, which may be null, between `from` and `to`.
-  void average(std::int32_t count, double* out, Progress* progress, float from, float to) const;
+  // `count` sources in each component by farthest point sampling. The weight of a source is the area nearest to it.
+  void average(std::int32_t count, double* out) const;
 
   const Core& core() const noexcept { return *core_; }
 

@@ -5,6 +5,7 @@
 
 #include "base/hypotenuse.h"
 #include "base/index.h"
+#include "base/progress.h"
 #include "mesh/laplacian.h"
 #include "mesh/mollify.h"
 
@@ -276,12 +277,14 @@ SymmetricMatrix IntrinsicTriangulation::laplacian(Index vertex_count, Memory& me
   const auto ends = [&](Index h) { return std::make_pair(tail_[at(h)], tail_[at(twin_[at(h)])]); };
   for (Index h = 0; h < halves; ++h) start[at(tail_[at(h)]) + 1] += tail_[at(h)] != tail_[at(twin_[at(h)])];
   for (std::size_t v = 0; v < n; ++v) start[v + 1] += start[v];
+  poll();
   Buffer<Entry> entries(memory, at(start[n]));
   Vector<Index> cursor(start.begin(), start.end() - 1, &memory);
   for (Index h = 0; h < halves; ++h) {
     const auto [i, j] = ends(h);
     if (i != j) entries[at(cursor[at(i)]++)] = {j, std::min(h, twin_[at(h)])};
   }
+  poll();
   // Sorts each row and merges its entries in place. Afterwards row_length is the number of off-diagonal entries of each
   // row.
   Vector<Index> row_length(n, 0, &memory);
@@ -305,10 +308,12 @@ SymmetricMatrix IntrinsicTriangulation::laplacian(Index vertex_count, Memory& me
       row_length[v] = count;
     }
   });
+  poll();
   SymmetricMatrix matrix(memory);
   matrix.column_start.assign(n + 1, 0);
   for (std::size_t v = 0; v < n; ++v) matrix.column_start[v + 1] = matrix.column_start[v] + row_length[v] + 1;
   matrix.row.resize(at(matrix.column_start[n])), matrix.value.resize(at(matrix.column_start[n]));
+  poll();
   for_each(jobs, pieces, [&](std::uint32_t p) {
     for (std::size_t v = p * cover_piece; v < std::min(n, (p + std::size_t{1}) * cover_piece); ++v) {
       std::size_t to = at(matrix.column_start[v]), diagonal = to;

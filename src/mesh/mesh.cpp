@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/hypotenuse.h"
 #include "base/index.h"
+#include "base/progress.h"
 #include "mesh/weld.h"
 
 namespace hf_inner {
@@ -164,13 +165,16 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
   check_triangles(input);
   Mesh mesh(memory);
   mesh.report.vertex_count = input.vertex_count, mesh.report.triangle_count = input.triangle_count;
+  poll();
   find_frame(input, mesh);
+  poll();
 
   // representative[v] is the first vertex of the caller that vertex v is welded with
   Vector<Index> representative = weld(input, memory);
   for (std::uint32_t v = 0; v < input.vertex_count; ++v)
     mesh.report.welded_vertex_count += representative[v] == static_cast<Index>(v);
 
+  poll();
   // A usable triangle has three different corners after welding.
   mesh.triangle_of_given.assign(input.triangle_count, none);
   mesh.corners.reserve(std::size_t{3} * input.triangle_count);
@@ -188,6 +192,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
     fail(HF_ERROR_EMPTY, HF_NO_INDEX, "every triangle has equal corners%s; nothing is left of the mesh",
          input.weld == Weld::none ? "" : " after welding");
 
+  poll();
   // The inner vertices are the welded vertices of usable triangles, numbered in the caller's order.
   Vector<Index> inner(input.vertex_count, none, &memory);
   for (Index& corner : mesh.corners) inner[at(corner)] = 0;
@@ -214,6 +219,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
         mesh.to_inner({input.positions.get(v, 0), input.positions.get(v, 1), input.positions.get(v, 2)});
   }
 
+  poll();
   UnionFind sets(count, memory);
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
     sets.unite(mesh.triangle(t)[0], mesh.triangle(t)[1]);
@@ -226,6 +232,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
         root == static_cast<Index>(i) ? static_cast<Index>(mesh.report.component_count++) : mesh.component[at(root)];
   }
 
+  poll();
   count_duplicates(mesh, memory);
   measure_triangles(mesh, jobs, memory);
   return mesh;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/progress.h"
+
 namespace hf_inner {
 namespace {
 
@@ -26,6 +28,7 @@ Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
     ++start[at(std::min(mesh.corners[c], mesh.corners[3 * t + (k + 1) % 3])) + 1];
   }
   for (std::size_t v = 0; v < n; ++v) start[v + 1] += start[v];
+  poll();
   Vector<Half> halves(corner_count, &memory);
   Vector<Index> cursor(start.begin(), start.end() - 1, &memory);
   for (std::size_t c = 0; c < corner_count; ++c) {
@@ -33,6 +36,7 @@ Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
     const Index a = mesh.corners[c], b = mesh.corners[3 * t + (k + 1) % 3];
     halves[at(cursor[at(std::min(a, b))]++)] = {std::max(a, b), static_cast<Index>(t)};
   }
+  poll();
   topology.edges.reserve(corner_count);
   topology.edge_triangle_start.reserve(corner_count / 2);
   topology.edge_triangle.resize(corner_count);
@@ -57,6 +61,7 @@ Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
   }
   topology.edge_triangle_start.push_back(static_cast<Index>(corner_count));
 
+  poll();
   // Fills the rows of neighbours. Edges are ordered by (first, second), so both passes fill every row in ascending
   // order.
   topology.neighbour_start.assign(n + 1, 0);
@@ -70,6 +75,7 @@ Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
     topology.neighbour[slot] = to, topology.neighbour_edge[slot] = edge;
   };
   for (Index e = 0; e < topology.edge_count(); ++e) add(topology.second(e), topology.first(e), e);
+  poll();
   for (Index e = 0; e < topology.edge_count(); ++e) add(topology.first(e), topology.second(e), e);
   return topology;
 }

@@ -35,10 +35,10 @@ std::int32_t capture_features(const FluxSurface& s, const QuadDistance& distance
 
   std::int32_t snapped = 0;
   for (std::int32_t round = 0; round < capture_rounds; ++round) {
-    report(options.progress, static_cast<float>(round) / static_cast<float>(capture_rounds));
+    report(static_cast<float>(round) / static_cast<float>(capture_rounds));
     misses.clear();
     distance.turn_quads(mesh);
-    distance.measure(mesh, capture_tolerance, &misses, nullptr);
+    distance.measure(mesh, capture_tolerance, &misses);
     std::int32_t moved = 0;
     Table<Vec3> taken(memory);
     Table<std::uint8_t> moving(mesh.position.size(), 0, memory);

@@ -11,8 +11,7 @@
 namespace hf_inner {
 
 struct CaptureOptions {
-  double edge_length = 0;  // in inner units
-  Progress* progress = nullptr;
+  double edge_length = 0;  // inner units
 };
 
 // Returns how many vertices it snapped.

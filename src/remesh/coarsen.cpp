@@ -178,12 +178,12 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
   auto measure = [&](QuadMesh& at, Vector<QuadMiss>& misses) {
     distance.turn_quads(at, &known);
     misses.clear();
-    distance.measure(at, options.tolerance, &misses, nullptr, &known);
+    distance.measure(at, options.tolerance, &misses, &known);
   };
   measure(mesh, before);
   bool any = false;
   for (std::int32_t round = 0; round < options.rounds; ++round) {
-    report(options.progress, static_cast<float>(round) / static_cast<float>(options.rounds));
+    report(static_cast<float>(round) / static_cast<float>(options.rounds));
     const VertexFans fans(mesh, memory);
     list_collapses(mesh, fans, options.shortest * length, options.only_refined, list);
     if (static_cast<double>(list.size()) <= collapse_enough * mesh.face_count()) break;
@@ -234,7 +234,7 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
       taken.resize(left), centres.resize(left);
     }
   }
-  return any ? distance.measure(mesh, 0, nullptr, nullptr) : deviation;
+  return any ? distance.measure(mesh, 0, nullptr) : deviation;
 }
 
 }  // namespace hf_inner

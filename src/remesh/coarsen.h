@@ -29,7 +29,6 @@ struct CoarsenOptions {
   double shortest = short_edge;           // in edge lengths
   bool only_refined = false;              // only quads with a corner whose scale is below 1
   std::int32_t rounds = collapse_rounds;
-  Progress* progress = nullptr;
 };
 
 // Returns the distance between the new mesh and the surface. It is at most collapse_far tolerances, or else the given

@@ -59,7 +59,7 @@ class Fitter {
     double deviation = measure(mesh_, misses_);
     Vector<Place> chosen(&memory_);
     for (std::int32_t round = 0; round < fit_rounds && !misses_.empty(); ++round) {
-      report(options_.progress, static_cast<float>(round) / static_cast<float>(fit_rounds));
+      report(static_cast<float>(round) / static_cast<float>(fit_rounds));
       const std::int32_t step = choose(chosen);
       if (step == given_up) break;
       if (chosen.empty()) continue;
@@ -94,7 +94,7 @@ class Fitter {
   double measure(QuadMesh& mesh, Vector<QuadMiss>& misses) {
     distance_.turn_quads(mesh, &known_);
     misses.clear();
-    return distance_.measure(mesh, options_.tolerance, &misses, nullptr, &known_);
+    return distance_.measure(mesh, options_.tolerance, &misses, &known_);
   }
   double excess(const QuadMiss& miss) const {
     return miss.distance * miss.distance - options_.tolerance * options_.tolerance;

@@ -27,7 +27,6 @@ struct FitOptions {
   double edge_length = 0, tolerance = 0;  // in inner units
   std::int32_t most_folds = 0;            // corners that a step may turn over (fit_folding_gain)
   std::int32_t relax_rings = fit_rings;   // rings of quads around a step that are relaxed
-  Progress* progress = nullptr;
 };
 
 // Returns the distance between the fitted mesh and the surface.

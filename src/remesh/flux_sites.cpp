@@ -5,6 +5,7 @@
 #include <queue>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "factor/factor.h"
 #include "remesh/border_flux.h"
 #include "remesh/constants.h"
@@ -171,7 +172,7 @@ void balance(Group& group) {
 }  // namespace
 
 Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> given, bool automatic, double edge_length,
-                                   Memory& memory, Progress* progress) {
+                                   Memory& memory) {
   Vector<FluxSite> all(&memory);
   const Table<double> area = vertex_shares(s, memory);
   // Euler characteristic of each component after its borders are closed
@@ -201,7 +202,7 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
     auto reach = [&](std::size_t i) {
       const float part =
           static_cast<float>(i) / static_cast<float>(i + expected_sites);  // the number of sites is not known yet
-      report(progress, (static_cast<float>(c) + part) / static_cast<float>(s.component_count));
+      report((static_cast<float>(c) + part) / static_cast<float>(s.component_count));
       distances_from(s, group.sites[i].vertex, distance, memory);
       // The number of lines follows from the length of the circle around the site. That length is the derivative of the
       // area of discs.
@@ -256,12 +257,12 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
     }
     balance(group);
     all.insert(all.end(), group.sites.begin(), group.sites.end());
-    report(progress, static_cast<float>(c + 1) / static_cast<float>(s.component_count));
+    report(static_cast<float>(c + 1) / static_cast<float>(s.component_count));
   }
   return all;
 }
 
-FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs, Progress* progress)
+FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs)
     : surface_(&s), memory_(&memory), jobs_(&jobs) {
   const std::int32_t n = s.vertex_count();
   SymmetricMatrix k(memory);
@@ -269,7 +270,9 @@ FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs, Pr
   Vector<std::pair<std::int32_t, double>> column(&memory);
   Table<std::uint8_t> pinned(s.component_count, 0, memory);
   Vector<float> coordinates(&memory);
+  Poller poller;
   for (std::int32_t v = 0; v < n; ++v) {
+    poller.due();
     column.clear();
     double diagonal = 0;
     const std::int32_t begin = s.out[v];
@@ -296,7 +299,6 @@ FluxSolver::FluxSolver(const FluxSurface& s, Memory& memory, JobRunner& jobs, Pr
     coordinates.push_back(static_cast<float>(p.z));
   }
   FactorOptions options;
-  options.progress = progress;
   factor_ = Factor::make(k, coordinates, options, memory, jobs);
 }
 

@@ -30,15 +30,15 @@ struct FluxSite {
 // with handles get at least four sites. Apexes are always sites. Throws HF_ERROR_INVALID_ARGUMENT when given lines
 // cannot balance, and HF_ERROR_TOO_LARGE beyond most_sites sites and borders.
 Vector<FluxSite> choose_flux_sites(const FluxSurface& surface, Span<const FluxSite> given, bool automatic,
-                                   double edge_length, Memory& memory, Progress* progress);
+                                   double edge_length, Memory& memory);
 
 // Factors the matrix of the flux problem, and solves fields from it.
 class FluxSolver {
  public:
-  // Orders and factorises the matrix. Throws the errors of Factor::make.
-  FluxSolver(const FluxSurface& surface, Memory& memory, JobRunner& jobs, Progress* progress = nullptr);
-  // Returns u by vertex of the surface, up to a constant per component. Iterative refinement (flux_solves) improves it,
-  // because lines need a flow that balances at every vertex.
+  // Orders and factorises. Throws as Factor::make.
+  FluxSolver(const FluxSurface& surface, Memory& memory, JobRunner& jobs);
+  // u by vertex of the surface, up to a constant per component. Refined (flux_solves), because lines need a flow that
+  // balances at every vertex.
   Vector<double> solve(Span<const FluxSite> sites) const;
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/progress.h"
 
 namespace hf_inner {
 namespace {
@@ -95,6 +96,7 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
       if (pairs.twin[h] != none) s.twin[moved(h)] = moved(pairs.twin[h]);
   }
 
+  poll();
   // Makes one vertex per fan: the corners that are reached by turning about the vertex.
   for (std::int32_t h = 0; h < real_halves; ++h) {
     if (s.tail[h] != none) continue;
@@ -114,6 +116,7 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
   }
   s.first_apex = s.out.size();
 
+  poll();
   // Computes the edge weights.
   const Vector<double> weights = edge_weights(mesh, topology, OperatorKind::clamped, memory);
   Vector<double> sorted(weights.begin(), weights.end(), &memory);

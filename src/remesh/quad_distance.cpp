@@ -149,7 +149,7 @@ void QuadDistance::turn_quads(QuadMesh& mesh, const NearFaces* known) const {
   });
 }
 
-double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<QuadMiss>* out_misses, Progress* progress,
+double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<QuadMiss>* out_misses,
                              NearFaces* known) const {
   Soup soup(*memory_);
   soup.make(mesh);
@@ -176,7 +176,7 @@ double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<Quad
         if (!out_misses) least = found.squared;
       }
     });
-    report(progress, 0.5f);
+    poll();
     for (std::int32_t i = 0; i < samples.size(); ++i) {
       worst = std::max(worst, distance[i]);
       if (!out_misses || !(distance[i] > tolerance)) continue;

@@ -42,10 +42,10 @@ class QuadDistance {
   // corner comes first. Without one, an end of the diagonal nearer to the surface comes first. known: NULL, or faces
   // that stay unchanged.
   void turn_quads(QuadMesh& mesh, const NearFaces* known = nullptr) const;
-  // Returns the largest distance. out_misses: NULL, or receives the places farther away than `tolerance`, the farthest
-  // first. If there is none, the function returns `tolerance`. known: NULL, or faces already found near at this
-  // tolerance; they are skipped, and faces found near now are added.
-  double measure(const QuadMesh& mesh, double tolerance, Vector<QuadMiss>* out_misses, Progress* progress,
+  // Returns the largest distance. out_misses: NULL, or receives the places farther than `tolerance`, the farthest
+  // first; without a miss the function then returns `tolerance`. Parameter known: NULL, or faces found near at this
+  // tolerance; they are left out, and faces found near are added.
+  double measure(const QuadMesh& mesh, double tolerance, Vector<QuadMiss>* out_misses,
                  NearFaces* known = nullptr) const;
 
   // Returns the point of the surface nearest to p.

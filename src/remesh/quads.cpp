@@ -70,7 +70,7 @@ class Maker {
         core_(*options.core),
         memory_(*core_.memory),
         surface_(FluxSurface::make(core_.mesh, core_.topology, apex_weight, memory_)),
-        solver_(surface_, memory_, *core_.jobs, options.progress),
+        solver_(surface_, memory_, *core_.jobs),
         distance_(surface_, sample_spacing * options.edge_length, memory_, core_.jobs.get()) {}
 
   const FluxSurface& surface() const noexcept { return surface_; }
@@ -78,13 +78,12 @@ class Maker {
   // Makes one mesh. out_deviation: the distance between mesh and surface. density: edges are 1 / density of the wanted
   // edge length.
   QuadResult make(Span<const FluxSite> given, double density, double* out_deviation) const {
-    Progress* const progress = options_.progress;
     QuadResult result(memory_);
     result.euler_characteristic = surface_.euler_characteristic;
     RingOptions ring_options;
     ring_options.edge_length = options_.edge_length / density, ring_options.uniform = options_.uniform;
     Vector<double> u = flow(given, ring_options, result);
-    report(progress, make_progress.solved);
+    report(make_progress.solved);
 
     const FluxField field(surface_, u, memory_);
     Table<double> lines(surface_.vertex_count(), 0.0, memory_);
@@ -96,24 +95,24 @@ class Maker {
       if (changes > 2) result.saddles += changes / 2 - 1;
       result.imbalance = std::max(result.imbalance, std::fabs(field.imbalance(v)));
     }
-    report(progress, make_progress.counted);
+    report(make_progress.counted);
     const ArcGraph graph(field, memory_);
-    report(progress, make_progress.arcs);
+    report(make_progress.arcs);
     const RingMesh rings = [&] {
-      const ProgressRange range(progress, make_progress.arcs, make_progress.rings);
-      return make_rings(field, graph, lines, ring_options, memory_, progress);
+      const ProgressRange range(make_progress.arcs, make_progress.rings);
+      return make_rings(field, graph, lines, ring_options, memory_);
     }();
     Table<std::int32_t> centre(memory_);
     result.mesh = make_polygons(field, graph, rings, centre, memory_);
     check_quads(result.mesh, surface_.euler_characteristic, memory_);
     result.raw_faces = result.mesh.face_count(), result.raw_quads = result.mesh.quad_count();
-    report(progress, make_progress.polygons);
+    report(make_progress.polygons);
     if (options_.split) {
       result.mesh = split_polygons(surface_, result.mesh, centre, memory_);
       check_quads(result.mesh, surface_.euler_characteristic, memory_);
     }
-    report(progress, make_progress.split);
-    const ProgressRange range(progress, make_progress.split, 1.0f);
+    report(make_progress.split);
+    const ProgressRange range(make_progress.split, 1.0f);
     *out_deviation = even_out(result.mesh, ring_options.edge_length);
     return result;
   }
@@ -129,24 +128,23 @@ class Maker {
         const float share = 1.0f / static_cast<float>(fit_turns);
         const float from = share * static_cast<float>(turn);
         {
-          const ProgressRange range(options_.progress, from, from + fit_progress * share);
+          const ProgressRange range(from, from + fit_progress * share);
           FitOptions fit;
-          fit.edge_length = edge_length, fit.tolerance = allowed, fit.progress = options_.progress;
+          fit.edge_length = edge_length, fit.tolerance = allowed;
           fit.most_folds = folds_a_turn * turn, fit.relax_rings = turn % 2 == 0 ? fit_rings : fit_rings_odd;
           deviation = fit_quads(surface_, distance_, mesh, fit, memory_);
         }
-        const ProgressRange range(options_.progress, from + fit_progress * share, from + share);
+        const ProgressRange range(from + fit_progress * share, from + share);
         CoarsenOptions coarsen;
         if (!options_.uniform) coarsen.only_refined = true, coarsen.shortest = short_edge_pure;
         coarsen.edge_length = edge_length, coarsen.tolerance = collapse_tolerance * allowed,
-        coarsen.progress = options_.progress;
         deviation = coarsen_quads(surface_, distance_, mesh, deviation, coarsen, memory_);
         if (turn > 0 && cost(mesh, deviation) <= 1) break;
         if (turn > 1 && deviation == before && mesh.face_count() == faces) break;
       }
       check_quads(mesh, surface_.euler_characteristic, memory_);
     }
-    report(options_.progress, 1.0f);
+    report(1.0f);
     deviation = distance_.measure(mesh, 0, nullptr, nullptr);
     return cost(mesh, deviation);
   }
@@ -178,12 +176,11 @@ class Maker {
  private:
   // Chooses the sites with their lines, and returns the field.
   Vector<double> flow(Span<const FluxSite> given, const RingOptions& rings, QuadResult& result) const {
-    const ProgressRange range(options_.progress, 0.0f, make_progress.flow);
-    result.sites =
-        choose_flux_sites(surface_, given, options_.automatic, rings.edge_length, memory_, options_.progress);
+    const ProgressRange range(0.0f, make_progress.flow);
+    result.sites = choose_flux_sites(surface_, given, options_.automatic, rings.edge_length, memory_);
     Vector<double> u = solve_with_borders(surface_, solver_, result.sites);
     for (int round = 0; round < line_rounds && !options_.uniform && options_.scale_lines; ++round) {
-      report(options_.progress, 1.0f);
+      report(1.0f);
       fit_lines(surface_, u, rings, result.sites, memory_);
       u = solve_with_borders(surface_, solver_, result.sites);
     }
@@ -192,17 +189,16 @@ class Maker {
 
   // Relaxes the mesh. It snaps features, and keeps them if they reduce the distance both ways.
   double even_out(QuadMesh& mesh, double edge_length) const {
-    Progress* const progress = options_.progress;
     auto relax = [&](std::int32_t rounds, float from, float to) {
-      const ProgressRange range(progress, from, to);
+      const ProgressRange range(from, to);
       RelaxOptions options;
-      options.rounds = rounds, options.edge_length = edge_length, options.progress = progress;
+      options.rounds = rounds, options.edge_length = edge_length;
       relax_quads(surface_, mesh, options, memory_);
     };
     auto measure = [&](QuadMesh& at, float from, float to) {
-      const ProgressRange range(progress, from, to);
+      const ProgressRange range(from, to);
       distance_.turn_quads(at);
-      return distance_.measure(at, 0, nullptr, progress);
+      return distance_.measure(at, 0, nullptr);
     };
     // Vertices slide off thin parts where edges are long. So in kind pure, the mesh after few rounds is kept if it is
     // nearer to the surface.
@@ -216,15 +212,15 @@ class Maker {
     if (options_.relax > 0 && deviation > capture_from) {
       QuadMesh snapped = mesh;
       {
-        const ProgressRange range(progress, even_progress.measured, even_progress.captured);
+        const ProgressRange range(even_progress.measured, even_progress.captured);
         CaptureOptions capture;
-        capture.edge_length = edge_length, capture.progress = progress;
+        capture.edge_length = edge_length;
         capture_features(surface_, distance_, snapped, capture, memory_);
       }
       const double after = measure(snapped, even_progress.captured, 1.0f);
       if (after < deviation) deviation = after, mesh = std::move(snapped);
     }
-    report(progress, 1.0f);
+    report(1.0f);
     return deviation;
   }
 
@@ -241,10 +237,9 @@ class Maker {
 QuadResult make_quads(const QuadOptions& options) {
   const Core& core = *options.core;
   Memory& memory = *core.memory;
-  Progress* const progress = options.progress;
-  report(progress, 0.0f);
+  report(0.0f);
   const std::optional<Maker> made = [&]() -> std::optional<Maker> {
-    const ProgressRange range(progress, 0.0f, quads_progress.prepared);
+    const ProgressRange range(0.0f, quads_progress.prepared);
     return std::optional<Maker>(std::in_place, options);
   }();
   const Maker& maker = *made;
@@ -257,25 +252,24 @@ QuadResult make_quads(const QuadOptions& options) {
   if (!options.automatic) {
     for (const FluxSite& site : options.sites) given.push_back({fan[site.vertex], site.lines});
     QuadResult result = [&] {
-      const ProgressRange sub(progress, quads_progress.prepared, given_made);
+      const ProgressRange sub(quads_progress.prepared, given_made);
       return maker.make(given, 1, &deviation);
     }();
-    const ProgressRange range(progress, given_made, 1.0f);
+    const ProgressRange range(given_made, 1.0f);
     maker.fit(result.mesh, 1, deviation);
     maker.to_mesh(result);
-    report(progress, 1.0f);
+    report(1.0f);
     return result;
   }
 
   // Tips come from two fields: the mean distance finds limbs that the Poisson field merges into others.
-  const Geodesics geodesics(options.core, geodesic_smoothing);
   const Extremities far = [&] {
-    const ProgressRange range(progress, quads_progress.prepared, quads_progress.far_tips);
-    return geodesic_extremities(geodesics, geodesic_sources, tip_lengths[0].geodesic, progress);
+    const ProgressRange range(quads_progress.prepared, quads_progress.far_tips);
+    return geodesic_extremities(options.core, geodesic_smoothing, geodesic_sources, tip_lengths[0].geodesic);
   }();
   const Extremities high = [&] {
-    const ProgressRange range(progress, quads_progress.far_tips, quads_progress.tips);
-    return poisson_extremities(core, tip_lengths[0].poisson, progress);
+    const ProgressRange range(quads_progress.far_tips, quads_progress.tips);
+    return poisson_extremities(core, tip_lengths[0].poisson);
   }();
   struct Trial {
     double deviation;
@@ -300,7 +294,7 @@ QuadResult make_quads(const QuadOptions& options) {
     before = given.size();
     const float share = (quads_progress.tried - quads_progress.tips) / static_cast<float>(tip_trials),
                 from = quads_progress.tips + share * static_cast<float>(trial);
-    const ProgressRange range(progress, from, from + share);
+    const ProgressRange range(from, from + share);
     try {
       QuadResult result = maker.make(given, 1, &deviation);
       trials.push_back({deviation, std::move(result), Vector<FluxSite>(given, &memory)});
@@ -319,7 +313,7 @@ QuadResult make_quads(const QuadOptions& options) {
     if (trials[i].deviation > trial_cutoff * trials[0].deviation) break;
     const float share = (quads_progress.fitted - quads_progress.tried) / static_cast<float>(most_fitted),
                 from = quads_progress.tried + share * static_cast<float>(i);
-    const ProgressRange range(progress, from, from + share);
+    const ProgressRange range(from, from + share);
     const double cost = maker.fit(trials[i].result.mesh, 1, trials[i].deviation);
     if (least < 0 || cost < least) least = cost, taken = i;
   }
@@ -328,14 +322,14 @@ QuadResult make_quads(const QuadOptions& options) {
   for (const double density : densities) {
     for (std::size_t i = 0; i < std::min(trials.size(), most_dense) && options.relax > 0 && least > near_enough; ++i) {
       const float share = (1 - quads_progress.fitted) / static_cast<float>(density_count * most_dense);
-      const ProgressRange range(progress, from, from + share);
+      const ProgressRange range(from, from + share);
       from += share;
       try {
         QuadResult result = [&] {
-          const ProgressRange sub(progress, 0.0f, dense_made);
+          const ProgressRange sub(0.0f, dense_made);
           return maker.make(trials[i].given, density, &deviation);
         }();
-        const ProgressRange sub(progress, dense_made, 1.0f);
+        const ProgressRange sub(dense_made, 1.0f);
         const double cost = maker.fit(result.mesh, density, deviation);
         if (cost < least) least = cost, best = std::move(result);
       } catch (const Error& error) {
@@ -344,7 +338,7 @@ QuadResult make_quads(const QuadOptions& options) {
     }
   }
   maker.to_mesh(best);
-  report(progress, 1.0f);
+  report(1.0f);
   return best;
 }
 

@@ -16,7 +16,6 @@ struct QuadOptions {
   Span<const FluxSite> sites;  // FluxSite::vertex is an inner vertex of the core; every border is a site too
   bool automatic = true;
   bool scale_lines = true;  // kind pure: scale the lines to the edge length; off: keep the caller's numbers
-  Progress* progress = nullptr;
 };
 
 struct QuadResult {

@@ -157,7 +157,7 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
       for (const std::int32_t v : vertices)
         if (back[v]) mesh.position[v] = old_position[v], mesh.location[v] = old_location[v];
     }
-    report(options.progress, static_cast<float>(round + 1) / static_cast<float>(options.rounds));
+    report(static_cast<float>(round + 1) / static_cast<float>(options.rounds));
   }
 }
 

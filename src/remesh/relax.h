@@ -21,7 +21,6 @@ struct RelaxOptions {
   std::int32_t rounds = 0;
   double edge_length = 0;                       // 0: quads keep their sizes
   const Table<std::uint8_t>* moving = nullptr;  // by vertex: whether it may move; NULL: all may
-  Progress* progress = nullptr;
 };
 
 void relax_quads(const FluxSurface& surface, QuadMesh& mesh, const RelaxOptions& options, Memory& memory);

@@ -32,7 +32,7 @@ class Builder {
         arrivals_(&memory),
         by_arc_(&memory) {}
 
-  void run(Progress* progress) {
+  void run() {
     for (std::int32_t i = 0; i < graph_.critical.size(); ++i) {
       if (graph_.down_start[i] == graph_.down_start[i + 1]) {
         start_at_source(i);
@@ -40,7 +40,7 @@ class Builder {
         pass_saddle(i);
       }
       for (std::int32_t j = graph_.up_start[i]; j < graph_.up_start[i + 1]; ++j) climb(graph_.up_arc[j]);
-      report(progress, static_cast<float>(i + 1) / static_cast<float>(graph_.critical.size()));
+      report(static_cast<float>(i + 1) / static_cast<float>(graph_.critical.size()));
     }
   }
 
@@ -374,11 +374,11 @@ class Builder {
 }  // namespace
 
 RingMesh make_rings(const FluxField& field, const ArcGraph& graph, const Table<double>& lines_at,
-                    const RingOptions& options, Memory& memory, Progress* progress) {
+                    const RingOptions& options, Memory& memory) {
   RingMesh out(memory);
   place_rings(field, graph, options, memory, out);
   Builder builder(field, graph, lines_at, options, memory, out);
-  builder.run(progress);
+  builder.run();
   return out;
 }
 

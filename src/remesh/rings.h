@@ -59,6 +59,6 @@ struct RingMesh {
 // lines_at: by vertex of the surface, the number of lines that start at a source. Only kind pure uses it; kind uniform
 // counts by length.
 RingMesh make_rings(const FluxField& field, const ArcGraph& graph, const Table<double>& lines_at,
-                    const RingOptions& options, Memory& memory, Progress* progress);
+                    const RingOptions& options, Memory& memory);
 
 }  // namespace hf_inner

@@ -29,7 +29,7 @@ static hf_result call_surface(World* w) {
 }
 static hf_result call_surface_save(World* w) { /* makes the factor of another kind */
   size_t size;
-  return hf_surface_save(w->surface, HF_FIELD_BIHARMONIC, 0, NULL, &size);
+  return hf_surface_save(w->surface, HF_FIELD_BIHARMONIC, NULL, 0, NULL, &size);
 }
 static hf_result call_create(World* w) {
   hf_solver_desc desc = HF_INIT(hf_solver_desc);

@@ -120,9 +120,9 @@ hf_solver surface_solver(const Surface* surface) {
 }
 
 unsigned char* saved_bytes(hf_surface surface, int32_t field_kind, size_t* out_size) {
-  assert_ok(hf_surface_save(surface, field_kind, 0, NULL, out_size));
+  assert_ok(hf_surface_save(surface, field_kind, NULL, 0, NULL, out_size));
   unsigned char* bytes = checked_malloc(*out_size);
-  assert_ok(hf_surface_save(surface, field_kind, *out_size, bytes, NULL));
+  assert_ok(hf_surface_save(surface, field_kind, NULL, *out_size, bytes, NULL));
   return bytes;
 }
 

@@ -33,7 +33,8 @@ static void fill_factor(void* d) {
   hf_factor_desc* factor = d;
   *factor = HF_INIT(hf_factor_desc);
   factor->bytes = saved.bytes;
-  if (hf_surface_save(scene.sheet, HF_FIELD_HARMONIC, sizeof saved.bytes, saved.bytes, &factor->byte_count) != HF_OK)
+  if (hf_surface_save(scene.sheet, HF_FIELD_HARMONIC, NULL, sizeof saved.bytes, saved.bytes, &factor->byte_count) !=
+      HF_OK)
     factor->byte_count = 0;
 }
 static hf_result create_loaded(void* d) {

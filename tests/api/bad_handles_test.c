@@ -36,7 +36,7 @@ static hf_result surface_get_statistics(void* h) {
 }
 static hf_result surface_save(void* h) {
   size_t size;
-  return hf_surface_save(h, HF_FIELD_HARMONIC, sizeof doubles, doubles, &size);
+  return hf_surface_save(h, HF_FIELD_HARMONIC, NULL, sizeof doubles, doubles, &size);
 }
 static hf_result cast_ray(void* h) {
   const double origin[3] = {0, 0, 9}, direction[3] = {0, 0, -1};

@@ -104,11 +104,11 @@ static void a_factor_that_changed_behind_the_library_is_found_out(void** state) 
   hf_surface surface = surface_on(&tube);
   hf_solver solver = solver_on(surface), loaded = NULL;
   size_t size = 0;
-  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, 0, NULL, &size));
+  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, NULL, 0, NULL, &size));
   unsigned char* block = malloc(size + HF_FACTOR_ALIGNMENT);
   assert_non_null(block);
   unsigned char* bytes = block + HF_FACTOR_ALIGNMENT - (uintptr_t)block % HF_FACTOR_ALIGNMENT;
-  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, size, bytes, NULL));
+  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, NULL, size, bytes, NULL));
   hf_surface_destroy(surface);
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.borrow = 1, factor.bytes = bytes, factor.byte_count = size;

@@ -21,9 +21,9 @@ static Saved saved_tube(void) {
   Saved saved;
   saved.tube = surface_tube(AROUND, RINGS);
   hf_surface surface = surface_on(&saved.tube);
-  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, 0, NULL, &saved.size));
+  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, NULL, 0, NULL, &saved.size));
   saved.bytes = aligned_bytes(saved.size, &saved.block);
-  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, saved.size, saved.bytes, NULL));
+  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, NULL, saved.size, saved.bytes, NULL));
   hf_surface_destroy(surface);
   return saved;
 }
@@ -195,16 +195,16 @@ static void bad_arguments_are_answered(void** state) {
   Saved saved = saved_tube();
   hf_surface surface = surface_on(&saved.tube), out = NULL;
   size_t size = 7;
-  assert_code(HF_ERROR_NULL_POINTER, hf_surface_save(surface, HF_FIELD_HARMONIC, 0, NULL, NULL));
-  assert_code(HF_ERROR_INVALID_HANDLE, hf_surface_save(NULL, HF_FIELD_HARMONIC, 0, NULL, &size));
+  assert_code(HF_ERROR_NULL_POINTER, hf_surface_save(surface, HF_FIELD_HARMONIC, NULL, 0, NULL, NULL));
+  assert_code(HF_ERROR_INVALID_HANDLE, hf_surface_save(NULL, HF_FIELD_HARMONIC, NULL, 0, NULL, &size));
   assert_int_equal(size, 7);
   unsigned char* small = malloc(saved.size + 16);
   memset(small, 0x5A, saved.size + 16);
-  assert_code(HF_ERROR_TOO_SMALL, hf_surface_save(surface, HF_FIELD_HARMONIC, saved.size - 1, small, &size));
+  assert_code(HF_ERROR_TOO_SMALL, hf_surface_save(surface, HF_FIELD_HARMONIC, NULL, saved.size - 1, small, &size));
   assert_int_equal(size, saved.size); /* the size is written with the error */
-  assert_code(HF_ERROR_TOO_SMALL, hf_surface_save(surface, HF_FIELD_HARMONIC, 0, small, NULL));
+  assert_code(HF_ERROR_TOO_SMALL, hf_surface_save(surface, HF_FIELD_HARMONIC, NULL, 0, small, NULL));
   for (size_t i = 0; i < saved.size + 16; ++i) assert_int_equal(small[i], 0x5A);
-  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, saved.size + 16, small, NULL));
+  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, NULL, saved.size + 16, small, NULL));
   for (size_t i = saved.size; i < saved.size + 16; ++i) assert_int_equal(small[i], 0x5A);
   assert_code(HF_ERROR_NULL_POINTER, load(&saved.tube, NULL, saved.size, 0, &out));
   assert_code(HF_ERROR_EMPTY, load(&saved.tube, saved.bytes, 0, 0, &out));
@@ -220,11 +220,11 @@ static void damaged_bytes_are_refused_and_never_crash(void** state) {
   Surface sheet = surface_sheet(5, 4);
   hf_surface surface = surface_on(&sheet);
   size_t size = 0;
-  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, 0, NULL, &size));
+  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, NULL, 0, NULL, &size));
   unsigned char *bytes_block, *damaged_block;
   unsigned char* bytes = aligned_bytes(size, &bytes_block);
   unsigned char* damaged = aligned_bytes(size, &damaged_block);
-  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, size, bytes, NULL));
+  assert_ok(hf_surface_save(surface, HF_FIELD_HARMONIC, NULL, size, bytes, NULL));
   uint64_t random = 88172645463325252ull;
   unsigned refused = 0, unsupported = 0;
   for (int round = 0; round < 6000; ++round) {
@@ -288,7 +288,7 @@ static void memory_that_runs_out_while_loading_or_saving_leaves_nothing(void** s
         unsigned char* again = malloc(saved.size);
         for (size_t m = 1;; ++m) {
           memory.refuse_at = memory.calls + m;
-          const hf_result save = hf_surface_save(surface, HF_FIELD_HARMONIC, saved.size, again, NULL);
+          const hf_result save = hf_surface_save(surface, HF_FIELD_HARMONIC, NULL, saved.size, again, NULL);
           if (save == HF_OK) break;
           assert_string_equal(hf_result_get_name(save), "HF_ERROR_OUT_OF_MEMORY");
           assert_true(m < 100);

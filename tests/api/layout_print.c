@@ -46,13 +46,13 @@ static void print_surface(void) {
   STRUCT(hf_surface_desc);
   F(struct_size), F(vertex_count), F(triangle_count), F(position_stride), F(positions), F(positions_f64), F(triangles),
       F(triangles_u16), F(triangle_stride), F(weld), F(weld_tolerance), F(operator_kind), F(field_kind), F(ordering),
-      F(thread_count), F(vertex_limit), F(triangle_limit), F(memory_limit_mb), F(allocator), F(job_runner), F(progress),
-      F(saved_factor);
+      F(thread_count), F(vertex_limit), F(triangle_limit), F(memory_limit_mb), F(work_limit_gflop), F(reserved),
+      F(allocator), F(job_runner), F(progress), F(saved_factor);
 #undef T
 #define T hf_surface_info
   STRUCT(hf_surface_info);
   F(struct_size), F(vertex_count), F(triangle_count), F(weld), F(weld_tolerance), F(operator_kind), F(field_kind),
-      F(ordering), F(thread_count), F(vertex_limit), F(triangle_limit), F(memory_limit_mb);
+      F(ordering), F(thread_count), F(vertex_limit), F(triangle_limit), F(memory_limit_mb), F(work_limit_gflop);
 #undef T
 #define T hf_surface_report
   STRUCT(hf_surface_report);
@@ -142,7 +142,8 @@ static void print_pose(void) {
 #undef T
 #define T hf_handles_desc
   STRUCT(hf_handles_desc);
-  F(struct_size), F(handle_count), F(region_counts), F(region_vertices), F(points), F(radii), F(layer), F(reserved);
+  F(struct_size), F(handle_count), F(region_counts), F(region_vertices), F(points), F(radii), F(layer), F(reserved),
+      F(progress);
 #undef T
 #define T hf_transform
   STRUCT(hf_transform);
@@ -289,7 +290,8 @@ static void print_transfer(void) {
 #undef T
 #define T hf_pairs_desc
   STRUCT(hf_pairs_desc);
-  F(struct_size), F(pair_count), F(source_counts), F(source_vertices), F(target_counts), F(target_vertices), F(flags);
+  F(struct_size), F(pair_count), F(source_counts), F(source_vertices), F(target_counts), F(target_vertices), F(flags),
+      F(progress);
 #undef T
 #define T hf_pair_info
   STRUCT(hf_pair_info);

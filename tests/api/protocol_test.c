@@ -36,7 +36,7 @@ static hf_result get_components(Call* c) {
   return r;
 }
 static hf_result save(Call* c) {
-  return hf_surface_save(scene.sheet, HF_FIELD_HARMONIC, c->capacity[0], c->array[0], &c->count[0]);
+  return hf_surface_save(scene.sheet, HF_FIELD_HARMONIC, NULL, c->capacity[0], c->array[0], &c->count[0]);
 }
 static hf_result find_critical_points(Call* c) {
   const hf_scalars field = heights();

@@ -269,7 +269,7 @@ static void the_second_kind_is_made_once_and_shared(void** state) {
   const double added = memory_of(surface) - with;
   assert_true(added < 0.2 * (with - first)); /* ... and two more solvers share it */
   size_t size = 0;
-  assert_ok(hf_surface_save(surface, HF_FIELD_BIHARMONIC, 0, NULL, &size));
+  assert_ok(hf_surface_save(surface, HF_FIELD_BIHARMONIC, NULL, 0, NULL, &size));
   assert_true(size > 0 && memory_of(surface) - with < 0.2 * (with - first));
   for (int i = 0; i < 3; ++i) hf_solver_destroy(plates[i]);
   hf_solver_destroy(harmonic), hf_surface_destroy(surface), surface_free(&sheet);
@@ -323,17 +323,18 @@ static void getters_tell_what_was_asked_for(void** state) {
   assert_true(info.vertex_count == COUNT && info.triangle_count == tube.triangle_count);
   assert_true(info.weld == 0 && info.weld_tolerance == 0 && info.operator_kind == 0 && info.field_kind == 0);
   assert_true(info.ordering == 0 && info.thread_count == 1 && info.vertex_limit == 20000000);
-  assert_true(info.triangle_limit == 0 && info.memory_limit_mb == 0);
+  assert_true(info.triangle_limit == 0 && info.memory_limit_mb == 0 && info.work_limit_gflop == 100000);
   hf_surface_destroy(surface);
   desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = 0.01f, desc.operator_kind = HF_OPERATOR_CLAMPED;
   desc.field_kind = HF_FIELD_BIHARMONIC, desc.ordering = HF_ORDERING_MINIMUM_DEGREE, desc.thread_count = 3;
-  desc.vertex_limit = 5000, desc.triangle_limit = 9000, desc.memory_limit_mb = 200;
+  desc.vertex_limit = 5000, desc.triangle_limit = 9000, desc.memory_limit_mb = 200, desc.work_limit_gflop = 7;
   assert_ok(hf_surface_create(&desc, &surface));
   assert_ok(hf_surface_get_info(surface, &info));
   assert_true(info.weld == HF_WELD_TOLERANCE && info.weld_tolerance == 0.01f);
   assert_true(info.operator_kind == HF_OPERATOR_CLAMPED && info.field_kind == HF_FIELD_BIHARMONIC);
   assert_true(info.ordering == HF_ORDERING_MINIMUM_DEGREE && info.thread_count == 3);
-  assert_true(info.vertex_limit == 5000 && info.triangle_limit == 9000 && info.memory_limit_mb == 200);
+  assert_true(info.vertex_limit == 5000 && info.triangle_limit == 9000 && info.memory_limit_mb == 200 &&
+              info.work_limit_gflop == 7);
 
   hf_solver_info made = HF_INIT(hf_solver_info);
   hf_solver solver = solver_on(surface);

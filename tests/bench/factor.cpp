@@ -28,7 +28,7 @@ struct OrderResult {
 
 double order_ms(const InnerSystem& system, hf_inner::Ordering kind, Order& order) {
   return time_ms([&] {
-    hf_inner::make_order(system.matrix(), system.coordinates(), kind, system.memory(), system.jobs(), nullptr, order);
+    hf_inner::make_order(system.matrix(), system.coordinates(), kind, system.memory(), system.jobs(), order);
   });
 }
 
@@ -66,14 +66,15 @@ double time_symbolic(const InnerSystem& system, hf_inner::Span<const int32_t> or
 }
 
 // Numeric factorisation into memory that is there already, ours and the peer's in turns, on the factor's permutation.
-json compare_numeric(const InnerSystem& system, const hf_inner::SupernodalFactor& factor, CholmodPeer* peer, const Run& run) {
+json compare_numeric(const InnerSystem& system, const hf_inner::SupernodalFactor& factor, CholmodPeer* peer,
+                     const Run& run) {
   hf_inner::Buffer<double> values(system.memory(), factor.values().size());
   std::memset(values.data(), 0, values.size() * sizeof(double));
   if (peer) peer->analyse_given_ms(std::vector<int>(factor.order().begin(), factor.order().end()));
   const auto ours_with = [&](const hf_inner::Kernels& kernels) {
     return time_ms([&] {
       hf_inner::factorise(factor.symbolic(), factor.plan(), kernels, system.matrix(), {}, hf_inner::default_lost_share,
-                    values.data(), system.memory(), system.jobs(), nullptr);
+                          values.data(), system.memory(), system.jobs());
     });
   };
   std::vector<double> ours, narrow, theirs, theirs_serial;
@@ -116,11 +117,13 @@ json store_and_load(const Mesh& mesh, const Run& run) {
   const hf_surface_statistics made = maker.surface_statistics();
   const double make_ms = made.ordering_ms + made.symbolic_ms + made.numeric_ms;
   hf_factor_desc saved = HF_INIT(hf_factor_desc);
-  check(hf_surface_save(maker.surface(), HF_FIELD_HARMONIC, 0, nullptr, &saved.byte_count));
+  check(hf_surface_save(maker.surface(), HF_FIELD_HARMONIC, nullptr, 0, nullptr, &saved.byte_count));
   hf_inner::Memory memory;
   hf_inner::Buffer<uint8_t> bytes(memory, saved.byte_count);
   saved.bytes = bytes.data();
-  const double save = time_ms([&] { check(hf_surface_save(maker.surface(), HF_FIELD_HARMONIC, saved.byte_count, bytes.data(), nullptr)); });
+  const double save = time_ms([&] {
+    check(hf_surface_save(maker.surface(), HF_FIELD_HARMONIC, nullptr, saved.byte_count, bytes.data(), nullptr));
+  });
   std::vector<double> copied, borrowed;
   for (uint32_t r = 0; r < run.repetitions; ++r) {
     for (const int borrow : {0, 1}) {

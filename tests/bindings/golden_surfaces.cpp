@@ -118,10 +118,10 @@ Result Scene::run_mesh(const Json& step, const std::string& what, hf_surface sur
   } else {  // save
     const int32_t kind = step.value("field_kind", 0);
     size_t size = 0;
-    check(hf_surface_save(surface, kind, 0, nullptr, &size));
+    check(hf_surface_save(surface, kind, nullptr, 0, nullptr, &size));
     auto& bytes = bytes_[step["as"]];
     bytes.resize(size);
-    check(hf_surface_save(surface, kind, size, bytes.data(), &size));
+    check(hf_surface_save(surface, kind, nullptr, size, bytes.data(), &size));
   }
   return result;
 }

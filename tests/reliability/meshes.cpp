@@ -342,7 +342,8 @@ std::vector<double> loaded_field(const Mesh& m, std::uint32_t count, int operato
   hf_solver solver = nullptr;
   std::size_t size = 0;
   std::vector<double> field(m.count(), NAN);
-  if (hf_surface_create(&desc, &made) == HF_OK && hf_surface_save(made, field_kind, 0, nullptr, &size) == HF_OK) {
+  if (hf_surface_create(&desc, &made) == HF_OK &&
+      hf_surface_save(made, field_kind, nullptr, 0, nullptr, &size) == HF_OK) {
     std::vector<unsigned char> bytes(size);
     hf_factor_desc saved = HF_INIT(hf_factor_desc);
     saved.bytes = bytes.data(), saved.byte_count = size;
@@ -353,7 +354,7 @@ std::vector<double> loaded_field(const Mesh& m, std::uint32_t count, int operato
     sites.site_count = 3, sites.vertices = places, sites.values = values;
     hf_solver_desc wanted = HF_INIT(hf_solver_desc);
     wanted.field_kind = field_kind;
-    if (hf_surface_save(made, field_kind, size, bytes.data(), nullptr) != HF_OK ||
+    if (hf_surface_save(made, field_kind, nullptr, size, bytes.data(), nullptr) != HF_OK ||
         hf_surface_create(&desc, &loaded) != HF_OK || hf_create(loaded, &wanted, &solver) != HF_OK ||
         hf_add_sites(solver, &sites, nullptr) != HF_OK ||
         hf_solver_solve_f64(solver, field.data(), 0, nullptr) != HF_OK)

@@ -108,10 +108,11 @@ void Player::branch_off() {
 void Player::reload() {
   const hf_surface surface = surface_of(here()).handle;
   std::size_t size = 0;
-  expect(HF_OK, hf_surface_save(surface, field_kind_, 0, nullptr, &size), "hf_surface_save, size");
+  expect(HF_OK, hf_surface_save(surface, field_kind_, nullptr, 0, nullptr, &size), "hf_surface_save, size");
   std::vector<std::uint8_t> bytes(size + 1, 0x5A);
-  expect(HF_ERROR_TOO_SMALL, hf_surface_save(surface, field_kind_, size - 1, bytes.data(), &size), "hf_surface_save");
-  expect(HF_OK, hf_surface_save(surface, field_kind_, size, bytes.data(), nullptr), "hf_surface_save");
+  expect(HF_ERROR_TOO_SMALL, hf_surface_save(surface, field_kind_, nullptr, size - 1, bytes.data(), &size),
+         "hf_surface_save");
+  expect(HF_OK, hf_surface_save(surface, field_kind_, nullptr, size, bytes.data(), nullptr), "hf_surface_save");
   hold(bytes[size] == 0x5A, "hf_surface_save wrote beyond its size");
   hf_factor_desc factor = HF_INIT(hf_factor_desc);
   factor.bytes = bytes.data(), factor.byte_count = size;

@@ -177,9 +177,9 @@ void bytes(Story& s, const Tube& tube, Allocator& memory) {
   std::vector<char> saved;
   for (const int kind : {HF_FIELD_BIHARMONIC_GRAPH, HF_FIELD_HARMONIC}) {
     std::size_t size = 0;
-    s.call("hf_surface_save", [&] { return hf_surface_save(surface, kind, 0, nullptr, &size); });
+    s.call("hf_surface_save", [&] { return hf_surface_save(surface, kind, nullptr, 0, nullptr, &size); });
     saved.resize(size);
-    s.call("hf_surface_save", [&] { return hf_surface_save(surface, kind, size, saved.data(), nullptr); });
+    s.call("hf_surface_save", [&] { return hf_surface_save(surface, kind, nullptr, size, saved.data(), nullptr); });
     s.take(static_cast<double>(size));
   }
   hf_factor_desc factor = HF_INIT(hf_factor_desc);

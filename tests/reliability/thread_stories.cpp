@@ -165,9 +165,9 @@ void read_surfaces(const Scene& s, const Objects& o, unsigned, Seen& seen) {
     seen.call(hf_surface_get_info(surface, &info)), seen.take(&info, 1);
     for (int kind = 0; kind < 3; ++kind) {
       std::size_t size = 0;
-      seen.call(hf_surface_save(surface, kind, 0, nullptr, &size));
+      seen.call(hf_surface_save(surface, kind, nullptr, 0, nullptr, &size));
       std::vector<unsigned char> bytes(size);
-      seen.call(hf_surface_save(surface, kind, size, bytes.data(), nullptr)), seen.take(bytes);
+      seen.call(hf_surface_save(surface, kind, nullptr, size, bytes.data(), nullptr)), seen.take(bytes);
       hf_solver_desc wanted = desc<hf_solver_desc>();
       wanted.field_kind = kind;
       hf_solver solver = nullptr;

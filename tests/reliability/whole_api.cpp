@@ -180,9 +180,10 @@ void Run::factor_and_preview() {
   std::vector<unsigned char> bytes;
   for (const int kind : {HF_FIELD_BIHARMONIC, HF_FIELD_HARMONIC}) {
     std::size_t size = 0;
-    call(hf_surface_save(surface, kind, 0, nullptr, &size), "hf_surface_save, size");
+    call(hf_surface_save(surface, kind, nullptr, 0, nullptr, &size), "hf_surface_save, size");
     bytes.resize(size);
-    call(hf_surface_save(surface, kind, size, bytes.data(), nullptr), "hf_surface_save"), take(bytes.data(), size);
+    call(hf_surface_save(surface, kind, nullptr, size, bytes.data(), nullptr), "hf_surface_save"),
+        take(bytes.data(), size);
   }
   hf_surface_destroy(surface);
   hf_factor_desc saved = desc<hf_factor_desc>();

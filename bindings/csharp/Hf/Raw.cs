@@ -143,6 +143,8 @@ namespace Hf.Native
         public uint vertex_limit;
         public uint triangle_limit;
         public uint memory_limit_mb;
+        public uint work_limit_gflop;
+        public uint reserved;
         public hf_allocator allocator;
         public hf_job_runner job_runner;
         public IntPtr progress;
@@ -164,6 +166,7 @@ namespace Hf.Native
         public uint vertex_limit;
         public uint triangle_limit;
         public uint memory_limit_mb;
+        public uint work_limit_gflop;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -507,6 +510,7 @@ namespace Hf.Native
         public IntPtr radii;
         public uint layer;
         public uint reserved;
+        public IntPtr progress;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -753,6 +757,7 @@ namespace Hf.Native
         public IntPtr target_counts;
         public IntPtr target_vertices;
         public IntPtr flags;
+        public IntPtr progress;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -821,7 +826,7 @@ namespace Hf.Native
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_report(IntPtr surface, void* out_report);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_components(IntPtr surface, uint capacity, void* out_components, void* out_count);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_statistics(IntPtr surface, void* out_statistics);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_save(IntPtr surface, int field_kind, UIntPtr capacity, void* out_bytes, void* out_size);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_save(IntPtr surface, int field_kind, IntPtr progress, UIntPtr capacity, void* out_bytes, void* out_size);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_cast_ray(IntPtr surface, void* origin, void* direction, void* desc, void* out_hit);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_find_vertex(IntPtr surface, void* point, void* desc, void* out_vertex, void* out_distance);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_create(IntPtr surface, void* desc, void* out_solver);

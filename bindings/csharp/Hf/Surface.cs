@@ -137,9 +137,9 @@ namespace Hf
         public byte[] Save(int fieldKind = Constants.HF_FIELD_HARMONIC)
         {
             UIntPtr size;
-            Check(Functions.hf_surface_save(Handle, fieldKind, UIntPtr.Zero, null, &size));
+            Check(Functions.hf_surface_save(Handle, fieldKind, IntPtr.Zero, UIntPtr.Zero, null, &size));
             var bytes = new byte[(long)size];
-            fixed (byte* place = bytes) Check(Functions.hf_surface_save(Handle, fieldKind, size, place, null));
+            fixed (byte* place = bytes) Check(Functions.hf_surface_save(Handle, fieldKind, IntPtr.Zero, size, place, null));
             return bytes;
         }
 

@@ -112,10 +112,10 @@ Value components(Surface& s, const Arguments&) {
 Value save(Surface& s, const Arguments& a) {
   const int32_t kind = signed_whole(at(a, 0).number, "field_kind");
   size_t size = 0;
-  check(hf_surface_save(s.get(), kind, 0, nullptr, &size));
+  check(hf_surface_save(s.get(), kind, nullptr, 0, nullptr, &size));
   Value value;
   value.kind = Value::bytes, value.octets.resize(size);
-  check(hf_surface_save(s.get(), kind, size, value.octets.data(), nullptr));
+  check(hf_surface_save(s.get(), kind, nullptr, size, value.octets.data(), nullptr));
   return value;
 }
 

@@ -108,7 +108,7 @@ export const layouts = {
     bytes: ['ptr', [8, 8], 0],
     byte_count: ['size', [12, 16], 0],
   } },
-  hf_surface_desc: { size: [100, 144], fields: {
+  hf_surface_desc: { size: [108, 152], fields: {
     struct_size: ['u32', [0, 0], 0],
     vertex_count: ['u32', [4, 4], 0],
     triangle_count: ['u32', [8, 8], 0],
@@ -127,12 +127,14 @@ export const layouts = {
     vertex_limit: ['u32', [60, 76], 0],
     triangle_limit: ['u32', [64, 80], 0],
     memory_limit_mb: ['u32', [68, 84], 0],
-    allocator: ['hf_allocator', [72, 88], 0],
-    job_runner: ['hf_job_runner', [84, 112], 0],
-    progress: ['ptr', [92, 128], 0],
-    saved_factor: ['ptr', [96, 136], 0],
+    work_limit_gflop: ['u32', [72, 88], 0],
+    reserved: ['u32', [76, 92], 0],
+    allocator: ['hf_allocator', [80, 96], 0],
+    job_runner: ['hf_job_runner', [92, 120], 0],
+    progress: ['ptr', [100, 136], 0],
+    saved_factor: ['ptr', [104, 144], 0],
   } },
-  hf_surface_info: { size: [48, 48], fields: {
+  hf_surface_info: { size: [52, 52], fields: {
     struct_size: ['u32', [0, 0], 0],
     vertex_count: ['u32', [4, 4], 0],
     triangle_count: ['u32', [8, 8], 0],
@@ -145,6 +147,7 @@ export const layouts = {
     vertex_limit: ['u32', [36, 36], 0],
     triangle_limit: ['u32', [40, 40], 0],
     memory_limit_mb: ['u32', [44, 44], 0],
+    work_limit_gflop: ['u32', [48, 48], 0],
   } },
   hf_surface_report: { size: [64, 64], fields: {
     struct_size: ['u32', [0, 0], 0],
@@ -401,7 +404,7 @@ export const layouts = {
     handle_count: ['u32', [24, 24], 0],
     vertex_count: ['u32', [28, 28], 0],
   } },
-  hf_handles_desc: { size: [32, 48], fields: {
+  hf_handles_desc: { size: [36, 56], fields: {
     struct_size: ['u32', [0, 0], 0],
     handle_count: ['u32', [4, 4], 0],
     region_counts: ['ptr', [8, 8], 0],
@@ -410,6 +413,7 @@ export const layouts = {
     radii: ['ptr', [20, 32], 0],
     layer: ['u32', [24, 40], 0],
     reserved: ['u32', [28, 44], 0],
+    progress: ['ptr', [32, 48], 0],
   } },
   hf_transform: { size: [56, 56], fields: {
     rotation: ['f64', [0, 0], 4],
@@ -597,7 +601,7 @@ export const layouts = {
     source_axes: ['f32', [24, 24], 9],
     target_axes: ['f32', [60, 60], 9],
   } },
-  hf_pairs_desc: { size: [28, 48], fields: {
+  hf_pairs_desc: { size: [32, 56], fields: {
     struct_size: ['u32', [0, 0], 0],
     pair_count: ['u32', [4, 4], 0],
     source_counts: ['ptr', [8, 8], 0],
@@ -605,6 +609,7 @@ export const layouts = {
     target_counts: ['ptr', [16, 24], 0],
     target_vertices: ['ptr', [20, 32], 0],
     flags: ['ptr', [24, 40], 0],
+    progress: ['ptr', [28, 48], 0],
   } },
   hf_pair_info: { size: [48, 48], fields: {
     struct_size: ['u32', [0, 0], 0],
@@ -659,7 +664,7 @@ export const functions = {
   hf_surface_get_report: ['i32', ['handle', 'ptr']],
   hf_surface_get_components: ['i32', ['handle', 'u32', 'ptr', 'ptr']],
   hf_surface_get_statistics: ['i32', ['handle', 'ptr']],
-  hf_surface_save: ['i32', ['handle', 'i32', 'size', 'ptr', 'ptr']],
+  hf_surface_save: ['i32', ['handle', 'i32', 'handle', 'size', 'ptr', 'ptr']],
   hf_surface_cast_ray: ['i32', ['handle', 'ptr', 'ptr', 'ptr', 'ptr']],
   hf_surface_find_vertex: ['i32', ['handle', 'ptr', 'ptr', 'ptr', 'ptr']],
   hf_create: ['i32', ['handle', 'ptr', 'ptr']],

@@ -84,9 +84,9 @@ export function surfaceClasses(tools) {
     /** The factor of one kind of field as bytes, for the option savedFactor. */
     save(fieldKind = 0) {
       const size = backend.newHandle();
-      call('hf_surface_save', this._handle, fieldKind, 0, null, written(size));
+      call('hf_surface_save', this._handle, fieldKind, null, 0, null, written(size));
       const bytes = new Uint8Array(Number(size[0]));
-      call('hf_surface_save', this._handle, fieldKind, bytes.length, written(bytes), null);
+      call('hf_surface_save', this._handle, fieldKind, null, bytes.length, written(bytes), null);
       return bytes;
     }
     /** The first triangle on a ray, or null. `positions`: a pose of the surface, null for the rest positions. */

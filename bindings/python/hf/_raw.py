@@ -185,6 +185,8 @@ class hf_surface_desc(Structure):
     vertex_limit: int
     triangle_limit: int
     memory_limit_mb: int
+    work_limit_gflop: int
+    reserved: int
     allocator: object
     job_runner: object
     progress: int
@@ -208,6 +210,8 @@ class hf_surface_desc(Structure):
         ("vertex_limit", c_uint32),
         ("triangle_limit", c_uint32),
         ("memory_limit_mb", c_uint32),
+        ("work_limit_gflop", c_uint32),
+        ("reserved", c_uint32),
         ("allocator", hf_allocator),
         ("job_runner", hf_job_runner),
         ("progress", c_void_p),
@@ -229,6 +233,7 @@ class hf_surface_info(Structure):
     vertex_limit: int
     triangle_limit: int
     memory_limit_mb: int
+    work_limit_gflop: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -242,6 +247,7 @@ class hf_surface_info(Structure):
         ("vertex_limit", c_uint32),
         ("triangle_limit", c_uint32),
         ("memory_limit_mb", c_uint32),
+        ("work_limit_gflop", c_uint32),
     ]
 
 
@@ -811,6 +817,7 @@ class hf_handles_desc(Structure):
     radii: int
     layer: int
     reserved: int
+    progress: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("handle_count", c_uint32),
@@ -820,6 +827,7 @@ class hf_handles_desc(Structure):
         ("radii", c_void_p),
         ("layer", c_uint32),
         ("reserved", c_uint32),
+        ("progress", c_void_p),
     ]
 
 
@@ -1232,6 +1240,7 @@ class hf_pairs_desc(Structure):
     target_counts: int
     target_vertices: int
     flags: int
+    progress: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("pair_count", c_uint32),
@@ -1240,6 +1249,7 @@ class hf_pairs_desc(Structure):
         ("target_counts", c_void_p),
         ("target_vertices", c_void_p),
         ("flags", c_void_p),
+        ("progress", c_void_p),
     ]
 
 
@@ -1337,7 +1347,7 @@ PROTOTYPES = {
     "hf_surface_get_report": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_get_components": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_surface_get_statistics": (c_int32, [c_void_p, c_void_p]),
-    "hf_surface_save": (c_int32, [c_void_p, c_int32, c_size_t, c_void_p, c_void_p]),
+    "hf_surface_save": (c_int32, [c_void_p, c_int32, c_void_p, c_size_t, c_void_p, c_void_p]),
     "hf_surface_cast_ray": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
     "hf_surface_find_vertex": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
     "hf_create": (c_int32, [c_void_p, c_void_p, c_void_p]),

@@ -126,9 +126,9 @@ class Surface(Object):
     def save(self, field_kind: int = FieldKind.HARMONIC) -> bytes:
         """The factor of a kind of field as bytes, for Surface(..., saved_factor=...)."""
         size = ctypes.c_size_t()
-        call("hf_surface_save", self._raw_handle, int(field_kind), 0, None, ctypes.byref(size))
+        call("hf_surface_save", self._raw_handle, int(field_kind), None, 0, None, ctypes.byref(size))
         block = np.empty(size.value, np.uint8)
-        call("hf_surface_save", self._raw_handle, int(field_kind), block.size, address(block), ctypes.byref(size))
+        call("hf_surface_save", self._raw_handle, int(field_kind), None, block.size, address(block), ctypes.byref(size))
         return block.tobytes()
 
     # ---- picking ----

@@ -251,8 +251,9 @@ TEST(Region, CancellingLeavesTheRegionAsItWas) {
   const auto before = region.state();
   Progress progress;
   progress.cancel();
+  const CallProgress call(&progress);
   RegionEdit edit;
-  edit.rings = 1, edit.progress = &progress;
+  edit.rings = 1;
   index_of_failure(HF_ERROR_CANCELLED, [&] { region.edit(edit); });
   EXPECT_EQ(region.state(), before);
 }

@@ -36,8 +36,8 @@ std::vector<double> random_vector(std::size_t size, std::uint32_t seed) {
 class Fixture : public testing::Test {
  protected:
   std::shared_ptr<const hf_inner::Factor> make(const hf_inner::SymmetricMatrix& a,
-                                         hf_inner::Ordering ordering = hf_inner::Ordering::minimum_degree,
-                                         const std::vector<float>& points = {}) {
+                                               hf_inner::Ordering ordering = hf_inner::Ordering::minimum_degree,
+                                               const std::vector<float>& points = {}) {
     hf_inner::FactorOptions options;
     options.ordering = ordering;
     return hf_inner::Factor::make(a, hf_inner::Span<const float>(points.data(), points.size()), options, memory, one);
@@ -241,7 +241,7 @@ TEST_F(FactorTest, a_cancelled_factorisation_unwinds_and_frees_everything) {
   hf_inner::Progress progress;
   progress.cancel();
   hf_inner::FactorOptions options;
-  options.progress = &progress;
+  const hf_inner::CallProgress call(&progress);
   try {
     hf_inner::Factor::make(a, {}, options, counted, two);
     FAIL() << "went on";
@@ -262,8 +262,8 @@ TEST_F(FactorTest, avx2_and_avx512_give_the_same_bits) {
     const auto analysis = static_cast<const hf_inner::SupernodalFactor&>(*made).analysis();
     hf_inner::SupernodalFactor f(analysis, memory), g(analysis, memory), h(analysis, memory);
     f.use_kernels(*narrow), g.use_kernels(*wide), h.use_kernels(*hf_inner::plain_kernels());
-    f.compute(a, {}, hf_inner::default_lost_share, one, nullptr), g.compute(a, {}, hf_inner::default_lost_share, one, nullptr);
-    h.compute(a, {}, hf_inner::default_lost_share, one, nullptr);
+    f.compute(a, {}, hf_inner::default_lost_share, one), g.compute(a, {}, hf_inner::default_lost_share, one);
+    h.compute(a, {}, hf_inner::default_lost_share, one);
     ASSERT_EQ(std::memcmp(f.values().data(), g.values().data(), f.values().size() * sizeof(double)), 0);
     for (const std::int32_t channels : {1, 2, 3, 4, 8, 9}) {
       const std::vector<double> b = random_vector(static_cast<std::size_t>(a.size()) * channels, 9);

@@ -23,10 +23,10 @@ using hf_test::Assembly;
 
 class OrderingTest : public testing::Test {
  protected:
-  hf_inner::Buffer<std::int32_t> order(const hf_inner::SymmetricMatrix& a, hf_inner::Ordering kind, const std::vector<float>& points = {},
-                                 hf_inner::JobRunner* jobs = nullptr) {
+  hf_inner::Buffer<std::int32_t> order(const hf_inner::SymmetricMatrix& a, hf_inner::Ordering kind,
+                                       const std::vector<float>& points = {}, hf_inner::JobRunner* jobs = nullptr) {
     hf_inner::Buffer<std::int32_t> result;
-    hf_inner::make_order(a, {points.data(), points.size()}, kind, memory, jobs ? *jobs : one, nullptr, result);
+    hf_inner::make_order(a, {points.data(), points.size()}, kind, memory, jobs ? *jobs : one, result);
     std::vector<char> seen(static_cast<std::size_t>(a.size()), 0);
     EXPECT_EQ(result.size(), seen.size());
     for (const std::int32_t v : result) {
@@ -35,13 +35,15 @@ class OrderingTest : public testing::Test {
     }
     return result;
   }
-  hf_inner::FillEstimate fill(const hf_inner::SymmetricMatrix& a, hf_inner::Ordering kind, const std::vector<float>& points = {}) {
+  hf_inner::FillEstimate fill(const hf_inner::SymmetricMatrix& a, hf_inner::Ordering kind,
+                              const std::vector<float>& points = {}) {
     const hf_inner::Buffer<std::int32_t> result = order(a, kind, points);
     return hf_inner::estimate_fill(a, {result.data(), result.size()}, memory);
   }
   // dissection is a permutation, the same for 1, 2 and 5 threads, and its fill is at most `factor` times minimum
   // degree's
-  void expect_sound(const hf_inner::SymmetricMatrix& a, const std::vector<float>& points, double factor, const char* what) {
+  void expect_sound(const hf_inner::SymmetricMatrix& a, const std::vector<float>& points, double factor,
+                    const char* what) {
     hf_inner::JobRunner two(2), five(5);
     const auto x = order(a, hf_inner::Ordering::nested_dissection, points),
                y = order(a, hf_inner::Ordering::nested_dissection, points, &two),
@@ -166,7 +168,7 @@ TEST_F(OrderingTest, surfaces_fill_less_than_minimum_degree_and_about_as_much_as
   expect_sound(k, floats(mesh.points), 1.0, "torus, two rings");
 #if defined(HF_WITH_GPL)
   const hf_inner::FillEstimate own = fill(a, hf_inner::Ordering::nested_dissection, floats(mesh.points)),
-                         metis = fill(a, hf_inner::Ordering::metis);
+                               metis = fill(a, hf_inner::Ordering::metis);
   EXPECT_LE(own.entries, 1.12 * metis.entries);
   EXPECT_LE(own.flops, 1.25 * metis.flops);
 #endif

@@ -65,8 +65,9 @@ struct Found {
 // kind 0: Poisson, 1: geodesic. Lengths as shares of the box diagonal.
 std::vector<Found> search(const PlainMesh& mesh, int kind, double least = 0.012, std::uint32_t threads = 1) {
   const auto core = hf_test::make_core(mesh, threads);
-  const hf_inner::Extremities found = kind == 0 ? hf_inner::poisson_extremities(*core, least, nullptr)
-                                          : hf_inner::geodesic_extremities(hf_inner::Geodesics(core, 1), 40, least, nullptr);
+  const hf_inner::Extremities found = kind == 0
+                                          ? hf_inner::poisson_extremities(*core, least)
+                                          : hf_inner::geodesic_extremities(hf_inner::Geodesics(core, 1), 40, least);
   std::vector<Found> list;
   for (const auto& point : found.points)
     list.push_back({core->mesh.to_given(core->mesh.positions[static_cast<std::size_t>(point.vertex)]), point.length});
@@ -178,13 +179,14 @@ TEST(Extremities, can_be_cancelled) {
   const auto core = hf_test::make_core(hf_test::torus(20, 10));
   hf_inner::Progress progress;
   progress.cancel();
+  const hf_inner::CallProgress call(&progress);
   try {
-    hf_inner::poisson_extremities(*core, 0.05, &progress);
+    hf_inner::poisson_extremities(*core, 0.05);
     FAIL();
   } catch (const hf_inner::Error& error) {
     EXPECT_EQ(error.code(), HF_ERROR_CANCELLED);
   }
-  EXPECT_THROW(hf_inner::geodesic_extremities(hf_inner::Geodesics(core, 1), 8, 0.05, &progress), hf_inner::Error);
+  EXPECT_THROW(hf_inner::geodesic_extremities(hf_inner::Geodesics(core, 1), 8, 0.05), hf_inner::Error);
 }
 
 // Persistence by the definition: the lowest point of the best way from a peak to something higher, by flooding.

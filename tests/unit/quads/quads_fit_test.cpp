@@ -144,14 +144,14 @@ TEST(FitQuads, BringsTheMeshNearAndItStaysClosedAndOfQuads) {
   relax.edge_length = 0.03, relax.rounds = 20;
   relax_quads(made.surface, mesh, relax, memory);
   const QuadDistance distance(made.surface, 0.01, memory);
-  const double before = distance.measure(mesh, 0, nullptr, nullptr);
+  const double before = distance.measure(mesh, 0, nullptr);
   FitOptions options;
   options.edge_length = 0.03, options.tolerance = 0.4 * 0.03, options.most_folds = 4;
   ASSERT_GT(before, 1.2 * options.tolerance);
   const std::int32_t faces = mesh.face_count();
   const double after = fit_quads(made.surface, distance, mesh, options, memory);
   EXPECT_LE(after, 1.05 * options.tolerance);
-  EXPECT_LE(distance.measure(mesh, 0, nullptr, nullptr), after * (1 + 1e-12));
+  EXPECT_LE(distance.measure(mesh, 0, nullptr), after * (1 + 1e-12));
   EXPECT_LT(mesh.face_count(), 1.2 * faces);  // one quad at a time, where one is enough
   expect_closed_quads(mesh, made.result.euler_characteristic);
   expect_on_surface(made.surface, mesh);
@@ -168,17 +168,17 @@ TEST(QuadDistance, IsTheSameWithFacesKnownAndFromAnyNumberOfThreads) {
   QuadMesh same = made.result.mesh;
   shared.turn_quads(same);
   for (std::int32_t i = 0; i < mesh.corner.size(); ++i) ASSERT_EQ(mesh.corner[i], same.corner[i]);
-  const double worst = alone.measure(mesh, 0, nullptr, nullptr);
-  EXPECT_EQ(shared.measure(mesh, 0, nullptr, nullptr), worst);
+  const double worst = alone.measure(mesh, 0, nullptr);
+  EXPECT_EQ(shared.measure(mesh, 0, nullptr), worst);
   Vector<QuadMiss> all(&memory), again(&memory);
   const double tolerance = 0.6 * worst;
   NearFaces known(memory);
-  EXPECT_EQ(alone.measure(mesh, tolerance, &all, nullptr), worst);
-  EXPECT_EQ(shared.measure(mesh, tolerance, &again, nullptr, &known), worst);
+  EXPECT_EQ(alone.measure(mesh, tolerance, &all), worst);
+  EXPECT_EQ(shared.measure(mesh, tolerance, &again, &known), worst);
   ASSERT_FALSE(known.keys.empty());
   ASSERT_EQ(all.size(), again.size());
   again.clear();
-  shared.measure(mesh, tolerance, &again, nullptr, &known);  // now with what is known
+  shared.measure(mesh, tolerance, &again, &known);  // now with what is known
   ASSERT_EQ(all.size(), again.size());
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i].distance, again[i].distance);
   // a corner that moves makes its faces unknown
@@ -233,13 +233,13 @@ TEST(CoarsenQuads, WhatIsNeededStays) {
   Memory& memory = *made.core->memory;
   QuadMesh mesh = made.result.mesh;
   const QuadDistance distance(made.surface, 0.015, memory);
-  const double deviation = distance.measure(mesh, 0, nullptr, nullptr);
+  const double deviation = distance.measure(mesh, 0, nullptr);
   CoarsenOptions options;
   options.edge_length = 0.03, options.shortest = 2, options.tolerance = 0.41 * 0.03;
   const double after = coarsen_quads(made.surface, distance, mesh, deviation, options, memory);
   EXPECT_LE(after, std::max(deviation, 1.1 * options.tolerance));
   EXPECT_LT(mesh.face_count(), made.result.mesh.face_count());
-  EXPECT_NEAR(distance.measure(mesh, 0, nullptr, nullptr), after, 1e-12);
+  EXPECT_NEAR(distance.measure(mesh, 0, nullptr), after, 1e-12);
 }
 
 // A sheet of quads over a sheet with one peak of known height: that far are they apart, both ways, and there.
@@ -283,7 +283,7 @@ TEST(QuadDistance, OfAPeakIsItsHeightAndIsFoundAtTheQuadBelow) {
   mesh.face_start.push_back(0), mesh.face_start.push_back(4);
   const QuadDistance distance(surface, 0.05, memory);
   Vector<QuadMiss> misses(&memory);
-  EXPECT_NEAR(distance.measure(mesh, 0.5 * height, &misses, nullptr), height, 1e-12);
+  EXPECT_NEAR(distance.measure(mesh, 0.5 * height, &misses), height, 1e-12);
   ASSERT_FALSE(misses.empty());
   EXPECT_EQ(misses[0].face, 0);
   EXPECT_LT(norm(surface.position[misses[0].vertex] - top), 1e-12);
@@ -321,12 +321,13 @@ TEST(TurnQuads, AQuadBeginsAtItsReflexCornerOrAtTheDiagonalOnTheSurface) {
 
 TEST(ProgressRange, NestsAndEndsWithItsScope) {
   Progress progress;
+  const CallProgress call(&progress);
   {
-    const ProgressRange outer(&progress, 0.2f, 0.6f);
+    const ProgressRange outer(0.2f, 0.6f);
     progress.report(0.5f);
     EXPECT_FLOAT_EQ(progress.fraction(), 0.4f);
     {
-      const ProgressRange inner(&progress, 0.5f, 1.0f);
+      const ProgressRange inner(0.5f, 1.0f);
       progress.report(0.5f);
       EXPECT_FLOAT_EQ(progress.fraction(), 0.5f);
     }
@@ -335,7 +336,9 @@ TEST(ProgressRange, NestsAndEndsWithItsScope) {
   }
   progress.report(1.0f);
   EXPECT_FLOAT_EQ(progress.fraction(), 1.0f);
-  const ProgressRange none(nullptr, 0, 1);
+  const CallProgress without(nullptr);
+  const ProgressRange none(0, 1);
+  report(0.5f);
 }
 
 }  // namespace
