@@ -34,8 +34,8 @@ elseif(HF_HARDEN AND MSVC)
   set(hf_hardening_link /guard:cf /DYNAMICBASE /NXCOMPAT)
 endif()
 
-# hf_unguard(TARGET SOURCE): no stack guard, for kernels. They are called once a supernode, on sizes checked before, and
-# the guard was up to a sixth of their instructions.
+# hf_unguard(TARGET SOURCE): no stack guard, for kernels. Their sizes are checked before, and the guard was a sixth of
+# the instructions of a kernel on a small supernode.
 function(hf_unguard target source)
   if("-fstack-protector-strong" IN_LIST hf_hardening_compile)
     set_property(SOURCE ${source} TARGET_DIRECTORY ${target} APPEND PROPERTY COMPILE_OPTIONS -fno-stack-protector)

@@ -1,4 +1,4 @@
-// See file_write.h. What is the same on every system: names, links, the order of errors.
+// See file_write.h. Names and links, the same on every system.
 #include "common/file_write.h"
 
 #include <random>

@@ -5,8 +5,8 @@
 // and the new one is removed.
 //
 // Symbolic links are followed to their target, which is created when it is not there. The permissions of a replaced
-// file are kept, and owner and group where the system allows; the bits setuid and setgid are dropped. Of a file with
-// several hard links only the given name changes. Device nodes, pipes and this process' own descriptors (/dev/stdout)
+// file are kept, and owner and group where the system allows; the bits setuid and setgid are dropped. Only the given
+// name of a file with several hard links changes. Device nodes, pipes and this process' own descriptors (/dev/stdout)
 // are written through, from their present position. File and folder are synced before the call returns.
 #ifndef HF_SAMPLES_COMMON_FILE_WRITE_H
 #define HF_SAMPLES_COMMON_FILE_WRITE_H

@@ -1,4 +1,4 @@
-// What the parts of file_write share. Not for callers.
+// Shared by the parts of file_write; not for callers.
 #ifndef HF_SAMPLES_COMMON_FILE_WRITE_PARTS_H
 #define HF_SAMPLES_COMMON_FILE_WRITE_PARTS_H
 
