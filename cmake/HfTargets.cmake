@@ -1,5 +1,7 @@
 # What every target of the house shares: language level, warnings, sanitizers, reproducible floating point.
 
+include(HfHardening)
+
 # Results must not depend on the compiler's mood: no contraction of a*b+c unless the code asks for it (kernels use FMA
 # intrinsics), no -ffast-math, no -march=native.
 function(hf_target_defaults target)
@@ -10,6 +12,7 @@ function(hf_target_defaults target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic $<$<BOOL:${HF_WARNINGS_AS_ERRORS}>:-Werror>
     $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
+  hf_harden(${target})
   if(HF_SANITIZE)
     # -O1 -g1: reports name functions and lines; with more, unrolled kernels and Eigen's templates take minutes each to compile
     target_compile_options(${target} PRIVATE -O1 $<$<CXX_COMPILER_ID:GNU,Clang>:-g1> -fsanitize=${HF_SANITIZE}

@@ -86,22 +86,19 @@ hf_build() {
   hf_say "built in $((SECONDS - begin)) s"
 }
 
-# What the JavaScript binding is tested with: koffi (native calls), three (the page), playwright-core (drives Chromium).
-hf_install_host_modules() {
-  command -v npm >/dev/null 2>&1 || return 1
-  local folder="$hf_root/build/npm"
-  [ -d "$folder/node_modules/koffi" ] && [ -d "$folder/node_modules/playwright-core" ] && [ -d "$folder/node_modules/three" ] && return 0
-  mkdir -p "$folder"
-  hf_say "installing koffi, three and playwright-core (npm)"
-  (cd "$folder" && npm install --no-audit --no-fund --no-save --prefix . koffi three playwright-core gltf-validator >npm-hosts.log 2>&1) || return 1
-}
-
-# The Khronos glTF validator, below the build folder. Returns 1 when there is no npm.
+# The npm packages of the tests (tests/npm), below the build folder: the versions and hashes of the lock file, and no
+# install script runs. Returns 1 when there is no npm, or nothing to install from.
 hf_install_node_modules() {
   command -v npm >/dev/null 2>&1 || return 1
-  local folder="$hf_root/build/npm"
-  [ -d "$folder/node_modules/gltf-validator" ] && [ -d "$folder/node_modules/three" ] && return 0
+  local lock="$hf_root/tests/npm" folder="$hf_root/build/npm"
+  [ -d "$folder/node_modules" ] && cmp -s "$lock/package-lock.json" "$folder/installed.json" && return 0
   mkdir -p "$folder"
-  hf_say "installing the Khronos glTF validator and three.js (npm)"
-  (cd "$folder" && npm install --no-audit --no-fund --no-save --prefix . gltf-validator@2.0.0-dev.3.10 three@0.160.0 >npm.log 2>&1 || npm install --no-audit --no-fund --no-save --prefix . gltf-validator three >npm.log 2>&1) || return 1
+  hf_say "installing koffi, three.js, playwright-core and the Khronos glTF validator (npm)"
+  rm -f "$folder/installed.json"
+  cp "$lock/package.json" "$lock/package-lock.json" "$folder/" || return 1
+  (cd "$folder" && npm ci --ignore-scripts --no-audit --no-fund >npm.log 2>&1) || {
+    hf_say "npm could not install them; the log is build/npm/npm.log"
+    return 1
+  }
+  cp "$lock/package-lock.json" "$folder/installed.json"
 }

@@ -35,10 +35,59 @@ local function check(result)
     where = ffi.string(detail['function']) }, Error), 0)
 end
 
-local function make(type, fields)
-  local desc = ffi.new(type)
-  desc.struct_size = ffi.sizeof(type)
-  for key, value in pairs(fields or {}) do desc[key] = value end
+-- ---- numbers: LuaJIT would cut or wrap what does not fit; here it is an error that names it
+local function whole(value, name, low, high)
+  low, high = low or 0, high or 4294967295
+  if type(value) ~= 'number' or value ~= math.floor(value) or value == math.huge or value == -math.huge then
+    fail(string.format('%s must be a whole number, not %s', name, tostring(value)))
+  end
+  if value < low or value > high then
+    fail(string.format('%s is %.0f; it must lie in %.0f to %.0f', name, value, low, high), 'HF_ERROR_OUT_OF_RANGE')
+  end
+  return value
+end
+local largest_float = 3.4028234663852886e38
+local function real(value, name, largest)
+  if type(value) ~= 'number' then fail(string.format('%s must be a number, not %s', name, tostring(value))) end
+  if largest and math.abs(value) > largest and math.abs(value) < math.huge then
+    fail(string.format('%s is %g; it must lie within %g', name, value, largest), 'HF_ERROR_OUT_OF_RANGE')
+  end
+  return value
+end
+
+-- What a field of a struct takes, found by trying: { low, high } of whole numbers, or the largest of floats.
+local kinds = {}
+local function kind_of(desc, key)
+  local struct = tostring(ffi.typeof(desc))
+  local known = kinds[struct] or {}
+  kinds[struct] = known
+  if known[key] == nil then
+    local probe = ffi.new(ffi.typeof(desc))
+    probe[key] = 0.5
+    if probe[key] == 0.5 then
+      probe[key] = 1e300
+      known[key] = probe[key] == 1e300 and math.huge or largest_float
+    elseif type(probe[key]) == 'cdata' then
+      known[key] = { 0, 2 ^ 53 }
+    else
+      probe[key] = -1
+      known[key] = probe[key] == -1 and { -2147483648, 2147483647 } or { 0, 4294967295 }
+    end
+  end
+  return known[key]
+end
+local function put(desc, key, value, name)
+  local kind = kind_of(desc, key)
+  desc[key] = type(kind) == 'table' and whole(value, name, kind[1], kind[2]) or real(value, name, kind)
+end
+
+local function make(type_name, fields)
+  local desc = ffi.new(type_name)
+  desc.struct_size = ffi.sizeof(type_name)
+  for key, value in pairs(fields or {}) do
+    -- pointers and structs are cdata
+    if type(value) == 'cdata' then desc[key] = value else put(desc, key, value, key) end
+  end
   return desc
 end
 
@@ -90,8 +139,7 @@ end
 local function options_into(desc, options, allowed)
   for key, value in pairs(options or {}) do
     if not allowed[key] then fail("no option '" .. tostring(key) .. "'") end
-    if type(value) ~= 'number' then fail("option '" .. key .. "' must be a number") end
-    desc[key] = value
+    put(desc, key, value, "option '" .. key .. "'")
   end
   return desc
 end
@@ -166,7 +214,7 @@ local function scalars(field, vertex_count)
   return make('hf_scalars', { values_f64 = values }), values
 end
 
-for name, tool in pairs({ fail = fail, check = check, make = make, array = array, integers = integers,
+for name, tool in pairs({ whole = whole, real = real, fail = fail, check = check, make = make, array = array, integers = integers,
   doubles = doubles,
   list = list, regions = regions, options_into = options_into, set = set, class = class, raw_of = raw_of,
     create = create,

@@ -51,7 +51,7 @@ end
 -- One handle: what is edge-connected within radius of a point at rest. Returns its number.
 function Pose:add_handle_at(point, radius)
   local out = ffi.new('uint32_t[1]')
-  check(C.hf_pose_add_handle_at(self.raw, (doubles(point, 'point', 3)), radius, out))
+  check(C.hf_pose_add_handle_at(self.raw, (doubles(point, 'point', 3)), core.real(radius, 'radius'), out))
   return tonumber(out[0])
 end
 function Pose:remove_handles(handles)
@@ -72,7 +72,7 @@ function Pose:set_transform(handle, rotation, translation)
   local motion = ffi.new('hf_transform')
   for c = 0, 3 do motion.rotation[c] = turn and turn[c] or 0 end
   for c = 0, 2 do motion.translation[c] = shift and shift[c] or 0 end
-  check(C.hf_pose_set_transform(self.raw, handle, motion))
+  check(C.hf_pose_set_transform(self.raw, core.whole(handle, 'handle'), motion))
 end
 -- 4 x 4 matrices rest to posed, column by column
 function Pose:set_matrices(handles, matrices)
@@ -81,12 +81,12 @@ function Pose:set_matrices(handles, matrices)
 end
 function Pose:info() return query('hf_pose_info', C.hf_pose_get_info, self.raw) end
 function Pose:handle_info(handle)
-  return query('hf_handle_info', C.hf_pose_get_handle, self.raw, handle)
+  return query('hf_handle_info', C.hf_pose_get_handle, self.raw, core.whole(handle, 'handle'))
 end
 function Pose:handle_count() return tonumber(C.hf_pose_get_handle_count(self.raw)) end
 function Pose:handle_field(handle)
   local out = ffi.new('float[?]', self.vertex_count)
-  check(C.hf_pose_get_field(self.raw, handle, out, 0))
+  check(C.hf_pose_get_field(self.raw, core.whole(handle, 'handle'), out, 0))
   return out
 end
 function Pose:deform(out, options)
@@ -124,7 +124,7 @@ end
 function Transfer:remove_pairs(pairs)
   on_numbers(C.hf_transfer_remove_pairs, self.raw, pairs, 'pairs')
 end
-function Transfer:pair_info(pair) return query('hf_pair_info', C.hf_transfer_get_pair, self.raw, pair) end
+function Transfer:pair_info(pair) return query('hf_pair_info', C.hf_transfer_get_pair, self.raw, core.whole(pair, 'pair')) end
 function Transfer:info()
   return query('hf_transfer_info', C.hf_transfer_get_info, self.raw)
 end

@@ -48,7 +48,7 @@ function Region:info() return query('hf_region_info', C.hf_region_get_info, self
 -- Vertices inside (0), on the rim (1), or the sites that hold the base (2): cdata from 0, and how many.
 function Region:vertices(which)
   return core.rows('uint32_t', function(capacity, out, count)
-    return C.hf_region_get_vertices(self.raw, which or 0, capacity, out, count)
+    return C.hf_region_get_vertices(self.raw, core.whole(which or 0, 'which'), capacity, out, count)
   end)
 end
 -- 0: the surface, 1: its base without detail, between and beyond in proportion

@@ -88,7 +88,7 @@ function Solver:solve(out)
 end
 function Solver:solve_preview(correction_count)
   local out = ffi.new('double[?]', self.vertex_count * self.channel_count)
-  check(C.hf_solver_solve_preview_f64(self.raw, out, 0, correction_count or 0, nil))
+  check(C.hf_solver_solve_preview_f64(self.raw, out, 0, core.whole(correction_count or 0, 'correction_count'), nil))
   return out
 end
 function Solver:solve_at(vertices)

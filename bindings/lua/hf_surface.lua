@@ -46,10 +46,11 @@ function Surface:components()
 end
 -- The factor of a kind of field (nil: harmonic) as a string of bytes, for the option saved_factor.
 function Surface:save(field_kind)
+  field_kind = core.whole(field_kind or 0, 'field_kind')
   local size = ffi.new('size_t[1]')
-  check(C.hf_surface_save(self.raw, field_kind or 0, nil, 0, nil, size))
+  check(C.hf_surface_save(self.raw, field_kind, nil, 0, nil, size))
   local bytes = ffi.new('char[?]', size[0])
-  check(C.hf_surface_save(self.raw, field_kind or 0, nil, size[0], bytes, size))
+  check(C.hf_surface_save(self.raw, field_kind, nil, size[0], bytes, size))
   return ffi.string(bytes, size[0])
 end
 
@@ -78,8 +79,9 @@ end
 -- ---- fields over the surface
 function Surface:space_levels(field, count, spacing)
   local desc, held = scalars(field, self.vertex_count)
-  local out = ffi.new('double[?]', math.max(1, count))
-  check(C.hf_surface_space_levels(self.raw, desc, spacing or 0, count, out))
+  count, spacing = core.whole(count, 'count'), core.whole(spacing or 0, 'spacing')
+  local out = ffi.new('double[?]', math.min(math.max(1, count), 1000000))
+  check(C.hf_surface_space_levels(self.raw, desc, spacing, count, out))
   held = nil
   return out
 end

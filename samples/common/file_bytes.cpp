@@ -126,35 +126,6 @@ fs::path resolve_below(const fs::path& file, const std::string& uri, std::string
   return target;
 }
 
-void write_bytes(const fs::path& file, const void* data, size_t size) {
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  std::string temporary = (folder / ("." + file.filename().string() + ".XXXXXX")).string();
-  Descriptor out;
-  out.number = ::mkstemp(temporary.data());
-  if (out.number < 0) {
-    throw std::runtime_error(file.string() + ": cannot be written, its folder refuses a new file: " + system_message() +
-                             ".");
-  }
-  const auto* bytes = static_cast<const char*>(data);
-  bool good = true;
-  for (size_t done = 0; good && done < size;) {
-    const ssize_t put = ::write(out.number, bytes + done, size - done);
-    if (put < 0 && errno == EINTR) continue;
-    good = put > 0;
-    if (good) done += static_cast<size_t>(put);
-  }
-  // mkstemp gives 0600; the file gets what a plain open would have given it
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  good = good && ::fchmod(out.number, 0666 & ~mask) == 0 && ::fsync(out.number) == 0;
-  good = good && ::rename(temporary.c_str(), file.c_str()) == 0;
-  if (!good) {
-    const std::string message = system_message();
-    ::unlink(temporary.c_str());
-    throw std::runtime_error(file.string() + ": writing failed: " + message + ".");
-  }
-}
-
 bool decode_data_uri(const std::string& uri, std::vector<uint8_t>& bytes, std::string& mime_type) {
   if (uri.compare(0, 5, "data:") != 0) return false;
   const size_t comma = uri.find(',');

@@ -1,9 +1,7 @@
-// Files as bytes, for readers and writers that must not trust their input.
+// Files as bytes, for readers that must not trust their input. Writing: file_write.h.
 //
 // Reading checks that the name is a regular file and its size against a limit before anything is allocated. Names that
-// come out of another file (a buffer's URI) are resolved below that file's own folder and nowhere else. Writing goes to
-// a temporary name in the target's folder and is renamed, so that a reader never sees half a file and a failed write
-// leaves the old file as it was.
+// come out of another file (a buffer's URI) are resolved below that file's own folder and nowhere else.
 #ifndef HF_SAMPLES_COMMON_FILE_BYTES_H
 #define HF_SAMPLES_COMMON_FILE_BYTES_H
 
@@ -21,12 +19,6 @@ std::vector<uint8_t> read_bytes(const std::filesystem::path& file, uint64_t max_
 // schemes, backslashes, "..", control characters and symbolic links that lead out of the folder are refused. Returns an
 // empty path and a sentence in `reason` when refused or when there is no such regular file.
 std::filesystem::path resolve_below(const std::filesystem::path& file, const std::string& uri, std::string& reason);
-
-// Temporary name, write, flush, rename. Throws std::runtime_error; the temporary file is removed then.
-void write_bytes(const std::filesystem::path& file, const void* data, size_t size);
-inline void write_bytes(const std::filesystem::path& file, const std::string& text) {
-  write_bytes(file, text.data(), text.size());
-}
 
 // The bytes of "data:<type>;base64,<text>". False when it is not such a URI or the text is not base64.
 bool decode_data_uri(const std::string& uri, std::vector<uint8_t>& bytes, std::string& mime_type);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "common/file_bytes.h"
+#include "common/file_write.h"
 #include "common/gltf_appearance.h"
 
 namespace samples {

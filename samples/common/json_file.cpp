@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/file_bytes.h"
+#include "common/file_write.h"
 
 namespace samples {
 using nlohmann::json;

@@ -1,9 +1,6 @@
 // Contact sheets and PNG files. The encoder is Sean Barrett's stb_image_write, compiled here as static functions
 // because tinygltf carries its own copy.
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #if defined(__GNUC__)
@@ -18,6 +15,7 @@
 #pragma GCC diagnostic pop
 #endif
 
+#include "common/file_write.h"
 #include "picture.h"
 #include "picture_text.h"
 
@@ -103,23 +101,7 @@ std::vector<uint8_t> encode_png(const Picture& picture) {
 
 void write_png(const std::string& path, const Picture& picture) {
   const std::vector<uint8_t> bytes = encode_png(picture);
-  const std::string temporary = path + ".part";
-  {
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    file.flush();
-    if (!file) {
-      file.close();
-      std::remove(temporary.c_str());
-      throw std::runtime_error("cannot write " + temporary + ": check that the folder exists and has room");
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(temporary, path, error);
-  if (error) {
-    std::remove(temporary.c_str());
-    throw std::runtime_error("cannot rename " + temporary + " to " + path + ": " + error.message());
-  }
+  write_bytes(path, bytes.data(), bytes.size());
 }
 
 }  // namespace samples

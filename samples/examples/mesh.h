@@ -93,7 +93,8 @@ static void mesh_save(const Mesh* mesh, const float* positions, const char* name
     const uint32_t* corner = mesh->triangles + 3 * t;
     fprintf(file, "f %u %u %u\n", corner[0] + 1, corner[1] + 1, corner[2] + 1);
   }
-  fclose(file);
+  const int failed = ferror(file);
+  if (fclose(file) != 0 || failed) fprintf(stderr, "cannot write %s\n", name), exit(1);
   printf("wrote %s\n", name);
 }
 

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <memory>
-#include <stdexcept>
 #include <unordered_map>
 
+#include "common/file_write.h"
 #include "common/flat_mesh.h"
 #include "common/gltf_write.h"
 
@@ -190,15 +188,14 @@ float linear(double srgb) {
 }  // namespace
 
 void write_field_text(const std::string& file, const std::vector<double>& field, size_t components) {
-  const std::string temporary = file + ".part";
-  std::unique_ptr<FILE, int (*)(FILE*)> stream(std::fopen(temporary.c_str(), "w"), &std::fclose);
-  if (!stream) throw std::runtime_error(file + ": cannot be written");
+  std::string text;
+  text.reserve(field.size() * 24);
+  char number[32];
   for (size_t i = 0; i < field.size(); ++i) {
-    if (std::fprintf(stream.get(), "%.17g%c", field[i], (i + 1) % components ? ' ' : '\n') < 0)
-      throw std::runtime_error(file + ": cannot be written; is the disk full?");
+    const int length = std::snprintf(number, sizeof number, "%.17g", field[i]);
+    text.append(number, static_cast<size_t>(length)) += (i + 1) % components ? ' ' : '\n';
   }
-  if (std::fclose(stream.release()) != 0) throw std::runtime_error(file + ": cannot be written; is the disk full?");
-  std::filesystem::rename(temporary, file);
+  write_bytes(file, text);
 }
 
 void write_field_glb(const std::string& file, const FieldView& view) {

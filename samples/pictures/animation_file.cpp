@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "common/file_bytes.h"
+#include "common/file_write.h"
 #include "pictures/palette.h"
 
 namespace samples {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "common/animate.h"
-#include "common/file_bytes.h"
+#include "common/file_write.h"
 #include "common/gltf_read.h"
 #include "common/gltf_write.h"
 #include "common/mesh_file.h"

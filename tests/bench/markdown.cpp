@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "bench/machine.h"
+#include "common/file_write.h"
 
 namespace bench {
 namespace {
@@ -102,12 +103,6 @@ void write_markdown(const std::string& file, const std::string& text) {
   write_text(file, old.substr(0, from + begin.size()) + "\n" + text + "\n" + old.substr(to));
 }
 
-void write_text(const std::string& file, const std::string& text) {
-  std::ofstream stream(file + ".part");
-  stream << text;
-  stream.close();
-  if (!stream || std::rename((file + ".part").c_str(), file.c_str()) != 0)
-    throw std::runtime_error(file + ": cannot be written");
-}
+void write_text(const std::string& file, const std::string& text) { samples::write_bytes(file, text); }
 
 }  // namespace bench

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <fstream>
 #include <limits>
 #include <stdexcept>
+
+#include "common/file_write.h"
 
 namespace bench {
 namespace {
@@ -111,16 +112,12 @@ class Sheet {
     add(format("<text x=\"%.1f\" y=\"%.1f\" ", x, y) + style + ">" + escaped(words) + "</text>");
   }
   void write(const std::string& file) const {
-    std::ofstream stream(file + ".part");
-    stream << format(
-                  "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
-                  "viewBox=\"0 0 %.0f %.0f\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\">\n",
-                  width_, height_, width_, height_)
-           << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
-           << body_ << "</svg>\n";
-    stream.close();
-    if (!stream || std::rename((file + ".part").c_str(), file.c_str()) != 0)
-      throw std::runtime_error(file + ": cannot be written");
+    const std::string head = format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
+        "viewBox=\"0 0 %.0f %.0f\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\">\n",
+        width_, height_, width_, height_);
+    samples::write_bytes(file,
+                         head + "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" + body_ + "</svg>\n");
   }
 
  private:

@@ -375,6 +375,7 @@ static class Program
         Lifetime.Use(meshes["bar"]);
         Lifetime.Run();
         Lifetime.WrongArguments();
+        Lifetime.Copies();
         return failed == 0 ? 0 : 1;
     }
 }

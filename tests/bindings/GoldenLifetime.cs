@@ -90,4 +90,33 @@ static class Lifetime
             throw new Exception("a wrong argument was taken");
         }
     }
+
+    /// <summary>Objects are cloned, or refuse to be written, by name; a copy of the managed part is the same object.</summary>
+    public static void Copies()
+    {
+        var surface = new Surface(positions, triangles);
+        var solver = new Solver(surface);
+        solver.AddSites(new uint[] { 0, 1 }, new double[] { 0, 1 });
+        foreach (HfObject thing in new HfObject[] { surface, solver, new Pose(surface), new Geodesics(surface),
+            new Direction(surface), new Flow(surface), new Region(surface), new Progress() })
+        {
+            try
+            {
+                new System.Runtime.Serialization.Formatters.Binary.BinaryFormatter().Serialize(Stream.Null, thing);
+                throw new Exception(thing.GetType().Name + " was written");
+            }
+            catch (System.Runtime.Serialization.SerializationException error)
+            {
+                if (!error.Message.Contains(thing.GetType().FullName)) throw;
+            }
+        }
+        var clone = typeof(object).GetMethod("MemberwiseClone",
+            System.Reflection.BindingFlags.Instance | System.Reflection.BindingFlags.NonPublic);
+        var twin = (Solver)clone.Invoke(solver, null);
+        twin.Dispose();
+        solver.Dispose();
+        try { solver.Solve(); }
+        catch (HfException error) { if (error.Name == "HF_ERROR_INVALID_HANDLE") return; }
+        throw new Exception("a copy and its original do not close together");
+    }
 }

@@ -341,4 +341,60 @@ for number, wrong in ipairs({ function() hf.Surface('text', {}) end, function() 
   local ok, e = pcall(wrong)
   assert(not ok and hf.is_error(e), 'case ' .. number .. ': ' .. tostring(e))
 end
+-- ---- numbers that LuaJIT would cut or wrap are refused, and the message names them
+do
+  local positions, triangles = meshes.torus.positions, meshes.torus.triangles
+  local surface = hf.Surface(positions, triangles)
+  local solver = hf.Solver(surface)
+  solver:add_sites({ 0, 100 }, { 0, 1 })
+  local field, pose, region = solver:solve(), hf.Pose(surface), hf.Region(surface)
+  local function refused(word, call)
+    local ok, e = pcall(call)
+    assert(not ok and hf.is_error(e) and tostring(e):find(word, 1, true), word .. ': ' .. tostring(e))
+  end
+  local nan = 0 / 0
+  local makers = {
+    thread_count = function(o) return hf.Surface(positions, triangles, o) end,
+    site_limit = function(o) return hf.Solver(surface, o) end,
+    band_count = function(o) return hf.Pose(surface, o) end,
+    cluster_count = function(o) return hf.Transfer(surface, surface, o) end,
+    relax_count = function(o) return hf.Quads(surface, o) end,
+  }
+  for option, maker in pairs(makers) do
+    for _, slip in ipairs({ 2 ^ 32, 2 ^ 32 + 1, -1, 1.5, nan, math.huge, true, '1', 1ULL, {} }) do
+      refused(option, function() maker({ [option] = slip }) end)
+    end
+  end
+  for _, slip in ipairs({ 2 ^ 31, -2 ^ 31 - 1, 0.5, nan, '0' }) do
+    refused("option 'weld'", function() hf.Surface(positions, triangles, { weld = slip }) end)
+  end
+  for _, slip in ipairs({ nan, math.huge, 1e300, -1, true, '1' }) do
+    refused('', function() hf.Surface(positions, triangles, { weld = 2, weld_tolerance = slip }) end)
+  end
+  for _, slip in ipairs({ 2 ^ 32, -1, 1.5, nan, '1', true }) do
+    refused('count', function() surface:space_levels(field, slip) end)
+    refused('spacing', function() surface:space_levels(field, 3, slip) end)
+    refused('field_kind', function() surface:save(slip) end)
+    refused('correction_count', function() solver:solve_preview(slip) end)
+    refused('handle', function() pose:handle_info(slip) end)
+    refused('which', function() region:vertices(slip) end)
+    refused('vertex', function() solver:add_site(slip) end)
+  end
+  for _, slip in ipairs({ '1', true, {} }) do
+    refused('radius', function() pose:add_handle_at({ 0, 0, 0 }, slip) end)
+    refused('weight', function() region:morph(slip) end)
+  end
+  local ffi = require('ffi')
+  for _, wrong in ipairs({ ffi.new('float[?]', 6), ffi.new('int64_t[?]', 6), ffi.new('complex[?]', 6),
+    { 1ULL, 2ULL }, { true, false }, { '1', '2' }, 'ab', 5 }) do
+    refused('values', function() solver:add_sites({ 5, 6 }, wrong) end)
+  end
+  -- a copied table is the same object: closing one closes both, once
+  local twin = {}
+  for key, value in pairs(solver) do twin[key] = value end
+  setmetatable(twin, getmetatable(solver))
+  twin:close()
+  refused('HF_ERROR_INVALID_HANDLE', function() solver:solve() end)
+  solver:close()
+end
 os.exit(failed == 0 and 0 or 1)

@@ -2,48 +2,18 @@
 // HF_LIBRARY: the shared library (native); HF_WASM: folder of hf.mjs and hf.wasm (wasm); HF_NODE_MODULES: where koffi
 // is.
 import assert from 'node:assert/strict';
-import { readFileSync, readdirSync, statSync } from 'node:fs';
-import { createRequire } from 'node:module';
+import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
+import { loadBackend } from './backend.mjs';
 import { run } from './golden.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const golden = join(here, '../../bindings/golden');
 const js = join(here, '../../bindings/js/src');
 const json = (path) => JSON.parse(readFileSync(path, 'utf8'));
-const skip = (why) => {
-  console.log(`skipped: ${why}`);
-  process.exit(77);
-};
-
-export async function loadBackend(kind) {
-  if (kind === 'native') {
-    const { nativeBackend } = await import(pathToFileURL(join(js, 'native.js')));
-    const { makeApi } = await import(pathToFileURL(join(js, 'objects.js')));
-    let koffi;
-    try {
-      koffi = createRequire(join(process.env.HF_NODE_MODULES ?? here, 'x.js'))('koffi');
-    } catch {
-      skip('the npm package koffi is not here (HF_NODE_MODULES)');
-    }
-    return makeApi(nativeBackend(koffi, process.env.HF_LIBRARY));
-  }
-  const { load } = await import(pathToFileURL(join(js, 'web.js')));
-  const folder = process.env.HF_WASM;
-  try {
-    statSync(join(folder, 'hf.wasm'));
-  } catch {
-    skip('hf.wasm was not built (Debian: emscripten)');
-  }
-  const bytes = readFileSync(join(folder, 'hf.wasm'));
-  console.log(`hf.wasm: ${(bytes.length / 1e6).toFixed(2)} MB`);
-  assert.ok(bytes.length < 2e6, 'the wasm file is to stay below 2 MB');
-  return load({ factory: (await import(pathToFileURL(join(folder, 'hf.mjs')))).default, wasmBinary: bytes });
-}
-
 const kind = process.argv[2];
-const hf = await loadBackend(kind);
+const { api: hf } = await loadBackend(kind);
 const meshes = Object.fromEntries(
   readdirSync(join(golden, 'meshes')).map((name) => [name.replace('.json', ''), json(join(golden, 'meshes', name))]),
 );
@@ -134,6 +104,75 @@ for (const option of ['positionStride', 'triangleStride', 'vertexCount', 'triang
   assert.throws(() => new hf.Surface(positions, triangles, { [option]: 400 }), /no option/, option);
 assert.throws(() => new hf.Quads(surface, { siteCount: 2 }), /no option/);
 assert.ok(Math.abs(solver.solve()[5] - 1) < 1e-6);
+
+// ---- numbers that a DataView or the call would wrap, and arrays that are none
+const region = new hf.Region(surface);
+const makers = {
+  threadCount: (o) => new hf.Surface(positions, triangles, o),
+  siteLimit: (o) => new hf.Solver(surface, o),
+  bandCount: (o) => new hf.Pose(surface, o),
+  clusterCount: (o) => new hf.Transfer(surface, surface, o),
+  relaxCount: (o) => new hf.Quads(surface, o),
+  sourceCount: (o) => surface.findExtremities(o),
+};
+const slips = [2 ** 32, 2 ** 32 + 1, -1, 1.5, NaN, Infinity, true, '1', null, 1n, [1], {}];
+for (const [option, maker] of Object.entries(makers))
+  for (const slip of slips)
+    assert.throws(() => maker({ [option]: slip }), (e) => e instanceof hf.HfError && e.message.includes(option));
+for (const slip of [2 ** 32, 2 ** 31, -(2 ** 31) - 1, 0.5, NaN, '0'])
+  assert.throws(() => new hf.Surface(positions, triangles, { weld: slip }), /option 'weld'/);
+for (const slip of [NaN, Infinity, 1e300, -1, true, '1'])
+  assert.throws(() => new hf.Surface(positions, triangles, { weld: 2, weldTolerance: slip }), hf.HfError);
+for (const slip of [2 ** 32, -1, 1.5, NaN, '1', true, 1n])
+  for (const call of [
+    () => surface.spaceLevels(solver.solve(), slip),
+    () => surface.spaceLevels(solver.solve(), 3, slip === true ? 9 : slip),
+    () => surface.save(slip === true ? 9 : slip),
+    () => solver.addSite(slip),
+    () => solver.solvePreview(undefined, { correctionCount: slip }),
+    () => pose.addHandleAt([0, 0, 0], slip === 1.5 ? '1' : slip === 2 ** 32 ? NaN : slip),
+  ])
+    assert.throws(call, hf.HfError, String(slip));
+pose.addHandleAt([1e3, 0, 0], 1e4);
+pose.deform(null, { restart: true, refine: false }); // flags are booleans
+const bytes = new DataView(new ArrayBuffer(24));
+for (const wrongArray of [bytes, new BigInt64Array(3), new BigUint64Array(3), [1n, 2n, 3n], [0, , 1], new Set([0, 1, 2])]) {
+  assert.throws(() => new hf.Surface(wrongArray, triangles), /positions/);
+  assert.throws(() => new hf.Surface(positions, wrongArray), /triangles/);
+  assert.throws(() => solver.addSites([5, 6, 7], wrongArray), /values/);
+}
+for (const wrongOut of [bytes, new BigInt64Array(n), new Float32Array(n + 1)])
+  assert.throws(() => solver.solve(wrongOut), /out/);
+
+// ---- objects are cloned or refuse to be copied, sent and written, by name
+region.edit({ add: [0, 1, 2, 12, 13, 14] });
+for (const thing of [
+  surface,
+  solver,
+  pose,
+  region,
+  new hf.Transfer(surface, surface),
+  new hf.Geodesics(surface),
+  new hf.Direction(surface),
+  new hf.Detail(region, region.clone()),
+  new hf.Flow(surface),
+  new hf.Quads(surface),
+  new hf.Progress(),
+]) {
+  const name = thing.constructor.name;
+  for (const copy of [
+    () => structuredClone(thing),
+    () => structuredClone({ deep: [thing] }),
+    () => ({ ...thing }),
+    () => Object.assign({}, thing),
+    () => JSON.stringify(thing),
+    () => JSON.stringify([thing]),
+    () => new MessageChannel().port1.postMessage(thing),
+  ])
+    assert.throws(copy, (e) => e instanceof hf.HfError && e.message.includes(`a ${name} cannot be`), name);
+  if (thing.clone) assert.notEqual(thing.clone()._handle, thing._handle);
+}
+assert.deepEqual([...solver.clone().solve()], [...solver.solve()]);
 
 // ---- the caller's arrays, also views into larger buffers
 const buffer = new Float32Array(n + 10);

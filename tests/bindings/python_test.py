@@ -1,8 +1,10 @@
 """The Python package beyond the golden scenes: no copies, lifetime in any order, threads, memory, bad arguments."""
 
+import copy
 import ctypes
 import gc
 import pathlib
+import pickle
 import random
 import re
 import threading
@@ -122,6 +124,134 @@ class Arrays(unittest.TestCase):
                 case()
             self.assertTrue(caught.exception.message, f"case {number}")
         np.testing.assert_allclose(solver.solve(), 1, atol=1e-6)
+
+
+class Refusals(unittest.TestCase):
+    """What numpy, ctypes or pickle would take without a word."""
+
+    def setUp(self):
+        self.points, self.triangles = mesh("torus")
+        self.surface = hf.Surface(self.points, self.triangles)
+        self.solver = hf.Solver(self.surface)
+        self.solver.add_sites([0, 100], [0.0, 1.0])
+
+    def refused(self, case, *words):
+        with self.assertRaises(hf.HfError) as caught:
+            case()
+        for word in words:
+            self.assertIn(word, caught.exception.message)
+
+    def everything(self):
+        region = hf.Region(self.surface)
+        region.edit(add=[0, 1, 2, 12, 13, 14])
+        return [self.surface, self.solver, hf.Pose(self.surface), hf.Transfer(self.surface, self.surface),
+                hf.Geodesics(self.surface), hf.Direction(self.surface), region, hf.Detail(region, region.clone()),
+                hf.Flow(self.surface), hf.Quads(self.surface, edge_length=1.0), hf.Progress()]
+
+    def test_objects_refuse_pickling_by_name(self):
+        things = self.everything()
+        self.assertEqual({type(thing) for thing in things}, set(hf._library.Object.__subclasses__()))
+        for thing in things:
+            for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+                with self.assertRaisesRegex(TypeError, f"hf.{type(thing).__name__} cannot be pickled"):
+                    pickle.dumps(thing, protocol)
+            with self.assertRaisesRegex(TypeError, "cannot be pickled"):
+                pickle.dumps({"deep": [thing]})
+
+    def test_objects_are_cloned_or_refuse_copying_by_name(self):
+        for thing in self.everything():
+            for make in (copy.copy, copy.deepcopy, lambda t: copy.deepcopy([t])[0]):
+                if hasattr(thing, "clone"):
+                    twin = make(thing)
+                    self.assertNotEqual(twin.handle, thing.handle)
+                    twin.close()
+                else:
+                    with self.assertRaisesRegex(TypeError, f"hf.{type(thing).__name__} cannot be copied"):
+                        make(thing)
+            self.assertFalse(thing.closed)
+        np.testing.assert_array_equal(copy.copy(self.solver).solve(), self.solver.solve())
+
+    def test_options_are_checked_for_range(self):
+        surface, solver = self.surface, self.solver
+        make = {"Surface": lambda **o: hf.Surface(self.points, self.triangles, **o),
+                "Solver": lambda **o: hf.Solver(surface, **o), "Pose": lambda **o: hf.Pose(surface, **o),
+                "Transfer": lambda **o: hf.Transfer(surface, surface, **o),
+                "Quads": lambda **o: hf.Quads(surface, **o), "Direction": lambda **o: hf.Direction(surface, **o),
+                "extremities": lambda **o: surface.find_extremities(**o)}
+        counts = {"Surface": "thread_count", "Solver": "site_limit", "Pose": "band_count", "Transfer": "cluster_count",
+                  "Quads": "relax_count", "Direction": "site_limit", "extremities": "source_count"}
+        for kind, option in counts.items():
+            for wrong in (2**32, 2**32 + 1, 2**64, -1, -2**32, 1.0, 1.5, float("nan"), True, "1", None, [1], 1j,
+                          np.float32(1), np.array([1, 2])):
+                with self.subTest(kind=kind, wrong=wrong):
+                    self.refused(lambda: make[kind](**{option: wrong}), option)
+            for right in (4, np.uint8(4), np.int64(4), np.uint64(4)):
+                make[kind](**{option: right})
+        for option in ("operator_kind", "field_kind", "weld", "ordering"):
+            for wrong in (2**32, 2**31, -2**31 - 1, 0.5, float("nan"), "0"):
+                self.refused(lambda: make["Surface"](**{option: wrong}), option)
+        for wrong in ("1", None, 1j, True, np.array([1.0, 2.0]), [1.0]):
+            self.refused(lambda: make["Surface"](weld_tolerance=wrong), "weld_tolerance")
+        for wrong in (float("nan"), float("inf"), -1.0, 1e300, 10**400):
+            self.refused(lambda: make["Surface"](weld=hf.Weld.TOLERANCE, weld_tolerance=wrong))
+        for inner in ("positions_f64", "triangles_u16", "position_stride", "vertex_count", "struct_size"):
+            self.refused(lambda: make["Surface"](**{inner: 12345}), "no option", inner)
+        self.refused(lambda: hf.Pose(surface).deform(positions_f64=12345), "no option")
+        pose = hf.Pose(surface)
+        pose.add_handles([[0, 1], [140, 141]])
+        pose.deform(restart=True, refine=False)  # flags are bools
+
+    def test_numbers_are_checked_for_range(self):
+        surface, solver, region = self.surface, self.solver, hf.Region(self.surface)
+        flow, field = hf.Flow(surface), solver.solve()
+        region.edit(add=[0, 1, 2])
+        wrongs = (2**32, -1, 1.5, float("nan"), "1", None, True)
+        for wrong in wrongs:
+            for case in (lambda: surface.save(wrong), lambda: surface.space_levels(field, wrong),
+                         lambda: surface.space_levels(field, 3, wrong), lambda: region.vertices(wrong),
+                         lambda: region.edit(curve=[0, 1, 2, 14], seed_vertex=wrong),
+                         lambda: solver.solve_preview(correction_count=wrong), lambda: solver.add_site(wrong),
+                         lambda: flow.trace(field, wrong), lambda: hf.Pose(surface).skin(wrong),
+                         lambda: hf.Direction(surface, degree=wrong), lambda: hf.Pose(surface).handle_info(wrong)):
+                self.refused(case)
+        for wrong in ("1", None, 1j, True, [0.5]):
+            for case in (lambda: region.morph(wrong), lambda: solver.certify(wrong),
+                         lambda: hf.Geodesics(surface, smoothing=wrong),
+                         lambda: hf.Pose(surface).add_handle_at([0, 0, 0], wrong)):
+                self.refused(case)
+        for wrong in (2**31, 0.5, "1", None):
+            self.refused(lambda: region.edit(rings=wrong), "ring_count")
+        self.refused(lambda: hf.Quads(surface, site_vertices=[0], site_lines=[2**40]), "site_lines")
+
+    def test_arrays_that_numpy_would_convert_are_refused_by_name(self):
+        points, triangles, solver = self.points, self.triangles, self.solver
+        mask = np.zeros(points.shape, bool)
+        mask[7, 1] = True
+        swapped = "<" if np.dtype("=f4").newbyteorder("S").str[0] == "<" else ">"
+        positions = {"masked": np.ma.array(points, mask=mask), "complex": points + 1j, "object": points.astype(object),
+                     swapped: points.astype(np.float64).astype(f"{swapped}f8"), "bool": points > 0, "str": points.astype(str),
+                     "datetime64": points.astype("datetime64[s]")}
+        for word, wrong in positions.items():
+            self.refused(lambda: hf.Surface(wrong, triangles), "positions", word if word != "str" else "<U")
+            self.refused(lambda: self.surface.cast_ray([0, 0, 9], [0, 0, -1], positions=wrong), "positions")
+        with self.assertRaises(hf.HfError) as caught:
+            hf.Surface(positions["masked"], triangles)
+        self.assertEqual(caught.exception.index, 22)
+        self.refused(lambda: hf.Surface(list(positions["masked"]), triangles), "masked")
+        hf.Surface(np.ma.array(points), triangles)  # nothing of it is masked
+        for wrong in (np.ma.array(triangles, mask=triangles == 5), triangles + 1j, triangles.astype(object),
+                      triangles.astype(f"{swapped}u4"), triangles > 0, triangles.astype(np.float32), [[0, 1, 2**70]]):
+            self.refused(lambda: hf.Surface(points, wrong), "triangles")
+        for wrong in (np.ma.array([0.0, 1.0], mask=[False, True]), [1j, 0], np.array([0, 1], f"{swapped}f8"),
+                      np.array([0, 1], object), ["0", "1"], [None, 1.0], [[0.0], [1.0, 2.0]]):
+            self.refused(lambda: solver.add_sites([5, 6], wrong), "values")
+            self.refused(lambda: solver.set_values([0, 1], wrong), "values")
+        field = np.zeros(len(points))
+        for wrong in (field + 1j, np.ma.array(field, mask=field == 0), field.astype(f"{swapped}f8"), field.astype(object)):
+            self.refused(lambda: self.surface.trace_isolines(wrong, [0.5]), "field")
+        for wrong in (field.astype(f"{swapped}f8"), field + 1j, np.ma.array(field), field.astype(object)):
+            self.refused(lambda: solver.solve(wrong), "out")
+        np.testing.assert_array_equal(solver.sites()["values"].ravel(), [0, 1])
 
 
 class Regions(unittest.TestCase):

@@ -1,7 +1,7 @@
 // Between JavaScript and the C ABI: arrays, structs in the memory layout of the backend, errors. A backend is
 // { width: 0 | 1 (pointers of 4 or 8 bytes), call(name, args), newHandle() }; arguments are numbers, handles, null,
 // structs, and arrays marked as read or written.
-import { constants, layouts } from './raw.js';
+import { constants, functions, layouts } from './raw.js';
 
 const names = new Map(
   Object.entries(constants)
@@ -25,6 +25,34 @@ export function fail(message, code = 'HF_ERROR_INVALID_ARGUMENT', index = null) 
   throw new HfError(message, constants[code], index);
 }
 
+const wholeRanges = {
+  i32: [-0x80000000, 0x7fffffff],
+  u32: [0, 0xffffffff],
+  size: [0, Number.MAX_SAFE_INTEGER],
+};
+const largestFloat = 3.4028234663852886e38;
+
+/** A number as a field or parameter of that kind takes it; what a DataView or the call would wrap is refused by name.
+ * Flags (int32) take booleans. */
+export function scalar(kind, value, name) {
+  if (kind === 'i32' && typeof value === 'boolean') return Number(value);
+  const range = wholeRanges[kind];
+  if (range ? !Number.isInteger(value) : typeof value !== 'number')
+    fail(`${name} must be a ${range ? 'whole ' : ''}number, not ${String(value)}`);
+  if (range && (value < range[0] || value > range[1]))
+    fail(`${name} is ${value}; it must lie in ${range[0]} to ${range[1]}`, 'HF_ERROR_OUT_OF_RANGE');
+  if (kind === 'f32' && Number.isFinite(value) && Math.abs(value) > largestFloat)
+    fail(`${name} is ${value}; it must lie within ${largestFloat}`, 'HF_ERROR_OUT_OF_RANGE');
+  return value;
+}
+
+/** Checks the numbers among the arguments of a function of the C ABI. */
+export function checkNumbers(name, args) {
+  functions[name][1].forEach((kind, i) => {
+    if (kind in wholeRanges || kind === 'f64') scalar(kind, args[i], `number ${i + 1} of ${name}`);
+  });
+}
+
 /** An array the library reads, or writes (copied back from WebAssembly's memory). */
 export class Memory {
   constructor(array, written) {
@@ -35,7 +63,7 @@ export class Memory {
 export const read = (array) => (array === null || array.length === 0 ? null : new Memory(array, false));
 export const written = (array) => (array === null || array.length === 0 ? null : new Memory(array, true));
 
-const isArray = (values) => Array.isArray(values) || ArrayBuffer.isView(values);
+const isArray = (values) => Array.isArray(values) || (ArrayBuffer.isView(values) && !(values instanceof DataView));
 
 /** uint32 numbers: a Uint32Array is used as it is, others are checked and converted; null stays null. */
 export function integers(values, name) {
@@ -135,15 +163,18 @@ export class Struct {
     for (const [name, value] of Object.entries(fields)) this.set(name, value);
   }
 
-  set(name, value) {
+  set(name, value, shown = name) {
     const [kind, offsets, count] = this.layout.fields[name];
     const at = offsets[this.width];
     if (value === null || value === undefined) return this;
     if (kind === 'ptr') this.pointers.push([at, value]);
-    else if (kind === 'size')
+    else if (kind === 'size') {
+      scalar('size', value, shown);
       this.width ? this.view.setBigUint64(at, BigInt(value), true) : this.view.setUint32(at, value, true);
-    else if (count) for (let i = 0; i < count; ++i) setters[kind](this.view, at + i * strides[kind], value[i]);
-    else setters[kind](this.view, at, value);
+    } else if (count)
+      for (let i = 0; i < count; ++i)
+        setters[kind](this.view, at + i * strides[kind], scalar(kind, value[i], `${shown}[${i}]`));
+    else setters[kind](this.view, at, scalar(kind, value, shown));
     return this;
   }
 
@@ -172,10 +203,9 @@ export class Struct {
         fail(`no option '${key}'; there are: ${allowed.map(([shown]) => shown).join(', ')}`);
       }
       const count = this.layout.fields[name][2];
-      if (count ? !isArray(value) || value.length !== count : typeof value !== 'number' && typeof value !== 'boolean') {
-        fail(`option '${key}' must be ${count ? count + ' numbers' : 'a number'}`);
-      }
-      this.set(name, count ? Array.from(value) : Number(value));
+      if (count && (!isArray(value) || value.length !== count)) fail(`option '${key}' must be ${count} numbers`);
+      if (value === null || value === undefined) fail(`option '${key}' must be a number, not ${value}`);
+      this.set(name, count ? Array.from(value) : value, `option '${key}'`);
     }
     return this;
   }

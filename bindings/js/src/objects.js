@@ -1,6 +1,6 @@
 // The classes, over a backend. Every object owns one handle: close() it, or leave it to the garbage collector.
 import { constants, headerVersion } from './raw.js';
-import { HfError, Struct, doubles, fail, integers, output, points, read, regions, rows, written } from './marshal.js';
+import { HfError, Struct, checkNumbers, doubles, fail, integers, output, points, read, regions, rows, written } from './marshal.js';
 import { solverClasses } from './solver.js';
 import { surfaceClasses } from './surface.js';
 import { detailClasses } from './detail.js';
@@ -11,6 +11,7 @@ import { quadClasses } from './quads.js';
 export function makeApi(backend) {
   const make = (type, fields) => new Struct(backend.width, type, fields);
   const call = (name, ...args) => {
+    checkNumbers(name, args);
     const code = backend.call(name, args);
     if (code === 0) return;
     const detail = make('hf_error_detail');
@@ -31,6 +32,17 @@ export function makeApi(backend) {
   /** Owns one handle. Objects may be closed in any order and more than once; a call on a closed one throws. */
   class Handle {
     #open = false;
+    constructor() {
+      // structuredClone, postMessage, spread and Object.assign read every property: a copy of the handle would be a
+      // second owner, or a number without meaning in another thread's module
+      Object.defineProperty(this, '_owned', {
+        enumerable: true,
+        get: () => fail(`a ${this.constructor.name} cannot be copied or sent${this.clone ? '; clone() it' : ''}`),
+      });
+    }
+    toJSON() {
+      fail(`a ${this.constructor.name} cannot be written as JSON`);
+    }
     /** Takes the handle that PREFIX_verb(...args, out) makes (or the function the class names); PREFIX_destroy ends it. */
     _make(verb, ...args) {
       const { prefix, [verb]: name = `${prefix}_${verb}` } = this.constructor;
@@ -44,7 +56,8 @@ export function makeApi(backend) {
     _copy() {
       const copy = new this.constructor(bare);
       copy._make('clone', this._handle);
-      return Object.assign(copy, this, { _handle: copy._handle });
+      for (const name of Object.keys(this)) if (!['_owned', '_handle'].includes(name)) copy[name] = this[name];
+      return copy;
     }
     get closed() {
       return !this.#open;

@@ -108,13 +108,13 @@ export function surfaceClasses(tools) {
     }
 
     spaceLevels(field, levelCount, spacing = 0) {
-      const out = new Float64Array(Math.max(0, Math.min(levelCount, 1000000)));
+      const out = new Float64Array(Number.isInteger(levelCount) && levelCount > 0 ? Math.min(levelCount, 1000000) : 0);
       call(
         'hf_surface_space_levels',
         this._handle,
         scalarsOf(field, this.vertexCount),
         spacing,
-        Math.max(0, levelCount),
+        levelCount,
         written(out),
       );
       return out;

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import operator
 import os
 import pathlib
 import sys
@@ -110,25 +111,92 @@ def call(name: str, *arguments: Any) -> None:
             detail.function.decode())
 
 
+_INTEGERS = {ctypes.c_int32: (-(1 << 31), (1 << 31) - 1), ctypes.c_uint32: (0, (1 << 32) - 1),
+             ctypes.c_size_t: (0, 2 * sys.maxsize + 1)}
+_FLOATS = {ctypes.c_float: float(np.finfo(np.float32).max), ctypes.c_double: float(np.finfo(np.float64).max)}
+_types: dict = {}  # struct -> field -> ctypes type
+
+
+def _type_of(struct: type, key: str) -> Any:
+    if struct not in _types:
+        _types[struct] = {field[0]: field[1] for field in struct._fields_}
+    return _types[struct][key]
+
+
+def whole(value: Any, name: str, low: int = 0, high: int = NO_INDEX) -> int:
+    """A whole number in a range. Floats and bools are refused: they are slips where a count or an index is asked for."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = None
+    if number is None or isinstance(value, (bool, np.bool_)):
+        raise InvalidArgumentError(f"{name} must be a whole number, not {value!r}")
+    if not low <= number <= high:
+        raise OutOfRangeError(f"{name} is {number}; it must lie in {low} to {high}")
+    return number
+
+
+def real(value: Any, name: str, largest: float = float(np.finfo(np.float64).max)) -> float:
+    """A number; float32 fields do not turn what is too large into infinity."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise InvalidArgumentError(f"{name} must be a number, not {value!r}")
+    if largest < abs(value) < float("inf"):
+        raise OutOfRangeError(f"{name} is {value}; it must lie within {largest:g}")
+    return float(value)
+
+
+def put(desc: Any, key: str, value: Any, name: str) -> None:
+    """Sets a field of a desc. ctypes would wrap what does not fit; here it is an error that names it. Flags take bools."""
+    kind = _type_of(type(desc), key)
+    if kind in _INTEGERS:
+        flag = kind is ctypes.c_int32 and isinstance(value, (bool, np.bool_))
+        value = int(value) if flag else whole(value, name, *_INTEGERS[kind])
+    elif kind in _FLOATS:
+        value = real(value, name, _FLOATS[kind])
+    setattr(desc, key, value)
+
+
 def make(struct: type, **fields: Any) -> Any:
     """A desc with every byte zero but its size and the given fields."""
     desc = struct()
     desc.struct_size = ctypes.sizeof(struct)
     for key, value in fields.items():
-        setattr(desc, key, value)
+        put(desc, key, value, key)
     return desc
+
+
+# what the package fills in itself
+_OWN = ("struct_size", "reserved", "vertex_count", "triangle_count", "site_count")
 
 
 def options_into(desc: Any, options: dict) -> None:
     """Sets the named scalar options of a desc; an unknown one is an error that names it."""
-    allowed = {f[0] for f in desc._fields_} - {"struct_size", "reserved"}
+    allowed = {f[0] for f in desc._fields_ if f[1] in _INTEGERS or f[1] in _FLOATS}
+    allowed = {name for name in allowed if name not in _OWN and not name.endswith("_stride")}
     for key, value in options.items():
         if key not in allowed:
             raise InvalidArgumentError(f"no option '{key}'; there are: {', '.join(sorted(allowed))}")
-        try:
-            setattr(desc, key, value)
-        except TypeError as error:
-            raise InvalidArgumentError(f"option '{key}': {error}") from None
+        put(desc, key, value, f"option '{key}'")
+
+
+def numbers(values: ArrayLike, name: str) -> np.ndarray:
+    """An array of numbers, as given when it is one. Masks, complex numbers, objects and foreign byte order are refused:
+    numpy would drop or convert them without a word."""
+    rows = values if isinstance(values, (list, tuple)) else (values,)
+    masked = [i for i, row in enumerate(rows) if isinstance(row, np.ma.MaskedArray) and np.ma.is_masked(row)]
+    if masked:
+        first = masked[0] if rows is values else int(np.flatnonzero(np.ma.getmaskarray(values))[0])
+        raise InvalidArgumentError(f"{name} holds masked values, the first at {first}", index=first)
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InvalidArgumentError(f"{name} must be numbers: {error}") from None
+    if array.dtype.kind not in "iuf" and array.size:
+        raise InvalidArgumentError(f"{name} must be numbers, not {array.dtype}")
+    if not array.dtype.isnative:
+        raise InvalidArgumentError(f"{name} is in foreign byte order ({array.dtype.str}); "
+                                   "convert it with astype(dtype.newbyteorder('='))")
+    return array
 
 
 def address(array: Optional[np.ndarray]) -> Optional[int]:
@@ -140,7 +208,7 @@ def integers(values: Optional[ArrayLike], name: str) -> Optional[np.ndarray]:
     """uint32, as given when it is that already."""
     if values is None:
         return None
-    array = np.asarray(values)
+    array = numbers(values, name)
     if array.dtype == np.int32 and array.flags.c_contiguous and (array.size == 0 or array.min() >= 0):
         array = array.view(np.uint32)  # the same bits
     if array.dtype != np.uint32:
@@ -157,7 +225,7 @@ def corners(values: Optional[ArrayLike], name: str) -> tuple:
     """Rows of three corners in uint32 or uint16 with any stride between rows, without a copy. Returns (array, stride)."""
     if values is None:
         return None, 0
-    array = np.asarray(values)
+    array = numbers(values, name)
     rows = array.ndim == 2 and array.shape[1] == 3
     if array.size % 3 or (array.ndim == 2 and not rows):
         raise InvalidArgumentError(f"{name} must have the shape (m, 3), not {array.shape}")
@@ -169,7 +237,7 @@ def corners(values: Optional[ArrayLike], name: str) -> tuple:
 
 def index(value: Any, name: str) -> int:
     """One whole number for a uint32 parameter."""
-    return int(integers([value], name)[0])
+    return whole(value, name)
 
 
 def count_of(array: Optional[np.ndarray]) -> int:
@@ -189,7 +257,7 @@ def scalars(field: Optional[ArrayLike], vertex_count: int) -> tuple:
     """A field as the library reads it, in place where it can be. Returns (desc or None, what to keep alive)."""
     if field is None:
         return None, None
-    array = np.asarray(field)
+    array = numbers(field, "field")
     fits = array.dtype in (np.float32, np.float64) and array.ndim == 1 and array.size == vertex_count
     if not fits or array.strides[0] <= 0:
         array = doubles(field, "field", vertex_count).ravel()
@@ -202,10 +270,7 @@ def doubles(values: Optional[ArrayLike], name: str, count: Optional[int] = None)
     """float64, as given when it is that already; count: how many numbers there must be."""
     if values is None:
         return None
-    try:
-        array = np.ascontiguousarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InvalidArgumentError(f"{name} must be numbers: {error}") from None
+    array = np.ascontiguousarray(numbers(values, name), dtype=np.float64)
     if count is not None and array.size != count:
         raise InvalidArgumentError(f"{name} must hold {count} numbers, not {array.size}")
     return array
@@ -215,12 +280,9 @@ def points(values: ArrayLike, name: str) -> tuple:
     """Rows of xyz in float32 or float64 with any stride between rows, without a copy. Returns (array, stride)."""
     if values is None:
         raise NullPointerError(f"{name} is None")
-    array = np.asarray(values)
+    array = numbers(values, name)
     if array.dtype not in (np.float32, np.float64):
-        try:
-            array = array.astype(np.float64)
-        except (TypeError, ValueError) as error:
-            raise InvalidArgumentError(f"{name} must be numbers: {error}") from None
+        array = array.astype(np.float64)
     if array.ndim == 1 and array.size % 3 == 0:
         array = np.ascontiguousarray(array).reshape(-1, 3)
     if array.ndim != 2 or array.shape[1] != 3:
@@ -235,7 +297,7 @@ def output(out: Optional[np.ndarray], shape: tuple, dtype: Any, name: str = "out
     if out is None:
         return np.empty(shape, dtype), 0
     wanted = [np.dtype(t) for t in (dtype if isinstance(dtype, tuple) else (dtype,))]
-    if not isinstance(out, np.ndarray) or out.dtype not in wanted:
+    if not isinstance(out, np.ndarray) or isinstance(out, np.ma.MaskedArray) or out.dtype not in wanted:
         raise InvalidArgumentError(f"{name} must be an array of {' or '.join(str(t) for t in wanted)}")
     if out.size != int(np.prod(shape)):
         raise TooSmallError(f"{name} must have the shape {shape}, not {out.shape}")
@@ -293,6 +355,21 @@ class Object:
         if self._open:
             self._open = False
             getattr(library(), self._destroy)(self._raw_handle)
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        """A handle means nothing in another process, and two owners would close it twice."""
+        raise TypeError(f"hf.{type(self).__name__} cannot be pickled: it lives in the memory of this process. "
+                        "Send positions and triangles, or the bytes of Surface.save()")
+
+    def __copy__(self) -> Any:
+        """A clone, of classes that have one."""
+        clone = getattr(self, "clone", None)
+        if clone is None:
+            raise TypeError(f"hf.{type(self).__name__} cannot be copied; use the same object, or make another one")
+        return clone()
+
+    def __deepcopy__(self, _memo: dict) -> Any:
+        return self.__copy__()
 
     def __enter__(self) -> Any:
         return self

@@ -11,7 +11,7 @@ import numpy as np
 from . import _raw
 from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, count_of, doubles, handle_of, index, integers,
     library, make, options_into, output,
-                       points, regions)
+                       points, real, regions)
 from .surface import Surface
 
 
@@ -99,7 +99,7 @@ class Pose(Object):
     def add_handle_at(self, point: ArrayLike, radius: float) -> int:
         """Adds one handle: what is edge-connected within radius of a point at rest. Returns its number."""
         place, number = doubles(point, "point", 3), ctypes.c_uint32()
-        call("hf_pose_add_handle_at", self._raw_handle, address(place), float(radius), ctypes.byref(number))
+        call("hf_pose_add_handle_at", self._raw_handle, address(place), real(radius, "radius"), ctypes.byref(number))
         return number.value
 
     def remove_handles(self, handles: ArrayLike) -> None:

@@ -9,8 +9,8 @@ from typing import Any, List, NamedTuple, Optional
 import numpy as np
 
 from . import _raw
-from ._library import (ArrayLike, InvalidArgumentError, Object, TooSmallError, address, call, handle_of, integers, make,
-                       options_into, scalars)
+from ._library import (ArrayLike, InvalidArgumentError, Object, OutOfRangeError, TooSmallError, address, call, handle_of,
+                       integers, make, numbers, options_into, scalars, whole)
 from .surface import Progress, Surface
 
 
@@ -46,9 +46,11 @@ class Quads(Object):
         options_into(desc, options)
         places = integers(site_vertices, "site_vertices")
         desc.site_count, desc.site_vertices = 0 if places is None else places.size, address(places)
-        lines = None if site_lines is None else np.ascontiguousarray(site_lines)
+        lines = None if site_lines is None else np.ascontiguousarray(numbers(site_lines, "site_lines"))
         if lines is not None and (lines.dtype.kind not in "iu" or lines.size != desc.site_count):
             raise InvalidArgumentError(f"site_lines must be {desc.site_count} whole numbers")
+        if lines is not None and lines.size and not -(1 << 31) <= lines.min() <= lines.max() < 1 << 31:
+            raise OutOfRangeError("site_lines holds a number beyond 32 bits")
         lines = None if lines is None else lines.astype(np.int32)
         desc.site_lines = address(lines)
         desc.progress = handle_of(progress, Progress, "progress")
@@ -100,12 +102,11 @@ class Flow(Object):
         """Lines of equal flux from the minima of a field, wanted_count of them, or one through every seed vertex."""
         desc, _held = scalars(field, self.vertex_count)
         at = integers(seeds, "seeds")
-        if not 0 <= int(wanted_count) <= 1000000:
-            raise InvalidArgumentError(f"wanted_count is {wanted_count}; it must be at most 1,000,000")
+        wanted_count = whole(wanted_count, "wanted_count", 0, 1000000)
         while True:
             p, k = self._room
             found = FlowLines(np.empty((p, 3)), np.empty(p), np.zeros(k + 1, np.uint32), np.empty((k, 2), np.uint32))
-            out = make(_raw.hf_flow_lines, wanted_count=int(wanted_count), seed_count=0 if at is None else at.size,
+            out = make(_raw.hf_flow_lines, wanted_count=wanted_count, seed_count=0 if at is None else at.size,
                        seeds=address(at), point_capacity=p, line_capacity=k,
                        **{name: address(getattr(found, name)) for name in FlowLines._fields})
             try:

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _raw
 from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, handle_of, integers, make, output,
-                       points)
+                       points, whole)
 from .surface import FieldKind, Progress, Surface
 
 
@@ -25,7 +25,7 @@ class RegionList(IntEnum):
 def _morph(function: str, thing: Any, weight: float, out: Optional[np.ndarray], normals: Optional[np.ndarray],
            dtype: Any) -> np.ndarray:
     out, stride = output(out, (thing.vertex_count, 3), dtype if out is None else (np.float32, np.float64))
-    desc = make(_raw.hf_morph_desc, position_stride=stride, weight=float(weight))
+    desc = make(_raw.hf_morph_desc, position_stride=stride, weight=weight)
     setattr(desc, "positions" if out.dtype == np.float32 else "positions_f64", address(out))
     if normals is not None:
         normals, desc.normal_stride = output(normals, (thing.vertex_count, 3), np.float32, "normals")
@@ -45,7 +45,7 @@ class Region(Object):
 
     def __init__(self, surface: Surface, positions: Optional[ArrayLike] = None, *,
                  field_kind: int = FieldKind.HARMONIC, progress: Optional[Progress] = None) -> None:
-        desc, handle = make(_raw.hf_region_desc, field_kind=int(field_kind)), ctypes.c_void_p()
+        desc, handle = make(_raw.hf_region_desc, field_kind=field_kind), ctypes.c_void_p()
         desc.progress = handle_of(progress, Progress, "progress")
         parent = handle_of(surface, Surface, "surface")
         if positions is not None:
@@ -71,10 +71,10 @@ class Region(Object):
         """One edit, all or nothing: what a closed curve through these vertices encloses; rings of vertices more, or less
         when below 0; vertices added and removed. Sites are edited, nothing is factorised."""
         added, removed, along = integers(add, "add"), integers(remove, "remove"), integers(curve, "curve")
-        desc = make(_raw.hf_region_edit_desc, ring_count=int(rings), progress=handle_of(progress, Progress, "progress"))
+        desc = make(_raw.hf_region_edit_desc, ring_count=rings, progress=handle_of(progress, Progress, "progress"))
         if along is not None:
-            line = make(_raw.hf_curve_desc, point_count=along.size, vertices=address(along), side=int(side),
-                        seed_vertex=int(seed_vertex))
+            line = make(_raw.hf_curve_desc, point_count=along.size, vertices=address(along), side=side,
+                        seed_vertex=seed_vertex)
             desc.curve = ctypes.addressof(line)
         if added is not None:
             desc.add_count, desc.add_vertices = added.size, address(added)
@@ -98,10 +98,10 @@ class Region(Object):
 
     def vertices(self, which: int = RegionList.INSIDE) -> np.ndarray:
         """Vertices inside, on the rim, or the sites that hold the base, (k,) uint32."""
-        size = ctypes.c_uint32()
-        call("hf_region_get_vertices", self._raw_handle, int(which), 0, None, ctypes.byref(size))
+        which, size = whole(which, "which"), ctypes.c_uint32()
+        call("hf_region_get_vertices", self._raw_handle, which, 0, None, ctypes.byref(size))
         out = np.empty(size.value, np.uint32)
-        call("hf_region_get_vertices", self._raw_handle, int(which), out.size, address(out), ctypes.byref(size))
+        call("hf_region_get_vertices", self._raw_handle, which, out.size, address(out), ctypes.byref(size))
         return out
 
     def morph(self, weight: float, out: Optional[np.ndarray] = None, *, normals: Optional[np.ndarray] = None,
@@ -122,7 +122,7 @@ class Detail(Object):
         starts, ends = integers(source_vertices, "source_vertices"), integers(target_vertices, "target_vertices")
         if (starts is None) != (ends is None) or (starts is not None and starts.size != ends.size):
             raise InvalidArgumentError("source_vertices and target_vertices must be of one length")
-        desc = make(_raw.hf_detail_desc, pair_count=0 if starts is None else starts.size, scale=float(scale),
+        desc = make(_raw.hf_detail_desc, pair_count=0 if starts is None else starts.size, scale=scale,
                     source_vertices=address(starts), target_vertices=address(ends),
                     progress=handle_of(progress, Progress, "progress"))
         handle = ctypes.c_void_p()

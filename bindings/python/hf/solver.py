@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _raw
 from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, count_of, doubles, handle_of, index,
-                       integers, library, make, options_into, output, paired)
+                       integers, library, make, options_into, output, paired, whole)
 from .surface import Progress, Surface
 
 
@@ -197,12 +197,12 @@ class Solver(Object):
         out, stride = output(out, self._shape(), dtype if out is None else (np.float32, np.float64))
         call("hf_solver_solve_preview" if out.dtype == np.float32 else "hf_solver_solve_preview_f64", self._raw_handle, address(out),
             stride,
-             correction_count, None)
+             whole(correction_count, "correction_count"), None)
         return out
 
     def certify(self, tolerance: float = 0.0) -> _raw.hf_certificate:
         """Measures the field on its own equations; InaccurateError when an error exceeds the tolerance (0: the default)."""
-        certificate = make(_raw.hf_certificate, tolerance=float(tolerance))
+        certificate = make(_raw.hf_certificate, tolerance=tolerance)
         call("hf_solver_certify", self._raw_handle, ctypes.byref(certificate))
         return certificate
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _raw
 from ._library import (ArrayLike, InvalidArgumentError, Object, address, call, corners, count_of, doubles, handle_of,
-                       integers, make, options_into, output, points, scalars)
+                       integers, make, options_into, output, points, scalars, whole)
 
 
 class Weld(IntEnum):
@@ -93,7 +93,10 @@ class Surface(Object):
             setattr(desc, "triangles" if mesh.dtype == np.uint32 else "triangles_u16", address(mesh))
         desc.progress = handle_of(progress, Progress, "progress")
         if saved_factor is not None:
-            block = np.frombuffer(saved_factor, np.uint8)
+            try:
+                block = np.frombuffer(saved_factor, np.uint8)
+            except (TypeError, ValueError, BufferError) as error:
+                raise InvalidArgumentError(f"saved_factor must be bytes: {error}") from None
             factor = make(_raw.hf_factor_desc, bytes=address(block), byte_count=block.size)
             desc.saved_factor = ctypes.addressof(factor)
         handle = ctypes.c_void_p()
@@ -125,16 +128,16 @@ class Surface(Object):
 
     def save(self, field_kind: int = FieldKind.HARMONIC) -> bytes:
         """The factor of a kind of field as bytes, for Surface(..., saved_factor=...)."""
-        size = ctypes.c_size_t()
-        call("hf_surface_save", self._raw_handle, int(field_kind), None, 0, None, ctypes.byref(size))
+        field_kind, size = whole(field_kind, "field_kind"), ctypes.c_size_t()
+        call("hf_surface_save", self._raw_handle, field_kind, None, 0, None, ctypes.byref(size))
         block = np.empty(size.value, np.uint8)
-        call("hf_surface_save", self._raw_handle, int(field_kind), None, block.size, address(block), ctypes.byref(size))
+        call("hf_surface_save", self._raw_handle, field_kind, None, block.size, address(block), ctypes.byref(size))
         return block.tobytes()
 
     # ---- picking ----
 
     def _pick(self, positions: Optional[ArrayLike], front_only: int = 0) -> tuple:
-        desc, xyz = make(_raw.hf_pick_desc, front_only=int(front_only)), None
+        desc, xyz = make(_raw.hf_pick_desc, front_only=front_only), None
         if positions is not None:
             xyz, desc.position_stride = points(positions, "positions")
             if len(xyz) != self.vertex_count:
@@ -168,9 +171,10 @@ class Surface(Object):
     def space_levels(self, field: ArrayLike, level_count: int, spacing: int = Levels.VALUE) -> np.ndarray:
         """Levels that divide a field into level_count + 1 strips of equal value steps, areas or widths."""
         desc, _held = scalars(field, self.vertex_count)
-        out = np.empty(max(0, min(level_count, 1000000)))
-        call("hf_surface_space_levels", self._raw_handle, None if desc is None else ctypes.byref(desc), int(spacing),
-            max(0, level_count), address(out))
+        level_count = whole(level_count, "level_count")
+        out = np.empty(min(level_count, 1000000))
+        call("hf_surface_space_levels", self._raw_handle, None if desc is None else ctypes.byref(desc), whole(spacing, "spacing"),
+            level_count, address(out))
         return out
 
     def trace_isolines(self, field: ArrayLike, levels: ArrayLike) -> Isolines:

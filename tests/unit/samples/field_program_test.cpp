@@ -72,6 +72,30 @@ std::string modules() {
   return {};
 }
 
+TEST(FieldProgram, output_follows_links_and_leaves_devices_alone) {
+  TemporaryFolder folder;
+  const fs::path mesh_file = folder.path / "cactus.obj", out = folder.path / "field.txt";
+  write_mesh_file(surface(cactus(600)), mesh_file);
+  const auto written = [&](const std::string& name) {
+    return run(hf_test::quoted(mesh_file) + " --site 0=0 --site 9=1 --out " + hf_test::quoted(folder.path / name));
+  };
+  samples_test::write_text(out, "old");
+  fs::permissions(out, fs::perms(0600));
+  fs::create_symlink("field.txt", folder.path / "link");
+  fs::create_symlink("/dev/full", folder.path / "full");
+  fs::create_symlink("/dev/null", folder.path / "null");
+  EXPECT_EQ(written("link").status, 0);
+  EXPECT_TRUE(fs::is_symlink(folder.path / "link"));
+  EXPECT_GT(rows_of(out).size(), 100u);
+  EXPECT_EQ(fs::status(out).permissions(), fs::perms(0600));
+  const Result full = written("full");
+  EXPECT_EQ(full.status, 1);
+  EXPECT_NE(full.output.find("full: cannot be written: No space left"), std::string::npos) << full.output;
+  EXPECT_EQ(written("null").status, 0);
+  EXPECT_TRUE(fs::is_character_file("/dev/full") && fs::is_character_file("/dev/null"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), {}), 5);
+}
+
 TEST(FieldProgram, writes_every_kind_of_field_as_text_glb_and_picture) {
   TemporaryFolder folder;
   const fs::path mesh_file = folder.path / "cactus.obj", glbs = folder.path / "glb";
