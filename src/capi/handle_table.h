@@ -1,7 +1,8 @@
-// The one global of the library: the table behind all handles. A handle is not a pointer but kind, generation and
-// index; a stale, foreign or doubly destroyed one is found out and answered with HF_ERROR_INVALID_HANDLE. Generations
-// are never used twice (until 2^32 objects, or 2^15 on 32-bit hosts, were made). Empty, the table holds no memory, so
-// unloading the library leaks nothing.
+// The one global of the library: the table behind all handles.
+//
+// A handle is not a pointer but a kind and a number (handle_slots.h). A stale, foreign or doubly destroyed one is found
+// out and answered with HF_ERROR_INVALID_HANDLE. A stale one names a new object only after 2^55 more objects, or 2^27
+// on 32-bit hosts. Empty, the table holds no memory, so unloading the library leaks nothing.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -27,8 +28,8 @@ enum class Kind : std::uint32_t {
   surface = 11
 };
 
-// The object that a handle stands for. Readers share, a writer is alone; nobody waits: a call that overlaps answers HF_ERROR_BUSY,
-// or HF_ERROR_REENTRANT when it comes from a callback of the very call it overlaps.
+// The object that a handle stands for. Readers share, a writer is alone; nobody waits: a call that overlaps answers
+// HF_ERROR_BUSY, or HF_ERROR_REENTRANT when it comes from a callback of the very call it overlaps.
 class Object {
  public:
   explicit Object(Kind kind) noexcept : kind_(kind) {}

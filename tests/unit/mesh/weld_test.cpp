@@ -110,6 +110,21 @@ TEST(WeldTolerance, joins_a_grid_at_exactly_the_tolerance) {
   }
 }
 
+// Lone pairs in every direction, the diagonals of a cell among them, just within the tolerance and just beyond.
+TEST(WeldTolerance, decides_lone_pairs_in_every_direction) {
+  Random random(8);
+  for (const double distance : {0.9999, 1.0, 1.0001, 1.05}) {
+    Points points;
+    for (int i = 0; i < 600; ++i) {
+      const Vec3 direction =
+          i % 4 ? random.on_sphere() : Vec3{std::sqrt(1.0 / 3), std::sqrt(1.0 / 3), std::sqrt(1.0 / 3)};
+      const Vec3 start{10.0 * i, 10.0 * (i % 7), 10.0 * (i % 11)};
+      points.push_back(start), points.push_back(start + distance * direction);
+    }
+    expect_the_definition(points, 1, "lone pairs");
+  }
+}
+
 TEST(WeldTolerance, joins_clusters_and_copies_as_all_pairs_would) {
   Random random(2);
   for (const double gap : {0.9, 1.0, 1.0001, 1.02, 1.2}) {
