@@ -356,14 +356,38 @@ class Writer {
     return to;
   }
 
-  bool is_ancestor(int node, int below) const {
-    for (int n = below; n >= 0; n = model_.nodes[static_cast<size_t>(n)].parent) {
-      if (n == node) return true;
+  // Numbers every node in depth-first order: those below a node lie between its own number and its last.
+  void number_nodes() {
+    const size_t count = model_.nodes.size();
+    enter_.assign(count, 0), last_.assign(count, 0);
+    int next = 0;
+    std::vector<std::pair<size_t, size_t>> path;  // node, children done
+    for (size_t root = 0; root < count; ++root) {
+      if (model_.nodes[root].parent >= 0) continue;
+      enter_[root] = next++;
+      path.emplace_back(root, 0);
+      while (!path.empty()) {
+        const size_t n = path.back().first;
+        const std::vector<int>& children = model_.nodes[n].children;
+        if (path.back().second == children.size()) {
+          last_[n] = next - 1;
+          path.pop_back();
+          continue;
+        }
+        const auto child = static_cast<size_t>(children[path.back().second++]);
+        enter_[child] = next++;
+        path.emplace_back(child, 0);
+      }
     }
-    return false;
+  }
+
+  bool is_ancestor(int node, int below) const {
+    const int at = enter_[static_cast<size_t>(below)];
+    return at >= enter_[static_cast<size_t>(node)] && at <= last_[static_cast<size_t>(node)];
   }
 
   void add_skins() {
+    if (!model_.skins.empty()) number_nodes();
     for (const Skin& from : model_.skins) {
       tinygltf::Skin to;
       to.name = from.name;
@@ -418,6 +442,7 @@ class Writer {
   const Model& model_;
   tinygltf::Model out_;
   std::vector<int> mesh_number_;
+  std::vector<int> enter_, last_;  // see number_nodes()
 };
 
 }  // namespace
