@@ -1,9 +1,9 @@
 // Gives every object a number and finds it again: the table behind all handles.
 //
-// Numbers count up from 1 and skip those whose slot is taken; the slot is the number modulo the size of the table. The
-// table is at most half full, so a round through all numbers makes an object for at least every second one: a stale
-// number names a new object only after 2^(number_bits - 1) more objects, whatever the host keeps. Adding costs O(1) on
-// average, finding and removing always. Empty, the table holds no memory. The caller locks.
+// Numbers count up from 1 and skip those whose slot is taken. The slot is the number modulo the size of the table. The
+// table is at most half full, so at least every second number makes an object. A stale number names a new object only
+// after 2^(number_bits - 1) more objects, whatever the host keeps. Adding costs O(1) on average, finding and removing
+// always. An empty table holds no memory. The caller locks.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -40,7 +40,7 @@ class HandleSlots {
     const Slot& slot = slot_of(number);
     return slot.object && slot.number == number ? &slot.object : nullptr;
   }
-  // Of a number that find() knows.
+  // number: one that find() knows.
   std::shared_ptr<Object> remove(Number number) noexcept {
     std::shared_ptr<Object> object = std::move(slot_of(number).object);
     slot_of(number).object.reset();

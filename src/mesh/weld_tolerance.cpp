@@ -88,8 +88,8 @@ class ToleranceWeld {
   Poller poller_;
 };
 
-// Numbers along one axis. A gap of more than two cells starts a new row of cells, so that numbers stay small and exact
-// at any distance: at most four per place, which fits 31 bits for every mesh that is accepted.
+// Numbers along one axis. A gap of more than two cells starts a new row of cells, so numbers are exact at any distance.
+// A place takes four numbers at most: they fit 31 bits for every mesh that is accepted.
 void ToleranceWeld::number_cells(const Vector<Vec3>& places, double Vec3::*axis, Vector<Place>& out,
                                  Index Place::*cell) {
   struct Mark {
