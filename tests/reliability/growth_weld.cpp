@@ -56,8 +56,9 @@ std::vector<Structure> weld_structures(bool full) {
   const std::vector<std::size_t> sizes = {n, 2 * n, 4 * n, 8 * n};
   const Vec3 axis{2.0 / 3, 2.0 / 3, 1.0 / 3}, u{-2.0 / 3, 1.0 / 3, 2.0 / 3}, w{1.0 / 3, -2.0 / 3, 2.0 / 3};
   const Place scattered = [](std::size_t, std::size_t count) { return in_box(std::cbrt(static_cast<double>(count))); };
+  // the exact weld is one access to its table for each vertex: leaving the processor's cache is a step of its own
   const auto named = [&](const char* name, Weld mode, const Place& place) {
-    return Structure{std::string("weld_") + name, sizes, 1.25, weld_of(mode, place)};
+    return Structure{std::string("weld_") + name, sizes, mode == Weld::exact ? 1.6 : 1.25, weld_of(mode, place)};
   };
   return {
       named("none", Weld::none, scattered),
