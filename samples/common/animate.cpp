@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 
 namespace samples {
 namespace {
@@ -209,18 +210,22 @@ std::vector<glm::dmat4> vertex_matrices(const Model& model, const std::vector<gl
     return matrices;
   }
   const Skin& skin = model.skins[static_cast<size_t>(owner.skin)];
-  std::vector<glm::dmat4> joints(skin.joints.size());
-  for (size_t j = 0; j < joints.size(); ++j) {
-    joints[j] = globals[static_cast<size_t>(skin.joints[j])] * glm::dmat4(skin.inverse_bind[j]);
-  }
+  const size_t joint_count = skin.joints.size();
+  const auto joint_matrix = [&](size_t j) {
+    return globals[static_cast<size_t>(skin.joints[j])] * glm::dmat4(skin.inverse_bind[j]);
+  };
+  // a small primitive of a large skin: only the joints it names, so that many of them cost what their vertices cost
+  const bool few = joint_count > std::tuple_size_v<decltype(Influences::joints)> * matrices.size();
+  std::vector<glm::dmat4> joints(few ? 0 : joint_count);
+  for (size_t j = 0; j < joints.size(); ++j) joints[j] = joint_matrix(j);
   for (size_t v = 0; v < matrices.size(); ++v) {
     const Influences& o = primitive.influences[v];
     glm::dmat4 blend(0.0);
     double sum = 0;
     for (size_t k = 0; k < o.weights.size(); ++k) {
       if (o.weights[k] == 0) continue;
-      if (o.joints[k] >= joints.size()) fail(model, "vertex " + std::to_string(v) + " names a joint the skin lacks");
-      blend += joints[o.joints[k]] * static_cast<double>(o.weights[k]);
+      if (o.joints[k] >= joint_count) fail(model, "vertex " + std::to_string(v) + " names a joint the skin lacks");
+      blend += (few ? joint_matrix(o.joints[k]) : joints[o.joints[k]]) * static_cast<double>(o.weights[k]);
       sum += static_cast<double>(o.weights[k]);
     }
     matrices[v] = sum > 0 ? blend * (1 / sum) : globals[static_cast<size_t>(node)];

@@ -40,9 +40,38 @@ const Primitive& primitive_of(const Model& model, const FlatPart& part) {
   return model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
 }
 
+// Bounds what nodes make of the meshes they share.
+class CopyLimit {
+ public:
+  CopyLimit(const Model& model, const FlattenOptions& options)
+      : model_(model), options_(options), seen_(model.meshes.size(), 0) {}
+
+  void add(int node) {
+    const auto m = static_cast<size_t>(model_.nodes[static_cast<size_t>(node)].mesh);
+    uint64_t own = 0;
+    for (const Primitive& primitive : model_.meshes[m].primitives)
+      own += static_cast<uint64_t>(primitive.positions.size()) * (1 + primitive.targets.size());
+    stored_ += seen_[m] ? 0 : own;
+    seen_[m] = 1;
+    made_ += own;
+    const uint64_t limit = options_.max_copies * stored_ + options_.free_vertices;
+    if (made_ <= limit) return;
+    fail(model_, "node " + std::to_string(node) + " takes the vertices of nodes that share meshes to " +
+                     std::to_string(made_) + ", morph targets included, above the limit of " + std::to_string(limit) +
+                     " for " + std::to_string(stored_) + " stored ones; raise free_vertices if that is meant");
+  }
+
+ private:
+  const Model& model_;
+  const FlattenOptions& options_;
+  std::vector<char> seen_;  // per mesh
+  uint64_t stored_ = 0, made_ = 0;
+};
+
 std::vector<FlatPart> list_parts(const Model& model, const FlattenOptions& options, uint64_t& vertices,
                                  uint64_t& triangles) {
   std::vector<FlatPart> parts;
+  CopyLimit copies(model, options);
   for (const int n : scene_nodes(model)) {
     const Node& node = model.nodes[static_cast<size_t>(n)];
     if (node.mesh < 0) continue;
@@ -50,6 +79,7 @@ std::vector<FlatPart> list_parts(const Model& model, const FlattenOptions& optio
         options.nodes.empty() || std::find(options.nodes.begin(), options.nodes.end(), n) != options.nodes.end();
     if (!chosen || (options.skin >= 0 && node.skin != options.skin)) continue;
     const MeshData& mesh = model.meshes[static_cast<size_t>(node.mesh)];
+    copies.add(n);
     for (size_t p = 0; p < mesh.primitives.size(); ++p) {
       const Primitive& primitive = mesh.primitives[p];
       if (primitive.topology != Topology::triangles) continue;

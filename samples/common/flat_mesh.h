@@ -49,8 +49,11 @@ struct FlatMesh {
 struct FlattenOptions {
   std::vector<int> nodes;           // only these nodes' meshes; empty: every mesh node of the scene
   int skin = -1;                    // only meshes with this skin; -1: all
-  uint32_t max_vertices = 4000000;  // instancing multiplies; checked before allocation
+  uint32_t max_vertices = 4000000;  // checked before allocation, like those below
   uint32_t max_triangles = 8000000;
+  // Nodes that share a mesh multiply it: flat vertices, once for the mesh and once for each morph target, may be this
+  // many times those stored, and so many more.
+  uint32_t max_copies = 4, free_vertices = 100000;
 };
 
 FlatMesh flatten(const Model& model, const FlattenOptions& options = {});

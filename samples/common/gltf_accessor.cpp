@@ -83,7 +83,7 @@ bool allows(Stored stored, const tinygltf::Accessor& accessor, Stored base, bool
 }  // namespace
 
 AccessorReader::AccessorReader(const tinygltf::Model& model, const std::string& name, uint64_t max_decoded_bytes)
-    : model_(model), name_(name), left_(max_decoded_bytes) {
+    : model_(model), name_(name), limit_(max_decoded_bytes), left_(max_decoded_bytes) {
   const auto& used = model.extensionsUsed;
   const auto& required = model.extensionsRequired;
   const std::string extension = "KHR_mesh_quantization";
@@ -97,7 +97,8 @@ void AccessorReader::fail(const std::string& where, const std::string& message) 
 
 void AccessorReader::charge(uint64_t bytes, const std::string& where) {
   if (bytes > left_) {
-    fail(where, "takes the decoded data above the limit; raise max_decoded_bytes if the file is to be trusted");
+    fail(where, "takes the decoded data above the limit of " + std::to_string(limit_) +
+                    " bytes; raise max_decoded_bytes or free_decoded_bytes if the file is to be trusted");
   }
   left_ -= bytes;
 }

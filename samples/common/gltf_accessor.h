@@ -53,6 +53,7 @@ class AccessorReader {
 
   const tinygltf::Model& model_;
   const std::string& name_;
+  const uint64_t limit_;
   uint64_t left_;
   bool quantization_ = false;
 };

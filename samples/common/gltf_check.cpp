@@ -223,11 +223,20 @@ class DocumentCheck {
           "skins", "animations", "scenes", "extensionsUsed", "extensionsRequired"}) {
       array(document_, key, "the top level", false);
     }
+    check_size("nodes", limits_.max_nodes);
+    for (const char* key : {"samplers", "images", "textures", "materials", "scenes"})
+      check_size(key, limits_.max_looks);
     if (size("cameras") > 0) warnings_.push_back("cameras are not kept");
     if (has_extension(document_, "KHR_lights_punctual")) warnings_.push_back("lights are not kept");
     keep_only(document_,
               {"asset", "buffers", "bufferViews", "accessors", "samplers", "images", "textures", "materials", "meshes",
                "nodes", "skins", "animations", "scenes", "scene", "extensionsUsed", "extensionsRequired"});
+  }
+
+  void check_size(const char* key, uint64_t limit) const {
+    if (size(key) <= limit) return;
+    fail(key, "has " + std::to_string(size(key)) + " elements, above the limit of " + std::to_string(limit) +
+                  "; raise the limit if the file is to be trusted");
   }
 
   void check_extensions() {

@@ -134,10 +134,18 @@ class Converter {
 
   // Morph weights of a node must fit its mesh.
   void check_node_weights() {
+    uint64_t weights = 0;
     for (size_t n = 0; n < in_.model.nodes.size(); ++n) {
       Node& node = in_.model.nodes[n];
-      if (node.weights.empty()) continue;
       const size_t targets = node.mesh < 0 ? 0 : target_count(in_.model.meshes[static_cast<size_t>(node.mesh)]);
+      weights += targets;  // a pose holds them all
+      if (weights > in_.limits.max_morph_weights) {
+        in_.fail("nodes[" + std::to_string(n) + "]", "takes the morph weights of all nodes to " +
+                                                         std::to_string(weights) + ", above the limit of " +
+                                                         std::to_string(in_.limits.max_morph_weights) +
+                                                         "; raise max_morph_weights if the file is to be trusted");
+      }
+      if (node.weights.empty()) continue;
       if (node.weights.size() == targets) continue;
       if (node.mesh >= 0 && targets > 0) {
         in_.fail("nodes[" + std::to_string(n) + "].weights", "has " + std::to_string(node.weights.size()) +

@@ -17,6 +17,7 @@ struct GltfSource {
   std::vector<std::vector<std::string>> target_names;  // per mesh
   std::vector<std::string> look_extensions;            // used inside materials, textures, images
   std::vector<std::string> warnings;
+  uint64_t stored_bytes = 0;  // of the file and its buffers
 };
 
 // Takes the looks out of the source.

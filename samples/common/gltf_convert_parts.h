@@ -11,8 +11,8 @@
 namespace samples {
 
 struct Conversion {
-  Conversion(GltfSource& from, const ReadLimits& limits)
-      : source(from), reader(from.gltf, from.name, limits.max_decoded_bytes) {}
+  Conversion(GltfSource& from, const ReadLimits& given)
+      : source(from), limits(given), reader(from.gltf, from.name, given.decoded_limit(from.stored_bytes)) {}
 
   [[noreturn]] void fail(const std::string& where, const std::string& message) const;
   // At most a hundred: a hostile file must not fill the memory with complaints.
@@ -21,6 +21,7 @@ struct Conversion {
   }
 
   GltfSource& source;
+  const ReadLimits& limits;
   AccessorReader reader;
   Model model;
 };

@@ -59,9 +59,10 @@ class Loader {
     check_document(document, name_, limits_, warnings_);
 
     load_buffers(document, container);
-    bytes_ = std::vector<uint8_t>();
-    load_images(document);
     GltfSource source;
+    source.stored_bytes = bytes_.size() + used_;
+    bytes_ = std::vector<uint8_t>();
+    load_images(document, limits_.decoded_limit(source.stored_bytes));
     source.name = name_;
     source.look_extensions = look_extensions(document);
     collect_target_names(document, source);
@@ -91,11 +92,12 @@ class Loader {
   void load_buffers(json& document, const GltfContainer& container) {
     const auto found = document.find("buffers");
     if (found == document.end()) return;
+    const std::vector<char> viewed = viewed_buffers(document);
     for (size_t i = 0; i < found->size(); ++i) {
       json& o = (*found)[i];
       const auto length = o["byteLength"].get<uint64_t>();
       const std::string what = element("buffers", i);
-      if (!o.contains("uri") && !(i == 0 && container.has_binary_chunk) && !is_viewed(document, i)) {
+      if (!o.contains("uri") && !(i == 0 && container.has_binary_chunk) && !viewed[i]) {
         // a placeholder for an extension: there is nothing to read, but the parser wants bytes
         o["byteLength"] = 1;
         o["uri"] = "buffer" + std::to_string(i);
@@ -115,11 +117,13 @@ class Loader {
     }
   }
 
-  static bool is_viewed(const json& document, size_t buffer) {
+  // Per buffer whether a view names it.
+  static std::vector<char> viewed_buffers(const json& document) {
+    std::vector<char> viewed(document["buffers"].size(), 0);
     const auto views = document.find("bufferViews");
-    return views != document.end() && std::any_of(views->begin(), views->end(), [&](const json& view) {
-             return view["buffer"].get<size_t>() == buffer;
-           });
+    if (views == document.end()) return viewed;
+    for (const json& view : *views) viewed[view["buffer"].get<size_t>()] = 1;
+    return viewed;
   }
 
   std::vector<uint8_t> buffer_from_chunk(size_t i, const GltfContainer& container, const std::string& what) const {
@@ -148,16 +152,24 @@ class Loader {
   }
 
   // An image that cannot be read is no reason to refuse a model: its URI is kept and stands in the output again.
-  void load_images(json& document) {
+  // copied_limit: bytes of views that images may copy.
+  void load_images(json& document, uint64_t copied_limit) {
     const auto found = document.find("images");
     if (found == document.end()) return;
     image_uris_.resize(found->size());
+    uint64_t copied = 0;
     for (size_t i = 0; i < found->size(); ++i) {
       json& o = (*found)[i];
       if (!o.contains("uri")) {
         // the bytes of the view are copied by the image callback
-        charge(document["bufferViews"][o["bufferView"].get<size_t>()]["byteLength"].get<uint64_t>(),
-               element("images", i));
+        const auto bytes = document["bufferViews"][o["bufferView"].get<size_t>()]["byteLength"].get<uint64_t>();
+        charge(bytes, element("images", i));
+        copied += bytes;
+        if (copied > copied_limit) {
+          fail(element("images", i) + " takes what images copy from views to " + std::to_string(copied) +
+               " bytes, above the limit of " + std::to_string(copied_limit) +
+               "; raise free_decoded_bytes if the file is to be trusted");
+        }
         continue;
       }
       std::string uri = o["uri"].get<std::string>();

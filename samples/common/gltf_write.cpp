@@ -19,6 +19,10 @@ namespace {
 
 constexpr size_t max_buffer_bytes = (1ull << 31) - 1;  // what tinygltf's own offsets hold
 
+// Arrays of vertices in one file: primitives times attributes and shape keys. An array takes 2.5 KB while it is
+// written, 160 MB at this limit; half would refuse crowds of 300 parts with a hundred keys.
+constexpr size_t max_vertex_arrays = 65536;
+
 const char* path_name(Path path) {
   switch (path) {
     case Path::translation:
@@ -81,6 +85,7 @@ class Writer {
   explicit Writer(const Model& model) : model_(model) { out_.buffers.resize(1); }
 
   std::string run(bool binary) {
+    check_vertex_arrays();
     out_.asset.version = "2.0";
     out_.asset.generator = "hf samples";
     add_looks();
@@ -201,6 +206,20 @@ class Writer {
       if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
     }
     out_.materials.push_back(std::move(to));
+  }
+
+  void check_vertex_arrays() const {
+    size_t arrays = 0;
+    for (const MeshData& mesh : model_.meshes) {
+      for (const Primitive& primitive : mesh.primitives) {
+        arrays += 1 + !primitive.normals.empty() + primitive.texcoords.size();
+        for (const MorphTarget& target : primitive.targets) arrays += 1 + !target.normals.empty();
+      }
+    }
+    if (arrays <= max_vertex_arrays) return;
+    throw std::runtime_error(model_.name + ": the model has " + std::to_string(arrays) +
+                             " arrays of vertices, shape keys included, and cannot be written; the limit is " +
+                             std::to_string(max_vertex_arrays) + ". Join its primitives or ask for fewer keys.");
   }
 
   // Primitives without a triangle or line and meshes without a primitive cannot be written; they show nothing.
@@ -357,14 +376,38 @@ class Writer {
     return to;
   }
 
-  bool is_ancestor(int node, int below) const {
-    for (int n = below; n >= 0; n = model_.nodes[static_cast<size_t>(n)].parent) {
-      if (n == node) return true;
+  // Numbers every node in depth-first order: those below a node lie between its own number and its last.
+  void number_nodes() {
+    const size_t count = model_.nodes.size();
+    enter_.assign(count, 0), last_.assign(count, 0);
+    int next = 0;
+    std::vector<std::pair<size_t, size_t>> path;  // node, children done
+    for (size_t root = 0; root < count; ++root) {
+      if (model_.nodes[root].parent >= 0) continue;
+      enter_[root] = next++;
+      path.emplace_back(root, 0);
+      while (!path.empty()) {
+        const size_t n = path.back().first;
+        const std::vector<int>& children = model_.nodes[n].children;
+        if (path.back().second == children.size()) {
+          last_[n] = next - 1;
+          path.pop_back();
+          continue;
+        }
+        const auto child = static_cast<size_t>(children[path.back().second++]);
+        enter_[child] = next++;
+        path.emplace_back(child, 0);
+      }
     }
-    return false;
+  }
+
+  bool is_ancestor(int node, int below) const {
+    const int at = enter_[static_cast<size_t>(below)];
+    return at >= enter_[static_cast<size_t>(node)] && at <= last_[static_cast<size_t>(node)];
   }
 
   void add_skins() {
+    if (!model_.skins.empty()) number_nodes();
     for (const Skin& from : model_.skins) {
       tinygltf::Skin to;
       to.name = from.name;
@@ -419,6 +462,7 @@ class Writer {
   const Model& model_;
   tinygltf::Model out_;
   std::vector<int> mesh_number_;
+  std::vector<int> enter_, last_;  // see number_nodes()
 };
 
 }  // namespace

@@ -120,11 +120,16 @@ std::vector<uint32_t> RegionFinder::owned_by(const Selector& selector) const {
     wanted[static_cast<size_t>(node)] = 1;
   }
   if (selector.with_children) {
-    for (size_t n = 0; n < model_.nodes.size(); ++n) {
-      for (int up = model_.nodes[n].parent; up >= 0; up = model_.nodes[static_cast<size_t>(up)].parent) {
-        if (std::any_of(selector.joints.begin(), selector.joints.end(),
-                        [&](const std::string& name) { return find_node(model_, name) == up; }))
-          wanted[n] = 1;
+    std::vector<int> open;
+    for (size_t n = 0; n < wanted.size(); ++n) {
+      if (wanted[n]) open.push_back(static_cast<int>(n));
+    }
+    while (!open.empty()) {
+      const Node& node = model_.nodes[static_cast<size_t>(open.back())];
+      open.pop_back();
+      for (const int child : node.children) {
+        if (wanted[static_cast<size_t>(child)]) continue;
+        wanted[static_cast<size_t>(child)] = 1, open.push_back(child);
       }
     }
   }
@@ -265,19 +270,24 @@ bool RegionFinder::is_joint(const std::string& name) const {
 }
 
 std::vector<std::string> RegionFinder::describe_joints() const {
+  struct Owned {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+    size_t count = 0;
+    bool is_joint = false;
+  };
+  std::vector<Owned> owned(model_.nodes.size());
+  for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
+    if (owner_[v] < 0) continue;
+    Owned& own = owned[static_cast<size_t>(owner_[v])];
+    own.low = glm::min(own.low, mesh_.positions[v]), own.high = glm::max(own.high, mesh_.positions[v]), ++own.count;
+  }
+  for (const Skin& skin : model_.skins) {
+    for (const int joint : skin.joints) owned[static_cast<size_t>(joint)].is_joint = true;
+  }
   std::vector<std::string> lines;
   for (size_t n = 0; n < model_.nodes.size(); ++n) {
-    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
-    size_t count = 0;
-    for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
-      if (owner_[v] == static_cast<int>(n))
-        low = glm::min(low, mesh_.positions[v]), high = glm::max(high, mesh_.positions[v]), ++count;
-    }
-    bool is_joint = count > 0;
-    for (const Skin& skin : model_.skins)
-      is_joint =
-          is_joint || std::find(skin.joints.begin(), skin.joints.end(), static_cast<int>(n)) != skin.joints.end();
-    if (!is_joint) continue;
+    const auto& [low, high, count, is_joint] = owned[n];
+    if (count == 0 && !is_joint) continue;
     char line[256];
     if (count > 0) {
       std::snprintf(line, sizeof line, "%-24s %6zu vertices, x %.3f..%.3f y %.3f..%.3f z %.3f..%.3f",

@@ -1,46 +1,28 @@
 #include "capi/handle_table.h"
 
 #include <mutex>
-#include <new>
+
+#include "capi/handle_slots.h"
 
 namespace hf_inner::capi {
 namespace {
 
-constexpr unsigned index_bits = sizeof(std::uintptr_t) >= 8 ? 24 : 13;
-constexpr unsigned generation_bits = sizeof(std::uintptr_t) >= 8 ? 32 : 15;
-// Checks in every build, 64-bit ones included, that the kind fits the bits that a 32-bit handle has left for it.
-static_assert(static_cast<unsigned>(Kind::surface) >> (32 - 13 - 15) == 0,
-              "the last kind does not fit a 32-bit handle");
-constexpr std::uintptr_t index_mask = (std::uintptr_t{1} << index_bits) - 1;
-constexpr std::uintptr_t generation_mask = (std::uintptr_t{1} << (generation_bits - 1) << 1) - 1;
-
-struct Slot {
-  std::shared_ptr<Object> object;
-  std::uintptr_t generation = 0;
-};
+// A handle is the kind above the number. On 32-bit hosts 28 bits are left for the number.
+constexpr unsigned number_bits = sizeof(std::uintptr_t) >= 8 ? 56 : 28;
+static_assert(static_cast<unsigned>(Kind::surface) >> (32 - 28) == 0, "the last kind does not fit a 32-bit handle");
 
 struct Table {
   std::mutex mutex;
-  Slot* slots = nullptr;
-  std::size_t capacity = 0, used = 0;
-  std::uintptr_t generation = 0;
+  HandleSlots<Object, number_bits> slots;
 };
 Table table;  // trivially initialised; owns nothing while no handle lives
 
 thread_local const Reading* innermost_reading;  // on this thread's stack
 
-std::uintptr_t encode(std::size_t index, std::uintptr_t generation, Kind kind) noexcept {
-  return (static_cast<std::uintptr_t>(kind) << (index_bits + generation_bits)) | (generation << index_bits) |
-         static_cast<std::uintptr_t>(index);
-}
-
-// Returns the slot that a handle names, or null. The caller holds the mutex.
-Slot* slot_of(std::uintptr_t handle, Kind kind) noexcept {
-  const std::size_t index = handle & index_mask;
-  if (handle >> (index_bits + generation_bits) != static_cast<std::uintptr_t>(kind) || index >= table.capacity)
-    return nullptr;
-  Slot& slot = table.slots[index];
-  return slot.object && slot.generation == ((handle >> index_bits) & generation_mask) ? &slot : nullptr;
+// The number in a handle of that kind; 0, which names no object, in any other.
+std::uintptr_t number_in(std::uintptr_t handle, Kind kind) noexcept {
+  const std::uintptr_t own = static_cast<std::uintptr_t>(kind);
+  return handle >> number_bits == own ? handle ^ (own << number_bits) : 0;
 }
 
 }  // namespace
@@ -85,42 +67,23 @@ Changing::Changing(Object& object) : object_(object) {
 }
 
 std::uintptr_t insert(std::shared_ptr<Object> object) {
-  const Kind kind = object->kind();
+  const std::uintptr_t kind = static_cast<std::uintptr_t>(object->kind());
   const std::lock_guard<std::mutex> lock(table.mutex);
-  if (table.used == table.capacity) {
-    const std::size_t capacity = table.capacity ? 2 * table.capacity : 16;
-    if (capacity > index_mask) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%zu objects are alive; destroy some", table.used);
-    Slot* slots = new Slot[capacity];
-    for (std::size_t i = 0; i < table.capacity; ++i) slots[i] = std::move(table.slots[i]);
-    delete[] table.slots;
-    table.slots = slots, table.capacity = capacity;
-  }
-  std::size_t index = 0;
-  while (table.slots[index].object) ++index;
-  table.generation = (table.generation + 1) & generation_mask;
-  table.slots[index].object = std::move(object);
-  table.slots[index].generation = table.generation;
-  ++table.used;
-  return encode(index, table.generation, kind);
+  return (kind << number_bits) | table.slots.add(std::move(object));
 }
 
 std::shared_ptr<Object> find(std::uintptr_t handle, Kind kind) noexcept {
   const std::lock_guard<std::mutex> lock(table.mutex);
-  const Slot* slot = slot_of(handle, kind);
-  return slot ? slot->object : nullptr;
+  const std::shared_ptr<Object>* object = table.slots.find(number_in(handle, kind));
+  return object && (*object)->kind() == kind ? *object : nullptr;
 }
 
 std::shared_ptr<Object> remove(std::uintptr_t handle, Kind kind) noexcept {
   const std::lock_guard<std::mutex> lock(table.mutex);
-  Slot* slot = slot_of(handle, kind);
-  if (!slot) return nullptr;
-  std::shared_ptr<Object> object = std::move(slot->object);
-  slot->object.reset();
-  if (--table.used == 0) {
-    delete[] table.slots;
-    table.slots = nullptr, table.capacity = 0;
-  }
-  return object;  // destroyed outside the lock: its destructor may call the host's hooks
+  const std::uintptr_t number = number_in(handle, kind);
+  const std::shared_ptr<Object>* object = table.slots.find(number);
+  // destroyed outside the lock: its destructor may call the host's hooks
+  return object && (*object)->kind() == kind ? table.slots.remove(number) : nullptr;
 }
 
 }  // namespace hf_inner::capi

@@ -24,7 +24,10 @@ std::shared_ptr<const Geometry> Geometry::make(const MeshInput& input, OperatorK
   shape->operator_kind = operator_kind;
   report(0.0f);
   Timer weld_timer;
-  shape->mesh = Mesh::make(input, pool, runner);
+  {
+    const ProgressRange range(0.0f, 0.1f);
+    shape->mesh = Mesh::make(input, pool, runner);
+  }
   shape->weld_ms = weld_timer.milliseconds();
   report(0.1f);
   Timer weights_timer;

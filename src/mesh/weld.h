@@ -11,4 +11,10 @@ namespace hf_inner {
 
 Vector<std::int32_t> weld(const MeshInput& input, Memory& memory);
 
+// The part of it that joins equal coordinates.
+Vector<std::int32_t> weld_exact(const MeshInput& input, Memory& memory);
+// The part of it that joins within input.weld_tolerance. Throws HF_ERROR_INVALID_ARGUMENT for a tolerance that is no
+// finite number above 0.
+Vector<std::int32_t> weld_tolerance(const MeshInput& input, Memory& memory);
+
 }  // namespace hf_inner

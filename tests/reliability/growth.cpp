@@ -1,0 +1,223 @@
+// reliability_growth [--full] [--only TEXT] [FOLDER]: time and memory of every structure at four sizes, and the slope.
+// FOLDER holds the sample programs; with it, hostile files of 1 MB are given to each of them.
+//
+// The quick form has sizes large enough to tell 1 from 2 and allows 1.6, since other programs share the processor. The
+// full form allows 1.25, or what theory says.
+#include "growth.h"
+
+#include <malloc.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <new>
+
+#include "report.h"
+
+namespace {
+
+std::atomic<std::size_t> held{0}, most{0};
+
+void* counted(std::size_t size, std::size_t alignment) {
+  void* const block = alignment > 16 ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)
+                                     : std::malloc(size ? size : 1);
+  if (!block) throw std::bad_alloc();
+  const std::size_t now = held += malloc_usable_size(block);
+  for (std::size_t seen = most; seen < now && !most.compare_exchange_weak(seen, now);) {
+  }
+  return block;
+}
+
+void uncounted(void* block) noexcept {
+  if (!block) return;
+  held -= malloc_usable_size(block);
+  std::free(block);
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size, 0); }
+void* operator new[](std::size_t size) { return counted(size, 0); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* block) noexcept { uncounted(block); }
+void operator delete[](void* block) noexcept { uncounted(block); }
+void operator delete(void* block, std::size_t) noexcept { uncounted(block); }
+void operator delete[](void* block, std::size_t) noexcept { uncounted(block); }
+void operator delete(void* block, std::align_val_t) noexcept { uncounted(block); }
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept { uncounted(block); }
+
+namespace growth {
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+std::size_t held_bytes() { return held; }
+std::size_t most_bytes() { return most; }
+void reset_most_bytes() { most = held.load(); }
+
+}  // namespace growth
+
+namespace {
+
+using namespace growth;
+
+double slope(const std::vector<std::size_t>& sizes, const std::vector<double>& values) {
+  double x = 0, y = 0, xx = 0, xy = 0;
+  const auto n = static_cast<double>(sizes.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const double a = std::log(static_cast<double>(sizes[i])), b = std::log(values[i]);
+    x += a, y += b, xx += a * a, xy += a * b;
+  }
+  return (n * xy - x * y) / (n * xx - x * x);
+}
+
+void measure(const Structure& structure, int repetitions, std::vector<double>& seconds, std::vector<double>& bytes) {
+  for (std::size_t i = 0; i < structure.sizes.size(); ++i) {
+    for (int k = 0; k < repetitions; ++k) {
+      const auto work = structure.run(structure.sizes[i]);
+      const std::size_t before = held_bytes();
+      reset_most_bytes();
+      const double begin = thread_seconds();
+      work();
+      // a clock tick at least, so that the logarithm exists
+      seconds[i] = std::min(seconds[i], std::max(thread_seconds() - begin, 1e-6));
+      bytes[i] = std::max(bytes[i], static_cast<double>(most_bytes() - before));
+    }
+  }
+}
+
+void judge(const Structure& structure, bool full) {
+  const double steepest = full ? structure.steepest : std::max(structure.steepest, 1.6);
+  std::vector<double> seconds(structure.sizes.size(), 1e9), bytes(structure.sizes.size(), 1);
+  // a noisy machine: what is too steep is measured again, and the least of all repetitions counts
+  double time_slope = 0;
+  for (int attempt = 0; attempt < 4; ++attempt) {
+    measure(structure, full ? 3 : 1, seconds, bytes);
+    time_slope = slope(structure.sizes, seconds);
+    if (time_slope <= steepest) break;
+  }
+  const double memory_slope = slope(structure.sizes, bytes);
+  std::printf("# %-24s", structure.name.c_str());
+  for (std::size_t i = 0; i < structure.sizes.size(); ++i)
+    std::printf(" %zu: %.4f s %.1f MB;", structure.sizes[i], seconds[i], bytes[i] / 1e6);
+  std::printf("\n");
+  report_at_most(("growth_" + structure.name + "_time").c_str(), time_slope, steepest);
+  // small blocks and doubling tables make steps; below a megabyte they are all there is
+  if (bytes.back() > 1e6) report_at_most(("growth_" + structure.name + "_memory").c_str(), memory_slope, steepest);
+}
+
+// ---- files of 1 MB given to the programs ----
+
+constexpr double most_seconds = 2, most_megabytes = 200;
+
+struct Cost {
+  double seconds = 0, megabytes = 0;
+  bool ended = false;  // by itself, with or without an error
+};
+
+Cost cost_of(const std::vector<std::string>& command) {
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    const rlimit limit{20, 20};
+    setrlimit(RLIMIT_CPU, &limit);
+    if (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr)) _exit(126);
+    std::vector<char*> arguments;
+    for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    execv(arguments[0], arguments.data());
+    _exit(126);
+  }
+  int status = 0;
+  rusage used{};
+  wait4(child, &status, 0, &used);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return {seconds(used.ru_utime) + seconds(used.ru_stime), static_cast<double>(used.ru_maxrss) / 1024,
+          WIFEXITED(status) && WEXITSTATUS(status) < 126};
+}
+
+struct Program {
+  const char* name;
+  std::vector<std::string> before, behind;  // arguments before and behind the file
+};
+
+void measure_files(const std::string& programs, const std::string& folder, bool full, const std::string& only) {
+  const std::string script = folder + "/pose.json", curve = folder + "/curve.json";
+  std::ofstream(script)
+      << R"({"steps": [{"add": [{"name": "low", "box": [[0, 0, 0], [0.4, 0.4, 1]]}, {"name": "high", "box": [[0.6, 0, 0], [1, 1, 1]]}]},
+                       {"drag": {"high": {"move": [0.1, 0, 0]}}, "seconds": 0.5}]})";
+  std::ofstream(curve) << R"({"points": [{"vertex": 0}, {"vertex": 1}, {"vertex": 2}], "side": "smaller"})";
+  std::vector<Program> list = {{"hf_transfer", {"--joints"}, {}}};
+  if (full) {
+    list.push_back({"hf_field", {}, {"--site", "0=0", "--out", folder + "/out.txt"}});
+    list.push_back({"hf_deform_script", {}, {"--script", script, "-o", folder + "/out.glb", "--quiet"}});
+    list.push_back({"hf_quads", {}, {"-o", folder + "/out.obj"}});
+    list.push_back({"hf_detail", {}, {"--curve", curve, "--weight", "0.5", "-o", folder + "/out.glb"}});
+  }
+  for (const std::string& kind : file_kinds()) {
+    if (kind.find(only) == std::string::npos) continue;
+    const std::string text = file_of_bytes(kind, 1000000);
+    const std::string file = folder + "/" + kind + (text.front() == '{' ? ".gltf" : ".off");
+    std::ofstream(file, std::ios::binary) << text;
+    Cost worst;
+    worst.ended = true;
+    for (const Program& program : list) {
+      std::vector<std::string> command = {programs + "/" + program.name};
+      command.insert(command.end(), program.before.begin(), program.before.end());
+      command.push_back(file);
+      command.insert(command.end(), program.behind.begin(), program.behind.end());
+      Cost cost = cost_of(command);
+      if (cost.seconds > most_seconds) cost.seconds = std::min(cost.seconds, cost_of(command).seconds);
+      std::printf("# %-20s %-16s %.2f s %.0f MB\n", kind.c_str(), program.name, cost.seconds, cost.megabytes);
+      worst.seconds = std::max(worst.seconds, cost.seconds),
+      worst.megabytes = std::max(worst.megabytes, cost.megabytes);
+      worst.ended = worst.ended && cost.ended;
+    }
+    report_at_most(("growth_1mb_" + kind + "_seconds").c_str(), worst.ended ? worst.seconds : NAN, most_seconds);
+    report_at_most(("growth_1mb_" + kind + "_megabytes").c_str(), worst.megabytes, most_megabytes);
+    std::filesystem::remove(file);
+  }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const bool full = report_full(count, arguments) != 0;
+  // freed memory stays with the process: the kernel's work for fresh pages is not what is measured
+  mallopt(M_TRIM_THRESHOLD, 1 << 30), mallopt(M_MMAP_THRESHOLD, 1 << 25);
+  std::string only, programs;
+  for (int i = 1; i < count; ++i) {
+    const std::string word = arguments[i];
+    if (word == "--only" && i + 1 < count) {
+      only = arguments[++i];
+    } else if (word != "--full") {
+      programs = word;
+    }
+  }
+  for (const auto& structures : {weld_structures(full), library_structures(full), file_structures(full)}) {
+    for (const Structure& structure : structures) {
+      if (structure.name.find(only) != std::string::npos) judge(structure, full);
+    }
+  }
+  if (!programs.empty()) {
+    std::string folder = (std::filesystem::temp_directory_path() / "hf_growth_XXXXXX").string();
+    if (!mkdtemp(folder.data())) return 1;
+    measure_files(programs, folder, full, only);
+    std::filesystem::remove_all(folder);
+  }
+  return report_status();
+}

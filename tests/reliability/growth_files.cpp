@@ -1,0 +1,244 @@
+// Files with many elements of one kind, and reading them.
+#include <functional>
+#include <memory>
+#include <random>
+#include <stdexcept>
+#include <utility>
+
+#include "common/animate.h"
+#include "common/flat_mesh.h"
+#include "common/gltf_read.h"
+#include "common/gltf_write.h"
+#include "common/mesh_file.h"
+#include "growth.h"
+#include "transfer/regions.h"
+
+namespace growth {
+namespace {
+
+std::string repeated(std::size_t count, const std::function<std::string(std::size_t)>& element) {
+  std::string out;
+  for (std::size_t i = 0; i < count; ++i) out += (i ? "," : "") + element(i);
+  return out;
+}
+std::string repeated(std::size_t count, const std::string& element) {
+  return repeated(count, [&](std::size_t) { return element; });
+}
+std::string number(std::size_t i) { return std::to_string(i); }
+std::string numbers(std::size_t count) { return repeated(count, number); }
+
+// The parts of a file with one small mesh on node 0; a kind replaces some.
+struct Parts {
+  // three positions, three indices, a matrix, two times, two translations: 144 bytes
+  std::string buffers =
+      R"({"byteLength":144,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAAAAIA/AAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIA/AAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAAAA"})";
+  std::string views =
+      R"({"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6},{"buffer":0,"byteOffset":44,"byteLength":64},{"buffer":0,"byteOffset":108,"byteLength":8},{"buffer":0,"byteOffset":116,"byteLength":24})";
+  std::string accessors =
+      R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"},{"bufferView":2,"componentType":5126,"count":1,"type":"MAT4"},{"bufferView":3,"componentType":5126,"count":2,"type":"SCALAR"},{"bufferView":4,"componentType":5126,"count":2,"type":"VEC3"})";
+  std::string meshes = R"({"primitives":[{"attributes":{"POSITION":0},"indices":1}]})";
+  std::string nodes = R"({"mesh":0})", roots = "0", more;
+
+  std::string text() const {
+    return R"({"asset":{"version":"2.0"},"scene":0,"buffers":[)" + buffers + R"(],"bufferViews":[)" + views +
+           R"(],"accessors":[)" + accessors + R"(],"meshes":[)" + meshes + R"(],"nodes":[)" + nodes +
+           R"(],"scenes":[{"nodes":[)" + roots + "]}]" + more + "}";
+  }
+};
+
+constexpr const char* primitive = R"({"attributes":{"POSITION":0},"indices":1})";
+constexpr const char* clip =
+    R"({"samplers":[{"input":3,"output":4}],"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]})";
+
+// n more nodes without anything.
+void add_nodes(Parts& parts, std::size_t n) {
+  parts.nodes += "," + repeated(n, "{}");
+  parts.roots = numbers(n + 1);
+}
+
+using Fill = void (*)(Parts&, std::size_t);
+
+const std::vector<std::pair<const char*, Fill>>& kinds() {
+  static const std::vector<std::pair<const char*, Fill>> list = {
+      {"nodes", add_nodes},
+      {"node_children",
+       [](Parts& p, std::size_t n) {
+         p.nodes = R"({"mesh":0,"children":[)" + repeated(n, [](std::size_t i) { return number(i + 1); }) + "]}," +
+                   repeated(n, "{}");
+       }},
+      {"node_names",
+       [](Parts& p, std::size_t n) {
+         p.nodes += "," + repeated(n, [](std::size_t i) { return R"({"name":"n)" + number(i) + "\"}"; });
+         p.roots = numbers(n + 1);
+       }},
+      {"mesh_nodes",
+       [](Parts& p, std::size_t n) {
+         p.nodes = repeated(n, R"({"mesh":0})");
+         p.roots = numbers(n);
+       }},
+      {"buffers",
+       [](Parts& p, std::size_t n) {
+         p.buffers += "," + repeated(n, R"({"byteLength":1,"uri":"data:;base64,AA=="})");
+       }},
+      {"buffers_without_bytes",
+       [](Parts& p, std::size_t n) {
+         p.buffers += "," + repeated(n, R"({"byteLength":1})");
+         p.views += "," + repeated(n * 7 / 10, R"({"buffer":0,"byteLength":1})");
+       }},
+      {"views", [](Parts& p, std::size_t n) { p.views += "," + repeated(n, R"({"buffer":0,"byteLength":1})"); }},
+      {"accessors",
+       [](Parts& p, std::size_t n) {
+         p.accessors += "," + repeated(n, R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"})");
+       }},
+      {"zeros",
+       [](Parts& p, std::size_t n) {
+         p.accessors += R"(,{"componentType":5126,"type":"VEC3","count":)" + number(12 * n) + "}";
+         p.meshes = std::string(R"({"primitives":[)") + primitive + R"(,{"attributes":{"POSITION":5}}]})";
+         p.more = R"(,"extras":")" + std::string(n, 'x') + "\"";
+       }},
+      {"meshes",
+       [](Parts& p, std::size_t n) {
+         p.meshes = repeated(n, std::string(R"({"primitives":[)") + primitive + "]}");
+         p.nodes = repeated(n, [](std::size_t i) { return R"({"mesh":)" + number(i) + "}"; });
+         p.roots = numbers(n);
+       }},
+      {"primitives", [](Parts& p, std::size_t n) { p.meshes = R"({"primitives":[)" + repeated(n, primitive) + "]}"; }},
+      {"morph_targets",
+       [](Parts& p, std::size_t n) {
+         p.meshes = R"({"primitives":[{"attributes":{"POSITION":0},"indices":1,"targets":[)" +
+                    repeated(n, R"({"POSITION":0})") + "]}]}";
+       }},
+      {"morph_nodes",
+       [](Parts& p, std::size_t n) {
+         kinds()[11].second(p, n / 2);
+         p.nodes = repeated(n / 2, R"({"mesh":0})");
+         p.roots = numbers(n / 2);
+       }},
+      {"attributes",
+       [](Parts& p, std::size_t n) {
+         p.meshes = R"({"primitives":[{"indices":1,"attributes":{"POSITION":0,)" +
+                    repeated(n, [](std::size_t i) { return "\"_A" + number(i) + "\":0"; }) + "}}]}";
+       }},
+      {"skins",
+       [](Parts& p, std::size_t n) {
+         p.more = R"(,"skins":[)" + repeated(n, R"({"joints":[0],"inverseBindMatrices":2})") + "]";
+       }},
+      {"joints",
+       [](Parts& p, std::size_t n) {
+         add_nodes(p, n);
+         p.more = R"(,"skins":[{"joints":[)" + numbers(n) + "]}]";
+       }},
+      {"deep_skins",
+       [](Parts& p, std::size_t n) {
+         p.nodes =
+             repeated(1000, [](std::size_t i) { return R"({"children":[)" + number(i + 1) + "]}"; }) + R"(,{"mesh":0})";
+         p.more = R"(,"skins":[)" + repeated(n / 1000 + 1, R"({"skeleton":0,"joints":[)" + numbers(1000) + "]}") + "]";
+       }},
+      {"skinned_nodes",
+       [](Parts& p, std::size_t n) {
+         p.nodes = repeated(n, R"({"mesh":0,"skin":0})");
+         p.roots = numbers(n);
+         p.more = R"(,"skins":[{"joints":[)" + numbers(n) + "]}]";
+       }},
+      {"clips", [](Parts& p, std::size_t n) { p.more = R"(,"animations":[)" + repeated(n, clip) + "]"; }},
+      {"clips_and_nodes",
+       [](Parts& p, std::size_t n) {
+         add_nodes(p, n);
+         p.more = R"(,"animations":[)" + repeated(n / 10 + 1, clip) + "]";
+       }},
+      {"channels",
+       [](Parts& p, std::size_t n) {
+         add_nodes(p, n);
+         p.more = R"(,"animations":[{"samplers":[{"input":3,"output":4}],"channels":[)" +
+                  repeated(n,
+                           [](std::size_t i) {
+                             return R"({"sampler":0,"target":{"path":"translation","node":)" + number(i) + "}}";
+                           }) +
+                  "]}]";
+       }},
+      {"images",
+       [](Parts& p, std::size_t n) {
+         p.more = R"(,"images":[)" + repeated(n, R"({"bufferView":2,"mimeType":"image/png"})") + "]";
+       }},
+      {"images_of_files",
+       [](Parts& p, std::size_t n) { p.more = R"(,"images":[)" + repeated(n, R"({"uri":"none.png"})") + "]"; }},
+      {"textures", [](Parts& p, std::size_t n) { p.more = R"(,"textures":[)" + repeated(n, "{}") + "]"; }},
+      {"materials", [](Parts& p, std::size_t n) { p.more = R"(,"materials":[)" + repeated(n, "{}") + "]"; }},
+  };
+  return list;
+}
+
+// Faces of a thousand corners that meet themselves, the dearest to cut into triangles.
+std::string polygons(std::size_t count) {
+  constexpr std::size_t corners = 1000;
+  std::mt19937 random(1);
+  std::string text = "OFF\n" + number(corners) + " " + number(count) + " 0\n", face = number(corners);
+  for (std::size_t i = 0; i < corners; ++i) {
+    text += number(random() % 10000) + " " + number(random() % 10000) + " 0\n";
+    face += " " + number(i);
+  }
+  for (std::size_t i = 0; i < count; ++i) text += face + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> file_kinds() {
+  std::vector<std::string> names = {"polygons"};
+  for (const auto& kind : kinds()) names.push_back(kind.first);
+  return names;
+}
+
+std::string file_of(const std::string& kind, std::size_t count) {
+  if (kind == "polygons") return polygons(count);
+  for (const auto& known : kinds()) {
+    if (kind != known.first) continue;
+    Parts parts;
+    known.second(parts, count);
+    return parts.text();
+  }
+  throw std::runtime_error("no such kind of file: " + kind);
+}
+
+std::string file_of_bytes(const std::string& kind, std::size_t bytes) {
+  std::size_t low = 2, high = 2;
+  while (file_of(kind, high).size() <= bytes) low = high, high *= 2;
+  // within half a percent
+  while (high - low > high / 200 + 1) {
+    const std::size_t middle = low + (high - low) / 2;
+    (file_of(kind, middle).size() <= bytes ? low : high) = middle;
+  }
+  return file_of(kind, low);
+}
+
+// Reads, flattens, lists joints and writes again, or is refused: both count.
+std::vector<Structure> file_structures(bool full) {
+  std::vector<Structure> out;
+  const std::size_t n = full ? 2000 : 1000;
+  for (const std::string& kind : file_kinds()) {
+    const auto run = [kind](std::size_t size) {
+      const auto text = std::make_shared<std::string>(file_of(kind, size));
+      return [text] {
+        try {
+          const std::vector<uint8_t> bytes(text->begin(), text->end());
+          if (text->front() != '{') {
+            samples::read_mesh_bytes(bytes, ".off", "a file");
+            return;
+          }
+          const samples::Model model = samples::read_gltf_bytes(bytes, "a file");
+          const samples::FlatMesh mesh = samples::flatten(model);
+          samples::RegionFinder(model, mesh, samples::Axes()).describe_joints();
+          samples::gltf_bytes(model, true);
+        } catch (const std::runtime_error&) {
+        }
+      };
+    };
+    // materials of 3 KB leave the processor's cache between the sizes
+    const double steepest = kind == "materials" ? 1.4 : 1.25;
+    const std::size_t least = kind == "polygons" ? n / 50 : n;
+    out.push_back({"file_" + kind, {least, 2 * least, 4 * least, 8 * least}, steepest, run});
+  }
+  return out;
+}
+
+}  // namespace growth

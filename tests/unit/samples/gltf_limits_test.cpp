@@ -1,0 +1,150 @@
+// Sizes that multiply are refused with file, count and limit, before memory is taken.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "common/animate.h"
+#include "common/flat_mesh.h"
+#include "common/gltf_read.h"
+#include "common/gltf_write.h"
+#include "gltf_support.h"
+
+namespace {
+
+using namespace samples;
+using samples_test::message_of;
+
+std::string times(size_t count, const std::string& element) {
+  std::string out;
+  for (size_t i = 0; i < count; ++i) out += (i ? "," : "") + element;
+  return out;
+}
+
+// A file without buffers: one triangle of zeros on some nodes.
+std::string zeros(size_t count, const std::string& nodes, const std::string& more = "") {
+  return R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"type":"VEC3","count":)" +
+         std::to_string(count) + R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[)" + nodes +
+         "]" + more + "}";
+}
+
+Model read(const std::string& text, const ReadLimits& limits = {}) {
+  return read_gltf_bytes({text.begin(), text.end()}, "the file", {}, limits);
+}
+
+void expect_refused(const std::string& message, const std::string& count, const std::string& limit) {
+  EXPECT_NE(message.find("the file"), std::string::npos) << message;
+  EXPECT_NE(message.find(count), std::string::npos) << message;
+  EXPECT_NE(message.find(limit), std::string::npos) << message;
+}
+
+TEST(GltfLimits, ListsOfNodesAndLooks) {
+  ReadLimits limits;
+  limits.max_nodes = 3, limits.max_looks = 4;
+  EXPECT_NO_THROW(read(zeros(3, times(3, "{}"), R"(,"materials":[{},{},{},{}])"), limits));
+  expect_refused(message_of([&] { read(zeros(3, times(7, "{}")), limits); }), "nodes has 7", "limit of 3");
+  for (const char* list : {"materials", "textures", "images", "samplers", "scenes"}) {
+    const std::string more = std::string(",\"") + list + "\":[" + times(9, "{}") + "]";
+    expect_refused(message_of([&] { read(zeros(3, "{}", more), limits); }), std::string(list) + " has 9", "limit of 4");
+  }
+}
+
+// A hundred bytes may ask for 16 MB of zeros, not for 128.
+TEST(GltfLimits, DecodedBytesFollowTheSizeOfTheFile) {
+  EXPECT_EQ(read(zeros(300000, R"({"mesh":0})")).meshes[0].primitives[0].positions.size(), 300000u);
+  expect_refused(message_of([&] { read(zeros(3000000, R"({"mesh":0})")); }), "meshes[0].primitives[0] takes",
+                 "limit of 16");
+  ReadLimits trusted;
+  trusted.free_decoded_bytes = trusted.max_decoded_bytes;
+  EXPECT_NO_THROW(read(zeros(3000000, R"({"mesh":0})"), trusted));
+}
+
+TEST(GltfLimits, ImagesOnTheSameBytes) {
+  const std::string text = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":3,"uri":"data:;base64,AAAA"}],)"
+                           R"("bufferViews":[{"buffer":0,"byteLength":3}],"images":[)" +
+                           times(5, R"({"bufferView":0,"mimeType":"image/png"})") + "]}";
+  EXPECT_NO_THROW(read(text));
+  ReadLimits limits;
+  limits.free_decoded_bytes = 14, limits.decoded_per_byte = 0;
+  expect_refused(message_of([&] { read(text, limits); }), "images[4] takes what images copy from views to 15",
+                 "limit of 14");
+}
+
+TEST(GltfLimits, MorphWeightsOfAllNodes) {
+  const std::string mesh = R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}])";
+  std::string text = zeros(3, times(4, R"({"mesh":0})"));
+  const std::string morphed =
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"targets":[)" + times(5, R"({"POSITION":0})") + "]}]}]";
+  text.replace(text.find(mesh), mesh.size(), morphed);
+  EXPECT_NO_THROW(read(text));
+  ReadLimits limits;
+  limits.max_morph_weights = 19;
+  expect_refused(message_of([&] { read(text, limits); }), "nodes[3] takes the morph weights of all nodes to 20",
+                 "limit of 19");
+}
+
+TEST(GltfLimits, NodesThatShareAMesh) {
+  const Model model = read(zeros(30, times(20, R"({"mesh":0})")));
+  EXPECT_EQ(flatten(model).vertex_count(), 600u);
+  FlattenOptions options;
+  options.free_vertices = 400;
+  expect_refused(message_of([&] { flatten(model, options); }), "node 17 takes", "above the limit of 520 for 30 stored");
+  options.max_copies = 20, options.free_vertices = 0;
+  EXPECT_EQ(flatten(model, options).vertex_count(), 600u);
+}
+
+// Buffers without bytes are skipped where no view names them, whatever the number of either.
+TEST(GltfLimits, BuffersWithoutBytes) {
+  const auto text = [](size_t viewed) {
+    return R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":3,"uri":"data:;base64,AAAA"},)" +
+           times(2000, R"({"byteLength":1})") + R"(],"bufferViews":[)" + times(2000, R"({"buffer":0,"byteLength":1})") +
+           R"(,{"buffer":)" + std::to_string(viewed) + R"(,"byteLength":1}]})";
+  };
+  EXPECT_NO_THROW(read(text(0)));
+  expect_refused(message_of([&] { read(text(1234)); }), "buffers[1234]", "no uri");
+}
+
+// A small primitive of a large skin computes the joints it names only: the same bits.
+TEST(GltfLimits, AFewVerticesOfALargeSkin) {
+  Model model;
+  model.name = "the file";
+  model.nodes.resize(101);
+  for (int j = 0; j < 100; ++j) {
+    Node& node = model.nodes[static_cast<size_t>(j)];
+    node.rotation = glm::angleAxis(0.1f * static_cast<float>(j), glm::normalize(glm::vec3(1, 2, 3)));
+    node.translation = {0.3f * static_cast<float>(j), 1, 0};
+  }
+  Skin large, small;
+  for (int j = 0; j < 100; ++j) large.joints.push_back(j);
+  large.inverse_bind.assign(100, glm::mat4(2));
+  small.joints = {7, 93}, small.inverse_bind.assign(2, glm::mat4(2));
+  model.skins = {large, small};
+  Primitive primitive;
+  primitive.positions = {{1, 2, 3}};
+  Influences influences;
+  influences.joints[0] = 7, influences.joints[1] = 93, influences.weights[0] = 0.25f, influences.weights[1] = 0.75f;
+  primitive.influences = {influences};
+  const auto globals = global_matrices(model, rest_pose(model));
+  model.nodes[100].skin = 0;
+  const glm::dmat4 few = vertex_matrices(model, globals, 100, primitive)[0];
+  model.nodes[100].skin = 1;
+  primitive.influences[0].joints[0] = 0, primitive.influences[0].joints[1] = 1;
+  EXPECT_EQ(few, vertex_matrices(model, globals, 100, primitive)[0]);
+  primitive.influences[0].joints[0] = 100;
+  model.nodes[100].skin = 0;
+  EXPECT_THROW(vertex_matrices(model, globals, 100, primitive), std::runtime_error);
+}
+
+// The writer keeps a skin's skeleton where it is above all joints, itself included, and drops it elsewhere.
+TEST(GltfLimits, SkeletonsAboveTheirJoints) {
+  const std::string text =
+      zeros(3, R"({"children":[1,2]},{"children":[3]},{"mesh":0},{"name":"tip"},{"name":"apart"})",
+            R"(,"skins":[{"skeleton":0,"joints":[0,1,3]},{"skeleton":1,"joints":[3]},{"skeleton":1,"joints":[3,2]},)"
+            R"({"skeleton":4,"joints":[3]},{"skeleton":3,"joints":[3]},{"skeleton":3,"joints":[1]}])");
+  const std::string written = gltf_bytes(read(text), true);
+  const Model again = read_gltf_bytes({written.begin(), written.end()}, "the file");
+  std::vector<int> skeletons;
+  for (const Skin& skin : again.skins) skeletons.push_back(skin.skeleton);
+  EXPECT_EQ(skeletons, (std::vector<int>{0, 1, -1, -1, 3, -1}));
+}
+
+}  // namespace
