@@ -50,7 +50,7 @@ double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns) n
   double sum = 0;
   std::int32_t legs = 0;
   for (const std::int32_t column : foot_columns) {
-    // A coarse leg may have no vertex in the first window of field values; the next window is wider.
+    // A coarsely meshed leg may have no vertex in the first window of field values; the next window is wider.
     for (const FieldWindow& window : leg_windows) {
       double height = 0, area = 0;
       for (std::size_t v = 0; v < side.area.size(); ++v) {
