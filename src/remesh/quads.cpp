@@ -16,8 +16,8 @@ namespace hf_inner {
 
 namespace {
 
-// Scales the lines of every component, so that the mean face is a little smaller than a square of the edge length. The
-// number of faces is the sum over all rings of the lines that cross them.
+// Scales the number of flow lines of every component, so that the mean face is a little smaller than a square of the
+// edge length. The number of faces is the sum, over all rings of nodes, of the lines that cross them.
 void fit_lines(const FluxSurface& surface, Span<const double> u, const RingOptions& options, Vector<FluxSite>& sites,
                Memory& memory) {
   const FluxField field(surface, u, memory);
@@ -62,7 +62,8 @@ double shape_cost(const QuadMesh& mesh, double edge_length, double shortest, dou
          std::max(0.0, std::log(at(aspects, 1 - outliers) / narrowest));
 }
 
-// Makes meshes of one surface from several sets of sites, with one factor and one search tree.
+// Makes quad meshes of one surface from several sets of sites (ends of flow lines), with one factor and one search
+// tree.
 class Maker {
  public:
   explicit Maker(const QuadOptions& options)
@@ -118,8 +119,9 @@ class Maker {
     return result;
   }
 
-  // Fits the mesh and collapses short edges in turns. In kind pure it only collapses edges that refining made. Each
-  // turn allows more folds than the last. Returns the cost of the mesh.
+  // Fits the mesh to the surface and collapses short edges in turns. In kind pure (no line ends between sites) it only
+  // collapses edges that refining made. Each turn allows more turned-over corners than the last. Returns the cost of
+  // the mesh.
   double fit(QuadMesh& mesh, double density, double deviation) const {
     const double allowed = fit_tolerance * options_.edge_length, edge_length = options_.edge_length / density;
     if (options_.relax > 0) {
@@ -176,7 +178,7 @@ class Maker {
   }
 
  private:
-  // Chooses the sites with their lines, and returns the field.
+  // Chooses the sites with their numbers of flow lines, and returns the flow field.
   Vector<double> flow(Span<const FluxSite> given, const RingOptions& rings, QuadResult& result) const {
     const ProgressRange range(options_.progress, 0.0f, make_progress.flow);
     result.sites =
@@ -190,7 +192,8 @@ class Maker {
     return u;
   }
 
-  // Relaxes the mesh. It snaps features, and keeps them if they reduce the distance both ways.
+  // Relaxes the mesh. It snaps vertices to missed features of the surface, and keeps this if the distance both ways
+  // falls.
   double even_out(QuadMesh& mesh, double edge_length) const {
     Progress* const progress = options_.progress;
     auto relax = [&](std::int32_t rounds, float from, float to) {
@@ -204,8 +207,8 @@ class Maker {
       distance_.turn_quads(at);
       return distance_.measure(at, 0, nullptr, progress);
     };
-    // Vertices slide off thin parts where edges are long. So in kind pure, the mesh after few rounds is kept if it is
-    // nearer to the surface.
+    // Vertices slide off thin parts where edges are long. So in kind pure (no line ends between sites), the mesh after
+    // few rounds of relaxation is kept if it is nearer to the surface.
     const std::int32_t little = options_.uniform ? 0 : options_.relax / early_share;
     relax(little, 0.0f, even_progress.early);
     QuadMesh early = mesh;
@@ -249,7 +252,7 @@ QuadResult make_quads(const QuadOptions& options) {
   }();
   const Maker& maker = *made;
   const FluxSurface& surface = maker.surface();
-  // A vertex with several fans counts as the vertex of its first fan.
+  // A mesh vertex where several fans of triangles meet counts as the vertex of its first fan.
   Table<std::int32_t> fan(core.size(), -1, memory);
   for (std::int32_t v = surface.first_apex; v-- > 0;) fan[surface.mesh_vertex[v]] = v;
   Vector<FluxSite> given(&memory);
@@ -309,7 +312,8 @@ QuadResult make_quads(const QuadOptions& options) {
     }
   }
   if (trials.empty())
-    trials.push_back({0, maker.make(given, 1, &deviation), Vector<FluxSite>(given, &memory)});  // throws the reason
+    // If no mesh can be made, throws why.
+    trials.push_back({0, maker.make(given, 1, &deviation), Vector<FluxSite>(given, &memory)});
   // Meshes are fitted in order of distance. The first good one is taken, or else the best.
   std::stable_sort(trials.begin(), trials.end(),
                    [](const Trial& a, const Trial& b) { return a.deviation < b.deviation; });
