@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pi = 3.141592653589793238462643383279502884;
 // If the angles of a fan (radians), or a sum of unit directions, are smaller than these limits, they are mere rounding
-// and give no direction. Larger limits would make more vertices irregular.
+// and give no direction. Larger limits would make more vertices irregular (without a single fan of triangles).
 constexpr double least_angle = 1e-9, least_sum = 1e-9;
 // If 1 + cosine of two normals is below this number, they count as opposite. No smallest rotation exists between them.
 constexpr double opposite = 1e-12;
@@ -33,7 +33,8 @@ struct Corner {
   double angle;
 };
 
-// The triangles around a vertex: whether they form one regular fan, whether it is closed, and the scale of its angles.
+// Describes the triangles around a vertex: whether they form one fan, whether it is closed, and the scale of its
+// angles.
 struct Fan {
   bool regular = false, closed = false;
   double scale = 1;
@@ -54,7 +55,7 @@ class FanMaker {
       triangle_[at(cursor[at(mesh.corners[c])]++)] = static_cast<Index>(c / 3);
   }
 
-  // Computes the angle of each neighbour of v and writes it to `angles`.
+  // Computes the angle of the edge to each neighbour of v and writes it to `angles`.
   Fan make(Index v, double* angles) {
     corners_.clear();
     for (Index i = start_[at(v)]; i < start_[at(v) + 1]; ++i) {
@@ -118,7 +119,7 @@ void plane_of(Vec3 n, Vec3& x, Vec3& y) noexcept {
   y = cross(n, x);
 }
 
-// Turns the frame so that the angles of the edges fit the projected edges best.
+// Turns the vertex's frame in its tangent plane, so that the angles of the edges fit the projected edges best.
 void fit_frame(const Mesh& mesh, const Topology& topology, Index v, const double* angles, Connection& out) {
   Vec3 &x = out.x[at(v)], &y = out.y[at(v)];
   std::complex<double> sum = 0;
@@ -212,7 +213,7 @@ Vector<Index> edge_path(const Mesh& mesh, const Topology& topology, Index from, 
   struct Reached {
     double distance;
     Index vertex, edge;
-    bool operator<(const Reached& o) const noexcept {  // the nearest on top of the heap
+    bool operator<(const Reached& o) const noexcept {  // the nearest first in the heap
       return distance != o.distance ? distance > o.distance : vertex != o.vertex ? vertex > o.vertex : edge > o.edge;
     }
   };

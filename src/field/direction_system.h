@@ -25,9 +25,9 @@ class DirectionSystem {
   Connection connection;
   Vector<Index> position, order;         // of every vertex in the order of elimination, and back
   SymmetricMatrix matrix;                // K, unknowns 2 position + part
-  std::shared_ptr<const Factor> factor;  // of A
-  Vector<double> beta;                   // by component
-  Vector<Index> pins;                    // unknowns, two by component
+  std::shared_ptr<const Factor> factor;  // of K with raised diagonals at `pins`
+  Vector<double> beta;                   // by component: how much the diagonals are raised
+  Vector<Index> pins;                    // unknowns with raised diagonals, two by component
   PinPaths pin_paths;
   double operator_ms = 0;
 
