@@ -5,7 +5,8 @@
 namespace hf_inner {
 namespace {
 
-// Columns by which the permuted walk prefetches: about the time of one cache miss. No result depends on it.
+// A walk over permuted columns asks for memory this many columns ahead: about the time of one cache miss. No result
+// depends on it.
 constexpr std::int32_t columns_ahead = 12;
 
 // Computes the elimination tree by Liu's algorithm. For row i it walks from every neighbour k < i up to the present

@@ -70,14 +70,14 @@ void require_inside(const SymmetricMatrix& matrix, const Symbolic& symbolic, Mem
   }
 }
 
-// A factor with more entries than this many n log n is compared with minimum degree. The test meshes torus, creature
-// and scan reach 0.63, 0.47 and 0.34 times n log n.
+// A factor of n unknowns with more than this many n log n entries is compared with one ordered by minimum degree. The
+// test meshes torus, creature and scan reach 0.63, 0.47 and 0.34 times n log n.
 constexpr double suspicious_fill = 1.2;
 // Flops that cost as much as one entry of the factor, to compare two orderings. 50 flops take the time of three sweeps
 // over an entry (torus with 304,000 vertices: 27 GF/s, 9 ms per sweep).
 constexpr double flops_per_entry = 50;
-// Progress after the ordering and after the analysis. The ordering takes about half of a first factorisation, the
-// analysis a tenth.
+// Reported progress after the ordering and after the symbolic analysis. The ordering takes about half of a first
+// factorisation, the analysis a tenth.
 constexpr float progress_ordered = 0.45f, progress_analysed = 0.55f;
 
 // Tells whether the factor has more than log2(n) times the matrix's entries, up to a constant.
@@ -111,7 +111,8 @@ SupernodalFactor::SupernodalFactor(std::shared_ptr<const Analysis> analysis, Mem
   measure_paths();
 }
 
-// Measures the elimination paths. Each path is the parent's path plus the supernode's own columns.
+// Measures the mean length of the elimination paths. A path is the path of the parent supernode (block of columns) plus
+// the supernode's own columns.
 void SupernodalFactor::measure_paths() {
   const Symbolic& pattern = symbolic();
   struct Path {

@@ -1,5 +1,5 @@
-// Kernels for paths: blocks of up to 32 sites, with the sites along the vector lanes. Included after a simd_*.h; see
-// kernels_factor.inl.
+// Kernels for elimination paths: blocks of up to 32 sites, with the sites along the vector lanes. Included after a
+// simd_*.h; see kernels_factor.inl.
 #include <cstddef>
 #include <cstdint>
 

@@ -64,8 +64,8 @@ void forward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::in
 }
 
 #if defined(__AVX2__)
-// Multiplies the rows of a narrow supernode by one right-hand side, four rows at a time. The last group can write three
-// numbers too many, for which `out` has room.
+// Multiplies the rows of a narrow supernode (at most 16 columns) by one right-hand side, four rows at a time. The last
+// group can write three numbers too many, for which `out` has room.
 inline void forward_rows_narrow(const double* below, std::int32_t row_count, std::int32_t columns, const double* z,
                                 double* out) noexcept {
   alignas(64) double padded[16] = {};
@@ -95,7 +95,8 @@ void forward_rows_any(const T* below, std::int32_t row_count, std::int32_t colum
     for (std::int32_t r = 0; r < row_count; ++r, below += columns) out[r] = dot<T>(below, z, columns);
     return;
   }
-  // Takes channels in groups of one vector, and four rows at a time. The factor's entries are broadcast.
+  // Takes channels (right-hand sides) in groups of one vector, and four rows at a time. The factor's entries are
+  // broadcast.
   for (std::int32_t c = 0; c < channels; c += S::width) {
     const int count = channels - c < S::width ? channels - c : S::width;
     std::int32_t r = 0;

@@ -10,21 +10,23 @@
 namespace hf_inner {
 namespace {
 
-// Columns by which the assembly prefetches. No result depends on it.
+// The assembly of a front asks for matrix entries this many columns ahead. No result depends on it.
 constexpr std::int32_t assembly_ahead = 16;
-// A wave runs whole fronts as jobs if the largest front is at most this many times its fair share. Otherwise each front
-// is split over the threads.
+// Fronts (dense matrices of supernodes) of one wave do not depend on each other. Each is one thread's job if the
+// largest front is at most this many times its fair share. Otherwise each is split over the threads.
 constexpr double even_fronts = 1.25;
-// A wave with fewer flops is never split: 0.07 ms at 27 GF/s, the cost of about two batches of jobs.
+// Fronts (dense matrices) of a wave (independent supernodes) with fewer flops in all are never split: 0.07 ms at 27
+// GF/s, the cost of about two batches of jobs.
 constexpr double small_wave_flops = 2e6;
-// The number of tiles per job, chosen by the cost of a tile in each step. No result depends on it.
+// The number of tiles (8 rows of a front) per thread's job, chosen by the cost of a tile in each step. No result
+// depends on it.
 constexpr std::int32_t copy_tiles = 32, solve_tiles_step = 6, update_tiles_step = 4, store_tiles_step = 16;
-// Columns that are factored before all threads solve the tiles below them. No result depends on it.
+// Columns of a front that are factored before all threads solve the rows below them. No result depends on it.
 constexpr std::int32_t column_block = 64;
-// Shares of progress: the subtrees take the first, the waves above them the second.
+// Shares of reported progress: the subtrees of supernodes take the first, the supernodes above them the second.
 constexpr float progress_tasks = 0.8f, progress_waves = 0.19f;
 
-// All memory that one thread needs to factor fronts. It is reused from front to front.
+// All memory that one thread needs to factor fronts (dense matrices of supernodes). It is reused from front to front.
 struct Workspace {
   Workspace(Memory& memory, std::int32_t unknowns, const Plan::Sizes& sizes)
       : place_of(memory, unknowns),
@@ -44,7 +46,7 @@ struct Workspace {
   std::int32_t child_count = 0;
 };
 
-// Workspaces for the running threads. Their number is the largest number of threads that ran at once.
+// Scratch memory for the running threads. Their number is the largest number of threads that ran at once.
 class WorkspacePool {
  public:
   WorkspacePool(Memory& memory, std::int32_t unknowns, const Plan::Sizes& sizes)
@@ -120,7 +122,8 @@ class Factorisation {
     return front;
   }
 
-  // Sets up the front: the places of its rows, the places of its children's rows, and the columns of A.
+  // Sets up the front (dense matrix) of supernode s: the places of its rows, the places of its children's rows, and the
+  // columns of A.
   void assemble(std::int32_t s, const FrontView& front, Workspace& workspace) const noexcept {
     std::int32_t* place_of = workspace.place_of.data();
     const std::int32_t first = symbolic_.first[s];
@@ -196,7 +199,7 @@ class Factorisation {
          unknown);
   }
 
-  // Computes one front on one thread, from the assembly to the stored columns.
+  // Computes the front (dense matrix) of supernode s on one thread, from the assembly to the stored columns.
   void run_front(std::int32_t s, Workspace& workspace, double* update) noexcept {
     const FrontView front = open_front(s, workspace, update);
     const std::int32_t tiles = front.triangle_tiles + front.below_tiles;
@@ -242,8 +245,8 @@ class Factorisation {
     }
   }
 
-  // Runs one wave. If whole fronts share the threads evenly, each front is a job. Otherwise the fronts run one after
-  // the other, each split over the threads.
+  // Factors one wave (supernodes that do not depend on each other). If whole fronts share the threads evenly, each
+  // front is a job. Otherwise the fronts run one after the other, each split over the threads.
   void run_wave(std::int32_t wave, WorkspacePool& pool) {
     const std::int32_t begin = plan_.wave_start[wave], end = plan_.wave_start[wave + 1];
     double total = 0, largest = 0;
@@ -266,7 +269,7 @@ class Factorisation {
     pool.give_back(std::move(workspace));
   }
 
-  // Calls piece(begin, end) over [begin, end) in steps, as jobs.
+  // Cuts [begin, end) into steps and calls piece(first, last) for each, as thread jobs.
   template <class Piece>
   void in_pieces(std::int32_t begin, std::int32_t end, std::int32_t step, Piece&& piece) {
     if (begin >= end) return;
