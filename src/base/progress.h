@@ -27,7 +27,7 @@ class Progress {
   friend class ProgressRange;
   std::atomic<float> fraction_{0.0f};
   std::atomic<bool> cancelled_{false};
-  float low_ = 0, high_ = 1;  // of what is reported; the work's own
+  float low_ = 0, high_ = 1;  // range of the call's progress that the present part of the work covers
 };
 
 // During the lifetime of this object, reports from 0 to 1 are mapped to `from` .. `to` of the previous range. The

@@ -12,7 +12,8 @@
 namespace hf_inner::capi {
 namespace {
 
-constexpr std::uint32_t default_constraint_limit = 100000;  // bounds the memory of a runaway host
+// Constraints; bounds the memory that a host's mistake can take.
+constexpr std::uint32_t default_constraint_limit = 100000;
 
 struct DirectionObject final : Object {
   static constexpr Kind kind_of = Kind::direction;
@@ -32,7 +33,7 @@ struct DirectionObject final : Object {
   const std::uint32_t degree, site_limit;
   std::shared_ptr<Memory> memory;  // outlives everything below
   DirectionField field;
-  std::atomic<std::uint32_t> site_count{0};  // of the last finished change
+  std::atomic<std::uint32_t> site_count{0};  // number of constraints after the last finished change
 };
 
 std::shared_ptr<DirectionObject> object_of(hf_direction handle) { return get<DirectionObject>(handle, "direction"); }

@@ -13,7 +13,7 @@
 namespace hf_inner::capi {
 namespace {
 
-constexpr std::uint32_t most_corrections = 8;  // two leave nothing of a well-posed system; more only for hard cases
+constexpr std::uint32_t most_corrections = 8;  // corrections of a preview; two are enough for a well-posed system
 
 hf_solve_info unreached(const SolverObject& solver) {
   const SiteSolver& engine = solver.field.engine();
@@ -106,7 +106,7 @@ hf_result hf_solver_solve_at(hf_solver handle, uint32_t count, const uint32_t* v
     if (count > mesh.report.vertex_count)
       fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices asked for; the mesh has %u", count, mesh.report.vertex_count);
     Vector<std::int32_t> inner(solver->memory.get());
-    Vector<std::uint32_t> place(solver->memory.get());  // in `inner`, of every vertex of the list
+    Vector<std::uint32_t> place(solver->memory.get());  // position in `inner` of every vertex of the list
     for (std::uint32_t i = 0; i < count; ++i) {
       if (vertices[i] >= mesh.report.vertex_count)
         fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of the list: vertex %u, but there are %u vertices", i, vertices[i],

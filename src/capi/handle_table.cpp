@@ -25,9 +25,9 @@ struct Table {
   std::size_t capacity = 0, used = 0;
   std::uintptr_t generation = 0;
 };
-Table table;  // trivially initialised; owns nothing while no handle lives
+Table table;  // trivially initialised; owns no memory while no handle is in use
 
-thread_local const Reading* innermost_reading;  // on this thread's stack
+thread_local const Reading* innermost_reading;  // the innermost reading call on this thread's stack
 
 std::uintptr_t encode(std::size_t index, std::uintptr_t generation, Kind kind) noexcept {
   return (static_cast<std::uintptr_t>(kind) << (index_bits + generation_bits)) | (generation << index_bits) |

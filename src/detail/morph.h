@@ -14,7 +14,7 @@ inline Vec3 morphed(Vec3 p, Vec3 base, double weight) noexcept {
   return p + weight * (base - p);
 }
 
-// Returns scaled positions by local number: vertices inside are morphed, rim vertices stay in place.
+// Returns scaled positions by local number: vertices inside are morphed, vertices around the region stay in place.
 Vector<Vec3> morphed_positions(const RegionSurface& surface, const RegionState& state, double weight, Memory& memory);
 
 // Returns the area of all triangles with a corner inside the region, measured on the scaled mesh.

@@ -56,8 +56,8 @@ class ConstraintSystem {
 
   // Throws HF_ERROR_CONFLICT (index = position in edit.add) if a new site depends linearly on the present hard sites.
   void edit(const SiteEdit& edit);
-  // Moves the present hard vertex sites into the factor, using the threads of `jobs`. Throws HF_ERROR_NO_SITES if there
-  // are none.
+  // Factorises again with the present hard vertex sites eliminated, using the threads of `jobs`. Throws
+  // HF_ERROR_NO_SITES if there are none.
   void rebase(JobRunner& jobs);
 
   const ConstraintState& state() const noexcept { return state_; }
@@ -69,8 +69,8 @@ class ConstraintSystem {
 
   ConstraintCounts counts() const noexcept;
   void add_counts(const ConstraintCounts& more) noexcept;
-  double row_bytes() const noexcept;   // of paths and blocks
-  double base_bytes() const noexcept;  // of the factor of a rebase
+  double row_bytes() const noexcept;   // bytes of elimination paths and dense blocks
+  double base_bytes() const noexcept;  // bytes of the factor with sites eliminated
   // Returns the factor that paths and sweeps of the present state use.
   const Factor& factor() const noexcept { return state_.base ? *state_.base->factor : *operator_.factor; }
 
@@ -82,12 +82,12 @@ class ConstraintSystem {
       return row >= 0 ? slot.data() + at(row) * m : freed.data() + at(ConstraintState::base_index(row)) * m;
     }
     const double* of(Index row, std::size_t m) const noexcept { return const_cast<Answer*>(this)->of(row, m); }
-    Vector<double> slot;      // lambda
-    Vector<double> freed;     // t, by base index
+    Vector<double> slot;      // lambda: the flux into each site, by slot
+    Vector<double> freed;     // t: values of eliminated sites that were removed
     Vector<double> centre;    // mean site value by component: a large common offset must not cost digits
     Vector<double> constant;  // centre + nu by component; zeros where K does not keep constants
-    Vector<double> nu;        // by component and pin, where pins have paths
-    Vector<double> total;     // by component, for a refinement: 1'lambda = -total; empty: 0
+    Vector<double> nu;        // by pinned unknown, where K does not keep constants
+    Vector<double> total;     // by component: minus the sum of its fluxes, for a refinement; empty: 0
     Vector<double> x;         // scratch
   };
   // Each of the functions below takes the channels first .. first + count - 1 of values[slot * channels + c].

@@ -6,8 +6,8 @@
 namespace hf_inner {
 namespace {
 
-// Number of array entries that one job sets to zero. Half this number makes more jobs than threads need. Twice this
-// number leaves threads idle on small meshes.
+// Number of array entries that one thread's job sets to zero. Half this number makes more jobs than threads need. Twice
+// this number leaves threads idle on small meshes.
 constexpr std::size_t clear_piece = 16384;
 
 }  // namespace
@@ -124,7 +124,7 @@ void ConstraintSystem::sweep(const double* values, Index channels, Index first, 
   }
 }
 
-// Subtracts Y'z from `answer`, row by row.
+// Subtracts the products Y'z of the sites' elimination paths Y with z from `answer`, row by row.
 void ConstraintSystem::subtract_projections(const double* z, Index count, Answer& answer) const {
   const std::size_t m = at(count);
   answer.x.resize(PathGroup::capacity * m);
@@ -138,7 +138,8 @@ void ConstraintSystem::subtract_projections(const double* z, Index count, Answer
   }
 }
 
-// Replaces `answer` by the dense unknowns lambda and t. If K maps constants to zero, nu is added to the constants.
+// Solves the dense system. Replaces `answer` by the fluxes lambda and the free values t. If K maps constants to zero,
+// nu is added to the constants.
 void ConstraintSystem::solve_rows(Index count, Answer& answer) const {
   const std::size_t m = at(count), border = operator_.border();
   const bool constants = operator_.keeps_constants();

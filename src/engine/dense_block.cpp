@@ -13,15 +13,17 @@ namespace {
 
 constexpr std::int32_t tile = 4;
 
-// A pivot below this share of its diagonal entry means linear dependence. Independent sites stay above 1e-9 even on
-// bi-harmonic patches. A point that depends on three crowded points in its triangle keeps up to 1e-12 of rounding.
+// A pivot of the sites' dense system below this share of its diagonal entry means linear dependence. Independent sites
+// stay above 1e-9 even on small meshes with a bi-harmonic operator. A point that depends on three crowded points in its
+// triangle keeps up to 1e-12 of rounding.
 constexpr double pivot_floor = 1e-11;
 
-// Rates for removing a row: the nanoseconds of one rotation for one number behind the row, and the flops of a
-// factorisation in one nanosecond. They decide between two routes with the same result, so wrong rates cost only time.
+// Rates for removing a site's row from the dense factor: the nanoseconds of one rotation for one number behind the row,
+// and the flops of a factorisation in one nanosecond. They decide between two routes with the same result, so wrong
+// rates cost only time.
 constexpr double rotation_ns = 2, factor_rate = 15;
-// A factorisation of fewer rows than least_parallel runs on one thread. Above that, a job takes tiles_per_job tiles of
-// eight rows. Smaller jobs would cost more to hand out than to do.
+// A dense factorisation of fewer rows than least_parallel runs on one thread. Above that, a thread's job takes
+// tiles_per_job tiles of eight rows. Smaller jobs would cost more to hand out than to do.
 constexpr std::int32_t least_parallel = 400, tiles_per_job = 12;
 
 // Computes dots[i * tile + j] = a_i . b_j over `count` entries. Each product has four running sums in one fixed order,
@@ -79,9 +81,9 @@ DenseBlock::DenseBlock(const DenseBlock& other)
   std::copy(std::begin(other.schur_), std::end(other.schur_), schur_);
 }
 
-// Updates L after row r was removed: rotates column r below row r into the later columns. Each row first takes the
-// rotations of the rows above it, then makes its own. Four rows are processed at once, because one row is a chain of
-// dependent operations.
+// Updates the dense factor L after row r was removed: rotates column r below row r into the later columns. Each row
+// first takes the rotations of the rows above it, then makes its own. Four rows are processed at once, because one row
+// is a chain of dependent operations.
 void DenseBlock::update_without(std::int32_t r) {
   struct Rotation {
     double c, s, inverse_c;
@@ -149,7 +151,8 @@ void DenseBlock::remove(Span<const std::int32_t> ids) {
   }
   const double fresh = (left * left * left - std::pow(static_cast<double>(first), 3)) / 3 / factor_rate;
   if (negative_ == 0 && d * rotation_ns * (k - first) * k < fresh) {
-    // Removes rows from the last to the first. Removing a late row is cheap, because few rows lie behind it.
+    // Removes rows of the dense factor from the last to the first. Removing a late row is cheap, because few rows lie
+    // behind it.
     for (std::int32_t r = count() - 1; r >= 0; --r) {
       if (!leaves(ids_[static_cast<std::size_t>(r)])) continue;
       if (r < valid_) update_without(r), --valid_;
@@ -180,8 +183,8 @@ void DenseBlock::append(std::int32_t id, const double* values, bool positive, co
 
 std::int32_t DenseBlock::factorise_signed() {
   const std::int32_t k = count();
-  // Processes four rows at a time on a fixed grid. The array `scaled` holds these rows of L, multiplied by the signs
-  // Sigma.
+  // Processes four rows of the dense matrix at a time on a fixed grid. The array `scaled` holds these rows of L,
+  // multiplied by the signs Sigma.
   Vector<double> scaled(static_cast<std::size_t>(tile) * static_cast<std::size_t>(k), 0.0, memory_);
   double dots[tile * tile];
   while (valid_ < k) {
@@ -261,7 +264,7 @@ std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
     if (begin >= done) {
       const std::int32_t failed = kernels.factor_triangle(front, begin, end, floor.data());
       if (failed >= 0) {
-        // The rows above the failed row stay, so the next call finds the same row.
+        // The rows above the row with the failed pivot stay, so the next call finds the same row.
         return failed;
       }
     }
@@ -309,7 +312,7 @@ void DenseBlock::factorise_border() {
   }
 }
 
-// Solves for several channels. `fixed` is the number of channels if the compiler knows it, else 0.
+// Solves the dense system for several channels. `fixed` is the number of channels if the compiler knows it, else 0.
 template <std::size_t fixed>
 void DenseBlock::solve_channels(double* x, std::size_t channels) const noexcept {
   const std::int32_t k = count();

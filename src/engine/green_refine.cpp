@@ -21,7 +21,7 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::size_t piece = 16384;  // rows a job takes, as in green.cpp
+constexpr std::size_t piece = 16384;  // matrix rows of one thread's job, as in green.cpp
 
 }  // namespace
 
@@ -66,8 +66,8 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
       }
     }
   }
-  // Eliminated vertices are not in the factor. If their site is in force, they have no equation. If their value is
-  // free, the equation is a row of the dense system.
+  // Vertices of eliminated sites are not in the factor. If their site still constrains the field, they have no
+  // equation. If their value is free, the equation is a row of the dense system.
   for (std::size_t b = 0; b < state().freed.size(); ++b) {
     double* own = r(base->vertex[b]);
     if (state().freed[b].is_row()) {

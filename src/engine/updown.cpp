@@ -15,8 +15,8 @@
 namespace hf_inner {
 namespace {
 
-// Number of edited sites since the last factorisation after which a solve takes a refinement step. A step costs one
-// more sweep in every field.
+// After this many edited sites since the last factorisation, a solve takes a refinement step. A step costs one more
+// sweep in every field.
 constexpr std::uint32_t refine_after = 256;
 
 // CHOLMOD's workspace, with its printing switched off.
@@ -89,7 +89,8 @@ class UpdownSolver final : public SiteSolver {
       sites[at(edit.add[i])] = edit.sites[i];
       ++count[at(edit.sites[i].component)];
     }
-    // A component is pinned before its last site leaves, and its pin goes after its first site has come.
+    // A component is pinned (its diagonal raised at one vertex) before its last site is removed. It is unpinned after
+    // its first site was added.
     for (std::size_t c = 0; c < count.size(); ++c) {
       if (count_[c] > 0 && count[c] == 0) coming.push_back(ground(static_cast<Index>(c)));
       if (count_[c] == 0 && count[c] > 0) leaving.push_back(ground(static_cast<Index>(c)));
@@ -232,7 +233,7 @@ class UpdownSolver final : public SiteSolver {
     return done;
   }
 
-  // Factorises K + R R' with the present sites and pins.
+  // Factorises K + R R', where R R' are the penalties of the present sites, with raised diagonals at pinned vertices.
   void rebuild() {
     cholmod_free_factor(&factor_, &common_.c);
     const Index n = core_->size();
@@ -325,13 +326,13 @@ class UpdownSolver final : public SiteSolver {
 
   std::shared_ptr<const Core> core_;
   double penalty_;
-  Vector<Site> sites_;  // by slot; component -1: free
+  Vector<Site> sites_;  // by number (slot); component -1: not in use
   Vector<Index> count_;
   Vector<Index> position_{core_->memory.get()};
   mutable std::mutex mutex_;
   mutable Common common_;
   cholmod_factor* factor_ = nullptr;
-  struct Work {  // of cholmod_solve2, kept from solve to solve
+  struct Work {  // scratch of cholmod_solve2, kept from solve to solve
     cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;
   };
   mutable Work work_;

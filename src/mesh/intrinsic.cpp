@@ -11,13 +11,15 @@
 namespace hf_inner {
 namespace {
 
-// Number of triangles or edges that one job takes. No result depends on this number.
+// Number of triangles or edges that one thread's job takes. No result depends on this number.
 constexpr std::size_t cover_piece = 16384;
-// Flips per half-edge before flip_to_delaunay gives up. The loop then ends whatever rounding does.
+// flip_to_delaunay stops after this many edge flips per half-edge. So the loop ends even if rounding lets edges flip to
+// and fro.
 constexpr std::uint64_t flips_per_half = 32;
-// Least sum of cotangents in a division, so that a flat face does not divide by zero.
+// A sum of cotangents that divides counts as at least this, so that a flat face does not divide by zero.
 constexpr double least_sum = 1e-300;
-// The queue is trimmed when it starts with more finished entries than this. It bounds memory; no result depends on it.
+// The queue of edges to flip is trimmed when it starts with more finished entries than this. It bounds memory; no
+// result depends on it.
 constexpr std::size_t least_trim = 65536;
 
 // One side of a triangle, which lies at an edge of the mesh.
@@ -238,7 +240,7 @@ std::uint64_t IntrinsicTriangulation::flip_to_delaunay(std::uint64_t flip_limit)
   std::uint64_t flips = 0;
   for (std::size_t head = 0; head < queue.size() && flips < flip_limit; ++head) {
     const Index h = queue[head], g = twin_[at(h)];
-    if (h / 3 == g / 3 || is_delaunay(h)) continue;  // held edges are their own twins
+    if (h / 3 == g / 3 || is_delaunay(h)) continue;  // not to flip; edges that must not flip are their own twins
     flip(h), ++flips;
     for (const Index outer : {next(h), next(next(h)), next(g), next(next(g))}) {
       if (!is_delaunay(outer)) queue.push_back(outer);
@@ -256,7 +258,7 @@ Vector<double> IntrinsicTriangulation::vertex_areas(Index vertex_count, Memory& 
   for (Index f = 0; f < face_count(); ++f) {
     // The area of the face follows from |ij|^2 = 2 area (cot at i + cot at j).
     const std::size_t h = 3 * at(f);
-    std::size_t k = 0;  // the longest side has the steadiest quotient
+    std::size_t k = 0;  // the longest side, whose quotient has the smallest rounding error
     for (std::size_t q = 1; q < 3; ++q) k = length_[h + q] > length_[h + k] ? q : k;
     const double base = length_[h + k], sum = cotangent_[h + (k + 1) % 3] + cotangent_[h + (k + 2) % 3];
     const double third = share(f) * base * base / (6 * std::max(sum, least_sum));

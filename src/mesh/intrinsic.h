@@ -59,7 +59,7 @@ class IntrinsicTriangulation {
   }
   // Returns one half for a face of a cover, and one for a face of a component that needs no cover.
   double share(std::int32_t face) const noexcept { return doubled_.empty() || !doubled_[at(face)] ? 1.0 : 0.5; }
-  std::uint32_t mollified_count() const noexcept { return mollified_; }  // triangles of the mesh
+  std::uint32_t mollified_count() const noexcept { return mollified_; }  // triangles of the mesh that were too thin
 
   // Returns the Laplacian K. K_ij is minus the sum of the weights of the edges between i and j, with sums below zero
   // set to zero. Each diagonal entry is minus the sum of the rest of its row.
@@ -70,8 +70,8 @@ class IntrinsicTriangulation {
  private:
   static std::int32_t next(std::int32_t half) noexcept { return half % 3 == 2 ? half - 2 : half + 1; }
 
-  // back: for every triangle of the mesh, the number of its back face. It is the triangle's own number where the
-  // component needs no cover.
+  // Joins the faces at their edges. back: for every triangle of the mesh, the number of its back face. It is the
+  // triangle's own number where the component needs no cover.
   void glue(const Mesh& mesh, const Topology& topology, const Vector<std::int32_t>& back,
             const Vector<std::uint8_t>* held, JobRunner* jobs);
   void measure(const Mesh& mesh, const Topology& topology, const Vector<std::int32_t>& back, JobRunner* jobs);
@@ -82,7 +82,7 @@ class IntrinsicTriangulation {
   Memory* memory_;
   Vector<std::int32_t> tail_, twin_;
   Vector<double> length_, cotangent_;
-  Vector<std::uint8_t> doubled_;  // by face; empty: none is
+  Vector<std::uint8_t> doubled_;  // by face: 1 if its component has front and back faces; empty: none has
   std::uint32_t mollified_ = 0;
 };
 
