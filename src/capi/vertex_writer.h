@@ -110,8 +110,8 @@ class FieldWriter final : public FieldSink {
     }
   }
 
-  // M is the number of channels if the compiler knows it, else 0. The rows of z are read in random order, so the loop
-  // prefetches rows some vertices ahead.
+  // Copies the field z of the engine to the caller's rows. M is the number of channels if the compiler knows it, else
+  // 0. The rows of z are read in random order, so the loop prefetches rows some vertices ahead.
   template <class T, std::size_t M>
   void write_rows(std::int32_t first, std::size_t count, const double* z, const std::int32_t* row) const {
     const std::size_t vertices = core_.mesh.report.vertex_count, m = M > 0 ? M : count;

@@ -152,8 +152,8 @@ constexpr std::uint32_t histogram_shares = 8;
 
 // ---- groups.cpp ----
 
-// A component gets groups of vertices that share a rotation by its share of the area. It gets at least all wished
-// groups divided by this number.
+// The vertices of a component form groups that share a rotation. Larger components get more groups, but each gets at
+// least all wished groups divided by this number.
 constexpr std::int32_t least_group_share = 4;
 // Size of a block of vertices. The search for the farthest vertex reads a block again when a distance in it has
 // changed.

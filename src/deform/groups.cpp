@@ -16,8 +16,8 @@ struct Front {
 // present group.
 //
 // The distances are the fixed point d[u] = min over neighbours v of d[v] + |uv|. This does not depend on the order in
-// which vertices are visited, so no heap is needed. The front holds all vertices below a limit, and the limit rises by
-// a mean edge length (delta-stepping, Meyer and Sanders 2003, on one thread).
+// which vertices are visited, so no heap is needed. The front, the list of vertices to visit, holds all vertices below
+// a limit, and the limit rises by a mean edge length (delta-stepping, Meyer and Sanders 2003, on one thread).
 class Spreading {
  public:
   Spreading(const Core& core, Memory& memory)

@@ -256,8 +256,8 @@ void Pose::install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> 
   if (!layout_) posed_ = false, stale_ = false;
 }
 
-// Makes the rotation groups (groups.h) of the components with at least two handles. This needs no field, so the first
-// time groups and fields are made at once.
+// Makes the groups of vertices that share a rotation, in components with at least two handles. This needs no field, so
+// the first time groups and fields are made on two threads.
 std::shared_ptr<const Groups> Pose::meet(const Layout& layout) const {
   Vector<std::int32_t> shared(&memory());
   for (std::int32_t c = 0; c < core_->mesh.component_count(); ++c) {

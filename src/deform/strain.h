@@ -40,7 +40,8 @@ struct Stress {
 // Returns the stress that a group of vertices should have. columns[j][i]: entry (i, j) of the group's moment matrix S.
 // r: the rotation nearest to S.
 Stress stress_of(const Sheet& sheet, const double (&columns)[3][4], const Mat3& r) noexcept;
-// Moves `stress` towards `wanted` by the share r of the strain limits. Returns the Frobenius norm of the step.
+// Moves the stress of a group of vertices towards `wanted` by the share StrainLimits::follow. Returns the Frobenius
+// norm of the step.
 double follow(const Sheet& sheet, const Stress& wanted, Stress& stress) noexcept;
 // Returns the edge rotation R (1 + E X E') that the global step aims at. R is the group's rotation, X its stress in the
 // axes E.

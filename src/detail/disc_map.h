@@ -10,7 +10,7 @@
 
 namespace hf_inner {
 
-// The boundary loop of a region that is a disc. Vertices have the local numbers of the region's shape.
+// The boundary loop of a region that is a disc. Vertices are numbered within the region (RegionShape::local).
 struct DiscBoundary {
   DiscBoundary(const RegionSurface& surface, const RegionState& state, Memory& memory);
   // Returns the position of a vertex along the loop, or -1 for a vertex off it. local: the vertex's local number.

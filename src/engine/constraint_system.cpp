@@ -89,8 +89,8 @@ double ConstraintSystem::again_ns(const SiteEdit& edit, const SiteCost& cost) co
   return sum;
 }
 
-// Compares the cost of editing the present rows of the dense system with the cost of building it again. That may leave
-// the hard vertex sites as rows or eliminate them in the factor.
+// Compares the cost of editing the present rows of the dense system with the cost of building it again. Building it
+// again may keep the hard vertex sites as rows, or eliminate them in the factor.
 ConstraintState::Decision ConstraintSystem::decide(const SiteEdit& edit) const {
   const SiteCost cost(operator_.factor->statistics());
   double sites = 0, hard = 0, rows_removed = 0, freed = 0;

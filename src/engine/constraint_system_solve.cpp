@@ -50,7 +50,8 @@ void ConstraintSystem::base_forward(const double* values, Index channels, Index 
   ++sweeps_;
 }
 
-// Adds the terms of the eliminated sites E to the other rows: -W_E' s_E for sites, and K_RE s_E for free values R.
+// Adds what the values s_E of the eliminated sites E contribute to the dense right-hand side. That is -W_E' s_E for
+// other sites with weights W, and K_RE s_E for the unknown values R of removed sites.
 void ConstraintSystem::add_base_terms(const double* values, Index channels, Index first, Index count,
                                       Answer& answer) const {
   const std::size_t m = at(count);

@@ -196,7 +196,8 @@ std::int32_t DenseBlock::factorise_signed() {
     for (std::int32_t j0 = 0; j0 <= grid; j0 += tile) {
       const double* other[tile];
       for (std::int32_t j = 0; j < tile; ++j) other[j] = l_.data() + row(std::min(j0 + j, k - 1));
-      // At j0 = grid the four rows multiply with each other. Their first `grid` entries are known by then.
+      // At j0 = grid the products are those of the four rows with each other. The first `grid` entries of these rows
+      // are known by then.
       tile_dots(mine, other, static_cast<std::size_t>(j0), dots);
       for (std::int32_t i = valid_; i < end; ++i) {
         double* l = l_.data() + row(i);
@@ -223,9 +224,9 @@ std::int32_t DenseBlock::factorise_signed() {
   return -1;
 }
 
-// Factorises the block with the dense kernels of the sparse factor. The kernels work on one dense triangle of k
-// columns, a front without rows below it. Rows of L that are up to date are copied into it. Every number is one chain
-// of operations in column order, so its bits do not depend on which rows were present before.
+// Factorises the dense matrix of the sites with the dense kernels of the sparse factor. The kernels work on one dense
+// triangle of k columns, a front without rows below it. Rows of L that are up to date are copied into it. Every number
+// is one chain of operations in column order, so its bits do not depend on which rows were present before.
 std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
   const Kernels& kernels = choose_kernels();
   const std::int32_t k = count(), done = valid_ / 8 * 8, tiles = (k + 7) / 8;

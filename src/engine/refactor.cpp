@@ -200,7 +200,8 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
         x[i * m + c] = value;
       }
     }
-    // A component without a vertex site is pinned, so its block has a border for the constant.
+    // A component without a vertex site is pinned. The unknown constant of its field is an additional unknown (border)
+    // of its dense system.
     block->solve_bordered(x.data(), channels, nullptr, &constant[component * m]);
     for (std::size_t i = 0; i < members.size(); ++i) {
       const double* y = state_.path->data() + at(members[i]) * n;

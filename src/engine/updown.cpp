@@ -257,7 +257,7 @@ class UpdownSolver final : public SiteSolver {
     const Span<const Index> order = core_->factor->order();
     factor_ = cholmod_analyze_p(a, const_cast<int*>(order.data()), nullptr, 0, &common_.c);
     bool done = factor_ && cholmod_factorize(a, factor_, &common_.c) && common_.c.status == CHOLMOD_OK;
-    // cholmod_updown needs a simplicial LDL' factor.
+    // cholmod_updown only changes factors of the form L D L' that are stored column by column (simplicial).
     done = done && cholmod_change_factor(CHOLMOD_REAL, 0, 0, 1, 1, factor_, &common_.c);
     cholmod_free_sparse(&a, &common_.c);
     if (done) {

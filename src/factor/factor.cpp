@@ -25,7 +25,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// Checks the bounds, the order of the rows, and that every column has a diagonal.
+// Checks the index lists of a matrix: their bounds, the order of the rows, and that every column has a diagonal.
 void require_well_formed(const SymmetricMatrix& matrix) {
   if (matrix.row.size() > static_cast<std::size_t>(INT32_MAX) || matrix.row.size() != matrix.value.size()) {
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the matrix has %zu entries; the limit is 2^31 - 1", matrix.row.size());

@@ -100,8 +100,8 @@ class Factor {
   virtual std::shared_ptr<const Factor> refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated,
                                                  Memory& memory, JobRunner& jobs) const = 0;
 
-  // Solves the elimination paths of a batch of columns, cut into groups. Column i is column out_column[i] of group
-  // out_group[i]. Cost: the sum of the path entries.
+  // Solves the elimination paths of a batch of columns and stores them in groups. The path of column i is column
+  // out_column[i] of group out_group[i]. Cost: the sum of the paths' lengths.
   virtual void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
                            Vector<std::shared_ptr<const PathGroup>>& out_groups, Span<std::int32_t> out_group,
                            Span<std::int32_t> out_column) const = 0;

@@ -80,8 +80,9 @@ struct Kernels {
   void (*backward_rows_f32)(const float* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
                             std::int32_t begin, std::int32_t end, float* z, std::int32_t first, std::int32_t channels);
   void (*backward_triangle_f32)(const float* triangle, std::int32_t columns, float* z, std::int32_t channels);
-  // Forward sweep of one supernode. The first computes z <- L^-1 z on the triangle L, the second out[k * channels] =
-  // B[k] z for every row k below, without subtracting it. For a narrow supernode the rows come before the triangle.
+  // Forward sweep of one supernode with the triangle L and the rows B below it. The first computes z <- L^-1 z, the
+  // second out[k * channels] = B[k] z for every row k of B, without subtracting it. For a narrow supernode the rows
+  // come before the triangle.
   void (*forward_triangle)(const double* triangle, std::int32_t columns, double* z, std::int32_t channels);
   void (*forward_rows)(const double* below, std::int32_t row_count, std::int32_t columns, const double* z, double* out,
                        std::int32_t channels);

@@ -45,7 +45,7 @@ struct Constant {
   static constexpr int value = N;
 };
 
-// Calls body with Constant<columns>. columns: from 1 to Most.
+// Calls body with the number of columns as a compile-time constant. columns: from 1 to Most.
 template <int Most, class Body>
 inline void with_columns(std::int32_t columns, Body&& body) noexcept {
   if (columns == Most) return body(Constant<Most>{});
@@ -200,9 +200,9 @@ inline void store_lanes(T* p, typename Simd<T>::Type v, int count) noexcept {
     Simd<T>::store_part(p, v, count);
 }
 
-// Handles N columns for one vector of channels: target[j] -= sum over the rows. The factor's entries are broadcast. The
-// block is read in strips of N columns, which is not its order in memory. So each row prefetches as many numbers as it
-// reads from `ahead`, in order.
+// Sums N columns of a supernode for one vector of channels (right-hand sides): target[j] -= the products of column j
+// with the rows of z. The factor's entries are broadcast. The block is read in strips of N columns, which is not its
+// order in memory. So each row prefetches as many numbers as it reads from `ahead`, in order.
 template <class T, int N>
 inline void subtract_lanes(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                            const T* z, T* target, std::int32_t channels, int count, const T* ahead) noexcept {

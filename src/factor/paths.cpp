@@ -3,8 +3,8 @@
 // supernodes.
 //
 // The sites of a group are sorted by their first row, so the active sites of every supernode are one range. They lie
-// along the vector lanes. Cost: path entries times sites. One group is one job. The number of sites alone decides the
-// groups.
+// along the vector lanes. Cost: the number of entries of all paths. One group is one job. The number of sites alone
+// decides the groups.
 #include <algorithm>
 #include <cstring>
 

@@ -67,7 +67,8 @@ class FanMaker {
     Fan fan;
     const auto repeated = [](const Corner& a, const Corner& b) { return a.first == b.first; };
     if (std::adjacent_find(corners_.begin(), corners_.end(), repeated) != corners_.end()) return fan;
-    // An open fan starts at the neighbour where no triangle ends. Two such neighbours mean that there are two fans.
+    // A vertex on a border has an open fan of triangles. It starts at the neighbour where, counter-clockwise, no
+    // triangle ends. Two such neighbours mean that there are two fans.
     const std::size_t neighbours = at(topology_.neighbour_start[at(v) + 1] - topology_.neighbour_start[at(v)]);
     if (neighbours != corners_.size() && neighbours != corners_.size() + 1) return fan;
     fan.closed = neighbours == corners_.size();

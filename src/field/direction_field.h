@@ -43,7 +43,7 @@ class DirectionField {
   void set_vectors(std::uint32_t count, const std::uint32_t* sites, const double* vectors);
   void rotate(std::uint32_t count, const std::uint32_t* sites, const double* angles);
 
-  // Makes a copy with the same constraints, without the undo stack. Both share the system.
+  // Makes a copy with the same constraints, without the undo stack. Both share matrix and factor.
   DirectionField(const DirectionField& other);
   DirectionField& operator=(const DirectionField&) = delete;
   // record stores the constraints, undo restores the last record, and redo reverts the last undo, both bit for bit.

@@ -25,11 +25,11 @@ class DirectionSolver {
   // degree: 1 for vectors, 2 for lines, 4 for crosses; at least 1. Throws what Factor::make throws.
   DirectionSolver(std::shared_ptr<const Core> core, std::int32_t degree)
       : DirectionSolver(make_owner_in<DirectionSystem>(core->memory, core, degree)) {}
-  // Makes a solver without constraints. Other solvers may share the system.
+  // Makes a solver without constraints. Other solvers may share `system` (matrix and factor).
   explicit DirectionSolver(std::shared_ptr<const DirectionSystem> system)
       : system_(std::move(system)), constraints_(system_->pinned_operator()) {}
-  // Makes a copy with the same constraints. Both share the system, and also paths and dense blocks until one is edited.
-  // The counters of the copy start at zero.
+  // Makes a copy with the same constraints. Both share the factor, and also elimination paths and dense systems until
+  // one is edited. The counters of the copy start at zero.
   DirectionSolver(const DirectionSolver& other) : DirectionSolver(other.system_) {
     constraints_.restore(other.constraints_.state());
   }

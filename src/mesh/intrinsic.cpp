@@ -22,7 +22,7 @@ constexpr double least_sum = 1e-300;
 // result depends on it.
 constexpr std::size_t least_trim = 65536;
 
-// One side of a triangle, which lies at an edge of the mesh.
+// A triangle at an edge of the mesh, and the side with which it lies there.
 struct Side {
   Index triangle, corner;  // from this corner to the next
   bool forward;            // runs from the edge's first vertex to its second

@@ -86,8 +86,8 @@ constexpr int fit_turns = 4;
 // A fitting step may turn over this many more corners with each turn: trades distance for folds. At 1 the distance to
 // the surface is 1.63 % of the box instead of 1.60. At 4 it stays the same.
 constexpr std::int32_t folds_a_turn = 2;
-// Quads up to this many rows away from a fitting step are relaxed in odd turns. At 0 the distance to the surface is
-// 1.28 % of the box instead of 1.26. At 2 it stays the same.
+// Fitting and collapsing alternate in turns. In odd turns, quads up to this many rows from a fitting step are relaxed
+// (evened out). At 0 the distance to the surface is 1.28 % of the box instead of 1.26. At 2 it stays the same.
 constexpr std::int32_t fit_rings_odd = 1;
 // Shortest edges, in edge lengths, that kind pure (no line ends between sites) keeps where the mesh was refined.
 // Halving or doubling it changes none of three test meshes.
@@ -245,8 +245,8 @@ constexpr double widest_gap_length = 1.9;
 // Two lines end where three neighbouring gaps together are narrower than this many edge lengths. With 1.2: 2 to 6 %
 // more faces; with 2.4: 2 to 6 % fewer.
 constexpr double narrowest_gaps_length = 1.7;
-// Lines end only while a ring keeps at least this many: a hexagon. With 4 four test shapes get the same mesh. 12
-// improves some meshes and worsens others.
+// A ring of nodes keeps at least this many lines when lines end there: a hexagon. With 4 four test shapes get the same
+// mesh. 12 improves some meshes and worsens others.
 constexpr std::int32_t least_lined = 6;
 // Two lines traced down together are this share of the gap apart. 0.125 and 0.5 give the same four test meshes.
 constexpr double second_line = 0.25;

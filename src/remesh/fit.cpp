@@ -131,8 +131,8 @@ class Fitter {
     return false;
   }
 
-  // Returns the vertex that a step would change: the corner of the quad at a missed place that is nearest to the place
-  // and may take the step.
+  // Returns the vertex that a fitting step (release, snap, ...) would change: the corner of the quad at a missed place
+  // that is nearest to the place and may take the step.
   std::int32_t vertex_for(std::int32_t step, const QuadMiss& miss, const VertexFans& fans) const {
     const std::int32_t f = miss.face, size = mesh_.size(f), *c = mesh_.corner.data() + mesh_.face_start[f];
     if (step == collapse)

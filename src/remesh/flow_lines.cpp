@@ -42,7 +42,7 @@ Vec3 FlowTracer::place(const FluxField& field, FluxPoint p) const noexcept {
   return middle + std::fabs(share - 0.5) * (beside - middle);
 }
 
-// Appends the points of the line from the edge of p to its end.
+// Follows a flow line from the point p on an edge to the line's end, and appends its points to `out`.
 void FlowTracer::follow(const FluxField& field, FluxPoint p, bool upward, FlowLineSet& out, std::int32_t& end) const {
   for (std::int32_t steps = 0; p.half >= 0 && steps < surface_.half_count(); ++steps) {
     const std::int32_t a = surface_.tail[p.half], b = surface_.head(p.half);

@@ -49,8 +49,8 @@ void grow_marks(const QuadMesh& mesh, std::int32_t rings, Table<std::uint8_t>& m
 
 Vec3 position_of(const FluxSurface& surface, const SurfacePoint& point) noexcept;
 
-// Makes polygons between the rings and lines. centre: by face, the critical vertex of the field inside it, or -1 if
-// there is none.
+// Makes the polygons between rings of nodes and the lines that cross them. centre: by face, the critical vertex of the
+// field inside it, or -1 if there is none.
 QuadMesh make_polygons(const FluxField& field, const ArcGraph& graph, const RingMesh& rings,
                        Table<std::int32_t>& centre, Memory& memory);
 QuadMesh split_polygons(const FluxSurface& surface, const QuadMesh& polygons, const Table<std::int32_t>& centre,

@@ -203,7 +203,7 @@ class Builder {
       std::sort(arrivals_.begin(), arrivals_.end(),
                 [](const Arrival& a, const Arrival& b) { return a.place < b.place; });
     } else if (count > 1) {
-      // The order of the nodes is that of the ring below. This finds the first node.
+      // The new ring's nodes have the order of the ring below, where their lines come from. This finds the first node.
       std::size_t begin = 0;
       double drop = -1;
       for (std::size_t k = 0; k < arrivals_.size(); ++k) {

@@ -75,8 +75,8 @@ void weigh_by_distance(const ClusterOptions& options, const Vector<NearestCentre
     const NearestCentres& near = nearest[v];
     Candidate candidates[blend_count];
     std::int32_t count = 0;
-    // Weights are relative to the nearest centre, less the value at the fifth nearest. So they stay continuous where
-    // the four nearest centres change.
+    // A vertex belongs to the clusters of the four nearest centres. The weight at the fifth is subtracted from theirs,
+    // so that weights stay continuous where the four change.
     const double last =
         near.cluster[blend_count] < 0 ? 0.0 : std::exp(-sharpness * (near.distance[blend_count] - near.distance[0]));
     for (std::int32_t i = 0; i < blend_count && near.cluster[i] >= 0; ++i) {

@@ -197,7 +197,7 @@ constexpr double region_cluster_share = 0.05;
 // A vertex that sinks below the ground is raised with a region if its weight in the region's clusters is larger. At
 // half the value: vertices move by up to 0.008 boxes. If no vertex does, a deer sinks 0.004 boxes into the ground.
 constexpr double region_vertex_share = 0.75;
-// Vertices of one job; no result depends on it.
+// Vertices of one thread's job; no result depends on it.
 constexpr std::size_t owner_block = 256;
 
 // --- transfer_frame.cpp ---
@@ -212,7 +212,7 @@ constexpr double turn_low = 20 * degree, turn_high = 50 * degree;
 // horse transferred to itself is 0.0086 (0.0090 now). At twice the value: 0.0094. All other errors and edge stretches
 // stay the same.
 constexpr std::int32_t refit_rounds = 4;
-// Vertices of one job; no result depends on it.
+// Vertices of one thread's job; no result depends on it.
 constexpr std::size_t vertex_block = 2048;
 
 // --- transfer_ground.cpp ---

@@ -30,7 +30,7 @@ inline double smooth_step(double low, double high, double x) noexcept {
 
 inline Vec3 up_of(const Mat3& axes) noexcept { return {axes(1, 0), axes(1, 1), axes(1, 2)}; }
 
-// Everything derived from the pairs, and the last frame. It is made completely or not at all.
+// Everything computed from the pairs of regions, and the last frame. It is made completely or not at all.
 struct Transfer::Prepared {
   explicit Prepared(Memory& memory)
       : source_leak(&memory),

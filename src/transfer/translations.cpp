@@ -152,7 +152,8 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
   }
   add_influences();
 
-  // Stores only those entries of the C x C table of g_cd that are not zero.
+  // The right-hand side multiplies cluster rotations by a table with one vector per pair of clusters. Only the vectors
+  // that are not zero are stored.
   for (std::size_t c = 0; c < count; ++c) {
     table_start_.push_back(static_cast<std::int32_t>(table_column_.size()));
     for (std::size_t d = 0; d < count; ++d) {
