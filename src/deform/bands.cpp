@@ -101,8 +101,8 @@ class BandCutter {
   Memory& memory_;
   Vector<Vector<ClusterEntry>> entries_;
   std::int32_t next_cluster_ = 0;
-  // These arrays are scratch memory for the field that is being cut. They have one entry per vertex, or three per
-  // vertex (one per band).
+  // These arrays are scratch memory for the field that is being cut into level bands. They have one entry per vertex,
+  // or three per vertex (one per band).
   Partition partition_;
   Buffer<BandValues> values_;
   Buffer<double> share_;        // share of the field at the vertex (beta)

@@ -170,7 +170,7 @@ constexpr std::int32_t block_sharing = 4;
 
 // ---- dense.cpp ----
 
-// A pivot of the Cholesky factor below this share of its diagonal means that the unknown depends on earlier ones.
+// A pivot of the poses' dense system below this share of its diagonal means that the unknown depends on earlier ones.
 constexpr double pivot_floor = 1e-10;
 
 // ---- paper_scheme.cpp ----

@@ -169,8 +169,8 @@ void read_transforms(const SmoothSystem& system, const SmoothState& state, Affin
   }
 }
 
-// Returns the handles' turns at vertex group g, blended by the fields phi_i at its first vertex: sum_i phi_i(seed)
-// turn_i.
+// Returns the handles' turns at vertex group g, blended by the handles' fields phi_i at the group's first vertex
+// (seed): sum_i phi_i(seed) turn_i.
 Vec3 blended_turn(const SmoothSystem& system, std::size_t g, Span<const Vec3> turns) noexcept {
   Vec3 turn;
   for (std::size_t i = 0; i < turns.size(); ++i) turn = turn + system.seed_field[g * turns.size() + i] * turns[i];

@@ -102,8 +102,8 @@ CarriedDetail carry_detail(const Region& source, const Region& target, const Car
   DiscPins from_pins(memory), to_pins(memory);
   place_pins(source, from_rim, options.source_pins, "source_vertices", from_pins);
   place_pins(target, to_rim, options.target_pins, "target_vertices", to_pins);
-  // Pinned vertices match a vertex on each region's boundary. Their angles on the disc follow the arc length along the
-  // source's boundary.
+  // The boundary vertices that match on both regions get the same angles on the disc. The angles follow the arc length
+  // along the source's boundary.
   const std::size_t size = from_rim.loop.size();
   for (const Index place : from_pins.place) {
     const double s = from_rim.arc[at(place)] - from_rim.arc[at(from_pins.place[0])];

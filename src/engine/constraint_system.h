@@ -62,8 +62,8 @@ class ConstraintSystem {
 
   const ConstraintState& state() const noexcept { return state_; }
   const PinnedOperator& pinned_operator() const noexcept { return operator_; }
-  // snapshot returns the present state; it shares elimination paths and dense blocks. restore goes back to it bit for
-  // bit.
+  // snapshot returns the present constraints; it shares their elimination paths and dense systems. restore goes back to
+  // them bit for bit.
   std::shared_ptr<const ConstraintState> snapshot() const;
   void restore(const ConstraintState& state);
 
@@ -98,8 +98,8 @@ class ConstraintSystem {
   // Computes the mean site value of every component and channel. A solve first subtracts this mean, so that a large
   // common offset costs no digits. The mean is zero for direction fields, where K does not map constants to zero.
   void find_centres(const double* values, Index channels, Index first, Index count, Answer& answer) const;
-  // Solves the dense system for `answer`; call find_centres first. The array z holds the forward sweep g of the values
-  // of eliminated sites (see the top of this file). It is null without a rebase.
+  // Solves the dense system of the sites for `answer`; call find_centres first. The array z holds the vector g of the
+  // top of this file, which comes from the values of eliminated sites. It is null if the factor eliminates none.
   void solve_dense(const double* values, Index channels, Index first, Index count, const double* z,
                    Answer& answer) const;
   // Three steps of a solve, for callers with a right-hand side of their own (green_refine.cpp). The letters are those

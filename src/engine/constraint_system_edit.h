@@ -10,7 +10,8 @@ class ConstraintEdit {
   // left, or a pivot failed and the order of the rows may be the reason.
   struct NeedsNewLayout {};
 
-  // state: the copy that the edit changes in place. After an exception the copy is useless.
+  // Prepares one edit of the sites. state: a copy of the system's state, which the edit changes in place. After an
+  // exception this copy is useless.
   ConstraintEdit(const PinnedOperator& a, JobRunner& jobs, const SiteEdit& edit, ConstraintState& state)
       : operator_(a), jobs_(jobs), edit_(edit), state_(state) {}
 

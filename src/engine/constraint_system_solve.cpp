@@ -27,8 +27,8 @@ void ConstraintSystem::find_centres(const double* values, Index channels, Index 
   }
 }
 
-// Sets z to g = G^-1 P (-K_FE s_E). s_E are the values of the eliminated sites E, less the mean, and F the other
-// vertices.
+// Sets z to g = G^-1 P (-K_FE s_E): what the eliminated sites E contribute to the other vertices F. s_E are their
+// values, less the mean. K is the operator, G its factor, P the ordering.
 void ConstraintSystem::base_forward(const double* values, Index channels, Index first, Index count,
                                     const Answer& answer, double* z) const {
   const std::size_t m = at(count);
@@ -50,8 +50,8 @@ void ConstraintSystem::base_forward(const double* values, Index channels, Index 
   ++sweeps_;
 }
 
-// Adds what the values s_E of the eliminated sites E contribute to the dense right-hand side. That is -W_E' s_E for
-// other sites with weights W, and K_RE s_E for the unknown values R of removed sites.
+// Adds what the values s_E of the eliminated sites E contribute to the dense right-hand side. It adds -W_E' s_E for
+// other sites with weights W, and K_RE s_E for removed sites R, whose values are unknown.
 void ConstraintSystem::add_base_terms(const double* values, Index channels, Index first, Index count,
                                       Answer& answer) const {
   const std::size_t m = at(count);

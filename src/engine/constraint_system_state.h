@@ -18,7 +18,8 @@ struct ConstraintState {
   struct Path {
     Index group = -1, column = -1;
   };
-  // A group of elimination paths, at most PathGroup::capacity. row[column] is no_row after its row was removed.
+  // A group of at most PathGroup::capacity elimination paths. row[column] is the dense row of a path, or no_row after
+  // its removal.
   struct Group {
     std::shared_ptr<const PathGroup> paths;
     Index row[PathGroup::capacity];

@@ -81,9 +81,9 @@ DenseBlock::DenseBlock(const DenseBlock& other)
   std::copy(std::begin(other.schur_), std::end(other.schur_), schur_);
 }
 
-// Updates the dense factor L after row r was removed: rotates column r below row r into the later columns. Each row
-// first takes the rotations of the rows above it, then makes its own. Four rows are processed at once, because one row
-// is a chain of dependent operations.
+// Updates the dense factor L after row r was removed, by plane rotations: adds column r below row r to the later
+// columns. Each row first takes the rotations of the rows above it, then makes its own. Four rows are processed at
+// once, because one row is a chain of dependent operations.
 void DenseBlock::update_without(std::int32_t r) {
   struct Rotation {
     double c, s, inverse_c;

@@ -24,9 +24,9 @@ struct HardSite {
   bool suspect = false;  // has a small pivot, so its group of sites is examined
 };
 
-// Returns the slot of the first site whose weights depend on the sites before it, or -1. sites: all hard sites of one
-// component; their order decides which site is reported. The function orthogonalises one group of sites with common
-// vertices at a time, in O(sites^2 vertices) of the group.
+// Returns the number (slot) of the first site whose weights depend linearly on those of the sites before it, or -1.
+// sites: all hard sites of one component; their order decides which site is reported. The function orthogonalises one
+// group of sites with common vertices at a time, in O(sites^2 vertices) of the group.
 std::int32_t dependent_site(Span<const HardSite> sites, Memory& memory);
 
 }  // namespace hf_inner

@@ -66,8 +66,8 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
       }
     }
   }
-  // Vertices of eliminated sites are not in the factor. If their site still constrains the field, they have no
-  // equation. If their value is free, the equation is a row of the dense system.
+  // Vertices of eliminated sites are not in the factor. If the site still constrains the field, its vertex has no
+  // equation. If the site was removed, the equation is a row of the dense system.
   for (std::size_t b = 0; b < state().freed.size(); ++b) {
     double* own = r(base->vertex[b]);
     if (state().freed[b].is_row()) {

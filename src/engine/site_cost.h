@@ -12,7 +12,8 @@ namespace hf_inner {
 
 struct SiteCost {
   // Flops per nanosecond on one thread, measured with AVX-512 on a Xeon of 2 GHz. With AVX2 all rates fall by about the
-  // same factor. Half of one rate makes the choice of its route half as likely. Wrong rates cost time, but no digits.
+  // same factor. The rates predict the cost of an edit by dense rows or by a new factor; half of a rate doubles the
+  // predicted cost of its step. Wrong rates cost time, but no digits.
   static constexpr double path_rate = 45, gram_rate = 40, cholesky_rate = 15, factorisation_rate = 26;
   static constexpr double signed_rate =
       3.7;                                 // rows of mixed signs (DenseBlock), without fast kernels; 100 to 1,600 rows

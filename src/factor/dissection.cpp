@@ -157,8 +157,9 @@ class Dissection {
     workspace.separators.push_back({part.begin + size[side_left] + size[side_right], part.begin + part.size});
   }
 
-  // Any order inside a separator gives the same fill. Vertices next to the same parts are put side by side, so that the
-  // rows touched by a part are consecutive. The sort key is the first eliminated neighbour.
+  // Any order inside a separator gives a factor of the same size. Vertices next to the same parts of the graph are put
+  // side by side, so that a part's rows in the separator are consecutive. The sort key is the first eliminated
+  // neighbour.
   void sort_separators() {
     const std::int32_t n = matrix_.size();
     Buffer<std::int32_t> position(memory_, static_cast<std::size_t>(n));

@@ -79,7 +79,7 @@ class Factor {
   virtual void forward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
   virtual void backward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
 
-  // Runs both sweeps: z <- (G G')^-1 z. This is A^-1 with rows in factor order.
+  // Runs both sweeps: z <- (G G')^-1 z. This multiplies by the inverse of the matrix, with rows in factor order.
   void solve_in_order(double* z, std::int32_t channels, JobRunner& jobs) const {
     forward(z, channels, jobs), backward(z, channels, jobs);
   }

@@ -46,9 +46,9 @@ constexpr std::int32_t narrow_columns = 16;
 struct Kernels {
   const char* name;
 
-  // Factors columns [begin, end) of a front's panel, on the tiles (8 rows each) of its triangle that hold them. begin
-  // is a multiple of 8, and the columns before it are finished. The diagonal is stored inverted. The pivot of column j
-  // must exceed floor[j]. Returns the column whose pivot failed, or -1.
+  // Factors columns [begin, end) of a front, on the tiles (8 rows each) of its triangle that hold them. begin is a
+  // multiple of 8, and the columns before it are finished. The diagonal is stored inverted. The pivot of column j must
+  // exceed floor[j]. Returns the column whose pivot failed, or -1.
   std::int32_t (*factor_triangle)(const FrontView& front, std::int32_t begin, std::int32_t end, const double* floor);
   // Solves columns [begin, end) on the tiles [tile_begin, tile_end) of 8 rows, which lie below the triangle tiles of
   // these columns.

@@ -171,7 +171,8 @@ inline void sum_rows(const T* block, std::int64_t stride, const std::int32_t* ro
   sum_channels<T, C>(block, stride, rows, row_count, width, z, channels, sum);
 }
 
-// Computes the sums of `width` columns for all channels, and subtracts them from z.
+// Multiplies `width` columns of a supernode's rows below by z for all channels (right-hand sides), and subtracts the
+// sums from z.
 template <class T, int C>
 inline void subtract_sums(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                           std::int32_t width, T* z, T* target, std::int32_t channels) noexcept {

@@ -47,7 +47,7 @@ void forward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::in
     const int count = channels - c < S::width ? channels - c : S::width;
     row = triangle;
     for (std::int32_t j = 0; j < columns; row += ++j) {
-      // There are two chains of sums, for even and for odd columns.
+      // Even and odd columns have a sum of their own, because one chain of sums would wait for each addition.
       typename S::Type even = S::zero(), odd = S::zero();
       const T* x = z + c;
       std::int32_t i = 0;

@@ -9,9 +9,9 @@
 namespace hf_inner {
 namespace {
 
-// Vertices with more neighbours than this times sqrt(n) are eliminated last: trades time for fill. The AMD library uses
-// the same value. With 5 and 20, a graph of 64,000 vertices with 30 hubs gets the same order. Without such a limit, a
-// star of 200,000 vertices takes minutes.
+// Vertices with more neighbours than this times sqrt(n) are eliminated last: trades time for the factor's size. The AMD
+// library uses the same value. With 5 and 20, a graph of 64,000 vertices, 30 of them with very many neighbours, gets
+// the same order. Without such a limit, a vertex with 200,000 neighbours takes minutes.
 constexpr double dense_factor = 10;
 constexpr Index dense_least = 16;  // smaller graphs have no vertex that is eliminated last for its many neighbours
 

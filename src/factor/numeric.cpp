@@ -37,7 +37,8 @@ struct Workspace {
         children(memory, static_cast<std::size_t>(sizes.children)) {
     for (int side = 0; side < 2; ++side) stack[side].allocate(memory, static_cast<std::size_t>(sizes.stack[side]));
   }
-  // By row of the matrix: its padded row in the present front. Only entries of the front's rows are valid.
+  // By row of the matrix: its row in the present front (dense matrix of a supernode). Only entries of the front's rows
+  // are valid.
   Buffer<std::int32_t> place_of;
   Buffer<double> panel, floor, stack[2];
   std::int64_t stack_top[2] = {0, 0};

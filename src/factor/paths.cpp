@@ -14,7 +14,7 @@
 namespace hf_inner {
 namespace {
 
-// Spare numbers behind the last block of path entries, which a padded vector may touch.
+// Spare numbers behind the last entries of the elimination paths: vectors are padded and may read or write them.
 constexpr std::int32_t lane_slack = 64;
 // Length of a row of path products: the sites of a group, plus numbers that a padded vector may touch.
 constexpr std::int32_t gram_stride = PathGroup::capacity + 16;

@@ -73,8 +73,8 @@ void group_tasks(const Symbolic& symbolic, const double* share, Memory& memory, 
   for (std::int32_t t = 0; t < plan.tasks; ++t) plan.task_order[t] = t;
   std::stable_sort(plan.task_order.begin(), plan.task_order.end(),
                    [&](std::int32_t a, std::int32_t b) { return task_share_sum[a] > task_share_sum[b]; });
-  // Supernodes above the tasks (subtrees, one job each) run in waves. The wave of such a supernode is its height above
-  // the tasks.
+  // Subtrees of supernodes (blocks of columns) are tasks, one job each. The supernodes above them run in waves: those
+  // of equal height above the tasks together.
   Vector<std::int32_t> height(symbolic.supernodes, -1, &memory);
   for (const std::int32_t s : top) {
     std::int32_t h = 0;

@@ -300,8 +300,8 @@ Cut SeparatorSearch::refine(const GraphView& graph, std::uint8_t* side) {
   return choose_cut(graph, side);
 }
 
-// Sorts the vertices by key_ (a position or a breadth-first number). Those within `share` of the weight on either side
-// of the median form the band, in which a minimum cut is then tried.
+// Sorts the vertices by key_ (a position or a breadth-first number). Those nearest to the median, up to the share
+// `share` of all vertices on either side, form the band in which a minimum cut is then tried.
 bool SeparatorSearch::try_keys(const GraphView& graph, std::uint8_t* side, Cut& best, double share) {
   const std::int32_t n = graph.size;
   ranked_.resize(static_cast<std::size_t>(n));

@@ -106,7 +106,8 @@ void Geodesics::integrate(const Vector<double>& sums, double* out) const {
   for (std::size_t t = 0; t < frames_.size(); ++t) {
     const TriangleFrame& f = frames_[t];
     const double x = 0.5 * sums[2 * t], y = 0.5 * sums[2 * t + 1];
-    // Adds to each corner half the dot product of X and n x e, where e is the edge opposite to the corner.
+    // Adds to each corner half the dot product of X and n x e. X is the direction of falling heat, n the triangle's
+    // normal, and e the edge opposite to the corner.
     z[at(f.row[0])] += -f.py * x + (f.px - f.along) * y;
     z[at(f.row[1])] += f.py * x - f.px * y;
     z[at(f.row[2])] += f.along * y;

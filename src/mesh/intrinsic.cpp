@@ -143,8 +143,8 @@ void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, co
         continue;
       }
       for (std::size_t s = 0; s < sides.size(); ++s) {
-        // If the side runs forward, its triangle's normal points counter-clockwise around the edge, towards the next
-        // side.
+        // Triangles at an edge are sorted around it. If a triangle's side runs along the edge's direction, its normal
+        // points towards the next triangle.
         const Side &here = sides[s], &there = sides[(s + 1) % sides.size()];
         const Index a = here.forward ? front(here) : reverse(here), b = there.forward ? reverse(there) : front(there);
         twin_[at(a)] = b, twin_[at(b)] = a;

@@ -367,12 +367,12 @@ constexpr float split_scale = 0.92f;
 // A quad with an edge below this many edge lengths may collapse. At half the value: 32 % irregular vertices instead of
 // 16, and the 5 % quantile of the edges falls to 0.43. With 0.8: 66 % irregular vertices instead of 56.
 constexpr double short_edge = 0.55;
-// At most this many rounds of collapses; it bounds the time. With 12 and 48 seven test meshes stay the same.
+// At most this many rounds in which quads collapse; it bounds the time. With 12 and 48 seven test meshes stay the same.
 constexpr std::int32_t collapse_rounds = 24;
 // Share of quads with a short edge that may stay: trades time for evenness. At half the value: the distance to the
 // surface is the same. At twice the value: up to 4 % more faces.
 constexpr double collapse_enough = 0.02;
-// Rounds of relaxation (evening out) after collapses. 6 and 24 improve some meshes and worsen others.
+// Rounds of relaxation (evening out) after quads collapse. 6 and 24 improve some meshes and worsen others.
 constexpr std::int32_t collapse_relax_rounds = 12;
 // Quads up to this many rows from a collapse are relaxed. 1 and 4 improve some meshes and worsen others.
 constexpr std::int32_t collapse_rings = 2;
@@ -384,8 +384,8 @@ constexpr int collapse_tries = 4;
 // Radius, in edge lengths, in which a collapse may not worsen the distance to the surface. Halving or doubling it
 // improves some meshes and worsens others.
 constexpr double collapse_reach = 2;
-// A place outside this radius undoes the nearest collapse if it is this many tolerances from the surface. With 1.0 and
-// 2.2 seven test meshes stay the same.
+// A place outside collapse_reach undoes the nearest collapse if it is this many tolerances from the surface. With 1.0
+// and 2.2 seven test meshes stay the same.
 constexpr double collapse_far = 1.1;
 // Radius, in edge lengths, around an undone collapse in which no other is tried. Halving it changes no mesh. At twice
 // the value: 1 % more faces.

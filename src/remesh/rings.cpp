@@ -229,8 +229,9 @@ class Builder {
     complete_ring(r);
   }
 
-  // Adds two neighbouring flow lines from ring r down to one gap of a ring below the saddle with this rank. They start
-  // half way around ring r from its only node. Only the first line is traced; the second runs beside it.
+  // Adds two neighbouring flow lines from ring r of nodes down to a ring below the saddle with this rank. They start
+  // half way around ring r from its only node, and end between two neighbouring nodes. Only the first line is traced;
+  // the second runs beside it.
   void join_down(std::int32_t r, std::int32_t rank) {
     const std::int32_t only = out_.rings[r].node;
     const double place = only == none ? 0.0 : out_.nodes[only].place + line_.length() / 2;

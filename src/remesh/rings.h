@@ -57,8 +57,8 @@ struct RingMesh {
 };
 
 // Makes the rings of nodes and the lines between them. lines_at: by vertex of the surface, the number of lines that
-// start there if it is a source. Without RingOptions::uniform, lines start and end only at sites and lines_at sets
-// their number. With it, the length of the ring does.
+// start there if it is a source. If RingOptions::uniform is false, lines start only at sources, as many as lines_at
+// says. If it is true, the length of the ring around a source sets the number.
 RingMesh make_rings(const FluxField& field, const ArcGraph& graph, const Table<double>& lines_at,
                     const RingOptions& options, Memory& memory, Progress* progress);
 

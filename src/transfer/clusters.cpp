@@ -138,8 +138,8 @@ void finish(KernelRow& row, std::size_t most, std::int32_t fallback) {
   for (double& w : row.weight) w /= sum;
 }
 
-// Scales a cluster's slopes (vectors g of clusters.h), from index `begin` on, so that its moment matrix has trace 1 at
-// rest. Then marks the end of its row.
+// Scales a cluster's slopes (vectors g of clusters.h), from index `begin` on, so that the moment matrix (clusters.h)
+// has trace 1 at rest. Then marks where the cluster's slopes end.
 void close_row(std::size_t begin, double trace, SourceKernels& out) {
   for (std::size_t i = begin; i < out.slope.size(); ++i) out.slope[i] = (trace > 0 ? 1 / trace : 0.0) * out.slope[i];
   out.start.push_back(static_cast<std::int32_t>(out.slope.size()));

@@ -42,15 +42,15 @@ constexpr double default_spread_share = 0.5;
 // Trades shape for exact paths of regions that follow their source (anchors). At half the value: feet end 1.8 times as
 // far from their paths. At twice the value they end 0.6 times as far, and edges stretch the same.
 constexpr double default_anchor_pull = 1;
-// Weight of the body's centroid in the energy when no region follows its source's path (anchor). It alone then fixes
-// the place. Halving or doubling it changes errors and edge stretches by at most 3 % and moves vertices by up to 0.004
-// boxes.
+// When no region follows its source's path, the body's centroid alone fixes its place. This is the weight of the
+// centroid's goal. Halving or doubling it changes errors and edge stretches by at most 3 % and moves vertices by up to
+// 0.004 boxes.
 constexpr double root_alone = 1;
-// Weight of the body's centroid in the energy when the trunk follows its source's path (anchor). It is small, because
-// the trunk should decide the place. Halving or doubling it changes errors and edge stretches by at most 3 %.
+// Weight of the goal of the body's centroid when the trunk follows its source's path. It is small, because the trunk
+// should decide the place. Halving or doubling it changes errors and edge stretches by at most 3 %.
 constexpr double root_with_trunk = 1e-3;
-// Weight of the body's centroid in the energy when only feet follow their source's paths (anchors). The edge stretch of
-// a wolf without a trunk pair is 0.28. It is 0.26 at half the value, 0.30 at twice and 0.45 at ten times the value.
+// Weight of the goal of the body's centroid when only feet follow their source's paths. The edge stretch of a wolf
+// without a trunk pair is 0.28. It is 0.26 at half the value, 0.30 at twice and 0.45 at ten times the value.
 constexpr double root_without_trunk = 0.1;
 // Weight that ties clusters of vertices to the motion of the whole body, if they overlap no other cluster. Halving or
 // doubling it changes errors and edge stretches by at most 3 %.

@@ -80,8 +80,8 @@ class Translations {
   // A is the matrix of the energies. R holds the rows of the held regions, s the diagonal of R A^-1 R^T. A row (region
   // or vertex) may have one hold at most. Allocates nothing.
   void hold(Span<const Hold> holds, Vec3 up, const Mat3* rotations, Vec3* shifts) noexcept;
-  // Makes rows (weights of clusters) of single vertices, so that they can be held like regions. Vertex k gets the row
-  // vertex_row(first + k), below vertex_rows. Rows before `first` stay, rows after the new ones become invalid. Four
+  // Makes rows (weights of clusters) of single vertices, so that they can be held like regions. Vertex k gets row
+  // number vertex_row(first + k). Rows of vertices before `first` stay, those after the new ones become invalid. Four
   // vertices cost O(C^2) for C clusters. Allocates nothing.
   std::size_t vertex_row(std::size_t i) const noexcept { return region_rows_ + i; }
   void set_vertex_rows(std::size_t first, Span<const std::int32_t> vertices, const Core& target,
