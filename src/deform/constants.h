@@ -102,7 +102,7 @@ constexpr double edge_samples = 60000;
 // A cluster of vertices with fewer edges uses all of them instead of a sample. Halving or doubling it changes no energy
 // or stretch in the benchmark.
 constexpr std::int32_t few_edges = 1500;
-// Edges of one thread's job. The size is fixed, so that sums keep their order.
+// One thread's job sums this many edges of the elastic energy. The size is fixed, so that sums keep their order.
 constexpr std::int32_t edge_piece = 16384;
 
 // ---- rest.cpp, rest.h ----
@@ -110,7 +110,7 @@ constexpr std::int32_t edge_piece = 16384;
 // Edge weights of the energy are clamped to this range. Negative weights would reward collapse, and huge ones come from
 // needle-shaped triangles. Halving or doubling either bound changes no energy or stretch in the benchmark.
 constexpr double least_edge_weight = 0.01, largest_edge_weight = 25;
-// Vertices of one thread's job. The size is fixed, so that sums keep their order.
+// One thread's job handles this many vertices. The size is fixed, so that sums keep their order.
 constexpr std::int32_t vertex_piece = 4096;
 
 // ---- bands.cpp, cluster_rows.cpp ----
@@ -141,8 +141,8 @@ constexpr int level_bins = 128;
 // Bins to each side in the running mean that smooths the field's gradient over its values. 1 and 6 change elastic
 // energies by 0.3 %.
 constexpr int smoothed_bins = 3;
-// The gradient counts as at least this share of the largest. It limits how many bands fall on parts where the field is
-// nearly constant. Halving or doubling it changes no energy or stretch in the benchmark.
+// The gradient of a handle's field counts as at least this share of its largest value. It limits how many bands fall on
+// parts where the field is nearly constant. Halving or doubling it changes no energy or stretch in the benchmark.
 constexpr double least_gradient = 1e-4;
 // Triangles of a component that give the field's mean gradient: fewer take less time. Halving or doubling it changes
 // elastic energies by 0.2 %.

@@ -55,7 +55,7 @@ inline void fill_row(const BlendRows& rows, std::int32_t i, std::int32_t j, Edge
   }
 }
 
-// An edge i - j that the energy uses, with its weight w_e.
+// An edge i - j that the elastic energy uses, with its weight w_e.
 struct Sample {
   std::int32_t i, j;
   double weight;

@@ -33,7 +33,7 @@ struct DiscPins {
   Vector<double> turn;
 };
 
-// Returns the disc point of every vertex, by local number.
+// Returns the disc point of every vertex of the region and around it, by RegionShape::local.
 Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& state, const DiscBoundary& boundary,
                               const DiscPins& pins, Memory& memory);
 

@@ -183,8 +183,8 @@ void DenseBlock::append(std::int32_t id, const double* values, bool positive, co
 
 std::int32_t DenseBlock::factorise_signed() {
   const std::int32_t k = count();
-  // Processes four rows of the dense matrix at a time on a fixed grid. The array `scaled` holds these rows of L,
-  // multiplied by the signs Sigma.
+  // Processes four rows of the dense matrix at a time on a fixed grid. The array `scaled` holds these rows of the
+  // factor L, multiplied by the signs (+1 or -1) of their columns.
   Vector<double> scaled(static_cast<std::size_t>(tile) * static_cast<std::size_t>(k), 0.0, memory_);
   double dots[tile * tile];
   while (valid_ < k) {

@@ -48,7 +48,8 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
       }
     }
   });
-  // Adds W lambda to the residual r, and writes the residual g of the sites into `next`.
+  // Adds the fluxes W lambda of the sites to the residual r of the field, and writes the residual g of the sites'
+  // values into `next`.
   Answer next(memory());
   next.slot.assign(state().entries.size() * m, 0.0), next.freed.assign(state().freed.size() * m, 0.0);
   next.constant.assign(state().sites_of.size() * m, 0.0), next.total.assign(state().sites_of.size() * m, 0.0);

@@ -295,10 +295,11 @@ class UpdownSolver final : public SiteSolver {
     return static_cast<double*>(work_.x->x);
   }
 
-  // Computes residual = R R' s - (K + R R' + pins) u for each channel. R R' is the penalty matrix of the sites
-  // (updown.h), s their values and u the field. K u is computed from differences of u. The error of each site is
-  // computed first. If it were summed by vertex, its rounding, multiplied by the penalty, would not point along the
-  // weights w. Along w the penalty makes rounding harmless.
+  // Computes residual = R R' s - (K + R R' + pins) u for each channel. The pins raise the diagonal at the vertices of
+  // components without sites. R R' is the penalty matrix of the sites (updown.h), s their values and u the field. K u
+  // is computed from differences of u. The error of each site is computed first. If it were summed by vertex, its
+  // rounding, multiplied by the penalty, would not point along the weights w. Along w the penalty makes rounding
+  // harmless.
   void residual_of(const double* wanted, const double* u, Index channels, double* residual) const {
     const SymmetricMatrix& k = core_->laplacian;
     const std::size_t n = at(core_->size()), m = at(channels);

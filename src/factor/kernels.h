@@ -58,8 +58,8 @@ struct Kernels {
   void (*form_update)(const FrontView& front, std::int32_t tile_begin, std::int32_t tile_end);
   // Adds columns [begin, end) of the child's update matrix to the front's panel and update matrix.
   void (*extend_add)(const FrontView& front, const ChildView& child, std::int32_t begin, std::int32_t end);
-  // For a narrow front after its update matrix. The first replaces the triangle L by X = L^-1. The second replaces the
-  // rows B by W = B X on tiles [tile_begin, tile_end).
+  // Finish a front of at most narrow_columns columns, once its update matrix is computed. The first replaces the
+  // triangle L by X = L^-1. The second replaces the rows B by W = B X on tiles [tile_begin, tile_end).
   void (*invert_triangle)(const FrontView& front);
   void (*multiply_inverse)(const FrontView& front, std::int32_t tile_begin, std::int32_t tile_end);
   // Writes a front's tiles [tile_begin, tile_end) row by row: the packed triangle, then the rows below.

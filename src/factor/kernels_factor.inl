@@ -46,7 +46,7 @@ inline void multiply_block(const double* const* a, const double* b, std::int32_t
   }
 }
 
-// Computes all 8 columns of one column tile for R vector-rows (each as many rows as a vector has numbers).
+// Computes one tile of 8 columns for R vector-rows (each as many rows as a vector has numbers).
 template <int R, bool Fresh>
 inline void multiply_tile(const double* const* a, const double* b, std::int32_t k_count, double* const* c,
                           std::int64_t c_step) noexcept {

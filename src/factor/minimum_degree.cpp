@@ -127,8 +127,8 @@ class QuotientGraph {
 
   // ---- the new element
 
-  // Makes the pivot an element. The variables next to it become its list; their weights are negated, and they leave the
-  // degree lists. The elements next to the pivot are absorbed.
+  // Makes the variable that is eliminated (pivot) an element. Its list gets the variables next to it and next to its
+  // neighbouring elements, which it absorbs. These variables get negative weights and leave the lists of their degree.
   void form_element(Index pivot) {
     const Index pivot_weight = weight_[pivot];
     left_ -= pivot_weight;

@@ -348,7 +348,7 @@ void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernel
 }
 
 bool all_finite(const double* values, std::size_t count) noexcept {
-  // x - x is zero exactly for finite x. Independent sums avoid branches.
+  // Sums x - x over all numbers, which is zero only if every x is finite. Eight independent sums avoid branches.
   double sum[8] = {};
   std::size_t k = 0;
   for (; k + 8 <= count; k += 8) {

@@ -17,7 +17,7 @@ class DirectionSystem {
   DirectionSystem(std::shared_ptr<const Core> core, Index degree);
   Index unknown(Index vertex, Index part) const noexcept { return 2 * position[at(vertex)] + part; }
   Index vertex_of(Index unknown) const noexcept { return order[at(unknown / 2)]; }
-  // Returns the operator K for a ConstraintSystem, with two pinned unknowns in each component.
+  // Returns the operator K for a ConstraintSystem. Each component has two pinned unknowns (raised diagonals).
   PinnedOperator pinned_operator() const noexcept;
 
   std::shared_ptr<const Core> core;  // first member: outlives what is allocated from its memory

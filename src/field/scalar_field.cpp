@@ -52,7 +52,7 @@ void ScalarField::adopt() noexcept {
     prepared_->engine->succeed(*engine_);
     engine_ = std::move(prepared_->engine);
   } catch (...) {
-    // Memory ran out, so the prepared engine is dropped.
+    // Memory ran out, so the engine that prepare_rebase made is dropped.
   }
   prepared_.reset();
 }

@@ -199,7 +199,7 @@ bool IntrinsicTriangulation::is_delaunay(Index half) const noexcept {
 // j).
 void IntrinsicTriangulation::flip(Index half) noexcept {
   const Index h0 = half, h1 = next(h0), h2 = next(h1), g0 = twin_[at(half)], g1 = next(g0), g2 = next(g1);
-  // The two faces are unfolded into a plane, with i at the origin and j on the x axis.
+  // The two faces of the edge i -> j are unfolded into a plane, with i at the origin and j on the x axis.
   const double l = length_[at(h0)];
   const auto apex = [&](Index base, double from_i, double from_j, double& x, double& y) {
     x = 0.5 * (l + (from_i - from_j) * ((from_i + from_j) / l));

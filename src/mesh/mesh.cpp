@@ -17,7 +17,7 @@ namespace {
 
 using Index = std::int32_t;
 
-// Largest number of vertices or triangles: six half-edges or entries for each must fit 31 bits.
+// Largest number of vertices or triangles. Arrays hold up to six entries for each, and their indices must fit 31 bits.
 constexpr std::uint32_t size_limit = 0x7fffffffu / 6;
 // The diagonal of a mesh must be below this length. Sums of squares in inner coordinates must not overflow.
 constexpr double largest_scale = 1e300;

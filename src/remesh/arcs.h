@@ -22,7 +22,7 @@ struct Arc {
   double flux = 0;
 };
 
-// A loop of an arc: its threshold on ranks, and a half-edge that the loop crosses.
+// A closed level line of an arc: its threshold on ranks (vertices sorted by value), and a half-edge that it crosses.
 struct Loop {
   std::int32_t threshold = 0, seed = -1;
 };

@@ -32,8 +32,8 @@ struct CoarsenOptions {
   Progress* progress = nullptr;
 };
 
-// Returns the distance between the new mesh and the surface. It is at most collapse_far tolerances, or else the given
-// `deviation`.
+// Collapses quads with short edges. Returns the distance between the new mesh and the surface: at most collapse_far
+// tolerances, or the given `deviation` if that is more.
 double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, double deviation,
                      const CoarsenOptions& options, Memory& memory);
 

@@ -59,7 +59,7 @@ FluxPoint LoopLine::at(double place) const noexcept {
   return {edges_[found.edge], found.share * field_->flux(edges_[found.edge])};
 }
 
-// Adds `share` times point i of the loop to a location in the triangle.
+// Adds point i of the loop, weighted by `share`, to a location given by barycentric weights in the triangle.
 void LoopLine::add(std::int32_t i, double share, std::int32_t triangle, SurfacePoint& out) const noexcept {
   const FluxSurface& s = field_->surface();
   const std::int32_t a = s.tail[edges_[i]], b = s.head(edges_[i]);

@@ -22,7 +22,7 @@ class LoopLine {
   // Returns the flux line that crosses the loop at a place. `place` may be any real number; it counts modulo the loop's
   // length.
   FluxPoint at(double place) const noexcept;
-  // Returns the place of a point of the flow, or 0 if the loop does not cross the point's edge.
+  // Returns the place along the loop of a point on a flux line, or 0 if the loop does not cross the point's edge.
   double place_of(FluxPoint p) const noexcept;
   SurfacePoint location(double place) const noexcept;
 

@@ -270,7 +270,8 @@ QuadResult make_quads(const QuadOptions& options) {
     return result;
   }
 
-  // Tips come from two fields: the mean distance finds limbs that the Poisson field merges into others.
+  // Tips of limbs come from two fields (field/extremities.h): the mean distance finds limbs that the Poisson field
+  // merges into others.
   const Geodesics geodesics(options.core, geodesic_smoothing);
   const Extremities far = [&] {
     const ProgressRange range(progress, quads_progress.prepared, quads_progress.far_tips);

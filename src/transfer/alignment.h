@@ -18,7 +18,7 @@
 
 namespace hf_inner {
 
-// The rest shape of one side (source or target), with the fields of its pairs.
+// The rest shape of one side (source or target), with the fields of its paired regions.
 struct RestSide {
   const Mesh* mesh = nullptr;
   Span<const double> field;  // vertex count x pair count

@@ -106,11 +106,12 @@ class Translations {
                const Clusters& clusters);
 
   void add_influences();
-  // Fills A^-1 R^T for the rows first .. last - 1, where A is the matrix of the energies and R the rows. Also fills the
-  // Gram matrix R A^-1 R^T between these rows and all rows before `last`.
+  // Finds how a constraint on each of the rows (regions or vertices) first .. last - 1 moves all clusters: A^-1 R^T. A
+  // is the matrix of the energies, R the rows. Also fills R A^-1 R^T, how it moves these rows and all rows before
+  // `last`.
   void fill_influences(std::size_t first, std::size_t last) noexcept;
-  // Solves for the multipliers of the constraints (holds), one vector each, in hold_rhs_. with_vertical: constraints
-  // along the up direction count too.
+  // Finds how strongly each constraint (hold) must pull, one vector (Lagrange multiplier) each, in hold_rhs_.
+  // with_vertical: constraints along the up direction count too.
   void solve_holds(Span<const Hold> holds, bool with_vertical) noexcept;
 
   std::int32_t count_ = 0;
