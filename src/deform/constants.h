@@ -211,8 +211,8 @@ constexpr double settled_newton_step = 1e-14;
 constexpr double skin_vertices = 20000;  // at most this many vertices fit joints: fewer take less time
 constexpr int skin_rounds = 8;           // rounds, each fits every joint of a skin once
 constexpr int stretch_rounds = 6;        // rounds, each fits a joint's rotation, then its stretch
-// Added to a joint's moments of inertia, as a share of them. A joint without extent in a direction keeps the scale 1
-// there.
+// This share of a joint's second moments (how far its vertices spread along each axis) is added to them. A joint
+// without extent in a direction keeps the scale 1 there.
 constexpr double stretch_ballast = 1e-6;
 constexpr double least_stretch = 1e-3;       // a joint shrinks to this scale at most; keeps scales positive
 constexpr double least_vertex_area = 1e-12;  // as a share of the squared box: vertices without area still count

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// Sets the edge rotation that the global step aims at in rotation group g: the group's rotation, changed by its stress.
+// Sets the rotation that the next solve for the cluster transforms should give the edges of vertex group g: the group's
+// rotation, changed by its stress.
 void set_target(const SmoothSystem& system, std::size_t g, SmoothState& state) noexcept {
   const Mat3 target =
       strained(system.sheet[g], state.stress[g], state.rotation[system.subspace.group[g]].toRotationMatrix());

@@ -46,7 +46,7 @@ struct SmoothState {
   Vector<Quaternion> rotation;        // per group of vertices (groups.h)
   Vector<Quaternion> anchor;          // centre of a group's allowed rotations, while turn_limit < pi
   Vector<Stress> stress;              // per group of vertices that can bend
-  Vector<double> columns;             // by group: rotation that the global step aims at, three columns of four numbers
+  Vector<double> columns;             // by group: the rotation wanted for its edges, three columns of four numbers
   Vector<double> rows;                // 4 x 4 doubles per cluster, handles first: its transform, transposed and padded
   Vector<double> known;               // the handles' part of the right-hand side
   double turn_limit = no_turn_limit;  // radians between a rotation and its anchor

@@ -8,11 +8,11 @@
 //     U = sym(E' R' S E diag(1/m_1, 1/m_2)), E = [e_1 e_2].
 // P clamps to [low, high]. The stress X has the eigenvectors of U and the eigenvalues
 //     x_+ = clamp(k (P sigma_+ - sigma_+), -c, c) - n (P sigma_- - 1),   and x_- likewise.
-// The global step aims at T = R (1 + E X E') instead of R. This makes the group k times stiffer outside the limits. At
-// the stress c it yields instead of crumpling its neighbours. n is a contraction across the pull (Poisson's ratio),
-// which keeps the volume of a pulled limb. A common rotation of surface and groups does not change U, and X = 0 at
-// rest. In each iteration X moves towards its new value by the share r < 2 / (1 + k); then the iterations converge.
-// Figures: docs/studies/poses.md.
+// The solve for the cluster transforms (global step) aims at T = R (1 + E X E') instead of R. This makes the group k
+// times stiffer outside the limits. At the stress c it yields instead of crumpling its neighbours. n is a contraction
+// across the pull (Poisson's ratio), which keeps the volume of a pulled limb. A common rotation of surface and groups
+// does not change U, and X = 0 at rest. In each iteration X moves towards its new value by the share r < 2 / (1 + k);
+// then the iterations converge. Figures: docs/studies/poses.md.
 //
 // Allocates nothing and cannot fail.
 #pragma once
@@ -43,8 +43,8 @@ Stress stress_of(const Sheet& sheet, const double (&columns)[3][4], const Mat3& 
 // Moves the stress of a group of vertices towards `wanted` by the share StrainLimits::follow. Returns the Frobenius
 // norm of the step.
 double follow(const Sheet& sheet, const Stress& wanted, Stress& stress) noexcept;
-// Returns the edge rotation R (1 + E X E') that the global step aims at. R is the group's rotation, X its stress in the
-// axes E.
+// Returns R (1 + E X E'), the rotation with stretch that the next solve should give the edges of a group of vertices. R
+// is the group's rotation, X its stress in the axes E.
 Mat3 strained(const Sheet& sheet, const Stress& stress, const Mat3& r) noexcept;
 
 }  // namespace hf_inner

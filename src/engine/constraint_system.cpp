@@ -11,7 +11,7 @@ namespace {
 
 // An edit rebuilds the dense system of the sites (starts over) only if continuing costs this many times as much, as
 // predicted. The predicted costs are accurate to about 25 %. Continuing also keeps the elimination paths, which
-// starting over solves again. With 1, edits of similar cost on both routes would alternate between them.
+// starting over solves again. With 1, edits of similar cost in both ways would alternate between them.
 constexpr double restart_margin = 1.25;
 // After sites went into the factor, later edits factorise some dense rows (of mixed signs) again and again. Their cost
 // counts this many times. Chosen on 800 random edits of 1,000 vectors on 20,000 vertices. 4 takes a fifth longer in all

@@ -301,7 +301,7 @@ void ConstraintEdit::take_gram(std::size_t first_group, Batch& batch) const {
 }
 
 // Adds those terms of the dense matrix M that are no products of paths: the softness D of soft sites on the diagonal,
-// the weights W_R between a site and a free value, and -K_RR between free values.
+// the weights W_R between a site and an unknown value of a removed site, and -K_RR between two such values.
 void ConstraintEdit::take_couplings(Batch& batch) const {
   for (const Row& row : batch.rows) {
     if (row.row < 0) continue;

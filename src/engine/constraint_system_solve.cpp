@@ -139,8 +139,8 @@ void ConstraintSystem::subtract_projections(const double* z, Index count, Answer
   }
 }
 
-// Solves the dense system. Replaces `answer` by the fluxes lambda and the free values t. If K maps constants to zero,
-// nu is added to the constants.
+// Solves the dense system. Replaces `answer` by the fluxes lambda of the sites, and the unknown values t of sites that
+// were removed. If K maps constants to zero, nu is added to the constants.
 void ConstraintSystem::solve_rows(Index count, Answer& answer) const {
   const std::size_t m = at(count), border = operator_.border();
   const bool constants = operator_.keeps_constants();

@@ -8,8 +8,8 @@
 namespace hf_inner {
 
 struct ConstraintState {
-  // A row of the dense system has a number. The row of a site has the number of its slot. The row of the free value at
-  // base index b, a removed site of a rebase, has the number -2 - b.
+  // A row of the dense system has a number. The row of a site has the number of its slot. If the factor eliminates
+  // vertex b and its site was removed, its value is unknown. The row of this value has the number -2 - b.
   static constexpr Index no_row = -1;
   static Index free_row(Index base_index) noexcept { return -2 - base_index; }
   static Index base_index(Index row) noexcept { return -2 - row; }
@@ -36,7 +36,7 @@ struct ConstraintState {
     Path path;
     bool is_row() const noexcept { return path.group >= 0; }  // else the factor eliminates it
   };
-  // The cost model's prediction for an edit, and the route that was taken.
+  // The predicted costs of an edit of the sites, and the way (route) in which it was carried out.
   struct Decision {
     EditRoute route = EditRoute::none;
     double dense_ms = 0, rebase_ms = 0;

@@ -28,7 +28,7 @@ struct PinnedOperator {
   static constexpr std::size_t most_border = 2;
   Index size() const noexcept { return matrix->size(); }
   std::size_t component_count() const noexcept { return pin_weight.size(); }
-  // Returns the number of pins of a component, which is the width of the border of its dense block.
+  // Returns the number of pinned unknowns of a component. Its dense system has as many additional (border) unknowns.
   std::size_t border() const noexcept { return pin_weight.empty() ? 1 : pins.size() / pin_weight.size(); }
   bool keeps_constants() const noexcept { return paths == nullptr; }
 

@@ -219,7 +219,7 @@ class QuotientGraph {
     }
   }
 
-  // Restarts the step numbers (tags) in mark_ before they overflow. A mark of 0 means absorbed, and stays.
+  // Restarts the step numbers (tags) in mark_ before they overflow. A mark of 0 (absorbed into another element) stays.
   void clear_marks() noexcept {
     if (tag_ <= INT32_MAX - 2 * std::int64_t{size_}) return;
     for (Index v = 0; v < size_; ++v) mark_[v] = mark_[v] != 0;

@@ -123,8 +123,8 @@ class Factorisation {
     return front;
   }
 
-  // Sets up the front (dense matrix) of supernode s: the places of its rows, the places of its children's rows, and the
-  // columns of A.
+  // Sets up the front (dense matrix) of supernode s: the places of its rows, the places of its child supernodes' rows,
+  // and its columns of the matrix.
   void assemble(std::int32_t s, const FrontView& front, Workspace& workspace) const noexcept {
     std::int32_t* place_of = workspace.place_of.data();
     const std::int32_t first = symbolic_.first[s];

@@ -27,7 +27,7 @@ std::int32_t collapse_misses(const FluxSurface& surface, QuadMesh& mesh, const V
 struct CoarsenOptions {
   double edge_length = 0, tolerance = 0;  // in inner units
   double shortest = short_edge;           // in edge lengths
-  bool only_refined = false;              // only quads with a corner where the mesh was refined
+  bool only_refined = false;              // collapses only quads with a corner where the mesh was refined
   std::int32_t rounds = collapse_rounds;
   Progress* progress = nullptr;
 };

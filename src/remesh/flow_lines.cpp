@@ -86,7 +86,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
       g = s.turn_left(g);
       if (g == begin) break;
     }
-    // The line is traced down and reversed; then it is traced up from the seed.
+    // The flow line is traced down from the seed and reversed; then it is traced up from the seed.
     std::int32_t low = v, high = v;
     const std::size_t first = out.point.size();
     FluxPoint p;

@@ -36,7 +36,7 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& surface, Span<const FluxSi
 // Factors the matrix of the flux problem, and solves fields from it.
 class FluxSolver {
  public:
-  // Orders and factorises the matrix. Throws the errors of Factor::make.
+  // Orders and factorises the matrix of the flow field. Throws the errors of Factor::make.
   FluxSolver(const FluxSurface& surface, Memory& memory, JobRunner& jobs, Progress* progress = nullptr);
   // Returns the flow field by vertex of the surface, up to a constant per component. Iterative refinement (flux_solves)
   // improves it, because lines need a flow that balances at every vertex.

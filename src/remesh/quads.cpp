@@ -62,8 +62,8 @@ double shape_cost(const QuadMesh& mesh, double edge_length, double shortest, dou
          std::max(0.0, std::log(at(aspects, 1 - outliers) / narrowest));
 }
 
-// Makes quad meshes of one surface from several sets of sites (ends of flow lines), with one factor and one search
-// tree.
+// Makes quad meshes of one surface from several sets of sites (ends of flow lines), with one factor, and one search
+// tree for distances.
 class Maker {
  public:
   explicit Maker(const QuadOptions& options)

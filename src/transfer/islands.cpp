@@ -163,8 +163,8 @@ void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int
       for (std::size_t j = 0; j < width; ++j)
         mean[j] += field[at(members[i].host) * width + j] / static_cast<double>(held);
     }
-    // All vertices of a small component get the mean field values of the surface beside it. In a larger one, free
-    // vertices start from the mean.
+    // All vertices of a small component get the mean field values of the surface beside it. In a larger one, vertices
+    // that do not keep such values start from the mean.
     const bool rigid = norm(high - low) < rigid_island;
     for (std::size_t i = 0; i < members.size(); ++i) {
       const double* from = !rigid && i < held ? field + at(members[i].host) * width : mean.data();
