@@ -194,7 +194,7 @@ constexpr double equal_eigenvalues = 1e-12;
 // A Newton step maximises tr(R' S) over rotations R. Pivots of its Hessian above this share of the norm of S prove that
 // the maximum is near.
 constexpr double newton_floor = 1e-6;
-// At most this many Newton steps find a rotation. Each squares the error, so starts near the result need four
+// At most this many Newton steps find a rotation. Each step squares the error, so a start near the result needs four
 // (rotation_test).
 constexpr int newton_steps = 6;
 // Longest Newton step of a rotation (squared radians). A longer one leaves the range where the quadratic model predicts

@@ -8,8 +8,9 @@
 namespace hf_inner {
 
 struct ConstraintState {
-  // A row of the dense system has a number. The row of a site has the number of its slot. If the factor eliminates
-  // vertex b and its site was removed, its value is unknown. The row of this value has the number -2 - b.
+  // A row of the dense system has a number. The row of a site has the number of its slot. If the factor eliminates a
+  // vertex and its site was removed, its value is unknown. The row of this value has the number -2 - b, with b the
+  // vertex's index in EliminatedBase.
   static constexpr Index no_row = -1;
   static Index free_row(Index base_index) noexcept { return -2 - base_index; }
   static Index base_index(Index row) noexcept { return -2 - row; }

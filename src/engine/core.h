@@ -29,8 +29,8 @@ struct CoreTimes {
 struct Core {
   explicit Core(std::shared_ptr<const Geometry> shape);
   // Makes the operator K on a geometry, and the factor of the pinned matrix A = K + sum_c beta_c e_gc e_gc'. The pinned
-  // vertex of component c is its first vertex g_c. The weight beta_c of the pin is the mean diagonal of K there. The
-  // field options.operator_kind must be that of the geometry. Progress runs from 0.15 to 1.
+  // vertex of component c is its first vertex g_c. There the diagonal is raised by beta_c, the mean diagonal of K in
+  // the component. The field options.operator_kind must be that of the geometry. Progress runs from 0.15 to 1.
   static std::shared_ptr<const Core> make(std::shared_ptr<const Geometry> shape, const CoreOptions& options);
   // Makes the geometry and its core in one call.
   static std::shared_ptr<const Core> make(const MeshInput& input, const CoreOptions& options,

@@ -225,8 +225,8 @@ std::int32_t DenseBlock::factorise_signed() {
 }
 
 // Factorises the dense matrix of the sites with the dense kernels of the sparse factor. The kernels work on one dense
-// triangle of k columns, a front without rows below it. Rows of L that are up to date are copied into it. Every number
-// is one chain of operations in column order, so its bits do not depend on which rows were present before.
+// triangle of k columns. Rows of L that are up to date are copied into it. Every number is one chain of operations in
+// column order, so its bits do not depend on which rows were present before.
 std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
   const Kernels& kernels = choose_kernels();
   const std::int32_t k = count(), done = valid_ / 8 * 8, tiles = (k + 7) / 8;

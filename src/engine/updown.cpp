@@ -261,7 +261,8 @@ class UpdownSolver final : public SiteSolver {
     done = done && cholmod_change_factor(CHOLMOD_REAL, 0, 0, 1, 1, factor_, &common_.c);
     cholmod_free_sparse(&a, &common_.c);
     if (done) {
-      // CHOLMOD postorders the given permutation. Stores where every unknown went.
+      // CHOLMOD changes the given order of the unknowns (postorder of its elimination tree). Stores where every unknown
+      // went.
       position_.resize(at(n));
       for (Index r = 0; r < n; ++r) position_[at(static_cast<int*>(factor_->Perm)[r])] = r;
       ++factorisations_, edits_ = 0;

@@ -208,8 +208,8 @@ class Dissection {
     out.start()[size] = k;
   }
 
-  // Orders a part of the graph completely, depth first. The list of open parts then holds at most one part per level
-  // and side.
+  // Orders a part of the graph completely, depth first. The list of parts that are not ordered yet then has at most one
+  // part per level and side.
   void finish(Part first, Workspace& workspace) {
     std::pmr::vector<Part> waiting(&memory_);
     waiting.push_back(std::move(first));

@@ -219,7 +219,7 @@ void IntrinsicTriangulation::flip(Index half) noexcept {
   }
   const Index k = tails[1], m = tails[3];
   for (int q = 0; q < 4; ++q) {
-    // The four outer edges of the two faces get new numbers. Two of them may be glued to each other.
+    // The four outer edges of the two faces get new numbers. Two of them may be the same edge.
     const Index* inside = std::find(from, from + 4, twins[q]);
     const Index twin = inside != from + 4 ? to[inside - from] : twins[q];
     tail_[at(to[q])] = tails[q], length_[at(to[q])] = lengths[q];
