@@ -208,8 +208,8 @@ class Dissection {
     out.start()[size] = k;
   }
 
-  // Orders a part of the graph completely, depth first. The list of parts that are not ordered yet then has at most one
-  // part per level and side.
+  // Orders a part of the graph completely: cuts it, orders one half, then the other (depth first). The list of parts
+  // that wait then stays short.
   void finish(Part first, Workspace& workspace) {
     std::pmr::vector<Part> waiting(&memory_);
     waiting.push_back(std::move(first));

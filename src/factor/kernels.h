@@ -96,8 +96,8 @@ struct Kernels {
   void (*path_triangle)(const double* triangle, std::int32_t columns, double* x, std::int32_t lanes);
   void (*path_rows)(const double* below, std::int32_t row_count, std::int32_t columns, const double* x,
                     std::int32_t lanes, double* base, const std::int64_t* target);
-  // Adds gram[i * stride + j] += sum over rows of a[row * a_lanes + i] b[row * b_lanes + j], for i < a_count and j <
-  // b_count rounded up to 8.
+  // Multiplies elimination paths a with paths b: gram[i * stride + j] += sum over rows of a[row * a_lanes + i] b[row *
+  // b_lanes + j]. Here i < a_count, and j < b_count rounded up to 8.
   void (*gram)(const double* a, std::int32_t a_lanes, std::int32_t a_count, const double* b, std::int32_t b_lanes,
                std::int32_t b_count, std::int32_t rows, double* gram, std::int32_t stride);
 };

@@ -202,8 +202,8 @@ inline void store_lanes(T* p, typename Simd<T>::Type v, int count) noexcept {
 }
 
 // Sums N columns of a supernode for one vector of channels (right-hand sides): target[j] -= the products of column j
-// with the rows of z. The factor's entries are broadcast. The block is read in strips of N columns, which is not its
-// order in memory. So each row prefetches as many numbers as it reads from `ahead`, in order.
+// with the rows of z. Each entry of the factor fills a whole vector. The block is read in strips of N columns, which is
+// not its order in memory. So each row prefetches as many numbers as it reads from `ahead`, in order.
 template <class T, int N>
 inline void subtract_lanes(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                            const T* z, T* target, std::int32_t channels, int count, const T* ahead) noexcept {

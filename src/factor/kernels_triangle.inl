@@ -95,8 +95,8 @@ void forward_rows_any(const T* below, std::int32_t row_count, std::int32_t colum
     for (std::int32_t r = 0; r < row_count; ++r, below += columns) out[r] = dot<T>(below, z, columns);
     return;
   }
-  // Takes channels (right-hand sides) in groups of one vector, and four rows at a time. The factor's entries are
-  // broadcast.
+  // Takes channels (right-hand sides) in groups of one vector, and four rows at a time. Each entry of the factor fills
+  // a whole vector.
   for (std::int32_t c = 0; c < channels; c += S::width) {
     const int count = channels - c < S::width ? channels - c : S::width;
     std::int32_t r = 0;

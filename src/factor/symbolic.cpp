@@ -27,7 +27,8 @@ struct Merging {
   Buffer<std::int32_t> head, next;  // lists of the present children
 };
 
-// Finds chains of columns whose patterns nest without a zero: parent[j] = j + 1 and count[j] = count[j + 1] + 1.
+// Finds chains of columns whose non-zeros nest exactly. Column j + 1 is then the parent of j in the elimination tree,
+// and has one non-zero less.
 std::int32_t find_fundamental(const EliminationTree& tree, std::int32_t n, std::int32_t* supernode,
                               std::int32_t* first) {
   std::int32_t count = 0;

@@ -174,7 +174,7 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
                                    Memory& memory, Progress* progress) {
   Vector<FluxSite> all(&memory);
   const Table<double> area = vertex_shares(s, memory);
-  // Euler characteristic of each component after its borders are closed
+  // Computes the Euler characteristic of each component after its borders are closed.
   Table<std::int32_t> euler(s.component_count, 0, memory);
   Table<std::int32_t> first(s.component_count, -1, memory);
   for (std::int32_t v = 0; v < s.vertex_count(); ++v) {
