@@ -16,8 +16,8 @@ using Complex = std::complex<double>;
 constexpr double two_pi = 6.283185307179586476925286766559;
 // Largest coordinate of a vector, so that the square of its length stays finite.
 constexpr double most_coordinate = 1e150;
-// Least tangent part of a unit vector; in a smaller part the direction is mere rounding. A larger limit would refuse
-// more vectors that are nearly normal to the surface.
+// The tangent part of a unit vector must be at least this long; in a smaller part the direction is mere rounding. A
+// larger limit would refuse more vectors that are nearly normal to the surface.
 constexpr double least_tangent = 1e-9;
 
 // Raises |z| e^{i phi} to |z| e^{i n phi}, where n is the degree.

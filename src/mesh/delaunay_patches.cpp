@@ -13,7 +13,7 @@ namespace {
 
 // Number of triangles or edges that one thread's job takes. No result depends on this number.
 constexpr std::size_t patch_piece = 16384;
-// Least length in a division, so that triangles with three equal positions do not divide by zero.
+// A length that divides counts as at least this, so that triangles with three equal positions do not divide by zero.
 constexpr double least_length = 1e-300;
 // Only patches (groups of triangles around edges that are not Delaunay) are retriangulated. After this many attempts to
 // grow them, the whole mesh becomes one patch. It bounds the cost; no result depends on it.

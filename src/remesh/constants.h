@@ -1,11 +1,12 @@
 // All chosen numbers of this folder, grouped by the file that uses them.
 //
 // The lines say what happened with half or twice the value, or with other values. All were tried at edges of 3 to 4 %
-// of the box on a cow, a figure of eight (kinds uniform and pure), an elephant, a triceratops, and a blob of three
-// pieces with borders. "Box" means the diagonal of the bounding box. Distances are Hausdorff distances in % of the box,
-// unless they are called mean. Aspects and angles are 95 % quantiles. "Irregular" is the share of irregular vertices.
-// Where some results got better and others worse, the distance changed by at most 0.3. All these numbers decide about
-// whole lines and faces, so rounding alone can change the number of faces by 1.4 %.
+// of the box on a cow, a figure of eight (kind uniform, and kind pure, whose lines never end between sites), an
+// elephant, a triceratops, and a blob of three pieces with borders. "Box" means the diagonal of the bounding box.
+// Distances are Hausdorff distances in % of the box, unless they are called mean. Aspects and angles are 95 %
+// quantiles. "Irregular" is the share of irregular vertices. Where some results got better and others worse, the
+// distance changed by at most 0.3. All these numbers decide about whole lines and faces, so rounding alone can change
+// the number of faces by 1.4 %.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -61,8 +62,8 @@ constexpr double most_line_scale = 8.0;
 
 // --- quads.cpp: evening out ---
 
-// One in this many rounds of relaxation (evening out) runs before thin parts are measured. One in 3 or one in 12 gives
-// the same two test meshes of kind pure.
+// One in this many rounds of relaxation (evening out) runs before thin parts are measured. One in 3 or one in 12
+// changes neither of two test meshes whose lines never end between sites (kind pure).
 constexpr std::int32_t early_share = 6;
 // The early mesh is kept if its distance is below this share of the final one. 0.5 and 1 change no test mesh.
 constexpr double early_gain = 0.9;
@@ -212,8 +213,9 @@ constexpr double least_segment = 1e-15;
 
 // --- ring_levels.cpp ---
 
-// Distance from a site to the first ring of nodes around it, in edge lengths: a compromise of kinds uniform and pure.
-// Half the value changes the distance to the surface by -0.2 to +0.1 % of the box, 1.2 by -0.1 to +0.2.
+// Distance from a site to the first ring of nodes around it, in edge lengths. One value serves both kinds of mesh, with
+// lines that may end between sites and with lines that may not. Half the value changes the distance to the surface by
+// -0.2 to +0.1 % of the box, 1.2 by -0.1 to +0.2.
 constexpr double ring_at_site = 0.8;
 // Distance from a saddle to the next ring of nodes, in edge lengths. At 0.25 the distance to the surface changes by
 // -0.3 to +0.2 % of the box. At 1 it grows by up to 0.3, and a cow has 40 % irregular vertices instead of 30.

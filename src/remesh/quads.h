@@ -15,7 +15,8 @@ struct QuadOptions {
   std::int32_t relax = default_relax_rounds;  // rounds that even out the mesh
   Span<const FluxSite> sites;  // FluxSite::vertex is an inner vertex of the core; every border is a site too
   bool automatic = true;
-  bool scale_lines = true;  // kind pure: scale the numbers of lines to the edge length; off: keep the caller's
+  // Without `uniform`: scales the numbers of lines to the edge length; off: keeps the caller's.
+  bool scale_lines = true;
   Progress* progress = nullptr;
 };
 
