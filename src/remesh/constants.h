@@ -65,10 +65,11 @@ constexpr double most_line_scale = 8.0;
 // One in this many rounds of relaxation (evening out) runs before thin parts are measured. One in 3 or one in 12
 // changes neither of two test meshes whose lines never end between sites (kind pure).
 constexpr std::int32_t early_share = 6;
-// The early mesh is kept if its distance is below this share of the final one. 0.5 and 1 change no test mesh.
+// The mesh after the early rounds (early_share) is kept if its distance to the surface is below this share of the final
+// mesh's. With 0.5 and 1 no test mesh changes.
 constexpr double early_gain = 0.9;
-// Below this distance to the surface (share of the box), no vertices are snapped to missed places, which saves time.
-// Halving or doubling it changes no test mesh.
+// Below this distance between mesh and surface (share of the box), no vertices are snapped to missed places, which
+// saves time. Halving or doubling it changes no test mesh.
 constexpr double capture_from = 0.003;
 
 // --- quads.cpp: fitting ---
