@@ -32,7 +32,7 @@ enum {
 };
 
 /* Writes level_count levels (1 to 1,000,000), ascending. HF_LEVELS_AREA makes all strips equal in area.
- * HF_LEVELS_LENGTH makes the mean widths of the strips equal. So rings around point sites are evenly spaced, where
+ * HF_LEVELS_LENGTH makes the mean widths of the strips equal. So iso-lines around point sites are evenly spaced, where
  * equal steps of the value would crowd them. HF_LEVELS_LENGTH leaves out the parts where the field is flat to 1e-9 of
  * its range.
  *
@@ -66,10 +66,10 @@ typedef struct hf_isolines {
 
 /* Traces the iso-lines of level_count levels. The levels must be finite and can have any order; the lines come in the
  * order of the levels. A vertex whose value equals a level counts as just above it, so lines have no gaps. A line
- * either closes or ends. It ends at a border, at a triangle without values or at a non-manifold edge. A line continues
- * through a non-manifold edge where that edge's triangles form a pair, and ends at a triangle without a partner. The
- * function leaves out lines of length zero. Seen from outside a consistently oriented mesh, the field is higher on the
- * left of a line. Cost: O(edges log levels + points). Errors: HF_ERROR_NON_FINITE (index = vertex, or position in
+ * either closes or ends. It ends at a border or at a triangle without values. At an edge of three or more triangles
+ * (non-manifold), these are taken in pairs. A line continues inside a pair, and ends at a triangle without a partner.
+ * The function leaves out lines of length zero. Seen from outside a consistently oriented mesh, the field is higher on
+ * the left of a line. Cost: O(edges log levels + points). Errors: HF_ERROR_NON_FINITE (index = vertex, or position in
  * levels), HF_ERROR_TOO_LARGE (2^32 points). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_trace_isolines(hf_surface surface, const hf_scalars* field, uint32_t level_count,
                                            const double* levels, hf_isolines* inout_lines);
@@ -98,12 +98,12 @@ typedef struct hf_critical_info {
 } hf_critical_info;
 
 /* Lists the minima, maxima and saddles of the piecewise linear field. The signs of the field around each vertex decide
- * (Banchoff 1970): the index of a vertex is 1 minus the Euler characteristic of the part of its ring with lower values.
- * The vertex number breaks ties, so a flat area has critical points too. The indices sum to the Euler characteristic on
- * every component. On a mesh that is not Delaunay a harmonic field can show an extremum away from its sites, because
- * the default operator uses other edges than the mesh. HF_OPERATOR_CLAMPED uses the edges of the mesh and avoids this.
- * out_points: NULL, or room for `capacity` points, ordered by welded vertex. out_info: NULL, or receives the counts.
- * Errors: HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
+ * (Banchoff 1970): the index of a vertex is 1 minus the Euler characteristic of its neighbours with lower values and
+ * the edges between them. The vertex number breaks ties, so a flat area has critical points too. The indices sum to the
+ * Euler characteristic on every component. On a mesh that is not Delaunay a harmonic field can show an extremum away
+ * from its sites, because the default operator uses other edges than the mesh. HF_OPERATOR_CLAMPED uses the edges of
+ * the mesh and avoids this. out_points: NULL, or room for `capacity` points, ordered by welded vertex. out_info: NULL,
+ * or receives the counts. Errors: HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_find_critical_points(hf_surface surface, const hf_scalars* field, uint32_t capacity,
                                                  hf_critical_point* out_points, hf_critical_info* out_info);
 
@@ -142,7 +142,7 @@ HF_API hf_result hf_geodesics_solve_f64(hf_geodesics geodesics, uint32_t source_
 
 /* ---- extremities ---- */
 
-/* Selects how hf_surface_find_extremities finds tips. Both kinds take the peaks of a field that rises towards
+/* Selects how hf_surface_find_extremities finds tips. Both kinds take the maxima of a field that rises towards
  * protruding parts. */
 enum {
   HF_EXTREMITIES_POISSON = 0, /* a field with a source at every vertex: one solve */

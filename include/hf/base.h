@@ -84,7 +84,7 @@ enum {
   HF_ERROR_CANCELLED = -102,     /* cancelled through the progress object */
   /* numerical */
   HF_ERROR_NOT_POSITIVE_DEFINITE = -200, /* the matrix has a pivot that is not positive: report it with the mesh */
-  HF_ERROR_INACCURATE = -201,            /* the certificate of a solve failed */
+  HF_ERROR_INACCURATE = -201,            /* hf_solver_certify: the field fails its equations */
   /* internal */
   HF_ERROR_INTERNAL = -300 /* a fault of the library; destroy the handle */
 };

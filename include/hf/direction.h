@@ -40,8 +40,9 @@ HF_API hf_result hf_direction_clone(hf_direction direction, hf_direction* out_di
 HF_API void hf_direction_destroy(hf_direction direction);
 
 /* Adds constraints: vectors at vertices. The function projects the vectors on the tangent planes. Each constraint costs
- * the solves of two elimination paths and two rows of a small dense system. A batch of very many constraints goes into
- * the factor instead, by one factorisation; later edits cost paths and rows again.
+ * two sparse triangular solves (elimination paths) and two rows of a small dense system. For a batch of very many
+ * constraints, the function factorises once instead, with their vertices eliminated. Later edits cost paths and rows
+ * again.
  *
  * vertices: [site_count] vertices of your mesh. vectors: [site_count][3]; a zero vector makes the field 0 there.
  * out_sites: NULL, or receives [site_count] numbers. A constraint keeps its number until it is removed. Errors:
@@ -125,7 +126,7 @@ typedef struct hf_direction_statistics {
   uint32_t path_solve_count;    /* two per constraint added or moved */
   uint32_t sweep_count;
   uint32_t irregular_vertex_count; /* vertices whose triangles are not one fan of one orientation */
-  uint32_t eliminated_count;       /* constraints in the factor at present */
+  uint32_t eliminated_count;       /* constraints that the factor eliminates now */
   double operator_ms;
   double numeric_ms;
   double factor_entries;

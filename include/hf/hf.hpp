@@ -102,7 +102,7 @@ class Surface {
     check(hf_surface_create(&desc, &raw));
     handle_ = Handle<hf_surface, hf_surface_destroy>(raw);
   }
-  // positions: x, y, z of each vertex. triangles: three vertices each.
+  // Makes a surface. positions: x, y, z of each vertex. triangles: three vertices each.
   Surface(const std::vector<float>& positions, const std::vector<uint32_t>& triangles)
       : Surface(mesh(positions, triangles)) {}
 
@@ -427,7 +427,7 @@ class Geodesics {
 // Holds a quad mesh (hf/quads.h) with all its arrays.
 struct QuadMesh {
   std::vector<double> positions, barycentrics;  // three numbers per vertex
-  std::vector<uint32_t> triangles;              // by vertex, of the mesh as given
+  std::vector<uint32_t> triangles;              // the triangle of the given mesh in which each quad vertex lies
   std::vector<uint32_t> face_starts, face_corners;
   std::vector<uint32_t> site_vertices;
   std::vector<int32_t> site_lines;
@@ -499,7 +499,8 @@ class Flow {
   uint32_t points_ = 4096, lines_ = 64;
 };
 
-// Holds a region of a surface (hf/region.h) and its smooth base, and morphs between the two.
+// Holds a region of a surface (hf/region.h) and its smooth base (the region without detail), and morphs between the
+// two.
 class Region {
  public:
   // positions: the surface of weight 0, or empty for the positions of the mesh. field_kind: HF_FIELD_HARMONIC makes a
@@ -586,7 +587,7 @@ class Region {
   uint32_t vertices_ = 0;
 };
 
-// The detail of one region, carried to another region.
+// The detail of one region (its offset from a smooth base), carried to another region.
 class Detail {
  public:
   Detail(const Region& source, const Region& target, const hf_detail_desc* desc = nullptr)

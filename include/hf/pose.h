@@ -58,7 +58,7 @@ typedef struct hf_pose_info {
   int32_t mode;
   uint32_t band_count;
   uint32_t iteration_count;
-  uint32_t samples_per_ring; /* 0: full rings */
+  uint32_t samples_per_ring; /* sites per handle on its boundary; 0: all of it */
   uint32_t group_count;
   uint32_t handle_count;
   uint32_t vertex_count; /* as given to the surface: rows of hf_deform */
@@ -208,9 +208,9 @@ typedef struct hf_skin_info {
   uint32_t joint_capacity;  /* in: joints the arrays can take */
   uint32_t vertex_capacity; /* in: vertices the arrays can take */
   uint32_t weight_count;    /* in: joints per vertex, 4 or 8; 0 = 4 */
-  uint32_t joint_count;     /* out: clusters */
+  uint32_t joint_count;     /* out: joints, one per cluster of vertices */
   uint32_t vertex_count;    /* out */
-  double* pivots;           /* [joint_capacity][3] rest centroid of each cluster */
+  double* pivots;           /* [joint_capacity][3] rest centroid of what each joint moves */
   double* rotations;        /* [joint_capacity][4] quaternion x, y, z, w of the last frame */
   double* translations;     /* [joint_capacity][3] posed place of the pivot */
   double* axes;             /* [joint_capacity][4] quaternion of B, fixed while handles stay */

@@ -57,15 +57,15 @@ typedef struct hf_quads_info {
 
 /* Makes a quad mesh of a surface. Lines run over the surface from sources to sinks. The number of lines that start
  * equals the number of lines that end. The flux of a field at each site is the number of lines there; a Neumann problem
- * gives this field. Rings of nodes follow its level loops, edge_length apart, one arc of the field's Reeb graph after
- * the other. The lines between neighbouring rings make the faces. Where mesh and surface are farther apart than 0.39
- * edge lengths, the function snaps vertices to the surface and adds quads. HF_QUADS_UNIFORM also collapses short edges.
- * Each quad starts at the corner whose diagonal keeps nearer to the surface, so a renderer should split quads into
- * triangles from the first corner. The function checks every result: each directed edge occurs once, no face repeats a
- * corner, and the Euler characteristic is that of the surface.
+ * gives this field. Closed iso-lines of the field, edge_length apart, cross the lines. The crossings are the vertices
+ * of the mesh. The pieces of lines and iso-lines between them are its edges. Where mesh and surface are farther apart
+ * than 0.39 edge lengths, the function snaps vertices to the surface and adds quads. HF_QUADS_UNIFORM also collapses
+ * short edges. Each quad starts at the corner whose diagonal keeps nearer to the surface, so a renderer should split
+ * quads into triangles from the first corner. The function checks every result: each directed edge occurs once, no face
+ * repeats a corner, and the Euler characteristic is that of the surface.
  *
  * The surface must be manifold. It may have borders, any genus and several components; the function turns triangles
- * that disagree in orientation. The edge_length cannot coarsen the mesh below four nodes around a feature. Sites that
+ * that disagree in orientation. However long edge_length is, at least four vertices lie around each limb. Sites that
  * you give may force flux across a border. Then the function holds all sites of that component at one of two levels
  * instead, and site_lines are the even numbers nearest to the fluxes.
  *

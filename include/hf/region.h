@@ -75,12 +75,12 @@ typedef struct hf_region_edit_desc {
   hf_progress progress;            /* NULL, or an object to poll and cancel through */
 } hf_region_edit_desc;
 
-/* Changes the region and computes its new base. The function compares the old and the new rim, which is the vertices
- * next to the region. Sites that stay cost nothing; the others are one batch as in hf_solver_edit_sites. One backward
- * sweep over the factor then gives the base; a small region needs only the elimination paths of its vertices. A region
- * may have several pieces, in several components. Progress covers curve, sites and base; the call can be cancelled
- * between them. Errors: HF_ERROR_EMPTY (fewer than 3 points, index = how many; no vertex would be left),
- * HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (lists longer than the mesh has vertices),
+/* Changes the region and computes its new base. The vertices next to the region (its rim) are sites with their
+ * positions as values. Sites that stay cost nothing; the others are one batch as in hf_solver_edit_sites. One backward
+ * sweep over the factor then gives the base; for a small region the sweep covers only the part of the factor that its
+ * vertices need. A region may have several pieces, in several components. Progress covers curve, sites and base; the
+ * call can be cancelled between them. Errors: HF_ERROR_EMPTY (fewer than 3 points, index = how many; no vertex would be
+ * left), HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (lists longer than the mesh has vertices),
  * HF_ERROR_CANCELLED, and HF_ERROR_INVALID_ARGUMENT: side, weights, isolated vertex, points of different components; a
  * curve that does not separate the surface; a seed on the curve or in another component (index = the seed); a component
  * without a rim (index = a vertex of it). Thread safety: changes `region`. Since 0.1. */
@@ -100,12 +100,12 @@ typedef struct hf_region_info {
   int32_t field_kind;      /* HF_FIELD_* */
   uint32_t vertex_count;   /* of the region, without its rim */
   uint32_t rim_count;      /* vertices next to the region */
-  uint32_t site_count;     /* that hold the base: the rim, for thin plates two rings and more */
+  uint32_t site_count;     /* vertices that fix the base: the rim, for thin plates two rows or more */
   uint32_t inserted_count; /* sites of the last edit ... */
   uint32_t removed_count;
   uint32_t kept_count;
   uint32_t factorisation_count; /* numeric factorisations of the region's edits so far */
-  uint32_t path_solve_count;    /* sites whose elimination path was solved, over all edits */
+  uint32_t path_solve_count;    /* sparse solves for added sites, over all edits */
   uint32_t last_route;          /* HF_ROUTE_* of the last edit */
   int32_t whole_sweep;          /* 1: the last base took a sweep through the whole factor */
   double area;                  /* of the triangles with a corner in the region, on the surface, in units^2 */
@@ -119,7 +119,7 @@ HF_API hf_result hf_region_get_info(hf_region region, hf_region_info* out_info);
 enum {
   HF_REGION_INSIDE = 0, /* the region */
   HF_REGION_RIM = 1,    /* the vertices next to it */
-  HF_REGION_SITES = 2   /* those that hold the base */
+  HF_REGION_SITES = 2   /* vertices whose positions fix the base */
 };
 
 /* Writes one list of vertices of your mesh, ascending. Where vertices were welded, the list has the first copy. list:
@@ -163,12 +163,12 @@ typedef struct hf_detail_desc {
 } hf_detail_desc;
 
 /* Carries the detail of the source region to the target region. A harmonic map with positive weights takes each region
- * to the unit disc (an embedding: Tutte 1963, Floater 1997). It places the rims by arc length between the pairs. Points
- * at the same place in the disc correspond. The function stores the offset from base to surface in a local frame of the
- * source: the normal of the base, and the direction in which the first disc coordinate grows. It interpolates the
- * offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades to
- * nothing at the rim. If source and target are the same region, the result is the surface itself. Later edits of the
- * regions do not change the object.
+ * to the unit disc (an embedding: Tutte 1963, Floater 1997). Vertices around a region (its rim) lie on the circle, by
+ * arc length between the pairs of desc. Points at the same place in the disc correspond. The function stores the offset
+ * from base to surface in a local frame of the source: the normal of the base, and the direction in which the first
+ * disc coordinate grows. It interpolates the offsets in the triangles of the source, and applies them in the same
+ * frames of the target. The detail fades to nothing at the rim. If source and target are the same region, the result is
+ * the surface itself. Later edits of the regions do not change the object.
  *
  * Both regions must be discs: in one piece, one rim loop, no hole, manifold, of one orientation. desc: NULL for
  * defaults. Sets *out_detail to NULL first. Cost: a factorisation of each region's own Laplacian. Progress covers

@@ -5,8 +5,8 @@
  * one column w_i per site, such as the three barycentric weights of a point. s holds the values, and lambda is the flux
  * into each site. A soft site of stiffness alpha obeys w_i' u + lambda_i / alpha = s_i. This is the penalty method of
  * Xu, Zhang, Cohen-Or and Xiong (2009). At open borders the flux is zero. Edits do not factorise, with one exception:
- * very many sites at once move into the factor when that is quicker. hf_solver_statistics.factorisation_count counts
- * these factorisations. */
+ * for very many sites at once, the solver factorises with them eliminated when that is quicker.
+ * hf_solver_statistics.factorisation_count counts these factorisations. */
 #ifndef HF_SOLVER_H
 #define HF_SOLVER_H
 
@@ -19,7 +19,7 @@ extern "C" {
 /* A set of sites on a surface, and their field. */
 typedef struct hf_solver_object* hf_solver;
 
-/* Selects how a solver applies its sites to the factor. All engines give the same field. */
+/* Selects the engine: how a solver combines its sites with the factor. All engines give the same field. */
 enum {
   HF_ENGINE_GREEN = 0,   /* sites are rows of a small dense system beside the factor: the default */
   HF_ENGINE_UPDOWN = 1,  /* as in Xu et al. 2009: penalties on the diagonal, sparse update and downdate; only in builds
@@ -33,7 +33,7 @@ typedef struct hf_solver_desc {
   int32_t field_kind;     /* HF_FIELD_*; if the surface has no factor of that kind yet, it is made now */
   int32_t engine;         /* HF_ENGINE_* */
   uint32_t channel_count; /* fields solved at once, 1 to 64; 0 = 1 */
-  uint32_t site_limit;    /* most sites the solver may hold; 0 = 100,000 */
+  uint32_t site_limit;    /* at most this many sites; 0 = 100,000 */
   uint32_t reserved;      /* 0 */
   double penalty; /* HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10 */
   hf_progress progress; /* NULL, or an object to poll and cancel through */
@@ -178,11 +178,12 @@ HF_API hf_result hf_solver_solve_f64(hf_solver solver, double* out_values, uint3
                                      hf_solve_info* out_info);
 
 /* Solves for the field at chosen vertices only, with the same bits as hf_solver_solve_f64. out_values:
- * double[vertex_count][channel_count] for uint32_t[vertex_count] vertices. The call sweeps only the elimination paths
- * of these vertices, on the calling thread. One path is up to a sixth of the factor, but the paths of many vertices
- * share most of their parts. The call costs a whole solve for bi-harmonic fields, and while very many sites are in the
- * factor. A vertex of a component without a site gets 0. Errors: HF_ERROR_NO_SITES, HF_ERROR_TOO_LARGE (more vertices
- * than the mesh has), HF_ERROR_OUT_OF_RANGE. Thread safety: reads `solver`. Since 0.1. */
+ * double[vertex_count][channel_count] for uint32_t[vertex_count] vertices. The call reads only those columns of the
+ * factor on which these vertices depend (elimination paths), on the calling thread. One path is up to a sixth of the
+ * factor, but the paths of many vertices share most of their columns. The call costs a whole solve for bi-harmonic
+ * fields, and while the factor eliminates sites. A vertex of a component without a site gets 0. Errors:
+ * HF_ERROR_NO_SITES, HF_ERROR_TOO_LARGE (more vertices than the mesh has), HF_ERROR_OUT_OF_RANGE. Thread safety: reads
+ * `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_at(hf_solver solver, uint32_t vertex_count, const uint32_t* vertices,
                                     double* out_values);
 
@@ -222,8 +223,8 @@ typedef struct hf_preview_info {
  *
  * The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind on the
  * surface share the copy. It is freed with the last of these solvers, or by hf_solver_release_preview. Engines other
- * than HF_ENGINE_GREEN give the exact field, and so do solvers whose sites were moved into the factor. out_info->exact
- * is then 1.
+ * than HF_ENGINE_GREEN give the exact field, and so do solvers whose factor eliminates sites. out_info->exact is then
+ * 1.
  *
  * out_values: as hf_solve. correction_count: 0 to 8. out_info: NULL, or a struct. Errors: HF_ERROR_INVALID_ARGUMENT
  * (correction_count), HF_ERROR_NO_SITES. Thread safety: reads `solver`. Since 0.1. */
@@ -292,20 +293,21 @@ HF_API hf_result hf_solver_redo(hf_solver solver);
 
 /* ---- very many sites ---- */
 
-/* Moves the hard vertex sites into the factor in the background. It factorises once on the calling thread, while other
- * threads edit and solve with this solver. The next edit switches to the new factor. Fields before and after are the
- * same up to rounding. Call it on a thread of yours when hf_solver_statistics.rebase_advised is 1. An edit of very many
- * sites moves them by itself when that is quicker. Memory: one more factor, for as long as sites are in it. Errors:
- * HF_ERROR_NO_SITES (no hard site at a vertex), HF_ERROR_UNSUPPORTED (other engines), HF_ERROR_BUSY (another thread is
- * in this call). Thread safety: can run during any other call on the same solver. Since 0.1. */
+/* Factorises in the background with the hard vertex sites eliminated, so that they cost no dense solve. It runs on the
+ * calling thread, while other threads edit and solve with this solver. The next edit switches to the new factor. Fields
+ * before and after are the same up to rounding. Call it on a thread of yours when hf_solver_statistics.rebase_advised
+ * is 1. An edit of very many sites does this by itself when that is quicker. Memory: one more factor, for as long as it
+ * eliminates sites. Errors: HF_ERROR_NO_SITES (no hard site at a vertex), HF_ERROR_UNSUPPORTED (other engines),
+ * HF_ERROR_BUSY (another thread is in this call). Thread safety: can run during any other call on the same solver.
+ * Since 0.1. */
 HF_API hf_result hf_solver_prepare_rebase(hf_solver solver);
 
-/* These values say how the solver carried out the last edit of places (hf_solver_statistics.last_route). */
+/* These values say how the solver carried out the last edit of site places (hf_solver_statistics.last_route). */
 enum {
   HF_ROUTE_NONE = 0,  /* no place was edited yet, or the engine is not green */
-  HF_ROUTE_DENSE = 1, /* rows of the dense system came and went */
+  HF_ROUTE_DENSE = 1, /* rows of the dense system were added and removed */
   HF_ROUTE_FRESH = 2, /* the dense system was recomputed, which was quicker */
-  HF_ROUTE_REBASE = 3 /* hard vertex sites were moved into the factor */
+  HF_ROUTE_REBASE = 3 /* factorised again with hard vertex sites eliminated */
 };
 
 /* Counts, memory and cost estimates of a solver. Bytes are doubles (exact to 2^53). */
@@ -313,13 +315,13 @@ typedef struct hf_solver_statistics {
   uint32_t struct_size;
   uint32_t site_count;
   uint32_t factorisation_count; /* numeric factorisations this solver made; the surface's own is not counted */
-  uint32_t path_solve_count;    /* sites whose elimination path was solved */
+  uint32_t path_solve_count;    /* sparse solves (elimination paths) for added sites */
   uint32_t sweep_count;         /* backward sweeps */
   uint32_t last_route;          /* HF_ROUTE_* of the last edit */
   uint32_t rebase_count;        /* times sites were moved into the factor */
   uint32_t dense_edit_count;    /* edits by rows of the dense system */
   uint32_t dense_row_count;     /* sites in the dense system at present */
-  uint32_t eliminated_count;    /* sites in the factor at present */
+  uint32_t eliminated_count;    /* sites that the factor eliminates now */
   int32_t rebase_advised; /* 1: elimination paths outweigh the factor, fields get slower: hf_solver_prepare_rebase */
   uint32_t reserved;
   double site_memory_bytes;   /* paths and dense part of the sites */

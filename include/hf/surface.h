@@ -45,8 +45,8 @@ enum {
 
 /* Selects how the unknowns are ordered. A good order keeps the factor small. */
 enum {
-  HF_ORDERING_NESTED_DISSECTION = 0, /* our own; the least fill */
-  HF_ORDERING_MINIMUM_DEGREE = 1,    /* quicker to compute, more fill on large meshes */
+  HF_ORDERING_NESTED_DISSECTION = 0, /* our own; gives the smallest factor */
+  HF_ORDERING_MINIMUM_DEGREE = 1,    /* quicker to compute, larger factor on large meshes */
   HF_ORDERING_METIS = 2              /* builds with HF_WITH_GPL only */
 };
 

@@ -1,8 +1,9 @@
 /* hf/transfer.h - play the motion of one surface on another.
  *
  * You pair regions of the source surface with regions of the target surface. From the pairs both surfaces get the same
- * harmonic coordinates, and places of equal coordinates correspond. The target takes over the rotations of the source's
- * clusters. Its translations follow from its own shape (Xu, Zhang, Cohen-Or and Xiong 2009, Section 6). */
+ * harmonic coordinates, and places of equal coordinates correspond. The vertices around such a place form a cluster.
+ * The target takes over the rotations of the source's clusters. Its translations follow from its own shape (Xu, Zhang,
+ * Cohen-Or and Xiong 2009, Section 6). */
 #ifndef HF_TRANSFER_H
 #define HF_TRANSFER_H
 
@@ -15,8 +16,8 @@ extern "C" {
 typedef struct hf_transfer_object* hf_transfer;
 
 enum {
-  HF_TRANSFER_FIELDS = 0, /* clusters in the space of all fields: the default */
-  HF_TRANSFER_PAPER = 1   /* clusters are level bands of single fields, the paper's */
+  HF_TRANSFER_FIELDS = 0, /* a cluster: vertices with similar values of all fields; the default */
+  HF_TRANSFER_PAPER = 1   /* a cluster: vertices between two levels of one field, as in the paper */
 };
 
 /* These flags describe a pair of regions. They can be combined. */
@@ -35,7 +36,7 @@ typedef struct hf_transfer_desc {
   uint32_t struct_size;
   int32_t mode;           /* HF_TRANSFER_* */
   uint32_t cluster_count; /* 1 to 512; 0 = 80 */
-  float kernel_width;     /* of a cluster in field space, 0.005 to 0.5; 0 = 0.04 */
+  float kernel_width;     /* width of a cluster, in field values, 0.005 to 0.5; 0 = 0.04 */
   float scale; /* lengths of the target over those of the source; 0 = from the legs, or from the boxes when no
                   pair is a foot */
   float
@@ -77,7 +78,7 @@ typedef struct hf_pair_info {
   double target_leak;
   double
       alignment_angle; /* between the rest directions of the limb, radians; negative when unknown (trunk, short limb) */
-  double confidence;   /* 0..1: share of the pair's clusters that rest on enough source vertices */
+  double confidence;   /* 0..1: share of the pair's clusters with enough source vertices */
   int32_t aligned;     /* 1: the rest alignment is applied */
   int32_t crossed;     /* 1: the region lies on one side of the source and on the other of the target, by the axes:
                           left and right may be exchanged */
@@ -123,16 +124,16 @@ typedef struct hf_transfer_frame {
   const double* hold_positions; /* [hold_count][3] in the target's unit and frame */
 } hf_transfer_frame;
 
-/* Transfers one posed frame. If the source is at rest, the target is at rest too. A limb whose rest alignment is
- * applied (hf_pair_info) instead takes the direction of the source's limb.
+/* Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest directions differ
+ * much on the two surfaces (hf_pair_info), it instead takes the direction of the source's limb.
  *
- * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors. While a foot of the source stands
- * on the ground, the target's foot follows its scaled path exactly. No part of the target sinks deeper into the ground
- * than the same part of the source, scaled. The ground does not move held regions. A lying target rests on the parts
- * that the source rests on. A rigid motion of the whole source is copied unchanged. Errors: HF_ERROR_EMPTY (no pair),
- * HF_ERROR_NON_FINITE (index = source vertex, or position in the holds), HF_ERROR_NO_SUCH_PAIR,
- * HF_ERROR_INVALID_ARGUMENT (a pair held twice), HF_ERROR_TOO_LARGE (holds). Thread safety: changes `transfer`. Since
- * 0.1. */
+ * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors (their target region follows the
+ * path of the source's region). While a foot of the source stands on the ground, the target's foot follows its scaled
+ * path exactly. No part of the target sinks deeper into the ground than the same part of the source, scaled. The ground
+ * does not move regions that you hold. A lying target rests on the parts that the source rests on. A rigid motion of
+ * the whole source is copied unchanged. Errors: HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE (index = source vertex,
+ * or position in the holds), HF_ERROR_NO_SUCH_PAIR, HF_ERROR_INVALID_ARGUMENT (a pair held twice), HF_ERROR_TOO_LARGE
+ * (holds). Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
 /* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With weight_count 4 the skin replays

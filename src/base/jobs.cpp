@@ -53,14 +53,14 @@ struct Batch {
   }
 };
 
-// A thread polls this long before it sleeps. A sleeping thread needs tens of microseconds to wake. A longer time would
-// keep a core from the host.
+// A thread without work polls for a new batch of jobs this long before it sleeps. A sleeping thread needs tens of
+// microseconds to wake. A longer time would keep a core from the host.
 constexpr std::chrono::microseconds spin_time{40};
-// Polls between two readings of the clock. No result depends on this number.
+// A waiting thread reads the clock after this many polls. No result depends on this number.
 constexpr int polls = 64;
 
-// Calls done() until it returns true or spin_time is over. A solve runs about a dozen batches in a row. Waking a
-// sleeping thread for each batch would cost more than the smaller batches take.
+// Waits for other threads: calls done() until it returns true or spin_time is over. A solve runs about a dozen batches
+// in a row. Waking a sleeping thread for each batch would cost more than the smaller batches take.
 template <class Done>
 bool spin(Done&& done) noexcept {
   const auto until = std::chrono::steady_clock::now() + spin_time;

@@ -14,7 +14,8 @@ namespace hf_inner {
 
 class JobRunner {
  public:
-  // thread_count: threads that may work at once, including the calling thread; 1 runs every job on the calling thread.
+  // Makes a runner of parallel jobs. thread_count: threads that may work at once, including the calling thread; 1 runs
+  // every job on the calling thread.
   explicit JobRunner(std::uint32_t thread_count, const hf_job_runner& host = {});
   ~JobRunner();
   JobRunner(const JobRunner&) = delete;

@@ -22,8 +22,8 @@ namespace hf_inner {
 class Memory final : public std::pmr::memory_resource {
  public:
   Memory() noexcept = default;
-  // hooks: the host's allocation functions; both set, or both null for malloc. byte_limit: most live bytes; 0 = no
-  // limit.
+  // hooks: the host's allocation functions; both set, or both null for malloc. byte_limit: at most this many bytes are
+  // allocated at once; 0 = no limit.
   explicit Memory(const hf_allocator& hooks, std::uint64_t byte_limit = 0) noexcept
       : hooks_(hooks), byte_limit_(byte_limit) {}
 

@@ -37,7 +37,7 @@ class Progress {
   }
   std::atomic<float> fraction_{0.0f};
   std::atomic<bool> cancelled_{false};
-  float low_ = 0, high_ = 1;  // of what is reported; the work's own
+  float low_ = 0, high_ = 1;  // range of the call's progress that the present part of the work covers
 };
 
 // While it lives, this thread works for a call with that progress, or without one. JobRunner passes it on to the

@@ -46,7 +46,7 @@ void distance(hf_geodesics handle, std::uint32_t count, const std::uint32_t* ver
       [&](std::size_t v, double* values) { values[0] = field[v] < 0 ? -1 : scale * field[v]; });
 }
 
-// Returns a copy of the desc with the defaults filled in.
+// Returns a copy of the caller's desc with the defaults filled in.
 hf_extremities_desc read_extremities(const hf_extremities_desc* given) {
   hf_extremities_desc desc = read_optional(given, "desc");
   check_choice(desc.kind, 2, "kind");

@@ -52,7 +52,7 @@ inline constexpr std::size_t released_size = sizeof(T);
 template <class T>
 void check_struct(const T* given, const char* name) {
   require(given, name);
-  constexpr std::uint32_t most = 4096;  // bytes of the caller that are read: no struct will ever be that long
+  constexpr std::uint32_t most = 4096;  // longer structs are refused: none will ever have so many bytes
   if (given->struct_size < released_size<T> || given->struct_size > most) {
     fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "%s: struct_size is %u; set it to sizeof (%zu here), as HF_INIT does",
          name, given->struct_size, sizeof(T));

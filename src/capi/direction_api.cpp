@@ -30,7 +30,7 @@ struct DirectionObject final : Object {
   const std::uint32_t degree, site_limit;
   std::shared_ptr<Memory> memory;  // outlives everything below
   DirectionField field;
-  std::atomic<std::uint32_t> site_count{0};  // of the last finished change
+  std::atomic<std::uint32_t> site_count{0};  // number of constraints after the last finished change
 };
 
 std::shared_ptr<DirectionObject> object_of(hf_direction handle) { return get<DirectionObject>(handle, "direction"); }

@@ -16,7 +16,7 @@
 namespace hf_inner::capi {
 namespace {
 
-constexpr std::uint32_t most_corrections = 8;  // two leave nothing of a well-posed system; more only for hard cases
+constexpr std::uint32_t most_corrections = 8;  // corrections of a preview; two are enough for a well-posed system
 
 hf_solve_info unreached(const SolverObject& solver) {
   const SiteSolver& engine = solver.field.engine();

@@ -15,9 +15,9 @@ struct Table {
   std::mutex mutex;
   HandleSlots<Object, number_bits> slots;
 };
-Table table;  // trivially initialised; owns nothing while no handle lives
+Table table;  // trivially initialised; owns no memory while no handle is in use
 
-thread_local const Reading* innermost_reading;  // on this thread's stack
+thread_local const Reading* innermost_reading;  // the innermost reading call on this thread's stack
 
 // The number in a handle of that kind; 0, which names no object, in any other.
 std::uintptr_t number_in(std::uintptr_t handle, Kind kind) noexcept {

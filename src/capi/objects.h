@@ -44,7 +44,8 @@ struct SurfaceObject final : Object {
   const hf_surface_info info;
 };
 
-// Returns the harmonic core of a surface. Poses, transfers, directions, distances and quads are built on this core.
+// Returns the harmonic core (operator and factor) of a surface. Poses, transfers, directions, distances and quads are
+// built on this core.
 inline std::shared_ptr<const Core> harmonic_core(hf_surface handle, const char* name = "surface",
                                                  std::uint32_t index = HF_NO_INDEX) {
   return get<SurfaceObject>(handle, name, index)->surface.core(FieldKind::harmonic);

@@ -36,7 +36,7 @@ struct PoseObject final : Object {
   }
   std::shared_ptr<Memory> memory;  // outlives the pose
   std::shared_ptr<PoseStack> pose;
-  bool keeps_order;  // inner vertices are those given, in their order: nothing welded, none isolated
+  bool keeps_order;  // the library's vertices are the caller's: none welded, none isolated
   // The handle count after the last finished change. Another thread may read it while a change runs.
   std::atomic<std::uint32_t> handle_count;
 };
@@ -131,7 +131,8 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
   const Core& core = pose->pose->core();
   const Range range = read_range(desc, core.mesh.report.vertex_count);
   request.surface = range.whole || request.normals || request.refine || pose->pose->has_layers();
-  const bool straight = range.whole && pose->keeps_order;  // no vertex moves its place between here and there
+  // The library's and the caller's vertices have the same order.
+  const bool straight = range.whole && pose->keeps_order;
   const auto packed = [](std::uint32_t stride) { return stride == 0 || stride == 3 * sizeof(float); };
   if (straight && packed(desc.position_stride)) request.packed_positions = desc.positions;
   const bool straight_normals = straight && desc.normals && packed(desc.normal_stride);

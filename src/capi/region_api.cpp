@@ -112,7 +112,7 @@ hf_result hf_region_get_info(hf_region region, hf_region_info* out_info) {
     info.rim_count = static_cast<std::uint32_t>(state.shape->rim.size());
     info.site_count = static_cast<std::uint32_t>(state.shape->sites.size());
     info.inserted_count = state.inserted, info.removed_count = state.removed, info.kept_count = state.kept;
-    info.factorisation_count = counters.factorisations - 1;  // the core's counts as one
+    info.factorisation_count = counters.factorisations - 1;  // the surface's own factor counts as one
     info.path_solve_count = counters.path_solves;
     info.last_route = static_cast<std::uint32_t>(counters.last_route);
     info.whole_sweep = state.whole_sweep;

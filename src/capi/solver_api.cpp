@@ -11,8 +11,8 @@ namespace hf_inner::capi {
 namespace {
 
 constexpr std::uint32_t most_channels = most_width;
-constexpr double default_penalty = 1e8;   // the paper's
-constexpr double largest_penalty = 1e10;  // beyond it the other equations of a penalised row drown in rounding
+constexpr double default_penalty = 1e8;   // weight of hard sites as penalties, as in Xu et al. 2009
+constexpr double largest_penalty = 1e10;  // with more, rounding hides the other terms of the equation
 
 // ---- edits ----
 

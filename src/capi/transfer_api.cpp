@@ -26,7 +26,7 @@ struct TransferObject final : Object {
   Transfer transfer;
   OwnedMutex preparing;  // readers that solve the fields of new pairs take turns
   Buffer<Vec3> source_posed, target_posed;
-  // These members are made at the first frame that asks for normals.
+  // The normals of the target need these members, which are made at the first frame that asks for normals.
   std::shared_ptr<const Rest> rest;
   Buffer<NormalSum> normal_sums;
   Buffer<Normal> normals;
@@ -187,7 +187,7 @@ hf_result hf_transfer_get_skin(hf_transfer handle, hf_skin_info* inout_skin) {
     Vector<Vec3> pivots(joints, memory), places(joints, memory);
     Vector<Quaternion> rotations(joints, memory);
     object->transfer.skin_motion(pivots.data(), rotations.data(), places.data());
-    for (std::size_t j = 0; j < joints; ++j)  // a transfer's joints are rigid
+    for (std::size_t j = 0; j < joints; ++j)  // a transfer's joints never stretch
       out.write_joint(j, pivots[j], rotations[j], places[j], Quaternion(), {1, 1, 1});
     out.write_vertices(mesh, [&](std::int32_t inner, std::uint32_t* joint, float* weight) {
       weight[0] = 1;  // isolated vertices follow the first joint

@@ -13,7 +13,7 @@ namespace hf_inner::capi {
 template <class Visit>
 void for_each_given(const Core& core, std::size_t first, std::size_t count, Visit&& visit) {
   constexpr std::size_t piece =
-      32768;  // vertices of a job: long enough to hide its start, short enough for many threads
+      32768;  // vertices of one thread's job: smaller ones cost more to start, larger ones leave threads idle
   core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
     const std::size_t begin = first + p * piece, end = std::min(first + count, begin + piece);
     for (std::size_t v = begin; v < end; ++v) visit(v, core.mesh.inner_of_given[v]);
@@ -112,8 +112,8 @@ class FieldWriter final : public FieldSink {
     }
   }
 
-  // M is the number of channels if the compiler knows it, else 0. The rows of z are read in random order, so the loop
-  // prefetches rows some vertices ahead.
+  // Copies the field z of the engine to the caller's rows. M is the number of channels if the compiler knows it, else
+  // 0. The rows of z are read in random order, so the loop prefetches rows some vertices ahead.
   template <class T, std::size_t M>
   void write_rows(std::int32_t first, std::size_t count, const double* z, const std::int32_t* row) const {
     const std::size_t vertices = core_.mesh.report.vertex_count, m = M > 0 ? M : count;

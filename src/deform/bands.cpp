@@ -8,8 +8,8 @@
 namespace hf_inner {
 namespace {
 
-// Finds the fields that make bands. With two handles in a component, only the second handle's field does; with more,
-// all fields do; with one, none.
+// Finds the handles' fields that are cut into level bands. With two handles in a component it is the second handle's
+// field. With more it is every field, with one none.
 Vector<FieldPart> find_parts(const Mesh& mesh, const Reach& reach, Memory& memory) {
   Vector<FieldPart> parts(&memory);
   for (std::int32_t c = 0; c < mesh.component_count(); ++c) {
@@ -22,7 +22,8 @@ Vector<FieldPart> find_parts(const Mesh& mesh, const Reach& reach, Memory& memor
   return parts;
 }
 
-// Union-find whose representative is the smallest member. So results do not depend on the order of unions.
+// Union-find over vertices whose representative is the smallest member. So results do not depend on the order of
+// unions.
 struct Partition {
   Vector<std::int32_t> parent;
   Partition(std::size_t size, Memory& memory) : parent(size, 0, &memory) {}
@@ -38,8 +39,9 @@ struct Partition {
   }
 };
 
-// Cuts one field after the other into clusters. It collects entries (vertex, cluster, weight) in one list per piece of
-// vertices (vertex_piece). Threads share these pieces. One thread joins the edges between pieces.
+// Cuts the handles' fields, one after the other, into clusters (pieces of overlapping level bands). It collects entries
+// (vertex, cluster, weight) in one list per vertex_piece vertices. Threads share these pieces. One thread joins the
+// edges between pieces.
 class BandCutter {
  public:
   BandCutter(const Core& core, const Rest& rest, const Reach& reach, const HandleFields& fields,
@@ -60,18 +62,19 @@ class BandCutter {
         roots_(&memory),
         others_(core.size(), 0.0, &memory) {}
 
-  // Forgets all entries. The first new cluster gets the number first_cluster.
+  // Forgets all entries (vertex, cluster, weight). The first new cluster gets the number first_cluster.
   void begin(std::int32_t first_cluster) noexcept {
     for (auto& list : entries_) list.clear();
     next_cluster_ = first_cluster;
   }
-  // Cuts one field on one component. It drops connected pieces with less than the share `smallest` of the component's
-  // area.
+  // Cuts one handle's field on one component into level bands. It drops connected pieces of bands with less than the
+  // share `smallest` of the component's area.
   void cut(const FieldPart& part, const Levels& levels, double smallest);
-  // Gives each handle its share of the first band, for all fields of a component.
+  // Gives each handle its share of the first level band, for all fields of a component.
   void finish_component(std::int32_t component);
 
-  // One list per piece of vertices. The entries of a vertex keep the order in which they were added.
+  // One list of cluster weights per vertex_piece vertices. The entries of a vertex keep the order in which they were
+  // added.
   const Vector<Vector<ClusterEntry>>& entries() const noexcept { return entries_; }
   std::int32_t cluster_count() const noexcept { return next_cluster_; }
 
@@ -98,17 +101,17 @@ class BandCutter {
   Memory& memory_;
   Vector<Vector<ClusterEntry>> entries_;
   std::int32_t next_cluster_ = 0;
-  // These arrays are scratch memory for the field that is being cut. They have one entry per vertex, or three per
-  // vertex (one per band).
+  // These arrays are scratch memory for the field that is being cut into level bands. They have one entry per vertex,
+  // or three per vertex (one per band).
   Partition partition_;
   Buffer<BandValues> values_;
   Buffer<double> share_;        // share of the field at the vertex (beta)
-  Buffer<double> floor_;        // smallest field value that counts at a vertex
+  Buffer<double> floor_;        // smallest field value that makes bands at a vertex
   std::int32_t floor_of_ = -1;  // the component that floor_ belongs to
-  Buffer<double> piece_area_;   // by root of the union-find partition
+  Buffer<double> piece_area_;   // area of a connected piece, by the root of its partition
   Buffer<std::int32_t> piece_cluster_;
-  Vector<Root> roots_;     // roots of the partition, ascending
-  Vector<double> others_;  // by vertex: sum over the fields of share times B_0 / (1 - phi)
+  Vector<Root> roots_;     // roots of the union-find partition, ascending
+  Vector<double> others_;  // by vertex: sum over fields phi of share times B_0 / (1 - phi), B_0 the first band
 };
 
 // Splits an ascending vertex list into pieces, and calls loop(piece, its vertices). Long lists run on several threads.
@@ -131,7 +134,8 @@ void BandCutter::in_pieces(Span<const std::int32_t> vertices, Loop&& loop) {
   });
 }
 
-// Computes the smallest field value that counts at each vertex. It runs once per component with more than two handles.
+// Computes the smallest field value that still makes bands at each vertex. It runs once per component with more than
+// two handles.
 void BandCutter::find_floor(const FieldPart& part) noexcept {
   const Span<const std::int32_t> present = reach_.handles_of(part.component);
   if (present.size() <= 2 || floor_of_ == part.component) return;
@@ -157,7 +161,7 @@ void BandCutter::evaluate(const FieldPart& part, const Levels& levels, Span<cons
   }
 }
 
-// Joins the two ends of an edge in every band that contains both.
+// Joins the two ends of an edge in every level band that contains both.
 inline void BandCutter::join_edge(std::int32_t v, std::int32_t u) noexcept {
   if (share_[u] <= 0) return;
   const int width = options_.degree + 1;
@@ -219,8 +223,8 @@ void BandCutter::number_pieces(Span<const std::int32_t> vertices, double smalles
   }
 }
 
-// Adds the entries of the clusters and of the handle itself. The share of the first band is only summed up here;
-// finish_component gives it to all handles. The handle's own part of that share is therefore subtracted here.
+// Adds the weights of the vertices in clusters and in the handle itself. The first level band is only summed up here;
+// finish_component gives it to all handles. The handle's own part of that band is therefore subtracted here.
 void BandCutter::emit(const FieldPart& part, Span<const std::int32_t> vertices, Vector<ClusterEntry>& entries) {
   const double* phi = fields_.of(part.handle);
   const std::int32_t last = options_.band_count + 1;

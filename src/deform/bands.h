@@ -20,18 +20,18 @@ namespace hf_inner {
 struct BandOptions {
   int degree = 2;
   BandSpacing spacing = BandSpacing::equal_length;
-  // Wished number of bands (K); bands_for gives the real one.
+  // Wished number of level bands per field (K); bands_for gives the real one.
   std::int32_t band_count = static_cast<std::int32_t>(default_bands_smooth);
 };
 
-// Returns the number of bands per field: at most `wished`, at least 2. For `field_count` fields together it is about
-// free_cluster_target.
+// Returns the number of level bands per field: at most `wished`, at least 2. All `field_count` fields together then
+// have about free_cluster_target bands.
 std::int32_t bands_for(std::int32_t wished, std::int32_t field_count) noexcept;
 
-// The weights of vertices in clusters. Each vertex has a row of entries with ascending cluster numbers. The weights of
-// a row are multiples of 2^-24 and sum to exactly 1, so a motion that all clusters share comes back to rounding. An
-// entry takes six bytes. Vertices of components without a handle have no entries. Clusters 0 .. handle_count - 1 are
-// the handles.
+// The weights of vertices in clusters (handles and pieces of level bands). Each vertex has a row of entries with
+// ascending cluster numbers. The weights of a row are multiples of 2^-24 and sum to exactly 1, so a motion that all
+// clusters share comes back to rounding. An entry takes six bytes. Vertices of components without a handle have no
+// entries. Clusters 0 .. handle_count - 1 are the handles.
 struct ClusterWeights {
   explicit ClusterWeights(Memory& memory)
       : start(&memory),
@@ -52,11 +52,11 @@ struct ClusterWeights {
   Vector<std::int32_t> block_start;
   Vector<std::uint16_t> block_cluster;
   Vector<float> block_weight;
-  Vector<std::int32_t> elastic_components;  // components with clusters that are not handles, ascending
+  Vector<std::int32_t> elastic_components;  // components with clusters that are no handles, ascending
   Vector<std::uint8_t> shared;              // by elastic component: 1 if more than two handles meet in it
   std::int32_t handle_count = 0;
   std::int32_t cluster_count = 0;
-  std::int32_t band_count = 0;  // K in use
+  std::int32_t band_count = 0;  // K, the level bands per field in use
   std::int32_t unreached_vertex_count = 0;
   std::int32_t free_count() const noexcept { return cluster_count - handle_count; }
 };

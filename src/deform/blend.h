@@ -13,10 +13,10 @@ struct Affine {
   double a[3][4];
 };
 
-// Fills the blocks of `weights`: those whose eight vertices share most of their clusters. The work of a block grows
-// with the number of different clusters in it; without a block, each vertex pays for its own clusters. Neighbouring
-// vertices share clusters in every mesh but a shuffled one. Cost: two passes over the weights. When it throws,
-// `weights` has no blocks.
+// Lists in `weights` the blocks of eight vertices that share most of their clusters. The work of a block grows with the
+// number of different clusters in it; without a block, each vertex pays for its own clusters. Neighbouring vertices
+// share clusters in every mesh but a shuffled one. Cost: two passes over the weights. When it throws, `weights` has no
+// blocks.
 void list_blocks(ClusterWeights& weights, JobRunner& jobs);
 
 // Writes the blended positions, moved to offset + scale x. columns: scratch of column_count() numbers, aligned to 64

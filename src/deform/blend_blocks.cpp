@@ -8,9 +8,9 @@ namespace {
 
 constexpr std::int32_t lanes = 8;
 
-// Calls use(cluster, eight weights) for every cluster of the block's vertices, in ascending order. Returns the number
-// of clusters. It returns 0 when blending the block as one does not pay: a vertex has no cluster, or the vertices share
-// too few clusters (block_sharing).
+// Calls use(cluster, eight weights) for every cluster that moves one of eight vertices (a block), in ascending order.
+// Returns the number of clusters. It returns 0 when blending the eight together is no quicker: a vertex has no cluster,
+// or they share too few clusters (block_sharing).
 template <class Use>
 std::int32_t merge_block(const ClusterWeights& weights, std::int32_t block, Use&& use) noexcept {
   constexpr std::int32_t none = 0x10000;

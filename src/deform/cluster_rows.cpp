@@ -8,7 +8,7 @@
 namespace hf_inner {
 namespace {
 
-// The entries of the vertices [first, last), sorted by vertex.
+// The weights in clusters of the vertices [first, last), sorted by vertex.
 class WeightTable {
  public:
   struct Item {
@@ -23,8 +23,8 @@ class WeightTable {
     for (const ClusterEntry& entry : entries) items_[next[entry.vertex - first]++] = {entry.cluster, entry.weight};
   }
 
-  // Returns the row of a vertex: clusters ascending, small weights removed, sum 1. The row is empty when no weight
-  // remains.
+  // Returns a vertex's row of cluster weights: clusters ascending, small weights removed, sum 1. The row is empty when
+  // no weight remains.
   Span<const Item> finish(std::int32_t v) noexcept {
     Item* items = items_.data() + start_[v - first_];
     std::int32_t count = join_equal(items, start_[v - first_ + 1] - start_[v - first_]);
@@ -63,16 +63,17 @@ class WeightTable {
   Buffer<Item> items_;
 };
 
-// The finished rows of one piece of vertices.
+// The finished rows of cluster weights of vertex_piece vertices.
 struct PieceRows {
   explicit PieceRows(const std::pmr::polymorphic_allocator<std::byte>& allocator)
       : length(allocator), cluster(allocator), weight(allocator) {}
-  Vector<std::int32_t> length;  // per vertex
+  Vector<std::int32_t> length;  // number of weights per vertex
   Vector<std::uint16_t> cluster;
   Vector<float> weight;
   std::int32_t unreached = 0;
 
-  // Appends a row of weights that sum to 1, rounded to multiples of 2^-24. The largest weight takes the remainder.
+  // Appends a vertex's row of cluster weights that sum to 1, rounded to multiples of 2^-24. The largest weight takes
+  // the remainder.
   void append(Span<const WeightTable::Item> row) {
     constexpr double steps = 16777216;  // 2^24: a float holds all whole numbers up to it
     double left = steps;
@@ -90,8 +91,8 @@ struct PieceRows {
   }
 };
 
-// Makes the rows of the vertices [first, last). If all clusters of a vertex were dropped, it gets the handles, weighted
-// by their fields.
+// Makes the rows of cluster weights of the vertices [first, last). If all clusters of a vertex were dropped, it gets
+// the handles, weighted by their fields.
 void make_rows(const Vector<ClusterEntry>& entries, std::int32_t first, std::int32_t last, const Mesh& mesh,
                const Reach& reach, const HandleFields& fields, PieceRows& out, Memory& memory) {
   WeightTable table(entries, first, last, memory);

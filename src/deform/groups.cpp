@@ -12,11 +12,12 @@ struct Front {
   std::int32_t vertex;
 };
 
-// Spreads a new group from its seed over the vertices that are nearer to it than to their present group.
+// Spreads a new rotation group from its first vertex (seed) over the vertices that are nearer to it than to their
+// present group.
 //
 // The distances are the fixed point d[u] = min over neighbours v of d[v] + |uv|. This does not depend on the order in
-// which vertices are visited, so no heap is needed. The front holds all vertices below a limit, and the limit rises by
-// a mean edge length (delta-stepping, Meyer and Sanders 2003, on one thread).
+// which vertices are visited, so no heap is needed. The front, the list of vertices to visit, holds all vertices below
+// a limit, and the limit rises by a mean edge length (delta-stepping, Meyer and Sanders 2003, on one thread).
 class Spreading {
  public:
   Spreading(const Core& core, Memory& memory)
@@ -35,7 +36,7 @@ class Spreading {
     std::fill(node_.begin(), node_.end(), Node{std::numeric_limits<double>::infinity(), -1, 0});
   }
 
-  // Sets the component in which the next groups are made. vertices: its vertices.
+  // Sets the component in which the next rotation groups are made. vertices: its vertices.
   void enter(Span<const std::int32_t> vertices) {
     vertices_ = vertices;
     double total = 0;
@@ -114,7 +115,7 @@ class Spreading {
   };
   struct Node {
     double distance;
-    std::int32_t group, block;  // block: index into best_ and stale_
+    std::int32_t group, block;  // block: number of a run of farthest_block vertices
   };
   const std::int32_t* start_;  // neighbours of vertex v: arc_[start_[v] .. start_[v + 1])
   Buffer<Arc> arc_;
@@ -122,7 +123,7 @@ class Spreading {
   Vector<Front> near_, far_;
   Span<const std::int32_t> vertices_;
   Vector<std::int32_t> best_;   // by block of vertices_: its farthest vertex
-  Vector<std::uint8_t> stale_;  // by block: 1 if a distance in it has changed
+  Vector<std::uint8_t> stale_;  // by block of vertices_: 1 if a distance in it has changed
   double step_ = 0;
 };
 

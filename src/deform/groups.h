@@ -16,8 +16,8 @@ namespace hf_inner {
 struct Groups {
   explicit Groups(Memory& memory)
       : group_of(&memory), seed(&memory), component(&memory), component_start(&memory), component_end(&memory) {}
-  Vector<std::int32_t> group_of;         // per vertex, -1 in components without groups
-  Vector<std::int32_t> seed;             // per group
+  Vector<std::int32_t> group_of;         // rotation group per vertex, -1 in components without groups
+  Vector<std::int32_t> seed;             // first vertex of each group
   Vector<std::int32_t> component;        // per group
   Vector<std::int32_t> component_start;  // groups of component c: [component_start[c], component_end[c])
   Vector<std::int32_t> component_end;

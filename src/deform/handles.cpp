@@ -11,8 +11,8 @@
 namespace hf_inner {
 namespace {
 
-// Chooses `count` ring vertices by farthest-point sampling. It takes one vertex of every component first, so that each
-// component has sites.
+// Chooses `count` vertices of a handle's boundary ring by farthest-point sampling. It takes one vertex of every
+// component first, so that each component has sites.
 Vector<std::int32_t> sample_ring(const Mesh& mesh, const Vector<std::int32_t>& ring, std::uint32_t count,
                                  Memory& memory) {
   Vector<std::int32_t> chosen(&memory);
@@ -44,8 +44,8 @@ std::int32_t solved_channels(std::size_t handle_count) noexcept {
   return handle_count < 2 ? static_cast<std::int32_t>(handle_count) : static_cast<std::int32_t>(handle_count) - 1;
 }
 
-// Writes the fields of one vertex. The solved values are clipped and scaled, so that they sum to 1 over the handles of
-// the component.
+// Writes the handles' fields at one vertex. The solved values are clipped and scaled, so that they sum to 1 over the
+// handles of the component.
 void finish_vertex(std::int32_t v, const double* solved, std::int32_t channels, std::int32_t owner,
                    Span<const std::int32_t> present, HandleFields& fields) {
   const std::int32_t handle_count = static_cast<std::int32_t>(fields.leak.size());
@@ -191,7 +191,8 @@ HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Han
   } else {
     std::fill(solved.data(), solved.data() + width * static_cast<std::size_t>(n), 0.0);
   }
-  // The leak is measured before any correction, in all components that have sites.
+  // The leak is the error of the fields on the handles' regions, where some ring vertices are no sites. It is measured
+  // before any correction, in all components that have sites.
   for (std::int32_t owner = 0; owner < handle_count; ++owner) {
     for (const std::int32_t v : handles[owner].region->vertices) {
       if (solver.site_count(core.mesh.component[v]) == 0) continue;

@@ -25,7 +25,7 @@ struct HandleRegion {
   explicit HandleRegion(Memory& memory) : vertices(&memory), sites(&memory), slots(&memory) {}
   Vector<std::int32_t> vertices;  // inner, ascending
   Vector<std::int32_t> sites;     // ring vertices that are sites, ascending; none when the region fills its components
-  Vector<std::int32_t> slots;     // slots of these sites in the pose's SiteSolver
+  Vector<std::int32_t> slots;     // numbers of these sites in the pose's SiteSolver
   Vec3 centroid;                  // mean of the vertices, in the unit of the scaled mesh
   std::int32_t component = 0;     // component of the first vertex
 };
@@ -39,7 +39,8 @@ struct Handle {
 using Handles = Vector<Handle>;
 
 // Makes the region of a handle. vertices: inner vertices without Mesh::none; repeated ones count once.
-// samples_per_ring: number of ring vertices used as sites, 0 for the whole ring. The slots remain empty.
+// samples_per_ring: number of boundary ring vertices used as sites, 0 for the whole ring. HandleRegion::slots remains
+// empty.
 std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices,
                                           std::uint32_t samples_per_ring, Memory& memory);
 
@@ -79,11 +80,11 @@ struct HandleFields {
     return values.data() + static_cast<std::size_t>(handle) * static_cast<std::size_t>(vertices);
   }
   std::int32_t vertices;
-  Buffer<double> values;  // handle by handle
-  Vector<double> leak;    // per handle
+  Buffer<double> values;  // field values, handle by handle
+  Vector<double> leak;    // largest error of the field on the regions, per handle
 };
 
-// Solves the fields of all handles at once. solver: holds the sites of every handle in their slots.
+// Solves the fields of all handles at once. solver: has the sites of every handle, numbered by HandleRegion::slots.
 HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Handles& handles, const Reach& reach,
                                  Memory& memory);
 

@@ -43,8 +43,8 @@ void set_equal_value(Levels& levels) noexcept {
   for (int b = 0; b <= Levels::bins; ++b) levels.level[b] = static_cast<double>(b) / Levels::bins;
 }
 
-// Computes the mean gradient per bin of field values. A bin without triangles takes the value of the nearest bin. Then
-// a running mean smooths the bins.
+// Computes a field's mean gradient length per bin of field values. A bin without triangles takes the value of the
+// nearest bin. Then a running mean smooths the bins.
 bool mean_gradients(const Histogram& histogram, double (&smooth)[Levels::bins]) noexcept {
   double mean[Levels::bins];
   int last_full = -1;
@@ -96,11 +96,12 @@ Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleField
     for (Levels& l : levels) set_equal_value(l);
     return levels;
   }
-  // The fields of component c are parts [part_start[c], part_start[c + 1]).
+  // The handles' fields on component c are parts [part_start[c], part_start[c + 1]).
   Vector<std::int32_t> part_start(mesh.component_count() + 1, 0, &memory);
   for (const FieldPart& part : parts) ++part_start[part.component + 1];
   for (std::int32_t c = 0; c < mesh.component_count(); ++c) part_start[c + 1] += part_start[c];
-  // The triangles are split into a fixed number of jobs, whose histograms are summed in their order.
+  // The triangles are split into a fixed number of jobs. Their histograms of gradient lengths are summed in the order
+  // of the jobs.
   Vector<Histogram> histograms(histogram_shares * parts.size(), Histogram{}, &memory);
   core.jobs->for_each(histogram_shares, [&](std::uint32_t share) {
     const std::int64_t count = mesh.triangle_count();
@@ -123,14 +124,15 @@ Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleField
 }
 
 double eased_level(double level, std::int32_t band_count) noexcept {
-  const double spans = band_count, x = std::clamp(level, 0.0, 1.0) * spans;  // spans of the basis of degree 2
+  // Spans (knot intervals) of the basis of degree 2.
+  const double spans = band_count, x = std::clamp(level, 0.0, 1.0) * spans;
   const auto eased = [](double d) { return 0.5 * (d + d * d * (2 - d)); };
   if (x < 1) return eased(x) / spans;
   return x > spans - 1 ? 1 - eased(spans - x) / spans : level;
 }
 
 BandValues band_values(double level, std::int32_t band_count, int degree) noexcept {
-  // K + 2 functions of degree p take K + 2 - p spans. The knots are clamped at both ends.
+  // K + 2 B-spline functions of degree p take K + 2 - p spans between knots. The knots are clamped at both ends.
   const std::int32_t spans = band_count + 2 - degree;
   const double x = std::clamp(level, 0.0, 1.0) * spans;
   const std::int32_t span = std::min(static_cast<std::int32_t>(x), spans - 1);
@@ -141,7 +143,7 @@ BandValues band_values(double level, std::int32_t band_count, int degree) noexce
     return b;
   }
   const double low = span == 0 ? 1.0 : 2.0,
-               high = span == spans - 1 ? 1.0 : 2.0;  // widths of the neighbouring double spans
+               high = span == spans - 1 ? 1.0 : 2.0;  // widths of the neighbouring pairs of spans
   b.value[0] = (1 - u) * (1 - u) / low;
   b.value[2] = u * u / high;
   b.value[1] = 1 - b.value[0] - b.value[2];

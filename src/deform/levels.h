@@ -16,7 +16,7 @@ namespace hf_inner {
 
 enum class BandSpacing : std::int32_t { equal_value, equal_length };
 
-// One field on one component.
+// One handle's field on one component.
 struct FieldPart {
   std::int32_t component, handle;
 };
@@ -28,19 +28,20 @@ struct Levels {
   double operator()(double phi) const noexcept;
 };
 
-// Computes the levels of several fields in one pass over the triangles. parts: ordered by component.
+// Computes the levels (field values turned to [0, 1]) of several fields in one pass over the triangles. parts: ordered
+// by component.
 Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleFields& fields,
                            const Vector<FieldPart>& parts, BandSpacing spacing, Memory& memory);
 
 // Values of the clamped uniform B-spline basis B_0 .. B_{K+1} of degree 1 or 2 on [0, 1]. At most degree + 1 of them
 // are not zero.
 struct BandValues {
-  std::int32_t first;  // number of the function of value[0]
+  std::int32_t first;  // value[0] belongs to B_first
   double value[3];
 };
-// Returns the level at which bands are read where more than two handles share a surface. With it, bending starts
-// gradually at a handle. In the last span at each end the level slows down to half its speed: a distance of d spans
-// from the end becomes (d + d^2 (2 - d)) / 2. band_count: number of spans of the basis of degree 2.
+// Returns the level at which the B-splines are read where more than two handles share a component. With it, bending
+// starts gradually at a handle. In the last span at each end the level slows down to half its speed: a distance of d
+// spans from the end becomes (d + d^2 (2 - d)) / 2. band_count: number of spans of the basis of degree 2.
 double eased_level(double level, std::int32_t band_count) noexcept;
 BandValues band_values(double level, std::int32_t band_count, int degree) noexcept;
 

@@ -24,7 +24,7 @@ inline __attribute__((always_inline)) void add_normals(const NormalRows& rows, c
     const __m256d a = _mm256_mul_pd(unit, _mm256_sub_pd(_mm256_maskload_pd(positions + 3 * j, three), p)),
                   b = _mm256_mul_pd(unit, _mm256_sub_pd(_mm256_maskload_pd(positions + 3 * k, three), p));
     // c is the cross product a x b. Its components have the order z x y until the end.
-    constexpr int next = 0xC9;  // y z x
+    constexpr int next = 0xC9;  // shuffles x y z to y z x
     const __m256d c = _mm256_sub_pd(_mm256_mul_pd(a, _mm256_permute4x64_pd(b, next)),
                                     _mm256_mul_pd(_mm256_permute4x64_pd(a, next), b));
     const __m128 turned = _mm256_cvtpd_ps(c);

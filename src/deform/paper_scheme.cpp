@@ -7,7 +7,7 @@
 namespace hf_inner {
 namespace {
 
-// The vertices of each free cluster (a cluster that is no handle), with their weights.
+// The vertices of each free cluster (piece of a level band, no handle), with their weights.
 struct Members {
   Vector<std::int32_t> start, vertex;
   Vector<double> weight;
@@ -29,7 +29,7 @@ struct Members {
   }
 };
 
-// Matches the shape of one cluster: returns the rigid motion that takes its samples from rest nearest to
+// Matches the shape of one cluster: returns the rigid motion that takes its sampled vertices from rest nearest to
 // `position_of(sample)`.
 template <class PositionOf>
 RigidMotion match_shape(const PaperSystem& system, const Mesh& mesh, std::int32_t f, const Quaternion& near,

@@ -16,7 +16,7 @@ namespace hf_inner {
 struct PaperSystem {
   PaperSystem(const Core& core, const ClusterWeights& weights, Memory& memory);
   std::int32_t handle_count, free_count;
-  Vector<std::int32_t> sample;         // vertices, all different
+  Vector<std::int32_t> sample;         // sampled vertices, all different
   Vector<std::int32_t> cluster_start;  // samples of free cluster f: member[cluster_start[f] .. cluster_start[f + 1])
   struct Member {
     std::int32_t sample;  // position in `sample`
@@ -29,7 +29,7 @@ struct PaperState {
   explicit PaperState(Memory& memory) : motion(&memory), position(&memory) {}
   PaperState(const PaperState& other, Memory& memory)
       : motion(other.motion, &memory), position(other.position, &memory) {}
-  // Makes room for a system, with all clusters at rest.
+  // Makes room for a system, with all its clusters (overlapping bands of vertices) at rest.
   void fit(const PaperSystem& system);
   Vector<RigidMotion> motion;  // by free cluster, in the unit of the scaled mesh
   Vector<Vec3> position;       // per sample
@@ -38,11 +38,11 @@ struct PaperState {
 // Turns a rigid motion x = R p + t into the 3 x 4 matrix that the blend uses.
 Affine to_affine(const RigidMotion& motion) noexcept;
 
-// Fits the motions to given positions (in the unit of the scaled mesh). A pose continues from them after its handles
-// changed.
+// Fits the motions of the clusters (overlapping bands of vertices) to given positions (in the unit of the scaled mesh).
+// A pose continues from them after its handles changed.
 void fit_motions(const PaperSystem& system, const Mesh& mesh, const Vec3* positions, PaperState& state) noexcept;
 
-// Solves the pose. transforms: the handles' entries are read, the free clusters' entries are written.
+// Solves the pose. transforms: one per cluster of vertices; those of handles are read, the others are written.
 SolveReport solve_paper_pose(const PaperSystem& system, const Mesh& mesh, const ClusterWeights& weights,
                              std::uint32_t iterations, double tolerance, PaperState& state,
                              Affine* transforms) noexcept;

@@ -183,8 +183,8 @@ void Pose::remove_handles(Span<const std::uint32_t> numbers) {
   install(std::move(layout), std::move(state));
 }
 
-// Restores the layout and solver state before the last handles were added, if exactly those handles remain. The handles
-// keep their present transforms.
+// Restores the sites, fields, cluster weights and solver state before the last handles were added, if exactly those
+// handles remain. The handles keep their present transforms.
 bool Pose::restore_previous(const Handles& remaining) {
   if (!previous_layout_ || previous_layout_->handles.size() != remaining.size()) return false;
   for (std::size_t i = 0; i < remaining.size(); ++i) {
@@ -213,8 +213,8 @@ void Pose::install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> 
   if (!layout_) posed_ = false, stale_ = false;
 }
 
-// Makes the groups of the components in which at least two handles meet. This needs no field, so the first time groups
-// and fields are made at once.
+// Makes the groups of vertices that share a rotation, in components with at least two handles. This needs no field, so
+// the first time groups and fields are made on two threads.
 std::shared_ptr<const Groups> Pose::meet(const Layout& layout) const {
   Vector<std::int32_t> shared(&memory());
   for (std::int32_t c = 0; c < core_->mesh.component_count(); ++c) {
@@ -298,7 +298,7 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
   }
   if (state_) state->smooth.rotation.assign(state_->smooth.rotation.begin(), state_->smooth.rotation.end());
   state->smooth.fit(*layout.smooth, *layout.groups);
-  // Components that were rigid so far start from the fields.
+  // In components with a single handle so far, rotations start from the handles' whole turns and fields.
   Vector<Vec3> turns(&memory());
   for (const HandleState& handle : state->handles) turns.push_back(handle.solved_turn);
   for (const std::int32_t c : layout.weights.elastic_components) {
@@ -322,7 +322,7 @@ HandleReport Pose::handle(std::uint32_t number) const {
 }
 
 Span<const double> Pose::field(std::uint32_t number) const {
-  const std::int32_t handle = require(number, HF_NO_INDEX);  // first: without a handle there is no layout
+  const std::int32_t handle = require(number, HF_NO_INDEX);  // first: without a handle there is no field
   return {layout_->fields.of(handle), static_cast<std::size_t>(core_->size())};
 }
 

@@ -26,7 +26,7 @@ struct PoseOptions {
   DeformMode mode = DeformMode::smooth;
   std::uint32_t band_count = 0;        // 2 to 64; 10 (smooth) or 12 (paper)
   std::uint32_t iteration_count = 0;   // 1 to 1000; 5 or 200
-  std::uint32_t samples_per_ring = 0;  // sites per ring; 0: the full ring
+  std::uint32_t samples_per_ring = 0;  // sites per handle on its boundary ring; 0: all its vertices
   std::uint32_t group_count = 0;       // 1 to 2000; 250
 };
 
@@ -53,8 +53,8 @@ struct DeformRequest {
   std::uint32_t iteration_count = 0;  // 0: the pose's own
   bool restart = false;               // forget the last pose, also full turns beyond 180 degrees
   bool refine = false;                // one full-mesh step on top (refine.h); needs a second-order operator
-  bool surface = true;                // false: transforms only; ask blended() for the vertices wanted
-  float* packed_positions = nullptr;  // three per inner vertex, or null; written during the blend where possible
+  bool surface = true;                // false: no vertices are written; ask blended() for those wanted
+  float* packed_positions = nullptr;  // three per inner vertex, or null
   Normal* packed_normals = nullptr;   // per inner vertex, or null; if given, normals are written here
 };
 
@@ -93,16 +93,16 @@ class Pose {
   Span<const double> field(std::uint32_t number) const;  // per inner vertex
   const Core& core() const noexcept { return *core_; }
   const PoseOptions& options() const noexcept { return options_; }
-  // The clusters as joints: their weights, and their transforms as of the last deform(), in the unit of the scaled
-  // mesh. Null before the first handle is added.
+  // The clusters (overlapping bands of vertices) as joints: their weights, and their transforms as of the last
+  // deform(), in the unit of the scaled mesh. Null before the first handle is added.
   const ClusterWeights* weights() const noexcept;
   Span<const Affine> cluster_transforms() const noexcept;
-  bool posed() const noexcept { return posed_; }  // the transforms hold a pose
-  // For statistics and tests: the rotation groups in use, and the unknowns that the reduced system found to be
-  // dependent.
+  bool posed() const noexcept { return posed_; }  // transforms() holds a pose
+  // For statistics and tests: the groups of vertices that share a rotation, and the unknowns that the reduced system
+  // found to be dependent.
   std::int32_t group_count() const noexcept;
 
-  // ---- for layers (pose_stack.h), whose poses must depend only on the arguments of these calls ----
+  // ---- for layers of handles (pose_stack.h), whose poses must depend only on the arguments of these calls ----
 
   // Returns a pose without handles that shares the data prepared from the mesh.
   std::shared_ptr<Pose> without_handles() const;
@@ -126,7 +126,7 @@ class Pose {
   Vec3 blended(std::int32_t vertex) const noexcept;
 
   Pose(std::shared_ptr<const Core> core, const PoseOptions& options,
-       std::shared_ptr<const Rest> rest);  // for make_owner_in; use make()
+       std::shared_ptr<const Rest> rest);  // for make_owner_in; call make() instead
 
  private:
   struct Layout;
@@ -134,7 +134,7 @@ class Pose {
     Quaternion rotation;  // as the caller set it
     Vec3 translation;     // in the unit of the scaled mesh
     Vec3 turn;            // rotation vector of the motion so far, with full turns
-    Quaternion solved;    // rotation from which the group rotations were solved
+    Quaternion solved;    // rotation in the last solve
     Vec3 solved_turn;
   };
   struct State {
@@ -150,11 +150,11 @@ class Pose {
           last_change(other.last_change),
           idle_iterations(other.idle_iterations) {}
     Vector<HandleState> handles;  // like Layout::handles
-    Vector<Affine> transforms;    // per cluster
+    Vector<Affine> transforms;    // per cluster (handle or overlapping band of vertices)
     Buffer<double> columns;       // scratch of the blend
     SmoothState smooth;
     PaperState paper;
-    bool started = false;  // there is a pose to continue from
+    bool started = false;  // a solved pose exists, from which to continue
     bool changed = true;   // transforms or handles changed since the last solve
     double last_change = 0;
     std::uint32_t idle_iterations = 0;  // iterations since the last change
@@ -185,7 +185,7 @@ class Pose {
   std::shared_ptr<const Groups> groups_;
   std::shared_ptr<const Layout> layout_;  // null: no handle
   std::shared_ptr<State> state_;
-  std::shared_ptr<const Layout> previous_layout_;  // before the last handles were added
+  std::shared_ptr<const Layout> previous_layout_;  // layout before the last handles were added
   std::shared_ptr<const State> previous_state_;
   mutable Buffer<Vec3> positions_;
   Buffer<Normal> normals_;

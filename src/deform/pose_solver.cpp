@@ -11,7 +11,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// Sets what the global step aims at for active group g: its rotation, changed by its stress.
+// Sets the rotation that the next solve for the cluster transforms should give the edges of vertex group g: the group's
+// rotation, changed by its stress.
 void set_target(const SmoothSystem& system, std::size_t g, SmoothState& state) noexcept {
   const Mat3 target =
       strained(system.sheet[g], state.stress[g], state.rotation[system.subspace.group[g]].toRotationMatrix());
@@ -30,8 +31,8 @@ void set_handle_rows(const SmoothSystem& system, const Affine* transforms, Smoot
   }
 }
 
-// Computes the right-hand side of the known handle transforms X_h: known = -L_fh X_h, where L_fh couples free clusters
-// with handles.
+// Computes the right-hand side of the known handle transforms X_h: known = -L_fh X_h. L_fh couples free clusters (bands
+// of vertices) with handles.
 HF_FOUR_LANES
 void set_known(const SmoothSystem& system, SmoothState& state) noexcept {
   const std::size_t columns = 4 * static_cast<std::size_t>(system.handle_count);
@@ -46,7 +47,8 @@ void set_known(const SmoothSystem& system, SmoothState& state) noexcept {
   }
 }
 
-// Adds the groups' rotations to the right-hand side of the free clusters: rows = known + sum_g Q_gc R_g' (subspace.h).
+// Adds the rotations R_g of the vertex groups to the right-hand side of the free clusters c (bands of vertices). rows =
+// known + sum_g Q_gc R_g', where the matrix Q_gc couples group and cluster (subspace.h).
 HF_FOUR_LANES
 void add_groups(const SmoothSystem& system, const double* columns, const double* known, double* rows) noexcept {
   const Subspace& s = system.subspace;
@@ -69,7 +71,8 @@ void add_groups(const SmoothSystem& system, const double* columns, const double*
   }
 }
 
-// Computes the matrix S_g of group g (subspace.h): sum[j][i] = S_g(i, j) = sum_c sum_a X_c(a, i) Q_gc(a, j).
+// Computes the moment matrix S_g of vertex group g (subspace.h): sum[j][i] = S_g(i, j) = sum_c sum_a X_c(a, i) Q_gc(a,
+// j). X_c is the transform of cluster c, and Q_gc couples g and c.
 HF_FOUR_LANES
 void match_group(const Subspace& s, std::size_t g, const double* rows, double (&sum)[3][4]) noexcept {
   double total[3][4] = {};
@@ -87,7 +90,8 @@ void match_group(const Subspace& s, std::size_t g, const double* rows, double (&
   }
 }
 
-// Sums the rotations R_g of the groups under one cluster, weighted by area: sum[j][i] = sum of area times R_g(i, j).
+// Sums the rotations R_g of the vertex groups under one cluster (band of vertices), weighted by area: sum[j][i] = sum
+// of area times R_g(i, j).
 HF_FOUR_LANES
 void mean_of_groups(const Subspace& s, std::int32_t first, std::int32_t last, const double* columns,
                     double (&sum)[3][4]) noexcept {
@@ -102,8 +106,8 @@ void mean_of_groups(const Subspace& s, std::int32_t first, std::int32_t last, co
   }
 }
 
-// Adds eps_c Rbar_c' to the rows of several clusters. Rbar_c is the mean of the groups' rotations under cluster c,
-// found in one lane of the batch.
+// Adds eps_c Rbar_c' to the right-hand side of several clusters (bands of vertices). Rbar_c is the mean rotation of the
+// vertex groups under cluster c, found in one lane of the batch. eps_c is a small stiffness.
 void add_means(const SmoothSystem& system, RotationBatch& batch, const std::int32_t* cluster, int count,
                double* rows) noexcept {
   best_rotations_from(batch, count);
@@ -117,7 +121,9 @@ void add_means(const SmoothSystem& system, RotationBatch& batch, const std::int3
   }
 }
 
-// Sets the right-hand side of the free clusters: rows = known + sum_g Q_gc R_g' + eps_c Rbar_c' (subspace.h).
+// Sets the right-hand side for the clusters (bands of vertices) that are no handles. For cluster c it is known + sum_g
+// Q_gc R_g' + eps_c Rbar_c'. The part `known` comes from the handles. R_g is the rotation of vertex group g, and Q_gc
+// couples it to the cluster. Rbar_c is the mean rotation under the cluster, eps_c a small stiffness (subspace.h).
 void set_right_hand_side(const SmoothSystem& system, SmoothState& state) noexcept {
   const Subspace& s = system.subspace;
   double* free_rows = state.rows.data() + 16 * static_cast<std::size_t>(system.handle_count);
@@ -142,7 +148,8 @@ void set_right_hand_side(const SmoothSystem& system, SmoothState& state) noexcep
   if (count > 0) add_means(system, batch, cluster, count, free_rows);
 }
 
-// Returns the matrix S_g of group g at rest, where every cluster's transform is the identity.
+// Returns the moment matrix S_g (subspace.h) of vertex group g at rest, where every cluster's transform is the
+// identity.
 Mat3 rest_moments(const Subspace& s, std::size_t g) noexcept {
   Mat3 sum;
   for (std::int32_t e = s.entry_start[g]; e < s.entry_start[g + 1]; ++e) {
@@ -163,7 +170,8 @@ void read_transforms(const SmoothSystem& system, const SmoothState& state, Affin
   }
 }
 
-// Returns the handles' turns at active group g, blended by the fields at its seed: sum_i phi_i(seed) turn_i.
+// Returns the handles' turns at vertex group g, blended by the handles' fields phi_i at the group's first vertex
+// (seed): sum_i phi_i(seed) turn_i.
 Vec3 blended_turn(const SmoothSystem& system, std::size_t g, Span<const Vec3> turns) noexcept {
   Vec3 turn;
   for (std::size_t i = 0; i < turns.size(); ++i) turn = turn + system.seed_field[g * turns.size() + i] * turns[i];
@@ -176,7 +184,7 @@ Quaternion within_turn_limit(const Quaternion& q, const Quaternion& anchor, doub
   return normalised(exponential((turn_limit / angle) * logarithm(q * anchor.conjugate())) * anchor);
 }
 
-// Moves the rotation of active group g to `fit`, or beyond it if `relax`. Returns the change.
+// Moves the rotation of vertex group g to `fit`, or beyond it if `relax`. Returns the change.
 double turn_group(const SmoothSystem& system, std::size_t g, Quaternion fit, bool relax, SmoothState& state) noexcept {
   Quaternion& q = state.rotation[system.subspace.group[g]];
   double cosine = fit.dot(q);
@@ -190,7 +198,7 @@ double turn_group(const SmoothSystem& system, std::size_t g, Quaternion fit, boo
   return change;
 }
 
-// Runs the local step for all groups. Returns the largest change.
+// Fits the rotations of all vertex groups (the local step). Returns the largest change.
 double fit_rotations(const SmoothSystem& system, bool relax, SmoothState& state) noexcept {
   const Subspace& s = system.subspace;
   constexpr std::size_t lanes = RotationBatch::lanes;

@@ -24,8 +24,8 @@ struct SmoothSystem {
                const HandleFields& fields, Memory& memory);
   Subspace subspace;
   std::int32_t handle_count, free_count;
-  Vector<double> seed_field;  // phi_i at the seed of active group k: [k * handle_count + i]
-  Vector<Sheet> sheet;        // per active group
+  Vector<double> seed_field;  // handle i's field at the first vertex of group k: [k * handle_count + i]
+  Vector<Sheet> sheet;        // rest moments for the stretch limits, per group
 };
 
 // The state that one solve leaves for the next.
@@ -41,33 +41,33 @@ struct SmoothState {
         rows(other.rows, &memory),
         known(other.known, &memory),
         turn_limit(other.turn_limit) {}
-  // Makes room for a system. Groups that existed before keep their rotations, and no group has a stress.
+  // Makes room for a system. Groups of vertices that existed before keep their rotations, and no group has a stress.
   void fit(const SmoothSystem& system, const Groups& groups);
-  Vector<Quaternion> rotation;  // per group of Groups
-  Vector<Quaternion> anchor;    // by active group: centre of the allowed rotations; set while turn_limit is below pi
-  Vector<Stress> stress;        // per active group
-  Vector<double> columns;       // by active group: what the global step aims at, three columns of four numbers each
-  Vector<double> rows;          // 4 x 4 doubles per cluster, handles first: rows of X, padded
-  Vector<double> known;         // the handles' part of the right-hand side
-  double turn_limit = no_turn_limit;  // radians
+  Vector<Quaternion> rotation;        // per group of vertices (groups.h)
+  Vector<Quaternion> anchor;          // centre of a group's allowed rotations, while turn_limit < pi
+  Vector<Stress> stress;              // per group of vertices that can bend
+  Vector<double> columns;             // by group: the rotation wanted for its edges, three columns of four numbers
+  Vector<double> rows;                // 4 x 4 doubles per cluster, handles first: its transform, transposed and padded
+  Vector<double> known;               // the handles' part of the right-hand side
+  double turn_limit = no_turn_limit;  // radians between a rotation and its anchor
 };
 
 struct SolveReport {
   std::uint32_t iterations = 0;
-  // The largest change of a group's rotation or stress in the last iteration (Frobenius norm).
+  // The largest change of a vertex group's rotation or stress in the last iteration (Frobenius norm).
   double last_change = 0;
 };
 
-// The next two functions set the group rotations before a solve: from the handles' whole turns (start_rotations), or by
-// adding the turns since the last solve (predict_rotations). start_rotations takes the groups of `component`, or all
-// groups if it is negative, and clears their stress.
+// The next two functions set the rotations of the vertex groups before a solve: from the handles' whole turns
+// (start_rotations), or by adding the turns since the last solve (predict_rotations). start_rotations takes the groups
+// of `component`, or all groups if it is negative, and clears their stress.
 void start_rotations(const SmoothSystem& system, const Groups& groups, std::int32_t component, Span<const Vec3> turns,
                      SmoothState& state) noexcept;
 void predict_rotations(const SmoothSystem& system, Span<const Vec3> increments, SmoothState& state) noexcept;
-// Sets turn_limit and the anchors for the accumulated turns of the handles.
+// Sets turn_limit and the rotations from which it is measured (anchor), for the accumulated turns of the handles.
 void set_turn_limit(const SmoothSystem& system, Span<const Vec3> turns, SmoothState& state) noexcept;
-// Solves the pose. transforms: the handles' entries are read, the free clusters' entries are written. It stops early
-// when last_change falls below `tolerance`.
+// Solves the pose. transforms: one per cluster of vertices; those of handles are read, the others are written. It stops
+// early when last_change falls below `tolerance`.
 SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, double tolerance, SmoothState& state,
                        Affine* transforms) noexcept;
 

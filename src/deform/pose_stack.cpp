@@ -256,7 +256,7 @@ bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_chang
       entry.placed = {normalised(found.rotation * edit.rotation),
                       rotate(found.rotation, edit.translation) + found.translation};
       const bool at_rest = norm(entry.turn) == 0 && norm(entry.edit.translation) == 0;
-      if (at_rest) entry.placed = found;  // gives U and E the same bits
+      if (at_rest) entry.placed = found;  // gives the unedited and the edited pose the same bits
       turn = rotate(found.rotation, entry.turn);
     }
     const HandleTransform unedited = transform_of(found, entry.centroid),
@@ -279,7 +279,8 @@ bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_chang
   return true;
 }
 
-// Combines the layer's surfaces: X = E + q (X_below - U), with U the unedited and E the edited pose (pose_stack.h).
+// Computes the layer's surface X = E + q (X_below - U). U is the pose without and E with the edits of this layer's
+// handles. q is the blended rotation from U to E (pose_stack.h).
 void PoseStack::combine(Layer& layer, Span<const Vec3> below) noexcept {
   const Span<const Affine> from = layer.plain->cluster_transforms(), to = layer.edited->cluster_transforms();
   for (std::size_t c = 0; c < from.size(); ++c) {
@@ -307,7 +308,7 @@ DeformReport PoseStack::deform(const DeformRequest& request) {
   check_request(request);
   if (entries_.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
   if (!has_layers()) {
-    base_stale_ = true;  // if layers are added later, they must not reuse old poses
+    base_stale_ = true;  // layers that are added later must not reuse old poses
     return base_->deform(request);
   }
   const std::size_t n = static_cast<std::size_t>(core_->size());

@@ -26,8 +26,8 @@ class PoseStack {
   static std::shared_ptr<PoseStack> make(std::shared_ptr<const Core> core, const PoseOptions& options);
   std::shared_ptr<PoseStack> clone() const;
 
-  // Adds handles to a layer, like Pose::add_handles. Throws HF_ERROR_INVALID_ARGUMENT for a layer beyond layer_limit.
-  // Regions must not overlap, even in different layers.
+  // Adds handles to a layer (0 coarsest), like Pose::add_handles. Throws HF_ERROR_INVALID_ARGUMENT for a layer beyond
+  // layer_limit. Regions must not overlap, even in different layers.
   void add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, std::uint32_t layer,
                    Span<std::uint32_t> out_numbers);
   void remove_handles(Span<const std::uint32_t> numbers);
@@ -44,7 +44,7 @@ class PoseStack {
   HandleReport handle(std::uint32_t number) const;
   // Returns the report of a handle like handle(), but an error carries this index.
   HandleReport handle_at(std::uint32_t number, std::uint32_t index) const;
-  Span<const double> field(std::uint32_t number) const;  // in the handle's own layer
+  Span<const double> field(std::uint32_t number) const;  // of the pose of the handle's own layer
   // Returns the motion from rest to where the handle was in the last deform().
   HandleTransform placed(std::uint32_t number) const;
   const Core& core() const noexcept { return *core_; }
@@ -60,15 +60,15 @@ class PoseStack {
     // The handle's number in the poses of its own layer and of the layers above.
     std::array<std::uint32_t, layer_limit> inner{};
     Vec3 centroid;         // of the rest region, in the given frame
-    HandleTransform edit;  // D_h, the user's transform
+    HandleTransform edit;  // D_h, the transform that the user set
     Vec3 turn;             // rotation vector of D_h, with full turns
-    RigidMotion placed;    // F_h D_h in the given frame; on layer 0 D_h
+    RigidMotion placed;    // F_h D_h in the given frame, F_h the motion by lower layers; on layer 0 D_h
   };
   struct Layer {
     explicit Layer(Memory& memory) : relative(&memory), turns(&memory), zeros(&memory) {}
-    std::shared_ptr<Pose> plain, edited;  // the poses U and E
-    Buffer<Vec3> surface;                 // the surface X_k
-    Vector<Quaternion> relative;          // by cluster, from U to E
+    std::shared_ptr<Pose> plain, edited;  // the poses U without and E with the layer's edits
+    Buffer<Vec3> surface;                 // the surface of this layer and those below
+    Vector<Quaternion> relative;          // rotation by cluster, from plain to edited
     Vector<Vec3> turns, zeros;            // by handle of the pose, in its order
     DeformReport report;                  // of the last update
     bool plain_stale = true, edited_stale = true;

@@ -106,7 +106,8 @@ void Refinement::apply(const RefineInput& input, Vec3* positions) {
   set_right_hand_side(input, positions, z.data());
   core.factor->solve_in_order(z.data(), 3, *core.jobs);
 
-  // The rings already are where they belong. A harmonic field therefore cancels the change that the step made there.
+  // The vertices around the handles already are where they belong. A harmonic field therefore cancels the change that
+  // the step made there.
   const Span<const std::int32_t> position = core.factor->position();
   std::fill(values_.begin(), values_.end(), 0.0);
   for (const Handle& handle : input.handles) {
@@ -141,7 +142,7 @@ void GroupStart::choose(const Core& core, const Groups& groups, const Vector<std
   for (std::size_t g = 0; g < group_.size(); ++g)
     start_[g + 1] = start_[g] + std::min(size[group_[g]], samples_per_group);
   vertex_.assign(start_.back(), 0);
-  // The samples of a group are every size/count-th vertex, in the order of vertex numbers.
+  // The sampled vertices of a rotation group are every size/count-th vertex, in the order of vertex numbers.
   Vector<std::int32_t> seen(groups.count(), 0, start_.get_allocator()), taken(group_.size(), 0, start_.get_allocator());
   for (std::int32_t v = 0; v < core.size(); ++v) {
     const std::int32_t group = groups.group_of[v];

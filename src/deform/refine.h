@@ -28,15 +28,15 @@ struct RefineInput {
   const ClusterWeights& weights;
   const SiteSolver& sites;
   const Handles& handles;
-  const Groups* groups;                      // null: rotations are found without a starting rotation
-  const Vector<Quaternion>* group_rotation;  // by group
+  const Groups* groups;                      // groups of vertices that share a rotation; null: no starting rotations
+  const Vector<Quaternion>* group_rotation;  // rotation by group, where the search starts
   const Affine* transforms;                  // by cluster, handles first
 };
 
 class Refinement {
  public:
   Refinement(const Core& core, Memory& memory);
-  // Makes room for the values of this many slots.
+  // Makes room for the values of this many sites.
   void fit(std::int32_t slot_count);
   // Improves the blended `positions` in place. They are in the given unit and frame. Vertices of handles and of
   // components without free clusters keep their positions.
@@ -47,20 +47,20 @@ class Refinement {
   void set_right_hand_side(const RefineInput& input, const Vec3* positions, double* z);
 
   Vector<Mat3> rotation_;         // by vertex
-  Buffer<double> field_;          // three channels
-  Vector<double> values_;         // three channels by slot
-  Vector<std::uint8_t> elastic_;  // by component
+  Buffer<double> field_;          // correction by vertex: x, y, z
+  Vector<double> values_;         // x, y, z by site
+  Vector<std::uint8_t> elastic_;  // by component: 1 if vertices can move without a handle
 };
 
 class GroupStart {
  public:
   explicit GroupStart(Memory& memory)
       : rotation(&memory), motion(&memory), own_unit(&memory), group_(&memory), start_(&memory), vertex_(&memory) {}
-  // Chooses sample vertices for these groups. `rotation` gets one entry for each of all groups.
+  // Chooses sample vertices for the groups of vertices in `active`. `rotation` gets an entry for every group.
   void choose(const Core& core, const Groups& groups, const Vector<std::int32_t>& active);
   void fit(const Core& core, const Rest& rest, Span<const Vec3> surface) noexcept;
-  Vector<Quaternion> rotation;  // by group; smooth mode
-  Vector<RigidMotion> motion;   // by free cluster; the paper's mode
+  Vector<Quaternion> rotation;  // by group of vertices; smooth mode
+  Vector<RigidMotion> motion;   // by cluster that is no handle; the paper's mode
   Vector<Vec3> own_unit;        // scratch of the paper's mode
 
  private:

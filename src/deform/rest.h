@@ -17,10 +17,10 @@ struct Rest {
   Vector<std::int32_t> component_vertex;
   Vector<std::int32_t> component_triangles;  // number of triangles per component
   Vector<double> component_area;
-  Vector<double> area;  // lumped, per vertex
-  // The triangles at piece k of the vertices (for_vertex_pieces): corners piece_corner[3 * i] and the next two, i from
-  // piece_start[k] to piece_start[k + 1]. Triangles with all corners in the piece come first, up to piece_border[k]. A
-  // triangle with corners in several pieces is in the list of each of them.
+  Vector<double> area;  // per vertex: a third of its triangles
+  // The triangles at the k-th run of vertex_piece vertices, piece k: corners piece_corner[3 * i] and the next two, i
+  // from piece_start[k] to piece_start[k + 1]. Triangles with all corners in the piece come first, up to
+  // piece_border[k]. A triangle with corners in several pieces is in the list of each of them.
   Vector<std::int32_t> piece_start, piece_border;
   Vector<std::int32_t> piece_corner;
   // Edge weights of the elastic energy: the operator's, clamped to [least_edge_weight, largest_edge_weight]. Negative

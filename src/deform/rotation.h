@@ -21,7 +21,7 @@ namespace hf_inner {
 inline hf_eigen::Vector3d to_eigen(Vec3 v) noexcept { return {v.x, v.y, v.z}; }
 inline Vec3 to_vec3(const hf_eigen::Vector3d& v) noexcept { return {v.x(), v.y(), v.z()}; }
 inline Vec3 operator*(const Mat3& a, Vec3 v) noexcept { return to_vec3(a * to_eigen(v)); }
-// Adds the outer product w x p' to a.
+// Adds the outer product w x p' to the matrix a.
 inline void add_outer(Mat3& a, double w, Vec3 x, Vec3 p) noexcept {
   a.noalias() += to_eigen(w * x) * to_eigen(p).transpose();
 }

@@ -15,10 +15,10 @@ constexpr int lanes = RotationBatch::lanes;
 struct LaneState {
   double floor;  // pivots up to this number are not safely positive
   bool open;     // needs more steps; if not, it has converged or failed
-  bool lost;     // the steps reach no proven maximum
+  bool lost;     // the steps reached no proven maximum
 };
 
-// Marks lanes whose step cannot be trusted as lost, and sets the steps of lanes that are not open to zero. Returns
+// Marks lanes whose Newton step cannot be trusted as lost, and sets the steps of lanes that need none to zero. Returns
 // whether any lane needs more steps.
 bool judge(RotationStep& step, LaneState (&state)[lanes]) noexcept {
   bool open = false;

@@ -18,7 +18,7 @@ struct alignas(64) RotationBatch {
   void set_rotation(int lane, const Quaternion& near) noexcept {
     for (int k = 0; k < 4; ++k) q[k][lane] = near.coeffs()(k);
   }
-  // Sets the matrix S of one lane. columns[j][i] is the entry of S in row i and column j.
+  // Sets the matrix S of one lane (problem of the batch). columns[j][i] is the entry of S in row i and column j.
   void set_columns(int lane, const double (&columns)[3][4]) noexcept {
     for (int j = 0; j < 3; ++j) {
       for (int i = 0; i < 3; ++i) s[3 * i + j][lane] = columns[j][i];
@@ -27,8 +27,8 @@ struct alignas(64) RotationBatch {
   Quaternion rotation(int lane) const noexcept { return {{q[0][lane], q[1][lane], q[2][lane]}, q[3][lane]}; }
 };
 
-// Finds the rotations of the first `count` lanes. Where the steps reach no proven maximum, it calls best_rotation()
-// from the same start.
+// Finds the rotations of the first `count` lanes (problems of the batch). Where the steps reach no proven maximum, it
+// calls best_rotation() from the same start.
 void best_rotations_from(RotationBatch& batch, int count) noexcept;
 
 }  // namespace hf_inner

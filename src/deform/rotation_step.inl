@@ -1,5 +1,5 @@
-// One Newton step of several rotations, for the loops of rotation_batch.cpp and its wider builds. Lane is a double or a
-// vector of doubles. The operations and their order are the same for both, so the bits are too.
+// One Newton step of several rotations, for the loops of rotation_batch.cpp and its AVX2 and AVX-512 builds. Lane is a
+// double or a vector of doubles. The operations and their order are the same for both, so the bits are too.
 //
 //     H u = a   with   tr(exp([u])' B) = tr B + u.a - u' H u / 2 + O(u^3),   B = S R'
 //
@@ -42,8 +42,8 @@ inline void take_step(const Lane (&u)[3], Lane (&q)[4]) noexcept {
   q[3] = w - (hx * x + hy * y + hz * z);
 }
 
-// Finds or takes the step of eight lanes, as many at once as Lane holds. step: written when the step is found. A lane
-// that must not move has a zero step.
+// Finds or takes the Newton step of eight rotations, as many at once as Lane holds. step: written when the step is
+// found. A lane that must not move has a zero step.
 template <class Lane>
 inline void step_lanes(const double* s, double* q, RotationStep& step, bool take) noexcept {
   constexpr int width = static_cast<int>(sizeof(Lane) / sizeof(double));

@@ -17,7 +17,7 @@ Mat3 linear_part(const JointMotion& motion, const Mat3& axes) noexcept {
   return motion.rotation.toRotationMatrix() * (axes * to_eigen(motion.stretch).asDiagonal() * axes.transpose());
 }
 
-// Fits the joints to the posed surface by least squares, in the unit of the scaled mesh.
+// Fits the joints of a skin to the posed surface by least squares, in the unit of the scaled mesh.
 class JointFit {
  public:
   JointFit(const Pose& pose, std::uint32_t weight_count, bool stretching, const Vector<Quaternion>& axes,
@@ -66,7 +66,7 @@ class JointFit {
     }
   }
 
-  // Runs the rounds. The residual (blended minus posed position) is kept up to date.
+  // Fits every joint in each of skin_rounds rounds. The residual (blended minus posed position) is kept up to date.
   void run(JointMotion* motion) {
     for (std::size_t j = 0; j < joint_count_; ++j) move(j, motion[j], 1);
     const std::size_t handles = static_cast<std::size_t>(pose_.weights()->handle_count);
@@ -218,7 +218,7 @@ void skin_weights(const Pose& pose, std::int32_t vertex, std::uint32_t count, st
     joints[0] = static_cast<std::uint32_t>(table.cluster_count), weights[0] = 1;
     return;
   }
-  // Insertion keeps the largest weights, because rows are short.
+  // Insertion sort keeps the largest weights; a vertex has only a few.
   double kept[most_joints] = {0};
   std::uint32_t used = 0;
   for (std::int32_t k = first; k < last; ++k) {

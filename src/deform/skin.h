@@ -26,8 +26,8 @@ struct Skin {
   Vector<Vec3> pivot;           // by joint, in the given frame
   Vector<Quaternion> rotation;  // of the last pose
   Vector<Vec3> place;           // where the pivot is in the last pose
-  Vector<Quaternion> axes;      // the axes B at rest
-  Vector<Vec3> stretch;         // scales s along the axes in the last pose; 1 without stretching
+  Vector<Quaternion> axes;      // axes of stretch at rest
+  Vector<Vec3> stretch;         // scales along the axes in the last pose; 1 without stretching
   bool rest_joint = false;      // one more joint, the last, holds the vertices that no handle reaches
 };
 

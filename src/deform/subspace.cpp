@@ -9,7 +9,8 @@
 namespace hf_inner {
 namespace {
 
-// The data of a blend before any transform: x_v = sum_k weight[k] A_cluster[k] (p_v, 1).
+// The rest positions p_v and cluster weights of the vertices. With cluster transforms A, x_v = sum_k weight[k]
+// A_cluster[k] (p_v, 1).
 struct BlendRows {
   const std::int32_t* start;
   const std::uint16_t* cluster;
@@ -19,7 +20,8 @@ struct BlendRows {
 
 using Four = double __attribute__((vector_size(32)));  // compiled to two halves without AVX
 
-// The vectors z_c(e) of one edge e (subspace.h), clusters ascending. It has room for the weights of both ends.
+// The vectors z_c(e) = W_ic (p_i, 1) - W_jc (p_j, 1) of one edge e = (i, j), clusters c ascending. W are the cluster
+// weights, p the rest positions. It has room for the weights of both ends.
 struct EdgeRow {
   struct Z {
     double x[4];
@@ -53,20 +55,20 @@ inline void fill_row(const BlendRows& rows, std::int32_t i, std::int32_t j, Edge
   }
 }
 
-// An edge i - j that the sums use, with its whole weight w_e.
+// An edge i - j that the elastic energy uses, with its weight w_e.
 struct Sample {
   std::int32_t i, j;
   double weight;
 };
 
-// The blocks of the system matrix; each free cluster has one row of blocks.
+// The 4 x 4 blocks of the system matrix. Each cluster that is no handle has one row of blocks.
 struct Blocks {
   double *lower, *coupling;
   std::size_t handles, free;
 };
 
-// Adds the matrices L_cd (subspace.h) of every edge: each free cluster c with itself, the free clusters before it, and
-// the handles.
+// Adds the 4 x 4 matrices L_cd (subspace.h) of every edge. They couple each free cluster (no handle) c with itself, the
+// free clusters before it, and the handles.
 HF_FOUR_LANES
 void add_blocks(const BlendRows& rows, const Sample* samples, std::size_t count, EdgeRow row,
                 const Blocks& out) noexcept {
@@ -163,7 +165,8 @@ class Assembly {
     std::fill(out_.coupling.begin(), out_.coupling.end(), 0.0);
     list_uses();
     list_samples();
-    // The two sums use the same edges, each in its own order. So one or two threads give the same bits.
+    // The sums of L (couples clusters) and Q (couples clusters with rotation groups) use the same edges, each in its
+    // own order. So one or two threads give the same bits.
     core_.jobs->for_each(2, [&](std::uint32_t half) {
       if (half == 0) {
         sum_blocks();
@@ -195,7 +198,7 @@ class Assembly {
     widest_ = 0;
     for (std::int32_t v = 0; v < core_.size(); ++v)
       widest_ = std::max(widest_, weights_.start[v + 1] - weights_.start[v]);
-    // Edges are counted at their ends: a vertex has as many edges as neighbours.
+    // Edges are counted at both ends: a vertex has as many edges as neighbours.
     const Topology& topology = core_.topology;
     double ends = 0;
     for (std::int32_t v = 0; v < core_.size(); ++v) {
@@ -224,7 +227,8 @@ class Assembly {
     return scattered(static_cast<std::uint32_t>(e)) < probability_ ? sampled_weight_ : 0;
   }
 
-  // Numbers the pairs (group, cluster) that occur: first it marks them in a table, then it numbers them group by group.
+  // Numbers the pairs (rotation group, cluster) that share vertices. It marks them in a table, then numbers them group
+  // by group.
   void number_entries() {
     const std::size_t clusters = static_cast<std::size_t>(weights_.cluster_count);
     entry_of_.assign(out_.group.size() * clusters, -1);
@@ -277,7 +281,7 @@ class Assembly {
     return out_.entry[entry_of_[row_of_group_[group] + static_cast<std::size_t>(cluster)]];
   }
 
-  // Lists the edges of the sums in their order, in pieces of fixed size.
+  // Lists the edges that the energy uses, in pieces of fixed size.
   void list_samples() {
     const Topology& topology = core_.topology;
     handle_share_.assign(core_.size(), 0.0f);
@@ -382,14 +386,14 @@ class Assembly {
   Memory& memory_;
   // By component: 0 without free clusters, 1 with free clusters, 2 if more than two handles meet there too.
   Vector<std::uint8_t> elastic_;
-  Vector<std::int32_t> edge_count_;   // by cluster: ends of edges in it
+  Vector<std::int32_t> edge_count_;   // by cluster: number of edge ends in it
   Vector<std::uint8_t> needs_all_;    // by vertex: 1 in a cluster with few edges
-  Vector<std::int32_t> entry_of_;     // by active group and cluster: number of its entry
-  Vector<std::size_t> row_of_group_;  // by group of an elastic component: where its row of entry_of_ begins
+  Vector<std::int32_t> entry_of_;     // by group and cluster: number of the pair
+  Vector<std::size_t> row_of_group_;  // by rotation group: where its row of entry_of_ begins
   Vector<float> handle_share_;        // by vertex: largest weight of a handle, 1 on the handle
-  Vector<Vector<Sample>> samples_;    // by piece of the edges
+  Vector<Vector<Sample>> samples_;    // edges used, in pieces of fixed size
   double probability_ = 1, sampled_weight_ = 1;
-  std::int32_t widest_ = 0;  // most weights of a vertex
+  std::int32_t widest_ = 0;  // largest number of weights of a vertex
   Buffer<double> lower_;
 };
 

@@ -45,30 +45,30 @@ struct Subspace {
   // The coefficients by which a rotation group and a cluster act on each other.
   struct Entry {
     std::int32_t cluster;
-    double area;     // sum over the group's vertices of area times weight
-    double q[4][3];  // Q_gc
+    double area;     // sum over the group's vertices of area times weight in the cluster
+    double q[4][3];  // Q_gc = sum of w_e/2 z_c (p_i - p_j)' over the group's edges
   };
   struct Share {
     std::int32_t group;  // position in Subspace::group
     double area;
   };
 
-  Vector<std::int32_t> group;        // groups of the elastic components, ascending
-  Vector<std::uint8_t> shared;       // per active group: more than two handles meet in its component
+  Vector<std::int32_t> group;        // numbers of the rotation groups in use, ascending
+  Vector<std::uint8_t> shared;       // per group in use: more than two handles meet in its component
   Vector<std::int32_t> entry_start;  // entries of group[k]: entry[entry_start[k] .. entry_start[k + 1])
   Vector<Entry> entry;
-  // The entries of free cluster f, with their groups (positions in Subspace::group), ordered by group: use[use_start[f]
-  // .. use_start[f + 1]).
+  // The entries (pairs with a rotation group) of free cluster f, ordered by group, a position in Subspace::group:
+  // use[use_start[f] .. use_start[f + 1]).
   struct Use {
     std::int32_t entry, group;
   };
   Vector<std::int32_t> use_start;
   Vector<Use> use;
-  Vector<std::int32_t> mean_start;  // groups under free cluster f: mean[mean_start[f] .. mean_start[f + 1])
+  Vector<std::int32_t> mean_start;  // rotation groups under free cluster f: mean[mean_start[f] .. mean_start[f + 1])
   Vector<Share> mean;
-  Vector<double> stiffness;  // eps_c per free cluster
+  Vector<double> stiffness;  // eps_c, a small stiffness per free cluster
   Buffer<double> coupling;   // L between free (rows) and handle clusters (columns), 4 x 4 blocks, row-major
-  DenseFactor factor;        // of the free block
+  DenseFactor factor;        // factor of the part of L between free clusters
 };
 
 Subspace make_subspace(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,

@@ -30,7 +30,7 @@ Frame frame_of(Vec3 normal, Vec3 direction) noexcept {
   return {x, cross(z, x), z};
 }
 
-// Returns one frame of the base surface for every vertex inside the region.
+// Returns one frame of the smooth base surface for every vertex inside the region.
 Vector<Frame> base_frames(const RegionSurface& surface, const RegionState& state, Span<const DiscPoint> disc,
                           Memory& memory) {
   const RegionShape& shape = *state.shape;
@@ -59,7 +59,8 @@ Vector<Frame> base_frames(const RegionSurface& surface, const RegionState& state
   return frames;
 }
 
-// Finds the position of each pinned vertex along the boundary loop, and checks that the pins go round it in order.
+// Finds the position of each pinned vertex (matched with one of the other region) along the boundary loop. Checks that
+// they go round it in order.
 void place_pins(const Region& region, const DiscBoundary& boundary, Span<const Index> vertices, const char* name,
                 DiscPins& pins) {
   const RegionState& state = *region.state();
@@ -101,7 +102,8 @@ CarriedDetail carry_detail(const Region& source, const Region& target, const Car
   DiscPins from_pins(memory), to_pins(memory);
   place_pins(source, from_rim, options.source_pins, "source_vertices", from_pins);
   place_pins(target, to_rim, options.target_pins, "target_vertices", to_pins);
-  // The angles of the pins follow the arc length along the source's rim.
+  // The boundary vertices that match on both regions get the same angles on the disc. The angles follow the arc length
+  // along the source's boundary.
   const std::size_t size = from_rim.loop.size();
   for (const Index place : from_pins.place) {
     const double s = from_rim.arc[at(place)] - from_rim.arc[at(from_pins.place[0])];
@@ -120,7 +122,7 @@ CarriedDetail carry_detail(const Region& source, const Region& target, const Car
                                                    : 1.0;
   const RegionShape& from_shape = *from_state->shape;
   const Vector<Frame> from_frames = base_frames(from, *from_state, from_disc, memory);
-  Vector<Vec3> local(at(from_shape.local_count()), &memory);  // Stays 0 on the rim.
+  Vector<Vec3> local(at(from_shape.local_count()), &memory);  // Stays 0 on the region's boundary.
   for (std::size_t i = 0; i < from_shape.inside.size(); ++i) {
     const Vec3 d = from.position(from_shape.inside[i]) - from_state->base[i];
     const Frame& f = from_frames[i];

@@ -14,8 +14,9 @@
 namespace hf_inner {
 
 struct CarryOptions {
-  Span<const std::int32_t> source_pins, target_pins;  // inner vertices in pairs; empty: the states' first points
-  double scale = 0;                                   // 0: from the areas of the bases
+  // Boundary vertices that match, in pairs; empty: the states' `first`.
+  Span<const std::int32_t> source_pins, target_pins;
+  double scale = 0;  // 0: derived from the areas of the two base surfaces
 };
 
 struct CarriedDetail {

@@ -68,7 +68,7 @@ class Paths {
 // The edge-connected pieces that remain of one component when the curve's vertices are taken out.
 struct Pieces {
   explicit Pieces(Memory& memory) : piece(&memory), area(&memory) {}
-  Vector<Index> piece;  // by vertex; none in other components
+  Vector<Index> piece;  // number of the piece, by vertex; none in other components
   Vector<double> area;  // by piece
 };
 

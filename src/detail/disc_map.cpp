@@ -23,7 +23,7 @@ struct HalfEdge {
   fail(HF_ERROR_UNSUPPORTED, static_cast<std::uint32_t>(given), "the region is no disc: %s at vertex %d", what, given);
 }
 
-// Returns the weights of these edges, each raised to a small positive floor.
+// Returns the cotangent weights of these edges, each raised to a small positive number (disc_least_weight).
 Vector<double> positive_weights(const Core& core, Span<const Index> edges, Memory& memory) {
   Vector<double> weights(&memory), magnitude(&memory);
   for (const Index e : edges) weights.push_back(core.weights[at(e)]), magnitude.push_back(std::fabs(weights.back()));
@@ -125,7 +125,7 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
     };
     const double whole = arc_from_first(first + steps);
     for (std::size_t i = first; i < first + steps; ++i) {
-      // A stretch of the rim without length spreads its vertices evenly.
+      // If a stretch of the boundary loop has no length, its vertices are spread evenly.
       const double share =
           whole > 0 ? arc_from_first(i) / whole : static_cast<double>(i - first) / static_cast<double>(steps);
       const double angle = two_pi * (begin + (end - begin) * share);
@@ -161,7 +161,7 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
     column.clear();
     for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i, ++edge) {
       const Index l = shape.local[at(topology.neighbour[at(i)])];
-      if (l < 0) continue;  // this neighbour is on another sheet that only touches the region here
+      if (l < 0) continue;  // this neighbour belongs to triangles outside that touch the region here
       const double w = weights[edge];
       diagonal += w;
       if (number[at(l)] >= 0) {

@@ -10,7 +10,7 @@
 
 namespace hf_inner {
 
-// The boundary loop of a region that is a disc. Vertices have the local numbers of the region's shape.
+// The boundary loop of a region that is a disc. Vertices are numbered within the region (RegionShape::local).
 struct DiscBoundary {
   DiscBoundary(const RegionSurface& surface, const RegionState& state, Memory& memory);
   // Returns the position of a vertex along the loop, or -1 for a vertex off it. local: the vertex's local number.
@@ -26,14 +26,14 @@ struct DiscPoint {
 };
 
 // Vertices of the boundary loop that are pinned to given angles on the circle. `place` counts along the loop, in order
-// from the first pin and without repeats. `turn` is the angle in whole turns and rises from 0.
+// from the first pinned vertex and without repeats. `turn` is the angle in whole turns and rises from 0.
 struct DiscPins {
   explicit DiscPins(Memory& memory) : place(&memory), turn(&memory) {}
   Vector<std::int32_t> place;
   Vector<double> turn;
 };
 
-// Returns the disc point of every vertex, by local number.
+// Returns the disc point of every vertex of the region and around it, by RegionShape::local.
 Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& state, const DiscBoundary& boundary,
                               const DiscPins& pins, Memory& memory);
 

@@ -14,14 +14,15 @@ inline Vec3 morphed(Vec3 p, Vec3 base, double weight) noexcept {
   return p + weight * (base - p);
 }
 
-// Returns scaled positions by local number: vertices inside are morphed, rim vertices stay in place.
+// Returns scaled positions by local number (RegionShape::local): vertices inside are morphed, vertices around the
+// region stay in place.
 Vector<Vec3> morphed_positions(const RegionSurface& surface, const RegionState& state, double weight, Memory& memory);
 
 // Returns the area of all triangles with a corner inside the region, measured on the scaled mesh.
 double morphed_area(const RegionSurface& surface, const RegionState& state, double weight, Memory& memory);
 
 // Returns, for each local vertex, the sum of the cross products of all triangles around it. `positions` are any scaled
-// positions by local number.
+// positions by RegionShape::local.
 Vector<Vec3> local_normal_sums(const RegionState& state, Span<const Vec3> positions, Memory& memory);
 
 // Returns the unit vector along a sum of cross products, or (0, 0, 1) if the sum is zero.

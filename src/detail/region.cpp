@@ -29,7 +29,7 @@ Vector<Index> edited(const Core& core, Vector<Index>&& inside, const RegionEdit&
   return std::move(inside);
 }
 
-// Clones the engine of `from`, and changes the clone's sites to those of `to`.
+// Clones the engine (solver) of `from`, and changes the clone's sites to those of `to`.
 void place_sites(const RegionState& from, RegionState& to, const Core& core, Memory& memory) {
   const std::shared_ptr<SiteSolver> engine = from.engine->clone();
   Vector<Index> leaving(&memory), coming(&memory), slots(&memory);

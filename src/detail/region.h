@@ -54,10 +54,11 @@ struct RegionState {
   RegionState(const RegionSurface& surface, std::shared_ptr<const RegionShape> shape, Memory& memory);
   std::shared_ptr<const RegionShape> shape;
   std::shared_ptr<const SiteSolver> engine;
-  Vector<std::int32_t> slot;  // engine slot of each site of the shape.
-  Vector<Vec3> base;          // by vertex inside, in the caller's unit.
-  Vector<Vec3> outer_normal;  // by rim vertex: scaled sum of the cross products of its triangles outside the region.
-  std::int32_t first = -1;    // inner vertex where rims are matched: the curve's first point; -1: none.
+  Vector<std::int32_t> slot;  // number of each site (constrained vertex around the region) in the engine.
+  Vector<Vec3> base;          // positions of the smooth base surface by vertex inside, in the caller's unit.
+  // By vertex around the region: scaled sum of the cross products of its triangles outside the region.
+  Vector<Vec3> outer_normal;
+  std::int32_t first = -1;  // vertex that matches on carried detail: the curve's first point; -1: none.
   std::uint32_t inserted = 0, removed = 0, kept = 0;  // counts of sites in the last edit.
   bool whole_sweep = false;
   double area = 0, base_area = 0;  // of the region and of its base surface, on the scaled mesh.

@@ -68,7 +68,7 @@ Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, st
   Vector<std::uint8_t> in(at(core.size()), 0, &memory);
   for (const Index v : inside) in[at(v)] = 1;
   Vector<Index> front(&memory), next(&memory);
-  // A front of vertices starts at the region's boundary. It moves outwards if the region grows, and inwards if it
+  // A ring of vertices starts at the region's boundary. It moves outwards if the region grows, and inwards if it
   // shrinks.
   const std::uint8_t joins = rings > 0;
   for (const Index v : inside) {

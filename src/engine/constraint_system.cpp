@@ -9,13 +9,13 @@
 namespace hf_inner {
 namespace {
 
-// Starting over must be cheaper than continuing by this factor, in predicted cost. The predicted costs are accurate to
-// about 25 %. Continuing also keeps the elimination paths, which starting over solves again. With 1, edits of similar
-// cost on both routes would alternate between them.
+// An edit rebuilds the dense system of the sites (starts over) only if continuing costs this many times as much, as
+// predicted. The predicted costs are accurate to about 25 %. Continuing also keeps the elimination paths, which
+// starting over solves again. With 1, edits of similar cost in both ways would alternate between them.
 constexpr double restart_margin = 1.25;
-// The cost of rows of mixed signs counts this many times, because later edits pay for these rows again until a rebase.
-// Chosen on 800 random edits of 1,000 vectors on 20,000 vertices. 4 takes a fifth longer in all than 8. 16 takes as
-// long as 8, with more rebases.
+// After sites went into the factor, later edits factorise some dense rows (of mixed signs) again and again. Their cost
+// counts this many times. Chosen on 800 random edits of 1,000 vectors on 20,000 vertices. 4 takes a fifth longer in all
+// than 8. 16 takes as long as 8, with more rebases.
 constexpr double expected_repeats = 8;
 
 }  // namespace
@@ -67,7 +67,8 @@ double ConstraintSystem::base_bytes() const noexcept {
   return state_.base ? state_.base->factor->statistics().bytes : 0.0;
 }
 
-// Returns the cost of the rows of mixed signs that the edit factorises again: those from the first removed row on.
+// Returns the cost of the dense rows (with signs of both kinds) that the edit factorises again: those from the first
+// removed row on.
 double ConstraintSystem::again_ns(const SiteEdit& edit, const SiteCost& cost) const {
   if (!state_.base) return 0;
   Vector<std::uint8_t> leaves(state_.entries.size(), 0, &memory()), returns(state_.freed.size(), 0, &memory());
@@ -88,8 +89,8 @@ double ConstraintSystem::again_ns(const SiteEdit& edit, const SiteCost& cost) co
   return sum;
 }
 
-// Compares the cost of continuing from the present rows with the cost of starting over. Starting over may leave the
-// hard vertex sites as rows or eliminate them.
+// Compares the cost of editing the present rows of the dense system with the cost of building it again. Building it
+// again may keep the hard vertex sites as rows, or eliminate them in the factor.
 ConstraintState::Decision ConstraintSystem::decide(const SiteEdit& edit) const {
   const SiteCost cost(operator_.factor->statistics());
   double sites = 0, hard = 0, rows_removed = 0, freed = 0;
@@ -121,8 +122,8 @@ ConstraintState::Decision ConstraintSystem::decide(const SiteEdit& edit) const {
   return decision;
 }
 
-// Tries one route for an edit. Returns false if the edit needs a new layout of rows. The route `fresh` always makes a
-// new layout, so it never returns false.
+// Tries one route (way to carry out an edit). Returns false if the edit needs a new order of the dense rows. The route
+// `fresh` always makes one, so it never returns false.
 bool ConstraintSystem::try_route(EditRoute route, const SiteEdit& edit, JobRunner& jobs,
                                  const ConstraintState::Decision& decision) {
   ConstraintState next(state_, memory());

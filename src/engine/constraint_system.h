@@ -56,21 +56,21 @@ class ConstraintSystem {
 
   // Throws HF_ERROR_CONFLICT (index = position in edit.add) if a new site depends linearly on the present hard sites.
   void edit(const SiteEdit& edit);
-  // Moves the present hard vertex sites into the factor, using the threads of `jobs`. Throws HF_ERROR_NO_SITES if there
-  // are none.
+  // Factorises again with the present hard vertex sites eliminated, using the threads of `jobs`. Throws
+  // HF_ERROR_NO_SITES if there are none.
   void rebase(JobRunner& jobs);
 
   const ConstraintState& state() const noexcept { return state_; }
   const PinnedOperator& pinned_operator() const noexcept { return operator_; }
-  // snapshot returns the present state; it shares elimination paths and dense blocks. restore goes back to it bit for
-  // bit.
+  // snapshot returns the present constraints; it shares their elimination paths and dense systems. restore goes back to
+  // them bit for bit.
   std::shared_ptr<const ConstraintState> snapshot() const;
   void restore(const ConstraintState& state);
 
   ConstraintCounts counts() const noexcept;
   void add_counts(const ConstraintCounts& more) noexcept;
-  double row_bytes() const noexcept;   // of paths and blocks
-  double base_bytes() const noexcept;  // of the factor of a rebase
+  double row_bytes() const noexcept;   // bytes of elimination paths and dense blocks
+  double base_bytes() const noexcept;  // bytes of the factor with sites eliminated
   // Returns the factor that paths and sweeps of the present state use.
   const Factor& factor() const noexcept { return state_.base ? *state_.base->factor : *operator_.factor; }
 
@@ -82,12 +82,12 @@ class ConstraintSystem {
       return row >= 0 ? slot.data() + at(row) * m : freed.data() + at(ConstraintState::base_index(row)) * m;
     }
     const double* of(Index row, std::size_t m) const noexcept { return const_cast<Answer*>(this)->of(row, m); }
-    Vector<double> slot;      // lambda
-    Vector<double> freed;     // t, by base index
+    Vector<double> slot;      // lambda: the flux into each site, by slot
+    Vector<double> freed;     // t: values of eliminated sites that were removed
     Vector<double> centre;    // mean site value by component: a large common offset must not cost digits
     Vector<double> constant;  // centre + nu by component; zeros where K does not keep constants
-    Vector<double> nu;        // by component and pin, where pins have paths
-    Vector<double> total;     // by component, for a refinement: 1'lambda = -total; empty: 0
+    Vector<double> nu;        // by pinned unknown, where K does not keep constants
+    Vector<double> total;     // by component: minus the sum of its fluxes, for a refinement; empty: 0
     Vector<double> x;         // scratch
   };
   // Each of the functions below takes the channels first .. first + count - 1 of values[slot * channels + c].
@@ -98,8 +98,8 @@ class ConstraintSystem {
   // Computes the mean site value of every component and channel. A solve first subtracts this mean, so that a large
   // common offset costs no digits. The mean is zero for direction fields, where K does not map constants to zero.
   void find_centres(const double* values, Index channels, Index first, Index count, Answer& answer) const;
-  // Solves the dense system for `answer`; call find_centres first. The array z holds the forward sweep g of the values
-  // of eliminated sites (see the top of this file). It is null without a rebase.
+  // Solves the dense system of the sites for `answer`; call find_centres first. The array z holds the vector g of the
+  // top of this file, which comes from the values of eliminated sites. It is null if the factor eliminates none.
   void solve_dense(const double* values, Index channels, Index first, Index count, const double* z,
                    Answer& answer) const;
   // Three steps of a solve, for callers with a right-hand side of their own (green_refine.cpp). The letters are those

@@ -11,13 +11,15 @@ namespace {
 
 constexpr auto no_row = ConstraintState::no_row;
 
-// Groups of paths are packed again when they store more than stored_share times the rows in use plus stored_slack.
-// Smaller numbers pack sooner, which solves paths again. Larger numbers keep unused paths in memory and in every sweep.
+// Groups of elimination paths are packed again when they store more than stored_share times the paths in use plus
+// stored_slack. Smaller numbers pack sooner, which solves paths again. Larger numbers keep unused paths in memory and
+// in every sweep.
 constexpr std::int64_t stored_share = 2, stored_slack = 2 * PathGroup::capacity;
 
 }  // namespace
 
-// The new rows of an edit on their way into the dense blocks: their places there, and their entries of the matrix M.
+// The new rows of an edit before they go into the dense blocks (one matrix M per component): their places there, and
+// their entries of M.
 struct ConstraintEdit::Batch {
   struct Where {
     Index place = -1, batch = -1, component = -1;  // batch: number among the new rows, or -1
@@ -43,7 +45,8 @@ struct ConstraintEdit::Batch {
   Where& where(Index row) noexcept {
     return row >= 0 ? of_slot[at(row)] : of_free[at(ConstraintState::base_index(row))];
   }
-  // Returns the entry M(x, y), or null if both rows are old or lie in different blocks.
+  // Returns the entry M(x, y) of the dense matrix for rows x and y, or null if both rows are old or lie in different
+  // blocks.
   double* entry(const Where& x, const Where& y) noexcept {
     if (x.component != y.component) return nullptr;
     const Where& later = x.place > y.place ? x : y;
@@ -95,7 +98,8 @@ void ConstraintEdit::go_on() {
   add_rows(coming);
 }
 
-// Removes the rows of the removed sites. The value of a removed eliminated site becomes free, which adds a row.
+// Removes the dense rows of the removed sites. If a site was eliminated in the factor, its value becomes unknown
+// (free), which adds a row.
 void ConstraintEdit::remove_sites(Vector<Row>& coming) {
   Vector<Row> leaving(&memory());
   for (const Index slot : edit_.remove) {
@@ -122,7 +126,7 @@ void ConstraintEdit::place_sites(Vector<Row>& coming) {
       coming.push_back({edit_.add[i], site.component});
       continue;
     }
-    // The vertex of this hard site is eliminated, so its value is no longer free.
+    // The vertex of this hard site is eliminated in the factor, so its value is no longer unknown.
     state_.entries[at(edit_.add[i])].eliminated = b;
     const Index row = ConstraintState::free_row(b);
     const auto pending = std::find_if(coming.begin(), coming.end(), [&](const Row& r) { return r.row == row; });
@@ -135,7 +139,7 @@ void ConstraintEdit::place_sites(Vector<Row>& coming) {
   remove_rows(returning);
 }
 
-// Refuses a component whose eliminated vertices all have free values: its system would be singular.
+// Refuses a component whose eliminated vertices all have unknown (free) values: its system would be singular.
 void ConstraintEdit::check_bases() const {
   if (!state_.base) return;
   Vector<std::uint8_t> in_force(state_.base->floating, &memory());
@@ -187,7 +191,8 @@ void ConstraintEdit::drop_empty_groups() {
   state_.groups.resize(at(kept));
 }
 
-// Solves paths again when the groups mostly store paths of removed rows. Only sparsely used groups are packed.
+// Solves elimination paths again when their groups mostly store paths of removed rows. Only sparsely used groups are
+// packed.
 void ConstraintEdit::repack() {
   std::int64_t stored = 0;
   for (const auto& group : state_.groups) stored += group.paths->count();
@@ -204,7 +209,7 @@ void ConstraintEdit::repack() {
   drop_empty_groups();
 }
 
-// Solves the elimination paths of these rows and puts them into new groups at the end.
+// Solves the elimination paths of these dense rows and puts them into new groups at the end.
 void ConstraintEdit::add_paths(Span<const Index> rows) {
   SiteColumns columns(memory());
   for (const Index row : rows) {
@@ -246,7 +251,8 @@ void ConstraintEdit::add_rows(Span<const Row> rows) {
   append_rows(batch);
 }
 
-// Computes the rows of the border N for the sites of the groups from first_group on.
+// Computes the rows of the border N = Y'Y_g (products with the paths of pinned vertices) for the sites of the path
+// groups from first_group on.
 void ConstraintEdit::project_pins(std::size_t first_group) {
   const PinPaths& pins = *operator_.paths;
   const std::size_t border = operator_.border();
@@ -267,8 +273,8 @@ void ConstraintEdit::project_pins(std::size_t first_group) {
   });
 }
 
-// Computes the products of the paths of each new group with itself and all earlier groups. One job handles a pair of
-// groups, and each pair of rows gives one entry of M.
+// Computes the products of the elimination paths of each new group with its own and those of all earlier groups. One
+// job handles a pair of groups, and each pair of rows gives one entry of M.
 void ConstraintEdit::take_gram(std::size_t first_group, Batch& batch) const {
   struct Pair {
     std::size_t a, b;
@@ -294,8 +300,8 @@ void ConstraintEdit::take_gram(std::size_t first_group, Batch& batch) const {
   });
 }
 
-// Adds the other terms of M: the softness D of soft sites on the diagonal, the weights W_R between a site and a free
-// value, and -K_RR between free values.
+// Adds those terms of the dense matrix M that are no products of paths: the softness D of soft sites on the diagonal,
+// the weights W_R between a site and an unknown value of a removed site, and -K_RR between two such values.
 void ConstraintEdit::take_couplings(Batch& batch) const {
   for (const Row& row : batch.rows) {
     if (row.row < 0) continue;
@@ -349,7 +355,8 @@ void ConstraintEdit::append_rows(const Batch& batch) {
   for (std::size_t c = 0; c < blocks.size(); ++c) {
     if (!blocks[c]) continue;
     const Index failed = blocks[c]->factorise(jobs_);
-    // A pivot failed after a rebase. The order of the rows may be the reason, so try a new layout.
+    // A pivot failed after sites were eliminated in the factor. The order of the dense rows may be the reason, so try a
+    // new order.
     if (failed >= 0 && state_.base) throw NeedsNewLayout{};
     refuse_dependent(*blocks[c], static_cast<Index>(c), failed);
     state_.blocks[c] = blocks[c];
@@ -368,9 +375,9 @@ void ConstraintEdit::refuse_dependent(const DenseBlock& block, Index component, 
        position);
 }
 
-// Returns the slot of a hard site of the component that depends linearly on others, or -1. It reports sites of this
-// edit before older sites. After a rebase a diagonal entry may be mere rounding, and so may its pivot. So every new
-// site is then examined.
+// Returns the number (slot) of a hard site of the component that depends linearly on others, or -1. It reports sites of
+// this edit before older sites. After a rebase a diagonal entry may be mere rounding, and so may its pivot. So every
+// new site is then examined.
 Index ConstraintEdit::dependent_slot(const DenseBlock& block, Index component) const {
   if (!state_.base && block.least_pivot() >= suspect_share) return -1;
   Vector<HardSite> sites(&memory());

@@ -6,23 +6,24 @@ namespace hf_inner {
 
 class ConstraintEdit {
  public:
-  // Thrown when the present layout of rows cannot take the edit. Either a component has no eliminated site left, or a
-  // pivot failed and the order of the rows may be the reason.
+  // Thrown when the present order of the dense rows cannot take the edit. Either a component has no eliminated site
+  // left, or a pivot failed and the order of the rows may be the reason.
   struct NeedsNewLayout {};
 
-  // state: the copy that the edit changes in place. After an exception the copy is useless.
+  // Prepares one edit of the sites. state: a copy of the system's state, which the edit changes in place. After an
+  // exception this copy is useless.
   ConstraintEdit(const PinnedOperator& a, JobRunner& jobs, const SiteEdit& edit, ConstraintState& state)
       : operator_(a), jobs_(jobs), edit_(edit), state_(state) {}
 
-  void go_on();                     // from the rows there are
-  void start_over(bool eliminate);  // every site placed again, the hard vertex sites in the factor if asked
+  void go_on();                     // edits the present rows
+  void start_over(bool eliminate);  // adds every site again; eliminate: hard vertex sites leave the matrix
 
   std::uint32_t path_solves() const noexcept { return path_solves_; }
   std::uint32_t factorisations() const noexcept { return factorisations_; }
 
  private:
   struct Row {
-    Index row;  // slot or free_row
+    Index row;  // number of the row: a site's slot or free_row
     Index component;
   };
   struct Batch;

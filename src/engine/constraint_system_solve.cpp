@@ -6,8 +6,8 @@
 namespace hf_inner {
 namespace {
 
-// Number of array entries that one job sets to zero. Half this number makes more jobs than threads need. Twice this
-// number leaves threads idle on small meshes.
+// Number of array entries that one thread's job sets to zero. Half this number makes more jobs than threads need. Twice
+// this number leaves threads idle on small meshes.
 constexpr std::size_t clear_piece = 16384;
 
 }  // namespace
@@ -27,8 +27,8 @@ void ConstraintSystem::find_centres(const double* values, Index channels, Index 
   }
 }
 
-// Sets z to g = G^-1 P (-K_FE s_E). s_E are the values of the eliminated sites E, less the mean, and F the other
-// vertices.
+// Sets z to g = G^-1 P (-K_FE s_E): what the eliminated sites E contribute to the other vertices F. s_E are their
+// values, less the mean. K is the operator, G its factor, P the ordering.
 void ConstraintSystem::base_forward(const double* values, Index channels, Index first, Index count,
                                     const Answer& answer, double* z) const {
   const std::size_t m = at(count);
@@ -50,7 +50,8 @@ void ConstraintSystem::base_forward(const double* values, Index channels, Index 
   ++sweeps_;
 }
 
-// Adds the terms of the eliminated sites E to the other rows: -W_E' s_E for sites, and K_RE s_E for free values R.
+// Adds what the values s_E of the eliminated sites E contribute to the dense right-hand side. It adds -W_E' s_E for
+// other sites with weights W, and K_RE s_E for removed sites R, whose values are unknown.
 void ConstraintSystem::add_base_terms(const double* values, Index channels, Index first, Index count,
                                       Answer& answer) const {
   const std::size_t m = at(count);
@@ -124,7 +125,7 @@ void ConstraintSystem::sweep(const double* values, Index channels, Index first, 
   }
 }
 
-// Subtracts Y'z from `answer`, row by row.
+// Subtracts the products Y'z of the sites' elimination paths Y with z from `answer`, row by row.
 void ConstraintSystem::subtract_projections(const double* z, Index count, Answer& answer) const {
   const std::size_t m = at(count);
   answer.x.resize(PathGroup::capacity * m);
@@ -138,7 +139,8 @@ void ConstraintSystem::subtract_projections(const double* z, Index count, Answer
   }
 }
 
-// Replaces `answer` by the dense unknowns lambda and t. If K maps constants to zero, nu is added to the constants.
+// Solves the dense system. Replaces `answer` by the fluxes lambda of the sites, and the unknown values t of sites that
+// were removed. If K maps constants to zero, nu is added to the constants.
 void ConstraintSystem::solve_rows(Index count, Answer& answer) const {
   const std::size_t m = at(count), border = operator_.border();
   const bool constants = operator_.keeps_constants();

@@ -8,8 +8,9 @@
 namespace hf_inner {
 
 struct ConstraintState {
-  // A row of the dense system has a number. The row of a site has the number of its slot. The row of the free value at
-  // base index b, a removed site of a rebase, has the number -2 - b.
+  // A row of the dense system has a number. The row of a site has the number of its slot. If the factor eliminates a
+  // vertex and its site was removed, its value is unknown. The row of this value has the number -2 - b, with b the
+  // vertex's index in EliminatedBase.
   static constexpr Index no_row = -1;
   static Index free_row(Index base_index) noexcept { return -2 - base_index; }
   static Index base_index(Index row) noexcept { return -2 - row; }
@@ -18,28 +19,30 @@ struct ConstraintState {
   struct Path {
     Index group = -1, column = -1;
   };
-  // A group of elimination paths, at most PathGroup::capacity. row[column] is no_row after its row was removed.
+  // A group of at most PathGroup::capacity elimination paths. row[column] is the dense row of a path, or no_row after
+  // its removal.
   struct Group {
     std::shared_ptr<const PathGroup> paths;
     Index row[PathGroup::capacity];
     Index used = 0;
   };
   struct Entry {
-    Site site;                                        // component -1: the slot is free
-    Path path;                                        // of a row
-    Index eliminated = -1;                            // base index of a site in the factor
-    double border[PinnedOperator::most_border] = {};  // its row of N: only where pins have paths
+    Site site;                                        // component -1: no site has this slot
+    Path path;                                        // where the elimination path of its row is
+    Index eliminated = -1;                            // index among the sites that the factor eliminates, or -1
+    double border[PinnedOperator::most_border] = {};  // its row of the border N; only where pinned unknowns have paths
     bool used() const noexcept { return site.component >= 0; }
   };
   struct Free {
     Path path;
-    bool is_row() const noexcept { return path.group >= 0; }  // else the base site is in force
+    bool is_row() const noexcept { return path.group >= 0; }  // else the factor eliminates it
   };
-  // The cost model's prediction for an edit, and the route that was taken.
+  // The predicted costs of an edit of the sites, and the way (route) in which it was carried out.
   struct Decision {
     EditRoute route = EditRoute::none;
     double dense_ms = 0, rebase_ms = 0;
-    bool eliminate = false;  // starting over costs less with the hard vertex sites in the factor
+    // Building the dense system again costs less if the factor eliminates the hard vertex sites.
+    bool eliminate = false;
   };
 
   ConstraintState(std::size_t components, Memory& memory)
@@ -62,16 +65,16 @@ struct ConstraintState {
 
   Path& path_of(Index row) noexcept { return row >= 0 ? entries[at(row)].path : freed[at(base_index(row))].path; }
   bool floating(std::size_t component) const noexcept { return !base || base->floating[component]; }
-  void put(Index slot, const Site& site);  // into a free slot
+  void put(Index slot, const Site& site);  // slot: a number not in use
 
   Vector<Entry> entries;                       // by slot
-  std::shared_ptr<const EliminatedBase> base;  // null: the operator's own factor
-  Vector<Free> freed;                          // by base index
+  std::shared_ptr<const EliminatedBase> base;  // factor with eliminated sites; null: the operator's own
+  Vector<Free> freed;                          // by eliminated site: its value, if it was removed
   Vector<Group> groups;
   Vector<std::shared_ptr<const DenseBlock>> blocks;  // by component; null without a row
   Vector<Index> sites_of;                            // sites by component
-  Index rows = 0;                                    // of all blocks
-  Decision decision;                                 // of the edit that led here
+  Index rows = 0;                                    // rows of all blocks
+  Decision decision;                                 // how the last edit was carried out
 };
 
 }  // namespace hf_inner

@@ -48,25 +48,26 @@ void find_grounds(Core& core) {
   }
 }
 
-// Limits for the weights of a bi-harmonic operator's Laplacian L, as multiples of their median. The first limit with
-// which K can be factorised is taken.
+// Edge weights in a bi-harmonic operator are limited to one of these multiples of their median: the first with which
+// the matrix can be factorised.
 constexpr double weight_caps[] = {1e3, 1e2, 1e1};
 constexpr int cap_count = 3;
-// Shares of the diagonals that are added to every weight of a second-order operator when it cannot be factorised. This
-// happens when weights span more digits than a double has. A needle triangle of width 1e-9, for example, connects two
-// of its vertices 1e18 times as strongly as the third. The first share with which K can be factorised is taken.
+// If a second-order operator cannot be factorised, one of these shares of the diagonals is added to every edge weight.
+// This happens when weights span more digits than a double has. A needle triangle of width 1e-9, for example, connects
+// two of its vertices 1e18 times as strongly as the third. The first share with which the matrix can be factorised is
+// taken.
 constexpr double tie_shares[] = {0, 1e-9, 1e-7};
-// Last resort for components that still cannot be factorised. Their weights are limited to a range of this factor
+// Last resort for components that still cannot be factorised. Their edge weights are limited to a range of this factor
 // around their median, both ways, and so are the masses of bi-harmonic operators.
 constexpr double confined_spread = 1e4, confined_biharmonic_spread = 10;
-// Least share of its diagonal that a pivot of a second-order operator must keep. The relative error of a field is about
-// 2^-52 divided by that share. The pivots of a regular mesh of n vertices keep at least 1 / n. Those of a fourth-order
-// operator keep 1 / n^2, so it has the default limit.
+// A pivot of a second-order operator must keep at least this share of its diagonal. The relative error of a field is
+// about 2^-52 divided by that share. The pivots of a regular mesh of n vertices keep at least 1 / n. Those of a
+// fourth-order operator keep 1 / n^2, so it has the default limit.
 constexpr double harmonic_lost_share = 0x1p-31;
 
-// Builds K for the options, on the mesh's own edges or on the intrinsic Delaunay edges. The number `cap` is a position
-// in weight_caps and tie_shares. The list `confined` is empty, or marks the components whose weights are limited as a
-// last resort.
+// Builds the operator K for the options, on the mesh's own edges or on the intrinsic Delaunay edges. The number `cap`
+// is a position in weight_caps and tie_shares. The list `confined` is empty, or marks the components whose weights are
+// limited as a last resort.
 void make_operator(Core& core, const CoreOptions& options, int cap, const Vector<std::uint8_t>& confined) {
   Memory& pool = *core.memory;
   Vector<double> areas(&pool);
@@ -98,7 +99,8 @@ void make_operator(Core& core, const CoreOptions& options, int cap, const Vector
   find_grounds(core);
 }
 
-// Adds the pins to the diagonal of K during the lifetime of this object. A copy of K would cost as much as building it.
+// Raises the diagonal of K at the pinned vertices during the lifetime of this object. A copy of K would cost as much as
+// building it.
 class InPlaceGrounds {
  public:
   explicit InPlaceGrounds(Core& core) : core_(core), plain_(core.memory.get()) {

@@ -18,8 +18,8 @@ struct CoreOptions {
   Ordering ordering = Ordering::nested_dissection;
   bool need_factor = true;                // the engines updown and refactor keep their own
   Span<const std::uint8_t> saved_factor;  // not empty: the factor is loaded from these bytes instead of made
-  bool borrow_factor = false;             // its numbers are read in place: the bytes outlive the core
-  double flop_limit = 0;                  // of every factorisation on the core; 0 = none
+  bool borrow_factor = false;             // reads the numbers of saved_factor in place; they must outlive the core
+  double flop_limit = 0;                  // refuses every factorisation on the core that takes more; 0 = no limit
 };
 
 struct CoreTimes {
@@ -29,8 +29,8 @@ struct CoreTimes {
 struct Core {
   explicit Core(std::shared_ptr<const Geometry> shape);
   // Makes the operator K on a geometry, and the factor of the pinned matrix A = K + sum_c beta_c e_gc e_gc'. The pinned
-  // vertex of component c is its first vertex g_c. The weight beta_c of the pin is the mean diagonal of K there. The
-  // field options.operator_kind must be that of the geometry. Progress runs from 0.15 to 1.
+  // vertex of component c is its first vertex g_c. There the diagonal is raised by beta_c, the mean diagonal of K in
+  // the component. The field options.operator_kind must be that of the geometry. Progress runs from 0.15 to 1.
   static std::shared_ptr<const Core> make(std::shared_ptr<const Geometry> shape, const CoreOptions& options);
   // Makes the geometry and its core in one call.
   static std::shared_ptr<const Core> make(const MeshInput& input, const CoreOptions& options,
@@ -41,13 +41,13 @@ struct Core {
   std::shared_ptr<Memory> memory;  // first member: outlives what is allocated from it
   std::shared_ptr<const Geometry> geometry;
   std::shared_ptr<JobRunner> jobs;
-  const Mesh& mesh;  // these four: the geometry's
+  const Mesh& mesh;  // this and the next three are parts of the geometry
   const Topology& topology;
   const Vector<double>& areas;
   const Vector<double>& weights;
   FieldKind field_kind = FieldKind::harmonic;
-  SymmetricMatrix laplacian;     // K: L, or bi-harmonic
-  Vector<std::int32_t> ground;   // per component
+  SymmetricMatrix laplacian;     // the operator K: the Laplacian, or a bi-harmonic operator
+  Vector<std::int32_t> ground;   // pinned vertex (raised diagonal) per component
   Vector<double> mean_diagonal;  // per component
   // Correction steps with the true operator after the sweep of a field: 0 for second-order operators, 1 for bi-harmonic
   // operators, whose condition number is squared. The residual uses differences of values.
@@ -57,18 +57,19 @@ struct Core {
   // so loading knows early that weights must be limited.
   std::uint64_t confined_hash = 0;
   Ordering ordering = Ordering::nested_dissection;
-  double flop_limit = 0;                 // as in CoreOptions
-  std::shared_ptr<const Factor> factor;  // of A; null when the options asked for none
+  double flop_limit = 0;  // as in CoreOptions
+  // Of K with raised diagonals at the pinned vertices; null if need_factor is false.
+  std::shared_ptr<const Factor> factor;
   CoreTimes times;
   mutable PreviewCache preview;  // the factor in single precision
   WorkspacePool& workspaces;     // the geometry's
   WorkspacePool& zeroed_workspaces;
 };
 
-// Returns the pinned matrix A.
+// Returns the matrix A that is factorised: K with raised diagonals at the pinned vertices.
 SymmetricMatrix grounded(const Core& core);
-// Returns the hash of A, by which a saved factor recognises its mesh. It covers the pattern and the numbers of K, and
-// the pinned vertices with their weights.
+// Returns the hash of the factorised matrix A, by which a saved factor recognises its mesh. It covers the pattern and
+// the numbers of K, and the pinned vertices with their weights.
 std::uint64_t grounded_hash(const Core& core);
 // Returns the coordinates of the welded vertices in the format that the ordering needs.
 Vector<float> ordering_coordinates(const Mesh& mesh, Memory& memory);

@@ -13,15 +13,17 @@ namespace {
 
 constexpr std::int32_t tile = 4;
 
-// A pivot below this share of its diagonal entry means linear dependence. Independent sites stay above 1e-9 even on
-// bi-harmonic patches. A point that depends on three crowded points in its triangle keeps up to 1e-12 of rounding.
+// A pivot of the sites' dense system below this share of its diagonal entry means linear dependence. Independent sites
+// stay above 1e-9 even on small meshes with a bi-harmonic operator. A point that depends on three crowded points in its
+// triangle keeps up to 1e-12 of rounding.
 constexpr double pivot_floor = 1e-11;
 
-// Rates for removing a row: the nanoseconds of one rotation for one number behind the row, and the flops of a
-// factorisation in one nanosecond. They decide between two routes with the same result, so wrong rates cost only time.
+// Rates for removing a site's row from the dense factor: the nanoseconds of one rotation for one number behind the row,
+// and the flops of a factorisation in one nanosecond. They decide between two routes with the same result, so wrong
+// rates cost only time.
 constexpr double rotation_ns = 2, factor_rate = 15;
-// A factorisation of fewer rows than least_parallel runs on one thread. Above that, a job takes tiles_per_job tiles of
-// eight rows. Smaller jobs would cost more to hand out than to do.
+// A dense factorisation of fewer rows than least_parallel runs on one thread. Above that, a thread's job takes
+// tiles_per_job tiles of eight rows. Smaller jobs would cost more to hand out than to do.
 constexpr std::int32_t least_parallel = 400, tiles_per_job = 12;
 
 // Computes dots[i * tile + j] = a_i . b_j over `count` entries. Each product has four running sums in one fixed order,
@@ -79,9 +81,9 @@ DenseBlock::DenseBlock(const DenseBlock& other)
   std::copy(std::begin(other.schur_), std::end(other.schur_), schur_);
 }
 
-// Updates L after row r was removed: rotates column r below row r into the later columns. Each row first takes the
-// rotations of the rows above it, then makes its own. Four rows are processed at once, because one row is a chain of
-// dependent operations.
+// Updates the dense factor L after row r was removed, by plane rotations: adds column r below row r to the later
+// columns. Each row first takes the rotations of the rows above it, then makes its own. Four rows are processed at
+// once, because one row is a chain of dependent operations.
 void DenseBlock::update_without(std::int32_t r) {
   struct Rotation {
     double c, s, inverse_c;
@@ -149,7 +151,8 @@ void DenseBlock::remove(Span<const std::int32_t> ids) {
   }
   const double fresh = (left * left * left - std::pow(static_cast<double>(first), 3)) / 3 / factor_rate;
   if (negative_ == 0 && d * rotation_ns * (k - first) * k < fresh) {
-    // Removes rows from the last to the first. Removing a late row is cheap, because few rows lie behind it.
+    // Removes rows of the dense factor from the last to the first. Removing a late row is cheap, because few rows lie
+    // behind it.
     for (std::int32_t r = count() - 1; r >= 0; --r) {
       if (!leaves(ids_[static_cast<std::size_t>(r)])) continue;
       if (r < valid_) update_without(r), --valid_;
@@ -180,8 +183,8 @@ void DenseBlock::append(std::int32_t id, const double* values, bool positive, co
 
 std::int32_t DenseBlock::factorise_signed() {
   const std::int32_t k = count();
-  // Processes four rows at a time on a fixed grid. The array `scaled` holds these rows of L, multiplied by the signs
-  // Sigma.
+  // Processes four rows of the dense matrix at a time on a fixed grid. The array `scaled` holds these rows of the
+  // factor L, multiplied by the signs (+1 or -1) of their columns.
   Vector<double> scaled(static_cast<std::size_t>(tile) * static_cast<std::size_t>(k), 0.0, memory_);
   double dots[tile * tile];
   while (valid_ < k) {
@@ -193,7 +196,8 @@ std::int32_t DenseBlock::factorise_signed() {
     for (std::int32_t j0 = 0; j0 <= grid; j0 += tile) {
       const double* other[tile];
       for (std::int32_t j = 0; j < tile; ++j) other[j] = l_.data() + row(std::min(j0 + j, k - 1));
-      // At j0 = grid the four rows multiply with each other. Their first `grid` entries are known by then.
+      // At j0 = grid the products are those of the four rows with each other. The first `grid` entries of these rows
+      // are known by then.
       tile_dots(mine, other, static_cast<std::size_t>(j0), dots);
       for (std::int32_t i = valid_; i < end; ++i) {
         double* l = l_.data() + row(i);
@@ -220,9 +224,9 @@ std::int32_t DenseBlock::factorise_signed() {
   return -1;
 }
 
-// Factorises the block with the dense kernels of the sparse factor. The kernels work on one dense triangle of k
-// columns, a front without rows below it. Rows of L that are up to date are copied into it. Every number is one chain
-// of operations in column order, so its bits do not depend on which rows were present before.
+// Factorises the dense matrix of the sites with the dense kernels of the sparse factor. The kernels work on one dense
+// triangle of k columns. Rows of L that are up to date are copied into it. Every number is one chain of operations in
+// column order, so its bits do not depend on which rows were present before.
 std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
   const Kernels& kernels = choose_kernels();
   const std::int32_t k = count(), done = valid_ / 8 * 8, tiles = (k + 7) / 8;
@@ -261,7 +265,7 @@ std::int32_t DenseBlock::factorise_positive(JobRunner& jobs) {
     if (begin >= done) {
       const std::int32_t failed = kernels.factor_triangle(front, begin, end, floor.data());
       if (failed >= 0) {
-        // The rows above the failed row stay, so the next call finds the same row.
+        // The rows above the row with the failed pivot stay, so the next call finds the same row.
         return failed;
       }
     }
@@ -309,7 +313,7 @@ void DenseBlock::factorise_border() {
   }
 }
 
-// Solves for several channels. `fixed` is the number of channels if the compiler knows it, else 0.
+// Solves the dense system for several channels. `fixed` is the number of channels if the compiler knows it, else 0.
 template <std::size_t fixed>
 void DenseBlock::solve_channels(double* x, std::size_t channels) const noexcept {
   const std::int32_t k = count();

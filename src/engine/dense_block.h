@@ -27,7 +27,8 @@ namespace hf_inner {
 class DenseBlock {
  public:
   static constexpr std::size_t most_border = 2;
-  // corner: the border x border numbers of C; null stands for zeros.
+  // Makes a block without rows. border: number of border unknowns. corner: the border x border numbers of C; null
+  // stands for zeros.
   explicit DenseBlock(Memory& memory, std::size_t border = 0, const double* corner = nullptr);
   DenseBlock(const DenseBlock& other);
 
@@ -35,16 +36,16 @@ class DenseBlock {
   Span<const std::int32_t> ids() const noexcept { return ids_; }
   bool has_negative() const noexcept { return negative_ > 0; }
 
-  // Removes the rows with these ids. All of them must be present.
+  // Removes the rows with these ids from the dense matrix. All of them must be present.
   void remove(Span<const std::int32_t> ids);
   // Appends a row to the matrix M. The entry row[j] is M(new, j) for the present rows j, and row[count] is M(new, new).
   // The array `border` is the new row of the border N; null stands for ones. Call factorise() afterwards.
   void append(std::int32_t id, const double* row, bool positive = true, const double* border = nullptr);
-  // Factorises the rows that L does not have yet. Returns -1, or the row whose pivot failed. The site of that row
-  // depends linearly on earlier sites.
+  // Factorises the rows that the factor L does not have yet. Returns -1, or the row whose pivot failed. The site of
+  // that row depends linearly on earlier sites.
   std::int32_t factorise(JobRunner& jobs);
 
-  // Replaces x by M^-1 x, with x[i * channels + c].
+  // Replaces x by M^-1 x, with x[row * channels + c] and M the dense matrix.
   void solve(double* x, std::int32_t channels) const noexcept;
   // Solves with the matrix M and its border N, C. All signs must be positive. total: one number per channel for a
   // border of one; null stands for zeros. Writes nu[p * channels + c].
@@ -62,7 +63,7 @@ class DenseBlock {
   std::int32_t factorise_positive(JobRunner& jobs);
   std::int32_t factorise_signed();
   void update_without(std::int32_t r);            // rank-one update of L for the removal of row r
-  void keep_rows(Span<const std::int32_t> rows);  // compacts everything to these rows, ascending
+  void keep_rows(Span<const std::int32_t> rows);  // keeps only these rows of all arrays, ascending
   void factorise_border();
   template <std::size_t fixed>
   void solve_channels(double* x, std::size_t channels) const noexcept;
@@ -70,13 +71,13 @@ class DenseBlock {
   Memory* memory_;
   Vector<std::int32_t> ids_;
   Vector<double> sign_;
-  Vector<double> m_, l_;    // packed lower rows; the diagonal of L inverted
+  Vector<double> m_, l_;    // M and L: packed lower rows; the diagonal of L inverted
   std::int32_t valid_ = 0;  // leading rows of l_ that are up to date
   std::int32_t negative_ = 0;
   std::size_t border_;
-  Vector<double> n_;                               // N, row by row
-  Vector<double> m_inverse_n_;                     // M^-1 N, likewise
-  double corner_[most_border * most_border] = {};  // C
+  Vector<double> n_;                               // the border N, row by row
+  Vector<double> m_inverse_n_;                     // M^-1 N, row by row
+  double corner_[most_border * most_border] = {};  // the corner C of the border
   double schur_[most_border * most_border] = {};   // N' M^-1 N - C
 };
 

@@ -9,8 +9,8 @@
 namespace hf_inner {
 namespace {
 
-// A row depends on others if less than this share of its length remains orthogonal to them. Rounding leaves 1e-15. A
-// larger number would refuse points that lie close to, but not on, a line through other sites.
+// A site depends on others if less than this share of its weight vector's length is orthogonal to theirs. Rounding
+// leaves 1e-15. A larger number would refuse points that lie close to, but not on, a line through other sites.
 constexpr double dependence = 1e-9;
 
 struct Corner {
@@ -22,8 +22,8 @@ Index root_of(Vector<Index>& parent, Index i) noexcept {
   return i;
 }
 
-// Returns the first of `rows` that depends on the rows before it, or -1. It orthogonalises every row twice
-// (Gram-Schmidt).
+// Returns the first of the sites `rows` whose weight vector depends on those before it, or -1. It orthogonalises every
+// vector twice (Gram-Schmidt).
 Index first_dependent(Span<const HardSite> sites, Span<const Index> rows, const Vector<Index>& columns,
                       Memory& memory) {
   const std::size_t width = columns.size();
@@ -43,7 +43,7 @@ Index first_dependent(Span<const HardSite> sites, Span<const Index> rows, const 
       }
     }
     const double length = std::sqrt(std::inner_product(row, row + width, row, 0.0));
-    // The weights sum to 1, so the row had a length of at least 1 / sqrt(3) before it was orthogonalised.
+    // A site's weights sum to 1, so their vector had a length of at least 1 / sqrt(3) before it was orthogonalised.
     if (!(length > dependence)) return rows[i];
     for (std::size_t c = 0; c < width; ++c) row[c] /= length;
   }
@@ -67,7 +67,8 @@ Index dependent_site(Span<const HardSite> sites, Memory& memory) {
     if (corners[i].vertex == corners[i - 1].vertex)
       parent[at(root_of(parent, corners[i].row))] = root_of(parent, corners[i - 1].row);
   }
-  Vector<std::uint8_t> suspect(sites.size(), 0, &memory);  // by root
+  // By group of sites with common vertices: 1 if a site in it has a small pivot.
+  Vector<std::uint8_t> suspect(sites.size(), 0, &memory);
   for (std::size_t i = 0; i < sites.size(); ++i) {
     if (sites[i].suspect) suspect[at(root_of(parent, static_cast<Index>(i)))] = 1;
   }

@@ -13,20 +13,20 @@
 
 namespace hf_inner {
 
-// A pivot below this share of its diagonal entry makes its site a suspect. Crowded points at a distance d have a share
-// of about d^2, and dependent points less than 1e-11. A larger number costs time, because more crowded points are
-// examined.
+// A pivot of the dense system below this share of its diagonal entry makes its site a suspect: it may depend on others.
+// Crowded points at a distance d have a share of about d^2, and dependent points less than 1e-11. A larger number costs
+// time, because more crowded points are examined.
 constexpr double suspect_share = 1e-6;
 
 struct HardSite {
   const Site* site = nullptr;
   std::int32_t slot = -1;
-  bool suspect = false;  // has a small pivot: only groups with one are examined
+  bool suspect = false;  // has a small pivot, so its group of sites is examined
 };
 
-// Returns the slot of the first site whose weights depend on the sites before it, or -1. sites: all hard sites of one
-// component; their order decides which site is reported. The function orthogonalises one group of sites with common
-// vertices at a time, in O(sites^2 vertices) of the group.
+// Returns the number (slot) of the first site whose weights depend linearly on those of the sites before it, or -1.
+// sites: all hard sites of one component; their order decides which site is reported. The function orthogonalises one
+// group of sites with common vertices at a time, in O(sites^2 vertices) of the group.
 std::int32_t dependent_site(Span<const HardSite> sites, Memory& memory);
 
 }  // namespace hf_inner

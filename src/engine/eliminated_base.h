@@ -11,17 +11,17 @@ namespace hf_inner {
 
 struct EliminatedBase {
   explicit EliminatedBase(Memory& memory) : vertex(&memory), index_of(&memory), floating(&memory) {}
-  // unknowns: the vertices to eliminate, each once. components: the component of each unknown. Cost: one numeric
-  // factorisation.
+  // Factorises with some vertices eliminated. unknowns: these vertices, each once. components: the component of each
+  // unknown. Cost: one numeric factorisation.
   static std::shared_ptr<const EliminatedBase> make(const PinnedOperator& a, Span<const Index> unknowns,
                                                     Span<const Index> components, JobRunner& jobs);
 
   Index count() const noexcept { return static_cast<Index>(vertex.size()); }
   bool eliminated(Index v) const noexcept { return index_of[at(v)] >= 0; }
 
-  Vector<Index> vertex;           // unknowns by base index
-  Vector<Index> index_of;         // by unknown; -1: not eliminated
-  Vector<std::uint8_t> floating;  // by component: nothing is eliminated, so A is pinned there
+  Vector<Index> vertex;           // the eliminated unknowns
+  Vector<Index> index_of;         // by unknown: position in `vertex`, or -1
+  Vector<std::uint8_t> floating;  // by component: 1 if no vertex of it is eliminated
   std::shared_ptr<const Factor> factor;
 };
 

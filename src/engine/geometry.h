@@ -27,7 +27,7 @@ struct Geometry {
   Mesh mesh;
   Topology topology;
   Vector<double> areas;               // per vertex, a third of the triangles around it
-  Vector<double> weights;             // per edge of the mesh, of the Laplacian L
+  Vector<double> weights;             // of the Laplacian, per edge of the mesh
   Vector<std::uint32_t> given_count;  // vertices as given, by component
   OperatorKind operator_kind = OperatorKind::intrinsic_delaunay;
   double weld_ms = 0, weights_ms = 0;

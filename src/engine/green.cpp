@@ -5,12 +5,12 @@
 namespace hf_inner {
 namespace {
 
-// Number of rows that one job takes. Half this number costs more calls than it gains. Twice this number leaves threads
-// idle on meshes of 50,000 vertices.
+// Number of matrix rows that one thread's job takes. Half this number costs more calls than it gains. Twice this number
+// leaves threads idle on meshes of 50,000 vertices.
 constexpr std::size_t piece = 16384;
-// If the smallest pivot ratio of a dense block is below this number, the dense solve may keep fewer than ten digits.
-// The field then takes one refinement step with the true operator, which costs two sweeps more. A larger number would
-// add steps that change nothing.
+// If the dense system of the sites has a pivot below this share of its diagonal, its solution may have fewer than ten
+// correct digits. The field then takes one refinement step with the true operator, which costs two sweeps more. A
+// larger number would add steps that do not change the field.
 constexpr double crowded_share = 1e-4;
 
 PinnedOperator operator_of(const Core& core) {
@@ -31,7 +31,7 @@ GreenSolver::GreenSolver(const GreenSolver& other)
 EngineCounters GreenSolver::counters() const noexcept {
   const ConstraintCounts counts = system_.counts();
   EngineCounters counters;
-  counters.factorisations = 1 + counts.rebases;  // that of the core, and those of rebases
+  counters.factorisations = 1 + counts.rebases;  // one of the core, and one per rebase (sites taken into the factor)
   counters.path_solves = counts.path_solves, counters.sweeps = counts.sweeps;
   counters.bytes = system_.row_bytes() + system_.base_bytes();
   counters.rebase_advised = system_.row_bytes() > core_->factor->statistics().bytes;
@@ -74,7 +74,7 @@ void GreenSolver::solve_into(const double* values, Index channels, FieldSink& si
         for (std::size_t row = begin; row < end; ++row) z[row] += shift;
         return;
       }
-      if (one_component && m == 8) {  // of a size known when compiled
+      if (one_component && m == 8) {  // the loop length is known when compiled
         for (std::size_t row = begin; row < end; ++row) {
           for (std::size_t q = 0; q < 8; ++q) z[row * 8 + q] += answer.constant[q];
         }
@@ -110,7 +110,7 @@ void GreenSolver::write_field(const double* z, Index channels, Index first, Inde
 void GreenSolver::solve(const double* values, Index channels, double* field, double* flux) const {
   const std::size_t n = at(core_->size()), stride = at(channels);
   Answer answer(memory());
-  // The flux of an eliminated site comes from the field, and a refinement step starts from the field.
+  // The flux of a site that the factor eliminates comes from the field. A refinement step starts from the field too.
   const bool needs_field = flux && !field && (state().base || refinements() > 0);
   Workspace own(core_->workspaces, needs_field ? n * stride : 0);
   if (needs_field) field = own.data();
@@ -171,7 +171,8 @@ void GreenSolver::base_flux(Index channels, const double* field, double* flux) c
 void GreenSolver::solve_at(const double* values, Index channels, Span<const Index> vertices, double* out) const {
   const std::size_t n = at(core_->size()), stride = at(channels);
   if (state().base || refinements() > 0) {
-    // Eliminated sites and residuals affect every vertex, so these fields need a sweep over the whole mesh.
+    // Sites that the factor eliminates affect every vertex, and so do residuals. Such fields need a sweep over the
+    // whole mesh.
     Workspace field(core_->workspaces, n * stride);
     solve(values, channels, field.data(), nullptr);
     for (std::size_t i = 0; i < vertices.size(); ++i)

@@ -19,13 +19,14 @@
 namespace hf_inner {
 namespace {
 
-// Error of a single-precision sweep, relative to the range of the values: the largest seen on difficult sets of sites.
-// A smaller number would promise too much there. A larger one would ask hosts for corrections they do not need.
+// Error of a preview (a field from a single-precision sweep), relative to the range of the site values: the largest
+// seen on difficult sets of sites. A smaller number would promise too much there. A larger one would ask hosts for
+// corrections they do not need.
 constexpr double sweep_error = 1e-5;
-// Share of the error that the first correction leaves. It is above the 3e-4 seen on 304,000 vertices. The share of
-// later corrections is measured.
+// Share of a preview's error that its first correction leaves. It is above the 3e-4 seen on 304,000 vertices. The share
+// of later corrections is measured.
 constexpr double first_shrink = 2e-3;
-// Share of the value range that rounding in double leaves. No error estimate goes below it.
+// The estimated error of a preview is at least this share of the range of the site values: rounding in double.
 constexpr double least_error = 1e-13;
 
 }  // namespace

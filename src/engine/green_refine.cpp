@@ -21,7 +21,7 @@
 namespace hf_inner {
 namespace {
 
-constexpr std::size_t piece = 16384;  // rows a job takes, as in green.cpp
+constexpr std::size_t piece = 16384;  // matrix rows of one thread's job, as in green.cpp
 
 }  // namespace
 
@@ -48,7 +48,8 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
       }
     }
   });
-  // Adds W lambda to the residual r, and writes the residual g of the sites into `next`.
+  // Adds the fluxes W lambda of the sites to the residual r of the field, and writes the residual g of the sites'
+  // values into `next`.
   Answer next(memory());
   next.slot.assign(state().entries.size() * m, 0.0), next.freed.assign(state().freed.size() * m, 0.0);
   next.constant.assign(state().sites_of.size() * m, 0.0), next.total.assign(state().sites_of.size() * m, 0.0);
@@ -66,8 +67,8 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
       }
     }
   }
-  // Eliminated vertices are not in the factor. If their site is in force, they have no equation. If their value is
-  // free, the equation is a row of the dense system.
+  // Vertices of eliminated sites are not in the factor. If the site still constrains the field, its vertex has no
+  // equation. If the site was removed, the equation is a row of the dense system.
   for (std::size_t b = 0; b < state().freed.size(); ++b) {
     double* own = r(base->vertex[b]);
     if (state().freed[b].is_row()) {

@@ -6,8 +6,9 @@
 namespace hf_inner {
 namespace {
 
-// Factor by which a pivot must exceed its usual limit. The whole matrix has another ordering, so components near to
-// failing count as well. A larger factor would limit the weights of components that could be factorised.
+// A component can be factorised if its pivots exceed the usual limit by this factor. The whole matrix has another
+// ordering, so components near to failing count as well. A larger factor would limit the weights of components that
+// could be factorised.
 constexpr double margin = 16;
 
 }  // namespace

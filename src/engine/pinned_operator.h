@@ -20,7 +20,7 @@ namespace hf_inner {
 struct PinPaths {
   explicit PinPaths(Memory& memory) : groups(&memory), group(&memory), column(&memory), corner(&memory) {}
   Vector<std::shared_ptr<const PathGroup>> groups;
-  Vector<Index> group, column;  // where the path of a pin lies
+  Vector<Index> group, column;  // group and column in which the path of a pinned unknown lies
   Vector<double> corner;        // border x border numbers of every component
 };
 
@@ -28,15 +28,16 @@ struct PinnedOperator {
   static constexpr std::size_t most_border = 2;
   Index size() const noexcept { return matrix->size(); }
   std::size_t component_count() const noexcept { return pin_weight.size(); }
-  // Returns the number of pins of a component, which is the width of the border of its dense block.
+  // Returns the number of pinned unknowns of a component. Its dense system has as many additional (border) unknowns.
   std::size_t border() const noexcept { return pin_weight.empty() ? 1 : pins.size() / pin_weight.size(); }
   bool keeps_constants() const noexcept { return paths == nullptr; }
 
   const SymmetricMatrix* matrix = nullptr;  // K
-  const Factor* factor = nullptr;           // of A
-  Span<const Index> pins;                   // pinned unknowns, border() of every component
-  Span<const double> pin_weight;            // beta by component; the unit of stiffness too
-  const PinPaths* paths = nullptr;          // null: K maps constants to zero
+  const Factor* factor = nullptr;           // of K with raised diagonals at the pins
+  Span<const Index> pins;                   // unknowns with raised diagonals, border() per component
+  // By component: how much the diagonals are raised; the unit of stiffness too.
+  Span<const double> pin_weight;
+  const PinPaths* paths = nullptr;  // elimination paths of the pins; null: K maps constants to zero
   Memory* memory = nullptr;
   JobRunner* jobs = nullptr;
 };

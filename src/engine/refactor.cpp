@@ -93,7 +93,7 @@ void RefactorSolver::factorise(State& state) const {
   state.factor = core_->factor->refactor(a, eliminated, memory, *core_->jobs);
   ++factorisations_;
 
-  // Computes the dense border of the point sites: the columns of A^-1 W_p, with A the factorised matrix and W_p the
+  // Computes the dense system of the point sites: the columns of A^-1 W_p, with A the factorised matrix and W_p the
   // weights of these sites. Eliminated rows are zero.
   state.dense.assign(state.count.size(), nullptr);
   state.path.reset();
@@ -181,7 +181,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
   }
   solve_linear(state_, right, channels, u.data());
 
-  // Solves the dense border of the point sites, component by component.
+  // Solves the dense system of the point sites, component by component.
   Vector<double> constant(state_.count.size() * m, 0.0, &memory), lambda(state_.points.size() * m, 0.0, &memory),
       x(&memory);
   for (std::size_t component = 0; component < state_.dense.size(); ++component) {
@@ -200,7 +200,8 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
         x[i * m + c] = value;
       }
     }
-    // A component without a vertex site is pinned, so its block has a border for the constant.
+    // A component without a vertex site is pinned. The unknown constant of its field is an additional unknown (border)
+    // of its dense system.
     block->solve_bordered(x.data(), channels, nullptr, &constant[component * m]);
     for (std::size_t i = 0; i < members.size(); ++i) {
       const double* y = state_.path->data() + at(members[i]) * n;
@@ -223,7 +224,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
     }
   }
   if (flux) {
-    // The flux of a point site comes from the dense border, that of a vertex site from K u = W lambda.
+    // The flux of a point site comes from the dense system, that of a vertex site from K u = W lambda.
     for (std::size_t i = 0; i < state_.points.size(); ++i) {
       for (std::size_t c = 0; c < m; ++c) flux[at(state_.points[i]) * m + c] = lambda[i * m + c];
     }

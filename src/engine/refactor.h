@@ -49,13 +49,13 @@ class RefactorSolver final : public SiteSolver {
           dense(other.dense, &memory),
           factor(other.factor),
           path(other.path) {}
-    Vector<Site> sites;                               // by slot; component -1: free
+    Vector<Site> sites;                               // by number (slot); component -1: not in use
     Vector<std::int32_t> count;                       // sites by component
-    Vector<std::uint8_t> floating;                    // by component: no vertex site, so A is pinned there
-    Vector<std::int32_t> points;                      // slots of the point sites
+    Vector<std::uint8_t> floating;                    // by component: 1 if it has no vertex site
+    Vector<std::int32_t> points;                      // numbers (slots) of the point sites
     Vector<std::shared_ptr<const DenseBlock>> dense;  // by component, of its point sites
     std::shared_ptr<const Factor> factor;
-    std::shared_ptr<const Vector<double>> path;  // A^-1 W_p, column after column
+    std::shared_ptr<const Vector<double>> path;  // the columns A^-1 w of the point sites' weights w
   };
   void factorise(State& state) const;
   bool crowded_out(const State& state, const DenseBlock& block) const;

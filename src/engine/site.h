@@ -39,9 +39,9 @@ struct SiteEdit {
 // The route says how the last edit of sites was carried out.
 enum class EditRoute : std::int32_t {
   none = 0,
-  dense = 1,   // rows of the dense system came and went
+  dense = 1,   // rows of the dense system were added and removed
   fresh = 2,   // the dense system was made again, which costs less than editing it
-  rebase = 3,  // hard vertex sites went into the factor
+  rebase = 3,  // hard vertex sites were eliminated in a new factor
 };
 
 }  // namespace hf_inner

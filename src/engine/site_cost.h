@@ -12,20 +12,22 @@ namespace hf_inner {
 
 struct SiteCost {
   // Flops per nanosecond on one thread, measured with AVX-512 on a Xeon of 2 GHz. With AVX2 all rates fall by about the
-  // same factor. Half of one rate makes the choice of its route half as likely. Wrong rates cost time, but no digits.
+  // same factor. The rates predict the cost of an edit by dense rows or by a new factor; half of a rate doubles the
+  // predicted cost of its step. Wrong rates cost time, but no digits.
   static constexpr double path_rate = 45, gram_rate = 40, cholesky_rate = 15, factorisation_rate = 26;
   static constexpr double signed_rate =
-      3.7;                                 // of mixed signs (DenseBlock), which has no front kernels; 100 to 1,600 rows
-  static constexpr double sweep_rate = 4;  // bound by memory, as four flops an entry
+      3.7;                                 // rows of mixed signs (DenseBlock), without fast kernels; 100 to 1,600 rows
+  static constexpr double sweep_rate = 4;  // limited by memory; four flops per entry
 
   explicit SiteCost(const FactorStatistics& factor) noexcept : factor_(factor) {}
   double dense_ns(double k, double d) const noexcept {
     return 2 * d * factor_.path_entries / path_rate + 2 * d * (k + d / 2) * factor_.path_rows / gram_rate +
            (cube(k + d) - cube(k)) / 3 / cholesky_rate;
   }
-  // Cost of factorising again the rows [first, k) of mixed signs.
+  // Cost of factorising again the rows [first, k) of a dense system with signs of both kinds.
   double signed_ns(double first, double k) const noexcept { return (cube(k) - cube(first)) / 3 / signed_rate; }
-  // outside: the number of rows that the rebase does not eliminate.
+  // Cost of eliminating hard vertex sites in a new factor (rebase). outside: the number of rows that stay in the dense
+  // system.
   double rebase_ns(double outside) const noexcept {
     return factor_.flops / factorisation_rate + 4 * factor_.entries / sweep_rate + dense_ns(0, outside);
   }

@@ -86,7 +86,7 @@ void SiteSet::claim_vertex(const Arrival& arrival, std::int32_t vertex, std::int
        same ? "" : " with other values");
 }
 
-// Frees the vertices and hidden slots of a site. The slot itself stays in use.
+// Frees the vertices of a site, and the hidden sites that make up its disc. The site keeps its own number (slot).
 void SiteSet::release(std::int32_t slot) noexcept {
   const Slot& own = slots_[at(slot)];
   if (own.radius > 0) {
@@ -120,7 +120,7 @@ void SiteSet::set_value(std::int32_t slot, const double* values) noexcept {
   for (std::int32_t c = 0; c < channels_; ++c) values_[at(slot * channels_ + c)] = values ? values[c] : 0.0;
 }
 
-// Places a site in a slot. A disc also takes hidden slots.
+// Gives a site its vertices under the number `slot`. A disc also takes hidden sites.
 void SiteSet::place(const Core& core, const Arrival& arrival, std::int32_t slot, std::uint32_t limit) {
   Slot own;
   own.site = arrival.site, own.given_vertex = arrival.given_vertex;
@@ -136,7 +136,7 @@ void SiteSet::place(const Core& core, const Arrival& arrival, std::int32_t slot,
   const Vector<DiscVertex> disc = geodesic_disc(core.mesh, core.topology, arrival.site.vertex, arrival.site.weight,
                                                 arrival.radius / core.mesh.scale, *core.memory);
   Vector<std::int32_t> held(core.memory.get()), taken(core.memory.get());
-  const bool whole = core.refinements > 0;  // of fourth order: values on a rim leave the slope free
+  const bool whole = core.refinements > 0;  // bi-harmonic: values on the disc's boundary leave the slope free
   for (const DiscVertex& v : disc) {
     claim_vertex(arrival, v.vertex, slot);
     taken.push_back(v.vertex);
@@ -191,7 +191,7 @@ void SiteSet::move(const Core& core, std::uint32_t count, const std::uint32_t* s
         fail(HF_ERROR_NO_SUCH_SITE, i, "entry %u of the list: site %u is named twice", i, sites[i]);
     }
     release(static_cast<std::int32_t>(sites[i]));
-    slots_[sites[i]].given_vertex = HF_NO_INDEX - 1;  // under way
+    slots_[sites[i]].given_vertex = HF_NO_INDEX - 1;  // the site has left its place and not arrived
   }
   Vector<double> values(at(channels_), core.memory.get());
   for (std::uint32_t i = 0; i < count; ++i) {

@@ -44,13 +44,13 @@ class SiteSet {
   void swap(SiteSet& other) noexcept;
 
   struct Slot {
-    Site site;  // component -1: free
+    Site site;  // component -1: not in use
     std::uint32_t given_vertex = HF_NO_INDEX;
     double stiffness = 0;
-    double radius = 0;        // of a disc, in the unit of the mesh
+    double radius = 0;        // radius of its geodesic disc, in the unit of the mesh; 0: a point
     std::int32_t owner = -1;  // the slot of the disc that this one belongs to
     bool used() const noexcept { return site.component >= 0; }
-    bool is_site() const noexcept { return used() && owner < 0; }  // of its own, with a number
+    bool is_site() const noexcept { return used() && owner < 0; }  // not a hidden part of a disc
   };
 
   std::uint32_t count() const noexcept { return count_; }
@@ -75,7 +75,7 @@ class SiteSet {
   };
   // A site that is about to be placed.
   struct Arrival {
-    std::uint32_t position;  // in the batch
+    std::uint32_t position;  // position in the batch of the call
     std::uint32_t given_vertex;
     Site site;
     double radius, stiffness;
@@ -90,11 +90,11 @@ class SiteSet {
   void set_value(std::int32_t slot, const double* values) noexcept;
 
   Vector<Slot> slots_;
-  Vector<double> values_;       // slot * channels
+  Vector<double> values_;       // by slot (number of a site) and channel
   Vector<AtVertex> by_vertex_;  // vertex sites, ascending
   std::int32_t channels_;
-  std::uint32_t count_ = 0;   // sites
-  std::uint32_t hidden_ = 0;  // slots of discs besides their own
+  std::uint32_t count_ = 0;   // sites that the caller has added
+  std::uint32_t hidden_ = 0;  // hidden sites that make up discs
   NumberPool numbers_;
 };
 

@@ -19,17 +19,17 @@ enum class EngineKind : std::int32_t { green = 0, updown = 1, refactor = 2 };
 struct EngineCounters {
   std::uint32_t factorisations = 0, path_solves = 0, sweeps = 0;
   std::uint32_t rebases = 0, dense_edits = 0;
-  std::uint32_t dense_rows = 0, eliminated = 0;  // sites at present
+  std::uint32_t dense_rows = 0, eliminated = 0;  // sites as dense rows, and sites eliminated in the factor
   EditRoute last_route = EditRoute::none;
-  double dense_ms = 0, rebase_ms = 0;  // what the cost model said at the last edit: rows, or a rebase
-  bool rebase_advised = false;         // a field reads more of the sites' paths than of the factor
+  double dense_ms = 0, rebase_ms = 0;  // predicted cost of the last edit: with dense rows, or with a new factor
+  bool rebase_advised = false;         // a solve reads more bytes of elimination paths than of the factor
   double bytes = 0;
 };
 
 // The accuracy of a preview.
 struct PreviewInfo {
-  bool exact = false;             // solve gave the answer, without single precision
-  std::int32_t corrections = 0;   // made
+  bool exact = false;             // the exact field, without single precision
+  std::int32_t corrections = 0;   // corrections made
   double value_range = 0;         // widest range of the site values of a component and channel
   double largest_correction = 0;  // largest change of a value by the last correction
   double error_estimate = 0;      // largest error of the field; 0 when exact
@@ -81,8 +81,9 @@ class SiteSolver {
   // Returns a copy that shares all immutable parts.
   virtual std::shared_ptr<SiteSolver> clone() const = 0;
 
-  // Moves the present hard vertex sites into the factor, using the threads of `jobs`. Throws HF_ERROR_UNSUPPORTED
-  // (engines other than green) or HF_ERROR_NO_SITES (no site is hard). If it throws, nothing changes.
+  // Factorises again with the present hard vertex sites eliminated, using the threads of `jobs`. Throws
+  // HF_ERROR_UNSUPPORTED (engines other than green) or HF_ERROR_NO_SITES (no site is hard). If it throws, nothing
+  // changes.
   virtual void rebase(JobRunner& jobs);
   // Adds the counts that `predecessor` has made since this engine was cloned from it.
   virtual void succeed(const SiteSolver& predecessor) noexcept { (void)predecessor; }
@@ -91,7 +92,7 @@ class SiteSolver {
   virtual EngineCounters counters() const noexcept = 0;
   // Returns the present number of sites of a component.
   virtual std::int32_t site_count(std::int32_t component) const noexcept = 0;
-  virtual std::int32_t slot_count() const noexcept = 0;  // 1 + the largest slot ever used
+  virtual std::int32_t slot_count() const noexcept = 0;  // 1 + the largest site number ever used
 };
 
 // Implements solve_into by solve, for engines without a faster way.

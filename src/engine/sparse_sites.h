@@ -7,7 +7,7 @@ namespace hf_inner {
 
 struct SiteColumns {
   explicit SiteColumns(Memory& memory) : start(&memory), row(&memory), value(&memory) { start.push_back(0); }
-  // Appends the weights w of a site. Corners that a rebase has eliminated are left out.
+  // Appends the weights w of a site as a sparse column. Vertices that the factor eliminates are left out.
   void append(const Site& site, const EliminatedBase* base) {
     for (int k = 0; k < 3; ++k) {
       if (site.vertex[k] < 0 || site.weight[k] == 0 || (base && base->eliminated(site.vertex[k]))) continue;
@@ -15,7 +15,8 @@ struct SiteColumns {
     }
     start.push_back(static_cast<std::int32_t>(row.size()));
   }
-  // Appends the column -K_Fr of an eliminated vertex r whose value is free. F are the vertices that are not eliminated.
+  // Appends the column -K_Fr of an eliminated vertex r whose value is unknown, because its site was removed. F are the
+  // vertices that are not eliminated.
   void append_free(std::int32_t r, const SymmetricMatrix& k, const EliminatedBase& base) {
     for (std::int32_t i = k.column_start[static_cast<std::size_t>(r)];
          i < k.column_start[static_cast<std::size_t>(r) + 1]; ++i) {

@@ -31,7 +31,7 @@ class Surface {
   std::shared_ptr<const Geometry> geometry_;
   std::shared_ptr<const Core> own_;
   mutable OwnedMutex making_;
-  mutable std::array<std::weak_ptr<const Core>, 3> made_;  // by kind, behind making_
+  mutable std::array<std::weak_ptr<const Core>, 3> made_;  // by kind of field, guarded by making_
 };
 
 }  // namespace hf_inner

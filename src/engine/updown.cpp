@@ -15,8 +15,8 @@
 namespace hf_inner {
 namespace {
 
-// Number of edited sites since the last factorisation after which a solve takes a refinement step. A step costs one
-// more sweep in every field.
+// After this many edited sites since the last factorisation, a solve takes a refinement step. A step costs one more
+// sweep in every field.
 constexpr std::uint32_t refine_after = 256;
 
 // CHOLMOD's workspace, with its printing switched off.
@@ -89,7 +89,8 @@ class UpdownSolver final : public SiteSolver {
       sites[at(edit.add[i])] = edit.sites[i];
       ++count[at(edit.sites[i].component)];
     }
-    // A component is pinned before its last site leaves, and its pin goes after its first site has come.
+    // A component is pinned (its diagonal raised at one vertex) before its last site is removed. It is unpinned after
+    // its first site was added.
     for (std::size_t c = 0; c < count.size(); ++c) {
       if (count_[c] > 0 && count[c] == 0) coming.push_back(ground(static_cast<Index>(c)));
       if (count_[c] == 0 && count[c] > 0) leaving.push_back(ground(static_cast<Index>(c)));
@@ -232,7 +233,7 @@ class UpdownSolver final : public SiteSolver {
     return done;
   }
 
-  // Factorises K + R R' with the present sites and pins.
+  // Factorises K + R R', where R R' are the penalties of the present sites, with raised diagonals at pinned vertices.
   void rebuild() {
     cholmod_free_factor(&factor_, &common_.c);
     const Index n = core_->size();
@@ -256,11 +257,12 @@ class UpdownSolver final : public SiteSolver {
     const Span<const Index> order = core_->factor->order();
     factor_ = cholmod_analyze_p(a, const_cast<int*>(order.data()), nullptr, 0, &common_.c);
     bool done = factor_ && cholmod_factorize(a, factor_, &common_.c) && common_.c.status == CHOLMOD_OK;
-    // cholmod_updown needs a simplicial LDL' factor.
+    // cholmod_updown only changes factors of the form L D L' that are stored column by column (simplicial).
     done = done && cholmod_change_factor(CHOLMOD_REAL, 0, 0, 1, 1, factor_, &common_.c);
     cholmod_free_sparse(&a, &common_.c);
     if (done) {
-      // CHOLMOD postorders the given permutation. Stores where every unknown went.
+      // CHOLMOD changes the given order of the unknowns (postorder of its elimination tree). Stores where every unknown
+      // went.
       position_.resize(at(n));
       for (Index r = 0; r < n; ++r) position_[at(static_cast<int*>(factor_->Perm)[r])] = r;
       ++factorisations_, edits_ = 0;
@@ -294,10 +296,11 @@ class UpdownSolver final : public SiteSolver {
     return static_cast<double*>(work_.x->x);
   }
 
-  // Computes residual = R R' s - (K + R R' + pins) u for each channel. R R' is the penalty matrix of the sites
-  // (updown.h), s their values and u the field. K u is computed from differences of u. The error of each site is
-  // computed first. If it were summed by vertex, its rounding, multiplied by the penalty, would not point along the
-  // weights w. Along w the penalty makes rounding harmless.
+  // Computes residual = R R' s - (K + R R' + pins) u for each channel. The pins raise the diagonal at the vertices of
+  // components without sites. R R' is the penalty matrix of the sites (updown.h), s their values and u the field. K u
+  // is computed from differences of u. The error of each site is computed first. If it were summed by vertex, its
+  // rounding, multiplied by the penalty, would not point along the weights w. Along w the penalty makes rounding
+  // harmless.
   void residual_of(const double* wanted, const double* u, Index channels, double* residual) const {
     const SymmetricMatrix& k = core_->laplacian;
     const std::size_t n = at(core_->size()), m = at(channels);
@@ -325,13 +328,13 @@ class UpdownSolver final : public SiteSolver {
 
   std::shared_ptr<const Core> core_;
   double penalty_;
-  Vector<Site> sites_;  // by slot; component -1: free
+  Vector<Site> sites_;  // by number (slot); component -1: not in use
   Vector<Index> count_;
   Vector<Index> position_{core_->memory.get()};
   mutable std::mutex mutex_;
   mutable Common common_;
   cholmod_factor* factor_ = nullptr;
-  struct Work {  // of cholmod_solve2, kept from solve to solve
+  struct Work {  // scratch of cholmod_solve2, kept from solve to solve
     cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;
   };
   mutable Work work_;

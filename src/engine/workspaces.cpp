@@ -22,17 +22,17 @@ Buffer<double> WorkspacePool::take(std::size_t size) {
 void WorkspacePool::give(Buffer<double>&& buffer) noexcept {
   try {
     const std::lock_guard<std::mutex> lock(mutex_);
-    constexpr std::size_t most = 8;  // more callers at once than this allocate their own
+    constexpr std::size_t most = 8;  // buffers kept; more callers at once allocate their own
     if (free_.size() < most) {
       free_.push_back(std::move(buffer));
       return;
     }
-    // The pool is full: it keeps the larger buffers.
+    // The pool of scratch buffers is full: it keeps the larger ones.
     const auto smallest =
         std::min_element(free_.begin(), free_.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
     if (smallest->size() < buffer.size()) *smallest = std::move(buffer);
   } catch (...) {
-    // The pool cannot grow, so the owner frees the buffer.
+    // The list of the pool's buffers cannot grow, so this buffer is freed.
   }
 }
 

@@ -3,10 +3,10 @@
 namespace hf_inner {
 namespace {
 
-// Number of independent chains of multiplications; with one, each multiplication would wait for the last. A change of
-// this number would change the saved format.
+// The hash runs this many independent chains of multiplications; with one, each multiplication would wait for the last.
+// A change of this number would change the saved format.
 constexpr int chains = 8;
-// Distance of the prefetch in bytes. Without it the chains would keep too few cache lines under way.
+// The hash asks for memory this many bytes ahead. Otherwise its chains of multiplications would wait for memory.
 constexpr int bytes_ahead = 4096;
 
 }  // namespace

@@ -15,7 +15,8 @@
 
 namespace hf_inner {
 
-// Bytes of one piece, hashed as one job. A change of this number would change the saved format.
+// The checksum is computed in pieces of this many bytes, one thread's job each. A change of this number would change
+// the saved format.
 constexpr std::uint64_t hash_piece_bytes = std::uint64_t{1} << 16;
 
 inline std::uint64_t hash_step(std::uint64_t state, std::uint64_t word) noexcept {
@@ -23,11 +24,12 @@ inline std::uint64_t hash_step(std::uint64_t state, std::uint64_t word) noexcept
   return state ^ (state >> 32);
 }
 
-// Hashes one piece of at most hash_piece_bytes. If the length is no multiple of eight, zeros fill the last word.
+// Computes the checksum of one piece of at most hash_piece_bytes. If the length is no multiple of eight, zeros fill the
+// last word.
 std::uint64_t hash_piece(const std::uint8_t* bytes, std::uint64_t length) noexcept;
 
-// Hashes all bytes. also(begin, end) is called for every piece right after it was read, on the thread that read it.
-// Allocates eight bytes for each piece.
+// Computes the checksum of all bytes. also(begin, end) is called for every piece right after it was read, on the thread
+// that read it. Allocates eight bytes for each piece.
 template <class Also>
 std::uint64_t hash_bytes(const std::uint8_t* bytes, std::uint64_t length, Memory& memory, JobRunner& jobs,
                          Also&& also) {

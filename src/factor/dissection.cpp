@@ -12,21 +12,23 @@
 namespace hf_inner {
 namespace {
 
-// Parts up to this size are ordered by minimum degree. At half the value: fill changes by -2 to +1 %, in more time. At
-// twice the value: by +1 to +3 %, in less time.
+// Parts of the graph up to this many vertices (leaves) are ordered by minimum degree. At half the value: the factor's
+// size changes by -2 to +1 %, in more time. At twice the value: by +1 to +3 %, in less time.
 constexpr std::int32_t leaf_size = 180;
-// A halo is the set of neighbours outside a part. A leaf counts at most this many of them, which bounds its bit rows.
-// Halving or doubling it changes nothing on the test meshes torus and scan.
+// A leaf (small part of the graph) counts at most this many neighbours outside (its halo), which bounds its table of
+// bits. Halving or doubling it gives the same order on the test meshes torus and scan.
 constexpr std::int32_t halo_limit = 1500;
-// A part up to this size is finished as one job: smaller jobs balance the threads better but cost more. No result
-// depends on it.
+// A part of the graph up to this many vertices is ordered by one thread's job: smaller jobs balance the threads better
+// but cost more. No result depends on it.
 constexpr std::int32_t task_size = 4000;
-// Parts are cut in waves until there are this many; then each becomes a job. No result depends on it.
+// Parts of the graph are cut in rounds (waves) until there are this many; then each becomes one thread's job. No result
+// depends on it.
 constexpr std::size_t most_parts = 64;
-// A part is not split but ordered whole if its separator would be a larger share of it. Halving or doubling it changes
-// nothing on the test meshes torus and scan.
+// A part of the graph is not split but ordered whole if its separator would be a larger share of it. Halving or
+// doubling it gives the same order on the test meshes torus and scan.
 constexpr double most_separator = 0.75;
-// Shares of progress: a wave of cuts, all waves at most. The parts that remain have the rest, by unknowns ordered.
+// Reported progress of one round of cuts, and of all rounds at most. The remaining parts share the rest, by the number
+// of unknowns they order.
 constexpr float progress_step = 0.05f, progress_cut = 0.4f;
 
 // A part of the graph, with its own vertex numbers. Its vertices take the places [begin, begin + size) of the order.
@@ -68,7 +70,7 @@ struct Workspace {
   LeafOrder leaf;
   Vector<std::uint8_t> side;
   Vector<std::int32_t> number, halo;
-  Buffer<std::int32_t> local_of;  // by unknown: its number inside the present leaf, -1 outside
+  Buffer<std::int32_t> local_of;  // by unknown: its number inside the leaf (part that is not cut), or -1
   Vector<std::int32_t> found;
   Vector<Range> separators;
 };
@@ -82,7 +84,7 @@ class Dissection {
   void run() {
     std::pmr::vector<Part> parts(&memory_);
     parts.push_back(whole());
-    // Near the top there are few parts, so they are cut in waves; each part is cut by one thread.
+    // At first there are few parts of the graph, so all are cut in a round (wave), each by one thread.
     bool cutting = true;
     float done = 0;
     while (cutting && parts.size() < most_parts) {
@@ -106,7 +108,7 @@ class Dissection {
         if (part.size > 0) parts.push_back(std::move(part));
       }
     }
-    // The largest parts come first. The order of the jobs only changes the waiting time.
+    // The largest parts of the graph come first. The order of the jobs only changes the waiting time.
     std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.size > b.size; });
     cut_share_ = done;
     jobs_.for_each(static_cast<std::uint32_t>(parts.size()), [&](std::uint32_t k) {
@@ -133,7 +135,8 @@ class Dissection {
     return part;
   }
 
-  // Cuts a part in two. It orders the part whole if it is small or cannot be cut. The separator takes the last places.
+  // Cuts a part of the graph in two. It orders the part whole if it is small or cannot be cut. The separator takes the
+  // last places of the order.
   void split(Part part, Workspace& workspace, Part& left, Part& right) {
     poll();
     if (part.size <= leaf_size) return order_leaf(part, workspace);
@@ -159,8 +162,9 @@ class Dissection {
     workspace.separators.push_back({part.begin + size[side_left] + size[side_right], part.begin + part.size});
   }
 
-  // Any order inside a separator gives the same fill. Vertices next to the same parts are put side by side, so that the
-  // rows touched by a part are consecutive. The sort key is the first eliminated neighbour.
+  // Any order inside a separator gives a factor of the same size. Vertices next to the same parts of the graph are put
+  // side by side, so that a part's rows in the separator are consecutive. The sort key is the first eliminated
+  // neighbour.
   void sort_separators() {
     const std::int32_t n = matrix_.size();
     Buffer<std::int32_t> position(memory_, static_cast<std::size_t>(n));
@@ -209,7 +213,8 @@ class Dissection {
     out.start()[size] = k;
   }
 
-  // Orders a part completely, depth first. The list then holds at most one part per level and side.
+  // Orders a part of the graph completely: cuts it, orders one half, then the other (depth first). The list of parts
+  // that wait then stays short.
   void finish(Part first, Workspace& workspace) {
     std::pmr::vector<Part> waiting(&memory_);
     waiting.push_back(std::move(first));

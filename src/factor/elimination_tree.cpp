@@ -7,7 +7,8 @@
 namespace hf_inner {
 namespace {
 
-// Columns by which the permuted walk prefetches: about the time of one cache miss. No result depends on it.
+// A walk over permuted columns asks for memory this many columns ahead: about the time of one cache miss. No result
+// depends on it.
 constexpr std::int32_t columns_ahead = 12;
 
 // Computes the elimination tree by Liu's algorithm. For row i it walks from every neighbour k < i up to the present
@@ -86,9 +87,10 @@ void make_lower(const SymmetricMatrix& matrix, Memory& memory, const std::int32_
   lower_start[n] = k;
 }
 
-// Counts the non-zeros of every column from the row subtrees. j is a leaf of the subtree of row i when no descendant of
-// j is in it yet. Then the least common ancestor of j and the previous leaf is subtracted once. Labels are postordered,
-// so the descendants of j are [first[j], j].
+// Counts the non-zeros of every column. The columns with a non-zero in row i form a subtree of the elimination tree,
+// the row subtree of i. j is a leaf of the subtree of row i when no descendant of j is in it yet. Then the least common
+// ancestor of j and the previous leaf is subtracted once. Labels are postordered, so the descendants of j are
+// [first[j], j].
 void count_columns(EliminationTree& tree, std::int32_t n, Memory& memory) {
   Buffer<std::int32_t> work(memory, static_cast<std::size_t>(n) * 4 + 4);
   std::int32_t* first = work.data();

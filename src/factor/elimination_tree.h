@@ -9,11 +9,12 @@
 
 namespace hf_inner {
 
-// The pattern of P A P' and its elimination tree, all in postordered labels: label[k] is an unknown.
+// The pattern of P A P' and its elimination tree, with the unknowns numbered in postorder of the tree: label[k] is the
+// k-th unknown.
 struct EliminationTree {
-  Buffer<std::int32_t> label;        // label -> unknown
+  Buffer<std::int32_t> label;        // label[k]: the unknown eliminated k-th
   Buffer<std::int32_t> parent;       // parent label, -1 for a root
-  Buffer<std::int32_t> count;        // non-zeros of the column of G, diagonal included
+  Buffer<std::int32_t> count;        // non-zeros of the factor's column, diagonal included
   Buffer<std::int32_t> lower_start;  // neighbours with a smaller label, row by row
   Buffer<std::int32_t> lower;
 };

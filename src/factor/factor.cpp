@@ -25,7 +25,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// Checks the bounds, the order of the rows, and that every column has a diagonal.
+// Checks the index lists of a matrix: their bounds, the order of the rows, and that every column has a diagonal.
 void require_well_formed(const SymmetricMatrix& matrix) {
   if (matrix.row.size() > static_cast<std::size_t>(INT32_MAX) || matrix.row.size() != matrix.value.size()) {
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the matrix has %zu entries; the limit is 2^31 - 1", matrix.row.size());
@@ -70,14 +70,14 @@ void require_inside(const SymmetricMatrix& matrix, const Symbolic& symbolic, Mem
   }
 }
 
-// A factor with more entries than this many n log n is compared with minimum degree. The test meshes torus, creature
-// and scan reach 0.63, 0.47 and 0.34 times n log n.
+// A factor of n unknowns with more than this many n log n entries is compared with one ordered by minimum degree. The
+// test meshes torus, creature and scan reach 0.63, 0.47 and 0.34 times n log n.
 constexpr double suspicious_fill = 1.2;
 // Flops that cost as much as one entry of the factor, to compare two orderings. 50 flops take the time of three sweeps
 // over an entry (torus with 304,000 vertices: 27 GF/s, 9 ms per sweep).
 constexpr double flops_per_entry = 50;
-// Progress after the ordering and after the analysis. The ordering takes about half of a first factorisation, the
-// analysis a tenth.
+// Reported progress after the ordering and after the symbolic analysis. The ordering takes about half of a first
+// factorisation, the analysis a tenth.
 constexpr float progress_ordered = 0.45f, progress_analysed = 0.55f;
 
 // Tells whether the factor has more than log2(n) times the matrix's entries, up to a constant.
@@ -152,7 +152,8 @@ SupernodalFactor::SupernodalFactor(std::shared_ptr<const Analysis> analysis, Mem
   measure_paths();
 }
 
-// Measures the elimination paths. Each path is the parent's path plus the supernode's own columns.
+// Measures the mean length of the elimination paths. A path is the path of the parent supernode (block of columns) plus
+// the supernode's own columns.
 void SupernodalFactor::measure_paths() {
   const Symbolic& pattern = symbolic();
   struct Path {

@@ -39,14 +39,15 @@ struct FactorStatistics {
   double stored_entries = 0;               // entries stored, with the zeros of relaxed supernodes
   double flops = 0;                        // sum of squared column counts
   double bytes = 0;                        // of the stored factor with its index lists
-  double path_entries = 0, path_rows = 0;  // mean over the elimination paths of all unknowns
+  double path_entries = 0, path_rows = 0;  // means over the elimination paths of all unknowns
   std::int32_t supernodes = 0;
   bool loaded = false;    // loaded from bytes: the three times above are 0
   bool borrowed = false;  // the numbers are the caller's and are read in place
   double load_ms = 0;
 };
 
-// A batch of sparse columns w_1 .. w_k in the caller's numbering. Column i has the entries [start[i], start[i+1]).
+// A batch of sparse columns w_1 .. w_k, the weights of sites, in the caller's numbering. Column i has the entries
+// [start[i], start[i+1]).
 struct SparseColumns {
   Span<const std::int32_t> start;  // k + 1
   Span<const std::int32_t> row;
@@ -54,8 +55,8 @@ struct SparseColumns {
   std::int32_t count() const noexcept { return start.empty() ? 0 : static_cast<std::int32_t>(start.size()) - 1; }
 };
 
-// The columns y_i = G^-1 P w_i of a group of at most PathGroup::capacity sites. A group never changes, and clones share
-// it.
+// The elimination paths y_i = G^-1 P w_i of at most PathGroup::capacity sites, with w_i the weights of site i. A group
+// never changes, and clones share it.
 class PathGroup;
 
 class Factor {
@@ -74,11 +75,11 @@ class Factor {
   virtual Span<const std::int32_t> position() const noexcept = 0;
   virtual Span<const std::int32_t> order() const noexcept = 0;
 
-  // The two sweeps work in place on z[row * channels + channel], with rows in factor order.
+  // The forward and the backward sweep work in place on z[row * channels + channel], with rows in factor order.
   virtual void forward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
   virtual void backward(double* z, std::int32_t channels, JobRunner& jobs) const = 0;
 
-  // Runs both sweeps: z <- (G G')^-1 z. This is A^-1 with rows in factor order.
+  // Runs both sweeps: z <- (G G')^-1 z. This multiplies by the inverse of the matrix, with rows in factor order.
   void solve_in_order(double* z, std::int32_t channels, JobRunner& jobs) const {
     forward(z, channels, jobs), backward(z, channels, jobs);
   }
@@ -99,30 +100,31 @@ class Factor {
   virtual std::shared_ptr<const Factor> refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated,
                                                  Memory& memory, JobRunner& jobs) const = 0;
 
-  // Solves the elimination paths of a batch of columns, cut into groups. Column i is column out_column[i] of group
-  // out_group[i]. Cost: the sum of the path entries.
+  // Solves the elimination paths of a batch of columns and stores them in groups. The path of column i is column
+  // out_column[i] of group out_group[i]. Cost: the sum of the paths' lengths.
   virtual void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
                            Vector<std::shared_ptr<const PathGroup>>& out_groups, Span<std::int32_t> out_group,
                            Span<std::int32_t> out_column) const = 0;
 
-  // Computes gram[i * ld + j] = y_i(a)' y_j(b) for i < a.count() and j < b.count().
+  // Computes products of elimination paths: gram[i * ld + j] = y_i(a)' y_j(b) for i < a.count() and j < b.count().
   virtual void gram(const PathGroup& a, const PathGroup& b, double* gram, std::int32_t ld) const = 0;
 
-  // Adds z[row * channels + c] += sum_i Y[row, i] lambda[i * channels + c]. Y are the group's columns, lambda their
-  // factors.
+  // Adds z[row * channels + c] += sum_i Y[row, i] lambda[i * channels + c]. Y are the group's elimination paths, lambda
+  // their factors.
   virtual void combine(const PathGroup& group, const double* lambda, std::int32_t channels, double* z) const = 0;
 
-  // Sets z to 0 on every row that the group touches, which undoes combine. It costs as much as the paths, not O(n).
+  // Sets z to 0 on every row that the group's paths touch, which undoes combine. It costs as much as the paths, not
+  // O(n).
   virtual void clear(const PathGroup& group, std::int32_t channels, double* z) const = 0;
 
-  // Computes out[i * channels + c] = y_i' z[., c], the transpose of combine.
+  // Multiplies z by the group's elimination paths: out[i * channels + c] = y_i' z[., c], the transpose of combine.
   virtual void project(const PathGroup& group, const double* z, std::int32_t channels, double* out) const = 0;
 };
 
 class PathGroup {
  public:
-  // Most sites of a group. 32, 64 and 128 take the same time on one thread. On two threads, 180 sites take 14.6 ms with
-  // 32, and 20.1 ms with 64.
+  // At most this many sites have their elimination paths in one group. 32, 64 and 128 take the same time on one thread.
+  // On two threads, 180 sites take 14.6 ms with 32, and 20.1 ms with 64.
   static constexpr std::int32_t capacity = 32;
   virtual ~PathGroup() = default;
   virtual std::int32_t count() const noexcept = 0;

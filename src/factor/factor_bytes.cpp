@@ -17,11 +17,11 @@ constexpr std::uint64_t magic = 0x524F544341464648ull;  // "HFFACTOR"
 constexpr std::uint32_t version = 2;
 // One job copies this many bytes: smaller jobs balance the threads better but cost more. No result depends on it.
 constexpr std::uint64_t copy_step = std::uint64_t{1} << 22;
-// Refuses damaged counts before a sum of sizes can overflow.
+// Refuses larger counts in saved bytes as damaged, before a sum of sizes can overflow.
 constexpr std::uint64_t most_count = std::uint64_t{1} << 48;
-// Refuses damaged counts of entries and flops.
+// Refuses larger numbers of entries and flops in saved bytes as damaged.
 constexpr double most_work = 1e300;
-// One job checks this many supernodes. No result depends on it.
+// One thread's job checks this many supernodes (blocks of columns). No result depends on it.
 constexpr std::int32_t list_step = 2048;
 constexpr std::uint32_t byte_order = 0x01020304u;
 
@@ -51,7 +51,7 @@ std::uint64_t check_of(const Header& header) noexcept {
 
 constexpr std::uint64_t padded(std::uint64_t bytes) noexcept { return (bytes + 63) & ~std::uint64_t{63}; }
 
-// The places where the sections begin. No sum overflows for counts below 2^48.
+// The places where the sections of the saved bytes begin. No sum overflows for counts below 2^48.
 struct Layout {
   Layout(std::uint64_t unknowns, std::uint64_t supernodes, std::uint64_t row_count, std::uint64_t value_count) {
     order = sizeof(Header);
@@ -154,7 +154,7 @@ void check_columns(Symbolic& out) {
   }
 }
 
-// Calls work(s) for every supernode s, in jobs of list_step supernodes.
+// Calls work(s) for every supernode s (block of columns), in jobs of list_step supernodes.
 template <class Work>
 void for_supernodes(const Symbolic& symbolic, JobRunner& jobs, Work&& work) {
   jobs.for_each(static_cast<std::uint32_t>((symbolic.supernodes + list_step - 1) / list_step),
@@ -164,8 +164,8 @@ void for_supernodes(const Symbolic& symbolic, JobRunner& jobs, Work&& work) {
                 });
 }
 
-// Checks that row lists ascend, lie below their columns, and continue in the parent: each row is a column of the parent
-// or in the parent's list.
+// Checks the row lists of the supernodes (blocks of columns). They ascend, lie below their columns, and continue in the
+// parent: each row is a column of the parent or in its list.
 void check_rows(Symbolic& out, JobRunner& jobs) {
   for_supernodes(out, jobs, [&](std::int32_t s) {
     const std::int32_t* rows = out.row_list(s);

@@ -4,7 +4,7 @@
 // - a header of 128 bytes, with magic, version, byte order, sizes, ordering, matrix hash and checksum of the rest;
 // - the order of the unknowns, then first columns, row counts and rows of the supernodes;
 // - the numbers, supernodes from last to first: packed triangles with inverted diagonals, and row blocks;
-// - 64 zeros that sweeps may read.
+// - 64 numbers of value 0, which sweeps may read behind the end.
 //
 // Loading checks the length and the checksum. It also checks that the lists describe a supernodal factor, that every
 // number is finite, and that every diagonal is positive. Bytes that fail a check are refused. The checksum finds

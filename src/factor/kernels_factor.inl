@@ -1,6 +1,6 @@
-// Kernels for fronts: triangle, tiles, update matrix, extend-add, write-out. The kernels_*.cpp files include this file
-// after a simd_*.h. All functions are in an unnamed namespace and use no inline code of the standard library. So no
-// function compiled for one instruction set is ever linked into another.
+// Kernels for fronts (dense matrices of supernodes): triangle, tiles, update matrix, extend-add, write-out. The
+// kernels_*.cpp files include this file after a simd_*.h. All functions are in an unnamed namespace and use no inline
+// code of the standard library. So no function compiled for one instruction set is ever linked into another.
 #include <cstddef>
 #include <cstdint>
 
@@ -11,9 +11,10 @@ namespace {
 using hf_inner::ChildView;
 using hf_inner::FrontView;
 using D = Simd<double>;
-// This many tiles are solved together, so that their rows stay in the cache while all column blocks pass over them.
+// This many tiles of 8 rows are solved together, so that their rows stay in the cache while all column blocks pass over
+// them.
 constexpr std::int32_t solved_tiles = 6;
-// Columns that one pass multiplies: a tile with this many columns fills a quarter of a 48 KB cache.
+// One pass of a matrix product multiplies this many columns: 8 rows of them fill a quarter of a 48 KB cache.
 constexpr std::int32_t update_depth = 192;
 constexpr std::int32_t tile_vectors = 8 / D::width;  // vectors per 8-row tile
 
@@ -45,7 +46,7 @@ inline void multiply_block(const double* const* a, const double* b, std::int32_t
   }
 }
 
-// Computes all 8 columns of one column tile for R vector-rows.
+// Computes one tile of 8 columns for R vector-rows (each as many rows as a vector has numbers).
 template <int R, bool Fresh>
 inline void multiply_tile(const double* const* a, const double* b, std::int32_t k_count, double* const* c,
                           std::int64_t c_step) noexcept {
@@ -56,7 +57,8 @@ inline void multiply_tile(const double* const* a, const double* b, std::int32_t 
   }
 }
 
-// Computes the last `width` columns of a panel for one vector-row, when the number of columns is no multiple of 8.
+// Computes the last `width` columns of a panel for one vector-row (as many rows as a vector has numbers), when the
+// number of columns is no multiple of 8.
 inline void multiply_narrow(const double* a, const double* b, std::int32_t k_count, double* c,
                             std::int32_t width) noexcept {
   double* row[1] = {c};
@@ -72,8 +74,8 @@ inline void multiply_narrow(const double* a, const double* b, std::int32_t k_cou
   }
 }
 
-// Updates columns [8 block, 8 block + width) of the panel on vector-rows [v, v_end): it subtracts the products with all
-// columns before them.
+// Updates columns [8 block, 8 block + width) of the panel on vector-rows [v, v_end) (groups of D::width rows): it
+// subtracts the products with all columns before them.
 inline void panel_multiply(double* panel, std::int64_t tile_stride, std::int32_t v, std::int32_t v_end,
                            std::int32_t block, std::int32_t width) noexcept {
   const double* b = panel + block * tile_stride;
@@ -104,8 +106,8 @@ inline void panel_multiply(double* panel, std::int64_t tile_stride, std::int32_t
   }
 }
 
-// Multiplies one vector-row of `Width` columns by the inverse transpose of the 8 x 8 triangle at `diagonal`
-// ([column][8], diagonal inverted).
+// Multiplies one vector-row (as many rows as a vector has numbers) of `Width` columns by the inverse transpose of the 8
+// x 8 triangle at `diagonal` ([column][8], diagonal inverted).
 template <int Width>
 inline void solve_vector_row(double* c, const double* diagonal) noexcept {
   D::Type x[Width];
@@ -251,7 +253,7 @@ inline void add_run(double* target, const double* source, std::int32_t count) no
   for (; k < count; ++k) target[k] += source[k];
 }
 
-// Returns the numbers of column j of a child's update matrix, indexed by its rows.
+// Returns the numbers of column j of a child supernode's update matrix, indexed by its rows.
 inline const double* child_column(const ChildView& child, std::int32_t j) noexcept {
   const std::int64_t tile = j >> 3;
   return child.update + hf_inner::update_tile_start(child.tiles, tile) + (j & 7) * 8 * (child.tiles - tile) - 8 * tile;
@@ -266,7 +268,7 @@ void extend_add(const FrontView& front, const ChildView& child, std::int32_t beg
     const double* source = child_column(child, j);
     std::int32_t i = j;
     if (j < child.into_panel) {
-      // In the tile layout of the panel, runs are split at tile boundaries.
+      // The panel is stored in tiles of 8 rows, so runs of rows are split at tile boundaries.
       double* target = front.panel + 8 * static_cast<std::int64_t>(child.place[j]);
       for (const std::int32_t* r = run; i < child.size; ++r) {
         for (const std::int32_t last = r[1]; i < last;) {
@@ -300,7 +302,7 @@ void store_tiles(const FrontView& front, double* values, std::int32_t tile_begin
     const double* source = front.panel + tile * stride;
     double* row[8];
     std::int32_t count = 8;
-    std::int64_t whole = columns;  // columns that all rows of the tile have
+    std::int64_t whole = columns;  // number of columns that all rows of the tile have
     if (tile < front.triangle_tiles) {
       const std::int64_t first = 8 * static_cast<std::int64_t>(tile);
       count = smaller(8, static_cast<std::int32_t>(columns - first));

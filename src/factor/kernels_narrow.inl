@@ -17,12 +17,12 @@ namespace {
 
 constexpr int most_narrow = hf_inner::narrow_columns;
 
-// Returns entry (i, j) of the triangle tiles of a front.
+// Returns entry (i, j) of a front's triangle, which is stored in tiles of 8 rows.
 inline double& triangle_entry(double* panel, std::int64_t stride, std::int32_t i, std::int32_t j) noexcept {
   return panel[(i >> 3) * stride + 8 * j + (i & 7)];
 }
 
-// Replaces L, whose diagonal is already inverted, by X = L^-1 in the triangle tiles.
+// Replaces a narrow front's triangle L, whose diagonal is already inverted, by X = L^-1.
 void invert_triangle(const FrontView& front) {
   const std::int64_t stride = 8 * static_cast<std::int64_t>(front.columns);
   const auto at = [&](std::int32_t i, std::int32_t j) -> double& { return triangle_entry(front.panel, stride, i, j); };
@@ -35,7 +35,8 @@ void invert_triangle(const FrontView& front) {
   }
 }
 
-// Multiplies vector-rows of `Width` columns by the triangle X: w_j = sum over i >= j of b_i X_ij.
+// Multiplies vector-rows (as many rows as a vector has numbers) of `Width` columns by the triangle X: w_j = sum over i
+// >= j of b_i X_ij.
 template <int Width>
 void multiply_rows_fixed(double* panel, std::int64_t stride, std::int32_t v, std::int32_t v_end) noexcept {
   for (; v < v_end; ++v) {
@@ -61,7 +62,7 @@ void multiply_inverse(const FrontView& front, std::int32_t tile_begin, std::int3
   });
 }
 
-// Backward sweep for up to 4 right-hand sides; the columns lie along the vector lanes.
+// Backward sweep of a narrow supernode for up to 4 right-hand sides; its columns lie along the vector lanes.
 template <class T, int N, int C>
 inline void backward_narrow_columns(const T* triangle, const std::int32_t* rows, std::int32_t row_count, T* z,
                                     std::int32_t first) noexcept {
@@ -129,8 +130,8 @@ inline void backward_narrow_columns(const T* triangle, const std::int32_t* rows,
   }
 }
 
-// Backward sweep for one vector of right-hand sides along the lanes, with columns [begin, begin + N) in registers.
-// Earlier columns are already finished, later ones are not.
+// Backward sweep of a narrow supernode for one vector of right-hand sides along the lanes, with columns [begin, begin +
+// N) in registers. Earlier columns are already finished, later ones are not.
 template <class T, int N>
 inline void backward_narrow_lanes(const T* triangle, std::int32_t columns, std::int32_t begin, const std::int32_t* rows,
                                   std::int32_t row_count, T* z, std::int32_t first, std::int32_t channels,
@@ -213,7 +214,7 @@ void backward_narrow_f32(const float* triangle, const std::int32_t* rows, std::i
   backward_narrow_any<float>(triangle, rows, row_count, columns, z, first, channels);
 }
 
-// Computes z <- X z, from the last row to the first.
+// Computes z <- X z for the inverted triangle X, from the last row to the first.
 template <class T>
 inline void forward_narrow(const T* triangle, std::int32_t columns, T* z, std::int32_t channels) noexcept {
   using S = Simd<T>;
@@ -236,7 +237,8 @@ inline void forward_narrow(const T* triangle, std::int32_t columns, T* z, std::i
   }
 }
 
-// Does the same as forward_narrow on a path block. lanes: 1 or a multiple of 8.
+// Does the same as forward_narrow on a block of elimination paths, with the sites along the lanes. lanes: 1 or a
+// multiple of 8.
 inline void path_narrow(const double* triangle, std::int32_t columns, double* x, std::int32_t lanes) noexcept {
   forward_narrow<double>(triangle, columns, x, lanes);
 }

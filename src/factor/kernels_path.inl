@@ -1,12 +1,12 @@
-// Kernels for paths: blocks of up to 32 sites, with the sites along the vector lanes. Included after a simd_*.h; see
-// kernels_factor.inl.
+// Kernels for elimination paths: blocks of up to 32 sites, with the sites along the vector lanes. Included after a
+// simd_*.h; see kernels_factor.inl.
 #include <cstddef>
 #include <cstdint>
 
 namespace {
 
-// Computes target[r][lane] += (or -=) sum over k of a[r][k * a_step] * x[k * lanes + lane], for R rows and L vectors of
-// lanes.
+// Multiplies R rows of the factor by the path entries x of many sites, which fill L vectors of lanes. target[r][lane]
+// += (or -=) sum over k of a[r][k * a_step] * x[k * lanes + lane].
 template <int R, int L, bool Add>
 inline void lane_block(const double* const* a, std::int64_t a_step, const double* x, std::int64_t lanes,
                        std::int32_t k_count, double* const* target) noexcept {
@@ -52,7 +52,7 @@ inline void lane_rows_block(const double* const* a, std::int64_t a_step, const d
   }
 }
 
-// Runs lane_rows_block for any number of rows.
+// Does the same as lane_rows_block (above) for any number of rows.
 template <bool Add>
 inline void lane_rows_any(const double* const* a, std::int64_t a_step, const double* x, std::int64_t lanes,
                           std::int32_t used, std::int32_t k_count, double* const* target, std::int32_t count) noexcept {

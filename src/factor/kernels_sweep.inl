@@ -18,22 +18,24 @@ namespace {
 #define HF_UNROLL
 #endif
 
-// Columns that are summed together on the stack, for several right-hand sides.
+// Columns of a supernode that are summed together on the stack, for several right-hand sides.
 constexpr std::int32_t chunk_columns = 256;
-// Columns that are summed together on the stack, for one right-hand side. More columns than most rows have, so that a
-// block is read as one stream.
+// Columns of a supernode that are summed together on the stack, for one right-hand side. Most supernodes have fewer, so
+// a block is read as one stream.
 constexpr std::int32_t single_columns = 1024;
-// Numbers that stay in the second-level cache while strips of columns pass over them: 64 KB of doubles.
+// Numbers of the right-hand sides that stay in the second-level cache while groups of columns pass over them: 64 KB of
+// doubles.
 constexpr std::int64_t pass_numbers = 8192;
-// Fewest rows of a pass, whatever their length.
+// At least this many rows are summed in one pass, whatever their length.
 constexpr std::int64_t least_rows = 16;
-// Columns of a triangle that are copied together: 16 KB with eight lanes, inside the first-level cache.
+// Columns of a supernode's triangle whose values are copied together: 16 KB for eight right-hand sides, inside the
+// first-level cache.
 constexpr std::int32_t segment = 256;
 
 template <class T>
 constexpr int line = 64 / sizeof(T);  // numbers of a cache line
 
-// Returns how many rows stay in the second-level cache while strips of columns pass over them.
+// Returns how many rows stay in the second-level cache while groups of columns pass over them.
 inline std::int32_t rows_of_pass(std::int64_t columns) noexcept {
   return static_cast<std::int32_t>(columns * least_rows > pass_numbers ? least_rows : pass_numbers / columns);
 }
@@ -43,7 +45,7 @@ struct Constant {
   static constexpr int value = N;
 };
 
-// Calls body with Constant<columns>. columns: from 1 to Most.
+// Calls body with the number of columns as a compile-time constant. columns: from 1 to Most.
 template <int Most, class Body>
 inline void with_columns(std::int32_t columns, Body&& body) noexcept {
   if (columns == Most) return body(Constant<Most>{});
@@ -151,7 +153,7 @@ inline void sum_channels(const T* block, std::int64_t stride, const std::int32_t
   }
 }
 
-// Computes sum[c][j] over the rows, for C right-hand sides that start at z.
+// Sums the products of a supernode's rows below with C right-hand sides that start at z: sum[c][j] for column j.
 template <class T, int C>
 inline void sum_rows(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                      std::int32_t width, const T* z, std::int32_t channels, T* sum) noexcept {
@@ -169,12 +171,13 @@ inline void sum_rows(const T* block, std::int64_t stride, const std::int32_t* ro
   sum_channels<T, C>(block, stride, rows, row_count, width, z, channels, sum);
 }
 
-// Computes the sums of `width` columns for all channels, and subtracts them from z.
+// Multiplies `width` columns of a supernode's rows below by z for all channels (right-hand sides), and subtracts the
+// sums from z.
 template <class T, int C>
 inline void subtract_sums(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                           std::int32_t width, T* z, T* target, std::int32_t channels) noexcept {
   alignas(64) T sum[(C == 1 ? single_columns : C * chunk_columns) + 64];
-  // Narrow supernodes with one right-hand side write their sums without reading them first.
+  // Supernodes of up to 16 columns with one right-hand side write their sums without reading them first.
   const std::int32_t padded = C == 1 && stride <= 16 ? 0 : (width + 63) & ~63;
   for (int c = 0; c < C; ++c) {
     for (std::int32_t j = 0; j < padded; ++j) sum[c * chunk_columns + j] = 0;
@@ -198,9 +201,9 @@ inline void store_lanes(T* p, typename Simd<T>::Type v, int count) noexcept {
     Simd<T>::store_part(p, v, count);
 }
 
-// Handles N columns for one vector of channels: target[j] -= sum over the rows. The factor's entries are broadcast. The
-// block is read in strips of N columns, which is not its order in memory. So each row prefetches as many numbers as it
-// reads from `ahead`, in order.
+// Sums N columns of a supernode for one vector of channels (right-hand sides): target[j] -= the products of column j
+// with the rows of z. Each entry of the factor fills a whole vector. The block is read in strips of N columns, which is
+// not its order in memory. So each row prefetches as many numbers as it reads from `ahead`, in order.
 template <class T, int N>
 inline void subtract_lanes(const T* block, std::int64_t stride, const std::int32_t* rows, std::int32_t row_count,
                            const T* z, T* target, std::int32_t channels, int count, const T* ahead) noexcept {
@@ -222,8 +225,8 @@ inline void subtract_lanes(const T* block, std::int64_t stride, const std::int32
   }
 }
 
-// Handles many channels, which lie along the lanes. Rows are taken in passes that stay in the cache while the groups of
-// columns pass over them.
+// Sums a supernode's rows for many channels (right-hand sides), which lie along the lanes. Rows are taken in passes
+// that stay in the cache while the groups of columns pass over them.
 template <class T>
 void backward_rows_lanes(const T* below, const std::int32_t* rows, std::int32_t row_count, std::int32_t columns,
                          std::int32_t width, T* z, T* target, std::int32_t channels) noexcept {
@@ -277,9 +280,9 @@ void backward_rows_any(const T* below, const std::int32_t* rows, std::int32_t ro
   }
 }
 
-// Solves the packed triangle for one right-hand side. It reads the triangle from its last number to its first as one
-// stream. For each row j it computes x_j = x_j inv_j, then x_i -= L[j][i] x_j for i < j, the nearest i first, because
-// the next row waits for it. The present columns are in a copy: a single number stored among them could not be
+// Solves a supernode's packed triangle for one right-hand side. It reads the triangle from its last number to its first
+// as one stream. For each row j it computes x_j = x_j inv_j, then x_i -= L[j][i] x_j for i < j, the nearest i first,
+// because the next row waits for it. The present columns are in a copy: a single number stored among them could not be
 // forwarded to the vector load after it.
 template <class T>
 void backward_triangle_single(const T* triangle, std::int32_t columns, T* z) noexcept {
@@ -316,9 +319,9 @@ inline void subtract_solved(const T* const* row, const typename S::Type* x, std:
   }
 }
 
-// Solves the triangle for several right-hand sides along the lanes, one segment of columns at a time in a copy. Without
-// the copy, partial vectors stored next to each other could not be forwarded to the loads after them. Each target is
-// loaded and stored once for 8 rows.
+// Solves a supernode's triangle for several right-hand sides along the lanes, one segment of columns at a time in a
+// copy. Without the copy, partial vectors stored next to each other could not be forwarded to the loads after them.
+// Each target is loaded and stored once for 8 rows.
 template <class T, class S>
 inline void backward_triangle_lanes(const T* triangle, std::int32_t columns, T* z, std::int32_t channels,
                                     int count) noexcept {

@@ -47,7 +47,7 @@ void forward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::in
     const int count = channels - c < S::width ? channels - c : S::width;
     row = triangle;
     for (std::int32_t j = 0; j < columns; row += ++j) {
-      // There are two chains of sums, for even and for odd columns.
+      // Even and odd columns have a sum of their own, because one chain of sums would wait for each addition.
       typename S::Type even = S::zero(), odd = S::zero();
       const T* x = z + c;
       std::int32_t i = 0;
@@ -64,8 +64,8 @@ void forward_triangle_any(const T* triangle, std::int32_t columns, T* z, std::in
 }
 
 #if defined(__AVX2__)
-// Multiplies the rows of a narrow supernode by one right-hand side, four rows at a time. The last group can write three
-// numbers too many, for which `out` has room.
+// Multiplies the rows of a narrow supernode (at most 16 columns) by one right-hand side, four rows at a time. The last
+// group can write three numbers too many, for which `out` has room.
 inline void forward_rows_narrow(const double* below, std::int32_t row_count, std::int32_t columns, const double* z,
                                 double* out) noexcept {
   alignas(64) double padded[16] = {};
@@ -95,7 +95,8 @@ void forward_rows_any(const T* below, std::int32_t row_count, std::int32_t colum
     for (std::int32_t r = 0; r < row_count; ++r, below += columns) out[r] = dot<T>(below, z, columns);
     return;
   }
-  // Takes channels in groups of one vector, and four rows at a time. The factor's entries are broadcast.
+  // Takes channels (right-hand sides) in groups of one vector, and four rows at a time. Each entry of the factor fills
+  // a whole vector.
   for (std::int32_t c = 0; c < channels; c += S::width) {
     const int count = channels - c < S::width ? channels - c : S::width;
     std::int32_t r = 0;

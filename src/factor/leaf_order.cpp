@@ -48,7 +48,7 @@ void LeafOrder::run(std::int32_t* out) {
       for (std::uint64_t bits = own[w]; bits != 0; bits &= bits - 1) {
         const std::int32_t u = 64 * w + __builtin_ctzll(bits);
         std::uint64_t* target = row(u);
-        if (u >= inner_) break;  // rows of halo vertices are never read
+        if (u >= inner_) break;  // neighbour lists of halo vertices (those eliminated later) are never read
         std::int32_t total = 0;
         for (std::int32_t x = 0; x < words_; ++x) {
           std::uint64_t merged = target[x] | own[x];

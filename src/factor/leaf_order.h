@@ -13,7 +13,8 @@ namespace hf_inner {
 class LeafOrder {
  public:
   explicit LeafOrder(Memory& memory) : rows_(&memory), degree_(&memory), left_(&memory) {}
-  // Clears the graph. It then has `inner` vertices to order, followed by `halo` vertices.
+  // Clears the graph. It then has `inner` vertices to order, followed by `halo` vertices, which only count as
+  // neighbours.
   void reset(std::int32_t inner, std::int32_t halo);
   void add_edge(std::int32_t a, std::int32_t b) noexcept {
     rows_[static_cast<std::size_t>(a) * words_ + (b >> 6)] |= std::uint64_t{1} << (b & 63);

@@ -10,11 +10,11 @@
 namespace hf_inner {
 namespace {
 
-// Vertices with more neighbours than this times sqrt(n) are eliminated last: trades time for fill. The AMD library uses
-// the same value. With 5 and 20, a graph of 64,000 vertices with 30 hubs gets the same order. Without such a limit, a
-// star of 200,000 vertices takes minutes.
+// Vertices with more neighbours than this times sqrt(n) are eliminated last: trades time for the factor's size. The AMD
+// library uses the same value. With 5 and 20, a graph of 64,000 vertices, 30 of them with very many neighbours, gets
+// the same order. Without such a limit, a vertex with 200,000 neighbours takes minutes.
 constexpr double dense_factor = 10;
-constexpr Index dense_least = 16;  // smaller graphs have no dense vertex
+constexpr Index dense_least = 16;  // smaller graphs have no vertex that is eliminated last for its many neighbours
 
 // The quotient graph of an elimination. A variable stands for unknowns with equal neighbours, an element for an
 // eliminated variable. The list of a variable holds elements first, then variables. The list of an element holds
@@ -53,7 +53,8 @@ class QuotientGraph {
   static constexpr Index none = -1;
   static constexpr Index dense_mark = -2;  // value in last_ of vertices that are eliminated at the end
 
-  // Returns the room for all lists and one more. A fifth is spare, so that the lists are seldom compacted.
+  // Returns the number of array entries for all lists of neighbours, plus one entry. A fifth is spare, so that the
+  // lists are seldom compacted.
   static std::size_t room_for(Index size, const Index* start) {
     const std::size_t pattern = at(start[size] - start[0]), room = pattern + pattern / 5 + at(size) + 1;
     if (room > static_cast<std::size_t>(INT32_MAX)) {
@@ -79,7 +80,8 @@ class QuotientGraph {
     left_ = size_;
   }
 
-  // Isolated vertices are eliminated first, dense ones last. The others go to the degree lists.
+  // Vertices without neighbours are eliminated first, those with very many neighbours last. The others go to the lists
+  // of their degree.
   void take_special() {
     const double limit = std::max<double>(dense_least, dense_factor * std::sqrt(static_cast<double>(size_)));
     for (Index v = 0; v < size_; ++v) {
@@ -121,22 +123,22 @@ class QuotientGraph {
     return pivot;
   }
 
-  // Writes the unknowns that v stands for to the order.
+  // Writes the unknowns that variable v stands for to the elimination order.
   void eliminate(Index v) noexcept {
     for (Index u = v; u != none; u = next_member_[u]) order_[ordered_++] = u;
   }
 
   // ---- the new element
 
-  // Makes the pivot an element. The variables next to it become its list; their weights are negated, and they leave the
-  // degree lists. The elements next to the pivot are absorbed.
+  // Makes the variable that is eliminated (pivot) an element. Its list gets the variables next to it and next to its
+  // neighbouring elements, which it absorbs. These variables get negative weights and leave the lists of their degree.
   void form_element(Index pivot) {
     const Index pivot_weight = weight_[pivot];
     left_ -= pivot_weight;
     weight_[pivot] = -pivot_weight;
     pivot_degree_ = 0;
     Index begin, end;
-    if (elements_[pivot] == 0) {  // in place
+    if (elements_[pivot] == 0) {  // the new list replaces the pivot's own
       begin = end = start_[pivot];
       gather(begin, length_[pivot], end);
     } else {
@@ -160,7 +162,7 @@ class QuotientGraph {
   void gather(Index from, Index count, Index& end) noexcept {
     for (Index k = from; k < from + count; ++k) {
       const Index v = lists_[at(k)], weight = weight_[v];
-      if (weight <= 0) continue;  // v is absorbed, or already in the list
+      if (weight <= 0) continue;  // variable v is absorbed by another, or already in the list
       pivot_degree_ += weight;
       weight_[v] = -weight;
       lists_[at(end++)] = v;
@@ -168,7 +170,7 @@ class QuotientGraph {
     }
   }
 
-  // Makes room for the pivot's new list behind all other lists.
+  // Makes room for the list of the variable that is eliminated (pivot), behind all other lists.
   void make_room(Index pivot) {
     std::size_t need = at(length_[pivot] - elements_[pivot]);
     for (Index k = start_[pivot]; k < start_[pivot] + elements_[pivot]; ++k) need += at(length_[lists_[at(k)]]);
@@ -176,8 +178,8 @@ class QuotientGraph {
     if (at(free_) + need > lists_.size()) compact();
   }
 
-  // Moves all lists together. While they move, the first entry of each list is replaced by the complement of its
-  // owner's number.
+  // Moves all lists of neighbours together. While they move, the first entry of each list is replaced by the complement
+  // of its owner's number.
   void compact() noexcept {
     for (Index v = 0; v < size_; ++v) {
       if (length_[v] == 0) continue;
@@ -203,8 +205,8 @@ class QuotientGraph {
 
   // ---- degrees
 
-  // For every element e next to the pivot's list, mark_[e] - tag_ becomes the weight of those variables of e that are
-  // not in that list.
+  // Looks at every element e (eliminated variable) beside the pivot's variables. mark_[e] - tag_ becomes the number of
+  // unknowns in variables of e that are not the pivot's.
   void subtract_from_elements(Index pivot) noexcept {
     most_ = std::max(most_, pivot_degree_);
     clear_marks();
@@ -220,15 +222,15 @@ class QuotientGraph {
     }
   }
 
-  // Restarts the tags before they overflow. A mark of 0 means absorbed, and stays.
+  // Restarts the step numbers (tags) in mark_ before they overflow. A mark of 0 (absorbed into another element) stays.
   void clear_marks() noexcept {
     if (tag_ <= INT32_MAX - 2 * std::int64_t{size_}) return;
     for (Index v = 0; v < size_; ++v) mark_[v] = mark_[v] != 0;
     tag_ = 2;
   }
 
-  // Shortens the lists of the pivot's variables and bounds their degrees. Variables without other neighbours are
-  // eliminated at once. The others go to the hash lists.
+  // Shortens the lists of the variables beside the pivot and bounds their degrees. Variables without other neighbours
+  // are eliminated at once. The others go to hash lists, which find equal ones.
   void update_degrees(Index pivot) noexcept {
     const Index begin = start_[pivot], end = begin + length_[pivot];
     Index kept = begin;
@@ -253,8 +255,9 @@ class QuotientGraph {
     degree_[pivot] = pivot_degree_;
   }
 
-  // Shortens the list of v. It keeps the pivot, the elements that reach outside the pivot's list, and the variables
-  // outside it. Returns the weight of the variables outside, counted twice where two elements overlap.
+  // Shortens the neighbour list of variable v. It keeps the pivot, the elements (eliminated variables) that reach
+  // outside the pivot's list, and the variables outside it. Returns the number of unknowns outside, counted twice where
+  // two elements overlap.
   Index shorten(Index v, Index pivot, std::uint32_t& hash) noexcept {
     const Index first = start_[v], variables = first + elements_[v], stop = first + length_[v];
     std::int64_t outside = 0;
@@ -266,7 +269,7 @@ class QuotientGraph {
         outside += rest, hash += static_cast<std::uint32_t>(e);
         lists_[at(to++)] = e;
       } else {
-        mark_[e] = length_[e] = 0;  // it lies inside the pivot's list: absorbed
+        mark_[e] = length_[e] = 0;  // the element lies inside the pivot's list and is absorbed
       }
     }
     const Index kept = to;
@@ -300,7 +303,7 @@ class QuotientGraph {
     clear_marks();
   }
 
-  // Compares the variable v with those after it in its hash list, and merges equal ones into v.
+  // Compares the variable v with those after it in its hash list. Merges those with equal neighbours into v.
   void merge_into(Index v) noexcept {
     const Index length = length_[v], elements = elements_[v];
     for (Index p = start_[v]; p < start_[v] + length; ++p) mark_[lists_[at(p)]] = tag_;
@@ -336,18 +339,18 @@ class QuotientGraph {
     }
     weight_[pivot] = 0;
     length_[pivot] = kept - begin;
-    if (kept == begin) mark_[pivot] = 0;  // the element has no variable left
+    if (kept == begin) mark_[pivot] = 0;  // the new element has no variable left
     if (free_ == pivot_end_) free_ = kept;
   }
 
   Index size_;
   Buffer<Index> lists_, storage_;
-  Index free_ = 0;          // end of the lists
+  Index free_ = 0;          // end of the neighbour lists
   Index left_ = 0;          // unknowns not yet eliminated, without the dense ones
-  Index ordered_ = 0;       // number of places of the order that are filled
+  Index ordered_ = 0;       // places of the elimination order that are filled
   Index least_ = 0;         // no variable has a smaller degree
   Index most_ = 0;          // largest weight of an element so far
-  Index tag_ = 2;           // larger marks belong to the present step
+  Index tag_ = 2;           // marks in mark_ from this number on belong to the present step
   Index pivot_degree_ = 0;  // weight of the pivot's list
   Index pivot_end_ = 0;     // where that list ended before it was shortened
   Index* order_ = nullptr;

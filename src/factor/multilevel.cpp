@@ -7,29 +7,29 @@
 namespace hf_inner {
 namespace {
 
-// Graphs up to this size are bisected without coarsening. At half the value: flops grow by 1 to 5 %. At twice the
-// value: they change by -3 to +4 %, and wider flows cost time.
+// Graphs up to this many vertices are bisected without coarsening. At half the value: the factorisation's flops grow by
+// 1 to 5 %. At twice the value: they change by -3 to +4 %, and larger flow problems cost time.
 constexpr std::int32_t direct_size = 400;
-// Parts of at least this size try more directions on their coarsest graph. Halving or doubling it changes flops by at
-// most 2 %.
+// Parts of the graph with at least this many vertices try more cut directions on their coarsest graph. Halving or
+// doubling it changes the factorisation's flops by at most 2 %.
 constexpr std::int32_t thorough_size = 4000;
-// Rings by which a separator is widened when it is carried back. At half the value: flops grow by 2 to 15 %. At twice
-// the value: they change by -10 to +1 %, but the flow is larger.
+// A separator carried back to a finer graph is widened by its neighbours this many times. At half the value: the
+// factorisation's flops grow by 2 to 15 %. At twice the value: they change by -10 to +1 %, but finding it takes longer.
 constexpr std::int32_t widening = 2;
-// Large parts get this many additional passes, each with the band around the new separator. With none, flops grow by 1
-// to 4 %. With two they fall by 0 to 5 %, but cost one more flow.
+// In large parts of the graph, a separator is improved this many more times, within a band around it. With none, the
+// factorisation's flops grow by 1 to 4 %. With two they fall by 0 to 5 %, but finding the separator takes longer.
 constexpr std::int32_t repeats = 1;
-// Widening keeps at least 1 / this of the graph on each side. With 2, flops grow by up to 54 %. With 10 they change by
-// -4 to +3 %.
+// A widened separator leaves at least 1 / this of the graph on each side. With 2, the factorisation's flops grow by up
+// to 54 %. With 10 they change by -4 to +3 %.
 constexpr std::int32_t smallest_side = 5;
-// A graph is not coarsened if its coarser graph would be a larger share of it, as in graphs without stars. Halving or
-// doubling it changes nothing.
+// A graph is not coarsened if its coarser graph would be a larger share of it. Halving or doubling it gives the same
+// order.
 constexpr double least_shrinking = 0.75;
 
 }  // namespace
 
-// Clusters a graph by stars. A vertex whose neighbours are all free takes them into its cluster. Each remaining vertex
-// joins the cluster of its first clustered neighbour.
+// Groups the vertices of a graph into clusters, which become the vertices of a coarser graph. A vertex whose neighbours
+// are all free takes them into its cluster. Each remaining vertex joins the cluster of its first clustered neighbour.
 std::int32_t MultilevelBisection::make_clusters(const GraphView& fine, std::int32_t* cluster) {
   const std::int32_t n = fine.size;
   const std::int32_t* start = fine.start;
@@ -62,7 +62,7 @@ void MultilevelBisection::coarsen(const GraphView& fine, Level& coarse) {
   };
   std::int32_t* cluster = grow(coarse.cluster, static_cast<std::size_t>(n));
   const std::int32_t count = make_clusters(fine, cluster);
-  // Lists the members of each cluster.
+  // Lists the vertices of each cluster (vertex of the coarser graph).
   cluster_start_.assign(static_cast<std::size_t>(count) + 1, 0);
   std::int32_t* member_start = cluster_start_.data();
   for (std::int32_t v = 0; v < n; ++v) ++member_start[cluster[v] + 1];
@@ -105,7 +105,7 @@ void MultilevelBisection::coarsen(const GraphView& fine, Level& coarse) {
   coarse.view = {count, start, neighbour, point, weight};
 }
 
-// Adds rings of neighbours to the separator, as long as both sides keep a fifth of the graph (smallest_side).
+// Adds its neighbours to the separator, several times, as long as both sides keep a fifth of the graph (smallest_side).
 void MultilevelBisection::widen(const GraphView& graph, std::uint8_t* side, int rings) {
   std::int32_t left[2] = {0, 0};
   queue_.clear();
@@ -125,7 +125,7 @@ void MultilevelBisection::widen(const GraphView& graph, std::uint8_t* side, int 
         if (side[u] >= side_between) continue;
         ++lost[side[u]];
         queue_.push_back(u);
-        side[u] = static_cast<std::uint8_t>(side_between + 1 + side[u]);  // marked until the ring is accepted
+        side[u] = static_cast<std::uint8_t>(side_between + 1 + side[u]);  // marked until this widening is accepted
       }
     }
     const bool keep = smallest_side * static_cast<std::int64_t>(left[0] - lost[0]) >= graph.size &&
@@ -162,7 +162,7 @@ Cut MultilevelBisection::run(const GraphView& graph, std::uint8_t* side) {
     // Growing levels_ may have moved its entries.
     fine = depth == 0 ? &graph : &levels_[depth - 1].view;
     coarsen(*fine, levels_[depth]);
-    // The graph has hardly any stars, so it is bisected as it is.
+    // Coarsening hardly shrinks this graph, so it is bisected as it is.
     if (levels_[depth].view.size > least_shrinking * fine->size) break;
     fine = &levels_[depth++].view;
   }
@@ -176,7 +176,7 @@ Cut MultilevelBisection::run(const GraphView& graph, std::uint8_t* side) {
     if (k > 0) levels_[k - 1].side.resize(static_cast<std::size_t>(finer.size));
     cut = carry_back(finer, levels_[k], k == 0 ? side : levels_[k - 1].side.data());
   }
-  // If carrying back has emptied a side, the graph is cut as it is.
+  // If carrying the cut back to finer graphs has emptied a side, the original graph is cut directly.
   return cut.usable() ? cut : search_.bisect(graph, side, true);
 }
 

@@ -12,7 +12,8 @@ class MultilevelBisection {
   explicit MultilevelBisection(Memory& memory)
       : memory_(memory), search_(memory), levels_(&memory), cluster_start_(&memory), mark_(&memory), queue_(&memory) {}
 
-  // Writes side[v]: left, right or between. Returns an unusable cut when the part cannot be split.
+  // Splits a graph into two sides and a separator. Writes side[v]: left, right or between. Returns an unusable cut when
+  // the graph cannot be split.
   Cut run(const GraphView& graph, std::uint8_t* side);
 
  private:

@@ -10,24 +10,27 @@
 namespace hf_inner {
 namespace {
 
-// Columns by which the assembly prefetches. No result depends on it.
+// The assembly of a front asks for matrix entries this many columns ahead. No result depends on it.
 constexpr std::int32_t assembly_ahead = 16;
-// A wave runs whole fronts as jobs if the largest front is at most this many times its fair share. Otherwise each front
-// is split over the threads.
+// Fronts (dense matrices of supernodes) of one wave do not depend on each other. Each is one thread's job if the
+// largest front is at most this many times its fair share. Otherwise each is split over the threads.
 constexpr double even_fronts = 1.25;
-// A wave with fewer flops is never split: 0.07 ms at 27 GF/s, the cost of about two batches of jobs.
+// Fronts (dense matrices) of a wave (independent supernodes) with fewer flops in all are never split: 0.07 ms at 27
+// GF/s, the cost of about two batches of jobs.
 constexpr double small_wave_flops = 2e6;
-// The number of tiles per job, chosen by the cost of a tile in each step. No result depends on it.
+// The number of tiles (8 rows of a front) per thread's job, chosen by the cost of a tile in each step. No result
+// depends on it.
 constexpr std::int32_t copy_tiles = 32, solve_tiles_step = 6, update_tiles_step = 4, store_tiles_step = 16;
-// Columns that are factored before all threads solve the tiles below them. No result depends on it.
+// Columns of a front that are factored before all threads solve the rows below them. No result depends on it.
 constexpr std::int32_t column_block = 64;
-// Flops above which a front is run in pieces on one thread too, so that a cancel is heeded between them: 10 ms at 27
-// GF/s. Double: twice the wait. Half: more calls of kernels.
+// A front (dense matrix of a supernode) that takes more flops is computed in pieces, on one thread too. A cancel is
+// heeded between pieces; 2.5e8 flops take 10 ms at 27 GF/s. Twice the value doubles the wait, half of it calls more
+// kernels.
 constexpr double long_front_flops = 2.5e8;
-// The share of progress that the flops of the fronts have; storing the rest is short.
+// Reported progress when all fronts are done.
 constexpr double progress_of_fronts = 0.99;
 
-// All memory that one thread needs to factor fronts. It is reused from front to front.
+// All memory that one thread needs to factor fronts (dense matrices of supernodes). It is reused from front to front.
 struct Workspace {
   Workspace(Memory& memory, std::int32_t unknowns, const Plan::Sizes& sizes)
       : place_of(memory, unknowns),
@@ -38,7 +41,8 @@ struct Workspace {
         children(memory, static_cast<std::size_t>(sizes.children)) {
     for (int side = 0; side < 2; ++side) stack[side].allocate(memory, static_cast<std::size_t>(sizes.stack[side]));
   }
-  // By row of the matrix: its padded row in the present front. Only entries of the front's rows are valid.
+  // By row of the matrix: its row in the present front (dense matrix of a supernode). Only entries of the front's rows
+  // are valid.
   Buffer<std::int32_t> place_of;
   Buffer<double> panel, floor, stack[2];
   std::int64_t stack_top[2] = {0, 0};
@@ -47,7 +51,7 @@ struct Workspace {
   std::int32_t child_count = 0;
 };
 
-// Workspaces for the running threads. Their number is the largest number of threads that ran at once.
+// Scratch memory for the running threads. Their number is the largest number of threads that ran at once.
 class WorkspacePool {
  public:
   WorkspacePool(Memory& memory, std::int32_t unknowns, const Plan::Sizes& sizes)
@@ -122,7 +126,8 @@ class Factorisation {
     return front;
   }
 
-  // Sets up the front: the places of its rows, the places of its children's rows, and the columns of A.
+  // Sets up the front (dense matrix) of supernode s: the places of its rows, the places of its child supernodes' rows,
+  // and its columns of the matrix.
   void assemble(std::int32_t s, const FrontView& front, Workspace& workspace) const noexcept {
     std::int32_t* place_of = workspace.place_of.data();
     const std::int32_t first = symbolic_.first[s];
@@ -198,7 +203,7 @@ class Factorisation {
          unknown);
   }
 
-  // Reports the flops of a finished front. Called by jobs.
+  // Reports that a front of that many flops is done. Jobs call it.
   void report_done(double flops) {
     double done = done_.load(std::memory_order_relaxed);
     while (!done_.compare_exchange_weak(done, done + flops, std::memory_order_relaxed)) {
@@ -206,13 +211,14 @@ class Factorisation {
     report(static_cast<float>(progress_of_fronts * (done + flops) / symbolic_.flops));
   }
 
-  // One front from assembly to stored columns, on one thread unless it is long.
+  // Computes the front (dense matrix) of supernode s, from the assembly to the stored columns.
   void run_front(std::int32_t s, Workspace& workspace, double* update) {
     if (symbolic_.work[s] > long_front_flops) return run_front_in_pieces(s, workspace, update);
     run_short_front(s, workspace, update);
     report_done(symbolic_.work[s]);
   }
 
+  // The same on one thread and without asking for a cancel.
   void run_short_front(std::int32_t s, Workspace& workspace, double* update) noexcept {
     const FrontView front = open_front(s, workspace, update);
     const std::int32_t tiles = front.triangle_tiles + front.below_tiles;
@@ -258,8 +264,8 @@ class Factorisation {
     }
   }
 
-  // Runs one wave. If whole fronts share the threads evenly, each front is a job. Otherwise the fronts run one after
-  // the other, each split over the threads.
+  // Factors one wave (supernodes that do not depend on each other). If whole fronts share the threads evenly, each
+  // front is a job. Otherwise the fronts run one after the other, each split over the threads.
   void run_wave(std::int32_t wave, WorkspacePool& pool) {
     const std::int32_t begin = plan_.wave_start[wave], end = plan_.wave_start[wave + 1];
     double total = 0, largest = 0;
@@ -282,7 +288,7 @@ class Factorisation {
     pool.give_back(std::move(workspace));
   }
 
-  // Calls piece(begin, end) over [begin, end) in steps, as jobs.
+  // Cuts [begin, end) into steps and calls piece(first, last) for each, as thread jobs.
   template <class Piece>
   void in_pieces(std::int32_t begin, std::int32_t end, std::int32_t step, Piece&& piece) {
     if (begin >= end) return;
@@ -362,7 +368,7 @@ void factorise(const Symbolic& symbolic, const Plan& plan, const Kernels& kernel
 }
 
 bool all_finite(const double* values, std::size_t count) noexcept {
-  // x - x is zero exactly for finite x. Independent sums avoid branches.
+  // Sums x - x over all numbers, which is zero only if every x is finite. Eight independent sums avoid branches.
   double sum[8] = {};
   std::size_t k = 0;
   for (; k + 8 <= count; k += 8) {

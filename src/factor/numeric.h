@@ -20,7 +20,7 @@
 
 namespace hf_inner {
 
-// Numbers behind the last stored one. Sweeps may read them, but ignore their values.
+// The factor ends with this many spare numbers. Sweeps may read them, but ignore their values.
 constexpr std::size_t value_slack = 64;
 
 // Factorises the matrix. `eliminated` (per unknown, may be empty) marks rows and columns that count as the identity.

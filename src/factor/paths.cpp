@@ -3,8 +3,8 @@
 // supernodes.
 //
 // The sites of a group are sorted by their first row, so the active sites of every supernode are one range. They lie
-// along the vector lanes. Cost: path entries times sites. One group is one job. The number of sites alone decides the
-// groups.
+// along the vector lanes. Cost: the number of entries of all paths. One group is one job. The number of sites alone
+// decides the groups.
 #include <algorithm>
 #include <cstring>
 
@@ -14,15 +14,15 @@
 namespace hf_inner {
 namespace {
 
-// Numbers behind the last block that a vector with padding lanes may touch.
+// Spare numbers behind the last entries of the elimination paths: vectors are padded and may read or write them.
 constexpr std::int32_t lane_slack = 64;
-// The sites of a group, and the numbers behind them that a padded range may touch.
+// Length of a row of path products: the sites of a group, plus numbers that a padded vector may touch.
 constexpr std::int32_t gram_stride = PathGroup::capacity + 16;
 
 const PathBlocks& blocks_of(const PathGroup& group) noexcept { return static_cast<const PathBlocks&>(group); }
 
-// Lists the blocks on the union of a group's paths; their places are set later. slot[s]: index of the block of
-// supernode s, or -1 if there is none.
+// Lists the supernodes (blocks of columns) on the elimination paths of a group of sites; their places are set later.
+// slot[s]: index of the block of supernode s, or -1 if there is none.
 void collect_blocks(const Symbolic& symbolic, const SparseColumns& columns, Span<const std::int32_t> members,
                     Vector<PathBlock>& blocks, std::int32_t* slot) {
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(members.size()); ++i) {
@@ -34,7 +34,7 @@ void collect_blocks(const Symbolic& symbolic, const SparseColumns& columns, Span
           continue;
         }
         PathBlock& block = blocks[slot[s]];
-        if (block.low + block.used == i + 1) break;  // the rest of the path is already marked for this site
+        if (block.low + block.used == i + 1) break;  // the rest of the site's elimination path is already marked
         block.used = i + 1 - block.low;
       }
     }
@@ -52,7 +52,7 @@ std::shared_ptr<const PathGroup> solve_group(const SupernodalFactor& factor, con
   std::fill(slot.begin(), slot.end(), -1);
   Vector<PathBlock> blocks(&memory);
   collect_blocks(symbolic, columns, members, blocks, slot.data());
-  // Sets the places of the blocks. Rows of the union are shifted, so that site i of a row lies at place_of[row] + i.
+  // Sets the places of the blocks in memory. Site i of a row lies at place_of[row] + i.
   Buffer<std::int64_t> place_of(memory, static_cast<std::size_t>(symbolic.size));
   std::int64_t total = 0;
   std::int32_t longest = 0;
@@ -119,7 +119,8 @@ void SupernodalFactor::solve_paths(const SparseColumns& columns, Memory& memory,
   }
   std::sort(members.begin(), members.end(),
             [&](std::int32_t a, std::int32_t b) { return key[a] != key[b] ? key[a] < key[b] : a < b; });
-  // Groups have whole lanes of 8. Their number is even where possible, so that two threads have the same work.
+  // Sites are grouped in multiples of 8, the width of a vector. The number of groups is even where possible, so that
+  // two threads have the same work.
   const std::int32_t lanes = (count + 7) / 8;
   std::int32_t groups = (count + PathGroup::capacity - 1) / PathGroup::capacity;
   if (groups % 2 == 1 && groups < lanes) ++groups;

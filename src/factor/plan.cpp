@@ -5,12 +5,13 @@
 namespace hf_inner {
 namespace {
 
-// A subtree with at most this share of the work is one task. Four threads get eight tasks each, so that none waits
-// long.
+// A subtree of supernodes with at most this share of the flops is one task (job of one thread). Four threads get eight
+// tasks each, so that none waits long.
 constexpr double task_share = 1.0 / 32.0;
-// Smaller subtrees are grouped up to this share, so that a task costs more than its start.
+// Smaller subtrees of supernodes are grouped up to this share of the flops, so that a task costs more than its start.
 constexpr double group_share = 1.0 / 64.0;
-// A matrix with fewer flops is one task: 0.15 ms at 27 GF/s, the cost of a few batches of jobs.
+// A factorisation with fewer flops is one task (job of one thread): 0.15 ms at 27 GF/s, the cost of a few batches of
+// jobs.
 constexpr double whole_work = 4e6;
 
 void link_children(const Symbolic& symbolic, Memory& memory, Plan& plan) {
@@ -72,7 +73,8 @@ void group_tasks(const Symbolic& symbolic, const double* share, Memory& memory, 
   for (std::int32_t t = 0; t < plan.tasks; ++t) plan.task_order[t] = t;
   std::stable_sort(plan.task_order.begin(), plan.task_order.end(),
                    [&](std::int32_t a, std::int32_t b) { return task_share_sum[a] > task_share_sum[b]; });
-  // The wave of a top supernode is its height above the tasks.
+  // Subtrees of supernodes (blocks of columns) are tasks, one job each. The supernodes above them run in waves: those
+  // of equal height above the tasks together.
   Vector<std::int32_t> height(symbolic.supernodes, -1, &memory);
   for (const std::int32_t s : top) {
     std::int32_t h = 0;
@@ -103,7 +105,7 @@ void grow(const Symbolic& symbolic, const Plan& plan, std::int32_t s, Plan::Size
   sizes.child_rows = std::max(sizes.child_rows, rows);
 }
 
-// Measures the largest sizes of a task's two stacks by running the task in advance.
+// Measures how large a task's two stacks of update matrices become, by going through its supernodes in advance.
 void measure_tasks(const Symbolic& symbolic, Plan& plan) {
   for (std::size_t r = 0; r < plan.task_root.size(); ++r) {
     const std::int32_t root = plan.task_root[r];
@@ -118,8 +120,9 @@ void measure_tasks(const Symbolic& symbolic, Plan& plan) {
   }
 }
 
-// Finds first-fit places for the update matrices that outlive their task or wave. Task roots get their places first. A
-// supernode of a wave gets its place while its children's matrices are still in use.
+// Finds first-fit places for the update matrices (Schur complements) that are read after their own task or wave. Roots
+// of task subtrees get their places first. A supernode of a wave gets its place while its children's matrices are still
+// in use.
 void place_shared(const Symbolic& symbolic, Memory& memory, Plan& plan) {
   struct Gap {
     std::int64_t begin, end;

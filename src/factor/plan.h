@@ -13,17 +13,18 @@ namespace hf_inner {
 
 struct Plan {
   // The tasks.
-  Buffer<std::int32_t> task_root;   // roots of complete subtrees, ascending
+  Buffer<std::int32_t> task_root;   // roots of complete subtrees of supernodes, ascending
   Buffer<std::int32_t> task_start;  // tasks + 1: task t owns roots [task_start[t], task_start[t + 1])
-  Buffer<std::int32_t> task_order;  // tasks by falling work
+  Buffer<std::int32_t> task_order;  // tasks (groups of subtrees) by falling work
   std::int32_t tasks = 0;
-  // The top: all supernodes above the tasks.
-  Buffer<std::int32_t> top;         // supernodes above the tasks, wave by wave, ascending inside a wave
-  Buffer<std::int32_t> wave_start;  // waves + 1
+  // The top: all supernodes (blocks of columns) above the tasks, which are groups of subtrees.
+  Buffer<std::int32_t> top;         // supernodes above the tasks, by height (wave by wave), ascending inside a wave
+  Buffer<std::int32_t> wave_start;  // place in `top` where each wave begins; waves + 1 entries
   std::int32_t waves = 0;
   // The supernode tree.
   Buffer<std::int32_t> child, sibling;  // first child and next sibling of a supernode, ascending; -1 at the end
-  Buffer<std::uint8_t> parity;  // depth of the supernode, lowest bit: which of the two stacks takes its update matrix
+  // By supernode: which of the two stacks takes its update matrix (depth in the tree, lowest bit).
+  Buffer<std::uint8_t> parity;
   // The memory that a factorisation needs, in doubles.
   struct Sizes {
     std::int64_t panel = 0, stack[2] = {0, 0};

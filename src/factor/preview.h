@@ -28,8 +28,8 @@ class PreviewFactor {
   // The two sweeps compute z <- G^-1 z and z <- G^-T z in place on z[row * channels + channel], rows in factor order.
   void forward(float* z, std::int32_t channels, JobRunner& jobs) const;
   void backward(float* z, std::int32_t channels, JobRunner& jobs) const;
-  // The same two sweeps on double numbers. They are scaled by a power of two before the sweep, so any magnitude works.
-  // scratch: room for z.
+  // Forward and backward sweep on double numbers, with the single-precision factor. The numbers are scaled by a power
+  // of two before the sweep, so any magnitude works. scratch: room for z.
   void forward(double* z, std::int32_t channels, float* scratch, JobRunner& jobs) const;
   void backward(double* z, std::int32_t channels, float* scratch, JobRunner& jobs) const;
 

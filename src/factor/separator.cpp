@@ -12,23 +12,24 @@ namespace {
 
 constexpr std::uint8_t touches_left = 1, touches_right = 2, on_path = 4;
 constexpr std::int32_t none = -1, source = -2, sink = -3;
-// Largest half width of the band, as a share of the vertices. At half the value: flops change by up to +6 %. At twice
-// the value: by up to +40 %, because the band swallows a side.
+// Largest half width of the band in which a separator is searched, as a share of the vertices. At half the value: the
+// factorisation's flops grow by up to 6 %. At twice the value: by up to 40 %, because the band takes in a whole side.
 constexpr double widest_band = 0.3;
-// Width of the band in square roots of the size, for large and small graphs. Half the second number changes flops by -7
-// to +6 %, twice the number by at most 2 %. The first number changes nothing.
+// Width of the band in which a separator is searched, in square roots of the number of vertices, for large and small
+// graphs. Half the second number changes the factorisation's flops by -7 to +6 %, twice it by at most 2 %. Halving or
+// doubling the first number changes no order.
 constexpr double band_of_large = 16, band_of_small = 6;
-// Larger graphs only get here if coarsening failed. Half the value changes flops by at most 3 %, twice the value
-// changes nothing.
+// Up to this many vertices a graph is small (band_of_small). Larger graphs are coarsened first where possible. Half the
+// value changes the factorisation's flops by at most 3 %, twice the value changes no order.
 constexpr std::int32_t small_graph = 500;
-// If the second squared extent is below this share of the first, the second axis is not tried, which saves time.
-// Halving or doubling it does not change the fill.
+// If a part's second squared extent is below this share of the first, no cut across its second axis is tried, which
+// saves time. Halving or doubling it does not change the factor's size.
 constexpr double long_shape = 0.04;
-// If the squared separator is more than this many times the size, distances in the graph are tried too. Halving or
-// doubling it changes the fill by at most 0.1 %.
+// If a separator's squared size is more than this many times the size of the graph, a cut by distances in the graph is
+// tried too. Halving or doubling it changes the factor's size by at most 0.1 %.
 constexpr double poor_separator = 2.5;
-// Half width of the band for a second try, when breadth-first keys empty a side. Halving or doubling it changes nothing
-// on the test meshes torus, creature and scan.
+// Half width of the band in which a separator is searched a second time, when a cut by breadth-first order has an empty
+// side. Halving or doubling it gives the same order on the test meshes torus, creature and scan.
 constexpr double narrow_band = 0.05;
 
 // The principal axes of the places of a graph, with signs that depend on the places alone.
@@ -64,7 +65,7 @@ double Cut::score() const noexcept {
   return (static_cast<double>(separator) + 0.5) * (1 + imbalance * imbalance);
 }
 
-// Collects the band as a graph of its own, with flags for vertices next to a side.
+// Collects the band between the two sides as a graph of its own, with flags for vertices next to a side.
 void SeparatorSearch::collect_band(const GraphView& graph, const std::uint8_t* side) {
   band_.clear();
   if (slot_.size() < static_cast<std::size_t>(graph.size)) slot_.resize(static_cast<std::size_t>(graph.size));
@@ -93,9 +94,9 @@ void SeparatorSearch::collect_band(const GraphView& graph, const std::uint8_t* s
   previous_.assign(count, none), next_.assign(count, none);
 }
 
-// Finds the breadth-first levels of the residual graph from the source. State 2 b is the entry of vertex b, state 2 b +
-// 1 its exit. A vertex on no path is entered and left at once, so it only has the exit. Returns true when the sink is
-// reached.
+// Finds the breadth-first levels of the flow problem's residual graph from the source. State 2 b is the entry of vertex
+// b, state 2 b + 1 its exit. A vertex on no path is entered and left at once, so it only has the exit. Returns true
+// when the sink is reached.
 bool SeparatorSearch::label_phase() {
   const std::size_t count = band_.size();
   level_.assign(2 * count, none);
@@ -129,7 +130,8 @@ bool SeparatorSearch::label_phase() {
   return last != INT32_MAX;
 }
 
-// Finds disjoint shortest paths by depth-first search on the levels. A state that is used or leads nowhere is removed.
+// Finds disjoint shortest paths by depth-first search on the levels. A state (entry or exit of a vertex) that is used
+// or leads nowhere is removed.
 std::int32_t SeparatorSearch::augment_phase() {
   const std::size_t count = band_.size();
   iterator_.assign(band_start_.begin(), band_start_.end() - 1);
@@ -197,7 +199,8 @@ void SeparatorSearch::apply_path() {
   }
 }
 
-// Marks the states from which the sink can be reached in the residual graph. A vertex on no path only has the exit.
+// Marks the states (entries and exits of vertices) from which the sink can be reached in the residual graph. A vertex
+// on no path only has the exit.
 void SeparatorSearch::mark_reaching_sink() {
   const std::size_t count = band_.size();
   reach_.assign(2 * count, 0);
@@ -216,7 +219,8 @@ void SeparatorSearch::mark_reaching_sink() {
       if (next_[b] >= 0) visit(2 * next_[b]);
       continue;
     }
-    // The states that lead into b are the exits of its neighbours, and b's own exit when b is on a path.
+    // The states that lead into the entry of vertex b are the exits of its neighbours, and b's own exit when b is on a
+    // path.
     for (std::int32_t e = band_start_[b]; e < band_start_[b + 1]; ++e) visit(2 * band_neighbour_[e] + 1);
     if (flags_[b] & on_path)
       visit(state + 1);
@@ -278,8 +282,8 @@ Cut SeparatorSearch::refine(const GraphView& graph, std::uint8_t* side) {
   return choose_cut(graph, side);
 }
 
-// Sorts the vertices by key_. Those within `share` of the weight on either side of the median form the band, in which a
-// minimum cut is then tried.
+// Sorts the vertices by key_ (a position or a breadth-first number). Those nearest to the median, up to the share
+// `share` of all vertices on either side, form the band in which a minimum cut is then tried.
 bool SeparatorSearch::try_keys(const GraphView& graph, std::uint8_t* side, Cut& best, double share) {
   poll();
   const std::int32_t n = graph.size;

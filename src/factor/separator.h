@@ -26,7 +26,7 @@ enum : std::uint8_t { side_left = 0, side_right = 1, side_between = 2 };
 
 struct Cut {
   std::int32_t separator = 0;        // number of vertices between the sides
-  std::int64_t left = 0, right = 0;  // weights of the two sides
+  std::int64_t left = 0, right = 0;  // number of vertices on the two sides
   bool usable() const noexcept { return left > 0 && right > 0; }
   double score() const noexcept;  // smaller is better: size times (1 + squared imbalance)
 };

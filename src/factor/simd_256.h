@@ -19,8 +19,8 @@ struct Double4 {
   static void store(double* p, Type v) noexcept { _mm256_storeu_pd(p, v); }
   static Type load_part(const double* p, int count) noexcept { return _mm256_maskload_pd(p, mask(count)); }
   static void store_part(double* p, Type v, int count) noexcept { _mm256_maskstore_pd(p, mask(count), v); }
-  // Does the same as store_part with whole stores, which later loads can take from the store buffer. It is meant for
-  // counts that are known at compile time.
+  // Stores the first `count` numbers of a vector without a mask, so that later loads can take them from the store
+  // buffer. It is meant for counts that are known at compile time.
   static void store_first(double* p, Type v, int count) noexcept {
     if (count >= 4) return store(p, v);
     __m128d rest = _mm256_castpd256_pd128(v);

@@ -18,12 +18,12 @@ struct Analysis {
   bool loaded = false;                              // loaded from bytes: the hash cannot be trusted
 };
 
-// One supernode of a path group: a row of `lanes` numbers for each of its columns, for the sites [low, low + used) of
-// the group.
+// One supernode (block of columns) on the elimination paths of a group of sites: a row of `lanes` numbers for each of
+// its columns, for the sites [low, low + used).
 struct PathBlock {
   std::int32_t supernode;
   std::int32_t low, used, lanes;
-  std::int64_t at;  // where its numbers begin
+  std::int64_t at;  // where its numbers begin in `values`
 };
 
 class PathBlocks final : public PathGroup {
@@ -33,7 +33,7 @@ class PathBlocks final : public PathGroup {
     return 8.0 * static_cast<double>(values.size()) + static_cast<double>(blocks.size() * sizeof(PathBlock));
   }
   std::int32_t sites = 0;
-  Buffer<PathBlock> blocks;  // supernodes ascending
+  Buffer<PathBlock> blocks;  // by supernode, ascending
   Buffer<double> values;
 };
 
@@ -64,7 +64,7 @@ class SupernodalFactor final : public Factor {
   void clear(const PathGroup& group, std::int32_t channels, double* z) const override;
   void project(const PathGroup& group, const double* z, std::int32_t channels, double* out) const override;
 
-  // Returns the supernodes on the paths of these unknowns, ascending.
+  // Returns the supernodes (blocks of columns) on the elimination paths of these unknowns, ascending.
   Vector<std::int32_t> path_union(Span<const std::int32_t> unknowns) const;
   const Symbolic& symbolic() const noexcept { return analysis_->symbolic; }
   const Plan& plan() const noexcept { return analysis_->plan; }

@@ -15,15 +15,18 @@
 namespace hf_inner {
 namespace {
 
-// One job sums this many columns of a top supernode. No result depends on it.
+// One thread's job sums this many columns of a supernode that is split. No result depends on it.
 constexpr std::int32_t piece_columns = 96;
-// A wave runs whole supernodes as jobs if the largest is at most this many times its fair share.
+// Each of several independent supernodes (blocks of columns) is one thread's job if the largest is at most this many
+// times its fair share.
 constexpr double even_share = 1.3;
-// A wave with fewer entries is never split: some 20 microseconds at 0.6 ns per entry, less than a batch of jobs costs.
+// Independent supernodes (blocks of columns) with fewer entries in all are never split: some 20 microseconds at 0.6 ns
+// per entry, less than a batch of jobs costs.
 constexpr double small_wave_entries = 30000;
-// One job multiplies this many rows below a supernode. No result depends on it.
+// One thread's job multiplies this many rows below a supernode's triangle. No result depends on it.
 constexpr std::int32_t piece_rows = 128;
-// A supernode with fewer entries is never split: some 25 microseconds, less than a batch of jobs costs.
+// A supernode (block of columns) with fewer entries is never split over threads: some 25 microseconds, less than a
+// batch of jobs costs.
 constexpr double least_cut = 40000;
 // One job converts this many numbers of the factor. No result depends on it.
 constexpr std::size_t preview_step = std::size_t{1} << 18;
@@ -78,8 +81,8 @@ struct BackwardPass {
     triangle(s);
   }
 
-  // Runs one wave as jobs. Each job is a whole supernode if there are many or small ones. Otherwise the jobs are pieces
-  // of their columns first, and their triangles after.
+  // Runs the backward sweep on one wave (independent supernodes) as jobs. Each job is a whole supernode if there are
+  // many or small ones. Otherwise the jobs are pieces of their columns first, and their triangles after.
   void wave(std::int32_t begin, std::int32_t end, JobRunner& jobs) const {
     const std::int32_t* top = plan.top.data();
     const auto pieces_of = [&](std::int32_t s) { return (symbolic.columns(s) + piece_columns - 1) / piece_columns; };
@@ -129,7 +132,7 @@ template <class T>
 struct ForwardScratch {
   ForwardScratch(Memory& memory, std::int32_t unknowns, std::int32_t below, std::int32_t channels)
       : place_of(memory, unknowns), product(memory, static_cast<std::size_t>(below) * channels + 8) {}
-  Buffer<std::int32_t> place_of;  // by row above the task: its place in the task's buffer
+  Buffer<std::int32_t> place_of;  // by row outside the task's subtrees: its place in the task's buffer
   Buffer<T> product;
 };
 
@@ -225,14 +228,15 @@ class ForwardPass {
 
   void solve(std::int32_t s, T* product) const noexcept {
     T* z = z_ + static_cast<std::int64_t>(symbolic_.first[s]) * channels_;
-    const bool narrow = symbolic_.columns(s) <= narrow_columns;  // stored inverted: its rows come first
+    // Its triangle is stored inverted, so its rows come first.
+    const bool narrow = symbolic_.columns(s) <= narrow_columns;
     if (!narrow) solve_triangle(s, z);
     multiply_rows(s, 0, symbolic_.below(s), z, product);
     if (narrow) solve_triangle(s, z);
   }
 
-  // Does the forward step of one supernode like the function above, with the rows of a large supernode split over the
-  // threads.
+  // Does the forward step of one supernode (block of columns) like the function above, with the rows of a large one
+  // split over the threads.
   void solve(std::int32_t s, T* product, JobRunner& jobs) const {
     const std::int32_t columns = symbolic_.columns(s), rows = symbolic_.below(s);
     if (jobs.thread_count() == 1 || static_cast<double>(columns) * rows < least_cut || rows <= piece_rows ||
@@ -298,7 +302,7 @@ Vector<std::int32_t> SupernodalFactor::path_union(Span<const std::int32_t> unkno
   for (const std::int32_t unknown : unknowns) nodes.push_back(pattern.supernode[pattern.position[unknown]]);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  // Follows every path up to the first marked supernode.
+  // Follows the elimination path of every unknown up to the first marked supernode.
   Vector<std::uint8_t> marked(static_cast<std::size_t>(pattern.supernodes), 0, &memory_);
   for (const std::int32_t s : nodes) marked[static_cast<std::size_t>(s)] = 1;
   const std::size_t starts = nodes.size();

@@ -9,7 +9,8 @@
 namespace hf_inner {
 namespace {
 
-// The supernodes while they merge. The index is the fundamental supernode, in postorder.
+// The supernodes (blocks of columns with equal rows) while they merge. The index is the fundamental supernode, in
+// postorder.
 struct Merging {
   Merging(Memory& memory, std::int32_t count)
       : first(memory, static_cast<std::size_t>(count) + 1),
@@ -23,11 +24,12 @@ struct Merging {
   Buffer<std::int32_t> parent;      // supernode tree
   Buffer<std::int32_t> into;        // the supernode that it joined, or -1
   Buffer<std::int32_t> width;       // its columns and those of all supernodes that joined it
-  Buffer<std::int32_t> below;       // rows below
-  Buffer<std::int32_t> head, next;  // present children
+  Buffer<std::int32_t> below;       // number of rows below its triangle
+  Buffer<std::int32_t> head, next;  // lists of the present children
 };
 
-// Finds chains of columns whose patterns nest without a zero: parent[j] = j + 1 and count[j] = count[j + 1] + 1.
+// Finds chains of columns whose non-zeros nest exactly. Column j + 1 is then the parent of j in the elimination tree,
+// and has one non-zero less.
 std::int32_t find_fundamental(const EliminationTree& tree, std::int32_t n, std::int32_t* supernode,
                               std::int32_t* first) {
   std::int32_t count = 0;
@@ -40,8 +42,8 @@ std::int32_t find_fundamental(const EliminationTree& tree, std::int32_t n, std::
   return count;
 }
 
-// Tries to merge the children of supernode f into f, those that add the fewest zeros first. A child that joins passes
-// its own children on to f.
+// Tries to merge the child supernodes of f into f, those that add the fewest stored zeros first. A child that joins
+// passes its own children on to f.
 void merge_children(Merging& m, std::int32_t f, Vector<std::pair<std::int64_t, std::int32_t>>& trial) {
   const auto zeros = [&](std::int32_t c) {
     return static_cast<std::int64_t>(m.width[c]) * (m.width[f] + m.below[f] - m.below[c]);
@@ -54,7 +56,7 @@ void merge_children(Merging& m, std::int32_t f, Vector<std::pair<std::int64_t, s
     m.into[c] = f;
     m.width[f] += m.width[c];
   }
-  // Rebuilds the list of children: those that stayed, and the children of those that joined.
+  // Rebuilds the list of child supernodes: those that stayed, and the children of those that joined.
   std::int32_t kept = -1;
   for (const auto& [unused, c] : trial) {
     if (m.into[c] < 0) {
@@ -71,8 +73,8 @@ void merge_children(Merging& m, std::int32_t f, Vector<std::pair<std::int64_t, s
   m.head[f] = kept;
 }
 
-// Numbers the merged tree in postorder. Fills the final position of every tree label, and the arrays of `out` that
-// describe columns.
+// Numbers the tree of merged supernodes in postorder. Fills the final position of every tree label (old position), and
+// the arrays of `out` that describe columns.
 void number_supernodes(const Merging& m, std::int32_t fundamental, Memory& memory, Symbolic& out,
                        std::int32_t* final_of) {
   const std::size_t count = static_cast<std::size_t>(fundamental);
@@ -86,7 +88,8 @@ void number_supernodes(const Merging& m, std::int32_t fundamental, Memory& memor
   std::int32_t supernodes = 0;
   for (std::int32_t s = fundamental - 1; s >= 0; --s) {
     if (m.into[s] >= 0) {
-      // s is a member of the supernode that it finally belongs to. Members come in ascending order.
+      // Finds the merged supernode to which supernode s finally belongs, and adds s to it. Members come in ascending
+      // order.
       std::int32_t root = m.into[s];
       while (m.into[root] >= 0) root = m.into[root];
       member_next[s] = member_head[root], member_head[root] = s;
@@ -133,8 +136,8 @@ void number_supernodes(const Merging& m, std::int32_t fundamental, Memory& memor
   }
 }
 
-// Makes the row lists. For every row, in ascending order, it walks from the supernode of each smaller neighbour up to
-// the row's own supernode. So the lists are ascending. `label_at` maps final rows to tree labels.
+// Makes the row lists of the supernodes. For every row, in ascending order, it walks from the supernode of each smaller
+// neighbour up to the row's own supernode. So the lists are ascending. `label_at` maps final rows to tree labels.
 void make_row_lists(const EliminationTree& tree, const std::int32_t* final_of, const std::int32_t* label_at,
                     Memory& memory, Symbolic& out) {
   const std::int32_t n = out.size;

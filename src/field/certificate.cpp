@@ -26,8 +26,8 @@
 namespace hf_inner {
 namespace {
 
-// Default tolerances. All engines stay well below them. The engine updown has sites that are penalties, which meet
-// their values only to about 1 / penalty.
+// Default tolerances of the errors. All engines (ways to solve) stay well below them. The engine updown treats sites as
+// penalties, which meet their values only to about 1 / penalty.
 constexpr double exact_tolerance = 1e-8, penalty_tolerance = 1e-5;
 
 // The smallest and largest site value of each component and channel.
@@ -44,7 +44,8 @@ struct Ranges {
     }
   }
   double range(std::size_t i) const noexcept { return high[i] - low[i]; }
-  // Returns the unit of errors: the range of the site values, or their size if the range is 0.
+  // Returns the unit of errors for a component and channel: the range of the site values, or their size if the range is
+  // 0.
   double unit(std::size_t i) const noexcept {
     const double size = std::max(std::fabs(low[i]), std::fabs(high[i]));
     return range(i) > 0 ? range(i) : size > 0 ? size : 1.0;
@@ -52,7 +53,7 @@ struct Ranges {
   Vector<double> low, high;
 };
 
-// Raises `largest` to `error` if that is larger. An error that is not finite counts as infinite.
+// Raises `largest` to `error` if `error` is larger. An error that is not finite counts as infinite.
 bool raise(double& largest, double error) noexcept {
   const double wrong = std::isfinite(error) ? error : HUGE_VAL;
   if (!(wrong > largest)) return false;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double pi = 3.141592653589793238462643383279502884;
 // If the angles of a fan (radians), or a sum of unit directions, are smaller than these limits, they are mere rounding
-// and give no direction. Larger limits would make more vertices irregular.
+// and give no direction. Larger limits would make more vertices irregular (without a single fan of triangles).
 constexpr double least_angle = 1e-9, least_sum = 1e-9;
 // If 1 + cosine of two normals is below this number, they count as opposite. No smallest rotation exists between them.
 constexpr double opposite = 1e-12;
@@ -34,7 +34,8 @@ struct Corner {
   double angle;
 };
 
-// The triangles around a vertex: whether they form one regular fan, whether it is closed, and the scale of its angles.
+// Describes the triangles around a vertex: whether they form one fan, whether it is closed, and the scale of its
+// angles.
 struct Fan {
   bool regular = false, closed = false;
   double scale = 1;
@@ -55,7 +56,7 @@ class FanMaker {
       triangle_[at(cursor[at(mesh.corners[c])]++)] = static_cast<Index>(c / 3);
   }
 
-  // Computes the angle of each neighbour of v and writes it to `angles`.
+  // Computes the angle of the edge to each neighbour of v and writes it to `angles`.
   Fan make(Index v, double* angles) {
     corners_.clear();
     for (Index i = start_[at(v)]; i < start_[at(v) + 1]; ++i) {
@@ -67,7 +68,8 @@ class FanMaker {
     Fan fan;
     const auto repeated = [](const Corner& a, const Corner& b) { return a.first == b.first; };
     if (std::adjacent_find(corners_.begin(), corners_.end(), repeated) != corners_.end()) return fan;
-    // An open fan starts at the neighbour where no triangle ends. Two such neighbours mean that there are two fans.
+    // A vertex on a border has an open fan of triangles. It starts at the neighbour where, counter-clockwise, no
+    // triangle ends. Two such neighbours mean that there are two fans.
     const std::size_t neighbours = at(topology_.neighbour_start[at(v) + 1] - topology_.neighbour_start[at(v)]);
     if (neighbours != corners_.size() && neighbours != corners_.size() + 1) return fan;
     fan.closed = neighbours == corners_.size();
@@ -119,7 +121,7 @@ void plane_of(Vec3 n, Vec3& x, Vec3& y) noexcept {
   y = cross(n, x);
 }
 
-// Turns the frame so that the angles of the edges fit the projected edges best.
+// Turns the vertex's frame in its tangent plane, so that the angles of the edges fit the projected edges best.
 void fit_frame(const Mesh& mesh, const Topology& topology, Index v, const double* angles, Connection& out) {
   Vec3 &x = out.x[at(v)], &y = out.y[at(v)];
   std::complex<double> sum = 0;
@@ -217,7 +219,7 @@ Vector<Index> edge_path(const Mesh& mesh, const Topology& topology, Index from, 
   struct Reached {
     double distance;
     Index vertex, edge;
-    bool operator<(const Reached& o) const noexcept {  // the nearest on top of the heap
+    bool operator<(const Reached& o) const noexcept {  // the nearest first in the heap
       return distance != o.distance ? distance > o.distance : vertex != o.vertex ? vertex > o.vertex : edge > o.edge;
     }
   };

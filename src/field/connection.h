@@ -49,8 +49,8 @@ struct Connection {
 
   Vector<Vec3> normal, x, y;     // orthonormal at every vertex, counter-clockwise seen from the normal
   Vector<double> rotation;       // along an edge from its first vertex to its second; in (-pi, pi]
-  Vector<double> curvature;      // of a triangle; at irregular corners a round trip, in (-pi, pi]
-  Vector<std::uint8_t> regular;  // by vertex
+  Vector<double> curvature;      // of a triangle; at irregular corners the turn of a round trip, in (-pi, pi]
+  Vector<std::uint8_t> regular;  // by vertex: its triangles form one fan of one orientation
   Vector<std::uint8_t> closed;   // by component: every vertex is regular and inside
   std::uint32_t irregular_count = 0;
 };

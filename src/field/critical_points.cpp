@@ -10,7 +10,7 @@ namespace {
 
 struct Link {
   Index below = 0, above = 0;              // neighbours
-  Index edges_below = 0, edges_above = 0;  // of the ring, both ends below or above
+  Index edges_below = 0, edges_above = 0;  // edges between neighbours: both ends below or above
 };
 
 }  // namespace

@@ -18,8 +18,8 @@ using Complex = std::complex<double>;
 constexpr double two_pi = 6.283185307179586476925286766559;
 // Largest coordinate of a vector, so that the square of its length stays finite.
 constexpr double most_coordinate = 1e150;
-// Least tangent part of a unit vector; in a smaller part the direction is mere rounding. A larger limit would refuse
-// more vectors that are nearly normal to the surface.
+// The tangent part of a unit vector must be at least this long; in a smaller part the direction is mere rounding. A
+// larger limit would refuse more vectors that are nearly normal to the surface.
 constexpr double least_tangent = 1e-9;
 
 // Raises |z| e^{i phi} to |z| e^{i n phi}, where n is the degree.
@@ -229,7 +229,8 @@ void DirectionField::solve(Vec3* out) const {
   const Vector<Complex> field = solved();
   for (std::size_t v = 0; v < field.size(); ++v)
     out[v] = solver_.connection().to_space(static_cast<Index>(v), root(field[v], solver_.degree()));
-  // Constrained vertices get their own vectors bit for bit, whichever root the field takes.
+  // Constrained vertices get their own vectors bit for bit, whichever of its `degree` directions the field takes
+  // elsewhere.
   for (const DirectionConstraint& c : constraints_) {
     if (c.vertex >= 0) out[c.vertex] = solver_.connection().to_space(c.vertex, c.vector);
   }
@@ -240,8 +241,8 @@ Vector<Singularity> DirectionField::singularities() const {
   const Core& core = solver_.core();
   const Connection& connection = solver_.connection();
   const Index n = solver_.degree();
-  // Stores, for each edge, how much more the field turns along it than the connection does. Seen from the other end,
-  // the number is the same with the opposite sign.
+  // Stores, for each edge, how much more the field turns along it than a direction that is carried along the edge. Seen
+  // from the other end, the number is the same with the opposite sign.
   Vector<double> turn(at(core.topology.edge_count()), 0.0, &memory());
   for (Index e = 0; e < core.topology.edge_count(); ++e) {
     const Complex from = field[at(core.topology.first(e))], to = field[at(core.topology.second(e))];

@@ -21,15 +21,15 @@
 namespace hf_inner {
 
 struct DirectionConstraint {
-  std::int32_t vertex = -1;                  // inner vertex; -1 marks a free slot
+  std::int32_t vertex = -1;                  // inner vertex; -1 marks an unused entry
   std::uint32_t given_vertex = HF_NO_INDEX;  // the vertex as the caller named it
   std::complex<double> vector;               // in the frame of the vertex
 };
 
 struct Singularity {
   std::int32_t triangle;  // of the inner mesh
-  std::int32_t vertex;    // its corner of the shortest vector
-  std::int32_t index;     // times the degree
+  std::int32_t vertex;    // the corner where the field's vector is shortest
+  std::int32_t index;     // turns of the field around it, times the degree
 };
 
 class DirectionField {
@@ -43,11 +43,11 @@ class DirectionField {
   void set_vectors(std::uint32_t count, const std::uint32_t* sites, const double* vectors);
   void rotate(std::uint32_t count, const std::uint32_t* sites, const double* angles);
 
-  // Makes a copy with the same constraints, without the undo stack. Both share the system.
+  // Makes a copy with the same constraints, without the undo stack. Both share matrix and factor.
   DirectionField(const DirectionField& other);
   DirectionField& operator=(const DirectionField&) = delete;
-  // undo restores the last record and redo reverts the last undo, both bit for bit. They throw HF_ERROR_NO_RECORD if
-  // there is no record.
+  // record stores the constraints, undo restores the last record, and redo reverts the last undo, both bit for bit.
+  // They throw HF_ERROR_NO_RECORD if there is no record.
   void record();
   void undo();
   void redo();
@@ -81,7 +81,7 @@ class DirectionField {
 
   DirectionSolver solver_;
   std::uint32_t site_limit_;
-  Vector<DirectionConstraint> constraints_;  // by slot
+  Vector<DirectionConstraint> constraints_;  // by constraint number
   std::uint32_t count_ = 0;
   History<Record> history_;
 };

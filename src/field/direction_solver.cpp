@@ -15,7 +15,8 @@ Index DirectionSolver::eliminated_count() const noexcept {
 DirectionCounters DirectionSolver::counters() const noexcept {
   const ConstraintCounts counts = constraints_.counts();
   DirectionCounters counters;
-  counters.factorisations = 1 + counts.rebases;  // that of the system, and those of rebases
+  // One of the system, and one per rebase (constraints taken into the factor).
+  counters.factorisations = 1 + counts.rebases;
   counters.path_solves = counts.path_solves, counters.sweeps = counts.sweeps;
   counters.bytes = constraints_.row_bytes() + constraints_.base_bytes();
   return counters;
@@ -45,7 +46,7 @@ void DirectionSolver::solve(Span<const std::complex<double>> values, std::comple
   const std::size_t unknowns = at(system_->matrix.size());
   Workspace z(core().workspaces, unknowns);
   ConstraintSystem::Answer answer(memory());
-  // A complex number is its real and imaginary part in order, which are the values of two slots.
+  // A complex number is its real and imaginary part in order. They are the values of two sites.
   constraints_.sweep(reinterpret_cast<const double*>(values.data()), 1, 0, 1, answer, z.data());
   const Span<const Index> row = system_->factor->position();
   for (Index v = 0; v < core().size(); ++v) {

@@ -6,9 +6,9 @@
 // The field z minimises E. It has one complex unknown per vertex, which is two real unknowns. The degree of the field
 // is n. The cotangent weights w_ij are raised to at least 1e-3 of their median. The matrix K of E is positive definite
 // on curved surfaces. K is singular where every round trip brings a vector back unturned, such as on a flat patch or a
-// cylinder. So one vertex of every component is pinned. The constraint system removes the effect of the pins from the
-// solution, with their elimination paths. A constraint consists of two sites, one for each real unknown. A new value of
-// a constraint costs a dense solve and a backward sweep.
+// cylinder. So one vertex of every component is pinned (its diagonal is raised). The constraint system removes the
+// effect of the pinned unknowns from the solution, with their elimination paths. A constraint consists of two sites,
+// one for each real unknown. A new value of a constraint costs a dense solve and a backward sweep.
 #pragma once
 #include "engine/constraint_system.h"
 #include "field/direction_system.h"
@@ -25,26 +25,27 @@ class DirectionSolver {
   // degree: 1 for vectors, 2 for lines, 4 for crosses; at least 1. Throws what Factor::make throws.
   DirectionSolver(std::shared_ptr<const Core> core, std::int32_t degree)
       : DirectionSolver(make_owner_in<DirectionSystem>(core->memory, core, degree)) {}
-  // Makes a solver without constraints. Other solvers may share the system.
+  // Makes a solver without constraints. Other solvers may share `system` (matrix and factor).
   explicit DirectionSolver(std::shared_ptr<const DirectionSystem> system)
       : system_(std::move(system)), constraints_(system_->pinned_operator()) {}
-  // Makes a copy with the same constraints. Both share the system, and also paths and dense blocks until one is edited.
-  // The counters of the copy start at zero.
+  // Makes a copy with the same constraints. Both share the factor, and also elimination paths and dense systems until
+  // one is edited. The counters of the copy start at zero.
   DirectionSolver(const DirectionSolver& other) : DirectionSolver(other.system_) {
     constraints_.restore(other.constraints_.state());
   }
   DirectionSolver& operator=(const DirectionSolver&) = delete;
 
-  // Removes the constraints of some slots and puts constraints at vertices into other slots. A slot is the number of a
-  // constraint; it may be in both lists. The edit does everything or throws.
+  // Removes some constraints and adds others at vertices. Each has a number (slot), which may be in both lists. The
+  // edit does everything or throws.
   struct Edit {
     Span<const Index> remove, add, vertices;
   };
   void edit(const Edit& edit);
-  // Moves the constrained vertices into the factor. Throws HF_ERROR_NO_SITES if there are none.
+  // Factorises again with the constrained vertices eliminated, so that each costs no dense solve. Throws
+  // HF_ERROR_NO_SITES if there are none.
   void rebase() { constraints_.rebase(*core().jobs); }
-  // Computes z of every welded vertex, in its frame and raised to the degree. values: by slot, in the same form.
-  // Vertices of components without a constraint get 0.
+  // Computes z of every welded vertex, in its frame and raised to the degree. values: by constraint number, in the same
+  // form. Vertices of components without a constraint get 0.
   void solve(Span<const std::complex<double>> values, std::complex<double>* field) const;
 
   const Core& core() const noexcept { return *system_->core; }
@@ -68,7 +69,8 @@ class DirectionSolver {
   Memory& memory() const noexcept { return *core().memory; }
 
   std::shared_ptr<const DirectionSystem> system_;  // before the constraints, which read it
-  ConstraintSystem constraints_;                   // slot 2 s + part is a part of constraint s
+  // Site 2 s is the real part of constraint s, site 2 s + 1 the imaginary part.
+  ConstraintSystem constraints_;
 };
 
 }  // namespace hf_inner

@@ -14,9 +14,8 @@ namespace {
 // missing edges cost little. Many fill the factor: on a jittered torus of 120,000 vertices the work grew two hundred
 // times.
 constexpr double missing_share = 1e-4;
-constexpr std::size_t piece = 8192;  // vertices a job takes
-// Shares of progress: the connection; then an order of the system's own, which is seldom needed. The factor has the
-// rest.
+constexpr std::size_t piece = 8192;  // vertices of one thread's job
+// Reported progress after the connection, and after an order of the system's own, which is seldom needed.
 constexpr float progress_connection = 0.05f, progress_ordered_directions = 0.3f;
 
 // Returns the number of mesh edges that the surface's operator does not have.
@@ -134,8 +133,9 @@ void DirectionSystem::make_matrix() {
   });
 }
 
-// Chooses the pinned unknowns, factorises the matrix A with raised diagonals there, and solves the pins' elimination
-// paths Y_g. It also computes C = Y_g'Y_g - I / beta, with beta the amount by which the diagonals are raised.
+// Chooses the pinned unknowns, factorises the matrix A = G G' with raised diagonals there, and solves their elimination
+// paths Y_g = G^-1 e_g. It also computes C = Y_g'Y_g - I / beta, with beta the amount by which the diagonals are
+// raised.
 void DirectionSystem::make_pins() {
   const std::size_t components = core->ground.size();
   beta.assign(components, 0.0);

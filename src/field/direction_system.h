@@ -17,7 +17,7 @@ class DirectionSystem {
   DirectionSystem(std::shared_ptr<const Core> core, Index degree);
   Index unknown(Index vertex, Index part) const noexcept { return 2 * position[at(vertex)] + part; }
   Index vertex_of(Index unknown) const noexcept { return order[at(unknown / 2)]; }
-  // Returns the operator K for a ConstraintSystem, with two pinned unknowns in each component.
+  // Returns the operator K for a ConstraintSystem. Each component has two pinned unknowns (raised diagonals).
   PinnedOperator pinned_operator() const noexcept;
 
   std::shared_ptr<const Core> core;  // first member: outlives what is allocated from its memory
@@ -25,9 +25,9 @@ class DirectionSystem {
   Connection connection;
   Vector<Index> position, order;         // of every vertex in the order of elimination, and back
   SymmetricMatrix matrix;                // K, unknowns 2 position + part
-  std::shared_ptr<const Factor> factor;  // of A
-  Vector<double> beta;                   // by component
-  Vector<Index> pins;                    // unknowns, two by component
+  std::shared_ptr<const Factor> factor;  // of K with raised diagonals at `pins`
+  Vector<double> beta;                   // by component: how much the diagonals are raised
+  Vector<Index> pins;                    // unknowns with raised diagonals, two by component
   PinPaths pin_paths;
   double operator_ms = 0;
 

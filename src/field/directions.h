@@ -11,7 +11,7 @@ namespace hf_inner {
 // A triangle of non-zero area in its own plane. The corners are (0, 0), (along, 0) and (px, py).
 struct TriangleFrame {
   double along, px, py;
-  std::int32_t row[3];  // of the corners in the heat
+  std::int32_t row[3];  // rows of the three corners in `heat`
   std::int32_t component;
 };
 

@@ -99,7 +99,8 @@ void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uin
       while (level[at(neighbour[at(i)])] + 1 != level[at(v)]) ++i;
       v = neighbour[at(i)];
     }
-    // Takes two neighbouring levels, because the vertices of one level need not be edge-connected.
+    // The ring takes two neighbouring levels of the search, because the vertices of one level need not be
+    // edge-connected.
     head = tail = 0;
     queue[tail++] = v, middle[at(v)] = 1;
     while (head < tail) {
@@ -113,7 +114,8 @@ void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uin
   }
 }
 
-// Solves for u. Every vertex is a source of its area, and the middle ring of each component takes all of it in evenly.
+// Solves the Poisson equation for u. Every vertex is a source of its area. The ring of vertices around the middle of
+// each component takes all of it in evenly.
 void solve_poisson(const Core& core, const Vector<double>& total, Vector<double>& u) {
   Vector<std::uint8_t> middle(u.size(), 0, core.memory.get());
   mark_middles(core, total, middle);
@@ -123,8 +125,8 @@ void solve_poisson(const Core& core, const Vector<double>& total, Vector<double>
   }
   Workspace z(core.workspaces, u.size());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {
-    // A ring without area takes nothing in. The right side of its component is then 0, so nothing flows into the pinned
-    // vertex.
+    // A middle ring without area takes nothing in. The right side of its component is then 0, so nothing flows into the
+    // vertex that makes the matrix regular.
     const double outside = taken[c] > 0 ? 1 : 0, inside = taken[c] > 0 ? 1 - total[c] / taken[c] : 0.0;
     for (std::size_t v = begin; v < end; ++v) u[v] = core.areas[v] * (middle[v] ? inside : outside);
   });
@@ -136,11 +138,11 @@ double length_of(double fall, bool poisson) noexcept {
   return poisson ? std::sqrt(2 * fall) : fall;
 }
 
-// Adds the peaks of found.field that are long enough to the list, with their lengths.
+// Adds the maxima (tips) of found.field to the list if their limbs are long enough, with the lengths.
 void propose(const Core& core, const Vector<double>& total, double least_length, bool poisson, Extremities& found) {
   const Vector<double>& u = found.field;
   const Vector<Peak> peaks = find_peaks(core.topology, u, *core.memory);
-  // base[c]: the level to which the field falls for the highest point of component c
+  // // base[c]: level from which the length of the highest tip of component c is measured.
   Vector<double> base(total.size(), 0.0, core.memory.get());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {
     double sum = base[c];

@@ -11,13 +11,14 @@ namespace hf_inner {
 namespace {
 
 constexpr Index group_size = 8;
-constexpr std::int64_t piece = 8192;  // triangles of one job
-// The least time step, as a length over the box diagonal. With a smaller step, the heat at the far end would be too
-// small for a double.
+constexpr std::int64_t piece = 8192;  // triangles of one thread's job
+// The heat's time step is at least the square of this length (in box diagonals). With a smaller step, the heat at the
+// far end would be too small for a double.
 constexpr double least_step = 1.0 / 250;
-// Least mass of a vertex, as a share of the mean mass. A vertex without area needs a positive diagonal.
+// A vertex's area counts as at least this share of the mean. A vertex without area needs a positive diagonal.
 constexpr double least_mass = 1e-12;
-// A triangle with less area over its squared length is left out; rounding decides the direction of its gradient.
+// A triangle with less area over its squared length is left out of the distance; rounding decides the direction of its
+// gradient.
 constexpr double least_height = 1e-9;
 
 // Shares of progress of a mean distance: its sources are spread, the distances are summed, the sum is integrated.
@@ -86,9 +87,9 @@ void Geodesics::make_frames() {
   }
 }
 
-// Sums the unit directions X of each triangle t over the channels, with weights. The result is added to sums[2 t] and
-// sums[2 t + 1], in the frame of the triangle. The array `heat` has the index row * channels + c, with rows in factor
-// order. The array `weights` has the index component * channels + c.
+// Sums the unit directions X of falling heat in each triangle t over the channels, with weights. The result is added to
+// sums[2 t] and sums[2 t + 1], in the frame of the triangle. The array `heat` has the index row * channels + c, with
+// rows in factor order. The array `weights` has the index component * channels + c.
 void Geodesics::add_directions(const double* heat, Index channels, const double* weights, Vector<double>& sums) const {
   const DirectionSums job = {frames_.data(), heat, weights, channels, sums.data()};
   const std::int64_t count = static_cast<std::int64_t>(frames_.size());
@@ -108,7 +109,8 @@ void Geodesics::integrate(const Vector<double>& sums, double* out) const {
   for (std::size_t t = 0; t < frames_.size(); ++t) {
     const TriangleFrame& f = frames_[t];
     const double x = 0.5 * sums[2 * t], y = 0.5 * sums[2 * t + 1];
-    // Adds to each corner half the dot product of X and n x e, where e is the edge opposite to the corner.
+    // Adds to each corner half the dot product of X and n x e. X is the direction of falling heat, n the triangle's
+    // normal, and e the edge opposite to the corner.
     z[at(f.row[0])] += -f.py * x + (f.px - f.along) * y;
     z[at(f.row[1])] += f.py * x - f.px * y;
     z[at(f.row[2])] += f.along * y;

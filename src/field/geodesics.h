@@ -44,7 +44,7 @@ class Geodesics {
   void integrate(const Vector<double>& sums, double* out) const;
 
   std::shared_ptr<const Core> core_;
-  Vector<TriangleFrame> frames_;  // of the triangles with area, neighbours in the factor near one another
+  Vector<TriangleFrame> frames_;  // triangles with area, in the order of their rows in the factor
   std::shared_ptr<const Factor> heat_;
 };
 

@@ -115,7 +115,7 @@ class Tracer {
     const bool turn = backward(e, topology_.edge_triangle[at(i)]);
     for (;;) {
       const Index t = topology_.edge_triangle[at(i)];
-      if (visited_[at(t)] == stamp_) break;  // around
+      if (visited_[at(t)] == stamp_) break;  // the line is closed
       append(e);
       visited_[at(t)] = stamp_;
       Index next = e;

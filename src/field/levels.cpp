@@ -9,11 +9,11 @@
 namespace hf_inner {
 namespace {
 
-// A triangle with its values in ascending order, its area, and its area times |grad u| of the field u.
+// A triangle's field values u in ascending order, its area, and its area times |grad u|.
 struct Part {
   double low, middle, high, area, rise;
 
-  // Returns the area of the part with values below c.
+  // Returns the area of that part of the triangle where the field is below c.
   double area_below(double c) const noexcept {
     if (c <= low) return 0;
     if (c >= high) return area;
@@ -22,7 +22,8 @@ struct Part {
   }
 };
 
-// Returns the triangles that have values. The values are scaled so that the range of the field is 0 to 1.
+// Returns the triangles whose corners all have field values. The values are scaled so that the range of the field is 0
+// to 1.
 Vector<Part> parts_of(const Mesh& mesh, Span<const double> field, double& low, double& high, Memory& memory) {
   Vector<Part> parts(&memory);
   parts.reserve(at(mesh.triangle_count()));
@@ -89,15 +90,16 @@ void equal_areas(const Vector<Part>& parts, Span<double> out, Memory& memory) {
 // A triangle whose values differ by less than this share of the range counts as flat. It gets no lines and no width,
 // because a whole component may be constant.
 constexpr double flat = 1e-9;
-// Number of cells of each kind: equal steps of the value, and quantiles. More cells cost time in proportion.
+// The field's range is cut into cells to sum areas: at most this many equal steps, and as many quantiles. Time grows
+// with their number.
 constexpr std::size_t most = 2048;
-// A cell has at least this height. Thinner cells would collect rounding errors, as values are exact to 1e-16 of the
-// range.
+// A cell (part of the field's range) has at least this height. Thinner cells would collect rounding errors, as values
+// are exact to 1e-16 of the range.
 constexpr double least_cell = 1e-9;
 
 void equal_widths(const Vector<Part>& parts, Span<double> out, Memory& memory) {
-  // The limits of the cells are equal steps of the value, and quantiles of the triangles' middle values. The quantiles
-  // put more cells where most of the surface is.
+  // The limits of the cells (parts of the field's range) are equal steps of the value, and quantiles of the triangles'
+  // middle values. The quantiles put more cells where most of the surface is.
   Vector<double> middle(&memory), edge(&memory);
   middle.reserve(parts.size());
   for (const Part& part : parts) {
@@ -136,8 +138,8 @@ void equal_widths(const Vector<Part>& parts, Span<double> out, Memory& memory) {
     }
   }
   for (std::size_t k = 0; k < cells; ++k) {
-    // The width of a cell is its area over the mean length of its lines. That mean length is rise[k] over the height of
-    // the cell, where rise[k] sums area times |grad u| in the cell.
+    // The width of a cell (part of the field's range) is its area over the mean length of its iso-lines. That mean
+    // length is rise[k] over the height of the cell, where rise[k] sums area times |grad u| in the cell.
     width[k + 1] = width[k] + (rise[k] > 0 ? area[k] * (edge[k + 1] - edge[k]) / rise[k] : 0.0);
   }
   std::size_t k = 0;

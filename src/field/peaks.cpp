@@ -27,7 +27,7 @@ Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memo
   for (std::size_t v = 0; v < n; ++v) {
     if (basin[v] == static_cast<Index>(v)) peaks.push_back({static_cast<Index>(v), Mesh::none});
   }
-  // Finds the peak above each vertex. Every round at least halves the remaining path.
+  // Finds the local maximum (peak) above each vertex. Every round at least halves the remaining path.
   for (Index changed = 1; changed != 0;) {
     changed = 0;
     for (std::size_t v = 0; v < n; ++v) {
@@ -36,7 +36,7 @@ Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memo
     }
   }
 
-  // Lists the edges between two basins.
+  // Lists the edges between the basins (vertices below one peak) of different peaks.
   Vector<Index> between(edge_ends / 2 + 1, &memory);
   std::size_t count = 0;
   for (std::size_t i = 0; i < edge_ends; i += 2) {
@@ -59,7 +59,7 @@ Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memo
     if (p.vertex != q.vertex) return p.height != q.height ? p.height > q.height : p.vertex > q.vertex;
     return p.a != q.a ? p.a < q.a : p.b < q.b;
   });
-  Vector<Index> parent(peaks.size(), &memory);  // the root of a set is its highest peak
+  Vector<Index> parent(peaks.size(), &memory);  // union-find of joined peaks; the root of a set is its highest peak
   for (std::size_t i = 0; i < peaks.size(); ++i) parent[i] = static_cast<Index>(i);
   const auto find = [&](Index i) {
     while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];

@@ -42,7 +42,8 @@ void ScalarField::prepare_rebase() {
   preparing_ = false;
 }
 
-// Replaces the engine by the prepared one, brought up to date. On any failure the present engine stays; it is correct.
+// Replaces the engine (the solver of the equations) by the one that prepare_rebase made, brought up to date. On any
+// failure the present engine stays; it is correct.
 void ScalarField::adopt() noexcept {
   if (!prepared_) return;
   try {
@@ -51,7 +52,7 @@ void ScalarField::adopt() noexcept {
     prepared_->engine->succeed(*engine_);
     engine_ = std::move(prepared_->engine);
   } catch (...) {
-    // Memory ran out, so the prepared engine is dropped.
+    // Memory ran out, so the engine that prepare_rebase made is dropped.
   }
   prepared_.reset();
 }
@@ -71,8 +72,8 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
       engine_->edit(difference.edit());
     } catch (Error& error) {
       if (error.code() != HF_ERROR_CONFLICT || error.index() >= difference.add.size()) throw;
-      // The engine's error index is a position in its own list of sites. Finds the position in the caller's list
-      // instead.
+      // The error index of the engine (the solver of the equations) is a position in its own list of sites. Finds the
+      // position in the caller's list instead.
       const std::size_t found = static_cast<std::size_t>(difference.add[error.index()]);
       const std::int32_t owner = next.slots()[found].owner;
       const std::uint32_t slot = static_cast<std::uint32_t>(owner >= 0 ? owner : difference.add[error.index()]);
@@ -158,7 +159,7 @@ void ScalarField::solve_at(Span<const std::int32_t> vertices, double* out) const
 }
 
 void ScalarField::flux(Vector<double>& out, double* field) const {
-  // After an undo the engine may have more slots than the site set.
+  // After an undo the engine may have numbers (slots) for more sites than the site set.
   const std::size_t channels = static_cast<std::size_t>(sites_.channels()), slots = sites_.slots().size();
   out.assign(std::max(slots, static_cast<std::size_t>(engine_->slot_count())) * channels, 0.0);
   // The engine green computes fluxes without a sweep; other engines need to solve for the field.

@@ -57,8 +57,8 @@ class ScalarField {
   void solve_into(FieldSink& sink) const;
   PreviewInfo solve_preview(std::int32_t corrections, double* field) const;
   void solve_at(Span<const std::int32_t> vertices, double* out) const;
-  // Computes the flux of each site. out: slot * channels + c; all 0 without sites. field: null, or receives the field
-  // as solve does; without sites it is not written.
+  // Computes the flux of each site. out: index of the site (slot) * channels + c; all 0 without sites. field: null, or
+  // receives the field as solve does; without sites it is not written.
   void flux(Vector<double>& out, double* field = nullptr) const;
 
  private:
@@ -79,7 +79,7 @@ class ScalarField {
   SiteSet sites_;
   std::shared_ptr<SiteSolver> engine_;
   History<Record> history_;
-  std::mutex guard_;  // sites_, engine_ and prepared_, between prepare_rebase and the functions that change them
+  std::mutex guard_;  // guards sites_, engine_ and prepared_ while prepare_rebase runs
   std::atomic<bool> preparing_{false};
   std::optional<Record> prepared_;  // a rebased engine and the sites it was made for
 };

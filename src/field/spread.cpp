@@ -10,22 +10,23 @@ namespace {
 
 constexpr double far = std::numeric_limits<double>::infinity();
 
-// This is the graph that is searched. Its nodes are patches of vertices, or single vertices.
+// This is the graph that is searched. Its nodes, called patches, are small groups of vertices or single vertices.
 struct Patches {
   explicit Patches(Memory& memory)
       : middle(&memory), component(&memory), area(&memory), start(&memory), neighbour(&memory), length(&memory) {}
   Vector<Index> middle, component;
   Vector<double> area;
-  Vector<Index> start, neighbour;  // of patch p: neighbour[start[p] .. start[p + 1])
-  Vector<double> length;           // to each neighbour
+  Vector<Index> start, neighbour;  // patches beside patch p: neighbour[start[p] .. start[p + 1])
+  Vector<double> length;           // distance to each neighbour
 };
 
-// A patch has at most patch_size vertices. Patches are used if each sample gets at least patches_per_sample of them.
-// Larger patches make fewer searches and coarser samples. More patches per sample make finer samples, and more
-// components are searched vertex by vertex.
+// A patch (small group of vertices) has at most patch_size vertices. Patches are searched instead of vertices if each
+// sample gets at least patches_per_sample of them. Larger patches make fewer searches and coarser samples. More patches
+// per sample make finer samples, and more components are searched vertex by vertex.
 constexpr Index patch_size = 24, patches_per_sample = 16;
 
-// Grows the patch of the vertex list[begin] by two edges, over vertices without a patch, and appends them to `list`.
+// Grows the patch (group of vertices) around the vertex list[begin] by two edges, over vertices without a patch, and
+// appends them to `list`.
 void grow_patch(const Topology& topology, Index patch, std::size_t begin, Vector<Index>& patch_of,
                 Vector<Index>& list) {
   std::size_t ring = begin;
@@ -63,7 +64,7 @@ Patches make_patches(const Mesh& mesh, const Topology& topology, const Vector<do
     patches.area.push_back(area);
   }
   list_start.push_back(static_cast<Index>(n));
-  // Connects two patches when an edge joins them.
+  // Makes two patches (groups of vertices) neighbours when an edge joins them.
   Vector<Index> seen_by(patches.middle.size(), Mesh::none, &memory);
   patches.start.push_back(0);
   for (Index p = 0; at(p) < patches.middle.size(); ++p) {
@@ -83,9 +84,9 @@ Patches make_patches(const Mesh& mesh, const Topology& topology, const Vector<do
   return patches;
 }
 
-// Finds shortest edge paths by delta-stepping (Meyer and Sanders 2003), on one thread. Patches nearer than a limit are
-// processed in the order they were found. Patches beyond the limit wait until the limit rises. The distances are those
-// of Dijkstra's algorithm with a heap, in a third of the time.
+// Finds shortest edge paths by delta-stepping (Meyer and Sanders 2003), on one thread. Patches (groups of vertices)
+// nearer than a limit are processed in the order they were found. Patches beyond the limit wait until the limit rises.
+// The distances are those of Dijkstra's algorithm with a heap, in a third of the time.
 class Search {
  public:
   Search(const Patches& patches, Memory& memory)
@@ -99,7 +100,8 @@ class Search {
     step_ = 2 * sum / static_cast<double>(std::max<std::size_t>(1, patches.length.size()));
   }
 
-  // Gives the sample `name` all patches that are nearer to its patch `source` than to all earlier samples.
+  // Gives the sample `name` all patches (groups of vertices) that are nearer to its patch `source` than to all earlier
+  // samples.
   void grow(Index source, Index name) {
     distance[at(source)] = 0, owner[at(source)] = name;
     near_.assign(1, source), waiting_.clear();
@@ -111,7 +113,8 @@ class Search {
   Vector<Index> owner;
 
  private:
-  // Processes and empties the near list. Returns the next limit, and puts the patches below it into the near list.
+  // Processes and empties the near list, the patches (groups of vertices) within the limit. Returns the next limit, and
+  // lists the patches below it.
   double work_off(double limit, Index name) {
     for (std::size_t head = 0; head < near_.size(); ++head) {
       const Index v = near_[head];
@@ -166,7 +169,7 @@ SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, const V
       if (best == Mesh::none || search.distance[p] > search.distance[at(best)]) best = static_cast<Index>(p);
     }
   };
-  find_farthest();  // everything is far: the first of each component
+  find_farthest();  // all distances are infinite: finds the first vertex of each component
   for (const Index p : farthest) search.grow(p, 0);
   find_farthest();
   std::fill(search.distance.begin(), search.distance.end(), far);

@@ -7,7 +7,7 @@
 // If a component has more than 384 vertices for every sample, patches are sampled instead of vertices. A patch has at
 // most 24 vertices, all within two edges of its middle vertex. The distance between neighbouring patches is the
 // distance of their middles. A sample is then the middle of a patch, and a whole patch belongs to one sample. Cost:
-// O(n) for the patches, and about H searches of all patches, where H is the harmonic number of `count`.
+// O(n) to make the patches, then about 1 + 1/2 + ... + 1/count searches over all patches.
 #pragma once
 #include "mesh/topology.h"
 
@@ -15,7 +15,7 @@ namespace hf_inner {
 
 struct SpreadSamples {
   explicit SpreadSamples(Memory& memory) : vertex(&memory), share(&memory) {}
-  std::int32_t count = 0;       // rounds
+  std::int32_t count = 0;       // samples of each component
   Vector<std::int32_t> vertex;  // component * count + round; Mesh::none when the component has no more vertices
   Vector<double> share;         // of the component's area that is nearest to the sample; sums to 1
 };

@@ -59,7 +59,7 @@ void move_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* 
     for (const std::int32_t e : edge_path(mesh, core.topology, here, to, *field.core().memory)) {
       here = core.topology.first(e) == here ? core.topology.second(e) : core.topology.first(e);
       const Vec3 next = vertex_normal(mesh, core.topology, here);
-      if (norm(next) == 0) continue;  // triangles that cancel out: the plane before stands
+      if (norm(next) == 0) continue;  // no normal, because its triangles cancel out: keeps the last tangent plane
       if (norm(normal) > 0) vector = carry(vector, normal, next);
       normal = next;
     }

@@ -9,24 +9,24 @@
 namespace hf_inner {
 namespace {
 
-// Number of columns that one job takes. No result depends on this number.
+// Number of matrix columns that one thread's job takes. No result depends on this number.
 constexpr std::size_t columns_piece = 8192;
-// Strips that make columns at the same time. Each strip has a scratch row as long as the mesh, so more strips use more
-// memory and more threads. No result depends on this number.
+// The matrix columns are computed in this many strips at the same time. Each strip has a scratch row as long as the
+// mesh, so more strips use more memory and more threads. No result depends on this number.
 constexpr std::size_t most_strips = 8;
-// Least mass of a vertex, as a share of the mean mass of its component. It bounds the condition number of K where
-// triangles have no area.
+// A vertex's area counts as at least this share of the mean of its component. It bounds the condition number of the
+// operator where triangles have no area.
 constexpr double least_mass = 1e-4;
 
-// The columns of K that one piece computes. They are kept until the lengths of all columns are known.
+// The columns of the operator K that one job computes. They are kept until the lengths of all columns are known.
 struct Columns {
   explicit Columns(Memory& memory) : row(&memory), value(&memory) {}
   Vector<Index> row;
   Vector<double> value;
 };
 
-// Makes columns of K_ij = sum_k (L_ik L_kj) / m_k, with the masses m_k. The sum runs over ascending k, so K_ij and K_ji
-// are the same bit for bit.
+// Makes columns of K_ij = sum_k (L_ik L_kj) / m_k, with the Laplacian L and the vertex areas m_k. The sum runs over
+// ascending k, so K_ij and K_ji are the same bit for bit.
 class ColumnMaker {
  public:
   ColumnMaker(const SymmetricMatrix& l, const Vector<double>& inverse_mass, Memory& memory)

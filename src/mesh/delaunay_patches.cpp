@@ -11,29 +11,30 @@
 namespace hf_inner {
 namespace {
 
-// Number of triangles or edges that one job takes. No result depends on this number.
+// Number of triangles or edges that one thread's job takes. No result depends on this number.
 constexpr std::size_t patch_piece = 16384;
-// Least length in a division, so that triangles with three equal positions do not divide by zero.
+// A length that divides counts as at least this, so that triangles with three equal positions do not divide by zero.
 constexpr double least_length = 1e-300;
-// Attempts to grow the patches before the whole mesh becomes one patch. It bounds the cost; no result depends on it.
+// Only patches (groups of triangles around edges that are not Delaunay) are retriangulated. After this many attempts to
+// grow them, the whole mesh becomes one patch. It bounds the cost; no result depends on it.
 constexpr int most_attempts = 4;
-// Rings of triangles in a patch around an edge that is not Delaunay. More rings make larger patches but fewer attempts.
-// No result depends on it.
+// A patch (group of triangles to retriangulate) is an edge that is not Delaunay with this many rings of triangles
+// around it. More rings make larger patches but fewer attempts. No result depends on it.
 constexpr int patch_rings = 2;
-// If the patches hold more than 1 / patch_share of the mesh, the whole mesh becomes one patch. It bounds the cost; no
-// result depends on it.
+// If the patches (groups of triangles to retriangulate) hold more than 1 / patch_share of the mesh, the whole mesh
+// becomes one patch. It bounds the cost; no result depends on it.
 constexpr std::size_t patch_share = 4;
 // An edge is not Delaunay if its weight, half of a sum of two cotangents, is below minus this number.
 constexpr double rounding = 0.5 * delaunay_rounding;
-// This is twice the margin of MollifiedLengths. Rounding then never hides a triangle that MollifiedLengths would
-// change.
+// A triangle whose sides miss a flat triangle's by less than this share may be too thin. This is twice the limit below
+// which MollifiedLengths lengthens edges, so rounding hides no such triangle.
 constexpr double safe_closing = 2 * mollify_closing;
 
 std::uint32_t pieces_of(std::size_t count) noexcept {
   return static_cast<std::uint32_t>((count + patch_piece - 1) / patch_piece);
 }
 
-// Returns true if some triangle may be so thin that mollifying would lengthen its edges. It may err towards true.
+// Returns true if some triangle may be so thin that mollify.h would lengthen its edges. It may err towards true.
 bool may_be_thin(const Mesh& mesh, const Topology& topology, Memory& memory, JobRunner* jobs) {
   struct Found {
     double sum = 0, share = std::numeric_limits<double>::infinity(), gap = std::numeric_limits<double>::infinity();
@@ -89,7 +90,7 @@ Vector<Index> broken_edges(const Mesh& mesh, const Topology& topology, const Vec
   return all;
 }
 
-// The triangles of the patches, their vertices, and their intrinsic triangulation.
+// The triangles around edges that are not Delaunay (patches), their vertices, and their intrinsic triangulation.
 class Patches {
  public:
   Patches(const Mesh& mesh, const Topology& topology, Memory& memory)
@@ -104,7 +105,8 @@ class Patches {
         edges_(memory),
         surface_(memory) {}
 
-  // Grows the patches by two rings around the edges. Returns false if they then hold a quarter of the mesh or more.
+  // Adds two rings of triangles around these edges to the patches (groups of triangles to retriangulate). Returns false
+  // if they then hold a quarter of the mesh or more.
   bool grow(const Vector<Index>& edges) {
     for (const Index e : edges) take_edge(e);
     for (int ring = 0; ring < patch_rings; ++ring) {
@@ -139,8 +141,8 @@ class Patches {
     surface_.flip_to_delaunay();
   }
 
-  // Lists the border edges of the patches that are not Delaunay together with the triangle outside, in the mesh's
-  // numbers.
+  // Lists those border edges of the patches (groups of retriangulated triangles) that are not Delaunay together with
+  // the triangle outside, by the mesh's numbers.
   Vector<Index> broken_border() const {
     Vector<Index> broken(&memory_);
     for (Index h = 0; h < 3 * surface_.face_count(); ++h) {
@@ -157,8 +159,8 @@ class Patches {
   const Vector<Index>& vertices() const noexcept { return vertices_; }
   const IntrinsicTriangulation& surface() const noexcept { return surface_; }
 
-  // Returns half the cotangents of the edge's triangles outside the patches, and sets `count` to the number of these
-  // triangles.
+  // Returns half the sum of the cotangents in the edge's triangles outside the patches (groups of retriangulated
+  // triangles). Sets `count` to the number of these triangles.
   double outer_weight(Index e, const Vector<double>& weights, Index& count) const noexcept {
     count = 0;
     const Index begin = topology_.edge_triangle_start[at(e)], end = topology_.edge_triangle_start[at(e) + 1];
@@ -222,7 +224,7 @@ class Patches {
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       for (std::size_t k = 1; k < 3; ++k) {
         const Index a = find(sub_.corners[3 * t]), b = find(sub_.corners[3 * t + k]);
-        root[at(std::max(a, b))] = std::min(a, b);  // a root stays the first of its set
+        root[at(std::max(a, b))] = std::min(a, b);  // the root is the smallest number of its set
       }
     }
     Index count = 0;
@@ -234,15 +236,16 @@ class Patches {
   const Mesh& mesh_;
   const Topology& topology_;
   Memory& memory_;
-  Vector<std::uint8_t> in_patch_;  // by triangle of the mesh
-  Vector<Index> local_;            // by vertex of the mesh
+  Vector<std::uint8_t> in_patch_;  // by triangle of the mesh: 1 if it is in a patch (retriangulated group)
+  Vector<Index> local_;            // by vertex of the mesh: its number in the patches, or none
   Vector<Index> triangles_, vertices_;
   Mesh sub_;
   Topology edges_;
   IntrinsicTriangulation surface_;
 };
 
-// The matrix rows of the vertices in patches. Each entry is a sum of weights that edges contribute.
+// The matrix rows of the vertices in patches (groups of retriangulated triangles). Each entry is a sum of weights that
+// edges contribute.
 class PatchRows {
  public:
   struct Entry {

@@ -20,10 +20,11 @@ struct DelaunayOperator {
   explicit DelaunayOperator(Memory& memory) : laplacian(memory), areas(&memory) {}
   SymmetricMatrix laplacian;
   Vector<double> areas;              // by vertex, of the intrinsic triangles; empty unless asked for
-  std::int32_t patch_triangles = 0;  // triangles of the mesh that were taken into patches
+  std::int32_t patch_triangles = 0;  // triangles of the mesh that were retriangulated
 };
 
-// weights: cotangent weights by edge. Throws std::bad_alloc. The result is the same for any number of threads.
+// Makes the Laplacian of the intrinsic Delaunay triangulation. weights: cotangent weights by edge. Throws
+// std::bad_alloc. The result is the same for any number of threads.
 DelaunayOperator delaunay_operator(const Mesh& mesh, const Topology& topology, const Vector<double>& weights,
                                    bool with_areas, Memory& memory, JobRunner* jobs = nullptr);
 

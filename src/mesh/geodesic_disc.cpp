@@ -11,13 +11,13 @@
 namespace hf_inner {
 namespace {
 
-// A vertex may lie this far beyond the radius, in mean edge lengths. It makes discs of one radius act alike on coarse
-// and fine meshes.
+// A vertex of a geodesic disc may lie this far beyond its radius, in mean edge lengths. It makes discs of one radius
+// act alike on coarse and fine meshes.
 constexpr double beyond = 0.3;
-// The front runs this far beyond the radius, in mean edge lengths. Distances behind obtuse corners need it.
+// Distances are computed this far beyond the disc's radius, in mean edge lengths. Those behind obtuse corners need it.
 constexpr double search_further = 2;
-// Least relative gain for which the front visits a vertex again. The number exceeds rounding errors, which could
-// otherwise keep the front running for ever.
+// A vertex is visited again if its distance falls by at least this share. The number exceeds rounding errors, which
+// could otherwise keep the loop running for ever.
 constexpr double least_gain = 1e-13;
 
 // Returns the distance of corner C from a source that has distance a from corner A and b from corner B. ab, ac and bc
@@ -51,7 +51,7 @@ class Front {
     std::push_heap(heap_.begin(), heap_.end(), later);
   }
 
-  // Spreads the front as long as within(v, distance) returns true.
+  // Computes distances outwards from the source, as long as within(v, distance) returns true.
   template <class Within>
   void run(Within&& within) {
     while (!heap_.empty()) {
@@ -63,7 +63,7 @@ class Front {
     }
   }
   const std::pmr::unordered_map<Index, double>& distances() const noexcept { return distance_; }
-  // Returns the distance of a vertex, or infinity if the front has not reached it.
+  // Returns the distance of a vertex, or infinity if no path has reached it.
   double distance(Index v) const {
     const auto found = distance_.find(v);
     return found == distance_.end() ? std::numeric_limits<double>::infinity() : found->second;
@@ -117,7 +117,7 @@ Vector<DiscVertex> geodesic_disc(const Mesh& mesh, const Topology& topology, con
       sum += norm(mesh.positions[at(topology.neighbour[at(i)])] - mesh.positions[at(v)]);
     return end > begin ? sum / (end - begin) : 0.0;
   };
-  // The front runs two mean edges beyond the radius, because distances behind obtuse corners need it.
+  // Distances are computed up to two mean edges beyond the radius, because those behind obtuse corners need it.
   front.run([&](Index v, double distance) { return distance <= radius + search_further * mean_edge(v); });
   Vector<DiscVertex> disc(&memory);
   const auto inside = [&](Index v) { return front.distance(v) <= radius + beyond * mean_edge(v); };

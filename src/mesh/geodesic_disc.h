@@ -15,7 +15,7 @@ namespace hf_inner {
 struct DiscVertex {
   std::int32_t vertex;
   double distance;
-  bool rim;  // has a neighbour outside the disc
+  bool rim;  // the vertex has a neighbour outside the disc
 };
 
 // Returns the vertices within `radius` of a point, sorted by distance. `radius` is in the unit of mesh.positions. The

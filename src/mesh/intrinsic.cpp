@@ -12,16 +12,18 @@
 namespace hf_inner {
 namespace {
 
-// Number of triangles or edges that one job takes. No result depends on this number.
+// Number of triangles or edges that one thread's job takes. No result depends on this number.
 constexpr std::size_t cover_piece = 16384;
-// Flips per half-edge before flip_to_delaunay gives up. The loop then ends whatever rounding does.
+// flip_to_delaunay stops after this many edge flips per half-edge. So the loop ends even if rounding lets edges flip to
+// and fro.
 constexpr std::uint64_t flips_per_half = 32;
-// Least sum of cotangents in a division, so that a flat face does not divide by zero.
+// A sum of cotangents that divides counts as at least this, so that a flat face does not divide by zero.
 constexpr double least_sum = 1e-300;
-// The queue is trimmed when it starts with more finished entries than this. It bounds memory; no result depends on it.
+// The queue of edges to flip is trimmed when it starts with more finished entries than this. It bounds memory; no
+// result depends on it.
 constexpr std::size_t least_trim = 65536;
 
-// One side of a triangle, which lies at an edge of the mesh.
+// A triangle at an edge of the mesh, and the side with which it lies there.
 struct Side {
   Index triangle, corner;  // from this corner to the next
   bool forward;            // runs from the edge's first vertex to its second
@@ -142,8 +144,8 @@ void IntrinsicTriangulation::glue(const Mesh& mesh, const Topology& topology, co
         continue;
       }
       for (std::size_t s = 0; s < sides.size(); ++s) {
-        // If the side runs forward, its triangle's normal points counter-clockwise around the edge, towards the next
-        // side.
+        // Triangles at an edge are sorted around it. If a triangle's side runs along the edge's direction, its normal
+        // points towards the next triangle.
         const Side &here = sides[s], &there = sides[(s + 1) % sides.size()];
         const Index a = here.forward ? front(here) : reverse(here), b = there.forward ? reverse(there) : front(there);
         twin_[at(a)] = b, twin_[at(b)] = a;
@@ -198,7 +200,7 @@ bool IntrinsicTriangulation::is_delaunay(Index half) const noexcept {
 // j).
 void IntrinsicTriangulation::flip(Index half) noexcept {
   const Index h0 = half, h1 = next(h0), h2 = next(h1), g0 = twin_[at(half)], g1 = next(g0), g2 = next(g1);
-  // The two faces are unfolded into a plane, with i at the origin and j on the x axis.
+  // The two faces of the edge i -> j are unfolded into a plane, with i at the origin and j on the x axis.
   const double l = length_[at(h0)];
   const auto apex = [&](Index base, double from_i, double from_j, double& x, double& y) {
     x = 0.5 * (l + (from_i - from_j) * ((from_i + from_j) / l));
@@ -218,7 +220,7 @@ void IntrinsicTriangulation::flip(Index half) noexcept {
   }
   const Index k = tails[1], m = tails[3];
   for (int q = 0; q < 4; ++q) {
-    // The four outer edges of the two faces get new numbers. Two of them may be glued to each other.
+    // The four outer edges of the two faces get new numbers. Two of them may be the same edge.
     const Index* inside = std::find(from, from + 4, twins[q]);
     const Index twin = inside != from + 4 ? to[inside - from] : twins[q];
     tail_[at(to[q])] = tails[q], length_[at(to[q])] = lengths[q];
@@ -239,7 +241,7 @@ std::uint64_t IntrinsicTriangulation::flip_to_delaunay(std::uint64_t flip_limit)
   std::uint64_t flips = 0;
   for (std::size_t head = 0; head < queue.size() && flips < flip_limit; ++head) {
     const Index h = queue[head], g = twin_[at(h)];
-    if (h / 3 == g / 3 || is_delaunay(h)) continue;  // held edges are their own twins
+    if (h / 3 == g / 3 || is_delaunay(h)) continue;  // not to flip; edges that must not flip are their own twins
     flip(h), ++flips;
     for (const Index outer : {next(h), next(next(h)), next(g), next(next(g))}) {
       if (!is_delaunay(outer)) queue.push_back(outer);
@@ -257,7 +259,7 @@ Vector<double> IntrinsicTriangulation::vertex_areas(Index vertex_count, Memory& 
   for (Index f = 0; f < face_count(); ++f) {
     // The area of the face follows from |ij|^2 = 2 area (cot at i + cot at j).
     const std::size_t h = 3 * at(f);
-    std::size_t k = 0;  // the longest side has the steadiest quotient
+    std::size_t k = 0;  // the longest side, whose quotient has the smallest rounding error
     for (std::size_t q = 1; q < 3; ++q) k = length_[h + q] > length_[h + k] ? q : k;
     const double base = length_[h + k], sum = cotangent_[h + (k + 1) % 3] + cotangent_[h + (k + 2) % 3];
     const double third = share(f) * base * base / (6 * std::max(sum, least_sum));

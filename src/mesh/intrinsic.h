@@ -34,9 +34,9 @@ class IntrinsicTriangulation {
   // Makes an empty triangulation.
   explicit IntrinsicTriangulation(Memory& memory)
       : memory_(&memory), tail_(&memory), twin_(&memory), length_(&memory), cotangent_(&memory), doubled_(&memory) {}
-  // Makes the cover of the mesh with its own edges. held: null, or for each edge whether more of the surface lies
-  // beyond it. A held edge is no border and is never flipped; each of its half-edges is its own twin. Throws
-  // std::bad_alloc.
+  // Makes the tufted cover (see above) of a mesh, with the mesh's own edges. held: null, or for each edge whether more
+  // of the surface lies beyond it. A held edge is no border and is never flipped; each of its half-edges is its own
+  // twin. Throws std::bad_alloc.
   static IntrinsicTriangulation make(const Mesh& mesh, const Topology& topology, Memory& memory,
                                      JobRunner* jobs = nullptr, const Vector<std::uint8_t>* held = nullptr);
 
@@ -53,13 +53,15 @@ class IntrinsicTriangulation {
   double length(std::int32_t half) const noexcept { return length_[at(half)]; }
   // Returns the cotangent of the angle opposite the half-edge.
   double cotangent(std::int32_t half) const noexcept { return cotangent_[at(half)]; }
-  // Returns (cot a + cot b) / 2 for an edge with opposite angles a and b. On a cover the weight is not yet halved.
+  // Returns (cot a + cot b) / 2 for an edge with opposite angles a and b. Where triangles have front and back faces,
+  // the weight is not yet halved.
   double edge_weight(std::int32_t half) const noexcept {
     return 0.5 * (cotangent_[at(half)] + cotangent_[at(twin_[at(half)])]);
   }
-  // Returns one half for a face of a cover, and one for a face of a component that needs no cover.
+  // Returns how much a face counts: one half for the front or back face of a triangle, one for a triangle that is taken
+  // once.
   double share(std::int32_t face) const noexcept { return doubled_.empty() || !doubled_[at(face)] ? 1.0 : 0.5; }
-  std::uint32_t mollified_count() const noexcept { return mollified_; }  // triangles of the mesh
+  std::uint32_t mollified_count() const noexcept { return mollified_; }  // triangles of the mesh that were too thin
 
   // Returns the Laplacian K. K_ij is minus the sum of the weights of the edges between i and j, with sums below zero
   // set to zero. Each diagonal entry is minus the sum of the rest of its row.
@@ -70,8 +72,8 @@ class IntrinsicTriangulation {
  private:
   static std::int32_t next(std::int32_t half) noexcept { return half % 3 == 2 ? half - 2 : half + 1; }
 
-  // back: for every triangle of the mesh, the number of its back face. It is the triangle's own number where the
-  // component needs no cover.
+  // Joins the faces at their edges. back: for every triangle of the mesh, the number of its back face. It is the
+  // triangle's own number where the component needs no cover.
   void glue(const Mesh& mesh, const Topology& topology, const Vector<std::int32_t>& back,
             const Vector<std::uint8_t>* held, JobRunner* jobs);
   void measure(const Mesh& mesh, const Topology& topology, const Vector<std::int32_t>& back, JobRunner* jobs);
@@ -82,7 +84,7 @@ class IntrinsicTriangulation {
   Memory* memory_;
   Vector<std::int32_t> tail_, twin_;
   Vector<double> length_, cotangent_;
-  Vector<std::uint8_t> doubled_;  // by face; empty: none is
+  Vector<std::uint8_t> doubled_;  // by face: 1 if its component has front and back faces; empty: none has
   std::uint32_t mollified_ = 0;
 };
 

@@ -8,17 +8,18 @@
 namespace hf_inner {
 namespace {
 
-// Number of triangles or edges that one job takes. No result depends on this number.
+// Number of triangles or edges that one thread's job takes. No result depends on this number.
 constexpr std::size_t weights_piece = 32768;
-// Least margin b + c - a of a triangle in Kahan's formula, as a share of its longest edge a. It keeps the area
+// In the area of a triangle with edges a >= b >= c, b + c - a counts as at least this share of a. It keeps the area
 // positive.
 constexpr double least_gap = 1e-12;
-// Margin b + c - a that a thin triangle gets, as a share of its longest edge a. A flat triangle gets cotangents of 350.
+// A thin triangle with edges a >= b >= c is widened until b + c - a is this share of a. A flat triangle then has
+// cotangents of 350.
 constexpr double closing_gap = 1e-6;
 // A cross product keeps fewer than seven digits if twice the area over the longest edge squared is below this number.
 constexpr double least_area = 1e-9;
-// Least weight of the clamped operator, as a share of the median weight. Positive weights keep the field within its
-// site values. A smaller number would worsen the condition number of the matrix.
+// The clamped operator raises edge weights to this share of the median weight. Positive weights keep the field within
+// its site values. A smaller number would worsen the condition number of the matrix.
 constexpr double least_weight = 1e-3;
 
 // Calls work(begin, end) for fixed pieces of the range [0, count).
@@ -151,7 +152,7 @@ SymmetricMatrix laplacian(const Topology& topology, const Vector<double>& weight
   matrix.value.resize(topology.neighbour.size() + n);
   in_pieces(jobs, n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      std::size_t k = at(topology.neighbour_start[v]) + v;  // one diagonal entry in every column before
+      std::size_t k = at(topology.neighbour_start[v]) + v;  // each earlier column has one diagonal entry
       matrix.column_start[v] = static_cast<Index>(k);
       double sum = 0;
       std::size_t diagonal = 0;

@@ -18,14 +18,14 @@ namespace {
 
 using Index = std::int32_t;
 
-// Largest number of vertices or triangles: six half-edges or entries for each must fit 31 bits.
+// Largest number of vertices or triangles. Arrays hold up to six entries for each, and their indices must fit 31 bits.
 constexpr std::uint32_t size_limit = 0x7fffffffu / 6;
 // The diagonal of a mesh must be below this length. Sums of squares in inner coordinates must not overflow.
 constexpr double largest_scale = 1e300;
 // The report counts a triangle as zero-area if its area over the longest edge squared is below this number. Its height
 // is then below 2e-12 of that edge.
 constexpr double zero_area = 1e-12;
-// Number of triangles that one job takes. No result depends on this number.
+// Number of triangles that one thread's job takes. No result depends on this number.
 constexpr std::size_t report_piece = 65536;
 
 void check_sizes(const MeshInput& input) {
@@ -111,7 +111,7 @@ void count_duplicates(Mesh& mesh, Memory& memory) {
     const Index middle = std::max(std::min(v[0], v[1]), std::min(std::max(v[0], v[1]), v[2]));
     keys[at(start[at(least)]++)] = {middle, most};
   }
-  std::size_t begin = 0;  // start[v] is the end of bucket v now
+  std::size_t begin = 0;  // start[v] is now the end of the triangles with smallest corner v
   for (std::size_t v = 0; v + 1 < start.size(); ++v) {
     const std::size_t end = at(start[v]);
     if (end - begin > 1) {

@@ -107,9 +107,9 @@ struct Mesh {
   Vector<Vec3> positions;                  // inner vertices, centred and scaled
   Vector<std::int32_t> corners;            // inner vertices, 3 per usable triangle
   Vector<std::int32_t> inner_of_given;     // per given vertex; none for isolated ones
-  Vector<std::int32_t> given_of_inner;     // the first given copy
+  Vector<std::int32_t> given_of_inner;     // the first of the caller's vertices that were welded to it
   Vector<std::int32_t> triangle_of_given;  // per given triangle its usable triangle, or none
-  Vector<std::int32_t> component;          // per inner vertex
+  Vector<std::int32_t> component;          // number of the component, per inner vertex
   struct Isolated {
     std::int32_t given;
     Vec3 position;  // as given

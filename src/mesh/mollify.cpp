@@ -8,9 +8,9 @@
 namespace hf_inner {
 namespace {
 
-// Number of triangles or edges that one job takes. No result depends on this number.
+// Number of triangles or edges that one thread's job takes. No result depends on this number.
 constexpr std::size_t mollify_piece = 16384;
-// Largest number of rounds that lengthen edges of single triangles. After them, one length is added to every edge.
+// At most this many rounds lengthen edges of thin triangles. After them, one length is added to every edge.
 constexpr int most_rounds = 64;
 // Factor by which an edge grows more than needed, so that rounding does not leave the triangle open.
 constexpr double overshoot = 1.0001;
@@ -34,8 +34,8 @@ void find_lengths(const Mesh& mesh, const Topology& topology, MollifiedLengths& 
   });
 }
 
-// Returns the length that a triangle lacks to fulfil the margin, or 0 if it lacks none. Sets `longest` to its longest
-// side.
+// Returns how much b + c - a of a triangle with edges a >= b >= c is below the margin of mollify.h, or 0. Sets
+// `longest` to its longest side.
 double missing(const double length[3], double floor, std::size_t& longest) noexcept {
   longest = 0;
   for (std::size_t k = 1; k < 3; ++k) longest = length[k] > length[longest] ? k : longest;

@@ -11,9 +11,11 @@
 
 namespace hf_inner {
 
-// Margin of the triangle inequality, as a share of the longest edge. It gives a flat triangle cotangents of 3,500.
+// In a triangle with edges a >= b >= c, b + c - a must be at least this share of a. A flat triangle then gets
+// cotangents of 3,500.
 constexpr double mollify_closing = 1e-8;
-// Least longest edge of a triangle, as a share of the mean edge. It gives triangles with three equal positions a size.
+// The longest edge of a triangle counts as at least this share of the mean edge. It gives triangles with three equal
+// positions a size.
 constexpr double mollify_floor = 1e-3;
 
 struct MollifiedLengths {
@@ -22,8 +24,8 @@ struct MollifiedLengths {
 
   Vector<double> length;              // by edge
   Vector<std::int32_t> edge_of_side;  // 3 t + k: the edge from corner k of triangle t to the next
-  Vector<std::uint8_t> changed;       // by edge; empty: none was
-  std::uint32_t thin_count = 0;       // triangles that did not close
+  Vector<std::uint8_t> changed;       // by edge: 1 if it was lengthened; empty: none was
+  std::uint32_t thin_count = 0;       // triangles that were too thin
 };
 
 }  // namespace hf_inner

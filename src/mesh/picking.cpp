@@ -11,7 +11,7 @@ namespace hf_inner {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t piece = 16384;  // triangles or vertices of a job: some 0.1 ms, so that threads share evenly
+constexpr std::size_t piece = 16384;  // triangles or vertices of one thread's job, some 0.1 ms
 
 std::uint32_t pieces_of(std::size_t count) { return static_cast<std::uint32_t>((count + piece - 1) / piece); }
 
@@ -47,7 +47,7 @@ struct Shear {
     axis[2] = 0;
     for (std::size_t k = 1; k < 3; ++k) axis[2] = std::fabs(d[k]) > std::fabs(d[axis[2]]) ? k : axis[2];
     axis[0] = (axis[2] + 1) % 3, axis[1] = (axis[2] + 2) % 3;
-    if (d[axis[2]] < 0) std::swap(axis[0], axis[1]);  // keeps the sense of triangles
+    if (d[axis[2]] < 0) std::swap(axis[0], axis[1]);  // keeps the orientation of triangles
     x = d[axis[0]] / d[axis[2]], y = d[axis[1]] / d[axis[2]], z = 1 / d[axis[2]];
   }
   Vec3 of(Vec3 p) const noexcept {

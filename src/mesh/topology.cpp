@@ -7,7 +7,7 @@
 namespace hf_inner {
 namespace {
 
-// Number of vertices that one job takes. No result depends on this number.
+// Number of vertices that one thread's job takes. No result depends on this number.
 constexpr std::size_t bucket_piece = 16384;
 
 }  // namespace

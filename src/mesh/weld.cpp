@@ -10,10 +10,10 @@
 namespace hf_inner {
 namespace {
 
-// The hash table starts with this many slots. The table doubles until it has two slots per vertex.
+// The hash table of positions starts with this many entries. It doubles until it has two per vertex.
 constexpr std::size_t first_slots = 64;
-// Probes of the hash table before sorting replaces it. A half-full table needs about 1.5 probes per vertex. Positions
-// that are constructed to collide need up to n probes per vertex.
+// After this many probes per vertex, sorting replaces the hash table of positions. A half-full table needs about 1.5
+// probes per vertex. Positions that are constructed to collide need up to n probes per vertex.
 constexpr std::uint64_t steps_per_vertex = 16, spare_steps = 1024;
 
 Vec3 position(const MeshInput& input, std::size_t v) noexcept {

@@ -40,7 +40,7 @@ ArcGraph::ArcGraph(const FluxField& field, Memory& memory)
       down_arc(memory) {
   const FluxSurface& s = field.surface();
   const std::int32_t n = s.vertex_count();
-  Table<std::int32_t> number(n, -1, memory);  // of critical vertices
+  Table<std::int32_t> number(n, -1, memory);  // by vertex: number of a critical vertex, or -1
   for (std::int32_t r = 0; r < n; ++r) {
     const std::int32_t v = field.by_rank(r);
     if (field.sign_changes(v) != 2) number[v] = critical.push_back(v);
@@ -52,7 +52,7 @@ ArcGraph::ArcGraph(const FluxField& field, Memory& memory)
   up_start.push_back(0);
   for (std::int32_t i = 0; i < critical.size(); ++i) {
     const std::int32_t v = critical[i], begin = s.out[v];
-    Table<std::int32_t> done(memory);  // edges at v whose loops are already arcs
+    Table<std::int32_t> done(memory);  // edges at v whose level loops already belong to arcs
     for (std::int32_t g = begin;;) {
       if (field.rises(g) && std::find(done.begin(), done.end(), g) == done.end()) {
         Arc arc;
@@ -65,7 +65,8 @@ ArcGraph::ArcGraph(const FluxField& field, Memory& memory)
           heap.push_back(field.rank(s.head(h)));
         }
         std::make_heap(heap.begin(), heap.end(), later);
-        // The loop moves up past the vertices above it one by one, the lowest first, until it meets a critical vertex.
+        // The level loop moves up past the vertices above it one by one, the lowest first, until it meets a critical
+        // vertex.
         while (arc.upper < 0) {
           if (heap.empty()) fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "an arc of level loops has no upper end");
           std::pop_heap(heap.begin(), heap.end(), later);

@@ -22,7 +22,7 @@ struct Arc {
   double flux = 0;
 };
 
-// A loop of an arc: its threshold on ranks, and a half-edge that the loop crosses.
+// A closed level line of an arc: its threshold on ranks (vertices sorted by value), and a half-edge that it crosses.
 struct Loop {
   std::int32_t threshold = 0, seed = -1;
 };
@@ -31,17 +31,17 @@ struct ArcGraph {
   ArcGraph(const FluxField& field, Memory& memory);
 
   Table<std::int32_t> critical;              // critical vertices, by rank
-  Table<Arc> arcs;                           // by rank of their lower ends
+  Table<Arc> arcs;                           // families of level loops, by rank of their lower ends
   Table<std::int32_t> vertices;              // the regular vertices, arc by arc
   Table<std::int32_t> up_start, up_arc;      // arcs that start at critical[i]: up_arc[up_start[i] .. up_start[i + 1])
   Table<std::int32_t> down_start, down_arc;  // arcs that end at critical[i], in the same way
 
-  // Returns the loop of an arc that has `below` of the arc's vertices below it.
+  // Returns the level loop of an arc that has `below` of the arc's vertices below it.
   Loop loop(const FluxField& field, const Arc& arc, std::int32_t below) const;
 };
 
-// Lists the uphill half-edges that a loop crosses, in order. Each step passes through the triangle to the right of the
-// last half-edge. Higher values lie to the left of the walk.
+// Lists the uphill half-edges that a level loop crosses, in order. Each step passes through the triangle to the right
+// of the last half-edge. Higher values lie to the left of the walk.
 void walk_loop(const FluxField& field, Loop loop, Table<std::int32_t>& out);
 
 }  // namespace hf_inner

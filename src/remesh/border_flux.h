@@ -16,8 +16,8 @@
 
 namespace hf_inner {
 
-// Returns the field. Each component keeps its total of lines. The lines of a site become the even number nearest to its
-// flux, but at least least_lines.
+// Returns the field that is 0 at sources and 1 at sinks. Each component keeps its total of flow lines. The lines of a
+// site become the even number nearest to its flux, but at least least_lines.
 Vector<double> solve_between_levels(const FluxSurface& surface, const FluxSolver& solver, Vector<FluxSite>& sites);
 
 }  // namespace hf_inner

@@ -14,7 +14,7 @@ struct CaptureOptions {
   double edge_length = 0;  // inner units
 };
 
-// Returns how many vertices it snapped.
+// Snaps vertices of the quad mesh to places of the surface that it misses. Returns how many vertices it snapped.
 std::int32_t capture_features(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh,
                               const CaptureOptions& options, Memory& memory);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr std::int32_t none = -1;
 
 struct Collapse {
-  double length;  // of the quad's shortest edge
+  double length;  // length of the quad's shortest edge
   std::int32_t face, corner;
 };
 
@@ -167,7 +167,7 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
   Table<std::uint8_t> moving(memory);
   Vector<Vec3> kept(&memory), centres(&memory);  // centres of collapses that were undone, and of those tried now
   const double length = options.edge_length;
-  // Sums up how far misses within a radius of a point exceed the tolerance.
+  // Sums up how far places within a radius of a point are beyond the tolerance from the surface.
   const double reach = collapse_reach * length;
   auto excess = [&](const Vector<QuadMiss>& misses, const Vec3& point, double radius) {
     double sum = 0;
@@ -214,7 +214,8 @@ double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, Q
         const Vec3& centre = centres[static_cast<std::size_t>(i)];
         bad[i] = excess(after, centre, reach) > excess(before, centre, reach);
       }
-      // A miss farther away than `reach` counts against the nearest collapse.
+      // A place too far from the surface, and farther than `reach` from all collapses, counts against the nearest
+      // collapse.
       const double limit = std::max(before.empty() ? 0 : before[0].distance, collapse_far * options.tolerance);
       if (std::count(bad.begin(), bad.end(), 1) == 0)
         for (const QuadMiss& miss : after)

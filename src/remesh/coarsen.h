@@ -19,20 +19,20 @@ namespace hf_inner {
 bool can_collapse(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, std::int32_t k);
 
 // Collapses quads that are too far from the surface, no two of them neighbours. Subdividing does not help a quad that
-// lies across a fold or in a tangle. Returns how many quads it collapsed. merged: by vertex of the new mesh, whether it
-// was two vertices; unchanged if no quad collapsed.
+// lies across a fold, or among quads that overlap. Returns how many quads it collapsed. merged: by vertex of the new
+// mesh, whether it was two vertices; unchanged if no quad collapsed.
 std::int32_t collapse_misses(const FluxSurface& surface, QuadMesh& mesh, const Vector<QuadMiss>& misses,
                              Table<std::uint8_t>& merged, Memory& memory);
 
 struct CoarsenOptions {
   double edge_length = 0, tolerance = 0;  // in inner units
   double shortest = short_edge;           // in edge lengths
-  bool only_refined = false;              // only quads with a corner whose scale is below 1
+  bool only_refined = false;              // collapses only quads with a corner where the mesh was refined
   std::int32_t rounds = collapse_rounds;
 };
 
-// Returns the distance between the new mesh and the surface. It is at most collapse_far tolerances, or else the given
-// `deviation`.
+// Collapses quads with short edges. Returns the distance between the new mesh and the surface: at most collapse_far
+// tolerances, or the given `deviation` if that is more.
 double coarsen_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, double deviation,
                      const CoarsenOptions& options, Memory& memory);
 

@@ -24,7 +24,7 @@ struct Place {
 
 struct Tried {
   Vec3 point;
-  std::int32_t step;  // the step to try next
+  std::int32_t step;  // the step (release, snap, ...) to try next
 };
 
 // Returns the sum of the triangle normals around each vertex, weighted by area. At a crease, the normal of one triangle
@@ -131,8 +131,8 @@ class Fitter {
     return false;
   }
 
-  // Returns the vertex that a step would change: the corner of the missed quad that is nearest to the miss and may take
-  // the step.
+  // Returns the vertex that a fitting step (release, snap, ...) would change: the corner of the quad at a missed place
+  // that is nearest to the place and may take the step.
   std::int32_t vertex_for(std::int32_t step, const QuadMiss& miss, const VertexFans& fans) const {
     const std::int32_t f = miss.face, size = mesh_.size(f), *c = mesh_.corner.data() + mesh_.face_start[f];
     if (step == collapse)
@@ -153,8 +153,8 @@ class Fitter {
     return best;
   }
 
-  // Chooses the step of this round, the earliest one that any place still has to try. `chosen` gets the places with
-  // this step, no two of them near each other.
+  // Chooses the fitting step (release, snap, ...) of this round, the earliest one that any missed place still has to
+  // try. `chosen` gets the places with this step, no two of them near each other.
   std::int32_t choose(Vector<Place>& chosen) {
     Vector<Place> places(&memory_);
     std::int32_t step = given_up;
@@ -191,7 +191,7 @@ class Fitter {
     return step;
   }
 
-  // Returns the surface point of a missed place.
+  // Returns the surface point to which a missed place of the mesh should come.
   SurfacePoint target(const QuadMiss& miss) const {
     SurfacePoint at;
     if (miss.vertex < 0) return distance_.nearest(miss.point);
@@ -250,7 +250,7 @@ class Fitter {
     relax(mesh, options_.relax_rings + (step <= snap ? fit_snap_rings : 0), moving);
   }
 
-  // For each place, snaps the nearest vertex that may move to it.
+  // For each missed place, snaps the nearest vertex that may move to it.
   void snap_nearest(const Vector<Place>& places, QuadMesh& mesh, const Table<std::uint8_t>& moving) const {
     for (const Place& place : places) {
       std::int32_t best = none;
@@ -298,7 +298,7 @@ class Fitter {
   QuadMesh& mesh_;
   const FitOptions& options_;
   Memory& memory_;
-  Vector<QuadMiss> misses_, after_;  // misses of mesh_ and of the trial
+  Vector<QuadMiss> misses_, after_;  // places too far from the surface, in mesh_ and in the trial
   Vector<Tried> tried_;
   Table<Vec3> normals_;
   NearFaces known_;

@@ -9,7 +9,8 @@ namespace hf_inner {
 
 namespace {
 
-// Tells whether an edge carries flux. Edges on a plateau and edges to an apex carry none.
+// Tells whether an edge carries flux. Edges on a plateau, and edges to an apex (vertex that closes a border), carry
+// none.
 bool carries(const FluxField& field, std::int32_t h) {
   const FluxSurface& s = field.surface();
   return s.weight[h] > 0 && field.value(s.head(h)) > field.value(s.tail[h]);
@@ -41,7 +42,7 @@ Vec3 FlowTracer::place(const FluxField& field, FluxPoint p) const noexcept {
   return middle + std::fabs(share - 0.5) * (beside - middle);
 }
 
-// Appends the points of the line from the edge of p to its end.
+// Follows a flow line from the point p on an edge to the line's end, and appends its points to `out`.
 void FlowTracer::follow(const FluxField& field, FluxPoint p, bool upward, FlowLineSet& out, std::int32_t& end) const {
   for (std::int32_t steps = 0; p.half >= 0 && steps < surface_.half_count(); ++steps) {
     const std::int32_t a = surface_.tail[p.half], b = surface_.head(p.half);
@@ -55,7 +56,8 @@ void FlowTracer::follow(const FluxField& field, FluxPoint p, bool upward, FlowLi
 FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Span<const std::int32_t> seeds) const {
   const FluxSurface& s = surface_;
   Memory& memory = *core_->memory;
-  // An apex gets the value of a vertex on its border. Its edges have no weight here, so it is no extremum.
+  // An apex (a vertex that closes a border) gets the value of a vertex on its border. Its edges have no weight here, so
+  // it is no extremum.
   Vector<double> values(&memory);
   values.reserve(static_cast<std::size_t>(s.vertex_count()));
   for (std::int32_t v = 0; v < s.vertex_count(); ++v) {
@@ -84,7 +86,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
       g = s.turn_left(g);
       if (g == begin) break;
     }
-    // The line is traced down and reversed; then it is traced up from the seed.
+    // The flow line is traced down from the seed and reversed; then it is traced up from the seed.
     std::int32_t low = v, high = v;
     const std::size_t first = out.point.size();
     FluxPoint p;
@@ -131,7 +133,7 @@ FlowLineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, Sp
     std::int64_t k = 0;
     for (std::int32_t g = begin; k < count;) {
       const double f = carries(field, g) ? field.flux(g) : 0.0;
-      // The offsets grow clockwise around a source.
+      // The offsets of lines within an edge's flux grow clockwise around a source.
       for (; k < count && source.flux * (static_cast<double>(k) + 0.5) / static_cast<double>(count) <= sum + f; ++k) {
         const double offset = source.flux * (static_cast<double>(k) + 0.5) / static_cast<double>(count) - sum;
         std::int32_t high = source.vertex;

@@ -39,7 +39,7 @@ class FlowTracer {
 
   std::shared_ptr<const Core> core_;
   FluxSurface surface_;
-  Table<std::int32_t> fan_;  // by inner vertex: its first vertex in surface_
+  Table<std::int32_t> fan_;  // by inner vertex: its first copy in surface_ (one copy per fan of triangles)
 };
 
 }  // namespace hf_inner

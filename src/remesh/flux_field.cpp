@@ -66,12 +66,12 @@ double FluxField::imbalance(std::int32_t v) const noexcept {
 }
 
 void FluxField::match(std::int32_t v) {
-  // Lists the edges around the vertex, counter-clockwise. Offsets of incoming edges then grow with the order, offsets
-  // of outgoing edges against it.
+  // Lists the edges around the vertex, counter-clockwise. Offsets within the flux of incoming edges grow with this
+  // order, offsets of outgoing edges against it.
   struct Segment {
-    std::int32_t half;  // uphill
+    std::int32_t half;  // the half-edge that points uphill
     bool in;
-    double low, high;  // the unmatched offsets; for outgoing edges in units of the inflow
+    double low, high;  // the flux not matched yet; for outgoing edges in units of the inflow
   };
   Vector<Segment> ring(memory_);
   double in = 0, out = 0;
@@ -111,7 +111,8 @@ void FluxField::match(std::int32_t v) {
         a.low += step, b.low += step;
       }
     }
-    // Used segments are removed. Each round removes at least one, so the loop ends.
+    // Segments (parts of an edge's flux) that are fully matched are removed. Each round removes at least one, so the
+    // loop ends.
     std::size_t kept = 0;
     double least = 0;
     for (std::size_t i = 0; i < size; ++i)
@@ -150,8 +151,8 @@ FluxPoint FluxField::up(FluxPoint p) const {
   const FluxSurface& s = *surface_;
   const std::int32_t v = s.head(p.half);
   if (saddle_of_[v] != none) return through_saddle(v, p, true);
-  // Inflow runs counter-clockwise from left to right. This loop sums up the flux left of the line and finds the left
-  // end.
+  // Incoming edges run counter-clockwise from left to right. This loop sums up the flux left of the line and finds the
+  // left end.
   std::int32_t g = s.twin[p.half];  // leaves v
   double left = p.offset, in = flux(p.half);
   std::int32_t a = s.turn_right(g);
@@ -161,7 +162,7 @@ FluxPoint FluxField::up(FluxPoint p) const {
     left += f, in += f;
   }
   for (std::int32_t b = s.turn_left(g); !rises(b); b = s.turn_left(b)) in += flux(s.twin[b]);
-  // Clockwise from there, the outflow again runs from left to right.
+  // Clockwise from there, the outgoing edges again run from left to right.
   double out = 0;
   for (std::int32_t b = a; rises(b); b = s.turn_right(b)) out += flux(b);
   double rest = left * (out / in);

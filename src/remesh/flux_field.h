@@ -43,8 +43,8 @@ class FluxField {
   // Returns (outflow - inflow) / (outflow + inflow). At a vertex that is no site this is only rounding error.
   double imbalance(std::int32_t v) const noexcept;
 
-  // Return the next point of the line, beyond the head of its edge or before its tail. half is -1 where the line ends
-  // at an extremum.
+  // Return the next point of the flux line, beyond the head of its edge or before its tail. FluxPoint::half is -1 where
+  // the line ends at an extremum.
   FluxPoint up(FluxPoint p) const;
   FluxPoint down(FluxPoint p) const;
 
@@ -63,7 +63,7 @@ class FluxField {
   Memory* memory_;
   Table<double> u_;
   Table<std::int32_t> rank_, order_;
-  Vector<Match> matches_;            // saddle by saddle
+  Vector<Match> matches_;            // matches of incoming with outgoing flux, saddle by saddle
   Table<std::int32_t> match_start_;  // by number of the saddle
   Table<std::int32_t> saddle_of_;    // by vertex: number of the saddle, -1 at regular vertices
   Table<double> saddle_scale_;       // by saddle: outflow over inflow

@@ -13,8 +13,8 @@
 namespace hf_inner {
 namespace {
 
-// Computes the lengths of the shortest paths along edges from one vertex, and -1 for vertices without a path. The edges
-// between an apex and its border have length 0.
+// Computes the lengths of the shortest paths along edges from one vertex, and -1 for vertices without a path. Edges
+// between a border and its apex (the vertex that closes it) have length 0.
 void distances_from(const FluxSurface& s, std::int32_t source, Table<double>& distance, Memory& memory) {
   using Entry = std::pair<double, std::int32_t>;
   Vector<Entry> heap(&memory);
@@ -121,7 +121,7 @@ Vector<std::uint8_t> partition(const Group& g) {
   return best;
 }
 
-// Scales the lines of the sinks, or of the sources, to the sum `total`, in steps of two lines.
+// Scales the flow lines of all sinks, or of all sources, to the sum `total`, in steps of two lines.
 void share_out(Vector<FluxSite>& sites, bool sinks, double total) {
   double sum = 0;
   for (const FluxSite& site : sites)
@@ -144,7 +144,7 @@ void share_out(Vector<FluxSite>& sites, bool sinks, double total) {
   }
 }
 
-// Scales sources and sinks to the same even number of lines.
+// Scales sources and sinks to the same even number of flow lines.
 void even_out(Vector<FluxSite>& sites) {
   double up = 0, down = 0;
   std::size_t up_count = 0, down_count = 0;
@@ -175,7 +175,7 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
                                    Memory& memory) {
   Vector<FluxSite> all(&memory);
   const Table<double> area = vertex_shares(s, memory);
-  // Euler characteristic of each component after its borders are closed
+  // Computes the Euler characteristic of each component after its borders are closed.
   Table<std::int32_t> euler(s.component_count, 0, memory);
   Table<std::int32_t> first(s.component_count, -1, memory);
   for (std::int32_t v = 0; v < s.vertex_count(); ++v) {
@@ -204,8 +204,8 @@ Vector<FluxSite> choose_flux_sites(const FluxSurface& s, Span<const FluxSite> gi
           static_cast<float>(i) / static_cast<float>(i + expected_sites);  // the number of sites is not known yet
       report((static_cast<float>(c) + part) / static_cast<float>(s.component_count));
       distances_from(s, group.sites[i].vertex, distance, memory);
-      // The number of lines follows from the length of the circle around the site. That length is the derivative of the
-      // area of discs.
+      // The number of flow lines follows from the length of the circle around the site. That length is the derivative
+      // of the area of discs.
       if (group.sites[i].lines == 0) {
         double circumference = 0;
         if (s.is_apex(group.sites[i].vertex)) {

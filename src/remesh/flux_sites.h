@@ -21,24 +21,25 @@
 namespace hf_inner {
 
 struct FluxSite {
-  std::int32_t vertex;  // of the surface
-  double lines;         // > 0: a sink, < 0: a source
+  std::int32_t vertex;  // vertex of the FluxSurface
+  double lines;         // flow lines that end (> 0, a sink) or start (< 0, a source) here
 };
 
-// Chooses the sites of all components. given: sites with their lines; lines of 0 are chosen here, otherwise each
-// component needs both signs. automatic: given sites are only proposals. Those near borders are skipped, and components
-// with handles get at least four sites. Apexes are always sites. Throws HF_ERROR_INVALID_ARGUMENT when given lines
-// cannot balance, and HF_ERROR_TOO_LARGE beyond most_sites sites and borders.
+// Chooses the sites of all components. given: sites with their numbers of flow lines. A number of 0 is chosen here,
+// otherwise each component needs both signs. automatic: given sites are only proposals. Those near borders are skipped,
+// and components with handles get at least four sites. Apexes, the vertices that close borders, are always sites.
+// Throws HF_ERROR_INVALID_ARGUMENT when given numbers cannot balance, and HF_ERROR_TOO_LARGE beyond most_sites sites
+// and borders.
 Vector<FluxSite> choose_flux_sites(const FluxSurface& surface, Span<const FluxSite> given, bool automatic,
                                    double edge_length, Memory& memory);
 
 // Factors the matrix of the flux problem, and solves fields from it.
 class FluxSolver {
  public:
-  // Orders and factorises. Throws as Factor::make.
+  // Orders and factorises the matrix of the flow field. Throws the errors of Factor::make.
   FluxSolver(const FluxSurface& surface, Memory& memory, JobRunner& jobs);
-  // u by vertex of the surface, up to a constant per component. Refined (flux_solves), because lines need a flow that
-  // balances at every vertex.
+  // Returns the flow field by vertex of the surface, up to a constant per component. Iterative refinement (flux_solves)
+  // improves it, because lines need a flow that balances at every vertex.
   Vector<double> solve(Span<const FluxSite> sites) const;
 
  private:
@@ -48,11 +49,12 @@ class FluxSolver {
   std::shared_ptr<const Factor> factor_;
 };
 
-// Multiplies the lines of all sites of a component and balances them again (even numbers, at least 4 each).
+// Multiplies the numbers of flow lines of all sites of a component and balances them again (even, at least 4 each).
 void scale_lines(const FluxSurface& surface, std::int32_t component, double factor, Vector<FluxSite>& sites);
 
-// Solves the field. If flow of other sites crosses a border, it raises the border's lines, until every apex is an
-// extremum. If that fails, sources and sinks get fixed values (border_flux.h).
+// Solves the flow field. If flow of other sites crosses a border, it raises the border's own flow. It stops when the
+// field is extremal at every apex (vertex that closes a border). If that fails, sources and sinks get fixed values
+// (border_flux.h).
 Vector<double> solve_with_borders(const FluxSurface& surface, const FluxSolver& solver, Vector<FluxSite>& sites);
 
 }  // namespace hf_inner

@@ -97,7 +97,7 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
   }
 
   poll();
-  // Makes one vertex per fan: the corners that are reached by turning about the vertex.
+  // Makes one vertex per fan: the triangle corners that are reached by turning about the vertex.
   for (std::int32_t h = 0; h < real_halves; ++h) {
     if (s.tail[h] != none) continue;
     std::int32_t first = h;  // goes back to the right end of the fan, or once around
@@ -132,8 +132,8 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, double
     s.weight[h] = weights[static_cast<std::size_t>(topology.neighbour_edge[static_cast<std::size_t>(found)])];
   }
 
-  // Adds a fan of triangles from an apex to every border loop. The border half-edge a -> b gets the triangle (b, a,
-  // apex).
+  // Closes every border by a fan of triangles from an additional vertex, the apex. The border half-edge a -> b gets the
+  // triangle (b, a, apex).
   std::int32_t edges = 0, border_edges = 0;
   for (std::int32_t h = 0; h < real_halves; ++h) edges += s.twin[h] == none ? 2 : 1, border_edges += s.twin[h] == none;
   s.euler_characteristic = s.first_apex - edges / 2 + s.real_triangles;

@@ -37,16 +37,17 @@ struct FluxSurface {
   std::int32_t turn_left(std::int32_t h) const noexcept { return twin[previous(h)]; }
   std::int32_t turn_right(std::int32_t h) const noexcept { return next(twin[h]); }
   bool is_apex(std::int32_t v) const noexcept { return v >= first_apex; }
-  bool is_real(std::int32_t h) const noexcept { return h < 3 * real_triangles; }  // not in a triangle at an apex
+  // Not in a triangle that closes a border.
+  bool is_real(std::int32_t h) const noexcept { return h < 3 * real_triangles; }
 
   Table<std::int32_t> tail, twin;   // By half-edge.
   Table<double> weight;             // By half-edge; equal for both of an edge.
   Table<std::int32_t> out;          // By vertex, any half-edge that leaves it.
-  Table<Vec3> position;             // By vertex, inner units; of an apex the middle of its border.
-  Table<std::int32_t> mesh_vertex;  // By vertex, the inner vertex of the Mesh, none for an apex.
-  Table<std::int32_t> component;    // By vertex, through its fan.
+  Table<Vec3> position;             // By vertex, inner units; an apex (closes a border) is in its middle.
+  Table<std::int32_t> mesh_vertex;  // By vertex, the inner vertex of the Mesh; none for an apex.
+  Table<std::int32_t> component;    // By vertex, the component of the surface.
   std::int32_t real_triangles = 0, first_apex = 0, component_count = 0;
-  std::int32_t euler_characteristic = 0;  // of the surface without the apexes
+  std::int32_t euler_characteristic = 0;  // of the surface before its borders are closed
 };
 
 }  // namespace hf_inner

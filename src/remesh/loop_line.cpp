@@ -59,7 +59,7 @@ FluxPoint LoopLine::at(double place) const noexcept {
   return {edges_[found.edge], found.share * field_->flux(edges_[found.edge])};
 }
 
-// Adds `share` of point i to a location in the triangle.
+// Adds point i of the loop, weighted by `share`, to a location given by barycentric weights in the triangle.
 void LoopLine::add(std::int32_t i, double share, std::int32_t triangle, SurfacePoint& out) const noexcept {
   const FluxSurface& s = field_->surface();
   const std::int32_t a = s.tail[edges_[i]], b = s.head(edges_[i]);
@@ -76,7 +76,7 @@ SurfacePoint LoopLine::location(double place) const noexcept {
   const std::int32_t h = edges_[found.edge];
   const bool left = found.share < 0.5;
   std::int32_t triangle = (left ? h : s.twin[h]) / 3;
-  // A triangle at an apex is not real, so the triangle across the border is taken.
+  // A triangle at an apex closes a border and is not on the surface, so the triangle across the border is taken.
   if (triangle >= s.real_triangles) triangle = s.twin[3 * triangle] / 3;
   SurfacePoint out;
   out.triangle = triangle;

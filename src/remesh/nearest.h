@@ -25,7 +25,8 @@ class NearestTriangle {
  private:
   struct Box {
     Vec3 low, high;
-    std::int32_t first, count, right;  // triangles of a leaf; right: the right child (the left one is the next box)
+    // Triangles of a leaf; right: number of the right child (the left is the next box).
+    std::int32_t first, count, right;
   };
   std::int32_t build(std::int32_t first, std::int32_t count);
   Vec3 corner(std::int32_t t, std::int32_t k) const noexcept { return (*positions_)[(*corners_)[3 * t + k]]; }

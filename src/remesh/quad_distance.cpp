@@ -23,8 +23,8 @@ std::int32_t reflex_corners(const QuadMesh& mesh, const std::int32_t* c, std::in
   return count;
 }
 
-// The triangles of all quads: a fan from the first corner of each. A quad so twisted that no diagonal lies inside it
-// adds the triangles of both diagonals.
+// The triangles of all quads, to which distances are measured: a fan from the first corner of each. A quad so twisted
+// that no diagonal lies inside it adds the triangles of both diagonals.
 struct Soup {
   explicit Soup(Memory& memory) : corners(memory), face(memory) {}
   Table<std::int32_t> corners, face;
@@ -157,8 +157,8 @@ double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<Quad
   double worst = out_misses ? tolerance : 0;
   Table<double> distance(*memory_);
   Table<std::int32_t> nearest(*memory_);
-  // Stores distances above `tolerance`. Without out_misses it stores only distances above all earlier ones of their
-  // job. All others are 0.
+  // Stores distances of samples above `tolerance`. Without out_misses it stores only distances above all earlier ones
+  // of the same thread's job. All others are 0.
   auto measure_samples = [&](const NearestTriangle& tree, const Table<Sample>& samples,
                              const Table<std::int32_t>* faces) {
     distance.assign(samples.size(), 0), nearest.assign(samples.size(), none);

@@ -20,13 +20,13 @@ struct QuadMiss {
   static constexpr std::int32_t of_surface = -1, of_quads = -2;
   double distance;
   Vec3 point;
-  std::int32_t vertex;  // vertex of the surface, or of_surface, or of_quads
+  std::int32_t vertex;  // sampled vertex of the surface, or of_surface or of_quads (a point inside a triangle)
   std::int32_t face;    // face of the quad mesh: the nearest one, or the sampled one
 };
 
-// Faces known to lie within one tolerance of the surface, as hashes of their corners' positions. Faces that a step did
-// not move are not measured again. If two faces have the same hash, which is very unlikely, the second is only measured
-// together with the whole mesh.
+// Faces (quads) known to lie within one tolerance of the surface, as hashes of their corners' positions. Faces that a
+// fitting step did not move are not measured again. If two faces have the same hash, which is very unlikely, the second
+// is only measured together with the whole mesh.
 struct NearFaces {
   explicit NearFaces(Memory& memory) : keys(&memory) {}
   static std::uint64_t key(const QuadMesh& mesh, std::int32_t f) noexcept;
@@ -65,9 +65,9 @@ class QuadDistance {
   double spacing_;
   Memory* memory_;
   JobRunner* jobs_;
-  Table<std::int32_t> corners_;  // of the triangles that are not at an apex
+  Table<std::int32_t> corners_;  // corners of the surface's triangles
   NearestTriangle tree_;
-  Table<Sample> samples_;  // of the surface, in the order of the tree
+  Table<Sample> samples_;  // points of the surface, in the order of the search tree
 };
 
 }  // namespace hf_inner

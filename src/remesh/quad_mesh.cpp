@@ -58,7 +58,7 @@ class Splitter {
         if (n == 6) cost += quad_cost(d, rest_[(i + 4) % n], rest_[(i + 5) % n], a);
         if (best == none || cost < least) best = i, least = cost;
       }
-      if (best == none) break;  // all chords are edges of other faces, so the polygon stays whole
+      if (best == none) break;  // all its diagonals are edges of other faces, so the polygon stays whole
       const std::int32_t a = rest_[best], b = rest_[(best + 1) % n], c = rest_[(best + 2) % n],
                          d = rest_[(best + 3) % n];
       edges_.insert(edge_key(a, d));
@@ -170,13 +170,13 @@ QuadMesh make_polygons(const FluxField& field, const ArcGraph& graph, const Ring
       while (target(to, turn) == none) turn = (turn + 3) % 4;
       half = 4 * to + turn;
     }
-    if (one_ring && critical != none && surface.is_apex(critical)) {  // a hole
+    if (one_ring && critical != none && surface.is_apex(critical)) {  // a border of the surface
       while (out.corner.size() > out.face_start.back()) out.corner.pop_back();
       continue;
     }
     out.face_start.push_back(out.corner.size());
     // Polygons with at least 6 corners at a site, or 8 at a saddle, get a centre vertex. Smaller ones are split by
-    // chords.
+    // diagonals.
     const std::int32_t size = out.size(out.face_count() - 1);
     centre.push_back(critical != none && (one_ring ? size >= 6 : size >= 8) && !surface.is_apex(critical) ? critical
                                                                                                           : none);

@@ -24,7 +24,7 @@ struct QuadMesh {
   Table<SurfacePoint> location;  // By vertex.
   Table<Vec3> position;          // By vertex, inner units.
   static constexpr std::uint8_t free = 0, site = 1, snapped = 2;
-  Table<std::uint8_t> pinned;  // by vertex: whether it is pinned, and why.
+  Table<std::uint8_t> pinned;  // by vertex: whether it may not move, and why.
   Table<std::uint8_t> border;  // by vertex: whether it lies on a border.
   Table<float> scale;          // by vertex: factor on the wanted edge length, below 1 if refined.
   Table<std::int32_t> face_start, corner;
@@ -49,8 +49,8 @@ void grow_marks(const QuadMesh& mesh, std::int32_t rings, Table<std::uint8_t>& m
 
 Vec3 position_of(const FluxSurface& surface, const SurfacePoint& point) noexcept;
 
-// Makes the polygons. centre: by face, the critical vertex of the surface in it, or -1 for a face between two rings of
-// one arc.
+// Makes the polygons between rings of nodes and the lines that cross them. centre: by face, the critical vertex of the
+// field inside it, or -1 if there is none.
 QuadMesh make_polygons(const FluxField& field, const ArcGraph& graph, const RingMesh& rings,
                        Table<std::int32_t>& centre, Memory& memory);
 QuadMesh split_polygons(const FluxSurface& surface, const QuadMesh& polygons, const Table<std::int32_t>& centre,

@@ -16,8 +16,8 @@ namespace hf_inner {
 
 namespace {
 
-// Scales the lines of every component, so that the mean face is a little smaller than a square of the edge length. The
-// number of faces is the sum over all rings of the lines that cross them.
+// Scales the number of flow lines of every component, so that the mean face is a little smaller than a square of the
+// edge length. The number of faces is the sum, over all rings of nodes, of the lines that cross them.
 void fit_lines(const FluxSurface& surface, Span<const double> u, const RingOptions& options, Vector<FluxSite>& sites,
                Memory& memory) {
   const FluxField field(surface, u, memory);
@@ -62,7 +62,8 @@ double shape_cost(const QuadMesh& mesh, double edge_length, double shortest, dou
          std::max(0.0, std::log(at(aspects, 1 - outliers) / narrowest));
 }
 
-// Makes meshes of one surface from several sets of sites, with one factor and one search tree.
+// Makes quad meshes of one surface from several sets of sites (ends of flow lines), with one factor, and one search
+// tree for distances.
 class Maker {
  public:
   explicit Maker(const QuadOptions& options)
@@ -117,8 +118,9 @@ class Maker {
     return result;
   }
 
-  // Fits the mesh and collapses short edges in turns. In kind pure it only collapses edges that refining made. Each
-  // turn allows more folds than the last. Returns the cost of the mesh.
+  // Fits the mesh to the surface and collapses short edges in turns. In kind pure (no line ends between sites) it only
+  // collapses edges that refining made. Each turn allows more turned-over corners than the last. Returns the cost of
+  // the mesh.
   double fit(QuadMesh& mesh, double density, double deviation) const {
     const double allowed = fit_tolerance * options_.edge_length, edge_length = options_.edge_length / density;
     if (options_.relax > 0) {
@@ -174,7 +176,7 @@ class Maker {
   }
 
  private:
-  // Chooses the sites with their lines, and returns the field.
+  // Chooses the sites with their numbers of flow lines, and returns the flow field.
   Vector<double> flow(Span<const FluxSite> given, const RingOptions& rings, QuadResult& result) const {
     const ProgressRange range(0.0f, make_progress.flow);
     result.sites = choose_flux_sites(surface_, given, options_.automatic, rings.edge_length, memory_);
@@ -187,7 +189,8 @@ class Maker {
     return u;
   }
 
-  // Relaxes the mesh. It snaps features, and keeps them if they reduce the distance both ways.
+  // Relaxes the mesh. It snaps vertices to missed features of the surface, and keeps this if the distance both ways
+  // falls.
   double even_out(QuadMesh& mesh, double edge_length) const {
     auto relax = [&](std::int32_t rounds, float from, float to) {
       const ProgressRange range(from, to);
@@ -200,8 +203,8 @@ class Maker {
       distance_.turn_quads(at);
       return distance_.measure(at, 0, nullptr);
     };
-    // Vertices slide off thin parts where edges are long. So in kind pure, the mesh after few rounds is kept if it is
-    // nearer to the surface.
+    // Vertices slide off thin parts where edges are long. So in kind pure (no line ends between sites), the mesh after
+    // few rounds of relaxation is kept if it is nearer to the surface.
     const std::int32_t little = options_.uniform ? 0 : options_.relax / early_share;
     relax(little, 0.0f, even_progress.early);
     QuadMesh early = mesh;
@@ -244,7 +247,7 @@ QuadResult make_quads(const QuadOptions& options) {
   }();
   const Maker& maker = *made;
   const FluxSurface& surface = maker.surface();
-  // A vertex with several fans counts as the vertex of its first fan.
+  // A mesh vertex where several fans of triangles meet counts as the vertex of its first fan.
   Table<std::int32_t> fan(core.size(), -1, memory);
   for (std::int32_t v = surface.first_apex; v-- > 0;) fan[surface.mesh_vertex[v]] = v;
   Vector<FluxSite> given(&memory);
@@ -262,7 +265,8 @@ QuadResult make_quads(const QuadOptions& options) {
     return result;
   }
 
-  // Tips come from two fields: the mean distance finds limbs that the Poisson field merges into others.
+  // Tips of limbs come from two fields (field/extremities.h): the mean distance finds limbs that the Poisson field
+  // merges into others.
   const Extremities far = [&] {
     const ProgressRange range(quads_progress.prepared, quads_progress.far_tips);
     return geodesic_extremities(options.core, geodesic_smoothing, geodesic_sources, tip_lengths[0].geodesic);
@@ -303,7 +307,8 @@ QuadResult make_quads(const QuadOptions& options) {
     }
   }
   if (trials.empty())
-    trials.push_back({0, maker.make(given, 1, &deviation), Vector<FluxSite>(given, &memory)});  // throws the reason
+    // If no mesh can be made, throws why.
+    trials.push_back({0, maker.make(given, 1, &deviation), Vector<FluxSite>(given, &memory)});
   // Meshes are fitted in order of distance. The first good one is taken, or else the best.
   std::stable_sort(trials.begin(), trials.end(),
                    [](const Trial& a, const Trial& b) { return a.deviation < b.deviation; });

@@ -12,10 +12,11 @@ struct QuadOptions {
   double edge_length = default_edge_length;  // inner units
   bool uniform = false;
   bool split = true;
-  std::int32_t relax = default_relax_rounds;  // rounds
+  std::int32_t relax = default_relax_rounds;  // rounds that even out the mesh
   Span<const FluxSite> sites;  // FluxSite::vertex is an inner vertex of the core; every border is a site too
   bool automatic = true;
-  bool scale_lines = true;  // kind pure: scale the lines to the edge length; off: keep the caller's numbers
+  // Without `uniform`: scales the numbers of lines to the edge length; off: keeps the caller's.
+  bool scale_lines = true;
 };
 
 struct QuadResult {

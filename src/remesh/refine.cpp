@@ -22,7 +22,7 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
   struct Middle {
     std::int32_t to, vertex;
   };
-  // The middles of edges at marked vertices, as linked lists: `first` starts the list of a vertex, `following`
+  // The middles of split edges at marked vertices, as linked lists: `first` starts the list of a vertex, `following`
   // continues it.
   Vector<Middle> middles(&memory);
   Table<std::int32_t> first(marked.size(), none, memory), following(memory);
@@ -84,7 +84,7 @@ std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, M
   std::int32_t from = none, to = none;
   double best = 0;
   for (std::int32_t i = 0; i < n; ++i)
-    for (std::int32_t count = 2; count <= n - 2; ++count) {  // `count` faces from spoke i on join the new vertex
+    for (std::int32_t count = 2; count <= n - 2; ++count) {  // `count` faces from edge (spoke) i on join the new vertex
       const std::int32_t j = (i + count) % n;
       double sum = 0;
       for (std::int32_t k = 1; k < count; ++k)

@@ -11,8 +11,8 @@
 
 namespace hf_inner {
 
-// marked: by vertex. A marked vertex must be inside, with only quads around it, and no quad may have two marked
-// vertices.
+// Replaces each quad at a marked vertex by three. A marked vertex must not lie on a border, and must have only quads
+// around it. No quad may have two marked vertices.
 void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::uint8_t>& marked, Memory& memory);
 
 // Splits v into two vertices with a new quad between them, the inverse of a collapse (Tarini et al. 2010). The quads on

@@ -14,8 +14,8 @@ Vec3 triangle_normal(const FluxSurface& s, std::int32_t t) {
                     s.position[s.tail[3 * t + 2]] - s.position[s.tail[3 * t]]));
 }
 
-// Proposes corners for one quad. outward: the sum of the surface's normals at the quad's corners. A quad that is turned
-// over against `outward` is turned back.
+// Proposes the corners of the best square for one quad. outward: the sum of the surface's normals at the quad's
+// corners. A quad that is turned over against `outward` is turned back.
 void propose(const QuadMesh& mesh, const std::int32_t* c, double edge_length, Vec3 outward, Vec3* out) {
   const Vec3 p[4] = {mesh.position[c[0]], mesh.position[c[1]], mesh.position[c[2]], mesh.position[c[3]]};
   const Vec3 middle = 0.25 * (p[0] + p[1] + p[2] + p[3]);
@@ -57,7 +57,7 @@ SurfacePoint walk_surface(const FluxSurface& s, SurfacePoint at, Vec3 way) noexc
       if (!(rest > 0)) return at;
       direction = (1 / rest) * direction;
     }
-    // How much the barycentric weights change per unit of length along the walk.
+    // How much the barycentric weights in the triangle change per unit of length along the walk.
     double rate[3];
     rate[0] = dot(cross(c - b, direction), n) / nn;
     rate[1] = dot(cross(a - c, direction), n) / nn;
@@ -74,7 +74,7 @@ SurfacePoint walk_surface(const FluxSurface& s, SurfacePoint at, Vec3 way) noexc
     for (double& w : at.weight) w /= sum;
     rest -= length;
     if (leaves < 0) return at;
-    // The walk crosses the edge opposite corner `leaves`.
+    // The walk along the surface crosses the edge opposite corner `leaves`.
     const std::int32_t h = 3 * t + (leaves + 1) % 3, twin = s.twin[h];
     if (!s.is_real(twin)) return at;  // a border
     at.weight[leaves] = 0;

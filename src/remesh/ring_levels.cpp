@@ -10,7 +10,7 @@
 namespace hf_inner {
 namespace {
 
-// The distance s along one arc, as a function of the field's value (rings.h).
+// The mean distance s from the first level loop of an arc (annulus between critical points), by the field's value.
 class Scale {
  public:
   Scale(const FluxField& field, const ArcGraph& graph, const Arc& arc, Memory& memory) : samples_(memory) {
@@ -130,7 +130,8 @@ void place_rings(const FluxField& field, const ArcGraph& graph, const RingOption
       if (static_cast<double>(out.rings.size()) + steps > most_rings)
         fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "more than %g rings; take a larger edge_length", most_rings);
       const std::int32_t n = static_cast<std::int32_t>(steps);
-      // Rings are placed evenly from one end of the room to the other. An end at a border already has its ring.
+      // Rings of nodes are placed evenly from one end of the free range to the other. An end at a border already has
+      // its ring.
       for (std::int32_t k = 0; k <= n; ++k) {
         if ((k == 0 && border_below) || (k == n && border_above && (n > 0 || !border_below))) continue;
         if (n == 0 && (border_below || border_above)) continue;

@@ -46,7 +46,7 @@ class Builder {
 
  private:
   struct Arrival {
-    std::int32_t from;  // the node below
+    std::int32_t from;  // the node below on its flow line
     FluxPoint point;
     double place;
   };
@@ -58,7 +58,7 @@ class Builder {
     const Ring& ring = out_.rings[r];
     line.build(field_, {ring.threshold, ring.seed}, ring.value, ring.border);
   }
-  // Makes r the current ring: builds its polyline and numbers its edges.
+  // Makes r the current ring of nodes: builds its polyline and numbers the edges that it crosses.
   void begin_ring(std::int32_t r) {
     build(r, line_);
     for (std::int32_t i = 0; i < line_.edges().size(); ++i) index_of_edge_[line_.edges()[i]] = i;
@@ -91,7 +91,7 @@ class Builder {
     out_.nodes[n].place = place - line_.length() * std::floor(place / line_.length());
     return n;
   }
-  double gap(std::int32_t n) const {  // to the next node
+  double gap(std::int32_t n) const {  // length of the ring up to the next node
     const double length = out_.rings[out_.nodes[n].ring].length;
     double g = out_.nodes[out_.nodes[n].next].place - out_.nodes[n].place;
     if (out_.nodes[n].next == n) return length;
@@ -188,8 +188,8 @@ class Builder {
     }
   }
 
-  // Adds the nodes of ring r for the lines that reach it. They come from one ring in its order, or through a saddle
-  // from several rings.
+  // Adds the nodes of ring r for the flow lines that reach it. They come from one ring below in its order, or through a
+  // saddle from several rings.
   void arrive(std::int32_t r, bool saddle, std::int32_t rank) {
     begin_ring(r);
     const std::int32_t threshold = out_.rings[r].threshold;
@@ -203,7 +203,7 @@ class Builder {
       std::sort(arrivals_.begin(), arrivals_.end(),
                 [](const Arrival& a, const Arrival& b) { return a.place < b.place; });
     } else if (count > 1) {
-      // The order of the nodes is that of the ring below. This finds the first node.
+      // The new ring's nodes have the order of the ring below, where their lines come from. This finds the first node.
       std::size_t begin = 0;
       double drop = -1;
       for (std::size_t k = 0; k < arrivals_.size(); ++k) {
@@ -229,8 +229,9 @@ class Builder {
     complete_ring(r);
   }
 
-  // Adds two neighbouring lines from ring r down to one gap of a ring below the saddle of that rank. They start half
-  // way around the ring from its only node. Only the first line is traced; the second runs beside it.
+  // Adds two neighbouring flow lines from ring r of nodes down to a ring below the saddle with this rank. They start
+  // half way around ring r from its only node, and end between two neighbouring nodes. Only the first line is traced;
+  // the second runs beside it.
   void join_down(std::int32_t r, std::int32_t rank) {
     const std::int32_t only = out_.rings[r].node;
     const double place = only == none ? 0.0 : out_.nodes[only].place + line_.length() / 2;
@@ -249,7 +250,7 @@ class Builder {
     if (p.half == none) fail_off_arc();
     build(below, lower_line_);
     const double low_place = lower_line_.place_of(p);
-    // The new nodes go behind the last node before that place, or behind the last of all nodes.
+    // The new nodes follow the last node before that place, or the last of all nodes.
     std::int32_t after = out_.rings[below].node, best = none, m = after;
     for (std::int32_t k = 0; k < out_.rings[below].count; ++k, m = out_.nodes[m].next) {
       if (out_.nodes[m].place <= low_place && (best == none || out_.nodes[m].place >= out_.nodes[best].place)) best = m;
@@ -270,7 +271,8 @@ class Builder {
     }
   }
 
-  // Tells whether the gap behind n is adjacent to the saddle: its two lines are not neighbours on one ring below.
+  // Tells whether the gap behind node n of a ring is adjacent to the saddle: its two flow lines are not neighbours on
+  // one ring below.
   bool is_at_saddle(std::int32_t n) const {
     const std::int32_t a = out_.nodes[n].down, b = out_.nodes[out_.nodes[n].next].down;
     if (a == none || b == none) return true;
@@ -280,8 +282,8 @@ class Builder {
     return m != b;
   }
 
-  // Completes a ring above a saddle: makes the number of nodes even. In kind uniform it also fills the widest gap at
-  // the saddle, with nodes about an edge length apart.
+  // Completes a ring above a saddle: makes the number of nodes even. In kind uniform (lines may start anywhere) it also
+  // fills the widest gap at the saddle, with nodes about an edge length apart.
   void fill_saddle_ring(std::int32_t r) {
     std::int32_t widest = none, n = out_.rings[r].node;
     double width = -1;
@@ -296,7 +298,7 @@ class Builder {
     fill(widest, wanted);
   }
 
-  // Applies the rules of rings.h and completes ring r.
+  // Completes ring r of nodes: applies the rules of rings.h.
   void complete_ring(std::int32_t r) {
     const Ring& ring = out_.rings[r];
     const std::int32_t upper = graph_.arcs[ring.arc].upper;

@@ -50,14 +50,15 @@ struct SurfacePoint {
 
 struct RingMesh {
   explicit RingMesh(Memory& memory) : rings(memory), nodes(memory), ring_start(memory), location(memory) {}
-  Table<Ring> rings;  // rings of arc a: ring_start[a] .. ring_start[a + 1], from below
+  Table<Ring> rings;  // rings of nodes on arc a: ring_start[a] .. ring_start[a + 1], from below
   Table<RingNode> nodes;
   Table<std::int32_t> ring_start;
   Table<SurfacePoint> location;  // by node
 };
 
-// lines_at: by vertex of the surface, the number of lines that start at a source. Only kind pure uses it; kind uniform
-// counts by length.
+// Makes the rings of nodes and the lines between them. lines_at: by vertex of the surface, the number of lines that
+// start there if it is a source. If RingOptions::uniform is false, lines start only at sources, as many as lines_at
+// says. If it is true, the length of the ring around a source sets the number.
 RingMesh make_rings(const FluxField& field, const ArcGraph& graph, const Table<double>& lines_at,
                     const RingOptions& options, Memory& memory);
 

@@ -31,7 +31,7 @@ Mat3 checked_axes(const double (&rows)[9], const char* side) {
   if (!good)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
          "the %s axes must be three orthogonal unit rows right, up, forward with right x up = forward", side);
-  // The rotation nearest to these axes is exactly orthonormal.
+  // Takes the rotation nearest to the caller's axes, so that they are exactly orthonormal.
   Mat3 axes;
   for (int i = 0; i < 3; ++i) axes(i, 0) = row[i].x, axes(i, 1) = row[i].y, axes(i, 2) = row[i].z;
   return best_rotation(axes, Quaternion()).toRotationMatrix();
@@ -50,7 +50,7 @@ double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns) n
   double sum = 0;
   std::int32_t legs = 0;
   for (const std::int32_t column : foot_columns) {
-    // A coarse leg may have no vertex in the first window of field values; the next window is wider.
+    // A coarsely meshed leg may have no vertex in the first window of field values; the next window is wider.
     for (const FieldWindow& window : leg_windows) {
       double height = 0, area = 0;
       for (std::size_t v = 0; v < side.area.size(); ++v) {

@@ -18,7 +18,7 @@
 
 namespace hf_inner {
 
-// The rest shape of one side (source or target), with the fields of its pairs.
+// The rest shape of one side (source or target), with the fields of its paired regions.
 struct RestSide {
   const Mesh* mesh = nullptr;
   Span<const double> field;  // vertex count x pair count
@@ -34,12 +34,12 @@ Mat3 checked_axes(const double (&rows)[9], const char* side);
 // Returns the height of the lowest vertex along up, in inner coordinates.
 double ground_height(const RestSide& side) noexcept;
 
-// Returns the mean leg length of the foot pairs in inner coordinates. foot_columns: the pairs' columns in the field. If
-// a leg has no vertex in any window, it returns 0.
+// Returns the mean leg length on one surface, in inner coordinates. foot_columns: columns of RestSide::field that
+// belong to feet. If a leg has no vertex in any window, it returns 0.
 double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns) noexcept;
 
-// Finds the direction of limb `column`; its length is that of the outer part of the limb. Returns false when no vertex
-// has a field value in limb_window.
+// Finds the rest direction of the limb at the region of field `column`; its length is that of the outer part of the
+// limb. Returns false when no vertex has a field value in limb_window.
 bool limb_direction(const RestSide& side, std::int32_t column, Vec3 region_centroid, Vec3& direction) noexcept;
 
 // Returns the minimal rotation that turns the direction `from` to `to`. For opposite directions it turns about the axis

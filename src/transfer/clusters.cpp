@@ -29,8 +29,8 @@ struct NearestCentres {
   }
 };
 
-// Chooses cluster centres by farthest-point sampling of the vertices' field rows. The first centre is the row with the
-// largest maximum.
+// Chooses cluster centres by farthest-point sampling of the vertices, with the differences of their field values as
+// distances. The first centre is the vertex with the largest field value.
 void sample_centres(const ClusterOptions& options, std::int32_t width, Span<const double> field, Clusters& out,
                     Vector<NearestCentres>& nearest, Memory& memory, JobRunner& jobs) {
   const std::size_t n = field.size() / at(width);
@@ -75,8 +75,8 @@ void weigh_by_distance(const ClusterOptions& options, const Vector<NearestCentre
     const NearestCentres& near = nearest[v];
     Candidate candidates[blend_count];
     std::int32_t count = 0;
-    // Weights are relative to the nearest centre, less the value at the fifth nearest. So they stay continuous where
-    // the four nearest centres change.
+    // A vertex belongs to the clusters of the four nearest centres. The weight at the fifth is subtracted from theirs,
+    // so that weights stay continuous where the four change.
     const double last =
         near.cluster[blend_count] < 0 ? 0.0 : std::exp(-sharpness * (near.distance[blend_count] - near.distance[0]));
     for (std::int32_t i = 0; i < blend_count && near.cluster[i] >= 0; ++i) {
@@ -87,7 +87,7 @@ void weigh_by_distance(const ClusterOptions& options, const Vector<NearestCentre
   }
 }
 
-// Returns the weight of one band at the field value u. It is a hat function of `bands` bands over [0, 1], times
+// Returns the weight of one level band at the field value u. It is a hat function of `bands` bands over [0, 1], times
 // u^band_exponent.
 double band_weight(double u, std::int32_t band, std::int32_t bands) noexcept {
   const double hat = 1 - std::abs(u * (bands - 1) - band);
@@ -110,7 +110,7 @@ void weigh_by_bands(std::int32_t width, std::int32_t bands, Span<const double> f
   }
 }
 
-// The source vertices that one kernel covers, with their weights.
+// The source vertices that one kernel (Gaussian weight around a cluster's centre) covers, with their weights.
 struct KernelRow {
   explicit KernelRow(Memory& memory) : vertex(&memory), weight(&memory) {}
   Vector<std::int32_t> vertex;
@@ -138,13 +138,14 @@ void finish(KernelRow& row, std::size_t most, std::int32_t fallback) {
   for (double& w : row.weight) w /= sum;
 }
 
-// Scales the slopes from index `begin` on, so that the moment has trace 1 at rest. Then it marks the end of the row.
+// Scales a cluster's slopes (vectors g of clusters.h), from index `begin` on, so that the moment matrix (clusters.h)
+// has trace 1 at rest. Then marks where the cluster's slopes end.
 void close_row(std::size_t begin, double trace, SourceKernels& out) {
   for (std::size_t i = begin; i < out.slope.size(); ++i) out.slope[i] = (trace > 0 ? 1 / trace : 0.0) * out.slope[i];
   out.start.push_back(static_cast<std::int32_t>(out.slope.size()));
 }
 
-// Scratch arrays by source vertex; all are zero again after each row.
+// Scratch arrays by source vertex; all are zero again after each cluster.
 struct EdgeScratch {
   EdgeScratch(std::size_t count, Memory& memory)
       : kernel(count, 0.0, &memory),
@@ -157,7 +158,7 @@ struct EdgeScratch {
   Vector<std::int32_t> list;
 };
 
-// Adds one row: all edges of the kernel's vertices, summed up at their two ends.
+// Adds one cluster's slopes (vectors g of clusters.h): all edges of the kernel's vertices, summed up at their two ends.
 void append_edges(const KernelRow& row, const Core& core, EdgeScratch& scratch, SourceKernels& out) {
   const std::size_t begin = out.slope.size();
   Vector<double>& kernel = scratch.kernel;
@@ -239,7 +240,8 @@ void centre_rows(const ClusterOptions& options, const double* centre, std::int32
   finish(out.narrow, most_narrow, nearest), finish(out.broad, most_broad, nearest);
 }
 
-// Paper mode: the narrow kernel has the weights of one band. The broad kernel also covers the bands around it.
+// Paper mode: the narrow kernel of a cluster (which gives its rotation) has the weights of one level band. The broad
+// kernel also covers the bands around it.
 void band_rows(std::int32_t h, std::int32_t band, std::int32_t bands, std::int32_t width, Span<const double> field,
                Span<const double> area, ClusterRows& out) {
   std::int32_t nearest = 0;
@@ -293,7 +295,7 @@ void write_weights(Candidate* candidates, std::int32_t count, std::int32_t* join
   count = std::min(count, blend_count);
   double sum = 0;
   for (std::int32_t i = 0; i < count; ++i) sum += candidates[i].weight;
-  if (!(sum > 0)) {  // all four are as far away as the fifth
+  if (!(sum > 0)) {  // the four nearest centres are as far away as the fifth
     for (std::int32_t i = 0; i < count; ++i) candidates[i].weight = 1, sum += 1;
   }
   double rest = weight_units;
@@ -348,8 +350,8 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
     }
   });
 
-  // Copies the centres of the clusters that remain. In paper mode, a cluster's centre is the area mean of its vertices'
-  // field rows.
+  // Copies the centres of the clusters that remain. In paper mode, a cluster's centre is the mean of its vertices'
+  // field values, weighted by area.
   Vector<double> centres(kept.size() * at(field_count), 0.0, &memory);
   if (!options.paper_bands) {
     for (std::size_t c = 0; c < kept.size(); ++c) {

@@ -21,7 +21,7 @@ namespace hf_inner {
 
 struct ClusterOptions {
   bool paper_bands = false;
-  std::int32_t cluster_count = 0;  // 0: default_cluster_count; in paper mode default_bands per field
+  std::int32_t cluster_count = 0;  // 0: default_cluster_count; in paper mode default_bands level bands per field
   double kernel_width = default_kernel_width;
 };
 
@@ -53,9 +53,9 @@ struct Clusters {
   Vector<double> centre;       // count x field_count
   Vector<std::int32_t> joint;  // blend_count per target vertex, by falling weight
   Vector<float> weight;
-  Vector<double> mass;           // share of the target's area, summing to 1
+  Vector<double> mass;           // per cluster: share of the target's area, summing to 1
   Vector<Vec3> pivot;            // rest centroid on the target, inner coordinates
-  Vector<std::int32_t> support;  // source vertices within the base width; few make a rotation uncertain
+  Vector<std::int32_t> support;  // source vertices within one kernel width; few make a rotation uncertain
   SourceKernels narrow, broad;
 };
 

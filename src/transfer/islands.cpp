@@ -52,7 +52,7 @@ class PointGrid {
     best = std::numeric_limits<double>::infinity();
     const std::int32_t cx = cell(p.x - low_.x), cy = cell(p.y - low_.y), cz = cell(p.z - low_.z);
     for (std::int32_t shell = 0; shell <= cells_; ++shell) {
-      // Everything outside the shells searched so far is at least `safe` away.
+      // All cells outside the shells of cells searched so far are at least `safe` away.
       if (found >= 0) {
         const double safe = (shell - 1) * cell_size_;
         if (safe > 0 && best <= safe * safe) break;
@@ -163,7 +163,8 @@ void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int
       for (std::size_t j = 0; j < width; ++j)
         mean[j] += field[at(members[i].host) * width + j] / static_cast<double>(held);
     }
-    // All vertices of a small component get the mean row. In a larger one, free vertices start from the mean.
+    // All vertices of a small component get the mean field values of the surface beside it. In a larger one, vertices
+    // that do not keep such values start from the mean.
     const bool rigid = norm(high - low) < rigid_island;
     for (std::size_t i = 0; i < members.size(); ++i) {
       const double* from = !rigid && i < held ? field + at(members[i].host) * width : mean.data();

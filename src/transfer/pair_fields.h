@@ -27,11 +27,11 @@ class PairFields {
   PairFields& operator=(const PairFields&) = delete;
   PairFields& operator=(PairFields&&) = default;
 
-  // regions[i] becomes the region of pair numbers[i], which must be free. Vertices may repeat inside a region. `side`
+  // regions[i] becomes the region of pair numbers[i], a number not in use. Vertices may repeat inside a region. `side`
   // names the surface in messages. Throws HF_ERROR_EMPTY (index: pair in the batch). Throws HF_ERROR_OUT_OF_RANGE and
   // HF_ERROR_OVERLAP (index: position in the list of all regions, one after the other).
   void add(Span<const std::uint32_t> numbers, Span<const Span<const std::int32_t>> regions, const char* side);
-  // Every number must be in use.
+  // Removes the regions of these pairs. Every number must be in use.
   void remove(Span<const std::uint32_t> numbers);
 
   // Fills field[v * H + i] with u of pair numbers[i] at vertex v, H the number of pairs. leaks[i] is the largest
@@ -46,12 +46,12 @@ class PairFields {
   std::shared_ptr<const Core> core_;
   std::shared_ptr<SiteSolver> solver_;
   Vector<std::int32_t> owner_;                           // per inner vertex: its pair, or -1
-  Vector<std::shared_ptr<const HandleRegion>> regions_;  // by pair number; null = free
+  Vector<std::shared_ptr<const HandleRegion>> regions_;  // by pair number; null: number not in use
   Vector<std::uint8_t> slot_used_;
 };
 
-// Fills the field rows of vertices in components without a region. reached: by component, 1 if it has a region. It is
-// declared here so that its test can call it.
+// Fills the field values of vertices in components without a region (an eye, a strap). reached: by component, 1 if it
+// has a region. It is declared here so that its test can call it.
 void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int32_t channels, double* field);
 
 }  // namespace hf_inner

@@ -30,7 +30,7 @@ inline double smooth_step(double low, double high, double x) noexcept {
 
 inline Vec3 up_of(const Mat3& axes) noexcept { return {axes(1, 0), axes(1, 1), axes(1, 2)}; }
 
-// Everything derived from the pairs, and the last frame. It is made completely or not at all.
+// Everything computed from the pairs of regions, and the last frame. It is made completely or not at all.
 struct Transfer::Prepared {
   explicit Prepared(Memory& memory)
       : source_leak(&memory),
@@ -67,16 +67,16 @@ struct Transfer::Prepared {
   struct Anchor {
     std::uint32_t number = 0, flags = 0;
     bool is_foot = false;
-    std::int32_t cluster = 0;  // cluster with the largest weight on the region
+    std::int32_t cluster = 0;  // cluster of vertices with the largest weight on the region
     Vec3 source_rest, target_rest;
   };
 
   Buffer<double> source_field, target_field;
   // The next arrays have one entry per pair, in the order of numbers_.
   Vector<double> source_leak, target_leak, limb_angle, confidence;
-  Vector<Quaternion> limb_turn;  // D_h of alignment.h
+  Vector<Quaternion> limb_turn;  // turns the target's limb at rest to the source's direction
   Vector<std::uint8_t> aligned;
-  Vector<Quaternion> cluster_turn;  // D_h^w of alignment.h
+  Vector<Quaternion> cluster_turn;  // the part of its limb's turn that a cluster makes
   Clusters clusters;
   SourceRotations source_rotations;
   Translations translations;
@@ -87,28 +87,28 @@ struct Transfer::Prepared {
   Vec3 target_centroid;
   // The state of the last frame.
   Vector<Vec3> posed;                   // source, inner units
-  Vector<Quaternion> given, rotations;  // rotations from the source, and after the refit
+  Vector<Quaternion> given, rotations;  // rotations from the source, and after turning to fit neighbours
   Vector<Mat3> matrices;
   Vector<Vec3> shifts, cluster_goals, goals;
-  Vector<Anchor> loose;     // pairs without an anchor: only holds move them.
-  Vector<Hold> holds;       // this round's holds; room for one per pair and vertex row.
-  Vector<Hold> given_hold;  // the caller's hold of each row; share 0: none.
+  Vector<Anchor> loose;     // pairs whose target region does not follow the source's path
+  Vector<Hold> holds;       // this round's constraints: room for one per pair and held vertex
+  Vector<Hold> given_hold;  // constraint of the caller per region; share 0: none
   // Data that keeps the surface above the ground.
-  Vector<std::int32_t> rides;  // by target vertex: row of the region it moves with, or -1.
+  Vector<std::int32_t> rides;  // by target vertex: the region it moves with, or -1
   Vector<BlendColumns> columns;
   Vector<Vec3> blended;               // posed target, inner units.
-  double lift = 0;                    // height by which everything is raised.
+  double lift = 0;                    // height by which the whole target is raised
   Vector<std::int32_t> source_owner;  // per source vertex: cluster whose centre is nearest.
-  // Four arrays with one entry per cluster. rest_lows and source_lows: lowest scaled height of the cluster's source
-  // vertices over the ground, at rest and now. target_lows: lowest height of the cluster's target vertices. touch: the
-  // cluster's area if the cluster touches the ground now but not at rest.
+  // Four arrays with one entry per cluster (vertices with a common motion). rest_lows and source_lows: lowest scaled
+  // height of the cluster's source vertices over the ground, at rest and now. target_lows: lowest height of the
+  // cluster's target vertices. touch: the cluster's area if the cluster touches the ground now but not at rest.
   Vector<double> rest_lows, source_lows, target_lows, touch;
   double source_low = 0;  // lowest height of all source vertices
   struct Sunk {
     double depth = 0;
     std::int32_t vertex = -1;
   };
-  Vector<Sunk> deepest;  // per row of a region, then per cluster
+  Vector<Sunk> deepest;  // deepest vertex under the ground, per region, then per cluster
   std::int32_t held_vertices[vertex_rows] = {};
 };
 

@@ -50,8 +50,8 @@ void Refit::turn(const Quaternion* given, const Vec3* shifts, Quaternion* rotati
                  const Mat3* matrices) const noexcept {
   for (std::size_t c = 0; c < at(count_); ++c) {
     if (!(spread_[c] > 0)) continue;
-    // The cluster's own place drops out of the moment, because x sums to zero about the centroid. Subtracting it here
-    // keeps more digits.
+    // The moment matrix sums posed places times rest points, which are relative to their mean. So the cluster's own
+    // place has no effect there, and subtracting it first keeps more digits.
     const Vec3 place = matrices[c] * centroid_[c] + shifts[c];
     Mat3 moment;
     for (std::int32_t i = start_[c]; i < start_[c + 1]; ++i) {

@@ -33,11 +33,11 @@ class Refit {
 
  private:
   std::int32_t count_ = 0;
-  // The overlaps of each cluster with others and with itself.
+  // The overlaps (common vertices) of each cluster with others and with itself.
   Vector<std::int32_t> start_, other_;
   Vector<double> weight_;
   Vector<Vec3> point_;
-  Vector<double> spread_;  // 0: the cluster keeps its rotation
+  Vector<double> spread_;  // rest spread per cluster; 0: it keeps its rotation
   Vector<Vec3> centroid_;
 };
 

@@ -10,8 +10,8 @@
 namespace hf_inner {
 namespace {
 
-// Returns the moment M = sum_v q_v g_v' of cluster c (clusters.h): q are posed places, g the slopes. The slopes sum to
-// zero, so any origin gives the same M. An origin near the cluster keeps the digits of poses far away.
+// Returns the moment matrix M = sum_v q_v g_v' of cluster c: q are posed places, g the constant vectors of clusters.h.
+// The g sum to zero, so any origin gives the same M. An origin near the cluster keeps the digits of poses far away.
 Mat3 moment_of(const SourceKernels& kernels, std::int32_t c, const Vec3* posed) noexcept {
   Mat3 moment;
   const std::int32_t first = kernels.start[at(c)], last = kernels.start[at(c) + 1];

@@ -33,7 +33,7 @@ class SourceRotations {
                 JobRunner& jobs) const;
 
  private:
-  Vector<std::int32_t> sample_;  // vertices used for the rotation of the whole
+  Vector<std::int32_t> sample_;  // vertices used for the rotation of the whole body
   Vector<double> sample_weight_;
   Vec3 sample_centroid_;
   double sample_spread_ = 0;

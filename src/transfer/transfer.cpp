@@ -74,7 +74,7 @@ void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs) 
       fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i),
            "pair %zu has flags that are none of HF_PAIR_*: %u", i, pairs[i].flags);
   }
-  // New pairs get the smallest free numbers.
+  // New pairs of regions get the smallest free numbers.
   Vector<std::uint32_t> fresh_numbers(&memory), numbers(numbers_, &memory), flags(flags_, &memory);
   Vector<Span<const std::int32_t>> source_regions(&memory), target_regions(&memory);
   NumberPool pool;
@@ -113,8 +113,8 @@ void Transfer::remove_pairs(Span<const std::uint32_t> pairs) {
   prepared_.reset();
 }
 
-// Finds the rest directions of the limbs, aligns those that differ too much, and sets the turn of each cluster. Also
-// finds scale and ground heights.
+// Finds the rest directions of the limbs on both bodies, and turns the target's limb where they differ too much. Sets
+// each cluster's part of that turn. Also finds scale and ground heights.
 void Transfer::prepare_alignment(Prepared& p) const {
   const std::size_t width = numbers_.size();
   const RestSide source{
@@ -182,14 +182,15 @@ void Transfer::prepare_anchors(Prepared& p) const {
   }
   TranslationOptions options;
   if (options_.mode == HF_TRANSFER_PAPER) options.spread_share = 0;
-  // Anchored feet alone would let the trunk float, so the centroid gets more weight then.
+  // If only feet follow their source's paths (anchors), the trunk would float. So the body's centroid gets more weight
+  // then.
   options.root = p.anchors.empty() ? root_alone : holds_trunk ? root_with_trunk : root_without_trunk;
   p.translations.prepare(*target_core_, target_area_, p.clusters, {regions.data(), regions.size()},
                          {loose.data(), loose.size()}, options);
   p.holds.reserve(numbers_.size() + vertex_rows), p.given_hold.assign(numbers_.size() + 1, Hold());
   for (std::size_t k = 0; k < p.anchors.size(); ++k) p.anchors[k].cluster = p.translations.heaviest(k);
 
-  // Finds the vertices that move with the region of a pair, because they blend from the same clusters.
+  // Finds the vertices that are raised with the region of a pair, because they blend from the same clusters.
   p.rides.assign(at(target_core_->size()), -1);
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     const std::size_t row = i < p.anchors.size() ? i : i + 1;

@@ -34,9 +34,9 @@ namespace hf_inner {
 
 struct TransferOptions {
   std::int32_t mode = HF_TRANSFER_FIELDS;
-  std::uint32_t cluster_count = 0;  // 0 = default_cluster_count; paper mode: 0 = default_bands per pair
+  std::uint32_t cluster_count = 0;  // 0 = default_cluster_count; paper mode: default_bands per pair
   double kernel_width = 0;          // 0 = default_kernel_width
-  double scale = 0;                 // 0 = from the legs or the boxes
+  double scale = 0;                 // 0 = from the lengths of legs, or the bounding boxes
   double alignment_angle = 0;       // radians; 0 = default_alignment_angle; negative = never
   double source_axes[9] = {0};      // rows right, up, forward; zero = x, y, z
   double target_axes[9] = {0};
@@ -81,7 +81,7 @@ class Transfer {
   PairInfo pair_info(std::uint32_t pair);
 
   // Poses the target like the posed source. source, out: inner vertices of source and target, in the caller's units.
-  // holds: regions of the target that move where the caller says in this frame. Throws HF_ERROR_EMPTY without a pair,
+  // holds: regions of the target whose mean goes to a given place in this frame. Throws HF_ERROR_EMPTY without a pair,
   // and HF_ERROR_NON_FINITE (index: inner vertex of the source). For bad holds it throws HF_ERROR_NO_SUCH_PAIR,
   // HF_ERROR_NON_FINITE, or HF_ERROR_INVALID_ARGUMENT for a pair named twice (index: position in the list).
   void apply(const Vec3* source, Vec3* out, Span<const PairHold> holds = {});
@@ -112,7 +112,7 @@ class Transfer {
   void place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const;
   void read_holds(Prepared& p, Span<const PairHold> holds) const;
   void hold_regions(Prepared& p, double share) const;
-  void settle(Prepared& p, Vec3 centroid) const;  // translations of the present rotations and goals
+  void settle(Prepared& p, Vec3 centroid) const;  // finds translations for the present rotations and goals
   void turn_clusters(Prepared& p) const;
   void blend(Prepared& p) const;
   double lying_share(Prepared& p) const noexcept;
@@ -126,8 +126,8 @@ class Transfer {
   Mat3 source_axes_, target_axes_;
   Quaternion axes_;  // A: takes the source's axes to the target's
   PairFields source_, target_;
-  Vector<std::uint32_t> numbers_;  // pairs in use, ascending: the order of the fields
-  Vector<std::uint32_t> flags_;    // by number
+  Vector<std::uint32_t> numbers_;  // numbers of pairs in use, ascending: order of the fields
+  Vector<std::uint32_t> flags_;    // HF_PAIR_*, by pair number
   Vector<double> source_area_, target_area_;
   std::shared_ptr<Prepared> prepared_;
 };

@@ -32,9 +32,10 @@ Quaternion about(const Quaternion& q, Vec3 axis) noexcept {
 
 }  // namespace
 
-// Computes where the anchored regions go. turn: rotation of the whole source in the target's frame. When the body
-// turns, the offset between the two rest shapes turns with it. A standing foot stays in place while the body turns over
-// it. While the body is upright, the foot's offset therefore turns only as far about the vertical as the foot itself.
+// Computes where the regions go that follow their source (anchors). turn: rotation of the whole source in the target's
+// frame. When the body turns, the offset between the two rest shapes turns with it. A standing foot stays in place
+// while the body turns over it. While the body is upright, the foot's offset therefore turns only as far about the
+// vertical as the foot itself.
 void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const {
   const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
   const double rigid = rigid_share(whole), share = std::max(rigid, turned_share(turn)),
@@ -139,7 +140,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   const WholeMotion whole = p.source_rotations.whole(from, source_area_, p.posed.data());
   p.source_rotations.clusters(p.clusters, p.posed.data(), whole.rotation, p.given.data(), *target_core_->jobs);
 
-  // Takes the rotations into the target's axes and rest directions.
+  // Takes the rotations of the source's clusters into the target's axes and rest directions.
   const Quaternion turn = normalised(axes_ * whole.rotation * axes_.conjugate());
   const Vec3 centroid = p.target_centroid + p.scale * rotate(axes_, whole.centroid - whole.rest_centroid);
   for (std::size_t c = 0; c < p.rotations.size(); ++c) {
@@ -155,7 +156,8 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   const bool over_ground = options_.mode == HF_TRANSFER_FIELDS && !p.anchors.empty();
   const double lies = over_ground ? (1 - rigid) * lying_share(p) : 0.0;
   if (lies > 0) lie_down(p, centroid, lies, fallen, share);
-  // Without anchors and holds nothing pulls the clusters, so no refit is needed.
+  // If no region follows its source and no constraint is set, no goal pulls the clusters. Then they need no turn
+  // towards their neighbours.
   const std::int32_t rounds =
       options_.mode == HF_TRANSFER_PAPER || (p.anchors.empty() && holds.empty()) ? 0 : refit_rounds;
   for (std::int32_t round = 0; round < rounds; ++round) {

@@ -3,7 +3,7 @@
 // The ground is the height of the lowest point of the rest shape. A target may sink as deep as its source, scaled.
 // Regions are held while the translations are solved (hold_regions). Three rules lift the rest of the surface:
 // - A lying source touches the ground with clusters that are far above it at rest. The same clusters of the target
-//   should touch: lie_down moves the anchors along up by the mean difference of their heights.
+//   should touch: lie_down moves the goals of the anchored regions along up by the mean difference of their heights.
 // - A body that has fallen over but does not lie yet is raised as a whole by the depth it sinks.
 // - In each cluster that still sinks, the deepest vertex is held at the allowed height, and the clusters turn to follow
 //   it. If that vertex moves with the region of a pair, the region is raised instead. A frame in which no part lies or
@@ -15,8 +15,8 @@
 #include "transfer/prepared.h"
 
 namespace hf_inner {
-// Holds the regions that stand, touch or would sink, and those that the caller places. share: how far the frame is a
-// rigid motion, or the body has fallen over. At share 1 only the caller's holds remain.
+// Constrains (holds) the regions that stand, touch or would sink, and those that the caller places. share: how far the
+// frame is a rigid motion, or the body has fallen over. At share 1 only the caller's constraints remain.
 void Transfer::hold_regions(Prepared& p, double share) const {
   const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
   const bool by_itself = options_.mode == HF_TRANSFER_FIELDS && share < 1;
@@ -81,7 +81,8 @@ double Transfer::lying_share(Prepared& p) const noexcept {
   return smooth_step(lies_low, lies_high, touching);
 }
 
-// Lowers or raises the anchors, so that the target's clusters touch the ground where the source's clusters touch it.
+// Lowers or raises the goals of regions that follow their source (anchors). Then a cluster of the target's vertices
+// touches the ground if the same cluster of the source does.
 void Transfer::lie_down(Prepared& p, Vec3 centroid, double lies, double fallen, double share) const {
   const Vec3 up = up_of(target_axes_);
   blend(p);
@@ -109,7 +110,7 @@ void Transfer::find_sunk(Prepared& p, Vec3 up, double allowed) const noexcept {
     const double depth = allowed - dot(up, p.blended[v]);
     if (!(depth > least_depth)) continue;
     const std::int32_t row = p.rides[v];
-    if (row >= 0 && p.given_hold[at(row)].share > 0) continue;  // the caller has put it there
+    if (row >= 0 && p.given_hold[at(row)].share > 0) continue;  // the caller has placed this region
     Prepared::Sunk& sunk = p.deepest[row >= 0 ? at(row) : rows + at(p.clusters.joint[v * blend_count])];
     if (depth > sunk.depth) sunk.depth = depth, sunk.vertex = static_cast<std::int32_t>(v);
   }
@@ -128,7 +129,7 @@ bool Transfer::hold_sunk(Prepared& p, Vec3 up, double share, std::size_t& held) 
     for (Hold& hold : p.holds) {
       if (hold.row != row) continue;
       if (hold.share < weak_hold * sunk_hold * share)
-        hold = fresh;  // the old hold is too weak to raise
+        hold = fresh;  // the old constraint is too weak to raise
       else
         hold.goal = hold.goal + depth / hold.share * up;
       return;
@@ -137,7 +138,7 @@ bool Transfer::hold_sunk(Prepared& p, Vec3 up, double share, std::size_t& held) 
   };
   for (std::size_t row = 0; row < rows; ++row)
     if (p.deepest[row].vertex >= 0) raise(row, p.deepest[row].depth);
-  // The deepest clusters come first, as long as vertex rows are free.
+  // One vertex of each sunk cluster is held, the deepest first, up to vertex_rows vertices.
   while (true) {
     Prepared::Sunk* deepest = nullptr;
     for (std::size_t c = rows; c < p.deepest.size(); ++c)

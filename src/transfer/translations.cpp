@@ -52,7 +52,7 @@ void Translations::add_spread(const Core& target, const Clusters& clusters, doub
   floor = least_weight_share * floor / static_cast<double>(std::max<std::size_t>(1, target.weights.size()));
   for (std::int32_t e = 0; e < target.topology.edge_count(); ++e) {
     const std::int32_t ends[2] = {target.topology.first(e), target.topology.second(e)};
-    // The difference between the weight rows of the edge's two ends. It has at most eight clusters.
+    // The difference between the cluster weights of the edge's two ends. It has at most eight clusters.
     std::size_t cluster[2 * blend_count];
     double delta[2 * blend_count];
     std::size_t used = 0;
@@ -123,7 +123,8 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
   const double mean = total > 0 ? total / static_cast<double>(count) : 1.0;
   anchor_ = options.anchor * mean, root_ = options.root * mean, whole_ = options.whole * mean;
 
-  // Each anchored region counts by the mean of its vertices, the root (the whole body) by area.
+  // A row gives a point as weights of clusters. Each anchored region counts by the mean of its vertices, the whole body
+  // (root) by area.
   row_start_.assign(1, 0);
   Vector<double> weights(&memory);
   Vector<std::int32_t> all(&memory);
@@ -151,7 +152,8 @@ void Translations::prepare(const Core& target, Span<const double> area, const Cl
   }
   add_influences();
 
-  // Stores only those entries of the table that are not zero.
+  // The right-hand side multiplies cluster rotations by a table with one vector per pair of clusters. Only the vectors
+  // that are not zero are stored.
   for (std::size_t c = 0; c < count; ++c) {
     table_start_.push_back(static_cast<std::int32_t>(table_column_.size()));
     for (std::size_t d = 0; d < count; ++d) {
@@ -259,8 +261,8 @@ void Translations::solve_holds(Span<const Hold> holds, bool with_vertical) noexc
 void Translations::hold(Span<const Hold> holds, Vec3 up, const Mat3* rotations, Vec3* shifts) noexcept {
   if (holds.empty()) return;
   const std::size_t count = at(count_);
-  // The first pass moves across the up direction, with the full holds alone. The second moves along up, with all holds.
-  // Neither pass changes what the other has placed.
+  // The first pass moves across the up direction, with those constraints (holds) that are not vertical. The second
+  // moves along up, with all constraints. Neither pass changes what the other has placed.
   for (const bool along : {false, true}) {
     for (std::size_t i = 0; i < holds.size(); ++i) {
       const Vec3 miss = holds[i].goal - place(holds[i].row, rotations, shifts);

@@ -29,10 +29,11 @@
 namespace hf_inner {
 
 struct TranslationOptions {
-  double spread_share = default_spread_share;  // a
-  double anchor = default_anchor_pull;         // l, relative to the mean diagonal of the energies
-  double root = root_alone;                    // r, relative to the same mean
-  double whole = default_whole_pull;           // e, relative to the same mean
+  double spread_share = default_spread_share;  // a: weight of E_spread beside E_overlap
+  // L: weight of each region's goal, as a share of the energies' mean diagonal.
+  double anchor = default_anchor_pull;
+  double root = root_alone;           // r: weight of the centroid's goal, as a share of the same mean
+  double whole = default_whole_pull;  // e: weight of the motion of the whole body, of the same mean
 };
 
 // A constraint that moves the mean of a region to a goal, against the energies. share 1 meets the goal exactly, a
@@ -61,34 +62,34 @@ class Translations {
         hold_matrix_(&memory),
         hold_rhs_(&memory) {}
 
-  // Builds and factors the matrix. regions: vertices of each anchored region of the target. loose: vertices of the
-  // regions that only holds move. Rows number the anchored regions first, then the root, then the loose regions from
-  // regions.size() + 1.
+  // Builds and factors the matrix. regions: vertices of each target region that follows its source (anchored). loose:
+  // vertices of the other regions, which only constraints (holds) move. Rows number the anchored regions first, then
+  // the root, then the loose regions from regions.size() + 1.
   void prepare(const Core& target, Span<const double> area, const Clusters& clusters,
                Span<const Span<const std::int32_t>> regions, Span<const Span<const std::int32_t>> loose,
                const TranslationOptions& options);
 
-  // Computes the translation of every cluster. goals: one per anchored region. centroid: goal of the whole body.
-  // cluster_goals: one per cluster, its rest centroid under the motion of the whole. Allocates nothing. Two threads
-  // must not call it at once.
+  // Computes the translation of every cluster. goals: one per region that follows its source (anchored). centroid: goal
+  // of the whole body. cluster_goals: one per cluster, its rest centroid under the motion of the whole body. Allocates
+  // nothing. Two threads must not call it at once.
   void solve(const Clusters& clusters, const Mat3* rotations, Span<const Vec3> goals, Vec3 centroid,
              const Vec3* cluster_goals, Vec3* out) noexcept;
 
-  // Changes the translations t so that the holds are met and the energies rise least (Woodbury formula):
+  // Changes the translations t so that the constraints (holds) are met and the energies rise least (Woodbury formula):
   //     t += A^-1 R^T m,     (R A^-1 R^T + diag(s_k (1 - share) / share)) m = goal - place.
-  // A is the matrix of the energies. R holds the rows of the held regions, s the diagonal of R A^-1 R^T. A row may have
-  // one hold at most. Allocates nothing.
+  // A is the matrix of the energies. R holds the rows of the held regions, s the diagonal of R A^-1 R^T. A row (region
+  // or vertex) may have one hold at most. Allocates nothing.
   void hold(Span<const Hold> holds, Vec3 up, const Mat3* rotations, Vec3* shifts) noexcept;
-  // Makes rows of single vertices, so that they can be held like regions. Vertex k gets the row vertex_row(first + k),
-  // below vertex_rows. Rows before `first` stay, rows after the new ones become invalid. Four vertices cost O(C^2) for
-  // C clusters. Allocates nothing.
+  // Makes rows (weights of clusters) of single vertices, so that they can be held like regions. Vertex k gets row
+  // number vertex_row(first + k). Rows of vertices before `first` stay, those after the new ones become invalid. Four
+  // vertices cost O(C^2) for C clusters. Allocates nothing.
   std::size_t vertex_row(std::size_t i) const noexcept { return region_rows_ + i; }
   void set_vertex_rows(std::size_t first, Span<const std::int32_t> vertices, const Core& target,
                        const Clusters& clusters) noexcept;
-  // Returns the cluster with the largest weight in a row.
+  // Returns the cluster with the largest weight in a row (region or vertex).
   std::int32_t heaviest(std::size_t row) const noexcept;
   double row_weight(std::size_t row, std::int32_t cluster) const noexcept;
-  // Returns the present mean of a row's region.
+  // Returns the present mean of a row's region, or the place of its vertex.
   Vec3 place(std::size_t row, const Mat3* rotations, const Vec3* shifts) const noexcept;
 
   // Returns the mean of the region's rest points after the rotations alone, without translations.
@@ -105,11 +106,12 @@ class Translations {
                const Clusters& clusters);
 
   void add_influences();
-  // Fills A^-1 R^T for the rows first .. last - 1, where A is the matrix of the energies and R the rows. Also fills the
-  // Gram matrix R A^-1 R^T between these rows and all rows before `last`.
+  // Finds how a constraint on each of the rows (regions or vertices) first .. last - 1 moves all clusters: A^-1 R^T. A
+  // is the matrix of the energies, R the rows. Also fills R A^-1 R^T, how it moves these rows and all rows before
+  // `last`.
   void fill_influences(std::size_t first, std::size_t last) noexcept;
-  // Solves for the multipliers of the constraints (holds), one vector each, in hold_rhs_. with_vertical: constraints
-  // along the up direction count too.
+  // Finds how strongly each constraint (hold) must pull, one vector (Lagrange multiplier) each, in hold_rhs_.
+  // with_vertical: constraints along the up direction count too.
   void solve_holds(Span<const Hold> holds, bool with_vertical) noexcept;
 
   std::int32_t count_ = 0;
@@ -119,13 +121,13 @@ class Translations {
   Vector<double> scratch_;  // right-hand side and solution, four numbers per cluster
   Vector<std::int32_t> table_start_, table_column_;
   Vector<Vec3> table_;
-  // These arrays hold sparse rows over the clusters: first the anchored regions, then the whole body (root), loose
-  // regions and single vertices.
+  // These arrays hold points as sparse rows of cluster weights. The regions that follow their source come first, then
+  // the whole body (root), the other regions, and single vertices.
   Vector<std::int32_t> row_start_, row_column_;
   Vector<double> row_weight_;
   Vector<Vec3> row_point_;
-  // influence_: A^-1 R^T, rows x clusters. gram_: R A^-1 R^T. hold_matrix_: scratch of the constraints (holds). The
-  // last vertex_rows rows belong to set_vertex_rows.
+  // influence_: A^-1 R^T, rows x clusters, with A the matrix of the energies and R the rows. gram_: R A^-1 R^T.
+  // hold_matrix_: scratch of the constraints (holds). The last vertex_rows rows belong to set_vertex_rows.
   Vector<double> influence_, gram_, hold_matrix_;
   Vector<Vec3> hold_rhs_;
 };

@@ -362,7 +362,7 @@ class hf_hit(Structure):
 
 
 class hf_solver_desc(Structure):
-    """Selects how a solver applies its sites to the factor."""
+    """Selects the engine"""
     struct_size: int
     field_kind: int
     engine: int
