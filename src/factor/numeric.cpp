@@ -208,7 +208,8 @@ class Factorisation {
     double done = done_.load(std::memory_order_relaxed);
     while (!done_.compare_exchange_weak(done, done + flops, std::memory_order_relaxed)) {
     }
-    report(static_cast<float>(progress_of_fronts * (done + flops) / symbolic_.flops));
+    // The padding of supernodes counts in `flops` and not in the sum, so the ratio may pass 1.
+    report(static_cast<float>(progress_of_fronts * std::min(1.0, (done + flops) / symbolic_.flops)));
   }
 
   // Computes the front (dense matrix) of supernode s, from the assembly to the stored columns.
