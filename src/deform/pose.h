@@ -167,7 +167,8 @@ class Pose {
   std::shared_ptr<const Groups> meet(const Layout& layout) const;
   std::shared_ptr<const Layout> make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites,
                                             const SiteEdit& edit) const;
-  // Returns the state for `layout`, continued from the present state.
+  // Returns a state for `layout` (handles and the clusters they make). Handles and clusters of the present state keep
+  // their motions, so the surface does not jump.
   std::shared_ptr<State> carry_over(const Layout& layout) const;
   void carry_handle(const Handle& handle, HandleState& state) const;
   void install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> state) noexcept;

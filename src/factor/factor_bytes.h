@@ -30,8 +30,8 @@ struct LoadOptions {
   bool borrow = false;            // read the numbers in place; the bytes must outlive every factor made from them
 };
 
-// Returns a hash of the pattern and the numbers of a matrix, and of the values added to its diagonal. Another mesh,
-// another operator or other positions give another hash.
+// Returns a hash of the pattern and the numbers of a matrix, and of the values added to its diagonal. It changes
+// with the mesh, its vertex positions and the operator.
 std::uint64_t hash_matrix(const SymmetricMatrix& matrix, Span<const std::int32_t> extra_row,
                           Span<const double> extra_value, Memory& memory, JobRunner& jobs);
 

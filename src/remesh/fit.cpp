@@ -153,8 +153,8 @@ class Fitter {
     return best;
   }
 
-  // Chooses the fitting step (release, snap, ...) of this round, the earliest one that any missed place still has to
-  // try. `chosen` gets the places with this step, no two of them near each other.
+  // Chooses the fitting step (release, snap, ...) of this round, the earliest one that any place too far
+  // from the surface still has to try. `chosen` gets the places with this step, no two of them near each other.
   std::int32_t choose(Vector<Place>& chosen) {
     Vector<Place> places(&memory_);
     std::int32_t step = given_up;
