@@ -171,7 +171,7 @@ TEST(MeanDistance, of_a_component_is_the_one_it_has_alone) {
   const auto mean = [](const PlainMesh& mesh) {
     const auto core = hf_test::make_core(mesh);
     std::vector<double> d(mesh.vertex_count());
-    hf_inner::Geodesics(core, 1).average(12, d.data(), nullptr, 0, 1);
+    hf_inner::Geodesics(core, 1).average(12, d.data());
     for (double& x : d) x *= core->mesh.scale;
     return d;
   };
