@@ -149,7 +149,8 @@ HF_API hf_result hf_progress_create(hf_progress* out_progress);
 /* Destroys it. Ignores NULL and destroyed handles. A call that still uses it keeps it alive. Thread safety: any thread.
  * Since 0.1. */
 HF_API void hf_progress_destroy(hf_progress progress);
-/* Writes the fraction done of the running call, 0 to 1. Thread safety: any thread. Since 0.1. */
+/* Writes the fraction done of the running call, 0 to 1. After a call it stays where the call ended, also when it was
+ * cancelled; the next call starts at 0. Thread safety: any thread. Since 0.1. */
 HF_API hf_result hf_progress_get_fraction(hf_progress progress, float* out_fraction);
 /* Stops the running call, or the next one given this object, with HF_ERROR_CANCELLED. Thread safety: any thread.
  * Since 0.1. */

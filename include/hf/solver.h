@@ -34,7 +34,7 @@ typedef struct hf_solver_desc {
   uint32_t channel_count; /* fields solved at once, 1 to 64; 0 = 1 */
   uint32_t site_limit;    /* most sites the solver may hold; 0 = 100,000 */
   uint32_t reserved;      /* 0 */
-  double penalty;         /* HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10 */
+  double penalty;         /* HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal, above 0 to 1e10; 0 = 1e8 */
   hf_progress progress;   /* NULL, or an object to poll and cancel through */
 } hf_solver_desc;
 

@@ -10,9 +10,8 @@ namespace hf_inner {
 class Progress {
  public:
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
-  void reset() noexcept {
-    cancelled_.store(false, std::memory_order_relaxed), fraction_.store(0.0f, std::memory_order_relaxed);
-  }
+  // A cancel that stopped a call does not stop the next. The fraction stays where the call was.
+  void clear_cancel() noexcept { cancelled_.store(false, std::memory_order_relaxed); }
   float fraction() const noexcept { return fraction_.load(std::memory_order_relaxed); }
   bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
   void report(float fraction) {

@@ -25,7 +25,7 @@ auto with_progress(hf_progress handle, Work&& work) {
   try {
     return work(object ? &object->progress : nullptr);
   } catch (const Error& error) {
-    if (error.code() == HF_ERROR_CANCELLED && object) object->progress.reset();
+    if (error.code() == HF_ERROR_CANCELLED && object) object->progress.clear_cancel();
     throw;
   }
 }

@@ -42,23 +42,23 @@ void ScalarField::prepare_rebase() {
   preparing_ = false;
 }
 
-// On any failure here the present engine stays; it is correct.
-void ScalarField::adopt() noexcept {
-  if (!prepared_) return;
+// Takes over the engine that a rebase prepared, with the sites of an edit. False: there is none, or it cannot take
+// them; it then waits as it was.
+bool ScalarField::adopt(const SiteSet& next) noexcept {
+  if (!prepared_) return false;
   try {
-    const SiteDifference since(prepared_->sites, sites_, memory());
+    const SiteDifference since(prepared_->sites, next, memory());
     if (!since.empty()) prepared_->engine->edit(since.edit());
-    prepared_->engine->succeed(*engine_);
-    engine_ = std::move(prepared_->engine);
   } catch (...) {
-    // memory ran out: the rebase is given up
+    return false;  // the present engine decides about the edit
   }
-  prepared_.reset();
+  prepared_->engine->succeed(*engine_);
+  engine_ = std::move(prepared_->engine);
+  return true;
 }
 
 void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
   const std::lock_guard<std::mutex> lock(guard_);
-  adopt();
   SiteSet next(sites_, memory());
   Vector<std::uint32_t> numbers(edit.add.count, &memory());
   next.remove(edit.remove_count, edit.remove_sites);
@@ -66,7 +66,7 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
   next.set_values(edit.set_count, edit.set_sites, edit.set_values);
   next.add(*core_, edit.add, edit.add_values, edit.add_stiffness, site_limit_, numbers.data());
   const SiteDifference difference(sites_, next, memory());
-  if (!difference.empty()) {
+  if (!adopt(next) && !difference.empty()) {
     try {
       engine_->edit(difference.edit());
     } catch (Error& error) {
@@ -92,6 +92,7 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
       throw;
     }
   }
+  prepared_.reset();
   sites_.swap(next);
   history_.clear_redo();
   for (std::uint32_t i = 0; out_sites && i < edit.add.count; ++i) out_sites[i] = numbers[i];
