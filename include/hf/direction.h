@@ -116,7 +116,7 @@ typedef struct hf_direction_statistics {
   uint32_t site_count;
   uint32_t factorisation_count;    /* the first included; grows when very many constraints go into the factor */
   uint32_t path_solve_count;       /* two per constraint added or moved */
-  uint32_t sweep_count;
+  uint32_t sweep_count;            /* those of refused calls too */
   uint32_t irregular_vertex_count; /* vertices whose triangles are not one fan of one orientation */
   uint32_t eliminated_count;       /* constraints in the factor at present */
   double operator_ms;

@@ -284,8 +284,8 @@ HF_API hf_result hf_solver_redo(hf_solver solver);
  * while other threads edit and solve this solver. The next edit takes the result over. Fields are the same before and
  * after, to rounding. Call it when hf_solver_statistics.rebase_advised is 1. An edit of very many sites does it by itself
  * when that is quicker. Memory: one more factor while sites stay in it. Errors: HF_ERROR_NO_SITES (no hard site at a
- * vertex), HF_ERROR_UNSUPPORTED (other engines), HF_ERROR_BUSY (another thread prepares). Thread safety: beside any
- * function of the same solver. Since 0.1. */
+ * vertex), HF_ERROR_CONFLICT (points that hard vertices nearly determine), HF_ERROR_UNSUPPORTED (other engines),
+ * HF_ERROR_BUSY (another thread prepares). Thread safety: beside any function of the same solver. Since 0.1. */
 HF_API hf_result hf_solver_prepare_rebase(hf_solver solver);
 
 /* How the last edit of places was done (hf_solver_statistics.last_route). */
@@ -302,7 +302,7 @@ typedef struct hf_solver_statistics {
   uint32_t site_count;
   uint32_t factorisation_count; /* numeric factorisations this solver made; the surface's own is not counted */
   uint32_t path_solve_count;    /* sites whose elimination path was solved */
-  uint32_t sweep_count;         /* backward sweeps */
+  uint32_t sweep_count;         /* backward sweeps, those of refused calls too */
   uint32_t last_route;          /* HF_ROUTE_* of the last edit */
   uint32_t rebase_count;        /* times sites were moved into the factor */
   uint32_t dense_edit_count;    /* edits by rows of the dense system */

@@ -119,6 +119,10 @@ class Pose {
   // Solves from the start of `start` (a clone), turned on by `turns` (rotation vectors by handle, in the order they
   // were added), whatever was solved before. Bits depend on start, transforms, turns and request only.
   DeformReport deform_from(const Pose& start, Span<const Vec3> turns, const DeformRequest& request);
+  // What a frame changes, to be put back when it fails half way. whole = false: only what a frame makes at first use.
+  struct Kept;
+  std::shared_ptr<Kept> keep(bool whole);
+  void put_back(Kept& kept) noexcept;
   // One vertex of the last pose, in the unit and frame of the mesh as given.
   Vec3 blended(std::int32_t vertex) const noexcept;
 

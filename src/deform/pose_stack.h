@@ -1,8 +1,8 @@
 // A pose with layers of handles, coarse to fine: the object behind hf_pose_* and hf_deform.
 //
 // Layer 0 is an ordinary pose (pose.h). Layer k > 0 edits the surface X_{k-1} of the layers below it, coarse to fine
-// (Xu, Zhang, Cohen-Or and Xiong 2009, Section 5.3). It works on the original rest shape, with the handles of all layers
-// up to k:
+// (Xu, Zhang, Cohen-Or and Xiong 2009, Section 5.3). It works on the original rest shape, with the handles of all
+// layers up to k:
 //   F_h   the rigid motion of handle h's region and its ring in X_{k-1};
 //   U     the pose whose handles stand at F_h: the unedited one;
 //   E     the pose whose handles stand at F_h D_h, D_h the transform the user gave h;
@@ -34,7 +34,7 @@ class PoseStack {
   // On layer 0 from rest; above, from where the layers below put the handle, in the frame of its rest.
   void set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTransform> transforms);
 
-  // request.surface = false is heeded while there is one layer only.
+  // request.surface = false is heeded while there is one layer only. All or nothing.
   DeformReport deform(const DeformRequest& request);
 
   std::uint32_t handle_count() const noexcept { return static_cast<std::uint32_t>(entries_.size()); }
@@ -78,6 +78,7 @@ class PoseStack {
   std::shared_ptr<Pose> make_plain(Vector<Entry>& entries, std::uint32_t k) const;
   std::shared_ptr<Layer> make_layer(std::shared_ptr<Pose> plain) const;
   void mark_stale(std::uint32_t layer) noexcept;
+  DeformReport deform_all(const DeformRequest& request);
   RigidMotion fit_region(const Entry& entry, Span<const std::int32_t> region, const Vec3* surface) const noexcept;
   // Layer k from the surface below it; whether its own surface may have changed.
   bool update(std::uint32_t k, Span<const Vec3> below, bool below_changed, const DeformRequest& request);

@@ -35,8 +35,11 @@ struct RefineInput {
 class Refinement {
  public:
   Refinement(const Core& core, Memory& memory);
-  // Room for the values of this many slots.
+  // Room for the values of this many slots, and whether there is.
   void fit(std::int32_t slot_count);
+  bool has_room(std::int32_t slot_count) const noexcept {
+    return 3 * static_cast<std::size_t>(slot_count) <= values_.capacity();
+  }
   // positions: blended, in the given unit and frame; improved in place. Vertices of handles and of components that are
   // not elastic keep theirs.
   void apply(const RefineInput& input, Vec3* positions);

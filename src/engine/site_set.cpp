@@ -102,18 +102,19 @@ void SiteSet::claim_vertex(const Arrival& arrival, std::int32_t vertex, std::int
     fail(code, arrival.position,
          "site %u of the batch: its place overlaps site %d%s; use a smaller radius, or move one of them",
          arrival.position, it->slot, same ? "" : ", which has other values");
-  fail(code, arrival.position,
-       "site %u of the batch: vertex %u%s carries site %d already%s; set its values or move it", arrival.position,
-       arrival.given_vertex, other.given_vertex == arrival.given_vertex ? "" : " (through a copy at the same place)",
-       it->slot, same ? "" : " with other values");
+  fail(code, arrival.position, "site %u of the batch: vertex %u%s carries site %d already%s; set its values or move it",
+       arrival.position, arrival.given_vertex,
+       other.given_vertex == arrival.given_vertex ? "" : " (through a copy at the same place)", it->slot,
+       same ? "" : " with other values");
 }
 
 // Gives its vertices and hidden slots back; the slot itself stays used.
 void SiteSet::release(std::int32_t slot) noexcept {
   const Slot& own = slots_[at(slot)];
   if (own.radius > 0) {
-    by_vertex_.erase(std::remove_if(by_vertex_.begin(), by_vertex_.end(), [&](const AtVertex& a) { return a.slot == slot; }),
-                     by_vertex_.end());
+    by_vertex_.erase(
+        std::remove_if(by_vertex_.begin(), by_vertex_.end(), [&](const AtVertex& a) { return a.slot == slot; }),
+        by_vertex_.end());
     for (std::size_t s = 0; s < slots_.size(); ++s) {
       if (slots_[s].owner != slot) continue;
       slots_[s] = Slot{};
@@ -154,9 +155,8 @@ void SiteSet::place(const Core& core, const Arrival& arrival, std::int32_t slot,
     set_value(slot, arrival.values);
     return;
   }
-  const Vector<DiscVertex> disc =
-      geodesic_disc(core.mesh, core.topology, arrival.site.vertex, arrival.site.weight,
-                    arrival.radius / core.mesh.scale, *core.memory);
+  const Vector<DiscVertex> disc = geodesic_disc(core.mesh, core.topology, arrival.site.vertex, arrival.site.weight,
+                                                arrival.radius / core.mesh.scale, *core.memory);
   Vector<std::int32_t> held(core.memory.get()), taken(core.memory.get());
   const bool whole = core.refinements > 0;  // of fourth order: values on a rim leave the slope free
   for (const DiscVertex& v : disc) {
@@ -233,8 +233,8 @@ void check_value(double value, std::uint32_t position, std::int32_t channel) {
     fail(HF_ERROR_NON_FINITE, position, "entry %u of the list: value of channel %d is not a finite number", position,
          channel);
   if (std::fabs(value) > most)
-    fail(HF_ERROR_TOO_LARGE, position, "entry %u of the list: value of channel %d is %g; scale it below 1e200", position,
-         channel, value);
+    fail(HF_ERROR_TOO_LARGE, position, "entry %u of the list: value of channel %d is %g; scale it below 1e200",
+         position, channel, value);
 }
 
 }  // namespace
@@ -287,6 +287,9 @@ void SiteSet::add(const Core& core, const Places& places, const double* values, 
     place(core, arrival, slot, limit);
     if (out_sites) out_sites[i] = static_cast<std::uint32_t>(slot);
   }
+  if (count_ + hidden_ > limit)  // a disc was counted before the places behind it
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+         "with the vertices of its discs the batch makes %u sites; the site_limit is %u", count_ + hidden_, limit);
 }
 
 SiteDifference::SiteDifference(const SiteSet& from, const SiteSet& to, Memory& memory) : SiteDifference(memory) {

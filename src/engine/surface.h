@@ -5,6 +5,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <mutex>
 
 #include "base/owned_mutex.h"
 #include "engine/core.h"
@@ -29,8 +30,14 @@ class Surface {
  private:
   std::shared_ptr<const Geometry> geometry_;
   std::shared_ptr<const Core> own_;
+  // The operators in use beside the own one, by kind. The last user of one takes it out, so nothing of it is left.
+  struct Made {
+    std::mutex guard;
+    std::array<std::weak_ptr<const Core>, 3> core;
+  };
+  struct Forget;
   mutable OwnedMutex making_;
-  mutable std::array<std::weak_ptr<const Core>, 3> made_;  // by kind, behind making_
+  const std::shared_ptr<Made> made_;
 };
 
 }  // namespace hf_inner

@@ -20,20 +20,14 @@ Buffer<double> WorkspacePool::take(std::size_t size) {
 }
 
 void WorkspacePool::give(Buffer<double>&& buffer) noexcept {
-  try {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    constexpr std::size_t most = 8;  // more callers at once than this allocate their own
-    if (free_.size() < most) {
-      free_.push_back(std::move(buffer));
-      return;
-    }
-    // keep the larger ones
-    const auto smallest =
-        std::min_element(free_.begin(), free_.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-    if (smallest->size() < buffer.size()) *smallest = std::move(buffer);
-  } catch (...) {
-    // no room to remember it: the buffer is released by its owner
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (free_.size() < most) {
+    free_.push_back(std::move(buffer));
+    return;
   }
+  const auto smallest =
+      std::min_element(free_.begin(), free_.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  if (smallest->size() < buffer.size()) *smallest = std::move(buffer);
 }
 
 }  // namespace hf_inner

@@ -10,13 +10,17 @@ namespace hf_inner {
 class WorkspacePool {
  public:
   // zeroed: buffers of this pool are all zero when taken, and must be all zero when given back.
-  explicit WorkspacePool(Memory& memory, bool zeroed = false) : memory_(memory), zeroed_(zeroed), free_(&memory) {}
+  explicit WorkspacePool(Memory& memory, bool zeroed = false) : memory_(memory), zeroed_(zeroed), free_(&memory) {
+    free_.reserve(most);  // giving back takes no memory
+  }
   // Moves a buffer of at least `size` doubles out of the pool, or makes one.
   Buffer<double> take(std::size_t size);
-  // Puts it back; never throws (the buffer is released when the pool cannot grow).
+  // Puts it back; of more than the pool keeps, the smallest is released.
   void give(Buffer<double>&& buffer) noexcept;
 
  private:
+  // Buffers kept. More callers at once than this allocate their own.
+  static constexpr std::size_t most = 8;
   Memory& memory_;
   const bool zeroed_;
   std::mutex mutex_;
