@@ -166,7 +166,8 @@ typedef struct hf_surface_statistics {
   double factor_entries; /* non-zeros of the Cholesky factor */
   double factor_bytes;   /* memory of the stored factor with its indices */
   double factor_flops;
-  double memory_bytes; /* in use by this surface and everything made on it */
+  double memory_bytes; /* in use by this surface and everything made on it, and up to 16 work buffers of a field each
+                          that calls leave for the next, refused calls too */
   double peak_memory_bytes;
   double load_ms;          /* to load a saved factor; the times to make it are then 0 */
   int32_t factor_loaded;   /* 1: the factor was loaded */

@@ -39,13 +39,16 @@ class History {
   template <class Present, class Restore>
   void step(Vector<State>& from, Vector<State>& to, const char* nothing, Present&& present, Restore&& restore) {
     if (from.empty()) fail(HF_ERROR_NO_RECORD, HF_NO_INDEX, "%s", nothing);
-    to.push_back(present());
-    try {
-      restore(from.back());
-    } catch (...) {
-      to.pop_back();
-      throw;
+    State now = present();
+    // room for it is taken first and kept only when all is done
+    Vector<State> grown(to.get_allocator());
+    if (to.size() == to.capacity()) grown.reserve(2 * to.size() + 1);
+    restore(from.back());
+    if (grown.capacity() > 0) {
+      for (State& state : to) grown.push_back(std::move(state));
+      to.swap(grown);
     }
+    to.push_back(std::move(now));
     from.pop_back();
   }
   Vector<State> undo_, redo_;

@@ -72,10 +72,9 @@ void* Memory::do_allocate(std::size_t bytes, std::size_t alignment) {
     ~Claim() { live.fetch_sub(bytes, std::memory_order_relaxed); }
   } claim{live_, bytes};
   const std::uint64_t live = live_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
-  void* pointer = nullptr;
-  if (byte_limit_ == 0 || live <= byte_limit_) {
-    pointer = hooks_.allocate ? hooks_.allocate(hooks_.user, bytes, alignment) : default_allocate(bytes, alignment);
-  }
+  if (byte_limit_ != 0 && live > byte_limit_) throw MemoryLimitReached(byte_limit_, live - bytes, bytes);
+  void* const pointer =
+      hooks_.allocate ? hooks_.allocate(hooks_.user, bytes, alignment) : default_allocate(bytes, alignment);
   if (!pointer) throw std::bad_alloc();
   claim.bytes = 0;
   count_.fetch_add(1, std::memory_order_relaxed);

@@ -19,6 +19,15 @@
 
 namespace hf_inner {
 
+// A byte limit refused an allocation. The numbers are for the message: `needed` counts what was in use and the block.
+class MemoryLimitReached final : public std::bad_alloc {
+ public:
+  MemoryLimitReached(std::uint64_t byte_limit, std::uint64_t in_use, std::uint64_t block) noexcept
+      : limit(byte_limit), used(in_use), needed(in_use + block) {}
+  const char* what() const noexcept override { return "the memory limit is reached"; }
+  const std::uint64_t limit, used, needed;  // bytes
+};
+
 class Memory final : public std::pmr::memory_resource {
  public:
   Memory() noexcept = default;

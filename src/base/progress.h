@@ -11,9 +11,10 @@ namespace hf_inner {
 class Progress {
  public:
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
-  void reset() noexcept {
-    cancelled_.store(false, std::memory_order_relaxed), fraction_.store(0.0f, std::memory_order_relaxed);
-  }
+  // A call begins: the fraction is 0. A cancel that came before stops the call.
+  void begin() noexcept { fraction_.store(0.0f, std::memory_order_relaxed); }
+  // A cancel that stopped a call does not stop the next. The fraction stays where the call was.
+  void clear_cancel() noexcept { cancelled_.store(false, std::memory_order_relaxed); }
   float fraction() const noexcept { return fraction_.load(std::memory_order_relaxed); }
   bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
   // Raises the fraction, which never falls during a call, then polls. Jobs of the call may report at the same time.

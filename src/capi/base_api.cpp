@@ -20,6 +20,18 @@ hf_result record_failure(hf_result code, std::uint32_t index, const char* functi
   return code;
 }
 
+hf_result record_memory_limit(const MemoryLimitReached& reached, const char* function) noexcept {
+  constexpr double mib = 1 << 20;
+  char message[HF_MESSAGE_SIZE];
+  std::snprintf(
+      message, sizeof message,
+      "memory_limit_mb is %.0f, but at least %.2f MiB are needed: %.2f MiB are in use, and one block of %.2f MiB "
+      "was asked for; raise the limit. The object is as it was before the call",
+      static_cast<double>(reached.limit) / mib, static_cast<double>(reached.needed) / mib,
+      static_cast<double>(reached.used) / mib, static_cast<double>(reached.needed - reached.used) / mib);
+  return record_failure(HF_ERROR_OUT_OF_MEMORY, HF_NO_INDEX, function, message);
+}
+
 }  // namespace hf_inner::capi
 
 using namespace hf_inner;

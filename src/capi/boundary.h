@@ -9,12 +9,15 @@
 
 #include "base/error.h"
 #include "base/float_environment.h"
+#include "base/memory.h"
 #include "base/span.h"
 
 namespace hf_inner::capi {
 
 // Stores the detail of a failure, which hf_error_get_detail returns, and returns the code.
 hf_result record_failure(hf_result code, std::uint32_t index, const char* function, const char* message) noexcept;
+// The same for memory_limit_mb, with the limit and what the call needed.
+hf_result record_memory_limit(const MemoryLimitReached& reached, const char* function) noexcept;
 
 template <class Work>
 hf_result guarded(const char* function, Work&& work) noexcept {
@@ -24,6 +27,8 @@ hf_result guarded(const char* function, Work&& work) noexcept {
     return HF_OK;
   } catch (const Error& error) {
     return record_failure(error.code(), error.index(), function, error.what());
+  } catch (const MemoryLimitReached& reached) {
+    return record_memory_limit(reached, function);
   } catch (const std::bad_alloc&) {
     return record_failure(HF_ERROR_OUT_OF_MEMORY, HF_NO_INDEX, function,
                           "memory ran out; the object is as it was before the call");

@@ -18,19 +18,20 @@ struct ProgressObject final : Object {
   Progress progress;
 };
 
-// Calls work() as a call that reports to the progress object of a handle; NULL: to none. If the call is cancelled, the
-// progress object is reset, so that the next call with it runs.
+// Calls work() as a call that reports to the progress object of a handle; NULL: to none. A cancel that stopped
+// this call does not stop the next.
 template <class Work>
 auto with_progress(hf_progress handle, Work&& work) {
   std::shared_ptr<ProgressObject> object;
   if (handle) object = get<ProgressObject>(handle, "progress");
   Progress* const progress = object ? &object->progress : nullptr;
   const CallProgress here(progress);
+  if (progress) progress->begin();
   try {
     poll();
     return work();
   } catch (const Error& error) {
-    if (error.code() == HF_ERROR_CANCELLED && object) object->progress.reset();
+    if (error.code() == HF_ERROR_CANCELLED && object) object->progress.clear_cancel();
     throw;
   }
 }

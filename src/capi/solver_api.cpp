@@ -91,9 +91,10 @@ hf_result hf_create(hf_surface handle, const hf_solver_desc* given, hf_solver* o
     check_choice(desc.engine, 3, "engine");
     require_zero(desc.reserved);
     const std::uint32_t channels = count_of(desc.channel_count, 1, 1, most_channels, "channel_count");
-    if (desc.penalty != 0 && !(desc.penalty > 0))
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0, or 0 for 1e8", desc.penalty);
-    const double penalty = desc.penalty > 0 ? std::min(desc.penalty, largest_penalty) : default_penalty;
+    if (desc.penalty != 0 && !(desc.penalty > 0 && desc.penalty <= largest_penalty))
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0 and at most %g, or 0 for %g",
+           desc.penalty, largest_penalty, default_penalty);
+    const double penalty = desc.penalty > 0 ? desc.penalty : default_penalty;
     return with_progress(desc.progress, [&] {
       return make_owner_in<SolverObject>(surface->memory,
                                          surface->surface.core(static_cast<FieldKind>(desc.field_kind)),

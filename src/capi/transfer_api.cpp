@@ -152,16 +152,21 @@ hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) 
       object->source_posed[v] = {posed.get(row, 0), posed.get(row, 1), posed.get(row, 2)};
     }
     const Core& target = object->transfer.target();
-    if (normals && !object->rest) {
-      object->normal_sums.allocate(*object->memory, static_cast<std::size_t>(target.size()));
-      object->normals.allocate(*object->memory, static_cast<std::size_t>(target.size()));
-      object->rest = make_shared_in<Rest>(*object->memory, target, *object->memory);
+    std::shared_ptr<const Rest> rest = object->rest;
+    Buffer<NormalSum> normal_sums;
+    Buffer<Normal> target_normals;
+    if (normals && !rest) {
+      normal_sums.allocate(*object->memory, static_cast<std::size_t>(target.size()));
+      target_normals.allocate(*object->memory, static_cast<std::size_t>(target.size()));
+      rest = make_shared_in<Rest>(*object->memory, target, *object->memory);
     }
     PairHold holds[HF_PAIR_LIMIT];
     for (std::uint32_t i = 0; i < frame.hold_count; ++i)
       holds[i] = {frame.hold_pairs[i],
                   {frame.hold_positions[3 * i], frame.hold_positions[3 * i + 1], frame.hold_positions[3 * i + 2]}};
     object->transfer.apply(object->source_posed.data(), object->target_posed.data(), {holds, frame.hold_count});
+    if (rest != object->rest)
+      object->rest = rest, object->normal_sums.swap(normal_sums), object->normals.swap(target_normals);
     if (positions)
       write_vertices(target, 3, positions, put_rest,
                      [&](std::size_t v, double* values) { put(object->target_posed[v], values); });

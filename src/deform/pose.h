@@ -122,6 +122,10 @@ class Pose {
   // vector per handle, in the order in which handles were added; the start is turned by them first. The bits depend
   // only on start, transforms, turns and request.
   DeformReport deform_from(const Pose& start, Span<const Vec3> turns, const DeformRequest& request);
+  // What a frame changes, to be put back when the frame fails. whole = false: only what a frame makes at its first use.
+  struct Kept;
+  std::shared_ptr<Kept> keep(bool whole);
+  void put_back(Kept& kept) noexcept;
   // Returns one vertex of the last pose, in the unit and frame of the mesh as given.
   Vec3 blended(std::int32_t vertex) const noexcept;
 

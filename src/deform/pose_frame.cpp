@@ -87,21 +87,58 @@ void Pose::solve_paper(std::uint32_t iterations) noexcept {
                              state_->transforms.data());
 }
 
+// Makes what the frame needs beside the pose, all or nothing.
 void Pose::prepare(const DeformRequest& request) {
   if (!layout_) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
   check_request(request);
-  const Mesh& mesh = core_->mesh;
-  if (request.normals) {
-    const std::size_t n = static_cast<std::size_t>(mesh.vertex_count());
-    normal_sums_.reserve_at_least(memory(), n);
-    if (!request.packed_normals) normals_.reserve_at_least(memory(), n);
-  }
-  if (request.refine && !refinement_) {
+  const std::size_t n = static_cast<std::size_t>(core_->mesh.vertex_count());
+  Buffer<NormalSum> sums;
+  Buffer<Normal> normals;
+  const bool own_normals = request.normals && !request.packed_normals;
+  if (request.normals && normal_sums_.size() < n) sums.allocate(memory(), n);
+  if (own_normals && normals_.size() < n) normals.allocate(memory(), n);
+  if (request.refine) {
     if (core_->refinements > 0)
       fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "the refinement step needs a solver of the harmonic equation");
-    refinement_ = make_shared_in<Refinement>(memory(), *core_, memory());
+    // one that is too small is replaced, so that it can be put back
+    const std::int32_t slots = layout_->sites->slot_count();
+    const std::shared_ptr<Refinement> refinement = refinement_ && refinement_->has_room(slots)
+                                                       ? refinement_
+                                                       : make_shared_in<Refinement>(memory(), *core_, memory());
+    refinement->fit(slots);
+    refinement_ = refinement;
   }
-  if (request.refine) refinement_->fit(layout_->sites->slot_count());
+  if (!sums.empty()) normal_sums_ = std::move(sums);
+  if (!normals.empty()) normals_ = std::move(normals);
+}
+
+struct Pose::Kept {
+  std::shared_ptr<State> state;
+  Buffer<Vec3> positions;
+  std::shared_ptr<Refinement> refinement;
+  bool posed = false, stale = false, whole = false;
+  SolveReport report;
+};
+
+std::shared_ptr<Pose::Kept> Pose::keep(bool whole) {
+  auto kept = make_shared_in<Kept>(memory());
+  kept->refinement = refinement_, kept->whole = whole;
+  if (!whole) return kept;
+  kept->positions.allocate(memory(), positions_.size());
+  std::memcpy(kept->positions.data(), positions_.data(), positions_.size() * sizeof(Vec3));
+  if (state_) {  // the frame works on a copy
+    kept->state = make_shared_in<State>(memory(), *state_, memory());
+    kept->state.swap(state_);
+  }
+  kept->posed = posed_, kept->stale = stale_, kept->report = report_;
+  return kept;
+}
+
+void Pose::put_back(Kept& kept) noexcept {
+  refinement_.swap(kept.refinement);
+  if (!kept.whole) return;
+  state_.swap(kept.state), positions_.swap(kept.positions);
+  posed_ = kept.posed, stale_ = kept.stale, report_ = kept.report;
 }
 
 void Pose::ensure_surface() const {
@@ -203,6 +240,8 @@ void Pose::prepare_start() {
 void Pose::take_start(Span<const Vec3> surface) noexcept {
   if (layout_->smooth) return start_.fit(*core_, *rest_, surface);
   for (std::size_t v = 0; v < surface.size(); ++v) start_.own_unit[v] = core_->mesh.to_inner(surface[v]);
+  // Of equal fits the one nearest to rest is taken, so the last frame does not show.
+  std::fill(state_->paper.motion.begin(), state_->paper.motion.end(), RigidMotion());
   fit_motions(*layout_->paper, core_->mesh, start_.own_unit.data(), state_->paper);
   std::copy(state_->paper.motion.begin(), state_->paper.motion.end(), start_.motion.begin());
 }

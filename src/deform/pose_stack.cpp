@@ -307,15 +307,47 @@ void PoseStack::combine(Layer& layer, Span<const Vec3> below) noexcept {
 DeformReport PoseStack::deform(const DeformRequest& request) {
   check_request(request);
   if (entries_.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
+  if (!request.refine) return deform_all(request);
+  // the full-mesh step takes memory after poses were solved: they are put back when there is none
+  Vector<Entry> entries(entries_, &memory());
+  Vector<std::pair<Pose*, std::shared_ptr<Pose::Kept>>> kept(&memory());
+  kept.reserve(2 * layer_limit);
+  try {
+    kept.push_back({base_.get(), base_->keep(true)});
+    for (const auto& layer : layers_) {
+      if (!layer) continue;
+      for (Pose* const pose : {layer->plain.get(), layer->edited.get()}) kept.push_back({pose, pose->keep(false)});
+    }
+    return deform_all(request);
+  } catch (...) {
+    for (auto& pose : kept) pose.first->put_back(*pose.second);
+    std::copy(entries.begin(), entries.end(), entries_.begin());
+    mark_stale(0);  // the layers follow from what is beneath them
+    for (const auto& layer : layers_)
+      if (layer) layer->plain_stale = true;
+    throw;
+  }
+}
+
+// Takes memory before anything is changed, but for the full-mesh step.
+DeformReport PoseStack::deform_all(const DeformRequest& request) {
   if (!has_layers()) {
     base_stale_ = true;  // layers that are added later must not reuse old poses
     return base_->deform(request);
   }
   const std::size_t n = static_cast<std::size_t>(core_->size());
-  if (request.normals) {
-    normal_sums_.reserve_at_least(memory(), n);
-    if (!request.packed_normals) normals_.reserve_at_least(memory(), n);
+  Buffer<NormalSum> sums;
+  Buffer<Normal> own_normals;
+  Buffer<Vec3> rest;
+  if (request.normals && normal_sums_.empty()) sums.allocate(memory(), n);
+  if (request.normals && !request.packed_normals && normals_.empty()) own_normals.allocate(memory(), n);
+  if (base_->handle_count() == 0 && rest_.empty()) {
+    rest.allocate(memory(), n);
+    for (std::size_t v = 0; v < n; ++v) rest[v] = core_->mesh.to_given(core_->mesh.positions[v]);
   }
+  if (!sums.empty()) normal_sums_ = std::move(sums);
+  if (!own_normals.empty()) normals_ = std::move(own_normals);
+  if (!rest.empty()) rest_ = std::move(rest);
   if (request.restart) {
     for (Entry& entry : entries_) entry.turn = logarithm(entry.edit.rotation);
   }
@@ -329,10 +361,6 @@ DeformReport PoseStack::deform(const DeformRequest& request) {
     surface = report.positions;
     changed = changed || report.iteration_count > 0;
   } else {
-    if (rest_.empty()) {
-      rest_.allocate(memory(), n);
-      for (std::size_t v = 0; v < n; ++v) rest_[v] = core_->mesh.to_given(core_->mesh.positions[v]);
-    }
     surface = {rest_.data(), n};
   }
   for (std::uint32_t k = 1; k < layer_limit; ++k) {

@@ -81,6 +81,7 @@ class PoseStack {
   std::shared_ptr<Pose> make_plain(Vector<Entry>& entries, std::uint32_t k) const;
   std::shared_ptr<Layer> make_layer(std::shared_ptr<Pose> plain) const;
   void mark_stale(std::uint32_t layer) noexcept;
+  DeformReport deform_all(const DeformRequest& request);
   RigidMotion fit_region(const Entry& entry, Span<const std::int32_t> region, const Vec3* surface) const noexcept;
   // Updates layer k from the surface below it. Returns whether the layer's own surface may have changed.
   bool update(std::uint32_t k, Span<const Vec3> below, bool below_changed, const DeformRequest& request);

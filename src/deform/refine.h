@@ -38,6 +38,9 @@ class Refinement {
   Refinement(const Core& core, Memory& memory);
   // Makes room for the values of this many sites.
   void fit(std::int32_t slot_count);
+  bool has_room(std::int32_t slot_count) const noexcept {
+    return 3 * static_cast<std::size_t>(slot_count) <= values_.capacity();
+  }
   // Improves the blended `positions` in place. They are in the given unit and frame. Vertices of handles and of
   // components without free clusters keep their positions.
   void apply(const RefineInput& input, Vec3* positions);

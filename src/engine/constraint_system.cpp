@@ -128,7 +128,6 @@ bool ConstraintSystem::try_route(EditRoute route, const SiteEdit& edit, JobRunne
                                  const ConstraintState::Decision& decision) {
   ConstraintState next(state_, memory());
   ConstraintEdit change(operator_, jobs, edit, next);
-  bool done = true;
   try {
     if (route == EditRoute::dense) {
       change.go_on();
@@ -136,13 +135,9 @@ bool ConstraintSystem::try_route(EditRoute route, const SiteEdit& edit, JobRunne
       change.start_over(route == EditRoute::rebase);
     }
   } catch (const ConstraintEdit::NeedsNewLayout&) {
-    done = false;
-  } catch (...) {
-    path_solves_ += change.path_solves(), rebases_ += change.factorisations();
-    throw;
+    return false;
   }
   path_solves_ += change.path_solves(), rebases_ += change.factorisations();
-  if (!done) return false;
   next.decision = decision, next.decision.route = route;
   state_.swap(next);
   return true;

@@ -37,6 +37,7 @@ void RefactorSolver::edit(const SiteEdit& edit) {
     ++next.count[at(edit.sites[i].component)];
   }
   factorise(next);
+  ++factorisations_;
   std::swap(state_.sites, next.sites);
   std::swap(state_.count, next.count);
   std::swap(state_.floating, next.floating);
@@ -91,7 +92,6 @@ void RefactorSolver::factorise(State& state) const {
     if (state.floating[c]) a.value[a.diagonal(core_->ground[c])] += core_->mean_diagonal[c];
   }
   state.factor = core_->factor->refactor(a, eliminated, memory, *core_->jobs);
-  ++factorisations_;
 
   // Computes the dense system of the point sites: the columns of A^-1 W_p, with A the factorised matrix and W_p the
   // weights of these sites. Eliminated rows are zero.

@@ -269,6 +269,9 @@ void SiteSet::add(const Core& core, const Places& places, const double* values, 
     place(core, arrival, slot, limit);
     out_sites.push_back(static_cast<std::uint32_t>(slot));
   }
+  if (count_ + hidden_ > limit)  // a disc was counted before the places behind it
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+         "with the vertices of its discs the batch makes %u sites; the site_limit is %u", count_ + hidden_, limit);
 }
 
 SiteDifference::SiteDifference(const SiteSet& from, const SiteSet& to, Memory& memory) : SiteDifference(memory) {

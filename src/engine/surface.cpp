@@ -2,20 +2,42 @@
 
 namespace hf_inner {
 
+// Runs when the last user of an operator is gone.
+struct Surface::Forget {
+  std::shared_ptr<const Core> core;
+  std::shared_ptr<Made> made;
+  std::size_t kind;
+  void operator()(const Core*) noexcept {
+    {
+      const std::lock_guard<std::mutex> lock(made->guard);
+      if (made->core[kind].expired()) made->core[kind].reset();
+    }
+    made.reset(), core.reset();  // the operator last: it can hold the memory of all this
+  }
+};
+
 Surface::Surface(std::shared_ptr<const Geometry> geometry, const CoreOptions& options)
-    : geometry_(std::move(geometry)), own_(Core::make(geometry_, options)) {}
+    : geometry_(std::move(geometry)),
+      own_(Core::make(geometry_, options)),
+      made_(make_shared_in<Made>(*geometry_->memory)) {}
 
 std::shared_ptr<const Core> Surface::core(FieldKind kind) const {
   if (kind == own_->field_kind) return own_;
   const std::lock_guard<OwnedMutex> lock(making_);
-  std::weak_ptr<const Core>& slot = made_[static_cast<std::size_t>(kind)];
-  if (std::shared_ptr<const Core> made = slot.lock()) return made;
+  const std::size_t slot = static_cast<std::size_t>(kind);
+  {
+    const std::lock_guard<std::mutex> guard(made_->guard);
+    if (std::shared_ptr<const Core> found = made_->core[slot].lock()) return found;
+  }
   CoreOptions options;
   options.operator_kind = geometry_->operator_kind, options.field_kind = kind, options.ordering = own_->ordering;
   options.flop_limit = own_->flop_limit;
-  std::shared_ptr<const Core> made = Core::make(geometry_, options);
-  slot = made;
-  return made;
+  const std::shared_ptr<const Core> core = Core::make(geometry_, options);
+  const std::shared_ptr<const Core> counted(core.get(), Forget{core, made_, slot},
+                                            OwningAllocator<Core>(geometry_->memory));
+  const std::lock_guard<std::mutex> guard(made_->guard);
+  made_->core[slot] = counted;
+  return counted;
 }
 
 }  // namespace hf_inner

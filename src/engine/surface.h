@@ -6,6 +6,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <mutex>
 
 #include "base/owned_mutex.h"
 #include "engine/core.h"
@@ -22,16 +23,22 @@ class Surface {
   const Core& own() const noexcept { return *own_; }
   FieldKind field_kind() const noexcept { return own_->field_kind; }
 
-  // The operator and factor of a kind of field. Cost: none for one that exists, else that of making it; other threads
-  // that ask for a missing one wait meanwhile. Throws HF_ERROR_REENTRANT when a callback of the making asks, and as
-  // Core::make. Thread safety: any thread.
+  // Returns the operator and factor of a kind of field. If they are missing, the call makes them, and other threads
+  // that ask for them wait. Throws HF_ERROR_REENTRANT if a callback asks during the making, and what Core::make throws.
+  // Thread safety: any thread.
   std::shared_ptr<const Core> core(FieldKind kind) const;
 
  private:
   std::shared_ptr<const Geometry> geometry_;
   std::shared_ptr<const Core> own_;
+  // The operators in use beside the own one, by kind. The last user of one takes it out, so nothing of it is left.
+  struct Made {
+    std::mutex guard;
+    std::array<std::weak_ptr<const Core>, 3> core;
+  };
+  struct Forget;
   mutable OwnedMutex making_;
-  mutable std::array<std::weak_ptr<const Core>, 3> made_;  // by kind of field, guarded by making_
+  const std::shared_ptr<Made> made_;
 };
 
 }  // namespace hf_inner

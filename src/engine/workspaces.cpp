@@ -20,20 +20,14 @@ Buffer<double> WorkspacePool::take(std::size_t size) {
 }
 
 void WorkspacePool::give(Buffer<double>&& buffer) noexcept {
-  try {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    constexpr std::size_t most = 8;  // buffers kept; more callers at once allocate their own
-    if (free_.size() < most) {
-      free_.push_back(std::move(buffer));
-      return;
-    }
-    // The pool of scratch buffers is full: it keeps the larger ones.
-    const auto smallest =
-        std::min_element(free_.begin(), free_.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-    if (smallest->size() < buffer.size()) *smallest = std::move(buffer);
-  } catch (...) {
-    // The list of the pool's buffers cannot grow, so this buffer is freed.
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (free_.size() < most) {
+    free_.push_back(std::move(buffer));
+    return;
   }
+  const auto smallest =
+      std::min_element(free_.begin(), free_.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  if (smallest->size() < buffer.size()) *smallest = std::move(buffer);
 }
 
 }  // namespace hf_inner

@@ -9,14 +9,18 @@ namespace hf_inner {
 // Keeps scratch arrays for later solves. The first access to fresh memory would cost more than a sweep.
 class WorkspacePool {
  public:
-  // zeroed: the buffers of this pool are all zero when taken, and must be all zero when given back.
-  explicit WorkspacePool(Memory& memory, bool zeroed = false) : memory_(memory), zeroed_(zeroed), free_(&memory) {}
+  // zeroed: buffers of this pool are all zero when taken, and must be all zero when given back.
+  explicit WorkspacePool(Memory& memory, bool zeroed = false) : memory_(memory), zeroed_(zeroed), free_(&memory) {
+    free_.reserve(most);  // giving back takes no memory
+  }
   // Moves a buffer of at least `size` doubles out of the pool, or makes one.
   Buffer<double> take(std::size_t size);
   // Gives a buffer back to the pool. Never throws: if the pool cannot grow, the buffer is freed.
   void give(Buffer<double>&& buffer) noexcept;
 
  private:
+  // Buffers kept. More callers at once than this allocate their own.
+  static constexpr std::size_t most = 8;
   Memory& memory_;
   const bool zeroed_;
   std::mutex mutex_;

@@ -42,24 +42,23 @@ void ScalarField::prepare_rebase() {
   preparing_ = false;
 }
 
-// Replaces the engine (the solver of the equations) by the one that prepare_rebase made, brought up to date. On any
-// failure the present engine stays; it is correct.
-void ScalarField::adopt() noexcept {
-  if (!prepared_) return;
+// Replaces the engine (the solver of the equations) by the one that prepare_rebase made, with the sites of an edit.
+// Returns false if there is none, or if it cannot take these sites; it then waits as it was.
+bool ScalarField::adopt(const SiteSet& next) noexcept {
+  if (!prepared_) return false;
   try {
-    const SiteDifference since(prepared_->sites, sites_, memory());
+    const SiteDifference since(prepared_->sites, next, memory());
     if (!since.empty()) prepared_->engine->edit(since.edit());
-    prepared_->engine->succeed(*engine_);
-    engine_ = std::move(prepared_->engine);
   } catch (...) {
-    // Memory ran out, so the engine that prepare_rebase made is dropped.
+    return false;  // the present engine decides about the edit
   }
-  prepared_.reset();
+  prepared_->engine->succeed(*engine_);
+  engine_ = std::move(prepared_->engine);
+  return true;
 }
 
 void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
   const std::lock_guard<std::mutex> lock(guard_);
-  adopt();
   SiteSet next(sites_, memory());
   Vector<std::uint32_t> numbers(&memory());
   next.remove(edit.remove_count, edit.remove_sites);
@@ -67,7 +66,7 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
   next.set_values(edit.set_count, edit.set_sites, edit.set_values);
   next.add(*core_, edit.add, edit.add_values, edit.add_stiffness, site_limit_, numbers);
   const SiteDifference difference(sites_, next, memory());
-  if (!difference.empty()) {
+  if (!adopt(next) && !difference.empty()) {
     try {
       engine_->edit(difference.edit());
     } catch (Error& error) {
@@ -94,6 +93,7 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
       throw;
     }
   }
+  prepared_.reset();
   sites_.swap(next);
   history_.clear_redo();
   if (out_sites) std::copy(numbers.begin(), numbers.end(), out_sites);

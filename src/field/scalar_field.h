@@ -68,7 +68,7 @@ class ScalarField {
     SiteSet sites;
     std::shared_ptr<SiteSolver> engine;  // null: the engine has no cheap copy and follows by an edit
   };
-  void adopt() noexcept;
+  bool adopt(const SiteSet& next) noexcept;
   Record present() const;
   void require_sites() const;
   void restore(Record& record);

@@ -35,6 +35,23 @@ void solve_dense(Vector<double>& a, Vector<double>& b) {
   }
 }
 
+// A border is an extremum of the exact field. A site on it can have its level, and rounding then decides which of the
+// two is the extremum. So every apex that its ring passes is put beyond the ring by one unit in the last place.
+void part_borders(const FluxSurface& s, const Vector<FluxSite>& sites, Vector<double>& u) {
+  for (const FluxSite& site : sites) {
+    if (!s.is_apex(site.vertex)) continue;
+    const double way = site.lines > 0 ? HUGE_VAL : -HUGE_VAL;
+    double& level = u[static_cast<std::size_t>(site.vertex)];
+    const std::int32_t begin = s.out[site.vertex];
+    for (std::int32_t g = begin;;) {
+      const double beside = u[static_cast<std::size_t>(s.head(g))];
+      if (way > 0 ? beside >= level : beside <= level) level = std::nextafter(beside, way);
+      g = s.turn_left(g);
+      if (g == begin) break;
+    }
+  }
+}
+
 }  // namespace
 
 Vector<double> solve_between_levels(const FluxSurface& s, const FluxSolver& solver, Vector<FluxSite>& sites) {
@@ -70,7 +87,9 @@ Vector<double> solve_between_levels(const FluxSurface& s, const FluxSolver& solv
       sites[own[i]].lines = sites[own[i]].lines > 0 ? lines : -lines;
     }
   }
-  return solver.solve(exact);
+  Vector<double> u = solver.solve(exact);
+  part_borders(s, sites, u);
+  return u;
 }
 
 }  // namespace hf_inner

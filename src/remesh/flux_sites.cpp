@@ -337,6 +337,7 @@ void scale_lines(const FluxSurface& surface, std::int32_t component, double fact
 }
 
 Vector<double> solve_with_borders(const FluxSurface& s, const FluxSolver& solver, Vector<FluxSite>& sites) {
+  const Vector<FluxSite> asked(sites, sites.get_allocator());
   for (int round = 0;; ++round) {
     Vector<double> u = solver.solve(sites);
     const FluxSite* crossed = nullptr;
@@ -353,7 +354,10 @@ Vector<double> solve_with_borders(const FluxSurface& s, const FluxSolver& solver
       if (wrong) site.lines *= border_raise, crossed = &site;
     }
     if (!crossed) return u;
-    if (round == border_rounds) return solve_between_levels(s, solver, sites);
+    if (round == border_rounds) {
+      sites = asked;  // raised lines would only make the mesh finer
+      return solve_between_levels(s, solver, sites);
+    }
     for (std::int32_t c = 0; c < s.component_count; ++c) scale_lines(s, c, 1.0, sites);
   }
 }

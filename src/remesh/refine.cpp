@@ -81,18 +81,19 @@ std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, M
   // A spoke is an edge at v. The new quad lies between two spokes that run across the direction `way`, with at least
   // two faces on each side.
   const Vec3 p = mesh.position[v], way = unit(towards - p);
+  Table<double> along(memory);  // by spoke, how far it runs that way
+  for (std::int32_t i = 0; i < n; ++i) along.push_back(dot(unit(mesh.position[first[i]] - p), way));
   std::int32_t from = none, to = none;
   double best = 0;
-  for (std::int32_t i = 0; i < n; ++i)
+  for (std::int32_t i = 0; i < n; ++i) {
+    double between = 0;
     for (std::int32_t count = 2; count <= n - 2; ++count) {  // `count` faces from edge (spoke) i on join the new vertex
       const std::int32_t j = (i + count) % n;
-      double sum = 0;
-      for (std::int32_t k = 1; k < count; ++k)
-        sum += dot(unit(mesh.position[first[(i + k) % n]] - p), way) / (count - 1);
-      sum -= std::fabs(dot(unit(mesh.position[first[i]] - p), way)) +
-             std::fabs(dot(unit(mesh.position[first[j]] - p), way));
+      between += along[(i + count - 1) % n];
+      const double sum = between / (count - 1) - std::fabs(along[i]) - std::fabs(along[j]);
       if (from == none || sum > best) best = sum, from = i, to = j;
     }
+  }
   mesh.scale[v] *= split_scale;
   const std::int32_t added = mesh.add_vertex(mesh.location[v], p, QuadMesh::free, false, mesh.scale[v]);
   for (std::int32_t i = from; i != to; i = (i + 1) % n)

@@ -165,6 +165,8 @@ static void hf_create_refuses_bad_options(void** state) {
   SOLVER("65 channels", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.channel_count = 65);
   SOLVER("2^32 - 1 channels", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.channel_count = UINT32_MAX);
   SOLVER("penalty negative", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.penalty = -1.0);
+  SOLVER("penalty above its bound", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.penalty = 1.0001e10);
+  SOLVER("penalty infinite", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.penalty = HUGE_VAL);
   SOLVER("penalty NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, solver_desc.penalty = (double)NAN);
   SOLVER("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, solver_desc.reserved = 1);
   SOLVER("progress destroyed", HF_ERROR_INVALID_HANDLE, NO_INDEX, solver_desc.progress = scene.stale_progress);
@@ -194,6 +196,13 @@ static void a_memory_limit_is_kept(void** state) {
   wide.memory_limit_mb = 1;
   assert_code(HF_ERROR_OUT_OF_MEMORY, hf_surface_create(&wide, &surface));
   assert_null(surface);
+  hf_error_detail detail; /* says that the limit was the reason, and what would have been enough for this block */
+  double needed = 0, used = 0, block = 0;
+  assert_ok(hf_error_get_detail(&detail));
+  const char* text =
+      "memory_limit_mb is 1, but at least %lf MiB are needed: %lf MiB are in use, and one block of %lf MiB";
+  assert_int_equal(sscanf(detail.message, text, &needed, &used, &block), 3);
+  assert_true(needed > 1 && fabs(needed - used - block) <= 0.011);
   wide.memory_limit_mb = 1000;
   assert_ok(hf_surface_create(&wide, &surface));
   hf_surface_statistics statistics = HF_INIT(hf_surface_statistics);

@@ -188,6 +188,8 @@ static void a_cancel_in_the_middle_leaves_nothing_and_the_object_may_be_used_aga
       assert_code(HF_ERROR_CANCELLED, result);
       assert_null(solver);
       assert_int_equal(c.memory.live_blocks, 0);
+      assert_ok(hf_progress_get_fraction(c.progress, &fraction));
+      assert_true(fraction >= c.seen); /* it does not fall back */
       Options again = options_of(&tube);
       again.surface.progress = c.progress;
       assert_ok(make(&again, NULL, &solver));

@@ -272,12 +272,73 @@ static void a_non_manifold_edge_is_refused_with_its_vertex(void** state) {
   hf_surface_destroy(surface);
 }
 
+/* A sheet of n x n unit squares; of n = 3 the middle one can be missing. */
+static hf_surface squares_on(uint32_t n, int with_hole) {
+  float positions[75];
+  uint32_t triangles[96], count = 0;
+  for (uint32_t v = 0; v < (n + 1) * (n + 1); ++v) {
+    positions[3 * v] = (float)(v % (n + 1)), positions[3 * v + 1] = (float)(v / (n + 1)), positions[3 * v + 2] = 0;
+  }
+  for (uint32_t q = 0; q < n * n; ++q) {
+    if (with_hole && q == 4) continue;
+    const uint32_t a = q / n * (n + 1) + q % n, b = a + 1, c = a + n + 1, d = c + 1;
+    const uint32_t corners[6] = {a, b, d, a, d, c};
+    memcpy(triangles + count, corners, sizeof corners);
+    count += 6;
+  }
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
+  desc.vertex_count = (n + 1) * (n + 1), desc.triangle_count = count / 3;
+  desc.positions = positions, desc.triangles = triangles;
+  hf_surface surface = NULL;
+  assert_ok(hf_surface_create(&desc, &surface));
+  return surface;
+}
+
+static hf_surface triangle_on(void) {
+  const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const uint32_t corners[3] = {0, 1, 2};
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
+  desc.vertex_count = 3, desc.triangle_count = 1, desc.positions = positions, desc.triangles = corners;
+  hf_surface surface = NULL;
+  assert_ok(hf_surface_create(&desc, &surface));
+  return surface;
+}
+
+/* A site on a border gets the border's own level: rounding decided which of the two was the extremum, and a hole could
+ * come out as a face. */
+static void sites_on_a_border_leave_it_a_border(void** state) {
+  (void)state;
+  const struct {
+    hf_surface surface;
+    int32_t kind;
+    float edge_length;
+    uint32_t count, vertices[5];
+    int32_t lines[5], euler;
+  } cases[] = {
+      {triangle_on(), HF_QUADS_PURE, 0.565685f, 3, {0, 2, 1}, {2, 2, -8}, 1},
+      {squares_on(4, 0), HF_QUADS_PURE, 0.565685f, 5, {21, 18, 24, 20, 3}, {-12, -8, -12, 4, 10}, 1},
+      {squares_on(3, 1), HF_QUADS_UNIFORM, 2.262742f, 3, {5, 10, 11}, {-2, -2, 4}, 0},
+  };
+  for (size_t i = 0; i < COUNT_OF(cases); ++i) {
+    hf_quads_desc desc = HF_INIT(hf_quads_desc);
+    desc.kind = cases[i].kind, desc.edge_length = cases[i].edge_length, desc.site_count = cases[i].count;
+    desc.site_vertices = cases[i].vertices, desc.site_lines = cases[i].lines;
+    hf_quads quads = NULL;
+    assert_ok(hf_quads_create(cases[i].surface, &desc, &quads));
+    hf_quads_info info = HF_INIT(hf_quads_info);
+    assert_ok(hf_quads_get_info(quads, &info));
+    assert_int_equal(info.euler_characteristic, cases[i].euler);
+    hf_quads_destroy(quads), hf_surface_destroy(cases[i].surface);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_tube_becomes_a_closed_net_of_quads),
       cmocka_unit_test(flow_lines_rise_and_outlive_the_surface),
       cmocka_unit_test(cancelling_leaves_nothing_and_stops_one_call),
       cmocka_unit_test(progress_rises_in_small_steps_and_stops_where_it_is_cancelled),
+      cmocka_unit_test(sites_on_a_border_leave_it_a_border),
       cmocka_unit_test(bad_input_is_named),
       cmocka_unit_test(a_non_manifold_edge_is_refused_with_its_vertex),
   };

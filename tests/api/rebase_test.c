@@ -116,11 +116,123 @@ static void a_disc_is_one_site(void** state) {
   surface_free(&sheet);
 }
 
+/* Everything of a solver that a refused call could have changed. */
+typedef struct Seen {
+  hf_solver_statistics statistics;
+  double memory_bytes;
+  double* field;
+} Seen;
+
+static double memory_of(hf_surface surface) {
+  hf_surface_statistics statistics = HF_INIT(hf_surface_statistics);
+  assert_ok(hf_surface_get_statistics(surface, &statistics));
+  return statistics.memory_bytes;
+}
+
+static Seen look(hf_surface surface, hf_solver solver) {
+  Seen seen;
+  seen.field = field_of(solver, VERTICES); /* first: a solve counts as a sweep */
+  seen.statistics = statistics_of(solver), seen.memory_bytes = memory_of(surface);
+  return seen;
+}
+
+static void assert_unchanged(const Seen* before, hf_surface surface, hf_solver solver) {
+  const hf_solver_statistics statistics = statistics_of(solver);
+  assert_true(memory_of(surface) == before->memory_bytes);
+  assert_memory_equal(&statistics, &before->statistics, sizeof statistics);
+  double* field = field_of(solver, VERTICES);
+  assert_memory_equal(field, before->field, sizeof(double) * VERTICES);
+  free(field);
+}
+
+#define REFUSED(code, call)                                  \
+  do {                                                       \
+    Seen before = look(surface, solver);                     \
+    assert_code(code, call);                                 \
+    assert_unchanged(&before, surface, solver);              \
+    assert_int_equal(before.statistics.eliminated_count, 0); \
+    free(before.field);                                      \
+  } while (0)
+
+static hf_result add_point(hf_solver solver, uint32_t triangle, const double* weights, double value) {
+  hf_sites_desc sites = HF_INIT(hf_sites_desc);
+  sites.site_count = 1, sites.triangles = &triangle, sites.barycentrics = weights, sites.values = &value;
+  return hf_add_sites(solver, &sites, NULL);
+}
+
+static void a_refused_edit_leaves_a_waiting_rebase_where_it_is(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(COLUMNS, ROWS_);
+  const hf_surface surface = surface_on(&sheet);
+  const hf_solver solver = solver_on(surface);
+  for (uint32_t i = 0; i < 3; ++i) add_site(solver, sheet.triangles[i], (double)i);
+  assert_ok(hf_solver_prepare_rebase(solver));
+  const uint32_t first = 0, absent = 77, beyond = VERTICES, taken = sheet.triangles[1];
+  const double value = 9, nan = (double)NAN, weights[3] = {0.25, 0.25, 0.5};
+  REFUSED(HF_ERROR_NO_SUCH_SITE, hf_solver_set_values(solver, 1, &absent, &value));
+  REFUSED(HF_ERROR_NON_FINITE, hf_solver_set_values(solver, 1, &first, &nan));
+  REFUSED(HF_ERROR_NO_SUCH_SITE, hf_remove_sites(solver, 1, &absent));
+  hf_sites_desc sites = sites_at(1, &beyond, &value);
+  REFUSED(HF_ERROR_OUT_OF_RANGE, hf_add_sites(solver, &sites, NULL));
+  REFUSED(HF_ERROR_CONFLICT, hf_solver_add_site(solver, taken, &value, NULL));
+  sites = sites_at(1, &taken, NULL);
+  REFUSED(HF_ERROR_CONFLICT, hf_solver_move_sites(solver, 1, &first, &sites));
+  REFUSED(HF_ERROR_CONFLICT, add_point(solver, 0, weights, value)); /* the engines refuse this one */
+  REFUSED(HF_ERROR_NO_RECORD, hf_solver_undo(solver));
+  assert_ok(hf_solver_set_values(solver, 1, &first, &value)); /* takes it over */
+  assert_int_equal(statistics_of(solver).eliminated_count, 3);
+  hf_solver_destroy(solver), hf_surface_destroy(surface);
+  surface_free(&sheet);
+}
+
+enum { MANY = 220 };
+
+/* Vertices from number `from` on, and the corners of triangle 0. */
+static void take_many(const Surface* sheet, uint32_t from, uint32_t* vertices) {
+  for (uint32_t i = 0; i < MANY; ++i) vertices[i] = i < 3 ? sheet->triangles[i] : from + i;
+}
+
+static void a_point_and_its_corners_are_refused_on_every_route(void** state) {
+  (void)state;
+  Surface sheet = surface_sheet(COLUMNS, ROWS_);
+  const hf_surface surface = surface_on(&sheet);
+  const double weights[3] = {0.25, 0.25, 0.5};
+  uint32_t vertices[MANY];
+  double values[MANY];
+  for (uint32_t i = 0; i < MANY; ++i) values[i] = i % 5;
+  take_many(&sheet, 1000, vertices);
+  /* in one batch: its route is the rebase */
+  hf_solver solver = solver_on(surface);
+  assert_ok(add_point(solver, 0, weights, 1));
+  for (uint32_t count = 3; count <= MANY; count = count == 3 ? 100 : count + 20) {
+    const hf_sites_desc sites = sites_at(count, vertices, values);
+    REFUSED(HF_ERROR_CONFLICT, hf_add_sites(solver, &sites, NULL));
+  }
+  /* a prepared rebase is taken over by the edit that brings the corners */
+  hf_sites_desc others = sites_at(MANY - 3, vertices + 3, values);
+  assert_ok(hf_add_sites(solver, &others, NULL));
+  const uint32_t eliminated = statistics_of(solver).eliminated_count;
+  assert_ok(hf_solver_prepare_rebase(solver));
+  const hf_sites_desc corners = sites_at(3, vertices, values);
+  Seen before = look(surface, solver);
+  assert_code(HF_ERROR_CONFLICT, hf_add_sites(solver, &corners, NULL));
+  assert_unchanged(&before, surface, solver);
+  assert_int_equal(before.statistics.eliminated_count, eliminated);
+  free(before.field);
+  const hf_sites_desc two = sites_at(2, vertices, values);
+  assert_ok(hf_add_sites(solver, &two, NULL));
+  assert_int_equal(statistics_of(solver).eliminated_count, MANY - 3);
+  hf_solver_destroy(solver), hf_surface_destroy(surface);
+  surface_free(&sheet);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(edits_and_fields_go_on_while_a_rebase_is_prepared),
       cmocka_unit_test(a_rebase_needs_a_solver_with_hard_sites),
       cmocka_unit_test(a_disc_is_one_site),
+      cmocka_unit_test(a_refused_edit_leaves_a_waiting_rebase_where_it_is),
+      cmocka_unit_test(a_point_and_its_corners_are_refused_on_every_route),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

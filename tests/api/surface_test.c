@@ -344,7 +344,7 @@ static void getters_tell_what_was_asked_for(void** state) {
   hf_solver_destroy(solver);
   hf_solver_desc asked = HF_INIT(hf_solver_desc);
   asked.field_kind = HF_FIELD_BIHARMONIC_GRAPH, asked.engine = HF_ENGINE_REFACTOR, asked.channel_count = 2;
-  asked.site_limit = 17, asked.penalty = 1e300; /* beyond the largest: the largest is taken */
+  asked.site_limit = 17, asked.penalty = 1e10;
   assert_ok(hf_create(surface, &asked, &solver));
   const double values[2] = {3, 4};
   uint32_t site = NO_INDEX;

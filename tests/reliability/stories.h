@@ -18,8 +18,6 @@ struct Allocator {
   hf_allocator hooks();
 };
 
-constexpr std::size_t remembered_bytes = 2048;  // a freed factor's block is below 1 KiB
-
 class Story {
  public:
   explicit Story(Allocator& memory) : memory_(memory) {}
@@ -48,12 +46,11 @@ class Story {
   void make(const char* function, Handle& handle, Call&& create) {
     call(function, create, [&] { return handle == nullptr; });
   }
-  // A call that makes a handle, and perhaps a factor. A refused one holds no memory either, but for the small block by
-  // which a surface remembers a factor that was made and freed.
+  // A call that makes a handle, and perhaps a factor. A refused one holds no memory either.
   template <class Handle, class Call>
   void make_factor(const char* function, Handle& handle, Call&& create) {
     const std::size_t bytes = memory_.live_bytes;
-    call(function, create, [&] { return handle == nullptr && memory_.live_bytes <= bytes + remembered_bytes; });
+    call(function, create, [&] { return handle == nullptr && memory_.live_bytes <= bytes; });
   }
   void holds(bool condition, const char* otherwise) {
     if (!condition) wrong(otherwise);

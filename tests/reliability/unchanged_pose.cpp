@@ -1,0 +1,303 @@
+// Poses of both modes: handles on layers, transforms, frames, skins, clones.
+#include <algorithm>
+#include <cmath>
+
+#include "unchanged.h"
+
+namespace unchanged {
+namespace {
+
+struct Handle {
+  std::uint32_t number, layer;
+  std::vector<std::uint32_t> region;  // empty: by a point
+  double point[3] = {0, 0, 0}, radius = 0;
+  hf_transform transform = {{0, 0, 0, 1}, {0, 0, 0}};
+};
+
+struct Branch {
+  hf_pose handle = nullptr;
+  std::vector<Handle> handles;  // in the order they were added
+};
+
+class Poses final : public Subject {
+ public:
+  Poses(World& given, Random& random) : Subject(given) {
+    desc_.mode = random.pick({0, 0, 1}), desc_.band_count = random.pick({0u, 4u});
+    desc_.iteration_count = random.pick({0u, 3u, 10u}), desc_.samples_per_ring = random.pick({0u, 0u, 3u});
+    desc_.group_count = random.pick({0u, 20u});
+    branches_.resize(1);
+    if (hf_pose_create(world.surface, &desc_, &branches_[0].handle) != HF_OK) branches_.clear();
+  }
+  ~Poses() override {
+    for (Branch& b : branches_) hf_pose_destroy(b.handle);
+  }
+  bool ready() const { return !branches_.empty(); }
+
+  void glance(State& state) override {
+    for (const Branch& b : branches_) {
+      hf_pose_info info = HF_INIT(hf_pose_info);
+      state.begin("info of a pose");
+      state.add(hf_pose_get_info(b.handle, &info)), add_struct(state, info);
+      state.add(hf_pose_get_handle_count(b.handle));
+    }
+  }
+  void look(State& state) override {
+    for (const Branch& b : branches_) {
+      for (const Handle& h : b.handles) {
+        hf_handle_info info = HF_INIT(hf_handle_info);
+        std::vector<float> field(world.shape->vertices());
+        state.begin("a handle");
+        state.add(hf_pose_get_handle(b.handle, h.number, &info)), add_struct(state, info);
+        state.begin("the field of a handle");
+        state.add(hf_pose_get_field(b.handle, h.number, field.data(), 0)), state.add(field);
+      }
+      look_at_skin(b, state);
+      look_at_frame(b, state);
+    }
+  }
+  std::string compare_fresh() override {
+    for (const Branch& b : branches_) {
+      const std::string fault = compare_fresh(b);
+      if (!fault.empty()) return fault;
+    }
+    return {};
+  }
+  const std::vector<Command>& commands() const override;
+
+ private:
+  friend struct Calls;
+  Branch& any(Random& random) { return branches_[random.below(static_cast<std::uint32_t>(branches_.size()))]; }
+
+  void look_at_skin(const Branch& b, State& state) const {
+    hf_skin_info skin = HF_INIT(hf_skin_info);
+    state.begin("skin of a pose");
+    state.add(hf_pose_get_skin(b.handle, &skin));
+    const std::size_t joints = skin.joint_count, vertices = skin.vertex_count;
+    std::vector<double> numbers(14 * joints);
+    std::vector<std::uint32_t> of(4 * vertices);
+    std::vector<float> weights(4 * vertices);
+    skin.joint_capacity = skin.joint_count, skin.vertex_capacity = skin.vertex_count;
+    skin.pivots = numbers.data(), skin.rotations = skin.pivots + 3 * joints,
+    skin.translations = skin.rotations + 4 * joints;
+    skin.axes = skin.translations + 3 * joints, skin.vertex_joints = of.data(), skin.vertex_weights = weights.data();
+    if (joints > 0) state.add(hf_pose_get_skin(b.handle, &skin));
+    state.add(numbers), state.add(of), state.add(weights);
+  }
+  // The next frame, as a clone makes it: what is kept of the last one shows there.
+  void look_at_frame(const Branch& b, State& state) const {
+    hf_pose copy = nullptr;
+    std::vector<double> positions(3 * world.shape->vertices());
+    std::vector<float> normals(positions.size());
+    hf_deform_desc frame = HF_INIT(hf_deform_desc);
+    frame.positions_f64 = positions.data(), frame.normals = normals.data();
+    state.begin("the next frame of a pose");
+    state.add(hf_pose_clone(b.handle, &copy));
+    state.add(hf_pose_deform(copy, &frame, nullptr)), state.add(positions), state.add(normals);
+    hf_pose_destroy(copy);
+  }
+  std::string compare_fresh(const Branch& b) const;
+  // The frame of a pose that starts from its fields.
+  hf_result frame_of(hf_pose pose, std::vector<double>& out) const {
+    out.assign(3 * world.shape->vertices(), 0.0);
+    hf_deform_desc frame = HF_INIT(hf_deform_desc);
+    frame.positions_f64 = out.data(), frame.restart = 1, frame.iteration_count = 5;
+    return hf_pose_deform(pose, &frame, nullptr);
+  }
+
+  std::uint32_t number(const Branch& b, Random& random) const {
+    if (b.handles.empty() || random.one_in(15)) return random.below(20);
+    return b.handles[random.below(static_cast<std::uint32_t>(b.handles.size()))].number;
+  }
+  // A quaternion of any length, and a way of about an edge.
+  hf_transform transform(Random& random) const {
+    hf_transform t;
+    for (double& q : t.rotation) q = random.real(-1, 1);
+    if (random.one_in(6)) std::fill_n(t.rotation, 4, 0.0);
+    for (double& x : t.translation) x = random.real(-1, 1);
+    if (random.one_in(25)) t.translation[random.below(3)] = random.number();
+    if (random.one_in(25)) t.rotation[random.below(4)] = random.number();
+    return t;
+  }
+
+  hf_pose_desc desc_ = HF_INIT(hf_pose_desc);
+  std::vector<Branch> branches_;
+};
+
+hf_result add_to(hf_pose pose, const Handle& h, std::uint32_t* out) {
+  hf_handles_desc desc = HF_INIT(hf_handles_desc);
+  const std::uint32_t count = static_cast<std::uint32_t>(h.region.size());
+  desc.handle_count = 1, desc.layer = h.layer;
+  if (h.region.empty())
+    desc.points = h.point, desc.radii = &h.radius;
+  else
+    desc.region_counts = &count, desc.region_vertices = h.region.data();
+  return hf_pose_add_handles(pose, &desc, out);
+}
+
+std::string Poses::compare_fresh(const Branch& b) const {
+  if (b.handles.empty()) return {};
+  hf_pose fresh = nullptr, copy = nullptr;
+  hf_result result = hf_pose_create(world.surface, &desc_, &fresh);
+  for (const Handle& h : b.handles) {
+    std::uint32_t number = 0;
+    if (result == HF_OK) result = add_to(fresh, h, &number);
+    if (result == HF_OK) result = hf_pose_set_transform(fresh, number, &h.transform);
+  }
+  std::vector<double> here, there;
+  if (result == HF_OK) result = frame_of(fresh, there);
+  if (result == HF_OK) result = hf_pose_clone(b.handle, &copy);
+  if (result == HF_OK) result = frame_of(copy, here);
+  hf_pose_destroy(fresh), hf_pose_destroy(copy);
+  if (result != HF_OK) return std::string("a fresh pose: ") + hf_result_get_name(result);
+  const double off = difference(here, there);
+  // a frame amplifies the rounding of its fields: by 2e7 at worst in 1,300 sequences on these 70 vertices
+  constexpr double tolerance = 1e-5;
+  return off <= tolerance ? "" : "a fresh pose differs by " + text(off);
+}
+
+struct Calls {
+  static Poses& of(Subject& s) { return static_cast<Poses&>(s); }
+
+  static hf_result add(Subject& subject, Random& random) {
+    Poses& s = of(subject);
+    Branch& b = s.any(random);
+    const bool near = random.one_in(3);
+    const std::uint32_t count = 1 + random.below(2), n = s.world.shape->vertices();
+    std::vector<Handle> fresh(count);
+    std::vector<std::uint32_t> counts(count), vertices, out(count);
+    std::vector<double> points, radii;
+    hf_handles_desc desc = HF_INIT(hf_handles_desc);
+    desc.layer = random.one_in(30) ? 8 : random.pick({0u, 0u, 0u, 1u, 2u});
+    for (std::uint32_t i = 0; i < count; ++i) {
+      Handle& h = fresh[i];
+      h.layer = desc.layer;
+      if (near) {
+        const std::uint32_t v = random.below(n);
+        for (int k = 0; k < 3; ++k) h.point[k] = static_cast<double>(s.world.shape->positions[3 * v + k]);
+        h.radius = random.pick({0.0, 0.9, 1.2, -1.0});
+        points.insert(points.end(), h.point, h.point + 3), radii.push_back(h.radius);
+      } else {
+        const std::uint32_t first = random.below(n), size = 1 + random.below(4);
+        for (std::uint32_t k = 0; k < size; ++k) h.region.push_back(random.one_in(40) ? n : (first + k) % n);
+        counts[i] = size, vertices.insert(vertices.end(), h.region.begin(), h.region.end());
+      }
+    }
+    desc.handle_count = count;
+    if (near)
+      desc.points = points.data(), desc.radii = radii.data();
+    else
+      desc.region_counts = counts.data(), desc.region_vertices = vertices.data();
+    const hf_result result = hf_pose_add_handles(b.handle, random.spoiled(desc), out.data());
+    if (result != HF_OK) return result;
+    for (std::uint32_t i = 0; i < count; ++i) fresh[i].number = out[i], b.handles.push_back(fresh[i]);
+    return result;
+  }
+  static hf_result remove(Subject& subject, Random& random) {
+    Poses& s = of(subject);
+    Branch& b = s.any(random);
+    std::vector<std::uint32_t> list(1 + random.below(2));
+    for (std::uint32_t& n : list) n = s.number(b, random);
+    const hf_result result = hf_pose_remove_handles(b.handle, static_cast<std::uint32_t>(list.size()), list.data());
+    if (result != HF_OK) return result;
+    const auto gone = [&](const Handle& h) { return std::find(list.begin(), list.end(), h.number) != list.end(); };
+    b.handles.erase(std::remove_if(b.handles.begin(), b.handles.end(), gone), b.handles.end());
+    return result;
+  }
+  static hf_result place(Subject& subject, Random& random) {
+    Poses& s = of(subject);
+    Branch& b = s.any(random);
+    std::vector<std::uint32_t> list(1 + random.below(3));
+    std::vector<hf_transform> to(list.size());
+    for (std::size_t i = 0; i < list.size(); ++i) list[i] = s.number(b, random), to[i] = s.transform(random);
+    const hf_result result =
+        hf_pose_set_transforms(b.handle, static_cast<std::uint32_t>(list.size()), list.data(), to.data());
+    if (result != HF_OK) return result;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      for (Handle& h : b.handles)
+        if (h.number == list[i]) h.transform = to[i];
+    }
+    return result;
+  }
+  static hf_result matrices(Subject& subject, Random& random) {
+    Poses& s = of(subject);
+    Branch& b = s.any(random);
+    const std::uint32_t number = s.number(b, random);
+    double m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    m[random.below(16)] = random.pick({0.5, 2.0, random.number()});  // hardly ever a rigid motion
+    const hf_result result = hf_pose_set_matrices(b.handle, 1, &number, m);
+    for (Handle& h : b.handles)
+      if (result == HF_OK && h.number == number) h.transform = {{0, 0, 0, 1}, {m[12], m[13], m[14]}};
+    return result;
+  }
+  static hf_result deform(Subject& subject, Random& random) {
+    Poses& s = of(subject);
+    Branch& b = s.any(random);
+    std::vector<double> positions(3 * s.world.shape->vertices());
+    std::vector<float> normals(positions.size());
+    hf_deform_desc desc = HF_INIT(hf_deform_desc);
+    hf_deform_info info = HF_INIT(hf_deform_info);
+    desc.positions_f64 = positions.data();
+    if (random.one_in(2)) desc.normals = normals.data();
+    desc.iteration_count = random.pick({0u, 0u, 1u, 7u, 2000u}), desc.restart = random.pick({0, 0, 0, 1, 2});
+    desc.refine = random.pick({0, 0, 1}), desc.first_vertex = random.pick({0u, 0u, 0u, 3u, 5000u});
+    if (random.one_in(10)) desc.position_stride = 7;
+    if (random.one_in(5)) return hf_deform(b.handle, normals.data(), random.spoiled(info));
+    return hf_pose_deform(b.handle, random.spoiled(desc), random.spoiled(info));
+  }
+  static hf_result clone(Subject& subject, Random& random) {
+    Poses& s = of(subject);
+    Branch& b = s.any(random);
+    if (s.branches_.size() > 1) return skipped;
+    Branch fresh = b;
+    const hf_result result = hf_pose_clone(b.handle, &fresh.handle);
+    if (result != HF_OK) return s.expect(fresh.handle == nullptr, "a refused clone is no NULL"), result;
+    return s.branches_.push_back(fresh), result;
+  }
+  static hf_result make(Subject& subject, Random& random) {
+    Poses& s = of(subject);
+    hf_pose_desc desc = HF_INIT(hf_pose_desc);
+    desc.mode = random.pick({0, 1, 2}), desc.band_count = random.pick({0u, 1u, 64u}),
+    desc.group_count = random.below(3000);
+    hf_pose made = s.branches_[0].handle;
+    const hf_result result = hf_pose_create(s.world.surface, random.spoiled(desc), &made);
+    if (result != HF_OK) s.expect(made == nullptr, "a refused pose is no NULL");
+    return hf_pose_destroy(made), result;
+  }
+  static hf_result destroy(Subject& subject, Random&) {
+    Poses& s = of(subject);
+    if (s.branches_.size() < 2) return skipped;
+    hf_pose_destroy(s.branches_.back().handle), s.branches_.pop_back();
+    return HF_OK;
+  }
+  static hf_result read(Subject& subject, Random& random) {
+    Poses& s = of(subject);
+    const Branch& b = s.any(random);
+    hf_handle_info info = HF_INIT(hf_handle_info);
+    hf_skin_info skin = HF_INIT(hf_skin_info);
+    std::vector<float> field(s.world.shape->vertices());
+    if (random.one_in(3)) return hf_pose_get_handle(b.handle, s.number(b, random), random.spoiled(info));
+    if (random.one_in(2)) return hf_pose_get_field(b.handle, s.number(b, random), field.data(), random.pick({0u, 2u}));
+    skin.weight_count = random.pick({0u, 4u, 5u, 8u});
+    return hf_pose_get_skin(b.handle, random.spoiled(skin));
+  }
+};
+
+const std::vector<Command>& Poses::commands() const {
+  static const std::vector<Command> table = {
+      {"hf_pose_add_handles", 8, Calls::add},      {"hf_pose_remove_handles", 3, Calls::remove},
+      {"hf_pose_set_transforms", 5, Calls::place}, {"hf_pose_set_matrices", 1, Calls::matrices},
+      {"hf_pose_deform", 8, Calls::deform},        {"hf_pose_clone", 2, Calls::clone},
+      {"hf_pose_create", 1, Calls::make},          {"hf_pose_destroy", 1, Calls::destroy},
+      {"reading a pose", 2, Calls::read},
+  };
+  return table;
+}
+
+}  // namespace
+
+std::unique_ptr<Subject> make_poses(World& world, Random& random) {
+  auto made = std::make_unique<Poses>(world, random);
+  return made->ready() ? std::move(made) : nullptr;
+}
+
+}  // namespace unchanged

@@ -1,0 +1,129 @@
+// Quad meshes from proposed and given sites, and flow lines.
+#include <cmath>
+
+#include "unchanged.h"
+
+namespace unchanged {
+namespace {
+
+class Quads final : public Subject {
+ public:
+  Quads(World& given, Random& random) : Subject(given) {
+    for (std::uint32_t v = 0; v < world.shape->vertices(); ++v) field_.push_back(random.real(0, 1) + v);
+    if (hf_flow_create(world.surface, &flow_) != HF_OK) flow_ = nullptr;
+  }
+  ~Quads() override {
+    hf_flow_destroy(flow_);
+    for (const hf_quads quads : made_) hf_quads_destroy(quads);
+  }
+  bool ready() const { return flow_ != nullptr; }
+
+  void glance(State& state) override {
+    for (const hf_quads quads : made_) {
+      hf_quads_info info = HF_INIT(hf_quads_info);
+      state.begin("info of quads");
+      state.add(hf_quads_get_info(quads, &info)), add_struct(state, info);
+    }
+  }
+  void look(State& state) override {
+    for (const hf_quads quads : made_) {
+      hf_quads_info info = HF_INIT(hf_quads_info);
+      hf_quads_get_info(quads, &info);
+      std::vector<double> positions(3 * info.vertex_count);
+      std::vector<std::uint32_t> starts(info.face_count + 1), corners(info.corner_count);
+      hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
+      mesh.vertex_capacity = info.vertex_count, mesh.face_capacity = info.face_count;
+      mesh.corner_capacity = info.corner_count, mesh.positions = positions.data();
+      mesh.face_starts = starts.data(), mesh.face_corners = corners.data();
+      state.begin("a quad mesh");
+      state.add(hf_quads_get_mesh(quads, &mesh)), state.add(positions), state.add(starts), state.add(corners);
+    }
+    hf_scalars field = HF_INIT(hf_scalars);
+    field.values_f64 = field_.data();
+    std::vector<double> positions(3 * 5000);
+    hf_flow_lines lines = HF_INIT(hf_flow_lines);
+    lines.wanted_count = 5, lines.point_capacity = 5000, lines.positions = positions.data();
+    state.begin("flow lines");
+    state.add(hf_flow_trace(flow_, &field, &lines)), state.add(lines.point_count), state.add(positions);
+  }
+  const std::vector<Command>& commands() const override;
+
+ private:
+  friend struct Calls;
+  hf_flow flow_ = nullptr;
+  std::vector<hf_quads> made_;
+  std::vector<double> field_;
+};
+
+struct Calls {
+  static Quads& of(Subject& s) { return static_cast<Quads&>(s); }
+
+  static hf_result make(Subject& subject, Random& random) {
+    Quads& s = of(subject);
+    hf_quads_desc desc = HF_INIT(hf_quads_desc);
+    desc.kind = random.pick({0, 1, 0, 1, 2}), desc.edge_length = random.pick({0.9f, 1.3f, 2.0f, -1.0f});
+    if (random.one_in(15)) desc.edge_length = static_cast<float>(random.number());
+    if (desc.edge_length > 0 && desc.edge_length < 0.3f) desc.edge_length = 0.3f;
+    if (desc.edge_length == 0) desc.edge_length = 1;  // the default is too fine for a test of many calls
+    desc.keep_polygons = random.pick({0, 0, 1}), desc.relax_count = random.pick({2u, 5u, HF_NO_INDEX, 2000u});
+    desc.progress = s.world.progress();
+    std::vector<std::uint32_t> sites(1 + random.below(4));
+    std::vector<std::int32_t> lines(sites.size());
+    for (std::uint32_t& v : sites) v = random.index(s.world.shape->vertices());
+    for (std::int32_t& n : lines) n = random.pick({4, 6, -4, -8, 10, 0});
+    if (!random.one_in(6))
+      desc.site_count = static_cast<std::uint32_t>(sites.size()), desc.site_vertices = sites.data();
+    if (desc.site_count && !random.one_in(4)) desc.site_lines = lines.data();
+    hf_quads made = reinterpret_cast<hf_quads>(s.flow_);
+    const hf_result result = hf_quads_create(s.world.surface, random.spoiled(desc), &made);
+    if (result != HF_OK) return s.expect(made == nullptr, "refused quads are no NULL"), result;
+    if (s.made_.size() > 1) hf_quads_destroy(s.made_.front()), s.made_.erase(s.made_.begin());
+    return s.made_.push_back(made), result;
+  }
+  static hf_result flow(Subject& subject, Random& random) {
+    Quads& s = of(subject);
+    hf_flow made = s.flow_;
+    const hf_result result = hf_flow_create(random.one_in(9) ? nullptr : s.world.surface, &made);
+    if (result != HF_OK) s.expect(made == nullptr, "a refused flow is no NULL");
+    return hf_flow_destroy(made), result;
+  }
+  static hf_result trace(Subject& subject, Random& random) {
+    Quads& s = of(subject);
+    std::vector<double> values = s.field_, positions(3 * 500);
+    if (random.one_in(5)) values[random.below(static_cast<std::uint32_t>(values.size()))] = random.number();
+    hf_scalars field = HF_INIT(hf_scalars);
+    field.values_f64 = values.data();
+    const std::uint32_t seeds[2] = {random.index(s.world.shape->vertices()), 3};
+    hf_flow_lines lines = HF_INIT(hf_flow_lines);
+    lines.wanted_count = random.pick({0u, 3u, 9u}), lines.seed_count = random.below(3), lines.seeds = seeds;
+    lines.point_capacity = random.pick({10u, 500u}), lines.positions = positions.data();
+    return hf_flow_trace(s.flow_, random.spoiled(field), random.spoiled(lines));
+  }
+  static hf_result read(Subject& subject, Random& random) {
+    Quads& s = of(subject);
+    if (s.made_.empty()) return skipped;
+    hf_quads_mesh mesh = HF_INIT(hf_quads_mesh);
+    std::vector<double> positions(3 * 20);
+    mesh.vertex_capacity = 20, mesh.positions = positions.data(), mesh.reserved = random.one_in(9);
+    return hf_quads_get_mesh(s.made_[0], random.spoiled(mesh));
+  }
+};
+
+const std::vector<Command>& Quads::commands() const {
+  static const std::vector<Command> table = {
+      {"hf_quads_create", 6, Calls::make},
+      {"hf_flow_create", 3, Calls::flow},
+      {"hf_flow_trace", 8, Calls::trace},
+      {"hf_quads_get_mesh", 2, Calls::read},
+  };
+  return table;
+}
+
+}  // namespace
+
+std::unique_ptr<Subject> make_quads(World& world, Random& random) {
+  auto made = std::make_unique<Quads>(world, random);
+  return made->ready() ? std::move(made) : nullptr;
+}
+
+}  // namespace unchanged

@@ -1,0 +1,179 @@
+// The subject of unchanged_solver.cpp and its calls (unchanged_solver_calls.cpp).
+#pragma once
+#include <map>
+
+#include "unchanged.h"
+
+namespace unchanged {
+
+struct Place {
+  std::uint32_t vertex = HF_NO_INDEX, triangle = HF_NO_INDEX;
+  double weights[3] = {0, 0, 0};
+};
+using Places = std::map<std::uint32_t, Place>;  // by number
+
+struct SolverBranch {
+  struct Record {
+    Places places;
+    std::uint64_t field;
+  };
+  hf_solver handle = nullptr;
+  Places places;
+  std::vector<Record> undo, redo;
+  bool prepared = false;  // a rebase waits
+};
+
+// Places in the form of hf_sites_desc, which borrows from this object.
+struct Lists {
+  std::vector<Place> places;
+  std::vector<std::uint32_t> vertices, triangles;
+  std::vector<double> weights, values, stiffness, radii;
+  hf_sites_desc desc = HF_INIT(hf_sites_desc);
+  void finish() {
+    for (const Place& p : places) {
+      vertices.push_back(p.vertex), triangles.push_back(p.triangle);
+      weights.insert(weights.end(), p.weights, p.weights + 3);
+    }
+    desc.site_count = static_cast<std::uint32_t>(places.size());
+    if (places.empty() || places[0].triangle == HF_NO_INDEX)
+      desc.vertices = vertices.data();
+    else
+      desc.triangles = triangles.data(), desc.barycentrics = weights.data();
+    if (!values.empty()) desc.values = values.data();
+    if (!stiffness.empty()) desc.stiffness = stiffness.data();
+    if (!radii.empty()) desc.radii = radii.data();
+  }
+};
+
+class Solvers final : public Subject {
+ public:
+  Solvers(World& given, Random& random) : Subject(given) {
+    desc_.field_kind = random.pick({0, 0, 0, 1, 2}), desc_.engine = random.pick({0, 0, 0, 0, 0, 0, 2});
+    desc_.channel_count = random.pick({1u, 1u, 3u, 2u}), desc_.site_limit = random.pick({0u, 0u, 12u});
+    branches_.resize(1);
+    channels_ = desc_.channel_count;
+    if (hf_create(world.surface, &desc_, &branches_[0].handle) != HF_OK) branches_.clear();
+  }
+  ~Solvers() override {
+    for (SolverBranch& b : branches_) hf_solver_destroy(b.handle);
+  }
+  bool ready() const { return !branches_.empty(); }
+
+  void glance(State& state) override {
+    for (const SolverBranch& b : branches_) {
+      hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
+      hf_solver_info info = HF_INIT(hf_solver_info);
+      state.begin("statistics of a solver");
+      state.add(hf_solver_get_statistics(b.handle, &statistics)), statistics.sweep_count = 0;
+      add_struct(state, statistics);
+      state.begin("info of a solver");
+      state.add(hf_solver_get_info(b.handle, &info)), add_struct(state, info);
+      state.add(hf_solver_get_site_count(b.handle));
+    }
+  }
+  void look(State& state) override {
+    for (const SolverBranch& b : branches_) {
+      look_at_field(b, state);
+      const std::uint32_t count = hf_solver_get_site_count(b.handle);
+      std::vector<std::uint32_t> numbers(count), vertices(count), components(count);
+      std::vector<double> values(count * channels_), stiffness(count), flux(count * channels_), radii(count);
+      hf_sites_info sites = HF_INIT(hf_sites_info);
+      sites.capacity = count, sites.sites = numbers.data(), sites.vertices = vertices.data();
+      sites.components = components.data(), sites.values = values.data(), sites.stiffness = stiffness.data();
+      sites.flux = flux.data(), sites.radii = radii.data();
+      state.begin("sites of a solver");
+      state.add(hf_solver_get_sites(b.handle, &sites)), state.add(numbers), state.add(vertices), state.add(components);
+      state.add(values), state.add(stiffness), state.add(radii);
+      state.begin("flux of a solver");
+      state.add(flux);
+      expect(count == b.places.size(), "the number of sites is not that of the model");
+      for (std::uint32_t i = 0; i < count && wrong.empty(); ++i)
+        expect(b.places.count(numbers[i]) && b.places.at(numbers[i]).vertex == vertices[i], "a site is elsewhere");
+      hf_certificate certificate = HF_INIT(hf_certificate);
+      state.begin("certificate");
+      state.add(hf_solver_certify(b.handle, &certificate)), add_struct(state, certificate);
+    }
+  }
+
+  std::string compare_fresh() override {
+    for (const SolverBranch& b : branches_) {
+      const std::string fault = compare_fresh(b);
+      if (!fault.empty()) return fault;
+    }
+    return {};
+  }
+
+  const std::vector<Command>& commands() const override;
+
+ private:
+  friend struct SolverCalls;
+  std::size_t rows() const { return world.shape->vertices() * channels_; }
+  SolverBranch& any(Random& random) { return branches_[random.below(static_cast<std::uint32_t>(branches_.size()))]; }
+  std::uint64_t look_at_field(const SolverBranch& b, State& state) const {
+    std::vector<double> field(rows());
+    hf_solve_info info = HF_INIT(hf_solve_info);
+    state.begin("field of a solver");
+    state.add(hf_solver_solve_f64(b.handle, field.data(), 0, &info)), state.add(field), add_struct(state, info);
+    return state.last();
+  }
+  std::uint64_t field_of(const SolverBranch& b) {
+    world.memory.disarm();
+    State state;
+    return look_at_field(b, state);
+  }
+
+  Place place(Random& random, bool inside) const {
+    Place p;
+    if (!inside) return p.vertex = random.index(world.shape->vertices()), p;
+    p.triangle = random.index(world.shape->count());
+    const std::uint32_t i = random.below(5), j = random.below(5 - i);
+    p.weights[0] = i / 4.0, p.weights[1] = j / 4.0, p.weights[2] = (4 - i - j) / 4.0;
+    if (random.one_in(30)) p.weights[random.below(3)] += random.pick({0.5, -1.0, 1e-3});
+    return p;
+  }
+  std::uint32_t number(const SolverBranch& b, Random& random) const {
+    if (b.places.empty() || random.one_in(15)) return random.below(40);
+    return std::next(b.places.begin(), random.below(static_cast<std::uint32_t>(b.places.size())))->first;
+  }
+  std::vector<std::uint32_t> numbers(const SolverBranch& b, Random& random) const {
+    std::vector<std::uint32_t> list(1 + random.below(3));
+    for (std::uint32_t& n : list) n = number(b, random);
+    return list;
+  }
+  std::vector<double> values(std::size_t count, Random& random) const {
+    std::vector<double> list(count);
+    for (double& v : list) v = random.number();
+    return list;
+  }
+  void take_places(Lists& lists, std::size_t count, Random& random, bool adding) const {
+    const bool inside = random.one_in(3);
+    for (std::size_t i = 0; i < count; ++i) lists.places.push_back(place(random, inside));
+    if (adding && !random.one_in(6)) lists.values = values(count * channels_, random);
+    for (std::size_t i = 0; adding && i < count && (i > 0 ? !lists.stiffness.empty() : random.one_in(4)); ++i)
+      lists.stiffness.push_back(random.pick({0.0, 1.0, 1e-3, 1e5, random.number()}));
+    for (std::size_t i = 0; adding && i < count && (i > 0 ? !lists.radii.empty() : random.one_in(8)); ++i)
+      lists.radii.push_back(random.pick({0.0, 1.5, 0.4, random.number()}));
+    lists.finish();
+  }
+  // What follows an edit that was done.
+  void edited(SolverBranch& b, std::uint32_t rebases, bool refused) {
+    b.redo.clear();
+    if (b.prepared && !refused) {
+      hf_solver_statistics now = HF_INIT(hf_solver_statistics);
+      expect(hf_solver_get_statistics(b.handle, &now) == HF_OK && now.rebase_count > rebases,
+             "the waiting rebase was not taken over by an edit that was done");
+    }
+    b.prepared = false;
+  }
+  std::uint32_t rebases(const SolverBranch& b) const {
+    hf_solver_statistics now = HF_INIT(hf_solver_statistics);
+    return hf_solver_get_statistics(b.handle, &now) == HF_OK ? now.rebase_count : 0;
+  }
+  std::string compare_fresh(const SolverBranch& b) const;
+
+  hf_solver_desc desc_ = HF_INIT(hf_solver_desc);
+  std::size_t channels_ = 1;
+  std::vector<SolverBranch> branches_;
+};
+
+}  // namespace unchanged

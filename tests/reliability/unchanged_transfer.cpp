@@ -1,0 +1,232 @@
+// Transfers of a surface on itself: pairs that come and go, frames with holds, skins.
+#include <algorithm>
+#include <cmath>
+
+#include "unchanged.h"
+
+namespace unchanged {
+namespace {
+
+struct Pair {
+  std::uint32_t number, flags;
+  std::vector<std::uint32_t> source, target;
+};
+
+struct Frame {
+  std::vector<double> posed;
+  std::vector<std::uint32_t> holds;  // numbers of pairs
+  std::vector<double> places;
+};
+
+class Transfers final : public Subject {
+ public:
+  Transfers(World& given, Random& random) : Subject(given) {
+    desc_.mode = random.pick({0, 0, 1}),
+    desc_.cluster_count = random.pick({5u, 10u});  // 80 on 80 vertices would rest on one vertex each
+    if (hf_transfer_create(world.surface, world.surface, &desc_, &handle_) != HF_OK) handle_ = nullptr;
+  }
+  ~Transfers() override { hf_transfer_destroy(handle_); }
+  bool ready() const { return handle_ != nullptr; }
+
+  void glance(State&) override {}  // readers solve the fields of new pairs
+  void look(State& state) override {
+    hf_transfer_info info = HF_INIT(hf_transfer_info);
+    state.begin("info of a transfer");
+    state.add(hf_transfer_get_info(handle_, &info)), add_struct(state, info);
+    expect(info.pair_count == pairs_.size() || pairs_.empty() || world.desc.memory_limit_mb,
+           "the number of pairs is not that of the model");
+    for (const Pair& p : pairs_) {
+      hf_pair_info pair = HF_INIT(hf_pair_info);
+      state.begin("a pair");
+      state.add(hf_transfer_get_pair(handle_, p.number, &pair)), add_struct(state, pair);
+    }
+    look_at_skin(state);
+  }
+  std::string compare_fresh() override {
+    // the cut sheet is regular: rounding decides between equal clusters
+    if (pairs_.empty() || !alike_ || world.shape == &shapes()[1]) return {};
+    std::vector<double> here, single, batch;
+    hf_result result = play_fresh(false, single);
+    if (result == HF_OK) result = play_fresh(true, batch);
+    if (result == HF_OK) result = apply(handle_, bent(0.4), here);
+    if (result != HF_OK) return std::string("a fresh transfer: ") + hf_result_get_name(result);
+    // clusters on next to no vertices: rounding alone turns them
+    if (!(difference(single, batch) <= 1e-13)) return {};
+    const double off = difference(here, single);
+    return off <= 1e-9 ? "" : "a fresh transfer differs by " + text(off);
+  }
+  const std::vector<Command>& commands() const override;
+
+ private:
+  friend struct Calls;
+
+  void look_at_skin(State& state) const {
+    hf_skin_info skin = HF_INIT(hf_skin_info);
+    state.begin("skin of a transfer");
+    state.add(hf_transfer_get_skin(handle_, &skin));
+    const std::size_t joints = skin.joint_count, vertices = skin.vertex_count;
+    std::vector<double> numbers(10 * joints);
+    std::vector<std::uint32_t> of(4 * vertices);
+    std::vector<float> weights(4 * vertices);
+    skin.joint_capacity = skin.joint_count, skin.vertex_capacity = skin.vertex_count;
+    skin.pivots = numbers.data(), skin.rotations = skin.pivots + 3 * joints,
+    skin.translations = skin.rotations + 4 * joints;
+    skin.vertex_joints = of.data(), skin.vertex_weights = weights.data();
+    if (joints > 0) state.add(hf_transfer_get_skin(handle_, &skin));
+    state.add(numbers), state.add(of), state.add(weights);
+  }
+  // A fresh transfer with the pairs there are, one by one or in one batch, and the frames since.
+  hf_result play_fresh(bool batch, std::vector<double>& out) const {
+    hf_transfer fresh = nullptr;
+    hf_result result = hf_transfer_create(world.surface, world.surface, &desc_, &fresh);
+    std::vector<Pair> pairs = pairs_;
+    std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.number < b.number; });
+    std::vector<std::uint32_t> renamed(256, 0);
+    for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+      renamed[pairs[i].number] = i;
+      if (result == HF_OK && !batch) result = add_to(fresh, {pairs[i]}, nullptr);
+    }
+    if (result == HF_OK && batch) result = add_to(fresh, pairs, nullptr);
+    for (Frame frame : frames_) {
+      for (std::uint32_t& n : frame.holds) n = renamed[n];
+      if (result == HF_OK) result = apply(fresh, frame, out);
+    }
+    if (result == HF_OK) result = apply(fresh, bent(0.4), out);
+    return hf_transfer_destroy(fresh), result;
+  }
+  static hf_result add_to(hf_transfer transfer, const std::vector<Pair>& pairs, std::uint32_t* out) {
+    std::vector<std::uint32_t> counts[2], vertices[2], flags;
+    for (const Pair& p : pairs) {
+      counts[0].push_back(static_cast<std::uint32_t>(p.source.size()));
+      counts[1].push_back(static_cast<std::uint32_t>(p.target.size()));
+      vertices[0].insert(vertices[0].end(), p.source.begin(), p.source.end());
+      vertices[1].insert(vertices[1].end(), p.target.begin(), p.target.end());
+      flags.push_back(p.flags);
+    }
+    hf_pairs_desc desc = HF_INIT(hf_pairs_desc);
+    desc.pair_count = static_cast<std::uint32_t>(pairs.size()), desc.flags = flags.data();
+    desc.source_counts = counts[0].data(), desc.source_vertices = vertices[0].data();
+    desc.target_counts = counts[1].data(), desc.target_vertices = vertices[1].data();
+    return hf_transfer_add_pairs(transfer, &desc, out);
+  }
+  // The surface at rest, bent about its y axis.
+  Frame bent(double angle) const {
+    Frame frame;
+    const std::vector<float>& p = world.shape->positions;
+    for (std::size_t v = 0; v + 2 < p.size(); v += 3) {
+      const double x = static_cast<double>(p[v]), z = static_cast<double>(p[v + 2]), a = angle * (1 + 0.2 * x);
+      frame.posed.push_back(x * std::cos(a) - z * std::sin(a)), frame.posed.push_back(static_cast<double>(p[v + 1]));
+      frame.posed.push_back(x * std::sin(a) + z * std::cos(a));
+    }
+    return frame;
+  }
+  hf_result apply(hf_transfer transfer, const Frame& given, std::vector<double>& out) const {
+    out.assign(given.posed.size(), 0.0);
+    hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
+    frame.source_positions_f64 = given.posed.data(), frame.target_positions_f64 = out.data();
+    frame.hold_count = static_cast<std::uint32_t>(given.holds.size());
+    frame.hold_pairs = given.holds.data(), frame.hold_positions = given.places.data();
+    return hf_transfer_apply(transfer, &frame);
+  }
+  std::uint32_t number(Random& random) const {
+    if (pairs_.empty() || random.one_in(15)) return random.below(20);
+    return pairs_[random.below(static_cast<std::uint32_t>(pairs_.size()))].number;
+  }
+
+  hf_transfer_desc desc_ = HF_INIT(hf_transfer_desc);
+  hf_transfer handle_ = nullptr;
+  std::vector<Pair> pairs_;
+  std::vector<Frame> frames_;  // since the pairs were changed
+  bool alike_ = true;          // all pairs had equal regions
+};
+
+struct Calls {
+  static Transfers& of(Subject& s) { return static_cast<Transfers&>(s); }
+
+  static hf_result add(Subject& subject, Random& random) {
+    Transfers& s = of(subject);
+    std::vector<Pair> fresh(1 + random.below(3));
+    std::vector<std::uint32_t> out(fresh.size());
+    const std::uint32_t n = s.world.shape->vertices();
+    for (Pair& p : fresh) {
+      p.flags = random.pick({0u, 0u, 1u, 2u, 5u, 16u, random.one_in(9) ? 64u : 8u});
+      // equal regions: between unlike ones some clusters rest on next to nothing, and rounding turns them
+      const std::uint32_t first = random.below(n), size = 1 + random.below(4);
+      for (std::uint32_t k = 0; k < size; ++k) p.source.push_back(random.one_in(60) ? n : (first + k) % n);
+      p.target = p.source;
+      if (random.one_in(30)) p.target.back() = random.below(n + 1), s.alike_ = false;
+    }
+    const hf_result result = Transfers::add_to(s.handle_, fresh, out.data());
+    if (result != HF_OK) return result;
+    for (std::size_t i = 0; i < out.size(); ++i) fresh[i].number = out[i], s.pairs_.push_back(fresh[i]);
+    return s.frames_.clear(), result;
+  }
+  static hf_result remove(Subject& subject, Random& random) {
+    Transfers& s = of(subject);
+    std::vector<std::uint32_t> list(1 + random.below(2));
+    for (std::uint32_t& n : list) n = s.number(random);
+    const hf_result result = hf_transfer_remove_pairs(s.handle_, static_cast<std::uint32_t>(list.size()), list.data());
+    if (result != HF_OK) return result;
+    const auto gone = [&](const Pair& p) { return std::find(list.begin(), list.end(), p.number) != list.end(); };
+    s.pairs_.erase(std::remove_if(s.pairs_.begin(), s.pairs_.end(), gone), s.pairs_.end());
+    return s.frames_.clear(), result;
+  }
+  static hf_result frame(Subject& subject, Random& random) {
+    Transfers& s = of(subject);
+    Frame frame = s.bent(random.real(-1, 1));
+    if (random.one_in(10)) frame.posed[random.below(static_cast<std::uint32_t>(frame.posed.size()))] = random.number();
+    for (std::uint32_t i = random.one_in(3) ? 1 + random.below(2) : 0; i > 0; --i) {
+      frame.holds.push_back(s.number(random));
+      for (int k = 0; k < 3; ++k) frame.places.push_back(random.number());
+    }
+    std::vector<float> normals(frame.posed.size());
+    std::vector<double> out(frame.posed.size());
+    hf_transfer_frame desc = HF_INIT(hf_transfer_frame);
+    desc.source_positions_f64 = frame.posed.data(), desc.target_positions_f64 = out.data();
+    desc.hold_count = static_cast<std::uint32_t>(frame.holds.size());
+    desc.hold_pairs = frame.holds.data(), desc.hold_positions = frame.places.data();
+    if (random.one_in(3)) desc.target_normals = normals.data();
+    if (random.one_in(20)) desc.source_stride = 5;
+    const hf_result result = hf_transfer_apply(s.handle_, random.spoiled(desc));
+    if (result == HF_OK) s.frames_.push_back(frame);
+    return result;
+  }
+  static hf_result make(Subject& subject, Random& random) {
+    Transfers& s = of(subject);
+    hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
+    desc.mode = random.pick({0, 1, 2}), desc.cluster_count = random.pick({0u, 512u, 513u});
+    desc.kernel_width = static_cast<float>(random.number()), desc.scale = static_cast<float>(random.number());
+    hf_transfer made = s.handle_;
+    const hf_result result = hf_transfer_create(s.world.surface, s.world.surface, random.spoiled(desc), &made);
+    if (result != HF_OK) s.expect(made == nullptr, "a refused transfer is no NULL");
+    return hf_transfer_destroy(made), result;
+  }
+  static hf_result read(Subject& subject, Random& random) {
+    Transfers& s = of(subject);
+    hf_transfer_info info = HF_INIT(hf_transfer_info);
+    hf_pair_info pair = HF_INIT(hf_pair_info);
+    hf_skin_info skin = HF_INIT(hf_skin_info);
+    if (random.one_in(3)) return hf_transfer_get_info(s.handle_, random.spoiled(info));
+    if (random.one_in(2)) return hf_transfer_get_pair(s.handle_, s.number(random), random.spoiled(pair));
+    skin.weight_count = random.pick({0u, 4u, 5u});
+    return hf_transfer_get_skin(s.handle_, random.spoiled(skin));
+  }
+};
+
+const std::vector<Command>& Transfers::commands() const {
+  static const std::vector<Command> table = {
+      {"hf_transfer_add_pairs", 8, Calls::add}, {"hf_transfer_remove_pairs", 3, Calls::remove},
+      {"hf_transfer_apply", 10, Calls::frame},  {"hf_transfer_create", 2, Calls::make},
+      {"reading a transfer", 4, Calls::read},
+  };
+  return table;
+}
+
+}  // namespace
+
+std::unique_ptr<Subject> make_transfers(World& world, Random& random) {
+  auto made = std::make_unique<Transfers>(world, random);
+  return made->ready() ? std::move(made) : nullptr;
+}
+
+}  // namespace unchanged
