@@ -167,7 +167,7 @@ hf_result hf_solver_certify(hf_solver handle, hf_certificate* inout_certificate)
     report.site_error = found.site_error, report.overshoot = found.overshoot;
     report.worst_vertex = given_vertex(solver->field.core().mesh, found.vertex);
     write_struct(inout_certificate, report);
-    const double worst = std::max({found.residual, found.site_error, found.overshoot});
+    const double worst = std::max({found.error, found.site_error, found.overshoot});
     if (!(worst <= tolerance))
       fail(HF_ERROR_INACCURATE, report.worst_vertex,
            "the field is wrong by %.3g of the range of its values at vertex %u, more than the tolerance %.3g; make a "

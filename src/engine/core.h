@@ -51,6 +51,9 @@ struct Core {
   // Corrections with the true operator, in difference form, that a field takes after its sweep: 0 for second-order
   // operators, 1 for bi-harmonic ones, whose condition is squared.
   std::int32_t refinements = 0;
+  // Rounding in the factor shows in the fields of a long shape (Factor::commute_time). They take corrections until the
+  // last one is small (green_refine.cpp).
+  bool is_long = false;
   // 0, or the weights of some components were limited because they did not factor (lost_components.h). Then it is the
   // hash of A before that, plus one. A saved factor stores it, so loading knows early that weights must be limited.
   std::uint64_t confined_hash = 0;

@@ -12,8 +12,9 @@ struct Certificate {
   double residual = 0;     // distance of a vertex from the weighted mean of its neighbours
   double site_error = 0;   // largest error of the condition of a site
   double overshoot = 0;    // how far the field leaves the range of the site values; 0 when not checked
+  double error = 0;        // of the field: a bound, or an estimate (certificate.cpp)
   bool overshoot_checked = false;
-  std::int32_t vertex = Mesh::none;  // inner vertex of the largest of the three
+  std::int32_t vertex = Mesh::none;  // inner vertex of the largest of error, site_error and overshoot
 };
 
 // The tolerance asked for; for 0 that of the engine. Throws HF_ERROR_INVALID_ARGUMENT unless it is above 0 and finite.
