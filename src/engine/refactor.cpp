@@ -221,7 +221,8 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
     }
   }
   if (flux) {
-    // lambda of a point from the border, of a vertex site from K u = W lambda
+    // lambda of a point from the border, of a vertex site from K u = W lambda. That loses the lambda of a soft site to
+    // rounding, so it comes from what the site misses.
     for (std::size_t i = 0; i < state_.points.size(); ++i) {
       for (std::size_t c = 0; c < m; ++c) flux[at(state_.points[i]) * m + c] = lambda[i * m + c];
     }
@@ -229,7 +230,13 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
       const Site& site = state_.sites[slot];
       if (site.component < 0 || !site.is_vertex()) continue;
       const std::size_t v = at(site.vertex[0]);
+      const double soft = site.compliance / core_->mean_diagonal[at(site.component)];
+      const bool is_softer = soft * k.value[k.diagonal(site.vertex[0])] > 1;  // than the mesh around it
       for (std::size_t c = 0; c < m; ++c) {
+        if (is_softer) {
+          flux[slot * m + c] = (values[slot * m + c] - out[v * m + c]) / soft;
+          continue;
+        }
         double sum = 0;
         for (Index i = k.column_start[v]; i < k.column_start[v + 1]; ++i)
           sum += k.value[at(i)] * (out[at(k.row[at(i)]) * m + c] - out[v * m + c]);
