@@ -253,17 +253,21 @@ typedef struct hf_certificate {
                                 clamped operator, all sites at vertices */
   double tolerance;   /* in: largest error to accept, > 0; 0 = 1e-8, HF_ENGINE_UPDOWN 1e-5; out: the one used */
   double value_range; /* out: largest less smallest site value, the widest over components and channels */
-  double residual;    /* out: largest |(K u - W lambda)_v| / K_vv, how far a value is from the mean of its neighbours */
+  double residual;    /* out: largest |(K u - W lambda)_v| / K_vv, how far a value is from the mean of its neighbours.
+                         Not judged: on a long shape the error may be many times larger, on others smaller */
   double site_error;  /* out: largest |w_i' u + lambda_i / alpha_i - s_i|, what a site misses its value by */
   double overshoot;   /* out: how far the field leaves the range of its sites; 0 when not checked */
-  uint32_t worst_vertex; /* out: as given, where the largest of the three is */
+  uint32_t worst_vertex; /* out: as given, where the largest of error_estimate, site_error and overshoot is */
   uint32_t reserved;     /* 0 */
+  double error_estimate; /* out: how far a value may be from the exact field: a bound by K alone where no weight is
+                            negative and the field harmonic, else an estimate by corrections */
 } hf_certificate;
 
-/* Solves the field and puts it back into its equations. It trusts only K and the site values, so it finds a damaged
- * factor, borrowed bytes that changed, or a fault of the machine. inout_certificate is also written with
- * HF_ERROR_INACCURATE (index = worst vertex): do not use fields of this solver then, make the surface again. Cost: a
- * solve and a product with K. Errors: HF_ERROR_INACCURATE, HF_ERROR_INVALID_ARGUMENT (tolerance), HF_ERROR_NO_SITES.
+/* Solves the field, puts it back into its equations and bounds its error. It trusts only K and the site values, so it
+ * finds a damaged factor, borrowed bytes that changed, or a fault of the machine. inout_certificate is also written with
+ * HF_ERROR_INACCURATE when error_estimate, site_error or overshoot is above the tolerance (index = worst vertex): do not use
+ * fields of this solver then, make the surface again. K has the weights used: hf_surface_report says where a rule set
+ * them. Cost: three solves and a pass over the edges. Errors: HF_ERROR_INACCURATE, HF_ERROR_INVALID_ARGUMENT (tolerance), HF_ERROR_NO_SITES.
  * Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_certify(hf_solver solver, hf_certificate* inout_certificate);
 

@@ -164,7 +164,7 @@ hf_result hf_solver_certify(hf_solver handle, hf_certificate* inout_certificate)
     const Certificate found = certify(solver->field);
     report.overshoot_checked = found.overshoot_checked, report.tolerance = tolerance;
     report.value_range = found.value_range, report.residual = found.residual;
-    report.site_error = found.site_error, report.overshoot = found.overshoot;
+    report.site_error = found.site_error, report.overshoot = found.overshoot, report.error_estimate = found.error;
     report.worst_vertex = given_vertex(solver->field.core().mesh, found.vertex);
     write_struct(inout_certificate, report);
     const double worst = std::max({found.error, found.site_error, found.overshoot});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "base/timer.h"
 #include "engine/lost_components.h"
 #include "factor/factor_bytes.h"
@@ -63,31 +64,56 @@ constexpr double harmonic_lost_share = 0x1p-31;
 // Roundings of 2^-52 that a field may add up before it is refined, as a share of its range: chains of 20,000 triangles
 // are off by 5e-9 with 1e-7, tubes of 20,000 rings by 4e-9 with 2e-7. Half refines shapes that are right to 1e-9.
 constexpr double long_share = 1e-8;
-// Commute time of an unknown below which a shape is not long, whatever its size: surfaces as wide as long have 10 to 30,
-// where roundings cancel; a tube of 2,000 rings has 270. Half refines fields of elongated surfaces for nothing.
+// Commute time of an unknown below which a shape is not long, whatever its size: surfaces as wide as long have 10 to
+// 30, where roundings cancel; a tube of 2,000 rings has 270. Half refines fields of elongated surfaces for nothing.
 constexpr double long_commute = 100;
+
+// Smallest angle below which a triangle may be widened: well above the 1e-9 at which one is. No result depends on it.
+constexpr double widened_angle = 1e-8;
+
+// By vertex, whether a triangle there is too thin to keep its weights; empty: none is.
+Vector<std::uint8_t> widened_vertices(const Mesh& mesh, Memory& memory) {
+  Vector<std::uint8_t> changed(&memory);
+  if (mesh.report.smallest_angle > widened_angle && mesh.report.degenerate_triangle_count == 0) return changed;
+  changed.assign(mesh.positions.size(), 0);
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    for (int k = 0; k < 3 && is_widened(mesh, t); ++k) changed[at(mesh.triangle(t)[k])] = 1;
+  }
+  return changed;
+}
 
 // K of the options, on the mesh's own edges or on the intrinsic Delaunay ones. cap: of weight_caps and tie_shares;
 // confined: empty, or the components of the last resort.
 void make_operator(Core& core, const CoreOptions& options, int cap, const Vector<std::uint8_t>& confined) {
   Memory& pool = *core.memory;
   Vector<double> areas(&pool);
+  Vector<std::uint8_t> changed(&pool);
   if (options.operator_kind == OperatorKind::intrinsic_delaunay) {
     DelaunayOperator made = delaunay_operator(core.mesh, core.topology, core.weights,
                                               options.field_kind == FieldKind::biharmonic, pool, core.jobs.get());
-    core.laplacian = std::move(made.laplacian), areas = std::move(made.areas);
+    core.laplacian = std::move(made.laplacian), areas = std::move(made.areas), changed = std::move(made.changed);
   } else {
+    if (options.operator_kind != OperatorKind::uniform) changed = widened_vertices(core.mesh, pool);
     core.laplacian = hf_inner::laplacian(core.topology, core.weights, pool, core.jobs.get());
     if (options.field_kind == FieldKind::biharmonic) areas.assign(core.areas.begin(), core.areas.end());
   }
   const bool harmonic = options.field_kind == FieldKind::harmonic;
   const double spread = harmonic ? confined_spread : confined_biharmonic_spread;
-  if (harmonic) {
-    if (tie_shares[cap] > 0) tie_weakly(core.laplacian, tie_shares[cap], pool);
-  } else {
-    cap_weights(core.laplacian, weight_caps[cap], pool);
+  changed.resize(at(core.size()), 0);
+  if (!harmonic) {
+    cap_weights(core.laplacian, weight_caps[cap], pool, &changed);
+  } else if (tie_shares[cap] > 0) {
+    tie_weakly(core.laplacian, tie_shares[cap], pool);
+    std::fill(changed.begin(), changed.end(), std::uint8_t{1});
   }
-  if (!confined.empty()) confine_weights(core.laplacian, core.mesh.component, confined, spread, pool);
+  if (!confined.empty()) {
+    confine_weights(core.laplacian, core.mesh.component, confined, spread, pool);
+    for (std::size_t v = 0; v < changed.size(); ++v) changed[v] |= confined[at(core.mesh.component[v])];
+  }
+  core.changed_count = static_cast<std::uint32_t>(std::count(changed.begin(), changed.end(), 1));
+  core.first_changed = core.changed_count == 0
+                           ? Mesh::none
+                           : static_cast<Index>(std::find(changed.begin(), changed.end(), 1) - changed.begin());
   if (!harmonic) {
     if (options.field_kind == FieldKind::biharmonic) areas = inverse_masses(core.mesh, std::move(areas));
     for (std::size_t v = 0; !confined.empty() && v < areas.size(); ++v) {

@@ -66,8 +66,8 @@ class GreenSolver final : public SiteSolver {
 struct GreenSolver::Step {
   const PreviewFactor* single = nullptr;  // sweeps in single precision
   float* scratch = nullptr;               // of these: room for the right-hand sides
-  const double* unit = nullptr;  // of changes, by component and channel; null: 1
-  double* change = nullptr;      // takes the change, in the layout of the field, instead of the field and the answer
+  const double* unit = nullptr;           // of changes, by component and channel; null: 1
+  double* change = nullptr;       // takes the change, in the layout of the field, instead of the field and the answer
   double* flux_change = nullptr;  // with it: by slot, in the layout of a flux
   double largest = 0;             // written: the largest change of a value
 };

@@ -12,9 +12,9 @@
 // A free value t_r of a rebase obeys the same equation in its row: right-hand side -r_r - Y_r'y. Cost: a product with
 // K, a forward and a backward sweep.
 //
-// Long shapes: the diagonal of K is a rounded sum, and so are the factor's numbers. On a chain of n triangles that moves
-// the field by up to n^2 roundings. Differences of neighbours do not see the diagonal, so corrections converge to the
-// field of the weights themselves.
+// Long shapes: the diagonal of K is a rounded sum, and so are the factor's numbers. On a chain of n triangles that
+// moves the field by up to n^2 roundings. Differences of neighbours do not see the diagonal, so corrections converge to
+// the field of the weights themselves.
 #include <algorithm>
 #include <cmath>
 
@@ -82,8 +82,7 @@ void GreenSolver::refine(const double* values, Index channels, Index first, Inde
     std::fill_n(own, m, 0.0);
   }
   for (std::size_t v = 0; v < n; ++v) {
-    for (std::size_t q = 0; q < m; ++q)
-      next.total[at(core_->mesh.component[v]) * m + q] += r(static_cast<Index>(v))[q];
+    for (std::size_t q = 0; q < m; ++q) next.total[at(core_->mesh.component[v]) * m + q] += r(static_cast<Index>(v))[q];
   }
 
   if (step.single) {
@@ -155,8 +154,8 @@ void GreenSolver::refine_until_small(const double* values, Index channels, Index
   }
 }
 
-bool GreenSolver::correct(const double* values, Index channels, const double* field, const double* flux,
-                          double* change, double* flux_change) const {
+bool GreenSolver::correct(const double* values, Index channels, const double* field, const double* flux, double* change,
+                          double* flux_change) const {
   const std::size_t n = at(core_->size()), stride = at(channels);
   Workspace copy(core_->workspaces, n * stride), z(core_->workspaces, n * at(std::min(channels, channel_block)));
   std::copy_n(field, n * stride, copy.data());

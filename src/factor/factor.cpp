@@ -134,7 +134,8 @@ double SupernodalFactor::commute_time(Span<const std::int32_t> component, Span<c
   for (std::int32_t s = 0; s < pattern.supernodes; ++s) {
     const std::int64_t width = pattern.columns(s);
     const double inverse = triangle(s)[width * (width + 1) / 2 - 1];  // the diagonal is stored inverted
-    const double mean = diagonal[static_cast<std::size_t>(component[static_cast<std::size_t>(pattern.order[pattern.first[s]])])];
+    const double mean =
+        diagonal[static_cast<std::size_t>(component[static_cast<std::size_t>(pattern.order[pattern.first[s]])])];
     const double unknowns = pattern.first[s + 1] - pattern.first[pattern.subtree[s]];
     longest = std::max(longest, unknowns * mean * inverse * inverse);
   }

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-
-
 namespace hf_inner {
 namespace {
 
-// Classes of weights, each four times the next, that the tree takes one after the other: weak edges come last, and among
-// equals the paths stay short. Weights of the last class may be any smaller.
+// Classes of weights, each four times the next, that the tree takes one after the other: weak edges come last, and
+// among equals the paths stay short. Weights of the last class may be any smaller.
 constexpr int classes = 64;
 constexpr Index root = -1, not_reached = -2;
 

@@ -20,7 +20,9 @@ Vector<double> inverse_masses(const Mesh& mesh, Vector<double> areas);
 
 // Cuts weights of L to `times` their median and returns how many it cut. Squared, the weights between vertices that
 // nearly coincide would exceed the rest of K by more than its digits, and K would not be definite.
-std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memory);
+// changed: null, or by vertex, set where a weight was cut.
+std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memory,
+                         Vector<std::uint8_t>* changed = nullptr);
 
 // L diag(inverse_mass) L; an empty inverse_mass stands for ones. jobs: threads to use, null for the caller's alone.
 SymmetricMatrix biharmonic(const SymmetricMatrix& laplacian, const Vector<double>& inverse_mass, Memory& memory,

@@ -32,7 +32,13 @@ class IntrinsicTriangulation {
  public:
   // Empty, without a mesh.
   explicit IntrinsicTriangulation(Memory& memory)
-      : memory_(&memory), tail_(&memory), twin_(&memory), length_(&memory), cotangent_(&memory), doubled_(&memory) {}
+      : memory_(&memory),
+        tail_(&memory),
+        twin_(&memory),
+        length_(&memory),
+        cotangent_(&memory),
+        doubled_(&memory),
+        changed_(&memory) {}
   // The cover of the mesh with its own edges. held: null, or by edge whether more of the surface lies beyond it. A held
   // edge is no border and is never flipped; its half-edges are their own twins. Throws std::bad_alloc.
   static IntrinsicTriangulation make(const Mesh& mesh, const Topology& topology, Memory& memory,
@@ -57,6 +63,8 @@ class IntrinsicTriangulation {
   // One half on a cover, one on a component that is its own.
   double share(std::int32_t face) const noexcept { return doubled_.empty() || !doubled_[at(face)] ? 1.0 : 0.5; }
   std::uint32_t mollified_count() const noexcept { return mollified_; }  // triangles of the mesh
+  // By vertex of the mesh, whether a triangle there was mollified or widened; empty: none was.
+  const Vector<std::uint8_t>& changed() const noexcept { return changed_; }
 
   // K_ij = -sum of the weights of the edges between i and j, rounding below zero cut off; diagonal = minus the rest.
   SymmetricMatrix laplacian(std::int32_t vertex_count, Memory& memory, JobRunner* jobs = nullptr) const;
@@ -78,6 +86,7 @@ class IntrinsicTriangulation {
   Vector<std::int32_t> tail_, twin_;
   Vector<double> length_, cotangent_;
   Vector<std::uint8_t> doubled_;  // by face; empty: none is
+  Vector<std::uint8_t> changed_;
   std::uint32_t mollified_ = 0;
 };
 

@@ -16,6 +16,8 @@ enum class OperatorKind : std::int32_t { intrinsic_delaunay = 0, clamped = 1, un
 // Which operator of L the field solves: K = L, K = L M^-1 L, or the paper's K = L^2 (biharmonic.h).
 enum class FieldKind : std::int32_t { harmonic = 0, biharmonic = 1, biharmonic_graph = 2 };
 
+// Whether the weights of triangle t are not its own: it is so thin that it is widened first.
+bool is_widened(const Mesh& mesh, std::int32_t t) noexcept;
 // Cotangents at the three corners of triangle t.
 void corner_cotangents(const Mesh& mesh, std::int32_t t, double cotangent[3]) noexcept;
 // Four times the area of a triangle with these edges, at least that of one that closes by 1e-12.
