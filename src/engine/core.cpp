@@ -61,11 +61,11 @@ constexpr double confined_spread = 1e4, confined_biharmonic_spread = 10;
 // regular mesh of n vertices keeps 1 / n at least. A fourth-order operator, which keeps 1 / n^2, has the default.
 constexpr double harmonic_lost_share = 0x1p-31;
 
-// Roundings of 2^-52 that a field may add up before it is refined, as a share of its range: chains of 20,000 triangles
-// are off by 5e-9 with 1e-7, tubes of 20,000 rings by 4e-9 with 2e-7. Half refines shapes that are right to 1e-9.
+// Commute time in roundings of 2^-52 above which a shape may be long. A chain of 20,000 triangles has 1e-7 and is off
+// by 6e-10. Half refines shapes that are right to 1e-9.
 constexpr double long_share = 1e-8;
-// Commute time of an unknown below which a shape is not long, whatever its size: surfaces as wide as long have 10 to
-// 30, where roundings cancel; a tube of 2,000 rings has 270. Half refines fields of elongated surfaces for nothing.
+// Commute time an unknown below which a shape is not long, whatever its size. Surfaces as wide as long have 10 to 30, a
+// tube of 2,000 rings 270. Half refines fields of elongated surfaces for nothing.
 constexpr double long_commute = 100;
 
 // Smallest angle below which a triangle may be widened: well above the 1e-9 at which one is. No result depends on it.

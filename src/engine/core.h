@@ -57,8 +57,8 @@ struct Core {
   // 0, or the weights of some components were limited because they did not factor (lost_components.h). Then it is the
   // hash of A before that, plus one. A saved factor stores it, so loading knows early that weights must be limited.
   std::uint64_t confined_hash = 0;
-  // Vertices with a weight that a rule set and not the mesh: triangles too thin to keep theirs, weights that spread
-  // over more digits than there are; and the first of them, Mesh::none without one.
+  // Vertices with a weight that a rule set, and the first of them. A rule sets the weights of triangles that are too
+  // thin for their own, and weights that spread over more digits than there are.
   std::uint32_t changed_count = 0;
   std::int32_t first_changed = -1;
   Ordering ordering = Ordering::nested_dissection;

@@ -25,8 +25,8 @@ namespace hf_inner {
 namespace {
 
 constexpr std::size_t piece = 16384;  // rows a job takes, as in green.cpp
-// Share of the range that a last correction may still change on a long shape; each leaves 1e-3 of the error at most.
-// Smaller adds sweeps that move the last digits, larger shows on chains of 500,000 triangles.
+// Share of the range that the last correction of a long shape may still change. Smaller adds sweeps that move the last
+// digits, larger shows on chains of 500,000 triangles.
 constexpr double small_change = 1e-12;
 // Corrections of one field: a chain of 500,000 triangles takes two, a damaged factor uses them all.
 constexpr int most_steps = 6;

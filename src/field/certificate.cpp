@@ -68,9 +68,8 @@ bool raise(double& largest, double error) noexcept {
   return true;
 }
 
-// The second correction over the first above which it is rounding, or the factor wrong: what is left of the error is
-// then taken as at most 1 / (1 - most_left) times the first. Closer to 1 lets a factor pass that hardly corrects; at
-// half fields are refused whose corrections are all rounding.
+// Largest share of the error that a correction is taken to leave, for the estimate by two corrections. Closer to 1
+// refuses fields whose corrections are all rounding; at half a factor passes that hardly corrects.
 constexpr double most_left = 0.9;
 
 // u_j - u_v summed with the weights of row v.

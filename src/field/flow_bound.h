@@ -6,8 +6,8 @@
 //     e'Ke <= F = sum_t f_t^2 / w_t     (Thomson's principle; equality for the flow w (e_i - e_j)),
 //     |e_v| <= sqrt(R_v F)              (Cauchy and Schwarz; R_v = sum of 1 / w on the path from v to its root).
 //
-// More sites, hard or soft, only make e smaller. The residual of a field that is merely rounded sums to nearly nothing
-// beyond an edge, so the bound stays near rounding; the residual of a field that leans adds up.
+// More sites, hard or soft, only make e smaller. Rounding of a field leaves a residual that cancels beyond an edge, so
+// the bound stays near rounding. An error over many edges leaves a residual that adds up.
 #pragma once
 #include "base/index.h"
 #include "base/span.h"
