@@ -9,7 +9,7 @@
 namespace hf_inner {
 namespace {
 
-// Corrections of a bi-harmonic field, and of a long shape. The second one leaves rounding on chains of 500,000
+// Corrections of a field on a long shape. The second one leaves rounding on chains of 500,000
 // triangles; one leaves 1e-9.
 constexpr int refinement_steps = 2;
 
@@ -267,7 +267,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
                            : 0.0;
     }
   }
-  const bool is_refined = core_->refinements > 0 || core_->is_long;
+  const bool is_refined = core_->is_long;
   if (is_refined && !flux) own.resize(state_.sites.size() * m), flux = own.data();
   const auto hold = [&] {
     for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
