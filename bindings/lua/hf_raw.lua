@@ -92,6 +92,8 @@ typedef struct hf_surface_report {
   uint32_t negative_edge_count;
   float smallest_angle;
   double bounding_box_diagonal;
+  uint32_t changed_vertex_count;
+  uint32_t first_changed_vertex;
 } hf_surface_report;
 typedef struct hf_surface_statistics {
   uint32_t struct_size;
@@ -209,6 +211,7 @@ typedef struct hf_certificate {
   double overshoot;
   uint32_t worst_vertex;
   uint32_t reserved;
+  double error_estimate;
 } hf_certificate;
 typedef struct hf_solver_statistics {
   uint32_t struct_size;

@@ -271,6 +271,8 @@ typedef struct hf_certificate {
   double overshoot;  /* out: how far the field leaves the range of its sites; 0 when not checked */
   uint32_t worst_vertex; /* out: as given, where the largest of the three is */
   uint32_t reserved;     /* 0 */
+  double error_estimate; /* out: how far a value may be from the exact field: a bound by K alone where no weight is
+                            negative and the field harmonic, else an estimate by corrections */
 } hf_certificate;
 
 /* Solves the field and checks it against its equations. The check uses only the operator K and the site values. So it

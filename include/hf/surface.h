@@ -143,9 +143,13 @@ typedef struct hf_surface_report {
   uint32_t non_manifold_edge_count;   /* edges of three or more triangles */
   uint32_t flipped_edge_count;        /* edges that two triangles run through in the same direction */
   uint32_t boundary_edge_count;
-  uint32_t negative_edge_count; /* edges of negative cotangent weight, before any clamping */
-  float smallest_angle;         /* radians, over the usable triangles */
-  double bounding_box_diagonal; /* in the unit of the positions */
+  uint32_t negative_edge_count;  /* edges of negative cotangent weight, before any clamping */
+  float smallest_angle;          /* radians, over the usable triangles */
+  double bounding_box_diagonal;  /* in the unit of the positions */
+  uint32_t changed_vertex_count; /* welded vertices with a weight that is not the mesh's, in the operator of field_kind:
+                                    of triangles too thin for it, or cut to the digits that there are. A certificate
+                                    holds for the weights used; near such vertices the field may be another's */
+  uint32_t first_changed_vertex; /* the first of them, as given; HF_NO_INDEX without one */
 } hf_surface_report;
 
 /* Writes the report of the mesh. Thread safety: reads `surface`. Since 0.1. */

@@ -157,10 +157,10 @@ hf_result hf_solver_certify(hf_solver handle, hf_certificate* inout_certificate)
     const Certificate found = certify(solver->field);
     report.overshoot_checked = found.overshoot_checked, report.tolerance = tolerance;
     report.value_range = found.value_range, report.residual = found.residual;
-    report.site_error = found.site_error, report.overshoot = found.overshoot;
+    report.site_error = found.site_error, report.overshoot = found.overshoot, report.error_estimate = found.error;
     report.worst_vertex = given_vertex(solver->field.core().mesh, found.vertex);
     write_struct(inout_certificate, report);
-    const double worst = std::max({found.residual, found.site_error, found.overshoot});
+    const double worst = std::max({found.error, found.site_error, found.overshoot});
     if (!(worst <= tolerance))
       fail(HF_ERROR_INACCURATE, report.worst_vertex,
            "the field is wrong by %.3g of the range of its values at vertex %u, more than the tolerance %.3g; make a "

@@ -156,6 +156,9 @@ hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_repor
     report.negative_edge_count = found.negative_edge_count;
     report.smallest_angle = static_cast<float>(found.smallest_angle);
     report.bounding_box_diagonal = found.bounding_box_diagonal;
+    const Core& core = object->surface.own();
+    report.changed_vertex_count = core.changed_count;
+    report.first_changed_vertex = given_vertex(core.mesh, core.first_changed);
     write_struct(out_report, report);
   });
 }

@@ -52,10 +52,17 @@ struct Core {
   // Correction steps with the true operator after the sweep of a field: 0 for second-order operators, 1 for bi-harmonic
   // operators, whose condition number is squared. The residual uses differences of values.
   std::int32_t refinements = 0;
+  // Rounding in the factor shows in the fields of a long shape (Factor::commute_time). They take corrections until the
+  // last one is small (green_refine.cpp).
+  bool is_long = false;
   // 0 if no weights were limited. If the weights of some components were limited because those components did not
   // factor (lost_components.h), it is 1 plus the hash of the matrix A before that. A saved factor stores this number,
   // so loading knows early that weights must be limited.
   std::uint64_t confined_hash = 0;
+  // Vertices with a weight that a rule set, and the first of them. A rule sets the weights of triangles that are too
+  // thin for their own, and weights that spread over more digits than there are.
+  std::uint32_t changed_count = 0;
+  std::int32_t first_changed = -1;
   Ordering ordering = Ordering::nested_dissection;
   double flop_limit = 0;  // as in CoreOptions
   // Of K with raised diagonals at the pinned vertices; null if need_factor is false.

@@ -1,6 +1,7 @@
 #include "engine/green.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hf_inner {
 namespace {
@@ -57,9 +58,23 @@ Index GreenSolver::refinements() const noexcept {
   return 0;
 }
 
+void GreenSolver::value_extent(const double* values, Index channels, Index first, Index count, Vector<double>& low,
+                               Vector<double>& high) const {
+  const std::size_t m = at(count), components = state().sites_of.size();
+  low.assign(components * m, HUGE_VAL), high.assign(components * m, -HUGE_VAL);
+  for (std::size_t slot = 0; slot < state().entries.size(); ++slot) {
+    if (!state().entries[slot].used()) continue;
+    const std::size_t c = at(state().entries[slot].site.component);
+    for (std::size_t q = 0; q < m; ++q) {
+      const double value = values[slot * at(channels) + at(first) + q];
+      low[c * m + q] = std::min(low[c * m + q], value), high[c * m + q] = std::max(high[c * m + q], value);
+    }
+  }
+}
+
 void GreenSolver::solve_into(const double* values, Index channels, FieldSink& sink) const {
   const std::size_t n = at(core_->size());
-  if (state().base || refinements() > 0) return solve_copied(*this, *core_, values, channels, sink);
+  if (state().base || is_refined()) return solve_copied(*this, *core_, values, channels, sink);
   const Span<const Index> position = core_->factor->position(), order = core_->factor->order();
   const bool one_component = state().sites_of.size() == 1;
   Answer answer(memory());
@@ -111,7 +126,7 @@ void GreenSolver::solve(const double* values, Index channels, double* field, dou
   const std::size_t n = at(core_->size()), stride = at(channels);
   Answer answer(memory());
   // The flux of a site that the factor eliminates comes from the field. A refinement step starts from the field too.
-  const bool needs_field = flux && !field && (state().base || refinements() > 0);
+  const bool needs_field = flux && !field && (state().base || is_refined());
   Workspace own(core_->workspaces, needs_field ? n * stride : 0);
   if (needs_field) field = own.data();
   for (Index first = 0; first < channels; first += channel_block) {
@@ -132,8 +147,14 @@ void GreenSolver::solve(const double* values, Index channels, double* field, dou
     write_flux();
     write_field(z.data(), channels, first, count, answer, field);
     copy_hard_values(values, channels, first, count, [&](Index v) { return field + at(v) * stride + at(first); });
+    if (core_->is_long && core_->refinements == 0) {
+      refine_until_small(values, channels, first, count, z.data(), answer, field);
+      write_flux();
+      continue;
+    }
     for (Index step = 0; step < refinements(); ++step) {
-      refine(values, channels, first, count, z.data(), answer, field);
+      Step plain;
+      refine(values, channels, first, count, z.data(), answer, field, plain);
       write_flux();
     }
   }
@@ -170,7 +191,7 @@ void GreenSolver::base_flux(Index channels, const double* field, double* flux) c
 
 void GreenSolver::solve_at(const double* values, Index channels, Span<const Index> vertices, double* out) const {
   const std::size_t n = at(core_->size()), stride = at(channels);
-  if (state().base || refinements() > 0) {
+  if (state().base || is_refined()) {
     // Sites that the factor eliminates affect every vertex, and so do residuals. Such fields need a sweep over the
     // whole mesh.
     Workspace field(core_->workspaces, n * stride);

@@ -19,6 +19,8 @@ class GreenSolver final : public SiteSolver {
                 double* out) const override;
   void solve_preview(const double* values, std::int32_t channels, std::int32_t corrections, double* field,
                      PreviewInfo& info) const override;
+  bool correct(const double* values, std::int32_t channels, const double* field, const double* flux, double* change,
+               double* flux_change) const override;
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<GreenSolver>(core_->memory, *this); }
   void rebase(JobRunner& jobs) override { system_.rebase(jobs); }
   void succeed(const SiteSolver& predecessor) noexcept override;
@@ -30,7 +32,9 @@ class GreenSolver final : public SiteSolver {
  private:
   using Answer = ConstraintSystem::Answer;
   static constexpr Index channel_block = ConstraintSystem::channel_block;
-  Index refinements() const noexcept;  // steps with the true operator that a field takes
+  // Steps with the true operator that a field takes at least.
+  Index refinements() const noexcept;
+  bool is_refined() const noexcept { return core_->is_long || refinements() > 0; }
   bool reached(std::size_t component) const noexcept { return state().sites_of[component] > 0; }
   // Copies channels first .. first + count - 1 of the hard vertex sites into the field, bit for bit. row_of(vertex)
   // returns where the row of the vertex is.
@@ -41,11 +45,16 @@ class GreenSolver final : public SiteSolver {
   void write_field(const double* z, Index channels, Index first, Index count, const Answer& answer,
                    double* field) const;
   void base_flux(Index channels, const double* field, double* flux) const;
-  // The following functions are in green_refine.cpp.
-  struct SingleSweeps;
+  // in green_refine.cpp
+  struct Step;
   void refine(const double* values, Index channels, Index first, Index count, double* z, Answer& answer, double* field,
-              SingleSweeps* single = nullptr) const;
-  // The following function is in green_preview.cpp.
+              Step& step) const;
+  void refine_until_small(const double* values, Index channels, Index first, Index count, double* z, Answer& answer,
+                          double* field) const;
+  // Smallest and largest site value by component and channel; low above high where there is none.
+  void value_extent(const double* values, Index channels, Index first, Index count, Vector<double>& low,
+                    Vector<double>& high) const;
+  // in green_preview.cpp
   double value_range(const double* values, Index channels, Index first, Index count) const;
 
   const ConstraintState& state() const noexcept { return system_.state(); }
@@ -56,11 +65,14 @@ class GreenSolver final : public SiteSolver {
   ConstraintCounts cloned_at_;  // counts of the engine this one was cloned from, at that time
 };
 
-// Data for a refinement whose sweeps run in single precision.
-struct GreenSolver::SingleSweeps {
-  const PreviewFactor& factor;
-  float* scratch;  // room for the right-hand sides
-  double largest;  // written: the largest change of a value
+// How a refinement is made, and what it found.
+struct GreenSolver::Step {
+  const PreviewFactor* single = nullptr;  // sweeps in single precision
+  float* scratch = nullptr;               // of these: room for the right-hand sides
+  const double* unit = nullptr;           // of changes, by component and channel; null: 1
+  double* change = nullptr;       // takes the change, in the layout of the field, instead of the field and the answer
+  double* flux_change = nullptr;  // with it: by slot, in the layout of a flux
+  double largest = 0;             // written: the largest change of a value
 };
 
 template <class RowOf>

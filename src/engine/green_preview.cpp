@@ -33,16 +33,8 @@ constexpr double least_error = 1e-13;
 
 // Returns the widest range of the site values over all components, for channels first .. first + count - 1.
 double GreenSolver::value_range(const double* values, Index channels, Index first, Index count) const {
-  const std::size_t m = at(count), components = state().sites_of.size();
-  Vector<double> low(components * m, HUGE_VAL, &memory()), high(components * m, -HUGE_VAL, &memory());
-  for (std::size_t slot = 0; slot < state().entries.size(); ++slot) {
-    if (!state().entries[slot].used()) continue;
-    const std::size_t c = at(state().entries[slot].site.component);
-    for (std::size_t q = 0; q < m; ++q) {
-      const double value = values[slot * at(channels) + at(first) + q];
-      low[c * m + q] = std::min(low[c * m + q], value), high[c * m + q] = std::max(high[c * m + q], value);
-    }
-  }
+  Vector<double> low(&memory()), high(&memory());
+  value_extent(values, channels, first, count, low, high);
   double range = 0;
   for (std::size_t i = 0; i < low.size(); ++i) range = std::max(range, high[i] - low[i]);
   return range;
@@ -71,7 +63,8 @@ void GreenSolver::solve_preview(const double* values, Index channels, Index corr
     system_.find_centres(values, channels, first, count, answer);
     system_.solve_dense(values, channels, first, count, nullptr, answer);
     system_.combine(answer, count, z.data());
-    SingleSweeps sweeps{*single, reinterpret_cast<float*>(scratch.data()), 0.0};
+    Step sweeps;
+    sweeps.single = single.get(), sweeps.scratch = reinterpret_cast<float*>(scratch.data());
     single->backward(z.data(), count, sweeps.scratch, *core_->jobs);
     system_.count_sweeps(1);
     write_field(z.data(), channels, first, count, answer, field);
@@ -79,7 +72,7 @@ void GreenSolver::solve_preview(const double* values, Index channels, Index corr
 
     double error = sweep_error * range, last = 0;
     for (Index step = 0; step < corrections; ++step) {
-      refine(values, channels, first, count, z.data(), answer, field, &sweeps);
+      refine(values, channels, first, count, z.data(), answer, field, sweeps);
       const double shrinks = last > 0 ? std::min(1.0, sweeps.largest / last) : first_shrink;
       error = sweeps.largest * shrinks, last = sweeps.largest;
     }

@@ -7,6 +7,14 @@
 #include "engine/dependence.h"
 
 namespace hf_inner {
+namespace {
+
+// Corrections of a field on a long shape. The second one leaves rounding on chains of 500,000
+// triangles; one leaves 1e-9.
+constexpr int refinement_steps = 2;
+
+}  // namespace
+
 RefactorSolver::RefactorSolver(std::shared_ptr<const Core> core) : core_(std::move(core)), state_(*core_->memory) {
   state_.count.assign(at(core_->mesh.component_count()), 0);
   state_.factor = core_->factor;
@@ -133,11 +141,76 @@ void RefactorSolver::factorise(State& state) const {
   state.path = path;
 }
 
-// Sets u to A^-1 right. Both are in the order of the factor.
-void RefactorSolver::solve_linear(const State& state, const Vector<double>& right, Index channels, double* u) const {
+// u <- A^-1 right with the points bordered, both in factor order. points: what the points miss, by point, overwritten
+// with their lambda. constant: by component. total: by component, the sum of the forces; null: 0.
+void RefactorSolver::solve_system(const Vector<double>& right, Index channels, double* u, Vector<double>& points,
+                                  Vector<double>& constant, const Vector<double>* total) const {
+  const std::size_t n = at(core_->size()), m = at(channels);
+  const Span<const Index> position = core_->factor->position();
   std::copy(right.begin(), right.end(), u);
-  state.factor->solve_in_order(u, channels, *core_->jobs);
+  state_.factor->solve_in_order(u, channels, *core_->jobs);
   sweeps_ += 2;
+  Vector<double> x(core_->memory.get());
+  for (std::size_t component = 0; component < state_.dense.size(); ++component) {
+    const DenseBlock* block = state_.dense[component].get();
+    if (!block) continue;
+    const Span<const Index> members = block->ids();
+    x.resize(members.size() * m);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const Site& site = state_.sites[at(state_.points[at(members[i])])];
+      for (std::size_t c = 0; c < m; ++c) {
+        double value = points[at(members[i]) * m + c];
+        for (int q = 0; q < 3; ++q) {
+          if (site.vertex[q] >= 0) value -= site.weight[q] * u[at(position[at(site.vertex[q])]) * m + c];
+        }
+        x[i * m + c] = value;
+      }
+    }
+    // without a vertex site the component is pinned: its block has a border of constants
+    block->solve_bordered(x.data(), channels, total ? &(*total)[component * m] : nullptr, &constant[component * m]);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const double* y = state_.path->data() + at(members[i]) * n;
+      std::copy_n(&x[i * m], m, &points[at(members[i]) * m]);
+      for (std::size_t r = 0; r < n; ++r) {
+        for (std::size_t c = 0; c < m; ++c) u[r * m + c] += y[r] * x[i * m + c];
+      }
+    }
+  }
+}
+
+double RefactorSolver::softness(const Site& site) const noexcept {
+  return site.compliance / core_->mean_diagonal[at(site.component)];
+}
+
+// lambda of the vertex sites that balances K u - right, less what the points push there.
+void RefactorSolver::write_vertex_flux(const double* u, Index channels, const double* right, const double* missed,
+                                       double* flux) const {
+  const std::size_t m = at(channels);
+  const SymmetricMatrix& k = core_->laplacian;
+  for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
+    const Site& site = state_.sites[slot];
+    if (site.component < 0 || !site.is_vertex()) continue;
+    const std::size_t v = at(site.vertex[0]);
+    const double soft = softness(site);
+    // K u loses the lambda of a site that is softer than the mesh around it, so that comes from what the site misses
+    const bool is_softer = soft * k.value[k.diagonal(site.vertex[0])] > 1;
+    for (std::size_t c = 0; c < m; ++c) {
+      if (is_softer) {
+        flux[slot * m + c] = (missed[slot * m + c] - u[v * m + c]) / soft;
+        continue;
+      }
+      double sum = right ? -right[v * m + c] : 0.0;
+      for (Index i = k.column_start[v]; i < k.column_start[v + 1]; ++i)
+        sum += k.value[at(i)] * (u[at(k.row[at(i)]) * m + c] - u[v * m + c]);
+      for (const Index p : state_.points) {
+        const Site& point = state_.sites[at(p)];
+        for (int q = 0; q < 3; ++q) {
+          if (point.vertex[q] == site.vertex[0]) sum -= point.weight[q] * flux[at(p) * m + c];
+        }
+      }
+      flux[slot * m + c] = sum;
+    }
+  }
 }
 
 void RefactorSolver::solve(const double* values, Index channels, double* field, double* flux) const {
@@ -179,40 +252,13 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
     }
     for (std::size_t c = 0; c < m; ++c) right[at(position[v]) * m + c] = hard[v * m + c];
   }
-  solve_linear(state_, right, channels, u.data());
-
-  // Solves the dense system of the point sites, component by component.
-  Vector<double> constant(state_.count.size() * m, 0.0, &memory), lambda(state_.points.size() * m, 0.0, &memory),
-      x(&memory);
-  for (std::size_t component = 0; component < state_.dense.size(); ++component) {
-    const DenseBlock* block = state_.dense[component].get();
-    if (!block) continue;
-    const Span<const Index> members = block->ids();
-    x.resize(members.size() * m);
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      const std::size_t slot = at(state_.points[at(members[i])]);
-      const Site& site = state_.sites[slot];
-      for (std::size_t c = 0; c < m; ++c) {
-        double value = centred(slot, c);
-        for (int q = 0; q < 3; ++q) {
-          if (site.vertex[q] >= 0) value -= site.weight[q] * u[at(position[at(site.vertex[q])]) * m + c];
-        }
-        x[i * m + c] = value;
-      }
-    }
-    // A component without a vertex site is pinned. The unknown constant of its field is an additional unknown (border)
-    // of its dense system.
-    block->solve_bordered(x.data(), channels, nullptr, &constant[component * m]);
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      const double* y = state_.path->data() + at(members[i]) * n;
-      std::copy_n(&x[i * m], m, &lambda[at(members[i]) * m]);
-      for (std::size_t r = 0; r < n; ++r) {
-        for (std::size_t c = 0; c < m; ++c) u[r * m + c] += y[r] * x[i * m + c];
-      }
-    }
+  Vector<double> constant(state_.count.size() * m, 0.0, &memory), lambda(state_.points.size() * m, 0.0, &memory);
+  for (std::size_t p = 0; p < state_.points.size(); ++p) {
+    for (std::size_t c = 0; c < m; ++c) lambda[p * m + c] = centred(at(state_.points[p]), c);
   }
+  solve_system(right, channels, u.data(), lambda, constant, nullptr);
 
-  Vector<double> whole(&memory);
+  Vector<double> whole(&memory), own(&memory);
   double* out = field;
   if (!out) whole.resize(n * m), out = whole.data();
   for (std::size_t v = 0; v < n; ++v) {
@@ -223,34 +269,84 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
                            : 0.0;
     }
   }
-  if (flux) {
-    // The flux of a point site comes from the dense system, that of a vertex site from K u = W lambda.
-    for (std::size_t i = 0; i < state_.points.size(); ++i) {
-      for (std::size_t c = 0; c < m; ++c) flux[at(state_.points[i]) * m + c] = lambda[i * m + c];
-    }
+  const bool is_refined = core_->is_long;
+  if (is_refined && !flux) own.resize(state_.sites.size() * m), flux = own.data();
+  const auto hold = [&] {
     for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
       const Site& site = state_.sites[slot];
-      if (site.component < 0 || !site.is_vertex()) continue;
-      const std::size_t v = at(site.vertex[0]);
-      for (std::size_t c = 0; c < m; ++c) {
-        double sum = 0;
-        for (Index i = k.column_start[v]; i < k.column_start[v + 1]; ++i)
-          sum += k.value[at(i)] * (out[at(k.row[at(i)]) * m + c] - out[v * m + c]);
-        for (std::size_t p = 0; p < state_.points.size(); ++p) {
-          const Site& point = state_.sites[at(state_.points[p])];
-          for (int q = 0; q < 3; ++q) {
-            if (point.vertex[q] == site.vertex[0]) sum -= point.weight[q] * lambda[p * m + c];
-          }
-        }
-        flux[slot * m + c] = sum;
-      }
+      if (site.component >= 0 && site.is_hard_vertex()) std::copy_n(values + slot * m, m, out + at(site.vertex[0]) * m);
+    }
+  };
+  if (flux) {
+    for (std::size_t i = 0; i < state_.points.size(); ++i)
+      std::copy_n(&lambda[i * m], m, flux + at(state_.points[i]) * m);
+    write_vertex_flux(out, channels, nullptr, values, flux);
+  }
+  hold();
+  if (!is_refined) return;
+  Vector<double> change(n * m, &memory), flux_change(state_.sites.size() * m, &memory);
+  for (int step = 0; step < refinement_steps; ++step) {
+    correct(values, channels, out, flux, change.data(), flux_change.data());
+    for (std::size_t i = 0; i < n * m; ++i) out[i] += change[i];
+    for (std::size_t i = 0; i < flux_change.size(); ++i) flux[i] += flux_change[i];
+    hold();
+  }
+}
+
+// right = W lambda - K u, and what the sites miss: K du - W dlambda = right, w'du + D dlambda = missed.
+bool RefactorSolver::correct(const double* values, Index channels, const double* field, const double* flux,
+                             double* change, double* flux_change) const {
+  Memory& memory = *core_->memory;
+  const std::size_t n = at(core_->size()), m = at(channels);
+  const Span<const Index> position = core_->factor->position();
+  const SymmetricMatrix& k = core_->laplacian;
+  Vector<double> right(n * m, 0.0, &memory), missed(state_.sites.size() * m, 0.0, &memory), u(n * m, 0.0, &memory);
+  for (std::size_t v = 0; v < n; ++v) {
+    if (!state_.count[at(core_->mesh.component[v])]) continue;
+    for (Index i = k.column_start[v]; i < k.column_start[v + 1]; ++i) {
+      for (std::size_t c = 0; c < m; ++c)
+        right[v * m + c] -= k.value[at(i)] * (field[at(k.row[at(i)]) * m + c] - field[v * m + c]);
     }
   }
   for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
     const Site& site = state_.sites[slot];
-    if (site.component >= 0 && site.is_vertex() && site.compliance == 0)
-      std::copy_n(values + slot * m, m, out + at(site.vertex[0]) * m);
+    for (std::size_t c = 0; site.component >= 0 && c < m; ++c) {
+      double& g = missed[slot * m + c];
+      g = values[slot * m + c];
+      for (int q = 0; q < 3; ++q) {
+        if (site.vertex[q] < 0) continue;
+        g -= site.weight[q] * field[at(site.vertex[q]) * m + c];
+        right[at(site.vertex[q]) * m + c] += site.weight[q] * flux[slot * m + c];
+      }
+      g = site.is_hard_vertex() ? 0.0 : g - softness(site) * flux[slot * m + c];
+    }
   }
+  Vector<double> force(n * m, &memory), total(state_.count.size() * m, 0.0, &memory);
+  for (std::size_t v = 0; v < n; ++v) {
+    std::copy_n(&right[v * m], m, &force[at(position[v]) * m]);
+    for (std::size_t c = 0; c < m; ++c) total[at(core_->mesh.component[v]) * m + c] += right[v * m + c];
+  }
+  for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
+    const Site& site = state_.sites[slot];
+    for (std::size_t c = 0; site.component >= 0 && site.is_vertex() && c < m; ++c) {
+      double& f = force[at(position[at(site.vertex[0])]) * m + c];
+      f = site.compliance == 0 ? 0.0 : f + missed[slot * m + c] / softness(site);
+    }
+  }
+  Vector<double> constant(state_.count.size() * m, 0.0, &memory), lambda(state_.points.size() * m, 0.0, &memory);
+  for (std::size_t p = 0; p < state_.points.size(); ++p)
+    std::copy_n(&missed[at(state_.points[p]) * m], m, &lambda[p * m]);
+  solve_system(force, channels, u.data(), lambda, constant, &total);
+  for (std::size_t v = 0; v < n; ++v) {
+    const std::size_t component = at(core_->mesh.component[v]);
+    for (std::size_t c = 0; c < m; ++c)
+      change[v * m + c] = state_.count[component] ? u[at(position[v]) * m + c] + constant[component * m + c] : 0.0;
+  }
+  std::fill_n(flux_change, missed.size(), 0.0);
+  for (std::size_t p = 0; p < state_.points.size(); ++p)
+    std::copy_n(&lambda[p * m], m, flux_change + at(state_.points[p]) * m);
+  write_vertex_flux(change, channels, right.data(), missed.data(), flux_change);
+  return true;
 }
 
 void RefactorSolver::solve_at(const double* values, Index channels, Span<const Index> vertices, double* out) const {

@@ -29,6 +29,8 @@ class RefactorSolver final : public SiteSolver {
   }
   void solve_at(const double* values, std::int32_t channels, Span<const std::int32_t> vertices,
                 double* out) const override;
+  bool correct(const double* values, std::int32_t channels, const double* field, const double* flux, double* change,
+               double* flux_change) const override;
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<RefactorSolver>(core_->memory, *this); }
   EngineKind kind() const noexcept override { return EngineKind::refactor; }
   EngineCounters counters() const noexcept override;
@@ -59,7 +61,11 @@ class RefactorSolver final : public SiteSolver {
   };
   void factorise(State& state) const;
   bool crowded_out(const State& state, const DenseBlock& block) const;
-  void solve_linear(const State& state, const Vector<double>& right, std::int32_t channels, double* u) const;
+  void solve_system(const Vector<double>& right, std::int32_t channels, double* u, Vector<double>& points,
+                    Vector<double>& constant, const Vector<double>* total) const;
+  void write_vertex_flux(const double* u, std::int32_t channels, const double* right, const double* missed,
+                         double* flux) const;
+  double softness(const Site& site) const noexcept;
 
   std::shared_ptr<const Core> core_;
   State state_;

@@ -78,6 +78,14 @@ class SiteSolver {
     info.exact = true;
   }
 
+  // One step of refinement from a field and a flux of this layout, as a change of both: about their error, if the
+  // factor is right. False, and nothing written: the engine has none.
+  virtual bool correct(const double* values, std::int32_t channels, const double* field, const double* flux,
+                       double* change, double* flux_change) const {
+    (void)values, (void)channels, (void)field, (void)flux, (void)change, (void)flux_change;
+    return false;
+  }
+
   // Returns a copy that shares all immutable parts.
   virtual std::shared_ptr<SiteSolver> clone() const = 0;
 

@@ -173,6 +173,20 @@ void SupernodalFactor::measure_paths() {
   statistics_.path_entries = total.entries / pattern.size, statistics_.path_rows = total.rows / pattern.size;
 }
 
+double SupernodalFactor::commute_time(Span<const std::int32_t> component, Span<const double> diagonal) const {
+  const Symbolic& pattern = symbolic();
+  double longest = 0;
+  for (std::int32_t s = 0; s < pattern.supernodes; ++s) {
+    const std::int64_t width = pattern.columns(s);
+    const double inverse = triangle(s)[width * (width + 1) / 2 - 1];  // the diagonal is stored inverted
+    const double mean =
+        diagonal[static_cast<std::size_t>(component[static_cast<std::size_t>(pattern.order[pattern.first[s]])])];
+    const double unknowns = pattern.first[s + 1] - pattern.first[pattern.subtree[s]];
+    longest = std::max(longest, unknowns * mean * inverse * inverse);
+  }
+  return longest;
+}
+
 void SupernodalFactor::compute(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated, double lost_share,
                                JobRunner& jobs) {
   Stopwatch watch;

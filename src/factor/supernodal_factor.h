@@ -43,6 +43,7 @@ class SupernodalFactor final : public Factor {
 
   std::int32_t size() const noexcept override { return symbolic().size; }
   const FactorStatistics& statistics() const noexcept override { return statistics_; }
+  double commute_time(Span<const std::int32_t> component, Span<const double> diagonal) const override;
   Span<const std::int32_t> position() const noexcept override {
     return {symbolic().position.data(), symbolic().position.size()};
   }

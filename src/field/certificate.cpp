@@ -4,6 +4,7 @@
 //     residual     max_v |sum_j K_vj (u_j - u_v) - (W lambda)_v| / (K_vv r)
 //     site error   max_i |w_i'u + lambda_i / alpha_i - s_i| / r
 //     overshoot    max_v max(u_v - max s, min s - u_v) / r
+//     error        max_v |u_v - exact| / r, estimated
 //
 // Here r is the range of the site values of the component and channel. The sums use the differences u_j - u_v, so a
 // large constant in u costs no digits. The check uses K itself, but neither the factor nor the dense system of the
@@ -22,6 +23,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "field/flow_bound.h"
 
 namespace hf_inner {
 namespace {
@@ -61,19 +63,231 @@ bool raise(double& largest, double error) noexcept {
   return true;
 }
 
-// Sums K_vj (u_j - u_v) over row v. Returns true if no entry off the diagonal is positive, as an M-matrix requires.
-bool row_of(const SymmetricMatrix& k, std::size_t v, const double* u, std::size_t m, double* out) noexcept {
-  bool one_sign = true;
+// Largest share of the error that a correction is taken to leave, for the estimate by two corrections. Closer to 1
+// refuses fields whose corrections are all rounding; at half a factor passes that hardly corrects.
+constexpr double most_left = 0.9;
+
+// u_j - u_v summed with the weights of row v.
+void row_of(const SymmetricMatrix& k, std::size_t v, const double* u, std::size_t m, double* out) noexcept {
   std::fill_n(out, m, 0.0);
   for (std::int32_t i = k.column_start[v]; i < k.column_start[v + 1]; ++i) {
     const std::size_t j = at(k.row[at(i)]);
     if (j == v) continue;
-    const double weight = k.value[at(i)];
-    one_sign = one_sign && weight <= 0;
-    for (std::size_t q = 0; q < m; ++q) out[q] += weight * (u[j * m + q] - u[v * m + q]);
+    for (std::size_t q = 0; q < m; ++q) out[q] += k.value[at(i)] * (u[j * m + q] - u[v * m + q]);
   }
-  return one_sign;
 }
+
+bool is_m_matrix(const SymmetricMatrix& k) noexcept {
+  for (std::int32_t v = 0; v < k.size(); ++v) {
+    for (std::size_t i = at(k.column_start[at(v)]); i < at(k.column_start[at(v) + 1]); ++i)
+      if (k.row[i] != v && k.value[i] > 0) return false;
+  }
+  return true;
+}
+
+// The checks of one field.
+class Check {
+ public:
+  explicit Check(const ScalarField& field)
+      : field_(field),
+        core_(field.core()),
+        memory_(*core_.memory),
+        sites_(field.sites()),
+        n_(at(core_.size())),
+        m_(at(sites_.channels())),
+        ranges_(sites_, at(core_.mesh.component_count()), m_, memory_),
+        u_(core_.workspaces, n_ * m_),
+        left_(core_.workspaces, n_ * m_),
+        flux_(&memory_),
+        site_error_(ranges_.low.size(), 0.0, &memory_) {
+    flux_.resize(std::max(sites_.slots().size(), at(field.engine().slot_count())) * m_);
+    found_.overshoot_checked = core_.refinements == 0 && is_m_matrix(core_.laplacian);
+    bounded_ = found_.overshoot_checked;
+  }
+
+  Certificate run() {
+    field_.engine().solve(sites_.values(), sites_.channels(), u_.data(), flux_.data());
+    check_sites();
+    check_residual();
+    check_overshoot();
+    check_error();
+    for (std::size_t i = 0; i < ranges_.low.size(); ++i) {
+      if (ranges_.low[i] <= ranges_.high[i]) found_.value_range = std::max(found_.value_range, ranges_.range(i));
+    }
+    return found_;
+  }
+
+ private:
+  template <class Work>
+  void each_site(Work&& work) const {
+    for (std::size_t slot = 0; slot < sites_.slots().size(); ++slot)
+      if (sites_.slots()[slot].used()) work(slot, sites_.slots()[slot].site);
+  }
+  bool reached(std::size_t v) const noexcept { return field_.engine().site_count(core_.mesh.component[v]) > 0; }
+  std::size_t unit_of(std::size_t v, std::size_t q) const noexcept { return at(core_.mesh.component[v]) * m_ + q; }
+  double compliance(const Site& site) const noexcept {
+    return site.compliance / core_.mean_diagonal[at(site.component)];
+  }
+
+  void note(double& largest, double error, std::int32_t vertex) noexcept {
+    raise(largest, error);
+    if (raise(worst_, error)) found_.vertex = vertex;
+  }
+
+  void check_sites() {
+    each_site([&](std::size_t slot, const Site& site) {
+      found_.overshoot_checked = found_.overshoot_checked && site.is_vertex();
+      for (std::size_t q = 0; q < m_; ++q) {
+        double error = compliance(site) * flux_[slot * m_ + q] - sites_.values()[slot * m_ + q];
+        for (int corner = 0; corner < 3; ++corner)
+          if (site.vertex[corner] >= 0) error += site.weight[corner] * u_[at(site.vertex[corner]) * m_ + q];
+        const std::size_t i = at(site.component) * m_ + q;
+        raise(site_error_[i], std::fabs(error) / ranges_.unit(i));
+        note(found_.site_error, std::fabs(error) / ranges_.unit(i), site.vertex[0]);
+      }
+    });
+  }
+
+  // left += W lambda
+  void add_flux(const Vector<double>& flux) {
+    each_site([&](std::size_t slot, const Site& site) {
+      for (int corner = 0; corner < 3; ++corner) {
+        if (site.vertex[corner] < 0) continue;
+        for (std::size_t q = 0; q < m_; ++q)
+          left_[at(site.vertex[corner]) * m_ + q] += site.weight[corner] * flux[slot * m_ + q];
+      }
+    });
+  }
+  // left -= K u
+  void subtract_product(const double* u) {
+    Vector<double> row(m_, &memory_);
+    for (std::size_t v = 0; v < n_; ++v) {
+      if (!reached(v)) continue;
+      row_of(core_.laplacian, v, u, m_, row.data());
+      for (std::size_t q = 0; q < m_; ++q) left_[v * m_ + q] -= row[q];
+    }
+  }
+
+  void check_residual() {
+    const SymmetricMatrix& k = core_.laplacian;
+    std::fill_n(left_.data(), n_ * m_, 0.0);
+    add_flux(flux_), subtract_product(u_.data());
+    for (std::size_t v = 0; v < n_; ++v) {
+      if (!reached(v)) continue;
+      const double diagonal = std::fabs(k.value[k.diagonal(static_cast<std::int32_t>(v))]);
+      for (std::size_t q = 0; q < m_; ++q) {
+        const double size = std::fabs(left_[v * m_ + q]) / ranges_.unit(unit_of(v, q));
+        raise(found_.residual, diagonal > 0 ? size / diagonal : size);
+      }
+    }
+  }
+
+  void check_overshoot() {
+    for (std::size_t v = 0; found_.overshoot_checked && v < n_; ++v) {
+      if (!reached(v)) continue;
+      for (std::size_t q = 0; q < m_; ++q) {
+        const std::size_t i = unit_of(v, q);
+        const double over = std::max(u_[v * m_ + q] - ranges_.high[i], ranges_.low[i] - u_[v * m_ + q]);
+        note(found_.overshoot, over / ranges_.unit(i), static_cast<std::int32_t>(v));
+      }
+    }
+  }
+
+  // The largest change over the unit, and where; by component and channel where asked for.
+  double size_of(const double* change, std::int32_t& vertex, Vector<double>* by_unit = nullptr) const {
+    double largest = -1;
+    for (std::size_t v = 0; v < n_; ++v) {
+      for (std::size_t q = 0; reached(v) && q < m_; ++q) {
+        const double size = std::fabs(change[v * m_ + q]) / ranges_.unit(unit_of(v, q));
+        if (raise(largest, size)) vertex = static_cast<std::int32_t>(v);
+        if (by_unit) raise((*by_unit)[unit_of(v, q)], size);
+      }
+    }
+    return std::max(largest, 0.0);
+  }
+
+  bool correct(const double* u, const Vector<double>& flux, double* change, Vector<double>& flux_change) const {
+    flux_change.assign(flux.size(), 0.0);
+    return field_.engine().correct(sites_.values(), sites_.channels(), u, flux.data(), change, flux_change.data());
+  }
+
+  void check_error() {
+    Workspace change(core_.workspaces, n_ * m_);
+    Vector<double> flux_change(&memory_), size(site_error_, &memory_);
+    std::int32_t vertex = Mesh::none;
+    const bool corrected = std::isfinite(found_.residual) && correct(u_.data(), flux_, change.data(), flux_change);
+    double first = corrected ? size_of(change.data(), vertex, bounded_ ? &size : nullptr) : 0;
+    double error = found_.residual;
+    if (!std::isfinite(found_.residual) || !std::isfinite(first)) {
+      error = HUGE_VAL;
+    } else if (bounded_) {
+      if (corrected) add_flux(flux_change), subtract_product(change.data());
+      error = bounded(size);
+    } else if (corrected) {
+      for (std::size_t i = 0; i < n_ * m_; ++i) u_[i] += change[i];
+      for (std::size_t i = 0; i < flux_.size(); ++i) flux_[i] += flux_change[i];
+      std::int32_t elsewhere = Mesh::none;
+      correct(u_.data(), flux_, change.data(), flux_change);
+      const double second = size_of(change.data(), elsewhere);
+      error = std::max(first, second) / (1 - (first > 0 ? std::min(second / first, most_left) : 0.0));
+    }
+    if (vertex == Mesh::none) vertex = sites_.slots().empty() ? 0 : found_.vertex;
+    note(found_.error, error, vertex);
+  }
+
+  // The bound of what is left of the residual, onto the sizes of the correction: the largest of them.
+  double bounded(Vector<double>& size) {
+    // e is 0 at hard vertex sites. A component without one has its hardest site as its root.
+    const std::size_t components = at(core_.mesh.component_count());
+    Vector<Index> roots(&memory_), hardest(components, -1, &memory_);
+    Vector<std::uint8_t> held(components, 0, &memory_);
+    each_site([&](std::size_t slot, const Site& site) {
+      Index& best = hardest[at(site.component)];
+      if (site.is_hard_vertex()) {
+        roots.push_back(site.vertex[0]), held[at(site.component)] = 1;
+        std::fill_n(left_.data() + at(site.vertex[0]) * m_, m_, 0.0);  // lambda is free there
+      } else if (best < 0 || site.compliance < sites_.slots()[at(best)].site.compliance) {
+        best = static_cast<Index>(slot);
+      }
+    });
+    for (std::size_t c = 0; c < components; ++c) {
+      if (!held[c] && hardest[c] >= 0) roots.push_back(sites_.slots()[at(hardest[c])].site.vertex[0]);
+    }
+    for (std::size_t v = 0; v < n_; ++v) {
+      for (std::size_t q = 0; q < m_; ++q) {
+        double& r = left_[v * m_ + q];
+        r = reached(v) ? r / ranges_.unit(unit_of(v, q)) : 0.0;
+      }
+    }
+    const Vector<double> bound = FlowBound(core_, roots).bound(left_.data(), m_);
+    double largest = 0;
+    for (std::size_t c = 0; c < components; ++c) {
+      if (!held[c] && hardest[c] < 0) continue;
+      for (std::size_t q = 0; q < m_; ++q) {
+        double error = size[c * m_ + q] + bound[c * m_ + q];
+        if (!held[c]) {
+          // what flows out of a soft root moves it by its compliance; a point moves as far as its corners differ
+          const Site& site = sites_.slots()[at(hardest[c])].site;
+          error += bound[c * m_ + q] + compliance(site) * std::fabs(left_[at(site.vertex[0]) * m_ + q]);
+        }
+        raise(largest, error);
+      }
+    }
+    return largest;
+  }
+
+  const ScalarField& field_;
+  const Core& core_;
+  Memory& memory_;
+  const SiteSet& sites_;
+  std::size_t n_, m_;
+  Ranges ranges_;
+  Workspace u_, left_;  // the field, and what is left of its residual
+  Vector<double> flux_, site_error_;
+  Certificate found_;
+  double worst_ = -1;
+  bool bounded_;
+};
 
 }  // namespace
 
@@ -86,66 +300,9 @@ double certificate_tolerance(double asked, EngineKind engine) {
 }
 
 Certificate certify(const ScalarField& field) {
-  const Core& core = field.core();
-  Memory& memory = *core.memory;
-  const SiteSet& sites = field.sites();
-  const SymmetricMatrix& k = core.laplacian;
-  const std::size_t n = at(core.size()), m = at(sites.channels()), components = at(core.mesh.component_count());
-  if (sites.count() == 0) fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; there is no field to certify");
-  Workspace u(core.workspaces, n * m), right(core.workspaces, n * m);
-  Vector<double> flux(&memory), row(m, &memory);
-  field.flux(flux, u.data());
-  const Ranges ranges(sites, components, m, memory);
-
-  Certificate found;
-  found.overshoot_checked = core.refinements == 0;
-  double worst = -1;
-  const auto note = [&](double& largest, double error, std::int32_t vertex) {
-    raise(largest, error);
-    if (raise(worst, error)) found.vertex = vertex;
-  };
-
-  // Measures the error of each site, and adds up the fluxes of the sites by vertex.
-  std::fill_n(right.data(), n * m, 0.0);
-  for (std::size_t slot = 0; slot < sites.slots().size(); ++slot) {
-    if (!sites.slots()[slot].used()) continue;
-    const Site& site = sites.slots()[slot].site;
-    const std::size_t c = at(site.component);
-    found.overshoot_checked = found.overshoot_checked && site.is_vertex();
-    for (std::size_t q = 0; q < m; ++q) {
-      const double lambda = flux[slot * m + q];
-      double error = site.compliance / core.mean_diagonal[c] * lambda - sites.values()[slot * m + q];
-      for (int corner = 0; corner < 3; ++corner) {
-        if (site.vertex[corner] < 0) continue;
-        error += site.weight[corner] * u[at(site.vertex[corner]) * m + q];
-        right[at(site.vertex[corner]) * m + q] += site.weight[corner] * lambda;
-      }
-      note(found.site_error, std::fabs(error) / ranges.unit(c * m + q), site.vertex[0]);
-    }
-  }
-
-  for (std::size_t v = 0; v < n; ++v) {
-    const std::size_t c = at(core.mesh.component[v]);
-    if (field.engine().site_count(static_cast<std::int32_t>(c)) == 0) continue;
-    const double diagonal = std::fabs(k.value[k.diagonal(static_cast<std::int32_t>(v))]);
-    if (!row_of(k, v, u.data(), m, row.data())) found.overshoot_checked = false;
-    for (std::size_t q = 0; q < m; ++q) {
-      const double unit = ranges.unit(c * m + q), residual = std::fabs(row[q] - right[v * m + q]);
-      note(found.residual, (diagonal > 0 ? residual / diagonal : residual) / unit, static_cast<std::int32_t>(v));
-    }
-  }
-  for (std::size_t i = 0; i < components * m; ++i) {
-    if (ranges.low[i] <= ranges.high[i]) found.value_range = std::max(found.value_range, ranges.range(i));
-  }
-  for (std::size_t v = 0; found.overshoot_checked && v < n; ++v) {
-    const std::size_t c = at(core.mesh.component[v]);
-    if (field.engine().site_count(static_cast<std::int32_t>(c)) == 0) continue;
-    for (std::size_t q = 0; q < m; ++q) {
-      const double value = u[v * m + q], low = ranges.low[c * m + q], high = ranges.high[c * m + q];
-      note(found.overshoot, std::max(value - high, low - value) / ranges.unit(c * m + q), static_cast<std::int32_t>(v));
-    }
-  }
-  return found;
+  if (field.sites().count() == 0)
+    fail(HF_ERROR_NO_SITES, HF_NO_INDEX, "the solver has no sites; there is no field to certify");
+  return Check(field).run();
 }
 
 }  // namespace hf_inner

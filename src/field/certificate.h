@@ -13,8 +13,9 @@ struct Certificate {
   double residual = 0;     // distance of a vertex from the weighted mean of its neighbours
   double site_error = 0;   // largest error of the condition of a site
   double overshoot = 0;    // how far the field leaves the range of the site values; 0 when not checked
+  double error = 0;        // of the field: a bound, or an estimate (certificate.cpp)
   bool overshoot_checked = false;
-  std::int32_t vertex = Mesh::none;  // inner vertex of the largest of the three
+  std::int32_t vertex = Mesh::none;  // inner vertex of the largest of error, site_error and overshoot
 };
 
 // Returns the tolerance that the caller asked for, or the default of the engine for 0. Throws HF_ERROR_INVALID_ARGUMENT

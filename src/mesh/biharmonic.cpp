@@ -80,7 +80,7 @@ Vector<double> inverse_masses(const Mesh& mesh, Vector<double> areas) {
   return areas;
 }
 
-std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memory) {
+std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memory, Vector<std::uint8_t>* changed) {
   Vector<double> magnitude(&memory);
   magnitude.reserve(laplacian.row.size());
   const auto each_column = [&](auto&& work) {
@@ -99,6 +99,7 @@ std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memor
   each_column([&](Index v, std::size_t i) {
     if (laplacian.row[i] == v || std::fabs(laplacian.value[i]) <= most) return;
     laplacian.value[i] = std::copysign(most, laplacian.value[i]), ++cut;
+    if (changed) (*changed)[at(v)] = 1;
   });
   if (cut == 0) return 0;
   for (Index v = 0; v < laplacian.size(); ++v) {

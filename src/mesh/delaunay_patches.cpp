@@ -34,8 +34,12 @@ std::uint32_t pieces_of(std::size_t count) noexcept {
   return static_cast<std::uint32_t>((count + patch_piece - 1) / patch_piece);
 }
 
-// Returns true if some triangle may be so thin that mollify.h would lengthen its edges. It may err towards true.
-bool may_be_thin(const Mesh& mesh, const Topology& topology, Memory& memory, JobRunner* jobs) {
+struct Thinness {
+  bool any = false;      // a triangle may be so thin that the triangulation would lengthen its edges; on the safe side
+  bool widened = false;  // the cotangents of one are not its own either
+};
+
+Thinness find_thin(const Mesh& mesh, const Topology& topology, Memory& memory, JobRunner* jobs) {
   struct Found {
     double sum = 0, share = std::numeric_limits<double>::infinity(), gap = std::numeric_limits<double>::infinity();
   };
@@ -57,7 +61,10 @@ bool may_be_thin(const Mesh& mesh, const Topology& topology, Memory& memory, Job
   for (const Found& own : found)
     all.sum += own.sum, all.gap = std::min(all.gap, own.gap), all.share = std::min(all.share, own.share);
   const double mean = all.sum / std::max(1, topology.edge_count());
-  return !(all.share > safe_closing && all.gap > safe_closing * mollify_floor * mean);
+  Thinness thin;
+  thin.any = !(all.share > safe_closing && all.gap > safe_closing * mollify_floor * mean);
+  for (Index t = 0; thin.any && !thin.widened && t < mesh.triangle_count(); ++t) thin.widened = is_widened(mesh, t);
+  return thin;
 }
 
 double cotangent_opposite(const Mesh& mesh, Index triangle, Index first, Index second) noexcept {
@@ -358,10 +365,12 @@ void add_areas(const Mesh& mesh, const Patches& patches, Memory& memory, Vector<
 DelaunayOperator delaunay_operator(const Mesh& mesh, const Topology& topology, const Vector<double>& weights,
                                    bool with_areas, Memory& memory, JobRunner* jobs) {
   DelaunayOperator out(memory);
-  bool whole = may_be_thin(mesh, topology, memory, jobs);
+  const Thinness thin = find_thin(mesh, topology, memory, jobs);
+  bool whole = thin.widened;
   if (!whole) {
     Patches patches(mesh, topology, memory);
     Vector<Index> broken = broken_edges(mesh, topology, weights, memory, jobs);
+    whole = thin.any && !broken.empty();  // thin triangles that are Delaunay as they stand keep their cotangents
     for (int attempt = 0; !broken.empty() && !whole; ++attempt) {
       whole = attempt == most_attempts || !patches.grow(broken);
       if (whole) break;
@@ -380,6 +389,7 @@ DelaunayOperator delaunay_operator(const Mesh& mesh, const Topology& topology, c
   surface.flip_to_delaunay();
   out.laplacian = surface.laplacian(mesh.vertex_count(), memory, jobs);
   if (with_areas) out.areas = surface.vertex_areas(mesh.vertex_count(), memory);
+  out.changed.assign(surface.changed().begin(), surface.changed().end());
   out.patch_triangles = mesh.triangle_count();
   return out;
 }

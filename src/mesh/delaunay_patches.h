@@ -17,9 +17,10 @@
 namespace hf_inner {
 
 struct DelaunayOperator {
-  explicit DelaunayOperator(Memory& memory) : laplacian(memory), areas(&memory) {}
+  explicit DelaunayOperator(Memory& memory) : laplacian(memory), areas(&memory), changed(&memory) {}
   SymmetricMatrix laplacian;
   Vector<double> areas;              // by vertex, of the intrinsic triangles; empty unless asked for
+  Vector<std::uint8_t> changed;      // by vertex, whether a triangle there was too thin to keep its weights; or empty
   std::int32_t patch_triangles = 0;  // triangles of the mesh that were retriangulated
 };
 

@@ -159,6 +159,10 @@ void IntrinsicTriangulation::measure(const Mesh& mesh, const Topology& topology,
                                      JobRunner* jobs) {
   const MollifiedLengths lengths = MollifiedLengths::make(mesh, topology, *memory_, jobs);
   mollified_ = lengths.thin_count;
+  if (!lengths.changed.empty()) changed_.assign(mesh.positions.size(), 0);
+  for (Index e = 0; e < static_cast<Index>(lengths.changed.size()); ++e) {
+    if (lengths.changed[at(e)]) changed_[at(topology.first(e))] = changed_[at(topology.second(e))] = 1;
+  }
   const std::size_t triangles = back.size();
   for_each(jobs, static_cast<std::uint32_t>((triangles + cover_piece - 1) / cover_piece), [&](std::uint32_t p) {
     for (std::size_t t = p * cover_piece; t < std::min(triangles, (p + std::size_t{1}) * cover_piece); ++t) {

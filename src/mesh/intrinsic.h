@@ -33,7 +33,13 @@ class IntrinsicTriangulation {
  public:
   // Makes an empty triangulation.
   explicit IntrinsicTriangulation(Memory& memory)
-      : memory_(&memory), tail_(&memory), twin_(&memory), length_(&memory), cotangent_(&memory), doubled_(&memory) {}
+      : memory_(&memory),
+        tail_(&memory),
+        twin_(&memory),
+        length_(&memory),
+        cotangent_(&memory),
+        doubled_(&memory),
+        changed_(&memory) {}
   // Makes the tufted cover (see above) of a mesh, with the mesh's own edges. held: null, or for each edge whether more
   // of the surface lies beyond it. A held edge is no border and is never flipped; each of its half-edges is its own
   // twin. Throws std::bad_alloc.
@@ -62,6 +68,8 @@ class IntrinsicTriangulation {
   // once.
   double share(std::int32_t face) const noexcept { return doubled_.empty() || !doubled_[at(face)] ? 1.0 : 0.5; }
   std::uint32_t mollified_count() const noexcept { return mollified_; }  // triangles of the mesh that were too thin
+  // By vertex of the mesh, whether a triangle there was mollified or widened; empty: none was.
+  const Vector<std::uint8_t>& changed() const noexcept { return changed_; }
 
   // Returns the Laplacian K. K_ij is minus the sum of the weights of the edges between i and j, with sums below zero
   // set to zero. Each diagonal entry is minus the sum of the rest of its row.
@@ -85,6 +93,7 @@ class IntrinsicTriangulation {
   Vector<std::int32_t> tail_, twin_;
   Vector<double> length_, cotangent_;
   Vector<std::uint8_t> doubled_;  // by face: 1 if its component has front and back faces; empty: none has
+  Vector<std::uint8_t> changed_;
   std::uint32_t mollified_ = 0;
 };
 

@@ -69,6 +69,13 @@ void thin_cotangents(const double squared[3], double cotangent[3]) noexcept {
 
 }  // namespace
 
+bool is_widened(const Mesh& mesh, Index t) noexcept {
+  const Index* v = mesh.triangle(t);
+  const Vec3 p[3] = {mesh.positions[at(v[0])], mesh.positions[at(v[1])], mesh.positions[at(v[2])]};
+  const Vec3 e[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]};
+  return !(norm(cross(e[0], e[1])) > least_area * std::max({dot(e[0], e[0]), dot(e[1], e[1]), dot(e[2], e[2])}));
+}
+
 // The cotangent of the angle between the edges u and v is (u . v) / |u x v|.
 void corner_cotangents(const Mesh& mesh, Index t, double cotangent[3]) noexcept {
   const Index* v = mesh.triangle(t);

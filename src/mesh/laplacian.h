@@ -17,6 +17,8 @@ enum class OperatorKind : std::int32_t { intrinsic_delaunay = 0, clamped = 1, un
 // = L, K = L M^-1 L, or K = L^2.
 enum class FieldKind : std::int32_t { harmonic = 0, biharmonic = 1, biharmonic_graph = 2 };
 
+// Whether the weights of triangle t are not its own: it is so thin that it is widened first.
+bool is_widened(const Mesh& mesh, std::int32_t t) noexcept;
 // Computes the cotangents at the three corners of triangle t.
 void corner_cotangents(const Mesh& mesh, std::int32_t t, double cotangent[3]) noexcept;
 // Returns four times the area of a triangle with these edge lengths. Lengths that violate the triangle inequality count

@@ -178,6 +178,89 @@ static void the_largest_values_stay_finite_on_needles(void** state) {
   surface_free(&needles);
 }
 
+/* The exact field of right triangles in a row, each joined to the next at a vertex, is linear. */
+static void a_long_chain_is_right_to_rounding(void** state) {
+  (void)state;
+  enum { CHAIN = 20000 };
+  double* positions = calloc(3 * (2 * CHAIN + 1), sizeof(double));
+  uint32_t* triangles = malloc(3 * CHAIN * sizeof(uint32_t));
+  assert_non_null(positions), assert_non_null(triangles);
+  for (uint32_t i = 0; i <= CHAIN; ++i) positions[3 * i] = i;
+  for (uint32_t i = 0; i < CHAIN; ++i) {
+    const uint32_t apex = CHAIN + 1 + i;
+    positions[3 * apex] = i, positions[3 * apex + 1] = 1;
+    triangles[3 * i] = i, triangles[3 * i + 1] = i + 1, triangles[3 * i + 2] = apex;
+  }
+  Options desc = options_of(&tube);
+  desc.surface.positions = NULL, desc.surface.positions_f64 = positions, desc.surface.vertex_count = 2 * CHAIN + 1;
+  desc.surface.triangles = triangles, desc.surface.triangle_count = CHAIN;
+  for (int32_t engine = HF_ENGINE_GREEN; engine <= HF_ENGINE_REFACTOR; engine += HF_ENGINE_REFACTOR) {
+    hf_solver solver = NULL;
+    desc.solver.engine = engine;
+    assert_ok(make(&desc, NULL, &solver));
+    add_site(solver, 0, 0), add_site(solver, CHAIN, 1);
+    double* field = field_of(solver, 2 * CHAIN + 1);
+    double worst = 0;
+    for (int i = 0; i < CHAIN; ++i) worst = fmax(worst, fabs(field[i] - (double)i / CHAIN));
+    assert_true(worst < 1e-13); /* 6e-10 without corrections */
+    hf_certificate found = HF_INIT(hf_certificate);
+    assert_ok(hf_solver_certify(solver, &found));
+    assert_true(found.error_estimate < 1e-13);
+    free(field), hf_solver_destroy(solver);
+  }
+  free(positions), free(triangles);
+}
+
+/* Soft sites pull with what they miss: the engine refactor lost it to rounding and refused its own field. */
+static void very_soft_sites_pass(void** state) {
+  (void)state;
+  for (int32_t engine = HF_ENGINE_GREEN; engine <= HF_ENGINE_REFACTOR; engine += HF_ENGINE_REFACTOR) {
+    Options desc = options_of(&tube);
+    desc.solver.engine = engine;
+    hf_solver solver = NULL;
+    assert_ok(make(&desc, NULL, &solver));
+    const uint32_t vertices[2] = {0, VERTICES / 2};
+    const double values[2] = {0, 1}, stiffness[2] = {1e-10, 1e-10};
+    hf_sites_desc sites = sites_at(2, vertices, values);
+    sites.stiffness = stiffness;
+    assert_ok(hf_add_sites(solver, &sites, NULL));
+    hf_certificate found = HF_INIT(hf_certificate);
+    assert_ok(hf_solver_certify(solver, &found));
+    assert_true(found.error_estimate < 1e-10 && found.site_error < 1e-10);
+    hf_solver_destroy(solver);
+  }
+}
+
+static void weights_that_a_rule_set_are_counted(void** state) {
+  (void)state;
+  hf_surface surface = surface_on(&tube);
+  hf_surface_report report = HF_INIT(hf_surface_report);
+  assert_ok(hf_surface_get_report(surface, &report));
+  assert_int_equal(report.changed_vertex_count, 0);
+  assert_int_equal(report.first_changed_vertex, NO_INDEX);
+  hf_surface_destroy(surface);
+  /* two unit squares with a column of this width between them */
+  const double widths[2] = {1e-9, 1e-12};
+  for (int w = 0; w < 2; ++w) {
+    const double x[4] = {0, 1, 1 + widths[w], 2};
+    double positions[24];
+    for (int i = 0; i < 8; ++i) positions[3 * i] = x[i % 4], positions[3 * i + 1] = i / 4, positions[3 * i + 2] = 0;
+    const uint32_t triangles[18] = {0, 1, 4, 1, 5, 4, 1, 2, 5, 2, 6, 5, 2, 3, 6, 3, 7, 6};
+    for (int32_t operator_kind = 0; operator_kind < 4; ++operator_kind) {
+      Options desc = options_of(&tube);
+      desc.surface.positions = NULL, desc.surface.positions_f64 = positions, desc.surface.vertex_count = 8;
+      desc.surface.triangles = triangles, desc.surface.triangle_count = 6;
+      desc.surface.operator_kind = operator_kind;
+      assert_ok(hf_surface_create(&desc.surface, &surface));
+      assert_ok(hf_surface_get_report(surface, &report));
+      const int kept = operator_kind == HF_OPERATOR_UNIFORM || w == 0;
+      assert_true(kept ? report.changed_vertex_count == 0 : report.changed_vertex_count >= 4);
+      assert_int_equal(report.first_changed_vertex, kept ? NO_INDEX : report.first_changed_vertex % 8);
+      hf_surface_destroy(surface);
+    }
+  }
+}
+
 static void nothing_is_changed(void** state) {
   (void)state;
   hf_solver solver = surface_solver(&tube);
@@ -228,6 +311,9 @@ int main(void) {
       cmocka_unit_test(sites_in_the_factor_and_several_channels_pass),
       cmocka_unit_test(a_factor_that_changed_behind_the_library_is_found_out),
       cmocka_unit_test(the_largest_values_stay_finite_on_needles),
+      cmocka_unit_test(a_long_chain_is_right_to_rounding),
+      cmocka_unit_test(very_soft_sites_pass),
+      cmocka_unit_test(weights_that_a_rule_set_are_counted),
       cmocka_unit_test(nothing_is_changed),
       cmocka_unit_test(bad_arguments_are_answered),
   };

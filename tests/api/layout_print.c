@@ -59,7 +59,7 @@ static void print_surface(void) {
   F(struct_size), F(vertex_count), F(triangle_count), F(welded_vertex_count), F(component_count),
       F(isolated_vertex_count), F(degenerate_triangle_count), F(collapsed_triangle_count), F(duplicate_triangle_count),
       F(non_manifold_edge_count), F(flipped_edge_count), F(boundary_edge_count), F(negative_edge_count),
-      F(smallest_angle), F(bounding_box_diagonal);
+      F(smallest_angle), F(bounding_box_diagonal), F(changed_vertex_count), F(first_changed_vertex);
 #undef T
 #define T hf_surface_statistics
   STRUCT(hf_surface_statistics);
@@ -118,7 +118,7 @@ static void print_solver(void) {
 #define T hf_certificate
   STRUCT(hf_certificate);
   F(struct_size), F(overshoot_checked), F(tolerance), F(value_range), F(residual), F(site_error), F(overshoot),
-      F(worst_vertex), F(reserved);
+      F(worst_vertex), F(reserved), F(error_estimate);
 #undef T
 #define T hf_solver_statistics
   STRUCT(hf_solver_statistics);

@@ -187,6 +187,8 @@ namespace Hf.Native
         public uint negative_edge_count;
         public float smallest_angle;
         public double bounding_box_diagonal;
+        public uint changed_vertex_count;
+        public uint first_changed_vertex;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -337,6 +339,7 @@ namespace Hf.Native
         public double overshoot;
         public uint worst_vertex;
         public uint reserved;
+        public double error_estimate;
     }
 
     [StructLayout(LayoutKind.Sequential)]

@@ -115,6 +115,7 @@ Value certify(Surface& s, const Arguments& a) {
                 {"residual", found.residual},
                 {"site_error", found.site_error},
                 {"overshoot", found.overshoot},
+                {"error_estimate", found.error_estimate},
                 {"overshoot_checked", found.overshoot_checked},
                 {"worst_vertex", found.worst_vertex}});
 }

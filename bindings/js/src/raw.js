@@ -149,7 +149,7 @@ export const layouts = {
     memory_limit_mb: ['u32', [44, 44], 0],
     work_limit_gflop: ['u32', [48, 48], 0],
   } },
-  hf_surface_report: { size: [64, 64], fields: {
+  hf_surface_report: { size: [72, 72], fields: {
     struct_size: ['u32', [0, 0], 0],
     vertex_count: ['u32', [4, 4], 0],
     triangle_count: ['u32', [8, 8], 0],
@@ -165,6 +165,8 @@ export const layouts = {
     negative_edge_count: ['u32', [48, 48], 0],
     smallest_angle: ['f32', [52, 52], 0],
     bounding_box_diagonal: ['f64', [56, 56], 0],
+    changed_vertex_count: ['u32', [64, 64], 0],
+    first_changed_vertex: ['u32', [68, 68], 0],
   } },
   hf_surface_statistics: { size: [104, 104], fields: {
     struct_size: ['u32', [0, 0], 0],
@@ -272,7 +274,7 @@ export const layouts = {
     error_estimate: ['f64', [32, 32], 0],
     preview_bytes: ['f64', [40, 40], 0],
   } },
-  hf_certificate: { size: [56, 56], fields: {
+  hf_certificate: { size: [64, 64], fields: {
     struct_size: ['u32', [0, 0], 0],
     overshoot_checked: ['i32', [4, 4], 0],
     tolerance: ['f64', [8, 8], 0],
@@ -282,6 +284,7 @@ export const layouts = {
     overshoot: ['f64', [40, 40], 0],
     worst_vertex: ['u32', [48, 48], 0],
     reserved: ['u32', [52, 52], 0],
+    error_estimate: ['f64', [56, 56], 0],
   } },
   hf_solver_statistics: { size: [72, 72], fields: {
     struct_size: ['u32', [0, 0], 0],

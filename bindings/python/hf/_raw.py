@@ -268,6 +268,8 @@ class hf_surface_report(Structure):
     negative_edge_count: int
     smallest_angle: float
     bounding_box_diagonal: float
+    changed_vertex_count: int
+    first_changed_vertex: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -284,6 +286,8 @@ class hf_surface_report(Structure):
         ("negative_edge_count", c_uint32),
         ("smallest_angle", c_float),
         ("bounding_box_diagonal", c_double),
+        ("changed_vertex_count", c_uint32),
+        ("first_changed_vertex", c_uint32),
     ]
 
 
@@ -530,6 +534,7 @@ class hf_certificate(Structure):
     overshoot: float
     worst_vertex: int
     reserved: int
+    error_estimate: float
     _fields_ = [
         ("struct_size", c_uint32),
         ("overshoot_checked", c_int32),
@@ -540,6 +545,7 @@ class hf_certificate(Structure):
         ("overshoot", c_double),
         ("worst_vertex", c_uint32),
         ("reserved", c_uint32),
+        ("error_estimate", c_double),
     ]
 
 
