@@ -46,6 +46,14 @@ void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_d
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
 }
 
+// Refuses counts that no valid list can have, before any list is read and before any allocation depends on them.
+void check_counts(const SolverObject& solver, const FieldEdit& edit) {
+  const std::uint32_t there = solver.field.sites().count();
+  check_site_count(edit.remove_count, there);
+  const std::uint32_t left = there - edit.remove_count;
+  check_site_count(edit.move_count, left), check_site_count(edit.set_count, left);
+}
+
 template <class Work>
 void change(hf_solver handle, Work&& work) {
   const auto solver = get<SolverObject>(handle, "solver");
@@ -61,7 +69,10 @@ hf_result apply(const char* function, hf_solver handle, std::uint32_t* out_sites
     get<SolverObject>(handle, "solver");
     FieldEdit edit;
     read(edit);
-    change(handle, [&](SolverObject& solver) { solver.field.edit(edit, out_sites); });
+    change(handle, [&](SolverObject& solver) {
+      check_counts(solver, edit);
+      solver.field.edit(edit, out_sites);
+    });
   });
 }
 

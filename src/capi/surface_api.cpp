@@ -34,10 +34,11 @@ hf_surface_info read_info(const hf_surface_desc& desc) {
 
 MeshInput read_mesh(const hf_surface_desc& desc) {
   check_one(desc.positions, desc.positions_f64, "positions");
-  require_either(desc.positions, desc.positions_f64, "positions and positions_f64");
+  // An empty mesh is refused as such, by Mesh::make.
+  if (desc.vertex_count > 0) require_either(desc.positions, desc.positions_f64, "positions and positions_f64");
   if (desc.triangles && desc.triangles_u16)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "triangles and triangles_u16 are both set; set one");
-  require_either(desc.triangles, desc.triangles_u16, "triangles and triangles_u16");
+  if (desc.triangle_count > 0) require_either(desc.triangles, desc.triangles_u16, "triangles and triangles_u16");
   MeshInput input;
   input.vertex_count = desc.vertex_count, input.triangle_count = desc.triangle_count;
   input.positions = rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
@@ -110,6 +111,7 @@ hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surfac
     if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
       fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
     CoreOptions options;
+    options.flop_limit = 1e9 * static_cast<double>(info.work_limit_gflop);
     options.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
     options.field_kind = static_cast<FieldKind>(desc.field_kind);
     options.ordering = desc.ordering == HF_ORDERING_METIS            ? Ordering::metis

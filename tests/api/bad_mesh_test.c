@@ -216,7 +216,7 @@ static void a_memory_limit_is_kept(void** state) {
  * refusal comes before the factorisation, and says what was needed. */
 static void a_work_limit_is_kept(void** state) {
   (void)state;
-  enum { VERTICES = 2600, TRIANGLES = 6000 };
+  enum { VERTICES = 2600, TRIANGLES = 20000 };
   Surface soup = surface_sheet(52, 50); /* as many vertices */
   uint32_t* corners = malloc(sizeof(uint32_t) * 3 * TRIANGLES);
   uint32_t random = 1;

@@ -42,9 +42,9 @@ static void a_factor_that_is_not_kept_leaves_nothing(void** state) {
   size_t size = 0;
   for (int32_t kind = HF_FIELD_BIHARMONIC; kind <= HF_FIELD_BIHARMONIC_GRAPH; ++kind) {
     const size_t before = memory.live_bytes;
-    assert_code(HF_ERROR_TOO_SMALL, hf_surface_save(surface, kind, sizeof bytes, bytes, &size));
+    assert_code(HF_ERROR_TOO_SMALL, hf_surface_save(surface, kind, NULL, sizeof bytes, bytes, &size));
     assert_int_equal(memory.live_bytes, before);
-    assert_ok(hf_surface_save(surface, kind, 0, NULL, &size));
+    assert_ok(hf_surface_save(surface, kind, NULL, 0, NULL, &size));
     assert_int_equal(memory.live_bytes, before);
   }
   hf_surface_destroy(surface);

@@ -41,9 +41,9 @@ std::vector<unsigned char> saved(const ExactShape& shape) {
   std::vector<unsigned char> bytes;
   std::size_t size = 0;
   if (hf_surface_create(&desc, &surface) != HF_OK) return bytes;
-  hf_surface_save(surface, shape.field_kind, 0, nullptr, &size);
+  hf_surface_save(surface, shape.field_kind, nullptr, 0, nullptr, &size);
   bytes.resize(size);
-  hf_surface_save(surface, shape.field_kind, size, bytes.data(), nullptr);
+  hf_surface_save(surface, shape.field_kind, nullptr, size, bytes.data(), nullptr);
   hf_surface_destroy(surface);
   return bytes;
 }

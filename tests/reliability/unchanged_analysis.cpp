@@ -30,10 +30,11 @@ class Analysis final : public Subject {
     state.begin("distances");
     state.add(hf_geodesics_solve_f64(geodesics_, 2, sources, distance.data(), 0)), state.add(distance);
     std::size_t size = 0;
-    hf_surface_save(world.surface, world.desc.field_kind, 0, nullptr, &size);
+    hf_surface_save(world.surface, world.desc.field_kind, nullptr, 0, nullptr, &size);
     std::vector<unsigned char> bytes(size);
     state.begin("the saved factor");
-    state.add(hf_surface_save(world.surface, world.desc.field_kind, size, bytes.data(), &size)), state.add(bytes);
+    state.add(hf_surface_save(world.surface, world.desc.field_kind, nullptr, size, bytes.data(), &size)),
+        state.add(bytes);
   }
   const std::vector<Command>& commands() const override;
 
@@ -114,7 +115,7 @@ struct Calls {
     Analysis& s = of(subject);
     std::size_t size = 0;
     std::vector<unsigned char> bytes(random.pick({100u, 200000u}));
-    return hf_surface_save(s.world.surface, random.pick({0, 1, 2, 3}), bytes.size(), bytes.data(), &size);
+    return hf_surface_save(s.world.surface, random.pick({0, 1, 2, 3}), nullptr, bytes.size(), bytes.data(), &size);
   }
   // A surface of damaged options, indices, positions or bytes beside the first.
   static hf_result surface(Subject& subject, Random& random) {
