@@ -165,8 +165,11 @@ hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* given
     const std::shared_ptr<const Core> core = harmonic_core(surface);
     const hf_geodesics_desc desc = read_optional(given, "desc");
     const double smoothing = static_cast<double>(desc.smoothing);
-    if (smoothing != 0 && !(smoothing >= 0.1 && smoothing <= 1e4))
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "smoothing is %g; it must be 0.1 to 10000, or 0 for 1", smoothing);
+    // The accepted range. It catches wrong units; its ends were not measured.
+    constexpr double least_smoothing = 0.1, most_smoothing = 1e4;
+    if (smoothing != 0 && !(smoothing >= least_smoothing && smoothing <= most_smoothing))
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "smoothing is %g; it must be %g to %g, or 0 for 1", smoothing,
+           least_smoothing, most_smoothing);
     return with_progress(desc.progress, [&] {
       auto made = make_owner_in<GeodesicsObject>(core->memory, core, smoothing > 0 ? smoothing : 1.0);
       report(1);

@@ -30,6 +30,8 @@ Stress stress_of(const Sheet& sheet, const double (&columns)[3][4], const Mat3& 
   }
   const double along = dot(turned[0], drawn[0]), beside = dot(turned[1], drawn[1]),
                across = 0.5 * (dot(turned[0], drawn[1]) + dot(turned[1], drawn[0]));
+  // The eigenvalues of a symmetric 2 x 2 matrix, written by hand: a function of it needs no eigenvectors, whose signs
+  // would have to be chosen.
   const double mean = 0.5 * (along + beside), half = 0.5 * (along - beside),
                radius = std::sqrt(half * half + across * across);
   if (!(std::fabs(mean) < largest_strain) || !(radius < largest_strain)) return {};

@@ -95,6 +95,7 @@ void place_pins(const Region& region, const DiscBoundary& boundary, Span<const I
 }  // namespace
 
 CarriedDetail carry_detail(const Region& source, const Region& target, const CarryOptions& options, Memory& memory) {
+  constexpr float one_disc = 0.4f, two_discs = 0.8f;  // reported progress, by the usual share of time
   report(0.0f);
   const RegionSurface &from = *source.surface(), &to = *target.surface();
   const std::shared_ptr<const RegionState> from_state = source.state();
@@ -111,9 +112,9 @@ CarriedDetail carry_detail(const Region& source, const Region& target, const Car
   }
   to_pins.turn.assign(from_pins.turn.begin(), from_pins.turn.end());
   const Vector<DiscPoint> from_disc = map_to_disc(from, *from_state, from_rim, from_pins, memory);
-  report(0.4f);
+  report(one_disc);
   const Vector<DiscPoint> to_disc = map_to_disc(to, *target.state(), to_rim, to_pins, memory);
-  report(0.8f);
+  report(two_discs);
 
   CarriedDetail carried{target.surface(), target.state(), Vector<Vec3>(&memory)};
   const double scale = options.scale > 0           ? options.scale

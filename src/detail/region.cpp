@@ -144,16 +144,17 @@ Region::Region(std::shared_ptr<const RegionSurface> surface) : surface_(std::mov
 Region::Region(const Region& other) : surface_(other.surface_), state_(other.state_), history_(memory()) {}
 
 void Region::edit(const RegionEdit& edit) {
+  constexpr float shaped = 0.2f, placed = 0.7f;  // reported progress, by the usual share of time
   report(0.0f);
   const RegionShape& before = *state_->shape;
   const Vector<Index> inside = edited(core(), Vector<Index>(before.inside, &memory()), edit, memory());
   if (inside.empty())
     fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the region would have no vertex; take a wider curve or fewer rings away");
   const auto shape = make_shared_in<RegionShape>(memory(), core(), inside, memory());
-  report(0.2f);
+  report(shaped);
   const auto next = make_shared_in<RegionState>(memory(), *surface_, shape, memory());
   place_sites(*state_, *next, core(), memory());
-  report(0.7f);
+  report(placed);
   solve_base(*surface_, *next, memory());
   next->base_area = morphed_area(*surface_, *next, 1.0, memory());
   next->first = edit.curve.empty() ? state_->first : edit.curve[0];

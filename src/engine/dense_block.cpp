@@ -364,6 +364,7 @@ void DenseBlock::solve_bordered(double* x, std::int32_t channels, const double* 
     if (border_ == 1) {
       own[0] = right[0] / schur_[0];
     } else if (border_ == 2) {
+      // Cramer's rule, written by hand: two unknowns per channel, in the loop over channels.
       const double determinant = schur_[0] * schur_[3] - schur_[1] * schur_[2];
       own[0] = (schur_[3] * right[0] - schur_[1] * right[1]) / determinant;
       own[1] = (schur_[0] * right[1] - schur_[2] * right[0]) / determinant;

@@ -173,12 +173,13 @@ void propose(const Core& core, const Vector<double>& total, double least_length,
 
 Extremities poisson_extremities(const Core& core, double least_length) {
   require_laplacian(core);
+  constexpr float summed = 0.1f, solved = 0.8f;  // reported progress, by the usual share of time
   Extremities found(*core.memory);
   found.field.resize(at(core.size()));
   const Vector<double> total = component_areas(core);
-  report(0.1f);
+  report(summed);
   solve_poisson(core, total, found.field);
-  report(0.8f);
+  report(solved);
   propose(core, total, least_length, true, found);
   report(1.0f);
   return found;
@@ -189,7 +190,8 @@ Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source
   Extremities found(*core.memory);
   found.field.resize(at(core.size()));
   {
-    const ProgressRange range(0.0f, 0.95f);
+    constexpr float averaged = 0.95f;  // reported progress
+    const ProgressRange range(0.0f, averaged);
     geodesics.average(source_count, found.field.data());
   }
   propose(core, component_areas(core), least_length, false, found);

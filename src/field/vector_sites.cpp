@@ -28,7 +28,7 @@ Vec3 value_of(const ScalarField& field, std::uint32_t site) noexcept {
   return {v[0], v[1], v[2]};
 }
 
-// Turns v about a unit axis by Rodrigues' formula.
+// Turns v about a unit axis by Rodrigues' formula. It is written by hand, since Vec3 is no type of Eigen's.
 Vec3 turned(Vec3 v, Vec3 axis, double angle) noexcept {
   const double c = std::cos(angle), s = std::sin(angle);
   return c * v + s * cross(axis, v) + ((1 - c) * dot(axis, v)) * axis;

@@ -314,7 +314,7 @@ void add_pose_cases(World& w, std::vector<Case>& cases) {
 int main(int argc, char** argv) {
   const bool full = report_full(argc, argv) != 0;
   const std::string only = argc > 1 && argv[argc - 1][0] != '-' ? argv[argc - 1] : "";
-  const int moments = getenv("MOM") ? atoi(getenv("MOM")) : full ? 50 : 5;
+  const int moments = full ? 50 : 5;
   Mesh big, small;
   add_torus(big, full ? 1000 : 80, full ? 500 : 40), add_torus(small, full ? 400 : 60, full ? 200 : 30);
   World world(full, std::move(big), std::move(small));
