@@ -1,18 +1,19 @@
-// glTF 2.0 in: .gltf and .glb, from friends and from enemies.
+// Reads glTF 2.0 files, .gltf and .glb, that may be damaged or hostile.
 //
-// Order of work: size of the file -> GLB header and chunks -> depth and value count of the JSON text -> JSON -> every
-// index, count, offset, stride and type of the parts used, with the node graph (gltf_check.h) -> buffers, read only
-// from below the file's own folder -> tinygltf -> the values themselves (gltf_accessor.h): indices, joints, weights,
-// key times, NaN. tinygltf sees a text that is already checked and opens no file: its file callbacks serve our bytes,
-// its image callback keeps the bytes as they are.
+// Each step checks what the next one trusts:
+// 1. The size of the file. The header and chunks of a GLB. The depth and length of the JSON text. Then the JSON.
+// 2. Every index, count, offset, stride and type in use, and the node graph (gltf_check.h).
+// 3. The buffers. They are read only from below the file's own folder.
+// 4. tinygltf gets the checked text and opens no file: its callbacks serve the bytes read before.
+// 5. The values (gltf_accessor.h): indices, joints, weights, key times, NaN.
 //
-// Read: node hierarchies, TRS and matrices, triangles with strips and fans, normals, tangents, any number of texture
-// coordinate sets, COLOR_0, JOINTS_n/WEIGHTS_n up to 8, morph targets, skins, animations (STEP, LINEAR, CUBICSPLINE),
-// sparse accessors, KHR_mesh_quantization. Skipped with a warning: points, cameras, lights, extra scenes, animation of
-// things that are not nodes. Refused with the name: required extensions that change the geometry's encoding and any
-// that is not known here.
+// It reads node hierarchies, triangles with strips and fans, normals, tangents, texture coordinates and COLOR_0. It
+// reads up to 8 sets of joints and weights, morph targets, skins and animations, also from sparse accessors and with
+// KHR_mesh_quantization. It skips points, cameras, lights and extra scenes, and warns. It refuses required extensions
+// that it does not know, by name.
 //
-// Cost: linear in the file. Failure: std::runtime_error, one sentence that names file and element; nothing is kept.
+// The cost is linear in the size of the file. On failure it throws std::runtime_error with a sentence that names the
+// file and the element, and keeps nothing.
 #ifndef HF_SAMPLES_COMMON_GLTF_READ_H
 #define HF_SAMPLES_COMMON_GLTF_READ_H
 
@@ -23,22 +24,30 @@
 
 namespace samples {
 
-// Checked before allocation. The defaults keep the reader below 512 MB whatever the file says.
+// Limits that are checked before memory is allocated. The defaults keep the reader below 512 MB for any file.
 struct ReadLimits {
-  uint64_t max_file_bytes = 128ull << 20;     // the file, and every file it names, each
-  uint64_t max_total_bytes = 128ull << 20;    // all buffers and images together
-  uint64_t max_json_bytes = 48ull << 20;      // text, embedded buffers included
-  uint64_t max_json_values = 600000;          // brackets and commas in the text
-  uint32_t max_json_depth = 64;               // nesting of the text
-  uint32_t max_node_depth = 1024;             // nesting of the hierarchy
-  uint64_t max_decoded_bytes = 128ull << 20;  // all accessors as floats; an accessor used twice counts twice
-  // What a file may ask for again and again (accessors and images on the same bytes, zeros, morph weights of many
-  // nodes) is bounded by its own size too: the free bytes and so many for each byte of the file and its buffers. A byte
-  // that is used once decodes to 16 at most (strips of u8 indices).
+  // Bytes of the file, and of each file that it names.
+  uint64_t max_file_bytes = 128ull << 20;
+  // Bytes of all buffers and images together.
+  uint64_t max_total_bytes = 128ull << 20;
+  // Bytes of the JSON text with its embedded buffers; brackets and commas in it; how deep brackets nest.
+  uint64_t max_json_bytes = 48ull << 20;
+  uint64_t max_json_values = 600000;
+  uint32_t max_json_depth = 64;
+  // How deep nodes nest.
+  uint32_t max_node_depth = 1024;
+  // Bytes of all accessors as floats. An accessor that is used twice counts twice.
+  uint64_t max_decoded_bytes = 128ull << 20;
+  // A file can use the same bytes again and again. So the decoded bytes may also not exceed free_decoded_bytes plus
+  // decoded_per_byte for each byte of the file and its buffers. A byte that is used once decodes to 16 at most (strips
+  // of 8-bit indices).
   uint64_t free_decoded_bytes = 16ull << 20, decoded_per_byte = 16;
-  uint64_t max_morph_weights = 1 << 20;  // of all nodes together
-  // Elements of one list: a material takes 3 KB in memory, a node 0.7 KB, and 3 bytes of text.
-  uint64_t max_nodes = 1 << 17, max_looks = 1 << 14;  // looks: materials, textures, images, samplers, scenes
+  // Morph weights of all nodes together.
+  uint64_t max_morph_weights = 1 << 20;
+  // Entries of one list. Three bytes of text can ask for a node of 0.7 KB or a material of 3 KB. max_looks is for
+  // materials, textures, images, samplers and scenes.
+  uint64_t max_nodes = 1 << 17;
+  uint64_t max_looks = 1 << 14;
 
   uint64_t decoded_limit(uint64_t stored_bytes) const {
     const uint64_t own = stored_bytes > max_decoded_bytes ? max_decoded_bytes : stored_bytes;
@@ -49,8 +58,8 @@ struct ReadLimits {
 
 Model read_gltf(const std::filesystem::path& file, const ReadLimits& limits = {});
 
-// The same from bytes in memory. name stands in for the file in messages; URIs are resolved below the folder of
-// `location`, and refused when it is empty.
+// Reads a model from bytes in memory. Messages call it `name`. URIs are resolved below the folder of `location`; if it
+// is empty, they are refused.
 Model read_gltf_bytes(std::vector<uint8_t> bytes, const std::string& name, const std::filesystem::path& location = {},
                       const ReadLimits& limits = {});
 

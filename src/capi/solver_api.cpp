@@ -4,6 +4,7 @@
 #include "capi/boundary.h"
 #include "capi/objects.h"
 #include "capi/vertex_writer.h"
+#include "engine/updown.h"
 #include "field/vector_sites.h"
 #include "hf/solver.h"
 
@@ -100,6 +101,7 @@ hf_result hf_create(hf_surface handle, const hf_solver_desc* given, hf_solver* o
     const hf_solver_desc desc = read_optional(given, "desc");
     check_choice(desc.field_kind, 3, "field_kind");
     check_choice(desc.engine, 3, "engine");
+    if (desc.engine == HF_ENGINE_UPDOWN) require_updown();
     require_zero(desc.reserved);
     const std::uint32_t channels = count_of(desc.channel_count, 1, 1, most_channels, "channel_count");
     if (desc.penalty != 0 && !(desc.penalty > 0 && desc.penalty <= largest_penalty))

@@ -6,6 +6,7 @@
 #include "capi/objects.h"
 #include "capi/vertex_writer.h"
 #include "factor/factor_bytes.h"
+#include "factor/ordering.h"
 #include "hf/surface.h"
 #include "mesh/picking.h"
 
@@ -15,12 +16,19 @@ namespace {
 constexpr std::uint32_t most_threads = 256, default_vertex_limit = 20000000, triangles_per_vertex = 8;
 constexpr std::uint32_t default_work_limit_gflop = 100000;
 
+Ordering ordering_of(std::int32_t given) noexcept {
+  return given == HF_ORDERING_METIS            ? Ordering::metis
+         : given == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree
+                                               : Ordering::nested_dissection;
+}
+
 hf_surface_info read_info(const hf_surface_desc& desc) {
   hf_surface_info info{};
   check_choice(desc.weld, 3, "weld");
   check_choice(desc.operator_kind, 4, "operator_kind");
   check_choice(desc.field_kind, 3, "field_kind");
   check_choice(desc.ordering, 3, "ordering");
+  require_ordering(ordering_of(desc.ordering));
   info.vertex_count = desc.vertex_count, info.triangle_count = desc.triangle_count;
   info.weld = desc.weld, info.weld_tolerance = desc.weld_tolerance;
   info.operator_kind = desc.operator_kind, info.field_kind = desc.field_kind, info.ordering = desc.ordering;
@@ -114,9 +122,7 @@ hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surfac
     options.flop_limit = 1e9 * static_cast<double>(info.work_limit_gflop);
     options.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
     options.field_kind = static_cast<FieldKind>(desc.field_kind);
-    options.ordering = desc.ordering == HF_ORDERING_METIS            ? Ordering::metis
-                       : desc.ordering == HF_ORDERING_MINIMUM_DEGREE ? Ordering::minimum_degree
-                                                                     : Ordering::nested_dissection;
+    options.ordering = ordering_of(desc.ordering);
     if (desc.saved_factor) read_saved_factor(desc, options);
     info.ordering = static_cast<std::int32_t>(options.ordering);
     return with_progress(desc.progress, [&] {

@@ -344,6 +344,8 @@ class UpdownSolver final : public SiteSolver {
 
 }  // namespace
 
+void require_updown() {}
+
 std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core> core, double penalty) {
   const std::shared_ptr<Memory> memory = core->memory;
   return make_owner_in<UpdownSolver>(memory, std::move(core), penalty);
@@ -355,9 +357,14 @@ std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core> core,
 
 namespace hf_inner {
 
-std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core>, double) {
+void require_updown() {
   fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
        "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
+}
+
+std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core>, double) {
+  require_updown();
+  return nullptr;
 }
 
 }  // namespace hf_inner

@@ -20,7 +20,10 @@
 
 namespace hf_inner {
 
-// Throws HF_ERROR_UNSUPPORTED in builds without HF_WITH_GPL.
+// Throws HF_ERROR_UNSUPPORTED in builds without HF_WITH_GPL. Callers ask before they make a factor for the engine.
+void require_updown();
+
+// Throws what require_updown throws.
 std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core> core, double penalty);
 
 }  // namespace hf_inner

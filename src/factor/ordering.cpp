@@ -5,12 +5,24 @@
 #include "factor/minimum_degree.h"
 
 namespace hf_inner {
+
+void require_ordering(Ordering ordering) {
+#if !defined(HF_WITH_GPL)
+  if (ordering == Ordering::metis)
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+         "HF_ORDERING_METIS needs a build with HF_WITH_GPL; use HF_ORDERING_NESTED_DISSECTION");
+#else
+  static_cast<void>(ordering);
+#endif
+}
+
 void order_by_minimum_degree(const SymmetricMatrix& matrix, Memory& memory, Buffer<std::int32_t>& order) {
   order_graph_by_minimum_degree(matrix.size(), matrix.column_start.data(), matrix.row.data(), memory, order);
 }
 
 void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering ordering, Memory& memory,
                 JobRunner& jobs, Buffer<std::int32_t>& order) {
+  require_ordering(ordering);
   switch (ordering) {
     case Ordering::nested_dissection:
       return order_by_dissection(matrix, coordinates, memory, jobs, order);
@@ -20,7 +32,7 @@ void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering
 #if defined(HF_WITH_GPL)
       return order_by_metis(matrix, memory, order);
 #else
-      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "METIS needs a build with HF_WITH_GPL; use nested dissection");
+      break;
 #endif
     case Ordering::natural:
       order.allocate(memory, static_cast<std::size_t>(matrix.size()));

@@ -11,6 +11,9 @@
 
 namespace hf_inner {
 
+// Throws HF_ERROR_UNSUPPORTED if this build does not have the ordering. Callers ask before they do any work.
+void require_ordering(Ordering ordering);
+
 // Computes the chosen ordering. Throws HF_ERROR_UNSUPPORTED if this build does not have it.
 void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering ordering, Memory& memory,
                 JobRunner& jobs, Buffer<std::int32_t>& order);

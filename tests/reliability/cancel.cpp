@@ -196,39 +196,36 @@ void add_surface_cases(World& w, std::vector<Case>& cases) {
                                             nullptr);
                    },
                    [&] { return memory_of(w.big_surface); }});
-  cases.push_back({"solver_of_another_kind",
-                   [&](hf_progress p) {
-                     hf_solver_desc d = desc<hf_solver_desc>();
-                     d.field_kind = HF_FIELD_BIHARMONIC, d.progress = p;
-                     hf_solver made = nullptr;
-                     const hf_result result = hf_create(w.surface, &d, &made);
-                     hf_solver_destroy(made);
-                     return result;
-                   },
-                   [&] { return memory_of(w.surface); }});
+}
+
+// The call that makes an object on a surface with that desc.
+template <class Desc, class Object>
+Case making(const char* name, hf_surface surface, Desc d, hf_result (*create)(hf_surface, const Desc*, Object*),
+            void (*destroy)(Object)) {
+  return {name,
+          [=](hf_progress p) {
+            Desc with = d;
+            with.progress = p;
+            Object made = nullptr;
+            const hf_result result = create(surface, &with, &made);
+            destroy(made);
+            return result;
+          },
+          [=] { return memory_of(surface); }};
 }
 
 void add_field_cases(World& w, std::vector<Case>& cases) {
-  cases.push_back({"geodesics",
-                   [&](hf_progress p) {
-                     hf_geodesics_desc d = desc<hf_geodesics_desc>();
-                     d.progress = p;
-                     hf_geodesics made = nullptr;
-                     const hf_result result = hf_geodesics_create(w.big_surface, &d, &made);
-                     hf_geodesics_destroy(made);
-                     return result;
-                   },
-                   [&] { return memory_of(w.big_surface); }});
-  cases.push_back({"directions",
-                   [&](hf_progress p) {
-                     hf_direction_desc d = desc<hf_direction_desc>();
-                     d.progress = p;
-                     hf_direction made = nullptr;
-                     const hf_result result = hf_direction_create(w.big_surface, &d, &made);
-                     hf_direction_destroy(made);
-                     return result;
-                   },
-                   [&] { return memory_of(w.big_surface); }});
+  hf_solver_desc bent = desc<hf_solver_desc>();
+  bent.field_kind = HF_FIELD_BIHARMONIC;
+  hf_region_desc plate = desc<hf_region_desc>();
+  plate.field_kind = HF_FIELD_BIHARMONIC;
+  cases.push_back(making("solver_of_another_kind", w.surface, bent, hf_create, hf_solver_destroy));
+  cases.push_back(making("region", w.surface, plate, hf_region_create, hf_region_destroy));
+  cases.push_back(
+      making("geodesics", w.big_surface, desc<hf_geodesics_desc>(), hf_geodesics_create, hf_geodesics_destroy));
+  cases.push_back(
+      making("directions", w.big_surface, desc<hf_direction_desc>(), hf_direction_create, hf_direction_destroy));
+  cases.push_back(making("quads", w.surface, desc<hf_quads_desc>(), hf_quads_create, hf_quads_destroy));
   for (const std::int32_t kind : {HF_EXTREMITIES_POISSON, HF_EXTREMITIES_GEODESIC}) {
     cases.push_back({kind == HF_EXTREMITIES_POISSON ? "extremities_poisson" : "extremities_geodesic",
                      [&w, kind](hf_progress p) {
@@ -239,26 +236,6 @@ void add_field_cases(World& w, std::vector<Case>& cases) {
                      },
                      [&] { return memory_of(w.surface); }});
   }
-  cases.push_back({"quads",
-                   [&](hf_progress p) {
-                     hf_quads_desc d = desc<hf_quads_desc>();
-                     d.progress = p;
-                     hf_quads made = nullptr;
-                     const hf_result result = hf_quads_create(w.surface, &d, &made);
-                     hf_quads_destroy(made);
-                     return result;
-                   },
-                   [&] { return memory_of(w.surface); }});
-  cases.push_back({"region",
-                   [&](hf_progress p) {
-                     hf_region_desc d = desc<hf_region_desc>();
-                     d.progress = p, d.field_kind = HF_FIELD_BIHARMONIC;
-                     hf_region made = nullptr;
-                     const hf_result result = hf_region_create(w.surface, &d, &made);
-                     hf_region_destroy(made);
-                     return result;
-                   },
-                   [&] { return memory_of(w.surface); }});
 }
 
 // Four small discs of the grid the torus is.

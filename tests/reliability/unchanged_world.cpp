@@ -4,38 +4,26 @@
 #include <cstdlib>
 #include <limits>
 
+#include "headed_blocks.h"
 #include "unchanged.h"
 
 namespace unchanged {
 namespace {
-
-struct Head {
-  void* base;
-  std::size_t size, alignment;
-};
 
 void* allocate(void* user, std::size_t size, std::size_t alignment) {
   Allocator& a = *static_cast<Allocator*>(user);
   ++a.calls;
   if (a.cancel_at && a.calls == a.cancel_at) hf_progress_cancel(a.progress);
   if (a.refuse_at && (a.calls == a.refuse_at || (a.refuse_on && a.calls > a.refuse_at))) return ++a.refused, nullptr;
-  char* const base = static_cast<char*>(std::malloc(size + alignment + sizeof(Head)));
-  if (!base) std::abort();
-  const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(base + sizeof(Head));
-  char* const block = base + sizeof(Head) + ((first + alignment - 1) / alignment * alignment - first);
-  const Head head = {base, size, alignment};
-  std::memcpy(block - sizeof head, &head, sizeof head);
   ++a.live_blocks, a.live_bytes += size, a.numeric_bytes += alignment == 64 ? size : 0;
-  return block;
+  return reliability::take_block(size, alignment);
 }
 
 void release(void* user, void* block, std::size_t size, std::size_t alignment) {
   Allocator& a = *static_cast<Allocator*>(user);
-  Head head;
-  std::memcpy(&head, static_cast<char*>(block) - sizeof head, sizeof head);
+  const reliability::BlockHead head = reliability::give_block(block);
   a.mismatches += head.size != size || head.alignment != alignment;
   --a.live_blocks, a.live_bytes -= head.size, a.numeric_bytes -= head.alignment == 64 ? head.size : 0;
-  std::free(head.base);
 }
 
 void add_sheet(Shape& shape, std::uint32_t columns, std::uint32_t rows, float x0) {
