@@ -7,6 +7,7 @@ namespace {
 // A change of this number would change the saved format.
 constexpr int chains = 8;
 // The hash asks for memory this many bytes ahead. Otherwise its chains of multiplications would wait for memory.
+// Half and twice the value take the same time within the noise of 10 %.
 constexpr int bytes_ahead = 4096;
 
 }  // namespace

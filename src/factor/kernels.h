@@ -13,6 +13,9 @@
 
 namespace hf_inner {
 
+// Kernels may touch this many numbers beyond the end of a scratch block: one AVX-512 vector of doubles.
+constexpr std::size_t widest_vector = 8;
+
 // Returns where column tile t of an update matrix with `tiles` tiles begins.
 constexpr std::int64_t update_tile_start(std::int64_t tiles, std::int64_t t) noexcept {
   return 64 * (t * tiles - t * (t - 1) / 2);

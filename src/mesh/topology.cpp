@@ -7,7 +7,8 @@
 namespace hf_inner {
 namespace {
 
-// Number of vertices that one thread's job takes. No result depends on this number.
+// Number of vertices that one thread's job takes. Half and twice the value take the same time within 10 %, the
+// noise of the measurement (two threads). No result depends on this number.
 constexpr std::size_t bucket_piece = 16384;
 
 }  // namespace
