@@ -279,9 +279,18 @@ void ConstraintEdit::take_gram(std::size_t first_group, Batch& batch) const {
   struct Pair {
     std::size_t a, b;
   };
+  // Paths of different components have no row in common, so groups without a row in a touched component are left out.
+  Vector<std::uint8_t> touched(state_.blocks.size(), 0, &memory());
+  for (const Row& row : batch.rows) touched[at(row.component)] = 1;
+  Vector<std::size_t> near(&memory());
   Vector<Pair> pairs(&memory());
-  for (std::size_t a = first_group; a < state_.groups.size(); ++a) {
-    for (std::size_t b = 0; b <= a; ++b) pairs.push_back({a, b});
+  for (std::size_t g = 0; g < state_.groups.size(); ++g) {
+    const auto& group = state_.groups[g];
+    if (std::any_of(std::begin(group.row), std::end(group.row),
+                    [&](Index row) { return row != no_row && touched[at(batch.where(row).component)]; }))
+      near.push_back(g);
+    if (g < first_group) continue;
+    for (const std::size_t b : near) pairs.push_back({g, b});
   }
   jobs_.for_each(static_cast<std::uint32_t>(pairs.size()), [&](std::uint32_t piece) {
     const auto& mine = state_.groups[pairs[piece].a];
