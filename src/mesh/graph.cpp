@@ -22,6 +22,9 @@ constexpr double rounding_share = 1e-12;
 // previews use. No matrix keeps the digits of weights that far apart, so the exact factor does not matter.
 constexpr double widest_spread = 1e30;
 
+// A cancelled call is noticed after this many vertices: some milliseconds. No result depends on it.
+constexpr std::size_t polled_piece = 16384;
+
 // One direction of an edge as given: its larger vertex and its weight.
 struct Arc {
   Index to;
@@ -83,6 +86,7 @@ void sum_edges(const GraphInput& input, Memory& memory, WeightedGraph& graph) {
   poll();
   graph.topology.edges.reserve(2 * arcs.size()), graph.weights.reserve(arcs.size());
   for (std::size_t v = 0; v < input.vertex_count; ++v) {
+    if (v % polled_piece == 0) poll();
     const auto begin = arcs.begin() + start[v], end = arcs.begin() + start[v + 1];
     std::sort(begin, end, [](const Arc& a, const Arc& b) { return a.to != b.to ? a.to < b.to : a.weight < b.weight; });
     for (auto arc = begin; arc != end;) {
