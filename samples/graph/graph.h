@@ -1,4 +1,4 @@
-/* What the two parts of this sample share. Both make a surface of a graph and solve a field on it. */
+/* Shared by the two parts of this sample: both make a surface of a graph and solve a field on it. */
 #ifndef HF_SAMPLES_GRAPH_H
 #define HF_SAMPLES_GRAPH_H
 
