@@ -17,7 +17,7 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "tests" / "bindings"), str(HERE
 import golden  # noqa: E402
 import hf  # noqa: E402
 from bad_scenes import bad_scenes  # noqa: E402
-from oracle import agree, cast_ray, expect, expect_all, expect_rows, field, rotation  # noqa: E402
+from oracle import agree, cast_ray, expect, expect_all, expect_rows, field, graph_field, rotation  # noqa: E402
 from shapes import bar, strip, torus  # noqa: E402
 
 
@@ -248,6 +248,7 @@ def scenes(meshes):
     plain_calls(scene, mesh, surface, solver)
     kinds_of_field(scene, mesh, surface, solver)
     picking(scene, mesh, surface)
+    graphs(scene, solver, solve)
     return found
 
 
@@ -316,6 +317,32 @@ def kinds_of_field(scene, mesh, surface, solver):
           {"do": "save", "on": "n", "as": "f", "field_kind": thin},
           {**surface("torus", "o", field_kind=thin), "factor": "f"},
           {**surface("torus", "o"), "factor": "f", "error": "HF_ERROR_INVALID_ARGUMENT"})
+
+
+def graphs(scene, solver, solve):
+    edges = [(0, 1), (1, 2), (2, 3), (3, 0), (2, 1), (4, 5), (5, 7), (7, 4)]
+    weights, masses = [1.0, 0.5, 2.0, 0.25, 1.5, 3.0, 1.0, 0.5], [1.0, 2.0, 3.0, 0.5, 1.0, 1.0, 4.0, 2.0]
+    given = {"do": "graph", "as": "m", "vertex_count": 8, "edges": [v for e in edges for v in e], "weights": weights,
+        "masses": masses}
+    sites = lambda on: {"do": "add_sites", "on": on, "vertices": [0, 2, 4], "values": [0.0, 1.0, 5.0]}
+    thin = hf.constants.HF_FIELD_BIHARMONIC
+    calls = [{"do": "pose", "as": "p"}, {"do": "direction", "as": "d"}, {"do": "region", "as": "r"},
+        {"do": "geodesics", "as": "g"}, {"do": "flow", "as": "f"},
+        {"do": "cast_ray", "origin": [0.0, 0.0, 1.0], "direction": [0.0, 0.0, -1.0]},
+        {"do": "find_vertex", "point": [0.0, 0.0, 0.0]}]
+    scene("graph", "A surface of edges and weights (oracle): parallel edges add up, a vertex without an edge holds 0.",
+          given, {"do": "report", "on": "m", "expect": {"component_count": 2, "vertex_count": 8}},
+          {"do": "components", "on": "m", "expect": {"count": 8, "at": [3, 5, 6], "values": [0, 1, 4294967295]}},
+          solver(), sites("s"), solve(graph_field(8, edges, weights, [0, 2, 4], [0.0, 1.0, 5.0])),
+          solver("b", field_kind=thin), sites("b"), {"do": "solve", "on": "b",
+              "expect": expect(graph_field(8, edges, weights, [0, 2, 4], [0.0, 1.0, 5.0], masses), 1e-8)},
+          *({**call, "on": "m", "error": "HF_ERROR_UNSUPPORTED"} for call in calls),
+          {**given, "edges": [*given["edges"][:5], 8, *given["edges"][6:]], "error": "HF_ERROR_OUT_OF_RANGE", "index": 2},
+          {**given, "weights": [*weights[:4], -1.0, *weights[5:]], "error": "HF_ERROR_INVALID_ARGUMENT", "index": 4},
+          {**given, "weights": [*weights[:7], "nan"], "error": "HF_ERROR_NON_FINITE", "index": 7},
+          {**given, "weights": weights[:7], "error": "HF_ERROR_INVALID_ARGUMENT"},
+          {**given, "masses": [0.0, *masses[1:]], "error": "HF_ERROR_INVALID_ARGUMENT", "index": 0},
+          {**given, "edges": [], "weights": [], "error": "HF_ERROR_EMPTY"})
 
 
 def picking(scene, mesh, surface):

@@ -35,6 +35,23 @@ def field(mesh, rows, values, stiffness=None, power=1):
     return np.linalg.solve(system, right)[:n]
 
 
+def graph_field(vertex_count, edges, weights, sites, values, masses=None):
+    """The field of a graph with hard sites; masses: bi-harmonic, K = L M^-1 L with the mean mass of a component as 1."""
+    matrix = np.zeros((vertex_count, vertex_count))
+    for (a, b), weight in zip(edges, weights):
+        matrix[[a, b], [a, b]] += weight
+        matrix[[a, b], [b, a]] -= weight
+    linked = np.linalg.matrix_power(np.abs(matrix) + np.eye(vertex_count), vertex_count) > 0
+    if masses is not None:
+        mean = np.array([np.mean(np.array(masses)[row]) for row in linked])
+        matrix = matrix @ np.diag(mean / np.array(masses)) @ matrix
+    found = np.zeros(vertex_count)
+    found[sites] = values
+    free = [v for v in range(vertex_count) if v not in sites and linked[v, sites].any()]
+    found[free] = np.linalg.solve(matrix[np.ix_(free, free)], -matrix[np.ix_(free, sites)] @ values)
+    return found
+
+
 def expect(array, tolerance=1e-9):
     flat = np.asarray(array, float).ravel()
     places = sorted({0, flat.size // 3, flat.size // 2, flat.size - 1}) if flat.size else []

@@ -11,8 +11,8 @@
 local core = require('hf_core')
 
 local hf = { constants = core.constants, C = core.C, is_error = core.is_error,
-  Surface = require('hf_surface'), Solver = require('hf_solver') }
-for _, name in ipairs({ 'hf_fields', 'hf_pose', 'hf_region' }) do
+  Solver = require('hf_solver') }
+for _, name in ipairs({ 'hf_surface', 'hf_fields', 'hf_pose', 'hf_region' }) do
   for class, new in pairs(require(name)) do hf[class] = new end
 end
 

@@ -61,6 +61,27 @@ typedef struct hf_surface_desc {
   hf_progress progress;
   const hf_factor_desc* saved_factor;
 } hf_surface_desc;
+typedef struct hf_graph_desc {
+  uint32_t struct_size;
+  uint32_t vertex_count;
+  uint32_t edge_count;
+  int32_t allow_negative;
+  const uint32_t* edges;
+  const double* weights;
+  const double* masses;
+  int32_t field_kind;
+  int32_t ordering;
+  uint32_t thread_count;
+  uint32_t vertex_limit;
+  uint32_t edge_limit;
+  uint32_t memory_limit_mb;
+  uint32_t work_limit_gflop;
+  uint32_t reserved;
+  hf_allocator allocator;
+  hf_job_runner job_runner;
+  hf_progress progress;
+  const hf_factor_desc* saved_factor;
+} hf_graph_desc;
 typedef struct hf_surface_info {
   uint32_t struct_size;
   uint32_t vertex_count;
@@ -75,6 +96,8 @@ typedef struct hf_surface_info {
   uint32_t triangle_limit;
   uint32_t memory_limit_mb;
   uint32_t work_limit_gflop;
+  uint32_t edge_count;
+  uint32_t edge_limit;
 } hf_surface_info;
 typedef struct hf_surface_report {
   uint32_t struct_size;
@@ -585,6 +608,7 @@ void hf_progress_destroy(hf_progress progress);
 hf_result hf_progress_get_fraction(hf_progress progress, float* out_fraction);
 hf_result hf_progress_cancel(hf_progress progress);
 hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_surface);
+hf_result hf_surface_create_graph(const hf_graph_desc* desc, hf_surface* out_surface);
 void hf_surface_destroy(hf_surface surface);
 hf_result hf_surface_get_info(hf_surface surface, hf_surface_info* out_info);
 hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_report);
@@ -731,6 +755,7 @@ local constants = { header_version = '0.1.0',
   HF_OPERATOR_CLAMPED = 1,
   HF_OPERATOR_UNIFORM = 2,
   HF_OPERATOR_COTANGENT = 3,
+  HF_OPERATOR_GRAPH = 4,
   HF_FIELD_HARMONIC = 0,
   HF_FIELD_BIHARMONIC = 1,
   HF_FIELD_BIHARMONIC_GRAPH = 2,

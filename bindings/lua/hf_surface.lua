@@ -9,6 +9,25 @@ local Surface = class('Surface', function(raw) C.hf_surface_destroy(raw) end)
 local create_options = set('weld weld_tolerance operator_kind field_kind ordering thread_count vertex_limit ' ..
   'triangle_limit memory_limit_mb position_stride triangle_stride')
 
+local graph_options = set('allow_negative field_kind ordering thread_count vertex_limit edge_limit memory_limit_mb')
+
+-- Sets the options of a desc and makes the surface.
+local function finish(desc, options, allowed, make_surface)
+  local plain = {}
+  for key, value in pairs(options) do
+    if key ~= 'saved_factor' and key ~= 'masses' then plain[key] = value end
+  end
+  options_into(desc, plain, allowed)
+  local factor
+  if options.saved_factor then
+    if type(options.saved_factor) ~= 'string' then fail('saved_factor must be a string of bytes') end
+    factor = make('hf_factor_desc', { byte_count = #options.saved_factor })
+    factor.bytes = ffi.cast('const char*', options.saved_factor)
+    desc.saved_factor = factor
+  end
+  return create(Surface, 'hf_surface', { vertex_count = desc.vertex_count }, make_surface, desc)
+end
+
 -- triangles: a list, or cdata uint32_t[?] or uint16_t[?]; triangle_count: for cdata with a stride
 local function new(positions, triangles, options)
   options = options or {}
@@ -24,17 +43,20 @@ local function new(positions, triangles, options)
     triangle_count = corners and corner_count / row or 0 })
   desc[single and 'positions' or 'positions_f64'] = xyz
   if corner_count > 0 then desc[half and 'triangles_u16' or 'triangles'] = corners end
-  local plain = {}
-  for key, value in pairs(options) do if key ~= 'saved_factor' then plain[key] = value end end
-  options_into(desc, plain, create_options)
-  local factor
-  if options.saved_factor then
-    if type(options.saved_factor) ~= 'string' then fail('saved_factor must be a string of bytes') end
-    factor = make('hf_factor_desc', { byte_count = #options.saved_factor })
-    factor.bytes = ffi.cast('const char*', options.saved_factor)
-    desc.saved_factor = factor
-  end
-  return create(Surface, 'hf_surface', { vertex_count = count / 3 }, C.hf_surface_create, desc)
+  return finish(desc, options, create_options, C.hf_surface_create)
+end
+
+-- A surface of a graph: two vertices for each edge, and its weight. options.masses: a list, for bi-harmonic fields.
+local function from_graph(vertex_count, edges, weights, options)
+  options = options or {}
+  local ends, end_count = array(edges, 'uint32_t', 'edges')
+  local sizes, edge_count = doubles(weights, 'weights')
+  if ends and sizes and end_count ~= 2 * edge_count then fail('edges must hold two vertices for each of the weights') end
+  local masses = doubles(options.masses, 'masses', vertex_count)
+  local desc = make('hf_graph_desc', { vertex_count = core.whole(vertex_count, 'vertex_count'),
+    edge_count = edge_count })
+  desc.edges, desc.weights, desc.masses = ends, sizes, masses
+  return finish(desc, options, graph_options, C.hf_surface_create_graph)
 end
 function Surface:info() return query('hf_surface_info', C.hf_surface_get_info, self.raw) end
 function Surface:report() return query('hf_surface_report', C.hf_surface_get_report, self.raw) end
@@ -113,4 +135,4 @@ function Surface:find_extremities()
     count) end)
 end
 
-return new
+return { Surface = new, graph_surface = from_graph }

@@ -102,6 +102,21 @@ class Surface {
     check(hf_surface_create(&desc, &raw));
     handle_ = Handle<hf_surface, hf_surface_destroy>(raw);
   }
+  // Makes a surface of a graph: two vertices for each edge, and its weight. Fields work on it; what needs triangles
+  // does not (hf_surface_create_graph).
+  explicit Surface(const hf_graph_desc& desc) : vertices_(desc.vertex_count) {
+    hf_surface raw = nullptr;
+    check(hf_surface_create_graph(&desc, &raw));
+    handle_ = Handle<hf_surface, hf_surface_destroy>(raw);
+  }
+  static Surface from_graph(uint32_t vertex_count, const std::vector<uint32_t>& edges,
+                            const std::vector<double>& weights) {
+    if (edges.size() != 2 * weights.size()) throw std::invalid_argument("edges hold two vertices for each weight");
+    auto desc = make<hf_graph_desc>();
+    desc.vertex_count = vertex_count, desc.edge_count = static_cast<uint32_t>(weights.size());
+    desc.edges = edges.data(), desc.weights = weights.data();
+    return Surface(desc);
+  }
   // Makes a surface. positions: x, y, z of each vertex. triangles: three vertices each.
   Surface(const std::vector<float>& positions, const std::vector<uint32_t>& triangles)
       : Surface(mesh(positions, triangles)) {}

@@ -90,9 +90,10 @@ typedef struct hf_sites_desc {
 
 /* Adds sites. out_sites: NULL, or receives their numbers in uint32_t[site_count]. A site keeps its number until it is
  * removed; later sites reuse free numbers. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE,
- * HF_ERROR_INVALID_ARGUMENT (weights, stiffness, isolated vertex), HF_ERROR_DUPLICATE_SITE (the vertex, or a welded
- * copy, has a site of the same values), HF_ERROR_CONFLICT (of other values, or the point depends linearly on hard
- * sites), HF_ERROR_TOO_LARGE (site_limit, a value). Thread safety: changes `solver`. Since 0.1. */
+ * HF_ERROR_INVALID_ARGUMENT (weights, stiffness, isolated vertex), HF_ERROR_UNSUPPORTED (a point in a triangle or a
+ * disc on a graph), HF_ERROR_DUPLICATE_SITE (the vertex, or a welded copy, has a site of the same values),
+ * HF_ERROR_CONFLICT (of other values, or the point depends linearly on hard sites), HF_ERROR_TOO_LARGE (site_limit, a
+ * value). Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint32_t* out_sites);
 
 /* Adds one hard site at a vertex. values: double[channel_count], or NULL for 0. out_site: NULL, or receives the number

@@ -1,8 +1,8 @@
 /* hf/surface.h - prepare a mesh once: weld it, check it and factorise its Laplacian.
  *
- * Make one surface per mesh. Solvers, poses, direction fields, regions, transfers and quads are made on a surface and
- * share its factor. A surface never changes, so any number of threads may use it. An object made on a surface keeps the
- * data it needs, so you can destroy handles in any order. */
+ * Make one surface per mesh, or per graph of your own (hf_surface_create_graph). Solvers, poses, direction fields,
+ * regions, transfers and quads are made on a surface and share its factor. A surface never changes, so any number of
+ * threads may use it. An object made on a surface keeps the data it needs, so you can destroy handles in any order. */
 #ifndef HF_SURFACE_H
 #define HF_SURFACE_H
 
@@ -31,7 +31,8 @@ enum {
                                          sites on any mesh */
   HF_OPERATOR_CLAMPED = 1,            /* cotangents, at least 1e-3 of the median weight: keeps to the range too */
   HF_OPERATOR_UNIFORM = 2,            /* w_ij = 1 */
-  HF_OPERATOR_COTANGENT = 3 /* w_ij = (cot a_ij + cot b_ij) / 2, the paper's; can be negative at obtuse triangles */
+  HF_OPERATOR_COTANGENT = 3, /* w_ij = (cot a_ij + cot b_ij) / 2, the paper's; can be negative at obtuse triangles */
+  HF_OPERATOR_GRAPH = 4      /* your own weights; only hf_surface_create_graph makes it */
 };
 
 /* Selects the matrix K that a field solves with. A bi-harmonic field is smooth at its sites and overshoots their
@@ -105,6 +106,49 @@ typedef struct hf_surface_desc {
  * any thread. Since 0.1. */
 HF_API hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_surface);
 
+/* A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
+ * the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of hf_surface_desc. */
+typedef struct hf_graph_desc {
+  uint32_t struct_size;
+  uint32_t vertex_count;  /* >= 1 */
+  uint32_t edge_count;    /* >= 1 */
+  int32_t allow_negative; /* 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
+                             tetrahedra do. A field can then leave the range of its sites. 0: they are refused */
+  const uint32_t* edges;  /* [edge_count][2] vertices, in any order. The weights of parallel edges are added up. Self
+                             loops are ignored */
+  const double* weights;  /* [edge_count] any unit, up to 1e100 in size. An edge of weight 0 is left out */
+  const double* masses;   /* [vertex_count] M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; NULL: all 1. A
+                             mass below 1e-4 of the mean of its component counts as that */
+  int32_t field_kind;     /* HF_FIELD_*: the factor made now. Others are made when a solver asks */
+  int32_t ordering;       /* HF_ORDERING_* */
+  uint32_t thread_count;  /* threads the library may use, yours included, 1 to 256; 0 = 1 */
+  uint32_t vertex_limit;  /* refuse larger graphs before allocating; 0 = 20,000,000 */
+  uint32_t edge_limit;    /* refuse more edges; 0 = sixteen per vertex of the vertex limit */
+  uint32_t memory_limit_mb;           /* refuse to hold more memory than this, in MiB; 0 = no limit */
+  uint32_t work_limit_gflop;          /* refuse a factorisation of more than this many 10^9 operations; 0 = 100,000 */
+  uint32_t reserved;                  /* 0 */
+  hf_allocator allocator;             /* zero = malloc */
+  hf_job_runner job_runner;           /* zero = threads of the library's own */
+  hf_progress progress;               /* NULL, or an object to poll and cancel through */
+  const hf_factor_desc* saved_factor; /* NULL, or the saved factor of this graph; ordering is then 0 or the factor's */
+} hf_graph_desc;
+
+/* Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call copies the graph.
+ * Solvers with sites at vertices, fields, previews, certificates, clones, undo, saved factors, components and reports
+ * work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED: poses, regions, directions, geodesics,
+ * iso-lines, extremities, quads, flow, picking, transfers, vector fields, and sites in triangles or on discs.
+ *
+ * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
+ * median of their component are limited; hf_surface_report counts their vertices as changed. Bi-harmonic fields limit
+ * weights to 1e3 times the median. out_surface: receives NULL at the start of the call and the new handle on success.
+ * Cost: that of the factor; a graph of a volume has a larger one than a mesh of as many vertices. Errors:
+ * HF_ERROR_INVALID_ARGUMENT (index = edge or vertex: a negative weight, a mass), HF_ERROR_EMPTY (no vertex, no edge, or
+ * none left), HF_ERROR_OUT_OF_RANGE (index = edge), HF_ERROR_NON_FINITE (index = edge, or vertex of a mass),
+ * HF_ERROR_TOO_LARGE (a limit, a weight, a mass), HF_ERROR_UNSUPPORTED (ordering not in this build),
+ * HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE (index = vertex: negative weights outweigh the others). With
+ * saved_factor also as hf_surface_create. Thread safety: any thread. Since 0.1. */
+HF_API hf_result hf_surface_create_graph(const hf_graph_desc* desc, hf_surface* out_surface);
+
 /* Destroys a surface. Ignores NULL and destroyed handles. Objects that were made on the surface stay valid. Thread
  * safety: any thread. Since 0.1. */
 HF_API void hf_surface_destroy(hf_surface surface);
@@ -124,19 +168,21 @@ typedef struct hf_surface_info {
   uint32_t triangle_limit;  /* 0: eight per vertex of the vertex limit */
   uint32_t memory_limit_mb; /* 0: none */
   uint32_t work_limit_gflop;
+  uint32_t edge_count; /* as given to hf_surface_create_graph; 0 for a mesh */
+  uint32_t edge_limit; /* of a graph, 0: sixteen per vertex of the vertex limit */
 } hf_surface_info;
 
 /* Writes the options of a surface. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_info(hf_surface surface, hf_surface_info* out_info);
 
-/* Counts of what the surface found in the mesh. */
+/* Counts of what the surface found in the mesh. A graph has edges for triangles: its counts of triangles are 0. */
 typedef struct hf_surface_report {
   uint32_t struct_size;
   uint32_t vertex_count;              /* as given */
   uint32_t triangle_count;            /* as given */
   uint32_t welded_vertex_count;       /* after welding */
-  uint32_t component_count;           /* connected components with at least one triangle, after welding */
-  uint32_t isolated_vertex_count;     /* given vertices in no usable triangle; fields are 0 there */
+  uint32_t component_count;           /* connected components with at least one triangle (or edge), after welding */
+  uint32_t isolated_vertex_count;     /* given vertices in no usable triangle (or edge); fields are 0 there */
   uint32_t degenerate_triangle_count; /* zero area to working precision */
   uint32_t collapsed_triangle_count;  /* two or three equal corners after welding; left out */
   uint32_t duplicate_triangle_count;  /* the same three corners again */

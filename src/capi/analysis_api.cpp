@@ -82,7 +82,7 @@ extern "C" {
 hf_result hf_surface_space_levels(hf_surface handle, const hf_scalars* field, int32_t spacing, uint32_t level_count,
                                   double* out_levels) {
   return guarded("hf_surface_space_levels", [&] {
-    const auto surface = get<SurfaceObject>(handle, "surface");
+    const auto surface = mesh_surface(handle, "levels");
     check_choice(spacing, 3, "spacing");
     constexpr std::uint32_t most = 1000000;  // levels: bounds the memory a wrong count could ask for
     if (level_count < 1 || level_count > most)
@@ -99,7 +99,7 @@ hf_result hf_surface_space_levels(hf_surface handle, const hf_scalars* field, in
 hf_result hf_surface_trace_isolines(hf_surface handle, const hf_scalars* given, uint32_t level_count,
                                     const double* levels, hf_isolines* inout_lines) {
   return guarded("hf_surface_trace_isolines", [&] {
-    const auto surface = get<SurfaceObject>(handle, "surface");
+    const auto surface = mesh_surface(handle, "iso-lines");
     hf_isolines out = read_struct(inout_lines, "inout_lines");
     require_zero(out.reserved);
     require_list(level_count, levels, "level_count", "levels");
@@ -139,7 +139,7 @@ hf_result hf_surface_trace_isolines(hf_surface handle, const hf_scalars* given, 
 hf_result hf_surface_find_critical_points(hf_surface handle, const hf_scalars* given, uint32_t capacity,
                                           hf_critical_point* out_points, hf_critical_info* out_info) {
   return guarded("hf_surface_find_critical_points", [&] {
-    const auto surface = get<SurfaceObject>(handle, "surface");
+    const auto surface = mesh_surface(handle, "critical points");
     require_either(out_points, out_info, "out_points and out_info");
     if (out_info) check_struct(out_info, "out_info");
     const Geometry& shape = surface->surface.geometry();
@@ -162,7 +162,7 @@ hf_result hf_surface_find_critical_points(hf_surface handle, const hf_scalars* g
 
 hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* given, hf_geodesics* out_geodesics) {
   return create("hf_geodesics_create", out_geodesics, "out_geodesics", [&] {
-    const std::shared_ptr<const Core> core = harmonic_core(surface);
+    const std::shared_ptr<const Core> core = harmonic_core(surface, "geodesic distances");
     const hf_geodesics_desc desc = read_optional(given, "desc");
     const double smoothing = static_cast<double>(desc.smoothing);
     // The accepted range catches wrong units. On a sphere of 20,000 vertices the mean error is 1.2 % of the longest
@@ -196,7 +196,7 @@ hf_result hf_geodesics_solve_f64(hf_geodesics geodesics, uint32_t source_count, 
 hf_result hf_surface_find_extremities(hf_surface handle, const hf_extremities_desc* given, uint32_t capacity,
                                       hf_extremity* out_extremities, uint32_t* out_count) {
   return guarded("hf_surface_find_extremities", [&] {
-    const std::shared_ptr<const Core> shared = harmonic_core(handle);
+    const std::shared_ptr<const Core> shared = harmonic_core(handle, "extremities");
     const hf_extremities_desc desc = read_extremities(given);
     require_either(out_extremities, out_count, "out_extremities and out_count");
     const Core& core = *shared;

@@ -9,6 +9,7 @@
 #include "engine/surface.h"
 #include "field/scalar_field.h"
 #include "hf/surface.h"
+#include "mesh/places.h"
 
 namespace hf_inner::capi {
 
@@ -45,11 +46,20 @@ struct SurfaceObject final : Object {
   const hf_surface_info info;
 };
 
-// Returns the harmonic core (operator and factor) of a surface. Poses, transfers, directions, distances and quads are
-// built on this core.
-inline std::shared_ptr<const Core> harmonic_core(hf_surface handle, const char* name = "surface",
+// Returns a surface that has triangles. purpose: what the call needs them for. Throws HF_ERROR_UNSUPPORTED for one made
+// of a graph.
+inline std::shared_ptr<SurfaceObject> mesh_surface(hf_surface handle, const char* purpose, const char* name = "surface",
+                                                   std::uint32_t index = HF_NO_INDEX) {
+  std::shared_ptr<SurfaceObject> object = get<SurfaceObject>(handle, name, index);
+  require_triangles(object->surface.geometry().mesh, purpose, index);
+  return object;
+}
+
+// Returns the harmonic core (operator and factor) of such a surface. Poses, transfers, directions, distances and quads
+// are built on this core.
+inline std::shared_ptr<const Core> harmonic_core(hf_surface handle, const char* purpose, const char* name = "surface",
                                                  std::uint32_t index = HF_NO_INDEX) {
-  return get<SurfaceObject>(handle, name, index)->surface.core(FieldKind::harmonic);
+  return mesh_surface(handle, purpose, name, index)->surface.core(FieldKind::harmonic);
 }
 
 struct SolverObject final : Object {

@@ -176,7 +176,7 @@ extern "C" {
 
 hf_result hf_pose_create(hf_surface surface, const hf_pose_desc* given, hf_pose* out_pose) {
   return create("hf_pose_create", out_pose, "out_pose", [&] {
-    const std::shared_ptr<const Core> core = harmonic_core(surface);
+    const std::shared_ptr<const Core> core = harmonic_core(surface, "a pose");
     const hf_pose_desc desc = read_optional(given, "desc");
     PoseOptions options;
     options.mode = static_cast<DeformMode>(desc.mode), options.band_count = desc.band_count;

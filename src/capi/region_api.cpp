@@ -48,7 +48,7 @@ extern "C" {
 
 hf_result hf_region_create(hf_surface handle, const hf_region_desc* given, hf_region* out_region) {
   return create("hf_region_create", out_region, "out_region", [&] {
-    const auto surface = get<SurfaceObject>(handle, "surface");
+    const auto surface = mesh_surface(handle, "a region");
     const hf_region_desc desc = read_optional(given, "desc");
     check_choice(desc.field_kind, 3, "field_kind");
     require_zero(desc.reserved);

@@ -223,7 +223,8 @@ hf_result hf_solver_get_sites(hf_solver handle, hf_sites_info* inout) {
       if (info.stiffness) info.stiffness[at] = slot.stiffness;
       if (info.radii) info.radii[at] = slot.radius;
       if (info.values) std::copy_n(sites.values() + s * m, m, info.values + at * m);
-      if (info.flux) std::copy_n(flux.data() + s * m, m, info.flux + at * m);
+      const double unit = solver->field.core().flux_unit(slot.site.component);
+      for (std::size_t c = 0; info.flux && c < m; ++c) info.flux[at * m + c] = unit * flux[s * m + c];
       ++at;
     }
   });

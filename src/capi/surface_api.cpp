@@ -4,6 +4,7 @@
 
 #include "capi/boundary.h"
 #include "capi/objects.h"
+#include "capi/surface_options.h"
 #include "capi/vertex_writer.h"
 #include "factor/factor_bytes.h"
 #include "factor/ordering.h"
@@ -22,6 +23,8 @@ Ordering ordering_of(std::int32_t given) noexcept {
                                                : Ordering::nested_dissection;
 }
 
+}  // namespace
+
 hf_surface_info read_info(const hf_surface_desc& desc) {
   hf_surface_info info{};
   check_choice(desc.weld, 3, "weld");
@@ -39,6 +42,8 @@ hf_surface_info read_info(const hf_surface_desc& desc) {
   require_zero(desc.reserved);
   return info;
 }
+
+namespace {
 
 MeshInput read_mesh(const hf_surface_desc& desc) {
   check_one(desc.positions, desc.positions_f64, "positions");
@@ -60,6 +65,8 @@ MeshInput read_mesh(const hf_surface_desc& desc) {
   return input;
 }
 
+}  // namespace
+
 void read_saved_factor(const hf_surface_desc& desc, CoreOptions& options) {
   const hf_factor_desc saved = read_struct(desc.saved_factor, "saved_factor");
   require(saved.bytes, "saved_factor->bytes");
@@ -74,6 +81,8 @@ void read_saved_factor(const hf_surface_desc& desc, CoreOptions& options) {
          static_cast<int>(ordering));
   options.ordering = ordering;
 }
+
+namespace {
 
 // ---- picking ----
 
@@ -104,7 +113,7 @@ extern "C" {
 hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surface) {
   return create("hf_surface_create", out_surface, "out_surface", [&] {
     const hf_surface_desc desc = read_struct(given, "desc");
-    hf_surface_info info = read_info(desc);
+    const hf_surface_info info = read_info(desc);
     if (info.vertex_count > info.vertex_limit)
       fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; the vertex_limit is %u", info.vertex_count,
            info.vertex_limit);
@@ -116,20 +125,8 @@ hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surfac
            "%u triangles; without a triangle_limit at most eight per vertex of the vertex_limit %u are taken",
            info.triangle_count, info.vertex_limit);
     const MeshInput input = read_mesh(desc);
-    if ((desc.allocator.allocate == nullptr) != (desc.allocator.release == nullptr))
-      fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "allocator: set both allocate and release, or neither");
-    CoreOptions options;
-    options.flop_limit = 1e9 * static_cast<double>(info.work_limit_gflop);
-    options.operator_kind = static_cast<OperatorKind>(desc.operator_kind);
-    options.field_kind = static_cast<FieldKind>(desc.field_kind);
-    options.ordering = ordering_of(desc.ordering);
-    if (desc.saved_factor) read_saved_factor(desc, options);
-    info.ordering = static_cast<std::int32_t>(options.ordering);
-    return with_progress(desc.progress, [&] {
-      auto memory = make_memory(desc.allocator, std::uint64_t{desc.memory_limit_mb} << 20);
-      auto jobs = make_shared_in<JobRunner>(*memory, info.thread_count, desc.job_runner);
-      auto geometry = Geometry::make(input, options.operator_kind, memory, std::move(jobs));
-      return make_owner_in<SurfaceObject>(memory, std::move(geometry), options, info);
+    return make_surface(desc, info, [&](const std::shared_ptr<Memory>& memory, std::shared_ptr<JobRunner> jobs) {
+      return Geometry::make(input, static_cast<OperatorKind>(info.operator_kind), memory, std::move(jobs));
     });
   });
 }
@@ -229,7 +226,7 @@ hf_result hf_surface_save(hf_surface handle, int32_t field_kind, hf_progress pro
 hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const double* direction,
                               const hf_pick_desc* desc, hf_hit* out_hit) {
   return guarded("hf_surface_cast_ray", [&] {
-    const auto object = get<SurfaceObject>(surface, "surface");
+    const auto object = mesh_surface(surface, "picking");
     const Geometry& shape = object->surface.geometry();
     const Vec3 from = read_point(origin, "origin"), along = read_point(direction, "direction");
     if (along.x == 0 && along.y == 0 && along.z == 0)
@@ -250,7 +247,7 @@ hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const do
 hf_result hf_surface_find_vertex(hf_surface surface, const double* point, const hf_pick_desc* desc,
                                  uint32_t* out_vertex, double* out_distance) {
   return guarded("hf_surface_find_vertex", [&] {
-    const auto object = get<SurfaceObject>(surface, "surface");
+    const auto object = mesh_surface(surface, "picking");
     const Geometry& shape = object->surface.geometry();
     const Vec3 p = read_point(point, "point");
     require(out_vertex, "out_vertex");

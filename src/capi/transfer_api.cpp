@@ -55,7 +55,8 @@ hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_tran
   return create("hf_transfer_create", out_transfer, "out_transfer", [&] {
     get<SurfaceObject>(source, "source", 0), get<SurfaceObject>(target, "target", 1);
     const TransferOptions options = read_options(desc);
-    const auto from = harmonic_core(source, "source", 0), to = harmonic_core(target, "target", 1);
+    const auto from = harmonic_core(source, "a transfer", "source", 0),
+               to = harmonic_core(target, "a transfer", "target", 1);
     return make_owner_in<TransferObject>(to->memory, from, to, options);
   });
 }

@@ -66,6 +66,10 @@ constexpr double confined_spread = 1e4, confined_biharmonic_spread = 10;
 // fourth-order operator keep 1 / n^2, so it has the default limit.
 constexpr double harmonic_lost_share = 0x1p-31;
 
+// Weights of a graph at most this large are rounding beside its median, which is near 1, and do not count for a cap.
+// The cotangents of right angles in tetrahedra are such weights; with many of them the median of all would be one.
+constexpr double graph_rounding = 1e-12;
+
 // Commute time in roundings of 2^-52 above which a shape may be long. A chain of 20,000 triangles has 1e-7 and is off
 // by 6e-10. At half the value, shapes that are right to 1e-9 are corrected too.
 constexpr double long_share = 1e-8;
@@ -100,7 +104,10 @@ void make_operator(Core& core, const CoreOptions& options, int cap, const Vector
                                               options.field_kind == FieldKind::biharmonic, pool, core.jobs.get());
     core.laplacian = std::move(made.laplacian), areas = std::move(made.areas), changed = std::move(made.changed);
   } else {
-    if (options.operator_kind != OperatorKind::uniform) changed = widened_vertices(core.mesh, pool);
+    if (options.operator_kind == OperatorKind::graph)
+      changed.assign(core.geometry->limited.begin(), core.geometry->limited.end());
+    else if (options.operator_kind != OperatorKind::uniform)
+      changed = widened_vertices(core.mesh, pool);
     core.laplacian = hf_inner::laplacian(core.topology, core.weights, pool, core.jobs.get());
     if (options.field_kind == FieldKind::biharmonic) areas.assign(core.areas.begin(), core.areas.end());
   }
@@ -108,7 +115,7 @@ void make_operator(Core& core, const CoreOptions& options, int cap, const Vector
   const double spread = harmonic ? confined_spread : confined_biharmonic_spread;
   changed.resize(at(core.size()), 0);
   if (!harmonic) {
-    cap_weights(core.laplacian, weight_caps[cap], pool, &changed);
+    cap_weights(core.laplacian, weight_caps[cap], pool, &changed, core.mesh.is_graph() ? graph_rounding : 0.0);
   } else if (tie_shares[cap] > 0) {
     tie_weakly(core.laplacian, tie_shares[cap], pool);
     std::fill(changed.begin(), changed.end(), std::uint8_t{1});
@@ -156,6 +163,19 @@ class InPlaceGrounds {
   Core& core_;
   Vector<double> plain_;
 };
+
+// Limited weights are above 0. They would be another operator than the caller's, if that has negative ones.
+bool has_negative_weights(const Core& core) noexcept {
+  return core.mesh.is_graph() && core.mesh.report.negative_edge_count > 0;
+}
+
+[[noreturn]] void refuse_indefinite(const Core& core, std::uint32_t unknown) {
+  const std::uint32_t vertex = static_cast<std::uint32_t>(core.mesh.given_of_inner[unknown]);
+  fail(
+      HF_ERROR_NOT_POSITIVE_DEFINITE, vertex,
+      "the weights make a matrix that is not positive semi-definite, as found at vertex %u; raise the negative weights",
+      vertex);
+}
 
 FactorOptions factor_options(const CoreOptions& options) noexcept {
   FactorOptions out;
@@ -214,6 +234,8 @@ std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, co
       // both cases the loop builds the operator with the next limit and tries again.
       const bool loading = !options.saved_factor.empty();
       if (!confined.empty() || !(loading || error.code() == HF_ERROR_NOT_POSITIVE_DEFINITE)) throw;
+      if (cap + 1 == cap_count && has_negative_weights(*core) && error.code() == HF_ERROR_NOT_POSITIVE_DEFINITE)
+        refuse_indefinite(*core, error.index());
       if (cap + 1 == cap_count) {
         core->confined_hash = grounded_hash(*core) + 1;
         if (loading && saved_matrix_hash(options.saved_factor) != core->confined_hash) throw;
@@ -245,6 +267,7 @@ SymmetricMatrix grounded(const Core& core) {
 
 Vector<float> ordering_coordinates(const Mesh& mesh, Memory& memory) {
   Vector<float> coordinates(&memory);
+  if (mesh.is_graph()) return coordinates;
   coordinates.reserve(3 * mesh.positions.size());
   for (const Vec3& p : mesh.positions) {
     coordinates.push_back(static_cast<float>(p.x));

@@ -37,6 +37,11 @@ struct Core {
                                           std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs);
 
   std::int32_t size() const noexcept { return mesh.vertex_count(); }
+  // A flux of 1 in a component is this much in the caller's unit of weights. Bi-harmonic operators square the weights.
+  double flux_unit(std::int32_t component) const noexcept {
+    const double unit = geometry->weight_unit(component);
+    return field_kind == FieldKind::harmonic ? unit : unit * unit;
+  }
 
   std::shared_ptr<Memory> memory;  // first member: outlives what is allocated from it
   std::shared_ptr<const Geometry> geometry;
@@ -78,7 +83,7 @@ SymmetricMatrix grounded(const Core& core);
 // Returns the hash of the factorised matrix A, by which a saved factor recognises its mesh. It covers the pattern and
 // the numbers of K, and the pinned vertices with their weights.
 std::uint64_t grounded_hash(const Core& core);
-// Returns the coordinates of the welded vertices in the format that the ordering needs.
+// Returns the coordinates of the welded vertices in the format that the ordering needs; none for a graph.
 Vector<float> ordering_coordinates(const Mesh& mesh, Memory& memory);
 
 }  // namespace hf_inner

@@ -13,12 +13,26 @@ Geometry::Geometry(std::shared_ptr<Memory> owner, std::shared_ptr<JobRunner> run
       areas(memory.get()),
       weights(memory.get()),
       given_count(memory.get()),
+      weight_units(memory.get()),
+      limited(memory.get()),
       workspaces(*memory),
       zeroed_workspaces(*memory, true) {}
 
+namespace {
+
+constexpr float welded = 0.1f, weighted = 0.15f;  // reported progress, by the usual share of time
+
+void count_given(Geometry& shape) {
+  shape.given_count.assign(shape.mesh.report.component_count, 0);
+  for (const Index v : shape.mesh.inner_of_given) {
+    if (v != Mesh::none) ++shape.given_count[at(shape.mesh.component[at(v)])];
+  }
+}
+
+}  // namespace
+
 std::shared_ptr<const Geometry> Geometry::make(const MeshInput& input, OperatorKind operator_kind,
                                                std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs) {
-  constexpr float welded = 0.1f, weighted = 0.15f;  // reported progress, by the usual share of time
   Memory& pool = *memory;
   const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(memory, memory, std::move(jobs));
   JobRunner* const runner = shape->jobs.get();
@@ -40,11 +54,24 @@ std::shared_ptr<const Geometry> Geometry::make(const MeshInput& input, OperatorK
   if (operator_kind == OperatorKind::clamped || operator_kind == OperatorKind::uniform)
     shape->weights = edge_weights(shape->mesh, shape->topology, operator_kind, pool, runner);
   count_edges(shape->mesh, shape->topology, found);
-  shape->given_count.assign(found.component_count, 0);
-  for (const Index v : shape->mesh.inner_of_given) {
-    if (v != Mesh::none) ++shape->given_count[at(shape->mesh.component[at(v)])];
-  }
+  count_given(*shape);
   shape->weights_ms = weights_timer.milliseconds();
+  report(weighted);
+  return shape;
+}
+
+std::shared_ptr<const Geometry> Geometry::make(const GraphInput& input, std::shared_ptr<Memory> memory,
+                                               std::shared_ptr<JobRunner> jobs) {
+  const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(memory, memory, std::move(jobs));
+  shape->operator_kind = OperatorKind::graph;
+  report(0.0f);
+  Timer timer;
+  WeightedGraph graph = WeightedGraph::make(input, *memory);
+  shape->mesh = std::move(graph.mesh), shape->topology = std::move(graph.topology);
+  shape->areas = std::move(graph.masses), shape->weights = std::move(graph.weights);
+  shape->weight_units = std::move(graph.weight_unit), shape->limited = std::move(graph.limited);
+  count_given(*shape);
+  shape->weights_ms = timer.milliseconds();
   report(weighted);
   return shape;
 }

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "engine/workspaces.h"
+#include "mesh/graph.h"
 #include "mesh/laplacian.h"
 #include "mesh/mesh.h"
 #include "mesh/topology.h"
@@ -22,13 +23,23 @@ struct Geometry {
   static std::shared_ptr<const Geometry> make(const MeshInput& input, OperatorKind operator_kind,
                                               std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs);
 
+  // Reads a graph of the caller (WeightedGraph::make), for OperatorKind::graph. Throws what that throws.
+  static std::shared_ptr<const Geometry> make(const GraphInput& input, std::shared_ptr<Memory> memory,
+                                              std::shared_ptr<JobRunner> jobs);
+  // The weight, in the caller's unit, that a weight of 1 stands for in a component: 1 unless made of a graph.
+  double weight_unit(std::int32_t component) const noexcept {
+    return weight_units.empty() ? 1.0 : weight_units[static_cast<std::size_t>(component)];
+  }
+
   std::shared_ptr<Memory> memory;  // first member: outlives what is allocated from it
   std::shared_ptr<JobRunner> jobs;
   Mesh mesh;
   Topology topology;
-  Vector<double> areas;               // per vertex, a third of the triangles around it
+  Vector<double> areas;               // per vertex, a third of the triangles around it; the masses of a graph
   Vector<double> weights;             // of the Laplacian, per edge of the mesh
   Vector<std::uint32_t> given_count;  // vertices as given, by component
+  Vector<double> weight_units;        // of a graph, by component (graph.h); else empty
+  Vector<std::uint8_t> limited;       // of a graph, by vertex (graph.h); else empty
   OperatorKind operator_kind = OperatorKind::intrinsic_delaunay;
   double weld_ms = 0, weights_ms = 0;
   mutable WorkspacePool workspaces;

@@ -259,6 +259,7 @@ void SiteSet::add(const Core& core, const Places& places, const double* values, 
     arrival.radius = places.radii ? places.radii[i] : 0.0;
     if (!std::isfinite(arrival.radius))
       fail(HF_ERROR_NON_FINITE, i, "site %u of the batch: radius is not a finite number", i);
+    if (arrival.radius > 0) require_triangles(core.mesh, "a disc", i);
     if (arrival.radius < 0)
       fail(HF_ERROR_INVALID_ARGUMENT, i, "site %u of the batch: radius is %g; use 0 for a point or a number above 0", i,
            arrival.radius);

@@ -37,6 +37,7 @@ Vec3 turned(Vec3 v, Vec3 axis, double angle) noexcept {
 }  // namespace
 
 void require_vectors(const ScalarField& field) {
+  require_triangles(field.core().mesh, "the normals of a vector field");
   if (field.sites().channels() != 3)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the solver has %d channels; vector fields need channel_count 3",
          field.sites().channels());

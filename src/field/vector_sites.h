@@ -5,7 +5,7 @@
 
 namespace hf_inner {
 
-// Throws HF_ERROR_INVALID_ARGUMENT for a field of other than 3 channels.
+// Throws HF_ERROR_INVALID_ARGUMENT for a field of other than 3 channels, HF_ERROR_UNSUPPORTED on a graph.
 void require_vectors(const ScalarField& field);
 
 // Moves sites to vertices of the caller's mesh in the same component. Each vector is carried along the shortest path of

@@ -82,7 +82,8 @@ Vector<double> inverse_masses(const Mesh& mesh, Vector<double> areas) {
   return areas;
 }
 
-std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memory, Vector<std::uint8_t>* changed) {
+std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memory, Vector<std::uint8_t>* changed,
+                         double rounding) {
   Vector<double> magnitude(&memory);
   magnitude.reserve(laplacian.row.size());
   const auto each_column = [&](auto&& work) {
@@ -91,7 +92,8 @@ std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memor
     }
   };
   each_column([&](Index v, std::size_t i) {
-    if (laplacian.row[i] != v && laplacian.value[i] != 0) magnitude.push_back(std::fabs(laplacian.value[i]));
+    const double size = std::fabs(laplacian.value[i]);
+    if (laplacian.row[i] != v && size > rounding) magnitude.push_back(size);
   });
   if (magnitude.empty()) return 0;
   const auto middle = magnitude.begin() + static_cast<std::ptrdiff_t>(magnitude.size() / 2);

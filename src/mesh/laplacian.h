@@ -11,7 +11,8 @@
 
 namespace hf_inner {
 
-enum class OperatorKind : std::int32_t { intrinsic_delaunay = 0, clamped = 1, uniform = 2, cotangent = 3 };
+// graph: the weights of the caller (graph.h).
+enum class OperatorKind : std::int32_t { intrinsic_delaunay = 0, clamped = 1, uniform = 2, cotangent = 3, graph = 4 };
 
 // Selects the matrix K that a field solves with. K is made of the Laplacian L and the vertex masses M (biharmonic.h): K
 // = L, K = L M^-1 L, or K = L^2.

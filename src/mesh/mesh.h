@@ -100,6 +100,8 @@ struct Mesh {
   const std::int32_t* triangle(std::int32_t t) const noexcept {
     return corners.data() + std::size_t{3} * static_cast<std::size_t>(t);
   }
+  // A surface made of a graph (graph.h) has no triangles; one made of a mesh always has some.
+  bool is_graph() const noexcept { return corners.empty(); }
   // to_given converts an inner position to the caller's frame: centre + scale p. to_inner converts back.
   Vec3 to_given(Vec3 p) const noexcept { return centre + scale * p; }
   Vec3 to_inner(Vec3 p) const noexcept { return (1.0 / scale) * (p - centre); }

@@ -23,13 +23,14 @@ std::int32_t usable_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t p
   const std::int32_t inner = inner_vertex(mesh, vertex, position, list);
   if (inner == Mesh::none)
     fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(position),
-         "entry %zu of %s: vertex %u belongs to no usable triangle; choose a vertex of the surface", position, list,
-         vertex);
+         "entry %zu of %s: vertex %u %s; choose a vertex of the surface", position, list, vertex,
+         mesh.is_graph() ? "has no edge" : "belongs to no usable triangle");
   return inner;
 }
 
 std::int32_t usable_triangle(const Mesh& mesh, std::uint32_t triangle, const double* weights, std::size_t position) {
   const std::uint32_t index = static_cast<std::uint32_t>(position);
+  require_triangles(mesh, "a point in a triangle", index);
   if (triangle >= mesh.report.triangle_count)
     fail(HF_ERROR_OUT_OF_RANGE, index, "entry %zu of the list: triangle %u, but there are %u triangles", position,
          triangle, mesh.report.triangle_count);
@@ -51,6 +52,11 @@ std::int32_t usable_triangle(const Mesh& mesh, std::uint32_t triangle, const dou
     fail(HF_ERROR_INVALID_ARGUMENT, index, "entry %zu of the list: barycentric weights sum to %.9g; they must sum to 1",
          position, sum);
   return inner;
+}
+
+void require_triangles(const Mesh& mesh, const char* purpose, std::uint32_t index) {
+  if (mesh.is_graph())
+    fail(HF_ERROR_UNSUPPORTED, index, "this call needs triangles for %s; the surface was made of a graph", purpose);
 }
 
 }  // namespace hf_inner

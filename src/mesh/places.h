@@ -2,6 +2,7 @@
 //
 // `position` is the place in the caller's list and becomes the index of the error; `list` names the list in the text.
 #pragma once
+#include "hf/base.h"
 #include "mesh/mesh.h"
 
 namespace hf_inner {
@@ -12,8 +13,11 @@ std::int32_t inner_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t po
 // The inner vertex. Throws as inner_vertex, and HF_ERROR_INVALID_ARGUMENT for an isolated one.
 std::int32_t usable_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t position, const char* list = "the list");
 
-// The inner triangle. Throws HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (collapsed), and as the weights of its
-// corners ask: HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (below 0, or of another sum than 1).
+// The inner triangle. Throws as require_triangles, HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (collapsed), and as
+// the weights of its corners ask: HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (below 0, or of another sum than 1).
 std::int32_t usable_triangle(const Mesh& mesh, std::uint32_t triangle, const double* weights, std::size_t position);
+
+// Throws HF_ERROR_UNSUPPORTED for a surface that was made of a graph. purpose: what the call needs triangles for.
+void require_triangles(const Mesh& mesh, const char* purpose, std::uint32_t index = HF_NO_INDEX);
 
 }  // namespace hf_inner

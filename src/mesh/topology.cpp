@@ -61,24 +61,26 @@ Topology Topology::make(const Mesh& mesh, Memory& memory, JobRunner* jobs) {
     }
   }
   topology.edge_triangle_start.push_back(static_cast<Index>(corner_count));
-
   poll();
-  // Fills the rows of neighbours. Edges are ordered by (first, second), so both passes fill every row in ascending
-  // order.
-  topology.neighbour_start.assign(n + 1, 0);
-  for (const Index v : topology.edges) ++topology.neighbour_start[at(v) + 1];
-  for (std::size_t v = 0; v < n; ++v) topology.neighbour_start[v + 1] += topology.neighbour_start[v];
-  topology.neighbour.resize(topology.edges.size());
-  topology.neighbour_edge.resize(topology.edges.size());
-  cursor.assign(topology.neighbour_start.begin(), topology.neighbour_start.end() - 1);
-  const auto add = [&](Index from, Index to, Index edge) {
-    const std::size_t slot = at(cursor[at(from)]++);
-    topology.neighbour[slot] = to, topology.neighbour_edge[slot] = edge;
-  };
-  for (Index e = 0; e < topology.edge_count(); ++e) add(topology.second(e), topology.first(e), e);
-  poll();
-  for (Index e = 0; e < topology.edge_count(); ++e) add(topology.first(e), topology.second(e), e);
+  topology.fill_neighbours(n, memory);
   return topology;
+}
+
+// Edges are ordered by (first, second), so both passes fill every row in ascending order.
+void Topology::fill_neighbours(std::size_t vertex_count, Memory& memory) {
+  neighbour_start.assign(vertex_count + 1, 0);
+  for (const std::int32_t v : edges) ++neighbour_start[static_cast<std::size_t>(v) + 1];
+  for (std::size_t v = 0; v < vertex_count; ++v) neighbour_start[v + 1] += neighbour_start[v];
+  neighbour.resize(edges.size());
+  neighbour_edge.resize(edges.size());
+  Vector<std::int32_t> cursor(neighbour_start.begin(), neighbour_start.end() - 1, &memory);
+  const auto add = [&](std::int32_t from, std::int32_t to, std::int32_t edge) {
+    const std::size_t slot = static_cast<std::size_t>(cursor[static_cast<std::size_t>(from)]++);
+    neighbour[slot] = to, neighbour_edge[slot] = edge;
+  };
+  for (std::int32_t e = 0; e < edge_count(); ++e) add(second(e), first(e), e);
+  poll();
+  for (std::int32_t e = 0; e < edge_count(); ++e) add(first(e), second(e), e);
 }
 
 void count_edges(const Mesh& mesh, const Topology& topology, MeshReport& report) noexcept {

@@ -52,7 +52,14 @@ static void print_surface(void) {
 #define T hf_surface_info
   STRUCT(hf_surface_info);
   F(struct_size), F(vertex_count), F(triangle_count), F(weld), F(weld_tolerance), F(operator_kind), F(field_kind),
-      F(ordering), F(thread_count), F(vertex_limit), F(triangle_limit), F(memory_limit_mb), F(work_limit_gflop);
+      F(ordering), F(thread_count), F(vertex_limit), F(triangle_limit), F(memory_limit_mb), F(work_limit_gflop),
+      F(edge_count), F(edge_limit);
+#undef T
+#define T hf_graph_desc
+  STRUCT(hf_graph_desc);
+  F(struct_size), F(vertex_count), F(edge_count), F(allow_negative), F(edges), F(weights), F(masses), F(field_kind),
+      F(ordering), F(thread_count), F(vertex_limit), F(edge_limit), F(memory_limit_mb), F(work_limit_gflop),
+      F(reserved), F(allocator), F(job_runner), F(progress), F(saved_factor);
 #undef T
 #define T hf_surface_report
   STRUCT(hf_surface_report);
@@ -77,8 +84,8 @@ static void print_surface(void) {
 #undef T
   CONSTANT(HF_WELD_EXACT), CONSTANT(HF_WELD_NONE), CONSTANT(HF_WELD_TOLERANCE),
       CONSTANT(HF_OPERATOR_INTRINSIC_DELAUNAY), CONSTANT(HF_OPERATOR_CLAMPED), CONSTANT(HF_OPERATOR_UNIFORM),
-      CONSTANT(HF_OPERATOR_COTANGENT), CONSTANT(HF_FIELD_HARMONIC), CONSTANT(HF_FIELD_BIHARMONIC),
-      CONSTANT(HF_FIELD_BIHARMONIC_GRAPH), CONSTANT(HF_ORDERING_NESTED_DISSECTION),
+      CONSTANT(HF_OPERATOR_COTANGENT), CONSTANT(HF_OPERATOR_GRAPH), CONSTANT(HF_FIELD_HARMONIC),
+      CONSTANT(HF_FIELD_BIHARMONIC), CONSTANT(HF_FIELD_BIHARMONIC_GRAPH), CONSTANT(HF_ORDERING_NESTED_DISSECTION),
       CONSTANT(HF_ORDERING_MINIMUM_DEGREE), CONSTANT(HF_ORDERING_METIS), CONSTANT(HF_FACTOR_ALIGNMENT);
 }
 

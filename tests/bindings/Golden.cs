@@ -144,6 +144,18 @@ class Scene
                         : new Surface(positions, triangles, options);
                     return null;
                 }
+            case "graph":
+                {
+                    var o = Options(step, "allow_negative", "field_kind", "ordering", "thread_count", "vertex_limit",
+                        "edge_limit", "memory_limit_mb");
+                    objects[name] = Surface.FromGraph((int)Whole(step, "vertex_count"), Numbers(Get(step, "edges")),
+                        Doubles(step, "weights"), Doubles(step, "masses"), new GraphOptions {
+                        AllowNegative = (int)o["allow_negative"] == 1, FieldKind = (int)o["field_kind"],
+                        Ordering = (int)o["ordering"], ThreadCount = (uint)o["thread_count"],
+                        VertexLimit = (uint)o["vertex_limit"], EdgeLimit = (uint)o["edge_limit"],
+                        MemoryLimitMb = (uint)o["memory_limit_mb"] });
+                    return null;
+                }
             case "solver":
                 {
                     var o = Options(step, "field_kind", "engine", "channel_count", "site_limit", "penalty");

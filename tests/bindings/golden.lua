@@ -119,6 +119,9 @@ local function new_scene(meshes)
         triangles, options.triangle_stride = lay_out(triangles, step.index_bits or 32, step.triangle_stride or 0)
       end
       objects[step.as] = hf.Surface(positions, triangles, options)
+    elseif what == 'graph' then
+      options.masses = get('masses')
+      objects[step.as] = hf.graph_surface(step.vertex_count, get('edges'), get('weights'), options)
     elseif what == 'solver' then objects[step.as] = hf.Solver(on, options)
     elseif what == 'clone' then objects[step.as] = on:clone()
     elseif what == 'dispose' then on:close()

@@ -84,6 +84,12 @@ function runStep(hf, step, meshes, objects, kept) {
       objects[step.as] = new hf.Surface(positions, triangles, { ...options, savedFactor: factor });
       return {};
     }
+    case 'graph':
+      objects[step.as] = hf.Surface.fromGraph(step.vertex_count, get('edges'), get('weights'), {
+        ...options,
+        masses: get('masses'),
+      });
+      return {};
     case 'solver':
       objects[step.as] = new hf.Solver(on, options);
       return {};

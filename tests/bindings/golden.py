@@ -90,6 +90,9 @@ class Scene:
                 factor = bytes(b ^ (1 if i == step["damage"] else 0) for i, b in enumerate(factor))
             self.objects[step["as"]] = hf.Surface(None if positions is None else np.array(positions, np.float64),
                 triangles, saved_factor=factor, **options)
+        elif do == "graph":
+            self.objects[step["as"]] = hf.Surface.from_graph(step["vertex_count"], get("edges"), get("weights"),
+                masses=get("masses"), **options)
         elif do == "solver":
             self.objects[step["as"]] = hf.Solver(on, **options)
         elif do == "clone":

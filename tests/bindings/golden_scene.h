@@ -184,6 +184,7 @@ class Scene {
   Result run(const Json& step);
   Result run_solver(const Json& step);
   Result run_surface(const Json& step);
+  Result run_graph(const Json& step);
   Result run_mesh(const Json& step, const std::string& what, hf_surface surface);
   Result run_picking(const Json& step, const std::string& what, hf_surface surface, size_t n);
   Result run_looking(const Json& step, const std::string& what, hf_surface surface, size_t n);

@@ -36,6 +36,7 @@ Result Scene::run_solver(const Json& step) {
 Result Scene::run(const Json& step) {
   const std::string what = step["do"];
   if (what == "surface") return run_surface(step);
+  if (what == "graph") return run_graph(step);
   if (what == "solver") return run_solver(step);
   Result result;
   if (what == "detail") return run_region(step, what);

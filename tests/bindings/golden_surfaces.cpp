@@ -66,6 +66,28 @@ Result Scene::run_surface(const Json& step) {
   return {};
 }
 
+Result Scene::run_graph(const Json& step) {
+  auto desc = make<hf_graph_desc>();
+  set_options(step, desc,
+              {{"allow_negative", &desc.allow_negative},
+               {"field_kind", &desc.field_kind},
+               {"ordering", &desc.ordering},
+               {"thread_count", &desc.thread_count},
+               {"vertex_limit", &desc.vertex_limit},
+               {"edge_limit", &desc.edge_limit}},
+              {});
+  const auto edges = numbers(step, "edges");
+  const auto weights = doubles(step, "weights"), masses = doubles(step, "masses", step["vertex_count"].get<size_t>());
+  if (edges && weights && edges->size() != 2 * weights->size()) fail("edges must hold two vertices for each weight");
+  desc.vertex_count = step["vertex_count"], desc.edge_count = count(weights);
+  desc.edges = data(edges), desc.weights = data(weights), desc.masses = data(masses);
+  hf_surface raw = nullptr;
+  check(hf_surface_create_graph(&desc, &raw));
+  Object& object = objects_[step["as"]];
+  object.surface = hf::Handle<hf_surface, hf_surface_destroy>(raw), object.vertex_count = desc.vertex_count;
+  return {};
+}
+
 Result Scene::run_picking(const Json& step, const std::string& what, hf_surface surface, size_t n) {
   Result result;
   auto desc = make<hf_pick_desc>();

@@ -316,6 +316,26 @@ class Picking(unittest.TestCase):
 
 
 class Lifetime(unittest.TestCase):
+    def test_a_graph_carries_fields_and_says_what_needs_triangles(self):
+        edges = np.array([[0, 1], [1, 2], [2, 3], [5, 4]])
+        surface = hf.Surface.from_graph(6, edges, [1, 1, 2, 7], masses=np.arange(1, 7))
+        self.assertEqual(surface.info.operator_kind, hf.Operator.GRAPH)
+        self.assertEqual(surface.components.tolist(), [0, 0, 0, 0, 1, 1])
+        solver = hf.Solver(surface)
+        solver.add_sites([0, 3], [0.0, 5.0])
+        self.assertTrue(np.allclose(solver.solve(dtype=np.float64), [0, 2, 4, 5, 0, 0]))
+        loaded = hf.Surface.from_graph(6, edges, [1, 1, 2, 7], saved_factor=surface.save())
+        self.assertEqual(loaded.statistics.factor_loaded, 1)
+        with self.assertRaises(hf.UnsupportedError):
+            hf.Pose(surface)
+        with self.assertRaises(hf.OutOfRangeError) as raised:
+            hf.Surface.from_graph(5, edges, [1, 1, 2, 7])
+        self.assertEqual(raised.exception.index, 3)
+        for wrong in ({"weights": [1, 1, 2]}, {"weights": [1, 1, 2, -1]}, {"masses": [1, 2]}, {"weld": 1}):
+            with self.assertRaises(hf.InvalidArgumentError):
+                hf.Surface.from_graph(**{"vertex_count": 6, "edges": edges, "weights": [1, 1, 2, 7], **wrong})
+        hf.Surface.from_graph(6, edges, [1, 1, 2, 7], allow_negative=True).close()
+
     def test_any_order_of_closing_and_collecting(self):
         points, triangles = mesh("bar")
         calls = 0

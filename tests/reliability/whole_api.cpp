@@ -276,6 +276,24 @@ void Run::directions() {
   hf_direction_destroy(direction), hf_direction_destroy(copy);
 }
 
+void Run::graph() {
+  hf_graph_desc d = desc<hf_graph_desc>();
+  const double weights[4] = {1, 0.5, 2, 3};
+  const std::uint32_t edges[8] = {0, 1, 1, 2, 2, 3, 0, 3};
+  d.vertex_count = n, d.edge_count = 4, d.edges = edges, d.weights = weights, d.thread_count = options_.threads;
+  if (options_.runner) d.job_runner = *options_.runner;
+  if (options_.allocator) d.allocator = *options_.allocator;
+  hf_surface surface = nullptr;
+  call(hf_surface_create_graph(&d, &surface), "hf_surface_create_graph");
+  const hf_solver solver = make_solver(surface);
+  const hf_sites_desc sites = sites_at(2, 2);
+  call(hf_add_sites(solver, &sites, nullptr), "hf_add_sites on a graph");
+  take_field(solver);
+  hf_pose pose = nullptr;
+  call(hf_pose_create(surface, nullptr, &pose), "hf_pose_create on a graph", HF_ERROR_UNSUPPORTED);
+  hf_solver_destroy(solver), hf_surface_destroy(surface);
+}
+
 void Run::errors() {
   const std::uint32_t version = hf_version_get();
   take(&version, 1);
@@ -295,7 +313,7 @@ Outcome run_whole_api(const Scene& scene, const Options& options) {
   run.outcome.hash = 14695981039346656037u;
   run.surface_and_picking(), run.solver_and_sites(), run.other_kinds(), run.other_engines(), run.vectors(),
       run.factor_and_preview(), run.analysis();
-  run.directions(), run.pose_and_transfer(), run.quads_and_flow(), run.regions(), run.errors();
+  run.directions(), run.pose_and_transfer(), run.quads_and_flow(), run.regions(), run.graph(), run.errors();
   return run.outcome;
 }
 

@@ -26,6 +26,7 @@ class Run {
   void pose_and_transfer();
   void quads_and_flow();
   void regions();
+  void graph();
   void errors();
 
  private:

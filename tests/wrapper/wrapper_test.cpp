@@ -57,6 +57,22 @@ TEST(Wrapper, saves_and_loads_a_factor_and_previews_with_it) {
   loaded.release_preview();
 }
 
+TEST(Wrapper, solves_on_a_graph_and_says_what_needs_triangles) {
+  const hf::Surface surface = hf::Surface::from_graph(4, {0, 1, 1, 2, 2, 3}, {1, 1, 2});
+  hf::Solver solver(surface);
+  solver.add_sites({0, 3}, {0, 5});
+  EXPECT_NEAR(solver.solve_f64()[2], 4, 1e-12);
+  EXPECT_EQ(surface.info().operator_kind, HF_OPERATOR_GRAPH);
+  EXPECT_EQ(surface.report().component_count, 1u);
+  EXPECT_THROW(hf::Surface::from_graph(4, {0, 1, 1}, {1, 1}), std::invalid_argument);
+  try {
+    const hf::Pose pose(surface);
+    FAIL();
+  } catch (const hf::Error& error) {
+    EXPECT_EQ(error.code(), HF_ERROR_UNSUPPORTED);
+  }
+}
+
 TEST(Wrapper, directions_follow_their_constraints) {
   const Strip strip(8);
   const hf::Surface surface(strip.positions, strip.triangles);

@@ -45,6 +45,7 @@ namespace Hf.Native
         public const int HF_OPERATOR_CLAMPED = 1;
         public const int HF_OPERATOR_UNIFORM = 2;
         public const int HF_OPERATOR_COTANGENT = 3;
+        public const int HF_OPERATOR_GRAPH = 4;
         public const int HF_FIELD_HARMONIC = 0;
         public const int HF_FIELD_BIHARMONIC = 1;
         public const int HF_FIELD_BIHARMONIC_GRAPH = 2;
@@ -152,6 +153,30 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_graph_desc
+    {
+        public uint struct_size;
+        public uint vertex_count;
+        public uint edge_count;
+        public int allow_negative;
+        public IntPtr edges;
+        public IntPtr weights;
+        public IntPtr masses;
+        public int field_kind;
+        public int ordering;
+        public uint thread_count;
+        public uint vertex_limit;
+        public uint edge_limit;
+        public uint memory_limit_mb;
+        public uint work_limit_gflop;
+        public uint reserved;
+        public hf_allocator allocator;
+        public hf_job_runner job_runner;
+        public IntPtr progress;
+        public IntPtr saved_factor;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_surface_info
     {
         public uint struct_size;
@@ -167,6 +192,8 @@ namespace Hf.Native
         public uint triangle_limit;
         public uint memory_limit_mb;
         public uint work_limit_gflop;
+        public uint edge_count;
+        public uint edge_limit;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -824,6 +851,7 @@ namespace Hf.Native
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_progress_get_fraction(IntPtr progress, void* out_fraction);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_progress_cancel(IntPtr progress);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_create(void* desc, void* out_surface);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_create_graph(void* desc, void* out_surface);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_surface_destroy(IntPtr surface);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_info(IntPtr surface, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_report(IntPtr surface, void* out_report);

@@ -14,6 +14,16 @@ namespace Hf
         public Progress Progress;
     }
 
+    /// <summary>Fields of hf_graph_desc that are not arrays; 0 is the default of each.</summary>
+    public sealed class GraphOptions
+    {
+        public bool AllowNegative;
+        public int FieldKind, Ordering;
+        public uint ThreadCount, VertexLimit, EdgeLimit, MemoryLimitMb;
+        public byte[] SavedFactor;
+        public Progress Progress;
+    }
+
     /// <summary>Watches and cancels a long call from another thread.</summary>
     public sealed unsafe class Progress : HfObject
     {
@@ -73,6 +83,50 @@ namespace Hf
         public Surface(double[] positions, ushort[] triangles, SurfaceOptions options = null)
         {
             Create(positions, triangles, options);
+        }
+
+        Surface() { }
+
+        /// <summary>A surface of a graph: two vertices for each edge, and its weight. masses: null, or one per vertex for
+        /// bi-harmonic fields. What needs triangles throws.</summary>
+        public static Surface FromGraph(int vertexCount, uint[] edges, double[] weights, double[] masses = null,
+            GraphOptions options = null)
+        {
+            if (vertexCount < 0) throw new HfException("vertexCount is " + vertexCount);
+            if (edges != null && weights != null && edges.Length != 2 * weights.Length)
+                throw new HfException("edges must hold two vertices for each of the weights");
+            options = options ?? new GraphOptions();
+            var surface = new Surface { VertexCount = vertexCount };
+            using (var pins = new Pins())
+            {
+                var desc = new hf_graph_desc { struct_size = (uint)sizeof(hf_graph_desc) };
+                desc.vertex_count = (uint)vertexCount;
+                desc.edge_count = weights == null ? 1 : (uint)weights.Length;
+                desc.edges = pins.Add(edges);
+                desc.weights = pins.Add(weights);
+                desc.masses = pins.Add(masses, vertexCount, "masses");
+                desc.allow_negative = options.AllowNegative ? 1 : 0;
+                desc.field_kind = options.FieldKind;
+                desc.ordering = options.Ordering;
+                desc.thread_count = options.ThreadCount;
+                desc.vertex_limit = options.VertexLimit;
+                desc.edge_limit = options.EdgeLimit;
+                desc.memory_limit_mb = options.MemoryLimitMb;
+                if (options.Progress != null) desc.progress = options.Progress.Handle;
+                hf_factor_desc factor;
+                if (options.SavedFactor != null)
+                {
+                    factor = new hf_factor_desc { struct_size = (uint)sizeof(hf_factor_desc) };
+                    factor.bytes = pins.Add(options.SavedFactor);
+                    factor.byte_count = (UIntPtr)options.SavedFactor.Length;
+                    desc.saved_factor = (IntPtr)(&factor);
+                }
+                IntPtr raw;
+                HfException.Check(Functions.hf_surface_create_graph(&desc, &raw));
+                GC.KeepAlive(options.Progress);
+                surface.Own(raw, Functions.hf_surface_destroy);
+            }
+            return surface;
         }
 
         void Create(Array positions, Array triangles, SurfaceOptions options)

@@ -36,6 +36,19 @@ export interface SurfaceOptions {
   savedFactor?: Uint8Array | null;
   progress?: Progress | null;
 }
+export interface GraphOptions {
+  /** 1: weights may be below 0, if the matrix stays positive semi-definite. */
+  allowNegative?: number;
+  masses?: Floats | Numbers | null;
+  fieldKind?: number;
+  ordering?: number;
+  threadCount?: number;
+  vertexLimit?: number;
+  edgeLimit?: number;
+  memoryLimitMb?: number;
+  savedFactor?: Uint8Array | null;
+  progress?: Progress | null;
+}
 export interface SolverOptions {
   fieldKind?: number;
   engine?: number;
@@ -300,7 +313,11 @@ export interface Transfer extends Handle {
 
 export interface Hf {
   /** `triangles` as Uint16Array or Uint32Array are read in place. */
-  readonly Surface: new (positions: Floats | Numbers, triangles: Numbers, options?: SurfaceOptions) => Surface;
+  readonly Surface: {
+    new (positions: Floats | Numbers, triangles: Numbers, options?: SurfaceOptions): Surface;
+    /** A surface of a graph: two vertices for each edge, and its weight. */
+    fromGraph(vertexCount: number, edges: Numbers, weights: Floats | Numbers, options?: GraphOptions): Surface;
+  };
   readonly Solver: new (surface: Surface, options?: SolverOptions) => Solver;
   readonly Pose: new (
     surface: Surface,

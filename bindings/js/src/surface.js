@@ -16,6 +16,7 @@ export function surfaceClasses(tools) {
     read,
     written,
     backend,
+    bare,
     classes,
     counted,
     scalarsOf,
@@ -50,6 +51,7 @@ export function surfaceClasses(tools) {
     static prefix = 'hf_surface';
     constructor(positions, triangles, { savedFactor = null, progress = null, ...options } = {}) {
       super();
+      if (positions === bare) return;
       const xyz = points(positions, 'positions');
       const short = triangles instanceof Uint16Array;
       const corners = short ? triangles : integers(triangles, 'triangles');
@@ -58,13 +60,28 @@ export function surfaceClasses(tools) {
       desc.set('vertex_count', xyz.length / 3).set('triangle_count', corners ? corners.length / 3 : 0);
       desc.set(xyz instanceof Float32Array ? 'positions' : 'positions_f64', read(xyz));
       desc.set(short ? 'triangles_u16' : 'triangles', corners && read(corners));
+      this._finish('create', desc, savedFactor, progress);
+    }
+    /** A surface of a graph: two vertices for each edge, and its weight. What needs triangles throws. */
+    static fromGraph(vertexCount, edges, weights, { masses = null, savedFactor = null, progress = null, ...options } = {}) {
+      const [ends, sizes] = [integers(edges, 'edges'), doubles(weights, 'weights')];
+      if (ends && sizes && ends.length !== 2 * sizes.length) fail('edges must hold two vertices for each of the weights');
+      const mass = masses && doubles(masses, 'masses', vertexCount);
+      const desc = make('hf_graph_desc').options(options, ['vertex_count', 'edge_count']);
+      desc.set('vertex_count', vertexCount).set('edge_count', sizes ? sizes.length : 1);
+      desc.set('edges', ends && read(ends)).set('weights', sizes && read(sizes)).set('masses', mass && read(mass));
+      const surface = new this(bare);
+      surface._finish('create_graph', desc, savedFactor, progress);
+      return surface;
+    }
+    _finish(verb, desc, savedFactor, progress) {
       watched(desc, progress);
       if (savedFactor) {
         if (!(savedFactor instanceof Uint8Array)) fail('savedFactor must be a Uint8Array');
         desc.set('saved_factor', make('hf_factor_desc', { bytes: read(savedFactor), byte_count: savedFactor.length }));
       }
-      this._make('create', desc);
-      this.vertexCount = xyz.length / 3;
+      this._make(verb, desc);
+      this.vertexCount = desc.get('vertex_count');
     }
     /** The options it was made with, defaults filled in. */
     get info() {

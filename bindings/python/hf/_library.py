@@ -166,7 +166,7 @@ def make(struct: type, **fields: Any) -> Any:
 
 
 # what the package fills in itself
-_OWN = ("struct_size", "reserved", "vertex_count", "triangle_count", "site_count")
+_OWN = ("struct_size", "reserved", "vertex_count", "triangle_count", "edge_count", "site_count")
 
 
 def options_into(desc: Any, options: dict) -> None:

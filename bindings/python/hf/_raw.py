@@ -42,6 +42,7 @@ HF_OPERATOR_INTRINSIC_DELAUNAY = 0
 HF_OPERATOR_CLAMPED = 1
 HF_OPERATOR_UNIFORM = 2
 HF_OPERATOR_COTANGENT = 3
+HF_OPERATOR_GRAPH = 4
 HF_FIELD_HARMONIC = 0
 HF_FIELD_BIHARMONIC = 1
 HF_FIELD_BIHARMONIC_GRAPH = 2
@@ -219,6 +220,50 @@ class hf_surface_desc(Structure):
     ]
 
 
+class hf_graph_desc(Structure):
+    """A graph of your own and the options of its surface"""
+    struct_size: int
+    vertex_count: int
+    edge_count: int
+    allow_negative: int
+    edges: int
+    weights: int
+    masses: int
+    field_kind: int
+    ordering: int
+    thread_count: int
+    vertex_limit: int
+    edge_limit: int
+    memory_limit_mb: int
+    work_limit_gflop: int
+    reserved: int
+    allocator: object
+    job_runner: object
+    progress: int
+    saved_factor: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("vertex_count", c_uint32),
+        ("edge_count", c_uint32),
+        ("allow_negative", c_int32),
+        ("edges", c_void_p),
+        ("weights", c_void_p),
+        ("masses", c_void_p),
+        ("field_kind", c_int32),
+        ("ordering", c_int32),
+        ("thread_count", c_uint32),
+        ("vertex_limit", c_uint32),
+        ("edge_limit", c_uint32),
+        ("memory_limit_mb", c_uint32),
+        ("work_limit_gflop", c_uint32),
+        ("reserved", c_uint32),
+        ("allocator", hf_allocator),
+        ("job_runner", hf_job_runner),
+        ("progress", c_void_p),
+        ("saved_factor", c_void_p),
+    ]
+
+
 class hf_surface_info(Structure):
     """The options a surface was made with, defaults filled in."""
     struct_size: int
@@ -234,6 +279,8 @@ class hf_surface_info(Structure):
     triangle_limit: int
     memory_limit_mb: int
     work_limit_gflop: int
+    edge_count: int
+    edge_limit: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -248,6 +295,8 @@ class hf_surface_info(Structure):
         ("triangle_limit", c_uint32),
         ("memory_limit_mb", c_uint32),
         ("work_limit_gflop", c_uint32),
+        ("edge_count", c_uint32),
+        ("edge_limit", c_uint32),
     ]
 
 
@@ -1336,7 +1385,7 @@ class hf_transfer_frame(Structure):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_surface_desc, hf_surface_info, hf_surface_report, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame]
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -1348,6 +1397,7 @@ PROTOTYPES = {
     "hf_progress_get_fraction": (c_int32, [c_void_p, c_void_p]),
     "hf_progress_cancel": (c_int32, [c_void_p]),
     "hf_surface_create": (c_int32, [c_void_p, c_void_p]),
+    "hf_surface_create_graph": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_destroy": (None, [c_void_p]),
     "hf_surface_get_info": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_get_report": (c_int32, [c_void_p, c_void_p]),

@@ -20,6 +20,7 @@ class Weld(IntEnum):
 class Operator(IntEnum):
     COTANGENT, CLAMPED = _raw.HF_OPERATOR_COTANGENT, _raw.HF_OPERATOR_CLAMPED
     UNIFORM, INTRINSIC_DELAUNAY = _raw.HF_OPERATOR_UNIFORM, _raw.HF_OPERATOR_INTRINSIC_DELAUNAY
+    GRAPH = _raw.HF_OPERATOR_GRAPH
 
 
 class FieldKind(IntEnum):
@@ -91,6 +92,9 @@ class Surface(Object):
         if mesh is not None:
             desc.triangle_count, desc.triangle_stride = len(mesh), triangle_stride
             setattr(desc, "triangles" if mesh.dtype == np.uint32 else "triangles_u16", address(mesh))
+        self._create("hf_surface_create", desc, progress, saved_factor)
+
+    def _create(self, function: str, desc: Any, progress: Optional[Progress], saved_factor: Optional[bytes]) -> None:
         desc.progress = handle_of(progress, Progress, "progress")
         if saved_factor is not None:
             try:
@@ -100,9 +104,32 @@ class Surface(Object):
             factor = make(_raw.hf_factor_desc, bytes=address(block), byte_count=block.size)
             desc.saved_factor = ctypes.addressof(factor)
         handle = ctypes.c_void_p()
-        call("hf_surface_create", ctypes.byref(desc), ctypes.byref(handle))
+        call(function, ctypes.byref(desc), ctypes.byref(handle))
         self._own(handle)
-        self.vertex_count: int = len(xyz)
+        self.vertex_count: int = desc.vertex_count
+
+    @classmethod
+    def from_graph(cls, vertex_count: int, edges: ArrayLike, weights: ArrayLike, *,
+                   masses: Optional[ArrayLike] = None, progress: Optional[Progress] = None,
+                   saved_factor: Optional[bytes] = None, **options: Any) -> "Surface":
+        """A surface of a graph: fields on tetrahedra, points, a network. What needs triangles raises UnsupportedError.
+
+        edges: (m, 2) vertices; weights: (m,); masses: (n,) for bi-harmonic fields, or None. Options are the fields of
+        hf_graph_desc: allow_negative, field_kind, ordering, thread_count, vertex_limit, edge_limit, ...
+        """
+        desc = make(_raw.hf_graph_desc)
+        options_into(desc, options)
+        ends, sizes = integers(edges, "edges"), doubles(weights, "weights")
+        if ends is None or sizes is None or ends.size != 2 * sizes.size:
+            raise InvalidArgumentError("edges must have two vertices for each of the weights")
+        desc.vertex_count, desc.edge_count = whole(vertex_count, "vertex_count"), count_of(sizes)
+        desc.edges, desc.weights = address(ends), address(sizes)
+        if masses is not None:
+            held = doubles(masses, "masses", desc.vertex_count)
+            desc.masses = address(held)
+        surface = cls.__new__(cls)
+        surface._create("hf_surface_create_graph", desc, progress, saved_factor)
+        return surface
 
     @property
     def info(self) -> _raw.hf_surface_info:
