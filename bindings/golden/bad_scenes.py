@@ -212,6 +212,7 @@ def bad_scenes():
                    {"do": "save", "as": "f"}, {"do": "solver", "as": "t"}, {"do": "pose", "as": "q"},
                    {"do": "geodesics", "as": "h"}, {"do": "direction", "as": "e"}, {"do": "region", "as": "n"},
                    {"do": "quads", "as": "n"}, {"do": "flow", "as": "n"}, {"do": "extremities"},
+                   {"do": "propose"},
                    {"do": "levels", "field": ramp, "count": 2, "spacing": "HF_LEVELS_VALUE"},
                    {"do": "isolines", "field": ramp, "levels": [0.5]}, {"do": "critical", "field": ramp},
                    {"do": "cast_ray", "origin": [9.0, 0.0, 3.0], "direction": [-1.0, 0.0, 0.0]},

@@ -134,6 +134,7 @@ def scenes(meshes):
           {"do": "geodesics", "on": "m", "as": "g"}, {"do": "distance", "on": "g", "sources": [0, 100],
               "expect": agree()},
           surface("bar", "b"), {"do": "extremities", "on": "b", "expect": agree(0)},
+          {"do": "propose", "on": "b", "expect": agree(0)},
           {"do": "direction", "on": "m", "as": "d", "options": {"degree": 4}},
           {"do": "add_vectors", "on": "d", "vertices": [0], "vectors": [0.0, 1.0, 0.0], "numbers": [0]},
           {"do": "singularities", "on": "d", "expect": {"sum": 0, "tolerance": 1e-9}}, {"do": "directions", "on": "d",

@@ -134,5 +134,10 @@ function Surface:find_extremities()
   return rows('hf_extremity', function(capacity, out, count) return C.hf_surface_find_extremities(self.raw, nil, capacity, out,
     count) end)
 end
+-- Places for handles, pinned ones first: rows of hf_handle_proposal and their count.
+function Surface:propose_handles()
+  return rows('hf_handle_proposal', function(capacity, out, count) return C.hf_propose_handles(self.raw, nil, capacity, out,
+    count) end)
+end
 
 return { Surface = new, graph_surface = from_graph }

@@ -419,6 +419,15 @@ inline std::vector<hf_extremity> find_extremities(const Surface& surface, const 
   return found;
 }
 
+// Proposes handles for the first drag of a mesh; pinned ones come first. desc: null for the defaults.
+inline std::vector<hf_handle_proposal> propose_handles(const Surface& surface, const hf_propose_desc* desc = nullptr) {
+  std::vector<hf_handle_proposal> found(HF_HANDLE_LIMIT);  // no list is longer
+  uint32_t count = 0;
+  check(hf_propose_handles(surface.get(), desc, HF_HANDLE_LIMIT, found.data(), &count));
+  found.resize(count);
+  return found;
+}
+
 class Geodesics {
  public:
   explicit Geodesics(const Surface& surface, const hf_geodesics_desc* desc = nullptr)

@@ -231,6 +231,50 @@ typedef struct hf_skin_info {
  * `pose`. Since 0.1. */
 HF_API hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* inout_skin);
 
+/* ---- proposed handles ---- */
+
+/* Says why a place is proposed as a handle. */
+enum {
+  HF_HANDLE_REASON_FOOT = 0,  /* stands on the ground: the surface rises from it along a leg */
+  HF_HANDLE_REASON_TIP = 1,   /* a protruding part ends there: head, tail, hand, horn (hf_surface_find_extremities) */
+  HF_HANDLE_REASON_END = 2,   /* one of the two ends of a component without feet or tips */
+  HF_HANDLE_REASON_JOINT = 3, /* a joint of the given skeleton: an end, or where it branches */
+  HF_HANDLE_REASON_MIDDLE = 4 /* the middle of the largest component; pinned if nothing else is */
+};
+
+typedef struct hf_propose_desc {
+  uint32_t struct_size;
+  uint32_t joint_count;    /* joints of a skeleton that the mesh has already; 0 = none */
+  const double* joints;    /* [joint_count][3] their places at rest, in the unit and frame of the mesh */
+  const uint32_t* parents; /* [joint_count] position of each joint's parent in the list; HF_NO_INDEX for a root */
+  double up[3];            /* direction away from the ground, of any length; 0 0 0 = 0 1 0 */
+  float least_length;      /* as in hf_extremities_desc; 0 = 0.05 */
+  uint32_t limit;          /* most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32 */
+  hf_progress progress;    /* NULL, or an object to poll and cancel through */
+} hf_propose_desc;
+
+/* One proposed handle. position and radius are those of hf_handles_desc: the regions of all proposals are disjoint. */
+typedef struct hf_handle_proposal {
+  uint32_t vertex;    /* nearest to the position; as given, of welded copies the first */
+  uint32_t component; /* as hf_surface_get_components */
+  int32_t reason;     /* HF_HANDLE_REASON_* */
+  int32_t pinned;     /* 1: add it at once, it holds the body; 0: offer it, and add it when it is dragged */
+  uint32_t joint;     /* the end joint nearby, or the joint proposed, by position in the list; HF_NO_INDEX = none */
+  uint32_t reserved;  /* 0 */
+  double position[3]; /* at rest, in the unit and frame of the mesh; inside the surface for a joint */
+  double radius;      /* in the unit of the mesh */
+  double length;      /* how far the part protrudes, in the unit of the mesh */
+} hf_handle_proposal;
+
+/* Proposes handles for the first drag of a mesh: feet hold, tips are dragged. Pinned proposals come first, then the
+ * others, each group by length, the longest first. The places do not depend on the order of the vertices. They follow
+ * translation and scale. desc: NULL for defaults. out_proposals: NULL, or room for `capacity`. out_count: NULL, or
+ * receives the number of proposals. Cost: as hf_surface_find_extremities, and some passes over the mesh. Errors:
+ * HF_ERROR_INVALID_ARGUMENT (least_length, limit, joints without parents), HF_ERROR_NON_FINITE (up; index = joint),
+ * HF_ERROR_OUT_OF_RANGE (a parent; index = joint), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_propose_handles(hf_surface surface, const hf_propose_desc* desc, uint32_t capacity,
+                                    hf_handle_proposal* out_proposals, uint32_t* out_count);
+
 #ifdef __cplusplus
 }
 #endif

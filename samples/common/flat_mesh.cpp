@@ -227,9 +227,11 @@ void straighten_tangents(Primitive& primitive) {
   }
 }
 
-void scatter_part(const Model& model, const Pose& pose, const std::vector<glm::dmat4>& globals, const FlatPart& part,
-                  const std::vector<glm::dvec3>& positions, const std::vector<glm::vec3>& normals,
-                  Primitive& primitive) {
+// Returns the vertices that stay as stored, because their rest transform is singular.
+size_t scatter_part(const Model& model, const Pose& pose, const std::vector<glm::dmat4>& globals, const FlatPart& part,
+                    const std::vector<glm::dvec3>& positions, const std::vector<glm::vec3>& normals,
+                    Primitive& primitive) {
+  size_t stayed = 0;
   const std::vector<glm::dmat4> matrices = vertex_matrices(model, globals, part.node, primitive);
   const std::vector<double>& weights = pose[static_cast<size_t>(part.node)].weights;
   primitive.normals.resize(part.vertex_count);
@@ -237,8 +239,8 @@ void scatter_part(const Model& model, const Pose& pose, const std::vector<glm::d
     const glm::dmat3 linear(matrices[v]);
     const double size = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
     if (!(std::abs(glm::determinant(linear)) > 1e-9 * size)) {
-      fail(model, "vertex " + std::to_string(v) + " of mesh " + std::to_string(part.mesh) +
-                      " cannot be moved: its rest transform is singular");
+      ++stayed;
+      continue;
     }
     const glm::dvec3 world = positions[part.first_vertex + v];
     glm::dvec3 local = glm::inverse(linear) * (world - glm::dvec3(matrices[v][3]));
@@ -251,6 +253,7 @@ void scatter_part(const Model& model, const Pose& pose, const std::vector<glm::d
     primitive.normals[v] = length > 0 ? glm::vec3(n / length) : glm::vec3(0);
   }
   straighten_tangents(primitive);
+  return stayed;
 }
 
 }  // namespace
@@ -330,10 +333,15 @@ void scatter(Model& model, const FlatMesh& mesh, const std::vector<glm::dvec3>& 
   const Pose pose = rest_pose(changed);
   const std::vector<glm::dmat4> globals = global_matrices(changed, pose);
   const std::vector<glm::vec3> normals = welded_normals(mesh, positions, options.creases);
+  size_t stayed = 0;
   for (const FlatPart& part : mesh.parts) {
     const auto m = static_cast<size_t>(changed.nodes[static_cast<size_t>(part.node)].mesh);
-    scatter_part(changed, pose, globals, part, positions, normals,
-                 changed.meshes[m].primitives[static_cast<size_t>(part.primitive)]);
+    stayed += scatter_part(changed, pose, globals, part, positions, normals,
+                           changed.meshes[m].primitives[static_cast<size_t>(part.primitive)]);
+  }
+  if (stayed > 0) {
+    changed.warnings.push_back(std::to_string(stayed) +
+                               " vertices stay as stored: a scale of 0 in their node or joints lets nothing move them");
   }
   model = std::move(changed);
 }

@@ -177,7 +177,7 @@ void AccessorReader::decode(const tinygltf::Accessor& accessor, size_t component
 }
 
 std::vector<float> AccessorReader::floats(int accessor, int type, Stored stored, const std::string& where,
-                                          Stored base) {
+                                          Stored base, bool any_value) {
   const tinygltf::Accessor& o = at(accessor, where);
   if (o.type != type) {
     fail(where, std::string("is ") + type_name(o.type) + " where " + type_name(type) + " belongs");
@@ -192,7 +192,7 @@ std::vector<float> AccessorReader::floats(int accessor, int type, Stored stored,
   charge(static_cast<uint64_t>(o.count) * components * sizeof(float), where);
   std::vector<float> values(o.count * components, 0.0f);
   decode(o, components, where, values);
-  for (size_t i = 0; i < values.size(); ++i) {
+  for (size_t i = 0; !any_value && i < values.size(); ++i) {
     if (!std::isfinite(values[i])) fail(where, "has a NaN or infinity in element " + std::to_string(i / components));
   }
   return values;

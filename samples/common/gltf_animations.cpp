@@ -115,6 +115,22 @@ class ChannelReader {
   const std::string where_;
 };
 
+// Makes axes of length 0 perpendicular to the others, so that a collapsed node has a rotation. Any one is right.
+void complete_axes(glm::dmat3& axes, const glm::dvec3& scale) {
+  const auto empty = [&](int c) { return scale[c % 3] == 0; };
+  const int empty_count = empty(0) + empty(1) + empty(2);
+  if (empty_count == 3) axes = glm::dmat3(1);
+  for (int c = 0; empty_count == 2 && c < 3; ++c) {
+    if (empty(c)) continue;
+    const glm::dvec3 other = std::abs(axes[c].x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    axes[(c + 1) % 3] = glm::normalize(glm::cross(axes[c], other));
+    axes[(c + 2) % 3] = glm::cross(axes[c], axes[(c + 1) % 3]);
+  }
+  for (int c = 0; empty_count == 1 && c < 3; ++c) {
+    if (empty(c)) axes[c] = glm::normalize(glm::cross(axes[(c + 1) % 3], axes[(c + 2) % 3]));
+  }
+}
+
 // matrix = T R S for an animated node. What a shear leaves over is lost, with a warning.
 void take_apart(Conversion& in, size_t n) {
   Node& node = in.model.nodes[n];
@@ -125,9 +141,9 @@ void take_apart(Conversion& in, size_t n) {
   if (glm::determinant(axes) < 0) scale.x = -scale.x;
   const std::string where = "nodes[" + std::to_string(n) + "]";
   for (int c = 0; c < 3; ++c) {
-    if (scale[c] == 0) in.fail(where, "is animated, but its matrix is singular");
-    axes[c] /= scale[c];
+    if (scale[c] != 0) axes[c] /= scale[c];
   }
+  complete_axes(axes, scale);
   const glm::dmat3 gram = glm::transpose(axes) * axes;
   for (int c = 0; c < 3; ++c) {
     if (std::abs(gram[c][(c + 1) % 3]) > 1e-3) in.warn(where + " is animated; the shear of its matrix is lost");

@@ -15,8 +15,6 @@ struct Appearance {
   std::vector<tinygltf::Texture> textures;
   std::vector<tinygltf::Image> images;
   std::vector<tinygltf::Sampler> samplers;
-  std::vector<std::string> extensions_used;      // those that concern looks
-  std::vector<std::string> extensions_required;  // of those
 };
 
 }  // namespace samples

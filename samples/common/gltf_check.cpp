@@ -1,25 +1,28 @@
 // check_document() of gltf_check.h.
 #include "common/gltf_check.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <set>
-#include <stdexcept>
 
-#include "common/file_bytes.h"
+#include "common/gltf_check_parts.h"
+#include "common/gltf_decompress.h"
 
 namespace samples {
 namespace {
 
 using nlohmann::json;
 
-constexpr uint64_t max_integer = 1ull << 53;  // beyond it a JSON number need not be a whole one
-
-// Required extensions this reader honours. Those on looks are carried through.
+// Required extensions this reader honours. Those on looks and on what no program reads are carried through.
 const std::set<std::string>& known_extensions() {
   static const std::set<std::string> names = {"KHR_mesh_quantization",
+                                              "EXT_mesh_gpu_instancing",
+                                              "KHR_draco_mesh_compression",
+                                              "EXT_meshopt_compression",
+                                              "KHR_meshopt_compression",
+                                              "KHR_materials_variants",
+                                              "KHR_node_visibility",
+                                              "KHR_xmp_json_ld",
+                                              "MSFT_lod",
                                               "KHR_texture_transform",
                                               "KHR_texture_basisu",
                                               "EXT_texture_webp",
@@ -28,6 +31,7 @@ const std::set<std::string>& known_extensions() {
                                               "KHR_lights_punctual",
                                               "KHR_materials_anisotropy",
                                               "KHR_materials_clearcoat",
+                                              "KHR_materials_diffuse_transmission",
                                               "KHR_materials_dispersion",
                                               "KHR_materials_emissive_strength",
                                               "KHR_materials_ior",
@@ -41,10 +45,11 @@ const std::set<std::string>& known_extensions() {
   return names;
 }
 
-class DocumentCheck {
+class DocumentCheck : private TreeCheck {
  public:
-  DocumentCheck(json& document, const std::string& name, const ReadLimits& limits, std::vector<std::string>& warnings)
-      : document_(document), name_(name), limits_(limits), warnings_(warnings) {}
+  DocumentCheck(json& document, const std::string& name, const ReadLimits& limits, CarriedDocument& carried,
+                std::vector<std::string>& warnings)
+      : TreeCheck(document, name, limits), carried_(carried), warnings_(warnings) {}
 
   void run() {
     if (!document_.is_object()) fail("the top level", "is not a JSON object");
@@ -65,143 +70,23 @@ class DocumentCheck {
     each("scenes", [&](json& o, const std::string& w) { check_scene(o, w); });
     if (size("scenes") > 0) index(document_, "scene", "the top level", "scenes", false);
     if (size("scenes") == 0) document_.erase("scene");
+    document_.erase("cameras");
     check_graph();
+    warn_dropped();
   }
 
  private:
-  using Where = const std::string&;
+  using Where = TreeCheck::Where;
 
-  [[noreturn]] void fail(Where where, const std::string& message) const {
-    throw std::runtime_error(name_ + ": " + printable(where + " " + message) + ".");
-  }
+  Carried take(json& o) { return take_carried(o, dropped_); }
 
-  template <typename Function>
-  void each(const char* collection, Function check) {
-    const auto found = document_.find(collection);
-    if (found == document_.end()) return;
-    for (size_t i = 0; i < found->size(); ++i) {
-      const std::string where = std::string(collection) + "[" + std::to_string(i) + "]";
-      json& object = (*found)[i];
-      if (!object.is_object()) fail(where, "is not an object");
-      const auto name = object.find("name");
-      if (name != object.end() && !name->is_string()) object.erase(name);
-      check(object, where);
+  void warn_dropped() {
+    std::sort(dropped_.begin(), dropped_.end());
+    dropped_.erase(std::unique(dropped_.begin(), dropped_.end()), dropped_.end());
+    if (dropped_.size() > 20) dropped_.resize(20);
+    for (const std::string& name : dropped_) {
+      warnings_.push_back("extension " + printable(name.substr(0, 60)) + " is not kept: it names accessors or views");
     }
-  }
-
-  size_t size(const char* collection) const {
-    const auto found = document_.find(collection);
-    return found == document_.end() ? 0 : found->size();
-  }
-
-  // A whole number in [low, high]; 5126.0 is one. Left in the tree as an integer.
-  uint64_t whole(json& value, Where where, uint64_t low, uint64_t high) const {
-    uint64_t number = 0;
-    bool good = false;
-    if (value.is_number_unsigned()) {
-      number = value.get<uint64_t>();
-      good = true;
-    } else if (value.is_number_float()) {
-      const double real = value.get<double>();
-      good = real >= 0 && real <= static_cast<double>(max_integer) && real == std::floor(real);
-      if (good) number = static_cast<uint64_t>(real);
-    }
-    if (!good || number < low || number > high) {
-      fail(where, "is " + shown(value) + ", which is not a whole number from " + std::to_string(low) + " to " +
-                      std::to_string(high));
-    }
-    value = number;
-    return number;
-  }
-
-  static std::string shown(const json& value) {
-    if (value.is_structured()) return value.is_array() ? "an array" : "an object";
-    return value.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, 40);
-  }
-
-  uint64_t whole(json& object, const char* key, Where where, uint64_t low, uint64_t high, bool required,
-                 uint64_t otherwise = 0) const {
-    const auto found = object.find(key);
-    if (found == object.end()) {
-      if (required) fail(where, "has no \"" + std::string(key) + "\"");
-      return otherwise;
-    }
-    return whole(*found, where + "." + key, low, high);
-  }
-
-  // An index into a collection, checked; -1 where absent.
-  int index(json& value, Where where, const char* collection) const {
-    const size_t count = size(collection);
-    if (count == 0) fail(where, "names an element of \"" + std::string(collection) + "\", which is empty");
-    return static_cast<int>(whole(value, where, 0, count - 1));
-  }
-  int index(json& object, const char* key, Where where, const char* collection, bool required) const {
-    const auto found = object.find(key);
-    if (found == object.end()) {
-      if (required) fail(where, "has no \"" + std::string(key) + "\"");
-      return -1;
-    }
-    return index(*found, where + "." + key, collection);
-  }
-
-  // The member, which must be an array (object) if it is there.
-  json* array(json& object, const char* key, Where where, bool required) const {
-    const auto found = object.find(key);
-    if (found == object.end()) {
-      if (required) fail(where, "has no \"" + std::string(key) + "\"");
-      return nullptr;
-    }
-    if (!found->is_array()) fail(where + "." + key, "is not an array");
-    if (found->empty() && required) fail(where + "." + key, "is empty");
-    return &*found;
-  }
-  json* object(json& parent, const char* key, Where where, bool required) const {
-    const auto found = parent.find(key);
-    if (found == parent.end()) {
-      if (required) fail(where, "has no \"" + std::string(key) + "\"");
-      return nullptr;
-    }
-    if (!found->is_object()) fail(where + "." + key, "is not an object");
-    return &*found;
-  }
-
-  // An array of finite numbers that fit a float; expected = 0: any length.
-  void numbers(json& object, const char* key, Where where, size_t expected) const {
-    json* values = array(object, key, where, false);
-    if (!values) return;
-    if (expected != 0 && values->size() != expected) {
-      fail(where + "." + key, "has " + std::to_string(values->size()) + " numbers, not " + std::to_string(expected));
-    }
-    for (size_t i = 0; i < values->size(); ++i) {
-      const json& value = (*values)[i];
-      if (!value.is_number() || !(std::abs(value.get<double>()) <= std::numeric_limits<float>::max())) {
-        fail(where + "." + key + "[" + std::to_string(i) + "]", "is " + shown(value) + ", which is not a finite float");
-      }
-    }
-  }
-
-  bool text(const json& object, const char* key, Where where, bool required) const {
-    const auto found = object.find(key);
-    if (found == object.end()) {
-      if (required) fail(where, "has no \"" + std::string(key) + "\"");
-      return false;
-    }
-    if (!found->is_string()) fail(where + "." + key, "is not a string");
-    return true;
-  }
-
-  static void keep_only(json& object, std::initializer_list<const char*> keys) {
-    json kept = json::object();
-    for (const char* key : keys) {
-      const auto found = object.find(key);
-      if (found != object.end()) kept[key] = std::move(*found);
-    }
-    object = std::move(kept);
-  }
-
-  static bool has_extension(const json& object, const char* name) {
-    const auto found = object.find("extensions");
-    return found != object.end() && found->is_object() && found->contains(name);
   }
 
   void check_asset() {
@@ -214,23 +99,26 @@ class DocumentCheck {
     if (text(*asset, "minVersion", "asset", false) && (*asset)["minVersion"] != "2.0") {
       fail("asset.minVersion", "asks for more than glTF 2.0");
     }
+    json kept = *asset;
+    for (const char* key : {"version", "minVersion", "generator"}) kept.erase(key);
+    if (!kept.empty()) carried_.asset = kept.dump();
     keep_only(*asset, {"version"});
   }
 
   void check_collections() {
     for (const char* key :
          {"buffers", "bufferViews", "accessors", "samplers", "images", "textures", "materials", "meshes", "nodes",
-          "skins", "animations", "scenes", "extensionsUsed", "extensionsRequired"}) {
+          "skins", "animations", "scenes", "cameras", "extensionsUsed", "extensionsRequired"}) {
       array(document_, key, "the top level", false);
     }
     check_size("nodes", limits_.max_nodes);
-    for (const char* key : {"samplers", "images", "textures", "materials", "scenes"})
+    for (const char* key : {"samplers", "images", "textures", "materials", "scenes", "cameras"})
       check_size(key, limits_.max_looks);
-    if (size("cameras") > 0) warnings_.push_back("cameras are not kept");
-    if (has_extension(document_, "KHR_lights_punctual")) warnings_.push_back("lights are not kept");
+    each("cameras", [&](json& o, const std::string&) { carried_.cameras.push_back(o.dump()); });
+    carried_.top = take(document_);
     keep_only(document_,
               {"asset", "buffers", "bufferViews", "accessors", "samplers", "images", "textures", "materials", "meshes",
-               "nodes", "skins", "animations", "scenes", "scene", "extensionsUsed", "extensionsRequired"});
+               "nodes", "skins", "animations", "scenes", "scene", "cameras", "extensionsUsed", "extensionsRequired"});
   }
 
   void check_size(const char* key, uint64_t limit) const {
@@ -245,35 +133,42 @@ class DocumentCheck {
       if (found == document_.end()) continue;
       for (const json& name : *found) {
         if (!name.is_string()) fail(key, "holds something that is not a string");
-        if (std::strcmp(key, "extensionsRequired") == 0 && known_extensions().count(name.get<std::string>()) == 0) {
-          fail("the file", "requires the extension " + name.get<std::string>().substr(0, 80) +
-                               ", which cannot be decoded here; export it again without that extension");
-        }
-        if (name == "EXT_mesh_gpu_instancing") warnings_.push_back("EXT_mesh_gpu_instancing is not applied");
+        if (std::strcmp(key, "extensionsRequired") == 0) check_required(name.get<std::string>());
       }
     }
+  }
+
+  void check_required(const std::string& name) {
+    if (known_extensions().count(name) == 0) {
+      fail("the file", "requires the extension " + name.substr(0, 80) +
+                           ", which cannot be decoded here; export it again without that extension");
+    }
+    const std::string missing = missing_decoder(name);
+    if (!missing.empty()) fail("the file", "requires the extension " + name + "; " + missing);
+    carried_.required.push_back(name);
   }
 
   void check_buffer(json& o, Where where) {
     whole(o, "byteLength", where, 1, limits_.max_total_bytes, true);
     text(o, "uri", where, false);
-    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-      if (has_extension(o, name) && !o.contains("uri")) fail(where, "is encoded with " + std::string(name));
-    }
+    const bool fallback = has_extension(o, "EXT_meshopt_compression") || has_extension(o, "KHR_meshopt_compression");
+    stored_.push_back(!fallback || o.contains("uri"));
     keep_only(o, {"byteLength", "uri"});
   }
 
   void check_view(json& o, Where where) {
     const int buffer = index(o, "buffer", where, "buffers", true);
-    const uint64_t length = whole(o, "byteLength", where, 1, max_integer, true);
-    const uint64_t offset = whole(o, "byteOffset", where, 0, max_integer, false);
+    const uint64_t length = whole(o, "byteLength", where, 1, max_json_integer, true);
+    const uint64_t offset = whole(o, "byteOffset", where, 0, max_json_integer, false);
     whole(o, "byteStride", where, 0, 65535, false);
     const uint64_t available = document_["buffers"][static_cast<size_t>(buffer)]["byteLength"].get<uint64_t>();
     if (offset > available || length > available - offset) {
       fail(where, "covers bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) +
                       ", beyond buffer " + std::to_string(buffer) + " of " + std::to_string(available) + " bytes");
     }
-    keep_only(o, {"buffer", "byteLength", "byteOffset", "byteStride"});
+    const bool stored = stored_[static_cast<size_t>(buffer)];
+    if (!check_meshopt(*this, o, stored, where) && !stored) fail(where, "lies in a buffer without bytes");
+    keep_only(o, {"buffer", "byteLength", "byteOffset", "byteStride", "meshopt"});
   }
 
   static uint64_t component_bytes(uint64_t type) {
@@ -330,7 +225,7 @@ class DocumentCheck {
     if (components == 0) fail(where + ".type", "is " + shown(o["type"]) + ", which glTF does not know");
     // every element becomes at least one float or index
     const uint64_t count = whole(o, "count", where, 1, limits_.max_decoded_bytes / 4, true);
-    const uint64_t offset = whole(o, "byteOffset", where, 0, max_integer, false);
+    const uint64_t offset = whole(o, "byteOffset", where, 0, max_json_integer, false);
     const int view = index(o, "bufferView", where, "bufferViews", false);
     if (o.contains("normalized") && !o["normalized"].is_boolean()) fail(where + ".normalized", "is not true or false");
     const uint64_t bytes = components * component_bytes(component);
@@ -349,7 +244,7 @@ class DocumentCheck {
     }
     const auto range = [&](json& part, uint64_t bytes, Where part_where) {
       const int view = index(part, "bufferView", part_where, "bufferViews", true);
-      const uint64_t offset = whole(part, "byteOffset", part_where, 0, max_integer, false);
+      const uint64_t offset = whole(part, "byteOffset", part_where, 0, max_json_integer, false);
       if (!part.contains("byteOffset")) part["byteOffset"] = 0;
       check_range(static_cast<uint64_t>(view), offset, count, bytes, part_where);
     };
@@ -401,6 +296,7 @@ class DocumentCheck {
 
   void check_mesh(json& o, Where where) {
     json* primitives = array(o, "primitives", where, true);
+    carried_.primitives.emplace_back();
     for (size_t i = 0; i < primitives->size(); ++i) {
       const std::string inner = where + ".primitives[" + std::to_string(i) + "]";
       json& primitive = (*primitives)[i];
@@ -410,13 +306,16 @@ class DocumentCheck {
     numbers(o, "weights", where, 0);
     const auto extras = o.find("extras");
     if (extras != o.end() && extras->is_object() && extras->contains("targetNames")) {
-      o["targetNames"] = (*extras)["targetNames"];
+      o["targetNames"] = std::move((*extras)["targetNames"]);
+      extras->erase("targetNames");
+      if (extras->empty()) o.erase(extras);
     }
+    carried_.meshes.push_back(take(o));
     keep_only(o, {"name", "primitives", "weights", "targetNames"});
   }
 
   void check_primitive(json& o, Where where) {
-    check_attributes(*object(o, "attributes", where, true), where + ".attributes", where, o);
+    check_attributes(*object(o, "attributes", where, true), where + ".attributes");
     index(o, "indices", where, "accessors", false);
     index(o, "material", where, "materials", false);
     whole(o, "mode", where, 0, 6, false);
@@ -424,23 +323,16 @@ class DocumentCheck {
       for (size_t t = 0; t < targets->size(); ++t) {
         const std::string inner = where + ".targets[" + std::to_string(t) + "]";
         if (!(*targets)[t].is_object()) fail(inner, "is not an object");
-        check_attributes((*targets)[t], inner, where, o);
+        check_attributes((*targets)[t], inner);
       }
     }
-    if (has_extension(o, "KHR_materials_variants")) warnings_.push_back(where + ": material variants are not kept");
-    keep_only(o, {"attributes", "indices", "material", "mode", "targets"});
+    check_draco(*this, o, where);
+    carried_.primitives.back().push_back(take(o));
+    keep_only(o, {"attributes", "indices", "material", "mode", "targets", "draco"});
   }
 
-  void check_attributes(json& attributes, Where where, Where primitive_where, const json& primitive) {
-    for (auto& item : attributes.items()) {
-      const int accessor = index(item.value(), where + "." + item.key().substr(0, 60), "accessors");
-      const json& o = document_["accessors"][static_cast<size_t>(accessor)];
-      if (has_extension(primitive, "KHR_draco_mesh_compression") && !o.contains("bufferView")) {
-        fail(primitive_where,
-             "is encoded with KHR_draco_mesh_compression, which cannot be decoded here; export it "
-             "again without compression");
-      }
-    }
+  void check_attributes(json& attributes, Where where) {
+    for (auto& item : attributes.items()) index(item.value(), where + "." + item.key().substr(0, 60), "accessors");
   }
 
   void check_node(json& o, Where where) {
@@ -454,7 +346,21 @@ class DocumentCheck {
     if (json* children = array(o, "children", where, false)) {
       for (json& child : *children) index(child, where + ".children", "nodes");
     }
+    carried_.node_cameras.push_back(index(o, "camera", where, "cameras", false));
+    carried_.node_instances.push_back(instances(o, where));
+    carried_.nodes.push_back(take(o));
     keep_only(o, {"name", "mesh", "skin", "matrix", "translation", "rotation", "scale", "weights", "children"});
+  }
+
+  // The attributes of EXT_mesh_gpu_instancing; null without it.
+  json instances(json& o, Where where) {
+    if (!has_extension(o, "EXT_mesh_gpu_instancing")) return {};
+    const std::string inner = where + ".extensions.EXT_mesh_gpu_instancing";
+    json& extension = o["extensions"]["EXT_mesh_gpu_instancing"];
+    if (!extension.is_object()) fail(inner, "is not an object");
+    json* attributes = object(extension, "attributes", inner, true);
+    check_attributes(*attributes, inner + ".attributes");
+    return *attributes;
   }
 
   void check_skin(json& o, Where where) {
@@ -466,6 +372,7 @@ class DocumentCheck {
     }
     index(o, "inverseBindMatrices", where, "accessors", false);
     index(o, "skeleton", where, "nodes", false);
+    carried_.skins.push_back(take(o));
     keep_only(o, {"name", "joints", "inverseBindMatrices", "skeleton"});
   }
 
@@ -497,6 +404,7 @@ class DocumentCheck {
       keep_only(*target, {"node", "path"});
       keep_only(channel, {"sampler", "target"});
     }
+    carried_.animations.push_back(take(o));
     keep_only(o, {"name", "samplers", "channels"});
   }
 
@@ -504,6 +412,7 @@ class DocumentCheck {
     if (json* nodes = array(o, "nodes", where, false)) {
       for (json& node : *nodes) index(node, where + ".nodes", "nodes");
     }
+    carried_.scenes.push_back(take(o));
     keep_only(o, {"name", "nodes"});
   }
 
@@ -552,17 +461,17 @@ class DocumentCheck {
     }
   }
 
-  json& document_;
-  const std::string& name_;
-  const ReadLimits& limits_;
+  CarriedDocument& carried_;
   std::vector<std::string>& warnings_;
+  std::vector<std::string> dropped_;  // names of extensions
+  std::vector<char> stored_;          // by buffer: whether it has bytes
 };
 
 }  // namespace
 
-void check_document(json& document, const std::string& name, const ReadLimits& limits,
+void check_document(json& document, const std::string& name, const ReadLimits& limits, CarriedDocument& carried,
                     std::vector<std::string>& warnings) {
-  DocumentCheck(document, name, limits, warnings).run();
+  DocumentCheck(document, name, limits, carried, warnings).run();
 }
 
 }  // namespace samples

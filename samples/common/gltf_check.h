@@ -3,8 +3,9 @@
 // open_container() takes a file apart (GLB header and chunks, or plain text), bounds the JSON text and parses it.
 // check_document() checks the tree: types, counts, every index, every byte range of buffer views and accessors (sparse
 // ones too) in 64-bit arithmetic that cannot overflow because every operand is bounded first, the node graph (one
-// parent, no cycle, bounded depth), required extensions. What is not used is removed, so that the text handed on holds
-// nothing unchecked but the materials' own values.
+// parent, no cycle, bounded depth), required extensions. Extras and extensions are taken out and carried past the parser.
+// What is not used is removed, so that the text handed on holds nothing unchecked but the materials' own values.
+// Compressed views and primitives are checked here (gltf_check_compressed.cpp) and decoded by gltf_decompress.cpp.
 //
 // Cost: linear in the text. Failure: std::runtime_error naming file and element.
 #ifndef HF_SAMPLES_COMMON_GLTF_CHECK_H
@@ -15,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "common/gltf_carried.h"
 #include "common/gltf_read.h"
 
 namespace samples {
@@ -28,11 +30,9 @@ struct GltfContainer {
 GltfContainer open_container(const std::vector<uint8_t>& bytes, const std::string& name, const ReadLimits& limits,
                              std::vector<std::string>& warnings);
 
+// carried: what is written again without being read.
 void check_document(nlohmann::json& document, const std::string& name, const ReadLimits& limits,
-                    std::vector<std::string>& warnings);
-
-// Names of the extensions used inside the materials, textures and images of the document.
-std::vector<std::string> look_extensions(const nlohmann::json& document);
+                    CarriedDocument& carried, std::vector<std::string>& warnings);
 
 }  // namespace samples
 

@@ -1,6 +1,5 @@
-// open_container() and look_extensions() of gltf_check.h.
+// open_container() of gltf_check.h.
 #include <cstring>
-#include <set>
 #include <stdexcept>
 
 #include "common/gltf_check.h"
@@ -14,20 +13,6 @@ using nlohmann::json;
 uint32_t read_u32(const std::vector<uint8_t>& bytes, size_t at) {
   return static_cast<uint32_t>(bytes[at]) | static_cast<uint32_t>(bytes[at + 1]) << 8 |
          static_cast<uint32_t>(bytes[at + 2]) << 16 | static_cast<uint32_t>(bytes[at + 3]) << 24;
-}
-
-void collect_extensions(const json& value, std::set<std::string>& names) {
-  if (value.is_array()) {
-    for (const json& element : value) collect_extensions(element, names);
-  }
-  if (!value.is_object()) return;
-  for (const auto& item : value.items()) {
-    if (item.key() == "extras") continue;
-    if (item.key() == "extensions" && item.value().is_object()) {
-      for (const auto& extension : item.value().items()) names.insert(extension.key());
-    }
-    collect_extensions(item.value(), names);
-  }
 }
 
 }  // namespace
@@ -86,15 +71,6 @@ GltfContainer open_container(const std::vector<uint8_t>& bytes, const std::strin
       parse_json(reinterpret_cast<const char*>(bytes.data()) + text_offset, static_cast<size_t>(text_size), name,
                  limits.max_json_depth, static_cast<size_t>(limits.max_json_values));
   return container;
-}
-
-std::vector<std::string> look_extensions(const json& document) {
-  std::set<std::string> names;
-  for (const char* key : {"materials", "textures", "images"}) {
-    const auto found = document.find(key);
-    if (found != document.end()) collect_extensions(*found, names);
-  }
-  return {names.begin(), names.end()};
 }
 
 }  // namespace samples

@@ -33,6 +33,8 @@ class Converter {
     convert_animations(in_);
     convert_scene();
     convert_looks();
+    carry(model, in_.source.carried);
+    say_up();
     return std::move(model);
   }
 
@@ -166,18 +168,83 @@ class Converter {
       }
       return;
     }
-    if (gltf.scenes.size() > 1) in_.warn("only the default scene is kept");
-    const int shown = std::max(index(gltf.defaultScene, gltf.scenes.size(), "scene"), 0);
-    std::vector<char> seen(gltf.nodes.size(), 0);
-    for (const int node : gltf.scenes[static_cast<size_t>(shown)].nodes) {
-      if (index(node, gltf.nodes.size(), "scenes") < 0) continue;
-      const auto n = static_cast<size_t>(node);
-      if (seen[n] || model.nodes[n].parent >= 0) {
-        in_.warn("scene node " + std::to_string(n) + " is not a root or is named twice");
+    model.shown_scene = static_cast<size_t>(std::max(index(gltf.defaultScene, gltf.scenes.size(), "scene"), 0));
+    for (const tinygltf::Scene& from : gltf.scenes) {
+      Scene to;
+      to.name = from.name;
+      std::vector<char> seen(gltf.nodes.size(), 0);
+      for (const int node : from.nodes) {
+        if (index(node, gltf.nodes.size(), "scenes") < 0) continue;
+        const auto n = static_cast<size_t>(node);
+        if (seen[n] || model.nodes[n].parent >= 0) {
+          in_.warn("scene node " + std::to_string(n) + " is not a root or is named twice");
+          continue;
+        }
+        seen[n] = 1;
+        to.roots.push_back(node);
+      }
+      model.scenes.push_back(std::move(to));
+    }
+    model.scene_roots = model.scenes[model.shown_scene].roots;
+  }
+
+  // The lists of the carried document are as long as those of the model: both count the checked document.
+  void carry(Model& model, CarriedDocument& from) {
+    model.carried = std::move(from.top), model.asset = std::move(from.asset);
+    model.cameras = std::move(from.cameras), model.required_extensions = std::move(from.required);
+    const auto give = [](std::vector<Carried>& carried, auto& to) {
+      for (size_t i = 0; i < to.size() && i < carried.size(); ++i) to[i].carried = std::move(carried[i]);
+    };
+    give(from.scenes, model.scenes), give(from.nodes, model.nodes), give(from.meshes, model.meshes);
+    give(from.skins, model.skins), give(from.animations, model.animations);
+    for (size_t n = 0; n < model.nodes.size(); ++n) {
+      if (n < from.node_cameras.size()) model.nodes[n].camera = from.node_cameras[n];
+      if (n < from.node_instances.size() && !from.node_instances[n].is_null()) read_instances(from.node_instances[n], n);
+    }
+  }
+
+  void read_instances(const nlohmann::json& attributes, size_t n) {
+    const std::string where = "nodes[" + std::to_string(n) + "] (EXT_mesh_gpu_instancing)";
+    Instances to;
+    size_t count = 0;
+    for (const auto& item : attributes.items()) {
+      const bool turn = item.key() == "ROTATION";
+      if (!turn && item.key() != "TRANSLATION" && item.key() != "SCALE") {
+        in_.warn(where + ": attribute " + item.key().substr(0, 60) + " is not kept");
         continue;
       }
-      seen[n] = 1;
-      model.scene_roots.push_back(node);
+      const int accessor = item.value().get<int>();
+      const size_t rows = in_.reader.count(accessor, where), width = turn ? 4 : 3;
+      if (count != 0 && rows != count) in_.fail(where, "has attributes of different lengths");
+      count = rows;
+      in_.reader.charge(static_cast<uint64_t>(rows) * width * sizeof(float), where);
+      const std::vector<float> values =
+          in_.reader.floats(accessor, turn ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3,
+                            turn ? Stored::signed_normalized : Stored::floats, where + "." + item.key());
+      for (size_t i = 0; i < rows; ++i) {
+        const float* v = values.data() + width * i;
+        if (turn) {
+          to.rotations.emplace_back(v[0], v[1], v[2], v[3]);
+        } else {
+          (item.key() == "SCALE" ? to.scales : to.translations).emplace_back(v[0], v[1], v[2]);
+        }
+      }
+    }
+    if (count == 0) return;
+    in_.warn(where + " shows its mesh " + std::to_string(count) + " times; the places are kept, not posed");
+    in_.model.nodes[n].instances = std::move(to);
+  }
+
+  // glTF is Y up. Exporters of Z-up tools turn the root.
+  void say_up() {
+    for (const int root : in_.model.scene_roots) {
+      const Node& node = in_.model.nodes[static_cast<size_t>(root)];
+      const glm::mat3 turn = node.matrix ? glm::mat3(*node.matrix) : glm::mat3_cast(node.rotation);
+      const float length = glm::length(turn[2]);
+      // its z axis points up to a degree
+      if (!(length > 0) || turn[2].y < 0.9998f * length) continue;
+      in_.model.notes.push_back("root node " + std::to_string(root) + " turns the model from Z up to glTF's Y up");
+      return;
     }
   }
 
@@ -189,11 +256,6 @@ class Converter {
     looks->textures = std::move(gltf.textures);
     looks->images = std::move(gltf.images);
     looks->samplers = std::move(gltf.samplers);
-    looks->extensions_used = in_.source.look_extensions;
-    for (const std::string& name : gltf.extensionsRequired) {
-      const auto& used = looks->extensions_used;
-      if (std::find(used.begin(), used.end(), name) != used.end()) looks->extensions_required.push_back(name);
-    }
     in_.model.appearance = std::move(looks);
   }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/gltf_carried.h"
 #include "common/gltf_read.h"
 
 namespace samples {
@@ -15,7 +16,7 @@ struct GltfSource {
   std::string name;
   tinygltf::Model gltf;
   std::vector<std::vector<std::string>> target_names;  // per mesh
-  std::vector<std::string> look_extensions;            // used inside materials, textures, images
+  CarriedDocument carried;
   std::vector<std::string> warnings;
   uint64_t stored_bytes = 0;  // of the file and its buffers
 };

@@ -116,15 +116,12 @@ class PrimitiveReader {
         in_.fail(where_ + ".JOINTS_" + n, "has another length than POSITION");
       }
       const auto j = in_.reader.integers(joints, TINYGLTF_TYPE_VEC4, false, where_ + ".JOINTS_" + n);
-      const auto w = floats(weights, "WEIGHTS_" + n, TINYGLTF_TYPE_VEC4, Stored::normalized);
+      auto w = weights_of(weights, "WEIGHTS_" + n);
       if (set == 0) {
         in_.reader.charge(static_cast<uint64_t>(count_) * sizeof(Influences), where_);
         to.influences.resize(count_);
       }
       for (size_t i = 0; i < j.size(); ++i) {
-        if (w[i] < 0) {
-          in_.fail(where_, "has the negative weight " + std::to_string(w[i]) + " at vertex " + std::to_string(i / 4));
-        }
         if (w[i] > 0 && j[i] >= joint_limit_) {
           in_.fail(where_, "names joint " + std::to_string(j[i]) + " at vertex " + std::to_string(i / 4) +
                                " of a skin with " + std::to_string(joint_limit_) + " joints");
@@ -135,6 +132,20 @@ class PrimitiveReader {
     }
     if (dropped > 0) in_.warn(where_ + ": " + std::to_string(dropped) + " weights beyond eight per vertex are dropped");
     normalize_influences(to.influences);
+  }
+
+  // A weight that is negative or not finite counts as 0: other tools read such files, and the vertex has other weights.
+  std::vector<float> weights_of(int accessor, const std::string& name) {
+    const std::string where = where_ + "." + name;
+    if (in_.reader.count(accessor, where) != count_) in_.fail(where, "has another length than POSITION");
+    std::vector<float> out =
+        in_.reader.floats(accessor, TINYGLTF_TYPE_VEC4, Stored::normalized, where, Stored::floats, true);
+    for (float& weight : out) {
+      if (std::isfinite(weight) && weight >= 0) continue;
+      weight = 0;
+      ++mended_;
+    }
+    return out;
   }
 
   // The first eight go to their own slots; a later one takes the lightest slot if it is heavier. False: a weight is
@@ -167,8 +178,15 @@ class PrimitiveReader {
       if (std::abs(sum - 1) > 0.01) ++uneven;
       for (float& weight : o.weights) weight = static_cast<float>(weight / sum);
     }
-    if (empty > 0) in_.warn(where_ + ": " + std::to_string(empty) + " vertices without weights follow joint 0");
-    if (uneven > 0) in_.warn(where_ + ": weights of " + std::to_string(uneven) + " vertices did not sum to 1");
+    if (mended_ + empty + uneven == 0) return;
+    std::string sentence;
+    const auto add = [&](size_t count, const char* what) {
+      if (count > 0) sentence += (sentence.empty() ? "" : ", ") + std::to_string(count) + what;
+    };
+    add(mended_, " weights that are negative or not finite count as 0");
+    add(uneven, " vertices had weights that did not sum to 1 and were scaled");
+    add(empty, " vertices without weights follow joint 0");
+    in_.warn(where_ + ": " + sentence);
   }
 
   void read_indices(Primitive& to) {
@@ -247,6 +265,7 @@ class PrimitiveReader {
   const std::string where_;
   const size_t joint_limit_;
   size_t count_ = 0;
+  size_t mended_ = 0;  // weights
 };
 
 // The smallest joint count of the skins used with each mesh; no limit without a skin.
@@ -272,7 +291,10 @@ void convert_meshes(Conversion& in) {
     for (size_t p = 0; p < meshes[m].primitives.size(); ++p) {
       Primitive primitive;
       PrimitiveReader reader(in, meshes[m].primitives[p], where + ".primitives[" + std::to_string(p) + "]", limits[m]);
-      if (reader.run(primitive)) to.primitives.push_back(std::move(primitive));
+      if (!reader.run(primitive)) continue;
+      const auto& carried = in.source.carried.primitives;
+      if (m < carried.size() && p < carried[m].size()) primitive.carried = carried[m][p];
+      to.primitives.push_back(std::move(primitive));
     }
     const size_t targets = target_count(to);
     for (const Primitive& primitive : to.primitives) {

@@ -1,4 +1,5 @@
 // What a Model must satisfy before it is written. See gltf_write.h.
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -122,6 +123,8 @@ class ModelCheck {
       for (int c = 0; c < 4; ++c) finite(std::vector<glm::vec4>{(*node.matrix)[c]}, where + " (matrix)");
     }
     finite(node.weights, where + " (weights)");
+    index(node.camera, model_.cameras.size(), where + "'s camera");
+    if (node.instances) check_instances(*node.instances, where);
     if (!node.weights.empty() && node.mesh >= 0) {
       const auto& primitives = model_.meshes[static_cast<size_t>(node.mesh)].primitives;
       if (!primitives.empty() && primitives.front().targets.size() != node.weights.size()) {
@@ -129,6 +132,13 @@ class ModelCheck {
       }
     }
     if (node.mesh >= 0 && node.skin >= 0) check_skinned_node(node, where);
+  }
+
+  void check_instances(const Instances& o, const std::string& where) const {
+    const size_t count = std::max({o.translations.size(), o.rotations.size(), o.scales.size()});
+    attribute(o.translations, count, where + " (instances)");
+    attribute(o.rotations, count, where + " (instances)");
+    attribute(o.scales, count, where + " (instances)");
   }
 
   void check_skinned_node(const Node& node, const std::string& where) const {
@@ -161,7 +171,12 @@ class ModelCheck {
       }
       for (const size_t i : path) done[i] = 2;
     }
-    for (const int root : model_.scene_roots) {
+    for (const Scene& scene : model_.scenes) check_roots(scene.roots);
+    check_roots(model_.scene_roots);
+  }
+
+  void check_roots(const std::vector<int>& roots) const {
+    for (const int root : roots) {
       index(root, model_.nodes.size(), "a scene root");
       if (root < 0 || model_.nodes[static_cast<size_t>(root)].parent >= 0) {
         fail("node " + std::to_string(root), "is listed as a scene root but is none");

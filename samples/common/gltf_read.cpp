@@ -11,6 +11,7 @@
 #include "common/file_bytes.h"
 #include "common/gltf_check.h"
 #include "common/gltf_convert.h"
+#include "common/gltf_decompress.h"
 
 namespace samples {
 namespace {
@@ -56,15 +57,15 @@ class Loader {
   Model run() {
     GltfContainer container = open_container(bytes_, name_, limits_, warnings_);
     json& document = container.document;
-    check_document(document, name_, limits_, warnings_);
+    GltfSource source;
+    check_document(document, name_, limits_, source.carried, warnings_);
 
     load_buffers(document, container);
-    GltfSource source;
+    decompress_all(document);
     source.stored_bytes = bytes_.size() + used_;
     bytes_ = std::vector<uint8_t>();
     load_images(document, limits_.decoded_limit(source.stored_bytes));
     source.name = name_;
-    source.look_extensions = look_extensions(document);
     collect_target_names(document, source);
     parse(document, source.gltf);
     restore_images(source.gltf);
@@ -117,13 +118,46 @@ class Loader {
     }
   }
 
-  // Per buffer whether a view names it.
+  // Per buffer whether a view names it. A compressed view names the buffer of its compressed bytes.
   static std::vector<char> viewed_buffers(const json& document) {
     std::vector<char> viewed(document["buffers"].size(), 0);
     const auto views = document.find("bufferViews");
     if (views == document.end()) return viewed;
-    for (const json& view : *views) viewed[view["buffer"].get<size_t>()] = 1;
+    for (const json& view : *views) {
+      const json& stored = view.contains("meshopt") ? view["meshopt"] : view;
+      viewed[stored["buffer"].get<size_t>()] = 1;
+    }
     return viewed;
+  }
+
+  void decompress_all(json& document) {
+    uint64_t decompressed = 0;
+    const uint64_t limit = limits_.free_decoded_bytes + limits_.decompressed_per_byte * (bytes_.size() + used_);
+    BufferStore store;
+    store.memory_limit = limits_.max_decompress_bytes;
+    store.bytes_of = [&](size_t i) -> const std::vector<uint8_t>& { return files_["buffer" + std::to_string(i)]; };
+    store.charge = [&](uint64_t bytes, const std::string& what) {
+      charge(bytes, what);
+      decompressed += bytes;
+      if (decompressed > limit) {
+        fail(what + " takes what compressed geometry decodes to above the limit of " + std::to_string(limit) +
+             " bytes; raise free_decoded_bytes if the file is to be trusted");
+      }
+    };
+    store.add = [&](std::vector<uint8_t> data) {
+      const size_t i = document["buffers"].size();
+      const std::string virtual_name = "buffer" + std::to_string(i);
+      document["buffers"].push_back({{"byteLength", data.size()}, {"uri", virtual_name}});
+      files_[virtual_name] = std::move(data);
+      return i;
+    };
+    try {
+      decompress(document, store);
+    } catch (const std::runtime_error& error) {
+      const std::string what = error.what();
+      if (what.compare(0, name_.size(), name_) == 0) throw;
+      fail(what);
+    }
   }
 
   std::vector<uint8_t> buffer_from_chunk(size_t i, const GltfContainer& container, const std::string& what) const {

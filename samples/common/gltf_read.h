@@ -7,9 +7,13 @@
 // 4. tinygltf gets the checked text and opens no file: its callbacks serve the bytes read before.
 // 5. The values (gltf_accessor.h): indices, joints, weights, key times, NaN.
 //
+// Draco and meshopt compressed geometry is decoded between 3 and 4 (gltf_decompress.h), where the build has the
+// libraries.
+//
 // It reads node hierarchies, triangles with strips and fans, normals, tangents, texture coordinates and COLOR_0. It
 // reads up to 8 sets of joints and weights, morph targets, skins and animations, also from sparse accessors and with
-// KHR_mesh_quantization. It skips points, cameras, lights and extra scenes, and warns. It refuses required extensions
+// KHR_mesh_quantization. It carries through scenes, cameras, instances (EXT_mesh_gpu_instancing), extras, and extensions
+// that name no accessor. It mends skin weights and says so. It skips points, and warns. It refuses required extensions
 // that it does not know, by name.
 //
 // The cost is linear in the size of the file. On failure it throws std::runtime_error with a sentence that names the
@@ -42,6 +46,11 @@ struct ReadLimits {
   // decoded_per_byte for each byte of the file and its buffers. A byte that is used once decodes to 16 at most (strips
   // of 8-bit indices).
   uint64_t free_decoded_bytes = 16ull << 20, decoded_per_byte = 16;
+  // Bytes of compressed geometry, decoded: at most free_decoded_bytes plus this for each byte of the file. A byte of a
+  // constant column decodes to 64 bytes.
+  uint64_t decompressed_per_byte = 64;
+  // Bytes a decoder may use beside its output.
+  uint64_t max_decompress_bytes = 128ull << 20;
   // Morph weights of all nodes together.
   uint64_t max_morph_weights = 1 << 20;
   // Entries of one list. Three bytes of text can ask for a node of 0.7 KB or a material of 3 KB. max_looks is for

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 
 #include "common/file_bytes.h"
 #include "common/file_write.h"
 #include "common/gltf_appearance.h"
+#include "common/gltf_pack.h"
 
 namespace samples {
 namespace {
@@ -82,7 +82,7 @@ Influences tidy(const Influences& from) {
 
 class Writer {
  public:
-  explicit Writer(const Model& model) : model_(model) { out_.buffers.resize(1); }
+  explicit Writer(const Model& model) : model_(model) {}
 
   std::string run(bool binary) {
     check_vertex_arrays();
@@ -93,33 +93,23 @@ class Writer {
     add_nodes();
     add_skins();
     add_animations();
-    if (buffer().empty()) out_.buffers.clear();
-    tinygltf::TinyGLTF writer;
-    writer.SetImageWriter(
-        [](const std::string*, const std::string*, const tinygltf::Image*, bool, std::string*, void*) { return false; },
-        nullptr);
-    std::ostringstream stream;
-    if (!writer.WriteGltfSceneToStream(&out_, stream, true, binary) || !stream) {
-      throw std::runtime_error(model_.name + ": the glTF writer failed.");
-    }
-    return stream.str();
+    return pack_gltf(model_, out_, numbers_, bytes_, binary);
   }
 
  private:
-  std::vector<unsigned char>& buffer() { return out_.buffers[0].data; }
 
   int add_view(const void* data, size_t size, int target) {
-    if (size > max_buffer_bytes - 4 || buffer().size() > max_buffer_bytes - 4 - size) {
+    if (size > max_buffer_bytes - 4 || bytes_.size() > max_buffer_bytes - 4 - size) {
       throw std::runtime_error(model_.name + ": the model takes more than 2 GB and cannot be written as one glTF.");
     }
-    buffer().resize((buffer().size() + 3) / 4 * 4, 0);
+    bytes_.resize((bytes_.size() + 3) / 4 * 4, 0);
     tinygltf::BufferView view;
     view.buffer = 0;
-    view.byteOffset = buffer().size();
+    view.byteOffset = bytes_.size();
     view.byteLength = size;
     view.target = target;
     const auto* bytes = static_cast<const unsigned char*>(data);
-    buffer().insert(buffer().end(), bytes, bytes + size);
+    bytes_.insert(bytes_.end(), bytes, bytes + size);
     out_.bufferViews.push_back(view);
     return static_cast<int>(out_.bufferViews.size()) - 1;
   }
@@ -162,8 +152,6 @@ class Writer {
       out_.materials = looks.materials;
       out_.textures = looks.textures;
       out_.samplers = looks.samplers;
-      out_.extensionsUsed = looks.extensions_used;
-      out_.extensionsRequired = looks.extensions_required;
       for (size_t i = 0; i < looks.images.size(); ++i) out_.images.push_back(embedded(looks.images[i]));
       for (size_t i = 0; i < out_.textures.size(); ++i) {
         // an empty JSON object would be lost
@@ -200,10 +188,7 @@ class Writer {
     pbr.roughnessFactor = std::clamp(static_cast<double>(from.roughness), 0.0, 1.0);
     if (from.base_color.a < 1) to.alphaMode = "BLEND";
     if (from.unlit) {
-      const std::string name = "KHR_materials_unlit";
-      to.extensions[name] = tinygltf::Value(tinygltf::Value::Object());
-      auto& used = out_.extensionsUsed;
-      if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+      to.extensions["KHR_materials_unlit"] = tinygltf::Value(tinygltf::Value::Object());
     }
     out_.materials.push_back(std::move(to));
   }
@@ -224,12 +209,14 @@ class Writer {
 
   // Primitives without a triangle or line and meshes without a primitive cannot be written; they show nothing.
   void add_meshes() {
-    mesh_number_.assign(model_.meshes.size(), -1);
+    numbers_.meshes.assign(model_.meshes.size(), -1);
     for (size_t m = 0; m < model_.meshes.size(); ++m) {
       const MeshData& from = model_.meshes[m];
       tinygltf::Mesh to;
       to.name = from.name;
+      std::vector<int>& numbers = numbers_.primitives.emplace_back();
       for (const Primitive& primitive : from.primitives) {
+        numbers.push_back(primitive.indices.empty() ? -1 : static_cast<int>(to.primitives.size()));
         if (!primitive.indices.empty()) to.primitives.push_back(add_primitive(primitive));
       }
       if (to.primitives.empty()) continue;
@@ -241,7 +228,7 @@ class Writer {
         extras["targetNames"] = tinygltf::Value(names);
         to.extras = tinygltf::Value(extras);
       }
-      mesh_number_[m] = static_cast<int>(out_.meshes.size());
+      numbers_.meshes[m] = static_cast<int>(out_.meshes.size());
       out_.meshes.push_back(std::move(to));
     }
   }
@@ -343,14 +330,38 @@ class Writer {
 
   void add_nodes() {
     for (size_t n = 0; n < model_.nodes.size(); ++n) out_.nodes.push_back(make_node(model_.nodes[n], n));
+    for (const Node& node : model_.nodes) numbers_.instances.push_back(add_instances(node));
     if (out_.nodes.empty()) return;
-    tinygltf::Scene scene;
-    scene.nodes = model_.scene_roots;
-    for (size_t n = 0; model_.scene_roots.empty() && n < model_.nodes.size(); ++n) {
-      if (model_.nodes[n].parent < 0) scene.nodes.push_back(static_cast<int>(n));
+    std::vector<Scene> scenes = model_.scenes;
+    if (scenes.empty()) scenes.resize(1);
+    const size_t shown = model_.shown_scene < scenes.size() ? model_.shown_scene : 0;
+    scenes[shown].roots = model_.scene_roots;
+    // only a single scene may stand for every root node
+    for (size_t n = 0; scenes.size() == 1 && model_.scene_roots.empty() && n < model_.nodes.size(); ++n) {
+      if (model_.nodes[n].parent < 0) scenes[0].roots.push_back(static_cast<int>(n));
     }
-    out_.scenes.push_back(scene);
-    out_.defaultScene = 0;
+    for (const Scene& from : scenes) {
+      tinygltf::Scene scene;
+      scene.name = from.name;
+      scene.nodes = from.roots;
+      // an empty JSON object would be lost
+      if (scene.name.empty() && scene.nodes.empty()) scene.name = "scene_" + std::to_string(out_.scenes.size());
+      out_.scenes.push_back(std::move(scene));
+    }
+    out_.defaultScene = static_cast<int>(shown);
+  }
+
+  WrittenNumbers::InstanceAccessors add_instances(const Node& node) {
+    WrittenNumbers::InstanceAccessors out;
+    if (!node.instances || node.mesh < 0 || numbers_.meshes[static_cast<size_t>(node.mesh)] < 0) return out;
+    const auto add = [&](const auto& values, int type) {
+      return values.empty() ? -1
+                            : add_accessor(values.data(), values.size(), type, TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
+    };
+    out.translations = add(node.instances->translations, TINYGLTF_TYPE_VEC3);
+    out.rotations = add(node.instances->rotations, TINYGLTF_TYPE_VEC4);
+    out.scales = add(node.instances->scales, TINYGLTF_TYPE_VEC3);
+    return out;
   }
 
   tinygltf::Node make_node(const Node& from, size_t n) const {
@@ -358,7 +369,7 @@ class Writer {
     // an empty JSON object would be lost
     to.name = from.name.empty() ? "node_" + std::to_string(n) : from.name;
     to.children = from.children;
-    to.mesh = from.mesh < 0 ? -1 : mesh_number_[static_cast<size_t>(from.mesh)];
+    to.mesh = from.mesh < 0 ? -1 : numbers_.meshes[static_cast<size_t>(from.mesh)];
     if (to.mesh >= 0 && is_skinned(from)) to.skin = from.skin;
     if (to.mesh >= 0) to.weights.assign(from.weights.begin(), from.weights.end());
     if (from.matrix) {
@@ -428,7 +439,7 @@ class Writer {
       std::map<std::vector<float>, int> inputs;
       for (const Channel& channel : from.channels) {
         const int node_mesh = model_.nodes[static_cast<size_t>(channel.node)].mesh;
-        if (channel.path == Path::weights && (node_mesh < 0 || mesh_number_[static_cast<size_t>(node_mesh)] < 0))
+        if (channel.path == Path::weights && (node_mesh < 0 || numbers_.meshes[static_cast<size_t>(node_mesh)] < 0))
           continue;
         const auto known = inputs.find(channel.times);
         const int input = known != inputs.end()
@@ -447,6 +458,7 @@ class Writer {
         to.samplers.push_back(sampler);
         to.channels.push_back(target);
       }
+      numbers_.animations.push_back(to.channels.empty() ? -1 : static_cast<int>(out_.animations.size()));
       // glTF has no empty animation
       if (!to.channels.empty()) out_.animations.push_back(std::move(to));
     }
@@ -461,7 +473,8 @@ class Writer {
 
   const Model& model_;
   tinygltf::Model out_;
-  std::vector<int> mesh_number_;
+  std::vector<unsigned char> bytes_;
+  WrittenNumbers numbers_;
   std::vector<int> enter_, last_;  // see number_nodes()
 };
 

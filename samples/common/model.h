@@ -20,6 +20,18 @@
 
 namespace samples {
 
+// JSON text of an element that no program reads: extras, and extensions that name no accessor. "" = none. It is written
+// again as it was read.
+struct Carried {
+  std::string extras, extensions;
+};
+
+// Places of EXT_mesh_gpu_instancing, as many in each list that is not empty. Carried through, not applied.
+struct Instances {
+  std::vector<glm::vec3> translations, scales;
+  std::vector<glm::vec4> rotations;  // x y z w
+};
+
 // A node of the hierarchy. Indices are into the model's arrays, -1 = none. Local transform = matrix where given (an
 // animated node never has one), otherwise translation * rotation * scale.
 struct Node {
@@ -33,6 +45,15 @@ struct Node {
   int mesh = -1;
   int skin = -1;               // its own transform is ignored then, as glTF says
   std::vector<float> weights;  // of the morph targets; empty: the mesh's
+  int camera = -1;             // of Model::cameras
+  std::optional<Instances> instances;
+  Carried carried;
+};
+
+struct Scene {
+  std::string name;
+  std::vector<int> roots;
+  Carried carried;
 };
 
 // Displacements added to a primitive, scaled by the target's weight. normals may be empty, positions too.
@@ -61,6 +82,7 @@ struct Primitive {
   std::vector<uint32_t> indices;                  // three per triangle, two per line; below positions.size()
   std::vector<MorphTarget> targets;               // as many in every primitive of a mesh
   int material = -1;
+  Carried carried;
 };
 
 struct MeshData {
@@ -68,6 +90,7 @@ struct MeshData {
   std::vector<Primitive> primitives;
   std::vector<float> weights;  // default morph weights; empty: zeros
   std::vector<std::string> target_names;
+  Carried carried;
 };
 
 struct Skin {
@@ -75,6 +98,7 @@ struct Skin {
   std::vector<int> joints;              // nodes
   std::vector<glm::mat4> inverse_bind;  // one per joint
   int skeleton = -1;
+  Carried carried;
 };
 
 enum class Interpolation { step, linear, cubic_spline };
@@ -94,6 +118,7 @@ struct Channel {
 struct Animation {
   std::string name;
   std::vector<Channel> channels;  // at most one per node and path
+  Carried carried;
 };
 
 // What pictures need of a material; the full one is carried through in Model::appearance under the same index.
@@ -112,13 +137,21 @@ struct Model {
   std::string name;  // the file's name, for messages
   std::vector<Node> nodes;
   std::vector<int> scene_roots;  // of the scene shown; every root node when the file has no scene
+  // Every scene of the file; empty: one scene of scene_roots. scene_roots counts for the one shown.
+  std::vector<Scene> scenes;
+  size_t shown_scene = 0;
   std::vector<MeshData> meshes;
   std::vector<Skin> skins;
   std::vector<Animation> animations;
   // Indices below the appearance's material count are written from there, those above from here.
   std::vector<Material> materials;
   std::shared_ptr<const Appearance> appearance;
-  std::vector<std::string> warnings;  // what was skipped, repaired or not kept; one sentence each
+  Carried carried;                               // of the top level
+  std::string asset;                             // JSON of the asset without version and generator: copyright, extras
+  std::vector<std::string> cameras;              // JSON of each
+  std::vector<std::string> required_extensions;  // written as required where they are still in use
+  std::vector<std::string> notes;                // about the file, one sentence each; nothing is wrong
+  std::vector<std::string> warnings;             // what was skipped, repaired or not kept; one sentence each
 };
 
 }  // namespace samples

@@ -10,15 +10,19 @@
 #include "common/program.h"
 #include "common/progress_bar.h"
 #include "deform/pose_sheet.h"
+#include "deform/propose_script.h"
 
 namespace {
 
 using namespace samples;
 
 const char* usage =
-    "usage: hf_deform_script MESH --script POSE.json [-o OUT.glb] [--sheet S.png] [--frames-obj DIR] [options]\n"
+    "usage: hf_deform_script MESH --script POSE.json | --propose [-o OUT.glb] [--sheet S.png] [--frames-obj DIR] [options]\n"
     "Plays a script of handle insertions, removals and drags on a surface (.glb, .gltf, .obj, .off, .ply).\n"
     "  --script FILE      the script (format in samples/deform/README.md)\n"
+    "  --propose          lists the handles the library proposes and adds what holds, feet for example; without a script\n"
+    "                     it drags the longest tips\n"
+    "  --up AXIS          away from the ground: x, y, z, -x, -y or -z (default y, as in glTF)\n"
     "  -o FILE            the animation as .glb or .gltf: one shape key per key frame, exact at the keys\n"
     "  --keys N           key frames per second in OUT.glb (default 8)\n"
     "  --sheet FILE       a contact sheet, .png\n"
@@ -34,8 +38,18 @@ struct Command {
   std::string mode;
   double keys = 8;
   uint32_t tiles = 7, threads = 1;
-  bool refine = false, quiet = false, help = false;
+  glm::dvec3 up{0, 1, 0};
+  bool propose = false, refine = false, quiet = false, help = false;
 };
+
+glm::dvec3 axis_of(const std::string& word) {
+  const size_t sign = word.size() == 2 && word[0] == '-' ? 1 : 0;
+  const char letter = word.size() == sign + 1 ? word[sign] : ' ';
+  if (letter < 'x' || letter > 'z') throw std::runtime_error("--up takes x, y, z, -x, -y or -z");
+  glm::dvec3 out(0);
+  out[letter - 'x'] = sign == 1 ? -1 : 1;
+  return out;
+}
 
 Command parse(Words words) {
   Command out;
@@ -59,6 +73,10 @@ Command parse(Words words) {
     } else if (words.is("--mode")) {
       out.mode = words.value();
       if (out.mode != "smooth" && out.mode != "paper") throw std::runtime_error("--mode takes smooth or paper");
+    } else if (words.is("--propose")) {
+      out.propose = true;
+    } else if (words.is("--up")) {
+      out.up = axis_of(words.value());
     } else if (words.is("--refine")) {
       out.refine = true;
     } else if (words.is("--quiet")) {
@@ -69,8 +87,8 @@ Command parse(Words words) {
   }
   if (out.help) return out;
   if (out.mesh.empty()) throw std::runtime_error("name a mesh; see --help");
-  if (out.script.empty()) throw std::runtime_error("--script is needed; see --help");
-  if (out.output.empty() && out.sheet.empty() && out.frames.empty())
+  if (out.script.empty() && !out.propose) throw std::runtime_error("--script or --propose is needed; see --help");
+  if (!out.propose && out.output.empty() && out.sheet.empty() && out.frames.empty())
     throw std::runtime_error("nothing to write: give -o, --sheet or --frames-obj; see --help");
   return out;
 }
@@ -86,7 +104,8 @@ SheetFrame sheet_frame(const Posable& posable, const std::vector<double>& positi
   out.positions = positions, out.label = label;
   out.layer.assign(positions.size() / 3, 0);
   for (const Posable::Live& live : posable.handles()) {
-    for (const uint32_t v : posable.region_of(live)) out.layer[v] = static_cast<uint8_t>(1 + live.entry.layer);
+    const auto colour = static_cast<uint8_t>(1 + live.entry.layer + (live.entry.offered ? 1 : 0));
+    for (const uint32_t v : posable.region_of(live)) out.layer[v] = colour;
   }
   return out;
 }
@@ -181,9 +200,26 @@ Model animated(const PosableMesh& mesh, const std::vector<Key>& keys) {
   return out;
 }
 
+// Lists the proposals. What holds is added before the script; without one, tips are dragged. False: nothing to play.
+bool add_proposals(const Command& command, const PosableMesh& mesh, const Posable& posable, ScriptFile& script) {
+  const std::vector<ProposedHandle> handles = propose(mesh, posable, command.up);
+  std::printf("%zu proposed handles\n%s", handles.size(), list_of(handles).c_str());
+  if (command.output.empty() && command.sheet.empty() && command.frames.empty()) return false;
+  if (command.script.empty()) {
+    constexpr size_t tips = 3;  // dragged one after the other
+    const bool paper = script.paper;
+    script = propose_script(handles, command.up, tips);
+    script.paper = paper;
+  } else {
+    script.steps.insert(script.steps.begin(), hold_step(handles));
+  }
+  return true;
+}
+
 void run(const Command& command) {
   ProgressBar bar(command.quiet);
-  ScriptFile script = read_script(command.script);
+  ScriptFile script;
+  if (!command.script.empty()) script = read_script(command.script);
   if (!command.mode.empty()) script.paper = command.mode == "paper";
   bar.begin("reading " + command.mesh.string());
   const PosableMesh mesh = read_posable(command.mesh);
@@ -192,6 +228,7 @@ void run(const Command& command) {
   options.paper = script.paper, options.threads = command.threads;
   Posable posable(mesh.flat, options);
   bar.end(std::to_string(mesh.flat.vertex_count()) + " vertices");
+  if (command.propose && !add_proposals(command, mesh, posable, script)) return;
   const std::vector<Key> keys = play(script, command, posable, bar);
 
   if (!command.output.empty()) {
@@ -237,7 +274,7 @@ void run(const Command& command) {
     if (frames.back().label.empty()) frames.back().label = label;
   }
   write_pose_sheet(command.sheet, mesh, frames, script,
-                   command.mesh.filename().string() + ", " + command.script.stem().string() +
+                   command.mesh.filename().string() + ", " + (command.script.empty() ? "proposed handles" : command.script.stem().string()) +
                        (script.paper ? ", the paper's scheme" : ""));
   bar.end();
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <set>
 #include <stdexcept>
 
@@ -39,6 +40,8 @@ PosableMesh read_posable(const std::filesystem::path& file) {
     out.flat = to_flat_mesh(out.surface);
     out.model = make_model(file.stem().string(), out.surface.positions, out.surface.triangles);
   }
+  for (const std::string& note : out.model.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  for (const std::string& warning : out.model.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   if (out.flat.triangles.empty()) throw std::runtime_error(file.string() + " holds no triangle to pose");
   return out;
 }
@@ -90,8 +93,8 @@ void Posable::add(const std::vector<HandleEntry>& handles) {
     live.name = entry.name, live.entry = entry;
     hf_handles_desc desc = HF_INIT(hf_handles_desc);
     desc.handle_count = 1, desc.layer = entry.layer;
-    const glm::dvec3 point = at(entry.point);
-    const double xyz[3] = {point.x, point.y, point.z}, radius = entry.radius * diagonal_;
+    const glm::dvec3 point = entry.absolute ? entry.point : at(entry.point);
+    const double xyz[3] = {point.x, point.y, point.z}, radius = entry.radius * (entry.absolute ? 1 : diagonal_);
     uint32_t count = 0;
     if (entry.has_point) {
       desc.points = xyz, desc.radii = &radius;

@@ -184,6 +184,26 @@ constexpr double pivot_floor = 1e-10;
 // benchmark fall by 7 to 11 %.
 constexpr std::int32_t samples_per_cluster = 40;
 
+// ---- proposals.cpp: shares of the box diagonal, where nothing else is said ----
+
+constexpr double least_tall = 0.05;       // a flatter surface has no feet
+constexpr double ground_share = 0.1;      // of the height: feet are at most this far above the lowest vertex
+constexpr double leg_share = 0.1;         // of the height: the surface rises by this from a foot to the next
+constexpr double sole_share = 0.02;       // of the height: how deep the sole of a foot is
+constexpr double sole_margin = 1.2;       // of the sole: the radius of a foot
+constexpr double least_radius = 0.01;     // of every proposal
+constexpr double most_sole_radius = 0.06;
+constexpr double tip_share = 0.25;        // of the length of a tip: its radius
+constexpr double most_tip_radius = 0.05;
+constexpr double foot_reach = 0.1;        // a low tip this near to a foot is the foot
+constexpr double least_piece = 0.1;       // a smaller component gets no ends
+constexpr double joint_reach = 0.1;       // an end joint this near to a proposal belongs to it
+constexpr double around_joint = 1.3;      // of the distance from a joint to the surface: its radius
+constexpr std::size_t least_region = 6;   // vertices: a smaller region of a coarse mesh grows
+constexpr double radius_growth = 1.4;     // from one attempt to the next
+constexpr double most_radius = 0.15;      // of a region that grows
+constexpr int most_attempts = 12;         // at a radius
+
 // ---- refine.cpp ----
 
 // When a pose starts from an already deformed surface, each group of vertices gets its rotation there. The edges at up

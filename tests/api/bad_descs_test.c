@@ -210,6 +210,11 @@ static hf_result geodesics_create(void* d) {
   hf_geodesics_destroy(geodesics);
   return result;
 }
+static void fill_propose(void* d) { *(hf_propose_desc*)d = HF_INIT(hf_propose_desc); }
+static hf_result propose(void* d) {
+  uint32_t count;
+  return hf_propose_handles(scene.body, d, 0, NULL, &count);
+}
 static void fill_extremities(void* d) { *(hf_extremities_desc*)d = HF_INIT(hf_extremities_desc); }
 static hf_result find_extremities(void* d) {
   uint32_t count;
@@ -323,6 +328,7 @@ static const struct {
     {"hf_surface_find_critical_points: field", sizeof(hf_scalars), fill_scalars, critical_field, 0},
     {"hf_surface_find_critical_points: out_info", sizeof(hf_critical_info), fill_critical_info, critical_info, 1},
     {"hf_geodesics_create: desc", sizeof(hf_geodesics_desc), fill_geodesics, geodesics_create, 1},
+    {"hf_propose_handles: desc", sizeof(hf_propose_desc), fill_propose, propose, 1},
     {"hf_surface_find_extremities: desc", sizeof(hf_extremities_desc), fill_extremities, find_extremities, 1},
     {"hf_direction_create: desc", sizeof(hf_direction_desc), fill_direction, direction_create, 1},
     {"hf_direction_solve: out_info", sizeof(hf_solve_info), fill_solve_info, direction_solve, 1},

@@ -152,6 +152,10 @@ static hf_result geodesics_create(void* h) {
   hf_geodesics out;
   return hf_geodesics_create(h, NULL, &out);
 }
+static hf_result propose(void* h) {
+  uint32_t count;
+  return hf_propose_handles(h, NULL, 0, NULL, &count);
+}
 static hf_result find_extremities(void* h) {
   uint32_t count;
   return hf_surface_find_extremities(h, NULL, 0, NULL, &count);
@@ -354,6 +358,7 @@ static const struct {
     {"hf_surface_find_critical_points", SURFACE, find_critical_points, NO_INDEX},
     {"hf_geodesics_create", SURFACE, geodesics_create, NO_INDEX},
     {"hf_surface_find_extremities", SURFACE, find_extremities, NO_INDEX},
+    {"hf_propose_handles", SURFACE, propose, NO_INDEX},
     {"hf_geodesics_solve", GEODESICS, geodesics_distance, NO_INDEX},
     {"hf_geodesics_solve_f64", GEODESICS, geodesics_distance_f64, NO_INDEX},
     {"hf_surface_find_extremities", GEODESICS, find_extremities_with, NO_INDEX},

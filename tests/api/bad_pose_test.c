@@ -18,6 +18,9 @@ static float source[3 * TUBE_VERTICES], floats[3 * TUBE_VERTICES], normals[3 * T
 static double doubles[3 * TUBE_VERTICES];
 static hf_pose out_pose;
 static hf_transfer out_transfer;
+static hf_propose_desc propose;
+static double joints[2 * 3];
+static uint32_t parents[2], proposal_count;
 
 static void good_input(void) {
   for (uint32_t i = 0; i < 6; ++i) region[i] = target_region[i] = 5 * TUBE_AROUND + i;
@@ -40,6 +43,8 @@ static void good_input(void) {
   deform.positions = floats;
   memcpy(source, scene.posed, sizeof source);
   frame.source_positions = source, frame.target_positions = floats;
+  propose = HF_INIT(hf_propose_desc), memset(joints, 0, sizeof joints), parents[0] = NO_INDEX, parents[1] = 0;
+  propose.joint_count = 2, propose.joints = joints, propose.parents = parents, proposal_count = 777;
   floats[0] = 777, doubles[0] = 777, normals[0] = 777;
   out_pose = scene.pose, out_transfer = scene.transfer;
 }
@@ -49,6 +54,7 @@ static int outputs_unwritten(void) {
 }
 static int pose_as_before(void) { return outputs_unwritten() && pose_unchanged(&scene); }
 static int transfer_as_before(void) { return outputs_unwritten() && transfer_unchanged(&scene); }
+static int proposals_as_before(void) { return proposal_count == 777 && pose_as_before(); }
 static int no_pose(void) { return out_pose == NULL && pose_as_before(); }
 static int no_transfer(void) { return out_transfer == NULL && transfer_as_before(); }
 
@@ -127,6 +133,35 @@ static void bad_handles_are_not_added(void** state) {
   ROW("point NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_add_handle_at(scene.pose, NULL, 0, out_numbers));
   scene_destroy(&scene);
   finish_rows("adding handles");
+}
+
+#define PROPOSE(what, expected, index, change) \
+  ROW(what, expected, index, change, hf_propose_handles(scene.body, &propose, 0, NULL, &proposal_count))
+
+static void handles_are_not_proposed_from_bad_input(void** state) {
+  (void)state;
+  scene_create(&scene);
+#undef UNCHANGED
+#define UNCHANGED proposals_as_before
+  PROPOSE("joints NULL", HF_ERROR_NULL_POINTER, NO_INDEX, propose.joints = NULL);
+  PROPOSE("parents NULL", HF_ERROR_NULL_POINTER, NO_INDEX, propose.parents = NULL);
+  PROPOSE("65537 joints", HF_ERROR_TOO_LARGE, NO_INDEX, propose.joint_count = 65537);
+  PROPOSE("2^32 - 1 joints", HF_ERROR_TOO_LARGE, NO_INDEX, propose.joint_count = UINT32_MAX);
+  PROPOSE("joint NaN", HF_ERROR_NON_FINITE, 1, joints[4] = (double)NAN);
+  PROPOSE("a parent beyond the list", HF_ERROR_OUT_OF_RANGE, 0, parents[0] = 2);
+  PROPOSE("up NaN", HF_ERROR_NON_FINITE, NO_INDEX, propose.up[2] = (double)NAN);
+  PROPOSE("up infinite", HF_ERROR_NON_FINITE, NO_INDEX, propose.up[0] = HUGE_VAL);
+  PROPOSE("least_length NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.least_length = (float)NAN);
+  PROPOSE("least_length -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.least_length = -1);
+  PROPOSE("least_length 11", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.least_length = 11);
+  PROPOSE("257 proposals", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.limit = 257);
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_propose_handles(scene.body, &propose, 0, NULL, NULL));
+  ROW("no surface", HF_ERROR_INVALID_HANDLE, NO_INDEX, (void)0,
+      hf_propose_handles(NULL, &propose, 0, NULL, &proposal_count));
+#undef UNCHANGED
+#define UNCHANGED pose_as_before
+  scene_destroy(&scene);
+  finish_rows("proposing handles");
 }
 
 static void isolated_vertices_and_welded_copies_in_regions_are_found(void** state) {
@@ -388,6 +423,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(bad_poses_are_not_made),
       cmocka_unit_test(bad_handles_are_not_added),
+      cmocka_unit_test(handles_are_not_proposed_from_bad_input),
       cmocka_unit_test(isolated_vertices_and_welded_copies_in_regions_are_found),
       cmocka_unit_test(a_pose_takes_256_handles_and_no_more),
       cmocka_unit_test(other_calls_of_a_pose_refuse_bad_arguments),

@@ -176,6 +176,16 @@ static void print_pose(void) {
   F(struct_size), F(joint_capacity), F(vertex_capacity), F(weight_count), F(joint_count), F(vertex_count), F(pivots),
       F(rotations), F(translations), F(axes), F(scales), F(vertex_joints), F(vertex_weights);
 #undef T
+#define T hf_propose_desc
+  STRUCT(hf_propose_desc);
+  F(struct_size), F(joint_count), F(joints), F(parents), F(up), F(least_length), F(limit), F(progress);
+#undef T
+#define T hf_handle_proposal
+  STRUCT(hf_handle_proposal);
+  F(vertex), F(component), F(reason), F(pinned), F(joint), F(reserved), F(position), F(radius), F(length);
+#undef T
+  CONSTANT(HF_HANDLE_REASON_FOOT), CONSTANT(HF_HANDLE_REASON_TIP), CONSTANT(HF_HANDLE_REASON_END),
+      CONSTANT(HF_HANDLE_REASON_JOINT), CONSTANT(HF_HANDLE_REASON_MIDDLE);
   CONSTANT(HF_DEFORM_SMOOTH), CONSTANT(HF_DEFORM_PAPER), CONSTANT(HF_LAYER_COUNT), CONSTANT(HF_HANDLE_LIMIT);
 }
 

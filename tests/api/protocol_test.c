@@ -51,6 +51,12 @@ static hf_result find_extremities(Call* c) {
   c->count[0] = count;
   return r;
 }
+static hf_result propose(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_propose_handles(scene.body, NULL, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
 static hf_result trace_isolines(Call* c) {
   const hf_scalars field = heights();
   const double levels[2] = {3.5, 8.25};
@@ -145,6 +151,7 @@ static const struct {
     {"hf_surface_save", save, {{0, 1, 0}}, 0},
     {"hf_surface_find_critical_points", find_critical_points, {{0, sizeof(hf_critical_point), 0}}, 0},
     {"hf_surface_find_extremities", find_extremities, {{0, sizeof(hf_extremity), 0}}, 0},
+    {"hf_propose_handles", propose, {{0, sizeof(hf_handle_proposal), 0}}, 0},
     {"hf_surface_trace_isolines",
      trace_isolines,
      {{0, 8, 0}, {0, 8, 0}, {0, 24, 0}, {1, 4, 1}, {1, 4, 0}, {1, 4, 0}},

@@ -224,6 +224,7 @@ class Scene
                 }
             case "critical": return surface.FindCriticalPoints(Doubles(step, "field")).Select(p =>
                 (double)p.index).ToArray();
+            case "propose": return surface.ProposeHandles().Select(p => (double)p.vertex).OrderBy(x => x).ToArray();
             case "extremities": return surface.FindExtremities().Select(p => (double)p.vertex).OrderBy(x => x).ToArray();
             case "geodesics": objects[name] = new Geodesics(surface); return null;
             case "distance": return ((Geodesics)on).Distance(Numbers(Get(step, "sources")));

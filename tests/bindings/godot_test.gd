@@ -179,6 +179,13 @@ func run(step, objects, kept):
 			var lines = on.trace_isolines(list(step, "field", kept), list(step, "levels", kept))
 			return [true, points_of(step, lines), on]
 		"critical": return [true, column(on.find_critical_points(list(step, "field", kept)), "index"), on]
+		"propose":
+			var places = column(on.propose_handles(), "vertex")
+			if places != null:
+				places = Array(places)
+				places.sort()
+				places = PoolRealArray(places)
+			return [true, places, on]
 		"extremities":
 			var tips = column(on.find_extremities(), "vertex")
 			if tips != null:

@@ -166,13 +166,15 @@ local function new_scene(meshes)
         expect(lines.line_count == step.lines and closed == step.closed, 'lines')
       end
       return 'array', lines.positions, 3 * lines.point_count
-    elseif what == 'critical' or what == 'extremities' or what == 'singularities' then
+    elseif what == 'critical' or what == 'extremities' or what == 'propose' or what == 'singularities' then
       local found, count
       if what == 'critical' then found, count = on:find_critical_points(get('field')) elseif what == 'extremities' then
-        found, count = on:find_extremities() else found, count = on:singularities() end
+        found, count = on:find_extremities() elseif what == 'propose' then
+        found, count = on:propose_handles() else found, count = on:singularities() end
       local list = {}
-      for i = 0, count - 1 do list[i + 1] = tonumber(what == 'extremities' and found[i].vertex or found[i].index) end
-      if what == 'extremities' then table.sort(list) end
+      for i = 0, count - 1 do list[i + 1] = tonumber((what == 'extremities' or what == 'propose') and found[i].vertex
+        or found[i].index) end
+      if what == 'extremities' or what == 'propose' then table.sort(list) end
       local out = ffi.new('double[?]', count + 1)
       for i = 1, count do out[i - 1] = list[i] end
       return 'array', out, count

@@ -184,6 +184,8 @@ function runStep(hf, step, meshes, objects, kept) {
     }
     case 'critical':
       return array(Float64Array.from(on.findCriticalPoints(get('field')), (point) => point.index));
+    case 'propose':
+      return array(Float64Array.from(on.proposeHandles(options), (place) => place.vertex).sort());
     case 'extremities':
       return array(Float64Array.from(on.findExtremities(options), (tip) => tip.vertex).sort());
     case 'geodesics':

@@ -155,6 +155,8 @@ class Scene:
         elif do == "critical":
             points = on.find_critical_points(get("field"))
             return "array", points["index"].astype(np.float64)
+        elif do == "propose":
+            return "array", np.sort(on.propose_handles(**options)["vertex"].astype(np.float64))
         elif do == "extremities":
             return "array", np.sort(on.find_extremities(**options)["vertex"].astype(np.float64))
         elif do == "geodesics":

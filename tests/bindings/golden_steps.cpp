@@ -142,7 +142,8 @@ Result Scene::run(const Json& step) {
     result.fields = {{"residual", certificate.residual},
                      {"site_error", certificate.site_error},
                      {"overshoot_checked", certificate.overshoot_checked}};
-  } else if (what == "levels" || what == "isolines" || what == "critical" || what == "extremities") {
+  } else if (what == "levels" || what == "isolines" || what == "critical" || what == "extremities" ||
+             what == "propose") {
     return run_looking(step, what, on.surface.get(), n);
   } else if (what == "cast_ray" || what == "find_vertex") {
     return run_picking(step, what, on.surface.get(), n);

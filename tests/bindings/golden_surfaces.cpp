@@ -150,6 +150,15 @@ Result Scene::run_mesh(const Json& step, const std::string& what, hf_surface sur
 
 Result Scene::run_looking(const Json& step, const std::string& what, hf_surface surface, size_t n) {
   Result result;
+  if (what == "propose") {
+    std::vector<hf_handle_proposal> found(HF_HANDLE_LIMIT);
+    uint32_t size = 0;
+    check(hf_propose_handles(surface, nullptr, HF_HANDLE_LIMIT, found.data(), &size));
+    result.array.emplace();
+    for (uint32_t i = 0; i < size; ++i) result.array->push_back(found[i].vertex);
+    std::sort(result.array->begin(), result.array->end());
+    return result;
+  }
   if (what == "extremities") {
     std::vector<hf_extremity> found(64);
     uint32_t size = 0;

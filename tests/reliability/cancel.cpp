@@ -226,6 +226,14 @@ void add_field_cases(World& w, std::vector<Case>& cases) {
   cases.push_back(
       making("directions", w.big_surface, desc<hf_direction_desc>(), hf_direction_create, hf_direction_destroy));
   cases.push_back(making("quads", w.surface, desc<hf_quads_desc>(), hf_quads_create, hf_quads_destroy));
+  cases.push_back({"propose_handles",
+                   [&w](hf_progress p) {
+                     hf_propose_desc d = desc<hf_propose_desc>();
+                     d.progress = p;
+                     std::uint32_t count = 0;
+                     return hf_propose_handles(w.surface, &d, 0, nullptr, &count);
+                   },
+                   [&] { return memory_of(w.surface); }});
   for (const std::int32_t kind : {HF_EXTREMITIES_POISSON, HF_EXTREMITIES_GEODESIC}) {
     cases.push_back({kind == HF_EXTREMITIES_POISSON ? "extremities_poisson" : "extremities_geodesic",
                      [&w, kind](hf_progress p) {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "unit/samples/gltf_support.h"
+#include "unit/samples/compressed_files.h"
 #include "unit/samples/sound_file.h"
 
 namespace hostile {
@@ -228,6 +228,24 @@ File quantised_file() {
   return b.glb();
 }
 
+// Two scenes, instances, a camera, extras and extensions that are carried past the reader.
+File carried_file() {
+  GlbBuilder b;
+  const samples_test::Sheet sheet = samples_test::make_sheet(3);
+  b.triangle_mesh({{"POSITION", b.floats(sheet.positions, "VEC3")}})["indices"] =
+      b.accessor(b.view(sheet.indices), sheet.indices.size(), "SCALAR", 5123);
+  b.document["nodes"].push_back({{"mesh", 0}, {"camera", 0}, {"extras", {{"tags", {1, "two", nullptr}}}}});
+  b.document["nodes"][0]["extensions"] = {
+      {"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", b.floats({0, 0, 0, 5, 0, 0}, "VEC3")}}}}},
+      {"KHR_lights_punctual", {{"light", 0}}}};
+  b.document["extensions"] = {{"KHR_lights_punctual", {{"lights", {{{"type", "point"}}}}}}};
+  b.document["extensionsUsed"] = {"EXT_mesh_gpu_instancing", "KHR_lights_punctual"};
+  b.document["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+  b.document["scenes"] = {{{"nodes", {0}}}, {{"nodes", {1, 0}}, {"extras", 7}}};
+  b.document["scene"] = 1;
+  return b.glb();
+}
+
 // Text with an embedded buffer.
 File text_file() {
   const std::string text =
@@ -244,7 +262,16 @@ File text_file() {
 
 }  // namespace
 
-std::vector<File> made_seeds() { return {samples_test::sound_file(), sheet_file(), quantised_file(), text_file()}; }
+std::vector<File> made_seeds() {
+  std::vector<File> seeds = {samples_test::sound_file(), sheet_file(), quantised_file(), text_file(), carried_file()};
+#ifdef HF_SAMPLES_DRACO
+  for (const bool edgebreaker : {true, false}) seeds.push_back(samples_test::draco_file(edgebreaker));
+#endif
+#ifdef HF_SAMPLES_MESHOPT
+  seeds.push_back(samples_test::meshopt_file());
+#endif
+  return seeds;
+}
 
 std::vector<File> shared_seeds(std::size_t most) {
   std::vector<std::filesystem::path> names;

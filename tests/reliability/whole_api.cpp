@@ -240,6 +240,14 @@ void Run::analysis() {
     call(hf_surface_find_extremities(surface, &wanted, n, found.data(), &count), "hf_surface_find_extremities");
     take(distance.data(), n), take(found.data(), count);
   }
+  hf_propose_desc places = desc<hf_propose_desc>();
+  const double joints[6] = {0, 0, 0, 0, 1, 0};
+  const std::uint32_t parents[2] = {HF_NO_INDEX, 0};
+  places.joint_count = 2, places.joints = joints, places.parents = parents;
+  std::vector<hf_handle_proposal> proposed(HF_HANDLE_LIMIT);
+  std::uint32_t proposed_count = 0;
+  call(hf_propose_handles(surface, &places, HF_HANDLE_LIMIT, proposed.data(), &proposed_count), "hf_propose_handles");
+  take(proposed.data(), proposed_count);
   hf_geodesics_destroy(geodesics), hf_surface_destroy(surface);
 }
 

@@ -35,6 +35,7 @@ class HF_PT_panel(bpy.types.Panel):
         row.operator("hf.unbind")
         layout.prop(context.scene, "hf_live")
         column = layout.column(align=True)
+        column.operator("hf.propose")
         column.operator("hf.add_handle", text="Add handle from selection")
         column.operator("hf.add_groups")
         column.operator("hf.add_bones")

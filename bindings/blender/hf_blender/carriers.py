@@ -14,6 +14,7 @@ from mathutils import Matrix
 import hf
 
 PROPERTIES = ("hf_key", "hf_id", "hf_layer", "hf_vertices", "hf_rest")
+OFFERED = "hf_offered"  # where an offered empty was put
 
 
 def is_bone(carrier):
@@ -25,11 +26,26 @@ def bones_of(armature):
     return [bone for bone in armature.pose.bones if "hf_id" in bone] if armature.get("hf_bones") else []
 
 
+def offer(empty):
+    """An empty that is no handle until it is moved."""
+    empty[OFFERED] = [x for row in empty.matrix_world for x in row]
+
+
+def waits(carrier):
+    place = carrier.get(OFFERED)
+    return place is not None and np.allclose(np.array(carrier.matrix_world).ravel(), place, rtol=1e-6, atol=1e-7)
+
+
+def offered(key):
+    """Empties of a mesh that wait to be moved."""
+    return [o for o in bpy.data.objects if o.type == "EMPTY" and o.get("hf_key") == key and waits(o)]
+
+
 def carriers_in(objects):
     """key -> {id: carrier}, for all meshes."""
     found = {}
     for obj in objects:
-        if obj.type == "EMPTY" and "hf_id" in obj:
+        if obj.type == "EMPTY" and "hf_id" in obj and not waits(obj):
             found.setdefault(obj["hf_key"], {})[obj["hf_id"]] = obj
         elif obj.type == "ARMATURE":
             for bone in bones_of(obj):

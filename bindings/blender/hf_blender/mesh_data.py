@@ -61,6 +61,19 @@ def group_vertices(obj, name, least=0.5):
     return groups_vertices(obj, [name], least)[0]
 
 
+def connected(mesh, start, inside):
+    """The vertices of a mask that edges inside it connect with a vertex."""
+    edges = column(mesh.edges, "vertices", 2).reshape(-1, 2)
+    edges = edges[inside[edges].all(1)]
+    reached = np.zeros(len(mesh.vertices), bool)
+    reached[start] = True
+    while True:
+        beside = edges[reached[edges].any(1)].ravel()
+        if reached[beside].all():
+            return np.flatnonzero(reached).tolist()
+        reached[beside] = True
+
+
 def selected_vertices(obj):
     if obj.mode == "EDIT":
         obj.update_from_editmode()

@@ -151,6 +151,23 @@ class HF_OT_add_bones(bpy.types.Operator):
         refresh(obj)
 
 
+class HF_OT_propose(bpy.types.Operator):
+    """Handles where the body stands and where it ends: feet that hold, head, tail and hands to drag"""
+    bl_idname, bl_label, bl_options = "hf.propose", "Propose handles", {"REGISTER", "UNDO"}
+    holding: bpy.props.BoolProperty(name="Only what holds", default=False,
+        description="Only the feet, or what else holds the body")
+
+    @guarded
+    def execute(self, context):
+        obj = mesh_of(context)
+        session.session_of(obj, context.window_manager)
+        with quiet():
+            made = session.add_proposals(obj, self.holding)
+        refresh(obj)
+        held = sum(1 for carrier in made if not carriers.waits(carrier))
+        self.report({"INFO"}, f"{len(made)} handles, {held} of them hold; move one of the others")
+
+
 class HF_OT_remove_handle(bpy.types.Operator):
     """Remove the active handle, an empty or a bone's; the others keep their places"""
     bl_idname, bl_label, bl_options = "hf.remove_handle", "Remove handle", {"REGISTER", "UNDO"}
@@ -246,5 +263,5 @@ class HF_OT_transfer(bpy.types.Operator):
         context.scene.hf_live = False
 
 
-OPERATORS = (HF_OT_bind, HF_OT_unbind, HF_OT_add_handle, HF_OT_add_groups, HF_OT_add_bones, HF_OT_remove_handle,
+OPERATORS = (HF_OT_bind, HF_OT_unbind, HF_OT_add_handle, HF_OT_add_groups, HF_OT_add_bones, HF_OT_propose, HF_OT_remove_handle,
     HF_OT_update, HF_OT_field, HF_OT_weights, HF_OT_transfer)

@@ -305,5 +305,17 @@ namespace Hf
             return Rows<hf_extremity>((handle, capacity, rows, count) => Functions.hf_surface_find_extremities(handle, place,
                 capacity, rows, count));
         }
+
+        /// <summary>Places for handles, pinned ones first; up points away from the ground.</summary>
+        public hf_handle_proposal[] ProposeHandles(double upX = 0, double upY = 1, double upZ = 0)
+        {
+            var desc = new hf_propose_desc { struct_size = (uint)sizeof(hf_propose_desc) };
+            desc.up[0] = upX;
+            desc.up[1] = upY;
+            desc.up[2] = upZ;
+            hf_propose_desc* place = &desc;
+            return Rows<hf_handle_proposal>((handle, capacity, rows, count) => Functions.hf_propose_handles(handle, place,
+                capacity, rows, count));
+        }
     }
 }

@@ -88,6 +88,19 @@ Value find_extremities(Surface& s, const Arguments&) {
   return value;
 }
 
+// propose_handles(): { vertex, reason, pinned, radius } each, pinned ones first
+Value propose_handles(Surface& s, const Arguments&) {
+  uint32_t count = 0;
+  check(hf_propose_handles(s.get(), nullptr, 0, nullptr, &count));
+  std::vector<hf_handle_proposal> found(count);
+  if (count) check(hf_propose_handles(s.get(), nullptr, count, found.data(), &count));
+  Value value;
+  value.kind = Value::rows;
+  for (const hf_handle_proposal& p : found)
+    value.table.push_back({{"vertex", p.vertex}, {"reason", p.reason}, {"pinned", p.pinned}, {"radius", p.radius}});
+  return value;
+}
+
 // ---- the direction field of a surface: direction_create(degree = 1) replaces it
 
 Value direction_create(Surface& s, const Arguments& a) {
@@ -257,6 +270,7 @@ const std::vector<Entry>& field_methods() {
       {"trace_isolines", 2, 2, trace_isolines},
       {"find_critical_points", 1, 1, find_critical_points},
       {"find_extremities", 0, 0, find_extremities},
+      {"propose_handles", 0, 0, propose_handles},
       {"direction_create", 0, 1, direction_create},
       {"direction_add_sites", 2, 2, direction_add_sites},
       {"direction_remove_sites", 1, 1, direction_remove_sites},

@@ -131,6 +131,17 @@ export interface Surface extends Handle {
     geodesics?: Geodesics | null;
     progress?: Progress | null;
   }): { vertex: number; component: number; length: number; position: number[] }[];
+  /** Places for handles, pinned ones first; reason is one of HF_HANDLE_REASON_*. */
+  proposeHandles(options?: { leastLength?: number; limit?: number; progress?: Progress | null }): {
+    vertex: number;
+    component: number;
+    reason: number;
+    pinned: number;
+    joint: number;
+    position: number[];
+    radius: number;
+    length: number;
+  }[];
 }
 
 /** Sites on a surface, and the smooth field through them. */

@@ -185,6 +185,15 @@ export function surfaceClasses(tools) {
       if (count[0]) call('hf_surface_find_extremities', this._handle, desc, count[0], written(bytes), written(count));
       return table('hf_extremity', bytes, count[0]);
     }
+    proposeHandles({ progress = null, ...options } = {}) {
+      const desc = make('hf_propose_desc').options(options);
+      watched(desc, progress);
+      const count = new Uint32Array(1);
+      call('hf_propose_handles', this._handle, desc, 0, null, written(count));
+      const bytes = new Uint8Array(count[0] * rowSize('hf_handle_proposal'));
+      if (count[0]) call('hf_propose_handles', this._handle, desc, count[0], written(bytes), written(count));
+      return table('hf_handle_proposal', bytes, count[0]);
+    }
   }
 
   return { Surface, Progress };

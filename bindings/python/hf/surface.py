@@ -252,6 +252,31 @@ class Surface(Object):
                 ctypes.byref(count))
         return out
 
+    def propose_handles(self, *, joints: Optional[ArrayLike] = None, parents: Optional[ArrayLike] = None,
+        up: Optional[ArrayLike] = None, progress: Optional[Progress] = None, **options: Any) -> np.ndarray:
+        """Places for handles, pinned ones first: records vertex, component, reason, pinned, joint, position, radius,
+        length. Reasons are the constants HF_HANDLE_REASON_*. joints, parents: a skeleton, by position in the list; a
+        root has the parent HF_NO_INDEX.
+
+        Options: least_length, limit.
+        """
+        desc = make(_raw.hf_propose_desc)
+        options_into(desc, options)
+        desc.progress = handle_of(progress, Progress, "progress")
+        if joints is not None:
+            places, above = np.ascontiguousarray(joints, np.float64).reshape(-1, 3), integers(parents, "parents")
+            if len(places) != len(above):
+                raise InvalidArgumentError(f"{len(places)} joints have {len(above)} parents")
+            desc.joint_count, desc.joints, desc.parents = len(places), address(places), address(above)
+        if up is not None:
+            desc.up[:] = [float(x) for x in np.asarray(up, np.float64).reshape(3)]
+        count = ctypes.c_uint32()
+        call("hf_propose_handles", self._raw_handle, ctypes.byref(desc), 0, None, ctypes.byref(count))
+        out = np.empty(count.value, np.dtype(_raw.hf_handle_proposal))
+        if out.size:
+            call("hf_propose_handles", self._raw_handle, ctypes.byref(desc), out.size, address(out), ctypes.byref(count))
+        return out
+
 
 class Geodesics(Object):
     """Distances along a surface by the heat method."""

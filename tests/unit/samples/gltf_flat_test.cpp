@@ -219,7 +219,7 @@ TEST(Scatter, AMeshUsedTwiceIsCopiedSoThatEachNodeGetsItsOwn) {
   for (size_t v = 0; v < wanted.size(); ++v) EXPECT_LT(glm::distance(again.positions[v], wanted[v]), 1e-6) << v;
 }
 
-TEST(Scatter, WrongSizesNanAndSingularTransformsAreRefusedAndChangeNothing) {
+TEST(Scatter, WrongSizesAndNanAreRefusedAndChangeNothing) {
   Model model = split_cube();
   const FlatMesh mesh = flatten(model);
   std::vector<glm::dvec3> wanted = mesh.positions;
@@ -228,10 +228,24 @@ TEST(Scatter, WrongSizesNanAndSingularTransformsAreRefusedAndChangeNothing) {
   wanted = mesh.positions;
   wanted[3].x = NAN;
   EXPECT_NE(message_of([&] { scatter(model, mesh, wanted); }).find("vertex 3"), std::string::npos);
-  model.nodes[0].scale = {1, 0, 1};
-  const FlatMesh squashed = flatten(model);
-  EXPECT_NE(message_of([&] { scatter(model, squashed, mesh.positions); }).find("singular"), std::string::npos);
   EXPECT_EQ(model.meshes[0].primitives[0].positions, split_cube().meshes[0].primitives[0].positions);
+}
+
+TEST(Scatter, WhatAScaleOfZeroCollapsesStaysAsStoredAndIsSaid) {
+  Model model = split_cube();
+  model.nodes.push_back(model.nodes[0]);  // the same cube beside it, collapsed
+  model.nodes[1].scale = {1, 0, 1};
+  model.scene_roots = {0, 1};
+  const FlatMesh mesh = flatten(model);
+  std::vector<glm::dvec3> wanted = mesh.positions;
+  for (glm::dvec3& p : wanted) p += glm::dvec3(1, 2, 3);
+  scatter(model, mesh, wanted);
+  const FlatMesh again = flatten(model);
+  for (size_t v = 0; v < wanted.size(); ++v) {
+    EXPECT_LT(glm::distance(again.positions[v], v < 24 ? wanted[v] : mesh.positions[v]), 1e-6) << v;
+  }
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_EQ(model.warnings[0].compare(0, 11, "24 vertices"), 0) << model.warnings[0];
 }
 
 TEST(Bake, APosedFrameBecomesAStillModelInWorldSpace) {

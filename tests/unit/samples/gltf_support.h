@@ -22,6 +22,7 @@ using nlohmann::json;
 struct GlbBuilder {
   json document = {{"asset", {{"version", "2.0"}}}};
   std::vector<uint8_t> binary;
+  std::vector<json> extra_buffers;  // behind the binary chunk
 
   template <typename T>
   int view(const std::vector<T>& values, int stride = 0) {
@@ -60,6 +61,7 @@ struct GlbBuilder {
     json o = document;
     std::vector<uint8_t> data = binary;
     if (!data.empty()) o["buffers"] = {{{"byteLength", data.size()}}};
+    for (const json& buffer : extra_buffers) o["buffers"].push_back(buffer);
     while (data.size() % 4 != 0) data.push_back(0);
     std::string text = o.dump();
     while (text.size() % 4 != 0) text += ' ';

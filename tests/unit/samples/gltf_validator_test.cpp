@@ -6,6 +6,7 @@
 
 #include <cstdio>
 
+#include "common/gltf_decompress.h"
 #include "common/gltf_write.h"
 #include "common/mesh_file.h"
 #include "common/skin_write.h"
@@ -141,7 +142,7 @@ TEST(Validator, WrittenFilesHaveNoErrors) {
   write_mesh_file(to_surface_mesh(mesh), folder.path / "surface.glb");
   if (!shared_data().empty()) {
     for (const auto& entry : std::filesystem::directory_iterator(shared_data() / "gltf")) {
-      if (entry.path().filename() == "pirate.glb") continue;
+      if (entry.path().filename() == "pirate.glb" && !has_meshopt()) continue;
       write(read_gltf(entry.path()), entry.path().stem().string());
     }
   }

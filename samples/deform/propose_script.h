@@ -1,0 +1,33 @@
+// Proposed handles as a script: what holds is added first, then one tip after the other is added, dragged and removed.
+#ifndef HF_SAMPLES_DEFORM_PROPOSE_SCRIPT_H
+#define HF_SAMPLES_DEFORM_PROPOSE_SCRIPT_H
+
+#include <string>
+#include <vector>
+
+#include "deform/posable.h"
+
+namespace samples {
+
+struct ProposedHandle {
+  HandleEntry entry;  // "foot 1", "tip 2", ...; its place is in the unit of the mesh
+  bool pinned = false;
+  std::string joint;  // name of the joint nearby, or empty
+  hf_handle_proposal proposal;
+};
+
+// Asks the library, with the skeleton of the model where it has one. up: away from the ground.
+std::vector<ProposedHandle> propose(const PosableMesh& mesh, const Posable& posable, const glm::dvec3& up);
+
+// One line for each handle.
+std::string list_of(const std::vector<ProposedHandle>& handles);
+
+// The step that adds what holds.
+Step hold_step(const std::vector<ProposedHandle>& handles);
+
+// Shows all proposals, then drags the longest tips up and outwards, `tips` of them.
+ScriptFile propose_script(const std::vector<ProposedHandle>& handles, const glm::dvec3& up, size_t tips);
+
+}  // namespace samples
+
+#endif
