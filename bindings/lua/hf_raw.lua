@@ -423,6 +423,27 @@ typedef struct hf_skin_info {
   uint32_t* vertex_joints;
   float* vertex_weights;
 } hf_skin_info;
+typedef struct hf_propose_desc {
+  uint32_t struct_size;
+  uint32_t joint_count;
+  const double* joints;
+  const uint32_t* parents;
+  double up[3];
+  float least_length;
+  uint32_t limit;
+  hf_progress progress;
+} hf_propose_desc;
+typedef struct hf_handle_proposal {
+  uint32_t vertex;
+  uint32_t component;
+  int32_t reason;
+  int32_t pinned;
+  uint32_t joint;
+  uint32_t reserved;
+  double position[3];
+  double radius;
+  double length;
+} hf_handle_proposal;
 typedef struct hf_quads_desc {
   uint32_t struct_size;
   int32_t kind;
@@ -686,6 +707,7 @@ hf_result hf_pose_get_field(hf_pose pose, uint32_t handle, float* out_values, ui
 hf_result hf_deform(hf_pose pose, float* out_positions, hf_deform_info* out_info);
 hf_result hf_pose_deform(hf_pose pose, const hf_deform_desc* desc, hf_deform_info* out_info);
 hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* inout_skin);
+hf_result hf_propose_handles(hf_surface surface, const hf_propose_desc* desc, uint32_t capacity, hf_handle_proposal* out_proposals, uint32_t* out_count);
 hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
 void hf_quads_destroy(hf_quads quads);
 hf_result hf_quads_get_info(hf_quads quads, hf_quads_info* out_info);
@@ -782,6 +804,11 @@ local constants = { header_version = '0.1.0',
   HF_DEFORM_PAPER = 1,
   HF_LAYER_COUNT = 8,
   HF_HANDLE_LIMIT = 256,
+  HF_HANDLE_REASON_FOOT = 0,
+  HF_HANDLE_REASON_TIP = 1,
+  HF_HANDLE_REASON_END = 2,
+  HF_HANDLE_REASON_JOINT = 3,
+  HF_HANDLE_REASON_MIDDLE = 4,
   HF_QUADS_UNIFORM = 0,
   HF_QUADS_PURE = 1,
   HF_SIDE_SMALLER = 0,

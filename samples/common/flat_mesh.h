@@ -96,8 +96,8 @@ struct ScatterOptions {
 
 // Gives the model new rest positions (world space, one per flat vertex): each primitive gets back the positions and
 // normals which, moved by its node or skinned at rest, lie where asked. Rig, animations, looks stay. A mesh used by
-// several nodes is copied for each. Where a scale of 0 collapses vertices at rest they keep what is stored, and a warning
-// of the model counts them.
+// several nodes is copied for each. Where a scale of 0 collapses vertices at rest they keep what is stored, and a
+// warning of the model counts them.
 void scatter(Model& model, const FlatMesh& mesh, const std::vector<glm::dvec3>& positions,
              const ScatterOptions& options = {});
 

@@ -176,8 +176,8 @@ void AccessorReader::decode(const tinygltf::Accessor& accessor, size_t component
   }
 }
 
-std::vector<float> AccessorReader::floats(int accessor, int type, Stored stored, const std::string& where,
-                                          Stored base, bool any_value) {
+std::vector<float> AccessorReader::floats(int accessor, int type, Stored stored, const std::string& where, Stored base,
+                                          bool any_value) {
   const tinygltf::Accessor& o = at(accessor, where);
   if (o.type != type) {
     fail(where, std::string("is ") + type_name(o.type) + " where " + type_name(type) + " belongs");

@@ -26,7 +26,8 @@ class AccessorReader {
  public:
   AccessorReader(const tinygltf::Model& model, const std::string& name, uint64_t max_decoded_bytes);
 
-  // count x components floats, all finite unless any_value. type: TINYGLTF_TYPE_...; 0 allows VEC3 and VEC4 (see components_of).
+  // count x components floats, all finite unless any_value. type: TINYGLTF_TYPE_...; 0 allows VEC3 and VEC4 (see
+  // components_of).
   std::vector<float> floats(int accessor, int type, Stored stored, const std::string& where,
                             Stored base = Stored::floats, bool any_value = false);
   // Whole numbers. wide: 32 bits are allowed too (indices), otherwise 8 and 16 (joints).

@@ -18,8 +18,8 @@ bool is_consumed(const std::string& name) {
 
 // The JSON is bounded in depth, so recursion is.
 bool names_data(const json& value) {
-  static const std::set<std::string> keys = {"accessor", "accessors",   "attributes", "buffer",   "buffers", "bufferView",
-                                             "bufferViews", "indices", "sampler",    "samplers"};
+  static const std::set<std::string> keys = {"accessor",   "accessors",   "attributes", "buffer",  "buffers",
+                                             "bufferView", "bufferViews", "indices",    "sampler", "samplers"};
   if (value.is_array()) return std::any_of(value.begin(), value.end(), names_data);
   if (!value.is_object()) return false;
   for (const auto& item : value.items()) {

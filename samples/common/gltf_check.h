@@ -3,9 +3,10 @@
 // open_container() takes a file apart (GLB header and chunks, or plain text), bounds the JSON text and parses it.
 // check_document() checks the tree: types, counts, every index, every byte range of buffer views and accessors (sparse
 // ones too) in 64-bit arithmetic that cannot overflow because every operand is bounded first, the node graph (one
-// parent, no cycle, bounded depth), required extensions. Extras and extensions are taken out and carried past the parser.
-// What is not used is removed, so that the text handed on holds nothing unchecked but the materials' own values.
-// Compressed views and primitives are checked here (gltf_check_compressed.cpp) and decoded by gltf_decompress.cpp.
+// parent, no cycle, bounded depth), required extensions. Extras and extensions are taken out and carried past the
+// parser. What is not used is removed, so that the text handed on holds nothing unchecked but the materials' own
+// values. Compressed views and primitives are checked here (gltf_check_compressed.cpp) and decoded by
+// gltf_decompress.cpp.
 //
 // Cost: linear in the text. Failure: std::runtime_error naming file and element.
 #ifndef HF_SAMPLES_COMMON_GLTF_CHECK_H

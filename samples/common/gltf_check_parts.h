@@ -165,8 +165,9 @@ class TreeCheck {
   const ReadLimits& limits_;
 };
 
-// Checks the compressed form of a view (EXT_meshopt_compression, KHR_meshopt_compression) and leaves it under "meshopt".
-// stored: whether the view's own buffer has bytes. False: the view is not compressed, or its own bytes are used.
+// Checks the compressed form of a view (EXT_meshopt_compression, KHR_meshopt_compression) and leaves it under
+// "meshopt". stored: whether the view's own buffer has bytes. False: the view is not compressed, or its own bytes are
+// used.
 bool check_meshopt(const TreeCheck& check, nlohmann::json& view, bool stored, const std::string& where);
 
 // Checks KHR_draco_mesh_compression of a primitive, whose attributes are checked, and leaves it under "draco" where it

@@ -199,7 +199,8 @@ class Converter {
     give(from.skins, model.skins), give(from.animations, model.animations);
     for (size_t n = 0; n < model.nodes.size(); ++n) {
       if (n < from.node_cameras.size()) model.nodes[n].camera = from.node_cameras[n];
-      if (n < from.node_instances.size() && !from.node_instances[n].is_null()) read_instances(from.node_instances[n], n);
+      if (n < from.node_instances.size() && !from.node_instances[n].is_null())
+        read_instances(from.node_instances[n], n);
     }
   }
 

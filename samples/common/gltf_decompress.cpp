@@ -13,9 +13,7 @@ using nlohmann::json;
 
 constexpr uint64_t index_bytes = 4;
 
-uint64_t component_bytes(int type) {
-  return type == 5120 || type == 5121 ? 1 : type == 5122 || type == 5123 ? 2 : 4;
-}
+uint64_t component_bytes(int type) { return type == 5120 || type == 5121 ? 1 : type == 5122 || type == 5123 ? 2 : 4; }
 
 uint64_t component_count(const std::string& type) {
   if (type == "SCALAR") return 1;
@@ -96,7 +94,8 @@ class PrimitiveDecoder {
       attribute.components = component_count(o["type"].get<std::string>());
       attribute.bytes = component_bytes(attribute.component_type);
       const size_t count = o["count"].get<size_t>();
-      if (attribute.components == 0) fail(where_ + "." + item.key().substr(0, 60), "is a matrix, which Draco cannot hold");
+      if (attribute.components == 0)
+        fail(where_ + "." + item.key().substr(0, 60), "is a matrix, which Draco cannot hold");
       if (!names_.empty() && count != points_) fail(where_, "has attributes of different lengths");
       points_ = count;
       store_.charge(count * attribute.components * attribute.bytes, where_);
@@ -109,7 +108,8 @@ class PrimitiveDecoder {
   // A new accessor, because another primitive may use the old one.
   size_t add(json out, std::vector<uint8_t> bytes) {
     const size_t size = bytes.size();
-    document_["bufferViews"].push_back({{"buffer", store_.add(std::move(bytes))}, {"byteOffset", 0}, {"byteLength", size}});
+    document_["bufferViews"].push_back(
+        {{"buffer", store_.add(std::move(bytes))}, {"byteOffset", 0}, {"byteLength", size}});
     out["bufferView"] = document_["bufferViews"].size() - 1;
     out["byteOffset"] = 0;
     document_["accessors"].push_back(std::move(out));

@@ -45,10 +45,10 @@ void decode_meshopt(const MeshoptView& view, const uint8_t* data, size_t size, s
 
 bool has_draco();
 struct DracoAttribute {
-  uint32_t id = 0;                  // in the stream
-  int component_type = 0;           // of the accessor
-  size_t components = 0, bytes = 0; // bytes: of one component
-  std::vector<uint8_t> data;        // out: the rows of the accessor
+  uint32_t id = 0;                   // in the stream
+  int component_type = 0;            // of the accessor
+  size_t components = 0, bytes = 0;  // bytes: of one component
+  std::vector<uint8_t> data;         // out: the rows of the accessor
 };
 // The primitive's accessors ask for point_count rows and index_count indices of triangles; a strip has at most as many
 // triangles. `indices` receives 32-bit indices.

@@ -1,8 +1,8 @@
 // decode_draco() of gltf_decompress.h, by Draco (Apache-2.0) where the build has it.
 //
-// The decoder allocates by counts in the stream, which the size of the stream does not bound. So the header is read here
-// first and compared with the accessors. The sizes of the attributes are bounded between connectivity and values, in
-// an overridden step of the decoder.
+// The decoder allocates by counts in the stream, which the size of the stream does not bound. So the header is read
+// here first and compared with the accessors. The sizes of the attributes are bounded between connectivity and values,
+// in an overridden step of the decoder.
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
@@ -20,17 +20,15 @@ namespace samples {
 #ifdef HF_SAMPLES_DRACO
 namespace {
 
-// Bytes the decoder takes for a triangle beside its output: corner tables, symbols and traversal. Measured below 150 on
-// a sheet of 2 million triangles; half would let streams past that take twice the limit.
-constexpr uint64_t triangle_bytes = 160;
-// Tables of one seam-split attribute, for each triangle.
+// Bytes the decoder takes for a triangle: 63 with its output, measured on sheets of 0.5 and 2 million triangles, and a
+// margin. Double would refuse sheets of a million triangles at the default limit.
+constexpr uint64_t triangle_bytes = 100;
+// Tables of one attribute with seams, for each triangle: three corners with a vertex each, and as much again.
 constexpr uint64_t seam_bytes = 32;
 // Copies of an attribute while it is decoded: portable values, corrections, result.
 constexpr uint64_t attribute_copies = 3;
 
-[[noreturn]] void damaged(const std::string& what) {
-  throw std::runtime_error("holds a Draco stream that " + what);
-}
+[[noreturn]] void damaged(const std::string& what) { throw std::runtime_error("holds a Draco stream that " + what); }
 
 struct StreamHeader {
   bool edgebreaker = false;

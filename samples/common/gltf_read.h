@@ -12,9 +12,9 @@
 //
 // It reads node hierarchies, triangles with strips and fans, normals, tangents, texture coordinates and COLOR_0. It
 // reads up to 8 sets of joints and weights, morph targets, skins and animations, also from sparse accessors and with
-// KHR_mesh_quantization. It carries through scenes, cameras, instances (EXT_mesh_gpu_instancing), extras, and extensions
-// that name no accessor. It mends skin weights and says so. It skips points, and warns. It refuses required extensions
-// that it does not know, by name.
+// KHR_mesh_quantization. It carries through scenes, cameras, instances (EXT_mesh_gpu_instancing), extras, and
+// extensions that name no accessor. It mends skin weights and says so. It skips points, and warns. It refuses required
+// extensions that it does not know, by name.
 //
 // The cost is linear in the size of the file. On failure it throws std::runtime_error with a sentence that names the
 // file and the element, and keeps nothing.

@@ -97,7 +97,6 @@ class Writer {
   }
 
  private:
-
   int add_view(const void* data, size_t size, int target) {
     if (size > max_buffer_bytes - 4 || bytes_.size() > max_buffer_bytes - 4 - size) {
       throw std::runtime_error(model_.name + ": the model takes more than 2 GB and cannot be written as one glTF.");
@@ -355,8 +354,7 @@ class Writer {
     WrittenNumbers::InstanceAccessors out;
     if (!node.instances || node.mesh < 0 || numbers_.meshes[static_cast<size_t>(node.mesh)] < 0) return out;
     const auto add = [&](const auto& values, int type) {
-      return values.empty() ? -1
-                            : add_accessor(values.data(), values.size(), type, TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
+      return values.empty() ? -1 : add_accessor(values.data(), values.size(), type, TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
     };
     out.translations = add(node.instances->translations, TINYGLTF_TYPE_VEC3);
     out.rotations = add(node.instances->rotations, TINYGLTF_TYPE_VEC4);

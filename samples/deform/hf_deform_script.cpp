@@ -17,10 +17,12 @@ namespace {
 using namespace samples;
 
 const char* usage =
-    "usage: hf_deform_script MESH --script POSE.json | --propose [-o OUT.glb] [--sheet S.png] [--frames-obj DIR] [options]\n"
+    "usage: hf_deform_script MESH --script POSE.json | --propose [-o OUT.glb] [--sheet S.png] [--frames-obj DIR] "
+    "[options]\n"
     "Plays a script of handle insertions, removals and drags on a surface (.glb, .gltf, .obj, .off, .ply).\n"
     "  --script FILE      the script (format in samples/deform/README.md)\n"
-    "  --propose          lists the handles the library proposes and adds what holds, feet for example; without a script\n"
+    "  --propose          lists the handles the library proposes and adds what holds, feet for example; without a "
+    "script\n"
     "                     it drags the longest tips\n"
     "  --up AXIS          away from the ground: x, y, z, -x, -y or -z (default y, as in glTF)\n"
     "  -o FILE            the animation as .glb or .gltf: one shape key per key frame, exact at the keys\n"
@@ -274,7 +276,8 @@ void run(const Command& command) {
     if (frames.back().label.empty()) frames.back().label = label;
   }
   write_pose_sheet(command.sheet, mesh, frames, script,
-                   command.mesh.filename().string() + ", " + (command.script.empty() ? "proposed handles" : command.script.stem().string()) +
+                   command.mesh.filename().string() + ", " +
+                       (command.script.empty() ? "proposed handles" : command.script.stem().string()) +
                        (script.paper ? ", the paper's scheme" : ""));
   bar.end();
 }

@@ -70,13 +70,12 @@ using namespace hf_inner::capi;
 extern "C" hf_result hf_propose_handles(hf_surface handle, const hf_propose_desc* given, uint32_t capacity,
                                         hf_handle_proposal* out_proposals, uint32_t* out_count) {
   return guarded("hf_propose_handles", [&] {
-    const std::shared_ptr<const Core> shared = harmonic_core(handle);
+    const std::shared_ptr<const Core> shared = harmonic_core(handle, "proposed handles");
     const hf_propose_desc desc = read_optional(given, "desc");
     const ProposalOptions options = read_options(desc);
     require_either(out_proposals, out_count, "out_proposals and out_count");
     const Core& core = *shared;
-    const Vector<HandleProposal> found =
-        with_progress(desc.progress, [&] { return propose_handles(core, options); });
+    const Vector<HandleProposal> found = with_progress(desc.progress, [&] { return propose_handles(core, options); });
     const std::uint32_t count = static_cast<std::uint32_t>(found.size());
     write_count(out_count, count);
     check_capacity(out_proposals, capacity, count, "capacity");

@@ -185,24 +185,42 @@ constexpr double pivot_floor = 1e-10;
 constexpr std::int32_t samples_per_cluster = 40;
 
 // ---- proposals.cpp: shares of the box diagonal, where nothing else is said ----
+//
+// Halved and doubled one by one on 18 shared creatures (samples_proposals_test): 142 proposals, 68 of them feet, all
+// right. Where a line names no figure, the list stays the same at half and at double.
 
-constexpr double least_tall = 0.05;       // a flatter surface has no feet
-constexpr double ground_share = 0.1;      // of the height: feet are at most this far above the lowest vertex
-constexpr double leg_share = 0.1;         // of the height: the surface rises by this from a foot to the next
-constexpr double sole_share = 0.02;       // of the height: how deep the sole of a foot is
-constexpr double sole_margin = 1.2;       // of the sole: the radius of a foot
-constexpr double least_radius = 0.01;     // of every proposal
-constexpr double most_sole_radius = 0.06;
-constexpr double tip_share = 0.25;        // of the length of a tip: its radius
-constexpr double most_tip_radius = 0.05;
-constexpr double foot_reach = 0.1;        // a low tip this near to a foot is the foot
-constexpr double least_piece = 0.1;       // a smaller component gets no ends
-constexpr double joint_reach = 0.1;       // an end joint this near to a proposal belongs to it
-constexpr double around_joint = 1.3;      // of the distance from a joint to the surface: its radius
-constexpr std::size_t least_region = 6;   // vertices: a smaller region of a coarse mesh grows
-constexpr double radius_growth = 1.4;     // from one attempt to the next
-constexpr double most_radius = 0.15;      // of a region that grows
-constexpr int most_attempts = 12;         // at a radius
+// A flatter surface has no feet.
+constexpr double least_tall = 0.05;
+// Of the height: feet are at most this far above the lowest vertex. Double finds a foot too many, half loses the ankles
+// of a body whose shoes are pieces of their own.
+constexpr double ground_share = 0.1;
+// Of the height: the surface rises by this from a foot on the way to another, so that toes are no feet.
+constexpr double leg_share = 0.1;
+// Of the height: least height of a component that is a foot by itself, a shoe for example.
+constexpr double shoe_share = 0.03;
+// Of the height: how deep a sole is, whose middle is the place. Double moves 7 of 70 places more than 3 % of the box
+// away from the ends of joints.
+constexpr double sole_share = 0.02;
+// Of the size of its sole: the radius of a foot, so that the region goes beyond the sole.
+constexpr double sole_margin = 1.2;
+// Radii: of every proposal at least, of a foot and a tip at most. With tips twice as large one tip less fits.
+constexpr double least_radius = 0.01, most_sole_radius = 0.06, most_tip_radius = 0.05;
+// Of its length: the radius of a tip.
+constexpr double tip_share = 0.25;
+// A low tip this near to a foot is the foot. Half proposes five toes more.
+constexpr double foot_reach = 0.1;
+// A smaller component gets no ends. Double drops the four ends of two pieces of a cow.
+constexpr double least_piece = 0.1;
+// An end joint this near to a proposal belongs to it; farther away from the surface it is a helper. Not counted above:
+// the lists there are made without skeletons.
+constexpr double joint_reach = 0.1;
+// Of the distance from a joint to the surface: its radius, so that the region goes around the limb.
+constexpr double around_joint = 1.3;
+// Vertices: a smaller region of a coarse mesh grows, because one vertex holds no rotation. Double drops one tip.
+constexpr std::size_t least_region = 6;
+// A radius grows or shrinks by this factor, up to most_radius and most_attempts times, until its region fits.
+constexpr double radius_growth = 1.4, most_radius = 0.15;
+constexpr int most_attempts = 12;
 
 // ---- refine.cpp ----
 

@@ -70,8 +70,10 @@ class Proposer {
     }
     for (const Peak& peak : find_peaks(core_.topology, depth, memory_)) {
       const double low = height_[at(peak.vertex)];
-      const double saddle = peak.saddle == Mesh::none ? top[at(mesh_.component[at(peak.vertex)])] : height_[at(peak.saddle)];
-      if (low - ground_ > ground_share * tall_ || saddle - low < leg_share * tall_) continue;
+      // a component that stands on the ground, a shoe for example, needs no leg
+      const bool whole = peak.saddle == Mesh::none;
+      const double saddle = whole ? top[at(mesh_.component[at(peak.vertex)])] : height_[at(peak.saddle)];
+      if (low - ground_ > ground_share * tall_ || saddle - low < (whole ? shoe_share : leg_share) * tall_) continue;
       found_.push_back(foot_at(peak.vertex, saddle - low));
     }
   }
@@ -239,10 +241,11 @@ class Proposer {
   // ---- the list ----
 
   Vector<HandleProposal> choose() {
-    std::stable_sort(found_.begin(), found_.end(), [](const Candidate& a, const Candidate& b) {
+    std::sort(found_.begin(), found_.end(), [](const Candidate& a, const Candidate& b) {
       if (a.pinned != b.pinned) return a.pinned;
       if (a.length != b.length) return a.length > b.length;
-      return a.vertex < b.vertex;
+      if (a.vertex != b.vertex) return a.vertex < b.vertex;
+      return a.reason != b.reason ? a.reason < b.reason : a.joint < b.joint;
     });
     Vector<std::uint8_t> owned(mesh_.positions.size(), 0, &memory_);
     Vector<HandleProposal> out(&memory_);

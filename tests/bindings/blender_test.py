@@ -286,6 +286,31 @@ fails("vertex 3", bpy.ops.hf.bind)
 for junk in (empty_mesh, broken, lamp):
     bpy.data.objects.remove(junk)
 
+# ---- proposed handles: the foot holds; a tip is offered, is a handle while it is away from its place, and none when back
+post, post_points = cylinder("post", 4.0, 0.5, 41, 24, (6, 0, 0))
+active(post)
+assert bpy.ops.hf.propose() == {"FINISHED"}
+held = session.session_of(post, bind=False)
+empties = [o for o in bpy.data.objects if o.type == "EMPTY" and o.get("hf_key") == post["hf_key"]]
+feet = [o for o in empties if o.empty_display_type == "CUBE"]
+tips = [o for o in empties if "tip" in o.name]
+assert len(feet) == 1 and held.pose.handle_count == 1 and len(tips) >= 1, [o.name for o in empties]
+tips[0].location.x += 1.0
+bpy.context.view_layer.update()
+assert held.pose.handle_count == 2
+bent = mesh_data.positions_of(post.data)
+np.testing.assert_allclose(bent[list(feet[0]["hf_vertices"])], post_points[list(feet[0]["hf_vertices"])], atol=1e-5)
+assert np.abs(bent - post_points).max() > 0.9
+tips[0].location.x -= 1.0
+bpy.context.view_layer.update()
+assert held.pose.handle_count == 1
+fails("has handles at all proposed places", bpy.ops.hf.propose)
+active(post)
+assert bpy.ops.hf.unbind() == {"FINISHED"}
+assert not [o for o in bpy.data.objects if o.type == "EMPTY" and o.name.startswith("post")]
+np.testing.assert_allclose(mesh_data.positions_of(post.data), post_points, atol=1e-5)
+bpy.data.objects.remove(post)
+
 # ---- the picture: strips on the bent bar, the transferred motion beside it
 scene = bpy.context.scene
 active(other)

@@ -72,6 +72,11 @@ namespace Hf.Native
         public const int HF_DEFORM_PAPER = 1;
         public const int HF_LAYER_COUNT = 8;
         public const int HF_HANDLE_LIMIT = 256;
+        public const int HF_HANDLE_REASON_FOOT = 0;
+        public const int HF_HANDLE_REASON_TIP = 1;
+        public const int HF_HANDLE_REASON_END = 2;
+        public const int HF_HANDLE_REASON_JOINT = 3;
+        public const int HF_HANDLE_REASON_MIDDLE = 4;
         public const int HF_QUADS_UNIFORM = 0;
         public const int HF_QUADS_PURE = 1;
         public const int HF_SIDE_SMALLER = 0;
@@ -614,6 +619,33 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_propose_desc
+    {
+        public uint struct_size;
+        public uint joint_count;
+        public IntPtr joints;
+        public IntPtr parents;
+        public fixed double up[3];
+        public float least_length;
+        public uint limit;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_handle_proposal
+    {
+        public uint vertex;
+        public uint component;
+        public int reason;
+        public int pinned;
+        public uint joint;
+        public uint reserved;
+        public fixed double position[3];
+        public double radius;
+        public double length;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_quads_desc
     {
         public uint struct_size;
@@ -929,6 +961,7 @@ namespace Hf.Native
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_deform(IntPtr pose, void* out_positions, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_deform(IntPtr pose, void* desc, void* out_info);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_skin(IntPtr pose, void* inout_skin);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_propose_handles(IntPtr surface, void* desc, uint capacity, void* out_proposals, void* out_count);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_create(IntPtr surface, void* desc, void* out_quads);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_quads_destroy(IntPtr quads);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_get_info(IntPtr quads, void* out_info);

@@ -69,6 +69,11 @@ HF_DEFORM_SMOOTH = 0
 HF_DEFORM_PAPER = 1
 HF_LAYER_COUNT = 8
 HF_HANDLE_LIMIT = 256
+HF_HANDLE_REASON_FOOT = 0
+HF_HANDLE_REASON_TIP = 1
+HF_HANDLE_REASON_END = 2
+HF_HANDLE_REASON_JOINT = 3
+HF_HANDLE_REASON_MIDDLE = 4
 HF_QUADS_UNIFORM = 0
 HF_QUADS_PURE = 1
 HF_SIDE_SMALLER = 0
@@ -1006,6 +1011,52 @@ class hf_skin_info(Structure):
     ]
 
 
+class hf_propose_desc(Structure):
+    """Says why a place is proposed as a handle."""
+    struct_size: int
+    joint_count: int
+    joints: int
+    parents: int
+    up: object
+    least_length: float
+    limit: int
+    progress: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("joint_count", c_uint32),
+        ("joints", c_void_p),
+        ("parents", c_void_p),
+        ("up", c_double * 3),
+        ("least_length", c_float),
+        ("limit", c_uint32),
+        ("progress", c_void_p),
+    ]
+
+
+class hf_handle_proposal(Structure):
+    """One proposed handle."""
+    vertex: int
+    component: int
+    reason: int
+    pinned: int
+    joint: int
+    reserved: int
+    position: object
+    radius: float
+    length: float
+    _fields_ = [
+        ("vertex", c_uint32),
+        ("component", c_uint32),
+        ("reason", c_int32),
+        ("pinned", c_int32),
+        ("joint", c_uint32),
+        ("reserved", c_uint32),
+        ("position", c_double * 3),
+        ("radius", c_double),
+        ("length", c_double),
+    ]
+
+
 class hf_quads_desc(Structure):
     struct_size: int
     kind: int
@@ -1385,7 +1436,7 @@ class hf_transfer_frame(Structure):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame]
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_propose_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_flow_lines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -1475,6 +1526,7 @@ PROTOTYPES = {
     "hf_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_pose_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_pose_get_skin": (c_int32, [c_void_p, c_void_p]),
+    "hf_propose_handles": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_quads_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_quads_destroy": (None, [c_void_p]),
     "hf_quads_get_info": (c_int32, [c_void_p, c_void_p]),

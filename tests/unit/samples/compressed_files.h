@@ -23,7 +23,7 @@ inline GlbBuilder draco_builder(const Sheet& sheet, const DracoStream& stream) {
       {"bufferView", b.view(stream.bytes)},
       {"attributes", {{"POSITION", stream.position}, {"JOINTS_0", stream.joints}, {"WEIGHTS_0", stream.weights}}}};
   b.document["nodes"][0]["skin"] = 0;
-  b.document["nodes"].push_back({{"name", "a"}});
+  b.document["nodes"].push_back({{"name", "a"}, {"children", {2}}});
   b.document["nodes"].push_back({{"name", "b"}});
   b.document["skins"] = {{{"joints", {1, 2}}}};
   b.document["extensionsUsed"] = b.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
@@ -84,8 +84,7 @@ inline GlbBuilder meshopt_builder(const Sheet& sheet) {
   GlbBuilder b;
   const size_t n = sheet.vertex_count();
   const int positions = meshopt_view(b, encode_rows(sheet.positions.data(), n, 12), n, 12, "ATTRIBUTES");
-  const int indices =
-      meshopt_view(b, encode_triangles(sheet.indices, n), sheet.indices.size(), 2, "TRIANGLES");
+  const int indices = meshopt_view(b, encode_triangles(sheet.indices, n), sheet.indices.size(), 2, "TRIANGLES");
   b.triangle_mesh({{"POSITION", b.accessor(positions, n, "VEC3", 5126)}})["indices"] =
       b.accessor(indices, sheet.indices.size(), "SCALAR", 5123);
   return b;

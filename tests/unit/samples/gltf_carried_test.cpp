@@ -98,9 +98,9 @@ TEST(Carried, AnExtensionThatNamesAnAccessorIsDroppedByName) {
 
 TEST(Carried, CamerasComeBackOnTheirNodes) {
   GlbBuilder b = one_triangle();
-  b.document["cameras"] = {{{"type", "orthographic"},
-                            {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 10}, {"znear", 0.5}}}},
-                           {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}, {"name", "eye"}}};
+  b.document["cameras"] = {
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 10}, {"znear", 0.5}}}},
+      {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}, {"name", "eye"}}};
   b.document["nodes"].push_back({{"camera", 1}});
   const json out = round_trip(b);
   EXPECT_EQ(out["cameras"], b.document["cameras"]);
@@ -152,8 +152,9 @@ TEST(Carried, Ktx2ImagesPassThroughByteForByte) {
 
 TEST(Carried, NamesComeBackInAnyScript) {
   GlbBuilder b = one_triangle();
-  const std::vector<std::string> names = {"Pferd \xc3\xa4\xc3\xb6\xc3\xbc\xc3\x9f", "\xe9\xa6\xac", "\xd8\xad\xd8\xb5\xd8\xa7\xd9\x86",
-                                          "\xf0\x9f\x90\x8e", "quote \" back \\ line\n"};
+  const std::vector<std::string> names = {"Pferd \xc3\xa4\xc3\xb6\xc3\xbc\xc3\x9f", "\xe9\xa6\xac",
+                                          "\xd8\xad\xd8\xb5\xd8\xa7\xd9\x86", "\xf0\x9f\x90\x8e",
+                                          "quote \" back \\ line\n"};
   for (const std::string& name : names) b.document["nodes"].push_back({{"name", name}});
   b.document["meshes"][0]["name"] = names[1];
   b.document["scenes"] = {{{"name", names[2]}, {"nodes", {0}}}};

@@ -56,7 +56,8 @@ void expect_read_or_refused(const std::vector<uint8_t>& good, size_t first_byte)
     const size_t count = 1 + random() % 4;
     for (size_t k = 0; k < count; ++k) {
       const size_t at = first_byte + random() % (bytes.size() - first_byte);
-      bytes[at] = random() % 2 ? static_cast<uint8_t>(random()) : static_cast<uint8_t>(bytes[at] ^ (1u << random() % 8));
+      bytes[at] =
+          random() % 2 ? static_cast<uint8_t>(random()) : static_cast<uint8_t>(bytes[at] ^ (1u << random() % 8));
     }
     const std::string message = message_of([&] {
       flatten(read_gltf_bytes(bytes, "damaged.glb"));

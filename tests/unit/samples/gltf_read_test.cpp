@@ -139,7 +139,7 @@ TEST(GltfRead, WeightsAreNormalisedAndEmptySlotsCleared) {
   EXPECT_FLOAT_EQ(influences[0].weights[1], 0.75f);
   EXPECT_EQ(influences[0].joints[2], 0);      // joint 9 had weight 0
   EXPECT_EQ(influences[2].weights[0], 1.0f);  // no weight at all: follows joint 0
-  ASSERT_EQ(model.warnings.size(), 1u);  // one sentence
+  ASSERT_EQ(model.warnings.size(), 1u);       // one sentence
   EXPECT_NE(model.warnings[0].find("1 vertices had weights that did not sum to 1"), std::string::npos);
   EXPECT_NE(model.warnings[0].find("1 vertices without weights follow joint 0"), std::string::npos);
 }

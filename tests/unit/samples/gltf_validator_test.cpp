@@ -10,7 +10,7 @@
 #include "common/gltf_write.h"
 #include "common/mesh_file.h"
 #include "common/skin_write.h"
-#include "gltf_support.h"
+#include "compressed_files.h"
 
 namespace {
 
@@ -124,6 +124,29 @@ Model computed_skin() {
   return skin_model(source, mesh, skin);
 }
 
+// Two scenes, a camera, a light, instances, variants, extras, a collapsed and a mirrored node.
+Model carried() {
+  GlbBuilder b;
+  json& primitive = b.triangle_mesh({{"POSITION", b.floats(unit_triangle(), "VEC3")}});
+  primitive["material"] = 0;
+  primitive["extensions"] = {{"KHR_materials_variants", {{"mappings", {{{"material", 0}, {"variants", {0}}}}}}}};
+  b.document["materials"] = {{{"name", "m"}}};
+  b.document["extensions"] = {{"KHR_materials_variants", {{"variants", {{{"name", "dusk"}}}}}},
+                              {"KHR_lights_punctual", {{"lights", {{{"type", "point"}}}}}}};
+  b.document["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+  json& nodes = b.document["nodes"];
+  nodes.push_back({{"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  nodes.push_back({{"mesh", 0}, {"scale", {-1, 2, 1}}, {"extras", {{"id", 7}}}});
+  nodes.push_back({{"mesh", 0}, {"scale", {0, 0, 0}}});
+  nodes[0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+      {"TRANSLATION", b.floats({0, 0, 0, 1, 2, 3}, "VEC3")}, {"SCALE", b.floats({1, 1, 1, 2, 2, 2}, "VEC3")}};
+  b.document["extensionsUsed"] = {"KHR_materials_variants", "KHR_lights_punctual", "EXT_mesh_gpu_instancing"};
+  b.document["scenes"] = {{{"nodes", {0, 1}}}, {{"nodes", {2, 3, 1}}, {"name", "\xe9\xa6\xac"}}};
+  b.document["scene"] = 1;
+  b.document["asset"]["copyright"] = "somebody";
+  return b.read();
+}
+
 TEST(Validator, WrittenFilesHaveNoErrors) {
   const auto modules = validator_modules();
   if (modules.empty()) GTEST_SKIP() << "npm's gltf-validator is not there (HF_NODE_MODULES)";
@@ -139,6 +162,14 @@ TEST(Validator, WrittenFilesHaveNoErrors) {
   Model scattered = tube();
   scatter(scattered, mesh, mesh.positions);
   write(scattered, "scattered");
+  write(carried(), "carried");
+#ifdef HF_SAMPLES_DRACO
+  write(read_gltf_bytes(draco_file(true), "edgebreaker"), "edgebreaker");
+  write(read_gltf_bytes(draco_file(false), "sequential"), "sequential");
+#endif
+#ifdef HF_SAMPLES_MESHOPT
+  write(read_gltf_bytes(meshopt_file(), "meshopt"), "meshopt");
+#endif
   write_mesh_file(to_surface_mesh(mesh), folder.path / "surface.glb");
   if (!shared_data().empty()) {
     for (const auto& entry : std::filesystem::directory_iterator(shared_data() / "gltf")) {

@@ -1,4 +1,5 @@
-// Handles proposed for creatures: feet, head and tail are found, whatever the place, the size and the order of the mesh.
+// Handles proposed for creatures: feet, head and tail are found, whatever the place, the size and the order of the
+// mesh.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -163,7 +164,8 @@ std::vector<std::pair<std::string, glm::dvec3>> joint_ends(const Model& model, c
   std::vector<glm::dvec3> ends(joints.size());
   for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     const FlatPart& part = mesh.part_of_vertex(v);
-    const Primitive& primitive = model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
+    const Primitive& primitive =
+        model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
     if (primitive.influences.empty()) continue;
     const Influences& o = primitive.influences[v - part.first_vertex];
     const size_t slot = static_cast<size_t>(std::max_element(o.weights.begin(), o.weights.end()) - o.weights.begin());
@@ -185,14 +187,14 @@ std::vector<std::pair<std::string, glm::dvec3>> joint_ends(const Model& model, c
 
 TEST(Proposals, FeetHeadAndTailOfTheSharedAnimalsAreFound) {
   HF_NEED_SHARED_DATA();
-  std::printf("%-20s %4s %4s %4s %4s  ends of end joints with a proposal within 3 %% and 6 %% of the box, of all\n", "model", "feet",
-              "tips", "ends", "all");
+  std::printf("%-20s %4s %4s %4s %4s  ends of end joints with a proposal within 3 %% and 6 %% of the box, of all\n",
+              "model", "feet", "tips", "ends", "all");
   const std::vector<std::pair<const char*, size_t>> feet = {
-      {"q_Horse.glb", 4},   {"q_Wolf.glb", 4},        {"q_Fox.glb", 4},         {"q_Cow.glb", 4},
-      {"q_Husky.glb", 4},   {"q_Deer.glb", 4},        {"q_Alpaca.glb", 4},      {"farm_Cow.glb", 4},
-      {"farm_Llama.glb", 4}, {"farm_Pug.glb", 4},     {"farm_Sheep.glb", 4},    {"khr_Fox.glb", 4},
-      {"q_Trex.glb", 2},    {"q_Velociraptor.glb", 2}, {"q_Triceratops.glb", 4}, {"q_Spider.glb", 8},
-      {"CesiumMan.glb", 2}, {"RiggedFigure.glb", 2}};
+      {"q_Horse.glb", 4},    {"q_Wolf.glb", 4},         {"q_Fox.glb", 4},         {"q_Cow.glb", 4},
+      {"q_Husky.glb", 4},    {"q_Deer.glb", 4},         {"q_Alpaca.glb", 4},      {"farm_Cow.glb", 4},
+      {"farm_Llama.glb", 4}, {"farm_Pug.glb", 4},       {"farm_Sheep.glb", 4},    {"khr_Fox.glb", 4},
+      {"q_Trex.glb", 2},     {"q_Velociraptor.glb", 2}, {"q_Triceratops.glb", 4}, {"q_Spider.glb", 8},
+      {"CesiumMan.glb", 2},  {"RiggedFigure.glb", 2}};
   for (const auto& [name, count] : feet) {
     SCOPED_TRACE(name);
     const Model model = read_gltf(shared_data() / "gltf" / name);
